@@ -1,0 +1,2 @@
+//! The `frisure` command.
+fn main() {}

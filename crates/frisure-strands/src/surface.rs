@@ -1,0 +1,144 @@
+//! A triangle mesh that was checked when it was made.
+
+use glam::DVec3;
+use thiserror::Error;
+
+/// A triangle mesh in metres, counter-clockwise seen from outside; every index is valid, every
+/// coordinate finite, and there is at least one triangle of positive area.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    positions: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Why a mesh is not a [`Surface`].
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SurfaceError {
+    /// No triangle of positive area.
+    #[error("the mesh has no face with an area")]
+    NoFaces,
+    /// A face names a vertex that does not exist.
+    #[error("face {face} names vertex {vertex}, but there are only {count}")]
+    Index {
+        /// Index of the face, from 0.
+        face: usize,
+        /// The vertex it names, from 0.
+        vertex: u32,
+        /// Number of vertices.
+        count: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("vertex {vertex} has a coordinate that is not finite: {position}")]
+    NotFinite {
+        /// Index of the vertex, from 0.
+        vertex: usize,
+        /// Its position.
+        position: DVec3,
+    },
+}
+
+impl Surface {
+    /// Checks and wraps a mesh: positions (m) and faces counter-clockwise seen from outside.
+    ///
+    /// # Errors
+    /// [`SurfaceError`], if an index or coordinate is bad or no face has an area.
+    pub fn new(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Result<Self, SurfaceError> {
+        let count = positions.len();
+        if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+            return Err(SurfaceError::NotFinite { vertex, position: positions[vertex] });
+        }
+        for (face, triangle) in triangles.iter().enumerate() {
+            if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= count) {
+                return Err(SurfaceError::Index { face, vertex, count });
+            }
+        }
+        let surface = Self { positions, triangles };
+        if surface.area() > 0.0 { Ok(surface) } else { Err(SurfaceError::NoFaces) }
+    }
+
+    /// Vertices (m).
+    #[must_use]
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// Three vertex indices per face, counter-clockwise seen from outside.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The corners of face `index` (m).
+    ///
+    /// # Panics
+    /// If there is no such face.
+    #[must_use]
+    pub fn corners(&self, index: usize) -> [DVec3; 3] {
+        self.triangles[index].map(|v| self.positions[v as usize])
+    }
+
+    /// Twice the area vector of face `index` (m²): its direction is the outward normal.
+    ///
+    /// # Panics
+    /// If there is no such face.
+    #[must_use]
+    pub fn doubled_area_vector(&self, index: usize) -> DVec3 {
+        let [a, b, c] = self.corners(index);
+        (b - a).cross(c - a)
+    }
+
+    /// Area of all faces (m²).
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        (0..self.triangles.len()).map(|i| 0.5 * self.doubled_area_vector(i).length()).sum()
+    }
+
+    /// Unit normal at each vertex, the area-weighted mean of its faces' (+z where it has none).
+    #[must_use]
+    pub fn vertex_normals(&self) -> Vec<DVec3> {
+        let mut sums = vec![DVec3::ZERO; self.positions.len()];
+        for (i, triangle) in self.triangles.iter().enumerate() {
+            let area = self.doubled_area_vector(i);
+            for &v in triangle {
+                sums[v as usize] += area;
+            }
+        }
+        sums.iter().map(|n| n.try_normalize().unwrap_or(DVec3::Z)).collect()
+    }
+
+    /// Smallest and largest corner of the box around the mesh (m).
+    #[must_use]
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let first = self.positions[0];
+        self.positions.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_meshes_are_refused() {
+        let p = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        assert!(Surface::new(p.clone(), vec![[0, 1, 2]]).is_ok());
+        assert_eq!(Surface::new(p.clone(), vec![]), Err(SurfaceError::NoFaces));
+        assert_eq!(Surface::new(p.clone(), vec![[0, 1, 1]]), Err(SurfaceError::NoFaces));
+        assert!(matches!(
+            Surface::new(p, vec![[0, 1, 3]]),
+            Err(SurfaceError::Index { vertex: 3, .. })
+        ));
+        let nan = vec![DVec3::ZERO, DVec3::X, DVec3::new(0.0, f64::NAN, 0.0)];
+        assert!(matches!(
+            Surface::new(nan, vec![[0, 1, 2]]),
+            Err(SurfaceError::NotFinite { vertex: 2, .. })
+        ));
+    }
+
+    #[test]
+    fn a_right_triangle_has_its_area_and_normal() {
+        let s = Surface::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2]]).unwrap();
+        assert!((s.area() - 0.5).abs() < 1e-15);
+        assert_eq!(s.vertex_normals(), vec![DVec3::Z; 3]);
+    }
+}
