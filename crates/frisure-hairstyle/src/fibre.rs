@@ -1,0 +1,71 @@
+//! What one fibre is: section, material, natural curl.
+
+use std::f64::consts::TAU;
+
+use frisure_rod::{InvalidQuantity, Material, Section, TorsionConstant};
+use glam::DVec3;
+
+/// Section and material of the fibres of a head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fibre {
+    /// Elliptical section.
+    pub section: Section,
+    /// Elastic moduli and density.
+    pub material: Material,
+    /// Which torsion constant the section is given.
+    pub torsion: TorsionConstant,
+}
+
+/// Which way curls turn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Handedness {
+    /// Each wisp as the strain says, or its mirror image, with equal chance.
+    #[default]
+    Random,
+    /// All as the natural strain says.
+    AsGiven,
+}
+
+/// The natural curl of the wisps of a head, and how it varies along a hair and between wisps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curl {
+    /// Mean natural strain (κ1⁰, κ2⁰, τ⁰) (rad/m), in the material frame.
+    pub strain: DVec3,
+    /// Which way curls turn.
+    pub handedness: Handedness,
+    /// Standard deviation of the strain's magnitude between wisps, as a fraction of the mean.
+    pub variation_between: f64,
+    /// Standard deviation of the strain along a hair, as a fraction of its magnitude.
+    pub variation_along: f64,
+    /// Correlation length of the variation along a hair (m).
+    pub variation_scale: f64,
+}
+
+impl Curl {
+    /// Perfectly straight hair.
+    pub const STRAIGHT: Self = Self {
+        strain: DVec3::ZERO,
+        handedness: Handedness::Random,
+        variation_between: 0.0,
+        variation_along: 0.0,
+        variation_scale: 0.03,
+    };
+
+    /// A curl of radius `radius` (m) and pitch `pitch` (m per turn), without variation.
+    ///
+    /// # Errors
+    /// [`InvalidQuantity`] unless the radius is positive and both are finite.
+    pub fn helix(radius: f64, pitch: f64) -> Result<Self, InvalidQuantity> {
+        let natural = frisure_rod::NaturalStrain::helix(radius, pitch)?;
+        Ok(Self { strain: natural.at(0.0), ..Self::STRAIGHT })
+    }
+
+    /// Radius (m) and pitch (m per turn, 0 for a planar curl) of the mean natural helix; `None`
+    /// for straight hair. The curvature is that of κ1⁰ and κ2⁰ together.
+    #[must_use]
+    pub fn radius_pitch(&self) -> Option<(f64, f64)> {
+        let curvature = self.strain.truncate().length();
+        let square = self.strain.length_squared();
+        (curvature > 0.0).then(|| (curvature / square, TAU * self.strain.z / square))
+    }
+}

@@ -1,0 +1,202 @@
+//! The description of a hairstyle: everything that [`crate::Hairstyle`] is computed from.
+//!
+//! Plain data, SI units; a scene file is one way to write it down.
+
+use std::f64::consts::PI;
+
+use crate::fibre::{Curl, Fibre};
+
+/// A whole head of hair, described.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HairstyleSpec {
+    /// Drives all randomness.
+    pub seed: u64,
+    /// Section and material.
+    pub fibre: Fibre,
+    /// Natural curl.
+    pub curl: Curl,
+    /// How long the hair is.
+    pub length: Length,
+    /// How hair leaves the scalp.
+    pub implantation: Implantation,
+    /// Guides and the drawn hairs around them.
+    pub wisps: Wisps,
+    /// Hair against the body.
+    pub contact: Contact,
+    /// How the equilibrium of guides is computed.
+    pub equilibrium: Settling,
+    /// Acceleration of gravity (m/s²), along −z.
+    pub gravity: f64,
+}
+
+/// Length of the hair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Length {
+    /// Mean length of guides along the fibre (m).
+    pub mean: f64,
+    /// Standard deviation between wisps, as a fraction of the mean.
+    pub variation_between: f64,
+}
+
+/// How hair leaves the scalp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Implantation {
+    /// The direction along the scalp.
+    pub flow: Flow,
+    /// The angle to the skin.
+    pub lift: Lift,
+    /// Standard deviation of the direction between wisps (rad).
+    pub jitter: f64,
+}
+
+/// The direction in which hair leaves the scalp, along the skin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Flow {
+    /// As it grows: around a whorl at the crown, forward over the forehead.
+    Whorl,
+    /// Combed to both sides of a parting line, `offset` (m) to the left (+) of the middle.
+    Parted {
+        /// Distance of the parting from the middle (m), positive to the head's left.
+        offset: f64,
+    },
+    /// Combed back from the forehead.
+    SweptBack,
+}
+
+/// The angle between hair and skin at the root.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lift {
+    /// Measured means by region (hairline 15°, temples 7°, mid-scalp 30°, crown 60°), scaled.
+    Regional {
+        /// Factor on the measured angles; 1 is as measured.
+        scale: f64,
+    },
+    /// The same everywhere (rad); π/2 is perpendicular to the skin.
+    Uniform(f64),
+}
+
+/// Guides and the drawn hairs around them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wisps {
+    /// Number of wisps, each with one guide.
+    pub count: usize,
+    /// Number of drawn hairs on the whole head.
+    pub hairs: usize,
+    /// How much a wisp narrows from the scalp to its tip, 0 (not at all) to 1 (to a point):
+    /// pronounced locks have more.
+    pub clumping: f64,
+    /// How far hairs stray from their place in the wisp, as a fraction of the wisp's radius.
+    pub fuzziness: f64,
+    /// Standard deviation of the length of hairs within a wisp, as a fraction.
+    pub length_variation: f64,
+    /// Fraction of hairs that leave their wisp.
+    pub flyaways: f64,
+    /// How far neighbouring wisps blend into each other, 0 (distinct) to 1 (a smooth mass).
+    pub blending: f64,
+    /// Points along each drawn hair.
+    pub points: usize,
+}
+
+/// The body that hair lies on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Body {
+    /// Hair passes through the body.
+    None,
+    /// Spheres fitted to the head. \[paper\] §3.1
+    Spheres,
+    /// The signed distance of the head's mesh.
+    #[default]
+    SignedDistance,
+}
+
+/// Hair against the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// What the hair lies on.
+    pub body: Body,
+    /// Penalty stiffness k per length of hair (N/m per m = Pa), of E_c = ½ k d².
+    pub stiffness: f64,
+    /// Factor on the distance that wisps keep from the skin because hair lies under them.
+    pub volume: f64,
+}
+
+/// How the equilibrium of guides is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settling {
+    /// Elements per guide, or an accuracy to reach.
+    pub resolution: frisure_rod::Resolution,
+    /// Which element.
+    pub element: frisure_rod::ElementKind,
+}
+
+/// A description that cannot be computed.
+#[derive(Clone, Debug, thiserror::Error, PartialEq)]
+#[error("{field} is {value}; it must be {allowed}")]
+pub struct InvalidSpec {
+    /// Path of the field as scenes name it, such as `wisps.count`.
+    pub field: &'static str,
+    /// The value given.
+    pub value: String,
+    /// The allowed range in words.
+    pub allowed: &'static str,
+}
+
+impl HairstyleSpec {
+    /// Checks every number against the range in which it means something.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], naming the first field that is out of range.
+    pub fn check(&self) -> Result<(), InvalidSpec> {
+        let range = |field, value: f64, min: f64, max: f64, allowed| {
+            let inside = value >= min && value <= max;
+            let value = value.to_string();
+            if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
+        };
+        let count = |field, value: usize, max: usize, allowed| {
+            let inside = value >= 1 && value <= max;
+            let value = value.to_string();
+            if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
+        };
+        let fraction = "between 0 and 1";
+        range("hair.length", self.length.mean, 1e-3, 3.0, "between 1 mm and 3 m")?;
+        range("hair.length_variation", self.length.variation_between, 0.0, 0.5, "0 to 0.5")?;
+        let strain = self.curl.strain.length();
+        range("hair.curl", strain, 0.0, 2e4, "a strain of at most 20000 rad/m (0.05 mm radius)")?;
+        range("hair.curl.variation_between", self.curl.variation_between, 0.0, 1.0, fraction)?;
+        range("hair.curl.variation_along", self.curl.variation_along, 0.0, 1.0, fraction)?;
+        range("hair.curl.variation_scale", self.curl.variation_scale, 1e-3, 1.0, "1 mm to 1 m")?;
+        range("implantation.jitter", self.implantation.jitter, 0.0, 1.0, "0 to 1 rad (57 deg)")?;
+        match self.implantation.flow {
+            Flow::Parted { offset } => {
+                range("implantation.parting", offset, -0.06, 0.06, "within 6 cm of the middle")?;
+            }
+            Flow::Whorl | Flow::SweptBack => {}
+        }
+        match self.implantation.lift {
+            Lift::Regional { scale } => {
+                range("implantation.lift_scale", scale, 0.0, 6.0, "between 0 and 6")?;
+            }
+            Lift::Uniform(angle) => {
+                range("implantation.lift", angle, 0.0, PI / 2.0, "between 0 and 90 deg")?;
+            }
+        }
+        count("wisps.count", self.wisps.count, 20_000, "between 1 and 20000")?;
+        count("wisps.hairs", self.wisps.hairs, 1_000_000, "between 1 and 1000000")?;
+        range("wisps.clumping", self.wisps.clumping, 0.0, 1.0, fraction)?;
+        range("wisps.fuzziness", self.wisps.fuzziness, 0.0, 2.0, "between 0 and 2")?;
+        range("wisps.length_variation", self.wisps.length_variation, 0.0, 0.5, "0 to 0.5")?;
+        range("wisps.flyaways", self.wisps.flyaways, 0.0, 1.0, fraction)?;
+        range("wisps.blending", self.wisps.blending, 0.0, 1.0, fraction)?;
+        let points = self.wisps.points as f64;
+        range("wisps.points", points, 2.0, 1000.0, "between 2 and 1000")?;
+        let stiffness = self.contact.stiffness;
+        range("contact.stiffness", stiffness, 1e-6, 1e9, "between 1e-6 and 1e9 Pa")?;
+        range("contact.volume", self.contact.volume, 0.0, 10.0, "between 0 and 10")?;
+        range("gravity", self.gravity, 0.0, 1000.0, "between 0 and 1000 m/s²")?;
+        self.equilibrium.resolution.check().map_err(|e| InvalidSpec {
+            field: "equilibrium",
+            value: e.value.to_string(),
+            allowed: e.allowed,
+        })
+    }
+}

@@ -1,0 +1,175 @@
+//! Natural strains: the shape a fibre has when nothing pulls on it.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::error::{InvalidQuantity, finite, positive};
+
+/// The natural material strain u⁰ = (κ1⁰, κ2⁰, τ⁰) (rad/m) as a function of arc length.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NaturalStrain {
+    /// The same all along: the natural shape is a helix. \[paper\] §2.2
+    Uniform(DVec3),
+    /// Varying along the fibre.
+    Varying(StrainProfile),
+}
+
+/// A strain given at increasing arc lengths, linear between them and constant outside.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StrainProfile {
+    knots: Arc<[(f64, DVec3)]>,
+    /// Integral of the strain from the first knot to each knot (rad).
+    integrals: Arc<[DVec3]>,
+}
+
+impl StrainProfile {
+    /// From pairs of arc length (m) and strain (rad/m).
+    ///
+    /// # Errors
+    /// [`InvalidQuantity`] without knots, if arc lengths do not increase strictly, or if a number
+    /// is not finite.
+    pub fn new(knots: Vec<(f64, DVec3)>) -> Result<Self, InvalidQuantity> {
+        #[expect(clippy::cast_precision_loss, reason = "a count for an error message")]
+        if knots.is_empty() {
+            return Err(InvalidQuantity {
+                quantity: "number of knots of the natural strain",
+                value: knots.len() as f64,
+                unit: "",
+                allowed: "at least 1",
+            });
+        }
+        for &(s, u) in &knots {
+            finite("arc length of a natural strain", s, "m")?;
+            for x in u.to_array() {
+                finite("natural strain", x, "rad/m")?;
+            }
+        }
+        for pair in knots.windows(2) {
+            positive("step between arc lengths of a natural strain", pair[1].0 - pair[0].0, "m")?;
+        }
+        let mut integral = DVec3::ZERO;
+        let mut integrals = vec![integral];
+        for pair in knots.windows(2) {
+            integral += 0.5 * (pair[1].0 - pair[0].0) * (pair[0].1 + pair[1].1);
+            integrals.push(integral);
+        }
+        Ok(Self { knots: knots.into(), integrals: integrals.into() })
+    }
+
+    /// The strain at arc length `s` (m), in rad/m.
+    #[must_use]
+    pub fn at(&self, s: f64) -> DVec3 {
+        let after = self.knots.partition_point(|k| k.0 <= s);
+        match (after.checked_sub(1).map(|i| self.knots[i]), self.knots.get(after)) {
+            (Some((s0, u0)), Some(&(s1, u1))) => u0.lerp(u1, (s - s0) / (s1 - s0)),
+            (Some((_, u)), None) | (None, Some(&(_, u))) => u,
+            (None, None) => DVec3::ZERO,
+        }
+    }
+
+    /// Integral of the strain from the first knot to `s` (rad).
+    fn integral(&self, s: f64) -> DVec3 {
+        let after = self.knots.partition_point(|k| k.0 <= s);
+        let Some(i) = after.checked_sub(1) else {
+            return (s - self.knots[0].0) * self.knots[0].1;
+        };
+        let (s0, u0) = self.knots[i];
+        self.integrals[i] + 0.5 * (s - s0) * (u0 + self.at(s))
+    }
+}
+
+impl NaturalStrain {
+    /// A straight fibre.
+    pub const STRAIGHT: Self = Self::Uniform(DVec3::ZERO);
+
+    /// The helix of radius `radius` (m) and pitch `pitch` (m of advance per turn); a negative
+    /// pitch turns it left-handed. With p = P/2π, κ1 = R/(R² + p²) and τ = p/(R² + p²), bending
+    /// about d1, the axis of least inertia. SYSTEM §1
+    ///
+    /// # Errors
+    /// [`InvalidQuantity`] unless the radius is finite and positive and the pitch finite.
+    pub fn helix(radius: f64, pitch: f64) -> Result<Self, InvalidQuantity> {
+        let r = positive("curl radius", radius, "m")?;
+        let p = finite("curl pitch", pitch, "m")? / std::f64::consts::TAU;
+        let d = r * r + p * p;
+        Ok(Self::Uniform(DVec3::new(r / d, 0.0, p / d)))
+    }
+
+    /// The strain at arc length `s` (m), in rad/m.
+    #[must_use]
+    pub fn at(&self, s: f64) -> DVec3 {
+        match self {
+            Self::Uniform(u) => *u,
+            Self::Varying(profile) => profile.at(s),
+        }
+    }
+
+    /// The mean strain between two arc lengths (m), in rad/m; exact for both kinds.
+    #[must_use]
+    pub fn mean(&self, from: f64, to: f64) -> DVec3 {
+        match self {
+            Self::Uniform(u) => *u,
+            Self::Varying(p) if to > from => (p.integral(to) - p.integral(from)) / (to - from),
+            Self::Varying(p) => p.at(from),
+        }
+    }
+
+    /// Largest magnitude of the strain on `[0, length]` (rad/m).
+    #[must_use]
+    pub fn max_magnitude(&self, length: f64) -> f64 {
+        match self {
+            Self::Uniform(u) => u.length(),
+            Self::Varying(p) => {
+                // Between knots the strain is linear, so the largest magnitude is at an end.
+                let inside = p.knots.iter().filter(|k| k.0 > 0.0 && k.0 < length);
+                inside
+                    .map(|k| k.1.length())
+                    .fold(p.at(0.0).length().max(p.at(length).length()), f64::max)
+            }
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), InvalidQuantity> {
+        if let Self::Uniform(u) = self {
+            for x in u.to_array() {
+                finite("natural strain", x, "rad/m")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_interpolates_and_integrates() {
+        let p = StrainProfile::new(vec![(0.0, DVec3::ZERO), (1.0, DVec3::X), (3.0, DVec3::X)])
+            .unwrap();
+        let u = NaturalStrain::Varying(p);
+        assert_eq!(u.at(0.5).x, 0.5);
+        assert_eq!(u.at(-1.0).x, 0.0);
+        assert_eq!(u.at(9.0).x, 1.0);
+        assert!((u.mean(0.0, 2.0).x - 0.75).abs() < 1e-15);
+        assert!((u.mean(0.25, 0.75).x - 0.5).abs() < 1e-15);
+        assert!((u.mean(-1.0, 0.0).x).abs() < 1e-15);
+        assert_eq!(u.max_magnitude(0.5), 0.5);
+    }
+
+    #[test]
+    fn bad_profiles_are_refused() {
+        assert!(StrainProfile::new(vec![]).is_err());
+        assert!(StrainProfile::new(vec![(0.0, DVec3::X), (0.0, DVec3::X)]).is_err());
+        assert!(StrainProfile::new(vec![(0.0, DVec3::NAN)]).is_err());
+    }
+
+    #[test]
+    fn a_helix_has_the_curvature_of_its_radius_and_pitch() {
+        let NaturalStrain::Uniform(u) = NaturalStrain::helix(0.005, 0.0).unwrap() else {
+            unreachable!()
+        };
+        assert!((u.x - 200.0).abs() < 1e-9 && u.z == 0.0);
+    }
+}
