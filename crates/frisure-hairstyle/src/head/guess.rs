@@ -1,0 +1,123 @@
+//! Finding the landmarks of an unknown head.
+
+use frisure_strands::Surface;
+use glam::DVec3;
+
+use super::landmarks::Landmarks;
+
+impl Landmarks {
+    /// Measures a head mesh in our frame (m), of any size near human.
+    pub(crate) fn guess(surface: &Surface) -> Self {
+        let (low, high) = surface.bounds();
+        let middle = 0.5 * (low.x + high.x);
+        let top = high.z;
+        let mut scale = 1.0;
+        let mut cranium = Cranium::default();
+        // Where to measure depends on the size, and the size on the measures.
+        for _ in 0..4 {
+            cranium = Cranium::measure(surface, middle, top, scale);
+            scale =
+                (0.5 * (cranium.half_width / 0.0735 + cranium.half_depth / 0.0965)).clamp(0.4, 2.0);
+        }
+        cranium.landmarks(surface, middle, top, scale)
+    }
+}
+
+/// Box of the skull between the ears and the vertex (m).
+#[derive(Clone, Copy, Default)]
+struct Cranium {
+    half_width: f64,
+    half_depth: f64,
+    middle_y: f64,
+}
+
+impl Cranium {
+    fn measure(surface: &Surface, middle: f64, top: f64, scale: f64) -> Self {
+        let band = |from: f64, to: f64| {
+            let p = surface.positions().iter();
+            p.filter(move |p| p.z < top - from * scale && p.z > top - to * scale)
+        };
+        // Above the ears for the width, from brow to occiput for the depth.
+        let half_width = band(0.05, 0.088).map(|p| (p.x - middle).abs()).fold(0.0, f64::max);
+        let (front, back) = band(0.05, 0.095)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.y), b.max(p.y)));
+        if !(front < back) {
+            return Self { half_width: 0.0735 * scale, half_depth: 0.0965 * scale, middle_y: 0.0 };
+        }
+        Self { half_width, half_depth: 0.5 * (back - front), middle_y: 0.5 * (back + front) }
+    }
+
+    fn landmarks(self, surface: &Surface, middle: f64, top: f64, scale: f64) -> Landmarks {
+        let centre = DVec3::new(middle, self.middle_y, top - 0.108 * scale);
+        let at = |x: f64, forward: f64, z: f64| centre + DVec3::new(x, -forward, z) * scale;
+        let brow_z = brow_height(surface, middle, centre, scale);
+        let ear = find_ear(surface, centre, self.half_width, scale)
+            .unwrap_or_else(|| at(self.half_width / scale, -0.012, -0.02));
+        let skin = |guess: DVec3| nearest_on_line(surface, centre, guess);
+        Landmarks {
+            cranium_centre: centre,
+            cranium_radii: DVec3::new(self.half_width, self.half_depth, 0.108 * scale),
+            whorl: skin(at(0.0, -0.069, 0.079)),
+            face: -DVec3::Y,
+            width: 2.0 * self.half_width,
+            hairline: skin(DVec3::new(middle, centre.y - 0.083 * scale, brow_z + 0.056 * scale)),
+            brow: skin(DVec3::new(middle, centre.y - 0.098 * scale, brow_z)),
+            ear,
+            nape: skin(at(0.0, -0.064, -0.088)),
+        }
+    }
+}
+
+/// Height between the brows (m): the nose's root is where the profile starts to come forward below
+/// the forehead; without a nose, a proportion of the head.
+fn brow_height(surface: &Surface, middle: f64, centre: DVec3, scale: f64) -> f64 {
+    let usual = centre.z + 0.013 * scale;
+    let front = surface.positions().iter().filter(|p| {
+        (p.x - middle).abs() < 0.02 * scale && (p.z - centre.z + 0.04 * scale).abs() < 0.04 * scale
+    });
+    let Some(tip) = front.min_by(|a, b| a.y.total_cmp(&b.y)) else { return usual };
+    let proud = centre.y - tip.y > 0.1 * scale;
+    let guess = tip.z + 0.052 * scale;
+    if proud { guess.clamp(usual - 0.02 * scale, usual + 0.02 * scale) } else { usual }
+}
+
+/// Middle of what stands out beside the skull, mirrored to the left; none on a head without ears.
+fn find_ear(surface: &Surface, centre: DVec3, half_width: f64, scale: f64) -> Option<DVec3> {
+    let out = half_width + 0.004 * scale;
+    let (mut low, mut high, mut any) = (DVec3::INFINITY, DVec3::NEG_INFINITY, false);
+    for p in surface.positions() {
+        let d = *p - centre;
+        let beside = (-0.075 * scale..0.035 * scale).contains(&d.z) && d.y.abs() < 0.06 * scale;
+        if beside && d.x.abs() > out {
+            let q = DVec3::new(d.x.abs(), d.y, d.z);
+            (low, high, any) = (low.min(q), high.max(q), true);
+        }
+    }
+    let size = high - low;
+    let plausible = any && size.z > 0.025 * scale && size.z < 0.09 * scale;
+    plausible
+        .then(|| centre + DVec3::new(half_width, 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)))
+}
+
+/// Where the ray from `centre` through `guess` leaves the skin, or `guess`.
+fn nearest_on_line(surface: &Surface, centre: DVec3, guess: DVec3) -> DVec3 {
+    let ray = (guess - centre).normalize_or(DVec3::Z);
+    let hits = (0..surface.triangles().len()).filter_map(|f| hit(centre, ray, surface.corners(f)));
+    hits.max_by(f64::total_cmp).map_or(guess, |t| centre + ray * t)
+}
+
+/// Distance along a ray to a triangle. [Möller and Trumbore 1997]
+fn hit(from: DVec3, ray: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+    let (e, f) = (b - a, c - a);
+    let h = ray.cross(f);
+    let det = e.dot(h);
+    if det.abs() < 1e-18 {
+        return None;
+    }
+    let s = from - a;
+    let u = s.dot(h) / det;
+    let q = s.cross(e);
+    let v = ray.dot(q) / det;
+    let t = f.dot(q) / det;
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
+}

@@ -1,0 +1,220 @@
+//! A mesh on the zero of a field: surface nets on a grid whose spacing may vary along each axis.
+//!
+//! Own code and not the `fast-surface-nets` crate, because that one wants an even grid of `f32` and
+//! leaves its vertices off the surface; here the face gets finer cells than the shoulders, and every
+//! vertex is brought onto the field.
+
+use frisure_strands::Surface;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Coordinates of the nodes along each axis (m), increasing.
+pub(crate) struct Lattice {
+    pub(crate) axes: [Vec<f64>; 3],
+}
+
+/// Nodes along the edge of a block that is skipped where it is far from the surface.
+const BLOCK: usize = 8;
+/// Rounds of smoothing along the surface.
+const ROUNDS: usize = 4;
+
+impl Lattice {
+    /// Nodes from `low` to `high`, `spacing(x)` apart.
+    pub(crate) fn axis(low: f64, high: f64, spacing: impl Fn(f64) -> f64) -> Vec<f64> {
+        let mut nodes = vec![low];
+        while nodes[nodes.len() - 1] < high {
+            let last = nodes[nodes.len() - 1];
+            nodes.push(last + spacing(last + 0.5 * spacing(last)));
+        }
+        nodes
+    }
+
+    fn size(&self) -> [usize; 3] {
+        [0, 1, 2].map(|a| self.axes[a].len())
+    }
+
+    fn position(&self, [i, j, k]: [usize; 3]) -> DVec3 {
+        DVec3::new(self.axes[0][i], self.axes[1][j], self.axes[2][k])
+    }
+}
+
+/// The surface where `field` (m, about a distance, positive outside) is zero.
+///
+/// # Panics
+/// If the field has no zero on the lattice.
+pub(crate) fn mesh(lattice: &Lattice, field: impl Fn(DVec3) -> f64 + Sync) -> Surface {
+    let values = evaluate(lattice, &field);
+    let (mut positions, triangles) = nets(lattice, &values);
+    for _ in 0..ROUNDS {
+        positions = smoothed(&positions, &triangles);
+        positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
+    }
+    Surface::new(positions, triangles).expect("the field has a zero on the lattice")
+}
+
+/// The field at the nodes; where a whole block is far from the surface, at its middle.
+fn evaluate(lattice: &Lattice, field: &(impl Fn(DVec3) -> f64 + Sync)) -> Vec<f64> {
+    let [nx, ny, nz] = lattice.size();
+    let mut values = vec![0.0; nx * ny * nz];
+    values.par_chunks_mut(nx * ny * BLOCK).enumerate().for_each(|(slab, values)| {
+        let k0 = slab * BLOCK;
+        for j0 in (0..ny).step_by(BLOCK) {
+            for i0 in (0..nx).step_by(BLOCK) {
+                let end = [i0, j0, k0].map(|o| o + BLOCK);
+                let last = [(nx, end[0]), (ny, end[1]), (nz, end[2])].map(|(n, e)| n.min(e) - 1);
+                let low = lattice.position([i0, j0, k0]);
+                let high = lattice.position(last);
+                let middle = field(0.5 * (low + high));
+                // The field may overstate distances; half of it is safe.
+                let far = 0.5 * middle.abs() > 0.5 * (high - low).length() + 2e-3;
+                for k in k0..=last[2] {
+                    for j in j0..=last[1] {
+                        for i in i0..=last[0] {
+                            let value =
+                                if far { middle } else { field(lattice.position([i, j, k])) };
+                            values[((k - k0) * ny + j) * nx + i] = value;
+                        }
+                    }
+                }
+            }
+        }
+    });
+    values
+}
+
+/// One vertex in each cell that the surface passes, one quad around each edge that crosses it.
+fn nets(lattice: &Lattice, values: &[f64]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let [nx, ny, nz] = lattice.size();
+    let strides = [1, nx, nx * ny];
+    let mut cells = vec![u32::MAX; values.len()];
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for k in 0..nz - 1 {
+        for j in 0..ny - 1 {
+            for i in 0..nx - 1 {
+                let at = (k * ny + j) * nx + i;
+                let Some(p) = cell_vertex(lattice, values, [i, j, k], at, strides) else {
+                    continue;
+                };
+                cells[at] = positions.len() as u32;
+                positions.push(p);
+                quads(&cells, values, [i, j, k], at, strides, &mut triangles);
+            }
+        }
+    }
+    let faces = triangles.into_iter().flat_map(|quad| split(&positions, quad)).collect();
+    (positions, faces)
+}
+
+/// Mean of the crossings on the twelve edges of a cell, if there are any.
+fn cell_vertex(
+    lattice: &Lattice,
+    values: &[f64],
+    cell: [usize; 3],
+    at: usize,
+    strides: [usize; 3],
+) -> Option<DVec3> {
+    let corner = |c: usize| at + (0..3).map(|a| (c >> a & 1) * strides[a]).sum::<usize>();
+    let inside = (0..8).filter(|&c| values[corner(c)] < 0.0).count();
+    if inside == 0 || inside == 8 {
+        return None;
+    }
+    let place = |c: usize| lattice.position([0, 1, 2].map(|a| cell[a] + (c >> a & 1)));
+    let (mut sum, mut count) = (DVec3::ZERO, 0.0);
+    for c in 0..8 {
+        for axis in (0..3).filter(|a| c >> a & 1 == 0) {
+            let d = c | 1 << axis;
+            let (u, v) = (values[corner(c)], values[corner(d)]);
+            if (u < 0.0) != (v < 0.0) {
+                sum += place(c).lerp(place(d), u / (u - v));
+                count += 1.0;
+            }
+        }
+    }
+    Some(sum / count)
+}
+
+/// The quads around those edges of a cell's first corner that cross the surface.
+fn quads(
+    cells: &[u32],
+    values: &[f64],
+    cell: [usize; 3],
+    at: usize,
+    strides: [usize; 3],
+    out: &mut Vec<[u32; 4]>,
+) {
+    for axis in 0..3 {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (from, to) = (values[at] < 0.0, values[at + strides[axis]] < 0.0);
+        if from == to || cell[u] == 0 || cell[v] == 0 {
+            continue;
+        }
+        let (su, sv) = (strides[u], strides[v]);
+        let mut quad = [cells[at - su - sv], cells[at - sv], cells[at], cells[at - su]];
+        if !from {
+            quad.reverse();
+        }
+        out.push(quad);
+    }
+}
+
+/// Two triangles, cut along the shorter diagonal.
+fn split(positions: &[DVec3], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    let length = |i: u32, j: u32| positions[i as usize].distance_squared(positions[j as usize]);
+    if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+}
+
+/// Each vertex half-way to the mean of its neighbours.
+fn smoothed(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
+    let mut sums = vec![(DVec3::ZERO, 0.0); positions.len()];
+    for &[a, b, c] in triangles {
+        for (u, v) in [(a, b), (b, c), (c, a)] {
+            sums[u as usize].0 += positions[v as usize];
+            sums[u as usize].1 += 1.0;
+        }
+    }
+    positions.iter().zip(sums).map(|(p, (sum, n))| 0.5 * (*p + sum / n)).collect()
+}
+
+/// `p` brought onto the zero of the field.
+fn projected(mut p: DVec3, field: &impl Fn(DVec3) -> f64) -> DVec3 {
+    for _ in 0..2 {
+        let (value, slope) = slope(p, field);
+        let length = slope.length_squared();
+        // A step is bounded: at a crease the slope may vanish.
+        if length > 0.04 {
+            p -= (slope * (value / length)).clamp_length_max(2e-3);
+        }
+    }
+    p
+}
+
+/// Value and gradient, by four points of a tetrahedron.
+fn slope(p: DVec3, field: &impl Fn(DVec3) -> f64) -> (f64, DVec3) {
+    let h = 1e-4;
+    let ways = [
+        DVec3::new(1.0, -1.0, -1.0),
+        DVec3::new(-1.0, -1.0, 1.0),
+        DVec3::new(-1.0, 1.0, -1.0),
+        DVec3::new(1.0, 1.0, 1.0),
+    ];
+    let values = ways.map(|w| field(p + h * w));
+    let gradient = ways.iter().zip(values).map(|(w, v)| *w * v).sum::<DVec3>() / (4.0 * h);
+    (values.iter().sum::<f64>() / 4.0, gradient)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ball_is_meshed_on_its_surface_and_turned_outwards() {
+        let axis = || Lattice::axis(-0.11, 0.11, |x| if x < 0.0 { 6e-3 } else { 4e-3 });
+        let ball = mesh(&Lattice { axes: [axis(), axis(), axis()] }, |p| p.length() - 0.1);
+        assert!(ball.positions().iter().all(|p| (p.length() - 0.1).abs() < 1e-6));
+        let exact = 4.0 * std::f64::consts::PI * 0.01;
+        assert!((ball.area() / exact - 1.0).abs() < 0.01);
+        for (n, p) in ball.vertex_normals().iter().zip(ball.positions()) {
+            assert!(n.dot(*p) > 0.09);
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Where hair grows.
+
+use std::f64::consts::PI;
+
+use frisure_strands::Surface;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::landmarks::Landmarks;
+
+/// Half the width over which hair thins out at the hairline (m).
+const FEATHER: f64 = 3.5e-3;
+
+/// Weight 0..1 at each vertex: 1 where hair grows, falling to 0 across the hairline.
+pub(crate) fn weights(surface: &Surface, landmarks: &Landmarks) -> Vec<f64> {
+    let line = Hairline::new(landmarks);
+    surface.positions().par_iter().map(|&p| line.weight(p)).collect()
+}
+
+/// The hairline of the left side, drawn on the sphere of directions about the cranium's centre.
+struct Hairline<'a> {
+    landmarks: &'a Landmarks,
+    /// Azimuth and elevation (rad), from the forehead to the nape.
+    line: Vec<[f64; 2]>,
+}
+
+impl<'a> Hairline<'a> {
+    fn new(landmarks: &'a Landmarks) -> Self {
+        Self { landmarks, line: curve(&anchors(landmarks)) }
+    }
+
+    fn weight(&self, p: DVec3) -> f64 {
+        let l = self.landmarks;
+        // Just short of π, where the line ends.
+        let at = [l.azimuth(p).abs().min(PI - 1e-9), l.elevation(p)];
+        let reach = p.distance(l.cranium_centre);
+        let gap = self.distance(at) * reach;
+        let inside = if self.covers(at) { gap } else { -gap };
+        smooth(inside / FEATHER) * (1.0 - self.on_ear(p))
+    }
+
+    /// Angle to the line (rad).
+    fn distance(&self, at: [f64; 2]) -> f64 {
+        let shrink = at[1].cos();
+        let segments = self.line.windows(2).map(|w| {
+            let flat = |q: [f64; 2]| [(q[0] - at[0]) * shrink, q[1] - at[1]];
+            let ([ax, ay], [bx, by]) = (flat(w[0]), flat(w[1]));
+            let (dx, dy) = (bx - ax, by - ay);
+            let t = -(ax * dx + ay * dy) / (dx * dx + dy * dy).max(1e-12);
+            let t = t.clamp(0.0, 1.0);
+            (ax + t * dx).hypot(ay + t * dy)
+        });
+        segments.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a direction lies above the line: the line is below it an odd number of times.
+    fn covers(&self, [azimuth, elevation]: [f64; 2]) -> bool {
+        let below = self.line.windows(2).filter(|w| {
+            let ([a0, e0], [a1, e1]) = (w[0], w[1]);
+            (a0 <= azimuth) != (a1 <= azimuth)
+                && e0 + (azimuth - a0) / (a1 - a0) * (e1 - e0) < elevation
+        });
+        below.count() % 2 == 1
+    }
+
+    /// 1 on the outer ear, which the scalp behind it shares its directions with.
+    fn on_ear(&self, p: DVec3) -> f64 {
+        let l = self.landmarks;
+        let d = DVec3::new(p.x.abs(), p.y, p.z) - l.ear;
+        let scale = l.width / 0.155;
+        let out = d.x / scale + 2e-3;
+        let side = DVec3::new(0.0, d.y / 0.026, d.z / 0.038).length() / scale;
+        smooth(out / 2e-3) * smooth((1.0 - side) / 0.1)
+    }
+}
+
+/// The line's corners, from proportions: azimuth and elevation (rad).
+fn anchors(l: &Landmarks) -> Vec<[f64; 2]> {
+    let scale = l.width / 0.155;
+    let ear = l.azimuth(l.ear);
+    let front = l.hairline.z;
+    let brow = l.brow.z;
+    let top = l.ear.z + 0.033 * scale;
+    let bottom = l.ear.z - 0.030 * scale;
+    let nape = l.elevation(l.nape);
+    // The skin's distance from the vertical axis, for a height above the centre.
+    let at = |azimuth: f64, z: f64| {
+        let h = (z - l.cranium_centre.z) / l.cranium_radii.z;
+        let ellipse = (azimuth.sin() / l.cranium_radii.x).hypot(azimuth.cos() / l.cranium_radii.y);
+        let radius = (1.0 - h * h).max(0.4).sqrt() / ellipse;
+        [azimuth, (z - l.cranium_centre.z).atan2(radius)]
+    };
+    let mut line = vec![
+        [0.0, l.elevation(l.hairline)],
+        at(0.30, front + 0.001 * scale),
+        at(0.62, front + 0.004 * scale),
+        at(0.80, front - 0.004 * scale),
+        at(0.93, brow + 0.030 * scale),
+        at(1.04, brow + 0.010 * scale),
+        at(1.16, brow - 0.004 * scale),
+        at(ear - 0.42, top - 0.012 * scale),
+        at(ear - 0.40, bottom + 0.020 * scale),
+        at(ear - 0.24, bottom + 0.018 * scale),
+        at(ear - 0.21, top - 0.012 * scale),
+        at(ear - 0.10, top + 0.008 * scale),
+        at(ear + 0.16, top + 0.006 * scale),
+        at(ear + 0.34, top - 0.020 * scale),
+        at(ear + 0.44, bottom),
+    ];
+    let last = line[line.len() - 1];
+    line.push([0.5 * (last[0] + PI), 0.35 * last[1] + 0.65 * nape]);
+    line.push([PI, nape]);
+    line
+}
+
+/// A smooth curve through the corners.
+fn curve(corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const STEPS: usize = 8;
+    let get = |i: isize| {
+        // Mirrored at the ends, where the line meets that of the right side.
+        let last = corners.len() as isize - 1;
+        let j = if i < 0 {
+            -i
+        } else if i > last {
+            2 * last - i
+        } else {
+            i
+        };
+        let [a, e] = corners[j as usize];
+        let end = corners[if i < 0 { 0 } else { last as usize }][0];
+        if i == j { [a, e] } else { [2.0 * end - a, e] }
+    };
+    let mut line = vec![corners[0]];
+    for i in 0..corners.len() as isize - 1 {
+        let [a, b, c, d] = [get(i - 1), get(i), get(i + 1), get(i + 2)];
+        for step in 1..=STEPS {
+            let t = step as f64 / STEPS as f64;
+            line.push([0, 1].map(|x| catmull_rom([a[x], b[x], c[x], d[x]], t)));
+        }
+    }
+    line
+}
+
+fn catmull_rom([a, b, c, d]: [f64; 4], t: f64) -> f64 {
+    let (m, n) = (0.5 * (c - a), 0.5 * (d - b));
+    let (t2, t3) = (t * t, t * t * t);
+    (2.0 * t3 - 3.0 * t2 + 1.0) * b
+        + (t3 - 2.0 * t2 + t) * m
+        + (3.0 * t2 - 2.0 * t3) * c
+        + (t3 - t2) * n
+}
+
+/// 0 below −1, 1 above 1, smooth between.
+fn smooth(x: f64) -> f64 {
+    let t = (0.5 * (x + 1.0)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}

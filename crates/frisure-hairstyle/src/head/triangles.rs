@@ -1,0 +1,193 @@
+//! Triangles as the distance grid needs them: closed, with neighbours, some left out.
+
+use std::collections::BTreeMap;
+
+use frisure_strands::Surface;
+use glam::DVec3;
+
+/// Triangles over welded corners: vertices at the same place are one.
+pub(crate) struct Soup {
+    positions: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Soup {
+    /// The faces of `surface`, and a lid over each of its open rims.
+    pub(crate) fn closed(surface: &Surface) -> Self {
+        let positions = surface.positions().to_vec();
+        let same = weld(&positions);
+        let mut triangles: Vec<[u32; 3]> =
+            surface.triangles().iter().map(|t| t.map(|v| same[v as usize])).collect();
+        triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+        let mut soup = Self { positions, triangles };
+        for rim in soup.rims() {
+            soup.cover(&rim);
+        }
+        soup
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    pub(crate) fn corners(&self, face: usize) -> [DVec3; 3] {
+        self.triangles[face].map(|v| self.positions[v as usize])
+    }
+
+    /// Only the faces for which `kept` is true.
+    pub(crate) fn only(&self, kept: &[bool]) -> Self {
+        let faces = self.triangles.iter().zip(kept);
+        let triangles = faces.filter(|(_, k)| **k).map(|(t, _)| *t).collect();
+        Self { positions: self.positions.clone(), triangles }
+    }
+
+    /// Adds to the chosen faces those connected to them within `reach` (m), which are too small to
+    /// be the nearest of any node.
+    pub(crate) fn grow(&self, chosen: &[bool], reach: f64) -> Vec<bool> {
+        let around = self.faces_of_vertices();
+        let mut grown = chosen.to_vec();
+        let centre = |f: usize| self.corners(f).iter().sum::<DVec3>() / 3.0;
+        let mut front: Vec<(usize, DVec3)> =
+            (0..self.len()).filter(|&f| chosen[f]).map(|f| (f, centre(f))).collect();
+        while !front.is_empty() {
+            let mut next = Vec::new();
+            for &(face, seed) in &front {
+                for &v in &self.triangles[face] {
+                    for &f in around.of(v) {
+                        if !grown[f as usize] && centre(f as usize).distance(seed) < reach {
+                            grown[f as usize] = true;
+                            next.push((f as usize, seed));
+                        }
+                    }
+                }
+            }
+            front = next;
+        }
+        grown
+    }
+
+    fn faces_of_vertices(&self) -> Rows {
+        let mut starts = vec![0; self.positions.len() + 1];
+        for &v in self.triangles.iter().flatten() {
+            starts[v as usize + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut fill = starts.clone();
+        let mut items = vec![0; self.triangles.len() * 3];
+        for (face, triangle) in self.triangles.iter().enumerate() {
+            for &v in triangle {
+                items[fill[v as usize]] = face as u32;
+                fill[v as usize] += 1;
+            }
+        }
+        Rows { starts, items }
+    }
+
+    /// Closed chains of edges that have a face on one side only, in the direction of a lid's edges.
+    fn rims(&self) -> Vec<Vec<u32>> {
+        let mut edges: Vec<(u32, u32)> =
+            self.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        edges.sort_unstable();
+        let mut next: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for &(a, b) in &edges {
+            if edges.binary_search(&(b, a)).is_err() {
+                next.entry(b).or_default().push(a);
+            }
+        }
+        let mut rims = Vec::new();
+        while let Some((&first, _)) = next.iter().next() {
+            let mut rim = vec![first];
+            let mut at = first;
+            while let Some(to) = take(&mut next, at) {
+                if to == first {
+                    break;
+                }
+                rim.push(to);
+                at = to;
+            }
+            rims.push(rim);
+        }
+        rims
+    }
+
+    /// A fan from the middle of a rim.
+    fn cover(&mut self, rim: &[u32]) {
+        let sum: DVec3 = rim.iter().map(|&v| self.positions[v as usize]).sum();
+        let middle = self.positions.len() as u32;
+        self.positions.push(sum / rim.len() as f64);
+        for (i, &a) in rim.iter().enumerate() {
+            self.triangles.push([a, rim[(i + 1) % rim.len()], middle]);
+        }
+    }
+}
+
+/// Lists of faces, one list per vertex.
+struct Rows {
+    starts: Vec<usize>,
+    items: Vec<u32>,
+}
+
+impl Rows {
+    fn of(&self, row: u32) -> &[u32] {
+        &self.items[self.starts[row as usize]..self.starts[row as usize + 1]]
+    }
+}
+
+/// Removes and returns one of the vertices that follow `at`.
+fn take(next: &mut BTreeMap<u32, Vec<u32>>, at: u32) -> Option<u32> {
+    let followers = next.get_mut(&at)?;
+    let to = followers.pop();
+    if followers.is_empty() {
+        next.remove(&at);
+    }
+    to
+}
+
+/// For each vertex, the first vertex at the same place.
+fn weld(positions: &[DVec3]) -> Vec<u32> {
+    let key = |v: u32| positions[v as usize].to_array().map(|c| (c + 0.0).to_bits());
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.sort_unstable_by_key(|&v| (key(v), v));
+    let mut same = vec![0; positions.len()];
+    let mut first = order[0];
+    for v in order {
+        if key(v) != key(first) {
+            first = v;
+        }
+        same[v as usize] = first;
+    }
+    same
+}
+
+/// The point of a triangle that is nearest to `p`. [Ericson, Real-Time Collision Detection, 5.1.5]
+pub(crate) fn closest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+    let (ab, ac) = (b - a, c - a);
+    let (d1, d2) = (ab.dot(p - a), ac.dot(p - a));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let (d3, d4) = (ab.dot(p - b), ac.dot(p - b));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * (d1 / (d1 - d3));
+    }
+    let (d5, d6) = (ab.dot(p - c), ac.dot(p - c));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * (d2 / (d2 - d6));
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    let scale = (va + vb + vc).recip();
+    a + ab * (vb * scale) + ac * (vc * scale)
+}
