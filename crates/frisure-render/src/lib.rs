@@ -1,1 +1,20 @@
-//! placeholder
+//! Strands to picture, on the CPU.
+//!
+//! A picture is made of a [`Camera`], [`Lights`], a [`Look`] (the colours of hair, head and
+//! background) and of what is seen: the strands and, if there is one, the surface they grow on.
+//! [`preview::render`] draws them in a few seconds, by projection: every hair is a line of its true
+//! width, shaded by one bounce of light and by shadows read from density maps. It writes no file:
+//! the [`Image`] it returns holds scene-linear light, and [`Image::to_srgb8`] develops it.
+//!
+//! Lengths are metres, angles radians, z is up, the face looks towards −y; colours are linear sRGB.
+
+mod camera;
+mod film;
+mod light;
+mod look;
+pub mod preview;
+
+pub use camera::{Camera, CameraError};
+pub use film::{Image, ToneCurve};
+pub use light::{DirectionalLight, Lights};
+pub use look::{Background, HairLook, Look, SkinLook};

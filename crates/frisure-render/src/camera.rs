@@ -1,0 +1,196 @@
+//! A pinhole camera.
+
+use glam::DVec3;
+use thiserror::Error;
+
+/// Vertical field of view of [`Camera::framing`] (rad): that of a portrait lens, 24°.
+const PORTRAIT_FOV: f64 = 24.0 * std::f64::consts::PI / 180.0;
+
+/// Part of the picture's width or height that [`Camera::framing`] leaves free on each side.
+const MARGIN: f64 = 0.05;
+
+/// A perspective camera: an eye, an upright frame and a vertical field of view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    eye: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    vertical_fov: f64,
+}
+
+/// Why a camera cannot be made.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum CameraError {
+    /// Eye and target coincide, are not finite, or the view is along the up direction.
+    #[error("the camera has no direction: eye {eye}, target {target}, up {up}")]
+    Direction {
+        /// Position of the eye (m).
+        eye: DVec3,
+        /// Point looked at (m).
+        target: DVec3,
+        /// Up direction.
+        up: DVec3,
+    },
+    /// The field of view is not strictly between 0 and π.
+    #[error("the vertical field of view must lie between 0 and 180 deg, not {degrees} deg")]
+    FieldOfView {
+        /// The field of view given (degrees).
+        degrees: f64,
+    },
+}
+
+impl Camera {
+    /// A camera at `eye` (m) that looks at `target` (m), with `up` upwards in the picture and a
+    /// field of view of `vertical_fov` (rad) from the bottom to the top of the picture.
+    ///
+    /// # Errors
+    /// [`CameraError`], if these define no picture.
+    pub fn look_at(
+        eye: DVec3,
+        target: DVec3,
+        up: DVec3,
+        vertical_fov: f64,
+    ) -> Result<Self, CameraError> {
+        if !(vertical_fov > 0.0 && vertical_fov < std::f64::consts::PI) {
+            return Err(CameraError::FieldOfView { degrees: vertical_fov.to_degrees() });
+        }
+        let bad = CameraError::Direction { eye, target, up };
+        let forward = (target - eye).try_normalize().ok_or(bad)?;
+        let right = forward.cross(up).try_normalize().ok_or(bad)?;
+        if !eye.is_finite() {
+            return Err(bad);
+        }
+        Ok(Self { eye, forward, right, up: right.cross(forward), vertical_fov })
+    }
+
+    /// A camera that shows the whole box `bounds` (smallest and largest corner, m) in a picture of
+    /// `aspect` width/height, seen from `azimuth` and `elevation` (rad) with a portrait lens.
+    ///
+    /// Azimuth 0 faces the face (the eye is towards −y) and grows towards the head's left (+x);
+    /// elevation grows upwards and is kept between ±85°. Bounds, angles or aspects that are not
+    /// finite and positive are replaced: there is always a camera.
+    #[must_use]
+    pub fn framing(bounds: (DVec3, DVec3), azimuth: f64, elevation: f64, aspect: f64) -> Self {
+        let (low, high) = usable_bounds(bounds);
+        let aspect = if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 };
+        let azimuth = if azimuth.is_finite() { azimuth } else { 0.0 };
+        let limit = 85_f64.to_radians();
+        let elevation = if elevation.is_finite() { elevation.clamp(-limit, limit) } else { 0.0 };
+
+        let (sa, ca) = azimuth.sin_cos();
+        let (se, ce) = elevation.sin_cos();
+        let forward = -DVec3::new(sa * ce, -ca * ce, se);
+        let right = forward.cross(DVec3::Z).normalize();
+        let up = right.cross(forward);
+        let centre = 0.5 * (low + high);
+
+        let tan_v = (0.5 * PORTRAIT_FOV).tan() * (1.0 - 2.0 * MARGIN);
+        let tan_h = tan_v * aspect;
+        let distance = (0..8)
+            .map(|i| {
+                let pick = |bit: u32, l: f64, h: f64| if i >> bit & 1 == 0 { l } else { h };
+                let corner = DVec3::new(
+                    pick(0, low.x, high.x),
+                    pick(1, low.y, high.y),
+                    pick(2, low.z, high.z),
+                ) - centre;
+                let fit_h = corner.dot(right).abs() / tan_h;
+                let fit_v = corner.dot(up).abs() / tan_v;
+                fit_h.max(fit_v) - corner.dot(forward)
+            })
+            .fold(0.0, f64::max);
+        Self { eye: centre - distance * forward, forward, right, up, vertical_fov: PORTRAIT_FOV }
+    }
+
+    /// Position of the eye (m).
+    #[must_use]
+    pub fn eye(&self) -> DVec3 {
+        self.eye
+    }
+
+    /// Unit direction of view, into the picture.
+    #[must_use]
+    pub fn forward(&self) -> DVec3 {
+        self.forward
+    }
+
+    /// Unit direction to the right in the picture.
+    #[must_use]
+    pub fn right(&self) -> DVec3 {
+        self.right
+    }
+
+    /// Unit direction upwards in the picture.
+    #[must_use]
+    pub fn up(&self) -> DVec3 {
+        self.up
+    }
+
+    /// Angle from the bottom to the top of the picture (rad).
+    #[must_use]
+    pub fn vertical_fov(&self) -> f64 {
+        self.vertical_fov
+    }
+}
+
+impl Default for Camera {
+    /// In front of a head at the origin.
+    fn default() -> Self {
+        Self::framing((DVec3::splat(-0.15), DVec3::splat(0.15)), 0.0, 0.0, 1.0)
+    }
+}
+
+/// The box, or one around a head at the origin if it cannot be framed.
+fn usable_bounds((low, high): (DVec3, DVec3)) -> (DVec3, DVec3) {
+    let good = low.is_finite() && high.is_finite() && (high - low).min_element() >= 0.0;
+    let size = (high - low).max_element();
+    if good && size > 0.0 { (low, high) } else { (DVec3::splat(-0.15), DVec3::splat(0.15)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_view_has_the_left_of_the_head_on_its_right() {
+        let camera = Camera::default();
+        assert!(camera.eye().y < -0.3 && camera.eye().x.abs() < 1e-12);
+        assert!((camera.right() - DVec3::X).length() < 1e-12);
+        assert!((camera.up() - DVec3::Z).length() < 1e-12);
+    }
+
+    #[test]
+    fn framing_holds_every_corner() {
+        let bounds = (DVec3::new(-0.1, -0.12, -0.3), DVec3::new(0.1, 0.09, 0.15));
+        for (azimuth, elevation, aspect) in [(0.0, 0.0, 1.0), (0.8, 0.3, 0.6), (-2.0, -0.5, 1.8)] {
+            let camera = Camera::framing(bounds, azimuth, elevation, aspect);
+            let tan = (0.5 * camera.vertical_fov()).tan();
+            let mut largest = 0.0_f64;
+            for x in [bounds.0.x, bounds.1.x] {
+                for y in [bounds.0.y, bounds.1.y] {
+                    for z in [bounds.0.z, bounds.1.z] {
+                        let d = DVec3::new(x, y, z) - camera.eye();
+                        let depth = d.dot(camera.forward());
+                        let v = d.dot(camera.up()).abs() / (depth * tan);
+                        let h = d.dot(camera.right()).abs() / (depth * tan * aspect);
+                        largest = largest.max(v).max(h);
+                    }
+                }
+            }
+            assert!((largest - (1.0 - 2.0 * MARGIN)).abs() < 1e-9, "{largest}");
+        }
+    }
+
+    #[test]
+    fn impossible_cameras_are_refused_and_framing_never_fails() {
+        let look = |eye, up, fov| Camera::look_at(eye, DVec3::ZERO, up, fov);
+        assert!(look(DVec3::Y, DVec3::Z, 0.5).is_ok());
+        assert!(look(DVec3::ZERO, DVec3::Z, 0.5).is_err());
+        assert!(look(DVec3::Z, DVec3::Z, 0.5).is_err());
+        assert!(look(DVec3::Y * f64::NAN, DVec3::Z, 0.5).is_err());
+        assert!(look(DVec3::Y, DVec3::Z, f64::NAN).is_err());
+        let camera = Camera::framing((DVec3::NAN, DVec3::ONE), f64::NAN, 9.0, 0.0);
+        assert!(camera.eye().is_finite());
+    }
+}

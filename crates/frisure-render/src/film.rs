@@ -1,0 +1,134 @@
+//! The picture, and how it is developed for a screen.
+
+/// A picture of linear sRGB light with coverage, rows from the top.
+///
+/// Colours are scene-linear and premultiplied: a pixel half covered by a white thing is
+/// (0.5, 0.5, 0.5, 0.5).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    width: usize,
+    height: usize,
+    pixels: Vec<[f32; 4]>,
+}
+
+/// How scene-linear light becomes a display's light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToneCurve {
+    /// Cut off at white.
+    Plain,
+    /// Unchanged up to 0.55, then bent softly towards white, as film does: highlights keep their
+    /// shape instead of burning out.
+    #[default]
+    Shoulder,
+}
+
+impl ToneCurve {
+    /// Display-linear value (0 to 1) of a scene-linear one; not-a-number is black.
+    #[must_use]
+    pub fn apply(self, light: f32) -> f32 {
+        const KNEE: f32 = 0.55;
+        let light = light.max(0.0);
+        match self {
+            Self::Shoulder if light > KNEE => {
+                KNEE + (1.0 - KNEE) * (1.0 - ((KNEE - light) / (1.0 - KNEE)).exp())
+            }
+            _ => light.min(1.0),
+        }
+    }
+}
+
+impl Image {
+    /// A transparent black picture.
+    #[must_use]
+    pub fn new(width: usize, height: usize) -> Self {
+        Self { width, height, pixels: vec![[0.0; 4]; width * height] }
+    }
+
+    /// Pixels across.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Pixels down.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Red, green, blue (scene-linear, premultiplied) and coverage of every pixel, row by row from
+    /// the top left.
+    #[must_use]
+    pub fn pixels(&self) -> &[[f32; 4]] {
+        &self.pixels
+    }
+
+    /// The pixels, to be written.
+    pub fn pixels_mut(&mut self) -> &mut [[f32; 4]] {
+        &mut self.pixels
+    }
+
+    /// Pixel in column `x`, row `y` from the top left.
+    ///
+    /// # Panics
+    /// If it lies outside the picture.
+    #[must_use]
+    pub fn pixel(&self, x: usize, y: usize) -> [f32; 4] {
+        assert!(x < self.width, "column {x} of {}", self.width);
+        self.pixels[y * self.width + x]
+    }
+
+    /// Bytes for a screen or a PNG file, developed with the default [`ToneCurve`]: sRGB-encoded red,
+    /// green, blue and *unassociated* alpha per pixel, row by row from the top left.
+    #[must_use]
+    pub fn to_srgb8(&self) -> Vec<u8> {
+        self.to_srgb8_with(ToneCurve::default())
+    }
+
+    /// As [`Self::to_srgb8`], with the tone curve given.
+    #[must_use]
+    pub fn to_srgb8_with(&self, tone: ToneCurve) -> Vec<u8> {
+        self.pixels.iter().flat_map(|&pixel| develop(pixel, tone)).collect()
+    }
+}
+
+/// One pixel as sRGB bytes with unassociated alpha.
+fn develop([r, g, b, a]: [f32; 4], tone: ToneCurve) -> [u8; 4] {
+    let whole = if a > 0.0 { 1.0 / a } else { 0.0 };
+    let [r, g, b] = [r, g, b].map(|c| byte(srgb(tone.apply(c * whole))));
+    [r, g, b, byte(a)]
+}
+
+/// The sRGB transfer function (IEC 61966-2-1) of a linear value from 0 to 1.
+fn srgb(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Nearest byte to a value from 0 to 1; the cast saturates, and not-a-number is 0.
+fn byte(value: f32) -> u8 {
+    (value * 255.0 + 0.5) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn srgb_bytes_of_known_values() {
+        let grey = |c: f32| develop([c, c, c, 1.0], ToneCurve::Plain)[0];
+        assert_eq!((grey(0.0), grey(1.0), grey(9.0), grey(f32::NAN)), (0, 255, 255, 0));
+        assert_eq!(grey(0.215_861), 128); // mid grey
+        assert_eq!(develop([0.5, 0.0, 0.0, 0.5], ToneCurve::Plain), [255, 0, 0, 128]);
+    }
+
+    #[test]
+    fn the_shoulder_rises_smoothly_and_stays_below_white() {
+        let curve = |i: usize| ToneCurve::Shoulder.apply(i as f32 * 0.01);
+        assert_eq!(curve(50), 0.5);
+        for i in 1..500 {
+            let step = curve(i) - curve(i - 1);
+            assert!(step > 0.0 && step < 0.010_01, "{i}: {step}");
+        }
+        assert!(curve(500) < 1.0);
+    }
+}

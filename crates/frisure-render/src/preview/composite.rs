@@ -1,0 +1,263 @@
+//! One tile of the picture: hair over the head over the background, from front to back.
+//!
+//! A pixel is wider than a hair, so a hair covers part of it: exactly how much is the area of its
+//! ribbon in the pixel (softened by a tent), and what lies behind is dimmed by that much, as if hairs
+//! that overlap in a pixel did so by chance. Pieces come sorted by depth, so a pixel is finished once
+//! it lets nothing through, and hair that only finished pixels would see is never shaded.
+
+use glam::Vec3;
+
+use super::curves::{Curves, Vertex};
+use super::head::{Head, HeadPixel};
+use super::shading::Shader;
+use super::tiles::{Area, TILE, TileGrid};
+use super::view::View;
+use crate::Background;
+
+/// Radius of the softening tent across a hair (pixels). It hides the steps of a slanted line, and a
+/// tent of radius 1 gives the pixels of a column exactly the hair's width in all.
+pub(super) const REACH: f32 = 1.0;
+/// What a pixel lets through when it counts as finished: half a step of an 8-bit picture.
+const FINISHED: f32 = 1.0 / 512.0;
+
+/// Paints tiles.
+pub(super) struct TilePainter<'a> {
+    pub(super) view: &'a View,
+    pub(super) curves: &'a Curves,
+    pub(super) head: Option<&'a Head>,
+    pub(super) shader: &'a Shader,
+    pub(super) background: Background,
+    pub(super) samples: usize,
+}
+
+/// Light gathered so far, and what is still let through.
+#[derive(Clone, Copy, Debug)]
+struct Layer {
+    light: Vec3,
+    through: f32,
+}
+
+impl Layer {
+    const CLEAR: Self = Self { light: Vec3::ZERO, through: 1.0 };
+
+    fn add(&mut self, colour: Vec3, alpha: f32) {
+        self.light += self.through * alpha * colour;
+        self.through *= 1.0 - alpha;
+    }
+
+    /// This layer in front of something of radiance `behind`.
+    fn over(&self, behind: Vec3) -> Vec3 {
+        self.light + self.through * behind
+    }
+}
+
+/// A pixel in the making: hair in front of the covered part of the head, and hair in the rest.
+struct Pixel {
+    coverage: f32,
+    depth: f32,
+    on_head: Layer,
+    beside: Layer,
+}
+
+impl Pixel {
+    fn new(head: &HeadPixel) -> Self {
+        let (coverage, depth) = (head.coverage, head.depth);
+        Self { coverage, depth, on_head: Layer::CLEAR, beside: Layer::CLEAR }
+    }
+
+    /// Whether hair at `depth` would be seen.
+    fn open(&self, depth: f32) -> bool {
+        (self.coverage < 1.0 && self.beside.through > FINISHED)
+            || (self.coverage > 0.0 && depth < self.depth && self.on_head.through > FINISHED)
+    }
+
+    fn add(&mut self, colour: Vec3, alpha: f32, depth: f32) {
+        if self.coverage < 1.0 {
+            self.beside.add(colour, alpha);
+        }
+        if self.coverage > 0.0 && depth < self.depth {
+            self.on_head.add(colour, alpha);
+        }
+    }
+}
+
+/// A piece of hair on the screen, turned so that it runs along the first axis.
+struct Line {
+    /// Start and end along the axis (pixels), ascending.
+    from: f32,
+    to: f32,
+    /// Position across at `from`, and its slope.
+    across: f32,
+    slope: f32,
+    /// Half of its extent across, measured along the second axis (pixels).
+    half: f32,
+    /// Depth (m) at `from` and at `to`.
+    depth: [f32; 2],
+    /// Whether the first axis is y.
+    steep: bool,
+    /// Whether `from` is the piece's second end.
+    reversed: bool,
+}
+
+impl TilePainter<'_> {
+    /// The pixels of a tile, in rows of [`TILE`].
+    pub(super) fn paint(&self, grid: &TileGrid, tile: usize) -> Vec<[f32; 4]> {
+        let area = grid.area(tile);
+        let heads = match self.head {
+            Some(head) if !grid.head(tile).is_empty() => {
+                head.cover(grid.head(tile), self.view, &area, self.samples)
+            }
+            _ => vec![HeadPixel::default(); TILE * TILE],
+        };
+        let mut pixels: Vec<Pixel> = heads.iter().map(Pixel::new).collect();
+        self.lay_hair(grid.hair(tile), &area, &mut pixels);
+        self.resolve(&area, &heads, &pixels)
+    }
+
+    /// Lays the tile's hair over its pixels, nearest first.
+    fn lay_hair(&self, hair: &[u32], area: &Area, pixels: &mut [Pixel]) {
+        let mut order: Vec<(u32, u32)> = hair.iter().map(|&i| (self.depth_key(i), i)).collect();
+        order.sort_unstable();
+        for (n, &(key, index)) in order.iter().enumerate() {
+            // Now and then, see whether anything can still be seen.
+            if n % 256 == 255 && !any_open(pixels, area, f32::from_bits(key)) {
+                return;
+            }
+            if let Some((a, b)) = self.curves.piece(index as usize) {
+                self.lay_piece(a, b, area, pixels);
+            }
+        }
+    }
+
+    /// Bits of a piece's mean depth, which sort as the depth does since it is positive.
+    fn depth_key(&self, index: u32) -> u32 {
+        let [a, b] = [0, 1].map(|k| self.curves.vertices[index as usize + k].position);
+        (a.midpoint(b) - self.view.eye).dot(self.view.forward).to_bits()
+    }
+
+    /// Lays one piece over the pixels.
+    fn lay_piece(&self, a: &Vertex, b: &Vertex, area: &Area, pixels: &mut [Pixel]) {
+        let Some(line) = self.line(a, b) else { return };
+        let (low, high, side_low, side_high) = if line.steep {
+            (area.y0, area.y1, area.x0, area.x1)
+        } else {
+            (area.x0, area.x1, area.y0, area.y1)
+        };
+        let inverse = 1.0 / (line.to - line.from).max(1e-6);
+        let reach = line.half + REACH;
+        let mut ends: Option<(Vec3, Vec3)> = None;
+        // The casts saturate, and the window cuts what lies outside of the tile.
+        let columns = (line.from as usize).max(low)..(line.to.max(0.0) as usize + 1).min(high);
+        for column in columns {
+            let (left, right) = (line.from.max(column as f32), line.to.min(column as f32 + 1.0));
+            if right <= left {
+                continue;
+            }
+            let middle = 0.5 * (left + right);
+            let centre = line.across + (middle - line.from) * line.slope;
+            let x = (middle - line.from) * inverse;
+            let depth = line.depth[0] + (line.depth[1] - line.depth[0]) * x;
+            if centre + reach < side_low as f32 {
+                continue;
+            }
+            let first = ((centre - reach).max(0.0) as usize).max(side_low);
+            let last = ((centre + reach) as usize + 1).min(side_high);
+            for row in first..last {
+                let (px, py) = if line.steep { (row, column) } else { (column, row) };
+                let pixel = &mut pixels[(py - area.y0) * TILE + px - area.x0];
+                if !pixel.open(depth) {
+                    continue;
+                }
+                let offset = row as f32 + 0.5 - centre;
+                let alpha = (right - left) * ribbon(offset, line.half);
+                if alpha > 1e-4 {
+                    let (from, to) = *ends.get_or_insert_with(|| self.shade(a, b, &line));
+                    pixel.add(from.lerp(to, x), alpha.min(1.0), depth);
+                }
+            }
+        }
+    }
+
+    /// Colours at the start and the end of a line.
+    fn shade(&self, a: &Vertex, b: &Vertex, line: &Line) -> (Vec3, Vec3) {
+        let (a, b) = (self.shader.hair(a), self.shader.hair(b));
+        if line.reversed { (b, a) } else { (a, b) }
+    }
+
+    /// The piece on the screen; `None` if it has no width or no length there.
+    fn line(&self, a: &Vertex, b: &Vertex) -> Option<Line> {
+        let (p, q) = (self.view.project(a.position), self.view.project(b.position));
+        let (dx, dy) = ((q.x - p.x).abs(), (q.y - p.y).abs());
+        let steep = dy > dx;
+        let turn = |v: Vec3| if steep { Vec3::new(v.y, v.x, v.z) } else { v };
+        let reversed = turn(p).x > turn(q).x;
+        let (p, q) = if reversed { (turn(q), turn(p)) } else { (turn(p), turn(q)) };
+        let length = q.x - p.x;
+        let width = (a.half_width + b.half_width) * self.view.focal / (p.z + q.z);
+        if !(length > 1e-4 && width > 0.0) {
+            return None;
+        }
+        let slope = (q.y - p.y) / length;
+        let half = width * (1.0 + slope * slope).sqrt();
+        let depth = [p.z, q.z];
+        Some(Line { from: p.x, to: q.x, across: p.y, slope, half, depth, steep, reversed })
+    }
+
+    /// Turns layers into light.
+    fn resolve(&self, area: &Area, heads: &[HeadPixel], pixels: &[Pixel]) -> Vec<[f32; 4]> {
+        let mut out = vec![[0.0; 4]; TILE * TILE];
+        for y in area.y0..area.y1 {
+            for x in area.x0..area.x1 {
+                let i = (y - area.y0) * TILE + x - area.x0;
+                let (pixel, head) = (&pixels[i], &heads[i]);
+                let u = (2 * x + 1) as f32 / self.view.width as f32 - 1.0;
+                let v = (2 * y + 1) as f32 / self.view.height as f32 - 1.0;
+                let (wall, alpha) = self.background.at(u, v);
+                let free = 1.0 - head.coverage;
+                let mut light = free * pixel.beside.over(wall);
+                if head.coverage > 0.0 {
+                    light += head.coverage * pixel.on_head.over(self.shader.skin(head));
+                }
+                let alpha = 1.0 - free * pixel.beside.through * (1.0 - alpha);
+                out[i] = [light.x, light.y, light.z, alpha];
+            }
+        }
+        out
+    }
+}
+
+/// Whether any pixel of the tile would still show hair at `depth` or behind.
+fn any_open(pixels: &[Pixel], area: &Area, depth: f32) -> bool {
+    (0..area.y1 - area.y0).any(|y| {
+        pixels[y * TILE..y * TILE + area.x1 - area.x0].iter().any(|pixel| pixel.open(depth))
+    })
+}
+
+/// Part of a pixel's height that a band covers: the band of half width `half` around 0, softened by
+/// a tent of radius [`REACH`], seen at `offset` (all in pixels). Its integral over the offset is the
+/// band's width, whatever the width: thin hairs are faint, not broad.
+fn ribbon(offset: f32, half: f32) -> f32 {
+    tent_sum(offset + half) - tent_sum(offset - half)
+}
+
+/// Integral of the tent up to `x`.
+fn tent_sum(x: f32) -> f32 {
+    let x = (x / REACH).clamp(-1.0, 1.0);
+    0.5 + x - 0.5 * x * x.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ribbon_has_the_area_of_its_width() {
+        for half in [0.01, 0.2, 1.0, 4.0] {
+            for phase in [0.0, 0.3, 0.77] {
+                let rows = (-20..20).map(|i| ribbon(i as f32 + phase, half));
+                let sum: f32 = rows.sum();
+                assert!((sum / (2.0 * half) - 1.0).abs() < 1e-3, "{half} {phase}: {sum}");
+            }
+        }
+    }
+}

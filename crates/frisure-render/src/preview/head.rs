@@ -1,0 +1,127 @@
+//! The head: its triangles, what of the room reaches them, and which pixels of a tile it covers.
+
+use frisure_strands::Surface;
+use glam::Vec3;
+
+use super::raster;
+use super::sky::Sky;
+use super::tiles::{Area, TILE};
+use super::view::{NEAR, View};
+
+/// The surface that hair grows on, ready to be drawn.
+pub(super) struct Head {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    /// Irradiance / π of the room at each vertex.
+    room: Vec<Vec3>,
+}
+
+/// What a pixel sees of the head, averaged over its samples.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct HeadPixel {
+    /// Covered part of the pixel, 0 to 1.
+    pub(super) coverage: f32,
+    /// Mean depth of the covered part (m).
+    pub(super) depth: f32,
+    /// Mean position of the covered part (m).
+    pub(super) position: Vec3,
+    /// Mean normal towards the eye; not of unit length.
+    pub(super) normal: Vec3,
+    /// Mean irradiance / π of the room.
+    pub(super) room: Vec3,
+}
+
+impl Head {
+    pub(super) fn new(surface: &Surface) -> Self {
+        let positions: Vec<Vec3> = surface.positions().iter().map(|p| p.as_vec3()).collect();
+        let normals = surface.vertex_normals().iter().map(|n| n.as_vec3()).collect();
+        let room = vec![Vec3::ONE; positions.len()];
+        Self { positions, normals, triangles: surface.triangles().to_vec(), room }
+    }
+
+    /// Measures the room's light at each vertex.
+    pub(super) fn light_by(&mut self, sky: &Sky) {
+        let places = self.positions.iter().zip(&self.normals);
+        self.room = places.map(|(&p, &n)| sky.on_surface(p, n)).collect();
+    }
+
+    pub(super) fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// Number of faces.
+    pub(super) fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Corners of each face (m).
+    pub(super) fn faces(&self) -> impl Iterator<Item = [Vec3; 3]> {
+        (0..self.len()).map(|i| self.face(i))
+    }
+
+    /// Corners of face `index` (m).
+    pub(super) fn face(&self, index: usize) -> [Vec3; 3] {
+        self.triangles[index].map(|v| self.positions[v as usize])
+    }
+
+    /// What each pixel of a tile (rows of [`TILE`]) sees of the faces named, with `samples` samples
+    /// along each side of a pixel.
+    pub(super) fn cover(
+        &self,
+        faces: &[u32],
+        view: &View,
+        area: &Area,
+        samples: usize,
+    ) -> Vec<HeadPixel> {
+        let side = TILE * samples;
+        let mut nearest = vec![(f32::INFINITY, u32::MAX, Vec3::ZERO); side * side];
+        let window = ((area.x1 - area.x0) * samples, (area.y1 - area.y0) * samples);
+        let corner = Vec3::new(area.x0 as f32, area.y0 as f32, 0.0);
+        let scale = Vec3::new(samples as f32, samples as f32, 1.0);
+        for &face in faces {
+            let at = self.face(face as usize).map(|p| (view.project(p) - corner) * scale);
+            if at.iter().any(|p| p.z < NEAR) {
+                continue;
+            }
+            let inverse = Vec3::new(1.0 / at[0].z, 1.0 / at[1].z, 1.0 / at[2].z);
+            raster::triangle(at.map(Vec3::truncate), (0, 0), window, |x, y, weights| {
+                let depth = 1.0 / weights.dot(inverse);
+                let sample = &mut nearest[y * side + x];
+                if depth < sample.0 {
+                    *sample = (depth, face, weights * inverse * depth);
+                }
+            });
+        }
+        let mut pixels = vec![HeadPixel::default(); TILE * TILE];
+        for (i, &(depth, face, weights)) in nearest.iter().enumerate() {
+            if face != u32::MAX {
+                let (x, y) = (i % side / samples, i / side / samples);
+                self.add(&mut pixels[y * TILE + x], face, depth, weights, view);
+            }
+        }
+        let part = 1.0 / (samples * samples) as f32;
+        for pixel in pixels.iter_mut().filter(|p| p.coverage > 0.0) {
+            let mean = 1.0 / pixel.coverage;
+            pixel.depth *= mean;
+            pixel.position *= mean;
+            pixel.room *= mean;
+            pixel.coverage *= part;
+        }
+        pixels
+    }
+
+    /// Adds one sample to a pixel.
+    fn add(&self, pixel: &mut HeadPixel, face: u32, depth: f32, weights: Vec3, view: &View) {
+        let [a, b, c] = self.triangles[face as usize].map(|v| v as usize);
+        let mix = |of: &[Vec3]| of[a] * weights.x + of[b] * weights.y + of[c] * weights.z;
+        let (position, normal) = (mix(&self.positions), mix(&self.normals));
+        // Seen from inside (an open neck), a face is lit on the side that is seen.
+        let towards = normal.dot(view.eye - position) >= 0.0;
+        pixel.coverage += 1.0;
+        pixel.depth += depth;
+        pixel.position += position;
+        pixel.normal += if towards { normal } else { -normal };
+        pixel.room += mix(&self.room);
+    }
+}

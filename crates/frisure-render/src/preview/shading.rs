@@ -1,0 +1,141 @@
+//! Colour of a point of hair and of a point of the head.
+
+use frisure_optics::{Angles, LobeShape, kajiya_kay, lobes};
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::Scene;
+use super::curves::{Curves, Vertex};
+use super::density::DensityMap;
+use super::head::{Head, HeadPixel};
+use super::material::Materials;
+use super::shadow::ShadowMap;
+use super::sky::Sky;
+use crate::SkinLook;
+
+/// How far hair is lifted towards a lamp before the head can hide it (m): roots lie in the scalp.
+const HAIR_BIAS: f32 = 2.5e-3;
+/// The same for the head itself (m).
+const SKIN_BIAS: f32 = 1.5e-3;
+/// How far skin is lit past the terminator, as light seeps through it.
+const WRAP: f32 = 0.2;
+/// Mean of sin(t, l) over all directions l: what a fibre sees of light from everywhere.
+const MEAN_SINE: f32 = std::f32::consts::FRAC_PI_4;
+
+/// A lamp with its shadows.
+struct Lamp {
+    to_light: Vec3,
+    irradiance: Vec3,
+    hair: Option<DensityMap>,
+    head: Option<ShadowMap>,
+}
+
+/// All that is needed to shade a point.
+pub(super) struct Shader {
+    eye: Vec3,
+    lamps: Vec<Lamp>,
+    sky: Sky,
+    materials: Materials,
+    shape: LobeShape,
+    skin: SkinLook,
+}
+
+impl Shader {
+    pub(super) fn new(
+        scene: &Scene<'_>,
+        curves: &Curves,
+        materials: Materials,
+        head: Option<&mut Head>,
+    ) -> Self {
+        let shared = head.as_deref();
+        let usable = scene.lights.lamps.iter().filter_map(|lamp| {
+            let to_light = lamp.direction.as_vec3().try_normalize()?;
+            Some((to_light, lamp.irradiance))
+        });
+        let lit: Vec<(Vec3, Vec3)> = usable.collect();
+        let lamps = || -> Vec<Lamp> {
+            lit.par_iter()
+                .map(|&(to_light, irradiance)| Lamp {
+                    to_light,
+                    irradiance,
+                    hair: DensityMap::new(curves, to_light),
+                    head: shared.map(|head| ShadowMap::new(head, to_light)),
+                })
+                .collect()
+        };
+        let sky = || Sky::new(curves, shared, &scene.lights, materials.taken);
+        let (lamps, sky) = rayon::join(lamps, sky);
+        if let Some(head) = head {
+            head.light_by(&sky);
+        }
+        Self {
+            eye: scene.camera.eye().as_vec3(),
+            lamps,
+            sky,
+            materials,
+            shape: scene.look.hair.lobes,
+            skin: scene.look.skin,
+        }
+    }
+
+    /// Radiance of hair towards the eye.
+    pub(super) fn hair(&self, vertex: &Vertex) -> Vec3 {
+        let material = self.materials.of(vertex.strand);
+        let wet = vertex.wetness;
+        let eye = (self.eye - vertex.position).normalize_or_zero();
+        // Wet hair: less light returns through the film, and the film evens out the scales.
+        let diffuse = material.diffuse * (1.0 - 0.3 * wet);
+        let shape = LobeShape {
+            width: self.shape.width * (1.0 - 0.5 * wet),
+            tilt: self.shape.tilt * (1.0 - wet),
+            ..self.shape
+        };
+
+        let room = self.sky.mean(vertex.position);
+        let mut radiance = room * MEAN_SINE * (diffuse + material.reflected + material.returned);
+        for lamp in &self.lamps {
+            let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(vertex.position, HAIR_BIAS));
+            if head <= 0.0 {
+                continue;
+            }
+            let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
+            let passed = (-hairs * self.materials.taken).exp();
+            let straight = (-hairs).exp();
+            let angles = Angles::new(vertex.tangent, lamp.to_light, eye);
+            let lobe = lobes(angles, &shape);
+            let scattered = kajiya_kay::diffuse(vertex.tangent, lamp.to_light)
+                * std::f32::consts::FRAC_1_PI
+                * diffuse;
+            let direct = lobe.r * material.reflected + lobe.trt * material.returned;
+            let through = lobe.tt * material.transmitted;
+            radiance += head
+                * lamp.irradiance
+                * (passed * scattered + 0.5 * (passed + straight) * direct + straight * through);
+        }
+        radiance
+    }
+
+    /// Radiance of the head towards the eye.
+    pub(super) fn skin(&self, pixel: &HeadPixel) -> Vec3 {
+        let normal = pixel.normal.normalize_or_zero();
+        let eye = (self.eye - pixel.position).normalize_or_zero();
+        let mut radiance = pixel.room * self.skin.colour;
+        for lamp in &self.lamps {
+            let facing = (normal.dot(lamp.to_light) + WRAP) / (1.0 + WRAP);
+            if facing <= 0.0 {
+                continue;
+            }
+            let lifted = pixel.position + SKIN_BIAS * normal;
+            let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(lifted, SKIN_BIAS));
+            let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(lifted));
+            let passed = head * (-hairs * self.materials.taken).exp();
+            let half = (lamp.to_light + eye).normalize_or_zero();
+            let gloss = self.skin.gloss * normal.dot(half).max(0.0).powi(24);
+            radiance += passed
+                * lamp.irradiance
+                * std::f32::consts::FRAC_1_PI
+                * (facing * self.skin.colour + facing.min(1.0) * gloss);
+        }
+        radiance
+    }
+}

@@ -1,0 +1,231 @@
+//! Light from the room: how much of it reaches each place through the hair and past the head.
+//!
+//! A coarse grid holds how much hair each cell has; hairs met along fourteen directions (those of
+//! Lebedev's 14-point rule, exact to degree 5) are sums along rows and diagonals of the grid, so the
+//! whole costs a few operations per cell.
+
+use glam::{IVec3, UVec3, Vec3};
+use rayon::prelude::*;
+
+use super::curves::Curves;
+use super::head::Head;
+use crate::Lights;
+
+/// Finest cell (m).
+const MIN_CELL: f32 = 4.5e-3;
+/// Most cells along a side.
+const MAX_CELLS: f32 = 88.0;
+/// Hairs met in crossing a cell of the head's shell: as good as opaque.
+const SHELL: f32 = 40.0;
+
+/// Steps of the fourteen directions and the weight of each.
+const DIRECTIONS: [([i32; 3], f32); 14] = {
+    const FACE: f32 = 1.0 / 15.0;
+    const CORNER: f32 = 3.0 / 40.0;
+    [
+        ([1, 0, 0], FACE),
+        ([-1, 0, 0], FACE),
+        ([0, 1, 0], FACE),
+        ([0, -1, 0], FACE),
+        ([0, 0, 1], FACE),
+        ([0, 0, -1], FACE),
+        ([1, 1, 1], CORNER),
+        ([-1, 1, 1], CORNER),
+        ([1, -1, 1], CORNER),
+        ([-1, -1, 1], CORNER),
+        ([1, 1, -1], CORNER),
+        ([-1, 1, -1], CORNER),
+        ([1, -1, -1], CORNER),
+        ([-1, -1, -1], CORNER),
+    ]
+};
+
+/// Light of the room inside and around the hair.
+pub(super) struct Sky {
+    low: Vec3,
+    cell: f32,
+    size: UVec3,
+    /// Per direction and node, hairs met between the node and the room.
+    met: Vec<Vec<f32>>,
+    /// Mean radiance of the room at each node, all directions together.
+    mean: Vec<Vec3>,
+    /// Radiance of the room in each direction.
+    room: [Vec3; 14],
+    /// Part of the light that each hair takes.
+    taken: Vec3,
+}
+
+impl Sky {
+    /// Measures the room's light around `curves` and `head`; each hair on the way takes the part
+    /// `taken` of it.
+    pub(super) fn new(curves: &Curves, head: Option<&Head>, lights: &Lights, taken: Vec3) -> Self {
+        let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let hair = curves.vertices.iter().map(|v| v.position);
+        let skin = head.into_iter().flat_map(|h| h.positions().iter().copied());
+        let (mut low, mut high) =
+            hair.chain(skin).fold(empty, |(low, high), p| (low.min(p), high.max(p)));
+        if !low.is_finite() || !high.is_finite() {
+            (low, high) = (Vec3::ZERO, Vec3::ZERO);
+        }
+        let cell = ((high - low).max_element() / MAX_CELLS).max(MIN_CELL);
+        let low = low - Vec3::splat(1.5 * cell);
+        let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(2);
+        let room = DIRECTIONS.map(|(d, _)| lights.room(direction(d)));
+        let mut sky = Self { low, cell, size, met: Vec::new(), mean: Vec::new(), room, taken };
+        let hair = sky.hair_density(curves);
+        let shell = sky.shell(head);
+        sky.met =
+            DIRECTIONS.par_iter().map(|&(step, _)| sky.hairs_met(&hair, &shell, step)).collect();
+        sky.mean = (0..hair.len())
+            .into_par_iter()
+            .map(|i| (0..14).map(|d| DIRECTIONS[d].1 * room[d] * sky.passed(sky.met[d][i])).sum())
+            .collect();
+        sky
+    }
+
+    /// Mean radiance of the room at a point in the hair.
+    pub(super) fn mean(&self, point: Vec3) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        self.around(point, |i, weight| sum += weight * self.mean[i]);
+        sum
+    }
+
+    /// Irradiance / π from the room on a surface at `point` with unit normal `normal`.
+    pub(super) fn on_surface(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        // The surface's own shell must not shade it.
+        let point = point + 1.7 * self.cell * normal;
+        let mut met = [0.0; 14];
+        self.around(point, |i, weight| {
+            for (sum, field) in met.iter_mut().zip(&self.met) {
+                *sum += weight * field[i];
+            }
+        });
+        let (mut light, mut whole) = (Vec3::ZERO, 0.0);
+        for (d, &(step, weight)) in DIRECTIONS.iter().enumerate() {
+            let weight = weight * normal.dot(direction(step)).max(0.0);
+            light += weight * self.room[d] * self.passed(met[d]);
+            whole += weight;
+        }
+        light / f32::max(whole, 1e-6)
+    }
+
+    /// Part of the light that `hairs` hairs let pass.
+    fn passed(&self, hairs: f32) -> Vec3 {
+        (-hairs * self.taken).exp()
+    }
+
+    fn index(&self, p: UVec3) -> usize {
+        (p.z as usize * self.size.y as usize + p.y as usize) * self.size.x as usize + p.x as usize
+    }
+
+    /// The eight nodes around a point, with their trilinear weights.
+    fn around(&self, point: Vec3, mut visit: impl FnMut(usize, f32)) {
+        let g = (point - self.low) / self.cell;
+        let g = g.clamp(Vec3::ZERO, self.size.as_vec3() - Vec3::splat(1.001));
+        let (base, f) = (g.as_uvec3(), g.fract());
+        for corner in 0..8 {
+            let bit = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+            let w = Vec3::select(bit.cmpeq(UVec3::ONE), f, Vec3::ONE - f);
+            visit(self.index(base + bit), w.x * w.y * w.z);
+        }
+    }
+
+    /// Projected area of hair per volume at each node (1/m), mean over directions.
+    fn hair_density(&self, curves: &Curves) -> Vec<f32> {
+        let mut density = vec![0.0; (self.size.x * self.size.y * self.size.z) as usize];
+        // A cylinder of width w and length l shows π/4 w l on average.
+        let scale = std::f32::consts::FRAC_PI_4 / self.cell.powi(3);
+        for i in 0..curves.vertices.len() {
+            let Some((a, b)) = curves.piece(i) else { continue };
+            let area = (a.half_width + b.half_width) * a.position.distance(b.position) * scale;
+            let middle = a.position.midpoint(b.position);
+            self.around(middle, |i, weight| density[i] += weight * area);
+        }
+        density
+    }
+
+    /// Whether each node lies on the head's surface.
+    fn shell(&self, head: Option<&Head>) -> Vec<bool> {
+        let mut shell = vec![false; (self.size.x * self.size.y * self.size.z) as usize];
+        let Some(head) = head else { return shell };
+        for corners in head.faces() {
+            let [a, ab, ac] = [corners[0], corners[1] - corners[0], corners[2] - corners[0]];
+            let n = (ab.length().max(ac.length()) / (0.5 * self.cell)).ceil().max(1.0) as u32;
+            for i in 0..=n {
+                for j in 0..=n - i {
+                    let p = a + ab * (i as f32 / n as f32) + ac * (j as f32 / n as f32);
+                    let g = ((p - self.low) / self.cell).round();
+                    let node = g.as_uvec3().min(self.size - UVec3::ONE);
+                    shell[self.index(node)] = true;
+                }
+            }
+        }
+        shell
+    }
+
+    /// Hairs met from each node to the outside along `step`; a node counts half of its own hair and
+    /// none of its own shell.
+    fn hairs_met(&self, hair: &[f32], shell: &[bool], step: [i32; 3]) -> Vec<f32> {
+        let step = IVec3::from_array(step);
+        let length = self.cell * step.as_vec3().length();
+        let mut whole = vec![0.0; hair.len()];
+        let mut met = vec![0.0; hair.len()];
+        let order = |n: u32, step: i32| (0..n).map(move |i| if step > 0 { n - 1 - i } else { i });
+        for z in order(self.size.z, step.z) {
+            for y in order(self.size.y, step.y) {
+                for x in order(self.size.x, step.x) {
+                    let p = UVec3::new(x, y, z);
+                    let next = p.as_ivec3() + step;
+                    let inside =
+                        next.cmpge(IVec3::ZERO).all() && next.cmplt(self.size.as_ivec3()).all();
+                    let before = if inside { whole[self.index(next.as_uvec3())] } else { 0.0 };
+                    let i = self.index(p);
+                    met[i] = before + 0.5 * hair[i] * length;
+                    whole[i] = before + hair[i] * length + if shell[i] { SHELL } else { 0.0 };
+                }
+            }
+        }
+        met
+    }
+}
+
+fn direction(step: [i32; 3]) -> Vec3 {
+    IVec3::from_array(step).as_vec3().normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Camera;
+    use crate::preview::view::View;
+    use frisure_strands::Strands;
+
+    fn room(radiance: f32) -> Lights {
+        let light = Vec3::splat(radiance);
+        Lights { lamps: Vec::new(), sky: light, ground: light }
+    }
+
+    #[test]
+    fn open_air_has_all_the_room() {
+        let curves = Curves::new(&Strands::new(), &View::new(&Camera::default(), 8, 8), 1.0);
+        let sky = Sky::new(&curves, None, &room(2.0), Vec3::ONE);
+        assert!((sky.mean(Vec3::ONE) - Vec3::splat(2.0)).length() < 1e-5);
+        let on = sky.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
+        assert!((on - Vec3::splat(2.0)).length() < 1e-5);
+    }
+
+    #[test]
+    fn the_middle_of_a_ball_of_hair_is_darker_than_its_edge() {
+        let mut strands = Strands::new();
+        for i in 0..40_u8 {
+            for j in 0..40_u8 {
+                let at = |x: f32| Vec3::new(x, f32::from(i) - 19.5, f32::from(j) - 19.5) * 2e-3;
+                strands.push(&[at(-20.0), at(20.0)], &[1e-4; 2]);
+            }
+        }
+        let curves = Curves::new(&strands, &View::new(&Camera::default(), 64, 64), 1.0);
+        let sky = Sky::new(&curves, None, &room(1.0), Vec3::ONE);
+        let (middle, edge) = (sky.mean(Vec3::ZERO).x, sky.mean(Vec3::Z * 0.038).x);
+        assert!(middle < 0.5 * edge && edge < 0.9, "{middle} {edge}");
+    }
+}
