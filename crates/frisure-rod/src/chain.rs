@@ -1,0 +1,201 @@
+//! A rod divided into elements, and the shapes that it can take.
+
+use glam::{DMat3, DVec3};
+
+use crate::element::{Geometry, along_helix};
+use crate::rotation::exponential;
+use crate::stumpff::stumpff;
+use crate::{ElementKind, Rod};
+
+/// A rod divided into elements.
+#[derive(Clone, Debug)]
+pub struct Chain<'a> {
+    rod: &'a Rod,
+    kind: ElementKind,
+    /// Arc length of each node (m), one more than elements.
+    arc: Vec<f64>,
+    /// One per element, or a single one when all are alike.
+    geometry: Vec<Geometry>,
+}
+
+impl<'a> Chain<'a> {
+    /// Divides a rod into `elements` equal elements.
+    ///
+    /// # Panics
+    /// If `elements` is zero.
+    #[must_use]
+    pub fn uniform(rod: &'a Rod, kind: ElementKind, elements: usize) -> Self {
+        assert!(elements > 0, "a rod has at least one element");
+        let h = rod.length() / elements as f64;
+        let arc: Vec<f64> = (0..=elements)
+            .map(|i| if i == elements { rod.length() } else { h * i as f64 })
+            .collect();
+        let natural = rod.natural();
+        let element = |from: f64, to: f64| {
+            let middle = 0.5 * (from + to);
+            Geometry::new(kind, h, [natural.mean(from, middle), natural.mean(middle, to)])
+        };
+        let geometry = match natural {
+            crate::NaturalStrain::Uniform(_) => vec![element(0.0, h)],
+            crate::NaturalStrain::Varying(_) => {
+                arc.windows(2).map(|s| element(s[0], s[1])).collect()
+            }
+        };
+        Self { rod, kind, arc, geometry }
+    }
+
+    /// The rod.
+    #[must_use]
+    pub fn rod(&self) -> &'a Rod {
+        self.rod
+    }
+
+    /// Which curve the elements can take.
+    #[must_use]
+    pub fn kind(&self) -> ElementKind {
+        self.kind
+    }
+
+    /// Number of elements.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.arc.len() - 1
+    }
+
+    /// Always false: there is at least one element.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Arc length of each node (m), one more than elements.
+    #[must_use]
+    pub fn arc(&self) -> &[f64] {
+        &self.arc
+    }
+
+    #[inline]
+    pub(crate) fn geometry(&self, element: usize) -> &Geometry {
+        if self.geometry.len() == 1 { &self.geometry[0] } else { &self.geometry[element] }
+    }
+
+    /// Stiffness of an element against its control (N m): K/h.
+    #[inline]
+    pub(crate) fn stiffness(&self, element: usize) -> DVec3 {
+        self.rod.stiffness() / self.geometry(element).length()
+    }
+
+    /// The natural shape.
+    #[must_use]
+    pub fn natural_shape(&self) -> Shape {
+        self.shape((0..self.len()).map(|i| self.geometry(i).rest()).collect())
+    }
+
+    /// The shape at given controls (rad), one per element.
+    ///
+    /// # Panics
+    /// If there is not one control per element.
+    #[must_use]
+    pub fn shape(&self, controls: Vec<DVec3>) -> Shape {
+        assert_eq!(controls.len(), self.len(), "one control per element");
+        let mut frames = Vec::with_capacity(self.arc.len());
+        let mut positions = Vec::with_capacity(self.arc.len());
+        let (mut frame, mut position) = (self.rod.root().frame(), self.rod.root().position());
+        frames.push(frame);
+        positions.push(position);
+        for (i, &c) in controls.iter().enumerate() {
+            let motion = self.geometry(i).motion(c);
+            position += frame * motion.advance();
+            frame *= motion.rotation();
+            frames.push(frame);
+            positions.push(position);
+        }
+        Shape { controls, frames, positions }
+    }
+
+    /// Internal moment of each element in the world frame (N m), where its control acts.
+    #[must_use]
+    pub fn moments(&self, shape: &Shape) -> Vec<DVec3> {
+        (0..self.len())
+            .map(|i| {
+                let g = self.geometry(i);
+                let moment = self.stiffness(i) * (shape.controls[i] - g.rest());
+                match self.kind {
+                    // A constant strain acts all along: its moment belongs to the middle.
+                    ElementKind::Helix => {
+                        let half = shape.controls[i] * 0.5;
+                        let turn = exponential(half, &stumpff(half.length_squared()));
+                        shape.frames[i] * (turn * moment)
+                    }
+                    ElementKind::Jointed => shape.frames[i] * (*g.before() * moment),
+                }
+            })
+            .collect()
+    }
+
+    /// The shape whose internal moments (N m, world frame, as a function of arc length) are given:
+    /// how a shape is carried from one division of a rod to another.
+    #[must_use]
+    pub fn shape_with_moments(&self, moment: impl Fn(f64) -> DVec3) -> Shape {
+        let mut frame = self.rod.root().frame();
+        let mut controls = Vec::with_capacity(self.len());
+        for i in 0..self.len() {
+            let g = self.geometry(i);
+            let m = moment(0.5 * (self.arc[i] + self.arc[i + 1]));
+            let c = match self.kind {
+                ElementKind::Helix => {
+                    let half = g.rest() * 0.5;
+                    let turn = exponential(half, &stumpff(half.length_squared()));
+                    g.rest() + (frame * turn).transpose() * m / self.stiffness(i)
+                }
+                ElementKind::Jointed => (frame * *g.before()).transpose() * m / self.stiffness(i),
+            };
+            // A moment from elsewhere may ask for more than a turn: such a start is useless.
+            let c = g.rest() + (c - g.rest()).clamp_length_max(1.5);
+            controls.push(c);
+            frame *= g.motion(c).rotation();
+        }
+        self.shape(controls)
+    }
+
+    /// Centre line (m) and material frame at arc length `s` (m), clamped to the rod.
+    #[must_use]
+    pub fn point(&self, shape: &Shape, s: f64) -> (DVec3, DMat3) {
+        let s = s.clamp(0.0, self.rod.length());
+        let i = self.arc.partition_point(|&a| a <= s).clamp(1, self.len()) - 1;
+        let (from, h) = (s - self.arc[i], self.arc[i + 1] - self.arc[i]);
+        let (position, frame) = (shape.positions[i], shape.frames[i]);
+        match self.kind {
+            ElementKind::Helix => {
+                let (advance, turn) = along_helix(shape.controls[i] * (from / h), from);
+                (position + frame * advance, frame * turn)
+            }
+            ElementKind::Jointed => {
+                let (middle, end) = (self.arc[i] + 0.5 * h, self.arc[i + 1]);
+                let natural = self.rod.natural();
+                if s <= middle {
+                    let u = natural.mean(self.arc[i], middle);
+                    let (advance, turn) = along_helix(u * from, from);
+                    (position + frame * advance, frame * turn)
+                } else {
+                    // Backwards from the end: the joint's turn is in the end frame already.
+                    let u = natural.mean(middle, end);
+                    let (advance, turn) = along_helix(u * (s - end), s - end);
+                    let (position, frame) = (shape.positions[i + 1], shape.frames[i + 1]);
+                    (position + frame * advance, frame * turn)
+                }
+            }
+        }
+    }
+}
+
+/// A shape of a [`Chain`]: controls, and the frames and positions that follow from them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Rotation of each element: `h u` for helices, that of the joint for jointed ones (rad).
+    pub controls: Vec<DVec3>,
+    /// Material frame at each node, columns d1, d2, t.
+    pub frames: Vec<DMat3>,
+    /// Position of each node (m).
+    pub positions: Vec<DVec3>,
+}

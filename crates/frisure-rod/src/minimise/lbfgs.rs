@@ -1,0 +1,130 @@
+//! A plain quasi-Newton descent with no second derivatives: the judge.
+
+use std::collections::VecDeque;
+
+use glam::DVec3;
+
+use super::{Minimiser, Minimum, Problem, Stability, Stopping, second_variation};
+use crate::chain::Shape;
+
+/// Limited-memory BFGS, preconditioned by the elastic stiffness. Nocedal & Wright, *Numerical
+/// Optimization*, algorithm 7.5, with Armijo backtracking.
+///
+/// It stays in the symmetry of its start: at a symmetric saddle it reports a saddle.
+#[derive(Clone, Copy, Debug)]
+pub struct Lbfgs {
+    /// Number of past steps remembered.
+    pub memory: usize,
+}
+
+impl Default for Lbfgs {
+    fn default() -> Self {
+        Self { memory: 20 }
+    }
+}
+
+struct Pair {
+    step: Vec<DVec3>,
+    change: Vec<DVec3>,
+    inverse: f64,
+}
+
+fn dot(a: &[DVec3], b: &[DVec3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum()
+}
+
+fn add_scaled(a: &mut [DVec3], factor: f64, b: &[DVec3]) {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a += *b * factor;
+    }
+}
+
+impl Minimiser for Lbfgs {
+    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: Stopping) -> Minimum {
+        let mut shape = start;
+        let mut energy = problem.energy(&shape).total();
+        let mut gradient = problem.gradient(&shape);
+        let mut pairs: VecDeque<Pair> = VecDeque::new();
+        let mut iterations = 0;
+        let norm = |g: &[DVec3]| {
+            g.iter().map(|g| g.length()).fold(0.0, f64::max) / problem.chain.rod().moment_scale()
+        };
+        while norm(&gradient) > stopping.tolerance && iterations < stopping.max_iterations {
+            iterations += 1;
+            let direction = descent(problem, &gradient, &pairs);
+            let slope = dot(&direction, &gradient);
+            let Some((next, lowered)) = backtrack(problem, &shape, energy, &direction, slope)
+            else {
+                if pairs.is_empty() {
+                    break;
+                }
+                pairs.clear();
+                continue;
+            };
+            let new_gradient = problem.gradient(&next);
+            let step: Vec<_> =
+                next.controls.iter().zip(&shape.controls).map(|(a, b)| *a - *b).collect();
+            let change: Vec<_> = new_gradient.iter().zip(&gradient).map(|(a, b)| *a - *b).collect();
+            let curvature = dot(&step, &change);
+            if curvature > 0.0 {
+                pairs.push_back(Pair { step, change, inverse: 1.0 / curvature });
+                if pairs.len() > self.memory {
+                    pairs.pop_front();
+                }
+            }
+            (shape, energy, gradient) = (next, lowered, new_gradient);
+        }
+        let gradient_norm = norm(&gradient);
+        let stability = if gradient_norm > stopping.tolerance.max(1e-6) {
+            Stability::NotConverged
+        } else if second_variation(problem, &shape) > 0.0 {
+            Stability::Stable
+        } else {
+            Stability::Saddle
+        };
+        Minimum { shape, gradient_norm, iterations, stability }
+    }
+}
+
+fn descent(problem: &Problem<'_>, gradient: &[DVec3], pairs: &VecDeque<Pair>) -> Vec<DVec3> {
+    let mut d: Vec<DVec3> = gradient.iter().map(|g| -*g).collect();
+    let mut alphas = Vec::with_capacity(pairs.len());
+    for p in pairs.iter().rev() {
+        let alpha = p.inverse * dot(&p.step, &d);
+        add_scaled(&mut d, -alpha, &p.change);
+        alphas.push(alpha);
+    }
+    for (i, x) in d.iter_mut().enumerate() {
+        *x /= problem.chain.stiffness(i);
+    }
+    for (p, alpha) in pairs.iter().zip(alphas.iter().rev()) {
+        let beta = p.inverse * dot(&p.change, &d);
+        add_scaled(&mut d, alpha - beta, &p.step);
+    }
+    d
+}
+
+fn backtrack(
+    problem: &Problem<'_>,
+    shape: &Shape,
+    energy: f64,
+    direction: &[DVec3],
+    slope: f64,
+) -> Option<(Shape, f64)> {
+    if slope >= 0.0 {
+        return None;
+    }
+    let largest = direction.iter().map(|d| d.length()).fold(0.0, f64::max);
+    let mut fraction = (1.0_f64).min(0.7 / largest);
+    for _ in 0..50 {
+        let mut controls = shape.controls.clone();
+        add_scaled(&mut controls, fraction, direction);
+        let next = problem.chain.shape(controls);
+        let lowered = problem.energy(&next).total();
+        if lowered < energy + 1e-4 * fraction * slope {
+            return Some((next, lowered));
+        }
+        fraction *= 0.5;
+    }
+    None
+}

@@ -1,0 +1,128 @@
+//! Minimisers of a rod's energy, behind one interface.
+//!
+//! [`Riccati`] is the one to use; [`Lbfgs`] is plain, slow and knows no second derivative: it is
+//! the judge of the first in tests.
+
+mod adjoint;
+mod lbfgs;
+mod pivot;
+mod riccati;
+
+pub use lbfgs::Lbfgs;
+pub use riccati::Riccati;
+
+pub(crate) use riccati::second_variation;
+
+use crate::chain::{Chain, Shape};
+use crate::potential::{Elastic, Gravity, Potential};
+
+/// An energy to minimise: a divided rod in its own weight and in other potentials.
+pub struct Problem<'a> {
+    pub(crate) chain: &'a Chain<'a>,
+    pub(crate) gravity: Gravity,
+    pub(crate) external: &'a [&'a dyn Potential],
+    pub(crate) with_position: bool,
+}
+
+impl<'a> Problem<'a> {
+    /// A rod in its whole weight.
+    #[must_use]
+    pub fn new(chain: &'a Chain<'a>, external: &'a [&'a dyn Potential]) -> Self {
+        Self::with_load(chain, external, 1.0)
+    }
+
+    /// A rod in a fraction of its weight; other potentials act in full.
+    #[must_use]
+    pub fn with_load(
+        chain: &'a Chain<'a>,
+        external: &'a [&'a dyn Potential],
+        fraction: f64,
+    ) -> Self {
+        let rod = chain.rod();
+        let gravity = Gravity { weight: rod.weight() * fraction, length: rod.length() };
+        let with_position = external.iter().any(|p| p.depends_on_position());
+        Self { chain, gravity, external, with_position }
+    }
+
+    /// Energies of a shape.
+    #[must_use]
+    pub fn energy(&self, shape: &Shape) -> Energy {
+        Energy {
+            elastic: self.chain.energy(shape, &Elastic),
+            gravity: self.chain.energy(shape, &self.gravity),
+            external: self.external.iter().map(|&p| self.chain.energy(shape, p)).sum(),
+        }
+    }
+
+    /// Largest derivative of the energy by any element's control, relative to
+    /// [`crate::Rod::moment_scale`].
+    #[must_use]
+    pub fn gradient_norm(&self, shape: &Shape) -> f64 {
+        adjoint::gradient(self, shape).iter().map(|g| g.length()).fold(0.0, f64::max)
+            / self.chain.rod().moment_scale()
+    }
+
+    /// Derivatives of the energy by each element's control (N m).
+    #[must_use]
+    pub fn gradient(&self, shape: &Shape) -> Vec<glam::DVec3> {
+        adjoint::gradient(self, shape)
+    }
+}
+
+/// Energies of a shape (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Bending and twist. \[paper\] (2.3)
+    pub elastic: f64,
+    /// Weight, zero when all is at the height of the root. \[paper\] (2.4)
+    pub gravity: f64,
+    /// All other potentials.
+    pub external: f64,
+}
+
+impl Energy {
+    /// The sum. \[paper\] (2.2)
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.elastic + self.gravity + self.external
+    }
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stopping {
+    /// Relative gradient ([`Problem::gradient_norm`]) to reach.
+    pub tolerance: f64,
+    /// Most iterations.
+    pub max_iterations: usize,
+}
+
+/// What a shape is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stability {
+    /// The gradient vanishes and the second variation is positive: a minimum.
+    Stable,
+    /// The gradient vanishes, but some direction lowers the energy.
+    Saddle,
+    /// The gradient does not vanish.
+    NotConverged,
+}
+
+/// Where a minimiser ended.
+#[derive(Clone, Debug)]
+pub struct Minimum {
+    /// The shape.
+    pub shape: Shape,
+    /// Relative gradient there.
+    pub gradient_norm: f64,
+    /// Iterations taken.
+    pub iterations: usize,
+    /// What the shape is.
+    pub stability: Stability,
+}
+
+/// Finds a minimum of an energy from a given shape. Every accepted step lowers the energy.
+pub trait Minimiser {
+    /// Goes downhill from `start` to a minimum.
+    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: Stopping) -> Minimum;
+}

@@ -1,0 +1,254 @@
+//! Rotation vectors, and the family of vector functions that helices are made of.
+//!
+//! With `φ_0(c) = exp([c]×)`, `φ_1 = ∫₀¹ exp(σ[c]×) dσ` and `φ_2 = ∫₀¹ φ_1(σc) σ dσ`, a helix turns by
+//! `φ_0`, advances by `φ_1` and has the first moment `φ_2` (SYSTEM §1, the matrices V and W). On a
+//! fixed vector each is `a e + β(y) c×e + γ(y) c×(c×e)` with y = |c|², so that one set of formulas
+//! serves all, and sums of them.
+
+use glam::{DMat3, DVec3};
+
+use crate::stumpff::{ORDERS, first_derivative, second_derivative};
+
+/// The matrix of `x ↦ v × x`.
+#[inline]
+pub(crate) fn cross_matrix(v: DVec3) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(0.0, v.z, -v.y),
+        DVec3::new(-v.z, 0.0, v.x),
+        DVec3::new(v.y, -v.x, 0.0),
+    )
+}
+
+/// `a bᵀ`.
+#[inline]
+pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// `a bᵀ + b aᵀ`.
+#[inline]
+pub(crate) fn symmetric_outer(a: DVec3, b: DVec3) -> DMat3 {
+    outer(a, b) + outer(b, a)
+}
+
+#[inline]
+pub(crate) fn scaled_identity(x: f64) -> DMat3 {
+    DMat3::from_diagonal(DVec3::splat(x))
+}
+
+/// `exp([c]×)` from the Stumpff table of |c|².
+#[inline]
+pub(crate) fn exponential(c: DVec3, table: &[f64; ORDERS]) -> DMat3 {
+    let k = cross_matrix(c);
+    // [c]×² = c cᵀ − |c|² I.
+    let square = outer(c, c) - scaled_identity(c.length_squared());
+    DMat3::IDENTITY + k * table[1] + square * table[2]
+}
+
+/// The right Jacobian J with `exp[c + x] = exp[c] exp[J x + …]`.
+#[inline]
+pub(crate) fn right_jacobian(c: DVec3, table: &[f64; ORDERS]) -> DMat3 {
+    let square = outer(c, c) - scaled_identity(c.length_squared());
+    DMat3::IDENTITY - cross_matrix(c) * table[2] + square * table[3]
+}
+
+/// The symmetric matrix D with `exp[c + x] = exp[c] exp[b]`, `λ·b = λ·J x + ½ xᵀ D x + …`.
+#[inline]
+pub(crate) fn right_jacobian_derivative(
+    c: DVec3,
+    table: &[f64; ORDERS],
+    lambda: DVec3,
+) -> DMat3 {
+    // b″ = (d/dt J(c + t x)) x: the curve of body angular velocity has no further second-order
+    // term, since b × b vanishes at the start.
+    let (d2, d3) = (first_derivative(table, 2), first_derivative(table, 3));
+    let swirl = c.cross(c.cross(lambda)) * d3 - lambda.cross(c) * d2;
+    let gamma = table[3];
+    symmetric_outer(c, swirl) + scaled_identity(gamma * lambda.dot(c))
+        - symmetric_outer(lambda, c) * (0.5 * gamma)
+}
+
+/// The vector of an exact rotation that is smooth up to half a turn: `2 sin(θ/2)` along the axis.
+#[inline]
+pub(crate) fn deviation(m: &DMat3) -> DVec3 {
+    let skew = DVec3::new(
+        m.y_axis.z - m.z_axis.y,
+        m.z_axis.x - m.x_axis.z,
+        m.x_axis.y - m.y_axis.x,
+    );
+    let trace = m.x_axis.x + m.y_axis.y + m.z_axis.z;
+    // 1 + tr = 4 cos²(θ/2); near half a turn the direction is arbitrary and the length bounded.
+    skew / (1.0 + trace).max(0.04).sqrt()
+}
+
+/// `F(c) = a e + β(y) c×e + γ(y) c×(c×e)`, y = |c|², with β and γ given by value and derivatives.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RotationSeries {
+    pub(crate) constant: f64,
+    /// β, β′, β″.
+    pub(crate) beta: [f64; 3],
+    /// γ, γ′, γ″.
+    pub(crate) gamma: [f64; 3],
+}
+
+impl RotationSeries {
+    /// `φ_k` times `scale`, from the Stumpff table; k ≤ 2.
+    #[inline]
+    pub(crate) fn phi(k: usize, table: &[f64; ORDERS], scale: f64) -> Self {
+        let jet = |j: usize| {
+            [
+                scale * table[j],
+                scale * first_derivative(table, j),
+                scale * second_derivative(table, j),
+            ]
+        };
+        let constant = if k == 2 { 0.5 * scale } else { scale };
+        Self { constant, beta: jet(k + 1), gamma: jet(k + 2) }
+    }
+
+    #[inline]
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        let add = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        Self {
+            constant: self.constant + other.constant,
+            beta: add(self.beta, other.beta),
+            gamma: add(self.gamma, other.gamma),
+        }
+    }
+
+    /// `F(c)`.
+    #[inline]
+    pub(crate) fn value(&self, c: DVec3, e: DVec3) -> DVec3 {
+        let turned = c.cross(e);
+        e * self.constant + turned * self.beta[0] + c.cross(turned) * self.gamma[0]
+    }
+
+    /// `∂F/∂c`.
+    #[inline]
+    pub(crate) fn jacobian(&self, c: DVec3, e: DVec3) -> DMat3 {
+        let once = c.cross(e);
+        let twice = c.cross(once);
+        let slope = once * (2.0 * self.beta[1]) + twice * (2.0 * self.gamma[1]);
+        // x×(c×e) + c×(x×e) = −[c×e]x + (c·e) x − (c·x) e, by the triple product.
+        cross_matrix(e) * -self.beta[0]
+            + (scaled_identity(c.dot(e)) - outer(e, c) - cross_matrix(once)) * self.gamma[0]
+            + outer(slope, c)
+    }
+
+    /// Gradient and Hessian of `ω·F(c)`.
+    #[inline]
+    pub(crate) fn contracted(&self, c: DVec3, e: DVec3, omega: DVec3) -> (DVec3, DMat3) {
+        let n = e.cross(omega);
+        let (cn, oe) = (c.dot(n), omega.dot(e));
+        let q = omega.dot(c) * c.dot(e) - oe * c.length_squared();
+        let dq = omega * c.dot(e) + e * omega.dot(c) - c * (2.0 * oe);
+        let [b, b1, b2] = self.beta;
+        let [g, g1, g2] = self.gamma;
+        let radial = 2.0 * (b1 * cn + g1 * q);
+        let gradient = c * radial + n * b + dq * g;
+        let hessian = scaled_identity(radial - 2.0 * oe * g)
+            + outer(c, c) * (4.0 * (b2 * cn + g2 * q))
+            + symmetric_outer(c, n * (2.0 * b1) + dq * (2.0 * g1))
+            + symmetric_outer(omega, e) * g;
+        (gradient, hessian)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stumpff::stumpff;
+
+    const C: [DVec3; 4] = [
+        DVec3::ZERO,
+        DVec3::new(1e-5, -2e-5, 1e-5),
+        DVec3::new(0.3, -0.5, 0.8),
+        DVec3::new(2.0, 3.0, -4.0),
+    ];
+    const E: DVec3 = DVec3::new(0.2, -0.3, 0.9);
+    const OMEGA: DVec3 = DVec3::new(-1.0, 0.4, 0.7);
+
+    fn table(c: DVec3) -> [f64; ORDERS] {
+        stumpff(c.length_squared())
+    }
+
+    fn difference<T>(f: impl Fn(DVec3) -> T, c: DVec3, axis: usize) -> T
+    where
+        T: std::ops::Sub<Output = T> + std::ops::Div<f64, Output = T>,
+    {
+        let h = 1e-5;
+        let mut step = DVec3::ZERO;
+        step[axis] = h;
+        (f(c + step) - f(c - step)) / (2.0 * h)
+    }
+
+    #[test]
+    fn exponentials_are_rotations() {
+        for c in C {
+            let r = exponential(c, &table(c));
+            assert!((r.transpose() * r).abs_diff_eq(DMat3::IDENTITY, 1e-14));
+            assert!(r.abs_diff_eq(DMat3::from_quat(glam::DQuat::from_scaled_axis(c)), 1e-14));
+        }
+    }
+
+    #[test]
+    fn integrals_of_the_exponential() {
+        for c in C {
+            let steps = 2000;
+            let (mut first, mut second) = (DVec3::ZERO, DVec3::ZERO);
+            for i in 0..steps {
+                let sigma = (f64::from(i) + 0.5) / f64::from(steps);
+                let turned = exponential(c * sigma, &table(c * sigma)) * E;
+                first += turned / f64::from(steps);
+                second += turned * (1.0 - sigma) / f64::from(steps);
+            }
+            let t = table(c);
+            assert!(RotationSeries::phi(1, &t, 1.0).value(c, E).abs_diff_eq(first, 1e-5));
+            assert!(RotationSeries::phi(2, &t, 1.0).value(c, E).abs_diff_eq(second, 1e-5));
+        }
+    }
+
+    #[test]
+    fn series_derivatives_agree_with_differences() {
+        for c in C {
+            for k in 0..3 {
+                let series = |c: DVec3| RotationSeries::phi(k, &table(c), 1.0);
+                let (gradient, hessian) = series(c).contracted(c, E, OMEGA);
+                let jacobian = series(c).jacobian(c, E);
+                for axis in 0..3 {
+                    let column = difference(|c| series(c).value(c, E), c, axis);
+                    assert!(jacobian.col(axis).abs_diff_eq(column, 1e-8));
+                    assert!((gradient[axis] - OMEGA.dot(column)).abs() < 1e-8);
+                    let row = difference(|c| series(c).contracted(c, E, OMEGA).0, c, axis);
+                    assert!(hessian.col(axis).abs_diff_eq(row, 1e-8), "{k} {c}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn right_jacobian_to_second_order() {
+        let x = DVec3::new(0.3, 0.5, -0.2);
+        for c in C {
+            let (t, h) = (table(c), 1e-4);
+            let b = |h: f64| {
+                let c1 = c + x * h;
+                let m = exponential(c, &t).transpose() * exponential(c1, &table(c1));
+                deviation(&m)
+            };
+            let (first, second) = ((b(h) - b(-h)) / (2.0 * h), (b(h) + b(-h)) / (h * h));
+            assert!(first.abs_diff_eq(right_jacobian(c, &t) * x, 1e-6));
+            let d = right_jacobian_derivative(c, &t, OMEGA);
+            assert!((OMEGA.dot(second) - x.dot(d * x)).abs() < 1e-6, "{c}");
+        }
+    }
+
+    #[test]
+    fn deviation_is_twice_the_sine_of_half_the_angle() {
+        let axis = DVec3::new(1.0, 2.0, -2.0) / 3.0;
+        for theta in [1e-6, 0.5, 2.0] {
+            let m = DMat3::from_axis_angle(axis, theta);
+            assert!(deviation(&m).abs_diff_eq(axis * (2.0 * (0.5 * theta).sin()), 1e-12));
+        }
+    }
+}
