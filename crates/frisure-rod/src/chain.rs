@@ -2,9 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::element::{Geometry, along_helix};
-use crate::rotation::exponential;
-use crate::stumpff::stumpff;
+use crate::element::{Geometry, helix_piece};
 use crate::{ElementKind, Rod};
 
 /// A rod divided into elements.
@@ -26,6 +24,7 @@ impl<'a> Chain<'a> {
     #[must_use]
     pub fn uniform(rod: &'a Rod, kind: ElementKind, elements: usize) -> Self {
         assert!(elements > 0, "a rod has at least one element");
+        let kind = kind.chosen_for(rod);
         let h = rod.length() / elements as f64;
         let arc: Vec<f64> = (0..=elements)
             .map(|i| if i == elements { rod.length() } else { h * i as f64 })
@@ -33,7 +32,8 @@ impl<'a> Chain<'a> {
         let natural = rod.natural();
         let element = |from: f64, to: f64| {
             let middle = 0.5 * (from + to);
-            Geometry::new(kind, h, [natural.mean(from, middle), natural.mean(middle, to)])
+            let halves = [natural.mean(from, middle), natural.mean(middle, to)];
+            Geometry::new(kind, h, halves, rod.stiffness())
         };
         let geometry = match natural {
             crate::NaturalStrain::Uniform(_) => vec![element(0.0, h)],
@@ -79,12 +79,6 @@ impl<'a> Chain<'a> {
         if self.geometry.len() == 1 { &self.geometry[0] } else { &self.geometry[element] }
     }
 
-    /// Stiffness of an element against its control (N m): K/h.
-    #[inline]
-    pub(crate) fn stiffness(&self, element: usize) -> DVec3 {
-        self.rod.stiffness() / self.geometry(element).length()
-    }
-
     /// The natural shape.
     #[must_use]
     pub fn natural_shape(&self) -> Shape {
@@ -113,22 +107,13 @@ impl<'a> Chain<'a> {
         Shape { controls, frames, positions }
     }
 
-    /// Internal moment of each element in the world frame (N m), where its control acts.
+    /// Internal moment of each element in the world frame (N m), at the middle of the element.
     #[must_use]
     pub fn moments(&self, shape: &Shape) -> Vec<DVec3> {
         (0..self.len())
             .map(|i| {
-                let g = self.geometry(i);
-                let moment = self.stiffness(i) * (shape.controls[i] - g.rest());
-                match self.kind {
-                    // A constant strain acts all along: its moment belongs to the middle.
-                    ElementKind::Helix => {
-                        let half = shape.controls[i] * 0.5;
-                        let turn = exponential(half, &stumpff(half.length_squared()));
-                        shape.frames[i] * (turn * moment)
-                    }
-                    ElementKind::Jointed => shape.frames[i] * (*g.before() * moment),
-                }
+                let (g, c) = (self.geometry(i), shape.controls[i]);
+                shape.frames[i] * (g.moment_frame(c) * (g.stiffness() * (c - g.rest())))
             })
             .collect()
     }
@@ -142,16 +127,29 @@ impl<'a> Chain<'a> {
         for i in 0..self.len() {
             let g = self.geometry(i);
             let m = moment(0.5 * (self.arc[i] + self.arc[i + 1]));
-            let c = match self.kind {
-                ElementKind::Helix => {
-                    let half = g.rest() * 0.5;
-                    let turn = exponential(half, &stumpff(half.length_squared()));
-                    g.rest() + (frame * turn).transpose() * m / self.stiffness(i)
-                }
-                ElementKind::Jointed => (frame * *g.before()).transpose() * m / self.stiffness(i),
-            };
+            let inside = (frame * g.moment_frame(g.rest())).transpose() * m;
             // A moment from elsewhere may ask for more than a turn: such a start is useless.
-            let c = g.rest() + (c - g.rest()).clamp_length_max(1.5);
+            let bent = (inside / g.stiffness()).clamp_length_max(1.5);
+            let c = g.rest() + bent;
+            controls.push(c);
+            frame *= g.motion(c).rotation();
+        }
+        self.shape(controls)
+    }
+
+    /// The shape whose node frames are as close as they can be to given ones (one per node; the
+    /// root's is the clamp's).
+    ///
+    /// # Panics
+    /// If there is not one frame per node.
+    #[must_use]
+    pub fn shape_through(&self, frames: &[DMat3]) -> Shape {
+        assert_eq!(frames.len(), self.arc.len(), "one frame per node");
+        let mut frame = self.rod.root().frame();
+        let mut controls = Vec::with_capacity(self.len());
+        for (i, next) in frames[1..].iter().enumerate() {
+            let g = self.geometry(i);
+            let c = g.control_for(&(frame.transpose() * *next));
             controls.push(c);
             frame *= g.motion(c).rotation();
         }
@@ -163,27 +161,21 @@ impl<'a> Chain<'a> {
     pub fn point(&self, shape: &Shape, s: f64) -> (DVec3, DMat3) {
         let s = s.clamp(0.0, self.rod.length());
         let i = self.arc.partition_point(|&a| a <= s).clamp(1, self.len()) - 1;
-        let (from, h) = (s - self.arc[i], self.arc[i + 1] - self.arc[i]);
-        let (position, frame) = (shape.positions[i], shape.frames[i]);
+        let (start, end) = (self.arc[i], self.arc[i + 1]);
+        let (middle, h) = (0.5 * (start + end), end - start);
+        let natural = self.rod.natural();
+        let (from, position, frame) = (s - start, shape.positions[i], shape.frames[i]);
+        let piece = |u: DVec3, from: f64, position: DVec3, frame: DMat3| {
+            let (turn, advance, _) = helix_piece(u * from, from);
+            (position + frame * advance, frame * turn)
+        };
         match self.kind {
-            ElementKind::Helix => {
-                let (advance, turn) = along_helix(shape.controls[i] * (from / h), from);
-                (position + frame * advance, frame * turn)
-            }
-            ElementKind::Jointed => {
-                let (middle, end) = (self.arc[i] + 0.5 * h, self.arc[i + 1]);
-                let natural = self.rod.natural();
-                if s <= middle {
-                    let u = natural.mean(self.arc[i], middle);
-                    let (advance, turn) = along_helix(u * from, from);
-                    (position + frame * advance, frame * turn)
-                } else {
-                    // Backwards from the end: the joint's turn is in the end frame already.
-                    let u = natural.mean(middle, end);
-                    let (advance, turn) = along_helix(u * (s - end), s - end);
-                    let (position, frame) = (shape.positions[i + 1], shape.frames[i + 1]);
-                    (position + frame * advance, frame * turn)
-                }
+            ElementKind::Helix => piece(shape.controls[i] / h, from, position, frame),
+            _ if s <= middle => piece(natural.mean(start, middle), from, position, frame),
+            ElementKind::Jointed | ElementKind::Auto => {
+                // Backwards from the end: the joint's turn is in the end frame already.
+                let u = natural.mean(middle, end);
+                piece(u, s - end, shape.positions[i + 1], shape.frames[i + 1])
             }
         }
     }

@@ -1,7 +1,7 @@
 //! One element: the exact motion from its start to its end as a function of its control.
 //!
-//! Both kinds of element turn by `A exp([c]×) B` and advance by a [`RotationSeries`], where the
-//! control `c` (rad) is `h u` for a helix and the rotation of the joint for a jointed element:
+//! Every kind of element turns by `A exp([c]×) B` and advances by a [`RotationSeries`]; the control
+//! `c` (rad) is what the minimiser moves:
 //!
 //! - **Helix** (\[paper\] §2.4): constant strain u, `c = h u`, A = B = I.
 //! - **Jointed**: half an element of the natural helix (A), a joint that turns by `c` and carries
@@ -11,19 +11,30 @@
 use glam::{DMat3, DVec3};
 
 use crate::ElementKind;
-use crate::rotation::{
-    RotationSeries, exponential, right_jacobian, right_jacobian_derivative,
-};
+use crate::rotation::{RotationSeries, exponential, right_jacobian, right_jacobian_derivative};
 use crate::stumpff::{ORDERS, stumpff};
 
 /// What an element has before it is bent.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Geometry {
-    kind: ElementKind,
     /// Length h (m).
     length: f64,
     /// Control at which the element is at rest (rad).
     rest: DVec3,
+    /// Stiffness against the control (N m).
+    stiffness: DVec3,
+    curve: Curve,
+}
+
+#[derive(Clone, Debug)]
+enum Curve {
+    Helix,
+    Jointed(Box<Jointed>),
+}
+
+/// A joint between two pieces of the natural helix.
+#[derive(Clone, Debug)]
+struct Jointed {
     before: DMat3,
     after: DMat3,
     /// Advance (m) and first moment (m²) up to the joint, in the start frame, the latter with the
@@ -34,31 +45,25 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
-    /// An element of length `length` (m), from the mean natural strain in its two halves (rad/m).
-    pub(crate) fn new(kind: ElementKind, length: f64, natural: [DVec3; 2]) -> Self {
-        let plain = Self {
-            kind,
-            length,
-            rest: (natural[0] + natural[1]) * (0.5 * length),
-            before: DMat3::IDENTITY,
-            after: DMat3::IDENTITY,
-            start: [DVec3::ZERO; 2],
-            end: [DVec3::ZERO; 2],
-        };
+    /// An element of length `length` (m) and material stiffness E I1, E I2, μ J (N m²), from the
+    /// mean natural strain in its two halves (rad/m).
+    pub(crate) fn new(
+        kind: ElementKind,
+        length: f64,
+        natural: [DVec3; 2],
+        material: DVec3,
+    ) -> Self {
+        let stiffness = material / length;
+        let mean = (natural[0] + natural[1]) * (0.5 * length);
         match kind {
-            ElementKind::Helix => plain,
-            ElementKind::Jointed => {
+            ElementKind::Helix => Self { length, rest: mean, stiffness, curve: Curve::Helix },
+            ElementKind::Jointed | ElementKind::Auto => {
                 let half = 0.5 * length;
                 let (before, p0, w0) = helix_piece(natural[0] * half, half);
                 let (after, p1, w1) = helix_piece(natural[1] * half, half);
-                Self {
-                    rest: DVec3::ZERO,
-                    before,
-                    after,
-                    start: [p0, w0 + p0 * half],
-                    end: [p1, w1],
-                    ..plain
-                }
+                let (start, end) = ([p0, w0 + p0 * half], [p1, w1]);
+                let curve = Curve::Jointed(Box::new(Jointed { before, after, start, end }));
+                Self { length, rest: DVec3::ZERO, stiffness, curve }
             }
         }
     }
@@ -71,13 +76,31 @@ impl Geometry {
         self.rest
     }
 
-    pub(crate) fn kind(&self) -> ElementKind {
-        self.kind
+    /// Stiffness against the control (N m): E I1/h, E I2/h, μ J/h.
+    pub(crate) fn stiffness(&self) -> DVec3 {
+        self.stiffness
     }
 
-    /// Rotation from the start of the element to where its control acts.
-    pub(crate) fn before(&self) -> &DMat3 {
-        &self.before
+    /// Rotation from the start of the element to the frame in which its moment is
+    /// `stiffness (c − rest)`, at control `c` (rad).
+    pub(crate) fn moment_frame(&self, c: DVec3) -> DMat3 {
+        match &self.curve {
+            // A constant strain acts all along: its moment belongs to the middle.
+            Curve::Helix => {
+                let half = c * 0.5;
+                exponential(half, &stumpff(half.length_squared()))
+            }
+            Curve::Jointed(jointed) => jointed.before,
+        }
+    }
+
+    /// The control (rad) at which the end frame is `turn` seen from the start frame.
+    pub(crate) fn control_for(&self, turn: &DMat3) -> DVec3 {
+        let turn = match &self.curve {
+            Curve::Helix => *turn,
+            Curve::Jointed(j) => j.before.transpose() * *turn * j.after.transpose(),
+        };
+        glam::DQuat::from_mat3(&turn).normalize().to_scaled_axis()
     }
 
     /// The motion at control `c` (rad).
@@ -88,17 +111,11 @@ impl Geometry {
 }
 
 /// Rotation, advance (m) and first moment (m²) of a helix that turns by `c` over `length`.
-fn helix_piece(c: DVec3, length: f64) -> (DMat3, DVec3, DVec3) {
+pub(crate) fn helix_piece(c: DVec3, length: f64) -> (DMat3, DVec3, DVec3) {
     let table = stumpff(c.length_squared());
-    let advance = RotationSeries::phi(1, &table, length).value(c, DVec3::Z);
-    let moment = RotationSeries::phi(2, &table, length * length).value(c, DVec3::Z);
+    let advance = RotationSeries::phi(1, &table, length, DVec3::Z).value(c);
+    let moment = RotationSeries::phi(2, &table, length * length, DVec3::Z).value(c);
     (exponential(c, &table), advance, moment)
-}
-
-/// Position (m, from the start, in the start frame) and frame on a helix.
-pub(crate) fn along_helix(c: DVec3, length: f64) -> (DVec3, DMat3) {
-    let (rotation, advance, _) = helix_piece(c, length);
-    (advance, rotation)
 }
 
 /// The motion over one element at one control.
@@ -114,9 +131,9 @@ impl Motion<'_> {
     #[inline]
     pub(crate) fn rotation(&self) -> DMat3 {
         let turn = exponential(self.control, &self.table);
-        match self.geometry.kind {
-            ElementKind::Helix => turn,
-            ElementKind::Jointed => self.geometry.before * turn * self.geometry.after,
+        match &self.geometry.curve {
+            Curve::Helix => turn,
+            Curve::Jointed(jointed) => jointed.before * turn * jointed.after,
         }
     }
 
@@ -124,18 +141,18 @@ impl Motion<'_> {
     #[inline]
     pub(crate) fn turning(&self) -> DMat3 {
         let jacobian = right_jacobian(self.control, &self.table);
-        match self.geometry.kind {
-            ElementKind::Helix => jacobian,
-            ElementKind::Jointed => self.geometry.after.transpose() * jacobian,
+        match &self.geometry.curve {
+            Curve::Helix => jacobian,
+            Curve::Jointed(jointed) => jointed.after.transpose() * jacobian,
         }
     }
 
     /// Second derivative of the turn of the end frame, contracted with `lambda` in that frame.
     #[inline]
     pub(crate) fn turning_derivative(&self, lambda: DVec3) -> DMat3 {
-        let lambda = match self.geometry.kind {
-            ElementKind::Helix => lambda,
-            ElementKind::Jointed => self.geometry.after * lambda,
+        let lambda = match &self.geometry.curve {
+            Curve::Helix => lambda,
+            Curve::Jointed(jointed) => jointed.after * lambda,
         };
         right_jacobian_derivative(self.control, &self.table, lambda)
     }
@@ -143,28 +160,20 @@ impl Motion<'_> {
     /// `α (r_end − r_start) + β ∫ (r − r_start) ds`, in the start frame.
     #[inline]
     pub(crate) fn reach(&self, alpha: f64, beta: f64) -> Reach<'_> {
-        let g = self.geometry;
-        match g.kind {
-            ElementKind::Helix => {
-                let (h, t) = (g.length, &self.table);
-                let advance = RotationSeries::phi(1, t, alpha * h);
-                let moment = RotationSeries::phi(2, t, beta * h * h);
-                Reach {
-                    control: self.control,
-                    before: None,
-                    offset: DVec3::ZERO,
-                    arm: DVec3::Z,
-                    series: advance.plus(&moment),
-                }
+        let (h, c, t) = (self.geometry.length, self.control, &self.table);
+        let (before, offset, series) = match &self.geometry.curve {
+            Curve::Helix => {
+                let advance = RotationSeries::phi(1, t, alpha * h, DVec3::Z);
+                let moment = RotationSeries::phi(2, t, beta * h * h, DVec3::Z);
+                (None, DVec3::ZERO, advance.plus(&moment))
             }
-            ElementKind::Jointed => Reach {
-                control: self.control,
-                before: Some(&g.before),
-                offset: g.start[0] * alpha + g.start[1] * beta,
-                arm: g.end[0] * alpha + g.end[1] * beta,
-                series: RotationSeries::phi(0, &self.table, 1.0),
-            },
-        }
+            Curve::Jointed(j) => {
+                let arm = j.end[0] * alpha + j.end[1] * beta;
+                let offset = j.start[0] * alpha + j.start[1] * beta;
+                (Some(&j.before), offset, RotationSeries::phi(0, t, 1.0, arm))
+            }
+        };
+        Reach { control: c, before, offset, series }
     }
 
     /// `r_end − r_start` (m), in the start frame, without derivatives.
@@ -176,20 +185,20 @@ impl Motion<'_> {
     /// The value of [`Self::reach`], without the cost of its derivatives.
     #[inline]
     pub(crate) fn plain_reach(&self, alpha: f64, beta: f64) -> DVec3 {
-        let (g, c, t) = (self.geometry, self.control, &self.table);
-        match g.kind {
-            ElementKind::Helix => {
-                let (a, b) = (alpha * g.length, beta * g.length * g.length);
+        let (h, c, t) = (self.geometry.length, self.control, &self.table);
+        match &self.geometry.curve {
+            Curve::Helix => {
+                let (a, b) = (alpha * h, beta * h * h);
                 let turned = c.cross(DVec3::Z);
                 DVec3::Z * (a + 0.5 * b)
                     + turned * (a * t[2] + b * t[3])
                     + c.cross(turned) * (a * t[3] + b * t[4])
             }
-            ElementKind::Jointed => {
-                let arm = g.end[0] * alpha + g.end[1] * beta;
+            Curve::Jointed(j) => {
+                let arm = j.end[0] * alpha + j.end[1] * beta;
                 let turned = c.cross(arm);
                 let after = arm + turned * t[1] + c.cross(turned) * t[2];
-                g.start[0] * alpha + g.start[1] * beta + g.before * after
+                j.start[0] * alpha + j.start[1] * beta + j.before * after
             }
         }
     }
@@ -201,7 +210,6 @@ pub(crate) struct Reach<'a> {
     control: DVec3,
     before: Option<&'a DMat3>,
     offset: DVec3,
-    arm: DVec3,
     series: RotationSeries,
 }
 
@@ -209,14 +217,14 @@ impl Reach<'_> {
     /// The vector, in the start frame.
     #[inline]
     pub(crate) fn value(&self) -> DVec3 {
-        let v = self.series.value(self.control, self.arm);
+        let v = self.series.value(self.control);
         self.offset + self.before.map_or(v, |a| *a * v)
     }
 
     /// Its derivative by the control.
     #[inline]
     pub(crate) fn jacobian(&self) -> DMat3 {
-        let j = self.series.jacobian(self.control, self.arm);
+        let j = self.series.jacobian(self.control);
         self.before.map_or(j, |a| *a * j)
     }
 
@@ -225,6 +233,6 @@ impl Reach<'_> {
     #[inline]
     pub(crate) fn contracted(&self, omega: DVec3) -> (DVec3, DMat3) {
         let omega = self.before.map_or(omega, |a| a.transpose() * omega);
-        self.series.contracted(self.control, self.arm, omega)
+        self.series.contracted(self.control, omega)
     }
 }

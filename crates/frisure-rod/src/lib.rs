@@ -2,6 +2,7 @@
 
 mod chain;
 mod element;
+mod equilibrium;
 mod error;
 mod material;
 pub mod minimise;
@@ -14,6 +15,7 @@ mod strain;
 mod stumpff;
 
 pub use chain::{Chain, Shape};
+pub use equilibrium::{Branch, Certificate, Equilibrium, Options, equilibrium, equilibrium_from};
 pub use error::InvalidQuantity;
 pub use material::Material;
 pub use minimise::{Energy, Stability};

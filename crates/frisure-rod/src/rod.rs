@@ -19,12 +19,7 @@ impl Root {
     /// # Errors
     /// [`InvalidQuantity`] if a number is not finite, or if the directors are not right-handed and
     /// orthonormal to within 1e-3.
-    pub fn new(
-        position: DVec3,
-        d1: DVec3,
-        d2: DVec3,
-        t: DVec3,
-    ) -> Result<Self, InvalidQuantity> {
+    pub fn new(position: DVec3, d1: DVec3, d2: DVec3, t: DVec3) -> Result<Self, InvalidQuantity> {
         for x in position.to_array() {
             finite("coordinate of the root", x, "m")?;
         }
@@ -132,11 +127,8 @@ impl Rod {
                 "N m²",
             )?,
         );
-        let weight = finite(
-            "weight per length",
-            material.density() * section.area() * gravity,
-            "N/m",
-        )?;
+        let weight =
+            finite("weight per length", material.density() * section.area() * gravity, "N/m")?;
         Ok(Self { spec, stiffness, weight })
     }
 

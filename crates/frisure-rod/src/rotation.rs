@@ -2,8 +2,8 @@
 //!
 //! With `φ_0(c) = exp([c]×)`, `φ_1 = ∫₀¹ exp(σ[c]×) dσ` and `φ_2 = ∫₀¹ φ_1(σc) σ dσ`, a helix turns by
 //! `φ_0`, advances by `φ_1` and has the first moment `φ_2` (SYSTEM §1, the matrices V and W). On a
-//! fixed vector each is `a e + β(y) c×e + γ(y) c×(c×e)` with y = |c|², so that one set of formulas
-//! serves all, and sums of them.
+//! fixed vector each is `a + c×B(y) + c×(c×C(y))` with y = |c|², so that one set of formulas serves
+//! all, and sums of them.
 
 use glam::{DMat3, DVec3};
 
@@ -54,11 +54,7 @@ pub(crate) fn right_jacobian(c: DVec3, table: &[f64; ORDERS]) -> DMat3 {
 
 /// The symmetric matrix D with `exp[c + x] = exp[c] exp[b]`, `λ·b = λ·J x + ½ xᵀ D x + …`.
 #[inline]
-pub(crate) fn right_jacobian_derivative(
-    c: DVec3,
-    table: &[f64; ORDERS],
-    lambda: DVec3,
-) -> DMat3 {
+pub(crate) fn right_jacobian_derivative(c: DVec3, table: &[f64; ORDERS], lambda: DVec3) -> DMat3 {
     // b″ = (d/dt J(c + t x)) x: the curve of body angular velocity has no further second-order
     // term, since b × b vanishes at the start.
     let (d2, d3) = (first_derivative(table, 2), first_derivative(table, 3));
@@ -71,85 +67,78 @@ pub(crate) fn right_jacobian_derivative(
 /// The vector of an exact rotation that is smooth up to half a turn: `2 sin(θ/2)` along the axis.
 #[inline]
 pub(crate) fn deviation(m: &DMat3) -> DVec3 {
-    let skew = DVec3::new(
-        m.y_axis.z - m.z_axis.y,
-        m.z_axis.x - m.x_axis.z,
-        m.x_axis.y - m.y_axis.x,
-    );
+    let skew =
+        DVec3::new(m.y_axis.z - m.z_axis.y, m.z_axis.x - m.x_axis.z, m.x_axis.y - m.y_axis.x);
     let trace = m.x_axis.x + m.y_axis.y + m.z_axis.z;
     // 1 + tr = 4 cos²(θ/2); near half a turn the direction is arbitrary and the length bounded.
     skew / (1.0 + trace).max(0.04).sqrt()
 }
 
-/// `F(c) = a e + β(y) c×e + γ(y) c×(c×e)`, y = |c|², with β and γ given by value and derivatives.
+/// `F(c) = a + c×B(y) + c×(c×C(y))`, y = |c|², with the vectors B and C and their derivatives by y.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RotationSeries {
-    pub(crate) constant: f64,
-    /// β, β′, β″.
-    pub(crate) beta: [f64; 3],
-    /// γ, γ′, γ″.
-    pub(crate) gamma: [f64; 3],
+    pub(crate) constant: DVec3,
+    /// B, B′, B″.
+    pub(crate) once: [DVec3; 3],
+    /// C, C′, C″.
+    pub(crate) twice: [DVec3; 3],
 }
 
 impl RotationSeries {
-    /// `φ_k` times `scale`, from the Stumpff table; k ≤ 2.
+    /// `scale φ_k(c) e`, from the Stumpff table; k ≤ 2.
     #[inline]
-    pub(crate) fn phi(k: usize, table: &[f64; ORDERS], scale: f64) -> Self {
+    pub(crate) fn phi(k: usize, table: &[f64; ORDERS], scale: f64, e: DVec3) -> Self {
+        let e = e * scale;
         let jet = |j: usize| {
-            [
-                scale * table[j],
-                scale * first_derivative(table, j),
-                scale * second_derivative(table, j),
-            ]
+            [e * table[j], e * first_derivative(table, j), e * second_derivative(table, j)]
         };
-        let constant = if k == 2 { 0.5 * scale } else { scale };
-        Self { constant, beta: jet(k + 1), gamma: jet(k + 2) }
+        let constant = if k == 2 { e * 0.5 } else { e };
+        Self { constant, once: jet(k + 1), twice: jet(k + 2) }
     }
 
     #[inline]
     pub(crate) fn plus(&self, other: &Self) -> Self {
-        let add = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        let add = |a: [DVec3; 3], b: [DVec3; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         Self {
             constant: self.constant + other.constant,
-            beta: add(self.beta, other.beta),
-            gamma: add(self.gamma, other.gamma),
+            once: add(self.once, other.once),
+            twice: add(self.twice, other.twice),
         }
     }
 
     /// `F(c)`.
     #[inline]
-    pub(crate) fn value(&self, c: DVec3, e: DVec3) -> DVec3 {
-        let turned = c.cross(e);
-        e * self.constant + turned * self.beta[0] + c.cross(turned) * self.gamma[0]
+    pub(crate) fn value(&self, c: DVec3) -> DVec3 {
+        self.constant + c.cross(self.once[0] + c.cross(self.twice[0]))
     }
 
     /// `∂F/∂c`.
     #[inline]
-    pub(crate) fn jacobian(&self, c: DVec3, e: DVec3) -> DMat3 {
-        let once = c.cross(e);
-        let twice = c.cross(once);
-        let slope = once * (2.0 * self.beta[1]) + twice * (2.0 * self.gamma[1]);
-        // x×(c×e) + c×(x×e) = −[c×e]x + (c·e) x − (c·x) e, by the triple product.
-        cross_matrix(e) * -self.beta[0]
-            + (scaled_identity(c.dot(e)) - outer(e, c) - cross_matrix(once)) * self.gamma[0]
-            + outer(slope, c)
+    pub(crate) fn jacobian(&self, c: DVec3) -> DMat3 {
+        let (b, e) = (self.once[0], self.twice[0]);
+        let slope = c.cross(self.once[1] + c.cross(self.twice[1])) * 2.0;
+        // x×(c×C) + c×(x×C) = −[c×C]x + (c·C) x − (c·x) C, by the triple product.
+        scaled_identity(c.dot(e)) - outer(e, c) - cross_matrix(b + c.cross(e)) + outer(slope, c)
     }
 
     /// Gradient and Hessian of `ω·F(c)`.
     #[inline]
-    pub(crate) fn contracted(&self, c: DVec3, e: DVec3, omega: DVec3) -> (DVec3, DMat3) {
-        let n = e.cross(omega);
-        let (cn, oe) = (c.dot(n), omega.dot(e));
-        let q = omega.dot(c) * c.dot(e) - oe * c.length_squared();
-        let dq = omega * c.dot(e) + e * omega.dot(c) - c * (2.0 * oe);
-        let [b, b1, b2] = self.beta;
-        let [g, g1, g2] = self.gamma;
-        let radial = 2.0 * (b1 * cn + g1 * q);
-        let gradient = c * radial + n * b + dq * g;
-        let hessian = scaled_identity(radial - 2.0 * oe * g)
-            + outer(c, c) * (4.0 * (b2 * cn + g2 * q))
-            + symmetric_outer(c, n * (2.0 * b1) + dq * (2.0 * g1))
-            + symmetric_outer(omega, e) * g;
+    pub(crate) fn contracted(&self, c: DVec3, omega: DVec3) -> (DVec3, DMat3) {
+        // ω·F = c·n + q(C) + const with n = B×ω and q(e) = (ω·c)(c·e) − (ω·e)|c|²; n and C depend
+        // on y, through which every further derivative is radial.
+        let (oc, y) = (omega.dot(c), c.length_squared());
+        let q = |e: DVec3| oc * c.dot(e) - omega.dot(e) * y;
+        let dq = |e: DVec3| omega * c.dot(e) + e * oc - c * (2.0 * omega.dot(e));
+        let n = |order: usize| self.once[order].cross(omega);
+        let e = self.twice;
+        let n1 = n(1);
+        let radial = 2.0 * (c.dot(n1) + q(e[1]));
+        let bent = 4.0 * (c.dot(n(2)) + q(e[2]));
+        let gradient = n(0) + dq(e[0]) + c * radial;
+        let hessian = scaled_identity(radial - 2.0 * omega.dot(e[0]))
+            + outer(c, c) * bent
+            + symmetric_outer(c, (n1 + dq(e[1])) * 2.0)
+            + symmetric_outer(omega, e[0]);
         (gradient, hessian)
     }
 }
@@ -203,8 +192,8 @@ mod tests {
                 second += turned * (1.0 - sigma) / f64::from(steps);
             }
             let t = table(c);
-            assert!(RotationSeries::phi(1, &t, 1.0).value(c, E).abs_diff_eq(first, 1e-5));
-            assert!(RotationSeries::phi(2, &t, 1.0).value(c, E).abs_diff_eq(second, 1e-5));
+            assert!(RotationSeries::phi(1, &t, 1.0, E).value(c).abs_diff_eq(first, 1e-5));
+            assert!(RotationSeries::phi(2, &t, 1.0, E).value(c).abs_diff_eq(second, 1e-5));
         }
     }
 
@@ -212,14 +201,14 @@ mod tests {
     fn series_derivatives_agree_with_differences() {
         for c in C {
             for k in 0..3 {
-                let series = |c: DVec3| RotationSeries::phi(k, &table(c), 1.0);
-                let (gradient, hessian) = series(c).contracted(c, E, OMEGA);
-                let jacobian = series(c).jacobian(c, E);
+                let series = |c: DVec3| RotationSeries::phi(k, &table(c), 1.0, E);
+                let (gradient, hessian) = series(c).contracted(c, OMEGA);
+                let jacobian = series(c).jacobian(c);
                 for axis in 0..3 {
-                    let column = difference(|c| series(c).value(c, E), c, axis);
+                    let column = difference(|c| series(c).value(c), c, axis);
                     assert!(jacobian.col(axis).abs_diff_eq(column, 1e-8));
                     assert!((gradient[axis] - OMEGA.dot(column)).abs() < 1e-8);
-                    let row = difference(|c| series(c).contracted(c, E, OMEGA).0, c, axis);
+                    let row = difference(|c| series(c).contracted(c, OMEGA).0, c, axis);
                     assert!(hessian.col(axis).abs_diff_eq(row, 1e-8), "{k} {c}");
                 }
             }

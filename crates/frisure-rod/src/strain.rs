@@ -146,8 +146,8 @@ mod tests {
 
     #[test]
     fn a_profile_interpolates_and_integrates() {
-        let p = StrainProfile::new(vec![(0.0, DVec3::ZERO), (1.0, DVec3::X), (3.0, DVec3::X)])
-            .unwrap();
+        let p =
+            StrainProfile::new(vec![(0.0, DVec3::ZERO), (1.0, DVec3::X), (3.0, DVec3::X)]).unwrap();
         let u = NaturalStrain::Varying(p);
         assert_eq!(u.at(0.5).x, 0.5);
         assert_eq!(u.at(-1.0).x, 0.0);

@@ -95,7 +95,7 @@ fn descent(problem: &Problem<'_>, gradient: &[DVec3], pairs: &VecDeque<Pair>) ->
         alphas.push(alpha);
     }
     for (i, x) in d.iter_mut().enumerate() {
-        *x /= problem.chain.stiffness(i);
+        *x /= problem.chain.geometry(i).stiffness();
     }
     for (p, alpha) in pairs.iter().zip(alphas.iter().rev()) {
         let beta = p.inverse * dot(&p.change, &d);

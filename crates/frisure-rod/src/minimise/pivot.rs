@@ -22,9 +22,8 @@ impl Pivot {
         let e = m.y_axis.z - l31 * m.x_axis.y;
         let l32 = e / d2;
         let d3 = m.z_axis.z - l31 * m.x_axis.z - l32 * e;
-        let positive = d1 > 0.0
-            && d2 > ROUNDING * m.y_axis.y.abs()
-            && d3 > ROUNDING * m.z_axis.z.abs();
+        let positive =
+            d1 > 0.0 && d2 > ROUNDING * m.y_axis.y.abs() && d3 > ROUNDING * m.z_axis.z.abs();
         positive.then_some(Self { d: DVec3::new(d1, d2, d3), l21, l31, l32 })
     }
 

@@ -127,7 +127,8 @@ impl Riccati {
                 let expected = sweep.decrease * fraction * (2.0 - fraction);
                 // Near the minimum the decrease drowns in rounding; there the gradient decides.
                 let noise = 1e-14 * energy.abs();
-                if lowered <= energy - 1e-4 * expected || (expected < noise && lowered <= energy + noise)
+                if lowered <= energy - 1e-4 * expected
+                    || (expected < noise && lowered <= energy + noise)
                 {
                     *damping = match trial {
                         0 if *damping < 0.05 => 0.0,
@@ -257,11 +258,8 @@ impl<'a, const POSITION: bool> Stages<'a, POSITION> {
                 below.add(node);
             }
             let model = self.stages[i].model::<POSITION>(&below);
-            let mut pivot = model.control_control;
-            let stiffness = self.stages[i].element.stiffness * damping;
-            pivot.x_axis.x += stiffness.x;
-            pivot.y_axis.y += stiffness.y;
-            pivot.z_axis.z += stiffness.z;
+            let stiffness = self.stages[i].element.stiffness;
+            let pivot = model.control_control + DMat3::from_diagonal(stiffness * damping);
             let Some(factor) = Pivot::new(&pivot) else {
                 return Err(FailedPivot { element: i, pivot, laws });
             };
@@ -371,9 +369,9 @@ impl Stage<'_> {
         m.position += below.position;
         m.rotation += p.cross(pull);
         m.control += gradient;
-        m.rotation_rotation += q_rp_s + q_rp_s.transpose() + st * (*pp * s)
-            + symmetric_outer(pull, p) * 0.5
-            - scaled_identity(pull.dot(p));
+        m.rotation_rotation +=
+            q_rp_s + q_rp_s.transpose() + st * (*pp * s) + symmetric_outer(pull, p) * 0.5
+                - scaled_identity(pull.dot(p));
         m.control_control += jt_rp_t + jt_rp_t.transpose() + tt * pp_t + hessian;
         let rp_j = rp.transpose() * *j;
         m.rotation_control +=
@@ -484,11 +482,14 @@ fn smallest_eigenvalue<const POSITION: bool>(stages: &Stages<'_, POSITION>) -> f
     }
     for _ in 0..44 {
         let middle = 0.5 * (low + high);
-        if stable_at(middle) { high = middle } else { low = middle }
+        if stable_at(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
         if high - low < 1e-10 * low.abs().max(high.abs()) {
             break;
         }
     }
     -0.5 * (low + high)
 }
-

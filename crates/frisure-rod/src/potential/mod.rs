@@ -93,21 +93,14 @@ impl ElementState<'_> {
 
     /// Adds the derivatives of [`Self::work`].
     #[inline]
-    pub fn add_work_derivatives(
-        &self,
-        omega: DVec3,
-        alpha: f64,
-        beta: f64,
-        sum: &mut Derivatives,
-    ) {
+    pub fn add_work_derivatives(&self, omega: DVec3, alpha: f64, beta: f64, sum: &mut Derivatives) {
         let omega = self.frame.transpose() * omega;
         let reach = self.motion.reach(alpha, beta);
         let q = reach.value();
         let (gradient, hessian) = reach.contracted(omega);
         // ω·exp[η]q = ω·(q + η×q + ½ η×(η×q) + …)
         sum.rotation += q.cross(omega);
-        sum.rotation_rotation +=
-            symmetric_outer(omega, q) * 0.5 - scaled_identity(omega.dot(q));
+        sum.rotation_rotation += symmetric_outer(omega, q) * 0.5 - scaled_identity(omega.dot(q));
         sum.control += gradient;
         sum.control_control += hessian;
         sum.rotation_control -= cross_matrix(omega) * reach.jacobian();
@@ -175,7 +168,7 @@ impl Chain<'_> {
             frame,
             control,
             rest: geometry.rest(),
-            stiffness: self.stiffness(index),
+            stiffness: geometry.stiffness(),
             motion: geometry.motion(control),
         }
     }
