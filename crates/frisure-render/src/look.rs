@@ -60,7 +60,7 @@ pub struct SkinLook {
 impl Default for SkinLook {
     /// The matte plastic of a training head.
     fn default() -> Self {
-        Self { colour: Vec3::new(0.60, 0.43, 0.34), gloss: 0.25 }
+        Self { colour: Vec3::new(0.40, 0.29, 0.235), gloss: 0.12 }
     }
 }
 

@@ -96,7 +96,7 @@ pub fn strands(style: &Style, count: usize, points: usize) -> Strands {
 fn scalp(dice: &mut Dice) -> Vec3 {
     loop {
         let n = dice.direction();
-        if n.z > -0.25 && !(n.y < -0.45 && n.z < 0.55) {
+        if n.z > -0.3 && n.y > 1.05 - 1.75 * n.z.max(0.0) - 1.0 * (n.x.abs() + 0.2) {
             return n;
         }
     }
@@ -114,7 +114,8 @@ fn grow_wisp(
     let jitter = 0.15 * Vec3::new(dice.normal(), dice.normal(), dice.normal());
     let h = style.length / STEPS as f32;
     let path = path(normal, layer, jitter, h);
-    let frames = frames(&path);
+    let path = &path[..];
+    let frames = frames(path);
     let (phase, turn) = (TAU * dice.uniform(), if dice.uniform() < 0.5 { 1.0 } else { -1.0 });
     let pitch = style.curl_pitch * (0.8 + 0.4 * dice.uniform());
     let radius = style.curl_radius * (0.7 + 0.6 * dice.uniform());
@@ -154,7 +155,10 @@ fn grow_wisp(
 /// The way of a wisp: out along the normal, over to gravity, sliding on a ball.
 fn path(normal: Vec3, layer: f32, jitter: Vec3, h: f32) -> Vec<Vec3> {
     let mut p = RADIUS * normal;
-    let mut d = (normal + 0.15 * Vec3::Z + jitter).normalize();
+    // Combed away from a parting, and back at the front.
+    let side = if normal.x >= 0.015 { Vec3::X } else { -Vec3::X };
+    let back = 0.9 * (0.35 - normal.y).max(0.0) * Vec3::Y;
+    let mut d = (0.45 * normal + (0.8 * side + back) * normal.z.max(0.0) + jitter).normalize();
     let mut path = vec![p];
     for i in 0..STEPS {
         let g = -Vec3::Z;

@@ -1,7 +1,7 @@
 //! One tile of the picture: hair over the head over the background, from front to back.
 //!
 //! A pixel is wider than a hair, so a hair covers part of it: exactly how much is the area of its
-//! ribbon in the pixel (softened by a tent), and what lies behind is dimmed by that much, as if hairs
+//! ribbon in the pixel, and what lies behind is dimmed by that much, as if hairs
 //! that overlap in a pixel did so by chance. Pieces come sorted by depth, so a pixel is finished once
 //! it lets nothing through, and hair that only finished pixels would see is never shaded.
 
@@ -14,9 +14,11 @@ use super::tiles::{Area, TILE, TileGrid};
 use super::view::View;
 use crate::Background;
 
-/// Radius of the softening tent across a hair (pixels). It hides the steps of a slanted line, and a
-/// tent of radius 1 gives the pixels of a column exactly the hair's width in all.
+/// How far across a hair its softened edge can reach (pixels): half a pixel and half of the rise of
+/// a line within a column.
 pub(super) const REACH: f32 = 1.0;
+/// Least softening (pixels): a line that is nearly level would show where it changes row.
+const SOFTNESS: f32 = 0.35;
 /// What a pixel lets through when it counts as finished: half a step of an 8-bit picture.
 const FINISHED: f32 = 1.0 / 512.0;
 
@@ -144,7 +146,8 @@ impl TilePainter<'_> {
             (area.x0, area.x1, area.y0, area.y1)
         };
         let inverse = 1.0 / (line.to - line.from).max(1e-6);
-        let reach = line.half + REACH;
+        let rise = line.slope.abs().clamp(SOFTNESS, 1.0);
+        let reach = line.half + 0.5 + 0.5 * rise;
         let mut ends: Option<(Vec3, Vec3)> = None;
         // The casts saturate, and the window cuts what lies outside of the tile.
         let columns = (line.from as usize).max(low)..(line.to.max(0.0) as usize + 1).min(high);
@@ -169,7 +172,7 @@ impl TilePainter<'_> {
                     continue;
                 }
                 let offset = row as f32 + 0.5 - centre;
-                let alpha = (right - left) * ribbon(offset, line.half);
+                let alpha = (right - left) * ribbon(offset, line.half, rise);
                 if alpha > 1e-4 {
                     let (from, to) = *ends.get_or_insert_with(|| self.shade(a, b, &line));
                     pixel.add(from.lerp(to, x), alpha.min(1.0), depth);
@@ -233,17 +236,26 @@ fn any_open(pixels: &[Pixel], area: &Area, depth: f32) -> bool {
     })
 }
 
-/// Part of a pixel's height that a band covers: the band of half width `half` around 0, softened by
-/// a tent of radius [`REACH`], seen at `offset` (all in pixels). Its integral over the offset is the
-/// band's width, whatever the width: thin hairs are faint, not broad.
-fn ribbon(offset: f32, half: f32) -> f32 {
-    tent_sum(offset + half) - tent_sum(offset - half)
+/// Part of a pixel that a band covers which is `2 half` high and rises by `rise` within the pixel's
+/// column, its middle `offset` away from the pixel's (all in pixels).
+///
+/// This is the exact area: the band seen through a box a pixel high and a box of the rise. Over the
+/// rows of a column it sums to the band's height whatever that is: thin hairs are faint, not broad.
+fn ribbon(offset: f32, half: f32, rise: f32) -> f32 {
+    let inverse = 1.0 / rise;
+    edge(offset + half, rise, inverse) - edge(offset - half, rise, inverse)
 }
 
-/// Integral of the tent up to `x`.
-fn tent_sum(x: f32) -> f32 {
-    let x = (x / REACH).clamp(-1.0, 1.0);
-    0.5 + x - 0.5 * x * x.abs()
+/// Integral up to `x` of the trapezoid that is a box of width 1 smeared by a box of width `rise`.
+fn edge(x: f32, rise: f32, inverse: f32) -> f32 {
+    let ramp = |x: f32| {
+        let x = x.max(0.0);
+        0.5 * x * x * inverse
+    };
+    let (outer, inner) = (0.5 + 0.5 * rise, 0.5 - 0.5 * rise);
+    // Beyond the trapezoid the sum of ramps is 1, but for rounding.
+    let x = x.clamp(-outer, outer);
+    ramp(x + outer) - ramp(x + inner) - ramp(x - inner)
 }
 
 #[cfg(test)]
@@ -253,8 +265,8 @@ mod tests {
     #[test]
     fn a_ribbon_has_the_area_of_its_width() {
         for half in [0.01, 0.2, 1.0, 4.0] {
-            for phase in [0.0, 0.3, 0.77] {
-                let rows = (-20..20).map(|i| ribbon(i as f32 + phase, half));
+            for (phase, rise) in [(0.0, 0.35), (0.3, 0.6), (0.77, 1.0)] {
+                let rows = (-20..20).map(|i| ribbon(i as f32 + phase, half, rise));
                 let sum: f32 = rows.sum();
                 assert!((sum / (2.0 * half) - 1.0).abs() < 1e-3, "{half} {phase}: {sum}");
             }

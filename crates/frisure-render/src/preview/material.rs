@@ -15,6 +15,11 @@ const AZIMUTHAL_ROUGHNESS: f32 = 0.3;
 /// Relative deviation of the pigment from wisp to wisp, as part of that from strand to strand.
 const WISP_PART: f32 = 0.6;
 
+/// Deviation of the white highlight's strength from strand to strand, as a power of e.
+const GLITTER_STRENGTH: f32 = 0.35;
+/// Deviation of the highlights' place from strand to strand (rad).
+const GLITTER_SHIFT: f32 = 0.05;
+
 /// What light makes of one pigment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Material {
@@ -72,6 +77,13 @@ fn varied(strands: &Strands, variation: f32) -> Vec<u8> {
             level((variation * (strand + WISP_PART * wisp)).exp())
         })
         .collect()
+}
+
+/// How a strand's highlights differ from its neighbours': factor on the white one, and shift (rad).
+/// Scales wear and stand off unevenly, and it is this glitter that tells strands apart.
+pub(super) fn glitter(strand: u32) -> (f32, f32) {
+    let strength = (GLITTER_STRENGTH * deviate(strand, 0xc2b2_ae35)).exp();
+    (strength, GLITTER_SHIFT * deviate(strand, 0x27d4_eb2f))
 }
 
 /// A number of mean 0 and deviation about 1 that only `index` and `salt` decide.

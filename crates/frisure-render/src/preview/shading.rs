@@ -8,7 +8,7 @@ use super::Scene;
 use super::curves::{Curves, Vertex};
 use super::density::DensityMap;
 use super::head::{Head, HeadPixel};
-use super::material::Materials;
+use super::material::{Materials, glitter};
 use super::shadow::ShadowMap;
 use super::sky::Sky;
 use crate::SkinLook;
@@ -91,8 +91,11 @@ impl Shader {
             ..self.shape
         };
 
+        let (strength, shift) = glitter(vertex.strand);
+        let reflected = strength * material.reflected;
+
         let room = self.sky.mean(vertex.position);
-        let mut radiance = room * MEAN_SINE * (diffuse + material.reflected + material.returned);
+        let mut radiance = room * MEAN_SINE * (diffuse + reflected + material.returned);
         for lamp in &self.lamps {
             let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(vertex.position, HAIR_BIAS));
             if head <= 0.0 {
@@ -101,12 +104,13 @@ impl Shader {
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
             let passed = (-hairs * self.materials.taken).exp();
             let straight = (-hairs).exp();
-            let angles = Angles::new(vertex.tangent, lamp.to_light, eye);
+            let mut angles = Angles::new(vertex.tangent, lamp.to_light, eye);
+            angles.theta_eye += shift;
             let lobe = lobes(angles, &shape);
             let scattered = kajiya_kay::diffuse(vertex.tangent, lamp.to_light)
                 * std::f32::consts::FRAC_1_PI
                 * diffuse;
-            let direct = lobe.r * material.reflected + lobe.trt * material.returned;
+            let direct = lobe.r * reflected + lobe.trt * material.returned;
             let through = lobe.tt * material.transmitted;
             radiance += head
                 * lamp.irradiance
