@@ -1,1 +1,22 @@
-//! placeholder
+//! Scenes, heads and grooms to and from files: one module per format, nothing solved, nothing
+//! printed.
+//!
+//! | module | reads | writes |
+//! | --- | --- | --- |
+//! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from |
+//! | [`head`] | OBJ meshes and scalp masks | |
+//! | [`groom`] | `.hair` | `.hair`, `.obj`, `.ply` |
+//! | [`picture`] | | PNG |
+//! | [`report`] | | JSON |
+//!
+//! Every file is written beside its destination and renamed over it when it is complete, so that
+//! an interrupted program leaves the old file or the new one and never a half of it
+//! ([`files::write_atomically`]). The same input gives the same bytes.
+
+pub mod files;
+pub mod groom;
+pub mod head;
+pub mod picture;
+pub mod quantity;
+pub mod report;
+pub mod scene;

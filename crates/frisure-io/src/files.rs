@@ -1,0 +1,201 @@
+//! Whole files, read with a limit and written all or not at all.
+
+use std::fs::{self, File, Permissions};
+use std::io::{self, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why a file could not be read.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// There is no such file.
+    #[error("there is no file `{}`", path.display())]
+    Missing {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// It is a directory.
+    #[error("`{}` is a directory, not a file", path.display())]
+    Directory {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// It is larger than such a file can sensibly be.
+    #[error("`{}` is larger than {limit} bytes, too large for {what}", path.display())]
+    TooLarge {
+        /// The path asked for.
+        path: PathBuf,
+        /// Largest size accepted (bytes).
+        limit: u64,
+        /// What was expected, such as `a scene`.
+        what: &'static str,
+    },
+    /// It is not text.
+    #[error("`{}` is not UTF-8 text (byte {offset} of line {line})", path.display())]
+    NotText {
+        /// The path asked for.
+        path: PathBuf,
+        /// Line of the first bad byte, from 1.
+        line: usize,
+        /// Bad byte within that line, from 1.
+        offset: usize,
+    },
+    /// The system refused.
+    #[error("cannot read `{}`", path.display())]
+    Io {
+        /// The path asked for.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+/// Why a file could not be written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The folder that should hold it does not exist.
+    #[error("there is no folder `{}` to write `{}` in", folder.display(), path.display())]
+    NoFolder {
+        /// The file asked for.
+        path: PathBuf,
+        /// Its folder.
+        folder: PathBuf,
+    },
+    /// The destination is a directory.
+    #[error("`{}` is a directory; name a file", path.display())]
+    Directory {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// The destination exists and is write-protected.
+    #[error("`{}` is read-only", path.display())]
+    ReadOnly {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error("cannot write `{}`", path.display())]
+    Io {
+        /// The path asked for.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+/// The bytes of a file of at most `limit` bytes; `what` names it in errors (`a scene`).
+///
+/// # Errors
+/// [`ReadError`], for a file that is missing, a directory, too large or unreadable.
+pub fn read_bytes(path: &Path, limit: u64, what: &'static str) -> Result<Vec<u8>, ReadError> {
+    let fail = |source: io::Error| match source.kind() {
+        io::ErrorKind::NotFound => ReadError::Missing { path: path.into() },
+        io::ErrorKind::IsADirectory => ReadError::Directory { path: path.into() },
+        _ => ReadError::Io { path: path.into(), source },
+    };
+    // Asked before opening: a folder opens on some systems and fails at the first read on others.
+    if fs::metadata(path).map_err(fail)?.is_dir() {
+        return Err(ReadError::Directory { path: path.into() });
+    }
+    let mut bytes = Vec::new();
+    // One byte more than allowed: devices and pipes have no size to ask for.
+    File::open(path).map_err(fail)?.take(limit + 1).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.len() as u64 > limit {
+        return Err(ReadError::TooLarge { path: path.into(), limit, what });
+    }
+    Ok(bytes)
+}
+
+/// The text of a file of at most `limit` bytes; `what` names it in errors (`a scene`).
+///
+/// # Errors
+/// [`ReadError`], as [`read_bytes`] and for bytes that are not UTF-8.
+pub fn read_text(path: &Path, limit: u64, what: &'static str) -> Result<String, ReadError> {
+    to_text(read_bytes(path, limit, what)?, path)
+}
+
+/// Bytes as text; `path` names them in the error.
+///
+/// # Errors
+/// [`ReadError::NotText`].
+pub fn to_text(bytes: Vec<u8>, path: &Path) -> Result<String, ReadError> {
+    String::from_utf8(bytes).map_err(|e| {
+        let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let start = good.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
+        let line = good.iter().filter(|&&b| b == b'\n').count() + 1;
+        ReadError::NotText { path: path.into(), line, offset: good.len() - start + 1 }
+    })
+}
+
+/// Writes a file so that it is either complete or as before: the bytes go to a hidden file in the
+/// same folder, which is flushed to the disk and renamed over the destination.
+///
+/// An existing file keeps its permissions, a link keeps pointing at its target, and devices and
+/// pipes are written directly. Output is buffered.
+///
+/// # Errors
+/// [`WriteError`]; the destination is then untouched.
+pub fn write_atomically(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let fail = |source| WriteError::Io { path: path.into(), source };
+    let existing = match fs::metadata(path) {
+        Ok(m) if m.is_dir() => return Err(WriteError::Directory { path: path.into() }),
+        Ok(m) if !m.is_file() => return write_directly(path, fill).map_err(fail),
+        Ok(m) if m.permissions().readonly() => {
+            return Err(WriteError::ReadOnly { path: path.into() });
+        }
+        Ok(m) => Some(m.permissions()),
+        Err(_) => None,
+    };
+    // Renaming over a link would replace the link instead of the file it points at.
+    let target =
+        if existing.is_some() { fs::canonicalize(path).map_err(fail)? } else { path.into() };
+    let folder = match target.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        return Err(WriteError::NoFolder { path: path.into(), folder: folder.into() });
+    }
+    replace(&target, folder, existing, fill).map_err(fail)
+}
+
+fn replace(
+    target: &Path,
+    folder: &Path,
+    existing: Option<Permissions>,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".frisure-").suffix(".tmp");
+    // Temporary files are private by default; an output should be as any new file is.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(folder)?;
+    let mut buffer = BufWriter::with_capacity(1 << 18, file.as_file_mut());
+    fill(&mut buffer)?;
+    buffer.flush()?;
+    drop(buffer);
+    if let Some(permissions) = existing {
+        file.as_file().set_permissions(permissions)?;
+    }
+    file.as_file().sync_all()?;
+    file.persist(target)?;
+    // The rename itself reaches the disk with the folder; not every system can sync one.
+    if let Ok(folder) = File::open(folder) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+fn write_directly(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffer = BufWriter::new(File::options().write(true).open(path)?);
+    fill(&mut buffer)?;
+    buffer.flush()
+}

@@ -1,0 +1,113 @@
+//! Grooms: strands in the formats that other programs read.
+//!
+//! | extension | what is in it | unit, axes |
+//! | --- | --- | --- |
+//! | `.hair` | points, thickness, colour | cm, z up |
+//! | `.obj` | polylines | m, y up |
+//! | `.ply` | points with radius and strand number, edges | m, z up |
+
+pub mod hair;
+pub mod obj;
+pub mod ply;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use frisure_strands::Strands;
+use thiserror::Error;
+
+use crate::files::{ReadError, WriteError, write_atomically};
+
+/// Extensions that grooms can be written with.
+pub const EXTENSIONS: [&str; 3] = ["hair", "obj", "ply"];
+
+/// Why a groom could not be written or read.
+#[derive(Debug, Error)]
+pub enum GroomError {
+    /// The extension names no known format.
+    #[error(
+        "`{}` has no known groom extension; known are {}",
+        path.display(),
+        known()
+    )]
+    Extension {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// The format cannot hold these strands.
+    #[error("a {format} file cannot hold {what}")]
+    CannotHold {
+        /// The format, such as `.hair`.
+        format: &'static str,
+        /// What it has no room for.
+        what: String,
+    },
+    /// The file is not what its name says, or is damaged.
+    #[error("`{}` is not a {format} file: {what}", path.display())]
+    Malformed {
+        /// The path read.
+        path: PathBuf,
+        /// The format expected.
+        format: &'static str,
+        /// What is wrong.
+        what: String,
+    },
+    /// The file could not be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The file could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+fn known() -> String {
+    EXTENSIONS.map(|e| format!(".{e}")).join(", ")
+}
+
+/// A groom format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Cem Yuksel's binary format.
+    Hair,
+    /// Wavefront polylines.
+    Obj,
+    /// Stanford polygons, binary.
+    Ply,
+}
+
+impl Format {
+    /// The format that a path's extension names.
+    ///
+    /// # Errors
+    /// [`GroomError::Extension`], listing those that are known.
+    pub fn of(path: &Path) -> Result<Self, GroomError> {
+        let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        match extension.as_deref() {
+            Some("hair") => Ok(Self::Hair),
+            Some("obj") => Ok(Self::Obj),
+            Some("ply") => Ok(Self::Ply),
+            _ => Err(GroomError::Extension { path: path.into() }),
+        }
+    }
+}
+
+/// Writes strands in the format that the path's extension names, atomically.
+///
+/// # Errors
+/// [`GroomError`].
+pub fn write_groom(path: &Path, strands: &Strands) -> Result<(), GroomError> {
+    type Fill = fn(&mut dyn io::Write, &Strands) -> io::Result<()>;
+    let fill: Fill = match Format::of(path)? {
+        Format::Hair => {
+            hair::check(strands)?;
+            hair::encode
+        }
+        Format::Obj => obj::encode,
+        Format::Ply => {
+            ply::check(strands)?;
+            ply::encode
+        }
+    };
+    write_atomically(path, |out| fill(out, strands))?;
+    Ok(())
+}

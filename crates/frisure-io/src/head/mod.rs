@@ -1,0 +1,214 @@
+//! Heads: an OBJ mesh into a [`Surface`] with z up, and where on it hair grows.
+
+mod obj;
+mod scalp;
+
+use std::path::{Path, PathBuf};
+
+use frisure_strands::{Surface, SurfaceError};
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::files::{self, ReadError};
+use crate::scene::{HeadFile, ScalpSource, UpAxis};
+
+pub use obj::Group;
+
+/// Largest mesh, mask or list of weights that is read (bytes).
+pub const MAX_SIZE: u64 = 1 << 30;
+
+/// Sizes (m) that a head, with or without shoulders, can have.
+const SENSIBLE: (f64, f64) = (0.05, 3.0);
+
+/// A head's mesh as it stands in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadMesh {
+    /// The mesh, in metres, z up.
+    pub surface: Surface,
+    /// Density of hair at each vertex, 0 to 1; `None` where the scalp is to be guessed.
+    pub scalp: Option<Vec<f64>>,
+}
+
+/// Why a head cannot be used.
+#[derive(Debug, Error)]
+pub enum HeadFileError {
+    /// A file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A line of a file is wrong.
+    #[error("{}:{line}: {problem}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The file is something else than it should be.
+    #[error("`{}` is not {expected}: {problem}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What was expected, such as `an OBJ mesh`.
+        expected: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The mesh cannot be a surface.
+    #[error("`{}` cannot be a head: {source}", path.display())]
+    Surface {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: SurfaceError,
+    },
+    /// The mesh has not the size of a head.
+    #[error(
+        "`{}` is {} m across, and a head is between 5 cm and 3 m; {}",
+        path.display(),
+        short(*size),
+        unit_hint(*size, *scale)
+    )]
+    Size {
+        /// The file.
+        path: PathBuf,
+        /// Longest side of the box around it (m).
+        size: f64,
+        /// Metres per unit that it was read with.
+        scale: f64,
+    },
+    /// There is no such group of faces.
+    #[error("`{}` has no group `{group}`; it has {}", path.display(), list(known))]
+    NoGroup {
+        /// The file.
+        path: PathBuf,
+        /// The group asked for.
+        group: String,
+        /// The groups there are.
+        known: Vec<String>,
+    },
+    /// Hair would grow nowhere.
+    #[error("the scalp has no area: {what}")]
+    NoScalp {
+        /// What was asked for.
+        what: String,
+    },
+}
+
+fn list(groups: &[String]) -> String {
+    if groups.is_empty() {
+        return "none".into();
+    }
+    // A scan can have thousands.
+    let shown = groups.iter().take(12).map(|g| format!("`{g}`")).collect::<Vec<_>>().join(", ");
+    if groups.len() > 12 { format!("{shown} and {} more", groups.len() - 12) } else { shown }
+}
+
+/// A size to read, not to compute with.
+fn short(size: f64) -> String {
+    if (1e-3..1e6).contains(&size) { format!("{size:.3}") } else { format!("{size:.3e}") }
+}
+
+/// The unit in which a mesh of that size would be a head of usual size.
+fn unit_hint(size: f64, scale: f64) -> String {
+    let units = [("m", 1.0), ("dm", 0.1), ("in", 0.0254), ("cm", 0.01), ("mm", 0.001)];
+    let sensible = |&&(_, u): &&(&str, f64)| {
+        let metres = size / scale * u;
+        (0.15..0.8).contains(&metres)
+    };
+    match units.iter().find(sensible) {
+        Some((name, _)) => format!("is it in \"{name}\"? set `unit = \"{name}\"`"),
+        None => "set `scale`, in metres per unit of the mesh".into(),
+    }
+}
+
+/// Reads a head and its scalp.
+///
+/// # Errors
+/// [`HeadFileError`].
+pub fn read(head: &HeadFile) -> Result<HeadMesh, HeadFileError> {
+    let path = &head.path;
+    let text = files::read_text(path, MAX_SIZE, "a mesh")?;
+    let mesh = obj::parse(&text).map_err(|(line, problem)| HeadFileError::Line {
+        path: path.clone(),
+        line,
+        problem,
+    })?;
+    if mesh.triangles.is_empty() {
+        let problem = if mesh.positions.is_empty() {
+            "it has no vertices"
+        } else {
+            "it has vertices and no faces"
+        };
+        return Err(not_a_mesh(path, problem));
+    }
+    let metres = |p: &[f64; 3]| to_z_up(*p, head.up) * head.scale;
+    let positions: Vec<DVec3> = mesh.positions.iter().map(metres).collect();
+    // Before anything is computed from coordinates: the squares of huge ones overflow.
+    let size = extent(&positions, &mesh.triangles);
+    if size > 0.0 && !(size >= SENSIBLE.0 && size <= SENSIBLE.1) {
+        return Err(HeadFileError::Size { path: path.clone(), size, scale: head.scale });
+    }
+    let surface = Surface::new(positions, mesh.triangles.clone())
+        .map_err(|source| HeadFileError::Surface { path: path.clone(), source })?;
+    let scalp = match &head.scalp {
+        ScalpSource::Guess => None,
+        ScalpSource::Group(name) => Some(scalp::from_group(&mesh, name, path)?),
+        ScalpSource::Mask(mask) => Some(scalp::from_mask(&mesh, mask, path)?),
+        ScalpSource::Weights(weights) => Some(scalp::from_text(&mesh, weights)?),
+    };
+    if let Some(weights) = &scalp {
+        check_area(&surface, weights, &head.scalp)?;
+    }
+    Ok(HeadMesh { surface, scalp })
+}
+
+fn not_a_mesh(path: &Path, problem: impl Into<String>) -> HeadFileError {
+    let (expected, problem) = ("an OBJ mesh", problem.into());
+    HeadFileError::Format { path: path.into(), expected, problem }
+}
+
+/// A point with z up and the face towards −y: the frame of everything else.
+fn to_z_up([x, y, z]: [f64; 3], up: UpAxis) -> DVec3 {
+    match up {
+        UpAxis::Y => DVec3::new(x, -z, y),
+        UpAxis::Z => DVec3::new(x, y, z),
+    }
+}
+
+/// Longest side of the box around the vertices that faces use: files keep strays of what was cut
+/// away.
+fn extent(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+    let used = triangles.iter().flatten().map(|&v| positions[v as usize]);
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = used.fold(nothing, |(low, high), p| (low.min(p), high.max(p)));
+    (high - low).max_element()
+}
+
+/// Refuses a scalp on which no face has any hair.
+fn check_area(
+    surface: &Surface,
+    weights: &[f64],
+    asked: &ScalpSource,
+) -> Result<(), HeadFileError> {
+    let area: f64 = (0..surface.triangles().len())
+        .map(|i| {
+            let density: f64 = surface.triangles()[i].iter().map(|&v| weights[v as usize]).sum();
+            density / 3.0 * 0.5 * surface.doubled_area_vector(i).length()
+        })
+        .sum();
+    if area > 0.0 {
+        return Ok(());
+    }
+    let what = match asked {
+        ScalpSource::Guess => "no vertex has hair".to_owned(),
+        ScalpSource::Group(name) => format!("no face of group `{name}` has an area"),
+        ScalpSource::Mask(path) => format!("`{}` is black everywhere on the mesh", path.display()),
+        ScalpSource::Weights(path) => format!("every weight in `{}` is 0", path.display()),
+    };
+    Err(HeadFileError::NoScalp { what })
+}
+
+#[cfg(test)]
+mod tests;

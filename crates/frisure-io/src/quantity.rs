@@ -1,0 +1,239 @@
+//! Quantities as people write them: `25 cm`, `70 um`, `2.5 GPa`, `80 deg`.
+
+use std::f64::consts::{PI, TAU};
+
+use thiserror::Error;
+
+/// A kind of quantity: its name and the units it can be written in.
+#[derive(Debug, PartialEq)]
+pub struct Dimension {
+    /// What the quantity is, such as `a length`.
+    pub name: &'static str,
+    /// SI unit of a bare number; empty for pure numbers.
+    pub si: &'static str,
+    /// A value as one could write it.
+    pub example: &'static str,
+    /// Units in plain characters, and the factor to SI.
+    units: &'static [(&'static str, f64)],
+}
+
+/// Why a text is not a quantity of the dimension asked for.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum QuantityError {
+    /// It does not start with a number.
+    #[error("it must start with a number")]
+    NoNumber,
+    /// The number is infinite or not a number.
+    #[error("it must be a finite number")]
+    NotFinite,
+    /// There is no unit.
+    #[error("it has no unit")]
+    NoUnit,
+    /// The unit is not known.
+    #[error("`{unit}` is not a unit of {of}")]
+    UnknownUnit {
+        /// The unit as written.
+        unit: String,
+        /// The dimension asked for, such as `a length`.
+        of: &'static str,
+        /// The dimension that the unit does belong to.
+        belongs_to: Option<&'static str>,
+    },
+}
+
+/// Lengths, SI m.
+pub const LENGTH: Dimension = Dimension {
+    name: "a length",
+    si: "m",
+    example: "25 cm",
+    units: &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9), ("in", 0.0254)],
+};
+
+/// Angles, SI rad.
+pub const ANGLE: Dimension = Dimension {
+    name: "an angle",
+    si: "rad",
+    example: "30 deg",
+    units: &[("deg", PI / 180.0), ("rad", 1.0), ("turn", TAU), ("°", PI / 180.0)],
+};
+
+/// Elastic moduli and pressures, SI Pa.
+pub const PRESSURE: Dimension = Dimension {
+    name: "a modulus",
+    si: "Pa",
+    example: "3.9 GPa",
+    units: &[("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3), ("Pa", 1.0), ("N/m^2", 1.0)],
+};
+
+/// Densities, SI kg/m³.
+pub const DENSITY: Dimension = Dimension {
+    name: "a density",
+    si: "kg/m^3",
+    example: "1.3 g/cm^3",
+    units: &[("g/cm^3", 1e3), ("kg/m^3", 1.0)],
+};
+
+/// Curvatures and twists, SI rad/m.
+pub const STRAIN: Dimension = Dimension {
+    name: "a curvature or twist",
+    si: "rad/m",
+    example: "100 1/m",
+    units: &[
+        ("1/m", 1.0),
+        ("rad/m", 1.0),
+        ("1/cm", 1e2),
+        ("rad/cm", 1e2),
+        ("1/mm", 1e3),
+        ("rad/mm", 1e3),
+        ("deg/cm", PI / 1.8),
+        ("m^-1", 1.0),
+        ("cm^-1", 1e2),
+        ("mm^-1", 1e3),
+    ],
+};
+
+/// Accelerations, SI m/s².
+pub const ACCELERATION: Dimension = Dimension {
+    name: "an acceleration",
+    si: "m/s^2",
+    example: "9.81 m/s^2",
+    units: &[("m/s^2", 1.0), ("cm/s^2", 1e-2)],
+};
+
+/// Pure numbers; a text may give a percentage.
+pub const RATIO: Dimension =
+    Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
+
+const ALL: [&Dimension; 7] = [&LENGTH, &ANGLE, &PRESSURE, &DENSITY, &STRAIN, &ACCELERATION, &RATIO];
+
+impl Dimension {
+    /// The value in SI units of a text such as `25 cm`.
+    ///
+    /// # Errors
+    /// [`QuantityError`].
+    pub fn parse(&self, text: &str) -> Result<f64, QuantityError> {
+        let text = text.trim();
+        let (number, unit) = text.split_at(number_length(text));
+        let number: f64 = number.parse().map_err(|_| QuantityError::NoNumber)?;
+        let unit = plain(unit);
+        let factor = match self.factor(&unit) {
+            Some(factor) => factor,
+            None if unit.is_empty() && self.si.is_empty() => 1.0,
+            None if unit.is_empty() => return Err(QuantityError::NoUnit),
+            None => {
+                let belongs_to = ALL.iter().find(|d| d.factor(&unit).is_some()).map(|d| d.name);
+                return Err(QuantityError::UnknownUnit { unit, of: self.name, belongs_to });
+            }
+        };
+        let value = scaled(number, factor);
+        if value.is_finite() { Ok(value) } else { Err(QuantityError::NotFinite) }
+    }
+
+    /// Units that can be written, the most usual first.
+    pub fn units(&self) -> impl Iterator<Item = &'static str> {
+        self.units.iter().map(|u| u.0)
+    }
+
+    fn factor(&self, unit: &str) -> Option<f64> {
+        self.units.iter().find(|u| u.0 == unit).map(|u| u.1)
+    }
+}
+
+/// `number × factor`, rounded as the decimal text is: 70 × 1e-6 is not 70e-6 in binary, 70 / 1e6 is.
+fn scaled(number: f64, factor: f64) -> f64 {
+    let inverse = (1.0 / factor).round();
+    if factor < 1.0 && 1.0 / inverse == factor { number / inverse } else { number * factor }
+}
+
+/// The unit in plain characters: no spaces, `u` for µ, `^2` for ².
+fn plain(unit: &str) -> String {
+    let mut out = String::with_capacity(unit.len());
+    for c in unit.chars() {
+        match c {
+            // MICRO SIGN and GREEK SMALL LETTER MU look the same and are both on keyboards.
+            'µ' | 'μ' => out.push('u'),
+            '²' => out.push_str("^2"),
+            '³' => out.push_str("^3"),
+            '⁻' => out.push_str("^-"),
+            '¹' => out.push('1'),
+            c if c.is_whitespace() => {}
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// Length in bytes of the decimal number that a text starts with.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let mut end = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    end += digits(end);
+    if bytes.get(end) == Some(&b'.') {
+        end += 1 + digits(end + 1);
+    }
+    // An `e` is an exponent only if digits follow: `2 em` is not a number with a broken exponent.
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let exponent = digits((end + 1 + sign).min(bytes.len()));
+        if exponent > 0 {
+            end += 1 + sign + exponent;
+        }
+    }
+    end
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_as_people_write_them() {
+        let cases: &[(&Dimension, &str, f64)] = &[
+            (&LENGTH, "25 cm", 0.25),
+            (&LENGTH, "70um", 70e-6),
+            (&LENGTH, "70 µm", 70e-6),
+            (&LENGTH, "70 μm", 70e-6),
+            (&LENGTH, " 1.5e-2 m ", 0.015),
+            (&LENGTH, "+.5 mm", 0.0005),
+            (&LENGTH, "10 in", 0.254),
+            (&ANGLE, "90 deg", PI / 2.0),
+            (&ANGLE, "90°", PI / 2.0),
+            (&PRESSURE, "2.5 GPa", 2.5e9),
+            (&DENSITY, "1.3 g/cm³", 1300.0),
+            (&DENSITY, "1300 kg / m^3", 1300.0),
+            (&STRAIN, "100 1/m", 100.0),
+            (&STRAIN, "-100 rad/m", -100.0),
+            (&STRAIN, "1 mm⁻¹", 1000.0),
+            (&ACCELERATION, "9.81 m/s²", 9.81),
+            (&RATIO, "5 %", 0.05),
+            (&RATIO, "0.3", 0.3),
+        ];
+        for (dimension, text, value) in cases {
+            assert_eq!(dimension.parse(text), Ok(*value), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_quantity() {
+        let bad = |d: &Dimension, t: &str| d.parse(t).unwrap_err();
+        for text in ["", "cm", "inf m", "nan", "--1 m", "e5 m", ".", "- m", "∞ m"] {
+            assert_eq!(bad(&LENGTH, text), QuantityError::NoNumber, "{text}");
+        }
+        assert_eq!(bad(&LENGTH, "25"), QuantityError::NoUnit);
+        assert_eq!(bad(&LENGTH, "1e999 m"), QuantityError::NotFinite);
+        let QuantityError::UnknownUnit { unit, belongs_to, .. } = bad(&LENGTH, "3 GPa") else {
+            panic!("a pressure is not a length");
+        };
+        assert_eq!((unit.as_str(), belongs_to), ("GPa", Some("a modulus")));
+        assert!(matches!(bad(&LENGTH, "2 em"), QuantityError::UnknownUnit { .. }));
+        assert!(matches!(bad(&LENGTH, "1 2 m"), QuantityError::UnknownUnit { .. }));
+    }
+
+    #[test]
+    fn every_example_is_a_value() {
+        for d in ALL {
+            assert!(d.parse(d.example).is_ok(), "{}", d.example);
+        }
+    }
+}

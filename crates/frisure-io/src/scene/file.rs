@@ -1,0 +1,343 @@
+//! The keys of a scene, as they stand in the file.
+//!
+//! The comments here are the reference: they become the descriptions in the JSON Schema and in
+//! `docs/scene.md`. Ranges are those of [`frisure_hairstyle::HairstyleSpec::check`]; a test
+//! compares the two.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::key::{
+    Acceleration, Angle, Colour, Count, Density, Key, Length, Modulus, OneOf, Ratio, Strain, Text,
+    Vector,
+};
+use super::words::{BodyWord, BranchKind, FlowWord, HairType, Handed, UnitWord, UpAxis, Which};
+
+/// A scene: hair, the head it grows on, and how to look at it.
+///
+/// Every key has a default. Quantities are texts with a unit ("25 cm", "70 um", "2.5 GPa",
+/// "80 deg") or bare numbers in SI units.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct File {
+    /// A name for people.
+    pub(super) name: Key<Text>,
+    /// Drives all randomness: the same scene and seed give the same bytes. Default 1.
+    pub(super) seed: Key<Count>,
+    /// Acceleration of gravity, along -z; 0 to 1000 m/s^2. Default 9.81 m/s^2.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub(super) gravity: Key<Acceleration>,
+    /// What the hair is.
+    pub(super) hair: Hair,
+    /// The head it grows on; left out, the built-in mannequin.
+    pub(super) head: Head,
+    /// How hair leaves the scalp.
+    pub(super) implantation: Implantation,
+    /// Guides and the drawn hairs around them.
+    pub(super) wisps: Wisps,
+    /// Hair against the head.
+    pub(super) contact: Contact,
+    /// How the equilibrium of each guide is computed.
+    pub(super) equilibrium: Equilibrium,
+    /// Colours.
+    pub(super) look: Look,
+    /// Where the picture is taken from.
+    pub(super) camera: Camera,
+    /// The main lamp.
+    pub(super) light: Light,
+    /// The picture's size.
+    pub(super) output: Output,
+}
+
+/// What the hair is.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Hair {
+    /// The hair type to start from; every other key overrides it. Default "caucasian-straight".
+    #[serde(rename = "type")]
+    pub(super) kind: Key<OneOf<HairType>>,
+    /// Mean length along the fibre; 1 mm to 3 m on a head.
+    #[schemars(range(min = 0.001, max = 3.0))]
+    pub(super) length: Key<Length>,
+    /// Standard deviation of the length between wisps, as a fraction; 0 to 0.5.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub(super) length_variation: Key<Ratio>,
+    /// Section and material of a fibre.
+    pub(super) fibre: Fibre,
+    /// Natural curl: the shape without weight.
+    pub(super) curl: Curl,
+    /// Where and how the hair of `frisure hair` is clamped; whole heads take it from the scalp.
+    pub(super) root: Root,
+}
+
+/// Section and material of a fibre.
+///
+/// The section is said in one way: `diameter` or `mean_radius`, with `eccentricity` or
+/// `axis_ratio`; or both semi-axes.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Fibre {
+    /// Mean diameter 2 sqrt(ab); more than 0.
+    #[schemars(range(min = 0.0))]
+    pub(super) diameter: Key<Length>,
+    /// Mean radius sqrt(ab); more than 0.
+    #[schemars(range(min = 0.0))]
+    pub(super) mean_radius: Key<Length>,
+    /// Semi-axis along the director d1; more than 0. The fibre bends most easily about the longer.
+    #[schemars(range(min = 0.0))]
+    pub(super) semi_axis_a: Key<Length>,
+    /// Semi-axis along the director d2; more than 0.
+    #[schemars(range(min = 0.0))]
+    pub(super) semi_axis_b: Key<Length>,
+    /// sqrt(1 - b^2/a^2) at constant mean radius; 0 (a circle) to less than 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) eccentricity: Key<Ratio>,
+    /// Longer over shorter axis, at constant mean radius; at least 1 (a circle).
+    #[schemars(range(min = 1.0))]
+    pub(super) axis_ratio: Key<Ratio>,
+    /// Young's modulus; more than 0. Default 3.9 GPa.
+    #[schemars(range(min = 0.0))]
+    pub(super) youngs_modulus: Key<Modulus>,
+    /// Shear modulus; more than 0. Default 0.9 GPa, also when Young's modulus is given.
+    #[schemars(range(min = 0.0))]
+    pub(super) shear_modulus: Key<Modulus>,
+    /// Poisson's ratio, instead of the shear modulus: it is E / 2(1 + nu) then; more than -1, at
+    /// most 0.5.
+    #[schemars(range(min = -1.0, max = 0.5))]
+    pub(super) poisson_ratio: Key<Ratio>,
+    /// Density; more than 0. Default 1.3 g/cm^3.
+    #[schemars(range(min = 0.0))]
+    pub(super) density: Key<Density>,
+    /// Which torsion constant the section is given. Default "saint-venant".
+    pub(super) torsion: Key<OneOf<Which<frisure_rod::TorsionConstant>>>,
+}
+
+/// Natural curl, said in one way: `radius` and `pitch`; or strains; or, for one hair, strains
+/// `along` it.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Curl {
+    /// Radius of the natural helix; more than 0, at least 0.05 mm on a head.
+    #[schemars(range(min = 0.0))]
+    pub(super) radius: Key<Length>,
+    /// Advance of the natural helix per turn; negative turns it left-handed.
+    pub(super) pitch: Key<Length>,
+    /// Natural curvature about d1. If a strain is given, those not given are 0.
+    pub(super) kappa1: Key<Strain>,
+    /// Natural curvature about d2.
+    pub(super) kappa2: Key<Strain>,
+    /// Natural twist.
+    pub(super) tau: Key<Strain>,
+    /// Natural strains at increasing distances from the root, linear between them and constant
+    /// outside; for `frisure hair` only.
+    pub(super) along: Vec<Knot>,
+    /// Which way curls turn on a head. Default "random".
+    pub(super) handedness: Key<OneOf<Handed>>,
+    /// Standard deviation of the strain between wisps, as a fraction; 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) variation_between: Key<Ratio>,
+    /// Standard deviation of the strain along a hair, as a fraction; 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) variation_along: Key<Ratio>,
+    /// Correlation length of the variation along a hair; 1 mm to 1 m.
+    #[schemars(range(min = 0.001, max = 1.0))]
+    pub(super) variation_scale: Key<Length>,
+}
+
+/// A natural strain at one place of a hair.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Knot {
+    /// Distance from the root along the hair; default 0.
+    pub(super) s: Key<Length>,
+    /// Natural curvature about d1; default 0.
+    pub(super) kappa1: Key<Strain>,
+    /// Natural curvature about d2; default 0.
+    pub(super) kappa2: Key<Strain>,
+    /// Natural twist; default 0.
+    pub(super) tau: Key<Strain>,
+}
+
+/// The material frame at the root: two of three unit vectors at right angles, right-handed
+/// (d1 x d2 = t). By default the hair leaves horizontally: t along +x, d1 along +y, d2 along +z.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Root {
+    /// First principal axis of the section.
+    pub(super) d1: Key<Vector>,
+    /// Second principal axis of the section.
+    pub(super) d2: Key<Vector>,
+    /// Tangent, out of the scalp.
+    pub(super) t: Key<Vector>,
+}
+
+/// The head: a mesh, and where on it hair grows.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Head {
+    /// Path of an OBJ mesh, relative to the scene. Left out, the built-in mannequin.
+    pub(super) mesh: Key<Text>,
+    /// Which axis of the mesh points up; the face looks along +z or -y then. Default "y".
+    pub(super) up: Key<OneOf<Which<UpAxis>>>,
+    /// Unit of the mesh. Default "m".
+    pub(super) unit: Key<OneOf<UnitWord>>,
+    /// Metres per unit of the mesh, instead of `unit`; more than 0.
+    #[schemars(range(min = 0.0))]
+    pub(super) scale: Key<Ratio>,
+    /// Group of faces on which hair grows. Without scalp keys, the scalp is guessed.
+    pub(super) scalp_group: Key<Text>,
+    /// Path of a PNG over the mesh's texture coordinates, white where hair grows.
+    pub(super) scalp_mask: Key<Text>,
+    /// Path of a text file with one density from 0 to 1 per vertex, in the order of the mesh.
+    pub(super) scalp_weights: Key<Text>,
+}
+
+/// How hair leaves the scalp.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Implantation {
+    /// The direction along the scalp. Default "parted".
+    pub(super) flow: Key<OneOf<FlowWord>>,
+    /// Distance of the parting from the middle, positive to the head's left; within 6 cm. Default
+    /// 2 cm.
+    #[schemars(range(min = -0.06, max = 0.06))]
+    pub(super) parting: Key<Length>,
+    /// Angle to the skin, the same everywhere; 0 to 90 deg.
+    #[schemars(range(min = 0.0, max = 1.5708))]
+    pub(super) lift: Key<Angle>,
+    /// Instead of `lift`: factor on the angles measured by region; 0 to 6.
+    #[schemars(range(min = 0.0, max = 6.0))]
+    pub(super) lift_scale: Key<Ratio>,
+    /// Standard deviation of the direction between wisps; 0 to 1 rad.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) jitter: Key<Angle>,
+}
+
+/// Guides and the drawn hairs around them.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Wisps {
+    /// Number of wisps, each with one computed guide; 1 to 20000.
+    #[schemars(range(min = 1, max = 20_000))]
+    pub(super) count: Key<Count>,
+    /// Number of drawn hairs on the whole head; 1 to 1000000. Default 100000.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub(super) hairs: Key<Count>,
+    /// How much a wisp narrows to its tip: 0 (not at all) to 1 (to a point).
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) clumping: Key<Ratio>,
+    /// How far hairs stray from their place, as a fraction of the wisp's radius; 0 to 2.
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub(super) fuzziness: Key<Ratio>,
+    /// Standard deviation of the length within a wisp, as a fraction; 0 to 0.5.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub(super) length_variation: Key<Ratio>,
+    /// Fraction of hairs that leave their wisp; 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) flyaways: Key<Ratio>,
+    /// How far neighbouring wisps blend: 0 (distinct) to 1 (a smooth mass).
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) blending: Key<Ratio>,
+    /// Points along each drawn hair; 2 to 1000.
+    #[schemars(range(min = 2, max = 1000))]
+    pub(super) points: Key<Count>,
+}
+
+/// Hair against the head.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Contact {
+    /// What the hair lies on. Default "signed-distance".
+    pub(super) body: Key<OneOf<BodyWord>>,
+    /// Penalty stiffness per length of hair; 1e-6 to 1e9 Pa. Default 100 Pa.
+    #[schemars(range(min = 1e-6, max = 1e9))]
+    pub(super) stiffness: Key<Modulus>,
+    /// Factor on the distance that wisps keep from the skin because hair lies under them; 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub(super) volume: Key<Ratio>,
+}
+
+/// How the equilibrium of each guide is computed.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Equilibrium {
+    /// Number of elements per hair; 1 to 10000.
+    #[schemars(range(min = 1, max = 10_000))]
+    pub(super) elements: Key<Count>,
+    /// Instead of `elements`: as many as it takes to be this near to the exact shape; more than 0.
+    /// Default 0.1 mm.
+    #[schemars(range(min = 0.0))]
+    pub(super) accuracy: Key<Length>,
+    /// The curve that an element can take. Default "auto".
+    pub(super) element: Key<OneOf<Which<frisure_rod::ElementKind>>>,
+    /// Which equilibrium, where there are several; for `frisure hair`. Default "gravity".
+    pub(super) branch: Key<OneOf<Which<BranchKind>>>,
+    /// Number of starting shapes that `branch = "lowest"` tries; 1 to 1000. Default 16.
+    #[schemars(range(min = 1, max = 1000))]
+    pub(super) starts: Key<Count>,
+}
+
+/// Colours.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Look {
+    /// Concentration of the brown pigment: about 0.3 blond, 1.3 brown, 8 black; 0 to 100. Default
+    /// 1.3.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub(super) eumelanin: Key<Ratio>,
+    /// Concentration of the red pigment; 0 to 100. Default 0.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub(super) pheomelanin: Key<Ratio>,
+    /// Relative variation of the pigment from hair to hair; 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) variation: Key<Ratio>,
+    /// Colour of the skin (sRGB).
+    pub(super) skin: Key<Colour>,
+    /// Colour behind the head (sRGB). Left out, a grey studio wall.
+    pub(super) background: Key<Colour>,
+}
+
+/// Where the picture is taken from; all of the hair and the head is always in it.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Camera {
+    /// Around the head: 0 faces it, 90 deg sees its left side, -90 deg its right. Default 30 deg.
+    pub(super) azimuth: Key<Angle>,
+    /// Above the horizon; -85 to 85 deg. Default 5 deg.
+    #[schemars(range(min = -1.4836, max = 1.4836))]
+    pub(super) elevation: Key<Angle>,
+    /// Angle from the picture's bottom to its top; 1 to 120 deg. Default 24 deg, a portrait lens.
+    #[schemars(range(min = 0.01745, max = 2.0945))]
+    pub(super) field_of_view: Key<Angle>,
+}
+
+/// The lamps. Without keys, a portrait studio that turns with the camera.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Light {
+    /// Where the main lamp stands: to the right of the camera, seen from the head; negative is to
+    /// its left. -180 to 180 deg.
+    #[schemars(range(min = -3.1416, max = 3.1416))]
+    pub(super) azimuth: Key<Angle>,
+    /// How far the main lamp stands above the horizon; -90 to 90 deg.
+    #[schemars(range(min = -1.5708, max = 1.5708))]
+    pub(super) elevation: Key<Angle>,
+    /// Factor on the strength of all lamps; 0 to 100. Default 1.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub(super) strength: Key<Ratio>,
+}
+
+/// The picture's size.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Output {
+    /// Pixels across; 1 to 16384. Default 900.
+    #[schemars(range(min = 1, max = 16_384))]
+    pub(super) width: Key<Count>,
+    /// Pixels down; 1 to 16384. Default 1100.
+    #[schemars(range(min = 1, max = 16_384))]
+    pub(super) height: Key<Count>,
+    /// Samples of the head per pixel, across and down; 1 to 8. Default 4.
+    #[schemars(range(min = 1, max = 8))]
+    pub(super) samples: Key<Count>,
+}

@@ -1,0 +1,322 @@
+//! One key of a scene: a value as written, and what kind of value it has to be.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use glam::DVec3;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer};
+use serde_spanned::Spanned;
+use toml::Value;
+
+use super::error::{Fault, SceneError};
+use super::source::Source;
+use crate::quantity::{self, Dimension, QuantityError};
+
+/// A value that may be written in a scene, with its place there; nothing is checked yet.
+pub(super) struct Key<K> {
+    written: Option<Spanned<Value>>,
+    kind: PhantomData<K>,
+}
+
+/// What kind of value a key has.
+pub(super) trait Kind {
+    /// The value when it is understood, SI units.
+    type Value;
+
+    /// Understands a TOML value, or says what is allowed.
+    fn read(value: &Value) -> Result<Self::Value, Fault>;
+
+    /// JSON Schema of the values.
+    fn schema() -> Schema;
+}
+
+impl<K> Default for Key<K> {
+    fn default() -> Self {
+        Self { written: None, kind: PhantomData }
+    }
+}
+
+impl<K> fmt::Debug for Key<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.written.fmt(f)
+    }
+}
+
+impl<'de, K> Deserialize<'de> for Key<K> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let written = Some(Spanned::deserialize(deserializer)?);
+        Ok(Self { written, kind: PhantomData })
+    }
+}
+
+impl<K: Kind> JsonSchema for Key<K> {
+    fn schema_name() -> Cow<'static, str> {
+        "Key".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        K::schema()
+    }
+}
+
+impl<K> Key<K> {
+    /// Whether the key is written at all.
+    pub(super) fn is_given(&self) -> bool {
+        self.written.is_some()
+    }
+
+    /// Bytes of the value, if it is written.
+    pub(super) fn span(&self) -> Option<Range<usize>> {
+        self.written.as_ref().map(Spanned::span)
+    }
+}
+
+impl<K: Kind> Key<K> {
+    /// The value, if the key is written.
+    ///
+    /// # Errors
+    /// With the key's place, if the value is not of its kind.
+    pub(super) fn get(&self, source: &Source) -> Result<Option<K::Value>, SceneError> {
+        let Some(written) = &self.written else { return Ok(None) };
+        let span = written.span();
+        K::read(written.get_ref()).map(Some).map_err(|fault| {
+            let key = source.path_at(&span);
+            let value = source.slice(span.clone()).to_owned();
+            fault.key(key).value(value).at(source, span)
+        })
+    }
+
+    /// The value, or `default` if the key is not written.
+    pub(super) fn or(&self, default: K::Value, source: &Source) -> Result<K::Value, SceneError> {
+        Ok(self.get(source)?.unwrap_or(default))
+    }
+}
+
+/// The nearest of some words to one that is none of them, if one is near.
+pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|k| (strsim::damerau_levenshtein(word, k), k))
+        .min_by_key(|&(distance, _)| distance)
+        // Half the letters wrong is another word.
+        .filter(|&(distance, k)| distance <= 1 + k.chars().count() / 3)
+        .map(|(_, k)| k)
+}
+
+/// A number in SI units or a text with a unit.
+fn read_quantity(value: &Value, dimension: &'static Dimension) -> Result<f64, Fault> {
+    let example = format!("{}, such as \"{}\"", dimension.name, dimension.example);
+    let text = match value {
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "as for any number with more than 15 digits"
+        )]
+        Value::Integer(i) => return Ok(*i as f64),
+        Value::Float(x) if x.is_finite() => return Ok(*x),
+        Value::Float(_) => return Err(Fault::outside("a finite number")),
+        Value::String(text) => text,
+        _ => return Err(Fault::outside(example)),
+    };
+    let units = dimension.units().collect::<Vec<_>>().join(", ");
+    let units = format!("units of {}: {units}", dimension.name.trim_start_matches("a "));
+    dimension.parse(text).map_err(|error| match error {
+        QuantityError::NotFinite => Fault::outside("a finite number"),
+        QuantityError::NoNumber => Fault::outside(example),
+        QuantityError::NoUnit => Fault::outside(example)
+            .hint(format!("add a unit; a number without quotes is in {}", dimension.si)),
+        QuantityError::UnknownUnit { belongs_to: Some(other), unit, .. } => {
+            Fault::outside(example).hint(format!("`{unit}` is a unit of {other}; {units}"))
+        }
+        QuantityError::UnknownUnit { .. } => Fault::outside(example).hint(units),
+    })
+}
+
+fn quantity_schema(dimension: &'static Dimension) -> Schema {
+    let unit = if dimension.si.is_empty() { "a pure number" } else { dimension.si };
+    json_schema!({
+        "type": ["number", "string"],
+        "x-unit": unit,
+        "examples": [dimension.example],
+    })
+}
+
+macro_rules! quantities {
+    ($($(#[$doc:meta])* $name:ident = $dimension:ident;)*) => {$(
+        $(#[$doc])*
+        pub(super) struct $name;
+
+        impl Kind for $name {
+            type Value = f64;
+
+            fn read(value: &Value) -> Result<f64, Fault> {
+                read_quantity(value, &quantity::$dimension)
+            }
+
+            fn schema() -> Schema {
+                quantity_schema(&quantity::$dimension)
+            }
+        }
+    )*};
+}
+
+quantities! {
+    /// A length (m).
+    Length = LENGTH;
+    /// An angle (rad).
+    Angle = ANGLE;
+    /// An elastic modulus (Pa).
+    Modulus = PRESSURE;
+    /// A density (kg/m³).
+    Density = DENSITY;
+    /// A curvature or twist (rad/m).
+    Strain = STRAIN;
+    /// An acceleration (m/s²).
+    Acceleration = ACCELERATION;
+    /// A pure number.
+    Ratio = RATIO;
+}
+
+/// A whole number of at least 0.
+pub(super) struct Count;
+
+impl Kind for Count {
+    type Value = usize;
+
+    fn read(value: &Value) -> Result<usize, Fault> {
+        value
+            .as_integer()
+            .and_then(|i| usize::try_from(i).ok())
+            .ok_or_else(|| Fault::outside("a whole number, zero or more"))
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "type": "integer", "minimum": 0 })
+    }
+}
+
+/// Any text.
+pub(super) struct Text;
+
+impl Kind for Text {
+    type Value = String;
+
+    fn read(value: &Value) -> Result<String, Fault> {
+        value.as_str().map(str::to_owned).ok_or_else(|| Fault::outside("a text in quotes"))
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "type": "string" })
+    }
+}
+
+/// Three numbers.
+pub(super) struct Vector;
+
+impl Kind for Vector {
+    type Value = DVec3;
+
+    fn read(value: &Value) -> Result<DVec3, Fault> {
+        let allowed = || Fault::outside("three finite numbers, such as [0, 0, 1]");
+        let array = value.as_array().filter(|a| a.len() == 3).ok_or_else(allowed)?;
+        let mut out = [0.0; 3];
+        for (x, value) in out.iter_mut().zip(array) {
+            *x = match value {
+                Value::String(_) => return Err(allowed()),
+                value => read_quantity(value, &quantity::RATIO).map_err(|_| allowed())?,
+            };
+        }
+        Ok(out.into())
+    }
+
+    fn schema() -> Schema {
+        json_schema!({
+            "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3,
+            "examples": [[0, 0, 1]],
+        })
+    }
+}
+
+/// A colour as three sRGB values from 0 to 1.
+pub(super) struct Colour;
+
+impl Kind for Colour {
+    type Value = [f64; 3];
+
+    fn read(value: &Value) -> Result<[f64; 3], Fault> {
+        let allowed =
+            || Fault::outside("a colour such as \"#d8b49c\", or red, green and blue from 0 to 1");
+        let rgb = match value {
+            Value::String(text) => hexadecimal(text).ok_or_else(allowed)?,
+            value => Vector::read(value).map_err(|_| allowed())?.to_array(),
+        };
+        if rgb.iter().all(|c| (0.0..=1.0).contains(c)) { Ok(rgb) } else { Err(allowed()) }
+    }
+
+    fn schema() -> Schema {
+        json_schema!({
+            "anyOf": [
+                { "type": "string", "pattern": "^#[0-9a-fA-F]{6}$" },
+                {
+                    "type": "array", "minItems": 3, "maxItems": 3,
+                    "items": { "type": "number", "minimum": 0, "maximum": 1 },
+                },
+            ],
+            "examples": ["#d8b49c"],
+        })
+    }
+}
+
+fn hexadecimal(text: &str) -> Option<[f64; 3]> {
+    let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.is_ascii())?;
+    let mut rgb = [0.0; 3];
+    for (i, c) in rgb.iter_mut().enumerate() {
+        // `from_str_radix` would take a sign.
+        let pair = &digits[2 * i..2 * i + 2];
+        if !pair.bytes().all(|b| b.is_ascii_hexdigit()) {
+            return None;
+        }
+        *c = f64::from(u8::from_str_radix(pair, 16).ok()?) / 255.0;
+    }
+    Some(rgb)
+}
+
+/// One word out of a few.
+pub(super) trait Choice: Sized + Copy + 'static {
+    /// Each word, what it means and what it stands for.
+    fn words() -> Vec<(&'static str, &'static str, Self)>;
+}
+
+/// A key that takes one word out of a few.
+pub(super) struct OneOf<C>(PhantomData<C>);
+
+impl<C: Choice> Kind for OneOf<C> {
+    type Value = C;
+
+    fn read(value: &Value) -> Result<C, Fault> {
+        let words = C::words();
+        let list = words.iter().map(|w| format!("\"{}\"", w.0)).collect::<Vec<_>>().join(", ");
+        let outside = || Fault::outside(format!("one of {list}"));
+        let word = value.as_str().ok_or_else(outside)?;
+        words.iter().find(|w| w.0 == word).map(|w| w.2).ok_or_else(|| {
+            match nearest(word, words.iter().map(|w| w.0)) {
+                Some(near) => outside().hint(format!("did you mean \"{near}\"?")),
+                None => outside(),
+            }
+        })
+    }
+
+    fn schema() -> Schema {
+        let one_of: Vec<_> = C::words()
+            .iter()
+            .map(|(word, meaning, _)| json_schema!({ "const": word, "description": meaning }))
+            .collect();
+        json_schema!({ "oneOf": one_of })
+    }
+}

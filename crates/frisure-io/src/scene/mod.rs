@@ -1,0 +1,205 @@
+//! Scenes: TOML in, a checked description out.
+//!
+//! A scene is read in three steps, each with the place of what is wrong: keys that do not exist
+//! (`shape`), values of the wrong kind (`key`), and values that mean nothing together or are out
+//! of range (`resolve`). `file` lists the keys and is their reference; the JSON Schema is made from
+//! it.
+
+mod error;
+mod file;
+mod key;
+mod resolve;
+mod schema;
+mod shape;
+mod source;
+mod template;
+mod words;
+
+use std::path::{Path, PathBuf};
+
+use frisure_hairstyle::HairstyleSpec;
+use frisure_rod::{Branch, Options, Rod, StrainProfile};
+
+pub use error::{Fault, SceneError};
+pub use schema::schema;
+pub use template::template;
+pub use words::UpAxis;
+
+use crate::files;
+use source::Source;
+
+/// Largest scene that is read (bytes).
+pub const MAX_SIZE: u64 = 16 << 20;
+
+/// A scene whose every value was understood; numbers are SI.
+///
+/// What a number may be depends on what it is for: [`Self::hairstyle_spec`] and
+/// [`Self::single_hair`] check the ranges.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// A name for people; empty if none is given.
+    pub name: String,
+    /// Name of the hair type that the scene starts from.
+    pub hair_type: &'static str,
+    /// The head, with paths made relative to the scene's folder.
+    pub head: HeadSource,
+    /// Colours.
+    pub look: Look,
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// The lamps.
+    pub light: Light,
+    /// The picture's size.
+    pub output: Output,
+    spec: HairstyleSpec,
+    along: Option<StrainProfile>,
+    frame: [glam::DVec3; 3],
+    branch: Branch,
+    source: Source,
+}
+
+/// One hair of a scene, and how to compute it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SingleHair {
+    /// The rod; its root is at the origin.
+    pub rod: Rod,
+    /// Resolution, element and branch.
+    pub options: Options,
+}
+
+/// The head of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HeadSource {
+    /// The built-in mannequin.
+    Mannequin,
+    /// A mesh.
+    Mesh(HeadFile),
+}
+
+/// A head in files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadFile {
+    /// The OBJ mesh.
+    pub path: PathBuf,
+    /// Its axis that points up.
+    pub up: UpAxis,
+    /// Metres per unit.
+    pub scale: f64,
+    /// Where hair grows.
+    pub scalp: ScalpSource,
+}
+
+/// Where on a mesh hair grows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScalpSource {
+    /// To be guessed from the shape.
+    Guess,
+    /// On a group of faces, by name.
+    Group(String),
+    /// Where a PNG over the texture coordinates is white.
+    Mask(PathBuf),
+    /// As a text file says, a number per vertex.
+    Weights(PathBuf),
+}
+
+/// Colours of a scene; those not given are the renderer's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Concentration of the brown pigment.
+    pub eumelanin: f64,
+    /// Concentration of the red pigment.
+    pub pheomelanin: f64,
+    /// Relative variation of the pigment from hair to hair.
+    pub variation: Option<f64>,
+    /// Skin, sRGB from 0 to 1.
+    pub skin: Option<[f64; 3]>,
+    /// Background, sRGB from 0 to 1.
+    pub background: Option<[f64; 3]>,
+}
+
+/// Where the picture is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Around the head (rad): 0 faces it, π/2 sees its left side.
+    pub azimuth: f64,
+    /// Above the horizon (rad).
+    pub elevation: f64,
+    /// From the picture's bottom to its top (rad).
+    pub field_of_view: f64,
+}
+
+/// The lamps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Direction of the main lamp from the camera's, to the right and upwards (rad), if it is not
+    /// the studio's own.
+    pub direction: Option<(f64, f64)>,
+    /// Factor on all lamps.
+    pub strength: f64,
+}
+
+/// The picture's size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Samples per pixel, across and down.
+    pub samples: usize,
+}
+
+impl Scene {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = files::read_text(path, MAX_SIZE, "a scene")?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), text, folder)
+    }
+
+    /// Understands the text of a scene; `name` is what errors call it, and paths in it are relative
+    /// to `folder`.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn parse(name: &str, text: impl Into<String>, folder: &Path) -> Result<Self, SceneError> {
+        // Editors on some systems begin a text with a byte order mark; TOML has none.
+        let text: String = text.into();
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        resolve::scene(Source { name: name.to_owned(), text }, folder)
+    }
+
+    /// The whole head of hair that the scene describes, with every number in range.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range, and for natural strains along a hair: a head's
+    /// wisps vary by chance, not as given.
+    pub fn hairstyle_spec(&self) -> Result<HairstyleSpec, SceneError> {
+        resolve::hairstyle(self)
+    }
+
+    /// The single hair that the scene describes, without variation.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range.
+    pub fn single_hair(&self) -> Result<SingleHair, SceneError> {
+        resolve::single_hair(self)
+    }
+
+    /// An error found later at the value of `key`, such as a head that cannot be used at
+    /// `head.mesh`.
+    #[must_use]
+    pub fn fault(
+        &self,
+        key: &str,
+        problem: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> SceneError {
+        let span = self.source.locate(key);
+        let value = self.source.slice(span.clone()).to_owned();
+        Fault::new(problem).key(key).value(value).hint(hint).at(&self.source, span)
+    }
+}

@@ -1,0 +1,498 @@
+//! From the keys as written to a [`Scene`]: presets filled in, contradictions refused.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
+use std::path::Path;
+
+use frisure_hairstyle::{Curl, Fibre, Flow, HairstyleSpec, InvalidSpec, Lift, preset};
+use frisure_rod::{
+    Branch, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
+    Section, StrainProfile,
+};
+use glam::DVec3;
+use serde::Deserialize;
+
+use super::error::{Fault, SceneError};
+use super::file::{self, File};
+use super::key::{Key, Kind};
+use super::source::Source;
+use super::words::{BranchKind, FlowWord, HairType, UnitWord, Which};
+use super::{
+    Camera, HeadFile, HeadSource, Light, Look, Output, ScalpSource, Scene, SingleHair, UpAxis,
+    schema, shape,
+};
+
+/// The hair type of a scene that names none.
+const DEFAULT_TYPE: &str = "caucasian-straight";
+
+type Result<T, E = SceneError> = std::result::Result<T, E>;
+
+/// Reads the whole scene.
+pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
+    shape::check(&source, source.document()?.get_ref(), schema())?;
+    let deserializer = toml::Deserializer::parse(&source.text).map_err(|e| source.syntax(&e))?;
+    let file = File::deserialize(deserializer).map_err(|e| source.syntax(&e))?;
+
+    let default = HairType(preset(DEFAULT_TYPE).expect("the default is a preset"));
+    let HairType(preset) = file.hair.kind.or(default, &source)?;
+    let mut spec = preset.spec();
+    hair(&file, &mut spec, &source)?;
+    wisps(&file.wisps, &mut spec, &source)?;
+    implantation(&file.implantation, &mut spec, &source)?;
+    let c = &file.contact;
+    spec.contact.body = c.body.get(&source)?.map_or(spec.contact.body, |b| b.0);
+    set(&mut spec.contact.stiffness, &c.stiffness, &source)?;
+    set(&mut spec.contact.volume, &c.volume, &source)?;
+    let branch = equilibrium(&file.equilibrium, &mut spec, &source)?;
+
+    Ok(Scene {
+        name: file.name.or(String::new(), &source)?,
+        hair_type: preset.name,
+        head: head(&file.head, folder, &source)?,
+        look: look(&file.look, &source)?,
+        camera: camera(&file.camera, &source)?,
+        light: light(&file.light, &source)?,
+        output: output(&file.output, &source)?,
+        along: along(&file.hair.curl, &source)?,
+        frame: frame(&file.hair.root, &source)?,
+        branch,
+        spec,
+        source,
+    })
+}
+
+/// The checked description of the whole head.
+pub(super) fn hairstyle(scene: &Scene) -> Result<HairstyleSpec> {
+    let source = &scene.source;
+    if scene.along.is_some() {
+        let span = source.locate("hair.curl.along");
+        let problem = "natural strains along the hair are for one hair (`frisure hair`)";
+        let hint = "give a whole head `radius` and `pitch`, and let it vary by \
+                    `variation_along` and `variation_between`";
+        return Err(Fault::new(problem).key("hair.curl.along").hint(hint).at(source, span));
+    }
+    scene.spec.check().map_err(|e| out_of_range(&e, source))?;
+    Ok(scene.spec.clone())
+}
+
+/// The single hair, with its root at the origin.
+pub(super) fn single_hair(scene: &Scene) -> Result<SingleHair> {
+    let (source, spec) = (&scene.source, &scene.spec);
+    let [d1, d2, t] = scene.frame;
+    let refuse = |e: InvalidQuantity| blame(&e, source);
+    let rod = RodSpec {
+        length: spec.length.mean,
+        section: spec.fibre.section,
+        material: spec.fibre.material,
+        torsion: spec.fibre.torsion,
+        natural: match &scene.along {
+            Some(profile) => NaturalStrain::Varying(profile.clone()),
+            None => NaturalStrain::Uniform(spec.curl.strain),
+        },
+        root: Root::new(DVec3::ZERO, d1, d2, t).map_err(refuse)?,
+        gravity: spec.gravity,
+    };
+    let rod = Rod::new(rod).map_err(refuse)?;
+    let (resolution, element) = (spec.equilibrium.resolution, spec.equilibrium.element);
+    let branch = scene.branch;
+    Ok(SingleHair { rod, options: Options { resolution, element, branch, ..Options::default() } })
+}
+
+fn set<K: Kind>(target: &mut K::Value, key: &Key<K>, source: &Source) -> Result<()> {
+    if let Some(value) = key.get(source)? {
+        *target = value;
+    }
+    Ok(())
+}
+
+fn hair(file: &File, spec: &mut HairstyleSpec, source: &Source) -> Result<()> {
+    let hair = &file.hair;
+    if let Some(seed) = file.seed.get(source)? {
+        spec.seed = seed as u64;
+    }
+    set(&mut spec.gravity, &file.gravity, source)?;
+    set(&mut spec.length.mean, &hair.length, source)?;
+    set(&mut spec.length.variation_between, &hair.length_variation, source)?;
+    spec.fibre = Fibre {
+        section: section(&hair.fibre, spec.fibre.section, source)?,
+        material: material(&hair.fibre, spec.fibre.material, source)?,
+        torsion: hair.fibre.torsion.get(source)?.map_or(spec.fibre.torsion, |t| t.0),
+    };
+    let curl = &mut spec.curl;
+    curl.strain = strain(&hair.curl, curl, source)?;
+    curl.handedness = hair.curl.handedness.get(source)?.map_or(curl.handedness, |h| h.0);
+    set(&mut curl.variation_between, &hair.curl.variation_between, source)?;
+    set(&mut curl.variation_along, &hair.curl.variation_along, source)?;
+    set(&mut curl.variation_scale, &hair.curl.variation_scale, source)
+}
+
+fn section(file: &file::Fibre, preset: Section, source: &Source) -> Result<Section> {
+    let axes = [file.semi_axis_a.span(), file.semi_axis_b.span()];
+    one_way(source, &[&[file.diameter.span()], &[file.mean_radius.span()], &axes])?;
+    one_way(source, &[&[file.eccentricity.span()], &[file.axis_ratio.span()], &axes])?;
+    let refuse = |e: InvalidQuantity| blame(&e, source);
+    match (file.semi_axis_a.get(source)?, file.semi_axis_b.get(source)?) {
+        (Some(a), Some(b)) => return Section::from_semi_axes(a, b).map_err(refuse),
+        (Some(_), None) => return Err(missing(&file.semi_axis_a, "semi_axis_b", source)),
+        (None, Some(_)) => return Err(missing(&file.semi_axis_b, "semi_axis_a", source)),
+        (None, None) => {}
+    }
+    let diameter = file.diameter.get(source)?;
+    let radius = file.mean_radius.get(source)?;
+    let preset_diameter = 2.0 * preset.mean_radius();
+    if let Some(eccentricity) = file.eccentricity.get(source)? {
+        let radius = radius.unwrap_or(0.5 * diameter.unwrap_or(preset_diameter));
+        return Section::from_mean_radius(radius, eccentricity).map_err(refuse);
+    }
+    let diameter = diameter.or(radius.map(|r| 2.0 * r)).unwrap_or(preset_diameter);
+    let ratio = file.axis_ratio.or(preset.axis_ratio(), source)?;
+    Section::from_diameter(diameter, ratio).map_err(refuse)
+}
+
+fn material(file: &file::Fibre, preset: Material, source: &Source) -> Result<Material> {
+    one_way(source, &[&[file.shear_modulus.span()], &[file.poisson_ratio.span()]])?;
+    let youngs = file.youngs_modulus.or(preset.youngs_modulus(), source)?;
+    let shear = file.shear_modulus.or(preset.shear_modulus(), source)?;
+    let density = file.density.or(preset.density(), source)?;
+    match file.poisson_ratio.get(source)? {
+        Some(ratio) => Material::isotropic(youngs, ratio, density),
+        None => Material::new(youngs, shear, density),
+    }
+    .map_err(|e| blame(&e, source))
+}
+
+fn strain(file: &file::Curl, preset: &Curl, source: &Source) -> Result<DVec3> {
+    let along = file.along.first().and_then(knot_span);
+    let helix = [file.radius.span(), file.pitch.span()];
+    let strains = [file.kappa1.span(), file.kappa2.span(), file.tau.span()];
+    one_way(source, &[&helix, &strains, &[along]])?;
+    if strains.iter().any(Option::is_some) {
+        let kappa1 = file.kappa1.or(0.0, source)?;
+        let kappa2 = file.kappa2.or(0.0, source)?;
+        return Ok(DVec3::new(kappa1, kappa2, file.tau.or(0.0, source)?));
+    }
+    if helix.iter().all(Option::is_none) {
+        return Ok(preset.strain);
+    }
+    let (radius, pitch) = preset.radius_pitch().unwrap_or_default();
+    let radius = file.radius.or(radius, source)?;
+    let pitch = file.pitch.or(pitch, source)?;
+    Curl::helix(radius, pitch).map(|c| c.strain).map_err(|e| blame(&e, source))
+}
+
+fn along(file: &file::Curl, source: &Source) -> Result<Option<StrainProfile>> {
+    let mut knots: Vec<(f64, DVec3)> = Vec::new();
+    for knot in &file.along {
+        let s = knot.s.or(0.0, source)?;
+        if knots.last().is_some_and(|last| s <= last.0) {
+            let span = knot.s.span().or(knot_span(knot)).unwrap_or(0..0);
+            let value = source.slice(span.clone());
+            let fault = Fault::outside("greater than the one before: knots go from root to tip");
+            return Err(fault.key(source.path_at(&span)).value(value).at(source, span));
+        }
+        let kappa1 = knot.kappa1.or(0.0, source)?;
+        let kappa2 = knot.kappa2.or(0.0, source)?;
+        knots.push((s, DVec3::new(kappa1, kappa2, knot.tau.or(0.0, source)?)));
+    }
+    if knots.is_empty() {
+        return Ok(None);
+    }
+    StrainProfile::new(knots).map(Some).map_err(|e| blame(&e, source))
+}
+
+/// Where a knot stands: its first key, as tables in lists have no span of their own here.
+fn knot_span(knot: &file::Knot) -> Option<Range<usize>> {
+    let keys = [knot.s.span(), knot.kappa1.span(), knot.kappa2.span(), knot.tau.span()];
+    keys.into_iter().flatten().min_by_key(|s| s.start)
+}
+
+fn frame(file: &file::Root, source: &Source) -> Result<[DVec3; 3]> {
+    let given = (file.d1.get(source)?, file.d2.get(source)?, file.t.get(source)?);
+    Ok(match given {
+        (None, None, None) => [DVec3::Y, DVec3::Z, DVec3::X],
+        (Some(d1), Some(d2), t) => [d1, d2, t.unwrap_or(d1.cross(d2))],
+        (Some(d1), None, Some(t)) => [d1, t.cross(d1), t],
+        (None, Some(d2), Some(t)) => [d2.cross(t), d2, t],
+        (Some(_), None, None) => return Err(missing(&file.d1, "t", source)),
+        (None, Some(_), None) => return Err(missing(&file.d2, "t", source)),
+        (None, None, Some(_)) => return Err(missing(&file.t, "d1", source)),
+    })
+}
+
+fn head(file: &file::Head, folder: &Path, source: &Source) -> Result<HeadSource> {
+    let scalp = [file.scalp_group.span(), file.scalp_mask.span(), file.scalp_weights.span()];
+    one_way(source, &scalp.each_ref().map(std::slice::from_ref))?;
+    one_way(source, &[&[file.unit.span()], &[file.scale.span()]])?;
+    let Some(mesh) = file.mesh.get(source)? else {
+        let rest = [file.up.span(), file.unit.span(), file.scale.span()];
+        let stray = scalp.into_iter().chain(rest).flatten().min_by_key(|s| s.start);
+        return stray.map_or(Ok(HeadSource::Mannequin), |span| {
+            let key = source.path_at(&span);
+            let problem = format!("`{key}` is about a mesh, and the scene has none");
+            let hint = "add `mesh = \"head.obj\"` to `[head]`";
+            Err(Fault::new(problem).key(key).hint(hint).at(source, span))
+        });
+    };
+    let scale = match file.scale.get(source)? {
+        Some(scale) if scale > 0.0 => scale,
+        Some(_) => return Err(outside(&file.scale, "greater than zero (metres per unit)", source)),
+        None => file.unit.or(UnitWord(1.0), source)?.0,
+    };
+    let scalp = if let Some(group) = file.scalp_group.get(source)? {
+        ScalpSource::Group(group)
+    } else if let Some(mask) = file.scalp_mask.get(source)? {
+        ScalpSource::Mask(folder.join(mask))
+    } else if let Some(weights) = file.scalp_weights.get(source)? {
+        ScalpSource::Weights(folder.join(weights))
+    } else {
+        ScalpSource::Guess
+    };
+    let Which(up) = file.up.or(Which(UpAxis::Y), source)?;
+    Ok(HeadSource::Mesh(HeadFile { path: folder.join(mesh), up, scale, scalp }))
+}
+
+fn implantation(
+    file: &file::Implantation,
+    spec: &mut HairstyleSpec,
+    source: &Source,
+) -> Result<()> {
+    one_way(source, &[&[file.lift.span()], &[file.lift_scale.span()]])?;
+    let implantation = &mut spec.implantation;
+    let parting = match implantation.flow {
+        Flow::Parted { offset } => offset,
+        Flow::Whorl | Flow::SweptBack => 0.0,
+    };
+    let offset = file.parting.or(parting, source)?;
+    implantation.flow = match file.flow.get(source)? {
+        Some(FlowWord::Parted) => Flow::Parted { offset },
+        // A parting by itself asks for parted hair.
+        None if file.parting.is_given() => Flow::Parted { offset },
+        None => implantation.flow,
+        Some(_) if file.parting.is_given() => {
+            let problem = "only parted hair has a parting";
+            let span = file.parting.span().unwrap_or(0..0);
+            let hint = "write `flow = \"parted\"`, or take `parting` away";
+            let key = source.path_at(&span);
+            return Err(Fault::new(problem).key(key).hint(hint).at(source, span));
+        }
+        Some(FlowWord::Whorl) => Flow::Whorl,
+        Some(FlowWord::SweptBack) => Flow::SweptBack,
+    };
+    if let Some(angle) = file.lift.get(source)? {
+        implantation.lift = Lift::Uniform(angle);
+    }
+    if let Some(scale) = file.lift_scale.get(source)? {
+        implantation.lift = Lift::Regional { scale };
+    }
+    set(&mut implantation.jitter, &file.jitter, source)
+}
+
+fn wisps(file: &file::Wisps, spec: &mut HairstyleSpec, source: &Source) -> Result<()> {
+    let wisps = &mut spec.wisps;
+    set(&mut wisps.count, &file.count, source)?;
+    set(&mut wisps.hairs, &file.hairs, source)?;
+    set(&mut wisps.clumping, &file.clumping, source)?;
+    set(&mut wisps.fuzziness, &file.fuzziness, source)?;
+    set(&mut wisps.length_variation, &file.length_variation, source)?;
+    set(&mut wisps.flyaways, &file.flyaways, source)?;
+    set(&mut wisps.blending, &file.blending, source)?;
+    set(&mut wisps.points, &file.points, source)
+}
+
+fn equilibrium(
+    file: &file::Equilibrium,
+    spec: &mut HairstyleSpec,
+    source: &Source,
+) -> Result<Branch> {
+    one_way(source, &[&[file.elements.span()], &[file.accuracy.span()]])?;
+    let settling = &mut spec.equilibrium;
+    settling.element = file.element.get(source)?.map_or(settling.element, |e| e.0);
+    if let Some(elements) = file.elements.get(source)? {
+        settling.resolution = Resolution::Elements(elements);
+    }
+    if let Some(accuracy) = file.accuracy.get(source)? {
+        settling.resolution = Resolution::Accuracy(accuracy);
+    }
+    settling.resolution.check().map_err(|e| blame(&e, source))?;
+    let seed = spec.seed;
+    let starts = file.starts.get(source)?;
+    match (file.branch.or(Which(BranchKind::Gravity), source)?.0, starts) {
+        (BranchKind::Gravity, None) => Ok(Branch::Gravity),
+        (BranchKind::Gravity, Some(_)) => {
+            let span = file.starts.span().unwrap_or(0..0);
+            let problem = "only the lowest branch is searched from several starts";
+            let hint = "add `branch = \"lowest\"`";
+            Err(Fault::new(problem).key("equilibrium.starts").hint(hint).at(source, span))
+        }
+        (BranchKind::Lowest, starts) => match starts.unwrap_or(16) {
+            #[expect(clippy::cast_possible_truncation, reason = "at most 1000")]
+            n @ 1..=1000 => Ok(Branch::Lowest { starts: n as u32, seed }),
+            _ => Err(outside(&file.starts, "between 1 and 1000", source)),
+        },
+    }
+}
+
+fn look(file: &file::Look, source: &Source) -> Result<Look> {
+    let pigment = "between 0 and 100";
+    let variation = file.variation.is_given();
+    let fraction = within(&file.variation, 0.0, 0.0, 1.0, "between 0 and 1", source)?;
+    Ok(Look {
+        eumelanin: within(&file.eumelanin, 1.3, 0.0, 100.0, pigment, source)?,
+        pheomelanin: within(&file.pheomelanin, 0.0, 0.0, 100.0, pigment, source)?,
+        variation: variation.then_some(fraction),
+        skin: file.skin.get(source)?,
+        background: file.background.get(source)?,
+    })
+}
+
+fn camera(file: &file::Camera, source: &Source) -> Result<Camera> {
+    let deg = f64::to_radians;
+    let (azimuth, elevation, field) = (&file.azimuth, &file.elevation, &file.field_of_view);
+    let up = "between -85 and 85 deg";
+    Ok(Camera {
+        azimuth: azimuth.or(deg(30.0), source)?,
+        elevation: within(elevation, deg(5.0), deg(-85.0), deg(85.0), up, source)?,
+        field_of_view: within(
+            field,
+            deg(24.0),
+            deg(1.0),
+            deg(120.0),
+            "between 1 and 120 deg",
+            source,
+        )?,
+    })
+}
+
+fn light(file: &file::Light, source: &Source) -> Result<Light> {
+    let (azimuth, elevation) = (&file.azimuth, &file.elevation);
+    let round = "between -180 and 180 deg";
+    let up = "between -90 and 90 deg";
+    // Where the studio's main lamp stands, for a scene that gives one of the two.
+    let (azimuth_default, elevation_default) = (-0.68, 0.72);
+    let direction = (
+        within(azimuth, azimuth_default, -PI, PI, round, source)?,
+        within(elevation, elevation_default, -FRAC_PI_2, FRAC_PI_2, up, source)?,
+    );
+    Ok(Light {
+        direction: (azimuth.is_given() || elevation.is_given()).then_some(direction),
+        strength: within(&file.strength, 1.0, 0.0, 100.0, "between 0 and 100", source)?,
+    })
+}
+
+fn output(file: &file::Output, source: &Source) -> Result<Output> {
+    let size = |key: &Key<super::key::Count>, default, max, allowed| match key.get(source)? {
+        Some(n) if n == 0 || n > max => Err(outside(key, allowed, source)),
+        n => Ok(n.unwrap_or(default)),
+    };
+    Ok(Output {
+        width: size(&file.width, 900, 16_384, "between 1 and 16384")?,
+        height: size(&file.height, 1100, 16_384, "between 1 and 16384")?,
+        samples: size(&file.samples, 4, 8, "between 1 and 8")?,
+    })
+}
+
+fn within<K: Kind<Value = f64>>(
+    key: &Key<K>,
+    default: f64,
+    min: f64,
+    max: f64,
+    allowed: &str,
+    source: &Source,
+) -> Result<f64> {
+    let value = key.or(default, source)?;
+    if value >= min && value <= max { Ok(value) } else { Err(outside(key, allowed, source)) }
+}
+
+fn outside<K>(key: &Key<K>, allowed: &str, source: &Source) -> SceneError {
+    let span = key.span().unwrap_or(0..0);
+    let value = source.slice(span.clone());
+    Fault::outside(allowed).key(source.path_at(&span)).value(value).at(source, span)
+}
+
+/// A key that says nothing without another.
+fn missing<K>(given: &Key<K>, other: &str, source: &Source) -> SceneError {
+    let span = given.span().unwrap_or(0..0);
+    let key = source.path_at(&span);
+    let problem = format!("`{key}` needs `{other}` beside it");
+    Fault::new(problem).key(key).at(source, span)
+}
+
+/// Refuses keys of more than one group: groups are different ways to say the same thing.
+fn one_way(source: &Source, groups: &[&[Option<Range<usize>>]]) -> Result<()> {
+    let first =
+        |group: &&[Option<Range<usize>>]| group.iter().flatten().min_by_key(|s| s.start).cloned();
+    let mut given: Vec<Range<usize>> = groups.iter().filter_map(first).collect();
+    given.sort_by_key(|s| s.start);
+    let [one, other, ..] = given.as_slice() else { return Ok(()) };
+    let (a, b) = (source.path_at(one), source.path_at(other));
+    let (line, _) = source.position(one.start);
+    let problem = format!("`{b}` says again what `{a}` says on line {line}");
+    Err(Fault::new(problem)
+        .key(b)
+        .value(source.slice(other.clone()))
+        .hint("keep one of the two")
+        .related(one.clone(), "said here")
+        .at(source, other.clone()))
+}
+
+/// The keys that a quantity of the rod comes from, the likeliest first.
+fn keys_of(quantity: &str) -> &'static [&'static str] {
+    match quantity {
+        "length" => &["hair.length"],
+        "gravity" => &["gravity"],
+        "radius" | "mean radius" | "mean diameter" => {
+            &["hair.fibre.diameter", "hair.fibre.mean_radius"]
+        }
+        "semi-axis a" => &["hair.fibre.semi_axis_a"],
+        "semi-axis b" => &["hair.fibre.semi_axis_b"],
+        "eccentricity" => &["hair.fibre.eccentricity"],
+        "axis ratio" => &["hair.fibre.axis_ratio"],
+        "Young's modulus" => &["hair.fibre.youngs_modulus"],
+        "shear modulus" => &["hair.fibre.shear_modulus"],
+        "Poisson's ratio" => &["hair.fibre.poisson_ratio"],
+        "density" => &["hair.fibre.density"],
+        "curl radius" => &["hair.curl.radius"],
+        "curl pitch" => &["hair.curl.pitch"],
+        "number of elements" => &["equilibrium.elements"],
+        "accuracy" => &["equilibrium.accuracy"],
+        q if q.contains("natural strain") => &["hair.curl.along", "hair.curl"],
+        q if q.contains("root") => &["hair.root"],
+        q if q.contains("stiffness") || q.contains("weight") => &["hair.fibre"],
+        _ => &["hair"],
+    }
+}
+
+/// The place of the first of some keys that is written, or the nearest table around the first.
+fn place(keys: &[&'static str], source: &Source) -> (&'static str, Range<usize>, bool) {
+    let written = keys.iter().find_map(|&key| source.find(key).map(|span| (key, span, true)));
+    let first = keys.first().copied().unwrap_or("");
+    written.unwrap_or_else(|| (first, source.locate(first), false))
+}
+
+/// A quantity that the rod refuses, at the key it comes from.
+fn blame(error: &InvalidQuantity, source: &Source) -> SceneError {
+    let (key, span, written) = place(keys_of(error.quantity), source);
+    let leaf = written && source.is_leaf(key);
+    let fault = if leaf {
+        Fault::outside(error.allowed).value(source.slice(span.clone()))
+    } else {
+        // No one key is wrong: the sentence must name the quantity itself.
+        Fault { allowed: error.allowed.into(), ..Fault::new(error.to_string()) }
+            .value(format!("{} {}", error.value, error.unit).trim())
+    };
+    fault.key(key).at(source, span)
+}
+
+/// A number that a hairstyle refuses, at the key it comes from.
+fn out_of_range(error: &InvalidSpec, source: &Source) -> SceneError {
+    let keys: &[&'static str] = match error.field {
+        "hair.curl" => {
+            &["hair.curl.radius", "hair.curl.kappa1", "hair.curl.kappa2", "hair.curl.tau"]
+        }
+        "equilibrium" => &["equilibrium.elements", "equilibrium.accuracy"],
+        _ => std::slice::from_ref(&error.field),
+    };
+    let (key, span, written) = place(keys, source);
+    let value = if written { source.slice(span.clone()) } else { &error.value };
+    Fault::outside(error.allowed).key(key).value(value).at(source, span)
+}

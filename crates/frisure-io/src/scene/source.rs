@@ -1,0 +1,128 @@
+//! The text of a scene, and where in it things are.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Fault, SceneError};
+
+/// The text of a scene with its name, kept to point at lines.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Source {
+    pub(super) name: String,
+    pub(super) text: String,
+}
+
+impl Source {
+    /// The document, with the place of each key and value.
+    pub(super) fn document(&self) -> Result<Spanned<DeTable<'_>>, SceneError> {
+        DeTable::parse(&self.text).map_err(|e| self.syntax(&e))
+    }
+
+    /// An error of the TOML reader; `key` is unknown then.
+    pub(super) fn syntax(&self, error: &toml::de::Error) -> SceneError {
+        let span = error.span().unwrap_or(0..0);
+        let mut message = error.message().to_owned();
+        // The reader puts what it expected on lines of their own.
+        if let Some((first, rest)) = message.clone().split_once('\n') {
+            message = format!("{first} ({})", rest.replace('\n', ", "));
+        }
+        Fault::new(message).at(self, span)
+    }
+
+    /// Line and column of a byte, both from 1; columns count characters.
+    pub(super) fn position(&self, byte: usize) -> (usize, usize) {
+        let mut byte = byte.min(self.text.len());
+        while !self.text.is_char_boundary(byte) {
+            byte -= 1;
+        }
+        let before = &self.text[..byte];
+        let start = before.rfind('\n').map_or(0, |i| i + 1);
+        (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
+    }
+
+    /// The text of a span.
+    pub(super) fn slice(&self, span: Range<usize>) -> &str {
+        self.text.get(span).unwrap_or("")
+    }
+
+    /// Where the value at a path such as `hair.curl.radius` stands, or the nearest table around it
+    /// that is written down; the empty span at the start if nothing is.
+    pub(super) fn locate(&self, path: &str) -> Range<usize> {
+        let Ok(document) = self.document() else { return 0..0 };
+        let mut table = document.get_ref();
+        let mut span = 0..0;
+        for name in path.split('.') {
+            let Some(value) = table.get(name) else { break };
+            span = value.span();
+            let DeValue::Table(inner) = value.get_ref() else { break };
+            table = inner;
+        }
+        span
+    }
+
+    /// Where the value at a path stands, if it is written.
+    pub(super) fn find(&self, path: &str) -> Option<Range<usize>> {
+        self.value(path, |v| v.span())
+    }
+
+    /// Whether the value at a path is written and is not a table or a list.
+    pub(super) fn is_leaf(&self, path: &str) -> bool {
+        let leaf = |v: &Spanned<DeValue<'_>>| !v.get_ref().is_table() && !v.get_ref().is_array();
+        self.value(path, leaf).unwrap_or(false)
+    }
+
+    fn value<T>(&self, path: &str, f: impl FnOnce(&Spanned<DeValue<'_>>) -> T) -> Option<T> {
+        let document = self.document().ok()?;
+        let mut table = document.get_ref();
+        let (tables, last) = path.rsplit_once('.').unwrap_or(("", path));
+        for name in tables.split('.').filter(|n| !n.is_empty()) {
+            table = table.get(name)?.get_ref().as_table()?;
+        }
+        table.get(last).map(f)
+    }
+
+    /// Path of the value that stands at exactly this span.
+    pub(super) fn path_at(&self, span: &Range<usize>) -> String {
+        let mut path = String::new();
+        if let Ok(document) = self.document() {
+            find_in_table(document.get_ref(), span, &mut path);
+        }
+        path
+    }
+}
+
+fn find_in_table(table: &DeTable<'_>, span: &Range<usize>, path: &mut String) -> bool {
+    table.iter().any(|(key, value)| {
+        let length = path.len();
+        if !path.is_empty() {
+            path.push('.');
+        }
+        path.push_str(key.get_ref());
+        let found = find(value, span, path);
+        if !found {
+            path.truncate(length);
+        }
+        found
+    })
+}
+
+fn find(value: &Spanned<DeValue<'_>>, span: &Range<usize>, path: &mut String) -> bool {
+    let here = value.span() == *span;
+    match value.get_ref() {
+        DeValue::Table(table) => find_in_table(table, span, path) || here,
+        DeValue::Array(array) => {
+            let length = path.len();
+            array.iter().enumerate().any(|(i, item)| {
+                path.push_str(&format!("[{i}]"));
+                let found = find(item, span, path);
+                if !found {
+                    path.truncate(length);
+                }
+                found
+            }) || here
+        }
+        _ => here,
+    }
+}

@@ -1,0 +1,81 @@
+//! A scene to start from.
+
+use std::fmt::Write;
+
+use frisure_hairstyle::Preset;
+
+/// A commented scene that says nothing but the hair type, with the type's own numbers beside the
+/// keys that would change them.
+#[must_use]
+pub fn template(preset: &Preset) -> String {
+    let spec = preset.spec();
+    let (section, wisps) = (spec.fibre.section, spec.wisps);
+    let (radius, pitch) = spec.curl.radius_pitch().unwrap_or((0.0, 0.0));
+    let mut out = String::new();
+    // Writing to a String cannot fail.
+    let _ = write!(
+        out,
+        r##"# A scene for frisure. Every key has a default; take away a `#` to change one.
+# Quantities are texts with a unit ("25 cm", "70 um", "2.5 GPa", "80 deg") or bare SI numbers.
+
+name = "My hairstyle"
+seed = 1                          # another seed, another head of the same hair
+
+[hair]
+type = "{name}"  # {description}
+# length = "{length:.0} cm"
+
+[hair.fibre]
+# diameter = "{diameter:.0} um"             # mean diameter
+# axis_ratio = {ratio:.2}               # longer over shorter axis of the section
+# youngs_modulus = "3.9 GPa"
+# shear_modulus = "0.9 GPa"       # or poisson_ratio
+# density = "1.3 g/cm^3"
+
+[hair.curl]
+# radius = "{radius:.1} mm"            # of the natural helix: the curl without weight
+# pitch = "{pitch:.1} mm"             # advance per turn
+# variation_between = {between:.2}        # from wisp to wisp
+# variation_along = {along:.2}          # along a hair
+
+[implantation]
+# flow = "parted"                 # or "whorl", "swept-back"
+# parting = "2 cm"                # to the head's left
+# lift_scale = {lift:.1}                # angle to the skin, against the measured
+
+[wisps]
+# count = {count}                     # each has one computed guide
+# hairs = {hairs}                  # drawn on the whole head
+# clumping = {clumping:.2}               # 0 none .. 1 to a point
+# fuzziness = {fuzziness:.2}
+
+[look]
+# eumelanin = 1.3                 # 0.3 blond, 1.3 brown, 8 black
+
+[camera]
+# azimuth = "30 deg"              # 0 faces the face
+
+[output]
+# width = 900
+# height = 1100
+"##,
+        name = preset.name,
+        description = preset.description,
+        length = spec.length.mean * 1e2,
+        diameter = section.mean_radius() * 2e6,
+        ratio = section.axis_ratio(),
+        radius = radius * 1e3,
+        pitch = pitch * 1e3,
+        between = spec.curl.variation_between,
+        along = spec.curl.variation_along,
+        lift = match spec.implantation.lift {
+            frisure_hairstyle::Lift::Regional { scale } => scale,
+            frisure_hairstyle::Lift::Uniform(_) => 1.0,
+        },
+        count = wisps.count,
+        hairs = wisps.hairs,
+        clumping = wisps.clumping,
+        fuzziness = wisps.fuzziness,
+    );
+    out
+}
