@@ -39,9 +39,11 @@ impl Default for HairLook {
         Self {
             melanin: Melanin::default(),
             lobes: LobeShape::default(),
-            primary: 1.0,
+            // The lobes leave out the rise of reflection at grazing angles.
+            primary: 1.4,
             secondary: 1.0,
-            transmission: 1.0,
+            // What goes through once mostly meets another hair, which a preview does not follow.
+            transmission: 0.6,
             diffuse: 1.0,
             variation: 0.18,
         }

@@ -149,14 +149,12 @@ impl TilePainter<'_> {
         let rise = line.slope.abs().clamp(SOFTNESS, 1.0);
         let reach = line.half + 0.5 + 0.5 * rise;
         let mut ends: Option<(Vec3, Vec3)> = None;
-        // The casts saturate, and the window cuts what lies outside of the tile.
-        let columns = (line.from as usize).max(low)..(line.to.max(0.0) as usize + 1).min(high);
+        // A column belongs to the piece that its middle lies on, so that the pieces of a strand share
+        // no pixel at their joints; a strand's ends are rounded to whole pixels. The casts saturate,
+        // and the window cuts what lies outside of the tile.
+        let columns = ((line.from + 0.5) as usize).max(low)..((line.to + 0.5) as usize).min(high);
         for column in columns {
-            let (left, right) = (line.from.max(column as f32), line.to.min(column as f32 + 1.0));
-            if right <= left {
-                continue;
-            }
-            let middle = 0.5 * (left + right);
+            let middle = column as f32 + 0.5;
             let centre = line.across + (middle - line.from) * line.slope;
             let x = (middle - line.from) * inverse;
             let depth = line.depth[0] + (line.depth[1] - line.depth[0]) * x;
@@ -172,7 +170,7 @@ impl TilePainter<'_> {
                     continue;
                 }
                 let offset = row as f32 + 0.5 - centre;
-                let alpha = (right - left) * ribbon(offset, line.half, rise);
+                let alpha = ribbon(offset, line.half, rise);
                 if alpha > 1e-4 {
                     let (from, to) = *ends.get_or_insert_with(|| self.shade(a, b, &line));
                     pixel.add(from.lerp(to, x), alpha.min(1.0), depth);

@@ -9,7 +9,7 @@
 use glam::{UVec3, Vec3};
 
 use super::curves::Curves;
-use super::frame;
+use super::{frame, split};
 
 /// Finest cell (m): a lock is several cells wide, and a cell has several hairs in it.
 const MIN_CELL: f32 = 2.2e-3;
@@ -61,7 +61,7 @@ impl DensityMap {
         g.z -= LIFT;
         let top = self.size.as_vec3() - Vec3::splat(1.001);
         let g = g.clamp(Vec3::ZERO, top);
-        let (base, f) = (g.as_uvec3(), g.fract());
+        let (base, f) = split(g);
         let column = |du: u32, dv: u32| {
             let i = self.index(base.x + du, base.y + dv, base.z);
             self.met[i] + (self.met[i + 1] - self.met[i]) * f.z
@@ -89,7 +89,7 @@ impl DensityMap {
             let d = b.position - a.position;
             let across = (d - to_light * d.dot(to_light)).length();
             let shadow = (a.half_width + b.half_width) * across * per_cell;
-            let parts = (d.length() / self.cell).ceil().max(1.0) as u32;
+            let parts = 1 + (d.length() / self.cell) as u32;
             let part = 1.0 / parts as f32;
             for k in 0..parts {
                 let x = (k as f32 + 0.5) * part;
@@ -101,7 +101,7 @@ impl DensityMap {
     /// Shares a value between the eight nodes around a point.
     fn add(&mut self, point: Vec3, value: f32) {
         let g = self.grid(point);
-        let (base, f) = (g.as_uvec3(), g.fract());
+        let (base, f) = split(g);
         for (du, wu) in [(0, 1.0 - f.x), (1, f.x)] {
             for (dv, wv) in [(0, 1.0 - f.y), (1, f.y)] {
                 let i = self.index(base.x + du, base.y + dv, base.z);

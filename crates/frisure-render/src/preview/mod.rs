@@ -27,7 +27,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_strands::{Strands, Surface};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, UVec3, Vec3};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -204,6 +204,13 @@ fn assemble(tiles: &[Vec<[f32; 4]>], grid: &TileGrid, width: usize, height: usiz
         }
     }
     image
+}
+
+/// The cell of a grid that a place (in cells, not negative) lies in, and where in it. Casts, since
+/// rounding is a call into the C library on processors without SSE 4.1.
+fn split(place: Vec3) -> (UVec3, Vec3) {
+    let cell = place.as_uvec3();
+    (cell, place - cell.as_vec3())
 }
 
 /// Two unit vectors that make a right-handed frame with the unit vector `w`.

@@ -22,6 +22,9 @@ const WRAP: f32 = 0.2;
 /// Mean of sin(t, l) over all directions l: what a fibre sees of light from everywhere.
 const MEAN_SINE: f32 = std::f32::consts::FRAC_PI_4;
 
+/// Part of the room that hair mirrors: its neighbours hide the rest.
+const ROOM_GLOSS: f32 = 0.5;
+
 /// A lamp with its shadows.
 struct Lamp {
     to_light: Vec3,
@@ -95,7 +98,8 @@ impl Shader {
         let reflected = strength * material.reflected;
 
         let room = self.sky.mean(vertex.position);
-        let mut radiance = room * MEAN_SINE * (diffuse + reflected + material.returned);
+        let mut radiance =
+            room * MEAN_SINE * (diffuse + ROOM_GLOSS * reflected + material.returned);
         for lamp in &self.lamps {
             let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(vertex.position, HAIR_BIAS));
             if head <= 0.0 {

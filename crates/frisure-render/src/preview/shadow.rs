@@ -53,7 +53,7 @@ impl ShadowMap {
         }
         // A cubic kernel over 4×4 texels: a soft edge two texels wide, without steps.
         let (x, y) = (g.x as usize, g.y as usize);
-        let (wx, wy) = (kernel(g.x.fract()), kernel(g.y.fract()));
+        let (wx, wy) = (kernel(g.x - x as f32), kernel(g.y - y as f32));
         let nearer = p.z - bias;
         let mut lit = 0.0;
         for (j, wy) in wy.iter().enumerate() {

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::curves::Curves;
 use super::head::Head;
+use super::split;
 use crate::Lights;
 
 /// Finest cell (m).
@@ -122,7 +123,7 @@ impl Sky {
     fn around(&self, point: Vec3, mut visit: impl FnMut(usize, f32)) {
         let g = (point - self.low) / self.cell;
         let g = g.clamp(Vec3::ZERO, self.size.as_vec3() - Vec3::splat(1.001));
-        let (base, f) = (g.as_uvec3(), g.fract());
+        let (base, f) = split(g);
         for corner in 0..8 {
             let bit = UVec3::new(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
             let w = Vec3::select(bit.cmpeq(UVec3::ONE), f, Vec3::ONE - f);
