@@ -35,26 +35,26 @@ pub(crate) fn landmarks() -> Landmarks {
 
 /// Fine where the face is, coarse at the shoulders (m).
 fn lattice() -> Lattice {
-    let across = |x: f64| if x.abs() < 0.095 { 2.2e-3 } else { 4.5e-3 };
-    let along = |y: f64| if y < -0.06 { 2.0e-3 } else { 3.0e-3 };
+    let across = |x: f64| if x.abs() < 0.09 { 2.6e-3 } else { 5.0e-3 };
+    let along = |y: f64| if y < -0.06 { 2.4e-3 } else { 3.6e-3 };
     let up = |z: f64| match z {
-        z if z < -0.13 => 4.5e-3,
-        z if z < 0.025 => 1.9e-3,
-        _ => 3.2e-3,
+        z if z < -0.13 => 5.0e-3,
+        z if z < 0.025 => 2.2e-3,
+        _ => 3.6e-3,
     };
-    let right = Lattice::axis(0.0, 0.215, across);
+    let right = Lattice::axis(0.0, 0.185, across);
     let left = right.iter().skip(1).rev().map(|x| -x);
     let x = left.chain(right.iter().copied()).collect();
-    Lattice { axes: [x, Lattice::axis(-0.135, 0.145, along), Lattice::axis(-0.285, 0.125, up)] }
+    Lattice { axes: [x, Lattice::axis(-0.135, 0.145, along), Lattice::axis(-0.26, 0.125, up)] }
 }
 
 fn head(p: DVec3) -> f64 {
     let skull = join(cranium(p), face(p), 2.4);
-    let body = join(join(skull, neck(p), 2.2), shoulders(p), 2.5);
+    let body = join(join(skull, neck(p), 2.6), shoulders(p), 3.0);
     let features = mouth(p, nose(p, eyes(p, body)));
     let whole = join(features, ear(p), 0.5);
     // The bust stands on a flat foot.
-    meet(whole, -27.0 - p.z, 1.2)
+    meet(whole, -24.5 - p.z, 1.2)
 }
 
 fn cranium(p: DVec3) -> f64 {
@@ -64,59 +64,62 @@ fn cranium(p: DVec3) -> f64 {
 }
 
 fn face(p: DVec3) -> f64 {
-    let mask = ellipsoid(p, dvec3(0.0, 3.2, -3.6), dvec3(5.8, 5.6, 7.0));
-    let muzzle = ellipsoid(p, dvec3(0.0, 5.6, -7.2), dvec3(3.6, 3.7, 3.6));
-    let cheek = turned(p, dvec3(4.3, 5.6, -3.6), dvec3(1.7, 2.0, 1.5), 0.0, 0.5);
-    let arch = cone(p, dvec3(4.6, 5.8, -2.8), dvec3(6.2, 1.5, -2.3), 0.9, 0.7);
+    let mask = ellipsoid(p, dvec3(0.0, 3.2, -3.6), dvec3(5.9, 5.6, 7.0));
+    let muzzle = ellipsoid(p, dvec3(0.0, 5.6, -7.2), dvec3(3.5, 3.7, 3.6));
+    let cheek = turned(p, dvec3(4.1, 5.6, -3.5), dvec3(1.6, 1.9, 1.4), 0.0, 0.5);
+    let flesh = turned(p, dvec3(3.2, 4.8, -6.4), dvec3(2.3, 2.8, 2.9), 0.0, 0.3);
+    let arch = cone(p, dvec3(4.5, 5.8, -2.7), dvec3(6.1, 1.5, -2.2), 0.8, 0.7);
     let jaw = chain(
         p,
         &[
-            (dvec3(5.2, 0.6, -4.5), 1.0),
-            (dvec3(4.7, 1.6, -8.0), 1.2),
-            (dvec3(2.6, 6.2, -10.6), 1.1),
-            (dvec3(0.0, 7.7, -10.9), 1.1),
+            (dvec3(5.1, 0.4, -4.0), 1.0),
+            (dvec3(4.7, 1.2, -7.0), 1.0),
+            (dvec3(4.0, 2.8, -8.8), 1.0),
+            (dvec3(2.3, 6.2, -10.5), 1.1),
+            (dvec3(0.0, 7.5, -10.8), 1.1),
         ],
     );
-    let chin = ellipsoid(p, dvec3(0.0, 7.7, -10.4), dvec3(1.9, 1.5, 1.4));
-    let floor = ellipsoid(p, dvec3(0.0, 3.2, -8.2), dvec3(4.3, 4.6, 3.0));
+    let chin = ellipsoid(p, dvec3(0.0, 7.6, -10.4), dvec3(1.7, 1.55, 1.4));
+    let floor = ellipsoid(p, dvec3(0.0, 3.2, -8.2), dvec3(4.0, 4.6, 2.8));
     let brow = chain(
         p,
-        &[(dvec3(0.7, 8.95, 1.2), 0.6), (dvec3(3.0, 8.5, 1.5), 0.6), (dvec3(5.0, 6.8, 0.9), 0.5)],
+        &[(dvec3(0.6, 8.95, 1.0), 0.5), (dvec3(2.8, 8.6, 1.5), 0.5), (dvec3(4.9, 6.9, 0.9), 0.4)],
     );
-    let f = join(join(mask, muzzle, 2.0), join(cheek, arch, 1.0), 2.5);
+    let f = join(join(mask, muzzle, 2.0), join(join(cheek, arch, 1.0), flesh, 2.0), 2.5);
     let f = join(f, join(jaw, floor, 2.0), 2.5);
-    join(join(f, chin, 1.6), brow, 1.8)
+    join(join(f, chin, 1.6), brow, 2.0)
 }
 
 fn eyes(p: DVec3, skin: f64) -> f64 {
-    let socket = turned(p, dvec3(3.2, 9.7, -0.9), dvec3(2.0, 1.7, 1.25), 0.0, -0.25);
-    let inner = ellipsoid(p, dvec3(1.6, 9.9, -0.5), dvec3(0.7, 1.2, 0.9));
+    let socket = turned(p, dvec3(3.25, 9.7, -0.8), dvec3(1.9, 1.65, 1.15), 0.0, -0.25);
+    let inner = ellipsoid(p, dvec3(1.7, 9.8, -0.7), dvec3(0.6, 1.2, 0.8));
     let f = carve(carve(skin, socket, 1.4), inner, 1.0);
-    let centre = dvec3(3.15, 6.9, -1.05);
-    let ball = (p - centre).length() - 1.32;
-    let f = join(f, ball, 0.5);
-    // Closed lids: the upper one is thicker and overhangs the lower one along a curved line.
-    let seam = -0.42 - 0.10 * ((p.x - 3.1) / 1.3).powi(2) * -3.0;
-    let upper = meet((p - centre).length() - 1.42, seam - (p.z - centre.z), 0.12);
-    join(f, upper, 0.12)
+    let centre = dvec3(3.2, 6.95, -1.0);
+    let ball = (p - centre).length() - 1.3;
+    let f = join(f, ball, 0.6);
+    // Closed lids: the upper one overhangs the lower one along a line that sags in the middle.
+    let across = (p.x - centre.x) / 1.4;
+    let seam = centre.z - 0.62 + 0.28 * across * across;
+    let upper = meet((p - centre).length() - 1.4, seam - p.z, 0.1);
+    join(f, upper, 0.15)
 }
 
 fn nose(p: DVec3, skin: f64) -> f64 {
     let bridge = chain(
         p,
         &[
-            (dvec3(0.0, 8.9, 0.6), 0.75),
-            (dvec3(0.0, 9.6, -1.2), 0.65),
-            (dvec3(0.0, 10.7, -3.4), 0.75),
-            (dvec3(0.0, 11.05, -4.2), 0.85),
+            (dvec3(0.0, 8.8, 0.8), 0.7),
+            (dvec3(0.0, 9.35, -0.9), 0.6),
+            (dvec3(0.0, 10.5, -3.3), 0.65),
+            (dvec3(0.0, 10.95, -4.2), 0.75),
         ],
     );
-    let side = cone(p, dvec3(0.5, 8.6, -0.6), dvec3(1.0, 9.3, -4.2), 0.5, 1.0);
-    let wing = turned(p, dvec3(1.25, 9.75, -4.75), dvec3(0.65, 1.0, 0.7), 0.2, 0.35);
-    let column = cone(p, dvec3(0.0, 10.9, -4.6), dvec3(0.0, 9.6, -5.3), 0.4, 0.4);
+    let side = cone(p, dvec3(0.4, 8.5, -0.6), dvec3(0.9, 9.2, -4.2), 0.5, 0.9);
+    let wing = turned(p, dvec3(1.15, 9.7, -4.8), dvec3(0.6, 0.95, 0.62), 0.2, 0.35);
+    let column = cone(p, dvec3(0.0, 10.8, -4.6), dvec3(0.0, 9.6, -5.3), 0.4, 0.35);
     let f = join(join(bridge, side, 1.2), wing, 0.5);
-    let f = join(skin, join(f, column, 0.4), 0.9);
-    let nostril = turned(p, dvec3(0.62, 10.25, -5.45), dvec3(0.33, 0.6, 0.5), 0.2, 0.35);
+    let f = join(skin, join(f, column, 0.5), 0.9);
+    let nostril = turned(p, dvec3(0.58, 10.1, -5.4), dvec3(0.27, 0.5, 0.35), 0.2, 0.35);
     carve(f, nostril, 0.25)
 }
 
@@ -124,53 +127,54 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
     let upper = chain(
         p,
         &[
-            (dvec3(0.0, 9.75, -7.0), 0.38),
-            (dvec3(0.6, 9.75, -6.95), 0.42),
-            (dvec3(2.4, 8.4, -7.5), 0.25),
+            (dvec3(0.0, 9.5, -7.05), 0.42),
+            (dvec3(0.6, 9.45, -7.0), 0.45),
+            (dvec3(2.3, 8.2, -7.45), 0.3),
         ],
     );
     let lower = chain(
         p,
         &[
-            (dvec3(0.0, 9.45, -8.0), 0.55),
-            (dvec3(0.9, 9.3, -7.95), 0.5),
-            (dvec3(2.3, 8.35, -7.6), 0.25),
+            (dvec3(0.0, 9.2, -7.95), 0.55),
+            (dvec3(0.9, 9.0, -7.9), 0.5),
+            (dvec3(2.2, 8.1, -7.6), 0.3),
         ],
     );
-    let fold = cone(p, dvec3(0.0, 9.9, -9.15), dvec3(1.6, 9.2, -9.0), 0.65, 0.5);
-    let groove = cone(p, dvec3(0.0, 10.55, -5.9), dvec3(0.0, 10.6, -6.5), 0.3, 0.3);
+    let fold = cone(p, dvec3(0.0, 9.9, -9.0), dvec3(1.6, 9.2, -8.9), 0.6, 0.5);
+    let groove = cone(p, dvec3(0.0, 10.45, -5.9), dvec3(0.0, 10.4, -6.5), 0.3, 0.3);
     let slit = chain(
         p,
         &[
-            (dvec3(0.0, 10.1, -7.48), 0.1),
-            (dvec3(0.9, 9.85, -7.42), 0.1),
-            (dvec3(2.5, 8.7, -7.55), 0.08),
+            (dvec3(0.0, 9.98, -7.46), 0.08),
+            (dvec3(0.9, 9.72, -7.40), 0.08),
+            (dvec3(2.4, 8.72, -7.52), 0.08),
         ],
     );
-    let f = carve(carve(skin, fold, 0.9), groove, 0.4);
-    let f = join(f, join(upper, lower, 0.15), 0.35);
+    let f = carve(carve(skin, fold, 1.2), groove, 0.5);
+    let f = join(f, join(upper, lower, 0.15), 0.7);
     carve(f, slit, 0.25)
 }
 
 fn ear(p: DVec3) -> f64 {
     // u backwards and outwards, v up and a little backwards, w away from the skull.
-    let frame = DMat3::from_rotation_z(-0.40) * DMat3::from_rotation_x(0.17);
-    let q = frame.transpose() * (p - dvec3(7.2, -1.3, -2.0));
+    let frame = DMat3::from_rotation_z(-0.36) * DMat3::from_rotation_x(-0.15);
+    let q = frame.transpose() * (p - dvec3(7.1, -1.3, -2.0));
     let q = dvec3(-q.y, q.z, q.x);
     if q.length() > 6.0 {
         return q.length() - 4.0;
     }
     let plate = ellipsoid(q, dvec3(0.25, 0.1, 0.0), dvec3(1.6, 3.0, 0.45));
+    let root = ellipsoid(q, dvec3(-0.3, -0.4, -0.7), dvec3(0.9, 1.8, 0.9));
     let helix = chain(
         q,
         &[
-            (dvec3(-0.9, -0.1, 0.25), 0.2),
-            (dvec3(-1.1, 1.3, 0.35), 0.27),
-            (dvec3(-0.5, 2.6, 0.40), 0.30),
-            (dvec3(0.6, 3.0, 0.45), 0.30),
-            (dvec3(1.6, 2.2, 0.45), 0.30),
-            (dvec3(1.85, 0.8, 0.40), 0.28),
-            (dvec3(1.45, -0.8, 0.32), 0.26),
+            (dvec3(-0.9, -0.1, 0.20), 0.2),
+            (dvec3(-1.1, 1.3, 0.30), 0.26),
+            (dvec3(-0.5, 2.6, 0.36), 0.28),
+            (dvec3(0.6, 3.0, 0.42), 0.28),
+            (dvec3(1.5, 2.3, 0.42), 0.28),
+            (dvec3(1.80, 0.9, 0.38), 0.27),
+            (dvec3(1.45, -0.8, 0.30), 0.26),
             (dvec3(0.7, -2.0, 0.20), 0.28),
         ],
     );
@@ -178,44 +182,39 @@ fn ear(p: DVec3) -> f64 {
         q,
         &[
             (dvec3(0.3, 1.7, 0.3), 0.25),
-            (dvec3(0.95, 0.6, 0.35), 0.3),
-            (dvec3(0.7, -0.7, 0.35), 0.3),
-            (dvec3(0.0, -1.35, 0.35), 0.25),
+            (dvec3(0.95, 0.6, 0.32), 0.3),
+            (dvec3(0.7, -0.7, 0.32), 0.3),
+            (dvec3(0.0, -1.35, 0.32), 0.25),
         ],
     );
-    let lobe = ellipsoid(q, dvec3(-0.1, -2.5, 0.1), dvec3(0.85, 0.85, 0.35));
+    let lobe = ellipsoid(q, dvec3(-0.1, -2.5, 0.1), dvec3(0.85, 0.85, 0.38));
     let concha = ellipsoid(q, dvec3(-0.15, -0.3, 0.55), dvec3(0.75, 0.95, 0.75));
     let tragus = ellipsoid(q, dvec3(-1.0, -0.5, 0.3), dvec3(0.35, 0.5, 0.4));
-    let f = join(join(plate, lobe, 0.6), fold, 0.35);
+    let f = join(join(join(plate, root, 0.6), lobe, 0.6), fold, 0.35);
     let f = join(carve(f, concha, 0.35), helix, 0.3);
     join(f, tragus, 0.3)
 }
 
 fn neck(p: DVec3) -> f64 {
-    let column = cone(p, dvec3(0.0, -1.4, -6.0), dvec3(0.0, -2.8, -16.0), 4.75, 5.2);
-    let strap = cone(p, dvec3(4.6, -2.4, -6.5), dvec3(1.0, 1.9, -17.6), 0.9, 0.8);
-    let throat = ellipsoid(p, dvec3(0.0, 2.3, -13.2), dvec3(0.9, 0.9, 1.6));
+    let column = cone(p, dvec3(0.0, -1.5, -6.0), dvec3(0.0, -3.2, -16.0), 4.6, 4.9);
+    let strap = cone(p, dvec3(4.5, -2.6, -6.5), dvec3(0.9, 1.2, -17.2), 0.8, 0.7);
+    let throat = ellipsoid(p, dvec3(0.0, 1.9, -13.0), dvec3(0.8, 0.8, 1.5));
+    let nape = ellipsoid(p, dvec3(0.0, -4.6, -7.0), dvec3(3.6, 2.6, 5.5));
     let trapezius = chain(
         p,
         &[
-            (dvec3(1.8, -5.2, -8.0), 1.6),
-            (dvec3(4.2, -5.2, -15.0), 2.2),
-            (dvec3(12.0, -4.2, -19.6), 2.2),
+            (dvec3(1.8, -5.2, -8.0), 1.5),
+            (dvec3(3.8, -5.4, -15.0), 2.0),
+            (dvec3(10.5, -4.8, -19.0), 2.0),
         ],
     );
-    join(join(join(column, strap, 1.2), throat, 1.2), trapezius, 3.5)
+    let f = join(join(column, strap, 1.4), throat, 1.4);
+    join(join(f, nape, 2.5), trapezius, 3.5)
 }
 
 fn shoulders(p: DVec3) -> f64 {
-    let chest = ellipsoid(p, dvec3(0.0, -3.0, -27.0), dvec3(15.5, 8.2, 9.5));
-    let shoulder = ellipsoid(p, dvec3(13.5, -3.8, -23.0), dvec3(6.0, 5.4, 4.6));
-    let collar = chain(
-        p,
-        &[
-            (dvec3(1.6, 1.9, -18.8), 0.7),
-            (dvec3(7.0, 1.8, -18.8), 0.55),
-            (dvec3(14.0, -2.0, -19.0), 0.8),
-        ],
-    );
-    join(join(chest, shoulder, 4.0), collar, 1.5)
+    let chest = ellipsoid(p, dvec3(0.0, -3.0, -27.5), dvec3(14.0, 9.0, 10.4));
+    let shoulder = ellipsoid(p, dvec3(11.6, -4.0, -22.8), dvec3(5.2, 5.2, 4.8));
+    let collar = cone(p, dvec3(1.8, 1.9, -19.4), dvec3(10.5, -0.4, -19.0), 0.7, 0.7);
+    join(join(chest, shoulder, 4.5), collar, 2.2)
 }

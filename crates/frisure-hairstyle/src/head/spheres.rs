@@ -20,6 +20,8 @@ const SCALP_GAP: f64 = 2.5e-3;
 const SKIN_GAP: f64 = 8e-3;
 /// … or when there are this many.
 const MOST: usize = 96;
+/// Smaller spheres are not worth having (m): an ear would take dozens.
+const LEAST: f64 = 7e-3;
 /// How far a sphere may stand out of the skin (m): it then touches more of it.
 const STAND_OUT: f64 = 5e-4;
 
@@ -34,7 +36,7 @@ pub(crate) fn fit(surface: &Surface, scalp: &[f64], inside: &SignedDistance) -> 
         tried[worst] = true;
         let p = surface.positions()[worst];
         let sphere = largest_at(p, normals[worst], inside);
-        if sphere.radius < 4e-3 {
+        if sphere.radius < LEAST {
             continue;
         }
         spheres.push(sphere);

@@ -34,11 +34,18 @@ impl Soup {
         self.triangles[face].map(|v| self.positions[v as usize])
     }
 
-    /// Only the faces for which `kept` is true.
-    pub(crate) fn only(&self, kept: &[bool]) -> Self {
-        let faces = self.triangles.iter().zip(kept);
-        let triangles = faces.filter(|(_, k)| **k).map(|(t, _)| *t).collect();
-        Self { positions: self.positions.clone(), triangles }
+    /// Whether face `index` has not been taken out by [`Soup::only`].
+    pub(crate) fn has(&self, index: usize) -> bool {
+        let [a, b, _] = self.triangles[index];
+        a != b
+    }
+
+    /// Only the faces for which `kept` is true; the others keep their number, but are a point.
+    pub(crate) fn only(mut self, kept: &[bool]) -> Self {
+        for (triangle, _) in self.triangles.iter_mut().zip(kept).filter(|(_, kept)| !**kept) {
+            *triangle = [triangle[0]; 3];
+        }
+        self
     }
 
     /// Adds to the chosen faces those connected to them within `reach` (m), which are too small to
@@ -66,9 +73,32 @@ impl Soup {
         grown
     }
 
-    fn faces_of_vertices(&self) -> Rows {
+    /// Distance (m) from `p` to the face nearest to it that is reached from `face` by going to a
+    /// nearer neighbour again and again.
+    pub(crate) fn descend(&self, around: &Rows, mut face: u32, p: DVec3) -> f64 {
+        let measure = |f: u32| p.distance_squared(closest_point(p, self.corners(f as usize)));
+        let mut best = measure(face);
+        loop {
+            let from = face;
+            for &v in &self.triangles[from as usize] {
+                for &f in around.of(v) {
+                    let d = measure(f);
+                    if d < best {
+                        (best, face) = (d, f);
+                    }
+                }
+            }
+            if face == from {
+                return best.sqrt();
+            }
+        }
+    }
+
+    /// For each vertex, the faces that meet there.
+    pub(crate) fn faces_of_vertices(&self) -> Rows {
         let mut starts = vec![0; self.positions.len() + 1];
-        for &v in self.triangles.iter().flatten() {
+        let present = || (0..self.len()).filter(|&f| self.has(f));
+        for v in present().flat_map(|f| self.triangles[f]) {
             starts[v as usize + 1] += 1;
         }
         for i in 1..starts.len() {
@@ -76,8 +106,8 @@ impl Soup {
         }
         let mut fill = starts.clone();
         let mut items = vec![0; self.triangles.len() * 3];
-        for (face, triangle) in self.triangles.iter().enumerate() {
-            for &v in triangle {
+        for face in present() {
+            for v in self.triangles[face] {
                 items[fill[v as usize]] = face as u32;
                 fill[v as usize] += 1;
             }
@@ -124,7 +154,7 @@ impl Soup {
 }
 
 /// Lists of faces, one list per vertex.
-struct Rows {
+pub(crate) struct Rows {
     starts: Vec<usize>,
     items: Vec<u32>,
 }

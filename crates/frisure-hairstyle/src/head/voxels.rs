@@ -9,6 +9,7 @@ use frisure_strands::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::far::Coarse;
 use super::triangles::{Soup, closest_point};
 
 /// Samples at `origin + spacing·(i, j, k)`, i fastest (m).
@@ -22,11 +23,11 @@ pub(crate) struct Voxels {
 /// Grid spacing where the mesh is of human size (m).
 const SPACING: f64 = 3e-3;
 /// Room around the mesh (m): hair that stands away farther than this meets the extrapolation.
-const MARGIN: f64 = 0.06;
+const MARGIN: f64 = 0.04;
 /// Most nodes in a grid: 5.5 million of 4 bytes.
 const MOST_NODES: f64 = 5.5e6;
 /// Nodes this near (spacings) get an exact distance.
-const BAND: f64 = 2.6;
+const BAND: f64 = 2.2;
 /// The outside flows only through nodes farther from the mesh than this (spacings): what lies
 /// behind a narrower slit is inside.
 const CLEARANCE: f64 = 1.0;
@@ -34,63 +35,58 @@ const CLEARANCE: f64 = 1.0;
 const SHORE: usize = 4;
 /// Layers of nodes that one task fills.
 const SLAB: usize = 8;
-const NONE: u32 = u32::MAX;
+/// No face.
+pub(crate) const NONE: u32 = u32::MAX;
 
 /// The signed distance to `surface` (m), positive outside, on a grid around it.
 pub(crate) fn sample(surface: &Surface) -> Voxels {
     let soup = Soup::closed(surface);
     let grid = Grid::around(surface);
-    let band = grid.splat(&soup);
+    let mut band = vec![FAR; grid.len()];
+    grid.splat(&soup, &mut band, |_| true);
     let outside = grid.flood(&band);
     let kept = soup.grow(&outer_faces(&band, &outside, soup.len()), 1.5 * grid.spacing);
+    let soup = soup.only(&kept);
     // Inner faces (a mouth bag, the double of a skin) must not attract: measure again without them.
-    let (soup, band) = if kept.iter().all(|&k| k) {
-        (soup, band)
-    } else {
-        let soup = soup.only(&kept);
-        let band = grid.splat(&soup);
-        (soup, band)
-    };
-    let values = grid.spread(band, &soup, &outside);
+    grid.splat(&soup, &mut band, |node| node.face != NONE && !kept[node.face as usize]);
+    let values = grid.spread(&band, &soup, &outside);
     Voxels { origin: grid.origin, spacing: grid.spacing, size: grid.size, values }
 }
 
-struct Grid {
+/// The nodes.
+pub(crate) struct Grid {
     origin: DVec3,
     spacing: f64,
-    size: [usize; 3],
+    pub(crate) size: [usize; 3],
 }
 
 /// What is known at one node near the mesh.
 #[derive(Clone, Copy)]
-struct Node {
-    distance: f32,
-    face: u32,
-    nearest: [f32; 3],
+pub(crate) struct Node {
+    pub(crate) distance: f32,
+    pub(crate) face: u32,
     /// Bit a: a face crosses the edge to the next node along axis a.
     crossed: u8,
-    /// The face was found by measuring all near ones, not taken from a neighbour.
-    exact: bool,
 }
 
-const FAR: Node =
-    Node { distance: f32::INFINITY, face: NONE, nearest: [0.0; 3], crossed: 0, exact: false };
+const FAR: Node = Node { distance: f32::INFINITY, face: NONE, crossed: 0 };
 
 impl Grid {
     fn around(surface: &Surface) -> Self {
         let (low, high) = surface.bounds();
         let extent = high - low + DVec3::splat(2.0 * MARGIN);
         let spacing = (extent.x * extent.y * extent.z / MOST_NODES).cbrt().max(SPACING);
-        // The cast cannot lose a sign: an extent is at least two margins.
-        let size = (extent / spacing).to_array().map(|n| n.ceil() as usize + 3);
+        // The cast cannot lose a sign: an extent is at least two margins. Odd, so that every second
+        // node includes the last.
+        let size = (extent / spacing).to_array().map(|n| (n.ceil() as usize + 3) | 1);
         Self { origin: low - DVec3::splat(MARGIN + spacing), spacing, size }
     }
 
-    fn position(&self, [i, j, k]: [usize; 3]) -> DVec3 {
+    pub(crate) fn position(&self, [i, j, k]: [usize; 3]) -> DVec3 {
         self.origin + self.spacing * DVec3::new(i as f64, j as f64, k as f64)
     }
 
-    fn unravel(&self, at: usize) -> [usize; 3] {
+    pub(crate) fn unravel(&self, at: usize) -> [usize; 3] {
         [at % self.size[0], at / self.size[0] % self.size[1], at / self.layer()]
     }
 
@@ -102,11 +98,12 @@ impl Grid {
         self.layer() * self.size[2]
     }
 
-    /// Exact distance, nearest face and crossed edges of the nodes near the mesh.
-    fn splat(&self, soup: &Soup) -> Vec<Node> {
+    /// Exact distance, nearest face and crossed edges of the nodes near the mesh, in those slabs of
+    /// layers where some node is `wrong`.
+    fn splat(&self, soup: &Soup, nodes: &mut [Node], wrong: impl Fn(&Node) -> bool + Sync) {
         let reach = BAND * self.spacing;
         let mut slabs = vec![Vec::new(); self.size[2].div_ceil(SLAB)];
-        for face in 0..soup.len() {
+        for face in (0..soup.len()).filter(|&f| soup.has(f)) {
             let [a, b, c] = soup.corners(face);
             let low = self.first(a.min(b).min(c) - DVec3::splat(reach));
             let high = self.last(a.max(b).max(c) + DVec3::splat(reach));
@@ -114,15 +111,17 @@ impl Grid {
                 slab.push(face);
             }
         }
-        let mut nodes = vec![FAR; self.len()];
         nodes.par_chunks_mut(SLAB * self.layer()).zip(slabs).enumerate().for_each(
             |(index, (nodes, faces))| {
+                if !nodes.iter().any(&wrong) {
+                    return;
+                }
+                nodes.fill(FAR);
                 for face in faces {
                     self.splat_face(nodes, index * SLAB, soup.corners(face), face as u32, reach);
                 }
             },
         );
-        nodes
     }
 
     /// First node of the grid with no coordinate below `p`.
@@ -162,8 +161,7 @@ impl Grid {
                     let distance = p.distance(q) as f32;
                     let node = &mut nodes[row + i];
                     if distance < node.distance && f64::from(distance) <= reach {
-                        (node.distance, node.face, node.exact) = (distance, face, true);
-                        node.nearest = q.as_vec3().to_array();
+                        (node.distance, node.face) = (distance, face);
                     }
                     if f64::from(distance) <= 1.001 * self.spacing {
                         node.crossed |= crossed_edges(p, self.spacing, corners, normal);
@@ -222,57 +220,19 @@ impl Grid {
         }
     }
 
-    /// Signed distances everywhere: nodes away from the band take the nearest face of a neighbour.
-    fn spread(&self, mut nodes: Vec<Node>, soup: &Soup, outside: &[bool]) -> Vec<f32> {
-        for sweep in 0..8 {
-            let order = |axis: usize| (0..self.size[axis], sweep >> axis & 1 == 1);
-            for k in directed(order(2)) {
-                for j in directed(order(1)) {
-                    for i in directed(order(0)) {
-                        self.relax(&mut nodes, [i, j, k], sweep);
-                    }
-                }
-            }
-        }
-        let measure = |(at, node): (usize, &Node)| {
-            let p = self.position(self.unravel(at));
-            // Neighbours passed on points of the mesh; the nearest of that face is nearer still.
-            let distance = p.distance(closest_point(p, soup.corners(node.face as usize))) as f32;
-            if outside[at] { distance } else { -distance }
+    /// Signed distances everywhere: exact near the mesh, from a coarser grid elsewhere.
+    fn spread(&self, nodes: &[Node], soup: &Soup, outside: &[bool]) -> Vec<f32> {
+        let coarse = Coarse::around(self, nodes, soup, outside);
+        let reach = (BAND * self.spacing) as f32;
+        let measure = |(at, node): (usize, &Node)| match (node.face == NONE, outside[at]) {
+            (false, true) => node.distance,
+            (false, false) => -node.distance,
+            // A node that no face came near is at least that far.
+            (true, true) => coarse.interpolate(self.unravel(at)).max(reach),
+            (true, false) => coarse.interpolate(self.unravel(at)).min(-reach),
         };
         nodes.par_iter().enumerate().map(measure).collect()
     }
-
-    /// Offers a node the nearest points of the three neighbours it has just been swept past.
-    fn relax(&self, nodes: &mut [Node], at3: [usize; 3], sweep: usize) {
-        let at = (at3[2] * self.size[1] + at3[1]) * self.size[0] + at3[0];
-        if nodes[at].exact {
-            return;
-        }
-        let p = self.position(at3).as_vec3();
-        let mut best = nodes[at];
-        for (axis, stride) in [1, self.size[0], self.layer()].into_iter().enumerate() {
-            let down = sweep >> axis & 1 == 1;
-            let end = if down { self.size[axis] - 1 } else { 0 };
-            if at3[axis] == end {
-                continue;
-            }
-            let from = nodes[if down { at + stride } else { at - stride }];
-            if from.distance.is_finite() {
-                let distance = p.distance(from.nearest.into());
-                if distance < best.distance {
-                    best = Node { distance, exact: false, ..from };
-                }
-            }
-        }
-        nodes[at] = best;
-    }
-}
-
-/// A range, upwards or downwards.
-fn directed((range, down): (std::ops::Range<usize>, bool)) -> impl Iterator<Item = usize> {
-    let last = range.end - 1;
-    range.map(move |i| if down { last - i } else { i })
 }
 
 /// Bit a is set where the triangle meets the segment of length `h` from `p` along axis a.
