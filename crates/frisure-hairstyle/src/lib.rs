@@ -5,8 +5,27 @@ pub mod head;
 mod presets;
 mod spec;
 
+mod implantation;
+mod roots;
+
+pub mod contact;
+mod equilibrium;
+mod guides;
+mod hairstyle;
+mod strands;
+mod wisps;
+
+mod grid;
+mod monitor;
+mod random;
+
+pub use equilibrium::SettlingReport;
 pub use fibre::{Curl, Fibre, Handedness};
+pub use guides::Guide;
+pub use hairstyle::{Hairstyle, PredictError, predict};
+pub use monitor::{Cancelled, Monitor};
 pub use presets::{PRESETS, Preset, preset};
+pub use roots::Root;
 pub use spec::{
     Body, Contact, Flow, HairstyleSpec, Implantation, InvalidSpec, Length, Lift, Settling, Wisps,
 };

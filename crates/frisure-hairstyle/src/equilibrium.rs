@@ -1,0 +1,118 @@
+//! Guides coming to rest, on all cores.
+
+use frisure_rod::potential::Potential;
+use frisure_rod::{Equilibrium, Options, Resolution, Stability, equilibrium};
+use rayon::prelude::*;
+
+use crate::contact::BodyContact;
+use crate::guides::Guide;
+use crate::head::Head;
+use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::spec::{Body, HairstyleSpec};
+
+/// Most elements of a guide that lies on the body, whatever accuracy is asked for.
+const MOST_ELEMENTS: usize = 512;
+
+/// Relative gradient at which a guide is at rest.
+const TOLERANCE: f64 = 1e-8;
+
+/// Brings every guide to rest.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(crate) fn settle(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    monitor: &dyn Monitor,
+) -> Result<Vec<Equilibrium>, Cancelled> {
+    let stage = Stage::new(monitor, "settling guides", guides.len());
+    guides
+        .par_iter()
+        .map(|guide| {
+            stage.check()?;
+            let rest = settle_one(spec, head, guide);
+            stage.advance();
+            Ok(rest)
+        })
+        .collect()
+}
+
+fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
+    let options = Options {
+        resolution: spec.equilibrium.resolution,
+        element: spec.equilibrium.element,
+        tolerance: TOLERANCE,
+        estimate_error: false,
+        eigenvalue: false,
+        ..Options::default()
+    };
+    if spec.contact.body == Body::None {
+        return equilibrium(&guide.rod, &[], &options);
+    }
+    // Extrapolation needs a smooth answer, and contact comes and goes: the division that the
+    // accuracy takes without contact is taken over.
+    let elements = match spec.equilibrium.resolution {
+        Resolution::Elements(n) => n,
+        Resolution::Accuracy(_) => {
+            equilibrium(&guide.rod, &[], &options).elements.min(MOST_ELEMENTS)
+        }
+    };
+    let contact =
+        BodyContact::new(head, spec.contact.body, spec.contact.stiffness, guide.clearance);
+    let options = Options { resolution: Resolution::Elements(elements), ..options };
+    let external: [&dyn Potential; 1] = [&contact];
+    equilibrium(&guide.rod, &external, &options)
+}
+
+/// How a set of guides came to rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SettlingReport {
+    /// Number of guides.
+    pub guides: usize,
+    /// Those at a minimum of their energy.
+    pub stable: usize,
+    /// Those at a saddle.
+    pub saddles: usize,
+    /// Those that did not come to rest.
+    pub not_converged: usize,
+    /// Iterations of the minimiser, of all guides.
+    pub iterations: usize,
+    /// Elements, of all guides.
+    pub elements: usize,
+    /// Largest relative gradient.
+    pub gradient_norm: f64,
+    /// Deepest that a guide is inside the body (m); 0 if none is.
+    pub penetration: f64,
+    /// Energies of all guides (J).
+    pub energy: frisure_rod::Energy,
+}
+
+impl SettlingReport {
+    pub(crate) fn new(head: &Head, guides: &[Equilibrium]) -> Self {
+        let mut report = Self { guides: guides.len(), ..Self::default() };
+        for guide in guides {
+            let c = &guide.certificate;
+            match c.stability {
+                Stability::Stable => report.stable += 1,
+                Stability::Saddle => report.saddles += 1,
+                Stability::NotConverged => report.not_converged += 1,
+            }
+            report.iterations += c.iterations;
+            report.elements += guide.elements;
+            report.gradient_norm = report.gradient_norm.max(c.gradient_norm);
+            report.energy.elastic += guide.energy.elastic;
+            report.energy.gravity += guide.energy.gravity;
+            report.energy.external += guide.energy.external;
+        }
+        report.penetration = guides
+            .par_iter()
+            .map(|guide| {
+                // The root is in the skin: what is within a few hairs' breadth of it is no error.
+                let inside = |p: &glam::DVec3| -head.signed_distance().value(*p);
+                guide.shape.positions.iter().skip(1).map(inside).fold(0.0, f64::max)
+            })
+            .reduce(|| 0.0, f64::max);
+        report
+    }
+}

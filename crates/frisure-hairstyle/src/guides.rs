@@ -1,0 +1,147 @@
+//! The guide of each wisp: where it is rooted, and the rod that it is.
+
+use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
+use glam::{DQuat, DVec3};
+
+use crate::contact::Clearance;
+use crate::fibre::{Curl, Handedness};
+use crate::head::Head;
+use crate::implantation;
+use crate::random::{Purpose, Stream};
+use crate::roots::{Root, Scalp};
+use crate::spec::HairstyleSpec;
+
+/// A guide before it has come to rest.
+#[derive(Clone, Debug)]
+pub struct Guide {
+    /// Where it is rooted.
+    pub root: Root,
+    /// The fibre, clamped at the root.
+    pub rod: Rod,
+    /// Distance it keeps from the body.
+    pub clearance: Clearance,
+}
+
+/// Standard deviation (rad) of the direction about the root tangent in which curls lean.
+const ROLL: f64 = 0.6;
+
+/// Plans the guides of a head.
+///
+/// # Errors
+/// [`InvalidQuantity`], if length, curl or fibre cannot make a rod.
+pub(crate) fn plan(spec: &HairstyleSpec, head: &Head) -> Result<Vec<Guide>, InvalidQuantity> {
+    let roots = Scalp::new(head).even(spec.wisps.count, spec.seed, Purpose::GuideRoots);
+    let heights = roots.iter().map(|r| r.position.z);
+    let (low, high) =
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+    roots
+        .into_iter()
+        .enumerate()
+        .map(|(index, root)| {
+            let altitude = (root.position.z - low) / (high - low).max(1e-9);
+            let clearance = Clearance::layered(altitude, spec.contact.volume);
+            Ok(Guide { root, rod: rod(spec, head, &root, index)?, clearance })
+        })
+        .collect()
+}
+
+fn rod(
+    spec: &HairstyleSpec,
+    head: &Head,
+    root: &Root,
+    index: usize,
+) -> Result<Rod, InvalidQuantity> {
+    let mut random = Stream::new(spec.seed, Purpose::GuideFibre, index);
+    let length = spec.length.mean * random.factor(spec.length.variation_between);
+    let natural = natural_strain(&spec.curl, length, &mut random)?;
+    let tangent = jittered(spec, head, root, index);
+    let d1 = leaning_out(natural.at(0.0), tangent, root.normal, &mut random);
+    Rod::new(RodSpec {
+        length,
+        section: spec.fibre.section,
+        material: spec.fibre.material,
+        torsion: spec.fibre.torsion,
+        natural,
+        root: frisure_rod::Root::from_tangent(root.position, tangent, d1)?,
+        gravity: spec.gravity,
+    })
+}
+
+/// The root's direction, turned at random, but never into the skin.
+fn jittered(spec: &HairstyleSpec, head: &Head, root: &Root, index: usize) -> DVec3 {
+    let mut random = Stream::new(spec.seed, Purpose::GuideDirection, index);
+    let mean = implantation::direction(head, &spec.implantation, root);
+    let axis = DVec3::new(random.normal(), random.normal(), random.normal());
+    let turn = DQuat::from_scaled_axis(axis * (spec.implantation.jitter / 3.0_f64.sqrt()));
+    let turned = turn * mean;
+    let outwards = turned.dot(root.normal);
+    const LEAST: f64 = 0.05;
+    let raised = turned + root.normal * (LEAST - outwards).max(0.0);
+    raised.normalize_or(root.normal)
+}
+
+/// The director d1 at which the natural curl leans away from the skin, give or take a roll.
+///
+/// A helix advances along `±(κ1 d1 + κ2 d2 + τ t)`. In which direction follicles turn their curl is
+/// not known; one that started into the skin would come out of it within a turn, so it leans out.
+fn leaning_out(strain: DVec3, tangent: DVec3, normal: DVec3, random: &mut Stream) -> DVec3 {
+    let out = (normal - tangent * tangent.dot(normal))
+        .try_normalize()
+        .unwrap_or_else(|| tangent.any_orthonormal_vector());
+    // Angle of the strain's bending part from d1, in the plane of d1 and d2.
+    let phase = strain.y.atan2(strain.x);
+    let hand = if strain.z < 0.0 { std::f64::consts::PI } else { 0.0 };
+    DQuat::from_axis_angle(tangent, ROLL * random.normal() + hand - phase) * out
+}
+
+/// The natural strain of one guide: the mean, varied between guides and along the hair.
+fn natural_strain(
+    curl: &Curl,
+    length: f64,
+    random: &mut Stream,
+) -> Result<NaturalStrain, InvalidQuantity> {
+    let mut mean = curl.strain * random.factor(curl.variation_between);
+    if curl.handedness == Handedness::Random && random.unit() < 0.5 {
+        mean.z = -mean.z;
+    }
+    if curl.variation_along == 0.0 || mean == DVec3::ZERO {
+        return Ok(NaturalStrain::Uniform(mean));
+    }
+    // An Ornstein–Uhlenbeck process in arc length: correlated over `variation_scale`.
+    let step = (0.5 * curl.variation_scale).max(length / 500.0);
+    let keep = (-step / curl.variation_scale).exp();
+    let fresh = curl.variation_along * (1.0 - keep * keep).sqrt();
+    let mut bend = curl.variation_along * random.normal();
+    let mut twist = curl.variation_along * random.normal();
+    let count = (length / step).ceil() as usize + 1;
+    let knots = (0..count)
+        .map(|i| {
+            let factor = DVec3::new(1.0 + bend, 1.0 + bend, 1.0 + twist);
+            bend = keep * bend + fresh * random.normal();
+            twist = keep * twist + fresh * random.normal();
+            (i as f64 * step, mean * factor)
+        })
+        .collect();
+    Ok(NaturalStrain::Varying(StrainProfile::new(knots)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curls_lean_out_of_the_skin() {
+        let mut random = Stream::new(1, Purpose::GuideFibre, 0);
+        let (tangent, normal) = (DVec3::new(0.8, 0.0, 0.6), DVec3::Z);
+        for strain in [DVec3::new(80.0, 0.0, 30.0), DVec3::new(30.0, 70.0, -20.0)] {
+            let mut outwards = 0.0;
+            for _ in 0..400 {
+                let d1 = leaning_out(strain, tangent, normal, &mut random);
+                let d2 = tangent.cross(d1);
+                let axis = d1 * strain.x + d2 * strain.y + tangent * strain.z;
+                outwards += axis.dot(normal) * strain.z.signum() / 400.0;
+            }
+            assert!(outwards > 0.3 * strain.length(), "{outwards}");
+        }
+    }
+}

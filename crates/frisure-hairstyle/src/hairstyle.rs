@@ -1,0 +1,100 @@
+//! A hairstyle: guides at rest on a head.
+
+use frisure_rod::{Equilibrium, InvalidQuantity};
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
+use thiserror::Error;
+
+use crate::equilibrium::{SettlingReport, settle};
+use crate::guides::{Guide, plan};
+use crate::head::Head;
+use crate::monitor::{Cancelled, Monitor};
+use crate::spec::{HairstyleSpec, InvalidSpec};
+use crate::strands;
+
+/// Guides at rest on a head, and the description that they were predicted from.
+#[derive(Clone, Debug)]
+pub struct Hairstyle {
+    spec: HairstyleSpec,
+    guides: Vec<Guide>,
+    rest: Vec<Equilibrium>,
+}
+
+/// Why there is no hairstyle.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PredictError {
+    /// A number of the description is out of range.
+    #[error(transparent)]
+    Spec(#[from] InvalidSpec),
+    /// A physical quantity of a guide is out of range.
+    #[error(transparent)]
+    Quantity(#[from] InvalidQuantity),
+    /// The monitor said to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Predicts how hair falls: plants the guides on the head and brings each to the minimum of its
+/// energy.
+///
+/// # Errors
+/// [`PredictError`], if the description is out of range or the monitor says to stop. A guide that
+/// does not come to rest is not an error: [`Hairstyle::report`] counts it.
+pub fn predict(
+    spec: &HairstyleSpec,
+    head: &Head,
+    monitor: &dyn Monitor,
+) -> Result<Hairstyle, PredictError> {
+    spec.check()?;
+    let guides = plan(spec, head)?;
+    let rest = settle(spec, head, &guides, monitor)?;
+    Ok(Hairstyle { spec: spec.clone(), guides, rest })
+}
+
+impl Hairstyle {
+    /// The description.
+    #[must_use]
+    pub fn spec(&self) -> &HairstyleSpec {
+        &self.spec
+    }
+
+    /// The guides, as they were planted.
+    #[must_use]
+    pub fn guides(&self) -> &[Guide] {
+        &self.guides
+    }
+
+    /// The guides, as they came to rest, in the order of [`Self::guides`].
+    #[must_use]
+    pub fn equilibria(&self) -> &[Equilibrium] {
+        &self.rest
+    }
+
+    /// How the guides came to rest on the head they were predicted on.
+    #[must_use]
+    pub fn report(&self, head: &Head) -> SettlingReport {
+        SettlingReport::new(head, &self.rest)
+    }
+
+    /// The guides as strands of `points` points, with the attribute `guide`.
+    #[must_use]
+    pub fn guide_strands(&self, points: usize) -> Strands {
+        let mut strands = Strands::new();
+        let radii = vec![self.spec.fibre.section.mean_radius() as f32; points.max(2)];
+        for guide in &self.rest {
+            let line: Vec<_> = guide.centre_line(points).iter().map(|p| p.as_vec3()).collect();
+            strands.push(&line, &radii);
+        }
+        let values = AttributeValues::U32((0..self.rest.len() as u32).collect());
+        let guide = Attribute { name: "guide".into(), domain: Domain::Strand, values };
+        strands.set_attribute(guide).expect("one guide per strand, set once");
+        strands
+    }
+
+    /// The drawn hairs around the guides, with the attribute `guide`, the nearest guide of each.
+    ///
+    /// # Errors
+    /// [`Cancelled`], if the monitor says to stop.
+    pub fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Cancelled> {
+        strands::draw(&self.spec, head, &self.guides, &self.rest, monitor)
+    }
+}

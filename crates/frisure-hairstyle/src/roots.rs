@@ -1,0 +1,203 @@
+//! Where hair grows: points spread evenly over the scalp.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use glam::DVec3;
+
+use crate::head::Head;
+use crate::random::{Purpose, Stream};
+
+/// A point of the scalp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    /// Position on the skin (m).
+    pub position: DVec3,
+    /// Outward unit normal of the skin.
+    pub normal: DVec3,
+}
+
+/// Samples points of the scalp with a density proportional to its weight.
+pub(crate) struct Scalp<'a> {
+    head: &'a Head,
+    normals: Vec<DVec3>,
+    /// Faces with hair, in an order in which neighbours are near each other, and the sum of their
+    /// weighted areas (m²) up to and including each.
+    faces: Vec<(usize, f64)>,
+}
+
+impl<'a> Scalp<'a> {
+    pub(crate) fn new(head: &'a Head) -> Self {
+        let surface = head.surface();
+        let (low, high) = surface.bounds();
+        let size = (high - low).max_element().max(f64::MIN_POSITIVE);
+        let weight = |face: usize| {
+            let mean = surface.triangles()[face].iter().map(|&v| head.scalp()[v as usize]);
+            mean.sum::<f64>() / 3.0 * 0.5 * surface.doubled_area_vector(face).length()
+        };
+        let mut faces: Vec<(u32, usize, f64)> = (0..surface.triangles().len())
+            .map(|face| {
+                let corner = (surface.corners(face)[0] - low) / size;
+                (morton(corner), face, weight(face))
+            })
+            .filter(|f| f.2 > 0.0)
+            .collect();
+        faces.sort_by_key(|f| (f.0, f.1));
+        let mut sum = 0.0;
+        let faces = faces
+            .into_iter()
+            .map(|(_, face, weight)| {
+                sum += weight;
+                (face, sum)
+            })
+            .collect();
+        Self { head, normals: surface.vertex_normals(), faces }
+    }
+
+    /// Weighted area of the scalp (m²).
+    pub(crate) fn area(&self) -> f64 {
+        self.faces.last().map_or(0.0, |f| f.1)
+    }
+
+    /// `count` roots, one in each of as many parts of equal weighted area.
+    pub(crate) fn stratified(&self, count: usize, seed: u64, purpose: Purpose) -> Vec<Root> {
+        let mut random = Stream::new(seed, purpose, 0);
+        let step = self.area() / count as f64;
+        (0..count)
+            .map(|i| {
+                let target = (i as f64 + random.unit()) * step;
+                let at = self.faces.partition_point(|f| f.1 <= target);
+                self.on_face(self.faces[at.min(self.faces.len() - 1)].0, &mut random)
+            })
+            .collect()
+    }
+
+    /// A point of a face, denser where its scalp weight is higher.
+    fn on_face(&self, face: usize, random: &mut Stream) -> Root {
+        let surface = self.head.surface();
+        let triangle = surface.triangles()[face];
+        let weights = triangle.map(|v| self.head.scalp()[v as usize]);
+        let largest = weights.iter().copied().fold(0.0, f64::max);
+        let mut b = [1.0 / 3.0; 3];
+        for _ in 0..32 {
+            let (u, v) = (random.unit().sqrt(), random.unit());
+            b = [1.0 - u, u * (1.0 - v), u * v];
+            let here: f64 = b.iter().zip(weights).map(|(b, w)| b * w).sum();
+            if random.unit() * largest <= here {
+                break;
+            }
+        }
+        let blend = |values: [DVec3; 3]| -> DVec3 { b.iter().zip(values).map(|(b, x)| x * *b).sum() };
+        Root {
+            position: blend(surface.corners(face)),
+            normal: blend(triangle.map(|v| self.normals[v as usize])).normalize_or(DVec3::Z),
+        }
+    }
+
+    /// `count` roots as far from each other as can be: blue noise by weighted sample elimination
+    /// (Yuksel 2015), from five times as many.
+    pub(crate) fn even(&self, count: usize, seed: u64, purpose: Purpose) -> Vec<Root> {
+        let candidates = self.stratified(5 * count, seed, purpose);
+        // Largest possible distance of `count` points on this area: a hexagonal packing.
+        let reach = 2.0 * (self.area() / (2.0 * 3.0_f64.sqrt() * count as f64)).sqrt();
+        eliminate(candidates, count, reach)
+    }
+}
+
+/// Bits of a position in the unit cube, interleaved.
+fn morton(p: DVec3) -> u32 {
+    let spread = |x: f64| {
+        let x = (x.clamp(0.0, 0.999) * 1024.0) as u32;
+        (0..10).fold(0, |bits, i| bits | ((x >> i) & 1) << (3 * i))
+    };
+    spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2
+}
+
+#[derive(PartialEq)]
+struct Crowded {
+    weight: f64,
+    index: usize,
+}
+
+impl Eq for Crowded {}
+
+impl Ord for Crowded {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.weight.total_cmp(&other.weight).then(other.index.cmp(&self.index))
+    }
+}
+
+impl PartialOrd for Crowded {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Removes the most crowded of the candidates until `count` are left.
+fn eliminate(candidates: Vec<Root>, count: usize, reach: f64) -> Vec<Root> {
+    let grid = crate::grid::Grid::new(candidates.iter().map(|r| r.position), reach);
+    let closeness = |i: usize, j: usize| {
+        let d = candidates[i].position.distance(candidates[j].position);
+        (1.0 - (d / reach).min(1.0)).powi(8)
+    };
+    let neighbours = |i: usize| grid.near(candidates[i].position).filter(move |&j| j != i);
+    let mut weights: Vec<f64> = (0..candidates.len())
+        .map(|i| neighbours(i).map(|j| closeness(i, j)).sum())
+        .collect();
+    let mut heap: BinaryHeap<Crowded> =
+        weights.iter().enumerate().map(|(index, &weight)| Crowded { weight, index }).collect();
+    let mut kept = vec![true; candidates.len()];
+    let mut left = candidates.len();
+    while left > count {
+        let Some(Crowded { weight, index }) = heap.pop() else { break };
+        if !kept[index] {
+            continue;
+        }
+        if weight > weights[index] {
+            // Neighbours have gone since: it is less crowded than it was.
+            heap.push(Crowded { weight: weights[index], index });
+            continue;
+        }
+        kept[index] = false;
+        left -= 1;
+        for j in neighbours(index) {
+            weights[j] -= closeness(index, j);
+        }
+    }
+    candidates.into_iter().zip(kept).filter_map(|(root, kept)| kept.then_some(root)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn guides_are_spread_evenly() {
+        let head = Head::mannequin();
+        let scalp = Scalp::new(&head);
+        let roots = scalp.even(150, 1, Purpose::GuideRoots);
+        assert_eq!(roots.len(), 150);
+        let hexagonal = (2.0 * scalp.area() / (3.0_f64.sqrt() * 150.0)).sqrt();
+        let nearest = |i: usize| {
+            let others = (0..150).filter(|&j| j != i);
+            others
+                .map(|j| roots[i].position.distance(roots[j].position))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let smallest = (0..150).map(nearest).fold(f64::INFINITY, f64::min);
+        assert!(smallest > 0.55 * hexagonal, "{smallest} of {hexagonal}");
+    }
+
+    #[test]
+    fn roots_are_on_the_scalp_and_depend_on_the_seed_alone() {
+        let head = Head::mannequin();
+        let scalp = Scalp::new(&head);
+        let roots = scalp.stratified(5000, 3, Purpose::HairRoots);
+        for r in &roots {
+            assert!(head.signed_distance().value(r.position).abs() < 1e-3);
+            assert!((r.normal.length() - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(roots, scalp.stratified(5000, 3, Purpose::HairRoots));
+        assert_ne!(roots, scalp.stratified(5000, 4, Purpose::HairRoots));
+    }
+}

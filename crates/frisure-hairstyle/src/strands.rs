@@ -1,0 +1,243 @@
+//! The drawn hairs: a stochastic population around the guides.
+//!
+//! After Choe & Ko 2005, the hairs of a wisp keep their place in a cross-section that narrows along
+//! it, deviate from it by a coherent random process (never white noise), and vary in length. Beyond
+//! it: neighbouring wisps blend where hair is a smooth mass, every hair is rooted in the skin where
+//! its root is, and hairs that would lie in the body are laid on it.
+
+use std::f64::consts::TAU;
+
+use frisure_rod::Equilibrium;
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use crate::contact::Clearance;
+use crate::grid::Grid;
+use crate::guides::Guide;
+use crate::head::Head;
+use crate::implantation::smooth;
+use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::random::{Purpose, Stream};
+use crate::roots::{Root, Scalp};
+use crate::spec::{Body, HairstyleSpec, Wisps};
+use crate::wisps::Wisp;
+
+/// How many neighbouring guides a hair can follow.
+const FOLLOWED: usize = 4;
+
+/// Depth of the first point of a hair below the skin (m), so that no root floats.
+const ROOT_DEPTH: f64 = 3e-4;
+
+/// Radius at the tip, as a fraction of the fibre's.
+const TIP: f64 = 0.35;
+
+/// Everything that drawing a hair needs.
+struct Population<'a> {
+    spec: &'a HairstyleSpec,
+    head: &'a Head,
+    guides: &'a [Guide],
+    wisps: Vec<Wisp>,
+    grid: Grid,
+    roots: Vec<DVec3>,
+    /// Mean distance of neighbouring guides (m).
+    spacing: f64,
+}
+
+/// Draws the hairs of a head.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(crate) fn draw(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    rest: &[Equilibrium],
+    monitor: &dyn Monitor,
+) -> Result<Strands, Cancelled> {
+    let scalp = Scalp::new(head);
+    let spacing = (scalp.area() / guides.len() as f64).sqrt();
+    let samples = (2 * spec.wisps.points).max(64);
+    let roots: Vec<DVec3> = guides.iter().map(|g| g.root.position).collect();
+    let population = Population {
+        spec,
+        head,
+        guides,
+        wisps: rest.par_iter().map(|r| Wisp::new(r, samples)).collect(),
+        grid: Grid::new(roots.iter().copied(), spacing),
+        roots,
+        spacing,
+    };
+    let hair_roots = scalp.stratified(spec.wisps.hairs, spec.seed, Purpose::HairRoots);
+    let stage = Stage::new(monitor, "drawing hairs", hair_roots.len());
+    let hairs: Vec<Hair> = hair_roots
+        .par_iter()
+        .enumerate()
+        .map(|(index, root)| {
+            stage.check()?;
+            let hair = population.hair(root, index);
+            stage.advance();
+            Ok(hair)
+        })
+        .collect::<Result<_, Cancelled>>()?;
+    Ok(assemble(spec, &hairs))
+}
+
+struct Hair {
+    guide: u32,
+    points: Vec<Vec3>,
+}
+
+fn assemble(spec: &HairstyleSpec, hairs: &[Hair]) -> Strands {
+    let points = spec.wisps.points;
+    let radius = spec.fibre.section.mean_radius();
+    let radii: Vec<f32> = (0..points)
+        .map(|i| {
+            let x = i as f64 / (points - 1) as f64;
+            (radius * (1.0 - (1.0 - TIP) * smooth(0.85, 1.0, x))) as f32
+        })
+        .collect();
+    let mut strands = Strands::with_capacity(hairs.len(), hairs.len() * points);
+    for hair in hairs {
+        strands.push(&hair.points, &radii);
+    }
+    let values = AttributeValues::U32(hairs.iter().map(|h| h.guide).collect());
+    let guide = Attribute { name: "guide".into(), domain: Domain::Strand, values };
+    strands.set_attribute(guide).expect("one guide per strand, set once");
+    strands
+}
+
+/// What makes one hair differ from its neighbours.
+struct Character {
+    /// Length as a fraction of its guides'.
+    length: f64,
+    /// Factor on the arc length at which it follows its guides: how its curl drifts.
+    drift: f64,
+    /// Coherent deviation: amplitude (m), wave number (rad per length) and phase.
+    waves: [(DVec3, f64, f64); 3],
+    /// Distance it keeps from the body, far from the root (m).
+    layer: f64,
+}
+
+impl Character {
+    fn new(wisps: &Wisps, length: f64, spacing: f64, layer: f64, random: &mut Stream) -> Self {
+        let stray = random.unit() < wisps.flyaways;
+        let fuzz = wisps.fuzziness * random.factor(0.5) * if stray { 4.0 } else { 1.0 };
+        let mut wave = |wavelength: f64, share: f64| {
+            let wave_number = TAU * length / (wavelength * random.factor(0.3));
+            let direction = DVec3::new(random.normal(), random.normal(), random.normal());
+            (direction * (0.3 * fuzz * spacing * share), wave_number, TAU * random.unit())
+        };
+        let waves = [wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)];
+        Self {
+            length: (1.0 - wisps.length_variation * random.normal().abs()).max(0.2),
+            drift: 1.0 + (0.006 + 0.06 * wisps.fuzziness) * random.normal(),
+            waves,
+            layer: layer * random.between(0.05, 1.0) * if stray { 1.6 } else { 1.0 },
+        }
+    }
+
+    /// Deviation (m) at `x` from 0 (root) to 1 (tip).
+    fn deviation(&self, x: f64, rise: f64) -> DVec3 {
+        let sum: DVec3 = self
+            .waves
+            .iter()
+            .map(|(amplitude, number, phase)| {
+                *amplitude * ((number * x + phase).sin() - phase.sin())
+            })
+            .sum();
+        sum * rise
+    }
+}
+
+impl Population<'_> {
+    fn hair(&self, root: &Root, index: usize) -> Hair {
+        let mut random = Stream::new(self.spec.seed, Purpose::Hair, index);
+        let followed = self.followed(root);
+        let main = followed[0].0;
+        let length: f64 = followed.iter().map(|&(g, w)| w * self.wisps[g].length).sum();
+        let layer = self.layer(&followed);
+        let wisps = &self.spec.wisps;
+        let character = Character::new(wisps, length, self.spacing, layer, &mut random);
+        let last = wisps.points - 1;
+        let points = (0..=last)
+            .map(|k| {
+                let x = k as f64 / last as f64 * character.length;
+                let p = self.followed_point(root, &followed, &character, x, length);
+                self.laid_on_body(root, p, x * length, character.layer).as_vec3()
+            })
+            .collect();
+        Hair { guide: main as u32, points }
+    }
+
+    /// Guides that a hair follows, with weights that sum to one; the nearest first.
+    fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
+        let near = self.grid.nearest(root.position, FOLLOWED, &self.roots);
+        let first = near[0];
+        let tangent = |g: usize| self.guides[g].rod.root().frame().z_axis;
+        let reach = (0.9 * self.spacing * self.spec.wisps.blending).max(1e-9);
+        let own = root.position.distance_squared(self.roots[first]);
+        let weight = |g: usize| {
+            let excess = root.position.distance_squared(self.roots[g]) - own;
+            // Hair on the other side of a parting goes another way.
+            let agreement = tangent(g).dot(tangent(first)).max(0.0).powi(4);
+            (-excess / (reach * reach)).exp() * agreement
+        };
+        let mut followed: Vec<_> = near.iter().map(|&g| (g, weight(g))).collect();
+        followed.retain(|f| f.1 > 1e-3);
+        let sum: f64 = followed.iter().map(|f| f.1).sum();
+        for f in &mut followed {
+            f.1 /= sum;
+        }
+        followed
+    }
+
+    /// Distance (m) from the body that the guides keep far from their roots.
+    fn layer(&self, followed: &[(usize, f64)]) -> f64 {
+        followed.iter().map(|&(g, w)| w * self.guides[g].clearance.full).sum()
+    }
+
+    /// Point of a hair at `x` of its guides' length.
+    fn followed_point(
+        &self,
+        root: &Root,
+        followed: &[(usize, f64)],
+        character: &Character,
+        x: f64,
+        length: f64,
+    ) -> DVec3 {
+        let along = x * length;
+        let rise = smooth(0.0, 0.06_f64.min(0.5 * length), along);
+        let narrowing = 1.0 - self.spec.wisps.clumping * smooth(0.0, 1.0, x.powf(0.8));
+        let drifted = x * (1.0 + (character.drift - 1.0) * rise);
+        let carried: DVec3 = followed
+            .iter()
+            .map(|&(g, weight)| {
+                let (centre, turn) = self.wisps[g].at(drifted);
+                let place = turn * (root.position - self.roots[g]);
+                (centre + place * narrowing) * weight
+            })
+            .sum();
+        carried + character.deviation(x, rise)
+    }
+
+    /// Pushes a point at arc length `s` (m) out of the body, to the hair's own layer.
+    fn laid_on_body(&self, root: &Root, p: DVec3, s: f64, layer: f64) -> DVec3 {
+        if s <= 0.0 {
+            return root.position - root.normal * ROOT_DEPTH;
+        }
+        if self.spec.contact.body == Body::None {
+            return p;
+        }
+        let keep = 4e-4 * (s / 0.003).min(1.0) + Clearance { full: layer, rise: 0.05 }.at(s);
+        let mut p = p;
+        for _ in 0..3 {
+            let (distance, gradient) = self.head.signed_distance().value_gradient(p);
+            if distance >= keep {
+                break;
+            }
+            p += gradient.normalize_or(root.normal) * (keep - distance);
+        }
+        p
+    }
+}

@@ -1,0 +1,86 @@
+//! A wisp: the guide's curve, and how a place in the wisp is carried along it.
+//!
+//! The members of a wisp keep to a cross-section whose radius varies along it (Choe & Ko 2005).
+//! They curl together: each is the guide displaced by a vector that turns as the *axis* of the
+//! wisp turns. The axis is the guide averaged over one turn of its curl, so that neither the curl
+//! nor the twist of the guide makes the hairs of a ringlet wind about each other.
+
+use std::f64::consts::TAU;
+
+use frisure_rod::Equilibrium;
+use glam::{DQuat, DVec3};
+
+/// A guide at rest, sampled evenly from root to tip.
+#[derive(Clone, Debug)]
+pub(crate) struct Wisp {
+    pub(crate) length: f64,
+    positions: Vec<DVec3>,
+    /// Rotation of the axis from the root.
+    turns: Vec<DQuat>,
+}
+
+/// Longest window (m) for the axis of hair without a curl.
+const STRAIGHT_WINDOW: f64 = 0.01;
+
+impl Wisp {
+    pub(crate) fn new(guide: &Equilibrium, samples: usize) -> Self {
+        let positions = guide.centre_line(samples);
+        let length = guide.rod.length();
+        let strain = guide.rod.natural().mean(0.0, length).length();
+        let period = TAU / strain.max(1e-9);
+        let window = if period < 0.5 * length { period } else { STRAIGHT_WINDOW.min(length) };
+        let half = (0.5 * window / length * (samples - 1) as f64).max(1.0);
+        let turns = transported(&positions, half);
+        Self { length, positions, turns }
+    }
+
+    /// Position (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip).
+    pub(crate) fn at(&self, x: f64) -> (DVec3, DQuat) {
+        let last = self.positions.len() - 1;
+        let place = x.clamp(0.0, 1.0) * last as f64;
+        let i = (place as usize).min(last - 1);
+        let t = place - i as f64;
+        (
+            catmull_rom(&self.positions, i, t),
+            self.turns[i].lerp(self.turns[i + 1], t).normalize(),
+        )
+    }
+}
+
+/// The interpolating cubic through evenly spaced points, between points `i` and `i + 1`.
+fn catmull_rom(points: &[DVec3], i: usize, t: f64) -> DVec3 {
+    let (b, c) = (points[i], points[i + 1]);
+    let a = if i > 0 { points[i - 1] } else { b * 2.0 - c };
+    let d = points.get(i + 2).copied().unwrap_or(c * 2.0 - b);
+    let (m0, m1) = ((c - a) * 0.5, (d - b) * 0.5);
+    let (t2, t3) = (t * t, t * t * t);
+    b * (2.0 * t3 - 3.0 * t2 + 1.0)
+        + m0 * (t3 - 2.0 * t2 + t)
+        + c * (3.0 * t2 - 2.0 * t3)
+        + m1 * (t3 - t2)
+}
+
+/// Parallel transport along the axis: chords over `2 half` samples.
+fn transported(positions: &[DVec3], half: f64) -> Vec<DQuat> {
+    let last = (positions.len() - 1) as f64;
+    let point = |x: f64| {
+        let x = x.clamp(0.0, last);
+        let i = (x as usize).min(positions.len() - 2);
+        positions[i].lerp(positions[i + 1], x - i as f64)
+    };
+    // At the ends the window shortens; a chord of one whole turn is taken all the same.
+    let axis = |k: usize| {
+        let middle = (k as f64).clamp(half.min(0.5 * last), last - half.min(0.5 * last));
+        (point(middle + half) - point(middle - half)).normalize_or(DVec3::NEG_Z)
+    };
+    let mut turn = DQuat::IDENTITY;
+    let mut previous = axis(0);
+    (0..positions.len())
+        .map(|k| {
+            let next = axis(k);
+            turn = (DQuat::from_rotation_arc(previous, next) * turn).normalize();
+            previous = next;
+            turn
+        })
+        .collect()
+}
