@@ -1,2 +1,40 @@
-//! The `frisure` command.
-fn main() {}
+//! The `frisure` command: arguments in [`args`], then one file per command in [`commands`].
+
+mod args;
+mod commands;
+mod console;
+mod failure;
+mod interrupt;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use failure::{Done, Failure};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    failure::install_handler();
+    match run(arguments) {
+        Ok(done) => done.code(),
+        Err(failure) => {
+            console::complain(&failure);
+            failure.code()
+        }
+    }
+}
+
+fn run(arguments: Arguments) -> Result<Done, Failure> {
+    interrupt::install()?;
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build_global().map_err(|e| Failure::failed(&e))?;
+    }
+    match arguments.command {
+        Command::Hair(hair) => commands::hair::run(&hair),
+        Command::Presets => commands::presets::run(),
+        Command::New(new) => commands::new::run(&new),
+        Command::Schema => commands::schema::run(),
+    }
+}

@@ -141,9 +141,41 @@ pub fn write_atomically(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {
     let fail = |source| WriteError::Io { path: path.into(), source };
+    match destination(path)? {
+        Destination::Device => write_directly(path, fill).map_err(fail),
+        Destination::File { target, folder, existing } => {
+            replace(&target, &folder, existing, fill).map_err(fail)
+        }
+    }
+}
+
+/// Checks that a file can be written, without touching it.
+///
+/// # Errors
+/// [`WriteError`], as [`write_atomically`] would give.
+pub fn check_destination(path: &Path) -> Result<(), WriteError> {
+    match destination(path)? {
+        Destination::Device => Ok(()),
+        Destination::File { folder, .. } => {
+            // Permissions say too little (root, read-only disks): only trying tells.
+            let probe = tempfile::tempfile_in(folder);
+            probe.map(drop).map_err(|source| WriteError::Io { path: path.into(), source })
+        }
+    }
+}
+
+/// What a path to write leads to.
+enum Destination {
+    /// A device or a pipe, to be written as it is: renaming over it would replace it.
+    Device,
+    /// A file that is or will be.
+    File { target: PathBuf, folder: PathBuf, existing: Option<Permissions> },
+}
+
+fn destination(path: &Path) -> Result<Destination, WriteError> {
     let existing = match fs::metadata(path) {
         Ok(m) if m.is_dir() => return Err(WriteError::Directory { path: path.into() }),
-        Ok(m) if !m.is_file() => return write_directly(path, fill).map_err(fail),
+        Ok(m) if !m.is_file() => return Ok(Destination::Device),
         Ok(m) if m.permissions().readonly() => {
             return Err(WriteError::ReadOnly { path: path.into() });
         }
@@ -151,16 +183,20 @@ pub fn write_atomically(
         Err(_) => None,
     };
     // Renaming over a link would replace the link instead of the file it points at.
-    let target =
-        if existing.is_some() { fs::canonicalize(path).map_err(fail)? } else { path.into() };
+    let target = match existing {
+        Some(_) => {
+            fs::canonicalize(path).map_err(|source| WriteError::Io { path: path.into(), source })?
+        }
+        None => path.into(),
+    };
     let folder = match target.parent() {
-        Some(p) if !p.as_os_str().is_empty() => p,
-        _ => Path::new("."),
+        Some(p) if !p.as_os_str().is_empty() => p.to_path_buf(),
+        _ => PathBuf::from("."),
     };
     if !folder.is_dir() {
-        return Err(WriteError::NoFolder { path: path.into(), folder: folder.into() });
+        return Err(WriteError::NoFolder { path: path.into(), folder });
     }
-    replace(&target, folder, existing, fill).map_err(fail)
+    Ok(Destination::File { target, folder, existing })
 }
 
 fn replace(

@@ -1,1 +1,31 @@
-//! placeholder
+//! frisure predicts how natural hair falls, from the physics of its fibres.
+//!
+//! One hair is an elastic rod, clamped in the scalp, that rests where elasticity and weight balance
+//! ([`rod`]). A head of hair is some hundred such rods, its guides, with the drawn hairs around them
+//! ([`hairstyle`]); what comes out are [`strands`], to be drawn ([`render`], with the [`optics`] of
+//! a fibre) or written to a file ([`io`]).
+//!
+//! This crate is a door: it holds nothing of its own.
+//!
+//! ```
+//! use frisure::io::scene::Scene;
+//! use frisure::rod::equilibrium;
+//!
+//! // A ringlet of 20 cm, held out horizontally.
+//! let text = r#"
+//!     [hair]
+//!     length = "20 cm"
+//!     curl = { radius = "1 cm", pitch = "3 cm" }
+//! "#;
+//! let hair = Scene::parse("ringlet", text, "".as_ref())?.single_hair()?;
+//! let rest = equilibrium(&hair.rod, &[], &hair.options);
+//! assert!(rest.tip().z < 0.0, "it hangs");
+//! # Ok::<(), frisure::io::scene::SceneError>(())
+//! ```
+
+pub use frisure_hairstyle as hairstyle;
+pub use frisure_io as io;
+pub use frisure_optics as optics;
+pub use frisure_render as render;
+pub use frisure_rod as rod;
+pub use frisure_strands as strands;

@@ -1,0 +1,96 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand};
+use frisure::hairstyle::PRESETS;
+
+const EXAMPLES: &str = "\
+Examples:
+  frisure new caucasian-curly > mine.toml
+  frisure hair mine.toml --json --points 100
+
+Exit status:
+  0    done
+  1    a file could not be written, or something else failed
+  2    the command line, the scene or the head is wrong
+  3    computed and written, but some equilibrium did not converge
+  130  interrupted; no file is left half-written";
+
+/// Predicts how natural hair falls, from the physics of its fibres.
+#[derive(Debug, Parser)]
+#[command(name = "frisure", version, after_help = EXAMPLES, max_term_width = 100)]
+pub(crate) struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+
+    /// Number of threads; by default one per processor. Results do not depend on it.
+    #[arg(long, global = true, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
+
+    /// Say nothing but errors.
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Compute one hair: its shape, its energies, and how sure they are.
+    Hair(Hair),
+    /// List the hair types that a scene can start from.
+    Presets,
+    /// Print a commented scene to start from.
+    New(New),
+    /// Print the JSON Schema of scenes: every key, its unit and its range.
+    Schema,
+}
+
+const HAIR_EXAMPLES: &str = "\
+Examples:
+  frisure hair scenes/curly.toml
+  frisure hair scenes/curly.toml --json --points 200 > hair.json
+
+The hair is that of `[hair]`, without variation, clamped at the origin as `[hair.root]` says. JSON is \
+in SI units: `length`, `elements`, `tip`, `energy` (`elastic`, `gravity`, `contact`, `total`), \
+`gradient_norm`, `min_eigenvalue`, `stable`, `iterations`, `error_estimate`, and `points`.";
+
+/// Arguments of `frisure hair`.
+#[derive(Args, Debug)]
+#[command(after_help = HAIR_EXAMPLES)]
+pub(crate) struct Hair {
+    /// The scene (TOML), or `-` for standard input.
+    pub(crate) scene: PathBuf,
+
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// Also print the centre line, as so many points evenly spaced from root to tip; 2 to 1000000.
+    #[arg(long, value_name = "N", value_parser = points)]
+    pub(crate) points: Option<usize>,
+}
+
+/// Arguments of `frisure new`.
+#[derive(Args, Debug)]
+pub(crate) struct New {
+    /// The hair type; `frisure presets` describes them.
+    #[arg(value_parser = PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)))]
+    #[arg(default_value = "caucasian-wavy")]
+    pub(crate) hair_type: String,
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    number(text, 1, 1024)
+}
+
+fn points(text: &str) -> Result<usize, String> {
+    number(text, 2, 1_000_000)
+}
+
+fn number(text: &str, min: usize, max: usize) -> Result<usize, String> {
+    let outside = || format!("it must be a whole number between {min} and {max}");
+    text.parse().ok().filter(|n| (min..=max).contains(n)).ok_or_else(outside)
+}

@@ -1,0 +1,118 @@
+//! `frisure hair`: one hair, its energies, and what vouches for them.
+
+use std::fmt::Write;
+
+use frisure::rod::{Equilibrium, Stability, equilibrium};
+use serde::Serialize;
+
+use super::read_scene;
+use crate::args::Hair;
+use crate::failure::{Done, Failure};
+use crate::{console, interrupt};
+
+/// What is printed; SI units.
+#[derive(Debug, Serialize)]
+struct Report {
+    /// Length (m).
+    length: f64,
+    /// Number of elements.
+    elements: usize,
+    /// Tip relative to the root (m).
+    tip: [f64; 3],
+    energy: Energies,
+    /// Relative gradient of the energy.
+    gradient_norm: f64,
+    /// Smallest eigenvalue of the second variation relative to the elastic one.
+    min_eigenvalue: Option<f64>,
+    /// Whether it is a minimum.
+    stable: bool,
+    iterations: usize,
+    /// Largest distance of the centre line from the exact one (m), estimated.
+    error_estimate: Option<f64>,
+    /// The centre line relative to the root (m).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    points: Option<Vec<[f64; 3]>>,
+}
+
+/// Energies (J).
+#[derive(Debug, Serialize)]
+struct Energies {
+    elastic: f64,
+    gravity: f64,
+    contact: f64,
+    total: f64,
+}
+
+/// Computes and prints the hair of a scene.
+pub(crate) fn run(arguments: &Hair) -> Result<Done, Failure> {
+    let hair = read_scene(&arguments.scene)?.single_hair()?;
+    let rest = interrupt::computing(move || Ok(equilibrium(&hair.rod, &[], &hair.options)))?;
+    let report = report(&rest, arguments.points);
+    let text = if arguments.json {
+        let json = serde_json::to_string_pretty(&report).map_err(|e| Failure::failed(&e))?;
+        format!("{json}\n")
+    } else {
+        table(&report, rest.certificate.stability)
+    };
+    console::print(&text)?;
+    Ok(match rest.certificate.stability {
+        Stability::NotConverged => Done::NotConverged,
+        Stability::Stable | Stability::Saddle => Done::Well,
+    })
+}
+
+fn report(rest: &Equilibrium, points: Option<usize>) -> Report {
+    let certificate = &rest.certificate;
+    let line = |n| rest.centre_line(n).iter().map(|p| p.to_array()).collect();
+    Report {
+        length: rest.rod.length(),
+        elements: rest.elements,
+        tip: rest.tip().to_array(),
+        energy: Energies {
+            elastic: rest.energy.elastic,
+            gravity: rest.energy.gravity,
+            contact: rest.energy.external,
+            total: rest.energy.total(),
+        },
+        gradient_norm: certificate.gradient_norm,
+        min_eigenvalue: certificate.min_eigenvalue,
+        stable: certificate.stability == Stability::Stable,
+        iterations: certificate.iterations,
+        error_estimate: rest.error_estimate,
+        points: points.map(line),
+    }
+}
+
+/// The report for people.
+fn table(report: &Report, stability: Stability) -> String {
+    let mut out = String::new();
+    let mut row = |name: &str, value: String| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(out, "{name:<16} {value}");
+    };
+    let optional = |x: Option<f64>, show: fn(f64) -> String| x.map_or("not known".into(), show);
+    let [x, y, z] = report.tip.map(|c| 100.0 * c);
+    let energy = &report.energy;
+    row("length", format!("{:.2} cm", 100.0 * report.length));
+    row("elements", report.elements.to_string());
+    row("tip", format!("{x:.3}, {y:.3}, {z:.3} cm from the root"));
+    row("elastic energy", format!("{:.6e} J", energy.elastic));
+    row("weight", format!("{:.6e} J", energy.gravity));
+    if energy.contact != 0.0 {
+        row("contact", format!("{:.6e} J", energy.contact));
+    }
+    row("total energy", format!("{:.6e} J", energy.total));
+    let verdict = match stability {
+        Stability::Stable => "stable equilibrium",
+        Stability::Saddle => "unstable equilibrium",
+        Stability::NotConverged => "NOT CONVERGED",
+    };
+    row("result", format!("{verdict} after {} iterations", report.iterations));
+    row("gradient", format!("{:.1e} of the moments at work", report.gradient_norm));
+    row("eigenvalue", optional(report.min_eigenvalue, |x| format!("{x:.4} (1 without load)")));
+    row("accuracy", optional(report.error_estimate, |x| format!("{:.1e} mm", 1e3 * x)));
+    for [x, y, z] in report.points.iter().flatten().map(|p| p.map(|c| 100.0 * c)) {
+        let _ = writeln!(out, "{x:>12.5} {y:>12.5} {z:>12.5} cm");
+    }
+    out
+}

@@ -1,0 +1,24 @@
+//! Standard output and standard error.
+
+use std::io::{self, ErrorKind, Write};
+
+use crate::failure::Failure;
+
+/// Writes text to standard output. A reader that has gone away (`frisure presets | head -1`) has
+/// what it wanted.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::failed(&error)),
+        _ => Ok(()),
+    }
+}
+
+/// Shows why a command failed. If standard error is closed there is nobody to tell.
+pub(crate) fn complain(failure: &Failure) {
+    let mut err = io::stderr().lock();
+    let _ = match failure {
+        Failure::Failed(report) | Failure::Wrong(report) => writeln!(err, "{report:?}"),
+        Failure::Interrupted => writeln!(err, "interrupted"),
+    };
+}
