@@ -18,6 +18,8 @@ const WISP_PART: f32 = 0.6;
 /// Length of the path of light that leaves on the side of the lamp, as part of that of all light.
 /// Chosen by eye, so that brown of 1.3 is brown and blond of 0.3 is blond.
 const PATH: f32 = 0.6;
+/// Part of the light reflected by one hair that its neighbours reflect on to the eye.
+const SHEEN: f32 = 0.12;
 /// Deviation of the white highlight's strength from strand to strand, as a power of e.
 const GLITTER_STRENGTH: f32 = 0.35;
 /// Deviation of the highlights' place from strand to strand (rad).
@@ -123,7 +125,8 @@ fn material(look: &HairLook, factor: f32) -> Material {
     // comes out of the lit side after fewer: a part of that path, hence the power.
     let colour = apparent_colour(sigma_a, AZIMUTHAL_ROUGHNESS).map(|c| c.powf(PATH));
     Material {
-        diffuse: look.diffuse * colour,
+        // Among much hair some light only ever meets surfaces, and keeps its colour.
+        diffuse: look.diffuse * (colour + SHEEN * energy.reflected),
         reflected: look.primary * energy.reflected,
         transmitted: look.transmission * energy.transmitted,
         returned: look.secondary * energy.returned,

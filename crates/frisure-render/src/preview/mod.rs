@@ -168,19 +168,31 @@ pub fn render(
     Ok(image)
 }
 
-/// Smallest and largest corner (m) of the box around all finite points of the strands and of the
-/// surface: what [`Camera::framing`] wants. Without any, a box around a head at the origin.
+/// The box (smallest and largest corner, m) that a picture of this hair should show, for
+/// [`Camera::framing`]: all finite points of the strands, and of the surface its upper 0.27 m, the
+/// head without the shoulders. Without strands it is the whole surface; without either, a box around
+/// a head at the origin.
 #[must_use]
 pub fn bounds(strands: &Strands, surface: Option<&Surface>) -> (DVec3, DVec3) {
-    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let grow = |(low, high): (DVec3, DVec3), p: DVec3| (low.min(p), high.max(p));
-    let hair = strands.points().iter().filter(|p| p.is_finite());
-    let mut all = hair.map(|p| p.as_dvec3()).fold(empty, grow);
-    if let Some(surface) = surface {
-        let (low, high) = surface.bounds();
-        all = grow(grow(all, low), high);
+    /// From the crown to below the chin (m).
+    const HEAD: f64 = 0.27;
+    let hair = enclose(strands.points().iter().map(|p| p.as_dvec3()).filter(|p| p.is_finite()));
+    let head = surface.and_then(|surface| {
+        let top = surface.bounds().1.z;
+        let shown = |p: &DVec3| hair.is_none() || p.z > top - HEAD;
+        enclose(surface.positions().iter().copied().filter(shown))
+    });
+    match (hair, head) {
+        (Some(a), Some(b)) => (a.0.min(b.0), a.1.max(b.1)),
+        (Some(all), None) | (None, Some(all)) => all,
+        (None, None) => (DVec3::splat(-0.15), DVec3::splat(0.15)),
     }
-    if all.0.is_finite() { all } else { (DVec3::splat(-0.15), DVec3::splat(0.15)) }
+}
+
+/// The box around some points; `None` without points.
+fn enclose(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
+    let first = points.next()?;
+    Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
 }
 
 /// The factor on the strands' width: given, or such that fewer than a full head still cover it.

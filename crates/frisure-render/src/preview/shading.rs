@@ -15,15 +15,20 @@ use crate::SkinLook;
 
 /// How far hair is lifted towards a lamp before the head can hide it (m): roots lie in the scalp.
 const HAIR_BIAS: f32 = 2.5e-3;
-/// The same for the head itself (m).
-const SKIN_BIAS: f32 = 1.5e-3;
+/// The same for the head itself (m), whose facets would shade each other.
+const SKIN_BIAS: f32 = 3e-3;
+/// Radius over which the head's shadow on itself is blurred (m).
+const SKIN_PENUMBRA: f32 = 5e-3;
 /// How far skin is lit past the terminator, as light seeps through it.
 const WRAP: f32 = 0.2;
 /// Mean of sin(t, l) over all directions l: what a fibre sees of light from everywhere.
 const MEAN_SINE: f32 = std::f32::consts::FRAC_PI_4;
 
 /// Part of the room that hair mirrors: its neighbours hide the rest.
-const ROOM_GLOSS: f32 = 0.5;
+const ROOM_GLOSS: f32 = 0.3;
+
+/// Optical depth from which a lamp counts for nothing: it leaves less than half a thousandth.
+const DARK: f32 = 7.6;
 
 /// A lamp with its shadows.
 struct Lamp {
@@ -101,11 +106,14 @@ impl Shader {
         let mut radiance =
             room * MEAN_SINE * (diffuse + ROOM_GLOSS * reflected + material.returned);
         for lamp in &self.lamps {
+            let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
+            if hairs * self.materials.taken.min_element() > DARK {
+                continue;
+            }
             let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(vertex.position, HAIR_BIAS));
             if head <= 0.0 {
                 continue;
             }
-            let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
             let passed = (-hairs * self.materials.taken).exp();
             let straight = (-hairs).exp();
             let mut angles = Angles::new(vertex.tangent, lamp.to_light, eye);
@@ -134,7 +142,8 @@ impl Shader {
                 continue;
             }
             let lifted = pixel.position + SKIN_BIAS * normal;
-            let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(lifted, SKIN_BIAS));
+            let head =
+                lamp.head.as_ref().map_or(1.0, |m| m.softly_lit(lifted, SKIN_BIAS, SKIN_PENUMBRA));
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(lifted));
             let passed = head * (-hairs * self.materials.taken).exp();
             let half = (lamp.to_light + eye).normalize_or_zero();

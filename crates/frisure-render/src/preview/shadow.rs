@@ -9,6 +9,23 @@ use super::raster;
 /// Texels along a side.
 const SIZE: usize = 384;
 
+/// Thirteen points spread evenly over the unit disc: one, four and eight on three rings.
+const DISC: [(f32, f32); 13] = [
+    (0.0, 0.0),
+    (0.31, 0.31),
+    (-0.31, 0.31),
+    (-0.31, -0.31),
+    (0.31, -0.31),
+    (0.79, 0.33),
+    (0.33, 0.79),
+    (-0.33, 0.79),
+    (-0.79, 0.33),
+    (-0.79, -0.33),
+    (-0.33, -0.79),
+    (0.33, -0.79),
+    (0.79, -0.33),
+];
+
 /// Depth of the head seen from a lamp.
 pub(super) struct ShadowMap {
     axes: [Vec3; 3],
@@ -63,6 +80,14 @@ impl ShadowMap {
             }
         }
         lit
+    }
+
+    /// Mean of [`Self::lit`] over a lamp as wide as a soft box: its shadows blur over `radius` (m).
+    pub(super) fn softly_lit(&self, point: Vec3, bias: f32, radius: f32) -> f32 {
+        let [u, v, _] = self.axes;
+        let sum: f32 =
+            DISC.iter().map(|&(x, y)| self.lit(point + radius * (x * u + y * v), bias)).sum();
+        sum / DISC.len() as f32
     }
 
     /// Texel coordinates and depth (m).
