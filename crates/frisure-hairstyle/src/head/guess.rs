@@ -121,3 +121,34 @@ fn hit(from: DVec3, ray: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let t = f.dot(q) / det;
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::head::test_shapes::mannequin;
+
+    fn scaled(scale: f64, shift: DVec3) -> Surface {
+        let surface = mannequin().surface();
+        let positions = surface.positions().iter().map(|p| *p * scale + shift).collect();
+        Surface::new(positions, surface.triangles().to_vec()).unwrap()
+    }
+
+    #[test]
+    fn the_mannequin_is_measured_as_it_was_made() {
+        let known = mannequin().landmarks();
+        for (scale, shift) in [(1.0, DVec3::ZERO), (0.85, DVec3::new(0.3, -1.0, 1.6))] {
+            let found = Landmarks::guess(&scaled(scale, shift));
+            let close = |name: &str, a: DVec3, b: DVec3, tolerance: f64| {
+                let b = b * scale + shift;
+                assert!(a.distance(b) < tolerance, "{name}: {a}, not {b}");
+            };
+            close("centre", found.cranium_centre, known.cranium_centre, 0.01);
+            close("hairline", found.hairline, known.hairline, 0.012);
+            close("brow", found.brow, known.brow, 0.012);
+            close("ear", found.ear, known.ear, 0.015);
+            close("nape", found.nape, known.nape, 0.02);
+            close("whorl", found.whorl, known.whorl, 0.01);
+            assert!((found.width / (scale * known.width) - 1.0).abs() < 0.05);
+        }
+    }
+}

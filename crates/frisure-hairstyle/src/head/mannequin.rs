@@ -35,8 +35,8 @@ pub(crate) fn landmarks() -> Landmarks {
 
 /// Fine where the face is, coarse at the shoulders (m).
 fn lattice() -> Lattice {
-    let across = |x: f64| if x.abs() < 0.09 { 2.6e-3 } else { 5.0e-3 };
-    let along = |y: f64| if y < -0.06 { 2.4e-3 } else { 3.6e-3 };
+    let across = |x: f64| if x.abs() < 0.095 { 2.5e-3 } else { 5.0e-3 };
+    let along = |y: f64| if y < -0.06 { 2.3e-3 } else { 3.2e-3 };
     let up = |z: f64| match z {
         z if z < -0.13 => 5.0e-3,
         z if z < 0.025 => 2.2e-3,
@@ -54,7 +54,7 @@ fn head(p: DVec3) -> f64 {
     let features = mouth(p, nose(p, eyes(p, body)));
     let whole = join(features, ear(p), 0.5);
     // The bust stands on a flat foot.
-    meet(whole, -24.5 - p.z, 1.2)
+    meet(whole, -24.5 - p.z, 2.0)
 }
 
 fn cranium(p: DVec3) -> f64 {
@@ -65,17 +65,17 @@ fn cranium(p: DVec3) -> f64 {
 
 fn face(p: DVec3) -> f64 {
     let mask = ellipsoid(p, dvec3(0.0, 3.2, -3.6), dvec3(5.9, 5.6, 7.0));
-    let muzzle = ellipsoid(p, dvec3(0.0, 5.6, -7.2), dvec3(3.5, 3.7, 3.6));
+    let muzzle = ellipsoid(p, dvec3(0.0, 5.9, -7.0), dvec3(3.4, 3.75, 3.6));
     let cheek = turned(p, dvec3(4.1, 5.6, -3.5), dvec3(1.6, 1.9, 1.4), 0.0, 0.5);
     let flesh = turned(p, dvec3(3.2, 4.8, -6.4), dvec3(2.3, 2.8, 2.9), 0.0, 0.3);
-    let arch = cone(p, dvec3(4.5, 5.8, -2.7), dvec3(6.1, 1.5, -2.2), 0.8, 0.7);
+    let arch = cone(p, dvec3(4.4, 5.7, -2.7), dvec3(5.8, 1.5, -2.4), 0.8, 0.5);
     let jaw = chain(
         p,
         &[
             (dvec3(5.1, 0.4, -4.0), 1.0),
             (dvec3(4.7, 1.2, -7.0), 1.0),
-            (dvec3(4.0, 2.8, -8.8), 1.0),
-            (dvec3(2.3, 6.2, -10.5), 1.1),
+            (dvec3(3.9, 2.8, -8.7), 0.9),
+            (dvec3(2.2, 6.2, -10.4), 1.0),
             (dvec3(0.0, 7.5, -10.8), 1.1),
         ],
     );
@@ -83,25 +83,28 @@ fn face(p: DVec3) -> f64 {
     let floor = ellipsoid(p, dvec3(0.0, 3.2, -8.2), dvec3(4.0, 4.6, 2.8));
     let brow = chain(
         p,
-        &[(dvec3(0.6, 8.95, 1.0), 0.5), (dvec3(2.8, 8.6, 1.5), 0.5), (dvec3(4.9, 6.9, 0.9), 0.4)],
+        &[(dvec3(0.6, 8.9, 1.0), 0.4), (dvec3(2.8, 8.5, 1.45), 0.4), (dvec3(4.9, 6.7, 0.8), 0.2)],
     );
     let f = join(join(mask, muzzle, 2.0), join(join(cheek, arch, 1.0), flesh, 2.0), 2.5);
-    let f = join(f, join(jaw, floor, 2.0), 2.5);
-    join(join(f, chin, 1.6), brow, 2.0)
+    let f = join(f, join(jaw, floor, 2.5), 3.0);
+    join(join(f, chin, 1.6), brow, 2.4)
 }
 
 fn eyes(p: DVec3, skin: f64) -> f64 {
-    let socket = turned(p, dvec3(3.25, 9.7, -0.8), dvec3(1.9, 1.65, 1.15), 0.0, -0.25);
-    let inner = ellipsoid(p, dvec3(1.7, 9.8, -0.7), dvec3(0.6, 1.2, 0.8));
+    let socket = turned(p, dvec3(3.3, 9.6, -0.7), dvec3(1.9, 1.6, 1.05), 0.0, -0.3);
+    let inner = ellipsoid(p, dvec3(1.75, 9.6, -0.8), dvec3(0.6, 1.1, 0.8));
     let f = carve(carve(skin, socket, 1.4), inner, 1.0);
-    let centre = dvec3(3.2, 6.95, -1.0);
-    let ball = (p - centre).length() - 1.3;
-    let f = join(f, ball, 0.6);
+    let centre = dvec3(3.2, 6.85, -1.05);
+    let lid = turned(p, centre, dvec3(1.75, 1.35, 1.2), 0.0, -0.28);
+    let f = join(f, lid, 0.7);
     // Closed lids: the upper one overhangs the lower one along a line that sags in the middle.
-    let across = (p.x - centre.x) / 1.4;
-    let seam = centre.z - 0.62 + 0.28 * across * across;
-    let upper = meet((p - centre).length() - 1.4, seam - p.z, 0.1);
-    join(f, upper, 0.15)
+    let across = (p.x - centre.x) / 1.5;
+    let seam = centre.z - 0.58 + 0.40 * across * across;
+    let upper = meet(lid - 0.13, seam - p.z, 0.1);
+    let line = lid.abs() + (p.z - seam).abs() + 0.6 * (across * across - 0.5).max(0.0) - 0.09;
+    // Only in front: the lid's ellipsoid has a back, too, deep inside.
+    let crease = line.max(centre.y + 0.3 - p.y);
+    carve(join(f, upper, 0.1), crease, 0.12)
 }
 
 fn nose(p: DVec3, skin: f64) -> f64 {
@@ -114,11 +117,11 @@ fn nose(p: DVec3, skin: f64) -> f64 {
             (dvec3(0.0, 10.95, -4.2), 0.75),
         ],
     );
-    let side = cone(p, dvec3(0.4, 8.5, -0.6), dvec3(0.9, 9.2, -4.2), 0.5, 0.9);
-    let wing = turned(p, dvec3(1.15, 9.7, -4.8), dvec3(0.6, 0.95, 0.62), 0.2, 0.35);
+    let side = cone(p, dvec3(0.15, 8.3, -0.6), dvec3(0.55, 9.1, -4.4), 0.7, 1.2);
+    let wing = turned(p, dvec3(1.15, 9.75, -4.75), dvec3(0.55, 0.95, 0.6), 0.2, 0.35);
     let column = cone(p, dvec3(0.0, 10.8, -4.6), dvec3(0.0, 9.6, -5.3), 0.4, 0.35);
-    let f = join(join(bridge, side, 1.2), wing, 0.5);
-    let f = join(skin, join(f, column, 0.5), 0.9);
+    let f = join(join(bridge, side, 2.2), wing, 0.8);
+    let f = join(skin, join(f, column, 0.7), 0.9);
     let nostril = turned(p, dvec3(0.58, 10.1, -5.4), dvec3(0.27, 0.5, 0.35), 0.2, 0.35);
     carve(f, nostril, 0.25)
 }
@@ -145,9 +148,9 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
     let slit = chain(
         p,
         &[
-            (dvec3(0.0, 9.98, -7.46), 0.08),
-            (dvec3(0.9, 9.72, -7.40), 0.08),
-            (dvec3(2.4, 8.72, -7.52), 0.08),
+            (dvec3(0.0, 10.0, -7.46), 0.10),
+            (dvec3(0.9, 9.74, -7.40), 0.10),
+            (dvec3(2.3, 8.75, -7.50), 0.02),
         ],
     );
     let f = carve(carve(skin, fold, 1.2), groove, 0.5);
@@ -188,7 +191,7 @@ fn ear(p: DVec3) -> f64 {
         ],
     );
     let lobe = ellipsoid(q, dvec3(-0.1, -2.5, 0.1), dvec3(0.85, 0.85, 0.38));
-    let concha = ellipsoid(q, dvec3(-0.15, -0.3, 0.55), dvec3(0.75, 0.95, 0.75));
+    let concha = ellipsoid(q, dvec3(-0.1, -0.3, 0.5), dvec3(0.85, 1.05, 0.62));
     let tragus = ellipsoid(q, dvec3(-1.0, -0.5, 0.3), dvec3(0.35, 0.5, 0.4));
     let f = join(join(join(plate, root, 0.6), lobe, 0.6), fold, 0.35);
     let f = join(carve(f, concha, 0.35), helix, 0.3);
@@ -196,9 +199,9 @@ fn ear(p: DVec3) -> f64 {
 }
 
 fn neck(p: DVec3) -> f64 {
-    let column = cone(p, dvec3(0.0, -1.5, -6.0), dvec3(0.0, -3.2, -16.0), 4.6, 4.9);
-    let strap = cone(p, dvec3(4.5, -2.6, -6.5), dvec3(0.9, 1.2, -17.2), 0.8, 0.7);
-    let throat = ellipsoid(p, dvec3(0.0, 1.9, -13.0), dvec3(0.8, 0.8, 1.5));
+    let column = cone(p, dvec3(0.0, -1.7, -6.0), dvec3(0.0, -3.2, -16.0), 4.3, 4.7);
+    let strap = cone(p, dvec3(3.9, -2.6, -5.5), dvec3(0.9, 1.2, -17.2), 0.8, 0.7);
+    let throat = ellipsoid(p, dvec3(0.0, 1.2, -12.8), dvec3(1.0, 0.9, 1.6));
     let nape = ellipsoid(p, dvec3(0.0, -4.6, -7.0), dvec3(3.6, 2.6, 5.5));
     let trapezius = chain(
         p,
@@ -208,7 +211,7 @@ fn neck(p: DVec3) -> f64 {
             (dvec3(10.5, -4.8, -19.0), 2.0),
         ],
     );
-    let f = join(join(column, strap, 1.4), throat, 1.4);
+    let f = join(join(column, strap, 1.6), throat, 2.2);
     join(join(f, nape, 2.5), trapezius, 3.5)
 }
 

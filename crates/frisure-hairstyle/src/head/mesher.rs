@@ -44,7 +44,8 @@ impl Lattice {
 /// If the field has no zero on the lattice.
 pub(crate) fn mesh(lattice: &Lattice, field: impl Fn(DVec3) -> f64 + Sync) -> Surface {
     let values = evaluate(lattice, &field);
-    let (mut positions, triangles) = nets(lattice, &values);
+    let (positions, triangles) = nets(lattice, &values);
+    let (mut positions, triangles) = largest_piece(&positions, &triangles);
     for _ in 0..ROUNDS {
         positions = smoothed(&positions, &triangles);
         positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
@@ -163,6 +164,40 @@ fn split(positions: &[DVec3], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
 }
 
+/// The piece with the most vertices: carving may leave bubbles inside.
+fn largest_piece(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut parent: Vec<u32> = (0..positions.len() as u32).collect();
+    for &[a, b, c] in triangles {
+        for v in [b, c] {
+            let (x, y) = (root(&mut parent, a), root(&mut parent, v));
+            parent[x.max(y) as usize] = x.min(y);
+        }
+    }
+    let roots: Vec<u32> = (0..parent.len() as u32).map(|v| root(&mut parent, v)).collect();
+    let mut counts = vec![0_u32; roots.len()];
+    for &r in &roots {
+        counts[r as usize] += 1;
+    }
+    let best = (0..counts.len()).rev().max_by_key(|&r| counts[r]).map_or(0, |r| r as u32);
+    let mut renumbered = vec![0; roots.len()];
+    let mut kept = Vec::new();
+    for v in (0..roots.len()).filter(|&v| roots[v] == best) {
+        renumbered[v] = kept.len() as u32;
+        kept.push(positions[v]);
+    }
+    let whole = triangles.iter().filter(|t| roots[t[0] as usize] == best);
+    (kept, whole.map(|t| t.map(|v| renumbered[v as usize])).collect())
+}
+
+/// The first vertex of a piece; shortens the way there.
+fn root(parent: &mut [u32], mut v: u32) -> u32 {
+    while parent[v as usize] != v {
+        parent[v as usize] = parent[parent[v as usize] as usize];
+        v = parent[v as usize];
+    }
+    v
+}
+
 /// Each vertex half-way to the mean of its neighbours.
 fn smoothed(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![(DVec3::ZERO, 0.0); positions.len()];
@@ -213,8 +248,17 @@ mod tests {
         assert!(ball.positions().iter().all(|p| (p.length() - 0.1).abs() < 1e-6));
         let exact = 4.0 * std::f64::consts::PI * 0.01;
         assert!((ball.area() / exact - 1.0).abs() < 0.01);
+        assert_eq!(ball.positions().len() as i64 - ball.triangles().len() as i64 / 2, 2);
         for (n, p) in ball.vertex_normals().iter().zip(ball.positions()) {
             assert!(n.dot(*p) > 0.09);
         }
+    }
+
+    #[test]
+    fn bubbles_inside_are_left_out() {
+        let axis = || Lattice::axis(-0.11, 0.11, |_| 5e-3);
+        let hollow = |p: DVec3| (p.length() - 0.1).max(0.03 - p.length());
+        let ball = mesh(&Lattice { axes: [axis(), axis(), axis()] }, hollow);
+        assert!(ball.positions().iter().all(|p| p.length() > 0.09));
     }
 }

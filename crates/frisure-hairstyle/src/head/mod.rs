@@ -113,7 +113,7 @@ impl Head {
 
     fn assemble(surface: Surface, scalp: Vec<f64>, landmarks: Landmarks) -> Self {
         let signed_distance = SignedDistance::new(&surface);
-        let spheres = spheres::fit(&surface, &scalp, &signed_distance);
+        let spheres = spheres::fit(&surface, &scalp, &landmarks, &signed_distance);
         Self { surface, scalp, landmarks, signed_distance, spheres }
     }
 
@@ -163,4 +163,89 @@ fn grows(surface: &Surface, scalp: &[f64]) -> bool {
         triangle.iter().any(|&v| scalp[v as usize] > 0.0)
             && surface.doubled_area_vector(face).length() > 0.0
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use test_shapes::{ball, mannequin};
+
+    #[test]
+    fn bad_heads_are_refused() {
+        let make = |scalp| Head::from_surface(ball(0.1, 8), scalp);
+        let count = ball(0.1, 8).positions().len();
+        let short = make(ScalpSource::Weights(vec![1.0]));
+        assert_eq!(short, Err(HeadError::WeightCount { weights: 1, vertices: count }));
+        let mut weights = vec![1.0; count];
+        weights[3] = f64::NAN;
+        let nan = make(ScalpSource::Weights(weights));
+        assert!(matches!(nan, Err(HeadError::WeightRange { vertex: 3, .. })));
+        assert_eq!(make(ScalpSource::Weights(vec![0.0; count])), Err(HeadError::NoScalp));
+        let far = Head::from_surface(ball(100.0, 8), ScalpSource::Guess);
+        assert_eq!(far, Err(HeadError::Size { size: 200.0 }));
+    }
+
+    #[test]
+    fn a_ball_is_head_enough() {
+        let head = Head::from_surface(ball(0.1, 24), ScalpSource::Guess).unwrap();
+        assert!(!head.spheres().is_empty());
+    }
+
+    #[test]
+    fn the_mannequin_has_human_measures() {
+        let head = mannequin();
+        let (low, high) = head.surface().bounds();
+        assert!((high.z - 0.11).abs() < 4e-3, "{high}");
+        assert!(low.y < -0.11 && low.y > -0.125, "the nose's tip: {low}");
+        let scalp = |p: DVec3| nearest_weight(head, p);
+        assert_eq!(scalp(DVec3::new(0.0, 0.0, 0.11)), 1.0);
+        assert_eq!(scalp(DVec3::new(0.0, 0.098, 0.01)), 1.0);
+        assert_eq!(scalp(DVec3::new(0.0, -0.096, 0.03)), 0.0);
+        assert_eq!(scalp(DVec3::new(0.0, -0.115, -0.04)), 0.0);
+        assert_eq!(scalp(DVec3::new(0.085, 0.015, -0.02)), 0.0);
+        assert!(head.landmarks().azimuth(head.landmarks().ear) > 1.5);
+        // People have 550 to 750 cm² of scalp.
+        let area = scalp_area(head);
+        assert!((0.05..0.075).contains(&area), "{area}");
+    }
+
+    #[test]
+    fn the_distance_vanishes_on_smooth_skin() {
+        let head = mannequin();
+        let mut gaps: Vec<f64> = head
+            .surface()
+            .positions()
+            .iter()
+            .map(|&p| head.signed_distance().value(p).abs())
+            .collect();
+        gaps.sort_by(f64::total_cmp);
+        let quantile = |q: f64| gaps[(q * (gaps.len() - 1) as f64) as usize];
+        assert!(quantile(0.98) < 3e-4, "{}", quantile(0.98));
+        // In the nostrils and behind the ears a grid of 3 mm rounds the creases.
+        assert!(quantile(1.0) < 2.5e-3, "{}", quantile(1.0));
+    }
+
+    #[test]
+    fn the_same_bytes_whatever_the_number_of_threads() {
+        let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let many = rayon::ThreadPoolBuilder::new().num_threads(5).build().unwrap();
+        let surface = alone.install(mannequin::surface);
+        assert_eq!(&surface, mannequin().surface());
+        let heads = [alone, many].map(|pool| {
+            pool.install(|| Head::from_surface(ball(0.1, 24), ScalpSource::Guess).unwrap())
+        });
+        assert_eq!(heads[0], heads[1]);
+    }
+
+    fn nearest_weight(head: &Head, p: DVec3) -> f64 {
+        let near = head.surface().positions().iter().zip(head.scalp());
+        *near.min_by(|a, b| a.0.distance(p).total_cmp(&b.0.distance(p))).unwrap().1
+    }
+
+    fn scalp_area(head: &Head) -> f64 {
+        let weight = |t: &[u32; 3]| t.iter().map(|&v| head.scalp()[v as usize]).sum::<f64>() / 3.0;
+        let area = |i: usize| 0.5 * head.surface().doubled_area_vector(i).length();
+        head.surface().triangles().iter().enumerate().map(|(i, t)| area(i) * weight(t)).sum()
+    }
 }

@@ -92,9 +92,9 @@ fn anchors(l: &Landmarks) -> Vec<[f64; 2]> {
     };
     let mut line = vec![
         [0.0, l.elevation(l.hairline)],
-        at(0.30, front + 0.001 * scale),
-        at(0.62, front + 0.004 * scale),
-        at(0.80, front - 0.004 * scale),
+        at(0.30, front),
+        at(0.60, front + 0.001 * scale),
+        at(0.78, front - 0.007 * scale),
         at(0.93, brow + 0.030 * scale),
         at(1.04, brow + 0.010 * scale),
         at(1.16, brow - 0.004 * scale),

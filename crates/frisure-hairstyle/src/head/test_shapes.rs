@@ -2,8 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
+use std::sync::OnceLock;
+
 use frisure_strands::Surface;
 use glam::DVec3;
+
+use super::Head;
+
+/// The mannequin, made once for all tests.
+pub(crate) fn mannequin() -> &'static Head {
+    static HEAD: OnceLock<Head> = OnceLock::new();
+    HEAD.get_or_init(Head::mannequin)
+}
 
 /// A ball of the given radius (m), with `rings` rings of twice as many quads.
 pub(crate) fn ball(radius: f64, rings: usize) -> Surface {
