@@ -81,6 +81,60 @@ impl Curves {
         let (a, b) = (&self.vertices[index], self.vertices.get(index + 1)?);
         (a.strand == b.strand).then_some((a, b))
     }
+
+    /// Visits all hair as points about `spacing` (m) apart along each strand, with what `measure`
+    /// says (of a piece's vector from end to end and its mean width, m) of the hair that each stands
+    /// for: what a grid with cells of that size needs to know.
+    pub(super) fn lumps(
+        &self,
+        spacing: f32,
+        measure: impl Fn(Vec3, f32) -> f32,
+        mut visit: impl FnMut(Vec3, f32),
+    ) {
+        let mut held = Lump::default();
+        for i in 0..self.vertices.len() {
+            let Some((a, b)) = self.piece(i) else {
+                held.release(&mut visit);
+                continue;
+            };
+            let d = b.position - a.position;
+            let (length, amount) = (d.length(), measure(d, a.half_width + b.half_width));
+            // The cast saturates.
+            let parts = 1 + (length / spacing) as u16;
+            let part = 1.0 / f32::from(parts);
+            for k in 0..parts {
+                let x = (f32::from(k) + 0.5) * part;
+                held.add(a.position + x * d, amount * part, length * part);
+                if held.length > 0.6 * spacing {
+                    held.release(&mut visit);
+                }
+            }
+        }
+    }
+}
+
+/// Some hair that is taken as one point.
+#[derive(Default)]
+struct Lump {
+    amount: f32,
+    moment: Vec3,
+    length: f32,
+}
+
+impl Lump {
+    fn add(&mut self, position: Vec3, amount: f32, length: f32) {
+        self.amount += amount;
+        self.moment += amount * position;
+        self.length += length;
+    }
+
+    /// Hands on what is held, at its centre, and holds nothing.
+    fn release(&mut self, visit: &mut impl FnMut(Vec3, f32)) {
+        if self.amount > 0.0 {
+            visit(self.moment / self.amount, self.amount);
+        }
+        *self = Self::default();
+    }
 }
 
 /// The attribute `wetness`, if it is one scalar per point.

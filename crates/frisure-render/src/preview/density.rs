@@ -81,21 +81,12 @@ impl DensityMap {
         (u as usize * self.size.y as usize + v as usize) * self.size.z as usize + w as usize
     }
 
-    /// Adds the shadow of each piece of hair, as area per area of a cell, to the eight nodes around.
+    /// Adds the shadow of all hair, as area per area of a cell, to the eight nodes around.
     fn spread(&mut self, curves: &Curves, to_light: Vec3) {
         let per_cell = 1.0 / (self.cell * self.cell);
-        for i in 0..curves.vertices.len() {
-            let Some((a, b)) = curves.piece(i) else { continue };
-            let d = b.position - a.position;
-            let across = (d - to_light * d.dot(to_light)).length();
-            let shadow = (a.half_width + b.half_width) * across * per_cell;
-            let parts = 1 + (d.length() / self.cell) as u32;
-            let part = 1.0 / parts as f32;
-            for k in 0..parts {
-                let x = (k as f32 + 0.5) * part;
-                self.add(a.position + x * d, shadow * part);
-            }
-        }
+        let shadow =
+            |d: Vec3, width: f32| width * (d - to_light * d.dot(to_light)).length() * per_cell;
+        curves.lumps(self.cell, shadow, |point, value| self.add(point, value));
     }
 
     /// Shares a value between the eight nodes around a point.

@@ -136,12 +136,10 @@ impl Sky {
         let mut density = vec![0.0; (self.size.x * self.size.y * self.size.z) as usize];
         // A cylinder of width w and length l shows π/4 w l on average.
         let scale = std::f32::consts::FRAC_PI_4 / self.cell.powi(3);
-        for i in 0..curves.vertices.len() {
-            let Some((a, b)) = curves.piece(i) else { continue };
-            let area = (a.half_width + b.half_width) * a.position.distance(b.position) * scale;
-            let middle = a.position.midpoint(b.position);
-            self.around(middle, |i, weight| density[i] += weight * area);
-        }
+        let area = |d: Vec3, width: f32| width * d.length() * scale;
+        curves.lumps(self.cell, area, |point, value| {
+            self.around(point, |i, weight| density[i] += weight * value);
+        });
         density
     }
 
