@@ -9,6 +9,7 @@ use frisure::hairstyle::PRESETS;
 const EXAMPLES: &str = "\
 Examples:
   frisure new caucasian-curly > mine.toml
+  frisure predict mine.toml -o out/mine.hair --image out/mine.png
   frisure hair mine.toml --json --points 100
 
 Exit status:
@@ -38,6 +39,8 @@ pub(crate) struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Predict a whole head of hair, and write it as a groom, a picture, a report.
+    Predict(Predict),
     /// Compute one hair: its shape, its energies, and how sure they are.
     Hair(Hair),
     /// List the hair types that a scene can start from.
@@ -46,6 +49,35 @@ pub(crate) enum Command {
     New(New),
     /// Print the JSON Schema of scenes: every key, its unit and its range.
     Schema,
+}
+
+const PREDICT_EXAMPLES: &str = "\
+Examples:
+  frisure predict scenes/curly.toml -o out/curly.hair --image out/curly.png
+  frisure predict scenes/wavy.toml -o wavy.obj -o wavy.ply --report wavy.json
+  frisure new frizzy | frisure predict - --image frizzy.png
+
+Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder if \
+it comes from standard input.";
+
+/// Arguments of `frisure predict`.
+#[derive(Args, Debug)]
+#[command(after_help = PREDICT_EXAMPLES)]
+pub(crate) struct Predict {
+    /// The scene (TOML), or `-` for standard input.
+    pub(crate) scene: PathBuf,
+
+    /// Write the strands; the extension names the format: .hair, .obj or .ply. May be repeated.
+    #[arg(long = "output", short, value_name = "GROOM")]
+    pub(crate) outputs: Vec<PathBuf>,
+
+    /// Write a picture (.png).
+    #[arg(long, value_name = "PNG")]
+    pub(crate) image: Option<PathBuf>,
+
+    /// Write numbers about the result (.json).
+    #[arg(long, value_name = "JSON")]
+    pub(crate) report: Option<PathBuf>,
 }
 
 const HAIR_EXAMPLES: &str = "\

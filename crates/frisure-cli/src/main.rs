@@ -5,6 +5,9 @@ mod commands;
 mod console;
 mod failure;
 mod interrupt;
+mod outputs;
+mod picture;
+mod progress;
 
 use std::process::ExitCode;
 
@@ -31,7 +34,9 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().map_err(|e| Failure::failed(&e))?;
     }
+    let quiet = arguments.quiet;
     match arguments.command {
+        Command::Predict(predict) => commands::predict::run(predict, quiet),
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets => commands::presets::run(),
         Command::New(new) => commands::new::run(&new),

@@ -51,6 +51,20 @@ pub enum ReadError {
     },
 }
 
+impl ReadError {
+    /// The path asked for.
+    #[must_use]
+    pub fn path(&self) -> &PathBuf {
+        match self {
+            Self::Missing { path }
+            | Self::Directory { path }
+            | Self::TooLarge { path, .. }
+            | Self::NotText { path, .. }
+            | Self::Io { path, .. } => path,
+        }
+    }
+}
+
 /// Why a file could not be written.
 #[derive(Debug, Error)]
 pub enum WriteError {

@@ -2,7 +2,7 @@
 
 pub(crate) mod hair;
 pub(crate) mod new;
-//pub mod predict;
+pub(crate) mod predict;
 pub(crate) mod presets;
 pub(crate) mod schema;
 

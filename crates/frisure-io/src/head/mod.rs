@@ -96,6 +96,27 @@ pub enum HeadFileError {
     },
 }
 
+impl HeadFileError {
+    /// The key of a scene that has to change.
+    #[must_use]
+    pub fn key(&self, head: &HeadFile) -> &'static str {
+        let path = match self {
+            Self::NoGroup { .. } => return "head.scalp_group",
+            Self::Size { .. } | Self::Surface { .. } => return "head.mesh",
+            Self::NoScalp { .. } => None,
+            Self::Line { path, .. } | Self::Format { path, .. } => Some(path),
+            Self::Read(error) => Some(error.path()),
+        };
+        match &head.scalp {
+            _ if path == Some(&head.path) => "head.mesh",
+            ScalpSource::Guess => "head.mesh",
+            ScalpSource::Group(_) => "head.scalp_group",
+            ScalpSource::Mask(_) => "head.scalp_mask",
+            ScalpSource::Weights(_) => "head.scalp_weights",
+        }
+    }
+}
+
 fn list(groups: &[String]) -> String {
     if groups.is_empty() {
         return "none".into();

@@ -18,7 +18,7 @@ mod words;
 use std::path::{Path, PathBuf};
 
 use frisure_hairstyle::HairstyleSpec;
-use frisure_rod::{Branch, Options, Rod, StrainProfile};
+use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
 
 pub use error::{Fault, SceneError};
 pub use schema::schema;
@@ -26,6 +26,7 @@ pub use template::template;
 pub use words::UpAxis;
 
 use crate::files;
+use crate::head::{self, HeadMesh};
 use source::Source;
 
 /// Largest scene that is read (bytes).
@@ -189,8 +190,24 @@ impl Scene {
         resolve::single_hair(self)
     }
 
-    /// An error found later at the value of `key`, such as a head that cannot be used at
-    /// `head.mesh`.
+    /// The head in files that the scene names, or `None` for the built-in mannequin.
+    ///
+    /// # Errors
+    /// [`SceneError`] at the key that names what cannot be used.
+    pub fn head_mesh(&self) -> Result<Option<HeadMesh>, SceneError> {
+        let HeadSource::Mesh(file) = &self.head else { return Ok(None) };
+        head::read(file).map(Some).map_err(|e| {
+            // A cause, such as what the system said, belongs to the same sentence.
+            let message = match std::error::Error::source(&e) {
+                Some(cause) => format!("{e}: {cause}"),
+                None => e.to_string(),
+            };
+            self.fault(e.key(file), message, "")
+        })
+    }
+
+    /// An error found later in what `key` says, such as a mesh at `head.mesh` that is no head;
+    /// `hint` may be empty.
     #[must_use]
     pub fn fault(
         &self,
@@ -201,5 +218,11 @@ impl Scene {
         let span = self.source.locate(key);
         let value = self.source.slice(span.clone()).to_owned();
         Fault::new(problem).key(key).value(value).hint(hint).at(&self.source, span)
+    }
+
+    /// A quantity that was refused later, at the key that it comes from.
+    #[must_use]
+    pub fn blame(&self, error: &InvalidQuantity) -> SceneError {
+        resolve::blame(error, &self.source)
     }
 }

@@ -470,7 +470,7 @@ fn place(keys: &[&'static str], source: &Source) -> (&'static str, Range<usize>,
 }
 
 /// A quantity that the rod refuses, at the key it comes from.
-fn blame(error: &InvalidQuantity, source: &Source) -> SceneError {
+pub(super) fn blame(error: &InvalidQuantity, source: &Source) -> SceneError {
     let (key, span, written) = place(keys_of(error.quantity), source);
     let leaf = written && source.is_leaf(key);
     let fault = if leaf {

@@ -1,0 +1,139 @@
+//! The picture that a scene asks for.
+
+use frisure::io::scene::{self, Scene};
+use frisure::optics::Melanin;
+use frisure::render::{Background, Camera, DirectionalLight, HairLook, Lights, Look, SkinLook};
+use frisure::strands::{Strands, Surface};
+use glam::{DVec3, Vec3};
+
+/// Part of the picture's width or height that stays free on each side.
+const MARGIN: f64 = 0.05;
+
+/// The renderer's scene: camera, lamps and colours as `scene` says.
+pub(crate) fn scene<'a>(
+    scene: &Scene,
+    strands: &'a Strands,
+    surface: &'a Surface,
+) -> frisure::render::preview::Scene<'a> {
+    let aspect = scene.output.width as f64 / scene.output.height as f64;
+    let camera = camera(&scene.camera, bounds(strands, surface), aspect);
+    let lights = lights(&scene.light, &camera);
+    let look = look(&scene.look);
+    frisure::render::preview::Scene { strands, surface: Some(surface), camera, lights, look }
+}
+
+fn bounds(strands: &Strands, surface: &Surface) -> (DVec3, DVec3) {
+    let (low, high) = surface.bounds();
+    match strands.bounds() {
+        Some((l, h)) => (low.min(l.as_dvec3()), high.max(h.as_dvec3())),
+        None => (low, high),
+    }
+}
+
+/// The camera that has the whole box in its picture, at the field of view asked for.
+fn camera(asked: &scene::Camera, bounds: (DVec3, DVec3), aspect: f64) -> Camera {
+    let (low, high) = bounds;
+    let framed = Camera::framing(bounds, asked.azimuth, asked.elevation, aspect);
+    let centre = 0.5 * (low + high);
+    let tan_v = (0.5 * asked.field_of_view).tan() * (1.0 - 2.0 * MARGIN);
+    let tan_h = tan_v * aspect;
+    let distance = (0..8_u8)
+        .map(|corner| {
+            let pick = |bit: u8| f64::from(corner >> bit & 1);
+            let fraction = DVec3::new(pick(0), pick(1), pick(2));
+            let d = low + fraction * (high - low) - centre;
+            let (right, up) = (d.dot(framed.right()).abs(), d.dot(framed.up()).abs());
+            (right / tan_h).max(up / tan_v) - d.dot(framed.forward())
+        })
+        .fold(0.0, f64::max);
+    let eye = centre - distance * framed.forward();
+    // A box of no size has no direction to look in; the framing has one all the same.
+    Camera::look_at(eye, centre, DVec3::Z, asked.field_of_view).unwrap_or(framed)
+}
+
+fn lights(asked: &scene::Light, camera: &Camera) -> Lights {
+    let mut lights = Lights::studio(camera);
+    if let (Some((azimuth, elevation)), Some(key)) = (asked.direction, lights.lamps.first_mut()) {
+        let (right, back) = (camera.right(), camera.right().cross(DVec3::Z));
+        let (sa, ca) = azimuth.sin_cos();
+        let level = sa * right - ca * back;
+        let direction = elevation.cos() * level + elevation.sin() * DVec3::Z;
+        *key = DirectionalLight { direction: direction.normalize(), ..*key };
+    }
+    let strength = asked.strength as f32;
+    for lamp in &mut lights.lamps {
+        lamp.irradiance *= strength;
+    }
+    lights
+}
+
+fn look(asked: &scene::Look) -> Look {
+    let default = Look::default();
+    let (eumelanin, pheomelanin) = (asked.eumelanin as f32, asked.pheomelanin as f32);
+    let variation = asked.variation.map_or(default.hair.variation, |v| v as f32);
+    let hair = HairLook { melanin: Melanin { eumelanin, pheomelanin }, variation, ..default.hair };
+    let colour = asked.skin.map_or(default.skin.colour, linear);
+    let background = asked.background.map(linear);
+    Look {
+        hair,
+        skin: SkinLook { colour, ..default.skin },
+        background: background
+            .map_or(default.background, |c| Background::Gradient { centre: c, corner: c }),
+    }
+}
+
+/// Linear light of an sRGB colour (IEC 61966-2-1).
+fn linear(srgb: [f64; 3]) -> Vec3 {
+    let decode = |c: f64| {
+        if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    };
+    Vec3::from_array(srgb.map(|c| decode(c) as f32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOX: (DVec3, DVec3) = (DVec3::new(-0.1, -0.12, -0.3), DVec3::new(0.1, 0.09, 0.15));
+
+    #[test]
+    fn the_whole_box_is_in_every_picture() {
+        for degrees in [1.0, 24.0, 120.0] {
+            for (azimuth, elevation, aspect) in
+                [(0.0, 0.0, 1.0), (2.0, 1.4, 0.3), (-9.0, -1.4, 4.0)]
+            {
+                let field_of_view = f64::to_radians(degrees);
+                let asked = scene::Camera { azimuth, elevation, field_of_view };
+                let camera = camera(&asked, BOX, aspect);
+                let tan = (0.5 * field_of_view).tan();
+                assert!((camera.vertical_fov() - field_of_view).abs() < 1e-12);
+                for x in [BOX.0.x, BOX.1.x] {
+                    for y in [BOX.0.y, BOX.1.y] {
+                        for z in [BOX.0.z, BOX.1.z] {
+                            let d = DVec3::new(x, y, z) - camera.eye();
+                            let depth = d.dot(camera.forward());
+                            assert!(depth > 0.0);
+                            assert!(d.dot(camera.up()).abs() < depth * tan);
+                            assert!(d.dot(camera.right()).abs() < depth * tan * aspect);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_lamp_stands_where_it_is_asked_for() {
+        let asked = scene::Camera { azimuth: 0.0, elevation: 0.0, field_of_view: 0.4 };
+        let camera = camera(&asked, BOX, 1.0);
+        let lamp = |azimuth, elevation| {
+            let light = scene::Light { direction: Some((azimuth, elevation)), strength: 1.0 };
+            lights(&light, &camera).lamps[0].direction
+        };
+        let right = std::f64::consts::FRAC_PI_2;
+        // The camera faces the face, which looks along −y.
+        assert!(lamp(0.0, 0.0).distance(-DVec3::Y) < 1e-12);
+        assert!(lamp(right, 0.0).distance(camera.right()) < 1e-12);
+        assert!(lamp(0.3, right).distance(DVec3::Z) < 1e-12);
+    }
+}
