@@ -47,7 +47,12 @@ impl Coarse {
         let neighbours = soup.faces_of_vertices();
         let measure = |(at, &face): (usize, &u32)| {
             let at3 = [at % size[0], at / size[0] % size[1], at / (size[0] * size[1])];
-            let distance = soup.descend(&neighbours, face, place(at3)) as f32;
+            let near = nodes[fine(at3)];
+            let distance = if near.face == NONE {
+                soup.descend(&neighbours, face, place(at3)) as f32
+            } else {
+                near.distance
+            };
             if outside[fine(at3)] { distance } else { -distance }
         };
         coarse.values = coarse.faces.par_iter().enumerate().map(measure).collect();

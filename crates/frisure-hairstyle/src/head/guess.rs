@@ -125,7 +125,8 @@ fn hit(from: DVec3, ray: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::head::test_shapes::mannequin;
+    use crate::head::test_shapes::{mannequin, read_obj};
+    use crate::head::{Head, ScalpSource};
 
     fn scaled(scale: f64, shift: DVec3) -> Surface {
         let surface = mannequin().surface();
@@ -150,5 +151,40 @@ mod tests {
             close("whorl", found.whorl, known.whorl, 0.01);
             assert!((found.width / (scale * known.width) - 1.0).abs() < 0.05);
         }
+    }
+
+    /// Real busts, in a folder of `*.obj` named by `FRISURE_TEST_HEADS` (metres, y up, z forward).
+    #[test]
+    #[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
+    fn real_busts_get_a_scalp_and_are_solid() {
+        let Some(folder) = std::env::var_os("FRISURE_TEST_HEADS") else {
+            eprintln!("skipped: set FRISURE_TEST_HEADS to a folder of head meshes (*.obj)");
+            return;
+        };
+        for file in std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path()) {
+            if file.extension().is_some_and(|e| e == "obj") {
+                let surface = read_obj(&std::fs::read_to_string(&file).unwrap());
+                let head = Head::from_surface(surface, ScalpSource::Guess).unwrap();
+                check_bust(&head);
+            }
+        }
+    }
+
+    fn check_bust(head: &Head) {
+        let l = head.landmarks();
+        let value = |forward: f64, z: f64| {
+            head.signed_distance().value(l.cranium_centre + DVec3::new(0.0, -forward, z))
+        };
+        // Empty eye sockets count as outside: nearer than the skull's sides.
+        assert!(value(0.0, 0.0) < -0.045, "{}", value(0.0, 0.0));
+        // The mouth's bag is behind the lips, and the neck is closed at its cut.
+        assert!(value(0.06, -0.065) < -5e-3, "{}", value(0.06, -0.065));
+        assert!(value(0.0, -0.1) < -0.02, "{}", value(0.0, -0.1));
+        assert!(value(0.0, -0.4) > 0.05, "{}", value(0.0, -0.4));
+        let weight = |t: &[u32; 3]| t.iter().map(|&v| head.scalp()[v as usize]).sum::<f64>() / 3.0;
+        let area = |i: usize| 0.5 * head.surface().doubled_area_vector(i).length();
+        let faces = head.surface().triangles().iter().enumerate();
+        let scalp: f64 = faces.map(|(i, t)| area(i) * weight(t)).sum();
+        assert!((0.04..0.075).contains(&scalp), "{scalp}");
     }
 }

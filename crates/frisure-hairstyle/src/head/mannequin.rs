@@ -12,7 +12,7 @@ use super::landmarks::Landmarks;
 use super::mesher::{Lattice, mesh};
 use super::sculpt::{carve, chain, cone, ellipsoid, join, meet, turned};
 
-/// The mannequin's skin (m), about 60 000 triangles.
+/// The mannequin's skin (m), about 75 000 triangles.
 pub(crate) fn surface() -> Surface {
     mesh(&lattice(), |p| 0.01 * head(dvec3(p.x.abs(), -p.y, p.z) * 100.0))
 }
@@ -35,12 +35,12 @@ pub(crate) fn landmarks() -> Landmarks {
 
 /// Fine where the face is, coarse at the shoulders (m).
 fn lattice() -> Lattice {
-    let across = |x: f64| if x.abs() < 0.095 { 2.5e-3 } else { 5.0e-3 };
-    let along = |y: f64| if y < -0.06 { 2.3e-3 } else { 3.2e-3 };
+    let across = |x: f64| if x.abs() < 0.095 { 2.6e-3 } else { 5.0e-3 };
+    let along = |y: f64| if y < -0.06 { 2.3e-3 } else { 3.4e-3 };
     let up = |z: f64| match z {
-        z if z < -0.13 => 5.0e-3,
+        z if z < -0.13 => 5.5e-3,
         z if z < 0.025 => 2.2e-3,
-        _ => 3.6e-3,
+        _ => 3.9e-3,
     };
     let right = Lattice::axis(0.0, 0.185, across);
     let left = right.iter().skip(1).rev().map(|x| -x);
@@ -49,12 +49,19 @@ fn lattice() -> Lattice {
 }
 
 fn head(p: DVec3) -> f64 {
-    let skull = join(cranium(p), face(p), 2.4);
-    let body = join(join(skull, neck(p), 2.6), shoulders(p), 3.0);
-    let features = mouth(p, nose(p, eyes(p, body)));
-    let whole = join(features, ear(p), 0.5);
+    // Each part is asked for only where it can matter: farther away no fillet reaches it.
+    let mut f = neck(p);
+    if p.z > -16.0 {
+        f = join(join(cranium(p), face(p), 2.4), f, 2.6);
+    }
+    if p.z < -11.0 {
+        f = join(f, shoulders(p), 3.0);
+    }
+    if p.y > 4.5 && p.z > -11.5 && p.z < 3.5 {
+        f = mouth(p, nose(p, eyes(p, f)));
+    }
     // The bust stands on a flat foot.
-    meet(whole, -24.5 - p.z, 2.0)
+    meet(join(f, ear(p), 0.5), -24.5 - p.z, 2.0)
 }
 
 fn cranium(p: DVec3) -> f64 {
@@ -111,14 +118,14 @@ fn nose(p: DVec3, skin: f64) -> f64 {
     let bridge = chain(
         p,
         &[
-            (dvec3(0.0, 8.8, 0.8), 0.7),
+            (dvec3(0.0, 8.8, 0.8), 0.65),
             (dvec3(0.0, 9.35, -0.9), 0.6),
             (dvec3(0.0, 10.5, -3.3), 0.65),
-            (dvec3(0.0, 10.95, -4.2), 0.75),
+            (dvec3(0.0, 10.9, -4.15), 0.72),
         ],
     );
-    let side = cone(p, dvec3(0.15, 8.3, -0.6), dvec3(0.55, 9.1, -4.4), 0.7, 1.2);
-    let wing = turned(p, dvec3(1.15, 9.75, -4.75), dvec3(0.55, 0.95, 0.6), 0.2, 0.35);
+    let side = cone(p, dvec3(0.1, 8.3, -0.6), dvec3(0.45, 9.2, -4.4), 0.7, 1.15);
+    let wing = turned(p, dvec3(1.1, 9.75, -4.75), dvec3(0.5, 0.9, 0.55), 0.2, 0.35);
     let column = cone(p, dvec3(0.0, 10.8, -4.6), dvec3(0.0, 9.6, -5.3), 0.4, 0.35);
     let f = join(join(bridge, side, 2.2), wing, 0.8);
     let f = join(skin, join(f, column, 0.7), 0.9);
@@ -154,13 +161,13 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
         ],
     );
     let f = carve(carve(skin, fold, 1.2), groove, 0.5);
-    let f = join(f, join(upper, lower, 0.15), 0.7);
+    let f = join(f, join(upper, lower, 0.15), 0.9);
     carve(f, slit, 0.25)
 }
 
 fn ear(p: DVec3) -> f64 {
     // u backwards and outwards, v up and a little backwards, w away from the skull.
-    let frame = DMat3::from_rotation_z(-0.36) * DMat3::from_rotation_x(-0.15);
+    let frame = DMat3::from_rotation_z(-0.33) * DMat3::from_rotation_x(-0.15);
     let q = frame.transpose() * (p - dvec3(7.1, -1.3, -2.0));
     let q = dvec3(-q.y, q.z, q.x);
     if q.length() > 6.0 {
@@ -177,8 +184,8 @@ fn ear(p: DVec3) -> f64 {
             (dvec3(0.6, 3.0, 0.42), 0.28),
             (dvec3(1.5, 2.3, 0.42), 0.28),
             (dvec3(1.80, 0.9, 0.38), 0.27),
-            (dvec3(1.45, -0.8, 0.30), 0.26),
-            (dvec3(0.7, -2.0, 0.20), 0.28),
+            (dvec3(1.45, -0.8, 0.24), 0.28),
+            (dvec3(0.6, -2.0, 0.10), 0.30),
         ],
     );
     let fold = chain(
@@ -190,9 +197,9 @@ fn ear(p: DVec3) -> f64 {
             (dvec3(0.0, -1.35, 0.32), 0.25),
         ],
     );
-    let lobe = ellipsoid(q, dvec3(-0.1, -2.5, 0.1), dvec3(0.85, 0.85, 0.38));
+    let lobe = ellipsoid(q, dvec3(-0.2, -2.4, -0.1), dvec3(0.85, 0.85, 0.42));
     let concha = ellipsoid(q, dvec3(-0.1, -0.3, 0.5), dvec3(0.85, 1.05, 0.62));
-    let tragus = ellipsoid(q, dvec3(-1.0, -0.5, 0.3), dvec3(0.35, 0.5, 0.4));
+    let tragus = ellipsoid(q, dvec3(-1.0, -0.5, 0.2), dvec3(0.35, 0.55, 0.4));
     let f = join(join(join(plate, root, 0.6), lobe, 0.6), fold, 0.35);
     let f = join(carve(f, concha, 0.35), helix, 0.3);
     join(f, tragus, 0.3)
@@ -218,6 +225,6 @@ fn neck(p: DVec3) -> f64 {
 fn shoulders(p: DVec3) -> f64 {
     let chest = ellipsoid(p, dvec3(0.0, -3.0, -27.5), dvec3(14.0, 9.0, 10.4));
     let shoulder = ellipsoid(p, dvec3(11.6, -4.0, -22.8), dvec3(5.2, 5.2, 4.8));
-    let collar = cone(p, dvec3(1.8, 1.9, -19.4), dvec3(10.5, -0.4, -19.0), 0.7, 0.7);
-    join(join(chest, shoulder, 4.5), collar, 2.2)
+    let collar = cone(p, dvec3(1.8, 1.7, -19.6), dvec3(10.5, -1.0, -19.3), 0.7, 0.7);
+    join(join(chest, shoulder, 4.5), collar, 2.8)
 }

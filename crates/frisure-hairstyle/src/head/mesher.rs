@@ -16,7 +16,7 @@ pub(crate) struct Lattice {
 /// Nodes along the edge of a block that is skipped where it is far from the surface.
 const BLOCK: usize = 8;
 /// Rounds of smoothing along the surface.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 3;
 
 impl Lattice {
     /// Nodes from `low` to `high`, `spacing(x)` apart.
@@ -50,6 +50,7 @@ pub(crate) fn mesh(lattice: &Lattice, field: impl Fn(DVec3) -> f64 + Sync) -> Su
         positions = smoothed(&positions, &triangles);
         positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
     }
+    positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
     Surface::new(positions, triangles).expect("the field has a zero on the lattice")
 }
 
@@ -210,17 +211,12 @@ fn smoothed(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     positions.iter().zip(sums).map(|(p, (sum, n))| 0.5 * (*p + sum / n)).collect()
 }
 
-/// `p` brought onto the zero of the field.
-fn projected(mut p: DVec3, field: &impl Fn(DVec3) -> f64) -> DVec3 {
-    for _ in 0..2 {
-        let (value, slope) = slope(p, field);
-        let length = slope.length_squared();
-        // A step is bounded: at a crease the slope may vanish.
-        if length > 0.04 {
-            p -= (slope * (value / length)).clamp_length_max(2e-3);
-        }
-    }
-    p
+/// `p` brought nearer to the zero of the field, by a step of Newton's.
+fn projected(p: DVec3, field: &impl Fn(DVec3) -> f64) -> DVec3 {
+    let (value, slope) = slope(p, field);
+    let length = slope.length_squared();
+    // A step is bounded: at a crease the slope may vanish.
+    if length > 0.04 { p - (slope * (value / length)).clamp_length_max(2e-3) } else { p }
 }
 
 /// Value and gradient, by four points of a tetrahedron.

@@ -53,3 +53,24 @@ fn part_of_ball(radius: f64, rings: usize, kept: usize) -> (Vec<DVec3>, Vec<[u32
     }
     (positions, triangles)
 }
+
+/// Reads a mesh as modelling programs export it: metres, y up, z forward.
+pub(crate) fn read_obj(text: &str) -> Surface {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let v: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
+                positions.push(DVec3::new(v[0], -v[2], v[1]));
+            }
+            Some("f") => {
+                let index = |w: &str| w.split('/').next().unwrap().parse::<u32>().unwrap() - 1;
+                let face: Vec<u32> = words.map(index).collect();
+                triangles.extend((2..face.len()).map(|i| [face[0], face[i - 1], face[i]]));
+            }
+            _ => {}
+        }
+    }
+    Surface::new(positions, triangles).unwrap()
+}

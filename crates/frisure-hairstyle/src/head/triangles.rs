@@ -80,8 +80,13 @@ impl Soup {
         let mut best = measure(face);
         loop {
             let from = face;
-            for &v in &self.triangles[from as usize] {
+            let corners = self.triangles[from as usize];
+            for (n, &v) in corners.iter().enumerate() {
                 for &f in around.of(v) {
+                    // Those at an earlier corner have been measured.
+                    if self.triangles[f as usize].iter().any(|u| corners[..n].contains(u)) {
+                        continue;
+                    }
                     let d = measure(f);
                     if d < best {
                         (best, face) = (d, f);

@@ -27,7 +27,7 @@ const MARGIN: f64 = 0.04;
 /// Most nodes in a grid: 5.5 million of 4 bytes.
 const MOST_NODES: f64 = 5.5e6;
 /// Nodes this near (spacings) get an exact distance.
-const BAND: f64 = 2.2;
+const BAND: f64 = 1.8;
 /// The outside flows only through nodes farther from the mesh than this (spacings): what lies
 /// behind a narrower slit is inside.
 const CLEARANCE: f64 = 1.0;
