@@ -90,16 +90,20 @@ fn face(p: DVec3) -> f64 {
     let floor = ellipsoid(p, dvec3(0.0, 3.2, -8.2), dvec3(4.0, 4.6, 2.8));
     let brow = chain(
         p,
-        &[(dvec3(0.6, 8.9, 1.0), 0.4), (dvec3(2.8, 8.5, 1.45), 0.4), (dvec3(4.9, 6.7, 0.8), 0.2)],
+        &[
+            (dvec3(0.6, 8.85, 1.1), 0.35),
+            (dvec3(2.8, 8.45, 1.6), 0.35),
+            (dvec3(5.1, 6.3, 0.7), 0.1),
+        ],
     );
     let f = join(join(mask, muzzle, 2.0), join(join(cheek, arch, 1.0), flesh, 2.0), 2.5);
     let f = join(f, join(jaw, floor, 2.5), 3.0);
-    join(join(f, chin, 1.6), brow, 2.4)
+    join(join(f, chin, 1.6), brow, 2.6)
 }
 
 fn eyes(p: DVec3, skin: f64) -> f64 {
     let socket = turned(p, dvec3(3.3, 9.6, -0.7), dvec3(1.9, 1.6, 1.05), 0.0, -0.3);
-    let inner = ellipsoid(p, dvec3(1.75, 9.6, -0.8), dvec3(0.6, 1.1, 0.8));
+    let inner = ellipsoid(p, dvec3(1.75, 9.6, -0.9), dvec3(0.55, 1.0, 0.7));
     let f = carve(carve(skin, socket, 1.4), inner, 1.0);
     let centre = dvec3(3.2, 6.85, -1.05);
     let lid = turned(p, centre, dvec3(1.75, 1.35, 1.2), 0.0, -0.28);
@@ -139,7 +143,7 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
         &[
             (dvec3(0.0, 9.5, -7.05), 0.42),
             (dvec3(0.6, 9.45, -7.0), 0.45),
-            (dvec3(2.3, 8.2, -7.45), 0.3),
+            (dvec3(2.3, 8.2, -7.33), 0.3),
         ],
     );
     let lower = chain(
@@ -147,7 +151,7 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
         &[
             (dvec3(0.0, 9.2, -7.95), 0.55),
             (dvec3(0.9, 9.0, -7.9), 0.5),
-            (dvec3(2.2, 8.1, -7.6), 0.3),
+            (dvec3(2.2, 8.1, -7.55), 0.3),
         ],
     );
     let fold = cone(p, dvec3(0.0, 9.9, -9.0), dvec3(1.6, 9.2, -8.9), 0.6, 0.5);
@@ -155,9 +159,9 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
     let slit = chain(
         p,
         &[
-            (dvec3(0.0, 10.0, -7.46), 0.10),
-            (dvec3(0.9, 9.74, -7.40), 0.10),
-            (dvec3(2.3, 8.75, -7.50), 0.02),
+            (dvec3(0.0, 10.0, -7.50), 0.10),
+            (dvec3(0.9, 9.74, -7.43), 0.10),
+            (dvec3(2.35, 8.75, -7.40), 0.04),
         ],
     );
     let f = carve(carve(skin, fold, 1.2), groove, 0.5);

@@ -238,6 +238,39 @@ mod tests {
         assert_eq!(heads[0], heads[1]);
     }
 
+    #[test]
+    fn distances_near_and_far_are_those_to_the_mesh() {
+        let head = mannequin();
+        let (low, high) = head.signed_distance().bounds();
+        for i in 0..60 {
+            let a = f64::from(i);
+            let way = DVec3::new((1.3 * a).sin(), (2.1 * a).sin(), (0.7 * a).sin());
+            let p = 0.5 * (low + high) + 0.5 * way * (high - low);
+            let faces = 0..head.surface().triangles().len();
+            let exact = faces
+                .map(|f| triangles::closest_point(p, head.surface().corners(f)).distance(p))
+                .fold(f64::INFINITY, f64::min);
+            let found = head.signed_distance().value(p).abs();
+            assert!((found - exact).abs() < 1e-3, "{found}, not {exact}, at {p}");
+        }
+    }
+
+    #[test]
+    fn regions_are_where_a_hairdresser_looks_for_them() {
+        let l = mannequin().landmarks();
+        for (region, p) in [
+            (Region::Fringe, l.hairline),
+            (Region::Top, DVec3::new(0.0, -0.01, 0.11)),
+            (Region::Crown, l.whorl),
+            (Region::Sides, DVec3::new(0.075, 0.0, 0.03)),
+            (Region::Sides, DVec3::new(-0.075, 0.0, 0.03)),
+            (Region::Back, DVec3::new(0.0, 0.097, 0.0)),
+            (Region::Nape, l.nape),
+        ] {
+            assert_eq!(l.region(p), region, "{p}");
+        }
+    }
+
     fn nearest_weight(head: &Head, p: DVec3) -> f64 {
         let near = head.surface().positions().iter().zip(head.scalp());
         *near.min_by(|a, b| a.0.distance(p).total_cmp(&b.0.distance(p))).unwrap().1

@@ -1,6 +1,6 @@
 //! Signed-distance clay: a few shapes, and smooth ways to add and remove them.
 //!
-//! After Quilez's notes on distance functions, https://iquilezles.org/articles/distfunctions.
+//! After Quilez's notes on distance functions, <https://iquilezles.org/articles/distfunctions>.
 //! Nothing here is an exact distance; all are close to one near their surface.
 
 use glam::{DMat3, DVec3};
