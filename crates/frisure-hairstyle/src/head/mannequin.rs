@@ -39,7 +39,8 @@ fn lattice() -> Lattice {
     let along = |y: f64| if y < -0.06 { 2.3e-3 } else { 3.4e-3 };
     let up = |z: f64| match z {
         z if z < -0.13 => 5.5e-3,
-        z if z < 0.025 => 2.2e-3,
+        z if (-0.09..0.0).contains(&z) => 2.0e-3,
+        z if z < 0.025 => 2.3e-3,
         _ => 3.9e-3,
     };
     let right = Lattice::axis(0.0, 0.185, across);
@@ -112,10 +113,10 @@ fn eyes(p: DVec3, skin: f64) -> f64 {
     let across = (p.x - centre.x) / 1.5;
     let seam = centre.z - 0.58 + 0.40 * across * across;
     let upper = meet(lid - 0.13, seam - p.z, 0.1);
-    let line = lid.abs() + (p.z - seam).abs() + 0.6 * (across * across - 0.5).max(0.0) - 0.09;
+    let line = lid.abs() + (p.z - seam).abs() + 0.6 * (across * across - 0.5).max(0.0) - 0.07;
     // Only in front: the lid's ellipsoid has a back, too, deep inside.
     let crease = line.max(centre.y + 0.3 - p.y);
-    carve(join(f, upper, 0.1), crease, 0.12)
+    carve(join(f, upper, 0.1), crease, 0.2)
 }
 
 fn nose(p: DVec3, skin: f64) -> f64 {
@@ -159,14 +160,14 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
     let slit = chain(
         p,
         &[
-            (dvec3(0.0, 10.0, -7.50), 0.10),
-            (dvec3(0.9, 9.74, -7.43), 0.10),
+            (dvec3(0.0, 10.0, -7.50), 0.14),
+            (dvec3(0.9, 9.76, -7.43), 0.14),
             (dvec3(2.35, 8.75, -7.40), 0.04),
         ],
     );
     let f = carve(carve(skin, fold, 1.2), groove, 0.5);
     let f = join(f, join(upper, lower, 0.15), 0.9);
-    carve(f, slit, 0.25)
+    carve(f, slit, 0.35)
 }
 
 fn ear(p: DVec3) -> f64 {
@@ -178,7 +179,7 @@ fn ear(p: DVec3) -> f64 {
         return q.length() - 4.0;
     }
     let plate = ellipsoid(q, dvec3(0.25, 0.1, 0.0), dvec3(1.6, 3.0, 0.45));
-    let root = ellipsoid(q, dvec3(-0.3, -0.4, -0.7), dvec3(0.9, 1.8, 0.9));
+    let root = ellipsoid(q, dvec3(-0.35, -0.8, -0.8), dvec3(0.9, 2.1, 0.95));
     let helix = chain(
         q,
         &[
