@@ -2,6 +2,7 @@
 
 use frisure::io::scene::{self, Scene};
 use frisure::optics::Melanin;
+use frisure::render::preview;
 use frisure::render::{Background, Camera, DirectionalLight, HairLook, Lights, Look, SkinLook};
 use frisure::strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
@@ -14,20 +15,12 @@ pub(crate) fn scene<'a>(
     scene: &Scene,
     strands: &'a Strands,
     surface: &'a Surface,
-) -> frisure::render::preview::Scene<'a> {
+) -> preview::Scene<'a> {
     let aspect = scene.output.width as f64 / scene.output.height as f64;
-    let camera = camera(&scene.camera, bounds(strands, surface), aspect);
+    let camera = camera(&scene.camera, preview::bounds(strands, Some(surface)), aspect);
     let lights = lights(&scene.light, &camera);
     let look = look(&scene.look);
-    frisure::render::preview::Scene { strands, surface: Some(surface), camera, lights, look }
-}
-
-fn bounds(strands: &Strands, surface: &Surface) -> (DVec3, DVec3) {
-    let (low, high) = surface.bounds();
-    match strands.bounds() {
-        Some((l, h)) => (low.min(l.as_dvec3()), high.max(h.as_dvec3())),
-        None => (low, high),
-    }
+    preview::Scene { strands, surface: Some(surface), camera, lights, look }
 }
 
 /// The camera that has the whole box in its picture, at the field of view asked for.

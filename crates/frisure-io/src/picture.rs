@@ -48,8 +48,8 @@ pub fn check_name(path: &Path) -> Result<(), PictureError> {
 /// [`PictureError`].
 pub fn write(path: &Path, width: u32, height: u32, rgba: &[u8]) -> Result<(), PictureError> {
     check_name(path)?;
-    let expected = u64::from(width) * u64::from(height) * 4;
-    if expected == 0 || rgba.len() as u64 != expected {
+    let expected = u128::from(width) * u128::from(height) * 4;
+    if expected == 0 || rgba.len() as u128 != expected {
         return Err(PictureError::Size { width, height, bytes: rgba.len() });
     }
     write_atomically(path, |out| {

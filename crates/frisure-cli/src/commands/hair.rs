@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Hair) -> Result<Done, Failure> {
 
 fn report(rest: &Equilibrium, points: Option<usize>) -> Report {
     let certificate = &rest.certificate;
-    let line = |n| rest.centre_line(n).iter().map(|p| p.to_array()).collect();
+    let line = |n| rest.centre_line(n).into_iter().map(Into::into).collect();
     Report {
         length: rest.rod.length(),
         elements: rest.elements,

@@ -67,9 +67,9 @@ fn what_cannot_be_a_head() {
     );
     let binary = head([0x89, b'P', 0xff, 0x00], |_| {}).unwrap_err();
     assert_eq!(binary, "`head.obj` is not UTF-8 text (byte 1 of line 1)");
-    let folder = head("", |h| h.path.pop().then_some(()).unwrap()).unwrap_err();
+    let folder = head("", |h| assert!(h.path.pop())).unwrap_err();
     assert!(folder.ends_with("is a directory, not a file"), "{folder}");
-    let none = head("", |h| h.path.set_file_name("no.obj").clone()).unwrap_err();
+    let none = head("", |h| h.path.set_file_name("no.obj")).unwrap_err();
     assert_eq!(none, "there is no file `no.obj`");
 }
 

@@ -4,6 +4,8 @@
 //! `docs/scene.md`. Ranges are those of [`frisure_hairstyle::HairstyleSpec::check`]; a test
 //! compares the two.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -203,7 +205,7 @@ pub(super) struct Implantation {
     #[schemars(range(min = -0.06, max = 0.06))]
     pub(super) parting: Key<Length>,
     /// Angle to the skin, the same everywhere; 0 to 90 deg.
-    #[schemars(range(min = 0.0, max = 1.5708))]
+    #[schemars(range(min = 0.0, max = FRAC_PI_2))]
     pub(super) lift: Key<Angle>,
     /// Instead of `lift`: factor on the angles measured by region; 0 to 6.
     #[schemars(range(min = 0.0, max = 6.0))]
@@ -297,7 +299,8 @@ pub(super) struct Look {
     pub(super) background: Key<Colour>,
 }
 
-/// Where the picture is taken from; all of the hair and the head is always in it.
+/// Where the picture is taken from; all of the hair and the head is always in it, though not the
+/// shoulders.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Camera {
@@ -317,10 +320,10 @@ pub(super) struct Camera {
 pub(super) struct Light {
     /// Where the main lamp stands: to the right of the camera, seen from the head; negative is to
     /// its left. -180 to 180 deg.
-    #[schemars(range(min = -3.1416, max = 3.1416))]
+    #[schemars(range(min = -PI, max = PI))]
     pub(super) azimuth: Key<Angle>,
     /// How far the main lamp stands above the horizon; -90 to 90 deg.
-    #[schemars(range(min = -1.5708, max = 1.5708))]
+    #[schemars(range(min = -FRAC_PI_2, max = FRAC_PI_2))]
     pub(super) elevation: Key<Angle>,
     /// Factor on the strength of all lamps; 0 to 100. Default 1.
     #[schemars(range(min = 0.0, max = 100.0))]

@@ -27,10 +27,28 @@ pub(super) trait Kind {
     type Value;
 
     /// Understands a TOML value, or says what is allowed.
-    fn read(value: &Value) -> Result<Self::Value, Fault>;
+    fn read(value: &Value) -> Result<Self::Value, Refusal>;
 
     /// JSON Schema of the values.
     fn schema() -> Schema;
+}
+
+/// A value that is not of its kind.
+pub(super) struct Refusal {
+    /// What would be allowed, in words.
+    allowed: String,
+    /// What to try; may be empty.
+    hint: String,
+}
+
+impl Refusal {
+    fn new(allowed: impl Into<String>) -> Self {
+        Self { allowed: allowed.into(), hint: String::new() }
+    }
+
+    fn hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: hint.into(), ..self }
+    }
 }
 
 impl<K> Default for Key<K> {
@@ -86,10 +104,10 @@ impl<K: Kind> Key<K> {
     pub(super) fn get(&self, source: &Source) -> Result<Option<K::Value>, SceneError> {
         let Some(written) = &self.written else { return Ok(None) };
         let span = written.span();
-        K::read(written.get_ref()).map(Some).map_err(|fault| {
+        K::read(written.get_ref()).map(Some).map_err(|Refusal { allowed, hint }| {
             let key = source.path_at(&span);
-            let value = source.slice(span.clone()).to_owned();
-            fault.key(key).value(value).at(source, span)
+            let value = source.slice(span.clone());
+            Fault::outside(allowed).hint(hint).key(key).value(value).at(source, span)
         })
     }
 
@@ -111,7 +129,7 @@ pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
 }
 
 /// A number in SI units or a text with a unit.
-fn read_quantity(value: &Value, dimension: &'static Dimension) -> Result<f64, Fault> {
+fn read_quantity(value: &Value, dimension: &'static Dimension) -> Result<f64, Refusal> {
     let example = format!("{}, such as \"{}\"", dimension.name, dimension.example);
     let text = match value {
         #[expect(
@@ -120,21 +138,21 @@ fn read_quantity(value: &Value, dimension: &'static Dimension) -> Result<f64, Fa
         )]
         Value::Integer(i) => return Ok(*i as f64),
         Value::Float(x) if x.is_finite() => return Ok(*x),
-        Value::Float(_) => return Err(Fault::outside("a finite number")),
+        Value::Float(_) => return Err(Refusal::new("a finite number")),
         Value::String(text) => text,
-        _ => return Err(Fault::outside(example)),
+        _ => return Err(Refusal::new(example)),
     };
     let units = dimension.units().collect::<Vec<_>>().join(", ");
     let units = format!("units of {}: {units}", dimension.name.trim_start_matches("a "));
     dimension.parse(text).map_err(|error| match error {
-        QuantityError::NotFinite => Fault::outside("a finite number"),
-        QuantityError::NoNumber => Fault::outside(example),
-        QuantityError::NoUnit => Fault::outside(example)
+        QuantityError::NotFinite => Refusal::new("a finite number"),
+        QuantityError::NoNumber => Refusal::new(example),
+        QuantityError::NoUnit => Refusal::new(example)
             .hint(format!("add a unit; a number without quotes is in {}", dimension.si)),
         QuantityError::UnknownUnit { belongs_to: Some(other), unit, .. } => {
-            Fault::outside(example).hint(format!("`{unit}` is a unit of {other}; {units}"))
+            Refusal::new(example).hint(format!("`{unit}` is a unit of {other}; {units}"))
         }
-        QuantityError::UnknownUnit { .. } => Fault::outside(example).hint(units),
+        QuantityError::UnknownUnit { .. } => Refusal::new(example).hint(units),
     })
 }
 
@@ -155,7 +173,7 @@ macro_rules! quantities {
         impl Kind for $name {
             type Value = f64;
 
-            fn read(value: &Value) -> Result<f64, Fault> {
+            fn read(value: &Value) -> Result<f64, Refusal> {
                 read_quantity(value, &quantity::$dimension)
             }
 
@@ -189,11 +207,11 @@ pub(super) struct Count;
 impl Kind for Count {
     type Value = usize;
 
-    fn read(value: &Value) -> Result<usize, Fault> {
+    fn read(value: &Value) -> Result<usize, Refusal> {
         value
             .as_integer()
             .and_then(|i| usize::try_from(i).ok())
-            .ok_or_else(|| Fault::outside("a whole number, zero or more"))
+            .ok_or_else(|| Refusal::new("a whole number, zero or more"))
     }
 
     fn schema() -> Schema {
@@ -207,8 +225,8 @@ pub(super) struct Text;
 impl Kind for Text {
     type Value = String;
 
-    fn read(value: &Value) -> Result<String, Fault> {
-        value.as_str().map(str::to_owned).ok_or_else(|| Fault::outside("a text in quotes"))
+    fn read(value: &Value) -> Result<String, Refusal> {
+        value.as_str().map(str::to_owned).ok_or_else(|| Refusal::new("a text in quotes"))
     }
 
     fn schema() -> Schema {
@@ -222,8 +240,8 @@ pub(super) struct Vector;
 impl Kind for Vector {
     type Value = DVec3;
 
-    fn read(value: &Value) -> Result<DVec3, Fault> {
-        let allowed = || Fault::outside("three finite numbers, such as [0, 0, 1]");
+    fn read(value: &Value) -> Result<DVec3, Refusal> {
+        let allowed = || Refusal::new("three finite numbers, such as [0, 0, 1]");
         let array = value.as_array().filter(|a| a.len() == 3).ok_or_else(allowed)?;
         let mut out = [0.0; 3];
         for (x, value) in out.iter_mut().zip(array) {
@@ -251,7 +269,7 @@ impl Kind for Colour {
 
     fn read(value: &Value) -> Result<[f64; 3], Fault> {
         let allowed =
-            || Fault::outside("a colour such as \"#d8b49c\", or red, green and blue from 0 to 1");
+            || Refusal::new("a colour such as \"#d8b49c\", or red, green and blue from 0 to 1");
         let rgb = match value {
             Value::String(text) => hexadecimal(text).ok_or_else(allowed)?,
             value => Vector::read(value).map_err(|_| allowed())?.to_array(),
@@ -299,10 +317,10 @@ pub(super) struct OneOf<C>(PhantomData<C>);
 impl<C: Choice> Kind for OneOf<C> {
     type Value = C;
 
-    fn read(value: &Value) -> Result<C, Fault> {
+    fn read(value: &Value) -> Result<C, Refusal> {
         let words = C::words();
         let list = words.iter().map(|w| format!("\"{}\"", w.0)).collect::<Vec<_>>().join(", ");
-        let outside = || Fault::outside(format!("one of {list}"));
+        let outside = || Refusal::new(format!("one of {list}"));
         let word = value.as_str().ok_or_else(outside)?;
         words.iter().find(|w| w.0 == word).map(|w| w.2).ok_or_else(|| {
             match nearest(word, words.iter().map(|w| w.0)) {

@@ -64,7 +64,7 @@ impl Source {
 
     /// Where the value at a path stands, if it is written.
     pub(super) fn find(&self, path: &str) -> Option<Range<usize>> {
-        self.value(path, |v| v.span())
+        self.value(path, Spanned::span)
     }
 
     /// Whether the value at a path is written and is not a table or a list.

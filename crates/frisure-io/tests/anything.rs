@@ -1,0 +1,181 @@
+//! Whatever is read, nothing panics and nothing takes memory that is not there.
+
+use std::path::Path;
+
+use frisure_io::groom::hair;
+use frisure_io::head;
+use frisure_io::quantity::LENGTH;
+use frisure_io::scene::{HeadFile, ScalpSource, Scene, UpAxis, template};
+use proptest::prelude::*;
+
+fn use_scene(text: &str) {
+    match Scene::parse("any", text, Path::new("")) {
+        Ok(scene) => {
+            let _ = scene.hairstyle_spec();
+            let _ = scene.single_hair();
+        }
+        Err(error) => {
+            let fault = error.fault().expect("the text was read");
+            assert!(fault.span.start <= fault.span.end && fault.span.end <= fault.text.len());
+            assert!(fault.line >= 1 && fault.column >= 1);
+            assert!(!fault.to_string().is_empty());
+        }
+    }
+}
+
+fn use_file(name: &str, bytes: &[u8], read: impl FnOnce(&Path)) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    read(&path);
+}
+
+fn use_head(bytes: &[u8]) {
+    use_file("head.obj", bytes, |path| {
+        for scalp in [ScalpSource::Guess, ScalpSource::Group("g".into())] {
+            let (path, up) = (path.to_path_buf(), UpAxis::Y);
+            let _ = head::read(&HeadFile { path: path.clone(), up, scale: 0.1, scalp });
+            // The mesh as its own mask and list of weights.
+            for scalp in [ScalpSource::Mask(path.clone()), ScalpSource::Weights(path.clone())] {
+                let _ = head::read(&HeadFile { path: path.clone(), up, scale: 0.1, scalp });
+            }
+        }
+    });
+}
+
+/// A scene with every kind of key, one to a line.
+fn whole_scene() -> String {
+    let loud = template(&frisure_hairstyle::PRESETS[3]).replace("\n# ", "\n");
+    let lines = loud.lines().filter(|l| l.contains('=') || l.starts_with('['));
+    let mut text: Vec<_> = lines.map(str::to_owned).collect();
+    text.push("[hair.root]\nd1 = [0, 1, 0]\nd2 = [0, 0, 1]\nt = [1, 0, 0]\n".into());
+    text.push("[equilibrium]\nelements = 20\nbranch = \"lowest\"\nstarts = 4\n".into());
+    text.push("[head]\nmesh = \"a.obj\"\nunit = \"cm\"\nscalp_mask = \"b.png\"\n".into());
+    text.join("\n")
+}
+
+/// A text with a piece replaced by another.
+fn mutated(text: &str, at: usize, length: usize, piece: &str) -> String {
+    let boundary = |mut i: usize| {
+        i = i.min(text.len());
+        while !text.is_char_boundary(i) {
+            i -= 1;
+        }
+        i
+    };
+    let (start, end) = (boundary(at), boundary(at + length));
+    format!("{}{piece}{}", &text[..start], &text[end..])
+}
+
+fn piece() -> impl Strategy<Value = String> {
+    let words = [
+        "nan",
+        "inf",
+        "-",
+        "0",
+        "1e308",
+        "\"",
+        "'''",
+        "[",
+        "]",
+        "[[",
+        "]]",
+        "{",
+        "}",
+        "=",
+        "\n",
+        "#",
+        ".",
+        "\"25 cm\"",
+        "\"25 GPa\"",
+        "[hair]\n",
+        "99999999999",
+        "true",
+        "1979-05-27",
+        "é",
+        "\u{0}",
+        "\u{feff}",
+        "along = [{}]",
+    ];
+    prop_oneof![proptest::sample::select(words.to_vec()).prop_map(str::to_owned), ".{0,12}",]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 512, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_text_as_a_scene(text in "\\PC{0,200}") {
+        use_scene(&text);
+    }
+
+    #[test]
+    fn scenes_with_mistakes(
+        edits in proptest::collection::vec((0_usize..1500, 0_usize..30, piece()), 1..4)
+    ) {
+        let mut text = whole_scene();
+        for (at, length, piece) in edits {
+            text = mutated(&text, at, length, &piece);
+        }
+        use_scene(&text);
+    }
+
+    #[test]
+    fn any_quantity(text in "[-+0-9.eE µa-z/^]{0,16}") {
+        if let Ok(value) = LENGTH.parse(&text) {
+            prop_assert!(value.is_finite());
+        }
+    }
+
+    #[test]
+    fn any_bytes_as_a_scene_file(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+        use_file("a.toml", &bytes, |path| {
+            let _ = Scene::read(path);
+        });
+    }
+
+    #[test]
+    fn any_bytes_as_a_head(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+        use_head(&bytes);
+    }
+
+    #[test]
+    fn any_lines_as_a_head(
+        lines in proptest::collection::vec("(v|vt|f|g|o|usemtl)( [-0-9./e]{1,5}){0,5}", 0..20)
+    ) {
+        let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\ng g\n{}\n", lines.join("\n"));
+        use_head(text.as_bytes());
+    }
+
+    #[test]
+    fn any_bytes_as_a_groom(
+        counts in proptest::array::uniform4(prop_oneof![0_u32..20, any::<u32>()]),
+        rest in proptest::collection::vec(any::<u8>(), 0..400),
+    ) {
+        let mut bytes = b"HAIR".to_vec();
+        bytes.extend(counts.iter().flat_map(|c| c.to_le_bytes()));
+        bytes.extend(rest);
+        use_file("a.hair", &bytes, |path| {
+            if let Ok(strands) = hair::read(path) {
+                assert!(strands.points().iter().all(|p| p.is_finite()));
+            }
+        });
+    }
+}
+
+#[test]
+fn deep_nesting_is_no_way_to_end_a_program() {
+    for text in ["[", "a=[", "a={b=", "a.", "[a."] {
+        use_scene(&text.repeat(200_000));
+    }
+}
+
+#[test]
+fn a_scene_of_many_keys_is_read_in_time() {
+    let mut text = "[hair.curl]\nalong = [\n".to_owned();
+    for i in 0..20_000 {
+        text += &format!("{{ s = {i}, kappa1 = 1 }},\n");
+    }
+    use_scene(&format!("{text}]"));
+    // The error's key has to be found among all of them.
+    use_scene(&format!("{text}{{ s = 0 }}]"));
+}

@@ -1,0 +1,198 @@
+//! Outputs are whole or untouched, whatever happens while they are written.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use frisure_io::files::{WriteError, check_destination, write_atomically};
+use frisure_io::groom::{self, EXTENSIONS, GroomError, write_groom};
+use frisure_io::picture::{self, PictureError};
+use frisure_io::report;
+use frisure_strands::Strands;
+use glam::Vec3;
+
+fn text(path: &Path, text: &str) -> Result<(), WriteError> {
+    write_atomically(path, |out| out.write_all(text.as_bytes()))
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let names = fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name());
+    names.map(|n| n.into_string().unwrap()).collect()
+}
+
+fn groom() -> Strands {
+    let mut strands = Strands::new();
+    strands.push(&[Vec3::ZERO, Vec3::X, Vec3::ONE], &[1e-5; 3]);
+    strands.push(&[Vec3::ZERO, Vec3::Y], &[1e-5; 2]);
+    strands
+}
+
+#[test]
+fn a_write_that_fails_leaves_the_old_file_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    text(&path, "old").unwrap();
+    let failing = write_atomically(&path, |out| {
+        out.write_all(&vec![b'x'; 1 << 20])?;
+        Err(io::Error::other("the disk is full"))
+    });
+    assert!(matches!(failing, Err(WriteError::Io { .. })));
+    let panicking = std::panic::catch_unwind(|| {
+        let _ = write_atomically(&path, |_| panic!("half-way"));
+    });
+    assert!(panicking.is_err());
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(names(folder.path()), ["a.txt"]);
+    text(&path, "new").unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+}
+
+#[test]
+fn destinations_that_cannot_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("no/such/a.txt");
+    let protected = folder.path().join("protected.txt");
+    fs::write(&protected, "old").unwrap();
+    let mut permissions = fs::metadata(&protected).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&protected, permissions).unwrap();
+    for check in [check_destination, |p: &Path| text(p, "new")] {
+        assert!(matches!(check(&missing), Err(WriteError::NoFolder { .. })));
+        assert!(matches!(check(folder.path()), Err(WriteError::Directory { .. })));
+        assert!(matches!(check(&protected), Err(WriteError::ReadOnly { .. })));
+    }
+    assert_eq!(fs::read_to_string(&protected).unwrap(), "old");
+    // A file where a folder should be.
+    assert!(check_destination(&protected.join("a.txt")).is_err());
+}
+
+#[cfg(unix)]
+#[test]
+fn links_permissions_and_devices_are_respected() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    let folder = tempfile::tempdir().unwrap();
+    let (target, link) = (folder.path().join("target"), folder.path().join("link"));
+    fs::write(&target, "old").unwrap();
+    fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).unwrap();
+    symlink(&target, &link).unwrap();
+    text(&link, "new").unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(fs::read_to_string(&target).unwrap(), "new");
+    assert_eq!(fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o640);
+    // A new file is as open as any other that this process makes.
+    let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
+    text(&ours, "").unwrap();
+    fs::write(&plain, "").unwrap();
+    let mode = |p: &Path| fs::metadata(p).unwrap().permissions().mode();
+    assert_eq!(mode(&ours), mode(&plain));
+
+    text(Path::new("/dev/null"), "gone").unwrap();
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    if Path::new("/dev/full").exists() {
+        assert!(matches!(text(Path::new("/dev/full"), "x"), Err(WriteError::Io { .. })));
+    }
+}
+
+const LINE: &[u8] = b"all of it, or nothing of it\n";
+const LINES: usize = 20_000;
+
+/// Not a test of its own: the victim of the next one, run in a process of its own.
+#[test]
+#[ignore = "runs until it is killed"]
+fn write_until_killed() {
+    let Ok(path) = std::env::var("FRISURE_TEST_VICTIM") else { return };
+    loop {
+        write_atomically(path.as_ref(), |out| (0..LINES).try_for_each(|_| out.write_all(LINE)))
+            .unwrap();
+    }
+}
+
+#[test]
+fn a_killed_process_leaves_a_whole_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    let whole = LINE.repeat(LINES);
+    fs::write(&path, &whole).unwrap();
+    for round in 0..10 {
+        let mut child = Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "write_until_killed", "--ignored"])
+            .env("FRISURE_TEST_VICTIM", &path)
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(40 + 7 * round));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(fs::read(&path).unwrap() == whole, "half a file");
+    }
+}
+
+#[test]
+fn grooms_by_extension() {
+    let folder = tempfile::tempdir().unwrap();
+    for extension in EXTENSIONS {
+        for name in [format!("a.{extension}"), format!("b.{}", extension.to_uppercase())] {
+            let path = folder.path().join(name);
+            write_groom(&path, &groom()).unwrap();
+            let first = fs::read(&path).unwrap();
+            write_groom(&path, &groom()).unwrap();
+            assert!(!first.is_empty() && fs::read(&path).unwrap() == first);
+        }
+    }
+    for name in ["a.abc", "a", "hair"] {
+        let error = write_groom(&folder.path().join(name), &groom()).unwrap_err();
+        assert!(matches!(error, GroomError::Extension { .. }));
+        assert!(error.to_string().ends_with("known are .hair, .obj, .ply"), "{error}");
+    }
+    // Nothing but what was asked for.
+    assert_eq!(names(folder.path()).len(), 2 * EXTENSIONS.len());
+}
+
+#[test]
+fn a_groom_comes_back_from_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.hair");
+    write_groom(&path, &groom()).unwrap();
+    let read = groom::hair::read(&path).unwrap();
+    assert_eq!(read.offsets(), groom().offsets());
+    assert_eq!(read.points(), groom().points());
+    fs::write(&path, "HAIR").unwrap();
+    let error = groom::hair::read(&path).unwrap_err().to_string();
+    assert!(error.ends_with("is not a .hair file: it has 4 bytes, and the header alone has 128"));
+    assert!(groom::hair::read(folder.path()).is_err());
+}
+
+#[test]
+fn pictures_come_back_as_they_were() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    let pixels: Vec<u8> = (0..2 * 3 * 4).collect();
+    picture::write(&path, 2, 3, &pixels).unwrap();
+    let decoder = png::Decoder::new(io::BufReader::new(fs::File::open(&path).unwrap()));
+    let mut reader = decoder.read_info().unwrap();
+    assert_eq!((reader.info().width, reader.info().height), (2, 3));
+    let mut read = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut read).unwrap();
+    assert_eq!(read, pixels);
+
+    for (width, height) in [(0, 0), (2, 2), (u32::MAX, u32::MAX)] {
+        let bad = picture::write(&path, width, height, &pixels);
+        assert!(matches!(bad, Err(PictureError::Size { .. })));
+    }
+    let bad = picture::write(&folder.path().join("a.jpg"), 2, 3, &pixels);
+    assert!(matches!(bad, Err(PictureError::Extension { .. })));
+}
+
+#[test]
+fn reports_keep_every_digit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.json");
+    let numbers = [0.1 + 0.2, 1.0 / 3.0, 5e-324, 1.7976931348623157e308];
+    report::write(&path, &numbers).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let back: Vec<f64> = serde_json::from_str(&text).unwrap();
+    assert_eq!(back, numbers);
+}

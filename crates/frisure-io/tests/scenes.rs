@@ -1,0 +1,555 @@
+//! Scenes: what can be said, what it means, and what is said about what is wrong.
+
+use std::path::Path;
+
+use frisure_hairstyle::{Body, Flow, Handedness, Lift, PRESETS};
+use frisure_io::scene::{
+    Fault, HeadSource, ScalpSource, Scene, SceneError, UpAxis, schema, template,
+};
+use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
+use glam::DVec3;
+use serde_json::Value;
+
+fn parse(text: &str) -> Result<Scene, SceneError> {
+    Scene::parse("scene.toml", text, Path::new("scenes"))
+}
+
+fn good(text: &str) -> Scene {
+    parse(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// What is wrong with a scene, for a whole head or for one hair.
+fn fault(text: &str) -> Fault {
+    let error = match parse(text) {
+        Err(error) => error,
+        Ok(scene) => match (scene.hairstyle_spec(), scene.single_hair()) {
+            (Err(error), _) | (_, Err(error)) => error,
+            _ => panic!("this should be refused:\n{text}"),
+        },
+    };
+    error.fault().unwrap_or_else(|| panic!("{error}")).clone()
+}
+
+#[test]
+fn an_empty_file_is_a_scene() {
+    for text in ["", "\u{feff}", "# nothing\n", "[hair]\n[wisps]\n"] {
+        let scene = good(text);
+        assert_eq!(scene.hair_type, "caucasian-straight");
+        assert_eq!(scene.head, HeadSource::Mannequin);
+        assert!(scene.hairstyle_spec().is_ok() && scene.single_hair().is_ok());
+    }
+}
+
+#[test]
+fn a_type_gives_its_preset_unchanged() {
+    for preset in PRESETS {
+        let scene = good(&format!("[hair]\ntype = \"{}\"", preset.name));
+        assert_eq!(scene.hairstyle_spec().unwrap(), preset.spec());
+    }
+}
+
+#[test]
+fn every_template_is_its_preset_and_so_it_is_uncommented() {
+    for preset in PRESETS {
+        let text = template(preset);
+        assert_eq!(good(&text).hairstyle_spec().unwrap(), preset.spec(), "{text}");
+        // With the numbers in its comments, which are rounded.
+        let loud = text.replace("\n# ", "\n").replacen("A scene for", "# A scene for", 1);
+        let loud = loud.replacen("Quantities are", "# Quantities are", 1);
+        let spec = good(&loud).hairstyle_spec().unwrap();
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.05;
+        assert!(near(spec.length.mean, preset.spec().length.mean));
+        assert!(near(spec.curl.strain.length(), preset.spec().curl.strain.length()), "{loud}");
+        assert_eq!(spec.wisps.count, preset.spec().wisps.count);
+    }
+}
+
+#[test]
+fn every_key_arrives() {
+    let scene = good(
+        r##"
+        name = "All"
+        seed = 9223372036854775807
+        gravity = "1.62 m/s^2"
+        [hair]
+        type = "frizzy"
+        length = "25 cm"
+        length_variation = "10 %"
+        fibre = { diameter = "80 um", axis_ratio = 1.5, youngs_modulus = "4 GPa", poisson_ratio = 0.25, density = "1.2 g/cm^3", torsion = "polar" }
+        curl = { kappa1 = "1 1/mm", tau = 20, handedness = "as-given", variation_between = 0.1, variation_along = 0.2, variation_scale = "4 cm" }
+        root = { d1 = [0, 1, 0], t = [0, 0, 1] }
+        [head]
+        mesh = "a/head.obj"
+        up = "z"
+        unit = "cm"
+        scalp_mask = "mask.png"
+        [implantation]
+        flow = "parted"
+        parting = "-1 cm"
+        lift = "45 deg"
+        jitter = "5 deg"
+        [wisps]
+        count = 11
+        hairs = 12
+        clumping = 0.13
+        fuzziness = 0.14
+        length_variation = 0.15
+        flyaways = 0.16
+        blending = 0.17
+        points = 18
+        [contact]
+        body = "spheres"
+        stiffness = "0.2 kPa"
+        volume = 0.3
+        [equilibrium]
+        elements = 21
+        element = "helix"
+        branch = "lowest"
+        starts = 22
+        [look]
+        eumelanin = 0.3
+        pheomelanin = 0.4
+        variation = 0.5
+        skin = "#ff8000"
+        background = [0, 0.5, 1]
+        [camera]
+        azimuth = "90 deg"
+        elevation = "-10 deg"
+        field_of_view = "30 deg"
+        [light]
+        azimuth = "10 deg"
+        strength = 2
+        [output]
+        width = 31
+        height = 32
+        samples = 3
+        "##,
+    );
+    let spec = scene.hairstyle_spec().unwrap();
+    assert_eq!((scene.name.as_str(), spec.seed), ("All", u64::MAX >> 1));
+    assert_eq!((spec.gravity, spec.length.mean, spec.length.variation_between), (1.62, 0.25, 0.1));
+    assert!((spec.fibre.section.mean_radius() - 40e-6).abs() < 1e-18);
+    assert!((spec.fibre.section.axis_ratio() - 1.5).abs() < 1e-12);
+    assert_eq!(spec.fibre.material.youngs_modulus(), 4e9);
+    assert_eq!(spec.fibre.material.shear_modulus(), 1.6e9);
+    assert_eq!(spec.fibre.material.density(), 1200.0);
+    assert_eq!(spec.fibre.torsion, TorsionConstant::Polar);
+    assert_eq!(spec.curl.strain, DVec3::new(1000.0, 0.0, 20.0));
+    assert_eq!(spec.curl.handedness, Handedness::AsGiven);
+    assert_eq!((spec.curl.variation_between, spec.curl.variation_along), (0.1, 0.2));
+    assert_eq!(spec.curl.variation_scale, 0.04);
+    assert_eq!(spec.implantation.flow, Flow::Parted { offset: -0.01 });
+    assert_eq!(spec.implantation.lift, Lift::Uniform(45_f64.to_radians()));
+    assert!((spec.implantation.jitter - 5_f64.to_radians()).abs() < 1e-15);
+    let w = spec.wisps;
+    assert_eq!((w.count, w.hairs, w.points), (11, 12, 18));
+    assert_eq!((w.clumping, w.fuzziness, w.length_variation), (0.13, 0.14, 0.15));
+    assert_eq!((w.flyaways, w.blending), (0.16, 0.17));
+    assert_eq!(spec.contact.body, Body::Spheres);
+    assert_eq!((spec.contact.stiffness, spec.contact.volume), (200.0, 0.3));
+    assert_eq!(spec.equilibrium.resolution, Resolution::Elements(21));
+    assert_eq!(spec.equilibrium.element, ElementKind::Helix);
+
+    let hair = scene.single_hair().unwrap();
+    assert_eq!(hair.options.branch, Branch::Lowest { starts: 22, seed: u64::MAX >> 1 });
+    assert_eq!(hair.rod.root().frame().z_axis, DVec3::Z);
+    assert_eq!(hair.rod.root().frame().x_axis, DVec3::Y);
+    assert_eq!(*hair.rod.natural(), NaturalStrain::Uniform(spec.curl.strain));
+
+    let HeadSource::Mesh(head) = &scene.head else { panic!("a mesh was given") };
+    assert_eq!(head.path, Path::new("scenes/a/head.obj"));
+    assert_eq!((head.up, head.scale), (UpAxis::Z, 0.01));
+    assert_eq!(head.scalp, ScalpSource::Mask("scenes/mask.png".into()));
+    assert_eq!(scene.look.skin, Some([1.0, 128.0 / 255.0, 0.0]));
+    assert_eq!(scene.look.background, Some([0.0, 0.5, 1.0]));
+    assert_eq!((scene.look.eumelanin, scene.look.pheomelanin), (0.3, 0.4));
+    assert!((scene.camera.azimuth.to_degrees() - 90.0).abs() < 1e-12);
+    assert!((scene.light.direction.unwrap().0.to_degrees() - 10.0).abs() < 1e-12);
+    assert_eq!((scene.output.width, scene.output.height, scene.output.samples), (31, 32, 3));
+}
+
+#[test]
+fn part_of_a_curl_or_section_keeps_the_rest_of_the_type() {
+    let base = "[hair]\ntype = \"caucasian-curly\"\n";
+    let preset = good(base).hairstyle_spec().unwrap();
+    let (_, pitch) = preset.curl.radius_pitch().unwrap();
+    let spec = good(&format!("{base}curl.radius = \"2 cm\"")).hairstyle_spec().unwrap();
+    let (r, p) = spec.curl.radius_pitch().unwrap();
+    assert!((r - 0.02).abs() < 1e-12 && (p - pitch).abs() < 1e-12);
+    let spec = good(&format!("{base}fibre.diameter = \"90 um\"")).hairstyle_spec().unwrap();
+    assert!((spec.fibre.section.mean_radius() - 45e-6).abs() < 1e-15);
+    assert!((spec.fibre.section.axis_ratio() - 1.45).abs() < 1e-12);
+    let spec = good(&format!("{base}fibre.eccentricity = 0.5")).hairstyle_spec().unwrap();
+    assert!((spec.fibre.section.mean_radius() - 35e-6).abs() < 1e-15);
+    assert!((spec.fibre.section.eccentricity() - 0.5).abs() < 1e-12);
+    // Strains are not mixed with the type's: the missing ones are 0.
+    let spec = good(&format!("{base}curl.tau = 5")).hairstyle_spec().unwrap();
+    assert_eq!(spec.curl.strain, DVec3::new(0.0, 0.0, 5.0));
+}
+
+#[test]
+fn strains_along_one_hair() {
+    let text = r#"
+        [[hair.curl.along]]
+        kappa1 = 10
+        [[hair.curl.along]]
+        s = "10 cm"
+        kappa1 = "30 1/m"
+    "#;
+    let scene = good(text);
+    let hair = scene.single_hair().unwrap();
+    assert!((hair.rod.natural().at(0.05).x - 20.0).abs() < 1e-12);
+    let refused = fault(text);
+    assert_eq!(refused.key, "hair.curl.along");
+    assert!(refused.problem.contains("one hair"), "{refused}");
+    let back = fault("hair.curl.along = [{ s = 0.1 }, { s = 0.05, kappa1 = 3 }]");
+    assert_eq!((back.key.as_str(), back.value.as_str()), ("hair.curl.along[1].s", "0.05"));
+}
+
+#[test]
+fn a_mesh_may_be_in_another_folder() {
+    let HeadSource::Mesh(head) = good("head.mesh = '/data/head.obj'").head else {
+        panic!("a mesh was given")
+    };
+    assert_eq!(head.path, Path::new("/data/head.obj"));
+    assert_eq!((head.up, head.scale, head.scalp), (UpAxis::Y, 1.0, ScalpSource::Guess));
+}
+
+/// Text, line, column, key, value, and parts of the sentence with its hint.
+type Case = (&'static str, usize, usize, &'static str, &'static str, &'static [&'static str]);
+
+#[test]
+fn faults_name_place_value_range_and_hint() {
+    let cases: &[Case] = &[
+        // Keys.
+        (
+            "[hair]\nlenght = 1",
+            2,
+            1,
+            "hair.lenght",
+            "",
+            &["unknown key `lenght`", "did you mean `length`?"],
+        ),
+        ("[hare]", 1, 2, "hare", "", &["did you mean `hair`?"]),
+        ("length = 1", 1, 1, "length", "", &["there is a `hair.length`"]),
+        (
+            "[hair.fibre]\nyoung = 1",
+            2,
+            1,
+            "hair.fibre.young",
+            "",
+            &["known keys", "youngs_modulus"],
+        ),
+        (
+            "[hair]\n curl.along = [{x = 1}]",
+            2,
+            17,
+            "hair.curl.along[0].x",
+            "",
+            &["unknown key `x`"],
+        ),
+        ("[[step]]\nwet = {}", 1, 3, "step", "", &["unknown key `step`"]),
+        // Kinds.
+        ("hair = 3", 1, 8, "hair", "3", &["it must be a table"]),
+        ("[hair.curl]\nalong = 3", 2, 9, "hair.curl.along", "3", &["a list of tables"]),
+        ("[[hair]]", 1, 1, "hair", "", &["it must be a table"]),
+        ("[hair]\nlength = true", 2, 10, "hair.length", "true", &["a length, such as \"25 cm\""]),
+        (
+            "[hair]\nlength = \"25\"",
+            2,
+            10,
+            "hair.length",
+            "\"25\"",
+            &["a length", "add a unit", "in m"],
+        ),
+        (
+            "[hair]\nlength = \"25 GPa\"",
+            2,
+            10,
+            "hair.length",
+            "\"25 GPa\"",
+            &["unit of a modulus", "cm"],
+        ),
+        ("[hair]\nlength = \"long\"", 2, 10, "hair.length", "\"long\"", &["a length, such as"]),
+        ("[hair]\nlength = nan", 2, 10, "hair.length", "nan", &["a finite number"]),
+        ("[hair]\nlength = inf", 2, 10, "hair.length", "inf", &["a finite number"]),
+        ("[hair]\nlength = \"1e999 m\"", 2, 10, "hair.length", "\"1e999 m\"", &["a finite number"]),
+        ("[wisps]\ncount = 1.5", 2, 9, "wisps.count", "1.5", &["a whole number"]),
+        ("[wisps]\ncount = -1", 2, 9, "wisps.count", "-1", &["a whole number"]),
+        ("seed = -1", 1, 8, "seed", "-1", &["a whole number"]),
+        (
+            "[hair]\ntype = \"curly\"",
+            2,
+            8,
+            "hair.type",
+            "\"curly\"",
+            &["one of", "\"caucasian-curly\""],
+        ),
+        ("[hair]\ntype = \"frizy\"", 2, 8, "hair.type", "\"frizy\"", &["did you mean \"frizzy\"?"]),
+        ("[look]\nskin = \"#12345g\"", 2, 8, "look.skin", "\"#12345g\"", &["a colour"]),
+        ("[look]\nskin = [0, 0, 2]", 2, 8, "look.skin", "[0, 0, 2]", &["from 0 to 1"]),
+        ("[hair]\nroot.t = [0, 1]", 2, 10, "hair.root.t", "[0, 1]", &["three finite numbers"]),
+        // Ranges.
+        ("[hair]\nlength = 0", 2, 10, "hair.length", "0", &["between 1 mm and 3 m"]),
+        ("[hair]\nlength = \"5 km\"", 2, 10, "hair.length", "\"5 km\"", &["cm"]),
+        ("[hair]\nlength = \"5 m\"", 2, 10, "hair.length", "\"5 m\"", &["between 1 mm and 3 m"]),
+        ("[hair.fibre]\ndiameter = 0", 2, 12, "hair.fibre.diameter", "0", &["greater than zero"]),
+        (
+            "[hair.fibre]\nmean_radius = -1",
+            2,
+            15,
+            "hair.fibre.mean_radius",
+            "-1",
+            &["greater than zero"],
+        ),
+        ("[hair.fibre]\neccentricity = 1", 2, 16, "hair.fibre.eccentricity", "1", &["less than 1"]),
+        ("[hair.fibre]\naxis_ratio = 0.5", 2, 14, "hair.fibre.axis_ratio", "0.5", &["at least 1"]),
+        (
+            "[hair.fibre]\npoisson_ratio = 0.6",
+            2,
+            17,
+            "hair.fibre.poisson_ratio",
+            "0.6",
+            &["at most 0.5"],
+        ),
+        (
+            "[hair.fibre]\nyoungs_modulus = \"0 GPa\"",
+            2,
+            18,
+            "hair.fibre.youngs_modulus",
+            "\"0 GPa\"",
+            &["greater"],
+        ),
+        ("[hair.curl]\nradius = 0", 2, 10, "hair.curl.radius", "0", &["greater than zero"]),
+        ("[hair.curl]\nkappa1 = 1e6", 2, 10, "hair.curl.kappa1", "1e6", &["at most 20000 rad/m"]),
+        ("[wisps]\ncount = 0", 2, 9, "wisps.count", "0", &["between 1 and 20000"]),
+        (
+            "[wisps]\nhairs = 10_000_000",
+            2,
+            9,
+            "wisps.hairs",
+            "10_000_000",
+            &["between 1 and 1000000"],
+        ),
+        (
+            "[equilibrium]\nelements = 10_000_000",
+            2,
+            12,
+            "equilibrium.elements",
+            "10_000_000",
+            &["between 1 and 10000"],
+        ),
+        (
+            "[equilibrium]\nelements = 0",
+            2,
+            12,
+            "equilibrium.elements",
+            "0",
+            &["between 1 and 10000"],
+        ),
+        ("[equilibrium]\naccuracy = 0", 2, 12, "equilibrium.accuracy", "0", &["greater than zero"]),
+        (
+            "[equilibrium]\nstarts = 3",
+            2,
+            10,
+            "equilibrium.starts",
+            "",
+            &["add `branch = \"lowest\"`"],
+        ),
+        ("gravity = -1", 1, 11, "gravity", "-1", &["between 0 and 1000"]),
+        (
+            "[implantation]\nlift = \"100 deg\"",
+            2,
+            8,
+            "implantation.lift",
+            "\"100 deg\"",
+            &["90 deg"],
+        ),
+        (
+            "[camera]\nelevation = \"90 deg\"",
+            2,
+            13,
+            "camera.elevation",
+            "\"90 deg\"",
+            &["-85 and 85 deg"],
+        ),
+        ("[output]\nwidth = 0", 2, 9, "output.width", "0", &["between 1 and 16384"]),
+        ("[head]\nmesh = \"a\"\nscale = 0", 3, 9, "head.scale", "0", &["greater than zero"]),
+        (
+            "[hair.root]\nt = [0, 0, 2]\nd1 = [1, 0, 0]",
+            1,
+            1,
+            "hair.root",
+            "",
+            &["right-handed orthonormal"],
+        ),
+        // Contradictions.
+        (
+            "[hair.fibre]\ndiameter = 1e-4\n\nmean_radius = 1e-4",
+            4,
+            15,
+            "hair.fibre.mean_radius",
+            "1e-4",
+            &["`hair.fibre.diameter` says on line 2", "keep one of the two"],
+        ),
+        (
+            "[hair.curl]\nradius = 1\ntau = 2",
+            3,
+            7,
+            "hair.curl.tau",
+            "2",
+            &["`hair.curl.radius` says on line 2"],
+        ),
+        (
+            "[hair.fibre]\nshear_modulus = 1\npoisson_ratio = 0",
+            3,
+            17,
+            "hair.fibre.poisson_ratio",
+            "0",
+            &["on line 2"],
+        ),
+        (
+            "[hair.fibre]\nsemi_axis_a = 1\nsemi_axis_b = 1\ndiameter = 1",
+            4,
+            12,
+            "hair.fibre.diameter",
+            "1",
+            &["line 2"],
+        ),
+        (
+            "[implantation]\nlift = 1\nlift_scale = 1",
+            3,
+            14,
+            "implantation.lift_scale",
+            "1",
+            &["line 2"],
+        ),
+        (
+            "[equilibrium]\nelements = 9\naccuracy = 1",
+            3,
+            12,
+            "equilibrium.accuracy",
+            "1",
+            &["line 2"],
+        ),
+        ("[head]\nmesh = \"a\"\nunit = \"m\"\nscale = 1", 4, 9, "head.scale", "1", &["line 3"]),
+        (
+            "[hair.fibre]\nsemi_axis_a = 1",
+            2,
+            15,
+            "hair.fibre.semi_axis_a",
+            "",
+            &["needs `semi_axis_b`"],
+        ),
+        ("[hair.root]\nt = [1, 0, 0]", 2, 5, "hair.root.t", "", &["needs `d1`"]),
+        ("[head]\nup = \"z\"", 2, 6, "head.up", "", &["the scene has none", "add `mesh"]),
+        (
+            "[implantation]\nflow = \"whorl\"\nparting = 0.01",
+            3,
+            11,
+            "implantation.parting",
+            "",
+            &["only parted hair"],
+        ),
+        // Not TOML.
+        ("[hair", 1, 6, "", "", &[]),
+        ("a = 1\na = 2", 2, 1, "", "", &["duplicate key"]),
+        ("seed = 99999999999999999999", 1, 8, "", "", &[]),
+        ("\n\n  x", 3, 4, "", "", &[]),
+        ("name = \"a\u{0}\"", 1, 10, "", "", &[]),
+    ];
+    for &(text, line, column, key, value, parts) in cases {
+        let fault = fault(text);
+        let whole = fault.to_string();
+        let facts = (fault.line, fault.column, fault.key.as_str());
+        assert_eq!(facts, (line, column, key), "{whole}\n{text}");
+        assert!(value.is_empty() || fault.value == value, "{value}: {fault:?}");
+        for part in parts {
+            assert!(whole.contains(part), "{part}: {whole}");
+        }
+        assert!(whole.starts_with(&format!("scene.toml:{line}:{column}: ")), "{whole}");
+        assert!(fault.span.end <= text.len());
+    }
+}
+
+#[test]
+fn columns_count_characters() {
+    let fault = fault("name = \"é\"\n[hair]\ntype = \"é\" # é");
+    assert_eq!((fault.line, fault.column, fault.value.as_str()), (3, 8, "\"é\""));
+}
+
+#[test]
+fn files_that_are_no_scenes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let message = |bytes: Option<&[u8]>| {
+        if let Some(bytes) = bytes {
+            std::fs::write(&path, bytes).unwrap();
+        }
+        Scene::read(&path).unwrap_err().to_string().replace(path.to_str().unwrap(), "P")
+    };
+    assert_eq!(message(None), "there is no file `P`");
+    assert_eq!(message(Some(b"seed = 1\n# \xff")), "`P` is not UTF-8 text (byte 3 of line 2)");
+    assert_eq!(
+        message(Some(&vec![b'#'; (16 << 20) + 1])),
+        "`P` is larger than 16777216 bytes, too large for a scene"
+    );
+    let error = Scene::read(folder.path()).unwrap_err().to_string();
+    assert!(error.ends_with("is a directory, not a file"), "{error}");
+}
+
+/// Every leaf of the schema: path and schema.
+fn leaves<'a>(schema: &'a Value, path: &str, out: &mut Vec<(String, &'a Value)>) {
+    for (key, inner) in schema["properties"].as_object().into_iter().flatten() {
+        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        if inner.get("properties").is_some() {
+            leaves(inner, &path, out);
+        } else {
+            out.push((path, inner));
+        }
+    }
+}
+
+#[test]
+fn the_schema_describes_every_key() {
+    let mut all = Vec::new();
+    leaves(schema(), "", &mut all);
+    assert!(all.len() > 60, "{}", all.len());
+    for (path, key) in all {
+        assert!(key["description"].is_string(), "{path}");
+        assert!(!key.to_string().contains("null"), "{path}: {key}");
+    }
+    assert_eq!(schema()["additionalProperties"], false);
+    assert_eq!(schema()["properties"]["hair"]["properties"]["length"]["x-unit"], "m");
+}
+
+#[test]
+fn ranges_of_the_schema_are_those_that_are_checked() {
+    let mut all = Vec::new();
+    leaves(schema(), "", &mut all);
+    for (path, key) in all {
+        for (bound, outwards) in [("minimum", -1.0), ("maximum", 1.0)] {
+            let Some(limit) = key[bound].as_f64() else { continue };
+            let text = |x: f64| {
+                let count = key["type"] == "integer";
+                let x = if count { format!("{x:.0}") } else { format!("{x:?}") };
+                let rest = match path.as_str() {
+                    "head.scale" => "head.mesh = \"a\"\n",
+                    "equilibrium.starts" => "equilibrium.branch = \"lowest\"\n",
+                    _ => "",
+                };
+                format!("{rest}{path} = {x}")
+            };
+            let step = (limit.abs() * 0.01).max(if key["type"] == "integer" { 1.0 } else { 1e-9 });
+            let fault = fault(&text(limit + outwards * step));
+            assert_eq!(fault.key, path, "{fault}");
+            // Inside; a limit that is itself excluded has the inside right beside it.
+            let inside = text(limit - outwards * step);
+            // Lengths and moduli above zero are bounded again by what can be computed.
+            if limit != 0.0 {
+                let scene = good(&inside);
+                assert!(scene.hairstyle_spec().is_ok(), "{inside}");
+            }
+        }
+    }
+}
