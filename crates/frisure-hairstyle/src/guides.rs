@@ -23,7 +23,7 @@ pub struct Guide {
 }
 
 /// Standard deviation (rad) of the direction about the root tangent in which curls lean.
-const ROLL: f64 = 0.6;
+const ROLL: f64 = 0.4;
 
 /// Plans the guides of a head.
 ///
@@ -55,7 +55,8 @@ fn rod(
     let length = spec.length.mean * random.factor(spec.length.variation_between);
     let natural = natural_strain(&spec.curl, length, &mut random)?;
     let tangent = jittered(spec, head, root, index);
-    let d1 = leaning_out(natural.at(0.0), tangent, root.normal, &mut random);
+    let lean = implantation::lean(spec.implantation.flow, root);
+    let d1 = leaning(natural.at(0.0), tangent, lean, &mut random);
     Rod::new(RodSpec {
         length,
         section: spec.fibre.section,
@@ -80,12 +81,12 @@ fn jittered(spec: &HairstyleSpec, head: &Head, root: &Root, index: usize) -> DVe
     raised.normalize_or(root.normal)
 }
 
-/// The director d1 at which the natural curl leans away from the skin, give or take a roll.
+/// The director d1 at which the natural curl leans towards `lean`, give or take a roll.
 ///
 /// A helix advances along `±(κ1 d1 + κ2 d2 + τ t)`. In which direction follicles turn their curl is
 /// not known; one that started into the skin would come out of it within a turn, so it leans out.
-fn leaning_out(strain: DVec3, tangent: DVec3, normal: DVec3, random: &mut Stream) -> DVec3 {
-    let out = (normal - tangent * tangent.dot(normal))
+fn leaning(strain: DVec3, tangent: DVec3, lean: DVec3, random: &mut Stream) -> DVec3 {
+    let out = (lean - tangent * tangent.dot(lean))
         .try_normalize()
         .unwrap_or_else(|| tangent.any_orthonormal_vector());
     // Angle of the strain's bending part from d1, in the plane of d1 and d2.
@@ -136,7 +137,7 @@ mod tests {
         for strain in [DVec3::new(80.0, 0.0, 30.0), DVec3::new(30.0, 70.0, -20.0)] {
             let mut outwards = 0.0;
             for _ in 0..400 {
-                let d1 = leaning_out(strain, tangent, normal, &mut random);
+                let d1 = leaning(strain, tangent, normal, &mut random);
                 let d2 = tangent.cross(d1);
                 let axis = d1 * strain.x + d2 * strain.y + tangent * strain.z;
                 outwards += axis.dot(normal) * strain.z.signum() / 400.0;

@@ -43,12 +43,21 @@ fn parted(marks: &Landmarks, offset: f64, root: &Root) -> DVec3 {
     let line = middle + offset * (1.0 - 0.5 * back.clamp(0.0, 1.0));
     // A line, not a jump: hair next to it stands up rather than crossing it.
     let side = ((p.x - line) / 0.004).tanh();
-    let aside = DVec3::new(side, 0.30, -0.35);
-    let down = DVec3::new(0.25 * (p.x - middle).signum(), 0.12, -1.0);
+    let aside = DVec3::new(side, 0.8, -0.35);
+    let down = DVec3::new(0.25 * (p.x - middle).signum(), 0.2, -1.0);
     let top = smooth(0.15, 0.75, marks.normalized(p).normalize_or(DVec3::Z).z);
     let behind = smooth(0.75, 1.25, back);
     let away = (p - marks.whorl).normalize_or(DVec3::Z);
     (down.normalize() * (1.0 - top) + aside.normalize() * top).lerp(away, behind * 0.8)
+}
+
+/// The direction to which curls lean as they leave the root: out of the skin and, where hair is
+/// combed, back.
+pub(crate) fn lean(flow: Flow, root: &Root) -> DVec3 {
+    match flow {
+        Flow::Whorl => root.normal,
+        Flow::Parted { .. } | Flow::SweptBack => root.normal + DVec3::Y,
+    }
 }
 
 /// The angle to the skin (rad).

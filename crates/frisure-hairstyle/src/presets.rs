@@ -192,7 +192,7 @@ impl Preset {
                 blending: n.blending,
                 points: n.points,
             },
-            contact: Contact { body: Body::SignedDistance, stiffness: 100.0, volume: n.volume },
+            contact: Contact { body: Body::SignedDistance, stiffness: 2.0, volume: n.volume },
             equilibrium: Settling {
                 resolution: Resolution::Accuracy(1e-4),
                 element: ElementKind::default(),

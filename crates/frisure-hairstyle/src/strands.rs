@@ -122,7 +122,7 @@ struct Character {
 impl Character {
     fn new(wisps: &Wisps, length: f64, spacing: f64, layer: f64, random: &mut Stream) -> Self {
         let stray = random.unit() < wisps.flyaways;
-        let fuzz = wisps.fuzziness * random.factor(0.5) * if stray { 4.0 } else { 1.0 };
+        let fuzz = wisps.fuzziness * random.factor(0.5) * if stray { 2.5 } else { 1.0 };
         let mut wave = |wavelength: f64, share: f64| {
             let wave_number = TAU * length / (wavelength * random.factor(0.3));
             let direction = DVec3::new(random.normal(), random.normal(), random.normal());
@@ -150,6 +150,20 @@ impl Character {
     }
 }
 
+/// A ball (m) known to be free of the body and of its layers: most points need no look-up.
+struct Free {
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Free {
+    const NOWHERE: Self = Self { centre: DVec3::ZERO, radius: -1.0 };
+
+    fn holds(&self, p: DVec3) -> bool {
+        self.radius > 0.0 && p.distance_squared(self.centre) < self.radius * self.radius
+    }
+}
+
 impl Population<'_> {
     fn hair(&self, root: &Root, index: usize) -> Hair {
         let mut random = Stream::new(self.spec.seed, Purpose::Hair, index);
@@ -160,11 +174,12 @@ impl Population<'_> {
         let wisps = &self.spec.wisps;
         let character = Character::new(wisps, length, self.spacing, layer, &mut random);
         let last = wisps.points - 1;
+        let mut free = Free::NOWHERE;
         let points = (0..=last)
             .map(|k| {
                 let x = k as f64 / last as f64 * character.length;
                 let p = self.followed_point(root, &followed, &character, x, length);
-                self.laid_on_body(root, p, x * length, character.layer).as_vec3()
+                self.laid_on_body(root, p, x * length, character.layer, &mut free).as_vec3()
             })
             .collect();
         Hair { guide: main as u32, points }
@@ -174,14 +189,11 @@ impl Population<'_> {
     fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
         let near = self.grid.nearest(root.position, FOLLOWED, &self.roots);
         let first = near[0];
-        let tangent = |g: usize| self.guides[g].rod.root().frame().z_axis;
         let reach = (0.9 * self.spacing * self.spec.wisps.blending).max(1e-9);
         let own = root.position.distance_squared(self.roots[first]);
         let weight = |g: usize| {
             let excess = root.position.distance_squared(self.roots[g]) - own;
-            // Hair on the other side of a parting goes another way.
-            let agreement = tangent(g).dot(tangent(first)).max(0.0).powi(4);
-            (-excess / (reach * reach)).exp() * agreement
+            (-excess / (reach * reach)).exp() * self.agreement(first, g)
         };
         let mut followed: Vec<_> = near.iter().map(|&g| (g, weight(g))).collect();
         followed.retain(|f| f.1 > 1e-3);
@@ -190,6 +202,15 @@ impl Population<'_> {
             f.1 /= sum;
         }
         followed
+    }
+
+    /// Whether two guides go the same way, from 1 to 0: hair beside a parting or around an ear falls
+    /// on one side or the other, not in the middle.
+    fn agreement(&self, a: usize, b: usize) -> f64 {
+        let apart = |x: f64| self.wisps[a].at(x).0.distance(self.wisps[b].at(x).0);
+        let least = apart(0.0) + self.spacing;
+        let most = [0.3, 0.65, 1.0].into_iter().map(apart).fold(0.0, f64::max);
+        1.0 - smooth(0.8, 1.6, most / least)
     }
 
     /// Distance (m) from the body that the guides keep far from their roots.
@@ -222,11 +243,18 @@ impl Population<'_> {
     }
 
     /// Pushes a point at arc length `s` (m) out of the body, to the hair's own layer.
-    fn laid_on_body(&self, root: &Root, p: DVec3, s: f64, layer: f64) -> DVec3 {
+    fn laid_on_body(
+        &self,
+        root: &Root,
+        p: DVec3,
+        s: f64,
+        layer: f64,
+        free: &mut Free,
+    ) -> DVec3 {
         if s <= 0.0 {
             return root.position - root.normal * ROOT_DEPTH;
         }
-        if self.spec.contact.body == Body::None {
+        if self.spec.contact.body == Body::None || free.holds(p) {
             return p;
         }
         let keep = 4e-4 * (s / 0.003).min(1.0) + Clearance { full: layer, rise: 0.05 }.at(s);
@@ -234,6 +262,7 @@ impl Population<'_> {
         for _ in 0..3 {
             let (distance, gradient) = self.head.signed_distance().value_gradient(p);
             if distance >= keep {
+                *free = Free { centre: p, radius: distance - layer.max(keep) };
                 break;
             }
             p += gradient.normalize_or(root.normal) * (keep - distance);
