@@ -267,7 +267,7 @@ pub(super) struct Colour;
 impl Kind for Colour {
     type Value = [f64; 3];
 
-    fn read(value: &Value) -> Result<[f64; 3], Fault> {
+    fn read(value: &Value) -> Result<[f64; 3], Refusal> {
         let allowed =
             || Refusal::new("a colour such as \"#d8b49c\", or red, green and blue from 0 to 1");
         let rgb = match value {

@@ -462,18 +462,18 @@ fn keys_of(quantity: &str) -> &'static [&'static str] {
     }
 }
 
-/// The place of the first of some keys that is written, or the nearest table around the first.
+/// The first of some keys that is written, its place, and whether it is a single value; or the
+/// nearest table around the first of them.
 fn place(keys: &[&'static str], source: &Source) -> (&'static str, Range<usize>, bool) {
-    let written = keys.iter().find_map(|&key| source.find(key).map(|span| (key, span, true)));
+    let written = |&key: &&'static str| source.find(key).map(|(span, single)| (key, span, single));
     let first = keys.first().copied().unwrap_or("");
-    written.unwrap_or_else(|| (first, source.locate(first), false))
+    keys.iter().find_map(written).unwrap_or_else(|| (first, source.locate(first), false))
 }
 
 /// A quantity that the rod refuses, at the key it comes from.
 pub(super) fn blame(error: &InvalidQuantity, source: &Source) -> SceneError {
-    let (key, span, written) = place(keys_of(error.quantity), source);
-    let leaf = written && source.is_leaf(key);
-    let fault = if leaf {
+    let (key, span, single) = place(keys_of(error.quantity), source);
+    let fault = if single {
         Fault::outside(error.allowed).value(source.slice(span.clone()))
     } else {
         // No one key is wrong: the sentence must name the quantity itself.
@@ -492,7 +492,7 @@ fn out_of_range(error: &InvalidSpec, source: &Source) -> SceneError {
         "equilibrium" => &["equilibrium.elements", "equilibrium.accuracy"],
         _ => std::slice::from_ref(&error.field),
     };
-    let (key, span, written) = place(keys, source);
-    let value = if written { source.slice(span.clone()) } else { &error.value };
+    let (key, span, single) = place(keys, source);
+    let value = if single { source.slice(span.clone()) } else { &error.value };
     Fault::outside(error.allowed).key(key).value(value).at(source, span)
 }

@@ -62,25 +62,18 @@ impl Source {
         span
     }
 
-    /// Where the value at a path stands, if it is written.
-    pub(super) fn find(&self, path: &str) -> Option<Range<usize>> {
-        self.value(path, Spanned::span)
-    }
-
-    /// Whether the value at a path is written and is not a table or a list.
-    pub(super) fn is_leaf(&self, path: &str) -> bool {
-        let leaf = |v: &Spanned<DeValue<'_>>| !v.get_ref().is_table() && !v.get_ref().is_array();
-        self.value(path, leaf).unwrap_or(false)
-    }
-
-    fn value<T>(&self, path: &str, f: impl FnOnce(&Spanned<DeValue<'_>>) -> T) -> Option<T> {
+    /// Where the value at a path stands, if it is written, and whether it is a single value: no
+    /// table and no list.
+    pub(super) fn find(&self, path: &str) -> Option<(Range<usize>, bool)> {
         let document = self.document().ok()?;
         let mut table = document.get_ref();
         let (tables, last) = path.rsplit_once('.').unwrap_or(("", path));
         for name in tables.split('.').filter(|n| !n.is_empty()) {
             table = table.get(name)?.get_ref().as_table()?;
         }
-        table.get(last).map(f)
+        let value = table.get(last)?;
+        let single = !value.get_ref().is_table() && !value.get_ref().is_array();
+        Some((value.span(), single))
     }
 
     /// Path of the value that stands at exactly this span.
