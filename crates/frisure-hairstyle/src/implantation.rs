@@ -99,8 +99,7 @@ mod tests {
         let head = Head::mannequin();
         let roots = Scalp::new(&head).stratified(500, 1, Purpose::HairRoots);
         for flow in [Flow::Whorl, Flow::Parted { offset: 0.02 }, Flow::SweptBack] {
-            let implantation =
-                Implantation { flow, lift: Lift::Uniform(0.5), jitter: 0.0 };
+            let implantation = Implantation { flow, lift: Lift::Uniform(0.5), jitter: 0.0 };
             for root in &roots {
                 let d = direction(&head, &implantation, root);
                 assert!((d.dot(root.normal) - 0.5_f64.sin()).abs() < 1e-9);
@@ -111,8 +110,11 @@ mod tests {
     #[test]
     fn a_parting_parts() {
         let head = Head::mannequin();
-        let implantation =
-            Implantation { flow: Flow::Parted { offset: 0.0 }, lift: Lift::Uniform(0.3), jitter: 0.0 };
+        let implantation = Implantation {
+            flow: Flow::Parted { offset: 0.0 },
+            lift: Lift::Uniform(0.3),
+            jitter: 0.0,
+        };
         for x in [-0.02, 0.02] {
             let root = Root { position: DVec3::new(x, -0.04, 0.1), normal: DVec3::Z };
             assert!(direction(&head, &implantation, &root).x * x > 0.0);

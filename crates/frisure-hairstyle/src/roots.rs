@@ -87,7 +87,8 @@ impl<'a> Scalp<'a> {
                 break;
             }
         }
-        let blend = |values: [DVec3; 3]| -> DVec3 { b.iter().zip(values).map(|(b, x)| x * *b).sum() };
+        let blend =
+            |values: [DVec3; 3]| -> DVec3 { b.iter().zip(values).map(|(b, x)| x * *b).sum() };
         Root {
             position: blend(surface.corners(face)),
             normal: blend(triangle.map(|v| self.normals[v as usize])).normalize_or(DVec3::Z),
@@ -141,9 +142,8 @@ fn eliminate(candidates: Vec<Root>, count: usize, reach: f64) -> Vec<Root> {
         (1.0 - (d / reach).min(1.0)).powi(8)
     };
     let neighbours = |i: usize| grid.near(candidates[i].position).filter(move |&j| j != i);
-    let mut weights: Vec<f64> = (0..candidates.len())
-        .map(|i| neighbours(i).map(|j| closeness(i, j)).sum())
-        .collect();
+    let mut weights: Vec<f64> =
+        (0..candidates.len()).map(|i| neighbours(i).map(|j| closeness(i, j)).sum()).collect();
     let mut heap: BinaryHeap<Crowded> =
         weights.iter().enumerate().map(|(index, &weight)| Crowded { weight, index }).collect();
     let mut kept = vec![true; candidates.len()];

@@ -243,14 +243,7 @@ impl Population<'_> {
     }
 
     /// Pushes a point at arc length `s` (m) out of the body, to the hair's own layer.
-    fn laid_on_body(
-        &self,
-        root: &Root,
-        p: DVec3,
-        s: f64,
-        layer: f64,
-        free: &mut Free,
-    ) -> DVec3 {
+    fn laid_on_body(&self, root: &Root, p: DVec3, s: f64, layer: f64, free: &mut Free) -> DVec3 {
         if s <= 0.0 {
             return root.position - root.normal * ROOT_DEPTH;
         }

@@ -40,10 +40,7 @@ impl Wisp {
         let place = x.clamp(0.0, 1.0) * last as f64;
         let i = (place as usize).min(last - 1);
         let t = place - i as f64;
-        (
-            catmull_rom(&self.positions, i, t),
-            self.turns[i].lerp(self.turns[i + 1], t).normalize(),
-        )
+        (catmull_rom(&self.positions, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
     }
 }
 

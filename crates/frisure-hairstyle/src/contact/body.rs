@@ -104,9 +104,8 @@ mod tests {
             for axis in 0..3 {
                 let mut h = DVec3::ZERO;
                 h[axis] = 1e-6;
-                let slope = (contact.node_energy(&node(p + h))
-                    - contact.node_energy(&node(p - h)))
-                    / 2e-6;
+                let slope =
+                    (contact.node_energy(&node(p + h)) - contact.node_energy(&node(p - h))) / 2e-6;
                 let scale = at.position.length();
                 assert!((slope - at.position[axis]).abs() < 1e-5 * scale, "{body:?}");
                 let (mut up, mut down) = (Derivatives::ZERO, Derivatives::ZERO);
