@@ -57,8 +57,8 @@ Examples:
   frisure predict scenes/wavy.toml -o wavy.obj -o wavy.ply --report wavy.json
   frisure new frizzy | frisure predict - --image frizzy.png
 
-Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder if \
-it comes from standard input.";
+Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder
+if it comes from standard input.";
 
 /// Arguments of `frisure predict`.
 #[derive(Args, Debug)]
@@ -85,9 +85,10 @@ Examples:
   frisure hair scenes/curly.toml
   frisure hair scenes/curly.toml --json --points 200 > hair.json
 
-The hair is that of `[hair]`, without variation, clamped at the origin as `[hair.root]` says. JSON is \
-in SI units: `length`, `elements`, `tip`, `energy` (`elastic`, `gravity`, `contact`, `total`), \
-`gradient_norm`, `min_eigenvalue`, `stable`, `iterations`, `error_estimate`, and `points`.";
+The hair is that of `[hair]`, without variation, clamped at the origin as `[hair.root]` says.
+JSON is in SI units: `length`, `elements`, `tip`, `energy` (`elastic`, `gravity`, `contact`,
+`total`), `gradient_norm` (relative), `min_eigenvalue` (1 without load, 0 where stability is
+lost), `stable`, `iterations`, `error_estimate`, and with --points also `points`.";
 
 /// Arguments of `frisure hair`.
 #[derive(Args, Debug)]

@@ -49,7 +49,7 @@ fn lights(asked: &scene::Light, camera: &Camera) -> Lights {
     if let (Some((azimuth, elevation)), Some(key)) = (asked.direction, lights.lamps.first_mut()) {
         let (right, back) = (camera.right(), camera.right().cross(DVec3::Z));
         let (sa, ca) = azimuth.sin_cos();
-        let level = sa * right - ca * back;
+        let level = sa * right + ca * back;
         let direction = elevation.cos() * level + elevation.sin() * DVec3::Z;
         *key = DirectionalLight { direction: direction.normalize(), ..*key };
     }

@@ -2,7 +2,7 @@
 //!
 //! The comments here are the reference: they become the descriptions in the JSON Schema and in
 //! `docs/scene.md`. Ranges are those of [`frisure_hairstyle::HairstyleSpec::check`]; a test
-//! compares the two.
+//! compares the two. What a table is about stands at the field that holds it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -29,9 +29,9 @@ pub(super) struct File {
     /// Acceleration of gravity, along -z; 0 to 1000 m/s^2. Default 9.81 m/s^2.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub(super) gravity: Key<Acceleration>,
-    /// What the hair is.
+    /// What the hair is: a type, and what differs from it.
     pub(super) hair: Hair,
-    /// The head it grows on; left out, the built-in mannequin.
+    /// The head that hair grows on; left out, the built-in mannequin.
     pub(super) head: Head,
     /// How hair leaves the scalp.
     pub(super) implantation: Implantation,
@@ -43,15 +43,17 @@ pub(super) struct File {
     pub(super) equilibrium: Equilibrium,
     /// Colours.
     pub(super) look: Look,
-    /// Where the picture is taken from.
+    /// Where the picture is taken from. All of the hair and the head is always in it, though not
+    /// the shoulders.
     pub(super) camera: Camera,
-    /// The main lamp.
+    /// The lamps: a portrait studio that turns with the camera. With `azimuth` or `elevation` its
+    /// main lamp stands elsewhere.
     pub(super) light: Light,
     /// The picture's size.
     pub(super) output: Output,
 }
 
-/// What the hair is.
+/// `[hair]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Hair {
@@ -64,18 +66,19 @@ pub(super) struct Hair {
     /// Standard deviation of the length between wisps, as a fraction; 0 to 0.5.
     #[schemars(range(min = 0.0, max = 0.5))]
     pub(super) length_variation: Key<Ratio>,
-    /// Section and material of a fibre.
+    /// Section and material of a fibre. The section is said in one way: `diameter` or
+    /// `mean_radius`, with `eccentricity` or `axis_ratio`; or both semi-axes.
     pub(super) fibre: Fibre,
-    /// Natural curl: the shape without weight.
+    /// Natural curl, the shape without weight. It is said in one way: `radius` and `pitch`; or
+    /// strains; or, for one hair, strains `along` it.
     pub(super) curl: Curl,
-    /// Where and how the hair of `frisure hair` is clamped; whole heads take it from the scalp.
+    /// The material frame in which the hair of `frisure hair` is clamped (heads have their scalp):
+    /// two of three unit vectors at right angles, d1 x d2 = t, or all. By default the hair leaves
+    /// horizontally: t along +x, d1 along +y, d2 along +z.
     pub(super) root: Root,
 }
 
-/// Section and material of a fibre.
-///
-/// The section is said in one way: `diameter` or `mean_radius`, with `eccentricity` or
-/// `axis_ratio`; or both semi-axes.
+/// `[hair.fibre]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Fibre {
@@ -114,8 +117,7 @@ pub(super) struct Fibre {
     pub(super) torsion: Key<OneOf<Which<frisure_rod::TorsionConstant>>>,
 }
 
-/// Natural curl, said in one way: `radius` and `pitch`; or strains; or, for one hair, strains
-/// `along` it.
+/// `[hair.curl]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Curl {
@@ -160,8 +162,7 @@ pub(super) struct Knot {
     pub(super) tau: Key<Strain>,
 }
 
-/// The material frame at the root: two of three unit vectors at right angles, right-handed
-/// (d1 x d2 = t). By default the hair leaves horizontally: t along +x, d1 along +y, d2 along +z.
+/// `[hair.root]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Root {
@@ -173,7 +174,7 @@ pub(super) struct Root {
     pub(super) t: Key<Vector>,
 }
 
-/// The head: a mesh, and where on it hair grows.
+/// `[head]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Head {
@@ -194,7 +195,7 @@ pub(super) struct Head {
     pub(super) scalp_weights: Key<Text>,
 }
 
-/// How hair leaves the scalp.
+/// `[implantation]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Implantation {
@@ -215,7 +216,7 @@ pub(super) struct Implantation {
     pub(super) jitter: Key<Angle>,
 }
 
-/// Guides and the drawn hairs around them.
+/// `[wisps]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Wisps {
@@ -245,7 +246,7 @@ pub(super) struct Wisps {
     pub(super) points: Key<Count>,
 }
 
-/// Hair against the head.
+/// `[contact]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Contact {
@@ -259,7 +260,7 @@ pub(super) struct Contact {
     pub(super) volume: Key<Ratio>,
 }
 
-/// How the equilibrium of each guide is computed.
+/// `[equilibrium]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Equilibrium {
@@ -279,7 +280,7 @@ pub(super) struct Equilibrium {
     pub(super) starts: Key<Count>,
 }
 
-/// Colours.
+/// `[look]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Look {
@@ -299,8 +300,7 @@ pub(super) struct Look {
     pub(super) background: Key<Colour>,
 }
 
-/// Where the picture is taken from; all of the hair and the head is always in it, though not the
-/// shoulders.
+/// `[camera]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Camera {
@@ -314,7 +314,7 @@ pub(super) struct Camera {
     pub(super) field_of_view: Key<Angle>,
 }
 
-/// The lamps. Without keys, a portrait studio that turns with the camera.
+/// `[light]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Light {
@@ -330,7 +330,7 @@ pub(super) struct Light {
     pub(super) strength: Key<Ratio>,
 }
 
-/// The picture's size.
+/// `[output]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Output {

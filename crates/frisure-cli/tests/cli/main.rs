@@ -1,0 +1,7 @@
+//! Tests of the real program: one binary, so that it is linked once.
+
+mod hair;
+mod help;
+mod predict;
+mod room;
+mod wrong;

@@ -1,0 +1,113 @@
+//! `frisure predict`, on heads of few hairs.
+
+use std::fs;
+
+use crate::room::{Room, scene};
+use serde_json::Value;
+
+/// Few hairs, few pixels.
+const QUICK: &str = "\
+name = \"Quick\"
+[wisps]
+count = 6
+hairs = 60
+points = 10
+[equilibrium]
+elements = 12
+[output]
+width = 48
+height = 40
+";
+
+const EVERYTHING: &[&str] = &[
+    "predict",
+    "quick.toml",
+    "-o",
+    "out/a.hair",
+    "-o",
+    "out/b/a.obj",
+    "-o",
+    "out/a.ply",
+    "--image",
+    "out/a.png",
+    "--report",
+    "out/a.json",
+];
+
+#[test]
+fn everything_is_written_the_same_each_time_on_any_number_of_threads() {
+    let files = ["out/a.hair", "out/b/a.obj", "out/a.ply", "out/a.png", "out/a.json"];
+    let read = |threads: &str| {
+        let room = Room::new().with("quick.toml", QUICK);
+        let ran = room.run(&[EVERYTHING, &["--threads", threads]].concat());
+        assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+        assert!(ran.out.starts_with("Quick: 6 of 6 guides at rest; 60 hairs"), "{}", ran.out);
+        assert!(ran.out.contains("wrote out/b/a.obj\n"));
+        files.map(|f| fs::read(room.path(f)).unwrap())
+    };
+    let one = read("1");
+    assert!(one == read("3"), "results depend on the number of threads");
+    let [hair, obj, ply, png, json] = one;
+    assert_eq!(&hair[..8], b"HAIR\x3c\0\0\0");
+    assert_eq!(obj.iter().filter(|&&b| b == b'l').count(), 60);
+    assert!(ply.starts_with(b"ply\nformat binary_little_endian 1.0\n"));
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    assert_eq!(png[16..24], [0, 0, 0, 48, 0, 0, 0, 40]);
+    let report: Value = serde_json::from_slice(&json).unwrap();
+    assert_eq!(report["guides"]["count"], 6);
+    assert_eq!(report["guides"]["not_converged"], 0);
+    assert_eq!((&report["hairs"], &report["scene"]), (&60.into(), &"Quick".into()));
+}
+
+#[test]
+fn the_seed_changes_the_head() {
+    let groom = |seed: u32| {
+        let text = format!("seed = {seed}\n{QUICK}");
+        let room = Room::new();
+        let ran = room.feed(&["predict", "-", "-o", "a.hair", "--quiet"], text.as_bytes());
+        assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (Some(0), "", ""));
+        fs::read(room.path("a.hair")).unwrap()
+    };
+    assert!(groom(1) != groom(2));
+}
+
+#[test]
+fn without_outputs_it_says_what_to_add() {
+    let room = Room::new().with("quick.toml", QUICK);
+    let ran = room.run(&["predict", "quick.toml"]);
+    assert_eq!(ran.code, Some(0));
+    assert!(ran.out.contains("add `-o hair.hair`, `--image hair.png`"), "{}", ran.out);
+    assert_eq!(room.names(), ["quick.toml"]);
+}
+
+#[test]
+fn a_head_from_a_file() {
+    let mesh = scene("heads/female-head.obj");
+    let text = format!("{QUICK}[head]\nmesh = '{}'\n", mesh.display());
+    let room = Room::new().with("quick.toml", text);
+    let ran = room.run(&["predict", "quick.toml", "--report", "a.json"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let report: Value = serde_json::from_slice(&fs::read(room.path("a.json")).unwrap()).unwrap();
+    // The mesh's own place, z up: its crown is 0.79 m above its origin.
+    let top = report["bounds"][1][2].as_f64().unwrap();
+    assert!((0.7..0.9).contains(&top), "{top}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_no_file() {
+    use std::time::Duration;
+
+    // Enough work that the signal comes before its end.
+    let text = "[hair]\ntype = \"frizzy\"\n[wisps]\ncount = 5000\n";
+    let room = Room::new().with("long.toml", text);
+    let mut command = room.command(&["predict", "long.toml", "-o", "a.hair", "--image", "a.png"]);
+    let child = command.spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(700));
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "interrupted\n");
+    assert_eq!(room.names(), ["long.toml"]);
+}

@@ -1,0 +1,134 @@
+//! Wrong scenes, heads and outputs: exit code 2 or 1, a sentence that helps, and no file.
+
+use crate::room::Room;
+
+/// A small triangle mesh of 20 cm with a group and without texture coordinates.
+const HEAD: &str = "v 0 0.2 0\nv 0.1 0 0.05\nv -0.1 0 0.05\nv 0 0 -0.1\n\
+                    g top\nf 1 3 2\ng rest\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+const QUICK: &str =
+    "[wisps]\ncount = 3\nhairs = 20\npoints = 8\n[output]\nwidth = 32\nheight = 32\n";
+
+fn room() -> Room {
+    Room::new().with("quick.toml", QUICK)
+}
+
+/// What is said about a scene, with the place it must name.
+fn about(scene: &str, place: &str) -> String {
+    let ran = room().with("a.toml", scene).run(&["predict", "a.toml", "-o", "a.hair"]);
+    assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{scene}\n{}", ran.err);
+    assert!(ran.err.contains(&format!("[a.toml:{place}]")), "{place}: {}", ran.err);
+    ran.err
+}
+
+#[test]
+fn a_fault_in_a_scene_is_shown_with_its_line() {
+    let fault = about("seed = 1\n\n[hair]\nlength = \"5 m\" # long\n", "4:10");
+    insta::assert_snapshot!("fault-range", fault);
+    insta::assert_snapshot!("fault-key", about("[hair]\nlenght = \"5 cm\"\n", "2:1"));
+    let both = "[hair.fibre]\ndiameter = \"70 um\"\n\n\n\nmean_radius = \"35 um\"\n";
+    insta::assert_snapshot!("fault-twice", about(both, "6:15"));
+    insta::assert_snapshot!("fault-toml", about("[hair\nlength = 1\n", "1:6"));
+}
+
+#[test]
+fn commands_check_what_they_use() {
+    let room = room().with("a.toml", "[hair]\nlength = 0\n");
+    for command in ["predict", "hair"] {
+        let ran = room.run(&[command, "a.toml"]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.err.contains("[a.toml:2:10]"), "{}", ran.err);
+    }
+    // One hair may be longer than any head's.
+    let ran = room.feed(&["hair", "-"], b"[hair]\nlength = \"5 m\"\nfibre.diameter = \"1 cm\"");
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let ran = room.feed(&["hair", "-"], b"[equilibrium]\nelements = 10_000_000");
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("between 1 and 10000"), "{}", ran.err);
+}
+
+#[test]
+fn scenes_that_are_no_files() {
+    let room = room().with("binary.toml", [0xff, 0xfe, 0x00]);
+    std::fs::create_dir(room.path("folder")).unwrap();
+    for (scene, part) in [
+        ("none.toml", "there is no file `none.toml`"),
+        ("folder", "`folder` is a directory, not a file"),
+        ("binary.toml", "is not UTF-8 text (byte 1 of line 1)"),
+    ] {
+        let ran = room.run(&["hair", scene]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.err.contains(part), "{}", ran.err);
+    }
+    let ran = room.feed(&["hair", "-"], &[b'#'; (16 << 20) + 1]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("larger than 16777216 bytes"), "{}", ran.err);
+}
+
+#[test]
+fn heads_that_are_none_point_at_their_key() {
+    let cases: &[(&str, &str, &str, &str)] = &[
+        ("", "", "2:8", "it has no vertices"),
+        ("v 0 0 0\n", "", "2:8", "it has vertices and no faces"),
+        ("v 0 0 0\nv 0.2 0 0\nf 1 2 2\n", "", "2:8", "no face with an area"),
+        ("v 0 0 0\nf 1 2 3\n", "", "2:8", "head.obj:2: the face names vertex 2"),
+        ("v 0 0 nan\n", "", "2:8", "head.obj:1: `nan` is not a finite number"),
+        ("v 0 200 0\nv 100 0 50\nv -100 0 50\nf 1 2 3\n", "", "2:8", "set `unit = \"mm\"`"),
+        (HEAD, "scalp_group = \"hat\"", "3:15", "no group `hat`; it has `rest`, `top`"),
+        (HEAD, "scalp_mask = \"mask.png\"", "2:8", "texture coordinates"),
+        (HEAD, "scalp_weights = \"w.txt\"", "3:17", "there is no file"),
+        (HEAD, "scalp_weights = \"quick.toml\"", "3:17", "quick.toml:1: `[wisps]` is not a number"),
+        (HEAD, "scale = 1e-9", "2:8", "2.000e-10 m across"),
+    ];
+    for (head, key, place, part) in cases {
+        let scene = format!("[head]\nmesh = \"head.obj\"\n{key}\n");
+        let room = room().with("a.toml", scene).with("head.obj", head);
+        let ran = room.run(&["predict", "a.toml", "-o", "a.hair"]);
+        assert_eq!(ran.code, Some(2), "{}", ran.err);
+        assert!(ran.err.contains(&format!("[a.toml:{place}]")), "{place}: {}", ran.err);
+        assert!(ran.err.contains(part), "{part}: {}", ran.err);
+        assert_eq!(room.names(), ["a.toml", "head.obj", "quick.toml"]);
+    }
+    about("[head]\nmesh = \"none.obj\"\n", "2:8");
+    about("[head]\nmesh = \".\"\n", "2:8");
+    // A scalp on which nothing grows.
+    let zeros = room().with("head.obj", HEAD).with("w.txt", "0\n0\n0\n0\n");
+    let zeros = zeros.with("a.toml", "[head]\nmesh = 'head.obj'\nscalp_weights = 'w.txt'");
+    let ran = zeros.run(&["predict", "a.toml"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("the scalp has no area"), "{}", ran.err);
+}
+
+#[test]
+fn outputs_are_checked_before_the_work() {
+    let room = room().with("old.hair", "old").with("file", "");
+    let path = room.path("old.hair");
+    let mut permissions = std::fs::metadata(&path).unwrap().permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(&path, permissions).unwrap();
+    std::fs::create_dir(room.path("folder.hair")).unwrap();
+    let cases: &[(&[&str], i32, &str)] = &[
+        (&["-o", "a.abc"], 2, "known are .hair, .obj, .ply"),
+        (&["-o", "a"], 2, "known are .hair, .obj, .ply"),
+        (&["-o", "a.png"], 2, "pictures go to `--image`"),
+        (&["-o", "a.json"], 2, "numbers go to `--report`"),
+        (&["--image", "a.jpg"], 2, "pictures are written as `.png`"),
+        (&["-o", "a.hair", "-o", "a.hair"], 2, "`a.hair` is asked for twice"),
+        (&["-o", "a.hair", "-o", "./x/../a.hair"], 2, "is asked for twice"),
+        (&["-o", "a.ply", "--report", "a.ply"], 2, "`a.ply` is asked for twice"),
+        (&["--report", "quick.toml"], 2, "`quick.toml` is read and would be overwritten"),
+        (&["-o", "old.hair"], 1, "`old.hair` is read-only"),
+        (&["-o", "folder.hair"], 1, "`folder.hair` is a directory"),
+        (&["-o", "file/a.hair"], 1, "cannot write `file`"),
+        (&["-o", "/proc/none/a.hair"], 1, "cannot write `/proc/none`"),
+    ];
+    std::fs::create_dir(room.path("x")).unwrap();
+    let before = room.names();
+    for (arguments, code, part) in cases {
+        let ran = room.run(&[&["predict", "quick.toml"], *arguments].concat());
+        assert_eq!(ran.code, Some(*code), "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(part), "{part}: {}", ran.err);
+        assert_eq!(room.names(), before, "{arguments:?}");
+    }
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
+}

@@ -1,0 +1,80 @@
+//! `docs/scene.md` lists the keys that there are.
+//!
+//! After a change of keys: `UPDATE_DOCS=1 cargo test -p frisure-io --test docs`.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use frisure_io::scene::schema;
+use serde_json::Value;
+
+const START: &str = "<!-- keys: made from the schema; see crates/frisure-io/tests/docs.rs -->\n";
+
+/// The tables of keys, from the schema.
+fn reference() -> String {
+    let mut out = String::new();
+    table(schema(), "", &mut out);
+    out
+}
+
+fn table(schema: &Value, path: &str, out: &mut String) {
+    let Some(keys) = schema["properties"].as_object() else { return };
+    if !path.is_empty() {
+        let text = |s: &Value| s["description"].as_str().unwrap_or("").replace('\n', " ");
+        let _ = write!(out, "\n## `[{path}]`\n\n{}\n", text(schema));
+    }
+    let is_table = |s: &Value| s.get("properties").is_some();
+    if keys.values().any(|s| !is_table(s)) {
+        let _ = write!(out, "\n| key | value | |\n| --- | --- | --- |\n");
+    }
+    for (key, schema) in keys.iter().filter(|(_, s)| !is_table(s)) {
+        let description = schema["description"].as_str().unwrap_or("").replace('\n', " ");
+        let _ = writeln!(out, "| `{key}` | {} | {description} |", value(schema));
+    }
+    for (key, schema) in keys {
+        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        table(schema, &path, out);
+    }
+}
+
+/// What kind of value a key has, in words.
+fn value(schema: &Value) -> String {
+    if let Some(words) = schema["oneOf"].as_array() {
+        let word = |w: &Value| {
+            format!("`\"{}\"` {}", w["const"].as_str().unwrap_or(""), text(&w["description"]))
+        };
+        return words.iter().map(word).collect::<Vec<_>>().join("; ");
+    }
+    if let Some(items) = schema["items"]["properties"].as_object() {
+        let names: Vec<_> = items.keys().map(|k| format!("`{k}`")).collect();
+        return format!("list of tables with {}", names.join(", "));
+    }
+    match schema["x-unit"].as_str() {
+        Some("a pure number") => return "number".into(),
+        Some(unit) => return format!("{unit}, or `{}`", schema["examples"][0]),
+        None => {}
+    }
+    let example = &schema["examples"][0];
+    match schema["type"].as_str() {
+        Some("integer") => "whole number".into(),
+        Some("string") => "text".into(),
+        _ => format!("such as `{example}`"),
+    }
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or("")
+}
+
+#[test]
+fn the_reference_is_that_of_the_schema() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scene.md");
+    let found = std::fs::read_to_string(&path).unwrap();
+    let (intro, _) = found.split_once(START).expect("the mark before the tables");
+    let expected = format!("{intro}{START}{}", reference());
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        std::fs::write(&path, &expected).unwrap();
+    } else {
+        assert!(found == expected, "docs/scene.md is old: run this test with UPDATE_DOCS=1");
+    }
+}
