@@ -1,0 +1,68 @@
+//! ARCHITECTURE.md against the tree: the folders that it names, and who uses whom.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Rows of the table under a heading, as cells.
+fn table(text: &str, heading: &str) -> Vec<Vec<String>> {
+    let start = text.find(heading).unwrap_or_else(|| panic!("no heading {heading}"));
+    text[start + heading.len()..]
+        .lines()
+        .take_while(|line| !line.starts_with("## "))
+        .filter(|line| line.starts_with('|'))
+        .skip(2)
+        .map(|line| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect())
+        .collect()
+}
+
+fn architecture() -> String {
+    std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("ARCHITECTURE.md")
+}
+
+#[test]
+fn every_folder_on_the_map_exists() {
+    let text = architecture();
+    let rows = table(&text, "## The map");
+    assert!(rows.len() > 8);
+    for row in rows {
+        let folder = row[0].trim_matches('`');
+        assert!(root().join(folder).is_dir(), "{folder} is on the map but not in the tree");
+    }
+}
+
+/// The crates of ours that a manifest's `[dependencies]` name.
+fn used(manifest: &str) -> BTreeSet<String> {
+    let start = manifest.find("[dependencies]").expect("dependencies");
+    manifest[start..]
+        .lines()
+        .skip(1)
+        .take_while(|line| !line.starts_with('['))
+        .filter_map(|line| line.split(['.', ' ', '=']).next())
+        .filter(|name| name.starts_with("frisure"))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn crates_use_each_other_as_the_table_says() {
+    let text = architecture();
+    let told: BTreeMap<String, BTreeSet<String>> = table(&text, "## Who may use whom")
+        .into_iter()
+        .map(|row| {
+            let names = row[1].split(", ").filter(|n| !n.is_empty());
+            (row[0].clone(), names.map(str::to_owned).collect())
+        })
+        .collect();
+    let mut found = BTreeMap::new();
+    for entry in std::fs::read_dir(root().join("crates")).expect("crates") {
+        let folder = entry.expect("entry").path();
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).expect("manifest");
+        let name = folder.file_name().and_then(|n| n.to_str()).expect("name").to_owned();
+        found.insert(name, used(&manifest));
+    }
+    assert_eq!(told, found);
+}
