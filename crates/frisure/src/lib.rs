@@ -29,3 +29,7 @@ pub use frisure_optics as optics;
 pub use frisure_render as render;
 pub use frisure_rod as rod;
 pub use frisure_strands as strands;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
