@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     #[arg(long, global = true, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
 
-    /// Say nothing but errors.
+    /// No progress and no summary.
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
 }

@@ -1,4 +1,4 @@
-//! Ctrl-C: a flag that long work looks at, and a way out for work that does not.
+//! Ctrl-C (and a request to terminate): a flag that long work looks at, and a way out for work that does not.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -15,7 +15,7 @@ const POLL: Duration = Duration::from_millis(20);
 /// How long work is given to notice the flag itself.
 const GRACE: Duration = Duration::from_millis(500);
 
-/// Catches Ctrl-C from here on.
+/// Catches Ctrl-C and termination from here on.
 pub(crate) fn install() -> Result<(), Failure> {
     ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed))
         .map_err(|e| Failure::failed(&e))

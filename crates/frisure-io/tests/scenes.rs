@@ -383,6 +383,22 @@ fn faults_name_place_value_range_and_hint() {
             "",
             &["right-handed orthonormal"],
         ),
+        (
+            "[wisps]\nhairs = 1_000_000\npoints = 1000",
+            3,
+            10,
+            "wisps.points",
+            "",
+            &["more than 200000000 points"],
+        ),
+        (
+            "[hair.fibre]\nyoungs_modulus = \"1e-9 Pa\"",
+            1,
+            1,
+            "hair.fibre",
+            "",
+            &["too limp", "check the units"],
+        ),
         // Contradictions.
         (
             "[hair.fibre]\ndiameter = 1e-4\n\nmean_radius = 1e-4",

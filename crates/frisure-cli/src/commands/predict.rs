@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use frisure::hairstyle::head::{Head, ScalpSource};
-use frisure::hairstyle::{Monitor, PredictError, SettlingReport, predict};
+use frisure::hairstyle::{HairstyleSpec, Monitor, PredictError, SettlingReport, predict};
 use frisure::io::groom::{Format, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
@@ -22,11 +22,12 @@ use crate::{console, interrupt, outputs};
 /// Computes what the arguments ask for, and writes it.
 pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
     let scene = read_scene(&arguments.scene)?;
+    let spec = scene.hairstyle_spec()?;
     check_outputs(&arguments, &scene)?;
 
     let progress = Progress::new(quiet);
     let (bar, wanted) = (progress.clone(), Wanted::of(&arguments));
-    let result = interrupt::computing(move || compute(&scene, wanted, &bar));
+    let result = interrupt::computing(move || compute(&scene, &spec, wanted, &bar));
     progress.finish();
     let result = result?;
 
@@ -142,12 +143,16 @@ impl Monitor for Watch<'_> {
     }
 }
 
-fn compute(scene: &Scene, wanted: Wanted, progress: &Progress) -> Result<Computed, Failure> {
-    let spec = scene.hairstyle_spec()?;
+fn compute(
+    scene: &Scene,
+    spec: &HairstyleSpec,
+    wanted: Wanted,
+    progress: &Progress,
+) -> Result<Computed, Failure> {
     progress.show("head", 0.0);
     let head = head(scene)?;
     let watch = Watch(progress);
-    let hairstyle = predict(&spec, &head, &watch).map_err(|e| refused(&e, scene))?;
+    let hairstyle = predict(spec, &head, &watch).map_err(|e| refused(&e, scene))?;
     let strands = if wanted.strands {
         hairstyle.strands(&head, &watch).map_err(|_| Failure::Interrupted)?
     } else {

@@ -25,6 +25,13 @@ use super::{
 /// The hair type of a scene that names none.
 const DEFAULT_TYPE: &str = "caucasian-straight";
 
+/// Most points of all drawn hairs: 3 GB of positions and radii.
+const MAX_POINTS: usize = 200_000_000;
+
+/// Largest weight against elasticity, ρ S g L³ / EI. A hair of a metre has a few thousand; beyond
+/// this a unit was mistaken, and a solution would take hours.
+const MAX_HEAVINESS: f64 = 1e15;
+
 type Result<T, E = SceneError> = std::result::Result<T, E>;
 
 /// Reads the whole scene.
@@ -72,6 +79,17 @@ pub(super) fn hairstyle(scene: &Scene) -> Result<HairstyleSpec> {
         return Err(Fault::new(problem).key("hair.curl.along").hint(hint).at(source, span));
     }
     scene.spec.check().map_err(|e| out_of_range(&e, source))?;
+    // What a fibre cannot be, whichever way it leaves the scalp.
+    single_hair(scene)?;
+    let wisps = &scene.spec.wisps;
+    if wisps.hairs * wisps.points > MAX_POINTS {
+        let (key, span, _) = place(&["wisps.points", "wisps.hairs"], source);
+        let problem = format!(
+            "{} hairs of {} points each are more than {MAX_POINTS} points",
+            wisps.hairs, wisps.points
+        );
+        return Err(Fault::new(problem).key(key).at(source, span));
+    }
     Ok(scene.spec.clone())
 }
 
@@ -93,6 +111,15 @@ pub(super) fn single_hair(scene: &Scene) -> Result<SingleHair> {
         gravity: spec.gravity,
     };
     let rod = Rod::new(rod).map_err(refuse)?;
+    if !(rod.heaviness() <= MAX_HEAVINESS) {
+        let (key, span, _) = place(&["hair.fibre", "hair.length"], source);
+        let problem = format!(
+            "the hair is too limp to compute: rho S g L^3 / EI is {:.0e}, and may be {MAX_HEAVINESS:.0e}",
+            rod.heaviness()
+        );
+        let hint = "check the units of length, diameter, moduli and density";
+        return Err(Fault::new(problem).key(key).hint(hint).at(source, span));
+    }
     let (resolution, element) = (spec.equilibrium.resolution, spec.equilibrium.element);
     let branch = scene.branch;
     Ok(SingleHair { rod, options: Options { resolution, element, branch, ..Options::default() } })
