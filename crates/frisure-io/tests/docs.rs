@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use frisure_io::scene::schema;
+use frisure_io::scene::{Scene, schema};
 use serde_json::Value;
 
 const START: &str = "<!-- keys: made from the schema; see crates/frisure-io/tests/docs.rs -->\n";
@@ -76,5 +76,19 @@ fn the_reference_is_that_of_the_schema() {
         std::fs::write(&path, &expected).unwrap();
     } else {
         assert!(found == expected, "docs/scene.md is old: run this test with UPDATE_DOCS=1");
+    }
+}
+
+#[test]
+fn the_scenes_in_the_text_are_scenes() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scene.md");
+    let text = std::fs::read_to_string(path).unwrap();
+    let scenes: Vec<_> =
+        text.split("```toml\n").skip(1).filter_map(|s| s.split("```").next()).collect();
+    assert_eq!(scenes.len(), 2);
+    for scene in scenes {
+        let scene = Scene::parse("scene.md", scene, Path::new("")).unwrap();
+        assert_eq!(scene.hair_type, "caucasian-curly");
+        assert!(scene.hairstyle_spec().is_ok());
     }
 }

@@ -5,6 +5,7 @@
 //! of range (`resolve`). `file` lists the keys and is their reference; the JSON Schema is made from
 //! it.
 
+mod blame;
 mod error;
 mod file;
 mod key;
@@ -223,6 +224,6 @@ impl Scene {
     /// A quantity that was refused later, at the key that it comes from.
     #[must_use]
     pub fn blame(&self, error: &InvalidQuantity) -> SceneError {
-        resolve::blame(error, &self.source)
+        blame::blame(error, &self.source)
     }
 }

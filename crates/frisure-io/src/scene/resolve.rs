@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 use std::path::Path;
 
-use frisure_hairstyle::{Curl, Fibre, Flow, HairstyleSpec, InvalidSpec, Lift, preset};
+use frisure_hairstyle::{Curl, Fibre, Flow, HairstyleSpec, Lift, preset};
 use frisure_rod::{
     Branch, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
     Section, StrainProfile,
@@ -12,6 +12,7 @@ use frisure_rod::{
 use glam::DVec3;
 use serde::Deserialize;
 
+use super::blame::{blame, out_of_range, place};
 use super::error::{Fault, SceneError};
 use super::file::{self, File};
 use super::key::{Key, Kind};
@@ -28,9 +29,9 @@ const DEFAULT_TYPE: &str = "caucasian-straight";
 /// Most points of all drawn hairs: 3 GB of positions and radii.
 const MAX_POINTS: usize = 200_000_000;
 
-/// Largest weight against elasticity, ρ S g L³ / EI. A hair of a metre has a few thousand; beyond
+/// Largest weight against elasticity, ρ S g L³ / EI. A hair of a metre has some ten thousand; beyond
 /// this a unit was mistaken, and a solution would take hours.
-const MAX_HEAVINESS: f64 = 1e15;
+const MAX_HEAVINESS: f64 = 1e12;
 
 type Result<T, E = SceneError> = std::result::Result<T, E>;
 
@@ -460,66 +461,4 @@ fn one_way(source: &Source, groups: &[&[Option<Range<usize>>]]) -> Result<()> {
         .hint("keep one of the two")
         .related(one.clone(), "said here")
         .at(source, other.clone()))
-}
-
-/// The keys that a quantity of the rod comes from, the likeliest first.
-fn keys_of(quantity: &str) -> &'static [&'static str] {
-    match quantity {
-        "length" => &["hair.length"],
-        "gravity" => &["gravity"],
-        "radius" | "mean radius" | "mean diameter" => {
-            &["hair.fibre.diameter", "hair.fibre.mean_radius"]
-        }
-        "semi-axis a" => &["hair.fibre.semi_axis_a"],
-        "semi-axis b" => &["hair.fibre.semi_axis_b"],
-        "eccentricity" => &["hair.fibre.eccentricity"],
-        "axis ratio" => &["hair.fibre.axis_ratio"],
-        "Young's modulus" => &["hair.fibre.youngs_modulus"],
-        "shear modulus" => &["hair.fibre.shear_modulus"],
-        "Poisson's ratio" => &["hair.fibre.poisson_ratio"],
-        "density" => &["hair.fibre.density"],
-        "curl radius" => &["hair.curl.radius"],
-        "curl pitch" => &["hair.curl.pitch"],
-        "number of elements" => &["equilibrium.elements"],
-        "accuracy" => &["equilibrium.accuracy"],
-        q if q.contains("natural strain") => &["hair.curl.along", "hair.curl"],
-        q if q.contains("root") => &["hair.root"],
-        q if q.contains("stiffness") || q.contains("weight") => &["hair.fibre"],
-        _ => &["hair"],
-    }
-}
-
-/// The first of some keys that is written, its place, and whether it is a single value; or the
-/// nearest table around the first of them.
-fn place(keys: &[&'static str], source: &Source) -> (&'static str, Range<usize>, bool) {
-    let written = |&key: &&'static str| source.find(key).map(|(span, single)| (key, span, single));
-    let first = keys.first().copied().unwrap_or("");
-    keys.iter().find_map(written).unwrap_or_else(|| (first, source.locate(first), false))
-}
-
-/// A quantity that the rod refuses, at the key it comes from.
-pub(super) fn blame(error: &InvalidQuantity, source: &Source) -> SceneError {
-    let (key, span, single) = place(keys_of(error.quantity), source);
-    let fault = if single {
-        Fault::outside(error.allowed).value(source.slice(span.clone()))
-    } else {
-        // No one key is wrong: the sentence must name the quantity itself.
-        Fault { allowed: error.allowed.into(), ..Fault::new(error.to_string()) }
-            .value(format!("{} {}", error.value, error.unit).trim())
-    };
-    fault.key(key).at(source, span)
-}
-
-/// A number that a hairstyle refuses, at the key it comes from.
-fn out_of_range(error: &InvalidSpec, source: &Source) -> SceneError {
-    let keys: &[&'static str] = match error.field {
-        "hair.curl" => {
-            &["hair.curl.radius", "hair.curl.kappa1", "hair.curl.kappa2", "hair.curl.tau"]
-        }
-        "equilibrium" => &["equilibrium.elements", "equilibrium.accuracy"],
-        _ => std::slice::from_ref(&error.field),
-    };
-    let (key, span, single) = place(keys, source);
-    let value = if single { source.slice(span.clone()) } else { &error.value };
-    Fault::outside(error.allowed).key(key).value(value).at(source, span)
 }
