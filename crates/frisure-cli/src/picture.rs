@@ -17,30 +17,56 @@ pub(crate) fn scene<'a>(
     surface: &'a Surface,
 ) -> preview::Scene<'a> {
     let aspect = scene.output.width as f64 / scene.output.height as f64;
-    let camera = camera(&scene.camera, preview::bounds(strands, Some(surface)), aspect);
+    let camera = camera(&scene.camera, shown(strands, surface), aspect);
     let lights = lights(&scene.light, &camera);
     let look = look(&scene.look);
     preview::Scene { strands, surface: Some(surface), camera, lights, look }
 }
 
-/// The camera that has the whole box in its picture, at the field of view asked for.
-fn camera(asked: &scene::Camera, bounds: (DVec3, DVec3), aspect: f64) -> Camera {
-    let (low, high) = bounds;
-    let framed = Camera::framing(bounds, asked.azimuth, asked.elevation, aspect);
-    let centre = 0.5 * (low + high);
+/// Every so many points of the hair are enough to frame it.
+const FRAMED_POINTS: usize = 50_000;
+
+/// What a picture should have in it: the hair, and of the surface the head without the shoulders.
+fn shown<'a>(strands: &'a Strands, surface: &'a Surface) -> impl Iterator<Item = DVec3> + Clone {
+    let (low, high) = preview::bounds(strands, Some(surface));
+    let step = strands.points().len() / FRAMED_POINTS + 1;
+    let hair = strands.points().iter().step_by(step).map(|p| p.as_dvec3());
+    let inside = move |p: &DVec3| p.cmpge(low).all() && p.cmple(high).all();
+    hair.chain(surface.positions().iter().copied()).filter(inside)
+}
+
+/// The camera that has all points in its picture, at the field of view asked for.
+fn camera(
+    asked: &scene::Camera,
+    points: impl Iterator<Item = DVec3> + Clone,
+    aspect: f64,
+) -> Camera {
+    let ends = |axis: DVec3| {
+        points
+            .clone()
+            .map(|p| p.dot(axis))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
+    };
+    let unit = (DVec3::splat(-1.0), DVec3::ONE);
+    let framed = Camera::framing(unit, asked.azimuth, asked.elevation, aspect);
+    let (right, up, forward) = (framed.right(), framed.up(), framed.forward());
+    let centre: DVec3 = [right, up, forward]
+        .map(|axis| {
+            let (low, high) = ends(axis);
+            axis * (0.5 * (low + high))
+        })
+        .iter()
+        .sum();
     let tan_v = (0.5 * asked.field_of_view).tan() * (1.0 - 2.0 * MARGIN);
     let tan_h = tan_v * aspect;
-    let distance = (0..8_u8)
-        .map(|corner| {
-            let pick = |bit: u8| f64::from(corner >> bit & 1);
-            let fraction = DVec3::new(pick(0), pick(1), pick(2));
-            let d = low + fraction * (high - low) - centre;
-            let (right, up) = (d.dot(framed.right()).abs(), d.dot(framed.up()).abs());
-            (right / tan_h).max(up / tan_v) - d.dot(framed.forward())
+    let distance = points
+        .map(|p| {
+            let d = p - centre;
+            (d.dot(right).abs() / tan_h).max(d.dot(up).abs() / tan_v) - d.dot(forward)
         })
         .fold(0.0, f64::max);
-    let eye = centre - distance * framed.forward();
-    // A box of no size has no direction to look in; the framing has one all the same.
+    let eye = centre - distance * forward;
+    // Points of no extent have no direction to look in; the framing has one all the same.
     Camera::look_at(eye, centre, DVec3::Z, asked.field_of_view).unwrap_or(framed)
 }
 
@@ -89,6 +115,13 @@ mod tests {
 
     const BOX: (DVec3, DVec3) = (DVec3::new(-0.1, -0.12, -0.3), DVec3::new(0.1, 0.09, 0.15));
 
+    fn corners() -> impl Iterator<Item = DVec3> + Clone {
+        (0..8_u8).map(|corner| {
+            let pick = |bit: u8| f64::from(corner >> bit & 1);
+            BOX.0 + DVec3::new(pick(0), pick(1), pick(2)) * (BOX.1 - BOX.0)
+        })
+    }
+
     #[test]
     fn the_whole_box_is_in_every_picture() {
         for degrees in [1.0, 24.0, 120.0] {
@@ -97,19 +130,15 @@ mod tests {
             {
                 let field_of_view = f64::to_radians(degrees);
                 let asked = scene::Camera { azimuth, elevation, field_of_view };
-                let camera = camera(&asked, BOX, aspect);
+                let camera = camera(&asked, corners(), aspect);
                 let tan = (0.5 * field_of_view).tan();
                 assert!((camera.vertical_fov() - field_of_view).abs() < 1e-12);
-                for x in [BOX.0.x, BOX.1.x] {
-                    for y in [BOX.0.y, BOX.1.y] {
-                        for z in [BOX.0.z, BOX.1.z] {
-                            let d = DVec3::new(x, y, z) - camera.eye();
-                            let depth = d.dot(camera.forward());
-                            assert!(depth > 0.0);
-                            assert!(d.dot(camera.up()).abs() < depth * tan);
-                            assert!(d.dot(camera.right()).abs() < depth * tan * aspect);
-                        }
-                    }
+                for corner in corners() {
+                    let d = corner - camera.eye();
+                    let depth = d.dot(camera.forward());
+                    assert!(depth > 0.0);
+                    assert!(d.dot(camera.up()).abs() < depth * tan);
+                    assert!(d.dot(camera.right()).abs() < depth * tan * aspect);
                 }
             }
         }
@@ -118,7 +147,7 @@ mod tests {
     #[test]
     fn the_lamp_stands_where_it_is_asked_for() {
         let asked = scene::Camera { azimuth: 0.0, elevation: 0.0, field_of_view: 0.4 };
-        let camera = camera(&asked, BOX, 1.0);
+        let camera = camera(&asked, corners(), 1.0);
         let lamp = |azimuth, elevation| {
             let light = scene::Light { direction: Some((azimuth, elevation)), strength: 1.0 };
             lights(&light, &camera).lamps[0].direction

@@ -16,7 +16,7 @@ use crate::contact::Clearance;
 use crate::grid::Grid;
 use crate::guides::Guide;
 use crate::head::Head;
-use crate::implantation::smooth;
+use crate::implantation::{self, smooth};
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
@@ -24,7 +24,10 @@ use crate::spec::{Body, HairstyleSpec, Wisps};
 use crate::wisps::Wisp;
 
 /// How many neighbouring guides a hair can follow.
-const FOLLOWED: usize = 4;
+const FOLLOWED: usize = 5;
+
+/// How much farther away a guide seems for going another way than the hair's own root.
+const AGAINST: f64 = 8.0;
 
 /// Depth of the first point of a hair below the skin (m), so that no root floats.
 const ROOT_DEPTH: f64 = 3e-4;
@@ -187,12 +190,18 @@ impl Population<'_> {
 
     /// Guides that a hair follows, with weights that sum to one; the nearest first.
     fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
-        let near = self.grid.nearest(root.position, FOLLOWED, &self.roots);
+        let mut near = self.grid.nearest(root.position, FOLLOWED, &self.roots);
+        // Beside a parting the nearest guide may go to the other side.
+        let own = implantation::direction(self.head, &self.spec.implantation, root);
+        let farness = |g: usize| {
+            let against = 1.0 - own.dot(self.guides[g].rod.root().frame().z_axis);
+            root.position.distance_squared(self.roots[g]) * (1.0 + AGAINST * against)
+        };
+        near.sort_by(|&a, &b| farness(a).total_cmp(&farness(b)).then(a.cmp(&b)));
         let first = near[0];
         let reach = (0.9 * self.spacing * self.spec.wisps.blending).max(1e-9);
-        let own = root.position.distance_squared(self.roots[first]);
         let weight = |g: usize| {
-            let excess = root.position.distance_squared(self.roots[g]) - own;
+            let excess = (farness(g) - farness(first)).max(0.0);
             (-excess / (reach * reach)).exp() * self.agreement(first, g)
         };
         let mut followed: Vec<_> = near.iter().map(|&g| (g, weight(g))).collect();
