@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::element::{Geometry, helix_piece};
+use crate::element::Geometry;
 use crate::{ElementKind, Rod};
 
 /// A rod divided into elements.
@@ -156,28 +156,15 @@ impl<'a> Chain<'a> {
         self.shape(controls)
     }
 
-    /// Centre line (m) and material frame at arc length `s` (m), clamped to the rod.
+    /// Centre line (m) and material frame at arc length `s` (m), clamped to the rod. The turn of a
+    /// joint is spread along its element, so that the line is smooth.
     #[must_use]
     pub fn point(&self, shape: &Shape, s: f64) -> (DVec3, DMat3) {
         let s = s.clamp(0.0, self.rod.length());
         let i = self.arc.partition_point(|&a| a <= s).clamp(1, self.len()) - 1;
-        let (start, end) = (self.arc[i], self.arc[i + 1]);
-        let (middle, h) = (0.5 * (start + end), end - start);
-        let natural = self.rod.natural();
-        let (from, position, frame) = (s - start, shape.positions[i], shape.frames[i]);
-        let piece = |u: DVec3, from: f64, position: DVec3, frame: DMat3| {
-            let (turn, advance, _) = helix_piece(u * from, from);
-            (position + frame * advance, frame * turn)
-        };
-        match self.kind {
-            ElementKind::Helix => piece(shape.controls[i] / h, from, position, frame),
-            _ if s <= middle => piece(natural.mean(start, middle), from, position, frame),
-            ElementKind::Jointed | ElementKind::Auto => {
-                // Backwards from the end: the joint's turn is in the end frame already.
-                let u = natural.mean(middle, end);
-                piece(u, s - end, shape.positions[i + 1], shape.frames[i + 1])
-            }
-        }
+        let (turn, advance) = self.geometry(i).inside(shape.controls[i], s - self.arc[i]);
+        let (position, frame) = (shape.positions[i], shape.frames[i]);
+        (position + frame * advance, frame * turn)
     }
 }
 

@@ -37,6 +37,8 @@ enum Curve {
 struct Jointed {
     before: DMat3,
     after: DMat3,
+    /// Mean natural strain before and after the joint (rad/m).
+    natural: [DVec3; 2],
     /// Advance (m) and first moment (m²) up to the joint, in the start frame, the latter with the
     /// advance carried along the rest of the element.
     start: [DVec3; 2],
@@ -62,7 +64,8 @@ impl Geometry {
                 let (before, p0, w0) = helix_piece(natural[0] * half, half);
                 let (after, p1, w1) = helix_piece(natural[1] * half, half);
                 let (start, end) = ([p0, w0 + p0 * half], [p1, w1]);
-                let curve = Curve::Jointed(Box::new(Jointed { before, after, start, end }));
+                let curve =
+                    Curve::Jointed(Box::new(Jointed { before, after, natural, start, end }));
                 Self { length, rest: DVec3::ZERO, stiffness, curve }
             }
         }
@@ -103,10 +106,66 @@ impl Geometry {
         glam::DQuat::from_mat3(&turn).normalize().to_scaled_axis()
     }
 
+    /// Rotation and advance (m) from the start of the element to arc length `from` (m) within it, at
+    /// control `c` (rad). A joint's turn is spread evenly along its element: the frames at both ends
+    /// stay, and what is drawn has no kink.
+    pub(crate) fn inside(&self, c: DVec3, from: f64) -> (DMat3, DVec3) {
+        match &self.curve {
+            Curve::Helix => {
+                let (turn, advance, _) = helix_piece(c * (from / self.length), from);
+                (turn, advance)
+            }
+            Curve::Jointed(jointed) => {
+                // exp[A c] A B = A exp[c] B: seen from the start frame the joint turns by A c.
+                let turn = jointed.before * c / self.length;
+                let whole = jointed.smooth(turn, self.length, self.length).1;
+                let (rotation, advance) = jointed.smooth(turn, self.length, from);
+                // To third order in h the smooth curve ends where the joint's does.
+                let rest = self.motion(c).advance() - whole;
+                (rotation, advance + rest * (from / self.length))
+            }
+        }
+    }
+
     /// The motion at control `c` (rad).
     #[inline]
     pub(crate) fn motion(&self, c: DVec3) -> Motion<'_> {
         Motion { geometry: self, control: c, table: stumpff(c.length_squared()) }
+    }
+}
+
+impl Jointed {
+    /// Natural rotation and advance (m) up to arc length `s` (m) of an element of length `h` (m).
+    fn rest(&self, h: f64, s: f64) -> (DMat3, DVec3) {
+        let half = 0.5 * h;
+        let [first, second] = self.natural;
+        if s <= half {
+            let (turn, advance, _) = helix_piece(first * s, s);
+            return (turn, advance);
+        }
+        let (turn, advance, _) = helix_piece(second * (s - half), s - half);
+        let start = helix_piece(first * half, half).1;
+        (self.before * turn, start + self.before * advance)
+    }
+
+    /// Rotation `exp(s[w]) N(s)` and advance (m) up to arc length `s` (m), where N is natural and
+    /// `turn` = w (rad/m) turns steadily in the start frame.
+    fn smooth(&self, turn: DVec3, h: f64, s: f64) -> (DMat3, DVec3) {
+        let turned = |s: f64| DMat3::from_quat(glam::DQuat::from_scaled_axis(turn * s));
+        let (rest, mut advance) = self.rest(h, s);
+        // What the turn adds to the advance, by Gauss's rule of three points on short panels.
+        let angle = (turn.length() + self.natural[0].length().max(self.natural[1].length())) * s;
+        let panels = if turn == DVec3::ZERO { 0.0 } else { (angle / 0.5).ceil().clamp(2.0, 1e4) };
+        let panel = s / panels;
+        for i in 0..panels as usize {
+            let middle = (i as f64 + 0.5) * panel;
+            for (offset, weight) in [(-0.6_f64.sqrt(), 5.0), (0.0, 8.0), (0.6_f64.sqrt(), 5.0)] {
+                let at = middle + 0.5 * panel * offset;
+                let tangent = self.rest(h, at).0.z_axis;
+                advance += (turned(at) * tangent - tangent) * (weight / 18.0 * panel);
+            }
+        }
+        (turned(s) * rest, advance)
     }
 }
 

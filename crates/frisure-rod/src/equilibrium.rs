@@ -1,12 +1,13 @@
 //! The shape in which a rod comes to rest, with a certificate.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use crate::chain::{Chain, Shape};
 use crate::minimise::{
     Energy, Minimiser, Minimum, Problem, Riccati, Stability, Stopping, second_variation,
 };
 use crate::potential::Potential;
+use crate::rotation::deviation;
 use crate::{ElementKind, MAX_ELEMENTS, Resolution, Rod};
 
 /// Which equilibrium is meant, where there are several.
@@ -90,8 +91,8 @@ pub struct Equilibrium {
     pub certificate: Certificate,
     /// Estimate of the largest distance (m) of the centre line from the exact equilibrium.
     pub error_estimate: Option<f64>,
-    /// What extrapolation adds to the positions of every second node (m).
-    correction: Option<Vec<DVec3>>,
+    /// What extrapolation adds to every second node.
+    correction: Option<Vec<Correction>>,
 }
 
 impl Equilibrium {
@@ -102,14 +103,23 @@ impl Equilibrium {
     }
 
     fn node(&self, i: usize) -> DVec3 {
-        self.shape.positions[i] + self.correction_at(i as f64)
+        self.shape.positions[i] + self.correction_at(i as f64).0
     }
 
-    fn correction_at(&self, node: f64) -> DVec3 {
-        let Some(table) = &self.correction else { return DVec3::ZERO };
-        let x = (0.5 * node).clamp(0.0, (table.len() - 1) as f64);
-        let i = (x as usize).min(table.len().saturating_sub(2));
-        table[i].lerp(table[(i + 1).min(table.len() - 1)], x - i as f64)
+    /// What extrapolation adds to the position (m), and the rotation vector (rad, world) by which
+    /// it turns the frame.
+    fn correction_at(&self, node: f64) -> (DVec3, DVec3) {
+        let Some(table) = &self.correction else { return (DVec3::ZERO, DVec3::ZERO) };
+        let last = table.len() - 1;
+        let x = (0.5 * node).clamp(0.0, last as f64);
+        let i = (x as usize).min(last.saturating_sub(1));
+        let (from, to) = (&table[i], &table[(i + 1).min(last)]);
+        let x = x - i as f64;
+        let step = self.rod.length() / last as f64;
+        // Hermite: cubic, with the slopes at both ends.
+        let (rise, y) = (x * x * (3.0 - 2.0 * x), 1.0 - x);
+        let bends = (from.slope * y - to.slope * x) * (x * y * step);
+        (from.shift.lerp(to.shift, rise) + bends, from.turn.lerp(to.turn, x))
     }
 
     /// `points` positions (m) and material frames, evenly spaced in arc length from root to tip;
@@ -122,7 +132,8 @@ impl Equilibrium {
             .map(|k| {
                 let x = k as f64 / (n - 1) as f64;
                 let (position, frame) = chain.point(&self.shape, x * self.rod.length());
-                (position + self.correction_at(x * self.elements as f64), frame)
+                let (shift, turn) = self.correction_at(x * self.elements as f64);
+                (position + shift, DMat3::from_quat(DQuat::from_scaled_axis(turn)) * frame)
             })
             .collect()
     }
@@ -156,6 +167,17 @@ pub fn equilibrium_from(
     Search { rod, external, options, kind: options.element.chosen_for(rod) }.run(Some(previous))
 }
 
+/// What Richardson extrapolation adds to a node.
+#[derive(Clone, Copy, Debug)]
+struct Correction {
+    /// To the position (m).
+    shift: DVec3,
+    /// To the tangent, which is the derivative of the shift by arc length.
+    slope: DVec3,
+    /// To the frame: a rotation vector (rad) in the world.
+    turn: DVec3,
+}
+
 struct Search<'a> {
     rod: &'a Rod,
     external: &'a [&'a dyn Potential],
@@ -173,6 +195,9 @@ struct Level {
 /// Factor on gravity from one step of the branch to the next. A hanging rod's shape changes with
 /// the logarithm of its heaviness.
 const GRAVITY_FACTOR: f64 = 2.5;
+
+/// A jump that a step as small as this still makes is the rod's own.
+const SMALLEST_FACTOR: f64 = 1.02;
 
 /// A step along the branch that turns a tangent further than this (cosine) is taken again, smaller.
 const LARGEST_TURN_COSINE: f64 = 0.3;
@@ -209,9 +234,10 @@ impl Search<'_> {
         (per_turn * turns).max(bends).ceil().clamp(12.0, 1250.0) as usize
     }
 
-    /// The equilibrium with `n` elements. The branch is followed with few, then refined.
+    /// The equilibrium with `n` elements. The branch is followed with few, then refined; a shape
+    /// that is nearly right already is settled at once.
     fn level(&self, n: usize, coarse: usize, previous: Option<&Equilibrium>) -> Level {
-        let first = n.min(coarse);
+        let first = if previous.is_some() { n } else { n.min(coarse) };
         let chain = self.chain(first);
         let mut level = match previous {
             Some(previous) => self.settle(&chain, warm_start(&chain, previous)),
@@ -254,12 +280,13 @@ impl Search<'_> {
         next
     }
 
-    /// Turns gravity on slowly from the natural shape.
+    /// Turns gravity on slowly from the natural shape. A step that jumps is halved, so that the
+    /// branch is left only where it ends.
     fn follow_gravity(&self, chain: &Chain<'_>) -> Level {
-        let loose = self.stopping(self.options.tolerance.max(1e-5));
         let settle = |load: f64, start: Shape| {
             let problem = Problem::with_load(chain, self.external, load);
-            Riccati::default().minimise(&problem, start, loose)
+            let tolerance = self.options.tolerance.max(if load < 1.0 { 1e-5 } else { 0.0 });
+            Riccati::default().minimise(&problem, start, self.stopping(tolerance))
         };
         let mut iterations = 0;
         let mut shape = chain.natural_shape();
@@ -268,27 +295,32 @@ impl Search<'_> {
             (shape, iterations) = (first.shape, first.iterations);
         }
         let mut load = 0.0;
-        let mut factor = GRAVITY_FACTOR;
-        while load < 1.0 {
-            let next = match load {
-                l if l > 0.0 => l * factor,
-                _ => factor / self.rod.heaviness().max(1e-300),
+        // The least load known to be a jump away.
+        let mut jump = f64::INFINITY;
+        loop {
+            let step = match load {
+                l if l <= 0.0 => GRAVITY_FACTOR / self.rod.heaviness().max(1e-300),
+                l if l * GRAVITY_FACTOR < jump => l * GRAVITY_FACTOR,
+                l if jump / l > SMALLEST_FACTOR => (l * jump).sqrt(),
+                _ => jump,
             };
-            if next >= 1.0 {
-                break;
-            }
-            let step = settle(next, shape.clone());
-            iterations += step.iterations;
-            if self.jumped(&shape, &step.shape) && factor > 1.02 && load > 0.0 {
-                factor = factor.sqrt();
+            let next = step.min(1.0);
+            let mut minimum = settle(next, shape.clone());
+            iterations += minimum.iterations;
+            if load > 0.0 && next < jump && self.jumped(&shape, &minimum.shape) {
+                jump = next;
                 continue;
             }
-            (shape, load) = (step.shape, next);
-            factor = (factor * factor).min(GRAVITY_FACTOR);
+            if next >= 1.0 {
+                minimum.iterations = iterations;
+                let energy = Problem::new(chain, self.external).energy(&minimum.shape);
+                return Level { elements: chain.len(), minimum, energy };
+            }
+            if next >= jump {
+                jump = f64::INFINITY;
+            }
+            (shape, load) = (minimum.shape, next);
         }
-        let mut level = self.settle(chain, shape);
-        level.minimum.iterations += iterations;
-        level
     }
 
     /// Whether some tangent turned too far for one step along a branch.
@@ -344,8 +376,7 @@ impl Search<'_> {
             });
             let met = estimate.is_some_and(|e| e <= accuracy);
             if met || 2 * finer.elements > MAX_ELEMENTS {
-                let fine = every(&finer.minimum.shape.positions, 2);
-                let correction = table.iter().zip(&fine).map(|(t, f)| *t - *f).collect();
+                let correction = corrections(&level.minimum.shape, &finer.minimum.shape);
                 let energy = extrapolate_energy(&level.energy, &finer.energy);
                 return self.equilibrium(finer, energy, Some(correction), estimate);
             }
@@ -357,7 +388,7 @@ impl Search<'_> {
         &self,
         level: Level,
         energy: Energy,
-        correction: Option<Vec<DVec3>>,
+        correction: Option<Vec<Correction>>,
         error_estimate: Option<f64>,
     ) -> Equilibrium {
         let Minimum { shape, gradient_norm, iterations, stability } = level.minimum;
@@ -391,6 +422,21 @@ fn largest_gap(a: &[DVec3], b: &[DVec3]) -> f64 {
 fn extrapolate(coarse: &Shape, fine: &Shape) -> Vec<DVec3> {
     let fine = fine.positions.iter().step_by(2);
     coarse.positions.iter().zip(fine).map(|(c, f)| (*f * 4.0 - *c) / 3.0).collect()
+}
+
+/// What extrapolation adds to the fine shape at the nodes of the coarse one.
+fn corrections(coarse: &Shape, fine: &Shape) -> Vec<Correction> {
+    (0..coarse.positions.len())
+        .map(|i| {
+            let (position, frame) = (fine.positions[2 * i], fine.frames[2 * i]);
+            let turn = deviation(&(frame * coarse.frames[i].transpose())) / 3.0;
+            Correction {
+                shift: (position - coarse.positions[i]) / 3.0,
+                slope: DQuat::from_scaled_axis(turn) * frame.z_axis - frame.z_axis,
+                turn,
+            }
+        })
+        .collect()
 }
 
 fn extrapolate_energy(coarse: &Energy, fine: &Energy) -> Energy {

@@ -77,7 +77,7 @@ impl Minimiser for Lbfgs {
         let gradient_norm = norm(&gradient);
         let stability = if gradient_norm > stopping.tolerance.max(1e-6) {
             Stability::NotConverged
-        } else if second_variation(problem, &shape) > 0.0 {
+        } else if second_variation(problem, &shape) > -problem.neutral() {
             Stability::Stable
         } else {
             Stability::Saddle

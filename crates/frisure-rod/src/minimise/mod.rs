@@ -67,6 +67,28 @@ impl<'a> Problem<'a> {
     pub fn gradient(&self, shape: &Shape) -> Vec<glam::DVec3> {
         adjoint::gradient(self, shape)
     }
+
+    /// Smallest λ in `H x = λ M x`, H the second variation of the energy by the controls and M
+    /// that of the elastic energy: 1 without loads, 0 where stability is lost. The shape must be
+    /// an equilibrium; elsewhere the second variation depends on coordinates and means little.
+    #[must_use]
+    pub fn min_eigenvalue(&self, shape: &Shape) -> f64 {
+        second_variation(self, shape)
+    }
+
+    /// The eigenvalue that is zero but for rounding, on the scale of [`Self::min_eigenvalue`]: a
+    /// rod clamped upright that fell over may turn about the vertical freely.
+    pub(crate) fn neutral(&self) -> f64 {
+        let rod = self.chain.rod();
+        let stiffness = rod.stiffness().min_element() * self.chain.len() as f64 / rod.length();
+        1e-8 * (rod.moment_scale() / stiffness).max(1.0)
+    }
+
+    /// The divided rod.
+    #[must_use]
+    pub fn chain(&self) -> &'a Chain<'a> {
+        self.chain
+    }
 }
 
 /// Energies of a shape (J).
@@ -100,7 +122,8 @@ pub struct Stopping {
 /// What a shape is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stability {
-    /// The gradient vanishes and the second variation is positive: a minimum.
+    /// The gradient vanishes and the second variation is positive, or zero but for rounding where
+    /// the rod may turn freely: a minimum.
     Stable,
     /// The gradient vanishes, but some direction lowers the energy.
     Saddle,

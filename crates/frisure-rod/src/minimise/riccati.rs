@@ -36,6 +36,12 @@ impl Default for Riccati {
 /// The largest turn of one element's control in one step (rad).
 const LARGEST_TURN: f64 = 1.0;
 
+/// A relative gradient that may be as small as rounding lets it be.
+const ROUNDED: f64 = 1e-6;
+
+/// Most saddles left in one descent.
+const LARGEST_ESCAPES: usize = 40;
+
 /// Damping above which a step is shorter than rounding.
 const LARGEST_DAMPING: f64 = 1e12;
 
@@ -62,47 +68,49 @@ impl Riccati {
         let mut energy = problem.energy(&shape).total();
         let mut iterations = 0;
         let mut escapes = 0;
-        let done = |shape, gradient_norm, iterations, stability| Minimum {
-            shape,
-            gradient_norm,
-            iterations,
-            stability,
-        };
+        let mut stalled = 0;
+        let mut last_gradient = f64::INFINITY;
         loop {
             let stages = Stages::<POSITION>::new(problem, &shape);
-            let gradient = stages.gradient_norm() / scale;
-            if gradient <= stopping.tolerance {
-                match stages.sweep(0.0) {
-                    Ok(_) => return done(shape, gradient, iterations, Stability::Stable),
-                    Err(failed) if self.leave_saddles && escapes < 40 => {
-                        escapes += 1;
-                        iterations += 1;
-                        match leave_saddle(problem, &shape, energy, &failed) {
-                            Some((s, e)) => {
-                                (shape, energy) = (s, e);
-                                continue;
-                            }
-                            None => return done(shape, gradient, iterations, Stability::Saddle),
-                        }
-                    }
-                    Err(_) => return done(shape, gradient, iterations, Stability::Saddle),
+            let gradient_norm = stages.gradient_norm() / scale;
+            let end = |shape, iterations, stability| Minimum {
+                shape,
+                gradient_norm,
+                iterations,
+                stability,
+            };
+            let mut at_rest = gradient_norm <= stopping.tolerance;
+            if !at_rest {
+                if iterations >= stopping.max_iterations {
+                    return end(shape, iterations, Stability::NotConverged);
+                }
+                iterations += 1;
+                let step = self.step(problem, &stages, &shape, energy, &mut damping);
+                let drowned = step.as_ref().is_none_or(|s| s.drowned);
+                stalled =
+                    if drowned && gradient_norm > 0.5 * last_gradient { stalled + 1 } else { 0 };
+                last_gradient = gradient_norm;
+                match step {
+                    Some(step) if stalled < 3 => (shape, energy) = (step.shape, step.energy),
+                    // This is as far as rounding lets one go.
+                    _ if gradient_norm <= ROUNDED => at_rest = true,
+                    Some(step) => (shape, energy) = (step.shape, step.energy),
+                    None => return end(shape, iterations, Stability::NotConverged),
                 }
             }
-            if iterations >= stopping.max_iterations {
-                return done(shape, gradient, iterations, Stability::NotConverged);
-            }
-            iterations += 1;
-            match self.step(problem, &stages, &shape, energy, &mut damping) {
-                Some((s, e)) => (shape, energy) = (s, e),
-                // No step lowers the energy: this is as far as rounding lets one go.
-                None => {
-                    let stability = match stages.sweep(0.0) {
-                        _ if gradient > stopping.tolerance.max(1e-6) => Stability::NotConverged,
-                        Ok(_) => Stability::Stable,
-                        Err(_) => Stability::Saddle,
-                    };
-                    return done(shape, gradient, iterations, stability);
+            if at_rest {
+                let Some(failed) = stages.negative_pivot() else {
+                    return end(shape, iterations, Stability::Stable);
+                };
+                escapes += 1;
+                let left = (self.leave_saddles && escapes <= LARGEST_ESCAPES)
+                    .then(|| leave_saddle(problem, &shape, energy, &failed));
+                match left.flatten() {
+                    Some(left) => (shape, energy) = left,
+                    None => return end(shape, iterations, Stability::Saddle),
                 }
+                iterations += 1;
+                (stalled, last_gradient) = (0, f64::INFINITY);
             }
         }
     }
@@ -115,7 +123,7 @@ impl Riccati {
         shape: &Shape,
         energy: f64,
         damping: &mut f64,
-    ) -> Option<(Shape, f64)> {
+    ) -> Option<Step> {
         while *damping < LARGEST_DAMPING {
             let Ok(sweep) = stages.sweep(*damping) else {
                 *damping = self.first_damping.max(4.0 * *damping);
@@ -136,7 +144,8 @@ impl Riccati {
                         1 => *damping,
                         _ => (2.0 * *damping).max(0.01),
                     };
-                    return Some((next, lowered));
+                    let drowned = expected < noise;
+                    return Some(Step { shape: next, energy: lowered, drowned });
                 }
                 fraction *= 0.5;
             }
@@ -144,6 +153,14 @@ impl Riccati {
         }
         None
     }
+}
+
+/// An accepted step.
+struct Step {
+    shape: Shape,
+    energy: f64,
+    /// Whether the decrease of the energy drowns in rounding.
+    drowned: bool,
 }
 
 /// What an element contributes at the present shape, apart from what follows it.
@@ -245,6 +262,12 @@ impl<'a, const POSITION: bool> Stages<'a, POSITION> {
 
     fn gradient_norm(&self) -> f64 {
         self.gradient.iter().map(|g| g.length()).fold(0.0, f64::max)
+    }
+
+    /// The pivot that shows a direction of negative curvature, beyond what rounding may.
+    fn negative_pivot(&self) -> Option<FailedPivot> {
+        let failed = self.sweep(0.0).err()?;
+        self.sweep(self.problem.neutral()).is_err().then_some(failed)
     }
 
     /// The backward sweep. `damping` adds that fraction of the elastic stiffness to each pivot.

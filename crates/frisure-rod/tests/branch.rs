@@ -1,0 +1,257 @@
+//! Which equilibrium, from where, and at the limits of what is legal.
+
+mod common;
+
+use common::{Random, Spring, accuracy, curl, elements, straight};
+use frisure_rod::potential::Potential;
+use frisure_rod::{
+    Branch, ElementKind, Equilibrium, Material, NaturalStrain, Options, Resolution, Rod, RodSpec,
+    Root, Section, Stability, StrainProfile, TorsionConstant, equilibrium, equilibrium_from,
+};
+use glam::{DVec3, Vec3Swizzles};
+use proptest::prelude::*;
+
+/// Largest distance between two centre lines (m).
+fn gap(a: &Equilibrium, b: &Equilibrium) -> f64 {
+    let (a, b) = (a.centre_line(50), b.centre_line(50));
+    a.iter().zip(&b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+fn with_length(length: f64) -> Rod {
+    Rod::new(RodSpec { length, ..curl() }).unwrap()
+}
+
+#[test]
+fn a_warm_start_finds_the_same_shape_sooner() {
+    let soft = |factor: f64| {
+        let material = Material::new(3e9 * factor, 1.1e9 * factor, 1300.0).unwrap();
+        Rod::new(RodSpec { material, ..curl() }).unwrap()
+    };
+    let changed: [(&str, Rod); 4] = [
+        ("grown", with_length(0.153)),
+        ("cut", with_length(0.14)),
+        ("softer", soft(0.8)),
+        ("the same", soft(1.0)),
+    ];
+    let before = Rod::new(curl()).unwrap();
+    for options in [elements(30, ElementKind::Auto), accuracy(&before, 1e-4)] {
+        let previous = equilibrium(&before, &[], &options);
+        for (name, rod) in &changed {
+            let cold = equilibrium(rod, &[], &options);
+            let warm = equilibrium_from(rod, &[], &options, &previous);
+            assert_eq!(warm.certificate.stability, Stability::Stable, "{name}");
+            assert!(gap(&warm, &cold) < 1e-6 * rod.length(), "{name}: {}", gap(&warm, &cold));
+            let (few, many) = (warm.certificate.iterations, cold.certificate.iterations);
+            assert!(few < many, "{name}: {few} {many}");
+            assert!(few <= 12, "{name}: {few}");
+        }
+    }
+}
+
+#[test]
+fn a_warm_start_may_have_other_elements() {
+    let rod = Rod::new(curl()).unwrap();
+    for (from, to) in [(15, 60), (60, 15), (40, 41), (30, 240)] {
+        for kinds in [
+            (ElementKind::Helix, ElementKind::Jointed),
+            (ElementKind::Jointed, ElementKind::Helix),
+            (ElementKind::Jointed, ElementKind::Jointed),
+        ] {
+            let previous = equilibrium(&rod, &[], &elements(from, kinds.0));
+            let options = elements(to, kinds.1);
+            let cold = equilibrium(&rod, &[], &options);
+            let warm = equilibrium_from(&rod, &[], &options, &previous);
+            assert!(gap(&warm, &cold) < 1e-7, "{from} {to} {kinds:?}: {}", gap(&warm, &cold));
+            let iterations = warm.certificate.iterations;
+            assert!(iterations <= 15, "{from} {to} {kinds:?}: {iterations}");
+        }
+    }
+}
+
+#[test]
+fn a_warm_start_turns_with_its_root() {
+    let before = Rod::new(curl()).unwrap();
+    let options = elements(30, ElementKind::Auto);
+    let previous = equilibrium(&before, &[], &options);
+    let turn = glam::DMat3::from_rotation_z(2.0);
+    let frame = turn * before.root().frame();
+    let root = Root::new(DVec3::X, frame.x_axis, frame.y_axis, frame.z_axis).unwrap();
+    let rod = Rod::new(RodSpec { root, ..curl() }).unwrap();
+    let warm = equilibrium_from(&rod, &[], &options, &previous);
+    assert!(warm.certificate.iterations <= 2, "{}", warm.certificate.iterations);
+    assert!(warm.tip().distance(turn * previous.tip() + DVec3::X) < 1e-9);
+}
+
+#[test]
+fn lowest_is_never_above_gravitys_branch() {
+    let mut random = Random(41);
+    let mut lower = 0;
+    for i in 0..30 {
+        let mut spec = random.hair();
+        if i % 2 == 0 {
+            spec.natural = NaturalStrain::Uniform(DVec3::X * random.between(-150.0, 150.0));
+        }
+        let rod = Rod::new(spec).unwrap();
+        let options = elements(12, ElementKind::Auto);
+        let own = equilibrium(&rod, &[], &options);
+        let branch = Branch::Lowest { starts: 10, seed: 1 };
+        let lowest = equilibrium(&rod, &[], &Options { branch, ..options });
+        assert_eq!(lowest.certificate.stability, Stability::Stable, "rod {i}");
+        assert!(lowest.energy.total() <= own.energy.total() + 1e-9 * own.energy.total().abs());
+        lower +=
+            usize::from(lowest.energy.total() < own.energy.total() - 1e-7 * rod.moment_scale());
+    }
+    // Some have a lower equilibrium than the one that gravity leads to; most do not.
+    assert!((1..15).contains(&lower), "{lower} of 30");
+}
+
+#[test]
+fn the_same_question_has_the_same_answer() {
+    let rod = Rod::new(Random(43).hair()).unwrap();
+    let branch = Branch::Lowest { starts: 5, seed: 9 };
+    let options = Options { branch, ..elements(20, ElementKind::Auto) };
+    let (a, b) = (equilibrium(&rod, &[], &options), equilibrium(&rod, &[], &options));
+    assert_eq!(a.shape, b.shape);
+    assert_eq!(a.energy, b.energy);
+    assert_eq!(a.certificate, b.certificate);
+}
+
+#[test]
+fn any_number_of_elements() {
+    for rod in [Rod::new(curl()).unwrap(), straight(30.0, DVec3::new(1.0, 0.0, 1.0))] {
+        let exact = equilibrium(&rod, &[], &accuracy(&rod, 1e-6));
+        for n in [1, 2, 3, 4, 10_000] {
+            for kind in [ElementKind::Helix, ElementKind::Jointed] {
+                let found = equilibrium(&rod, &[], &elements(n, kind));
+                assert_eq!(found.elements, n);
+                assert_eq!(found.shape.controls.len(), n);
+                assert_eq!(found.certificate.stability, Stability::Stable, "{kind:?} N={n}");
+                if n == 10_000 {
+                    assert!(gap(&found, &exact) < 2e-6 * rod.length(), "{kind:?}");
+                }
+            }
+        }
+        // Out of range is brought into it.
+        let none = equilibrium(&rod, &[], &elements(0, ElementKind::Auto));
+        assert_eq!(none.elements, 1);
+    }
+}
+
+#[test]
+fn a_tolerance_out_of_reach_is_an_answer() {
+    let rod = Rod::new(curl()).unwrap();
+    let tight = Options { tolerance: 0.0, ..elements(30, ElementKind::Auto) };
+    let found = equilibrium(&rod, &[], &tight);
+    assert!(found.certificate.gradient_norm < 1e-12);
+    assert_eq!(found.certificate.stability, Stability::Stable);
+    let impatient = Options { max_iterations: 0, ..elements(30, ElementKind::Auto) };
+    let found = equilibrium(&rod, &[], &impatient);
+    assert_eq!(found.certificate.stability, Stability::NotConverged);
+    assert!(found.tip().is_finite());
+}
+
+fn unit() -> impl Strategy<Value = DVec3> {
+    any::<u64>().prop_map(|seed| Random(seed).direction())
+}
+
+/// Logarithms spread evenly between powers of ten.
+fn power(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    (low..high).prop_map(|x| 10.0_f64.powf(x))
+}
+
+prop_compose! {
+    /// Any rod that may be made: far outside of hair.
+    fn any_rod()(
+        (tangent, d1) in (unit(), unit()),
+        length in power(-3.0, 1.0),
+        gamma in prop_oneof![Just(0.0), power(-6.0, 6.0)],
+        ratio in power(0.0, 1.5),
+        torsion in power(-2.0, 1.0),
+        turns in prop_oneof![Just(0.0), power(-2.0, 2.3)],
+        axis in prop_oneof![unit(), Just(DVec3::X), Just(DVec3::Z)],
+        upright in prop_oneof![Just(None), Just(Some(DVec3::Z)), Just(Some(DVec3::NEG_Z)),
+            Just(Some(DVec3::X))],
+        varying in any::<bool>(),
+    ) -> Rod {
+        let section = Section::from_diameter(length * 1e-3, ratio).unwrap();
+        let (youngs, density) = (1e9, 1000.0);
+        let ei = youngs * section.i1().min(section.i2());
+        let gravity = gamma * ei / (density * section.area() * length.powi(3));
+        let u = axis * (turns * std::f64::consts::TAU / length);
+        let natural = if varying {
+            let knots = vec![(0.0, u), (0.3 * length, u * -0.5), (length, u.yzx())];
+            NaturalStrain::Varying(StrainProfile::new(knots).unwrap())
+        } else {
+            NaturalStrain::Uniform(u)
+        };
+        let tangent = upright.unwrap_or(tangent);
+        let root = Root::from_tangent(DVec3::ZERO, tangent, d1)
+            .or_else(|_| Root::from_tangent(DVec3::ZERO, tangent, d1.any_orthonormal_vector()))
+            .unwrap();
+        Rod::new(RodSpec {
+            length,
+            section,
+            material: Material::new(youngs, youngs * torsion, density).unwrap(),
+            torsion: TorsionConstant::SaintVenant,
+            natural,
+            root,
+            gravity,
+        })
+        .unwrap()
+    }
+}
+
+/// Few cases by default; `PROPTEST_CASES` asks for more.
+fn config(cases: u32) -> ProptestConfig {
+    let default = ProptestConfig::default();
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { default.cases } else { cases };
+    ProptestConfig { cases, failure_persistence: None, max_shrink_time: 20_000, ..default }
+}
+
+fn check(rod: &Rod, external: &[&dyn Potential], options: &Options) -> Result<(), TestCaseError> {
+    let started = std::time::Instant::now();
+    let found = equilibrium(rod, external, options);
+    let seconds = started.elapsed().as_secs_f64();
+    let certificate = found.certificate;
+    prop_assert!(seconds < 5.0, "{seconds} s, N = {}", found.elements);
+    prop_assert!(found.tip().is_finite(), "{certificate:?}");
+    prop_assert!(found.tip().length() <= rod.length() * (1.0 + 1e-2), "{}", found.tip());
+    prop_assert!(found.energy.total().is_finite());
+    prop_assert!(found.shape.controls.iter().all(|c| c.is_finite()));
+    prop_assert!(found.centre_line(7).iter().all(|p| p.is_finite()));
+    prop_assert!(
+        certificate.stability == Stability::Stable,
+        "{certificate:?} N = {} Γ = {} {seconds} s",
+        found.elements,
+        rod.heaviness()
+    );
+    prop_assert!(certificate.gradient_norm <= 1e-6);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(config(150))]
+
+    #[test]
+    fn any_legal_rod_comes_to_rest(rod in any_rod(), n in 1_usize..40, joints in any::<bool>()) {
+        let kind = if joints { ElementKind::Jointed } else { ElementKind::Helix };
+        check(&rod, &[], &elements(n, kind))?;
+    }
+
+    #[test]
+    fn any_legal_rod_comes_to_rest_beside_a_spring(rod in any_rod(), n in 1_usize..30, k in power(-3.0, 2.0)) {
+        let ei = rod.stiffness().min_element();
+        let spring = Spring { stiffness: k * ei / rod.length().powi(4), anchor: DVec3::new(0.2, 0.1, 0.3) * rod.length() };
+        check(&rod, &[&spring], &elements(n, ElementKind::Auto))?;
+    }
+}
+
+proptest! {
+    #![proptest_config(config(40))]
+
+    #[test]
+    fn any_legal_rod_to_an_accuracy(rod in any_rod(), request in power(-5.0, -1.0)) {
+        let resolution = Resolution::Accuracy(request * rod.length());
+        check(&rod, &[], &Options { resolution, eigenvalue: false, ..Options::default() })?;
+    }
+}

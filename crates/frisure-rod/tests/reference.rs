@@ -1,0 +1,161 @@
+//! The nineteen reference equilibria, and second-order convergence towards them.
+
+mod common;
+
+use std::path::Path;
+
+use common::{Case, accuracy, elements, reference_cases};
+use frisure_rod::{ElementKind, Equilibrium, Stability, equilibrium};
+use glam::DVec3;
+
+/// Distance of the tip from the reference, over the length.
+fn tip_error(case: &Case, found: &Equilibrium) -> f64 {
+    found.tip().distance(case.tip) / case.rod.length()
+}
+
+#[test]
+fn a_requested_accuracy_is_kept() {
+    for case in reference_cases() {
+        for request in [1e-3, 1e-4, 1e-5] {
+            let found = equilibrium(&case.rod, &[], &accuracy(&case.rod, request));
+            let error = tip_error(&case, &found);
+            let estimate = found.error_estimate.unwrap() / case.rod.length();
+            let name = &case.name;
+            assert_eq!(found.certificate.stability, Stability::Stable, "{name}");
+            assert!(found.certificate.gradient_norm < 1e-10, "{name}");
+            assert!(error < request, "{name} at {request}: {error}");
+            assert!(estimate <= request, "{name} at {request}: {estimate}");
+            // The estimate is cautious, but for rounding.
+            assert!(error < estimate + 1e-9, "{name} at {request}: {error} > {estimate}");
+            assert!(found.certificate.iterations < 100, "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_estimate_for_given_elements_is_near_the_error() {
+    for case in reference_cases() {
+        for n in [30, 60] {
+            let options =
+                frisure_rod::Options { estimate_error: true, ..elements(n, ElementKind::Auto) };
+            let found = equilibrium(&case.rod, &[], &options);
+            let error = tip_error(&case, &found);
+            let estimate = found.error_estimate.unwrap() / case.rod.length();
+            // The estimate is of the whole centre line, of which the tip is a point.
+            let name = &case.name;
+            assert!(estimate > 0.7 * error - 1e-9, "{name} N={n}: {error} {estimate}");
+            assert!(estimate < 6.0 * error + 1e-9, "{name} N={n}: {error} {estimate}");
+        }
+    }
+}
+
+#[test]
+fn energies_are_those_of_the_references() {
+    for case in reference_cases() {
+        let found = equilibrium(&case.rod, &[], &accuracy(&case.rod, 1e-5));
+        let scale = case.elastic.abs() + case.gravity.abs();
+        let gaps = [
+            (found.energy.elastic - case.elastic, 5e-6),
+            (found.energy.gravity - case.gravity, 5e-6),
+            (found.energy.total() - case.elastic - case.gravity, 2e-6),
+        ];
+        for (gap, allowed) in gaps {
+            assert!(gap.abs() < allowed * scale, "{} {}", case.name, gap / scale);
+        }
+    }
+}
+
+#[test]
+fn helix_elements_are_those_of_the_references() {
+    // The same discretisation in another program has the same errors, to its six digits, and the
+    // same second variation.
+    for case in reference_cases() {
+        let name = &case.name;
+        let scale = case.elastic.abs() + case.gravity.abs();
+        for &(n, tip, energy) in &case.helix_errors {
+            let found = equilibrium(&case.rod, &[], &elements(n, ElementKind::Helix));
+            let error = tip_error(&case, &found);
+            assert!((error - tip).abs() < 1e-5 * tip + 1e-10, "{name} N={n}: {error} {tip}");
+            let above = found.energy.total() - case.elastic - case.gravity;
+            let gap = (above - energy).abs();
+            assert!(gap < 1e-5 * energy.abs() + 1e-10 * scale, "{name} N={n}: {gap}");
+        }
+        let found = equilibrium(&case.rod, &[], &elements(240, ElementKind::Helix));
+        let eigenvalue = found.certificate.min_eigenvalue.unwrap();
+        assert!((eigenvalue - case.min_eigenvalue).abs() < 1e-9, "{name}: {eigenvalue}");
+    }
+}
+
+#[test]
+fn both_elements_converge_at_second_order() {
+    for case in reference_cases() {
+        for kind in [ElementKind::Helix, ElementKind::Jointed] {
+            let errors = [60, 120, 240]
+                .map(|n| tip_error(&case, &equilibrium(&case.rod, &[], &elements(n, kind))));
+            for pair in errors.windows(2) {
+                let resolved = pair[1] > 1e-9;
+                let ratio = pair[0] / pair[1];
+                assert!(!resolved || ratio > 3.9, "{} {kind:?}: {errors:?}", case.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_right_element_is_chosen() {
+    // Auto is never worse than twice the better of the two, and mostly it is the better.
+    let mut best = 0;
+    for case in reference_cases() {
+        let error = |kind| tip_error(&case, &equilibrium(&case.rod, &[], &elements(60, kind)));
+        let (helix, jointed) = (error(ElementKind::Helix), error(ElementKind::Jointed));
+        let auto = error(ElementKind::Auto);
+        assert!(auto < 2.0 * helix.min(jointed) + 1e-9, "{} {helix} {jointed}", case.name);
+        best += usize::from(auto <= helix.min(jointed));
+    }
+    assert!(best >= 17, "{best} of 19");
+}
+
+#[test]
+fn whole_centre_lines_where_the_data_folder_is_present() {
+    // Optional data beside the repository; the tips above are the check that always runs.
+    let file = "../shared/data/rod_reference_cases.json";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+    let Ok(text) = std::fs::read_to_string(path) else {
+        eprintln!("skipped: {file} is not present");
+        return;
+    };
+    let data: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for (case, full) in reference_cases().iter().zip(data["cases"].as_array().unwrap()) {
+        assert_eq!(full["name"].as_str(), Some(case.name.as_str()));
+        let line = full["result"]["centerline"].as_array().unwrap();
+        let found = equilibrium(&case.rod, &[], &accuracy(&case.rod, 1e-5));
+        for (point, exact) in found.centre_line(line.len()).iter().zip(line) {
+            let exact = DVec3::from_array([0, 1, 2].map(|i| exact[i].as_f64().unwrap()));
+            let error = point.distance(exact) / case.rod.length();
+            assert!(error < 1e-5, "{}: {error}", case.name);
+        }
+    }
+}
+
+#[test]
+fn every_point_of_the_line_is_within_the_accuracy() {
+    // Against the same search, a hundred times finer; at points between the nodes too.
+    let mut worst: f64 = 0.0;
+    for case in reference_cases() {
+        let l = case.rod.length();
+        let exact = equilibrium(&case.rod, &[], &accuracy(&case.rod, 1e-8)).sample(498);
+        for request in [1e-3, 1e-4, 1e-5] {
+            let found = equilibrium(&case.rod, &[], &accuracy(&case.rod, request)).sample(498);
+            let error =
+                found.iter().zip(&exact).map(|(a, b)| a.0.distance(b.0) / l).fold(0.0, f64::max);
+            let angle = found
+                .iter()
+                .zip(&exact)
+                .map(|(a, b)| (a.1.z_axis - b.1.z_axis).length())
+                .fold(0.0, f64::max);
+            println!("{} {request} {error:.1e} {angle:.1e}", case.name);
+            worst = worst.max(error / request);
+        }
+    }
+    assert!(worst < 1.0, "{worst}");
+}
