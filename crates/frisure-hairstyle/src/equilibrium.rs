@@ -12,8 +12,8 @@ use crate::spec::{Body, HairstyleSpec};
 /// Most elements of a guide that lies on the body, whatever accuracy is asked for.
 const MOST_ELEMENTS: usize = 512;
 
-/// Stiffness of the body while gravity is turned on, as a fraction of its own.
-const SOFTNESS: f64 = 0.04;
+/// Stiffnesses of the body, as fractions of its own: the first while gravity is turned on.
+const HARDNESS: [f64; 3] = [0.0016, 0.04, 1.0];
 
 /// Relative gradient at which a guide is at rest.
 const TOLERANCE: f64 = 1e-8;
@@ -65,15 +65,22 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
         }
     };
     let options = Options { resolution: Resolution::Elements(elements), ..options };
-    let contact = |stiffness| BodyContact::new(head, spec.contact.body, stiffness, guide.clearance);
-    // On a soft body the branch of gravity is followed in a fifth of the iterations; the hard one
-    // is near.
-    let (soft, hard) =
-        (contact(spec.contact.stiffness * SOFTNESS), contact(spec.contact.stiffness));
-    let resting = equilibrium(&guide.rod, &[&soft], &options);
-    let mut rest = equilibrium_from(&guide.rod, &[&hard], &options, &resting);
-    rest.certificate.iterations += resting.certificate.iterations;
-    rest
+    // On a soft body the branch of gravity is followed in a fifth of the iterations; from one
+    // hardness to the next the answer is near.
+    let mut rest: Option<Equilibrium> = None;
+    for hardness in HARDNESS {
+        let stiffness = spec.contact.stiffness * hardness;
+        let contact = BodyContact::new(head, spec.contact.body, stiffness, guide.clearance);
+        rest = Some(match rest {
+            None => equilibrium(&guide.rod, &[&contact], &options),
+            Some(softer) => {
+                let mut next = equilibrium_from(&guide.rod, &[&contact], &options, &softer);
+                next.certificate.iterations += softer.certificate.iterations;
+                next
+            }
+        });
+    }
+    rest.expect("there is a hardness")
 }
 
 /// How a set of guides came to rest.

@@ -78,7 +78,7 @@ fn jittered(spec: &HairstyleSpec, head: &Head, root: &Root, index: usize) -> DVe
     let outwards = turned.dot(root.normal);
     const LEAST: f64 = 0.05;
     let raised = turned + root.normal * (LEAST - outwards).max(0.0);
-    raised.normalize_or(root.normal)
+    implantation::clear_of_skin(head, root, raised.normalize_or(root.normal))
 }
 
 /// The director d1 at which the natural curl leans towards `lean`, give or take a roll.

@@ -13,6 +13,37 @@ pub(crate) fn direction(head: &Head, implantation: &Implantation, root: &Root) -
     (along * lift.cos() + root.normal * lift.sin()).normalize()
 }
 
+/// How far (m) a hair must be able to go straight before it meets skin again …
+const CLEAR_PATH: f64 = 0.016;
+
+/// … and how steeply (distance gained per length) it must leave meanwhile.
+const CLEAR_SLOPE: f64 = 0.15;
+
+/// Turns a direction (unit) away from skin that a hair would run into at once: hair rooted in front
+/// of an ear does not grow into it.
+pub(crate) fn clear_of_skin(head: &Head, root: &Root, direction: DVec3) -> DVec3 {
+    const STEPS: i32 = 8;
+    let mut direction = direction;
+    for _ in 0..4 {
+        let mut blocked = false;
+        for step in 1..=STEPS {
+            let s = CLEAR_PATH * f64::from(step) / f64::from(STEPS);
+            let ahead = root.position + direction * s;
+            let (distance, away) = head.signed_distance().value_gradient(ahead);
+            let missing = CLEAR_SLOPE * s - distance;
+            if missing > 0.0 {
+                blocked = true;
+                let turned = direction + away.normalize_or(root.normal) * (missing / s);
+                direction = turned.normalize_or(root.normal);
+            }
+        }
+        if !blocked {
+            break;
+        }
+    }
+    direction
+}
+
 /// The direction along the skin (unit, at right angles to the normal).
 fn along_skin(marks: &Landmarks, flow: Flow, root: &Root) -> DVec3 {
     let wanted = match flow {

@@ -199,7 +199,7 @@ impl Preset {
                 blending: n.blending,
                 points: n.points,
             },
-            contact: Contact { body: Body::SignedDistance, stiffness: 40.0, volume: n.volume },
+            contact: Contact { body: Body::SignedDistance, stiffness: 1000.0, volume: n.volume },
             equilibrium: Settling {
                 resolution: Resolution::Accuracy(1e-4),
                 element: ElementKind::default(),
