@@ -199,6 +199,9 @@ const GRAVITY_FACTOR: f64 = 2.5;
 /// A jump that a step as small as this still makes is the rod's own.
 const SMALLEST_FACTOR: f64 = 1.02;
 
+/// Most steps taken again; a rod that jumps more often is far outside of hair.
+const LARGEST_HALVINGS: usize = 60;
+
 /// A step along the branch that turns a tangent further than this (cosine) is taken again, smaller.
 const LARGEST_TURN_COSINE: f64 = 0.3;
 
@@ -275,6 +278,15 @@ impl Search<'_> {
             };
             at(i).lerp(at(i + 1.0), x - i)
         });
+        // Moments amplify small turns of the frame where one stiffness is many times the other;
+        // frames are rougher, but never far off.
+        let energy = Problem::new(&to, self.external).energy(&start).total();
+        let start = if energy <= level.energy.total() + 1e-3 * level.energy.elastic {
+            start
+        } else {
+            let frame = |&s: &f64| from.point(&level.minimum.shape, s).1;
+            to.shape_through(&to.arc().iter().map(frame).collect::<Vec<_>>())
+        };
         let mut next = self.settle(&to, start);
         next.minimum.iterations += level.minimum.iterations;
         next
@@ -297,6 +309,7 @@ impl Search<'_> {
         let mut load = 0.0;
         // The least load known to be a jump away.
         let mut jump = f64::INFINITY;
+        let mut halvings = 0;
         loop {
             let step = match load {
                 l if l <= 0.0 => GRAVITY_FACTOR / self.rod.heaviness().max(1e-300),
@@ -307,8 +320,9 @@ impl Search<'_> {
             let next = step.min(1.0);
             let mut minimum = settle(next, shape.clone());
             iterations += minimum.iterations;
-            if load > 0.0 && next < jump && self.jumped(&shape, &minimum.shape) {
-                jump = next;
+            let halve = load > 0.0 && next < jump && halvings < LARGEST_HALVINGS;
+            if halve && self.jumped(&shape, &minimum.shape) {
+                (jump, halvings) = (next, halvings + 1);
                 continue;
             }
             if next >= 1.0 {

@@ -144,7 +144,6 @@ impl Riccati {
                         1 => *damping,
                         _ => (2.0 * *damping).max(0.01),
                     };
-                    if std::env::var("DBG").is_ok() {eprintln!("n {} trial {trial} damping {damping:.1e} expected {expected:.2e} got {:.2e} E {energy:.5e} g {:.1e}", shape.controls.len(), energy-lowered, stages.gradient_norm());}
                     let drowned = expected < noise;
                     return Some(Step { shape: next, energy: lowered, drowned });
                 }
