@@ -15,6 +15,9 @@ const MOST_ELEMENTS: usize = 512;
 /// Stiffnesses of the body, as fractions of its own: the first while gravity is turned on.
 const HARDNESS: [f64; 3] = [0.0016, 0.04, 1.0];
 
+/// Depth (m) in the body beyond which another way out is sought.
+const DEEPEST: f64 = 3e-4;
+
 /// Relative gradient at which a guide is at rest.
 const TOLERANCE: f64 = 1e-8;
 
@@ -66,21 +69,39 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     };
     let options = Options { resolution: Resolution::Elements(elements), ..options };
     // On a soft body the branch of gravity is followed in a fifth of the iterations; from one
-    // hardness to the next the answer is near.
-    let mut rest: Option<Equilibrium> = None;
-    for hardness in HARDNESS {
-        let stiffness = spec.contact.stiffness * hardness;
-        let contact = BodyContact::new(head, spec.contact.body, stiffness, guide.clearance);
-        rest = Some(match rest {
-            None => equilibrium(&guide.rod, &[&contact], &options),
-            Some(softer) => {
-                let mut next = equilibrium_from(&guide.rod, &[&contact], &options, &softer);
-                next.certificate.iterations += softer.certificate.iterations;
-                next
-            }
-        });
+    // hardness to the next the answer is near. But hair can sink into a soft ear and stay there.
+    let rest = harden(spec, head, guide, &options, &HARDNESS);
+    if depth(head, &rest) <= DEEPEST {
+        return rest;
     }
-    rest.expect("there is a hardness")
+    let hard = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
+    if depth(head, &hard) < depth(head, &rest) { hard } else { rest }
+}
+
+/// Settles a guide on ever harder bodies, each from the shape on the one before.
+fn harden(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guide: &Guide,
+    options: &Options,
+    hardness: &[f64],
+) -> Equilibrium {
+    let contact = |hardness: f64| {
+        let stiffness = spec.contact.stiffness * hardness;
+        BodyContact::new(head, spec.contact.body, stiffness, guide.clearance)
+    };
+    let first = equilibrium(&guide.rod, &[&contact(hardness[0])], options);
+    hardness[1..].iter().fold(first, |softer, &hardness| {
+        let mut next = equilibrium_from(&guide.rod, &[&contact(hardness)], options, &softer);
+        next.certificate.iterations += softer.certificate.iterations;
+        next
+    })
+}
+
+/// Deepest that a node of a guide, other than its root, is inside the body (m); 0 if none is.
+fn depth(head: &Head, guide: &Equilibrium) -> f64 {
+    let inside = |p: &glam::DVec3| -head.signed_distance().value(*p);
+    guide.shape.positions.iter().skip(1).map(inside).fold(0.0, f64::max)
 }
 
 /// How a set of guides came to rest.
@@ -123,14 +144,8 @@ impl SettlingReport {
             report.energy.gravity += guide.energy.gravity;
             report.energy.external += guide.energy.external;
         }
-        report.penetration = guides
-            .par_iter()
-            .map(|guide| {
-                // The root is in the skin: what is within a few hairs' breadth of it is no error.
-                let inside = |p: &glam::DVec3| -head.signed_distance().value(*p);
-                guide.shape.positions.iter().skip(1).map(inside).fold(0.0, f64::max)
-            })
-            .reduce(|| 0.0, f64::max);
+        report.penetration =
+            guides.par_iter().map(|guide| depth(head, guide)).reduce(|| 0.0, f64::max);
         report
     }
 }

@@ -29,3 +29,4 @@ pub use roots::Root;
 pub use spec::{
     Body, Contact, Flow, HairstyleSpec, Implantation, InvalidSpec, Length, Lift, Settling, Wisps,
 };
+pub use strands::penetration;

@@ -86,6 +86,19 @@ pub(crate) fn draw(
     Ok(assemble(spec, &hairs))
 }
 
+/// Deepest that a point of the strands, other than a root, is inside the body of a head (m); 0 if
+/// none is.
+#[must_use]
+pub fn penetration(strands: &Strands, head: &Head) -> f64 {
+    (0..strands.len())
+        .into_par_iter()
+        .map(|i| {
+            let depth = |p: &Vec3| -head.signed_distance().value(p.as_dvec3());
+            strands.strand(i).points.iter().skip(1).map(depth).fold(0.0, f64::max)
+        })
+        .reduce(|| 0.0, f64::max)
+}
+
 struct Hair {
     guide: u32,
     points: Vec<Vec3>,

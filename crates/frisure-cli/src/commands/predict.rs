@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use frisure::hairstyle::head::{Head, ScalpSource};
-use frisure::hairstyle::{HairstyleSpec, Monitor, PredictError, SettlingReport, predict};
+use frisure::hairstyle::{
+    HairstyleSpec, Monitor, PredictError, SettlingReport, penetration, predict,
+};
 use frisure::io::groom::{Format, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
@@ -44,13 +46,14 @@ pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
 struct Wanted {
     strands: bool,
     picture: bool,
+    report: bool,
 }
 
 impl Wanted {
     fn of(arguments: &Predict) -> Self {
-        let picture = arguments.image.is_some();
-        let strands = picture || !arguments.outputs.is_empty() || arguments.report.is_some();
-        Self { strands, picture }
+        let (picture, report) = (arguments.image.is_some(), arguments.report.is_some());
+        let strands = picture || report || !arguments.outputs.is_empty();
+        Self { strands, picture, report }
     }
 }
 
@@ -73,6 +76,8 @@ struct Numbers {
     energy: Energies,
     hairs: usize,
     points: usize,
+    /// Deepest that a drawn hair is inside the head (m); measured for the report alone.
+    hair_penetration: Option<f64>,
     /// Smallest and largest corner of the box around the hair (m).
     bounds: Option<[[f32; 3]; 2]>,
 }
@@ -159,7 +164,8 @@ fn compute(
         Strands::new()
     };
     let picture = wanted.picture.then(|| draw(scene, &strands, &head, progress)).transpose()?;
-    let numbers = numbers(scene, spec.seed, &hairstyle.report(&head), &strands);
+    let mut numbers = numbers(scene, spec.seed, &hairstyle.report(&head), &strands);
+    numbers.hair_penetration = wanted.report.then(|| penetration(&strands, &head));
     Ok(Computed { numbers, strands, picture })
 }
 
@@ -225,6 +231,7 @@ fn numbers(scene: &Scene, seed: u64, settling: &SettlingReport, strands: &Strand
         },
         hairs: strands.len(),
         points: strands.points().len(),
+        hair_penetration: None,
         bounds: strands.bounds().map(|(low, high)| [low.to_array(), high.to_array()]),
     }
 }

@@ -1,0 +1,147 @@
+//! The main job on small heads: what must hold for every head of hair.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use frisure_hairstyle::head::Head;
+use frisure_hairstyle::{Body, HairstyleSpec, Monitor, PRESETS, PredictError, predict, preset};
+use frisure_strands::{AttributeValues, Strands};
+
+fn head() -> &'static Head {
+    static HEAD: OnceLock<Head> = OnceLock::new();
+    HEAD.get_or_init(Head::mannequin)
+}
+
+/// A hairstyle small enough for a test.
+fn small(name: &str) -> HairstyleSpec {
+    let mut spec = preset(name).unwrap().spec();
+    spec.wisps.count = 40;
+    spec.wisps.hairs = 1500;
+    spec
+}
+
+fn strands(spec: &HairstyleSpec) -> Strands {
+    predict(spec, head(), &()).unwrap().strands(head(), &()).unwrap()
+}
+
+#[test]
+fn every_preset_comes_to_rest_and_is_drawn() {
+    for p in PRESETS {
+        let spec = small(p.name);
+        let style = predict(&spec, head(), &()).unwrap();
+        let report = style.report(head());
+        assert_eq!(report.stable, 40, "{}: {report:?}", p.name);
+        assert!(report.penetration < 5e-4, "{}: {report:?}", p.name);
+        let strands = style.strands(head(), &()).unwrap();
+        assert_eq!(strands.len(), 1500);
+        assert!(strands.points().iter().all(|p| p.is_finite()));
+    }
+}
+
+#[test]
+fn hairs_start_in_the_skin_and_stay_out_of_the_body() {
+    for name in ["caucasian-straight", "frizzy"] {
+        let strands = strands(&small(name));
+        let distance = |p: glam::Vec3| head().signed_distance().value(p.as_dvec3());
+        for hair in strands.iter() {
+            let root = distance(hair.points[0]);
+            assert!((-1.5e-3..=2e-4).contains(&root), "{name}: root at {root}");
+            for &p in &hair.points[1..] {
+                assert!(distance(p) > -3e-4, "{name}: {p} is {} deep", -distance(p));
+            }
+        }
+    }
+}
+
+#[test]
+fn hairs_are_as_long_as_asked() {
+    let spec = small("caucasian-straight");
+    let strands = strands(&spec);
+    let length = |points: &[glam::Vec3]| -> f64 {
+        points.windows(2).map(|p| f64::from(p[0].distance(p[1]))).sum()
+    };
+    let mean = strands.iter().map(|s| length(s.points)).sum::<f64>() / strands.len() as f64;
+    assert!((mean / spec.length.mean - 0.95).abs() < 0.08, "{mean}");
+}
+
+#[test]
+fn the_scalp_is_covered() {
+    let mut spec = small("caucasian-straight");
+    spec.wisps.hairs = 20_000;
+    let strands = strands(&spec);
+    let roots: Vec<_> = strands.iter().map(|s| s.points[0].as_dvec3()).collect();
+    let scalp = head().scalp();
+    let full = head().surface().positions().iter().zip(scalp).filter(|v| *v.1 > 0.95);
+    for (vertex, _) in full.step_by(97) {
+        let nearest = roots.iter().map(|r| r.distance(*vertex)).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 6e-3, "no hair within {nearest} m of {vertex}");
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
+    let spec = small("caucasian-curly");
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| strands(&spec))
+    };
+    let (one, three) = (on(1), on(3));
+    assert!(one == three);
+    let other = HairstyleSpec { seed: spec.seed + 1, ..spec };
+    assert!(strands(&other) != one);
+}
+
+#[test]
+fn all_three_bodies_work() {
+    for body in [Body::None, Body::Spheres, Body::SignedDistance] {
+        let mut spec = small("caucasian-wavy");
+        spec.contact.body = body;
+        let report = predict(&spec, head(), &()).unwrap().report(head());
+        assert_eq!(report.stable, 40, "{body:?}: {report:?}");
+        match body {
+            Body::None => assert!(report.penetration > 0.01, "{report:?}"),
+            // The spheres follow the scalp to 3 mm, ears and shoulders to a few centimetres.
+            Body::Spheres => assert!(report.penetration < 0.03, "{report:?}"),
+            Body::SignedDistance => assert!(report.penetration < 5e-4, "{report:?}"),
+        }
+    }
+}
+
+#[test]
+fn each_hair_names_its_guide() {
+    let strands = strands(&small("caucasian-straight"));
+    let AttributeValues::U32(guides) = &strands.attribute("guide").unwrap().values else {
+        panic!("guide is an index");
+    };
+    assert!(guides.iter().all(|&g| g < 40));
+}
+
+struct StopAfter(AtomicUsize);
+
+impl Monitor for StopAfter {
+    fn progress(&self, _stage: &'static str, _fraction: f64) {}
+
+    fn cancelled(&self) -> bool {
+        self.0.fetch_sub(1, Ordering::Relaxed) == 1
+    }
+}
+
+#[test]
+fn the_work_can_be_given_up() {
+    let spec = small("caucasian-straight");
+    let monitor = StopAfter(AtomicUsize::new(5));
+    assert!(matches!(predict(&spec, head(), &monitor), Err(PredictError::Cancelled(_))));
+    let style = predict(&spec, head(), &()).unwrap();
+    assert!(style.strands(head(), &StopAfter(AtomicUsize::new(50))).is_err());
+}
+
+#[test]
+fn numbers_out_of_range_are_refused_by_name() {
+    let mut spec = small("caucasian-straight");
+    spec.wisps.count = 0;
+    let Err(PredictError::Spec(error)) = predict(&spec, head(), &()) else { panic!("zero wisps") };
+    assert_eq!(error.field, "wisps.count");
+    let mut spec = small("caucasian-straight");
+    spec.length.mean = f64::NAN;
+    assert!(predict(&spec, head(), &()).is_err());
+}
