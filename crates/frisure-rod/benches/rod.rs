@@ -57,8 +57,7 @@ fn one_hair(bencher: Bencher<'_, '_>, elements: usize) {
 
 #[divan::bench(args = [15, 60])]
 fn one_hair_of_helices(bencher: Bencher<'_, '_>, elements: usize) {
-    let options =
-        Options { element: ElementKind::Helix, ..plain(Resolution::Elements(elements)) };
+    let options = Options { element: ElementKind::Helix, ..plain(Resolution::Elements(elements)) };
     let rod = one();
     bencher
         .counter(ItemsCount::new(1_usize))

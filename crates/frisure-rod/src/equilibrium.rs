@@ -297,7 +297,7 @@ impl Search<'_> {
     fn follow_gravity(&self, chain: &Chain<'_>) -> Level {
         let settle = |load: f64, start: Shape| {
             let problem = Problem::with_load(chain, self.external, load);
-            let tolerance = self.options.tolerance.max(if load < 1.0 { 1e-5 } else { 0.0 });
+            let tolerance = self.options.tolerance.max(if load < 1.0 { 1e-3 } else { 0.0 });
             Riccati::default().minimise(&problem, start, self.stopping(tolerance))
         };
         let mut iterations = 0;
@@ -306,14 +306,20 @@ impl Search<'_> {
             let first = settle(0.0, shape);
             (shape, iterations) = (first.shape, first.iterations);
         }
+        // Steps of equal ratio, the last of which is the whole weight.
+        let first = (GRAVITY_FACTOR / self.rod.heaviness().max(1e-300)).min(1.0);
+        let steps = (-first.ln() / GRAVITY_FACTOR.ln()).round().max(1.0);
+        let factor = first.powf(-1.0 / steps);
         let mut load = 0.0;
         // The least load known to be a jump away.
         let mut jump = f64::INFINITY;
         let mut halvings = 0;
         loop {
             let step = match load {
-                l if l <= 0.0 => GRAVITY_FACTOR / self.rod.heaviness().max(1e-300),
-                l if l * GRAVITY_FACTOR < jump => l * GRAVITY_FACTOR,
+                l if l <= 0.0 => first,
+                // But for rounding.
+                l if l * factor * factor.sqrt() >= 1.0 && jump > 1.0 => 1.0,
+                l if l * factor < jump => l * factor,
                 l if jump / l > SMALLEST_FACTOR => (l * jump).sqrt(),
                 _ => jump,
             };
@@ -408,7 +414,10 @@ impl Search<'_> {
         let Minimum { shape, gradient_norm, iterations, stability } = level.minimum;
         let min_eigenvalue = self.options.eigenvalue.then(|| {
             let chain = self.chain(level.elements);
-            second_variation(&Problem::new(&chain, self.external), &shape)
+            let least = second_variation(&Problem::new(&chain, self.external), &shape);
+            // A direction that costs nothing, as round the vertical for a round straight hair, is
+            // zero only to rounding.
+            if stability == Stability::Stable { least.max(0.0) } else { least }
         });
         Equilibrium {
             rod: self.rod.clone(),

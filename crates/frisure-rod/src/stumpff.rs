@@ -13,8 +13,7 @@ const SERIES_LIMIT: f64 = 9.0;
 pub(crate) fn stumpff(y: f64) -> [f64; ORDERS] {
     let mut c = [0.0; ORDERS];
     if y < SERIES_LIMIT {
-        c[8] = series(y, 8);
-        c[7] = series(y, 7);
+        (c[7], c[8]) = series(y);
         for k in (0..7).rev() {
             c[k] = INVERSE_FACTORIALS[k] - y * c[k + 2];
         }
@@ -29,20 +28,28 @@ pub(crate) fn stumpff(y: f64) -> [f64; ORDERS] {
     c
 }
 
-/// The power series of `c_k`, to the last bit for `y` below [`SERIES_LIMIT`].
-fn series(y: f64, k: usize) -> f64 {
-    let terms = if y < 0.05 {
-        5
+/// The power series of `c_7` and `c_8`, to the last bit for `y` below [`SERIES_LIMIT`].
+#[inline]
+fn series(y: f64) -> (f64, f64) {
+    if y < 0.05 {
+        horner::<5>(y)
     } else if y < 1.0 {
-        8
+        horner::<8>(y)
     } else {
-        14
-    };
-    let mut sum = INVERSE_FACTORIALS[2 * terms + k];
-    for j in (0..terms).rev() {
-        sum = INVERSE_FACTORIALS[2 * j + k] - y * sum;
+        horner::<14>(y)
     }
-    sum
+}
+
+/// Both series at once, so that neither waits for the other.
+#[inline]
+fn horner<const TERMS: usize>(y: f64) -> (f64, f64) {
+    let (mut odd, mut even) =
+        (INVERSE_FACTORIALS[2 * TERMS + 7], INVERSE_FACTORIALS[2 * TERMS + 8]);
+    for j in (0..TERMS).rev() {
+        odd = INVERSE_FACTORIALS[2 * j + 7] - y * odd;
+        even = INVERSE_FACTORIALS[2 * j + 8] - y * even;
+    }
+    (odd, even)
 }
 
 const INVERSE_FACTORIALS: [f64; 38] = {

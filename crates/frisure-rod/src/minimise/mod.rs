@@ -47,11 +47,21 @@ impl<'a> Problem<'a> {
     /// Energies of a shape.
     #[must_use]
     pub fn energy(&self, shape: &Shape) -> Energy {
-        Energy {
-            elastic: self.chain.energy(shape, &Elastic),
-            gravity: self.chain.energy(shape, &self.gravity),
-            external: self.external.iter().map(|&p| self.chain.energy(shape, p)).sum(),
+        let mut sum = Energy::default();
+        for i in 0..self.chain.len() {
+            let element = self.chain.element_state(shape, i);
+            sum.elastic += Elastic.element_energy(&element);
+            sum.gravity += self.gravity.element_energy(&element);
+            if !self.external.is_empty() {
+                // The root node is clamped: its energy is a constant, and is left out.
+                let (position, frame) = (shape.positions[i + 1], shape.frames[i + 1]);
+                let node = self.chain.node_at(i + 1, position, frame);
+                for p in self.external {
+                    sum.external += p.element_energy(&element) + p.node_energy(&node);
+                }
+            }
         }
+        sum
     }
 
     /// Largest derivative of the energy by any element's control, relative to
