@@ -15,9 +15,9 @@ use super::{frame, split};
 const MIN_CELL: f32 = 2.2e-3;
 /// Most cells along a side.
 const MAX_CELLS: f32 = 168.0;
-/// How far towards the lamp a point looks up its shadow, in cells: the filter spreads a hair over two
+/// How far towards the lamp a point looks up its shadow, in cells: the filters spread a hair over four
 /// cells, and it must not shade itself.
-const LIFT: f32 = 0.8;
+const LIFT: f32 = 1.3;
 
 /// Mean number of hairs between each point and a lamp.
 pub(super) struct DensityMap {
@@ -45,12 +45,13 @@ impl DensityMap {
             return None;
         }
         let cell = ((high - low).max_element() / MAX_CELLS).max(MIN_CELL);
-        // One empty cell all around: what is outside reads zero, or the whole column behind it.
-        let low = low - Vec3::splat(1.5 * cell);
-        let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(2);
+        // Two empty cells all around: what is outside reads zero, or the whole column behind it.
+        let low = low - Vec3::splat(2.5 * cell);
+        let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(4);
         let n = size.x as usize * size.y as usize * size.z as usize;
         let mut map = Self { axes, low, cell, size, met: vec![0.0; n] };
         map.spread(curves, to_light);
+        map.smooth();
         map.sum_columns();
         Some(map)
     }
@@ -99,6 +100,28 @@ impl DensityMap {
                 let part = value * wu * wv;
                 self.met[i] += part * (1.0 - f.z);
                 self.met[i + 1] += part * f.z;
+            }
+        }
+    }
+
+    /// Filters with (1, 2, 1)/4 along each axis: a thin sheet of hair at a grazing angle would
+    /// otherwise show the cells as bands.
+    fn smooth(&mut self) {
+        let [nu, nv, nw] = self.size.to_array().map(|n| n as usize);
+        for (stride, along) in [(1, nw), (nw, nv), (nw * nv, nu)] {
+            let block = stride * along;
+            for part in self.met.chunks_exact_mut(block) {
+                for first in 0..stride {
+                    let mut before = 0.0;
+                    let mut i = first;
+                    for k in 0..along {
+                        let here = part[i];
+                        let after = if k + 1 < along { part[i + stride] } else { 0.0 };
+                        part[i] = 0.25 * before + 0.5 * here + 0.25 * after;
+                        before = here;
+                        i += stride;
+                    }
+                }
             }
         }
     }
