@@ -42,7 +42,7 @@
 //!
 //! - [`Section`] and [`Material`] give stiffness and weight; [`NaturalStrain`] the shape at rest;
 //!   [`Root`] the clamp. [`Rod`] is all of them, checked: after it, computing cannot fail.
-//! - [`equilibrium`] divides the rod into elements ([`Chain`], [`ElementKind`]), follows the branch
+//! - [`equilibrium()`] divides the rod into elements ([`Chain`], [`ElementKind`]), follows the branch
 //!   of equilibria while gravity is turned on ([`Branch`]), and refines until the [`Resolution`] is
 //!   met. [`equilibrium_from`] starts from the shape of another rod instead: hair that was cut, or
 //!   grew, or got wet.

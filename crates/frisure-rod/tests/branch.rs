@@ -10,6 +10,7 @@ use frisure_rod::{
 };
 use glam::{DVec3, Vec3Swizzles};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 /// Largest distance between two centre lines (m).
 fn gap(a: &Equilibrium, b: &Equilibrium) -> f64 {
@@ -201,11 +202,17 @@ prop_compose! {
     }
 }
 
-/// Few cases by default; `PROPTEST_CASES` asks for more.
+/// The same few cases each time; `PROPTEST_CASES` asks for that many new ones.
 fn config(cases: u32) -> ProptestConfig {
-    let default = ProptestConfig::default();
-    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { default.cases } else { cases };
-    ProptestConfig { cases, failure_persistence: None, max_shrink_time: 20_000, ..default }
+    let more = ProptestConfig {
+        failure_persistence: None,
+        max_shrink_time: 20_000,
+        ..ProptestConfig::default()
+    };
+    if std::env::var_os("PROPTEST_CASES").is_some() {
+        return more;
+    }
+    ProptestConfig { cases, rng_seed: RngSeed::Fixed(7), ..more }
 }
 
 fn check(rod: &Rod, external: &[&dyn Potential], options: &Options) -> Result<(), TestCaseError> {

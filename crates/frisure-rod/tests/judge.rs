@@ -36,7 +36,6 @@ fn compare(seed: u64, rods: usize, spring: Option<Spring>) {
         let judge = from_natural(&Lbfgs::default(), &problem);
         if judge.stability == Stability::NotConverged {
             unfinished += 1;
-            println!("unfinished {i} {} {}", judge.gradient_norm, judge.iterations);
             continue;
         }
         let verdict = problem.energy(&judge.shape).total();
@@ -48,7 +47,6 @@ fn compare(seed: u64, rods: usize, spring: Option<Spring>) {
             others += 1;
         }
     }
-    println!("{same} same, {others} other, {unfinished} unfinished");
     assert!(unfinished * 50 <= rods, "{unfinished} unfinished");
     assert!(others * 10 <= rods, "{others} in another minimum");
     assert_eq!(same + others + unfinished, rods);

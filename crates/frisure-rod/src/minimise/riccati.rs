@@ -506,9 +506,9 @@ fn smallest_eigenvalue<const POSITION: bool>(stages: &Stages<'_, POSITION>) -> f
     for _ in 0..44 {
         let middle = 0.5 * (low + high);
         if stable_at(middle) {
-            high = middle
+            high = middle;
         } else {
-            low = middle
+            low = middle;
         }
         if high - low < 1e-10 * low.abs().max(high.abs()) {
             break;
