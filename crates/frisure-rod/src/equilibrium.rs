@@ -242,29 +242,36 @@ impl Search<'_> {
     fn level(&self, n: usize, coarse: usize, previous: Option<&Equilibrium>) -> Level {
         let first = if previous.is_some() { n } else { n.min(coarse) };
         let chain = self.chain(first);
+        let tolerance = self.tolerance(first, n);
         let mut level = match previous {
-            Some(previous) => self.settle(&chain, warm_start(&chain, previous)),
-            None => self.follow_gravity(&chain),
+            Some(previous) => self.settle(&chain, warm_start(&chain, previous), tolerance),
+            None => self.follow_gravity(&chain, tolerance),
         };
         if let Branch::Lowest { starts, seed } = self.options.branch {
             level = self.lowest(&chain, level, starts, seed);
         }
         while level.elements < n {
-            level = self.finer(&level, (2 * level.elements).min(n));
+            let next = (2 * level.elements).min(n);
+            level = self.finer(&level, next, self.tolerance(next, n));
         }
         level
     }
 
-    fn settle(&self, chain: &Chain<'_>, start: Shape) -> Level {
+    /// Relative gradient at a division on the way to `last` elements: a start needs no more.
+    fn tolerance(&self, elements: usize, last: usize) -> f64 {
+        let tolerance = self.options.tolerance;
+        if elements < last { tolerance.max(1e-4) } else { tolerance }
+    }
+
+    fn settle(&self, chain: &Chain<'_>, start: Shape, tolerance: f64) -> Level {
         let problem = Problem::new(chain, self.external);
-        let minimum =
-            Riccati::default().minimise(&problem, start, self.stopping(self.options.tolerance));
+        let minimum = Riccati::default().minimise(&problem, start, self.stopping(tolerance));
         let energy = problem.energy(&minimum.shape);
         Level { elements: chain.len(), minimum, energy }
     }
 
     /// Carries a level to more elements by its internal moments, and settles it there.
-    fn finer(&self, level: &Level, elements: usize) -> Level {
+    fn finer(&self, level: &Level, elements: usize, tolerance: f64) -> Level {
         let (from, to) = (self.chain(level.elements), self.chain(elements));
         let moments = from.moments(&level.minimum.shape);
         let h = self.rod.length() / level.elements as f64;
@@ -281,23 +288,23 @@ impl Search<'_> {
         // Moments amplify small turns of the frame where one stiffness is many times the other;
         // frames are rougher, but never far off.
         let energy = Problem::new(&to, self.external).energy(&start).total();
-        let start = if energy <= level.energy.total() + 1e-3 * level.energy.elastic {
+        let start = if energy <= level.energy.total() + 0.1 * level.energy.elastic {
             start
         } else {
             let frame = |&s: &f64| from.point(&level.minimum.shape, s).1;
             to.shape_through(&to.arc().iter().map(frame).collect::<Vec<_>>())
         };
-        let mut next = self.settle(&to, start);
+        let mut next = self.settle(&to, start, tolerance);
         next.minimum.iterations += level.minimum.iterations;
         next
     }
 
     /// Turns gravity on slowly from the natural shape. A step that jumps is halved, so that the
     /// branch is left only where it ends.
-    fn follow_gravity(&self, chain: &Chain<'_>) -> Level {
+    fn follow_gravity(&self, chain: &Chain<'_>, last: f64) -> Level {
         let settle = |load: f64, start: Shape| {
             let problem = Problem::with_load(chain, self.external, load);
-            let tolerance = self.options.tolerance.max(if load < 1.0 { 1e-3 } else { 0.0 });
+            let tolerance = if load < 1.0 { last.max(1e-3) } else { last };
             Riccati::default().minimise(&problem, start, self.stopping(tolerance))
         };
         let mut iterations = 0;
@@ -359,7 +366,7 @@ impl Search<'_> {
             let natural = chain.natural_shape().controls;
             let amplitude = 4.0 / (chain.len() as f64).sqrt();
             let controls = natural.into_iter().map(|c| c + random.vector() * amplitude).collect();
-            let mut level = self.settle(chain, chain.shape(controls));
+            let mut level = self.settle(chain, chain.shape(controls), self.options.tolerance);
             level.minimum.iterations += best.minimum.iterations;
             if level.minimum.stability == Stability::Stable
                 && level.energy.total() < best.energy.total() - 1e-9 * best.energy.total().abs()
@@ -374,7 +381,7 @@ impl Search<'_> {
 
     fn with_elements(&self, level: Level) -> Equilibrium {
         let estimate = self.options.estimate_error.then(|| {
-            let finer = self.finer(&level, 2 * level.elements);
+            let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
             // Second order: the finer shape has a quarter of the error.
             let gap = every(&finer.minimum.shape.positions, 2);
             4.0 / 3.0 * largest_gap(&gap, &level.minimum.shape.positions)
@@ -388,7 +395,7 @@ impl Search<'_> {
         let mut level = first;
         let mut previous: Option<Vec<DVec3>> = None;
         loop {
-            let finer = self.finer(&level, 2 * level.elements);
+            let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
             let table = extrapolate(&level.minimum.shape, &finer.minimum.shape);
             let estimate = previous.as_ref().map(|p| {
                 // Fourth order leaves a fifteenth of the gap; a quarter is the cautious reading.

@@ -5,7 +5,7 @@ mod common;
 use std::path::Path;
 
 use common::{Case, accuracy, elements, reference_cases};
-use frisure_rod::{ElementKind, Equilibrium, Stability, equilibrium};
+use frisure_rod::{ElementKind, Equilibrium, Options, Stability, equilibrium};
 use glam::DVec3;
 
 /// Distance of the tip from the reference, over the length.
@@ -36,8 +36,7 @@ fn a_requested_accuracy_is_kept() {
 fn the_estimate_for_given_elements_is_near_the_error() {
     for case in reference_cases() {
         for n in [30, 60] {
-            let options =
-                frisure_rod::Options { estimate_error: true, ..elements(n, ElementKind::Auto) };
+            let options = Options { estimate_error: true, ..elements(n, ElementKind::Auto) };
             let found = equilibrium(&case.rod, &[], &options);
             let error = tip_error(&case, &found);
             let estimate = found.error_estimate.unwrap() / case.rod.length();
@@ -73,7 +72,8 @@ fn helix_elements_are_those_of_the_references() {
         let name = &case.name;
         let scale = case.elastic.abs() + case.gravity.abs();
         for &(n, tip, energy) in &case.helix_errors {
-            let found = equilibrium(&case.rod, &[], &elements(n, ElementKind::Helix));
+            let options = Options { tolerance: 1e-13, ..elements(n, ElementKind::Helix) };
+            let found = equilibrium(&case.rod, &[], &options);
             let error = tip_error(&case, &found);
             assert!((error - tip).abs() < 1e-5 * tip + 1e-10, "{name} N={n}: {error} {tip}");
             let above = found.energy.total() - case.elastic - case.gravity;

@@ -16,7 +16,8 @@ pub(crate) fn gradient(problem: &Problem<'_>, shape: &Shape) -> Vec<DVec3> {
     let (mut moment, mut force) = node_load(problem, shape, n);
     for i in (0..n).rev() {
         let element = chain.element_state(shape, i);
-        let own = problem.element_derivatives(&element);
+        let mut own = Derivatives::ZERO;
+        problem.add_element_derivatives(&element, &mut own);
         let motion = element.motion;
         let rotation = motion.rotation();
         gradient[i] = own.control + motion.turning().transpose() * moment;
@@ -47,17 +48,16 @@ fn node_load(problem: &Problem<'_>, shape: &Shape, i: usize) -> (DVec3, DVec3) {
 
 impl Problem<'_> {
     #[inline]
-    pub(crate) fn element_derivatives(
+    pub(crate) fn add_element_derivatives(
         &self,
         element: &crate::potential::ElementState<'_>,
-    ) -> Derivatives {
-        let mut sum = Derivatives::ZERO;
-        crate::potential::Elastic.add_element_derivatives(element, &mut sum);
-        self.gravity.add_element_derivatives(element, &mut sum);
+        sum: &mut Derivatives,
+    ) {
+        crate::potential::Elastic.add_element_derivatives(element, sum);
+        self.gravity.add_element_derivatives(element, sum);
         for p in self.external {
-            p.add_element_derivatives(element, &mut sum);
+            p.add_element_derivatives(element, sum);
         }
-        sum
     }
 
     #[inline]

@@ -206,26 +206,27 @@ struct FailedPivot {
 impl<'a, const POSITION: bool> Stages<'a, POSITION> {
     fn new(problem: &'a Problem<'a>, shape: &Shape) -> Self {
         let chain = problem.chain;
-        let stages: Vec<_> = (0..chain.len())
-            .map(|i| {
-                let element = chain.element_state(shape, i);
-                let motion = element.motion;
-                let (advance, advance_jacobian) = if POSITION {
-                    let reach = motion.reach(1.0, 0.0);
-                    (reach.value(), reach.jacobian())
-                } else {
-                    (DVec3::ZERO, DMat3::ZERO)
-                };
-                Stage {
-                    rotation: motion.rotation(),
-                    turning: motion.turning(),
-                    advance,
-                    advance_jacobian,
-                    own: problem.element_derivatives(&element),
-                    element,
-                }
-            })
-            .collect();
+        let mut stages = Vec::with_capacity(chain.len());
+        for i in 0..chain.len() {
+            let element = chain.element_state(shape, i);
+            let motion = element.motion;
+            let (advance, advance_jacobian) = if POSITION {
+                let reach = motion.reach(1.0, 0.0);
+                (reach.value(), reach.jacobian())
+            } else {
+                (DVec3::ZERO, DMat3::ZERO)
+            };
+            stages.push(Stage {
+                rotation: motion.rotation(),
+                turning: motion.turning(),
+                advance,
+                advance_jacobian,
+                own: Derivatives::ZERO,
+                element,
+            });
+            let stage = &mut stages[i];
+            problem.add_element_derivatives(&stage.element, &mut stage.own);
+        }
         let nodes = if problem.external.is_empty() {
             Vec::new()
         } else {
