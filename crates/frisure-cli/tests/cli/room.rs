@@ -37,7 +37,11 @@ impl Room {
         let mut command = Command::new(env!("CARGO_BIN_EXE_frisure"));
         command.current_dir(self.0.path()).args(arguments);
         // The same characters and no colours, whatever the tests run under.
-        command.env("NO_COLOR", "1").env("LC_ALL", "C.UTF-8").env("TERM", "xterm");
+        command
+            .env_remove("COLUMNS")
+            .env("NO_COLOR", "1")
+            .env("LC_ALL", "C.UTF-8")
+            .env("TERM", "xterm");
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     }
