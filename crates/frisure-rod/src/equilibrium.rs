@@ -402,10 +402,17 @@ impl Search<'_> {
                 0.25 * largest_gap(&every(&table, 2), p)
             });
             let met = estimate.is_some_and(|e| e <= accuracy);
-            if met || 2 * finer.elements > MAX_ELEMENTS {
+            if met {
                 let correction = corrections(&level.minimum.shape, &finer.minimum.shape);
                 let energy = extrapolate_energy(&level.energy, &finer.energy);
                 return self.equilibrium(finer, energy, Some(correction), estimate);
+            }
+            if 2 * finer.elements > MAX_ELEMENTS {
+                // What does not converge must not be extrapolated.
+                let fine = every(&finer.minimum.shape.positions, 2);
+                let gap = largest_gap(&fine, &level.minimum.shape.positions);
+                let energy = finer.energy;
+                return self.equilibrium(finer, energy, None, Some(gap));
             }
             (level, previous) = (finer, Some(table));
         }
