@@ -9,7 +9,7 @@ use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::{Body, HairstyleSpec};
 
-/// Most elements of a guide that lies on the body, whatever accuracy is asked for.
+/// Most elements of a guide, whatever accuracy is asked for.
 const MOST_ELEMENTS: usize = 512;
 
 /// Stiffnesses of the body, as fractions of its own: the first while gravity is turned on.
@@ -22,7 +22,7 @@ const DEEPEST: f64 = 3e-4;
 const TOLERANCE: f64 = 1e-8;
 
 /// Most iterations at each step: contact comes and goes, so it can take hundreds.
-const MAX_ITERATIONS: usize = 2000;
+const MAX_ITERATIONS: usize = 1000;
 
 /// Brings every guide to rest.
 ///
@@ -50,6 +50,7 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     let options = Options {
         resolution: spec.equilibrium.resolution,
         element: spec.equilibrium.element,
+        max_elements: MOST_ELEMENTS,
         tolerance: TOLERANCE,
         max_iterations: MAX_ITERATIONS,
         estimate_error: false,
@@ -63,9 +64,12 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     // accuracy takes without contact is taken over.
     let elements = match spec.equilibrium.resolution {
         Resolution::Elements(n) => n,
-        Resolution::Accuracy(_) => {
-            equilibrium(&guide.rod, &[], &options).elements.min(MOST_ELEMENTS)
+        Resolution::Accuracy(_)
+            if 4 * spec.equilibrium.element.resolving_elements(&guide.rod) > MOST_ELEMENTS =>
+        {
+            MOST_ELEMENTS
         }
+        Resolution::Accuracy(_) => equilibrium(&guide.rod, &[], &options).elements,
     };
     let options = Options { resolution: Resolution::Elements(elements), ..options };
     // On a soft body the branch of gravity is followed in a fifth of the iterations; from one

@@ -31,13 +31,15 @@ pub enum Branch {
 pub struct Options {
     /// Number of elements, or accuracy.
     pub resolution: Resolution,
+    /// Most elements to meet an accuracy with, at least 1 and at most [`MAX_ELEMENTS`].
+    pub max_elements: usize,
     /// Curve of the elements.
     pub element: ElementKind,
     /// Which equilibrium.
     pub branch: Branch,
     /// Relative gradient at which a shape is an equilibrium, see [`Problem::gradient_norm`].
     pub tolerance: f64,
-    /// Most iterations at each division of the rod and each step of gravity.
+    /// Most iterations at each division of the rod; a quarter of it at each step of gravity.
     pub max_iterations: usize,
     /// Whether to estimate the error for a given number of elements, by doubling them.
     pub estimate_error: bool,
@@ -50,6 +52,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             resolution: Resolution::Accuracy(1e-4),
+            max_elements: MAX_ELEMENTS,
             element: ElementKind::Auto,
             branch: Branch::Gravity,
             tolerance: 1e-10,
@@ -200,22 +203,25 @@ const GRAVITY_FACTOR: f64 = 2.5;
 const SMALLEST_FACTOR: f64 = 1.02;
 
 /// Most steps taken again; a rod that jumps more often is far outside of hair.
-const LARGEST_HALVINGS: usize = 60;
+const HALVINGS: usize = 60;
+
+/// The same with other potentials, where hair slips from one resting place to the next.
+const HALVINGS_IN_CONTACT: usize = 6;
 
 /// A step along the branch that turns a tangent further than this (cosine) is taken again, smaller.
 const LARGEST_TURN_COSINE: f64 = 0.3;
 
 impl Search<'_> {
     fn run(&self, previous: Option<&Equilibrium>) -> Equilibrium {
-        let coarse = self.coarse_elements();
+        let coarse = self.kind.resolving_elements(self.rod);
         match self.options.resolution {
             Resolution::Elements(n) => {
                 let level = self.level(n.clamp(1, MAX_ELEMENTS), coarse, previous);
                 self.with_elements(level)
             }
             Resolution::Accuracy(accuracy) => {
-                let level = self.level(coarse, coarse, previous);
-                self.refine(level, accuracy)
+                let first = coarse.min(self.most_elements());
+                self.refine(self.level(first, first, previous), accuracy)
             }
         }
     }
@@ -228,13 +234,8 @@ impl Search<'_> {
         Stopping { tolerance, max_iterations: self.options.max_iterations }
     }
 
-    /// Elements that resolve the turns of the curl and the bend under the weight.
-    fn coarse_elements(&self) -> usize {
-        let turns = self.rod.natural().max_magnitude(self.rod.length()) * self.rod.length()
-            / std::f64::consts::TAU;
-        let per_turn = if self.kind == ElementKind::Helix { 6.0 } else { 3.5 };
-        let bends = 0.6 * self.rod.heaviness().sqrt();
-        (per_turn * turns).max(bends).ceil().clamp(12.0, 1250.0) as usize
+    fn most_elements(&self) -> usize {
+        self.options.max_elements.clamp(1, MAX_ELEMENTS)
     }
 
     /// The equilibrium with `n` elements. The branch is followed with few, then refined; a shape
@@ -304,9 +305,17 @@ impl Search<'_> {
     fn follow_gravity(&self, chain: &Chain<'_>, last: f64) -> Level {
         let settle = |load: f64, start: Shape| {
             let problem = Problem::with_load(chain, self.external, load);
-            let tolerance = if load < 1.0 { last.max(1e-3) } else { last };
-            Riccati::default().minimise(&problem, start, self.stopping(tolerance))
+            // What is only on the way need not be exact.
+            let stopping = match load {
+                l if l < 1.0 => Stopping {
+                    tolerance: last.max(1e-3),
+                    max_iterations: self.options.max_iterations.div_ceil(4),
+                },
+                _ => self.stopping(last),
+            };
+            Riccati::default().minimise(&problem, start, stopping)
         };
+        let most_halvings = if self.external.is_empty() { HALVINGS } else { HALVINGS_IN_CONTACT };
         let mut iterations = 0;
         let mut shape = chain.natural_shape();
         if !self.external.is_empty() {
@@ -333,7 +342,7 @@ impl Search<'_> {
             let next = step.min(1.0);
             let mut minimum = settle(next, shape.clone());
             iterations += minimum.iterations;
-            let halve = load > 0.0 && next < jump && halvings < LARGEST_HALVINGS;
+            let halve = load > 0.0 && next < jump && halvings < most_halvings;
             if halve && self.jumped(&shape, &minimum.shape) {
                 (jump, halvings) = (next, halvings + 1);
                 continue;
@@ -392,6 +401,9 @@ impl Search<'_> {
 
     /// Doubles the elements until two extrapolations agree.
     fn refine(&self, first: Level, accuracy: f64) -> Equilibrium {
+        if 2 * first.elements > self.most_elements() {
+            return self.with_elements(first);
+        }
         let mut level = first;
         let mut previous: Option<Vec<DVec3>> = None;
         loop {
@@ -407,7 +419,7 @@ impl Search<'_> {
                 let energy = extrapolate_energy(&level.energy, &finer.energy);
                 return self.equilibrium(finer, energy, Some(correction), estimate);
             }
-            if 2 * finer.elements > MAX_ELEMENTS {
+            if 2 * finer.elements > self.most_elements() {
                 // What does not converge must not be extrapolated.
                 let fine = every(&finer.minimum.shape.positions, 2);
                 let gap = largest_gap(&fine, &level.minimum.shape.positions);

@@ -41,6 +41,17 @@ impl ElementKind {
             kind => kind,
         }
     }
+
+    /// Number of elements that resolve the turns of the curl and the bend under the weight: the
+    /// least with which shapes and errors behave. Between 12 and 1 250.
+    #[must_use]
+    pub fn resolving_elements(self, rod: &crate::Rod) -> usize {
+        let length = rod.length();
+        let turns = rod.natural().max_magnitude(length) * length / std::f64::consts::TAU;
+        let per_turn = if self.chosen_for(rod) == Self::Helix { 6.0 } else { 3.5 };
+        let bends = 0.6 * rod.heaviness().sqrt();
+        (per_turn * turns).max(bends).ceil().clamp(12.0, 1250.0) as usize
+    }
 }
 
 /// The largest number of elements in a rod.

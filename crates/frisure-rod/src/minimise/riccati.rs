@@ -129,12 +129,17 @@ impl Riccati {
                 *damping = self.first_damping.max(4.0 * *damping);
                 continue;
             };
+            // Near the minimum the decrease drowns in rounding; there the gradient decides.
+            let noise = 1e-14 * energy.abs();
+            if sweep.decrease < noise && *damping > 1.0 {
+                return None;
+            }
+            // Damping shortens a step better than halving does: it keeps the soft directions.
+            let trials = if *damping == 0.0 { 4 } else { 2 };
             let mut fraction = 1.0;
-            for trial in 0..5 {
+            for trial in 0..trials {
                 let (next, lowered) = rollout::<POSITION>(problem, shape, &sweep.laws, fraction);
                 let expected = sweep.decrease * fraction * (2.0 - fraction);
-                // Near the minimum the decrease drowns in rounding; there the gradient decides.
-                let noise = 1e-14 * energy.abs();
                 if lowered <= energy - 1e-4 * expected
                     || (expected < noise && lowered <= energy + noise)
                 {
