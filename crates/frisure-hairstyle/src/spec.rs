@@ -190,7 +190,7 @@ impl HairstyleSpec {
         let points = self.wisps.points as f64;
         range("wisps.points", points, 2.0, 1000.0, "between 2 and 1000")?;
         let stiffness = self.contact.stiffness;
-        range("contact.stiffness", stiffness, 1e-6, 1e9, "between 1e-6 and 1e9 Pa")?;
+        range("contact.stiffness", stiffness, 1e-6, 1e5, "between 1e-6 and 1e5 Pa")?;
         range("contact.volume", self.contact.volume, 0.0, 10.0, "between 0 and 10")?;
         range("gravity", self.gravity, 0.0, 1000.0, "between 0 and 1000 m/s²")?;
         self.equilibrium.resolution.check().map_err(|e| InvalidSpec {

@@ -3,9 +3,9 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frisure_hairstyle::head::Head;
+use frisure_hairstyle::head::{Head, HeadError, ScalpSource};
 use frisure_hairstyle::{Body, HairstyleSpec, Monitor, PRESETS, PredictError, predict, preset};
-use frisure_strands::{AttributeValues, Strands};
+use frisure_strands::{AttributeValues, Strands, Surface};
 
 fn head() -> &'static Head {
     static HEAD: OnceLock<Head> = OnceLock::new();
@@ -135,6 +135,15 @@ fn the_work_can_be_given_up() {
     assert!(matches!(predict(&spec, head(), &monitor), Err(PredictError::Cancelled(_))));
     let style = predict(&spec, head(), &()).unwrap();
     assert!(style.strands(head(), &StopAfter(AtomicUsize::new(50))).is_err());
+}
+
+#[test]
+fn a_head_far_from_the_origin_is_refused() {
+    let near = head().surface();
+    let far = near.positions().iter().map(|p| *p + glam::DVec3::X * 1e6).collect();
+    let surface = Surface::new(far, near.triangles().to_vec()).unwrap();
+    let refused = Head::from_surface(surface, ScalpSource::Guess);
+    assert!(matches!(refused, Err(HeadError::Distance { .. })));
 }
 
 #[test]

@@ -89,9 +89,9 @@ fn the_table_is_for_people_and_the_same_each_time() {
 
 #[test]
 fn what_is_no_equilibrium_says_so_in_its_exit_code() {
-    // Coils of 0.1 mm in a hair of 3 m that a single element cannot follow, in a hundred gravities.
-    let text = "gravity = 1000\nequilibrium.elements = 1\n[hair]\nlength = 3\n\
-                fibre.diameter = \"1 um\"\ncurl = { radius = \"0.1 mm\", pitch = \"0.2 mm\" }\n";
+    // Coils of 0.3 mm in a hair of 3 m that three elements cannot follow, in a hundred gravities.
+    let text = "gravity = 1000\nequilibrium.elements = 3\n[hair]\nlength = 3\n\
+                fibre.diameter = \"45 um\"\ncurl = { radius = \"0.3 mm\", pitch = \"0.2 mm\" }\n";
     let ran = Room::new().feed(&["hair", "-", "--json"], text.as_bytes());
     assert_eq!((ran.code, ran.err.as_str()), (Some(3), ""));
     let report: Value = serde_json::from_str(&ran.out).unwrap();

@@ -73,7 +73,16 @@ pub enum HeadError {
         /// Height of the mesh (m).
         size: f64,
     },
+    /// The mesh is too far from the origin for the precision of strands.
+    #[error("the mesh reaches {distance} m from the origin; it must stay within 100 m. Centre it")]
+    Distance {
+        /// Largest coordinate (m), without its sign.
+        distance: f64,
+    },
 }
+
+/// Farthest (m) from the origin that a head may be: there a strand's `f32` still tells 8 µm.
+const FARTHEST: f64 = 100.0;
 
 /// Lowest and greatest height of a mesh (m) that may be a human head or bust.
 const HEIGHTS: std::ops::RangeInclusive<f64> = 0.08..=2.5;
@@ -99,6 +108,10 @@ impl Head {
         let size = high.z - low.z;
         if !HEIGHTS.contains(&size) {
             return Err(HeadError::Size { size });
+        }
+        let distance = low.abs().max(high.abs()).max_element();
+        if distance > FARTHEST {
+            return Err(HeadError::Distance { distance });
         }
         let landmarks = Landmarks::guess(&surface);
         let scalp = match scalp {

@@ -252,8 +252,8 @@ pub(super) struct Wisps {
 pub(super) struct Contact {
     /// What the hair lies on. Default "signed-distance".
     pub(super) body: Key<OneOf<BodyWord>>,
-    /// Penalty stiffness per length of hair; 1e-6 to 1e9 Pa. Default 1000 Pa.
-    #[schemars(range(min = 1e-6, max = 1e9))]
+    /// Penalty stiffness per length of hair; 1e-6 to 1e5 Pa. Default 1000 Pa.
+    #[schemars(range(min = 1e-6, max = 1e5))]
     pub(super) stiffness: Key<Modulus>,
     /// Factor on the distance that wisps keep from the skin because hair lies under them; 0 to 10.
     #[schemars(range(min = 0.0, max = 10.0))]

@@ -30,8 +30,11 @@ const DEFAULT_TYPE: &str = "caucasian-straight";
 const MAX_POINTS: usize = 200_000_000;
 
 /// Largest weight against elasticity, ρ S g L³ / EI. A hair of a metre has some ten thousand; beyond
-/// this a unit was mistaken, and a solution would take hours.
-const MAX_HEAVINESS: f64 = 1e12;
+/// this a unit was mistaken, and a head would take hours.
+const MAX_HEAVINESS: f64 = 1e8;
+
+/// Largest ratio of a section's axes; measured hair reaches 3.
+const MAX_AXIS_RATIO: f64 = 20.0;
 
 type Result<T, E = SceneError> = std::result::Result<T, E>;
 
@@ -155,6 +158,16 @@ fn hair(file: &File, spec: &mut HairstyleSpec, source: &Source) -> Result<()> {
 }
 
 fn section(file: &file::Fibre, preset: Section, source: &Source) -> Result<Section> {
+    let section = any_section(file, preset, source)?;
+    let value = section.axis_ratio();
+    if value > MAX_AXIS_RATIO {
+        let (quantity, allowed) = ("axis ratio", "at most 20; that of hair is between 1 and 3");
+        return Err(blame(&InvalidQuantity { quantity, value, unit: "", allowed }, source));
+    }
+    Ok(section)
+}
+
+fn any_section(file: &file::Fibre, preset: Section, source: &Source) -> Result<Section> {
     let axes = [file.semi_axis_a.span(), file.semi_axis_b.span()];
     one_way(source, &[&[file.diameter.span()], &[file.mean_radius.span()], &axes])?;
     one_way(source, &[&[file.eccentricity.span()], &[file.axis_ratio.span()], &axes])?;
