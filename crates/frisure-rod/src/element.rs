@@ -235,6 +235,35 @@ impl Motion<'_> {
         Reach { control: c, before, offset, series }
     }
 
+    /// `r − r_start` at the fraction `x`, 0 to 1, of the element, as [`Self::reach`].
+    #[inline]
+    pub(crate) fn part(&self, x: f64) -> Part<'_> {
+        let h = self.geometry.length;
+        match &self.geometry.curve {
+            Curve::Helix => {
+                let control = self.control * x;
+                let table = stumpff(control.length_squared());
+                let series = RotationSeries::phi(1, &table, x * h, DVec3::Z);
+                let reach = Reach { control, before: None, offset: DVec3::ZERO, series };
+                Part { reach, share: x }
+            }
+            Curve::Jointed(j) if x <= 0.5 => {
+                let offset = helix_piece(j.natural[0] * (x * h), x * h).1;
+                let series = RotationSeries::phi(0, &self.table, 0.0, DVec3::Z);
+                let reach = Reach { control: self.control, before: None, offset, series };
+                Part { reach, share: 0.0 }
+            }
+            Curve::Jointed(j) => {
+                let beyond = (x - 0.5) * h;
+                let arm = helix_piece(j.natural[1] * beyond, beyond).1;
+                let series = RotationSeries::phi(0, &self.table, 1.0, arm);
+                let (control, before) = (self.control, Some(&j.before));
+                let reach = Reach { control, before, offset: j.start[0], series };
+                Part { reach, share: 1.0 }
+            }
+        }
+    }
+
     /// `r_end − r_start` (m), in the start frame, without derivatives.
     #[inline]
     pub(crate) fn advance(&self) -> DVec3 {
@@ -293,5 +322,33 @@ impl Reach<'_> {
     pub(crate) fn contracted(&self, omega: DVec3) -> (DVec3, DMat3) {
         let omega = self.before.map_or(omega, |a| a.transpose() * omega);
         self.series.contracted(self.control, omega)
+    }
+}
+
+/// A [`Reach`] to a point inside an element, which sees a share of the element's control.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part<'a> {
+    reach: Reach<'a>,
+    share: f64,
+}
+
+impl Part<'_> {
+    /// The vector (m), in the start frame.
+    #[inline]
+    pub(crate) fn value(&self) -> DVec3 {
+        self.reach.value()
+    }
+
+    /// Its derivative by the element's control.
+    #[inline]
+    pub(crate) fn jacobian(&self) -> DMat3 {
+        self.reach.jacobian() * self.share
+    }
+
+    /// As [`Reach::contracted`], by the element's control.
+    #[inline]
+    pub(crate) fn contracted(&self, omega: DVec3) -> (DVec3, DMat3) {
+        let (gradient, hessian) = self.reach.contracted(omega);
+        (gradient * self.share, hessian * (self.share * self.share))
     }
 }

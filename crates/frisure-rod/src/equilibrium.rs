@@ -99,6 +99,30 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
+    /// What a minimiser found, as it is: not extrapolated, its error not estimated.
+    #[must_use]
+    pub fn from_minimum(problem: &Problem<'_>, minimum: Minimum) -> Self {
+        let chain = problem.chain();
+        let energy = problem.energy(&minimum.shape);
+        let Minimum { shape, gradient_norm, iterations, stability } = minimum;
+        Self {
+            rod: chain.rod().clone(),
+            element: chain.kind(),
+            elements: chain.len(),
+            shape,
+            energy,
+            certificate: Certificate { gradient_norm, min_eigenvalue: None, stability, iterations },
+            error_estimate: None,
+            correction: None,
+        }
+    }
+
+    /// The divided rod whose shape [`Self::shape`] is.
+    #[must_use]
+    pub fn chain(&self) -> Chain<'_> {
+        Chain::uniform(&self.rod, self.element, self.elements)
+    }
+
     /// Position of the tip (m).
     #[must_use]
     pub fn tip(&self) -> DVec3 {
@@ -130,7 +154,7 @@ impl Equilibrium {
     #[must_use]
     pub fn sample(&self, points: usize) -> Vec<(DVec3, DMat3)> {
         let n = points.max(2);
-        let chain = Chain::uniform(&self.rod, self.element, self.elements);
+        let chain = self.chain();
         (0..n)
             .map(|k| {
                 let x = k as f64 / (n - 1) as f64;
@@ -500,7 +524,7 @@ fn extrapolate_energy(coarse: &Energy, fine: &Energy) -> Energy {
 /// The shape of another rod at rest, taken over at equal arc length; what is longer goes on as it
 /// would naturally.
 fn warm_start(chain: &Chain<'_>, previous: &Equilibrium) -> Shape {
-    let old = Chain::uniform(&previous.rod, previous.element, previous.elements);
+    let old = previous.chain();
     let covered = previous.rod.length() * (1.0 + 1e-12);
     let known = chain.arc().iter().take_while(|&&s| s <= covered).count();
     let mut frames: Vec<DMat3> =

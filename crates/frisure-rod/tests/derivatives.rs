@@ -3,15 +3,18 @@
 
 mod common;
 
-use common::{Hold, Random, Spring, TipWrench, curl, dense_hessian, smallest_eigenvalue};
+use common::{Hold, Random, Spring, TipWrench, Well, curl, dense_hessian, smallest_eigenvalue};
 use frisure_rod::minimise::{Minimiser, Problem, Riccati, Stopping};
-use frisure_rod::potential::Potential;
+use frisure_rod::potential::{InField, Potential};
 use frisure_rod::{Chain, ElementKind, Rod};
 use glam::{DMat3, DVec3};
 
 const KINDS: [ElementKind; 2] = [ElementKind::Helix, ElementKind::Jointed];
 
 const SPRING: Spring = Spring { stiffness: 1e-3, anchor: DVec3::new(0.02, -0.01, 0.03) };
+
+const WELL: Well =
+    Well { stiffness: 1e-3, anchor: DVec3::new(0.03, 0.02, -0.05), breadth: 0.06, length: 0.15 };
 
 /// A force and a moment that are felt: comparable with the weight and with EI/L.
 fn wrench(rod: &Rod, node: usize) -> TipWrench {
@@ -41,7 +44,9 @@ fn for_each_problem(n: usize, check: impl Fn(&str, &Chain<'_>, &[&dyn Potential]
     let wrench = wrench(&rod, n);
     for kind in KINDS {
         let chain = Chain::uniform(&rod, kind, n);
-        let cases: [&[&dyn Potential]; 4] = [&[], &[&SPRING], &[&wrench], &[&SPRING, &wrench]];
+        let (coarse, fine) = (InField::new(&WELL, 1), InField::new(&WELL, 5));
+        let cases: [&[&dyn Potential]; 6] =
+            [&[], &[&SPRING], &[&wrench], &[&SPRING, &wrench], &[&coarse], &[&fine, &wrench]];
         for external in cases {
             let name = format!("{kind:?}, {} further potentials", external.len());
             check(&name, &chain, external);

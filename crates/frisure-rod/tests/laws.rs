@@ -4,7 +4,7 @@ mod common;
 
 use common::{Random, Spring, TipWrench, accuracy, curl, elements, straight};
 use frisure_rod::minimise::{Minimiser, Problem, Riccati, Stopping};
-use frisure_rod::potential::Potential;
+use frisure_rod::potential::{Field, InField, Potential};
 use frisure_rod::{
     Chain, ElementKind, Equilibrium, NaturalStrain, Options, Rod, RodSpec, Root, Section,
     Stability, StrainProfile, equilibrium,
@@ -368,5 +368,31 @@ fn energy_never_rises_along_the_iterations() {
             assert!(end.iterations <= max_iterations + 1);
             before = energy;
         }
+    }
+}
+
+#[test]
+fn a_field_is_felt_the_same_however_finely_it_is_sampled() {
+    let rod = Rod::new(curl()).unwrap();
+    let well = common::Well {
+        stiffness: 1e-3,
+        anchor: DVec3::new(0.03, 0.02, -0.05),
+        breadth: 0.06,
+        length: 0.15,
+    };
+    for kind in [ElementKind::Helix, ElementKind::Jointed] {
+        let energy = |elements, samples| {
+            let chain = Chain::uniform(&rod, kind, elements);
+            // The root, which is clamped and left out, is the first point of the sum.
+            let spacing = 0.15 / (elements as f64 * f64::from(samples));
+            let root = well.energy(0.0, rod.root().position()) * 0.5 * spacing;
+            chain.energy(&chain.natural_shape(), &InField::new(&well, samples)) + root
+        };
+        // The natural curl is the same curve at any division, so 8 elements of 30 points are 240 of
+        // one; and the sum is of second order.
+        assert!((energy(8, 30) / energy(240, 1) - 1.0).abs() < 1e-12);
+        let (coarse, fine, exact) = (energy(8, 8), energy(8, 16), energy(8, 512));
+        let order = ((coarse - exact) / (fine - exact)).log2();
+        assert!((order - 2.0).abs() < 0.1, "{order}");
     }
 }

@@ -11,9 +11,11 @@
 //! without touching it.
 
 mod elastic;
+mod field;
 mod gravity;
 
 pub use elastic::Elastic;
+pub use field::{Field, InField};
 pub use gravity::Gravity;
 
 use glam::{DMat3, DVec3};

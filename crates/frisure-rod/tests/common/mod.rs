@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test file uses some of these")]
 
 use frisure_rod::minimise::Problem;
-use frisure_rod::potential::{Derivatives, ElementState, NodeState, Potential};
+use frisure_rod::potential::{Derivatives, ElementState, Field, NodeState, Potential};
 use frisure_rod::{
     ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
     TorsionConstant,
@@ -80,6 +80,35 @@ impl Potential for Spring {
         let k = self.stiffness * node.weight;
         sum.position += (node.position - self.anchor) * k;
         sum.position_position += DMat3::from_diagonal(DVec3::splat(k));
+    }
+}
+
+/// A field with a Hessian that varies and a slope along the rod: `½ k (1 + s/L) |r − a|² (1 + |r − a|²/b²)`.
+pub(crate) struct Well {
+    /// Stiffness per length of rod (N/m²).
+    pub(crate) stiffness: f64,
+    /// Its middle (m).
+    pub(crate) anchor: DVec3,
+    /// Distance b at which it has become twice as deep (m).
+    pub(crate) breadth: f64,
+    /// Length L (m).
+    pub(crate) length: f64,
+}
+
+impl Field for Well {
+    fn energy(&self, s: f64, position: DVec3) -> f64 {
+        let square = (position - self.anchor).length_squared();
+        let k = self.stiffness * (1.0 + s / self.length);
+        0.5 * k * square * (1.0 + square / self.breadth.powi(2))
+    }
+
+    fn derivatives(&self, s: f64, position: DVec3) -> Option<(DVec3, DMat3)> {
+        let away = position - self.anchor;
+        let b2 = self.breadth.powi(2);
+        let k = self.stiffness * (1.0 + s / self.length);
+        let slope = k * (1.0 + 2.0 * away.length_squared() / b2);
+        let outer = DMat3::from_cols(away * away.x, away * away.y, away * away.z);
+        Some((away * slope, DMat3::from_diagonal(DVec3::splat(slope)) + outer * (4.0 * k / b2)))
     }
 }
 

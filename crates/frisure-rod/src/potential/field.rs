@@ -1,0 +1,118 @@
+//! A field in space that acts along the whole rod.
+
+use glam::{DMat3, DVec3};
+
+use super::{Derivatives, ElementState, NodeState, Potential};
+use crate::rotation::{cross_matrix, scaled_identity, symmetric_outer};
+
+/// An energy per length of rod, as a function of where that piece of the rod is.
+pub trait Field: Sync {
+    /// Energy per length (J/m) of the rod at arc length `s` (m) and `position` (m, world).
+    fn energy(&self, s: f64, position: DVec3) -> f64;
+
+    /// Gradient (J/m²) and symmetric Hessian (J/m³) of [`Self::energy`] by the position; `None`
+    /// where both vanish.
+    fn derivatives(&self, s: f64, position: DVec3) -> Option<(DVec3, DMat3)>;
+}
+
+/// `∫ field ds` along a rod, by the trapezoidal rule on evenly spaced points.
+///
+/// The points are the nodes and `samples − 1` more inside each element, so that a field with
+/// details finer than an element is seen; the root, which is clamped, is left out.
+#[derive(Clone, Copy, Debug)]
+pub struct InField<'a, F: ?Sized> {
+    field: &'a F,
+    samples: u32,
+}
+
+impl<'a, F: Field + ?Sized> InField<'a, F> {
+    /// The integral with `samples` points per element; at least one.
+    #[must_use]
+    pub fn new(field: &'a F, samples: u32) -> Self {
+        Self { field, samples: samples.max(1) }
+    }
+
+    /// Fraction of the element, and arc length (m), of each point inside an element.
+    fn inside(&self, element: &ElementState<'_>) -> impl Iterator<Item = (f64, f64)> {
+        let (samples, start, h) = (self.samples, element.end - element.length, element.length);
+        (1..samples).map(move |k| {
+            let x = f64::from(k) / f64::from(samples);
+            (x, start + x * h)
+        })
+    }
+}
+
+impl<F: Field + ?Sized> Potential for InField<'_, F> {
+    fn depends_on_position(&self) -> bool {
+        true
+    }
+
+    fn element_energy(&self, element: &ElementState<'_>) -> f64 {
+        let weight = element.length / f64::from(self.samples);
+        let energy = |(x, s)| self.field.energy(s, element.point(x));
+        self.inside(element).map(energy).sum::<f64>() * weight
+    }
+
+    fn add_element_derivatives(&self, element: &ElementState<'_>, sum: &mut Derivatives) {
+        let weight = element.length / f64::from(self.samples);
+        for (x, s) in self.inside(element) {
+            if let Some((gradient, hessian)) = self.field.derivatives(s, element.point(x)) {
+                element.add_point_derivatives(x, gradient * weight, &(hessian * weight), sum);
+            }
+        }
+    }
+
+    fn node_energy(&self, node: &NodeState) -> f64 {
+        self.field.energy(node.s, node.position) * node.weight / f64::from(self.samples)
+    }
+
+    fn add_node_derivatives(&self, node: &NodeState, sum: &mut Derivatives) {
+        if let Some((gradient, hessian)) = self.field.derivatives(node.s, node.position) {
+            let weight = node.weight / f64::from(self.samples);
+            sum.position += gradient * weight;
+            sum.position_position += hessian * weight;
+        }
+    }
+}
+
+impl ElementState<'_> {
+    /// Position (m) of the rod at the fraction `x`, 0 to 1, of the element's length. The joint of a
+    /// jointed element is at one half.
+    #[must_use]
+    #[inline]
+    pub fn point(&self, x: f64) -> DVec3 {
+        self.position + self.frame * self.motion.part(x).value()
+    }
+
+    /// Adds the derivatives of an energy of [`Self::point`] with this gradient (J/m) and Hessian
+    /// (J/m²) by the position.
+    pub fn add_point_derivatives(
+        &self,
+        x: f64,
+        gradient: DVec3,
+        hessian: &DMat3,
+        sum: &mut Derivatives,
+    ) {
+        // r = r₀ + ξ + R exp[η] p(c + x): ∂r/∂η = −R [p]×, ∂r/∂c = R P.
+        let part = self.motion.part(x);
+        let (p, by_control) = (part.value(), part.jacobian());
+        let pull = self.frame.transpose() * gradient;
+        let (slope, curvature) = part.contracted(pull);
+        let turned = cross_matrix(p);
+        let inside = self.frame.transpose() * *hessian;
+        let local = inside * self.frame;
+        // [p]×ᵀ = −[p]×.
+        let local_control = local * by_control;
+
+        sum.position += gradient;
+        sum.rotation += p.cross(pull);
+        sum.control += slope;
+        sum.position_position += *hessian;
+        sum.rotation_position += turned * inside;
+        sum.rotation_rotation += turned * local * turned * -1.0 + symmetric_outer(pull, p) * 0.5
+            - scaled_identity(pull.dot(p));
+        sum.rotation_control += turned * local_control - cross_matrix(pull) * by_control;
+        sum.position_control += self.frame * local_control;
+        sum.control_control += by_control.transpose() * local_control + curvature;
+    }
+}
