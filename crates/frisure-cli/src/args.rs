@@ -43,8 +43,8 @@ pub(crate) enum Command {
     Predict(Predict),
     /// Compute one hair: its shape, its energies, and how sure they are.
     Hair(Hair),
-    /// List the hair types that a scene can start from.
-    Presets,
+    /// List the hair types that a scene can start from, or all that is measured of one.
+    Presets(Presets),
     /// Print a commented scene to start from.
     New(New),
     /// Print the JSON Schema of scenes: every key, its unit and its range.
@@ -104,6 +104,29 @@ pub(crate) struct Hair {
     /// Also print the centre line, as so many points evenly spaced from root to tip; 2 to 1000000.
     #[arg(long, value_name = "N", value_parser = points)]
     pub(crate) points: Option<usize>,
+}
+
+const PRESETS_EXAMPLES: &str = "\
+Examples:
+  frisure presets
+  frisure presets african-coily
+  frisure presets --json > types.json
+
+JSON is in SI units, one object per type, or the one object of the type named. Where each number
+comes from is told in docs/hair-types.md.";
+
+/// Arguments of `frisure presets`.
+#[derive(Args, Debug)]
+#[command(after_help = PRESETS_EXAMPLES)]
+pub(crate) struct Presets {
+    /// One hair type: print all its numbers.
+    #[arg(value_name = "TYPE", hide_possible_values = true)]
+    #[arg(value_parser = PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)))]
+    pub(crate) hair_type: Option<String>,
+
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Arguments of `frisure new`.

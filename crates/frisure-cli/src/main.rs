@@ -38,7 +38,7 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
     match arguments.command {
         Command::Predict(predict) => commands::predict::run(predict, quiet),
         Command::Hair(hair) => commands::hair::run(&hair),
-        Command::Presets => commands::presets::run(),
+        Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),
         Command::Schema => commands::schema::run(),
     }

@@ -4,7 +4,7 @@
 
 use divan::Bencher;
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::{HairstyleSpec, predict, preset};
+use frisure_hairstyle::{Hairs, HairstyleSpec, predict, preset};
 use frisure_rod::Resolution;
 
 fn main() {
@@ -14,7 +14,7 @@ fn main() {
 fn spec(guides: usize, elements: usize) -> HairstyleSpec {
     let mut spec = preset("caucasian-curly").expect("a preset").spec();
     spec.wisps.count = guides;
-    spec.wisps.hairs = 100_000;
+    spec.wisps.hairs = Hairs::Count(100_000);
     spec.equilibrium.resolution = Resolution::Elements(elements);
     spec
 }

@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 use frisure_rod::{InvalidQuantity, Material, Section, TorsionConstant};
 use glam::DVec3;
 
+use crate::random::Stream;
+
 /// Section and material of the fibres of a head.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {
@@ -14,6 +16,26 @@ pub struct Fibre {
     pub material: Material,
     /// Which torsion constant the section is given.
     pub torsion: TorsionConstant,
+    /// Standard deviation of the diameter between guides, as a fraction of the mean.
+    pub variation: f64,
+    /// Standard deviation between guides of what the axis ratio exceeds 1 by, as a fraction of the
+    /// mean: a circle stays one.
+    pub axis_ratio_variation: f64,
+}
+
+impl Fibre {
+    /// The section of one guide.
+    ///
+    /// # Errors
+    /// [`InvalidQuantity`] if the mean section and its variation make none.
+    pub(crate) fn varied(&self, random: &mut Stream) -> Result<Section, InvalidQuantity> {
+        let diameter = 2.0 * self.section.mean_radius() * random.positive(self.variation);
+        let excess = (self.section.axis_ratio() - 1.0) * random.positive(self.axis_ratio_variation);
+        let section = Section::from_diameter(diameter, 1.0 + excess)?;
+        // The longer axis stays where the mean section has it.
+        let flat = self.section.a() >= self.section.b();
+        if flat { Ok(section) } else { Section::from_semi_axes(section.b(), section.a()) }
+    }
 }
 
 /// Which way curls turn.

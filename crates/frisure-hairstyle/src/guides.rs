@@ -57,9 +57,11 @@ fn rod(
     let tangent = jittered(spec, head, root, index);
     let lean = implantation::lean(spec.implantation.flow, root);
     let d1 = leaning(natural.at(0.0), tangent, lean, &mut random);
+    // Drawn last: seeds keep their curls whatever the section does.
+    let section = spec.fibre.varied(&mut random)?;
     Rod::new(RodSpec {
         length,
-        section: spec.fibre.section,
+        section,
         material: spec.fibre.material,
         torsion: spec.fibre.torsion,
         natural,

@@ -45,6 +45,7 @@ pub fn predict(
     monitor: &dyn Monitor,
 ) -> Result<Hairstyle, PredictError> {
     spec.check()?;
+    spec.wisps.check_size(head.scalp_area())?;
     let guides = plan(spec, head)?;
     let rest = settle(spec, head, &guides, monitor)?;
     Ok(Hairstyle { spec: spec.clone(), guides, rest })
@@ -79,8 +80,8 @@ impl Hairstyle {
     #[must_use]
     pub fn guide_strands(&self, points: usize) -> Strands {
         let mut strands = Strands::new();
-        let radii = vec![self.spec.fibre.section.mean_radius() as f32; points.max(2)];
         for guide in &self.rest {
+            let radii = vec![guide.rod.spec().section.mean_radius() as f32; points.max(2)];
             let line: Vec<_> = guide.centre_line(points).iter().map(|p| p.as_vec3()).collect();
             strands.push(&line, &radii);
         }

@@ -24,9 +24,10 @@ pub use fibre::{Curl, Fibre, Handedness};
 pub use guides::Guide;
 pub use hairstyle::{Hairstyle, PredictError, predict};
 pub use monitor::{Cancelled, Monitor};
-pub use presets::{PRESETS, Preset, preset};
+pub use presets::{Ellipticity, HairType, NaturalCurl, PRESETS, Preset, Wetting, preset};
 pub use roots::Root;
 pub use spec::{
-    Body, Contact, Flow, HairstyleSpec, Implantation, InvalidSpec, Length, Lift, Settling, Wisps,
+    Body, Contact, Flow, Hairs, HairstyleSpec, Implantation, InvalidSpec, Length, Lift, Settling,
+    Wisps,
 };
 pub use strands::penetration;

@@ -44,6 +44,12 @@ impl Stream {
         (radius * (std::f64::consts::TAU * self.unit()).cos()).clamp(-3.0, 3.0)
     }
 
+    /// A factor with mean 1 and this relative standard deviation: log-normal, never negative.
+    pub(crate) fn positive(&mut self, deviation: f64) -> f64 {
+        let variance = (deviation * deviation).ln_1p();
+        (self.normal() * variance.sqrt() - 0.5 * variance).exp()
+    }
+
     /// A factor with median 1 and this relative standard deviation: log-normal, never negative.
     pub(crate) fn factor(&mut self, deviation: f64) -> f64 {
         (self.normal() * deviation).exp()

@@ -31,14 +31,10 @@ impl<'a> Scalp<'a> {
         let surface = head.surface();
         let (low, high) = surface.bounds();
         let size = (high - low).max_element().max(f64::MIN_POSITIVE);
-        let weight = |face: usize| {
-            let mean = surface.triangles()[face].iter().map(|&v| head.scalp()[v as usize]);
-            mean.sum::<f64>() / 3.0 * 0.5 * surface.doubled_area_vector(face).length()
-        };
         let mut faces: Vec<(u32, usize, f64)> = (0..surface.triangles().len())
             .map(|face| {
                 let corner = (surface.corners(face)[0] - low) / size;
-                (morton(corner), face, weight(face))
+                (morton(corner), face, head.hairy_area(face))
             })
             .filter(|f| f.2 > 0.0)
             .collect();

@@ -80,8 +80,8 @@ pub enum Lift {
 pub struct Wisps {
     /// Number of wisps, each with one guide.
     pub count: usize,
-    /// Number of drawn hairs on the whole head.
-    pub hairs: usize,
+    /// How many hairs are drawn.
+    pub hairs: Hairs,
     /// How much a wisp narrows from the scalp to its tip, 0 (not at all) to 1 (to a point):
     /// pronounced locks have more.
     pub clumping: f64,
@@ -95,6 +95,64 @@ pub struct Wisps {
     pub blending: f64,
     /// Points along each drawn hair.
     pub points: usize,
+}
+
+/// How many hairs are drawn on a head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hairs {
+    /// So many on the whole head.
+    Count(usize),
+    /// So many around each guide, on average.
+    PerWisp(usize),
+    /// As many as grow on the scalp at this density (1/m²).
+    Density(f64),
+}
+
+/// Most hairs of a head.
+const MAX_HAIRS: usize = 1_000_000;
+
+/// Most points of all drawn hairs of a head: 3 GB of positions and radii.
+const MAX_POINTS: usize = 200_000_000;
+
+impl Wisps {
+    /// Number of drawn hairs on a scalp of this weighted area (m²), at least one.
+    #[must_use]
+    pub fn hair_count(&self, scalp_area: f64) -> usize {
+        match self.hairs {
+            Hairs::Count(count) => count,
+            Hairs::PerWisp(each) => self.count.saturating_mul(each),
+            Hairs::Density(density) => ((density * scalp_area).round() as usize).max(1),
+        }
+    }
+
+    /// Mean number of hairs of a wisp on a scalp of this weighted area (m²).
+    #[must_use]
+    pub fn hairs_per_wisp(&self, scalp_area: f64) -> f64 {
+        self.hair_count(scalp_area) as f64 / self.count.max(1) as f64
+    }
+
+    /// Checks how much is drawn on a scalp of this weighted area (m²).
+    pub(crate) fn check_size(&self, scalp_area: f64) -> Result<(), InvalidSpec> {
+        let hairs = self.hair_count(scalp_area);
+        let refuse = |field, allowed| Err(InvalidSpec { field, value: hairs.to_string(), allowed });
+        if hairs > MAX_HAIRS {
+            return match self.hairs {
+                Hairs::Count(_) => refuse("wisps.hairs", "between 1 and 1000000"),
+                Hairs::PerWisp(_) => {
+                    refuse("wisps.hairs_per_wisp", "so few that a head has at most 1000000 hairs")
+                }
+                Hairs::Density(_) => {
+                    refuse("wisps.density", "so low that this head has at most 1000000 hairs")
+                }
+            };
+        }
+        if hairs.saturating_mul(self.points) > MAX_POINTS {
+            let value = format!("{} for each of {hairs} hairs", self.points);
+            let allowed = "so few that there are at most 200000000 points in all";
+            return Err(InvalidSpec { field: "wisps.points", value, allowed });
+        }
+        Ok(())
+    }
 }
 
 /// The body that hair lies on.
@@ -160,6 +218,9 @@ impl HairstyleSpec {
         let fraction = "between 0 and 1";
         range("hair.length", self.length.mean, 1e-3, 3.0, "between 1 mm and 3 m")?;
         range("hair.length_variation", self.length.variation_between, 0.0, 0.5, "0 to 0.5")?;
+        range("hair.fibre.variation", self.fibre.variation, 0.0, 0.5, "between 0 and 0.5")?;
+        let shape = self.fibre.axis_ratio_variation;
+        range("hair.fibre.axis_ratio_variation", shape, 0.0, 1.0, fraction)?;
         let strain = self.curl.strain.length();
         range("hair.curl", strain, 0.0, 2e4, "a strain of at most 20000 rad/m (0.05 mm radius)")?;
         range("hair.curl.variation_between", self.curl.variation_between, 0.0, 1.0, fraction)?;
@@ -181,7 +242,15 @@ impl HairstyleSpec {
             }
         }
         count("wisps.count", self.wisps.count, 20_000, "between 1 and 20000")?;
-        count("wisps.hairs", self.wisps.hairs, 1_000_000, "between 1 and 1000000")?;
+        match self.wisps.hairs {
+            Hairs::Count(hairs) => count("wisps.hairs", hairs, MAX_HAIRS, "between 1 and 1000000")?,
+            Hairs::PerWisp(each) => {
+                count("wisps.hairs_per_wisp", each, 100_000, "between 1 and 100000")?;
+            }
+            Hairs::Density(density) => {
+                range("wisps.density", density, 1e4, 1e7, "between 1 and 1000 1/cm^2")?;
+            }
+        }
         range("wisps.clumping", self.wisps.clumping, 0.0, 1.0, fraction)?;
         range("wisps.fuzziness", self.wisps.fuzziness, 0.0, 2.0, "between 0 and 2")?;
         range("wisps.length_variation", self.wisps.length_variation, 0.0, 0.5, "0 to 0.5")?;
@@ -189,6 +258,10 @@ impl HairstyleSpec {
         range("wisps.blending", self.wisps.blending, 0.0, 1.0, fraction)?;
         let points = self.wisps.points as f64;
         range("wisps.points", points, 2.0, 1000.0, "between 2 and 1000")?;
+        // What does not depend on the scalp is refused here, the rest when there is a head.
+        if !matches!(self.wisps.hairs, Hairs::Density(_)) {
+            self.wisps.check_size(0.0)?;
+        }
         let stiffness = self.contact.stiffness;
         range("contact.stiffness", stiffness, 1e-6, 1e5, "between 1e-6 and 1e5 Pa")?;
         range("contact.volume", self.contact.volume, 0.0, 10.0, "between 0 and 10")?;

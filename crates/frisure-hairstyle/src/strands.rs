@@ -71,7 +71,8 @@ pub(crate) fn draw(
         roots,
         spacing,
     };
-    let hair_roots = scalp.stratified(spec.wisps.hairs, spec.seed, Purpose::HairRoots);
+    let count = spec.wisps.hair_count(head.scalp_area());
+    let hair_roots = scalp.stratified(count, spec.seed, Purpose::HairRoots);
     let stage = Stage::new(monitor, "drawing hairs", hair_roots.len());
     let hairs: Vec<Hair> = hair_roots
         .par_iter()
@@ -83,7 +84,7 @@ pub(crate) fn draw(
             Ok(hair)
         })
         .collect::<Result<_, Cancelled>>()?;
-    Ok(assemble(spec, &hairs))
+    Ok(assemble(spec, guides, &hairs))
 }
 
 /// Deepest that a point of the strands, other than a root, is inside the body of a head (m); 0 if
@@ -104,17 +105,19 @@ struct Hair {
     points: Vec<Vec3>,
 }
 
-fn assemble(spec: &HairstyleSpec, hairs: &[Hair]) -> Strands {
+/// The strands, each as thick as its guide.
+fn assemble(spec: &HairstyleSpec, guides: &[Guide], hairs: &[Hair]) -> Strands {
     let points = spec.wisps.points;
-    let radius = spec.fibre.section.mean_radius();
-    let radii: Vec<f32> = (0..points)
-        .map(|i| {
-            let x = i as f64 / (points - 1) as f64;
-            (radius * (1.0 - (1.0 - TIP) * smooth(0.85, 1.0, x))) as f32
-        })
+    let taper: Vec<f64> = (0..points)
+        .map(|i| 1.0 - (1.0 - TIP) * smooth(0.85, 1.0, i as f64 / (points - 1) as f64))
         .collect();
     let mut strands = Strands::with_capacity(hairs.len(), hairs.len() * points);
+    let mut radii = vec![0.0; points];
     for hair in hairs {
+        let radius = guides[hair.guide as usize].rod.spec().section.mean_radius();
+        for (here, taper) in radii.iter_mut().zip(&taper) {
+            *here = (radius * taper) as f32;
+        }
         strands.push(&hair.points, &radii);
     }
     let values = AttributeValues::U32(hairs.iter().map(|h| h.guide).collect());

@@ -4,7 +4,9 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_hairstyle::head::{Head, HeadError, ScalpSource};
-use frisure_hairstyle::{Body, HairstyleSpec, Monitor, PRESETS, PredictError, predict, preset};
+use frisure_hairstyle::{
+    Body, Hairs, HairstyleSpec, Monitor, PRESETS, PredictError, predict, preset,
+};
 use frisure_strands::{AttributeValues, Strands, Surface};
 
 fn head() -> &'static Head {
@@ -16,7 +18,7 @@ fn head() -> &'static Head {
 fn small(name: &str) -> HairstyleSpec {
     let mut spec = preset(name).unwrap().spec();
     spec.wisps.count = 40;
-    spec.wisps.hairs = 1500;
+    spec.wisps.hairs = Hairs::Count(1500);
     spec
 }
 
@@ -67,7 +69,7 @@ fn hairs_are_as_long_as_asked() {
 #[test]
 fn the_scalp_is_covered() {
     let mut spec = small("caucasian-straight");
-    spec.wisps.hairs = 20_000;
+    spec.wisps.hairs = Hairs::Count(20_000);
     let strands = strands(&spec);
     let roots: Vec<_> = strands.iter().map(|s| s.points[0].as_dvec3()).collect();
     let scalp = head().scalp();
@@ -155,4 +157,76 @@ fn numbers_out_of_range_are_refused_by_name() {
     let mut spec = small("caucasian-straight");
     spec.length.mean = f64::NAN;
     assert!(predict(&spec, head(), &()).is_err());
+}
+
+#[test]
+fn guides_vary_in_diameter_and_axis_ratio_as_measured() {
+    let mut spec = small("african-coily");
+    spec.wisps.count = 600;
+    spec.length.mean = 0.005;
+    let sections = |spec: &HairstyleSpec| -> Vec<(f64, f64)> {
+        let style = predict(spec, head(), &()).unwrap();
+        let section = |g: &frisure_hairstyle::Guide| g.rod.spec().section;
+        style.guides().iter().map(section).map(|s| (s.mean_radius(), s.axis_ratio())).collect()
+    };
+    let moments = |values: Vec<f64>| {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        (mean, (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt())
+    };
+    let drawn = sections(&spec);
+    let (radius, spread) = moments(drawn.iter().map(|s| s.0).collect());
+    assert!((radius / spec.fibre.section.mean_radius() - 1.0).abs() < 0.02, "{radius}");
+    assert!((spread / radius / spec.fibre.variation - 1.0).abs() < 0.15, "{spread}");
+    let (ratio, spread) = moments(drawn.iter().map(|s| s.1).collect());
+    assert!((ratio - spec.fibre.section.axis_ratio()).abs() < 0.03, "{ratio}");
+    assert!((spread / 0.16 - 1.0).abs() < 0.15, "{spread}");
+    spec.fibre.variation = 0.0;
+    spec.fibre.axis_ratio_variation = 0.0;
+    let same = spec.fibre.section;
+    for (radius, ratio) in sections(&spec) {
+        assert!((radius / same.mean_radius() - 1.0).abs() < 1e-12);
+        assert!((ratio / same.axis_ratio() - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn varying_the_section_changes_neither_roots_nor_curls() {
+    let spec = small("caucasian-curly");
+    let mut even = spec.clone();
+    even.fibre.variation = 0.0;
+    let plan = |spec: &HairstyleSpec| predict(spec, head(), &()).unwrap();
+    let (varied, even) = (plan(&spec), plan(&even));
+    for (a, b) in varied.guides().iter().zip(even.guides()) {
+        assert_eq!(a.rod.root(), b.rod.root());
+        assert_eq!(a.rod.natural(), b.rod.natural());
+        assert_eq!(a.rod.length(), b.rod.length());
+    }
+    // Drawn hairs are as thick as the guide that they follow.
+    let strands = varied.strands(head(), &()).unwrap();
+    let AttributeValues::U32(guides) = &strands.attribute("guide").unwrap().values else {
+        panic!("guide is an index");
+    };
+    for (hair, &guide) in strands.iter().zip(guides) {
+        let section = varied.guides()[guide as usize].rod.spec().section;
+        assert_eq!(hair.radii[0], section.mean_radius() as f32);
+    }
+}
+
+#[test]
+fn more_hairs_than_can_be_drawn_are_refused() {
+    for (hairs, points, field) in [
+        (Hairs::Density(2e7), 8, "wisps.density"),
+        (Hairs::Density(9e6), 1000, "wisps.points"),
+        (Hairs::PerWisp(50_000), 8, "wisps.hairs_per_wisp"),
+        (Hairs::Count(1_000_001), 8, "wisps.hairs"),
+        (Hairs::Count(300_000), 1000, "wisps.points"),
+    ] {
+        let mut spec = small("caucasian-straight");
+        (spec.wisps.hairs, spec.wisps.points) = (hairs, points);
+        let Err(PredictError::Spec(error)) = predict(&spec, head(), &()) else {
+            panic!("{hairs:?}")
+        };
+        assert_eq!(error.field, field);
+    }
 }

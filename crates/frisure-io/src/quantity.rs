@@ -92,6 +92,14 @@ pub const STRAIN: Dimension = Dimension {
     ],
 };
 
+/// Numbers of things per area, SI 1/m².
+pub const NUMBER_DENSITY: Dimension = Dimension {
+    name: "a number per area",
+    si: "1/m^2",
+    example: "190 1/cm^2",
+    units: &[("1/cm^2", 1e4), ("1/mm^2", 1e6), ("1/m^2", 1.0), ("cm^-2", 1e4), ("m^-2", 1.0)],
+};
+
 /// Accelerations, SI m/s².
 pub const ACCELERATION: Dimension = Dimension {
     name: "an acceleration",
@@ -104,7 +112,8 @@ pub const ACCELERATION: Dimension = Dimension {
 pub const RATIO: Dimension =
     Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
 
-const ALL: [&Dimension; 7] = [&LENGTH, &ANGLE, &PRESSURE, &DENSITY, &STRAIN, &ACCELERATION, &RATIO];
+const ALL: [&Dimension; 8] =
+    [&LENGTH, &ANGLE, &PRESSURE, &DENSITY, &STRAIN, &NUMBER_DENSITY, &ACCELERATION, &RATIO];
 
 impl Dimension {
     /// The value in SI units of a text such as `25 cm`.
@@ -205,6 +214,9 @@ mod tests {
             (&STRAIN, "100 1/m", 100.0),
             (&STRAIN, "-100 rad/m", -100.0),
             (&STRAIN, "1 mm⁻¹", 1000.0),
+            (&NUMBER_DENSITY, "190 1/cm^2", 190e4),
+            (&NUMBER_DENSITY, "1.9/mm²", 1.9e6),
+            (&NUMBER_DENSITY, "190 cm⁻²", 190e4),
             (&ACCELERATION, "9.81 m/s²", 9.81),
             (&RATIO, "5 %", 0.05),
             (&RATIO, "0.3", 0.3),

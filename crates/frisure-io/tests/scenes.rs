@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frisure_hairstyle::{Body, Flow, Handedness, Lift, PRESETS};
+use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
 use frisure_io::scene::{
     Fault, HeadSource, ScalpSource, Scene, SceneError, UpAxis, schema, template,
 };
@@ -75,7 +75,7 @@ fn every_key_arrives() {
         type = "frizzy"
         length = "25 cm"
         length_variation = "10 %"
-        fibre = { diameter = "80 um", axis_ratio = 1.5, youngs_modulus = "4 GPa", poisson_ratio = 0.25, density = "1.2 g/cm^3", torsion = "polar" }
+        fibre = { diameter = "80 um", axis_ratio = 1.5, youngs_modulus = "4 GPa", poisson_ratio = 0.25, density = "1.2 g/cm^3", torsion = "polar", variation = 0.07, axis_ratio_variation = 0.08 }
         curl = { kappa1 = "1 1/mm", tau = 20, handedness = "as-given", variation_between = 0.1, variation_along = 0.2, variation_scale = "4 cm" }
         root = { d1 = [0, 1, 0], t = [0, 0, 1] }
         [head]
@@ -90,7 +90,7 @@ fn every_key_arrives() {
         jitter = "5 deg"
         [wisps]
         count = 11
-        hairs = 12
+        hairs_per_wisp = 12
         clumping = 0.13
         fuzziness = 0.14
         length_variation = 0.15
@@ -142,7 +142,8 @@ fn every_key_arrives() {
     assert_eq!(spec.implantation.lift, Lift::Uniform(45_f64.to_radians()));
     assert!((spec.implantation.jitter - 5_f64.to_radians()).abs() < 1e-15);
     let w = spec.wisps;
-    assert_eq!((w.count, w.hairs, w.points), (11, 12, 18));
+    assert_eq!((w.count, w.hairs, w.points), (11, Hairs::PerWisp(12), 18));
+    assert_eq!((spec.fibre.variation, spec.fibre.axis_ratio_variation), (0.07, 0.08));
     assert_eq!((w.clumping, w.fuzziness, w.length_variation), (0.13, 0.14, 0.15));
     assert_eq!((w.flyaways, w.blending), (0.16, 0.17));
     assert_eq!(spec.contact.body, Body::Spheres);
@@ -169,6 +170,34 @@ fn every_key_arrives() {
 }
 
 #[test]
+fn the_number_of_hairs_is_said_in_one_of_three_ways() {
+    let hairs = |keys: &str| good(keys).hairstyle_spec().unwrap().wisps.hairs;
+    assert_eq!(hairs("hair.type = \"african-coily\""), Hairs::Density(161e4));
+    assert_eq!(hairs("wisps.density = \"190 1/cm^2\""), Hairs::Density(190e4));
+    assert_eq!(hairs("wisps.hairs = 5000"), Hairs::Count(5000));
+    assert_eq!(hairs("wisps.hairs_per_wisp = 50"), Hairs::PerWisp(50));
+}
+
+#[test]
+fn the_paper_s_section_is_nearly_round_and_the_measured_one_is_the_default() {
+    let fibre = |more: &str| {
+        let text = format!("hair.type = \"african-coily\"\n{more}");
+        good(&text).hairstyle_spec().unwrap().fibre
+    };
+    assert_eq!(fibre(""), fibre("hair.ellipticity = \"measured\""));
+    assert!((fibre("").section.axis_ratio() - 1.75).abs() < 1e-12);
+    let paper = fibre("hair.ellipticity = \"paper\"");
+    assert!((paper.section.eccentricity() - 0.2).abs() < 1e-12);
+    assert_eq!(paper.axis_ratio_variation, 0.0);
+    let preset = PRESETS.iter().find(|p| p.name == "african-coily").unwrap();
+    assert_eq!(paper, preset.hair_type().fibre(Ellipticity::Paper).unwrap());
+    // A diameter of one's own goes with either shape.
+    let thick = fibre("hair.ellipticity = \"paper\"\nhair.fibre.diameter = \"90 um\"");
+    assert!((thick.section.eccentricity() - 0.2).abs() < 1e-7);
+    assert!((thick.section.mean_radius() - 45e-6).abs() < 1e-15);
+}
+
+#[test]
 fn part_of_a_curl_or_section_keeps_the_rest_of_the_type() {
     let base = "[hair]\ntype = \"caucasian-curly\"\n";
     let preset = good(base).hairstyle_spec().unwrap();
@@ -178,9 +207,9 @@ fn part_of_a_curl_or_section_keeps_the_rest_of_the_type() {
     assert!((r - 0.02).abs() < 1e-12 && (p - pitch).abs() < 1e-12);
     let spec = good(&format!("{base}fibre.diameter = \"90 um\"")).hairstyle_spec().unwrap();
     assert!((spec.fibre.section.mean_radius() - 45e-6).abs() < 1e-15);
-    assert!((spec.fibre.section.axis_ratio() - 1.45).abs() < 1e-12);
+    assert!((spec.fibre.section.axis_ratio() - 1.5).abs() < 1e-12);
     let spec = good(&format!("{base}fibre.eccentricity = 0.5")).hairstyle_spec().unwrap();
-    assert!((spec.fibre.section.mean_radius() - 35e-6).abs() < 1e-15);
+    assert!((spec.fibre.section.mean_radius() - 36e-6).abs() < 1e-15);
     assert!((spec.fibre.section.eccentricity() - 0.5).abs() < 1e-12);
     // Strains are not mixed with the type's: the missing ones are 0.
     let spec = good(&format!("{base}curl.tau = 5")).hairstyle_spec().unwrap();
@@ -388,8 +417,8 @@ fn faults_name_place_value_range_and_hint() {
             3,
             10,
             "wisps.points",
-            "",
-            &["more than 200000000 points"],
+            "1000",
+            &["at most 200000000 points"],
         ),
         (
             "[hair.fibre]\nyoungs_modulus = \"1e-9 Pa\"",
@@ -399,7 +428,71 @@ fn faults_name_place_value_range_and_hint() {
             "",
             &["too limp", "check the units"],
         ),
+        (
+            "[wisps]\nhairs_per_wisp = 50_000",
+            2,
+            18,
+            "wisps.hairs_per_wisp",
+            "50_000",
+            &["so few that a head has at most 1000000 hairs"],
+        ),
+        (
+            "[wisps]\ndensity = \"0 1/cm^2\"",
+            2,
+            11,
+            "wisps.density",
+            "\"0 1/cm^2\"",
+            &["between 1 and 1000 1/cm^2"],
+        ),
+        (
+            "[wisps]\ndensity = \"190 cm\"",
+            2,
+            11,
+            "wisps.density",
+            "\"190 cm\"",
+            &["a number per area", "`cm` is a unit of a length"],
+        ),
+        (
+            "hair.fibre.variation = 0.6",
+            1,
+            24,
+            "hair.fibre.variation",
+            "0.6",
+            &["between 0 and 0.5"],
+        ),
+        (
+            "hair.ellipticity = \"round\"",
+            1,
+            20,
+            "hair.ellipticity",
+            "\"round\"",
+            &["one of \"measured\", \"paper\""],
+        ),
         // Contradictions.
+        (
+            "[wisps]\nhairs = 1000\ndensity = \"190 1/cm^2\"",
+            3,
+            11,
+            "wisps.density",
+            "\"190 1/cm^2\"",
+            &["`wisps.hairs` says on line 2", "keep one of the two"],
+        ),
+        (
+            "[wisps]\nhairs = 1000\nhairs_per_wisp = 10",
+            3,
+            18,
+            "wisps.hairs_per_wisp",
+            "10",
+            &["`wisps.hairs` says on line 2"],
+        ),
+        (
+            "[hair]\nellipticity = \"paper\"\nfibre.axis_ratio = 1.5",
+            3,
+            20,
+            "hair.fibre.axis_ratio",
+            "1.5",
+            &["`hair.ellipticity` says on line 2"],
+        ),
         (
             "[hair.fibre]\ndiameter = 1e-4\n\nmean_radius = 1e-4",
             4,
@@ -551,6 +644,8 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                 let x = if count { format!("{x:.0}") } else { format!("{x:?}") };
                 let rest = match path.as_str() {
                     "head.scale" => "head.mesh = \"a\"\n",
+                    // As many as fit on a head depends on how many wisps there are.
+                    "wisps.hairs_per_wisp" => "wisps.count = 5\n",
                     "equilibrium.starts" => "equilibrium.branch = \"lowest\"\n",
                     _ => "",
                 };

@@ -180,8 +180,7 @@ fn refused(error: &PredictError, scene: &Scene) -> Failure {
     match error {
         PredictError::Cancelled(_) => Failure::Interrupted,
         PredictError::Quantity(error) => scene.blame(error).into(),
-        // The scene has passed the same check already.
-        PredictError::Spec(error) => Failure::wrong(error, ""),
+        PredictError::Spec(error) => scene.out_of_range(error).into(),
     }
 }
 

@@ -114,8 +114,9 @@ fn presets_start_scenes() {
     let room = Room::new();
     let list = room.run(&["presets"]);
     assert_eq!(list.code, Some(0));
-    let names: Vec<_> = list.out.lines().skip(1).filter_map(|l| l.split(' ').next()).collect();
-    assert!(names.len() >= 6 && names.contains(&"caucasian-curly"));
+    let rows = list.out.lines().skip(1).take_while(|l| !l.is_empty());
+    let names: Vec<_> = rows.filter_map(|l| l.split(' ').next()).collect();
+    assert!(names.len() >= 20 && names.contains(&"caucasian-curly"));
     for name in names {
         let new = room.run(&["new", name]);
         assert_eq!(new.code, Some(0));
@@ -123,6 +124,22 @@ fn presets_start_scenes() {
         let hair = room.feed(&["hair", "-"], new.out.as_bytes());
         assert_eq!(hair.code, Some(0), "{}", hair.err);
     }
+}
+
+#[test]
+fn a_preset_tells_its_numbers() {
+    let room = Room::new();
+    let sheet = room.run(&["presets", "african-coily"]);
+    assert_eq!(sheet.code, Some(0));
+    for row in ["hairs                    161 per cm^2", "growth                   0.85 cm a month"]
+    {
+        assert!(sheet.out.contains(row), "{}", sheet.out);
+    }
+    let one: Value =
+        serde_json::from_str(&room.run(&["presets", "african-coily", "--json"]).out).unwrap();
+    assert_eq!((&one["density"], &one["axis_ratio"]), (&161e4.into(), &1.75.into()));
+    let all: Value = serde_json::from_str(&room.run(&["presets", "--json"]).out).unwrap();
+    assert!(all.as_array().unwrap().contains(&one));
 }
 
 #[test]

@@ -32,7 +32,8 @@ fn no_command_and_unknown_ones_are_usage_errors() {
         &["hair", "a.toml", "--points", "1"],
         &["hair", "a.toml", "--points", "many"],
         &["presets", "--threads", "0"],
-        &["new", "curly"],
+        &["new", "curlyish"],
+        &["presets", "curlyish"],
     ] {
         let ran = Room::new().run(arguments);
         assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.err);

@@ -142,6 +142,18 @@ impl Head {
         &self.scalp
     }
 
+    /// Area of the scalp (m²), each part weighted with its density of hair.
+    #[must_use]
+    pub fn scalp_area(&self) -> f64 {
+        (0..self.surface.triangles().len()).map(|face| self.hairy_area(face)).sum()
+    }
+
+    /// Area of a face (m²), weighted with its density of hair.
+    pub(crate) fn hairy_area(&self, face: usize) -> f64 {
+        let weights = self.surface.triangles()[face].iter().map(|&v| self.scalp[v as usize]);
+        weights.sum::<f64>() / 3.0 * 0.5 * self.surface.doubled_area_vector(face).length()
+    }
+
     /// Where things are on the head.
     #[must_use]
     pub fn landmarks(&self) -> &Landmarks {
@@ -219,7 +231,7 @@ mod tests {
         assert_eq!(scalp(DVec3::new(0.085, 0.015, -0.02)), 0.0);
         assert!(head.landmarks().azimuth(head.landmarks().ear) > 1.5);
         // People have 550 to 750 cm² of scalp.
-        let area = scalp_area(head);
+        let area = head.scalp_area();
         assert!((0.05..0.075).contains(&area), "{area}");
     }
 
@@ -287,11 +299,5 @@ mod tests {
     fn nearest_weight(head: &Head, p: DVec3) -> f64 {
         let near = head.surface().positions().iter().zip(head.scalp());
         *near.min_by(|a, b| a.0.distance(p).total_cmp(&b.0.distance(p))).unwrap().1
-    }
-
-    fn scalp_area(head: &Head) -> f64 {
-        let weight = |t: &[u32; 3]| t.iter().map(|&v| head.scalp()[v as usize]).sum::<f64>() / 3.0;
-        let area = |i: usize| 0.5 * head.surface().doubled_area_vector(i).length();
-        head.surface().triangles().iter().enumerate().map(|(i, t)| area(i) * weight(t)).sum()
     }
 }

@@ -62,6 +62,8 @@ pub(super) fn out_of_range(error: &InvalidSpec, source: &Source) -> SceneError {
         "hair.curl" => {
             &["hair.curl.radius", "hair.curl.kappa1", "hair.curl.kappa2", "hair.curl.tau"]
         }
+        // Whichever of the two makes too many points.
+        "wisps.points" => &["wisps.points", "wisps.hairs", "wisps.hairs_per_wisp", "wisps.density"],
         "equilibrium" => &["equilibrium.elements", "equilibrium.accuracy"],
         _ => std::slice::from_ref(&error.field),
     };

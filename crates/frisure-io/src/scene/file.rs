@@ -10,8 +10,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::key::{
-    Acceleration, Angle, Colour, Count, Density, Key, Length, Modulus, OneOf, Ratio, Strain, Text,
-    Vector,
+    Acceleration, Angle, Colour, Count, Density, Key, Length, Modulus, NumberDensity, OneOf, Ratio,
+    Strain, Text, Vector,
 };
 use super::words::{BodyWord, BranchKind, FlowWord, HairType, Handed, UnitWord, UpAxis, Which};
 
@@ -66,6 +66,9 @@ pub(super) struct Hair {
     /// Standard deviation of the length between wisps, as a fraction; 0 to 0.5.
     #[schemars(range(min = 0.0, max = 0.5))]
     pub(super) length_variation: Key<Ratio>,
+    /// Which shape of the type's section is taken, where `[hair.fibre]` gives none. Default
+    /// "measured".
+    pub(super) ellipticity: Key<OneOf<Which<frisure_hairstyle::Ellipticity>>>,
     /// Section and material of a fibre. The section is said in one way: `diameter` or
     /// `mean_radius`, with `eccentricity` or `axis_ratio`; or both semi-axes.
     pub(super) fibre: Fibre,
@@ -113,6 +116,13 @@ pub(super) struct Fibre {
     /// Density; more than 0. Default 1.3 g/cm^3.
     #[schemars(range(min = 0.0))]
     pub(super) density: Key<Density>,
+    /// Standard deviation of the diameter between guides, as a fraction of the mean; 0 to 0.5.
+    #[schemars(range(min = 0.0, max = 0.5))]
+    pub(super) variation: Key<Ratio>,
+    /// Standard deviation between guides of what the axis ratio exceeds 1 by, as a fraction of the
+    /// mean; 0 to 1. A circle stays one.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) axis_ratio_variation: Key<Ratio>,
     /// Which torsion constant the section is given. Default "saint-venant".
     pub(super) torsion: Key<OneOf<Which<frisure_rod::TorsionConstant>>>,
 }
@@ -223,9 +233,16 @@ pub(super) struct Wisps {
     /// Number of wisps, each with one computed guide; 1 to 20000.
     #[schemars(range(min = 1, max = 20_000))]
     pub(super) count: Key<Count>,
-    /// Number of drawn hairs on the whole head; 1 to 1000000. Default 100000.
+    /// Drawn hairs per area of scalp, instead of `hairs`; 1 to 1000 1/cm^2. Default that of the hair
+    /// type.
+    #[schemars(range(min = 1e4, max = 1e7))]
+    pub(super) density: Key<NumberDensity>,
+    /// Number of drawn hairs on the whole head; 1 to 1000000. Default by `density`.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub(super) hairs: Key<Count>,
+    /// Mean number of drawn hairs around each guide, instead of `hairs`; 1 to 100000.
+    #[schemars(range(min = 1, max = 100_000))]
+    pub(super) hairs_per_wisp: Key<Count>,
     /// How much a wisp narrows to its tip: 0 (not at all) to 1 (to a point).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) clumping: Key<Ratio>,

@@ -195,6 +195,8 @@ quantities! {
     Density = DENSITY;
     /// A curvature or twist (rad/m).
     Strain = STRAIN;
+    /// A number per area (1/m²).
+    NumberDensity = NUMBER_DENSITY;
     /// An acceleration (m/s²).
     Acceleration = ACCELERATION;
     /// A pure number.

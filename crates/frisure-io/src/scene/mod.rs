@@ -18,7 +18,7 @@ mod words;
 
 use std::path::{Path, PathBuf};
 
-use frisure_hairstyle::HairstyleSpec;
+use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
 use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
 
 pub use error::{Fault, SceneError};
@@ -225,5 +225,12 @@ impl Scene {
     #[must_use]
     pub fn blame(&self, error: &InvalidQuantity) -> SceneError {
         blame::blame(error, &self.source)
+    }
+
+    /// A number that was refused later, such as one that only a head shows to be too large, at the
+    /// key that it comes from.
+    #[must_use]
+    pub fn out_of_range(&self, error: &InvalidSpec) -> SceneError {
+        blame::out_of_range(error, &self.source)
     }
 }

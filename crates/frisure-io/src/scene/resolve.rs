@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 use std::path::Path;
 
-use frisure_hairstyle::{Curl, Fibre, Flow, HairstyleSpec, Lift, preset};
+use frisure_hairstyle::{Curl, Fibre, Flow, Hairs, HairstyleSpec, Lift, Preset, preset};
 use frisure_rod::{
     Branch, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
     Section, StrainProfile,
@@ -26,9 +26,6 @@ use super::{
 /// The hair type of a scene that names none.
 const DEFAULT_TYPE: &str = "caucasian-straight";
 
-/// Most points of all drawn hairs: 3 GB of positions and radii.
-const MAX_POINTS: usize = 200_000_000;
-
 /// Largest weight against elasticity, ρ S g L³ / EI. A hair of a metre has some ten thousand; beyond
 /// this a unit was mistaken, and a head would take hours.
 const MAX_HEAVINESS: f64 = 1e8;
@@ -47,7 +44,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
     let default = HairType(preset(DEFAULT_TYPE).expect("the default is a preset"));
     let HairType(preset) = file.hair.kind.or(default, &source)?;
     let mut spec = preset.spec();
-    hair(&file, &mut spec, &source)?;
+    hair(&file, preset, &mut spec, &source)?;
     wisps(&file.wisps, &mut spec, &source)?;
     implantation(&file.implantation, &mut spec, &source)?;
     let c = &file.contact;
@@ -85,15 +82,6 @@ pub(super) fn hairstyle(scene: &Scene) -> Result<HairstyleSpec> {
     scene.spec.check().map_err(|e| out_of_range(&e, source))?;
     // What a fibre cannot be, whichever way it leaves the scalp.
     single_hair(scene)?;
-    let wisps = &scene.spec.wisps;
-    if wisps.hairs * wisps.points > MAX_POINTS {
-        let (key, span, _) = place(&["wisps.points", "wisps.hairs"], source);
-        let problem = format!(
-            "{} hairs of {} points each are more than {MAX_POINTS} points",
-            wisps.hairs, wisps.points
-        );
-        return Err(Fault::new(problem).key(key).at(source, span));
-    }
     Ok(scene.spec.clone())
 }
 
@@ -136,25 +124,39 @@ fn set<K: Kind>(target: &mut K::Value, key: &Key<K>, source: &Source) -> Result<
     Ok(())
 }
 
-fn hair(file: &File, spec: &mut HairstyleSpec, source: &Source) -> Result<()> {
+fn hair(file: &File, preset: &Preset, spec: &mut HairstyleSpec, source: &Source) -> Result<()> {
     let hair = &file.hair;
+    spec.fibre = fibre(hair, preset, spec.fibre, source)?;
     if let Some(seed) = file.seed.get(source)? {
         spec.seed = seed as u64;
     }
     set(&mut spec.gravity, &file.gravity, source)?;
     set(&mut spec.length.mean, &hair.length, source)?;
     set(&mut spec.length.variation_between, &hair.length_variation, source)?;
-    spec.fibre = Fibre {
-        section: section(&hair.fibre, spec.fibre.section, source)?,
-        material: material(&hair.fibre, spec.fibre.material, source)?,
-        torsion: hair.fibre.torsion.get(source)?.map_or(spec.fibre.torsion, |t| t.0),
-    };
     let curl = &mut spec.curl;
     curl.strain = strain(&hair.curl, curl, source)?;
     curl.handedness = hair.curl.handedness.get(source)?.map_or(curl.handedness, |h| h.0);
     set(&mut curl.variation_between, &hair.curl.variation_between, source)?;
     set(&mut curl.variation_along, &hair.curl.variation_along, source)?;
     set(&mut curl.variation_scale, &hair.curl.variation_scale, source)
+}
+
+fn fibre(file: &file::Hair, preset: &Preset, default: Fibre, source: &Source) -> Result<Fibre> {
+    let keys = &file.fibre;
+    let axes = [keys.semi_axis_a.span(), keys.semi_axis_b.span()];
+    let shape = [keys.eccentricity.span(), keys.axis_ratio.span()];
+    one_way(source, &[&[file.ellipticity.span()], &shape, &axes])?;
+    let base = match file.ellipticity.get(source)? {
+        Some(Which(which)) => preset.hair_type().fibre(which).map_err(|e| blame(&e, source))?,
+        None => default,
+    };
+    Ok(Fibre {
+        section: section(keys, base.section, source)?,
+        material: material(keys, base.material, source)?,
+        torsion: keys.torsion.get(source)?.map_or(base.torsion, |t| t.0),
+        variation: keys.variation.or(base.variation, source)?,
+        axis_ratio_variation: keys.axis_ratio_variation.or(base.axis_ratio_variation, source)?,
+    })
 }
 
 fn section(file: &file::Fibre, preset: Section, source: &Source) -> Result<Section> {
@@ -331,13 +333,22 @@ fn implantation(
 fn wisps(file: &file::Wisps, spec: &mut HairstyleSpec, source: &Source) -> Result<()> {
     let wisps = &mut spec.wisps;
     set(&mut wisps.count, &file.count, source)?;
-    set(&mut wisps.hairs, &file.hairs, source)?;
+    wisps.hairs = hairs(file, wisps.hairs, source)?;
     set(&mut wisps.clumping, &file.clumping, source)?;
     set(&mut wisps.fuzziness, &file.fuzziness, source)?;
     set(&mut wisps.length_variation, &file.length_variation, source)?;
     set(&mut wisps.flyaways, &file.flyaways, source)?;
     set(&mut wisps.blending, &file.blending, source)?;
     set(&mut wisps.points, &file.points, source)
+}
+
+fn hairs(file: &file::Wisps, default: Hairs, source: &Source) -> Result<Hairs> {
+    let spans = [file.hairs.span(), file.hairs_per_wisp.span(), file.density.span()];
+    one_way(source, &spans.each_ref().map(std::slice::from_ref))?;
+    let count = file.hairs.get(source)?.map(Hairs::Count);
+    let each = file.hairs_per_wisp.get(source)?.map(Hairs::PerWisp);
+    let density = file.density.get(source)?.map(Hairs::Density);
+    Ok(count.or(each).or(density).unwrap_or(default))
 }
 
 fn equilibrium(

@@ -28,6 +28,7 @@ type = "{name}"  # {description}
 [hair.fibre]
 # diameter = "{diameter:.0} um"             # mean diameter
 # axis_ratio = {ratio:.2}               # longer over shorter axis of the section
+# variation = {variation:.2}               # of the diameter, between wisps
 # youngs_modulus = "3.9 GPa"
 # shear_modulus = "0.9 GPa"       # or poisson_ratio
 # density = "1.3 g/cm^3"
@@ -45,7 +46,7 @@ type = "{name}"  # {description}
 
 [wisps]
 # count = {count}                     # each has one computed guide
-# hairs = {hairs}                  # drawn on the whole head
+# density = "{density:.0} 1/cm^2"        # hairs drawn per area of scalp; or `hairs`
 # clumping = {clumping:.2}               # 0 none .. 1 to a point
 # fuzziness = {fuzziness:.2}
 
@@ -64,6 +65,7 @@ type = "{name}"  # {description}
         length = spec.length.mean * 1e2,
         diameter = section.mean_radius() * 2e6,
         ratio = section.axis_ratio(),
+        variation = spec.fibre.variation,
         radius = radius * 1e3,
         pitch = pitch * 1e3,
         between = spec.curl.variation_between,
@@ -73,7 +75,7 @@ type = "{name}"  # {description}
             frisure_hairstyle::Lift::Uniform(_) => 1.0,
         },
         count = wisps.count,
-        hairs = wisps.hairs,
+        density = preset.hair_type().density * 1e-4,
         clumping = wisps.clumping,
         fuzziness = wisps.fuzziness,
     );

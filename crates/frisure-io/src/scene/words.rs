@@ -1,6 +1,6 @@
 //! The words that keys of a scene can take.
 
-use frisure_hairstyle::{Handedness, PRESETS, Preset};
+use frisure_hairstyle::{Ellipticity, Handedness, PRESETS, Preset};
 use frisure_rod::{ElementKind, TorsionConstant};
 
 use super::key::Choice;
@@ -50,6 +50,15 @@ impl Choice for UnitWord {
             ("cm", "centimetres", Self(0.01)),
             ("mm", "millimetres", Self(0.001)),
             ("in", "inches", Self(0.0254)),
+        ]
+    }
+}
+
+impl Choice for Which<Ellipticity> {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            ("measured", "the measured axis ratio and its spread", Self(Ellipticity::Measured)),
+            ("paper", "the paper's eccentricity, nearly a circle", Self(Ellipticity::Paper)),
         ]
     }
 }
