@@ -97,7 +97,15 @@ pub const NUMBER_DENSITY: Dimension = Dimension {
     name: "a number per area",
     si: "1/m^2",
     example: "190 1/cm^2",
-    units: &[("1/cm^2", 1e4), ("1/mm^2", 1e6), ("1/m^2", 1.0), ("cm^-2", 1e4), ("m^-2", 1.0)],
+    units: &[
+        ("1/cm^2", 1e4),
+        ("1/mm^2", 1e6),
+        ("1/m^2", 1.0),
+        ("/cm^2", 1e4),
+        ("/mm^2", 1e6),
+        ("cm^-2", 1e4),
+        ("m^-2", 1.0),
+    ],
 };
 
 /// Accelerations, SI m/s².
@@ -161,8 +169,9 @@ fn plain(unit: &str) -> String {
         match c {
             // MICRO SIGN and GREEK SMALL LETTER MU look the same and are both on keyboards.
             'µ' | 'μ' => out.push('u'),
-            '²' => out.push_str("^2"),
-            '³' => out.push_str("^3"),
+            // After a raised minus the power has begun already.
+            '²' => out.push_str(if out.ends_with("^-") { "2" } else { "^2" }),
+            '³' => out.push_str(if out.ends_with("^-") { "3" } else { "^3" }),
             '⁻' => out.push_str("^-"),
             '¹' => out.push('1'),
             c if c.is_whitespace() => {}

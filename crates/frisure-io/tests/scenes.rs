@@ -307,11 +307,11 @@ fn faults_name_place_value_range_and_hint() {
         ("[wisps]\ncount = -1", 2, 9, "wisps.count", "-1", &["a whole number"]),
         ("seed = -1", 1, 8, "seed", "-1", &["a whole number"]),
         (
-            "[hair]\ntype = \"curly\"",
+            "[hair]\ntype = \"nordic\"",
             2,
             8,
             "hair.type",
-            "\"curly\"",
+            "\"nordic\"",
             &["one of", "\"caucasian-curly\""],
         ),
         ("[hair]\ntype = \"frizy\"", 2, 8, "hair.type", "\"frizy\"", &["did you mean \"frizzy\"?"]),

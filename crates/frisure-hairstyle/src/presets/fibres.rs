@@ -22,7 +22,7 @@ const fn helix(radius: f64, pitch: f64, between: f64, along: f64) -> NaturalCurl
 }
 
 /// Straight: a helix too wide for one turn.
-const STRAIGHT_CURL: NaturalCurl = helix(0.30, 0.50, 0.5, 0.2);
+const STRAIGHT_CURL: NaturalCurl = helix(0.12, 0.30, 0.4, 0.2);
 
 /// Caucasian hair; what is the same for all (moduli, mass, wetting) stands here.
 pub(super) const CAUCASIAN_STRAIGHT: HairType = HairType {
@@ -92,7 +92,6 @@ pub(super) const STRAIGHT: HairType = HairType {
     axis_ratio: 1.42,
     axis_ratio_deviation: 0.19,
     paper_eccentricity: 0.05,
-    curl: helix(0.12, 0.30, 0.4, 0.2),
     growth_rate: 400.0 * MICROMETRE_PER_DAY,
     ..CAUCASIAN_STRAIGHT
 };

@@ -145,8 +145,10 @@ fn words_are_in_the_bins_of_a_measured_population() {
     for name in ["coily", "kinky", "african-coily", "african-kinky"] {
         assert!((153.0..=560.0).contains(&hair(name).curl.curvature()), "{name}");
     }
-    // The curled tenth of Japanese hair: 0.6 to 2.5 cm (Nagase et al. 2008).
+    // Japanese hair has 0.6 to 16 cm, of which typical curved hair up to 2.5 cm (Nagase et al.
+    // 2008).
     assert!((0.006..=0.025).contains(&radius("asian-wavy")));
+    assert!((0.025..=0.16).contains(&radius("asian-straight")));
 }
 
 #[test]

@@ -180,6 +180,11 @@ fn any_section(file: &file::Fibre, preset: Section, source: &Source) -> Result<S
         (None, Some(_)) => return Err(missing(&file.semi_axis_b, "semi_axis_a", source)),
         (None, None) => {}
     }
+    let sizes = [file.diameter.span(), file.mean_radius.span()];
+    let shapes = [file.eccentricity.span(), file.axis_ratio.span()];
+    if sizes.iter().chain(&shapes).all(Option::is_none) {
+        return Ok(preset);
+    }
     let diameter = file.diameter.get(source)?;
     let radius = file.mean_radius.get(source)?;
     let preset_diameter = 2.0 * preset.mean_radius();
