@@ -91,7 +91,7 @@ fn the_table_is_for_people_and_the_same_each_time() {
 fn what_is_no_equilibrium_says_so_in_its_exit_code() {
     // Coils of 0.3 mm in a hair of 3 m that three elements cannot follow, in a hundred gravities.
     let text = "gravity = 1000\nequilibrium.elements = 3\n[hair]\nlength = 3\n\
-                fibre.diameter = \"45 um\"\ncurl = { radius = \"0.3 mm\", pitch = \"0.2 mm\" }\n";
+                fibre = { diameter = \"45 um\", axis_ratio = 1.3 }\ncurl = { radius = \"0.3 mm\", pitch = \"0.2 mm\" }\n";
     let ran = Room::new().feed(&["hair", "-", "--json"], text.as_bytes());
     assert_eq!((ran.code, ran.err.as_str()), (Some(3), ""));
     let report: Value = serde_json::from_str(&ran.out).unwrap();
