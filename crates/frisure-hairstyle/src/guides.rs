@@ -5,8 +5,9 @@ use glam::{DQuat, DVec3};
 
 use crate::contact::Clearance;
 use crate::fibre::{Curl, Handedness};
-use crate::head::Head;
-use crate::implantation;
+use crate::hairstyle::PredictError;
+use crate::head::{Head, Region};
+use crate::implantation::{self, Layout};
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
 use crate::spec::HairstyleSpec;
@@ -16,6 +17,8 @@ use crate::spec::HairstyleSpec;
 pub struct Guide {
     /// Where it is rooted.
     pub root: Root,
+    /// Which part of the scalp that is.
+    pub region: Region,
     /// The fibre, clamped at the root.
     pub rod: Rod,
     /// Distance it keeps from the body.
@@ -25,12 +28,43 @@ pub struct Guide {
 /// Standard deviation (rad) of the direction about the root tangent in which curls lean.
 const ROLL: f64 = 0.4;
 
+/// Most guides on a skin (1/m²): three hairs' breadths apart, and many more than there are
+/// follicles.
+const DENSEST: f64 = 1e7;
+
+/// More guides than the scalp has room for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{count} wisps are too many for a scalp of {} cm²; at most {most} have room", short(*area))]
+pub struct Crowded {
+    /// How many were asked for.
+    pub count: usize,
+    /// Weighted area of the scalp (m²).
+    pub area: f64,
+    /// How many there can be.
+    pub most: usize,
+}
+
+fn short(area: f64) -> f64 {
+    (area * 1e7).round() / 1e3
+}
+
 /// Plans the guides of a head.
 ///
 /// # Errors
-/// [`InvalidQuantity`], if length, curl or fibre cannot make a rod.
-pub(crate) fn plan(spec: &HairstyleSpec, head: &Head) -> Result<Vec<Guide>, InvalidQuantity> {
-    let roots = Scalp::new(head).even(spec.wisps.count, spec.seed, Purpose::GuideRoots);
+/// [`PredictError`], if length, curl or fibre cannot make a rod, or the scalp is too small.
+pub(crate) fn plan(
+    spec: &HairstyleSpec,
+    head: &Head,
+    layout: &Layout,
+) -> Result<Vec<Guide>, PredictError> {
+    let scalp = Scalp::grown(head, spec);
+    let (count, area) = (spec.wisps.count, scalp.area());
+    spec.wisps.check_size(area)?;
+    let most = (area * DENSEST) as usize;
+    if count > most {
+        return Err(Crowded { count, area, most }.into());
+    }
+    let roots = scalp.even(count, spec.seed, Purpose::GuideRoots);
     let heights = roots.iter().map(|r| r.position.z);
     let (low, high) =
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
@@ -40,23 +74,32 @@ pub(crate) fn plan(spec: &HairstyleSpec, head: &Head) -> Result<Vec<Guide>, Inva
         .map(|(index, root)| {
             let altitude = (root.position.z - low) / (high - low).max(1e-9);
             let clearance = Clearance::layered(altitude, spec.contact.volume);
-            Ok(Guide { root, rod: rod(spec, head, &root, index)?, clearance })
+            let region = head.landmarks().region(root.position);
+            Ok(Guide { root, region, rod: rod(spec, head, layout, &root, index)?, clearance })
         })
         .collect()
 }
 
+/// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.
+const SPARE: f64 = 5e-3;
+
 fn rod(
     spec: &HairstyleSpec,
     head: &Head,
+    layout: &Layout,
     root: &Root,
     index: usize,
 ) -> Result<Rod, InvalidQuantity> {
     let mut random = Stream::new(spec.seed, Purpose::GuideFibre, index);
-    let length = spec.length.mean * random.factor(spec.length.variation_between);
-    let natural = natural_strain(&spec.curl, length, &mut random)?;
-    let tangent = jittered(spec, head, root, index);
-    let lean = implantation::lean(spec.implantation.flow, root);
-    let d1 = leaning(natural.at(0.0), tangent, lean, &mut random);
+    let varied = random.factor(spec.length.variation_between);
+    let length = match layout.length(head, root) {
+        // Cut to a line: there it does not vary.
+        Some(length) => length + SPARE,
+        None => spec.length.mean * varied,
+    };
+    let natural = natural_strain(&spec.curl, layout.curl(root), length, &mut random)?;
+    let tangent = jittered(spec, head, layout, root, index);
+    let d1 = leaning(natural.at(0.0), tangent, layout.lean(root), &mut random);
     // Drawn last: seeds keep their curls whatever the section does.
     let section = spec.fibre.varied(&mut random)?;
     Rod::new(RodSpec {
@@ -71,9 +114,15 @@ fn rod(
 }
 
 /// The root's direction, turned at random, but never into the skin.
-fn jittered(spec: &HairstyleSpec, head: &Head, root: &Root, index: usize) -> DVec3 {
+fn jittered(
+    spec: &HairstyleSpec,
+    head: &Head,
+    layout: &Layout,
+    root: &Root,
+    index: usize,
+) -> DVec3 {
     let mut random = Stream::new(spec.seed, Purpose::GuideDirection, index);
-    let mean = implantation::direction(head, &spec.implantation, root);
+    let mean = layout.direction(root);
     let axis = DVec3::new(random.normal(), random.normal(), random.normal());
     let turn = DQuat::from_scaled_axis(axis * (spec.implantation.jitter / 3.0_f64.sqrt()));
     let turned = turn * mean;
@@ -97,13 +146,15 @@ fn leaning(strain: DVec3, tangent: DVec3, lean: DVec3, random: &mut Stream) -> D
     DQuat::from_axis_angle(tangent, ROLL * random.normal() + hand - phase) * out
 }
 
-/// The natural strain of one guide: the mean, varied between guides and along the hair.
+/// The natural strain of one guide: the mean times a factor, varied between guides and along the
+/// hair.
 fn natural_strain(
     curl: &Curl,
+    factor: f64,
     length: f64,
     random: &mut Stream,
 ) -> Result<NaturalStrain, InvalidQuantity> {
-    let mut mean = curl.strain * random.factor(curl.variation_between);
+    let mut mean = curl.strain * (factor * random.factor(curl.variation_between));
     if curl.handedness == Handedness::Random && random.unit() < 0.5 {
         mean.z = -mean.z;
     }

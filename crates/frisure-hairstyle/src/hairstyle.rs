@@ -5,8 +5,9 @@ use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use thiserror::Error;
 
 use crate::equilibrium::{SettlingReport, settle};
-use crate::guides::{Guide, plan};
+use crate::guides::{Crowded, Guide, plan};
 use crate::head::Head;
+use crate::implantation::{Layout, PartingError};
 use crate::monitor::{Cancelled, Monitor};
 use crate::spec::{HairstyleSpec, InvalidSpec};
 use crate::strands;
@@ -15,6 +16,7 @@ use crate::strands;
 #[derive(Clone, Debug)]
 pub struct Hairstyle {
     spec: HairstyleSpec,
+    layout: Layout,
     guides: Vec<Guide>,
     rest: Vec<Equilibrium>,
 }
@@ -28,6 +30,12 @@ pub enum PredictError {
     /// A physical quantity of a guide is out of range.
     #[error(transparent)]
     Quantity(#[from] InvalidQuantity),
+    /// A parting is not on the scalp.
+    #[error(transparent)]
+    Parting(#[from] PartingError),
+    /// The scalp has no room for the guides.
+    #[error(transparent)]
+    Crowded(#[from] Crowded),
     /// The monitor said to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -45,10 +53,10 @@ pub fn predict(
     monitor: &dyn Monitor,
 ) -> Result<Hairstyle, PredictError> {
     spec.check()?;
-    spec.wisps.check_size(head.scalp_area())?;
-    let guides = plan(spec, head)?;
+    let layout = Layout::new(spec, head)?;
+    let guides = plan(spec, head, &layout)?;
     let rest = settle(spec, head, &guides, monitor)?;
-    Ok(Hairstyle { spec: spec.clone(), guides, rest })
+    Ok(Hairstyle { spec: spec.clone(), layout, guides, rest })
 }
 
 impl Hairstyle {
@@ -96,6 +104,6 @@ impl Hairstyle {
     /// # Errors
     /// [`Cancelled`], if the monitor says to stop.
     pub fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Cancelled> {
-        strands::draw(&self.spec, head, &self.guides, &self.rest, monitor)
+        strands::draw(&self.spec, head, &self.layout, &self.guides, &self.rest, monitor)
     }
 }

@@ -21,13 +21,14 @@ mod random;
 
 pub use equilibrium::SettlingReport;
 pub use fibre::{Curl, Fibre, Handedness};
-pub use guides::Guide;
+pub use guides::{Crowded, Guide};
 pub use hairstyle::{Hairstyle, PredictError, predict};
+pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};
 pub use presets::{Ellipticity, HairType, NaturalCurl, PRESETS, Preset, Wetting, preset};
-pub use roots::Root;
+pub use roots::{Root, scalp_area};
 pub use spec::{
-    Body, Contact, Flow, Hairs, HairstyleSpec, Implantation, InvalidSpec, Length, Lift, Settling,
-    Wisps,
+    Body, Comb, Contact, Flow, Hairline, Hairs, HairstyleSpec, Implantation, InvalidSpec, Length,
+    Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn, Whorls, Wisps,
 };
 pub use strands::penetration;

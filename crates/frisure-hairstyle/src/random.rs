@@ -12,6 +12,8 @@ pub(crate) enum Purpose {
     GuideFibre,
     HairRoots,
     Hair,
+    Hairline,
+    BabyHair,
 }
 
 /// A stream of random numbers.

@@ -4,9 +4,11 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
-use crate::head::Head;
+use crate::head::{Edge, Head};
 use crate::random::{Purpose, Stream};
+use crate::spec::HairstyleSpec;
 
 /// A point of the scalp.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,24 +19,50 @@ pub struct Root {
     pub normal: DVec3,
 }
 
-/// Samples points of the scalp with a density proportional to its weight.
+/// Samples points of the scalp with a density proportional to how densely hair grows.
 pub(crate) struct Scalp<'a> {
     head: &'a Head,
     normals: Vec<DVec3>,
+    /// A natural hairline is known everywhere, not only at vertices: it does not follow the mesh.
+    edge: Option<Edge>,
     /// Faces with hair, in an order in which neighbours are near each other, and the sum of their
     /// weighted areas (m²) up to and including each.
     faces: Vec<(usize, f64)>,
 }
 
+/// Distance (m) from the hairline beyond which hair is full, or none: longer than its feather and
+/// the sides of the faces.
+const SURELY: f64 = 0.03;
+
+/// Area (m²) of the scalp of a head on which hair of this description grows, each part weighted with
+/// its density of hair: what [`crate::Wisps::hair_count`] counts on.
+#[must_use]
+pub fn scalp_area(spec: &HairstyleSpec, head: &Head) -> f64 {
+    Scalp::grown(head, spec).area()
+}
+
 impl<'a> Scalp<'a> {
+    /// The scalp as the mesh's vertices have it.
+    #[cfg(test)]
     pub(crate) fn new(head: &'a Head) -> Self {
+        Self::with_edge(head, None)
+    }
+
+    /// The scalp of a description: with its hairline, unless the scalp came with the mesh.
+    pub(crate) fn grown(head: &'a Head, spec: &HairstyleSpec) -> Self {
+        Self::with_edge(head, head.edge(&spec.implantation.hairline, spec.seed))
+    }
+
+    fn with_edge(head: &'a Head, edge: Option<Edge>) -> Self {
         let surface = head.surface();
         let (low, high) = surface.bounds();
         let size = (high - low).max_element().max(f64::MIN_POSITIVE);
+        let density = densities(head, edge.as_ref());
         let mut faces: Vec<(u32, usize, f64)> = (0..surface.triangles().len())
             .map(|face| {
                 let corner = (surface.corners(face)[0] - low) / size;
-                (morton(corner), face, head.hairy_area(face))
+                let area = 0.5 * surface.doubled_area_vector(face).length();
+                (morton(corner), face, area * density[face])
             })
             .filter(|f| f.2 > 0.0)
             .collect();
@@ -47,10 +75,10 @@ impl<'a> Scalp<'a> {
                 (face, sum)
             })
             .collect();
-        Self { head, normals: surface.vertex_normals(), faces }
+        Self { head, normals: surface.vertex_normals(), edge, faces }
     }
 
-    /// Weighted area of the scalp (m²).
+    /// Area of the scalp (m²), each part weighted with its density of hair.
     pub(crate) fn area(&self) -> f64 {
         self.faces.last().map_or(0.0, |f| f.1)
     }
@@ -68,26 +96,30 @@ impl<'a> Scalp<'a> {
             .collect()
     }
 
-    /// A point of a face, denser where its scalp weight is higher.
+    /// A point of a face, denser where hair grows more densely.
     fn on_face(&self, face: usize, random: &mut Stream) -> Root {
         let surface = self.head.surface();
-        let triangle = surface.triangles()[face];
+        let (triangle, corners) = (surface.triangles()[face], surface.corners(face));
         let weights = triangle.map(|v| self.head.scalp()[v as usize]);
-        let largest = weights.iter().copied().fold(0.0, f64::max);
+        let largest = match self.edge {
+            Some(_) => 1.0,
+            None => weights.iter().copied().fold(0.0, f64::max),
+        };
         let mut b = [1.0 / 3.0; 3];
-        for _ in 0..32 {
+        for _ in 0..TRIES {
             let (u, v) = (random.unit().sqrt(), random.unit());
             b = [1.0 - u, u * (1.0 - v), u * v];
-            let here: f64 = b.iter().zip(weights).map(|(b, w)| b * w).sum();
+            let here = match &self.edge {
+                Some(edge) => edge.density(at(b, corners)),
+                None => b.iter().zip(weights).map(|(b, w)| b * w).sum(),
+            };
             if random.unit() * largest <= here {
                 break;
             }
         }
-        let blend =
-            |values: [DVec3; 3]| -> DVec3 { b.iter().zip(values).map(|(b, x)| x * *b).sum() };
         Root {
-            position: blend(surface.corners(face)),
-            normal: blend(triangle.map(|v| self.normals[v as usize])).normalize_or(DVec3::Z),
+            position: at(b, corners),
+            normal: at(b, triangle.map(|v| self.normals[v as usize])).normalize_or(DVec3::Z),
         }
     }
 
@@ -100,6 +132,43 @@ impl<'a> Scalp<'a> {
         eliminate(candidates, count, reach)
     }
 }
+
+/// Most points of a face that are tried: where hair is sparse, most are bald.
+const TRIES: usize = 200;
+
+/// The mean of three values with weights that sum to 1.
+fn at(weights: [f64; 3], values: [DVec3; 3]) -> DVec3 {
+    weights.iter().zip(values).map(|(b, x)| x * *b).sum()
+}
+
+/// Mean density of hair on each face, 0 to 1.
+fn densities(head: &Head, edge: Option<&Edge>) -> Vec<f64> {
+    let surface = head.surface();
+    let scalp = head.scalp();
+    let faces = 0..surface.triangles().len();
+    let Some(edge) = edge else {
+        let mean = |i: usize| surface.triangles()[i].iter().map(|&v| scalp[v as usize] / 3.0).sum();
+        return faces.map(mean).collect();
+    };
+    let inside: Vec<f64> = surface.positions().par_iter().map(|&p| edge.inside(p)).collect();
+    let mean = |i: usize| -> f64 {
+        let triangle = surface.triangles()[i].map(|v| v as usize);
+        if triangle.iter().all(|&v| inside[v] < -SURELY) {
+            return 0.0;
+        }
+        if triangle.iter().all(|&v| inside[v] > SURELY && scalp[v] == 1.0) {
+            return 1.0;
+        }
+        QUADRATURE.iter().map(|&b| edge.density(at(b, surface.corners(i))) / 4.0).sum()
+    };
+    faces.into_par_iter().map(mean).collect()
+}
+
+/// Centres of the four quarters of a triangle.
+const QUADRATURE: [[f64; 3]; 4] = {
+    let (near, far) = (2.0 / 3.0, 1.0 / 6.0);
+    [[1.0 / 3.0; 3], [near, far, far], [far, near, far], [far, far, near]]
+};
 
 /// Bits of a position in the unit cube, interleaved.
 fn morton(p: DVec3) -> u32 {

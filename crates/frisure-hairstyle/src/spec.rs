@@ -5,6 +5,8 @@
 use std::f64::consts::PI;
 
 use crate::fibre::{Curl, Fibre};
+use crate::head::Region;
+use crate::implantation::segments_cross;
 
 /// A whole head of hair, described.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +21,8 @@ pub struct HairstyleSpec {
     pub length: Length,
     /// How hair leaves the scalp.
     pub implantation: Implantation,
+    /// What parts of the scalp have that the rest has not; later ones override earlier ones.
+    pub regions: Vec<RegionStyle>,
     /// Guides and the drawn hairs around them.
     pub wisps: Wisps,
     /// Hair against the body.
@@ -39,14 +43,182 @@ pub struct Length {
 }
 
 /// How hair leaves the scalp.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Implantation {
     /// The direction along the scalp.
     pub flow: Flow,
+    /// Where hair turns, if it flows as it grows.
+    pub whorls: Whorls,
+    /// Lines from which hair is combed away to both sides. Without any, [`Flow::Parted`] has one of
+    /// its own; with some, these are taken instead.
+    pub partings: Vec<Parting>,
     /// The angle to the skin.
     pub lift: Lift,
     /// Standard deviation of the direction between wisps (rad).
     pub jitter: f64,
+    /// The edge of the hair, on a head whose scalp does not come with its mesh.
+    pub hairline: Hairline,
+    /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin, 0 to 1.
+    pub baby_hairs: f64,
+}
+
+impl Default for Implantation {
+    fn default() -> Self {
+        Self {
+            flow: Flow::Whorl,
+            whorls: Whorls::default(),
+            partings: Vec::new(),
+            lift: Lift::Regional { scale: 1.0 },
+            jitter: 0.05,
+            hairline: Hairline::default(),
+            baby_hairs: 0.15,
+        }
+    }
+}
+
+/// Where hair turns at the crown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Whorls {
+    /// One, or two side by side as about 5 % of people have them.
+    pub count: usize,
+    /// Distance of the whorl, or of the middle between two, from the usual place (m): to the head's
+    /// left, and back.
+    pub offset: [f64; 2],
+    /// Which way hair turns; of two, the one on the right.
+    pub turn: Turn,
+}
+
+impl Default for Whorls {
+    fn default() -> Self {
+        Self { count: 1, offset: [0.0; 2], turn: Turn::Clockwise }
+    }
+}
+
+/// Which way hair turns about a whorl, seen from outside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Turn {
+    /// As in most people.
+    #[default]
+    Clockwise,
+    /// The other way.
+    Anticlockwise,
+}
+
+/// A line on the scalp from which hair is combed away to both sides.
+///
+/// Places are measured with a tape on the skin: back from the forehead's hairline along the middle
+/// of the head, and from there across to the head's left.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Parting {
+    /// From the hairline to the whorl.
+    Straight {
+        /// Distance from the middle at the hairline (m), positive to the head's left.
+        offset: f64,
+    },
+    /// The same with a zigzag of about a centimetre.
+    Zigzag {
+        /// Distance from the middle (m), positive to the head's left.
+        offset: f64,
+    },
+    /// A smooth curve through points: across and back (m).
+    Through(Vec<[f64; 2]>),
+}
+
+/// The edge of the hair; lengths are distances from the usual line on the skin (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hairline {
+    /// Standard deviation of the line from a smooth curve.
+    pub irregularity: f64,
+    /// How much higher the line over the forehead is than usual.
+    pub height: f64,
+    /// How far it recedes at the temples.
+    pub recession: f64,
+    /// How far it comes forward to a point in the middle.
+    pub widows_peak: f64,
+}
+
+impl Hairline {
+    /// The usual line without irregularities.
+    pub const EVEN: Self =
+        Self { irregularity: 0.0, height: 0.0, recession: 0.0, widows_peak: 0.0 };
+}
+
+impl Default for Hairline {
+    fn default() -> Self {
+        Self { irregularity: 1.5e-3, recession: 3e-3, ..Self::EVEN }
+    }
+}
+
+/// What a part of the scalp has that the rest has not. Over about a centimetre at the border,
+/// directions, angles and curls pass into those outside; lengths jump, as a cut does.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RegionStyle {
+    /// Where: in any of these.
+    pub places: Vec<Place>,
+    /// Length of the hair.
+    pub length: Option<RegionLength>,
+    /// Direction along the skin.
+    pub comb: Option<Comb>,
+    /// Angle to the skin (rad).
+    pub lift: Option<f64>,
+    /// Factor on the natural curl.
+    pub curl: Option<f64>,
+}
+
+/// A part of the scalp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// One region.
+    Region(Region),
+    /// Its left half.
+    LeftOf(Region),
+    /// Its right half.
+    RightOf(Region),
+    /// The head's left half.
+    Left,
+    /// The head's right half.
+    Right,
+    /// All of it.
+    Everywhere,
+}
+
+/// Length of the hair of a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RegionLength {
+    /// Along the fibre (m).
+    Mean(f64),
+    /// As long as it takes to reach down to a level.
+    DownTo(Level),
+}
+
+/// A height on the head that hair can reach down to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// The brows.
+    Brows,
+    /// The eyes.
+    Eyes,
+    /// The middle of the ears.
+    Ears,
+    /// The chin.
+    Chin,
+    /// The lowest hair in the neck.
+    Nape,
+}
+
+/// The direction in which hair is combed, along the skin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comb {
+    /// Over the head to the face, and down the forehead.
+    Forward,
+    /// Over the head to the neck.
+    Back,
+    /// Down.
+    Down,
+    /// To the head's left, and down.
+    Left,
+    /// To the head's right, and down.
+    Right,
 }
 
 /// The direction in which hair leaves the scalp, along the skin.
@@ -205,16 +377,6 @@ impl HairstyleSpec {
     /// # Errors
     /// [`InvalidSpec`], naming the first field that is out of range.
     pub fn check(&self) -> Result<(), InvalidSpec> {
-        let range = |field, value: f64, min: f64, max: f64, allowed| {
-            let inside = value >= min && value <= max;
-            let value = value.to_string();
-            if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
-        };
-        let count = |field, value: usize, max: usize, allowed| {
-            let inside = value >= 1 && value <= max;
-            let value = value.to_string();
-            if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
-        };
         let fraction = "between 0 and 1";
         range("hair.length", self.length.mean, 1e-3, 3.0, "between 1 mm and 3 m")?;
         range("hair.length_variation", self.length.variation_between, 0.0, 0.5, "0 to 0.5")?;
@@ -226,21 +388,8 @@ impl HairstyleSpec {
         range("hair.curl.variation_between", self.curl.variation_between, 0.0, 1.0, fraction)?;
         range("hair.curl.variation_along", self.curl.variation_along, 0.0, 1.0, fraction)?;
         range("hair.curl.variation_scale", self.curl.variation_scale, 1e-3, 1.0, "1 mm to 1 m")?;
-        range("implantation.jitter", self.implantation.jitter, 0.0, 1.0, "0 to 1 rad (57 deg)")?;
-        match self.implantation.flow {
-            Flow::Parted { offset } => {
-                range("implantation.parting", offset, -0.06, 0.06, "within 6 cm of the middle")?;
-            }
-            Flow::Whorl | Flow::SweptBack => {}
-        }
-        match self.implantation.lift {
-            Lift::Regional { scale } => {
-                range("implantation.lift_scale", scale, 0.0, 6.0, "between 0 and 6")?;
-            }
-            Lift::Uniform(angle) => {
-                range("implantation.lift", angle, 0.0, PI / 2.0, "between 0 and 90 deg")?;
-            }
-        }
+        self.implantation.check()?;
+        self.regions.iter().try_for_each(RegionStyle::check)?;
         count("wisps.count", self.wisps.count, 20_000, "between 1 and 20000")?;
         match self.wisps.hairs {
             Hairs::Count(hairs) => count("wisps.hairs", hairs, MAX_HAIRS, "between 1 and 1000000")?,
@@ -272,4 +421,121 @@ impl HairstyleSpec {
             allowed: e.allowed,
         })
     }
+}
+
+impl Implantation {
+    fn check(&self) -> Result<(), InvalidSpec> {
+        range("implantation.jitter", self.jitter, 0.0, 1.0, "0 to 1 rad (57 deg)")?;
+        if let Flow::Parted { offset } = self.flow {
+            range("implantation.parting", offset, -0.06, 0.06, "within 6 cm of the middle")?;
+        }
+        match self.lift {
+            Lift::Regional { scale } => {
+                range("implantation.lift_scale", scale, 0.0, 6.0, "between 0 and 6")?;
+            }
+            Lift::Uniform(angle) => {
+                range("implantation.lift", angle, 0.0, PI / 2.0, "between 0 and 90 deg")?;
+            }
+        }
+        self.partings.iter().try_for_each(Parting::check)?;
+        count("implantation.whorls", self.whorls.count, 2, "1 or 2")?;
+        for x in self.whorls.offset {
+            range("implantation.whorl_offset", x, -0.05, 0.05, "within 5 cm of the usual place")?;
+        }
+        range("implantation.baby_hairs", self.baby_hairs, 0.0, 1.0, "between 0 and 1")?;
+        let h = &self.hairline;
+        let wavy = "between 0 and 1 cm";
+        range("implantation.hairline.irregularity", h.irregularity, 0.0, 0.01, wavy)?;
+        range("implantation.hairline.height", h.height, -0.03, 0.05, "between -3 and 5 cm")?;
+        range("implantation.hairline.recession", h.recession, 0.0, 0.04, "between 0 and 4 cm")?;
+        let peak = "between 0 and 3 cm";
+        range("implantation.hairline.widows_peak", h.widows_peak, 0.0, 0.03, peak)
+    }
+}
+
+impl Parting {
+    /// Checks what can be checked without a head.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], if it is out of reach, not a line, or crosses itself.
+    pub fn check(&self) -> Result<(), InvalidSpec> {
+        let points = match self {
+            Self::Straight { offset } | Self::Zigzag { offset } => {
+                let field = "implantation.partings.offset";
+                return range(field, *offset, -0.06, 0.06, "within 6 cm of the middle");
+            }
+            Self::Through(points) => points,
+        };
+        let field = "implantation.partings.line";
+        let refuse = |value: String, allowed| Err(InvalidSpec { field, value, allowed });
+        if !(2..=100).contains(&points.len()) {
+            return refuse(format!("of {} points", points.len()), "a line of 2 to 100 points");
+        }
+        let reached = |p: &[f64; 2]| p[0].abs() <= 0.25 && (-0.05..=0.45).contains(&p[1]);
+        if let Some([x, y]) = points.iter().find(|p| !reached(p)) {
+            let allowed = "within 25 cm across, and -5 to 45 cm back";
+            return refuse(format!("through [{x}, {y}] m"), allowed);
+        }
+        if points.windows(2).any(|w| (w[0][0] - w[1][0]).hypot(w[0][1] - w[1][1]) < 1e-3) {
+            return refuse(
+                "through two points at one place".into(),
+                "of points 1 mm apart or more",
+            );
+        }
+        let crossed = (0..points.len() - 1).find_map(|i| {
+            let later = (i + 2..points.len() - 1)
+                .find(|&j| segments_cross(points[i], points[i + 1], points[j], points[j + 1]));
+            later.map(|j| (i + 1, j + 1))
+        });
+        match crossed {
+            Some((i, j)) => {
+                let value = format!("crossing itself: piece {i} crosses piece {j}");
+                refuse(value, "a line that does not cross itself")
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl RegionStyle {
+    /// Checks every number against the range in which it means something.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], naming the first field that is out of range.
+    pub fn check(&self) -> Result<(), InvalidSpec> {
+        if self.places.is_empty() {
+            let value = "nowhere".to_owned();
+            return Err(InvalidSpec { field: "region.where", value, allowed: "one place or more" });
+        }
+        if let Some(RegionLength::Mean(length)) = self.length {
+            range("region.length", length, 1e-3, 3.0, "between 1 mm and 3 m")?;
+        }
+        if let Some(lift) = self.lift {
+            range("region.lift", lift, 0.0, PI / 2.0, "between 0 and 90 deg")?;
+        }
+        range("region.curl", self.curl.unwrap_or(1.0), 0.0, 10.0, "between 0 and 10")
+    }
+}
+
+fn range(
+    field: &'static str,
+    value: f64,
+    min: f64,
+    max: f64,
+    allowed: &'static str,
+) -> Result<(), InvalidSpec> {
+    let inside = value >= min && value <= max;
+    let value = value.to_string();
+    if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
+}
+
+fn count(
+    field: &'static str,
+    value: usize,
+    max: usize,
+    allowed: &'static str,
+) -> Result<(), InvalidSpec> {
+    let inside = value >= 1 && value <= max;
+    let value = value.to_string();
+    if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
 }

@@ -16,7 +16,8 @@ use crate::contact::Clearance;
 use crate::grid::Grid;
 use crate::guides::Guide;
 use crate::head::Head;
-use crate::implantation::{self, smooth};
+use crate::implantation::rim::Rim;
+use crate::implantation::{Layout, smooth};
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
@@ -25,6 +26,21 @@ use crate::wisps::Wisp;
 
 /// How many neighbouring guides a hair can follow.
 const FOLLOWED: usize = 5;
+
+/// How many guides are looked at where the nearest are across a parting.
+const SOUGHT: usize = 24;
+
+/// Width of the strip along the hairline in which baby hairs grow (m).
+const BABY_RIM: f64 = 0.015;
+
+/// Shortest and longest baby hair (m).
+const BABY_LENGTH: (f64, f64) = (0.02, 0.05);
+
+/// Diameter of a baby hair, as a fraction of other hair's.
+const THIN: f64 = 0.5;
+
+/// Least length of a hair that is cut to a line, as a fraction: a cut leaves no short hairs.
+const CUT: f64 = 0.97;
 
 /// How much farther away a guide seems for going another way than the hair's own root.
 const AGAINST: f64 = 8.0;
@@ -39,6 +55,8 @@ const TIP: f64 = 0.35;
 struct Population<'a> {
     spec: &'a HairstyleSpec,
     head: &'a Head,
+    layout: &'a Layout,
+    rim: Rim,
     guides: &'a [Guide],
     wisps: Vec<Wisp>,
     grid: Grid,
@@ -54,24 +72,27 @@ struct Population<'a> {
 pub(crate) fn draw(
     spec: &HairstyleSpec,
     head: &Head,
+    layout: &Layout,
     guides: &[Guide],
     rest: &[Equilibrium],
     monitor: &dyn Monitor,
 ) -> Result<Strands, Cancelled> {
-    let scalp = Scalp::new(head);
+    let scalp = Scalp::grown(head, spec);
     let spacing = (scalp.area() / guides.len() as f64).sqrt();
     let samples = (2 * spec.wisps.points).max(64);
     let roots: Vec<DVec3> = guides.iter().map(|g| g.root.position).collect();
     let population = Population {
         spec,
         head,
+        layout,
+        rim: Rim::new(head, head.edge(&spec.implantation.hairline, spec.seed), BABY_RIM),
         guides,
         wisps: rest.par_iter().map(|r| Wisp::new(r, samples)).collect(),
         grid: Grid::new(roots.iter().copied(), spacing),
         roots,
         spacing,
     };
-    let count = spec.wisps.hair_count(head.scalp_area());
+    let count = spec.wisps.hair_count(scalp.area());
     let hair_roots = scalp.stratified(count, spec.seed, Purpose::HairRoots);
     let stage = Stage::new(monitor, "drawing hairs", hair_roots.len());
     let hairs: Vec<Hair> = hair_roots
@@ -102,6 +123,8 @@ pub fn penetration(strands: &Strands, head: &Head) -> f64 {
 
 struct Hair {
     guide: u32,
+    /// Factor on its diameter.
+    thickness: f64,
     points: Vec<Vec3>,
 }
 
@@ -114,7 +137,7 @@ fn assemble(spec: &HairstyleSpec, guides: &[Guide], hairs: &[Hair]) -> Strands {
     let mut strands = Strands::with_capacity(hairs.len(), hairs.len() * points);
     let mut radii = vec![0.0; points];
     for hair in hairs {
-        let radius = guides[hair.guide as usize].rod.spec().section.mean_radius();
+        let radius = guides[hair.guide as usize].rod.spec().section.mean_radius() * hair.thickness;
         for (here, taper) in radii.iter_mut().zip(&taper) {
             *here = (radius * taper) as f32;
         }
@@ -191,7 +214,13 @@ impl Population<'_> {
         let length: f64 = followed.iter().map(|&(g, w)| w * self.wisps[g].length).sum();
         let layer = self.layer(&followed);
         let wisps = &self.spec.wisps;
-        let character = Character::new(wisps, length, self.spacing, layer, &mut random);
+        let mut character = Character::new(wisps, length, self.spacing, layer, &mut random);
+        if let Some(own) = self.layout.length(self.head, root) {
+            // Roots behind and before the guide's reach the same line.
+            character.length = (character.length.max(CUT) * own / length).min(1.0);
+        }
+        let baby = self.baby(root, index);
+        character.length = baby.map_or(character.length, |l| character.length.min(l / length));
         let last = wisps.points - 1;
         let mut free = Free::NOWHERE;
         let points = (0..=last)
@@ -201,14 +230,14 @@ impl Population<'_> {
                 self.laid_on_body(root, p, x * length, character.layer, &mut free).as_vec3()
             })
             .collect();
-        Hair { guide: main as u32, points }
+        Hair { guide: main as u32, thickness: if baby.is_some() { THIN } else { 1.0 }, points }
     }
 
     /// Guides that a hair follows, with weights that sum to one; the nearest first.
     fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
-        let mut near = self.grid.nearest(root.position, FOLLOWED, &self.roots);
+        let mut near = self.near(root.position);
         // Beside a parting the nearest guide may go to the other side.
-        let own = implantation::direction(self.head, &self.spec.implantation, root);
+        let own = self.layout.direction(root);
         let farness = |g: usize| {
             let against = 1.0 - own.dot(self.guides[g].rod.root().frame().z_axis);
             root.position.distance_squared(self.roots[g]) * (1.0 + AGAINST * against)
@@ -227,6 +256,35 @@ impl Population<'_> {
             f.1 /= sum;
         }
         followed
+    }
+
+    /// Guides near a root that its hair can go with, nearest first; at least one.
+    fn near(&self, root: DVec3) -> Vec<usize> {
+        let mut near = self.grid.nearest(root, FOLLOWED, &self.roots);
+        if !self.layout.divides() {
+            return near;
+        }
+        let nearest = near[0];
+        let together = |g: &usize| !self.layout.apart(root, self.roots[*g]);
+        near.retain(together);
+        if near.is_empty() {
+            near = self.grid.nearest(root, SOUGHT, &self.roots);
+            near.retain(together);
+            near.truncate(FOLLOWED);
+        }
+        if near.is_empty() { vec![nearest] } else { near }
+    }
+
+    /// The length (m) of a baby hair; none for other hair.
+    fn baby(&self, root: &Root, index: usize) -> Option<f64> {
+        let share = self.spec.implantation.baby_hairs;
+        if share == 0.0 {
+            return None;
+        }
+        let mut random = Stream::new(self.spec.seed, Purpose::BabyHair, index);
+        let chosen = random.unit() < share;
+        (chosen && self.rim.distance(root.position) < BABY_RIM)
+            .then(|| random.between(BABY_LENGTH.0, BABY_LENGTH.1))
     }
 
     /// Whether two guides go the same way, from 1 to 0: hair beside a parting or around an ear falls

@@ -32,9 +32,23 @@ fn table(schema: &Value, path: &str, out: &mut String) {
         let _ = writeln!(out, "| `{key}` | {} | {description} |", value(schema));
     }
     for (key, schema) in keys {
-        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-        table(schema, &path, out);
+        if schema["items"].get("properties").is_some() && key != "along" {
+            list(schema, &join(path, key), out);
+        }
+        table(schema, &join(path, key), out);
     }
+}
+
+fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+/// The keys of tables in a list.
+fn list(schema: &Value, path: &str, out: &mut String) {
+    let mut keys = String::new();
+    table(&schema["items"], "", &mut keys);
+    let text = schema["description"].as_str().unwrap_or("").replace('\n', " ");
+    let _ = write!(out, "\n## `[[{path}]]`\n\n{text}\n{keys}");
 }
 
 /// What kind of value a key has, in words.
@@ -44,6 +58,12 @@ fn value(schema: &Value) -> String {
             format!("`\"{}\"` {}", w["const"].as_str().unwrap_or(""), text(&w["description"]))
         };
         return words.iter().map(word).collect::<Vec<_>>().join("; ");
+    }
+    if let Some(ways) = schema["anyOf"].as_array().filter(|_| schema["examples"].is_null()) {
+        return ways.iter().map(value).collect::<Vec<_>>().join("; or ");
+    }
+    if schema["items"]["oneOf"].is_array() {
+        return "a list of these".into();
     }
     if let Some(items) = schema["items"]["properties"].as_object() {
         let names: Vec<_> = items.keys().map(|k| format!("`{k}`")).collect();

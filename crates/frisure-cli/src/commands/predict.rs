@@ -180,6 +180,11 @@ fn refused(error: &PredictError, scene: &Scene) -> Failure {
     match error {
         PredictError::Cancelled(_) => Failure::Interrupted,
         PredictError::Quantity(error) => scene.blame(error).into(),
+        PredictError::Parting(e) => {
+            let key = format!("implantation.partings[{}].line[{}]", e.index, e.place);
+            scene.fault(&key, e.to_string(), "").into()
+        }
+        PredictError::Crowded(e) => scene.fault("wisps.count", e.to_string(), "").into(),
         PredictError::Spec(error) => scene.out_of_range(error).into(),
     }
 }

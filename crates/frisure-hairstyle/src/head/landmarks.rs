@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::implantation::smooth;
+
 /// Places on a head (m) that other parts measure from. The head looks towards −y, left is +x, and
 /// the two sides are taken as mirror images about the plane through the cranium's centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +43,12 @@ pub enum Region {
     Back,
     /// Below the occiput.
     Nape,
+}
+
+impl Region {
+    /// Every region, from the front to the neck.
+    pub const ALL: [Self; 6] =
+        [Self::Fringe, Self::Top, Self::Crown, Self::Sides, Self::Back, Self::Nape];
 }
 
 impl Landmarks {
@@ -84,5 +92,30 @@ impl Landmarks {
         } else {
             Region::Top
         }
+    }
+
+    /// How much of each region the skin point `p` (m) has, in the order of [`Region::ALL`]; the sum
+    /// is 1. Shares change over about a centimetre where [`Self::region`] jumps.
+    #[must_use]
+    pub fn shares(&self, p: DVec3) -> [f64; 6] {
+        let d = self.normalized(p).normalize_or(DVec3::Z);
+        let whorl = self.normalized(self.whorl).normalize_or(DVec3::Z);
+        let azimuth = self.azimuth(p).abs();
+        // Half a centimetre to both sides: about 0.06 of the cranium's radius.
+        let above = |x: f64, at: f64, half: f64| smooth(at - half, at + half, x);
+        let below = |x: f64, at: f64, half: f64| 1.0 - above(x, at, half);
+        let crown = above(d.dot(whorl), 0.92, 0.022);
+        let nape = below(d.z, -0.35, 0.06) * above(azimuth, 1.9, 0.06);
+        let back = above(azimuth, 2.2, 0.06) * below(d.z, 0.75, 0.05);
+        let sides = below(d.z, 0.62, 0.05) * above(azimuth, 0.75, 0.06);
+        let fringe = below(d.y, -0.45, 0.06);
+        let mut left = 1.0;
+        let mut take = |share: f64| {
+            let taken = left * share;
+            left -= taken;
+            taken
+        };
+        let [crown, nape, back, sides, fringe] = [crown, nape, back, sides, fringe].map(&mut take);
+        [fringe, left, crown, sides, back, nape]
     }
 }

@@ -12,6 +12,7 @@ mod mesher;
 mod scalp;
 mod sculpt;
 mod spheres;
+mod tape;
 #[cfg(test)]
 mod test_shapes;
 mod triangles;
@@ -22,13 +23,19 @@ use thiserror::Error;
 
 pub use distance::SignedDistance;
 pub use landmarks::{Landmarks, Region};
+pub(crate) use scalp::Edge;
 pub use spheres::Sphere;
+pub(crate) use tape::Tape;
+
+use crate::spec::Hairline;
 
 /// A head that hair can be planted on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head {
     surface: Surface,
     scalp: Vec<f64>,
+    /// Whether the scalp is the landmarks' hairline, not one that came with the mesh.
+    natural: bool,
     landmarks: Landmarks,
     signed_distance: SignedDistance,
     spheres: Vec<Sphere>,
@@ -95,7 +102,7 @@ impl Head {
         let surface = mannequin::surface();
         let landmarks = mannequin::landmarks();
         let scalp = scalp::weights(&surface, &landmarks);
-        Self::assemble(surface, scalp, landmarks)
+        Self::assemble(surface, scalp, true, landmarks)
     }
 
     /// A head from a mesh (m, z up, face towards −y), which may be open at the shoulders.
@@ -114,6 +121,7 @@ impl Head {
             return Err(HeadError::Distance { distance });
         }
         let landmarks = Landmarks::guess(&surface);
+        let natural = scalp == ScalpSource::Guess;
         let scalp = match scalp {
             ScalpSource::Guess => scalp::weights(&surface, &landmarks),
             ScalpSource::Weights(weights) => checked(weights, surface.positions().len())?,
@@ -121,13 +129,13 @@ impl Head {
         if !grows(&surface, &scalp) {
             return Err(HeadError::NoScalp);
         }
-        Ok(Self::assemble(surface, scalp, landmarks))
+        Ok(Self::assemble(surface, scalp, natural, landmarks))
     }
 
-    fn assemble(surface: Surface, scalp: Vec<f64>, landmarks: Landmarks) -> Self {
+    fn assemble(surface: Surface, scalp: Vec<f64>, natural: bool, landmarks: Landmarks) -> Self {
         let signed_distance = SignedDistance::new(&surface);
         let spheres = spheres::fit(&surface, &scalp, &landmarks, &signed_distance);
-        Self { surface, scalp, landmarks, signed_distance, spheres }
+        Self { surface, scalp, natural, landmarks, signed_distance, spheres }
     }
 
     /// The skin (m).
@@ -142,16 +150,9 @@ impl Head {
         &self.scalp
     }
 
-    /// Area of the scalp (m²), each part weighted with its density of hair.
-    #[must_use]
-    pub fn scalp_area(&self) -> f64 {
-        (0..self.surface.triangles().len()).map(|face| self.hairy_area(face)).sum()
-    }
-
-    /// Area of a face (m²), weighted with its density of hair.
-    pub(crate) fn hairy_area(&self, face: usize) -> f64 {
-        let weights = self.surface.triangles()[face].iter().map(|&v| self.scalp[v as usize]);
-        weights.sum::<f64>() / 3.0 * 0.5 * self.surface.doubled_area_vector(face).length()
+    /// The edge of the hair, where it is not one that came with the mesh.
+    pub(crate) fn edge(&self, hairline: &Hairline, seed: u64) -> Option<Edge> {
+        self.natural.then(|| Edge::new(&self.landmarks, hairline, seed))
     }
 
     /// Where things are on the head.
@@ -231,7 +232,7 @@ mod tests {
         assert_eq!(scalp(DVec3::new(0.085, 0.015, -0.02)), 0.0);
         assert!(head.landmarks().azimuth(head.landmarks().ear) > 1.5);
         // People have 550 to 750 cm² of scalp.
-        let area = head.scalp_area();
+        let area = scalp_area(head);
         assert!((0.05..0.075).contains(&area), "{area}");
     }
 
@@ -299,5 +300,11 @@ mod tests {
     fn nearest_weight(head: &Head, p: DVec3) -> f64 {
         let near = head.surface().positions().iter().zip(head.scalp());
         *near.min_by(|a, b| a.0.distance(p).total_cmp(&b.0.distance(p))).unwrap().1
+    }
+
+    fn scalp_area(head: &Head) -> f64 {
+        let weight = |t: &[u32; 3]| t.iter().map(|&v| head.scalp()[v as usize]).sum::<f64>() / 3.0;
+        let area = |i: usize| 0.5 * head.surface().doubled_area_vector(i).length();
+        head.surface().triangles().iter().enumerate().map(|(i, t)| area(i) * weight(t)).sum()
     }
 }

@@ -1,42 +1,89 @@
 //! Where hair grows.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use frisure_strands::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::landmarks::Landmarks;
+use crate::random::{Purpose, Stream};
+use crate::spec::Hairline;
 
 /// Half the width over which hair thins out at the hairline (m).
 const FEATHER: f64 = 3.5e-3;
 
 /// Weight 0..1 at each vertex: 1 where hair grows, falling to 0 across the hairline.
 pub(crate) fn weights(surface: &Surface, landmarks: &Landmarks) -> Vec<f64> {
-    let line = Hairline::new(landmarks);
-    surface.positions().par_iter().map(|&p| line.weight(p)).collect()
+    let edge = Edge::new(landmarks, &Hairline::EVEN, 0);
+    let weight = |&p: &DVec3| smooth(edge.inside(p) / FEATHER) * (1.0 - edge.on_ear(p));
+    surface.positions().par_iter().map(weight).collect()
 }
 
-/// The hairline of the left side, drawn on the sphere of directions about the cranium's centre.
-struct Hairline<'a> {
-    landmarks: &'a Landmarks,
-    /// Azimuth and elevation (rad), from the forehead to the nape.
+/// How far outside the line the first hairs grow, and how far inside hair is full (m).
+const THINNING: (f64, f64) = (-2e-3, 8e-3);
+
+/// Number of waves that make a hairline irregular, and their wavelengths (m).
+const WAVES: (usize, f64, f64) = (12, 7e-3, 35e-3);
+
+/// The edge of hair as it grows: a hairline with its irregularities, drawn on the sphere of
+/// directions about the cranium's centre. The sides are mirror images but for the irregularity.
+pub(crate) struct Edge {
+    landmarks: Landmarks,
+    /// Azimuth and elevation (rad) on the left side, from the forehead to the nape.
     line: Vec<[f64; 2]>,
+    hairline: Hairline,
+    /// Wave vectors (rad/m) and phases.
+    waves: Vec<(DVec3, f64)>,
 }
 
-impl<'a> Hairline<'a> {
-    fn new(landmarks: &'a Landmarks) -> Self {
-        Self { landmarks, line: curve(&anchors(landmarks)) }
+impl Edge {
+    pub(crate) fn new(landmarks: &Landmarks, hairline: &Hairline, seed: u64) -> Self {
+        let mut random = Stream::new(seed, Purpose::Hairline, 0);
+        let (count, short, long) = WAVES;
+        let mut wave = || {
+            let way = DVec3::new(random.normal(), random.normal(), random.normal());
+            let length = short * (long / short).powf(random.unit());
+            (way.normalize_or(DVec3::X) * (TAU / length), TAU * random.unit())
+        };
+        let waves = (0..count).map(|_| wave()).collect();
+        let line = curve(&anchors(landmarks));
+        Self { landmarks: landmarks.clone(), line, hairline: *hairline, waves }
     }
 
-    fn weight(&self, p: DVec3) -> f64 {
-        let l = self.landmarks;
+    /// Density of hair at a point (m) of the skin, 0 to 1.
+    pub(crate) fn density(&self, p: DVec3) -> f64 {
+        let (bald, full) = THINNING;
+        let x = (self.inside(p) - bald) / (full - bald);
+        smooth(2.0 * x - 1.0) * (1.0 - self.on_ear(p))
+    }
+
+    /// Distance (m) to the line, positive where hair grows.
+    pub(crate) fn inside(&self, p: DVec3) -> f64 {
+        let l = &self.landmarks;
         // Just short of π, where the line ends.
         let at = [l.azimuth(p).abs().min(PI - 1e-9), l.elevation(p)];
         let reach = p.distance(l.cranium_centre);
         let gap = self.distance(at) * reach;
-        let inside = if self.covers(at) { gap } else { -gap };
-        smooth(inside / FEATHER) * (1.0 - self.on_ear(p))
+        (if self.covers(at) { gap } else { -gap }) - self.recession(at[0], p)
+    }
+
+    /// How far (m) the hair has receded from the plain line.
+    fn recession(&self, azimuth: f64, p: DVec3) -> f64 {
+        let h = &self.hairline;
+        let bump = |centre: f64, width: f64| (-((azimuth - centre) / width).powi(2)).exp();
+        let forehead = smooth((0.95 - azimuth) / 0.2);
+        h.height * forehead + h.recession * bump(0.72, 0.25) - h.widows_peak * bump(0.0, 0.12)
+            + h.irregularity * self.noise(p)
+    }
+
+    /// A smooth random number with mean 0 and standard deviation 1.
+    fn noise(&self, p: DVec3) -> f64 {
+        if self.hairline.irregularity == 0.0 {
+            return 0.0;
+        }
+        let sum: f64 = self.waves.iter().map(|(k, phase)| (k.dot(p) + phase).sin()).sum();
+        sum * (2.0 / self.waves.len() as f64).sqrt()
     }
 
     /// Angle to the line (rad).
@@ -65,7 +112,7 @@ impl<'a> Hairline<'a> {
 
     /// 1 on the outer ear, which the scalp behind it shares its directions with.
     fn on_ear(&self, p: DVec3) -> f64 {
-        let l = self.landmarks;
+        let l = &self.landmarks;
         let d = DVec3::new(p.x.abs(), p.y, p.z) - l.ear;
         let scale = l.width / 0.155;
         let out = d.x / scale + 2e-3;

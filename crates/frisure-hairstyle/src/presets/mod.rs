@@ -151,7 +151,9 @@ impl Preset {
                 flow: style.flow,
                 lift: Lift::Regional { scale: hair.lift_scale },
                 jitter: style.jitter,
+                ..Implantation::default()
             },
+            regions: Vec::new(),
             wisps: style.wisps(Hairs::Density(hair.density)),
             contact: Contact {
                 body: Body::SignedDistance,

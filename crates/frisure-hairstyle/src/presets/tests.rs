@@ -172,8 +172,9 @@ fn a_natural_curl_measures_itself() {
 
 #[test]
 fn a_scalp_has_as_many_hairs_as_its_density_says() {
-    let area = Head::mannequin().scalp_area();
-    let wisps = preset("caucasian-straight").unwrap().spec().wisps;
+    let spec = preset("caucasian-straight").unwrap().spec();
+    let area = crate::scalp_area(&spec, &Head::mannequin());
+    let wisps = spec.wisps;
     let hairs = wisps.hair_count(area);
     assert!((hairs as f64 / (226e4 * area) - 1.0).abs() < 1e-4, "{hairs}");
     // People have 90 000 to 150 000 hairs, blond ones most.

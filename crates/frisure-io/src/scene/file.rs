@@ -10,10 +10,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::key::{
-    Acceleration, Angle, Colour, Count, Density, Key, Length, Modulus, NumberDensity, OneOf, Ratio,
-    Strain, Text, Vector,
+    Acceleration, Angle, Colour, Count, Density, Key, Length, Modulus, NumberDensity, OneOf, Pair,
+    Points, Ratio, Strain, Text, Vector,
 };
-use super::words::{BodyWord, BranchKind, FlowWord, HairType, Handed, UnitWord, UpAxis, Which};
+use super::words::{
+    BodyWord, BranchKind, FlowWord, HairType, Handed, PartingPlace, Places, UnitWord, UpAxis, Which,
+};
 
 /// A scene: hair, the head it grows on, and how to look at it.
 ///
@@ -35,6 +37,8 @@ pub(super) struct File {
     pub(super) head: Head,
     /// How hair leaves the scalp.
     pub(super) implantation: Implantation,
+    /// What parts of the scalp have that the rest has not; later ones override earlier ones.
+    pub(super) region: Vec<Region>,
     /// Guides and the drawn hairs around them.
     pub(super) wisps: Wisps,
     /// Hair against the head.
@@ -211,10 +215,21 @@ pub(super) struct Head {
 pub(super) struct Implantation {
     /// The direction along the scalp. Default "parted".
     pub(super) flow: Key<OneOf<FlowWord>>,
-    /// Distance of the parting from the middle, positive to the head's left; within 6 cm. Default
-    /// 2 cm.
+    /// Where the parting is: a word, or its distance from the middle at the hairline, positive to
+    /// the head's left; within 6 cm. Default 2 cm.
     #[schemars(range(min = -0.06, max = 0.06))]
-    pub(super) parting: Key<Length>,
+    pub(super) parting: Key<PartingPlace>,
+    /// Several partings, or ones drawn through points, instead of `parting`.
+    pub(super) partings: Vec<Parting>,
+    /// Whorls at the crown about which hair turns as it grows: 1, or 2 as about 5 % of people have
+    /// them. Default 1.
+    #[schemars(range(min = 1, max = 2))]
+    pub(super) whorls: Key<Count>,
+    /// Distance of the whorl from its usual place, to the head's left and back; within 5 cm.
+    pub(super) whorl_offset: Key<Pair>,
+    /// Which way hair turns about the whorl, seen from outside; of two, the right one. Default
+    /// "clockwise", as in most people.
+    pub(super) whorl_turn: Key<OneOf<Which<frisure_hairstyle::Turn>>>,
     /// Angle to the skin, the same everywhere; 0 to 90 deg.
     #[schemars(range(min = 0.0, max = FRAC_PI_2))]
     pub(super) lift: Key<Angle>,
@@ -224,6 +239,63 @@ pub(super) struct Implantation {
     /// Standard deviation of the direction between wisps; 0 to 1 rad.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) jitter: Key<Angle>,
+    /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin; 0 to 1. Default
+    /// 0.15.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) baby_hairs: Key<Ratio>,
+    /// The edge of the hair, against the usual line. A scalp that comes with a mesh keeps its own.
+    pub(super) hairline: Hairline,
+}
+
+/// One of `[[implantation.partings]]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Parting {
+    /// Where a straight one is, as `parting` says it.
+    pub(super) at: Key<PartingPlace>,
+    /// Points that it goes smoothly through, each as distances on the skin: across, from the middle
+    /// to the head's left, and back, behind the forehead's hairline.
+    pub(super) line: Key<Points>,
+}
+
+/// `[implantation.hairline]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Hairline {
+    /// Standard deviation from a smooth line; 0 to 1 cm. Default 1.5 mm.
+    #[schemars(range(min = 0.0, max = 0.01))]
+    pub(super) irregularity: Key<Length>,
+    /// How much higher it is over the forehead; -3 to 5 cm. Default 0.
+    #[schemars(range(min = -0.03, max = 0.05))]
+    pub(super) height: Key<Length>,
+    /// How far it recedes at the temples; 0 to 4 cm. Default 3 mm.
+    #[schemars(range(min = 0.0, max = 0.04))]
+    pub(super) recession: Key<Length>,
+    /// How far it comes forward to a point in the middle; 0 to 3 cm. Default 0.
+    #[schemars(range(min = 0.0, max = 0.03))]
+    pub(super) widows_peak: Key<Length>,
+}
+
+/// One of `[[region]]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Region {
+    /// Which part of the scalp, or a list of parts.
+    #[serde(rename = "where")]
+    pub(super) place: Key<Places>,
+    /// Length along the fibre; 1 mm to 3 m. It changes at once at the region's border, as cut.
+    #[schemars(range(min = 0.001, max = 3.0))]
+    pub(super) length: Key<Length>,
+    /// Instead of `length`: as long as it takes to reach down to here, cut to a line.
+    pub(super) down_to: Key<OneOf<Which<frisure_hairstyle::Level>>>,
+    /// Direction along the skin.
+    pub(super) comb: Key<OneOf<Which<frisure_hairstyle::Comb>>>,
+    /// Angle to the skin; 0 to 90 deg.
+    #[schemars(range(min = 0.0, max = FRAC_PI_2))]
+    pub(super) lift: Key<Angle>,
+    /// Factor on the natural curl; 0 to 10.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub(super) curl: Key<Ratio>,
 }
 
 /// `[wisps]`.

@@ -42,7 +42,7 @@ pub(super) struct Refusal {
 }
 
 impl Refusal {
-    fn new(allowed: impl Into<String>) -> Self {
+    pub(super) fn new(allowed: impl Into<String>) -> Self {
         Self { allowed: allowed.into(), hint: String::new() }
     }
 
@@ -259,6 +259,48 @@ impl Kind for Vector {
         json_schema!({
             "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3,
             "examples": [[0, 0, 1]],
+        })
+    }
+}
+
+/// Two lengths (m).
+pub(super) struct Pair;
+
+impl Kind for Pair {
+    type Value = [f64; 2];
+
+    fn read(value: &Value) -> Result<[f64; 2], Refusal> {
+        let allowed = || Refusal::new("two lengths, such as [\"2 cm\", \"5 cm\"]");
+        match value.as_array().map(Vec::as_slice) {
+            Some([across, back]) => Ok([Length::read(across)?, Length::read(back)?]),
+            _ => Err(allowed()),
+        }
+    }
+
+    fn schema() -> Schema {
+        json_schema!({
+            "type": "array", "items": { "type": ["number", "string"] }, "minItems": 2,
+            "maxItems": 2, "examples": [["2 cm", "5 cm"]],
+        })
+    }
+}
+
+/// A list of places on the skin, each across and back (m).
+pub(super) struct Points;
+
+impl Kind for Points {
+    type Value = Vec<[f64; 2]>;
+
+    fn read(value: &Value) -> Result<Vec<[f64; 2]>, Refusal> {
+        let allowed = "a list of places, such as [[\"2 cm\", \"0 cm\"], [\"3 cm\", \"8 cm\"]]";
+        let places = value.as_array().ok_or_else(|| Refusal::new(allowed))?;
+        places.iter().map(|place| Pair::read(place).map_err(|_| Refusal::new(allowed))).collect()
+    }
+
+    fn schema() -> Schema {
+        json_schema!({
+            "type": "array", "items": Pair::schema(), "minItems": 2, "maxItems": 100,
+            "examples": [[["2 cm", "0 cm"], ["3 cm", "8 cm"]]],
         })
     }
 }

@@ -4,7 +4,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 use std::path::Path;
 
-use frisure_hairstyle::{Curl, Fibre, Flow, Hairs, HairstyleSpec, Lift, Preset, preset};
+use frisure_hairstyle::{
+    Curl, Fibre, Flow, Hairs, HairstyleSpec, InvalidSpec, Lift, Parting, Preset, RegionLength,
+    RegionStyle, preset,
+};
 use frisure_rod::{
     Branch, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
     Section, StrainProfile,
@@ -47,6 +50,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
     hair(&file, preset, &mut spec, &source)?;
     wisps(&file.wisps, &mut spec, &source)?;
     implantation(&file.implantation, &mut spec, &source)?;
+    spec.regions = regions(&file.region, &source)?;
     let c = &file.contact;
     spec.contact.body = c.body.get(&source)?.map_or(spec.contact.body, |b| b.0);
     set(&mut spec.contact.stiffness, &c.stiffness, &source)?;
@@ -306,16 +310,39 @@ fn implantation(
 ) -> Result<()> {
     one_way(source, &[&[file.lift.span()], &[file.lift_scale.span()]])?;
     let implantation = &mut spec.implantation;
-    let parting = match implantation.flow {
-        Flow::Parted { offset } => offset,
-        Flow::Whorl | Flow::SweptBack => 0.0,
+    implantation.flow = flow(file, implantation.flow, source)?;
+    implantation.partings = partings(file, source)?;
+    if let Some(angle) = file.lift.get(source)? {
+        implantation.lift = Lift::Uniform(angle);
+    }
+    if let Some(scale) = file.lift_scale.get(source)? {
+        implantation.lift = Lift::Regional { scale };
+    }
+    set(&mut implantation.jitter, &file.jitter, source)?;
+    set(&mut implantation.baby_hairs, &file.baby_hairs, source)?;
+    let whorls = &mut implantation.whorls;
+    set(&mut whorls.count, &file.whorls, source)?;
+    set(&mut whorls.offset, &file.whorl_offset, source)?;
+    whorls.turn = file.whorl_turn.get(source)?.map_or(whorls.turn, |t| t.0);
+    let (hairline, file) = (&mut implantation.hairline, &file.hairline);
+    set(&mut hairline.irregularity, &file.irregularity, source)?;
+    set(&mut hairline.height, &file.height, source)?;
+    set(&mut hairline.recession, &file.recession, source)?;
+    set(&mut hairline.widows_peak, &file.widows_peak, source)
+}
+
+fn flow(file: &file::Implantation, preset: Flow, source: &Source) -> Result<Flow> {
+    // A parting by itself asks for parted hair.
+    let parting = file.parting.span().or(file.partings.first().and_then(parting_span));
+    let offset = match (file.parting.get(source)?, preset) {
+        (Some(Parting::Straight { offset } | Parting::Zigzag { offset }), _) => offset,
+        (None, Flow::Parted { offset }) => offset,
+        _ => 0.0,
     };
-    let offset = file.parting.or(parting, source)?;
-    implantation.flow = match file.flow.get(source)? {
+    Ok(match file.flow.get(source)? {
         Some(FlowWord::Parted) => Flow::Parted { offset },
-        // A parting by itself asks for parted hair.
-        None if file.parting.is_given() => Flow::Parted { offset },
-        None => implantation.flow,
+        None if parting.is_some() => Flow::Parted { offset },
+        None => preset,
         Some(_) if file.parting.is_given() => {
             let problem = "only parted hair has a parting";
             let span = file.parting.span().unwrap_or(0..0);
@@ -325,14 +352,81 @@ fn implantation(
         }
         Some(FlowWord::Whorl) => Flow::Whorl,
         Some(FlowWord::SweptBack) => Flow::SweptBack,
+    })
+}
+
+/// Partings that a straight one at the flow's own place does not say.
+fn partings(file: &file::Implantation, source: &Source) -> Result<Vec<Parting>> {
+    let list = file.partings.first().and_then(parting_span);
+    one_way(source, &[&[file.parting.span()], &[list]])?;
+    if let Some(zigzag @ Parting::Zigzag { .. }) = file.parting.get(source)? {
+        return Ok(vec![zigzag]);
+    }
+    file.partings.iter().enumerate().map(|(i, p)| parting(i, p, source)).collect()
+}
+
+fn parting(index: usize, file: &file::Parting, source: &Source) -> Result<Parting> {
+    one_way(source, &[&[file.at.span()], &[file.line.span()]])?;
+    let parting = match (file.at.get(source)?, file.line.get(source)?) {
+        (Some(at), _) => at,
+        (None, Some(line)) => Parting::Through(line),
+        (None, None) => {
+            let key = format!("implantation.partings[{index}]");
+            let span = source.locate(&key);
+            let problem = format!("`{key}` says nothing: a parting has `at` or `line`");
+            return Err(Fault::new(problem).key(key).at(source, span));
+        }
     };
-    if let Some(angle) = file.lift.get(source)? {
-        implantation.lift = Lift::Uniform(angle);
-    }
-    if let Some(scale) = file.lift_scale.get(source)? {
-        implantation.lift = Lift::Regional { scale };
-    }
-    set(&mut implantation.jitter, &file.jitter, source)
+    let written = file.at.span().or(file.line.span()).unwrap_or(0..0);
+    parting.check().map_err(|e| at_value(&e, written, source))?;
+    Ok(parting)
+}
+
+/// Where a parting stands: its first key, as tables in lists have no span of their own here.
+fn parting_span(parting: &file::Parting) -> Option<Range<usize>> {
+    [parting.at.span(), parting.line.span()].into_iter().flatten().min_by_key(|s| s.start)
+}
+
+fn regions(files: &[file::Region], source: &Source) -> Result<Vec<RegionStyle>> {
+    files.iter().enumerate().map(|(i, file)| region(i, file, source)).collect()
+}
+
+fn region(index: usize, file: &file::Region, source: &Source) -> Result<RegionStyle> {
+    one_way(source, &[&[file.length.span()], &[file.down_to.span()]])?;
+    let Some(places) = file.place.get(source)? else {
+        let key = format!("region[{index}]");
+        let span = source.locate(&key);
+        let problem = format!("`{key}` is nowhere");
+        let hint = "add `where = \"fringe\"`, or another part of the scalp";
+        return Err(Fault::new(problem).key(key).hint(hint).at(source, span));
+    };
+    let down_to = file.down_to.get(source)?.map(|l| RegionLength::DownTo(l.0));
+    let style = RegionStyle {
+        places,
+        length: file.length.get(source)?.map(RegionLength::Mean).or(down_to),
+        comb: file.comb.get(source)?.map(|c| c.0),
+        lift: file.lift.get(source)?,
+        curl: file.curl.get(source)?,
+    };
+    style.check().map_err(|e| {
+        let key = match e.field {
+            "region.length" => file.length.span(),
+            "region.lift" => file.lift.span(),
+            "region.curl" => file.curl.span(),
+            _ => file.place.span(),
+        };
+        at_value(&e, key.unwrap_or(0..0), source)
+    })?;
+    Ok(style)
+}
+
+/// A value that a hairstyle refuses, where it is written.
+fn at_value(error: &InvalidSpec, span: Range<usize>, source: &Source) -> SceneError {
+    let key = source.path_at(&span);
+    // A list is long, and only what is wrong with it is worth a sentence.
+    let written = source.slice(span.clone());
+    let value = if written.starts_with('[') { error.value.as_str() } else { written };
+    Fault::outside(error.allowed).key(key).value(value).at(source, span)
 }
 
 fn wisps(file: &file::Wisps, spec: &mut HairstyleSpec, source: &Source) -> Result<()> {

@@ -47,15 +47,21 @@ impl Source {
         self.text.get(span).unwrap_or("")
     }
 
-    /// Where the value at a path such as `hair.curl.radius` stands, or the nearest table around it
-    /// that is written down; the empty span at the start if nothing is.
+    /// Where the value at a path such as `hair.curl.radius` or `region[1].length` stands, or the
+    /// nearest thing around it that is written down; the empty span at the start if nothing is.
     pub(super) fn locate(&self, path: &str) -> Range<usize> {
         let Ok(document) = self.document() else { return 0..0 };
         let mut table = document.get_ref();
         let mut span = 0..0;
-        for name in path.split('.') {
-            let Some(value) = table.get(name) else { break };
+        for step in path.split('.') {
+            let (name, indices) = step.split_once('[').unwrap_or((step, ""));
+            let Some(mut value) = table.get(name) else { break };
             span = value.span();
+            for index in indices.split(['[', ']']).filter_map(|i| i.parse::<usize>().ok()) {
+                let Some(item) = value.get_ref().get(index) else { break };
+                value = item;
+                span = value.span();
+            }
             let DeValue::Table(inner) = value.get_ref() else { break };
             table = inner;
         }

@@ -1,9 +1,14 @@
 //! The words that keys of a scene can take.
 
-use frisure_hairstyle::{Ellipticity, Handedness, PRESETS, Preset};
+use frisure_hairstyle::head::Region;
+use frisure_hairstyle::{
+    Comb, Ellipticity, Handedness, Level, PRESETS, Parting, Place, Preset, Turn,
+};
 use frisure_rod::{ElementKind, TorsionConstant};
+use schemars::{Schema, json_schema};
+use toml::Value;
 
-use super::key::Choice;
+use super::key::{Choice, Kind, Length, OneOf, Refusal};
 
 /// A hair type, by its name.
 #[derive(Clone, Copy)]
@@ -132,6 +137,121 @@ impl Choice for FlowWord {
             ("whorl", "as it grows, around the crown and over the forehead", Self::Whorl),
             ("parted", "to both sides of a parting", Self::Parted),
             ("swept-back", "back from the forehead", Self::SweptBack),
+        ]
+    }
+}
+
+/// Where a parting is: a word or a distance from the middle.
+pub(super) struct PartingPlace;
+
+/// A parting by a word of its own.
+#[derive(Clone, Copy)]
+struct PartingWord {
+    offset: f64,
+    zigzag: bool,
+}
+
+impl Choice for PartingWord {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        let straight = |offset| Self { offset, zigzag: false };
+        vec![
+            ("middle", "in the middle", straight(0.0)),
+            ("left", "4 cm to the head's left", straight(0.04)),
+            ("right", "4 cm to the head's right", straight(-0.04)),
+            ("zigzag", "in the middle, in a zigzag", Self { offset: 0.0, zigzag: true }),
+        ]
+    }
+}
+
+impl Kind for PartingPlace {
+    type Value = Parting;
+
+    fn read(value: &Value) -> Result<Parting, Refusal> {
+        let is_length = match value {
+            Value::String(text) => !text.trim_start().starts_with(char::is_alphabetic),
+            _ => true,
+        };
+        if is_length {
+            return Length::read(value).map(|offset| Parting::Straight { offset });
+        }
+        let PartingWord { offset, zigzag } = OneOf::<PartingWord>::read(value)?;
+        Ok(if zigzag { Parting::Zigzag { offset } } else { Parting::Straight { offset } })
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "anyOf": [OneOf::<PartingWord>::schema(), Length::schema()] })
+    }
+}
+
+impl Choice for Place {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        let region = Self::Region;
+        vec![
+            ("fringe", "behind the forehead's hairline", region(Region::Fringe)),
+            ("top", "between fringe and crown", region(Region::Top)),
+            ("crown", "around the whorl", region(Region::Crown)),
+            ("sides", "temples and above the ears", region(Region::Sides)),
+            ("back", "the back of the head", region(Region::Back)),
+            ("nape", "below the occiput", region(Region::Nape)),
+            ("left-side", "the left of the sides", Self::LeftOf(Region::Sides)),
+            ("right-side", "the right of the sides", Self::RightOf(Region::Sides)),
+            ("left-fringe", "the left of the fringe", Self::LeftOf(Region::Fringe)),
+            ("right-fringe", "the right of the fringe", Self::RightOf(Region::Fringe)),
+            ("left", "the head's left half", Self::Left),
+            ("right", "the head's right half", Self::Right),
+            ("all", "the whole scalp", Self::Everywhere),
+        ]
+    }
+}
+
+/// Parts of the scalp: one word, or a list.
+pub(super) struct Places;
+
+impl Kind for Places {
+    type Value = Vec<Place>;
+
+    fn read(value: &Value) -> Result<Vec<Place>, Refusal> {
+        match value {
+            Value::Array(list) => list.iter().map(OneOf::<Place>::read).collect(),
+            one => OneOf::<Place>::read(one).map(|place| vec![place]),
+        }
+    }
+
+    fn schema() -> Schema {
+        let word = OneOf::<Place>::schema();
+        json_schema!({ "anyOf": [word, { "type": "array", "items": word, "minItems": 1 }] })
+    }
+}
+
+impl Choice for Which<Level> {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            ("brows", "the brows", Self(Level::Brows)),
+            ("eyes", "the eyes", Self(Level::Eyes)),
+            ("ears", "the middle of the ears", Self(Level::Ears)),
+            ("chin", "the chin", Self(Level::Chin)),
+            ("nape", "the lowest hair in the neck", Self(Level::Nape)),
+        ]
+    }
+}
+
+impl Choice for Which<Comb> {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            ("forward", "over the head to the face", Self(Comb::Forward)),
+            ("back", "over the head to the neck", Self(Comb::Back)),
+            ("down", "down", Self(Comb::Down)),
+            ("left", "to the head's left, and down", Self(Comb::Left)),
+            ("right", "to the head's right, and down", Self(Comb::Right)),
+        ]
+    }
+}
+
+impl Choice for Which<Turn> {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            ("clockwise", "as in most people", Self(Turn::Clockwise)),
+            ("anticlockwise", "the other way", Self(Turn::Anticlockwise)),
         ]
     }
 }

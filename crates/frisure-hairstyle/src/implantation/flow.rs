@@ -1,0 +1,142 @@
+//! The direction of hair along the skin: a smooth field made of sources.
+//!
+//! Whorls turn it about themselves, partings push it to both sides, and between them it runs over
+//! the forehead, down the sides and together at the nape. It is a vector along the skin, of length
+//! 1 where all sources agree and shorter where they contradict each other: in the eye of a whorl, or
+//! where two streams meet. There hair stands up, so that the direction in space stays smooth.
+
+use glam::{DQuat, DVec3};
+
+use super::parting::Partings;
+use super::smooth;
+use crate::head::{Head, Landmarks, Tape};
+use crate::roots::Root;
+use crate::spec::{Comb, Flow, Turn, Whorls};
+
+/// Distance (m) from a whorl within which hair stands up.
+const EYE: f64 = 0.012;
+
+/// How far (rad) hair beside a whorl turns away from the radius.
+const SWIRL: f64 = 1.2;
+
+/// Half the distance (m) between two whorls.
+const PAIR: f64 = 0.022;
+
+/// Where hair turns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Whorl {
+    /// On the skin (m).
+    pub(crate) centre: DVec3,
+    /// Clockwise, seen from outside: 1; anticlockwise: −1.
+    hand: f64,
+}
+
+/// The whorls of a head.
+pub(crate) fn whorls(spec: &Whorls, head: &Head) -> Vec<Whorl> {
+    let hand = if spec.turn == Turn::Clockwise { 1.0 } else { -1.0 };
+    let crown = head.landmarks().whorl;
+    if spec.count < 2 && spec.offset == [0.0; 2] {
+        return vec![Whorl { centre: crown, hand }];
+    }
+    let tape = Tape::new(head);
+    let [across, back] = [spec.offset[0], tape.back_of(crown) + spec.offset[1]];
+    if spec.count < 2 {
+        return vec![Whorl { centre: tape.at([across, back]), hand }];
+    }
+    // Mirror images, as most pairs are: the right one turns as a single one would.
+    [(-PAIR, hand), (PAIR, -hand)]
+        .map(|(aside, hand)| Whorl { centre: tape.at([across + aside, back]), hand })
+        .to_vec()
+}
+
+/// The flow at a root.
+pub(crate) fn along_skin(
+    marks: &Landmarks,
+    flow: Flow,
+    whorls: &[Whorl],
+    partings: &Partings,
+    root: &Root,
+) -> DVec3 {
+    let normal = root.normal;
+    let front = 1.0 - smooth(-0.4, 0.6, marks.normalized(root.position).y);
+    let base = match flow {
+        Flow::Whorl => natural(marks, whorls, root),
+        Flow::Parted { .. } => {
+            along(DVec3::new(0.0, 0.15, -1.0), normal).lerp(back(normal), 0.85 * front)
+        }
+        Flow::SweptBack => back(normal),
+    };
+    let base = gathered_at_nape(marks, base, root);
+    let Some((away, distance)) = partings.away(root.position, normal) else { return base };
+    let parted = matches!(flow, Flow::Parted { .. });
+    let reach = marks.width * if parted { 0.5 } else { 0.22 };
+    let pull = (-(distance / reach).powi(2)).exp();
+    // Beside the line hair leaves sideways; farther off it is combed back out of the face.
+    let combed = if parted { 0.3 + 0.7 * smooth(0.004, 0.03, distance) } else { 0.0 };
+    let away = shortened(away + back(normal) * (1.3 * combed * front));
+    base.lerp(away, pull)
+}
+
+/// The direction, along the skin, that a comb gives.
+pub(crate) fn combed(comb: Comb, normal: DVec3) -> DVec3 {
+    match comb {
+        Comb::Forward => forward(normal),
+        Comb::Back => back(normal),
+        Comb::Down => along(DVec3::NEG_Z, normal),
+        Comb::Left => along(DVec3::new(1.0, 0.0, -0.3), normal),
+        Comb::Right => along(DVec3::new(-1.0, 0.0, -0.3), normal),
+    }
+}
+
+/// As hair grows: away from the whorls, turning about each near by, then forward over the forehead
+/// and down the sides.
+fn natural(marks: &Landmarks, whorls: &[Whorl], root: &Root) -> DVec3 {
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    for whorl in whorls {
+        let away = root.position - whorl.centre;
+        let distance = away.length().max(1e-9);
+        let turn = SWIRL * (-distance / (0.45 * marks.width)).exp() * whorl.hand;
+        let radial = (away - root.normal * root.normal.dot(away)).normalize_or_zero();
+        let weight = distance.powi(-3);
+        let eye = smooth(0.0, EYE, distance);
+        sum += DQuat::from_axis_angle(root.normal, -turn) * radial * (weight * eye);
+        weights += weight;
+    }
+    let whorled = sum / weights.max(1e-12);
+    let nearest = whorls.iter().map(|w| w.centre.distance(root.position));
+    let far = smooth(0.3, 0.9, nearest.fold(f64::INFINITY, f64::min) / marks.width);
+    let d = marks.normalized(root.position);
+    let (front, low) = (1.0 - smooth(-0.8, 0.0, d.y), 1.0 - smooth(0.0, 0.7, d.z));
+    let over_forehead = forward(root.normal) * (0.5 * front);
+    let down = along(DVec3::new(0.0, 0.1, -1.0), root.normal) * (0.8 * low);
+    shortened(whorled + (over_forehead + down) * far)
+}
+
+/// Towards the middle below the occiput, where the streams of both sides meet.
+fn gathered_at_nape(marks: &Landmarks, flow: DVec3, root: &Root) -> DVec3 {
+    let d = marks.normalized(root.position);
+    let nape = (1.0 - smooth(-0.7, -0.3, d.z)) * smooth(0.0, 0.4, d.y);
+    let inwards = DVec3::new((-2.5 * d.x).clamp(-1.0, 1.0), 0.0, -1.0);
+    shortened(flow.lerp(along(inwards, root.normal), 0.8 * nape))
+}
+
+/// Back over the head, and behind the ears down.
+fn back(normal: DVec3) -> DVec3 {
+    let aside = normal.x * normal.x;
+    shortened(along(normal.cross(DVec3::X) + DVec3::new(0.0, 0.8, -0.5) * aside, normal))
+}
+
+/// Forward over the head and down the forehead.
+fn forward(normal: DVec3) -> DVec3 {
+    let aside = normal.x * normal.x;
+    shortened(along(DVec3::X.cross(normal) + DVec3::new(0.0, -0.8, -0.5) * aside, normal))
+}
+
+/// The part of a vector along the skin, no longer than 1.
+fn along(v: DVec3, normal: DVec3) -> DVec3 {
+    shortened(v - normal * normal.dot(v))
+}
+
+fn shortened(v: DVec3) -> DVec3 {
+    v / v.length().max(1.0)
+}

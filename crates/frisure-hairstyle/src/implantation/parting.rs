@@ -1,0 +1,215 @@
+//! Partings: curves on the scalp from which hair is combed away to both sides.
+
+use glam::DVec3;
+
+use crate::head::{Head, Landmarks, Tape};
+use crate::spec::Parting;
+
+/// Length (m) of the pieces of a parting.
+const PIECE: f64 = 2.5e-3;
+
+/// How far (m) a parting begins in front of the forehead's hairline, so that it parts the edge.
+const BEFORE: f64 = 6e-3;
+
+/// Width and period (m) of a zigzag.
+const ZIGZAG: (f64, f64) = (0.011, 0.026);
+
+/// Farthest (m) from growing hair that a point of a parting may be.
+const OFF: f64 = 0.015;
+
+/// A parting that is not where hair grows.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "parting {} leaves the scalp: at {} cm across, {} cm back no hair grows within 1.5 cm",
+    index + 1, short(point[0]), short(point[1])
+)]
+pub struct PartingError {
+    /// Which parting, from 0.
+    pub index: usize,
+    /// Which of its points, from 0, in a parting through points.
+    pub place: usize,
+    /// The point: across and back (m).
+    pub point: [f64; 2],
+}
+
+fn short(metres: f64) -> f64 {
+    (metres * 1e3).round() / 10.0
+}
+
+/// The partings of one head.
+#[derive(Clone, Debug)]
+pub(crate) struct Partings(Vec<Line>);
+
+/// A parting as a chain of short pieces on the skin.
+#[derive(Clone, Debug)]
+struct Line {
+    points: Vec<DVec3>,
+    /// The same points on the map of the scalp.
+    map: Vec<[f64; 2]>,
+    /// Smallest and largest corner of the map's points.
+    bounds: [[f64; 2]; 2],
+}
+
+impl Partings {
+    pub(crate) fn new(partings: &[Parting], head: &Head) -> Result<Self, PartingError> {
+        if partings.is_empty() {
+            return Ok(Self(Vec::new()));
+        }
+        let tape = Tape::new(head);
+        let lines = partings.iter().enumerate().map(|(index, parting)| {
+            let corners = corners(parting, tape.back_of(head.landmarks().whorl));
+            if let Parting::Through(_) = parting {
+                check(index, &corners, &tape, head)?;
+            }
+            let smooth = !matches!(parting, Parting::Zigzag { .. });
+            let points = dense(&corners, smooth).iter().map(|&c| tape.at(c)).collect();
+            Ok(Line::new(points, head.landmarks()))
+        });
+        lines.collect::<Result<_, _>>().map(Self)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether the way along the skin from one point (m) to another near by crosses a parting.
+    pub(crate) fn between(&self, marks: &Landmarks, a: DVec3, b: DVec3) -> bool {
+        if self.0.is_empty() {
+            return false;
+        }
+        let (a, b) = (map(marks, a), map(marks, b));
+        self.0.iter().any(|line| line.crosses(a, b))
+    }
+
+    /// The direction along the skin away from the partings, no longer than 1 and shorter where they
+    /// contradict each other, and the distance (m) to the nearest; none without partings.
+    pub(crate) fn away(&self, p: DVec3, normal: DVec3) -> Option<(DVec3, f64)> {
+        let (mut sum, mut most, mut nearest) = (DVec3::ZERO, 0.0, f64::INFINITY);
+        for line in &self.0 {
+            for pair in line.points.windows(2) {
+                let d = p - closest(p, pair[0], pair[1]);
+                let distance = d.length().max(1e-6);
+                // A line of charges whose force falls fast enough for each side to feel its own
+                // piece, and slowly enough to be smooth.
+                let weight = pair[0].distance(pair[1]) / distance.powi(3);
+                sum += d / distance * weight;
+                most += weight;
+                nearest = nearest.min(distance);
+            }
+        }
+        let along = sum - normal * normal.dot(sum);
+        nearest.is_finite().then(|| {
+            // Hair at the ends of a row of pieces leaves obliquely: what counts is the side.
+            let agreement = (2.0 * along.length() / most).min(1.0);
+            (along.normalize_or_zero() * agreement, nearest)
+        })
+    }
+
+    /// The partings as chains of points on the skin (m).
+    #[cfg(test)]
+    pub(crate) fn lines(&self) -> impl Iterator<Item = &[DVec3]> {
+        self.0.iter().map(|l| l.points.as_slice())
+    }
+}
+
+impl Line {
+    fn new(points: Vec<DVec3>, marks: &Landmarks) -> Self {
+        let map: Vec<_> = points.iter().map(|&p| map(marks, p)).collect();
+        let pick = |f: fn(f64, f64) -> f64, start: f64| {
+            map.iter().fold([start; 2], |[x, y], q| [f(x, q[0]), f(y, q[1])])
+        };
+        let bounds = [pick(f64::min, f64::INFINITY), pick(f64::max, f64::NEG_INFINITY)];
+        Self { points, map, bounds }
+    }
+
+    fn crosses(&self, a: [f64; 2], b: [f64; 2]) -> bool {
+        let [low, high] = self.bounds;
+        let apart = |i: usize| a[i].max(b[i]) < low[i] || a[i].min(b[i]) > high[i];
+        !apart(0) && !apart(1) && self.map.windows(2).any(|w| segments_cross(a, b, w[0], w[1]))
+    }
+}
+
+/// The scalp on a plane: angles from the vertical in every direction, equal along the meridians.
+fn map(marks: &Landmarks, p: DVec3) -> [f64; 2] {
+    let d = marks.normalized(p).normalize_or(DVec3::Z);
+    let from_top = d.z.clamp(-1.0, 1.0).acos();
+    let scale = from_top / d.x.hypot(d.y).max(1e-12);
+    [d.x * scale, d.y * scale]
+}
+
+/// Whether two segments of the plane cross.
+pub(crate) fn segments_cross(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> bool {
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    };
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
+}
+
+fn closest(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
+    let along = b - a;
+    a + along * ((p - a).dot(along) / along.length_squared().max(1e-18)).clamp(0.0, 1.0)
+}
+
+/// The corners of a parting, across and back (m), on a head whose whorl is `crown` (m) behind the
+/// hairline.
+fn corners(parting: &Parting, crown: f64) -> Vec<[f64; 2]> {
+    match parting {
+        &Parting::Straight { offset } => {
+            // Towards the whorl, in which it ends.
+            vec![[offset, -BEFORE], [offset, 0.4 * crown], [0.5 * offset, crown]]
+        }
+        &Parting::Zigzag { offset } => {
+            let (width, period) = ZIGZAG;
+            let turns = (2.0 * (crown + BEFORE) / period).round().max(2.0) as usize;
+            let corner = |i: usize| {
+                let side = if i.is_multiple_of(2) { 0.5 } else { -0.5 };
+                [offset + side * width, -BEFORE + i as f64 / turns as f64 * (crown + BEFORE)]
+            };
+            (0..=turns).map(corner).collect()
+        }
+        Parting::Through(points) => points.clone(),
+    }
+}
+
+fn check(
+    index: usize,
+    corners: &[[f64; 2]],
+    tape: &Tape<'_>,
+    head: &Head,
+) -> Result<(), PartingError> {
+    let grows = |p: DVec3| {
+        let skin = head.surface().positions().iter().zip(head.scalp());
+        skin.into_iter().any(|(q, &w)| w > 0.3 && q.distance(p) < OFF)
+    };
+    match corners.iter().position(|&c| !grows(tape.at(c))) {
+        Some(place) => Err(PartingError { index, place, point: corners[place] }),
+        None => Ok(()),
+    }
+}
+
+/// Points a short piece apart: along a Catmull–Rom curve through the corners, or straight.
+fn dense(corners: &[[f64; 2]], smooth: bool) -> Vec<[f64; 2]> {
+    let Some(&first) = corners.first() else { return Vec::new() };
+    let last = corners.len() - 1;
+    let mut points = vec![first];
+    for i in 0..last {
+        let (b, c) = (corners[i], corners[i + 1]);
+        let mirrored = |p: [f64; 2], q: [f64; 2]| [2.0 * p[0] - q[0], 2.0 * p[1] - q[1]];
+        let a = if i > 0 { corners[i - 1] } else { mirrored(b, c) };
+        let d = if i + 1 < last { corners[i + 2] } else { mirrored(c, b) };
+        let steps = ((c[0] - b[0]).hypot(c[1] - b[1]) / PIECE).ceil().max(1.0) as usize;
+        for k in 1..=steps {
+            let t = k as f64 / steps as f64;
+            let at = |x: usize| match smooth {
+                true => catmull_rom([a[x], b[x], c[x], d[x]], t),
+                false => b[x] + (c[x] - b[x]) * t,
+            };
+            points.push([at(0), at(1)]);
+        }
+    }
+    points
+}
+
+fn catmull_rom([a, b, c, d]: [f64; 4], t: f64) -> f64 {
+    b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
+}

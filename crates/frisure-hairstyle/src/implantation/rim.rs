@@ -1,0 +1,51 @@
+//! How far a root is from the edge of the hair.
+
+use glam::DVec3;
+
+use crate::grid::Grid;
+use crate::head::{Edge, Head};
+
+/// The edge of the hair: a natural hairline, or the border of the scalp that a mesh came with.
+pub(crate) enum Rim {
+    /// The line itself.
+    Line(Box<Edge>),
+    /// Bald points of the skin (m) next to hair.
+    Border {
+        /// The points, sorted into cells.
+        grid: Grid,
+        /// The points.
+        points: Vec<DVec3>,
+    },
+}
+
+impl Rim {
+    /// For distances up to `reach` (m).
+    pub(crate) fn new(head: &Head, edge: Option<Edge>, reach: f64) -> Self {
+        if let Some(edge) = edge {
+            return Self::Line(Box::new(edge));
+        }
+        let weights = head.scalp();
+        let grows = |v: &u32| weights[*v as usize] >= 0.5;
+        let mut bald = vec![false; weights.len()];
+        for triangle in head.surface().triangles() {
+            if triangle.iter().any(grows) {
+                for v in triangle.iter().filter(|v| !grows(v)) {
+                    bald[*v as usize] = true;
+                }
+            }
+        }
+        let positions = head.surface().positions().iter().zip(bald);
+        let points: Vec<_> = positions.filter_map(|(p, bald)| bald.then_some(*p)).collect();
+        Self::Border { grid: Grid::new(points.iter().copied(), reach), points }
+    }
+
+    /// Distance (m) of a point of the scalp from the edge, exact within the reach.
+    pub(crate) fn distance(&self, p: DVec3) -> f64 {
+        match self {
+            Self::Line(edge) => edge.inside(p).max(0.0),
+            Self::Border { grid, points } => {
+                grid.near(p).map(|i| points[i].distance(p)).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+}

@@ -1,0 +1,243 @@
+use std::f64::consts::{PI, TAU};
+use std::sync::OnceLock;
+
+use super::*;
+use crate::presets::preset;
+use crate::random::Purpose;
+use crate::roots::Scalp;
+use crate::spec::{Comb, Hairline, Lift, Parting, Place, Turn};
+
+fn head() -> &'static Head {
+    static HEAD: OnceLock<Head> = OnceLock::new();
+    HEAD.get_or_init(Head::mannequin)
+}
+
+fn spec(flow: Flow, change: impl FnOnce(&mut HairstyleSpec)) -> HairstyleSpec {
+    let mut spec = preset("caucasian-straight").unwrap().spec();
+    spec.implantation = Implantation { flow, lift: Lift::Uniform(0.5), ..Implantation::default() };
+    change(&mut spec);
+    spec
+}
+
+fn layout(flow: Flow, change: impl FnOnce(&mut HairstyleSpec)) -> Layout {
+    Layout::new(&spec(flow, change), head()).unwrap()
+}
+
+/// The skin nearest to a point near it.
+fn root(p: DVec3) -> Root {
+    let (distance, away) = head().signed_distance().value_gradient(p);
+    Root { position: p - away * distance, normal: away.normalize() }
+}
+
+const FLOWS: [Flow; 3] = [Flow::Whorl, Flow::Parted { offset: 0.02 }, Flow::SweptBack];
+
+#[test]
+fn hair_leaves_at_the_stated_angle_or_more_steeply() {
+    let roots = Scalp::new(head()).stratified(2000, 1, Purpose::HairRoots);
+    for flow in FLOWS {
+        let layout = layout(flow, |_| {});
+        let angles = roots.iter().map(|r| layout.direction(r).dot(r.normal).asin());
+        let stated = angles.clone().filter(|a| (a - 0.5).abs() < 1e-9).count();
+        assert!(angles.clone().all(|a| a > 0.5 - 1e-9), "{flow:?}");
+        // It is steeper only in the eye of a whorl and where streams meet.
+        assert!(stated > 1800, "{flow:?}: {stated}");
+    }
+}
+
+#[test]
+fn neighbouring_hair_goes_the_same_way() {
+    let roots = Scalp::new(head()).stratified(20_000, 1, Purpose::HairRoots);
+    let grid = crate::grid::Grid::new(roots.iter().map(|r| r.position), 2e-3);
+    for flow in FLOWS {
+        for count in [1, 2] {
+            let layout = layout(flow, |s| s.implantation.whorls.count = count);
+            let far = |p: DVec3| layout.whorls.iter().all(|w| w.centre.distance(p) > 0.012);
+            for (i, a) in roots.iter().enumerate().filter(|(_, r)| far(r.position)) {
+                for b in grid.near(a.position).filter(|&j| j > i).map(|j| &roots[j]) {
+                    let apart = a.position.distance(b.position);
+                    if apart > 2e-3 || layout.apart(a.position, b.position) {
+                        continue;
+                    }
+                    let turn = layout.direction(a).angle_between(layout.direction(b));
+                    let skin = a.normal.angle_between(b.normal);
+                    // The ends of a parting are as sharp as the line.
+                    let sharp = layout.partings.away(a.position, a.normal);
+                    if sharp.is_some_and(|(_, d)| d < 6e-3) {
+                        continue;
+                    }
+                    assert!(turn < 0.45 + 2.0 * skin, "{flow:?}: {turn} at {}", a.position);
+                }
+            }
+        }
+    }
+}
+
+/// How often, and which way, the flow turns on a small circle about a point.
+fn winding(layout: &Layout, centre: DVec3, radius: f64) -> f64 {
+    const STEPS: i32 = 180;
+    let middle = root(centre);
+    let x = middle.normal.any_orthonormal_vector();
+    let y = middle.normal.cross(x);
+    let angle = |i: i32| {
+        let (sin, cos) = (TAU * f64::from(i) / f64::from(STEPS)).sin_cos();
+        let d = layout.direction(&root(middle.position + (x * cos + y * sin) * radius));
+        d.dot(y).atan2(d.dot(x))
+    };
+    let turn = |i: i32| (angle(i + 1) - angle(i) + PI).rem_euclid(TAU) - PI;
+    (0..STEPS).map(turn).sum::<f64>() / TAU
+}
+
+#[test]
+fn the_flow_winds_once_about_each_whorl() {
+    for count in [1, 2] {
+        let layout = layout(Flow::Whorl, |s| s.implantation.whorls.count = count);
+        assert_eq!(layout.whorls.len(), count);
+        for whorl in &layout.whorls {
+            assert!((winding(&layout, whorl.centre, 0.008) - 1.0).abs() < 1e-6);
+        }
+        // No other turn anywhere near: the front of the scalp has none.
+        let front = head().landmarks().hairline + DVec3::new(0.0, 0.03, 0.0);
+        assert!(winding(&layout, front, 0.01).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn whorls_turn_clockwise_unless_told_otherwise() {
+    for (turn, sign) in [(Turn::Clockwise, -1.0), (Turn::Anticlockwise, 1.0)] {
+        let layout = layout(Flow::Whorl, |s| s.implantation.whorls.turn = turn);
+        let centre = layout.whorls[0].centre;
+        let aside = root(centre + DVec3::new(0.02, 0.0, 0.0));
+        let radius = aside.position - centre;
+        // Seen from outside, with the normal towards the eye.
+        let moment = aside.normal.dot(radius.cross(layout.direction(&aside)));
+        assert!(moment * sign > 0.3 * radius.length(), "{turn:?}: {moment}");
+    }
+}
+
+#[test]
+fn hair_runs_over_the_forehead_down_the_sides_and_together_at_the_nape() {
+    let layout = layout(Flow::Whorl, |_| {});
+    let marks = head().landmarks();
+    let at = |p: DVec3| layout.direction(&root(p));
+    assert!(at(marks.hairline + DVec3::new(0.0, 0.01, 0.005)).y < -0.5);
+    for side in [-1.0, 1.0] {
+        assert!(at(DVec3::new(0.076 * side, 0.0, 0.02)).z < -0.5);
+        let skin = root(marks.nape + DVec3::new(0.03 * side, 0.0, 0.01));
+        let nape = layout.direction(&skin).reject_from(skin.normal);
+        assert!(nape.x * side < 0.0 && nape.z < -0.3, "{nape}");
+    }
+}
+
+#[test]
+fn a_parting_parts() {
+    let s_curve = Parting::Through(vec![[0.03, 0.01], [0.0, 0.06], [0.02, 0.11]]);
+    for parting in [Parting::Straight { offset: 0.0 }, Parting::Zigzag { offset: 0.02 }, s_curve] {
+        for flow in FLOWS {
+            let layout = layout(flow, |s| s.implantation.partings = vec![parting.clone()]);
+            check_sides(&layout);
+        }
+    }
+}
+
+/// Hair beside each piece of a parting leaves it, and the two sides cannot go together.
+fn check_sides(layout: &Layout) {
+    let lines: Vec<Vec<DVec3>> = layout.partings.lines().map(<[_]>::to_vec).collect();
+    for line in lines {
+        for pair in line.windows(2).skip(4).step_by(3).take(20) {
+            let middle = root(0.5 * (pair[0] + pair[1]));
+            let aside = (pair[1] - pair[0]).cross(middle.normal).normalize();
+            let sides = [-1.0, 1.0].map(|side| root(middle.position + aside * (side * 1.5e-3)));
+            assert!(layout.apart(sides[0].position, sides[1].position));
+            for (side, root) in [-1.0, 1.0].into_iter().zip(&sides) {
+                assert!(layout.direction(root).dot(aside) * side > 0.05, "{}", root.position);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_parting_off_the_scalp_is_refused_with_its_point() {
+    let line = vec![[0.0, 0.02], [0.0, 0.08], [0.0, -0.04]];
+    let partings = vec![Parting::Straight { offset: 0.0 }, Parting::Through(line)];
+    let spec = spec(Flow::SweptBack, |s| s.implantation.partings = partings);
+    let error = Layout::new(&spec, head()).unwrap_err();
+    assert_eq!((error.index, error.place, error.point), (1, 2, [0.0, -0.04]));
+    assert!(error.to_string().contains("0 cm across, -4 cm back"), "{error}");
+}
+
+#[test]
+fn partings_that_are_no_lines_are_refused() {
+    for (line, what) in [
+        (vec![[0.0, 0.05]], "2 to 100 points"),
+        (vec![[0.0, 0.05], [0.0, 0.05]], "1 mm apart"),
+        (vec![[0.0, 0.0], [0.0, 0.1], [0.03, 0.05], [-0.03, 0.04]], "does not cross itself"),
+        (vec![[0.0, 0.0], [0.0, f64::NAN]], "within 25 cm"),
+    ] {
+        let error = Parting::Through(line).check().unwrap_err();
+        assert!(error.allowed.contains(what), "{error}");
+    }
+}
+
+#[test]
+fn regions_have_directions_and_lengths_of_their_own() {
+    let fringe = RegionStyle {
+        places: vec![Place::Region(crate::head::Region::Fringe)],
+        length: Some(crate::spec::RegionLength::DownTo(crate::spec::Level::Brows)),
+        comb: Some(Comb::Forward),
+        ..RegionStyle::default()
+    };
+    let layout = layout(Flow::SweptBack, |s| s.regions = vec![fringe]);
+    let marks = head().landmarks();
+    let in_fringe = root(marks.hairline + DVec3::new(0.0, 0.005, 0.005));
+    let crown = root(marks.whorl);
+    assert!(layout.direction(&in_fringe).y < -0.4 && layout.direction(&crown).y > 0.2);
+    assert_eq!(layout.length(head(), &crown), None);
+    // The way from there to the brows is a little longer than the straight line.
+    let length = layout.length(head(), &in_fringe).unwrap();
+    let least = in_fringe.position.distance(marks.brow);
+    assert!((least..least + 0.015).contains(&length), "{length}, {least}");
+    assert!(layout.apart(in_fringe.position, crown.position));
+}
+
+#[test]
+fn shares_of_regions_are_those_of_the_regions() {
+    let marks = head().landmarks();
+    let roots = Scalp::new(head()).stratified(5000, 1, Purpose::HairRoots);
+    let mut sure = 0;
+    for r in &roots {
+        let shares = marks.shares(r.position);
+        assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        if let Some(i) = shares.iter().position(|&s| s > 0.6) {
+            assert_eq!(crate::head::Region::ALL[i], marks.region(r.position), "{}", r.position);
+        }
+        sure += usize::from(shares.iter().any(|&s| s > 0.99));
+    }
+    assert!(sure > 3000, "{sure}");
+}
+
+#[test]
+fn hair_thins_at_the_line_and_not_along_facets() {
+    let spec = spec(Flow::SweptBack, |s| s.implantation.hairline = Hairline::EVEN);
+    let roots = Scalp::grown(head(), &spec).stratified(40_000, 1, Purpose::HairRoots);
+    let edge = head().edge(&Hairline::EVEN, 1).unwrap();
+    let inside: Vec<f64> = roots.iter().map(|r| edge.inside(r.position)).collect();
+    // None outside the line's own width: the facets are twice as wide.
+    assert!(inside.iter().all(|&d| d > -2.5e-3), "{inside:?}");
+    let within = |from: f64, to: f64| inside.iter().filter(|d| (from..to).contains(*d)).count();
+    let (rim, outer, inner) = (within(-0.002, 0.001), within(0.001, 0.004), within(0.009, 0.012));
+    assert!(3 * rim < outer && outer < inner, "{rim} {outer} {inner}");
+}
+
+#[test]
+fn hairlines_recede_and_peak_where_told() {
+    let marks = head().landmarks();
+    let inside = |hairline: Hairline, p: DVec3| head().edge(&hairline, 1).unwrap().inside(p);
+    let temple = root(DVec3::new(0.055, -0.055, 0.06)).position;
+    let moved = |change: Hairline, p: DVec3| inside(Hairline::EVEN, p) - inside(change, p);
+    let even = Hairline::EVEN;
+    let higher = moved(Hairline { height: 0.01, ..even }, marks.hairline);
+    assert!((higher - 0.01).abs() < 1e-3, "{higher}");
+    assert!(moved(Hairline { widows_peak: 0.01, ..even }, marks.hairline) < -0.008);
+    assert!(moved(Hairline { recession: 0.01, ..even }, temple) > 0.005);
+    assert!(moved(Hairline { recession: 0.01, ..even }, marks.nape).abs() < 1e-4);
+}
