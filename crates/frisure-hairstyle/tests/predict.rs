@@ -3,9 +3,10 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frisure_hairstyle::head::{Head, HeadError, ScalpSource};
+use frisure_hairstyle::head::{Head, HeadError, Region, ScalpSource};
 use frisure_hairstyle::{
-    Body, Hairs, HairstyleSpec, Monitor, PRESETS, PredictError, predict, preset,
+    Body, Hairs, HairstyleSpec, Monitor, PRESETS, Parting, Place, PredictError, RegionLength,
+    RegionStyle, predict, preset,
 };
 use frisure_strands::{AttributeValues, Strands, Surface};
 
@@ -112,6 +113,120 @@ fn all_three_bodies_work() {
 }
 
 #[test]
+fn no_hair_crosses_a_parting() {
+    let mut spec = small("caucasian-straight");
+    // Straight back in the middle: the sides of x = 0 are those of the parting.
+    spec.implantation.partings = vec![Parting::Through(vec![[0.0, -0.005], [0.0, 0.13]])];
+    spec.wisps.count = 80;
+    spec.wisps.hairs = Hairs::Count(6000);
+    let strands = strands(&spec);
+    let (mut beside, mut crossing, mut leaving) = (0, 0, 0);
+    for hair in strands.iter() {
+        let root = hair.points[0];
+        if root.y > 0.03 || root.z < 0.06 || root.x.abs() > 0.02 {
+            continue;
+        }
+        beside += 1;
+        crossing += usize::from(hair.points.iter().any(|p| p.x * root.x.signum() < -2e-3));
+        // A centimetre on it is farther from the line than its root.
+        leaving += usize::from((hair.points[2].x - root.x) * root.x.signum() > 0.0);
+    }
+    assert!(beside > 200 && crossing == 0, "{crossing} of {beside}");
+    assert!(leaving > beside * 99 / 100, "{leaving} of {beside}");
+    // No bald stripe: roots are as many next to the line as farther off.
+    let within = |from: f32, to: f32| {
+        let top = strands.iter().map(|h| h.points[0]).filter(|p| p.y.abs() < 0.03 && p.z > 0.09);
+        top.filter(|p| (from..to).contains(&p.x.abs())).count()
+    };
+    assert!(within(0.0, 0.004) * 3 > within(0.004, 0.008) * 2);
+}
+
+#[test]
+fn baby_hairs_are_short_thin_and_at_the_edge() {
+    let mut spec = small("caucasian-straight");
+    spec.implantation.baby_hairs = 1.0;
+    // Every other hair is as thick as the mean.
+    spec.fibre.variation = 0.0;
+    let all = strands(&spec);
+    let thick = spec.fibre.section.mean_radius() as f32;
+    let thin: Vec<_> = all.iter().filter(|s| s.radii[0] < 0.6 * thick).collect();
+    let length =
+        |points: &[glam::Vec3]| -> f32 { points.windows(2).map(|p| p[0].distance(p[1])).sum() };
+    assert!((100..all.len() / 2).contains(&thin.len()), "{}", thin.len());
+    for hair in &thin {
+        assert!((0.01..0.07).contains(&length(hair.points)), "{}", length(hair.points));
+        assert!(hair.points[0].z < 0.095, "not at the vertex");
+    }
+    spec.implantation.baby_hairs = 0.0;
+    assert!(strands(&spec).iter().all(|s| s.radii[0] > 0.9 * thick));
+}
+
+#[test]
+fn regions_have_hair_of_their_own_length() {
+    let mut spec = small("caucasian-straight");
+    spec.wisps.count = 80;
+    spec.implantation.baby_hairs = 0.0;
+    spec.regions = vec![RegionStyle {
+        places: vec![Place::Region(Region::Back), Place::Region(Region::Nape)],
+        length: Some(RegionLength::Mean(0.03)),
+        ..RegionStyle::default()
+    }];
+    let style = predict(&spec, head(), &()).unwrap();
+    for (guide, rest) in style.guides().iter().zip(style.equilibria()) {
+        let shares = head().landmarks().shares(guide.root.position);
+        let back = shares[Region::Back as usize] + shares[Region::Nape as usize];
+        let short = rest.rod.length() < 0.05;
+        assert_eq!(short, back > 0.5, "{:?}", guide.region);
+    }
+    // Drawn hairs keep to it, too: none in between.
+    for hair in style.strands(head(), &()).unwrap().iter() {
+        let shares = head().landmarks().shares(hair.points[0].as_dvec3());
+        let back = shares[Region::Back as usize] + shares[Region::Nape as usize];
+        let length: f32 = hair.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        assert!((length < 0.06) == (back > 0.5) || (back - 0.5).abs() < 0.05, "{length} {back}");
+    }
+}
+
+/// A head whose scalp is where `grows` says.
+fn bald_but(grows: impl Fn(glam::DVec3) -> bool) -> Result<Head, HeadError> {
+    let surface = head().surface().clone();
+    let weights = surface.positions().iter().map(|&p| f64::from(grows(p))).collect();
+    Head::from_surface(surface, ScalpSource::Weights(weights))
+}
+
+#[test]
+fn unusual_scalps_have_hair_where_they_say_and_nowhere_else() {
+    let mut spec = small("caucasian-wavy");
+    spec.wisps.hairs = Hairs::Count(300);
+    // Two islands far from each other, and the underside of the chin.
+    let islands = |p: glam::DVec3| p.z > 0.1 || (p.y > 0.06 && p.z.abs() < 0.02);
+    let below = |p: glam::DVec3| p.z < -0.095 && p.z > -0.125 && p.y < -0.03;
+    let places: [&dyn Fn(glam::DVec3) -> bool; 2] = [&islands, &below];
+    for place in places {
+        let head = bald_but(place).unwrap();
+        let style = predict(&spec, &head, &()).unwrap();
+        assert_eq!(style.guides().len(), 40);
+        assert!(style.guides().iter().all(|g| g.root.position.is_finite()));
+        let strands = style.strands(&head, &()).unwrap();
+        let near = |root: glam::DVec3| {
+            let skin = head.surface().positions().iter().zip(head.scalp());
+            skin.into_iter().any(|(p, &w)| w > 0.0 && p.distance(root) < 8e-3)
+        };
+        assert!(strands.iter().all(|h| near(h.points[0].as_dvec3())));
+    }
+    assert_eq!(bald_but(|_| false), Err(HeadError::NoScalp));
+}
+
+#[test]
+fn more_wisps_than_a_scalp_has_room_for_are_refused() {
+    let spot = bald_but(|p| p.z > 0.108 && p.x.abs() < 4e-3 && p.y.abs() < 4e-3).unwrap();
+    let mut spec = small("caucasian-straight");
+    spec.wisps.count = 20_000;
+    let refused = predict(&spec, &spot, &());
+    assert!(matches!(refused, Err(PredictError::Crowded(_))), "{refused:?}");
+}
+
+#[test]
 fn each_hair_names_its_guide() {
     let strands = strands(&small("caucasian-straight"));
     let AttributeValues::U32(guides) = &strands.attribute("guide").unwrap().values else {
@@ -192,7 +307,8 @@ fn guides_vary_in_diameter_and_axis_ratio_as_measured() {
 
 #[test]
 fn varying_the_section_changes_neither_roots_nor_curls() {
-    let spec = small("caucasian-curly");
+    let mut spec = small("caucasian-curly");
+    spec.implantation.baby_hairs = 0.0;
     let mut even = spec.clone();
     even.fibre.variation = 0.0;
     let plan = |spec: &HairstyleSpec| predict(spec, head(), &()).unwrap();

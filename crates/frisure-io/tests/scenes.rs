@@ -664,3 +664,87 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
         }
     }
 }
+
+#[test]
+fn partings_and_regions_arrive() {
+    use frisure_hairstyle::head::Region;
+    use frisure_hairstyle::{Comb, Hairline, Level, Parting, Place, RegionLength, Turn};
+    let spec = good(
+        r#"
+        [implantation]
+        flow = "whorl"
+        whorls = 2
+        whorl_offset = ["1 cm", "-5 mm"]
+        whorl_turn = "anticlockwise"
+        baby_hairs = "20 %"
+        hairline = { irregularity = "1 mm", height = "1 cm", recession = "2 cm", widows_peak = "5 mm" }
+        [[implantation.partings]]
+        line = [["2 cm", "0 cm"], [0.03, 0.08]]
+        [[implantation.partings]]
+        at = "zigzag"
+        [[region]]
+        where = ["fringe", "left-side"]
+        down_to = "brows"
+        comb = "forward"
+        [[region]]
+        where = "nape"
+        length = "4 cm"
+        lift = 0.1
+        curl = 0.5
+        "#,
+    )
+    .hairstyle_spec()
+    .unwrap();
+    let i = &spec.implantation;
+    assert_eq!(i.flow, Flow::Whorl);
+    let line = Parting::Through(vec![[0.02, 0.0], [0.03, 0.08]]);
+    assert_eq!(i.partings, [line, Parting::Zigzag { offset: 0.0 }]);
+    assert_eq!((i.whorls.count, i.whorls.offset), (2, [0.01, -0.005]));
+    assert_eq!((i.whorls.turn, i.baby_hairs), (Turn::Anticlockwise, 0.2));
+    let hairline =
+        Hairline { irregularity: 0.001, height: 0.01, recession: 0.02, widows_peak: 0.005 };
+    assert_eq!(i.hairline, hairline);
+    let [fringe, nape] = spec.regions.as_slice() else { panic!("two regions") };
+    assert_eq!(fringe.places, [Place::Region(Region::Fringe), Place::LeftOf(Region::Sides)]);
+    assert_eq!(fringe.length, Some(RegionLength::DownTo(Level::Brows)));
+    assert_eq!((fringe.comb, fringe.lift), (Some(Comb::Forward), None));
+    assert_eq!(nape.length, Some(RegionLength::Mean(0.04)));
+    assert_eq!((nape.lift, nape.curl), (Some(0.1), Some(0.5)));
+    for (text, flow) in [("\"right\"", -0.04), ("\"1 cm\"", 0.01), ("\"zigzag\"", 0.0)] {
+        let scene = good(&format!("[implantation]\nparting = {text}")).hairstyle_spec().unwrap();
+        assert_eq!(scene.implantation.flow, Flow::Parted { offset: flow });
+        assert_eq!(scene.implantation.partings.len(), usize::from(text.contains("zig")));
+    }
+}
+
+#[test]
+fn faults_of_partings_and_regions_name_their_place() {
+    let parting = "[[implantation.partings]]\n";
+    let cases = [
+        ("line = [[\"1 cm\", 0]]", "implantation.partings[0].line", "2 to 100 points"),
+        ("line = [[0, 0], [0, 0.1], [0.03, 0.05], [-0.03, 0.04]]", "", "piece 1 crosses piece 3"),
+        ("line = [[0, 0], [0, 9]]", "implantation.partings[0].line", "[0, 9] m"),
+        ("line = [[0, 0], [0]]", "implantation.partings[0].line", "a list of places"),
+        ("at = \"midle\"", "implantation.partings[0].at", "did you mean \"middle\"?"),
+        ("at = \"9 cm\"", "implantation.partings[0].at", "within 6 cm"),
+    ];
+    for (text, key, words) in cases {
+        let f = fault(&format!("{parting}{text}"));
+        assert_eq!((f.line, f.key.contains(key)), (2, true), "{f}");
+        assert!(f.to_string().contains(words), "{f}");
+    }
+    assert!(fault(parting).to_string().contains("`at` or `line`"));
+    for (text, line, words) in [
+        ("where = \"frige\"", 2, "did you mean \"fringe\"?"),
+        ("where = [\"top\", \"knape\"]", 2, "did you mean \"nape\"?"),
+        ("where = []", 2, "one place or more"),
+        ("comb = \"back\"", 1, "is nowhere"),
+        ("where = \"top\"\nlength = 0", 3, "1 mm and 3 m"),
+        ("where = \"top\"\nlift = \"91 deg\"", 3, "90 deg"),
+        ("where = \"top\"\nlength = 1\ndown_to = \"ears\"", 4, "says again"),
+    ] {
+        let f = fault(&format!("[[region]]\n{text}"));
+        assert_eq!(f.line, line, "{f}");
+        assert!(f.to_string().contains(words), "{f}");
+    }
+}

@@ -62,7 +62,12 @@ impl Partings {
                 check(index, &corners, &tape, head)?;
             }
             let smooth = !matches!(parting, Parting::Zigzag { .. });
-            let points = dense(&corners, smooth).iter().map(|&c| tape.at(c)).collect();
+            let mut line = dense(&corners, smooth);
+            for _ in 0..2 {
+                extend(&mut line, &tape, head);
+                line.reverse();
+            }
+            let points = line.iter().map(|&c| tape.at(c)).collect();
             Ok(Line::new(points, head.landmarks()))
         });
         lines.collect::<Result<_, _>>().map(Self)
@@ -185,6 +190,30 @@ fn check(
         Some(place) => Err(PartingError { index, place, point: corners[place] }),
         None => Ok(()),
     }
+}
+
+/// Longest way (m) that a parting which ends near the edge of the hair is carried on over it: no hair
+/// falls forward between its end and the edge.
+const ONWARD: f64 = 0.02;
+
+/// Carries a line on past its last point until no hair grows, if that is near.
+fn extend(line: &mut Vec<[f64; 2]>, tape: &Tape<'_>, head: &Head) {
+    let [.., before, last] = line.as_slice() else { return };
+    let way = [last[0] - before[0], last[1] - before[1]];
+    let scale = PIECE / way[0].hypot(way[1]).max(1e-9);
+    let onward = |i: usize| [0, 1].map(|x| last[x] + way[x] * scale * i as f64);
+    let most = (ONWARD / PIECE) as usize;
+    let edge = (0..=most).find(|&i| bald(head, tape.at(onward(i))));
+    // Two more: the edge is not sharp.
+    let more: Vec<_> = (1..=edge.map_or(0, |i| i + 2)).map(onward).collect();
+    line.extend(more);
+}
+
+/// Whether no hair grows at a point (m) of the skin.
+fn bald(head: &Head, p: DVec3) -> bool {
+    let skin = head.surface().positions().iter().zip(head.scalp());
+    let nearest = skin.min_by(|a, b| a.0.distance_squared(p).total_cmp(&b.0.distance_squared(p)));
+    nearest.is_none_or(|(_, &weight)| weight < 0.2)
 }
 
 /// Points a short piece apart: along a Catmull–Rom curve through the corners, or straight.
