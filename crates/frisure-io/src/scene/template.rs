@@ -41,7 +41,8 @@ type = "{name}"  # {description}
 
 [implantation]
 # flow = "parted"                 # or "whorl", "swept-back"
-# parting = "2 cm"                # to the head's left
+# parting = "2 cm"                # to the head's left; or "middle", "right", "zigzag"
+# baby_hairs = 0.15               # of the hairs along the hairline
 # lift_scale = {lift:.1}                # angle to the skin, against the measured
 
 [wisps]
