@@ -64,7 +64,7 @@ pub(crate) fn along_skin(
         Flow::Parted { .. } => {
             along(DVec3::new(0.0, 0.15, -1.0), normal).lerp(back(normal), 0.85 * front)
         }
-        Flow::SweptBack => back(normal),
+        Flow::SweptBack => swept(normal),
     };
     let base = gathered_at_nape(marks, base, root);
     let Some((away, distance)) = partings.away(root.position, normal) else { return base };
@@ -124,6 +124,12 @@ fn gathered_at_nape(marks: &Landmarks, flow: DVec3, root: &Root) -> DVec3 {
 fn back(normal: DVec3) -> DVec3 {
     let aside = normal.x * normal.x;
     shortened(along(normal.cross(DVec3::X) + DVec3::new(0.0, 0.8, -0.5) * aside, normal))
+}
+
+/// Back, and in front also to both sides: out of the face.
+fn swept(normal: DVec3) -> DVec3 {
+    let aside = DVec3::X * (2.0 * normal.x * smooth(-0.2, 0.6, -normal.y));
+    shortened(back(normal) + along(aside, normal))
 }
 
 /// Forward over the head and down the forehead.
