@@ -3,7 +3,7 @@
 use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
 
-use crate::contact::Clearance;
+use crate::contact::{Layer, Thickness};
 use crate::fibre::{Curl, Handedness};
 use crate::hairstyle::PredictError;
 use crate::head::{Head, Region};
@@ -21,8 +21,10 @@ pub struct Guide {
     pub region: Region,
     /// The fibre, clamped at the root.
     pub rod: Rod,
-    /// Distance it keeps from the body.
-    pub clearance: Clearance,
+    /// How thick its wisp is.
+    pub thickness: Thickness,
+    /// The hair beneath it, as the paper has it.
+    pub layer: Layer,
 }
 
 /// Standard deviation (rad) of the direction about the root tangent in which curls lean.
@@ -72,11 +74,23 @@ pub(crate) fn plan(
         .enumerate()
         .map(|(index, root)| {
             let altitude = (root.position.z - low) / (high - low).max(1e-9);
-            let clearance = Clearance::layered(altitude, spec.contact.volume);
             let region = head.landmarks().region(root.position);
-            Ok(Guide { root, region, rod: rod(spec, head, layout, &root, index)?, clearance })
+            let rod = rod(spec, head, layout, &root, index)?;
+            let thickness = thickness(spec, area, &rod);
+            let taken = thickness.area_per_hair(0.5 * rod.length());
+            let cover = spec.contact.volume * spec.implantation.density * taken;
+            let layer = Layer::new(altitude, area, cover);
+            Ok(Guide { root, region, rod, thickness, layer })
         })
         .collect()
+}
+
+/// The wisp about a guide. Hairs that stray from their wisp are those that do not share its curl:
+/// the share of the spread between wisps that is found within one.
+fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
+    let hairs = spec.implantation.density * scalp / spec.wisps.count as f64;
+    let spread = spec.wisps.fuzziness * spec.curl.variation_between;
+    Thickness::new(rod, spec.curl.strain, hairs, spread, spec.contact.volume)
 }
 
 /// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.

@@ -4,7 +4,7 @@ use frisure_rod::{Equilibrium, InvalidQuantity};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use thiserror::Error;
 
-use crate::equilibrium::{SettlingReport, settle};
+use crate::equilibrium::{Rest, SettlingReport, settle};
 use crate::guides::{Crowded, Guide, plan};
 use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
@@ -18,7 +18,7 @@ pub struct Hairstyle {
     spec: HairstyleSpec,
     layout: Layout,
     guides: Vec<Guide>,
-    rest: Vec<Equilibrium>,
+    rest: Rest,
 }
 
 /// Why there is no hairstyle.
@@ -75,7 +75,7 @@ impl Hairstyle {
     /// The guides, as they came to rest, in the order of [`Self::guides`].
     #[must_use]
     pub fn equilibria(&self) -> &[Equilibrium] {
-        &self.rest
+        &self.rest.guides
     }
 
     /// How the guides came to rest on the head they were predicted on.
@@ -88,12 +88,12 @@ impl Hairstyle {
     #[must_use]
     pub fn guide_strands(&self, points: usize) -> Strands {
         let mut strands = Strands::new();
-        for guide in &self.rest {
+        for guide in &self.rest.guides {
             let radii = vec![guide.rod.spec().section.mean_radius() as f32; points.max(2)];
             let line: Vec<_> = guide.centre_line(points).iter().map(|p| p.as_vec3()).collect();
             strands.push(&line, &radii);
         }
-        let values = AttributeValues::U32((0..self.rest.len() as u32).collect());
+        let values = AttributeValues::U32((0..self.rest.guides.len() as u32).collect());
         let guide = Attribute { name: "guide".into(), domain: Domain::Strand, values };
         strands.set_attribute(guide).expect("one guide per strand, set once");
         strands
@@ -104,6 +104,6 @@ impl Hairstyle {
     /// # Errors
     /// [`Cancelled`], if the monitor says to stop.
     pub fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Cancelled> {
-        strands::draw(&self.spec, head, &self.layout, &self.guides, &self.rest, monitor)
+        strands::draw(&self.spec, head, &self.layout, &self.guides, &self.rest.guides, monitor)
     }
 }

@@ -28,7 +28,8 @@ pub use monitor::{Cancelled, Monitor};
 pub use presets::{Ellipticity, HairType, NaturalCurl, PRESETS, Preset, Wetting, preset};
 pub use roots::{Root, scalp_area};
 pub use spec::{
-    Body, Comb, Contact, Flow, Hairline, Hairs, HairstyleSpec, Implantation, InvalidSpec, Length,
-    Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn, Whorls, Wisps,
+    Body, Comb, Contact, Flow, HairContact, Hairline, Hairs, HairstyleSpec, Implantation,
+    InvalidSpec, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn,
+    Whorls, Wisps,
 };
 pub use strands::penetration;

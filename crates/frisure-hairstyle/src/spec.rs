@@ -56,6 +56,8 @@ pub struct Implantation {
     pub lift: Lift,
     /// Standard deviation of the direction between wisps (rad).
     pub jitter: f64,
+    /// Hairs that grow per area of scalp (1/m²), whether or not all of them are drawn.
+    pub density: f64,
     /// The edge of the hair, on a head whose scalp does not come with its mesh.
     pub hairline: Hairline,
     /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin, 0 to 1.
@@ -70,6 +72,7 @@ impl Default for Implantation {
             partings: Vec::new(),
             lift: Lift::Regional { scale: 1.0 },
             jitter: 0.05,
+            density: 2e6,
             hairline: Hairline::default(),
             baby_hairs: 0.15,
         }
@@ -339,14 +342,30 @@ pub enum Body {
     SignedDistance,
 }
 
-/// Hair against the body.
+/// What a wisp makes of the other wisps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HairContact {
+    /// Wisps pass through each other.
+    None,
+    /// Wisps lie on a bed of hair, the thicker the higher they are rooted. \[paper\] §3.1
+    Layers,
+    /// Wisps repel each other where they overlap.
+    #[default]
+    Wisps,
+}
+
+/// Hair against the body and against hair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// What the hair lies on.
     pub body: Body,
-    /// Penalty stiffness k per length of hair (N/m per m = Pa), of E_c = ½ k d².
+    /// What a wisp makes of the others.
+    pub hair: HairContact,
+    /// Penalty stiffness k of the skin per length of hair (N/m per m = Pa), of E_c = ½ k d².
     pub stiffness: f64,
-    /// Factor on the distance that wisps keep from the skin because hair lies under them.
+    /// The same of hair (Pa), which is softer.
+    pub hair_stiffness: f64,
+    /// Factor on the thickness of wisps.
     pub volume: f64,
 }
 
@@ -357,6 +376,9 @@ pub struct Settling {
     pub resolution: frisure_rod::Resolution,
     /// Which element.
     pub element: frisure_rod::ElementKind,
+    /// Relative gradient of each guide at which wisps that make way for each other are at rest.
+    /// Friction between hairs, of which the energy knows nothing, would hold a hundred times 1e-3.
+    pub tolerance: f64,
 }
 
 /// A description that cannot be computed.
@@ -413,8 +435,14 @@ impl HairstyleSpec {
         }
         let stiffness = self.contact.stiffness;
         range("contact.stiffness", stiffness, 1e-6, 1e5, "between 1e-6 and 1e5 Pa")?;
+        let hair = self.contact.hair_stiffness;
+        range("contact.hair_stiffness", hair, 1e-6, 1e5, "between 1e-6 and 1e5 Pa")?;
+        let grown = self.implantation.density;
+        range("wisps.density", grown, 1e4, 1e7, "between 1 and 1000 1/cm^2")?;
         range("contact.volume", self.contact.volume, 0.0, 10.0, "between 0 and 10")?;
         range("gravity", self.gravity, 0.0, 1000.0, "between 0 and 1000 m/s²")?;
+        let tolerance = self.equilibrium.tolerance;
+        range("equilibrium.tolerance", tolerance, 1e-8, 0.1, "between 1e-8 and 0.1")?;
         self.equilibrium.resolution.check().map_err(|e| InvalidSpec {
             field: "equilibrium",
             value: e.value.to_string(),

@@ -12,7 +12,6 @@ use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::contact::Clearance;
 use crate::grid::Grid;
 use crate::guides::Guide;
 use crate::head::Head;
@@ -88,7 +87,7 @@ pub(crate) fn draw(
         rim: Rim::new(head, head.edge(&spec.implantation.hairline, spec.seed), BABY_RIM),
         guides,
         wisps: rest.par_iter().map(|r| Wisp::new(r, samples)).collect(),
-        grid: Grid::new(roots.iter().copied(), spacing),
+        grid: Grid::new(&roots, spacing),
         roots,
         spacing,
     };
@@ -298,7 +297,7 @@ impl Population<'_> {
 
     /// Distance (m) from the body that the guides keep far from their roots.
     fn layer(&self, followed: &[(usize, f64)]) -> f64 {
-        followed.iter().map(|&(g, w)| w * self.guides[g].clearance.full).sum()
+        followed.iter().map(|&(g, w)| w * self.guides[g].layer.at(1.0)).sum()
     }
 
     /// Point of a hair at `x` of its guides' length.
@@ -333,7 +332,7 @@ impl Population<'_> {
         if self.spec.contact.body == Body::None || free.holds(p) {
             return p;
         }
-        let keep = 4e-4 * (s / 0.003).min(1.0) + Clearance { full: layer, rise: 0.05 }.at(s);
+        let keep = 4e-4 * (s / 0.003).min(1.0) + layer * smooth(0.0, 0.05, s);
         let mut p = p;
         for _ in 0..3 {
             let (distance, gradient) = self.head.signed_distance().value_gradient(p);

@@ -177,6 +177,14 @@ pub(crate) fn helix_piece(c: DVec3, length: f64) -> (DMat3, DVec3, DVec3) {
     (exponential(c, &table), advance, moment)
 }
 
+/// Advance (m) of a helix that turns by `c` over `length`.
+#[inline]
+fn helix_advance(c: DVec3, length: f64) -> DVec3 {
+    let table = stumpff(c.length_squared());
+    let turned = c.cross(DVec3::Z);
+    (DVec3::Z + turned * table[2] + c.cross(turned) * table[3]) * length
+}
+
 /// The motion over one element at one control.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion<'a> {
@@ -248,18 +256,35 @@ impl Motion<'_> {
                 Part { reach, share: x }
             }
             Curve::Jointed(j) if x <= 0.5 => {
-                let offset = helix_piece(j.natural[0] * (x * h), x * h).1;
+                let offset = helix_advance(j.natural[0] * (x * h), x * h);
                 let series = RotationSeries::phi(0, &self.table, 0.0, DVec3::Z);
                 let reach = Reach { control: self.control, before: None, offset, series };
                 Part { reach, share: 0.0 }
             }
             Curve::Jointed(j) => {
                 let beyond = (x - 0.5) * h;
-                let arm = helix_piece(j.natural[1] * beyond, beyond).1;
+                let arm = helix_advance(j.natural[1] * beyond, beyond);
                 let series = RotationSeries::phi(0, &self.table, 1.0, arm);
                 let (control, before) = (self.control, Some(&j.before));
                 let reach = Reach { control, before, offset: j.start[0], series };
                 Part { reach, share: 1.0 }
+            }
+        }
+    }
+
+    /// The value of [`Self::part`], without the cost of its derivatives.
+    #[inline]
+    pub(crate) fn plain_part(&self, x: f64) -> DVec3 {
+        let h = self.geometry.length;
+        match &self.geometry.curve {
+            Curve::Helix => helix_advance(self.control * x, x * h),
+            Curve::Jointed(j) if x <= 0.5 => helix_advance(j.natural[0] * (x * h), x * h),
+            Curve::Jointed(j) => {
+                let beyond = (x - 0.5) * h;
+                let arm = helix_advance(j.natural[1] * beyond, beyond);
+                let (c, t) = (self.control, &self.table);
+                let turned = c.cross(arm);
+                j.start[0] + j.before * (arm + turned * t[1] + c.cross(turned) * t[2])
             }
         }
     }

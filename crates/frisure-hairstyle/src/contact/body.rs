@@ -1,120 +1,138 @@
 //! The penalty energy of the body.
 
-use frisure_rod::potential::{Derivatives, NodeState, Potential};
+use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
-use super::{Clearance, outer};
+use super::{Layer, Thickness, outer};
 use crate::head::{Head, Sphere};
 use crate::spec::Body;
 
-/// `½ k d²` per length of hair, d the depth of a node in the body thickened by the clearance.
+/// The body under a guide: hard skin, and on it the soft thickness of the guide's own wisp and of
+/// the hair beneath it.
+///
+/// At the distance D from the skin a length of hair pays `½ k_skin d²` for the depth d = −D in the
+/// skin (\[paper\] §3.1), and `k_hair e³/6K` for the depth e = K − D in hair, which is as thick as the
+/// radius of its wisp and the bed it lies on together, K. Hair is soft at first and stiffens as it
+/// is pressed (van Wyk 1946).
 #[derive(Clone, Copy, Debug)]
 pub struct BodyContact<'a> {
-    head: &'a Head,
-    body: Body,
-    stiffness: f64,
-    clearance: Clearance,
+    /// The head.
+    pub head: &'a Head,
+    /// What of it is felt.
+    pub body: Body,
+    /// Stiffness of skin per length of hair (Pa).
+    pub skin: f64,
+    /// Stiffness of hair per length of hair (Pa).
+    pub hair: f64,
+    /// Radius of the wisp.
+    pub thickness: Thickness,
+    /// Hair beneath the wisp.
+    pub layer: Layer,
 }
 
-impl<'a> BodyContact<'a> {
-    /// Contact of one guide with a head; `stiffness` per length of hair (Pa).
-    #[must_use]
-    pub fn new(head: &'a Head, body: Body, stiffness: f64, clearance: Clearance) -> Self {
-        Self { head, body, stiffness, clearance }
+impl BodyContact<'_> {
+    /// Distance (m) from the skin at which hair begins to be felt, at arc length `s` (m).
+    fn keep(&self, s: f64) -> f64 {
+        self.thickness.at(s) + self.layer.at(s)
     }
 
-    /// Calls `touch` with the depth (m, positive), its gradient and its Hessian (1/m), for each
-    /// part of the body that the node is in.
-    fn for_each_depth(&self, node: &NodeState, mut touch: impl FnMut(f64, DVec3, DMat3)) {
-        let keep = self.clearance.at(node.s);
+    /// Calls `touch` with the distance (m), its gradient and its Hessian (1/m), for each part of the
+    /// body nearer than `keep` (m).
+    fn for_each_near(&self, keep: f64, p: DVec3, mut touch: impl FnMut(f64, DVec3, DMat3)) {
         match self.body {
             Body::None => {}
             Body::Spheres => {
                 for sphere in self.head.spheres() {
-                    if let Some((depth, gradient, hessian)) = sphere_depth(sphere, keep, node) {
-                        touch(depth, gradient, hessian);
+                    if let Some((distance, gradient, hessian)) = near(sphere, keep, p) {
+                        touch(distance, gradient, hessian);
                     }
                 }
             }
             Body::SignedDistance => {
                 let field = self.head.signed_distance();
-                let (distance, gradient, hessian) = field.value_gradient_hessian(node.position);
-                if distance < keep {
-                    touch(keep - distance, -gradient, hessian * -1.0);
+                if field.value(p) < keep {
+                    let (distance, gradient, hessian) = field.value_gradient_hessian(p);
+                    touch(distance, gradient, hessian);
                 }
             }
         }
     }
+
+    /// Energy per length (J/m) at a distance (m), and its first two derivatives.
+    fn penalty(&self, keep: f64, distance: f64) -> [f64; 3] {
+        let (soft, hard) = ((keep - distance).max(0.0), (-distance).max(0.0));
+        let hair = if soft > 0.0 { self.hair * soft / keep } else { 0.0 };
+        let skin = if hard > 0.0 { self.skin } else { 0.0 };
+        [
+            hair * soft * soft / 6.0 + 0.5 * skin * hard * hard,
+            -(0.5 * hair * soft + skin * hard),
+            hair + skin,
+        ]
+    }
 }
 
-/// Depth of a node in a sphere grown by `keep`, with derivatives.
-fn sphere_depth(sphere: &Sphere, keep: f64, node: &NodeState) -> Option<(f64, DVec3, DMat3)> {
-    let away = node.position - sphere.centre;
-    let distance = away.length();
-    let depth = sphere.radius + keep - distance;
-    if !(depth > 0.0 && distance > 0.0) {
+/// Distance of a point to a sphere with derivatives, if it is less than `keep` (m).
+fn near(sphere: &Sphere, keep: f64, p: DVec3) -> Option<(f64, DVec3, DMat3)> {
+    let away = p - sphere.centre;
+    let reach = away.length();
+    let distance = reach - sphere.radius;
+    if !(distance < keep && reach > 0.0) {
         return None;
     }
-    let normal = away / distance;
-    let hessian = (outer(normal, normal) - DMat3::IDENTITY) * (1.0 / distance);
-    Some((depth, -normal, hessian))
+    let normal = away / reach;
+    Some((distance, normal, (DMat3::IDENTITY - outer(normal, normal)) * (1.0 / reach)))
 }
 
-impl Potential for BodyContact<'_> {
-    fn depends_on_position(&self) -> bool {
-        self.body != Body::None
-    }
-
-    fn node_energy(&self, node: &NodeState) -> f64 {
+impl Field for BodyContact<'_> {
+    fn energy(&self, s: f64, p: DVec3) -> f64 {
+        let keep = self.keep(s);
+        if self.body == Body::SignedDistance {
+            return self.penalty(keep, self.head.signed_distance().value(p))[0];
+        }
         let mut energy = 0.0;
-        self.for_each_depth(node, |depth, _, _| energy += 0.5 * depth * depth);
-        energy * self.stiffness * node.weight
+        self.for_each_near(keep, p, |distance, _, _| energy += self.penalty(keep, distance)[0]);
+        energy
     }
 
-    fn add_node_derivatives(&self, node: &NodeState, sum: &mut Derivatives) {
-        let k = self.stiffness * node.weight;
-        self.for_each_depth(node, |depth, gradient, hessian| {
-            sum.position += gradient * (k * depth);
-            sum.position_position += outer(gradient, gradient) * k + hessian * (k * depth);
+    fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
+        let keep = self.keep(s);
+        let mut sum: Option<(DVec3, DMat3)> = None;
+        self.for_each_near(keep, p, |distance, gradient, hessian| {
+            let [_, slope, bend] = self.penalty(keep, distance);
+            let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
+            *force += gradient * slope;
+            *stiffness += outer(gradient, gradient) * bend + hessian * slope;
         });
+        sum
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::test_field::{agrees_with_differences, wisp};
 
     #[test]
     fn derivatives_agree_with_differences() {
         let head = Head::mannequin();
-        let clearance = Clearance { full: 0.01, rise: 0.05 };
-        let p = head.landmarks().whorl + DVec3::new(0.003, 0.001, 0.002);
-        let node = |p: DVec3| NodeState {
-            index: 1,
-            s: 0.04,
-            weight: 0.01,
-            position: p,
-            frame: DMat3::IDENTITY,
-        };
+        let top = head.landmarks().whorl;
         for body in [Body::Spheres, Body::SignedDistance] {
-            let contact = BodyContact::new(&head, body, 100.0, clearance);
-            let mut at = Derivatives::ZERO;
-            contact.add_node_derivatives(&node(p), &mut at);
-            assert!(contact.node_energy(&node(p)) > 0.0, "{body:?}");
-            for axis in 0..3 {
-                let mut h = DVec3::ZERO;
-                h[axis] = 1e-6;
-                let slope =
-                    (contact.node_energy(&node(p + h)) - contact.node_energy(&node(p - h))) / 2e-6;
-                let scale = at.position.length();
-                assert!((slope - at.position[axis]).abs() < 1e-5 * scale, "{body:?}");
-                let (mut up, mut down) = (Derivatives::ZERO, Derivatives::ZERO);
-                contact.add_node_derivatives(&node(p + h), &mut up);
-                contact.add_node_derivatives(&node(p - h), &mut down);
-                let column = (up.position - down.position) / 2e-6;
-                let error = (column - at.position_position.col(axis)).length();
-                assert!(error < 1e-3 * at.position_position.col(axis).length(), "{body:?} {error}");
+            let layer = Layer { slope: 0.1, most: 0.1 };
+            let contact = BodyContact {
+                head: &head,
+                body,
+                skin: 1000.0,
+                hair: 2.0,
+                thickness: wisp(),
+                layer,
+            };
+            // In the hair over the skin, and in the skin.
+            for out in [0.003, -0.004] {
+                let p = top + top.normalize() * out + DVec3::new(0.003, 0.001, 0.0);
+                agrees_with_differences(&contact, 0.04, p);
             }
+            assert_eq!(contact.derivatives(0.04, top * 2.0), None);
+            assert_eq!(contact.energy(0.04, top * 2.0), 0.0);
         }
     }
 }

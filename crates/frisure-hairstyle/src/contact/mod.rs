@@ -1,18 +1,35 @@
-//! Hair against the body, as a penalty energy that plugs into the rod's minimisation.
+//! Hair against the body and hair against hair, as penalty energies of the rod.
 //!
-//! A node of a guide that is closer to the body than its wisp is thick pays `½ k d²` per length,
-//! d the depth (\[paper\] §3.1). The stiffness is per length of hair, so that the energy does not
-//! depend on how finely the guide is divided.
+//! A wisp is a soft tube about its guide: a [`Thickness`] that follows from how many hairs it has
+//! and how curly they are. The body is hard skin ([`BodyContact`]). What lies between a wisp and the
+//! skin is other hair, and there are two models of it: a bed that is the thicker the higher the wisp
+//! is rooted ([`Layer`], the paper's way), or the other wisps themselves ([`Neighbours`]).
+//!
+//! All energies are per length of hair (\[paper\] §3.1 takes them per sample), so that they do not
+//! depend on how finely a guide is divided.
 
 mod body;
-mod envelope;
+mod layers;
+mod neighbours;
+#[cfg(test)]
+mod test_field;
+mod thickness;
 
 pub use body::BodyContact;
-pub use envelope::Clearance;
+pub use layers::Layer;
+pub use neighbours::Neighbours;
+pub(crate) use neighbours::{Crowd, Samples};
+pub use thickness::Thickness;
 
 use glam::{DMat3, DVec3};
 
 /// `a bᵀ`.
 fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// Smooth step from 0 at zero to 1 at `width`.
+fn rise(width: f64, x: f64) -> f64 {
+    let t = (x / width.max(1e-9)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }

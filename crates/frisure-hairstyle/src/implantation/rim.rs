@@ -36,7 +36,7 @@ impl Rim {
         }
         let positions = head.surface().positions().iter().zip(bald);
         let points: Vec<_> = positions.filter_map(|(p, bald)| bald.then_some(*p)).collect();
-        Self::Border { grid: Grid::new(points.iter().copied(), reach), points }
+        Self::Border { grid: Grid::new(&points, reach), points }
     }
 
     /// Distance (m) of a point of the scalp from the edge, exact within the reach.

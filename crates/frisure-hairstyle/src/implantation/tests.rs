@@ -47,7 +47,8 @@ fn hair_leaves_at_the_stated_angle_or_more_steeply() {
 #[test]
 fn neighbouring_hair_goes_the_same_way() {
     let roots = Scalp::new(head()).stratified(20_000, 1, Purpose::HairRoots);
-    let grid = crate::grid::Grid::new(roots.iter().map(|r| r.position), 2e-3);
+    let positions: Vec<DVec3> = roots.iter().map(|r| r.position).collect();
+    let grid = crate::grid::Grid::new(&positions, 2e-3);
     for flow in FLOWS {
         for count in [1, 2] {
             let layout = layout(flow, |s| s.implantation.whorls.count = count);

@@ -7,7 +7,7 @@ mod styles;
 use frisure_rod::{ElementKind, Resolution};
 
 use crate::spec::{
-    Body, Contact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
+    Body, Contact, HairContact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
 };
 pub use hair_type::{Ellipticity, HairType, NaturalCurl, Wetting};
 use styles::Style;
@@ -151,18 +151,22 @@ impl Preset {
                 flow: style.flow,
                 lift: Lift::Regional { scale: hair.lift_scale },
                 jitter: style.jitter,
+                density: hair.density,
                 ..Implantation::default()
             },
             regions: Vec::new(),
             wisps: style.wisps(Hairs::Density(hair.density)),
             contact: Contact {
                 body: Body::SignedDistance,
-                stiffness: 1000.0,
-                volume: style.volume,
+                hair: HairContact::Wisps,
+                stiffness: 2000.0,
+                hair_stiffness: 0.5,
+                volume: 1.0,
             },
             equilibrium: Settling {
-                resolution: Resolution::Accuracy(1e-4),
+                resolution: Resolution::Accuracy(5e-4),
                 element: ElementKind::default(),
+                tolerance: 3e-2,
             },
             gravity: 9.81,
         }

@@ -16,7 +16,6 @@ pub(super) struct Style {
     pub(super) blending: f64,
     pub(super) count: usize,
     pub(super) points: usize,
-    pub(super) volume: f64,
 }
 
 pub(super) const STRAIGHT: Style = Style {
@@ -29,7 +28,6 @@ pub(super) const STRAIGHT: Style = Style {
     blending: 0.7,
     count: 300,
     points: 32,
-    volume: 1.0,
 };
 
 pub(super) const WAVY: Style = Style {
@@ -48,7 +46,6 @@ pub(super) const LOOSE: Style = Style {
     clumping: 0.7,
     flyaways: 0.015,
     blending: 0.2,
-    volume: 1.3,
     count: 250,
     ..WAVY
 };
@@ -60,7 +57,6 @@ pub(super) const CURLY: Style = Style {
     fuzziness: 0.18,
     flyaways: 0.02,
     blending: 0.15,
-    volume: 1.5,
     points: 48,
     count: 250,
     ..STRAIGHT
@@ -74,7 +70,6 @@ pub(super) const FRIZZY: Style = Style {
     fuzziness: 0.4,
     flyaways: 0.05,
     blending: 0.2,
-    volume: 2.0,
     points: 64,
     count: 800,
 };
@@ -87,14 +82,13 @@ pub(super) const COILY: Style = Style {
     fuzziness: 0.2,
     flyaways: 0.04,
     blending: 0.1,
-    volume: 3.0,
     points: 72,
     count: 1200,
 };
 
 /// Springs as wide as a pencil, in locks.
 pub(super) const SPRINGY: Style =
-    Style { length: 0.20, clumping: 0.6, flyaways: 0.03, volume: 2.5, count: 900, ..COILY };
+    Style { length: 0.20, clumping: 0.6, flyaways: 0.03, count: 900, ..COILY };
 
 pub(super) const KINKY: Style = Style {
     length: 0.11,

@@ -14,7 +14,8 @@ use super::key::{
     Points, Ratio, Strain, Text, Vector,
 };
 use super::words::{
-    BodyWord, BranchKind, FlowWord, HairType, Handed, PartingPlace, Places, UnitWord, UpAxis, Which,
+    BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places,
+    UnitWord, UpAxis, Which,
 };
 
 /// A scene: hair, the head it grows on, and how to look at it.
@@ -341,10 +342,15 @@ pub(super) struct Wisps {
 pub(super) struct Contact {
     /// What the hair lies on. Default "signed-distance".
     pub(super) body: Key<OneOf<BodyWord>>,
-    /// Penalty stiffness per length of hair; 1e-6 to 1e5 Pa. Default 1000 Pa.
+    /// What a wisp makes of the other wisps. Default "wisps".
+    pub(super) hair: Key<OneOf<HairContactWord>>,
+    /// Stiffness of skin per length of hair; 1e-6 to 1e5 Pa. Default 2000 Pa.
     #[schemars(range(min = 1e-6, max = 1e5))]
     pub(super) stiffness: Key<Modulus>,
-    /// Factor on the distance that wisps keep from the skin because hair lies under them; 0 to 10.
+    /// Stiffness of hair per length of hair; 1e-6 to 1e5 Pa. Default 0.5 Pa.
+    #[schemars(range(min = 1e-6, max = 1e5))]
+    pub(super) hair_stiffness: Key<Modulus>,
+    /// Factor on the thickness of wisps, which follows from their hairs; 0 to 10. Default 1.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub(super) volume: Key<Ratio>,
 }
@@ -357,9 +363,13 @@ pub(super) struct Equilibrium {
     #[schemars(range(min = 1, max = 10_000))]
     pub(super) elements: Key<Count>,
     /// Instead of `elements`: as many as it takes to be this near to the exact shape; more than 0.
-    /// Default 0.1 mm.
+    /// Default 0.5 mm.
     #[schemars(range(min = 0.0))]
     pub(super) accuracy: Key<Length>,
+    /// Slope, relative to the weight of a hair, at which wisps that make way for each other are at
+    /// rest; 1e-8 to 0.1. Default 0.03, which friction would hold ten times over.
+    #[schemars(range(min = 1e-8, max = 0.1))]
+    pub(super) tolerance: Key<Ratio>,
     /// The curve that an element can take. Default "auto".
     pub(super) element: Key<OneOf<Which<frisure_rod::ElementKind>>>,
     /// Which equilibrium, where there are several; for `frisure hair`. Default "gravity".

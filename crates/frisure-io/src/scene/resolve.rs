@@ -53,7 +53,9 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
     spec.regions = regions(&file.region, &source)?;
     let c = &file.contact;
     spec.contact.body = c.body.get(&source)?.map_or(spec.contact.body, |b| b.0);
+    spec.contact.hair = c.hair.get(&source)?.map_or(spec.contact.hair, |h| h.0);
     set(&mut spec.contact.stiffness, &c.stiffness, &source)?;
+    set(&mut spec.contact.hair_stiffness, &c.hair_stiffness, &source)?;
     set(&mut spec.contact.volume, &c.volume, &source)?;
     let branch = equilibrium(&file.equilibrium, &mut spec, &source)?;
 
@@ -433,6 +435,7 @@ fn wisps(file: &file::Wisps, spec: &mut HairstyleSpec, source: &Source) -> Resul
     let wisps = &mut spec.wisps;
     set(&mut wisps.count, &file.count, source)?;
     wisps.hairs = hairs(file, wisps.hairs, source)?;
+    set(&mut spec.implantation.density, &file.density, source)?;
     set(&mut wisps.clumping, &file.clumping, source)?;
     set(&mut wisps.fuzziness, &file.fuzziness, source)?;
     set(&mut wisps.length_variation, &file.length_variation, source)?;
@@ -464,6 +467,7 @@ fn equilibrium(
     if let Some(accuracy) = file.accuracy.get(source)? {
         settling.resolution = Resolution::Accuracy(accuracy);
     }
+    set(&mut settling.tolerance, &file.tolerance, source)?;
     settling.resolution.check().map_err(|e| blame(&e, source))?;
     let seed = spec.seed;
     let starts = file.starts.get(source)?;

@@ -256,6 +256,25 @@ impl Choice for Which<Turn> {
     }
 }
 
+/// What a wisp makes of the others.
+#[derive(Clone, Copy)]
+pub(super) struct HairContactWord(pub(super) frisure_hairstyle::HairContact);
+
+impl Choice for HairContactWord {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        use frisure_hairstyle::HairContact;
+        vec![
+            ("none", "wisps pass through each other", Self(HairContact::None)),
+            (
+                "layers",
+                "a bed of hair by the altitude of the root, as in the paper",
+                Self(HairContact::Layers),
+            ),
+            ("wisps", "wisps repel each other where they overlap", Self(HairContact::Wisps)),
+        ]
+    }
+}
+
 /// What hair lies on.
 #[derive(Clone, Copy)]
 pub(super) struct BodyWord(pub(super) frisure_hairstyle::Body);

@@ -9,7 +9,7 @@ mod pivot;
 mod riccati;
 
 pub use lbfgs::Lbfgs;
-pub use riccati::Riccati;
+pub use riccati::{NewtonStep, Riccati};
 
 pub(crate) use riccati::second_variation;
 

@@ -55,7 +55,49 @@ impl Minimiser for Riccati {
     }
 }
 
+/// Newton's step at a shape: where the quadratic model of the energy has its minimum.
+#[derive(Clone, Debug)]
+pub struct NewtonStep {
+    /// Derivative of the energy by each element's control (N m).
+    pub gradient: Vec<DVec3>,
+    /// Change of each element's control (rad).
+    pub step: Vec<DVec3>,
+    /// Whether the second variation is positive, or zero but for rounding, so that the step is
+    /// Newton's own. Otherwise it is damped until it goes downhill.
+    pub positive: bool,
+}
+
 impl Riccati {
+    /// One step of Newton's method, for those who minimise the energy of several rods together.
+    #[must_use]
+    pub fn newton_step(&self, problem: &Problem<'_>, shape: &Shape) -> NewtonStep {
+        if problem.with_position {
+            self.newton_step_of::<true>(problem, shape)
+        } else {
+            self.newton_step_of::<false>(problem, shape)
+        }
+    }
+
+    fn newton_step_of<const POSITION: bool>(
+        &self,
+        problem: &Problem<'_>,
+        shape: &Shape,
+    ) -> NewtonStep {
+        let stages = Stages::<POSITION>::new(problem, shape);
+        let mut damping = 0.0;
+        let laws = loop {
+            match stages.sweep(damping) {
+                Ok(sweep) => break sweep.laws,
+                // A shape with numbers so large that nothing is positive has no step.
+                Err(_) if damping > LARGEST_DAMPING => break vec![Law::NONE; stages.stages.len()],
+                Err(_) => damping = self.first_damping.max(4.0 * damping),
+            }
+        };
+        let step = unrolled::<POSITION>(problem, shape, &laws);
+        let positive = damping == 0.0 || stages.negative_pivot().is_none();
+        NewtonStep { gradient: stages.gradient, step, positive }
+    }
+
     fn descend<const POSITION: bool>(
         &self,
         problem: &Problem<'_>,
@@ -445,6 +487,27 @@ fn rollout<const POSITION: bool>(
         shape.positions.push(position);
     }
     (shape, energy)
+}
+
+/// The change of each control (rad) that the feedback laws ask for on the nonlinear chain.
+fn unrolled<const POSITION: bool>(problem: &Problem<'_>, from: &Shape, laws: &[Law]) -> Vec<DVec3> {
+    let (mut frame, mut position) = (from.frames[0], from.positions[0]);
+    (laws.iter().enumerate())
+        .map(|(i, law)| {
+            let mut step =
+                law.step + law.by_rotation * deviation(&(from.frames[i].transpose() * frame));
+            if POSITION {
+                step += law.by_position * (position - from.positions[i]);
+            }
+            let step = step.clamp_length_max(LARGEST_TURN);
+            let motion = problem.chain.geometry(i).motion(from.controls[i] + step);
+            if POSITION {
+                position += frame * motion.advance();
+            }
+            frame *= motion.rotation();
+            step
+        })
+        .collect()
 }
 
 /// Leaves a saddle along the failed pivot's negative direction, with all later elements following

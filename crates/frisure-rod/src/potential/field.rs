@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{Derivatives, ElementState, NodeState, Potential};
+use crate::chain::{Chain, Shape};
 use crate::rotation::{cross_matrix, scaled_identity, symmetric_outer};
 
 /// An energy per length of rod, as a function of where that piece of the rod is.
@@ -75,13 +76,29 @@ impl<F: Field + ?Sized> Potential for InField<'_, F> {
     }
 }
 
+impl Chain<'_> {
+    /// The points (m) of a shape at which [`InField`] with `samples` points per element feels its
+    /// field, from the first after the root to the tip.
+    #[must_use]
+    pub fn sample_points(&self, shape: &Shape, samples: u32) -> Vec<DVec3> {
+        let samples = samples.max(1);
+        let mut points = Vec::with_capacity(self.len() * samples as usize);
+        for i in 0..self.len() {
+            let element = self.element_state(shape, i);
+            points.extend((1..samples).map(|k| element.point(f64::from(k) / f64::from(samples))));
+            points.push(shape.positions[i + 1]);
+        }
+        points
+    }
+}
+
 impl ElementState<'_> {
     /// Position (m) of the rod at the fraction `x`, 0 to 1, of the element's length. The joint of a
     /// jointed element is at one half.
     #[must_use]
     #[inline]
     pub fn point(&self, x: f64) -> DVec3 {
-        self.position + self.frame * self.motion.part(x).value()
+        self.position + self.frame * self.motion.plain_part(x)
     }
 
     /// Adds the derivatives of an energy of [`Self::point`] with this gradient (J/m) and Hessian

@@ -1,13 +1,14 @@
-//! Guides coming to rest, on all cores.
+//! Each guide on its own, on the body and on the bed of hair.
 
-use frisure_rod::{Equilibrium, Options, Resolution, Stability, equilibrium, equilibrium_from};
+use frisure_rod::{Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
 use rayon::prelude::*;
 
-use crate::contact::BodyContact;
+use super::{along, body};
+use crate::contact::Layer;
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor, Stage};
-use crate::spec::{Body, HairstyleSpec};
+use crate::spec::{Body, HairContact, HairstyleSpec};
 
 /// Most elements of a guide, whatever accuracy is asked for.
 const MOST_ELEMENTS: usize = 512;
@@ -28,7 +29,7 @@ const MAX_ITERATIONS: usize = 1000;
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
-pub(crate) fn settle(
+pub(super) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
@@ -57,7 +58,7 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
         eigenvalue: false,
         ..Options::default()
     };
-    if spec.contact.body == Body::None {
+    if spec.contact.body == Body::None && spec.contact.hair != HairContact::Wisps {
         return equilibrium(&guide.rod, &[], &options);
     }
     // Extrapolation needs a smooth answer, and contact comes and goes: the division that the
@@ -72,6 +73,9 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
         Resolution::Accuracy(_) => equilibrium(&guide.rod, &[], &options).elements,
     };
     let options = Options { resolution: Resolution::Elements(elements), ..options };
+    if spec.contact.body == Body::None {
+        return equilibrium(&guide.rod, &[], &options);
+    }
     // On a soft body the branch of gravity is followed in a fifth of the iterations; from one
     // hardness to the next the answer is near. But hair can sink into a soft ear and stay there.
     let rest = harden(spec, head, guide, &options, &HARDNESS);
@@ -90,66 +94,34 @@ fn harden(
     options: &Options,
     hardness: &[f64],
 ) -> Equilibrium {
-    let contact = |hardness: f64| {
-        let stiffness = spec.contact.stiffness * hardness;
-        BodyContact::new(head, spec.contact.body, stiffness, guide.clearance)
+    let Resolution::Elements(elements) = options.resolution else {
+        unreachable!("the division is fixed before")
     };
-    let first = equilibrium(&guide.rod, &[&contact(hardness[0])], options);
-    hardness[1..].iter().fold(first, |softer, &hardness| {
-        let mut next = equilibrium_from(&guide.rod, &[&contact(hardness)], options, &softer);
+    let layer = if spec.contact.hair == HairContact::None { Layer::NONE } else { guide.layer };
+    let settle = |hardness: f64, previous: Option<&Equilibrium>| {
+        let mut body = body(spec, head, guide, layer);
+        body.skin *= hardness;
+        let body = along(&body, guide, elements);
+        match previous {
+            None => equilibrium(&guide.rod, &[&body], options),
+            Some(previous) => equilibrium_from(&guide.rod, &[&body], options, previous),
+        }
+    };
+    hardness[1..].iter().fold(settle(hardness[0], None), |softer, &hardness| {
+        let mut next = settle(hardness, Some(&softer));
         next.certificate.iterations += softer.certificate.iterations;
         next
     })
 }
 
-/// Deepest that a node of a guide, other than its root, is inside the body (m); 0 if none is.
-fn depth(head: &Head, guide: &Equilibrium) -> f64 {
+/// Distance (m) between the points at which a guide is measured.
+const MEASURE: f64 = 2e-3;
+
+/// Deepest that a point of a guide is inside the body (m), other than in its first
+/// [`MEASURE`]; 0 if none is.
+pub(super) fn depth(head: &Head, guide: &Equilibrium) -> f64 {
+    let samples = (guide.rod.length() / (guide.elements as f64 * MEASURE)).ceil().max(1.0);
+    let points = guide.chain().sample_points(&guide.shape, samples as u32);
     let inside = |p: &glam::DVec3| -head.signed_distance().value(*p);
-    guide.shape.positions.iter().skip(1).map(inside).fold(0.0, f64::max)
-}
-
-/// How a set of guides came to rest.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SettlingReport {
-    /// Number of guides.
-    pub guides: usize,
-    /// Those at a minimum of their energy.
-    pub stable: usize,
-    /// Those at a saddle.
-    pub saddles: usize,
-    /// Those that did not come to rest.
-    pub not_converged: usize,
-    /// Iterations of the minimiser, of all guides.
-    pub iterations: usize,
-    /// Elements, of all guides.
-    pub elements: usize,
-    /// Largest relative gradient.
-    pub gradient_norm: f64,
-    /// Deepest that a guide is inside the body (m); 0 if none is.
-    pub penetration: f64,
-    /// Energies of all guides (J).
-    pub energy: frisure_rod::Energy,
-}
-
-impl SettlingReport {
-    pub(crate) fn new(head: &Head, guides: &[Equilibrium]) -> Self {
-        let mut report = Self { guides: guides.len(), ..Self::default() };
-        for guide in guides {
-            let c = &guide.certificate;
-            match c.stability {
-                Stability::Stable => report.stable += 1,
-                Stability::Saddle => report.saddles += 1,
-                Stability::NotConverged => report.not_converged += 1,
-            }
-            report.iterations += c.iterations;
-            report.elements += guide.elements;
-            report.gradient_norm = report.gradient_norm.max(c.gradient_norm);
-            report.energy.elastic += guide.energy.elastic;
-            report.energy.gravity += guide.energy.gravity;
-            report.energy.external += guide.energy.external;
-        }
-        report.penetration =
-            guides.par_iter().map(|guide| depth(head, guide)).reduce(|| 0.0, f64::max);
-        report
-    }
+    points.iter().skip(1).map(inside).fold(0.0, f64::max)
 }

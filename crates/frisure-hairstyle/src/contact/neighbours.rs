@@ -1,0 +1,274 @@
+//! Wisps that repel each other where they overlap.
+
+use frisure_rod::potential::Field;
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::{Thickness, outer};
+use crate::grid::Grid;
+
+/// The points of one guide that contact is felt at: evenly spaced, without the root.
+#[derive(Clone, Debug)]
+pub(crate) struct Samples {
+    /// Distance between points along the guide (m).
+    spacing: f64,
+    positions: Vec<DVec3>,
+    /// Radius of the wisp at each point (m).
+    radii: Vec<f64>,
+}
+
+impl Samples {
+    /// From positions (m) spaced by `spacing` (m), the first of them that far from the root.
+    pub(crate) fn new(positions: Vec<DVec3>, spacing: f64, thickness: &Thickness) -> Self {
+        let radius = |k: usize| thickness.at((k + 1) as f64 * spacing);
+        let radii = (0..positions.len()).map(radius).collect();
+        Self { spacing, positions, radii }
+    }
+
+    /// Length of hair (m) that a point stands for: half as much at the tip.
+    fn weight(&self, k: usize) -> f64 {
+        if k + 1 == self.positions.len() { 0.5 * self.spacing } else { self.spacing }
+    }
+}
+
+/// All wisps of a head, and which points of them may touch.
+pub(crate) struct Crowd {
+    /// Stiffness of hair per length of hair (Pa).
+    stiffness: f64,
+    samples: Vec<Samples>,
+    /// Per guide, what its points may touch.
+    nearby: Vec<Nearby>,
+}
+
+/// What the points of one guide may touch.
+#[derive(Clone, Debug, Default)]
+struct Nearby {
+    /// Where the touches of each point begin; one more than points.
+    starts: Vec<u32>,
+    /// Guide and point.
+    touches: Vec<(u32, u32)>,
+    /// The guides among them, in order.
+    guides: Vec<u32>,
+}
+
+/// A point while neighbours are looked for.
+#[derive(Clone, Copy)]
+struct Point {
+    position: DVec3,
+    /// Radius and margin (m).
+    reach: f64,
+    guide: u32,
+    index: u32,
+}
+
+impl Nearby {
+    /// What the points `own` of one guide may touch, of all points `sorted` in the order of `grid`.
+    fn new(own: &[Point], grid: &Grid, sorted: &[Point]) -> Self {
+        let mut near = Self { starts: vec![0], ..Self::default() };
+        for p in own {
+            for q in grid.rows(p.position, 1).flat_map(|row| &sorted[row]) {
+                let reach = p.reach + q.reach;
+                if q.position.distance_squared(p.position) < reach * reach && q.guide != p.guide {
+                    near.touches.push((q.guide, q.index));
+                }
+            }
+            near.starts.push(near.touches.len() as u32);
+        }
+        near.guides = near.touches.iter().map(|t| t.0).collect();
+        near.guides.sort_unstable();
+        near.guides.dedup();
+        near
+    }
+}
+
+impl Crowd {
+    pub(crate) fn new(samples: Vec<Samples>, stiffness: f64) -> Self {
+        Self { stiffness, samples, nearby: Vec::new() }
+    }
+
+    /// Largest radius of any wisp (m).
+    pub(crate) fn largest_radius(&self) -> f64 {
+        self.samples.iter().flat_map(|s| &s.radii).copied().fold(0.0, f64::max)
+    }
+
+    /// Moves the points of a guide; who may touch whom stays until [`Self::look_around`]. Gives the
+    /// largest distance that a point has moved (m).
+    pub(crate) fn place(&mut self, guide: usize, positions: Vec<DVec3>) -> f64 {
+        let moved = positions.iter().zip(&self.samples[guide].positions);
+        let farthest = moved.map(|(p, q)| p.distance_squared(*q)).fold(0.0, f64::max);
+        self.samples[guide].positions = positions;
+        farthest.sqrt()
+    }
+
+    /// Finds which points can touch while each guide moves by at most its margin (m).
+    pub(crate) fn look_around(&mut self, margins: &[f64]) {
+        let most = margins.iter().copied().fold(0.0, f64::max);
+        let all: Vec<DVec3> = self.samples.iter().flat_map(|s| s.positions.clone()).collect();
+        let grid = Grid::new(&all, 2.0 * (self.largest_radius() + most));
+        let points: Vec<Point> = (self.samples.iter().enumerate())
+            .flat_map(|(guide, s)| {
+                (s.positions.iter().zip(&s.radii).enumerate()).map(move |(k, (p, radius))| Point {
+                    position: *p,
+                    reach: radius + margins[guide],
+                    guide: guide as u32,
+                    index: k as u32,
+                })
+            })
+            .collect();
+        let sorted: Vec<Point> = grid.order().iter().map(|&i| points[i as usize]).collect();
+        let mut rest = points.as_slice();
+        let own = self.samples.iter().map(|s| rest.split_off(..s.positions.len()).unwrap_or(&[]));
+        let own: Vec<&[Point]> = own.collect();
+        self.nearby = own.into_par_iter().map(|own| Nearby::new(own, &grid, &sorted)).collect();
+    }
+
+    /// Guides in groups of which no two may touch, taken in the given order.
+    pub(crate) fn groups(&self, order: &[usize]) -> Vec<Vec<usize>> {
+        const NONE: usize = usize::MAX;
+        let mut group = vec![NONE; self.samples.len()];
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for &guide in order {
+            let taken: Vec<usize> =
+                self.nearby[guide].guides.iter().map(|&g| group[g as usize]).collect();
+            let free = (0..=groups.len()).find(|g| !taken.contains(g)).unwrap_or(groups.len());
+            if free == groups.len() {
+                groups.push(Vec::new());
+            }
+            group[guide] = free;
+            groups[free].push(guide);
+        }
+        groups
+    }
+
+    /// What one guide feels of the others.
+    pub(crate) fn around(&self, guide: usize) -> Neighbours<'_> {
+        Neighbours { crowd: self, guide, share: 1.0 }
+    }
+
+    /// Half of it: a sum over all guides counts each pair once.
+    pub(crate) fn shared(&self, guide: usize) -> Neighbours<'_> {
+        Neighbours { crowd: self, guide, share: 0.5 }
+    }
+}
+
+/// The other wisps around one wisp, as a field in which its guide lies.
+///
+/// Two wisps of radii a pay for overlapping with
+///
+/// ```text
+/// E = ∫∫ (k D / 8) max(0, 1 − r²/D²)³ ds ds′,      D = a(s) + a(s′),
+/// ```
+///
+/// r the distance of a point of one to a point of the other. Hair is soft where wisps begin to touch
+/// and stiffens as they are pressed together (van Wyk 1946 found the pressure of fibres to grow with
+/// the cube of their density); the energy is smooth, also where two guides cross, and it is the same
+/// seen from either side.
+#[derive(Clone, Copy)]
+pub struct Neighbours<'a> {
+    crowd: &'a Crowd,
+    guide: usize,
+    /// How much of the energy counts.
+    share: f64,
+}
+
+impl Neighbours<'_> {
+    /// Calls `touch` with the separation (m), the sum of radii (m) and the length (m) of what
+    /// touches the point at arc length `s`.
+    #[inline]
+    fn for_each_touch(&self, s: f64, p: DVec3, mut touch: impl FnMut(DVec3, f64, f64)) {
+        let own = &self.crowd.samples[self.guide];
+        let near = &self.crowd.nearby[self.guide];
+        let k = ((s / own.spacing).round() as usize).clamp(1, own.positions.len()) - 1;
+        let radius = own.radii[k];
+        for &(guide, point) in &near.touches[near.starts[k] as usize..near.starts[k + 1] as usize] {
+            let other = &self.crowd.samples[guide as usize];
+            let point = point as usize;
+            let reach = radius + other.radii[point];
+            let away = p - other.positions[point];
+            if away.length_squared() < reach * reach {
+                touch(away, reach, self.share * other.weight(point));
+            }
+        }
+    }
+}
+
+impl Field for Neighbours<'_> {
+    fn energy(&self, s: f64, p: DVec3) -> f64 {
+        let mut sum = 0.0;
+        self.for_each_touch(s, p, |away, reach, length| {
+            let overlap = 1.0 - away.length_squared() / (reach * reach);
+            sum += length * reach * overlap.powi(3);
+        });
+        0.125 * self.crowd.stiffness * sum
+    }
+
+    fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
+        let mut sum: Option<(DVec3, DMat3)> = None;
+        self.for_each_touch(s, p, |away, reach, length| {
+            let square = 1.0 / (reach * reach);
+            let overlap = 1.0 - away.length_squared() * square;
+            let scale = 0.75 * self.crowd.stiffness * length / reach * overlap;
+            let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
+            *force -= away * (scale * overlap);
+            *stiffness += outer(away, away) * (4.0 * scale * square)
+                - DMat3::from_diagonal(DVec3::splat(scale * overlap));
+        });
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::test_field::{agrees_with_differences, wisp};
+
+    /// A straight guide along x through `offset`, of 100 points.
+    fn line(offset: DVec3) -> Samples {
+        let points = (1..=100).map(|k| offset + DVec3::X * f64::from(k) * 1e-3).collect();
+        Samples::new(points, 1e-3, &wisp())
+    }
+
+    fn crowd(gap: f64) -> Crowd {
+        let mut crowd = Crowd::new(vec![line(DVec3::ZERO), line(DVec3::Y * gap)], 2.0);
+        crowd.look_around(&[1e-3, 0.0]);
+        crowd
+    }
+
+    fn energy(crowd: &Crowd, guide: usize) -> f64 {
+        let (field, own) = (crowd.around(guide), &crowd.samples[guide]);
+        let point = |k: usize| (k + 1) as f64 * own.spacing;
+        (0..100).map(|k| own.weight(k) * field.energy(point(k), own.positions[k])).sum()
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let crowd = crowd(3e-3);
+        let p = DVec3::new(0.0501, 3e-4, -4e-4);
+        agrees_with_differences(&crowd.around(0), 0.05, p);
+    }
+
+    #[test]
+    fn both_sides_see_the_same_energy() {
+        let crowd = crowd(3e-3);
+        assert!(energy(&crowd, 0) > 0.0);
+        assert!((energy(&crowd, 0) / energy(&crowd, 1) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn parallel_wisps_pay_as_their_overlap_says() {
+        // ∫ (k D/8)(1 − (d² + z²)/D²)³ dz = (k D/8)(32/35) (1 − d²/D²)^{7/2} D, far from the ends.
+        let radius = wisp().at(0.05);
+        let (d, reach) = (1.4 * radius, 2.0 * radius);
+        let exact = 2.0 * reach * reach / 8.0 * 32.0 / 35.0 * (1.0 - 0.49_f64).powf(3.5);
+        let found = crowd(d).around(0).energy(0.05, DVec3::X * 0.05);
+        assert!((found / exact - 1.0).abs() < 0.02, "{found} {exact}");
+    }
+
+    #[test]
+    fn wisps_apart_do_not_feel_each_other_and_share_a_group() {
+        let apart = crowd(0.05);
+        assert_eq!(energy(&apart, 0), 0.0);
+        assert_eq!(apart.groups(&[0, 1]), [vec![0, 1]]);
+        assert_eq!(crowd(3e-3).groups(&[1, 0]), [vec![1], vec![0]]);
+    }
+}

@@ -1,0 +1,77 @@
+//! Guides coming to rest: each alone on the body, then all together among each other.
+
+mod alone;
+mod report;
+mod together;
+mod wisp;
+
+pub use report::SettlingReport;
+
+use frisure_rod::Equilibrium;
+use frisure_rod::potential::InField;
+
+use crate::contact::{BodyContact, Layer};
+use crate::guides::Guide;
+use crate::head::Head;
+use crate::monitor::{Cancelled, Monitor};
+use crate::spec::{HairContact, HairstyleSpec};
+
+/// Guides at rest.
+#[derive(Clone, Debug)]
+pub(crate) struct Rest {
+    pub(crate) guides: Vec<Equilibrium>,
+    /// Energy of wisps that overlap (J), each pair counted once.
+    pub(crate) crowding: f64,
+    /// Sweeps over the guides.
+    pub(crate) sweeps: usize,
+}
+
+/// Brings every guide to rest.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(crate) fn settle(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    let alone = alone::settle(spec, head, guides, monitor)?;
+    if spec.contact.hair == HairContact::Wisps {
+        return together::settle(spec, head, guides, &alone, monitor);
+    }
+    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
+}
+
+/// Largest distance (m) between the points at which a guide feels the body …
+const BODY_SPACING: f64 = 5e-3;
+
+/// … and the largest natural turn between them (rad), so that no coil slips into the skin.
+const BODY_TURN: f64 = 0.7;
+
+/// What a guide feels of the body, on a bed of hair or without.
+fn body<'a>(spec: &HairstyleSpec, head: &'a Head, guide: &Guide, layer: Layer) -> BodyContact<'a> {
+    BodyContact {
+        head,
+        body: spec.contact.body,
+        skin: spec.contact.stiffness,
+        hair: spec.contact.hair_stiffness,
+        thickness: guide.thickness,
+        layer,
+    }
+}
+
+/// The body along a guide of so many elements.
+fn along<'a>(
+    body: &'a BodyContact<'_>,
+    guide: &Guide,
+    elements: usize,
+) -> InField<'a, BodyContact<'a>> {
+    let strain = guide.rod.natural().mean(0.0, guide.rod.length()).length();
+    InField::new(body, samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))))
+}
+
+/// Points per element so that they are at most `spacing` (m) apart.
+fn samples(guide: &Guide, elements: usize, spacing: f64) -> u32 {
+    (guide.rod.length() / (elements as f64 * spacing)).ceil().clamp(1.0, 1000.0) as u32
+}

@@ -1,0 +1,59 @@
+//! How the guides came to rest, in numbers.
+
+use frisure_rod::Stability;
+use rayon::prelude::*;
+
+use super::Rest;
+use super::alone::depth;
+use crate::head::Head;
+
+/// How a set of guides came to rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SettlingReport {
+    /// Number of guides.
+    pub guides: usize,
+    /// Those at a minimum of their energy among all others.
+    pub stable: usize,
+    /// Those at a saddle.
+    pub saddles: usize,
+    /// Those that did not come to rest.
+    pub not_converged: usize,
+    /// Iterations of the minimiser, of all guides.
+    pub iterations: usize,
+    /// Sweeps over all guides in which wisps made way for each other.
+    pub sweeps: usize,
+    /// Elements, of all guides.
+    pub elements: usize,
+    /// Largest relative gradient.
+    pub gradient_norm: f64,
+    /// Deepest that a guide is inside the body (m); 0 if none is.
+    pub penetration: f64,
+    /// Energies of all guides (J). What a pair of wisps pays for overlapping is counted once.
+    pub energy: frisure_rod::Energy,
+}
+
+impl SettlingReport {
+    pub(crate) fn new(head: &Head, rest: &Rest) -> Self {
+        let guides = &rest.guides;
+        let mut report = Self { guides: guides.len(), sweeps: rest.sweeps, ..Self::default() };
+        for guide in guides {
+            let c = &guide.certificate;
+            match c.stability {
+                Stability::Stable => report.stable += 1,
+                Stability::Saddle => report.saddles += 1,
+                Stability::NotConverged => report.not_converged += 1,
+            }
+            report.iterations += c.iterations;
+            report.elements += guide.elements;
+            report.gradient_norm = report.gradient_norm.max(c.gradient_norm);
+            report.energy.elastic += guide.energy.elastic;
+            report.energy.gravity += guide.energy.gravity;
+            report.energy.external += guide.energy.external;
+        }
+        // Each guide counts what it shares with the others in full.
+        report.energy.external -= rest.crowding;
+        report.penetration =
+            guides.par_iter().map(|guide| depth(head, guide)).reduce(|| 0.0, f64::max);
+        report
+    }
+}

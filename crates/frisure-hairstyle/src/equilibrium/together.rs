@@ -1,0 +1,320 @@
+//! All guides at once: wisps make way for each other until the energy of the whole head is least.
+//!
+//! The energy of the head is that of its guides on the body and of every pair of wisps that
+//! overlap. First one guide after the other goes downhill in it while the others hold still (block
+//! coordinate descent), so that no step can raise it; guides that cannot touch move at the same
+//! time. That sorts out who lies on whom, in a few sweeps. Then all move together, along conjugate
+//! directions of which each guide's Newton step is the preconditioner (Polak & Ribière 1969), until
+//! the derivative of the whole energy by every control of every guide is below the tolerance.
+
+use frisure_rod::Equilibrium;
+use frisure_rod::minimise::NewtonStep;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::wisp::{LARGEST_MOVE, Settled, Wisp};
+use super::{Rest, body};
+use crate::contact::{Crowd, Layer};
+use crate::guides::Guide;
+use crate::head::Head;
+use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::spec::HairstyleSpec;
+
+/// Most sweeps of one guide after the other; they end when half of the guides move less than …
+const MOST_SWEEPS: usize = 30;
+/// … this (m).
+const CALM: f64 = 2e-4;
+
+/// Most steps of all guides together, and how far each may move in one (m).
+const MOST_STEPS: usize = 1000;
+const LARGEST_STEP: f64 = 1.2e-3;
+
+/// The least distance (m) for which neighbours are looked for beyond their thickness.
+const LEAST_REACH: f64 = 6e-4;
+
+/// Lets wisps make way for each other, from where each has settled alone.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(super) fn settle(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    alone: &[Equilibrium],
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
+    let wisps: Vec<Wisp<'_>> = guides.iter().zip(alone).map(wisp).collect();
+    let samples = wisps.iter().map(Wisp::samples).collect();
+    let crowd = Crowd::new(samples, spec.contact.hair_stiffness);
+    let mut order: Vec<usize> = (0..guides.len()).collect();
+    // Hair rooted lower lies lower: it is the first to be pushed out of the way.
+    let height = |i: usize| guides[i].root.position.z;
+    order.sort_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
+    let count = wisps.len();
+    let mut throng = Throng {
+        tolerance: spec.equilibrium.tolerance,
+        farthest: LARGEST_MOVE,
+        wisps,
+        crowd,
+        order,
+        groups: Vec::new(),
+        reach: vec![LARGEST_MOVE; count],
+        drift: vec![f64::INFINITY; count],
+        last: vec![LARGEST_MOVE; count],
+    };
+    let stage = Stage::new(monitor, "wisps making way", MOST_SWEEPS + MOST_STEPS);
+    let sweeps = throng.sort_out(&stage)?;
+    let steps = throng.converge(&stage)?;
+    Ok(throng.finish(sweeps + steps))
+}
+
+/// All guides of a head on their way to rest.
+struct Throng<'a> {
+    /// Relative gradient of each guide at which the head is at rest.
+    tolerance: f64,
+    wisps: Vec<Wisp<'a>>,
+    crowd: Crowd,
+    /// The order in which guides move.
+    order: Vec<usize>,
+    /// Guides of which no two may touch, in that order.
+    groups: Vec<Vec<usize>>,
+    /// How far a guide may move at once (m).
+    farthest: f64,
+    /// How far each guide may move (m) before neighbours are looked for again …
+    reach: Vec<f64>,
+    /// … how far it has, and how far in the last sweep.
+    drift: Vec<f64>,
+    last: Vec<f64>,
+}
+
+impl Throng<'_> {
+    /// Sweeps until most guides are calm; gives the number of sweeps.
+    fn sort_out(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
+        for sweep in 1..=MOST_SWEEPS {
+            self.look_around();
+            self.sweep(stage)?;
+            self.order.reverse();
+            stage.advance();
+            let calm = self.last.iter().filter(|&&m| m < CALM).count();
+            if 2 * calm >= self.wisps.len() {
+                return Ok(sweep);
+            }
+        }
+        Ok(MOST_SWEEPS)
+    }
+
+    /// Looks for neighbours, if any guide has used up most of its reach.
+    fn look_around(&mut self) {
+        let used_up = |i: usize| self.drift[i] > 0.5 * self.reach[i];
+        if (0..self.wisps.len()).any(used_up) {
+            for (reach, last) in self.reach.iter_mut().zip(&self.last) {
+                *reach = (4.0 * last).clamp(LEAST_REACH, 2.0 * self.farthest);
+            }
+            self.crowd.look_around(&self.reach);
+            self.groups = self.crowd.groups(&self.order);
+            self.drift.fill(0.0);
+        }
+    }
+
+    /// Every guide goes downhill once, those that cannot touch at the same time.
+    fn sweep(&mut self, stage: &Stage<'_>) -> Result<(), Cancelled> {
+        for group in &self.groups {
+            stage.check()?;
+            let settled: Vec<_> = group
+                .par_iter()
+                .map(|&i| self.wisps[i].downhill(&self.crowd, i, self.reach[i] - self.drift[i]))
+                .collect();
+            for (&i, settled) in group.iter().zip(settled) {
+                self.wisps[i].take(settled);
+                self.last[i] = self.crowd.place(i, self.wisps[i].points());
+                self.drift[i] += self.last[i];
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes downhill with all guides together until the head is at rest; gives the number of steps.
+    fn converge(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
+        self.farthest = LARGEST_STEP;
+        self.drift.fill(f64::INFINITY);
+        let mut previous: Option<Direction> = None;
+        for step in 0..MOST_STEPS {
+            stage.check()?;
+            self.look_around();
+            let newton = self.newton_steps();
+            let still =
+                |(w, n): (&Wisp<'_>, &NewtonStep)| slope(w, n) <= self.tolerance && n.positive;
+            if self.wisps.iter().zip(&newton).all(still) {
+                return Ok(step);
+            }
+            let mut direction = Direction::new(newton, previous.as_ref());
+            if self.search(&mut direction) {
+                previous = Some(direction);
+            } else {
+                // Some guides have far to go: each by itself does better.
+                self.look_around();
+                self.sweep(stage)?;
+                previous = None;
+            }
+            stage.advance();
+        }
+        Ok(MOST_STEPS)
+    }
+
+    fn newton_steps(&self) -> Vec<NewtonStep> {
+        let reach = |i: usize| self.reach[i] - self.drift[i];
+        let step = |(i, w): (usize, &Wisp<'_>)| w.newton_step(&self.crowd, i, reach(i));
+        self.wisps.par_iter().enumerate().map(step).collect()
+    }
+
+    /// Goes along a direction to about the least energy there; whether it is lower than here.
+    fn search(&mut self, direction: &mut Direction) -> bool {
+        let energy = direction.energy.unwrap_or_else(|| self.energy());
+        let mut fraction = direction.fraction;
+        let mut lengths: Vec<f64> = self
+            .wisps
+            .par_iter()
+            .zip(&direction.way)
+            .map(|(wisp, way)| wisp.length_of(way))
+            .collect();
+        for (i, length) in lengths.iter_mut().enumerate() {
+            let room = 0.9 * (self.reach[i] - self.drift[i]) / fraction;
+            if *length > room {
+                direction.shorten(i, room / *length);
+                *length = room;
+            }
+        }
+        if direction.slope >= 0.0 {
+            return false;
+        }
+        let here: Vec<_> = self.wisps.iter().map(|w| w.settled().clone()).collect();
+        for _ in 0..4 {
+            self.go(&here, &direction.way, fraction);
+            let found = self.energy();
+            // The parabola through both energies with the slope at the start.
+            let bend = (found - energy - direction.slope * fraction) / (fraction * fraction);
+            let least = -0.5 * direction.slope / bend;
+            let least = if bend > 0.0 { least } else { 4.0 * fraction };
+            if found <= energy + 0.1 * direction.slope * fraction {
+                direction.fraction = least.clamp(0.1, 2.0);
+                direction.energy = Some(found);
+                for (i, length) in lengths.into_iter().enumerate() {
+                    self.last[i] = fraction * length;
+                    self.drift[i] += self.last[i];
+                }
+                return true;
+            }
+            fraction = least.clamp(0.1 * fraction, 0.5 * fraction);
+        }
+        self.go(&here, &direction.way, 0.0);
+        false
+    }
+
+    /// Goes a fraction of a way from given shapes.
+    fn go(&mut self, from: &[Settled], way: &[Vec<DVec3>], fraction: f64) {
+        let points: Vec<_> = (self.wisps.par_iter_mut().enumerate())
+            .map(|(i, wisp)| wisp.go(&from[i], &way[i], fraction))
+            .collect();
+        for (i, points) in points.into_iter().enumerate() {
+            self.crowd.place(i, points);
+        }
+    }
+
+    /// Energy of the head (J).
+    fn energy(&self) -> f64 {
+        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.crowd, i);
+        // Summed in order, so that it does not depend on threads.
+        self.wisps.par_iter().enumerate().map(share).collect::<Vec<f64>>().iter().sum()
+    }
+
+    fn finish(mut self, sweeps: usize) -> Rest {
+        self.crowd.look_around(&vec![0.0; self.wisps.len()]);
+        let crowd = &self.crowd;
+        let crowding =
+            self.wisps.iter().enumerate().map(|(i, w)| w.crowding(crowd, i)).sum::<f64>() * 0.5;
+        let guides = self
+            .wisps
+            .par_iter()
+            .enumerate()
+            .map(|(i, w)| w.equilibrium(crowd, i, self.tolerance))
+            .collect();
+        Rest { guides, crowding, sweeps }
+    }
+}
+
+/// Relative gradient of a guide.
+fn slope(wisp: &Wisp<'_>, newton: &NewtonStep) -> f64 {
+    newton.gradient.iter().map(|g| g.length()).fold(0.0, f64::max) / wisp.moment_scale()
+}
+
+/// A direction for all guides together.
+struct Direction {
+    newton: Vec<NewtonStep>,
+    /// Change of each control of each guide (rad).
+    way: Vec<Vec<DVec3>>,
+    /// Derivative of the energy along it (J).
+    slope: f64,
+    /// How much of it is a good step.
+    fraction: f64,
+    /// Energy of the head (J), if it is known already: where this begins, then where it ended.
+    energy: Option<f64>,
+}
+
+impl Direction {
+    fn new(newton: Vec<NewtonStep>, previous: Option<&Self>) -> Self {
+        let mut direction = Self::downhill(newton, previous.map_or(1.0, |p| p.fraction));
+        let Some(previous) = previous else { return direction };
+        direction.energy = previous.energy;
+        // Polak & Ribière's factor, with Newton's steps −z for the preconditioned gradients.
+        let (mut above, mut below) = (0.0, 0.0);
+        for (new, old) in direction.newton.iter().zip(&previous.newton) {
+            for ((g, z), (h, y)) in
+                new.gradient.iter().zip(&new.step).zip(old.gradient.iter().zip(&old.step))
+            {
+                above -= z.dot(*g - *h);
+                below -= y.dot(*h);
+            }
+        }
+        let factor = (above / below).max(0.0);
+        if factor.is_finite() && factor > 0.0 {
+            for (way, old) in direction.way.iter_mut().zip(&previous.way) {
+                for (x, y) in way.iter_mut().zip(old) {
+                    *x += *y * factor;
+                }
+            }
+            direction.slope = dot(&direction.newton, &direction.way);
+            if direction.slope >= 0.0 {
+                // Without earlier directions.
+                let energy = direction.energy;
+                return Self { energy, ..Self::downhill(direction.newton, direction.fraction) };
+            }
+        }
+        direction
+    }
+
+    fn downhill(newton: Vec<NewtonStep>, fraction: f64) -> Self {
+        let way: Vec<_> = newton.iter().map(|n| n.step.clone()).collect();
+        let slope = dot(&newton, &way);
+        Self { newton, way, slope, fraction, energy: None }
+    }
+
+    /// Makes the step of one guide shorter.
+    fn shorten(&mut self, guide: usize, factor: f64) {
+        let slope = |d: &Self| slope_along(&d.newton[guide], &d.way[guide]);
+        let before = slope(self);
+        for x in &mut self.way[guide] {
+            *x *= factor;
+        }
+        self.slope += slope(self) - before;
+    }
+}
+
+fn dot(newton: &[NewtonStep], way: &[Vec<DVec3>]) -> f64 {
+    newton.iter().zip(way).map(|(n, way)| slope_along(n, way)).sum()
+}
+
+/// Derivative of the energy along a change of one guide's controls (J).
+fn slope_along(newton: &NewtonStep, way: &[DVec3]) -> f64 {
+    newton.gradient.iter().zip(way).map(|(g, x)| g.dot(*x)).sum()
+}

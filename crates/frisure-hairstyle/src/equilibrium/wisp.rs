@@ -1,0 +1,213 @@
+//! One guide among others that hold still.
+
+use frisure_rod::minimise::{Minimiser, Minimum, NewtonStep, Problem, Riccati, Stopping};
+use frisure_rod::potential::{Field, InField, Potential};
+use frisure_rod::{Chain, Equilibrium, Shape};
+use glam::{DMat3, DVec3};
+
+use super::{along, samples};
+use crate::contact::{BodyContact, Crowd, Samples};
+use crate::guides::Guide;
+
+/// Iterations of one guide in one sweep: the others will move, too.
+const ITERATIONS: usize = 1;
+
+/// How far a guide moves in its first sweep (m), and the farthest that it may in any.
+pub(super) const LARGEST_MOVE: f64 = 4e-3;
+
+/// Distance between points at which wisps feel each other, as a fraction of their radius …
+const SPACING: f64 = 1.1;
+
+/// … and the least that it is (m).
+const LEAST_SPACING: f64 = 1e-3;
+
+/// One guide and where it is.
+pub(super) struct Wisp<'a> {
+    guide: &'a Guide,
+    chain: Chain<'a>,
+    body: BodyContact<'a>,
+    /// Points per element at which other wisps are felt.
+    resolution: u32,
+    settled: Settled,
+}
+
+/// Where a guide is, and how it got there.
+#[derive(Clone)]
+pub(super) struct Settled {
+    shape: Shape,
+    iterations: usize,
+    /// Stiffness (Pa) that holds the guide near where it is during a sweep.
+    tether: f64,
+}
+
+impl<'a> Wisp<'a> {
+    pub(super) fn new(guide: &'a Guide, alone: &'a Equilibrium, body: BodyContact<'a>) -> Self {
+        let length = guide.rod.length();
+        let spacing = (SPACING * guide.thickness.packed(0.5 * length)).max(LEAST_SPACING);
+        let resolution = samples(guide, alone.elements, spacing);
+        let settled = Settled {
+            shape: alone.shape.clone(),
+            iterations: alone.certificate.iterations,
+            tether: guide.rod.weight() / LARGEST_MOVE,
+        };
+        Self { guide, chain: alone.chain(), body, resolution, settled }
+    }
+
+    pub(super) fn settled(&self) -> &Settled {
+        &self.settled
+    }
+
+    /// The points (m) at which other wisps are felt.
+    pub(super) fn points(&self) -> Vec<DVec3> {
+        self.chain.sample_points(&self.settled.shape, self.resolution)
+    }
+
+    pub(super) fn samples(&self) -> Samples {
+        let elements = self.chain.len() as f64;
+        let spacing = self.guide.rod.length() / (elements * f64::from(self.resolution));
+        Samples::new(self.points(), spacing, &self.guide.thickness)
+    }
+
+    /// Some steps downhill while all others hold still, by at most `reach` (m).
+    pub(super) fn downhill(&self, crowd: &Crowd, index: usize, reach: f64) -> Settled {
+        let stopping = Stopping { tolerance: 0.0, max_iterations: ITERATIONS };
+        let from = &self.settled.shape;
+        let mut stiffness = self.settled.tether;
+        loop {
+            let tether = Tether { stiffness, spacing: self.chain.arc()[1], from };
+            let tether = InField::new(&tether, 1);
+            let found = self.among(crowd, index, Some(&tether), |problem| {
+                Riccati::default().minimise(problem, from.clone(), stopping)
+            });
+            let moved = farthest(&found.shape, from);
+            if moved <= reach {
+                let looser = if moved < 0.4 * reach { 0.4 } else { 1.0 };
+                return Settled {
+                    shape: found.shape,
+                    iterations: found.iterations,
+                    tether: stiffness * looser,
+                };
+            }
+            stiffness *= 4.0;
+        }
+    }
+
+    /// Takes a new shape over.
+    pub(super) fn take(&mut self, mut settled: Settled) {
+        settled.iterations += self.settled.iterations;
+        self.settled = settled;
+    }
+
+    /// Newton's step while all others hold still, cut to move no node farther than `reach` (m).
+    pub(super) fn newton_step(&self, crowd: &Crowd, index: usize, reach: f64) -> NewtonStep {
+        let from = &self.settled.shape;
+        let mut newton =
+            self.among(crowd, index, None, |problem| Riccati::default().newton_step(problem, from));
+        let moved = farthest(&self.stepped(&newton.step, 1.0), from);
+        if moved > reach {
+            for x in &mut newton.step {
+                *x *= reach / moved;
+            }
+        }
+        newton
+    }
+
+    /// The shape a fraction of a step away.
+    fn stepped(&self, step: &[DVec3], fraction: f64) -> Shape {
+        let controls = self.settled.shape.controls.iter().zip(step);
+        self.chain.shape(controls.map(|(c, x)| *c + *x * fraction).collect())
+    }
+
+    /// Goes a fraction of a step from a given shape; gives [`Self::points`] there.
+    pub(super) fn go(&mut self, from: &Settled, step: &[DVec3], fraction: f64) -> Vec<DVec3> {
+        self.settled.shape.clone_from(&from.shape);
+        self.settled.shape = self.stepped(step, fraction);
+        self.settled.iterations = from.iterations + 1;
+        self.points()
+    }
+
+    /// Largest distance (m) that a step moves a node.
+    pub(super) fn length_of(&self, step: &[DVec3]) -> f64 {
+        farthest(&self.stepped(step, 1.0), &self.settled.shape)
+    }
+
+    /// What gradients are measured against (N m).
+    pub(super) fn moment_scale(&self) -> f64 {
+        self.guide.rod.moment_scale()
+    }
+
+    /// Calls `act` with the energy of this guide while all others hold still.
+    fn among<T>(
+        &self,
+        crowd: &Crowd,
+        index: usize,
+        tether: Option<&dyn Potential>,
+        act: impl FnOnce(&Problem<'_>) -> T,
+    ) -> T {
+        let around = crowd.around(index);
+        let around = InField::new(&around, self.resolution);
+        let body = along(&self.body, self.guide, self.chain.len());
+        match tether {
+            Some(tether) => act(&Problem::new(&self.chain, &[&body, &around, tether])),
+            None => act(&Problem::new(&self.chain, &[&body, &around])),
+        }
+    }
+
+    /// Energy of overlapping others (J).
+    pub(super) fn crowding(&self, crowd: &Crowd, index: usize) -> f64 {
+        let around = crowd.around(index);
+        self.chain.energy(&self.settled.shape, &InField::new(&around, self.resolution))
+    }
+
+    /// What the guide adds to the energy of the head (J): half of what it shares with others.
+    pub(super) fn share(&self, crowd: &Crowd, index: usize) -> f64 {
+        let body = along(&self.body, self.guide, self.chain.len());
+        let around = crowd.shared(index);
+        let around = InField::new(&around, self.resolution);
+        Problem::new(&self.chain, &[&body, &around]).energy(&self.settled.shape).total()
+    }
+
+    /// The guide as an equilibrium.
+    pub(super) fn equilibrium(&self, crowd: &Crowd, index: usize, tolerance: f64) -> Equilibrium {
+        let stopping = Stopping { tolerance, max_iterations: 0 };
+        self.among(crowd, index, None, |problem| {
+            let riccati = Riccati { leave_saddles: false, ..Riccati::default() };
+            let found = riccati.minimise(problem, self.settled.shape.clone(), stopping);
+            let minimum = Minimum { iterations: self.settled.iterations, ..found };
+            Equilibrium::from_minimum(problem, minimum)
+        })
+    }
+}
+
+/// Largest distance (m) between nodes of two shapes.
+fn farthest(a: &Shape, b: &Shape) -> f64 {
+    let moves = a.positions.iter().zip(&b.positions);
+    moves.map(|(p, q)| p.distance_squared(*q)).fold(0.0, f64::max).sqrt()
+}
+
+/// Holds a guide near where it was, `½ c |r − r₀|²` per length.
+struct Tether<'a> {
+    /// c (Pa).
+    stiffness: f64,
+    /// Distance between nodes (m).
+    spacing: f64,
+    from: &'a Shape,
+}
+
+impl Tether<'_> {
+    fn away(&self, s: f64, p: DVec3) -> DVec3 {
+        let node = ((s / self.spacing).round() as usize).min(self.from.positions.len() - 1);
+        p - self.from.positions[node]
+    }
+}
+
+impl Field for Tether<'_> {
+    fn energy(&self, s: f64, p: DVec3) -> f64 {
+        0.5 * self.stiffness * self.away(s, p).length_squared()
+    }
+
+    fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
+        let identity = DMat3::from_diagonal(DVec3::splat(self.stiffness));
+        Some((self.away(s, p) * self.stiffness, identity))
+    }
+}
