@@ -14,6 +14,7 @@ pub(crate) enum Purpose {
     Hair,
     Hairline,
     BabyHair,
+    Split,
 }
 
 /// A stream of random numbers.

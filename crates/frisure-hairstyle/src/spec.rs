@@ -257,9 +257,13 @@ pub struct Wisps {
     pub count: usize,
     /// How many hairs are drawn.
     pub hairs: Hairs,
-    /// How much a wisp narrows from the scalp to its tip, 0 (not at all) to 1 (to a point):
-    /// pronounced locks have more.
+    /// How much a wisp gathers towards its tip, from the patch of skin that it grows on (0) to the
+    /// thickness that its hairs need (1): pronounced locks have more.
     pub clumping: f64,
+    /// Further factors on the width of a wisp at its root, middle and tip.
+    pub profile: [f64; 3],
+    /// Number of thinner wisps that each wisp splits into towards its tip; 1 does not split.
+    pub splits: usize,
     /// How far hairs stray from their place in the wisp, as a fraction of the wisp's radius.
     pub fuzziness: f64,
     /// Standard deviation of the length of hairs within a wisp, as a fraction.
@@ -426,6 +430,10 @@ impl HairstyleSpec {
         range("wisps.fuzziness", self.wisps.fuzziness, 0.0, 2.0, "between 0 and 2")?;
         range("wisps.length_variation", self.wisps.length_variation, 0.0, 0.5, "0 to 0.5")?;
         range("wisps.flyaways", self.wisps.flyaways, 0.0, 1.0, fraction)?;
+        count("wisps.splits", self.wisps.splits, 100, "between 1 and 100")?;
+        for factor in self.wisps.profile {
+            range("wisps.profile", factor, 0.0, 10.0, "three factors between 0 and 10")?;
+        }
         range("wisps.blending", self.wisps.blending, 0.0, 1.0, fraction)?;
         let points = self.wisps.points as f64;
         range("wisps.points", points, 2.0, 1000.0, "between 2 and 1000")?;

@@ -1,9 +1,10 @@
 //! The drawn hairs: a stochastic population around the guides.
 //!
-//! After Choe & Ko 2005, the hairs of a wisp keep their place in a cross-section that narrows along
-//! it, deviate from it by a coherent random process (never white noise), and vary in length. Beyond
-//! it: neighbouring wisps blend where hair is a smooth mass, every hair is rooted in the skin where
-//! its root is, and hairs that would lie in the body are laid on it.
+//! After Choe & Ko 2005, the hairs of a wisp keep their place in a cross-section that gathers from
+//! the patch of skin where they grow to the thickness of the wisp, deviate from it by a coherent
+//! random process (never white noise), and vary in length. Beyond it: a wisp splits into thinner
+//! ones, neighbouring wisps blend where hair is a smooth mass, every hair is rooted in the skin where
+//! its root is, and hairs that would lie in the body are laid on it, in the order in which they lay.
 
 use std::f64::consts::TAU;
 
@@ -62,6 +63,12 @@ struct Population<'a> {
     roots: Vec<DVec3>,
     /// Mean distance of neighbouring guides (m).
     spacing: f64,
+    /// Radius of the patch of skin that a wisp grows from (m).
+    patch: f64,
+    /// The thinner wisps that each wisp splits into.
+    splits: Vec<Vec<Split>>,
+    /// Largest width (m) over which hairs of any wisp are moved out of the body.
+    widest: f64,
 }
 
 /// Draws the hairs of a head.
@@ -80,6 +87,8 @@ pub(crate) fn draw(
     let spacing = (scalp.area() / guides.len() as f64).sqrt();
     let samples = (2 * spec.wisps.points).max(64);
     let roots: Vec<DVec3> = guides.iter().map(|g| g.root.position).collect();
+    let patch = spacing / std::f64::consts::PI.sqrt();
+    let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
     let population = Population {
         spec,
         head,
@@ -90,6 +99,9 @@ pub(crate) fn draw(
         grid: Grid::new(&roots, spacing),
         roots,
         spacing,
+        patch,
+        splits: splits(spec, guides, patch),
+        widest: PRESSED * guides.iter().map(thickest).fold(0.0, f64::max),
     };
     let count = spec.wisps.hair_count(scalp.area());
     let hair_roots = scalp.stratified(count, spec.seed, Purpose::HairRoots);
@@ -154,40 +166,78 @@ struct Character {
     length: f64,
     /// Factor on the arc length at which it follows its guides: how its curl drifts.
     drift: f64,
-    /// Coherent deviation: amplitude (m), wave number (rad per length) and phase.
-    waves: [(DVec3, f64, f64); 3],
-    /// Distance it keeps from the body, far from the root (m).
-    layer: f64,
+    /// Coherent deviation.
+    waves: Waves,
 }
 
-impl Character {
-    fn new(wisps: &Wisps, length: f64, spacing: f64, layer: f64, random: &mut Stream) -> Self {
-        let stray = random.unit() < wisps.flyaways;
-        let fuzz = wisps.fuzziness * random.factor(0.5) * if stray { 2.5 } else { 1.0 };
+/// A coherent deviation along a hair: amplitude (m), wave number (rad per length) and phase.
+#[derive(Clone, Copy)]
+struct Waves([(DVec3, f64, f64); 3]);
+
+impl Waves {
+    /// Of about `amplitude` (m) on hair of `length` (m).
+    fn new(amplitude: f64, length: f64, random: &mut Stream) -> Self {
         let mut wave = |wavelength: f64, share: f64| {
             let wave_number = TAU * length / (wavelength * random.factor(0.3));
             let direction = DVec3::new(random.normal(), random.normal(), random.normal());
-            (direction * (0.3 * fuzz * spacing * share), wave_number, TAU * random.unit())
+            (direction * (amplitude * share), wave_number, TAU * random.unit())
         };
-        let waves = [wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)];
-        Self {
-            length: (1.0 - wisps.length_variation * random.normal().abs()).max(0.2),
-            drift: 1.0 + (0.006 + 0.06 * wisps.fuzziness) * random.normal(),
-            waves,
-            layer: layer * random.between(0.05, 1.0) * if stray { 1.6 } else { 1.0 },
-        }
+        Self([wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)])
     }
 
-    /// Deviation (m) at `x` from 0 (root) to 1 (tip).
-    fn deviation(&self, x: f64, rise: f64) -> DVec3 {
-        let sum: DVec3 = self
-            .waves
-            .iter()
-            .map(|(amplitude, number, phase)| {
-                *amplitude * ((number * x + phase).sin() - phase.sin())
-            })
-            .sum();
-        sum * rise
+    /// Deviation (m) at `x` from 0 (root) to 1 (tip); none at the root.
+    fn at(&self, x: f64) -> DVec3 {
+        let wave = |(amplitude, number, phase): &(DVec3, f64, f64)| {
+            *amplitude * ((number * x + phase).sin() - phase.sin())
+        };
+        self.0.iter().map(wave).sum()
+    }
+}
+
+/// A thinner wisp that a wisp splits into.
+#[derive(Clone, Copy)]
+struct Split {
+    /// Its middle in the wisp's patch of skin (m, from the guide's root).
+    middle: DVec3,
+    waves: Waves,
+}
+
+/// How much of the way to the middle of its split a hair has come at the tip.
+const GATHERED: f64 = 0.75;
+
+/// The thinner wisps of each wisp, spread over its patch.
+fn splits(spec: &HairstyleSpec, guides: &[Guide], patch: f64) -> Vec<Vec<Split>> {
+    let split = |guide: &Guide, random: &mut Stream| {
+        let normal = guide.root.normal;
+        let (u, v) = normal.any_orthonormal_pair();
+        let (radius, angle) = (patch * random.unit().sqrt(), TAU * random.unit());
+        let amplitude = SPLIT_STRAY * spec.wisps.fuzziness * patch;
+        let length = guide.rod.length();
+        Split {
+            middle: (u * angle.cos() + v * angle.sin()) * radius,
+            waves: Waves::new(amplitude, length, random),
+        }
+    };
+    (guides.iter().enumerate())
+        .map(|(index, guide)| {
+            let mut random = Stream::new(spec.seed, Purpose::Split, index);
+            (0..spec.wisps.splits).map(|_| split(guide, &mut random)).collect()
+        })
+        .collect()
+}
+
+/// How far a split strays from its wisp, as a fraction of fuzziness times the patch's radius.
+const SPLIT_STRAY: f64 = 0.5;
+
+impl Character {
+    fn new(wisps: &Wisps, length: f64, spacing: f64, random: &mut Stream) -> Self {
+        let stray = random.unit() < wisps.flyaways;
+        let fuzz = wisps.fuzziness * random.factor(0.5) * if stray { 2.5 } else { 1.0 };
+        Self {
+            waves: Waves::new(0.3 * fuzz * spacing, length, random),
+            length: (1.0 - wisps.length_variation * random.normal().abs()).max(0.2),
+            drift: 1.0 + (0.006 + 0.06 * wisps.fuzziness) * random.normal(),
+        }
     }
 }
 
@@ -211,9 +261,9 @@ impl Population<'_> {
         let followed = self.followed(root);
         let main = followed[0].0;
         let length: f64 = followed.iter().map(|&(g, w)| w * self.wisps[g].length).sum();
-        let layer = self.layer(&followed);
         let wisps = &self.spec.wisps;
-        let mut character = Character::new(wisps, length, self.spacing, layer, &mut random);
+        let mut character = Character::new(wisps, length, self.spacing, &mut random);
+        let split = self.split(main, root.position);
         if let Some(own) = self.layout.length(self.head, root) {
             // Roots behind and before the guide's reach the same line.
             character.length = (character.length.max(CUT) * own / length).min(1.0);
@@ -225,8 +275,8 @@ impl Population<'_> {
         let points = (0..=last)
             .map(|k| {
                 let x = k as f64 / last as f64 * character.length;
-                let p = self.followed_point(root, &followed, &character, x, length);
-                self.laid_on_body(root, p, x * length, character.layer, &mut free).as_vec3()
+                let p = self.followed_point(root, &followed, &character, split, x, length);
+                self.laid_on_body(root, p, x * length, main, &mut free).as_vec3()
             })
             .collect();
         Hair { guide: main as u32, thickness: if baby.is_some() { THIN } else { 1.0 }, points }
@@ -295,9 +345,11 @@ impl Population<'_> {
         1.0 - smooth(0.8, 1.6, most / least)
     }
 
-    /// Distance (m) from the body that the guides keep far from their roots.
-    fn layer(&self, followed: &[(usize, f64)]) -> f64 {
-        followed.iter().map(|&(g, w)| w * self.guides[g].layer.at(1.0)).sum()
+    /// The split of a wisp that a hair belongs to: the nearest in the skin.
+    fn split(&self, guide: usize, root: DVec3) -> Option<&Split> {
+        let place = root - self.roots[guide];
+        let far = |s: &&Split| s.middle.distance_squared(place);
+        self.splits[guide].iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
     /// Point of a hair at `x` of its guides' length.
@@ -306,42 +358,82 @@ impl Population<'_> {
         root: &Root,
         followed: &[(usize, f64)],
         character: &Character,
+        split: Option<&Split>,
         x: f64,
         length: f64,
     ) -> DVec3 {
         let along = x * length;
         let rise = smooth(0.0, 0.06_f64.min(0.5 * length), along);
-        let narrowing = 1.0 - self.spec.wisps.clumping * smooth(0.0, 1.0, x.powf(0.8));
+        let gathered = smooth(0.0, 1.0, x.powf(0.8));
         let drifted = x * (1.0 + (character.drift - 1.0) * rise);
-        let carried: DVec3 = followed
-            .iter()
-            .map(|&(g, weight)| {
-                let (centre, turn) = self.wisps[g].at(drifted);
-                let place = turn * (root.position - self.roots[g]);
-                (centre + place * narrowing) * weight
-            })
-            .sum();
-        carried + character.deviation(x, rise)
+        let mut carried = character.waves.at(x) * rise;
+        for (rank, &(g, weight)) in followed.iter().enumerate() {
+            let (centre, turn) = self.wisps[g].at(drifted);
+            let mut place = root.position - self.roots[g];
+            if rank == 0
+                && let Some(split) = split
+            {
+                // All of the hair goes with its split, of which only the first wisp knows.
+                place += (split.middle - place) * (GATHERED * gathered / weight);
+                carried += split.waves.at(x) * rise;
+            }
+            carried += (centre + turn * place * self.narrowing(g, along, gathered)) * weight;
+        }
+        carried
     }
 
-    /// Pushes a point at arc length `s` (m) out of the body, to the hair's own layer.
-    fn laid_on_body(&self, root: &Root, p: DVec3, s: f64, layer: f64, free: &mut Free) -> DVec3 {
+    /// Width of a wisp at arc length `s` (m), as a fraction of its patch of skin.
+    fn narrowing(&self, guide: usize, s: f64, gathered: f64) -> f64 {
+        let packed = self.guides[guide].thickness.packed(s) / self.patch;
+        let [root, middle, tip] = self.spec.wisps.profile;
+        let x = s / self.wisps[guide].length;
+        let along = if x < 0.5 {
+            root + (middle - root) * 2.0 * x
+        } else {
+            middle + (tip - middle) * (2.0 * x - 1.0)
+        };
+        (1.0 + self.spec.wisps.clumping * gathered * (packed - 1.0)) * along
+    }
+
+    /// Moves a point at arc length `s` (m) that is in the body, or nearly, out of it.
+    ///
+    /// What would lie at the depths of a wisp that is pressed on the skin comes to lie at
+    /// `m + w ln(1 + exp((d − m)/w))`, d its distance before: in the same order, nothing in the skin,
+    /// and no two layers in one.
+    fn laid_on_body(&self, root: &Root, p: DVec3, s: f64, guide: usize, free: &mut Free) -> DVec3 {
         if s <= 0.0 {
             return root.position - root.normal * ROOT_DEPTH;
         }
         if self.spec.contact.body == Body::None || free.holds(p) {
             return p;
         }
-        let keep = 4e-4 * (s / 0.003).min(1.0) + layer * smooth(0.0, 0.05, s);
-        let mut p = p;
-        for _ in 0..3 {
+        let least = LEAST_DISTANCE * (s / 0.003).min(1.0);
+        let width = (PRESSED * self.guides[guide].thickness.at(s)).max(2e-5);
+        let (distance, gradient) = self.head.signed_distance().value_gradient(p);
+        let beyond = (distance - least) / width;
+        if beyond > FREE {
+            *free = Free { centre: p, radius: distance - least - FREE * self.widest };
+            return p;
+        }
+        let wanted = least + width * beyond.exp().ln_1p();
+        let mut p = p + gradient.normalize_or(root.normal) * (wanted - distance);
+        for _ in 0..2 {
+            // Where the skin is curved the way out is not straight.
             let (distance, gradient) = self.head.signed_distance().value_gradient(p);
-            if distance >= keep {
-                *free = Free { centre: p, radius: distance - layer.max(keep) };
+            if distance >= least {
                 break;
             }
-            p += gradient.normalize_or(root.normal) * (keep - distance);
+            p += gradient.normalize_or(root.normal) * (least - distance);
         }
         p
     }
 }
+
+/// Least distance of a hair from the skin far from its root (m).
+const LEAST_DISTANCE: f64 = 4e-4;
+
+/// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
+const PRESSED: f64 = 0.3;
+
+/// … and how many of them farther out no hair is moved.
+const FREE: f64 = 6.0;

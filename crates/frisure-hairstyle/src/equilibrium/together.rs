@@ -12,7 +12,7 @@ use frisure_rod::minimise::NewtonStep;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::wisp::{LARGEST_MOVE, Settled, Wisp};
+use super::wisp::{Settled, Wisp};
 use super::{Rest, body};
 use crate::contact::{Crowd, Layer};
 use crate::guides::Guide;
@@ -25,9 +25,14 @@ const MOST_SWEEPS: usize = 30;
 /// … this (m).
 const CALM: f64 = 2e-4;
 
-/// Most steps of all guides together, and how far each may move in one (m).
+/// Most steps of all guides together, and how far each may move in one, as a share of a sweep.
 const MOST_STEPS: usize = 1000;
-const LARGEST_STEP: f64 = 1.2e-3;
+const LARGEST_STEP: f64 = 0.4;
+
+/// How far a guide may move in one sweep, as a fraction of the mean radius of wisps: not so far that
+/// it could jump over another. And the most that it is (m).
+const LARGEST_MOVE: f64 = 1.5;
+const MOST_REACH: f64 = 4e-3;
 
 /// The least distance (m) for which neighbours are looked for beyond their thickness.
 const LEAST_REACH: f64 = 6e-4;
@@ -52,16 +57,19 @@ pub(super) fn settle(
     let height = |i: usize| guides[i].root.position.z;
     order.sort_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
     let count = wisps.len();
+    let radius =
+        guides.iter().map(|g| g.thickness.packed(0.5 * g.rod.length())).sum::<f64>() / count as f64;
+    let largest = (LARGEST_MOVE * radius).clamp(LEAST_REACH, MOST_REACH);
     let mut throng = Throng {
         tolerance: spec.equilibrium.tolerance,
-        farthest: LARGEST_MOVE,
         wisps,
         crowd,
         order,
         groups: Vec::new(),
-        reach: vec![LARGEST_MOVE; count],
+        farthest: largest,
+        reach: vec![largest; count],
         drift: vec![f64::INFINITY; count],
-        last: vec![LARGEST_MOVE; count],
+        last: vec![largest; count],
     };
     let stage = Stage::new(monitor, "wisps making way", MOST_SWEEPS + MOST_STEPS);
     let sweeps = throng.sort_out(&stage)?;
@@ -136,7 +144,7 @@ impl Throng<'_> {
 
     /// Goes downhill with all guides together until the head is at rest; gives the number of steps.
     fn converge(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
-        self.farthest = LARGEST_STEP;
+        self.farthest *= LARGEST_STEP;
         self.drift.fill(f64::INFINITY);
         let mut previous: Option<Direction> = None;
         for step in 0..MOST_STEPS {

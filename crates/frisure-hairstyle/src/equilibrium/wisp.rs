@@ -12,8 +12,8 @@ use crate::guides::Guide;
 /// Iterations of one guide in one sweep: the others will move, too.
 const ITERATIONS: usize = 1;
 
-/// How far a guide moves in its first sweep (m), and the farthest that it may in any.
-pub(super) const LARGEST_MOVE: f64 = 4e-3;
+/// How far (m) its own weight pulls a guide against what holds it in its first sweep.
+const FIRST_SAG: f64 = 4e-3;
 
 /// Distance between points at which wisps feel each other, as a fraction of their radius …
 const SPACING: f64 = 1.1;
@@ -48,7 +48,7 @@ impl<'a> Wisp<'a> {
         let settled = Settled {
             shape: alone.shape.clone(),
             iterations: alone.certificate.iterations,
-            tether: guide.rod.weight() / LARGEST_MOVE,
+            tether: guide.rod.weight() / FIRST_SAG,
         };
         Self { guide, chain: alone.chain(), body, resolution, settled }
     }

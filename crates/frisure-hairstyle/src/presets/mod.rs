@@ -7,7 +7,7 @@ mod styles;
 use frisure_rod::{ElementKind, Resolution};
 
 use crate::spec::{
-    Body, Contact, HairContact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
+    Body, Contact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
 };
 pub use hair_type::{Ellipticity, HairType, NaturalCurl, Wetting};
 use styles::Style;
@@ -158,7 +158,7 @@ impl Preset {
             wisps: style.wisps(Hairs::Density(hair.density)),
             contact: Contact {
                 body: Body::SignedDistance,
-                hair: HairContact::Wisps,
+                hair: style.contact,
                 stiffness: 2000.0,
                 hair_stiffness: 0.5,
                 volume: 1.0,
@@ -179,6 +179,8 @@ impl Style {
             count: self.count,
             hairs,
             clumping: self.clumping,
+            profile: [1.0; 3],
+            splits: self.splits,
             fuzziness: self.fuzziness,
             length_variation: 0.06,
             flyaways: self.flyaways,

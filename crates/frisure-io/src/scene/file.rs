@@ -316,9 +316,16 @@ pub(super) struct Wisps {
     /// Mean number of drawn hairs around each guide, instead of `hairs`; 1 to 100000.
     #[schemars(range(min = 1, max = 100_000))]
     pub(super) hairs_per_wisp: Key<Count>,
-    /// How much a wisp narrows to its tip: 0 (not at all) to 1 (to a point).
+    /// How much a wisp gathers to its tip: 0 (as wide as at the scalp) to 1 (as thick as its hairs
+    /// need).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) clumping: Key<Ratio>,
+    /// Further factors on the width of a wisp at root, middle and tip; each 0 to 10. Default
+    /// [1, 1, 1].
+    pub(super) profile: Key<Vector>,
+    /// Number of thinner wisps that each wisp splits into; 1 to 100.
+    #[schemars(range(min = 1, max = 100))]
+    pub(super) splits: Key<Count>,
     /// How far hairs stray from their place, as a fraction of the wisp's radius; 0 to 2.
     #[schemars(range(min = 0.0, max = 2.0))]
     pub(super) fuzziness: Key<Ratio>,

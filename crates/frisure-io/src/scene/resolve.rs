@@ -437,6 +437,10 @@ fn wisps(file: &file::Wisps, spec: &mut HairstyleSpec, source: &Source) -> Resul
     wisps.hairs = hairs(file, wisps.hairs, source)?;
     set(&mut spec.implantation.density, &file.density, source)?;
     set(&mut wisps.clumping, &file.clumping, source)?;
+    set(&mut wisps.splits, &file.splits, source)?;
+    if let Some(profile) = file.profile.get(source)? {
+        wisps.profile = profile.to_array();
+    }
     set(&mut wisps.fuzziness, &file.fuzziness, source)?;
     set(&mut wisps.length_variation, &file.length_variation, source)?;
     set(&mut wisps.flyaways, &file.flyaways, source)?;
