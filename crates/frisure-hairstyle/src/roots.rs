@@ -236,11 +236,12 @@ fn eliminate(candidates: Vec<Root>, count: usize, reach: f64) -> Vec<Root> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::head::test_shapes::mannequin;
 
     #[test]
     fn guides_are_spread_evenly() {
-        let head = Head::mannequin();
-        let scalp = Scalp::new(&head);
+        let head = mannequin();
+        let scalp = Scalp::new(head);
         let roots = scalp.even(150, 1, Purpose::GuideRoots);
         assert_eq!(roots.len(), 150);
         let hexagonal = (2.0 * scalp.area() / (3.0_f64.sqrt() * 150.0)).sqrt();
@@ -256,8 +257,8 @@ mod tests {
 
     #[test]
     fn roots_are_on_the_scalp_and_depend_on_the_seed_alone() {
-        let head = Head::mannequin();
-        let scalp = Scalp::new(&head);
+        let head = mannequin();
+        let scalp = Scalp::new(head);
         let roots = scalp.stratified(5000, 3, Purpose::HairRoots);
         for r in &roots {
             assert!(head.signed_distance().value(r.position).abs() < 1e-3);

@@ -14,7 +14,7 @@ mod sculpt;
 mod spheres;
 mod tape;
 #[cfg(test)]
-mod test_shapes;
+pub(crate) mod test_shapes;
 mod triangles;
 mod voxels;
 

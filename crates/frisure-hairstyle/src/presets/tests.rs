@@ -1,5 +1,5 @@
 use super::*;
-use crate::head::Head;
+use crate::head::test_shapes::mannequin;
 
 fn hair(name: &str) -> HairType {
     *preset(name).unwrap().hair_type()
@@ -173,7 +173,7 @@ fn a_natural_curl_measures_itself() {
 #[test]
 fn a_scalp_has_as_many_hairs_as_its_density_says() {
     let spec = preset("caucasian-straight").unwrap().spec();
-    let area = crate::scalp_area(&spec, &Head::mannequin());
+    let area = crate::scalp_area(&spec, mannequin());
     let wisps = spec.wisps;
     let hairs = wisps.hair_count(area);
     assert!((hairs as f64 / (226e4 * area) - 1.0).abs() < 1e-4, "{hairs}");
