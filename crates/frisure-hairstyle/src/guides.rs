@@ -112,7 +112,8 @@ fn rod(
     };
     let natural = natural_strain(&spec.curl, layout.curl(root), length, &mut random)?;
     let tangent = jittered(spec, head, layout, root, index);
-    let d1 = leaning(natural.at(0.0), tangent, layout.lean(root), &mut random);
+    let strain = natural.at(0.0);
+    let d1 = leaning(strain, tangent, layout.lean(root, tangent, strain), &mut random);
     // Drawn last: seeds keep their curls whatever the section does.
     let section = spec.fibre.varied(&mut random)?;
     Rod::new(RodSpec {

@@ -111,7 +111,7 @@ pub(crate) fn draw(
         .enumerate()
         .map(|(index, root)| {
             stage.check()?;
-            let hair = population.hair(root, index);
+            let hair = population.hair(&layout.gathered(head, *root), index);
             stage.advance();
             Ok(hair)
         })

@@ -71,8 +71,10 @@ pub(crate) fn along_skin(
     let parted = matches!(flow, Flow::Parted { .. });
     let reach = marks.width * if parted { 0.5 } else { 0.22 };
     let pull = (-(distance / reach).powi(2)).exp();
-    // Beside the line hair leaves sideways; farther off it is combed back out of the face.
-    let combed = if parted { 0.3 + 0.7 * smooth(0.004, 0.03, distance) } else { 0.0 };
+    // Beside the line hair leaves sideways, or it would fall back over it; farther off, and above the
+    // forehead, it is combed back out of the face.
+    let near = 0.1 + 0.5 * (1.0 - smooth(-0.85, -0.6, marks.normalized(root.position).y));
+    let combed = if parted { near + (1.0 - near) * smooth(0.006, 0.035, distance) } else { 0.0 };
     let away = shortened(away + back(normal) * (1.3 * combed * front));
     base.lerp(away, pull)
 }
@@ -128,7 +130,9 @@ fn back(normal: DVec3) -> DVec3 {
 
 /// Back, and in front also to both sides: out of the face.
 fn swept(normal: DVec3) -> DVec3 {
-    let aside = DVec3::X * (2.0 * normal.x * smooth(-0.2, 0.6, -normal.y));
+    // All of it but the very middle.
+    let side = normal.x / (normal.x.abs() + 0.1);
+    let aside = DVec3::X * (1.2 * side * smooth(-0.2, 0.6, -normal.y));
     shortened(back(normal) + along(aside, normal))
 }
 

@@ -27,3 +27,35 @@ fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
     let with_crown = sides_to_top + (60.0 - sides_to_top) * crown;
     with_crown + (15.0 - with_crown) * front
 }
+
+/// Distance (m) from a parting up to which a comb lays hair on the skin.
+const LAID: f64 = 0.03;
+
+/// The angle (rad) at `distance` (m) from a parting: there the comb has laid down what would stand.
+pub(crate) fn laid_flat(angle: f64, distance: f64) -> f64 {
+    let flat = angle.min(12_f64.to_radians());
+    flat + (angle - flat) * smooth(0.3 * LAID, LAID, distance)
+}
+
+/// Steepest angle (rad) to which hair above the forehead is turned.
+const STEEPEST: f64 = 1.4;
+
+/// The angle (rad) of a fibre whose curl, not the fibre itself, is combed away from the face: above
+/// the forehead a curl whose axis stood out would fall into it.
+pub(crate) fn turned_back(marks: &Landmarks, angle: f64, lead: f64, p: DVec3) -> f64 {
+    let front = 1.0 - smooth(-0.75, -0.25, marks.normalized(p).y);
+    angle + ((angle + lead).min(STEEPEST).max(angle) - angle) * front
+}
+
+/// The angle (rad) between a fibre of this natural strain (rad/m) and the axis about which it
+/// winds; 0 for waves too long to tell an axis.
+pub(crate) fn lead(strain: DVec3) -> f64 {
+    strain.truncate().length().atan2(strain.z.abs()) * curly(strain)
+}
+
+/// Whether hair of this natural strain (rad/m) winds about an axis, 1, or turns so slowly that it
+/// only bends, 0.
+pub(crate) fn curly(strain: DVec3) -> f64 {
+    let turn = std::f64::consts::TAU / strain.length().max(1e-9);
+    1.0 - smooth(0.06, 0.14, turn)
+}

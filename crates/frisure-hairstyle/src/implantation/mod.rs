@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::head::{Head, Landmarks};
 use crate::roots::Root;
-use crate::spec::{Flow, HairstyleSpec, Implantation, Parting, RegionStyle};
+use crate::spec::{Flow, HairstyleSpec, Implantation, Lift, Parting, RegionStyle};
 
 pub use parting::PartingError;
 pub(crate) use parting::segments_cross;
@@ -26,10 +26,15 @@ pub(crate) struct Layout {
     marks: Landmarks,
     whorls: Vec<Whorl>,
     partings: Partings,
+    /// Angle (rad) between a curl's fibre and the axis that it winds about.
+    lead: f64,
 }
 
 /// Length along the skin below which a flow is no direction: there hair stands up.
 const FAINT: f64 = 0.4;
+
+/// How much a comb counts for the lean of curls, against the skin's normal.
+const COMBED: f64 = 2.0;
 
 impl Layout {
     /// Finds the places of a description on a head.
@@ -49,22 +54,19 @@ impl Layout {
             marks: head.landmarks().clone(),
             whorls: flow::whorls(&implantation.whorls, head),
             partings: Partings::new(partings, head)?,
+            lead: lift::lead(spec.curl.strain),
             implantation,
         })
     }
 
     /// The direction (unit) in which the hair of `root` leaves the scalp, without jitter.
     pub(crate) fn direction(&self, root: &Root) -> DVec3 {
-        let (marks, spec) = (&self.marks, &self.implantation);
-        let mut along = flow::along_skin(marks, spec.flow, &self.whorls, &self.partings, root);
-        let mut angle = lift::angle(marks, spec.lift, root.position);
+        let marks = &self.marks;
+        let (along, combed) = self.along(root);
+        let mut angle = self.angle(root, combed);
         for style in &self.regions {
-            let share = regions::share(style, marks, root.position);
-            if let Some(comb) = style.comb {
-                along = along.lerp(flow::combed(comb, root.normal), share);
-            }
             if let Some(lift) = style.lift {
-                angle += (lift - angle) * share;
+                angle += (lift - angle) * regions::share(style, marks, root.position);
             }
         }
         let sure = smooth(0.0, FAINT, along.length());
@@ -73,13 +75,39 @@ impl Layout {
         (along * angle.cos() + root.normal * angle.sin()).normalize_or(root.normal)
     }
 
-    /// The direction to which curls lean as they leave the root: out of the skin and, where hair is
-    /// combed, back.
-    pub(crate) fn lean(&self, root: &Root) -> DVec3 {
-        match self.implantation.flow {
-            Flow::Whorl => root.normal,
-            Flow::Parted { .. } | Flow::SweptBack => root.normal + DVec3::Y,
+    /// The direction along the skin (no longer than 1), and how much of it is a comb's, 0 to 1.
+    fn along(&self, root: &Root) -> (DVec3, f64) {
+        let (marks, flow) = (&self.marks, self.implantation.flow);
+        let mut along = flow::along_skin(marks, flow, &self.whorls, &self.partings, root);
+        let mut combed = f64::from(flow != Flow::Whorl);
+        for style in &self.regions {
+            if let Some(comb) = style.comb {
+                let share = regions::share(style, marks, root.position);
+                along = along.lerp(flow::combed(comb, root.normal), share);
+                combed += (1.0 - combed) * share;
+            }
         }
+        (along, combed)
+    }
+
+    /// The angle to the skin (rad), before regions ask for theirs.
+    fn angle(&self, root: &Root, combed: f64) -> f64 {
+        let grown = lift::angle(&self.marks, self.implantation.lift, root.position);
+        let Lift::Regional { .. } = self.implantation.lift else { return grown };
+        let beside = self.partings.away(root.position, root.normal);
+        let flat = beside.map_or(grown, |(_, distance)| lift::laid_flat(grown, distance));
+        let raised = lift::turned_back(&self.marks, flat, self.lead, root.position);
+        flat + (raised - flat) * combed
+    }
+
+    /// The direction to which a curl of this strain (rad/m) leans as it leaves the root along
+    /// `tangent`: out of the skin and, where hair is combed, with the comb. A wave too long for an
+    /// axis to tell bends to the skin there, not across its neighbours.
+    pub(crate) fn lean(&self, root: &Root, tangent: DVec3, strain: DVec3) -> DVec3 {
+        let (along, combed) = self.along(root);
+        let out = root.normal + along * (COMBED * combed);
+        let down = root.normal.cross(tangent) * (COMBED * strain.z.signum());
+        out.lerp(down, combed * (1.0 - lift::curly(strain)))
     }
 
     /// Factor on the natural curl at a root.
@@ -101,6 +129,20 @@ impl Layout {
     /// Which region gives the hair rooted at a point (m) of the skin its length.
     pub(crate) fn cut(&self, p: DVec3) -> Option<usize> {
         regions::cut_at(&self.regions, &self.marks, p)
+    }
+
+    /// Where a drawn hair is rooted: beside a parting, nearer to the line than it grows. Combed hair is
+    /// heaped there and hides the skin; hair drawn one by one from even roots leaves a broad stripe.
+    pub(crate) fn gathered(&self, head: &Head, root: Root) -> Root {
+        if self.partings.is_empty() {
+            return root;
+        }
+        let position = self.partings.gathered(root.position);
+        if position == root.position {
+            return root;
+        }
+        let (distance, away) = head.signed_distance().value_gradient(position);
+        Root { position: position - away * distance, ..root }
     }
 
     /// Whether hair rooted at two points (m) near each other cannot go together: a parting lies

@@ -36,6 +36,12 @@ fn short(metres: f64) -> f64 {
     (metres * 1e3).round() / 10.0
 }
 
+/// Width (m) of the strip beside a parting of which the drawn hair is gathered at the line.
+const GATHERED: f64 = 8e-3;
+
+/// Distance (m) from the line within which hair is not moved, so that it stays on its side.
+const SIDE: f64 = 1e-4;
+
 /// The partings of one head.
 #[derive(Clone, Debug)]
 pub(crate) struct Partings(Vec<Line>);
@@ -108,6 +114,21 @@ impl Partings {
             let agreement = (2.0 * along.length() / most).min(1.0);
             (along.normalize_or_zero() * agreement, nearest)
         })
+    }
+
+    /// A point (m) of the skin, moved towards a parting near by.
+    pub(crate) fn gathered(&self, p: DVec3) -> DVec3 {
+        let pieces = self.0.iter().flat_map(|line| line.points.windows(2));
+        let nearest = pieces
+            .map(|w| closest(p, w[0], w[1]))
+            .min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)));
+        let Some(on_line) = nearest else { return p };
+        let distance = on_line.distance(p);
+        if distance >= GATHERED {
+            return p;
+        }
+        let nearer = distance * (distance / GATHERED).powf(1.5);
+        on_line + (p - on_line).normalize_or_zero() * nearer.max(distance.min(SIDE))
     }
 
     /// The partings as chains of points on the skin (m).

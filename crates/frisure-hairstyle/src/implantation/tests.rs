@@ -1,16 +1,11 @@
 use std::f64::consts::{PI, TAU};
-use std::sync::OnceLock;
 
 use super::*;
+use crate::head::test_shapes::mannequin as head;
 use crate::presets::preset;
 use crate::random::Purpose;
 use crate::roots::Scalp;
 use crate::spec::{Comb, Hairline, Lift, Parting, Place, Turn};
-
-fn head() -> &'static Head {
-    static HEAD: OnceLock<Head> = OnceLock::new();
-    HEAD.get_or_init(Head::mannequin)
-}
 
 fn spec(flow: Flow, change: impl FnOnce(&mut HairstyleSpec)) -> HairstyleSpec {
     let mut spec = preset("caucasian-straight").unwrap().spec();
@@ -241,4 +236,49 @@ fn hairlines_recede_and_peak_where_told() {
     assert!(moved(Hairline { widows_peak: 0.01, ..even }, marks.hairline) < -0.008);
     assert!(moved(Hairline { recession: 0.01, ..even }, temple) > 0.005);
     assert!(moved(Hairline { recession: 0.01, ..even }, marks.nape).abs() < 1e-4);
+}
+
+/// The direction (unit) of the axis about which the natural curl of a root winds.
+fn axis(layout: &Layout, strain: DVec3, root: &Root) -> DVec3 {
+    let tangent = layout.direction(root);
+    let lean = layout.lean(root, tangent, strain);
+    let out = lean.reject_from_normalized(tangent).normalize();
+    (out * strain.truncate().length() + tangent * strain.z).normalize()
+}
+
+#[test]
+fn curls_above_the_forehead_lean_where_they_are_combed() {
+    let comb = RegionStyle {
+        places: vec![Place::Region(crate::head::Region::Fringe)],
+        comb: Some(Comb::Left),
+        ..RegionStyle::default()
+    };
+    let curly = preset("caucasian-curly").unwrap().spec();
+    let with = |regions| {
+        let flow = Flow::SweptBack;
+        let implantation = Implantation { flow, ..curly.implantation.clone() };
+        Layout::new(&HairstyleSpec { implantation, regions, ..curly.clone() }, head()).unwrap()
+    };
+    let forehead = root(head().landmarks().hairline + DVec3::new(0.0, 0.008, 0.006));
+    let back = axis(&with(Vec::new()), curly.curl.strain, &forehead);
+    assert!(back.y > 0.3, "{back}");
+    let left = axis(&with(vec![comb]), curly.curl.strain, &forehead);
+    assert!(left.x > 0.5, "{left}");
+}
+
+#[test]
+fn drawn_hair_is_gathered_at_a_parting_on_its_own_side() {
+    let layout = layout(Flow::Parted { offset: 0.02 }, |_| {});
+    let (mut near, mut nearer) = (0, 0);
+    for from in Scalp::new(head()).stratified(20_000, 1, Purpose::HairRoots) {
+        let to = layout.gathered(head(), from);
+        assert!(to == from || head().signed_distance().value(to.position).abs() < 2e-4);
+        assert!(!layout.partings.between(&layout.marks, from.position, to.position));
+        let distance = |r: &Root| layout.partings.away(r.position, r.normal).unwrap().1;
+        let (before, after) = (distance(&from), distance(&to));
+        assert!(after < before + 1e-4 && (before < 8e-3 || after > before - 1e-6));
+        near += usize::from(before < 1.5e-3);
+        nearer += usize::from(after < 1.5e-3);
+    }
+    assert!(nearer > 2 * near, "{nearer}, {near}");
 }
