@@ -49,6 +49,11 @@ impl<'a> Stage<'a> {
         }
     }
 
+    /// Reports a fraction (0 to 1), for work whose length is not known in items.
+    pub(crate) fn at(&self, fraction: f64) {
+        self.monitor.progress(self.name, fraction.clamp(0.0, 1.0));
+    }
+
     pub(crate) fn check(&self) -> Result<(), Cancelled> {
         if self.monitor.cancelled() { Err(Cancelled) } else { Ok(()) }
     }

@@ -25,6 +25,9 @@ const MOST_SWEEPS: usize = 30;
 /// … this (m).
 const CALM: f64 = 2e-4;
 
+/// How much of the work the sweeps are, for the progress shown.
+const SORTED: f64 = 0.3;
+
 /// Most steps of all guides together, and how far each may move in one, as a share of a sweep.
 const MOST_STEPS: usize = 1000;
 const LARGEST_STEP: f64 = 0.4;
@@ -71,7 +74,7 @@ pub(super) fn settle(
         drift: vec![f64::INFINITY; count],
         last: vec![largest; count],
     };
-    let stage = Stage::new(monitor, "wisps making way", MOST_SWEEPS + MOST_STEPS);
+    let stage = Stage::new(monitor, "wisps making way", 1);
     let sweeps = throng.sort_out(&stage)?;
     let steps = throng.converge(&stage)?;
     Ok(throng.finish(sweeps + steps))
@@ -103,7 +106,7 @@ impl Throng<'_> {
             self.look_around();
             self.sweep(stage)?;
             self.order.reverse();
-            stage.advance();
+            stage.at(SORTED * sweep as f64 / MOST_SWEEPS as f64);
             let calm = self.last.iter().filter(|&&m| m < CALM).count();
             if 2 * calm >= self.wisps.len() {
                 return Ok(sweep);
@@ -147,6 +150,7 @@ impl Throng<'_> {
         self.farthest *= LARGEST_STEP;
         self.drift.fill(f64::INFINITY);
         let mut previous: Option<Direction> = None;
+        let mut first: Option<f64> = None;
         for step in 0..MOST_STEPS {
             stage.check()?;
             self.look_around();
@@ -165,7 +169,6 @@ impl Throng<'_> {
                 self.sweep(stage)?;
                 previous = None;
             }
-            stage.advance();
         }
         Ok(MOST_STEPS)
     }

@@ -182,9 +182,10 @@ fn a_scalp_has_as_many_hairs_as_its_density_says() {
         let hairs = p.spec().wisps.hair_count(area);
         assert!((80_000..=150_000).contains(&hairs), "{}: {hairs}", p.name);
     }
-    assert!((wisps.hairs_per_wisp(area) * 300.0 - hairs as f64).abs() < 1e-6);
+    let count = wisps.count as f64;
+    assert!((wisps.hairs_per_wisp(area) * count - hairs as f64).abs() < 1e-6);
     let by = |hairs| Wisps { hairs, ..wisps };
     assert_eq!(by(Hairs::Count(7)).hair_count(area), 7);
-    assert_eq!(by(Hairs::PerWisp(7)).hair_count(area), 2100);
+    assert_eq!(by(Hairs::PerWisp(7)).hair_count(area), 7 * wisps.count);
     assert_eq!(by(Hairs::Density(1e4)).hair_count(1e-9), 1);
 }

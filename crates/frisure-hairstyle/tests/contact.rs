@@ -1,0 +1,120 @@
+//! Hair against hair: what must hold when wisps make way for each other.
+
+use std::sync::OnceLock;
+
+use frisure_hairstyle::head::{Head, ScalpSource};
+use frisure_hairstyle::{Body, HairContact, Hairstyle, HairstyleSpec, predict, preset};
+use frisure_strands::Surface;
+use glam::{DQuat, DVec3};
+
+fn head() -> &'static Head {
+    static HEAD: OnceLock<Head> = OnceLock::new();
+    HEAD.get_or_init(Head::mannequin)
+}
+
+fn spec(hair: HairContact) -> HairstyleSpec {
+    let mut spec = preset("caucasian-curly").unwrap().spec();
+    spec.wisps.count = 60;
+    spec.contact.hair = hair;
+    spec.equilibrium.resolution = frisure_rod::Resolution::Elements(20);
+    spec
+}
+
+fn style(hair: HairContact) -> Hairstyle {
+    predict(&spec(hair), head(), &()).unwrap()
+}
+
+/// Points every 2 mm along a guide, with their arc length.
+fn points(style: &Hairstyle, guide: usize) -> Vec<(f64, DVec3)> {
+    let rest = &style.equilibria()[guide];
+    let count = (rest.rod.length() / 2e-3) as usize + 1;
+    let step = rest.rod.length() / (count - 1) as f64;
+    rest.centre_line(count).into_iter().enumerate().map(|(k, p)| (k as f64 * step, p)).collect()
+}
+
+/// Length of hair (m) whose middle lies in another wisp, nearer to that wisp's middle than `share`
+/// of the sum of their radii.
+fn overlap(style: &Hairstyle, share: f64) -> f64 {
+    let count = style.guides().len();
+    let lines: Vec<_> = (0..count).map(|i| points(style, i)).collect();
+    let radius = |i: usize, s: f64| style.guides()[i].thickness.at(s);
+    let inside = |i: usize, s: f64, p: DVec3| {
+        (0..count).filter(|&j| j != i).any(|j| {
+            let near =
+                |&(t, q): &(f64, DVec3)| p.distance(q) < share * (radius(i, s) + radius(j, t));
+            lines[j].iter().any(near)
+        })
+    };
+    let one = |i: usize| lines[i].iter().filter(|&&(s, p)| inside(i, s, p)).count();
+    (0..count).map(one).sum::<usize>() as f64 * 2e-3
+}
+
+#[test]
+fn wisps_that_repel_each_other_do_not_share_a_place() {
+    let (none, wisps) = (style(HairContact::None), style(HairContact::Wisps));
+    let report = wisps.report(head());
+    assert_eq!(report.stable, 60, "{report:?}");
+    assert!(report.gradient_norm <= spec(HairContact::Wisps).equilibrium.tolerance);
+    assert!(report.sweeps > 0);
+    let (before, after) = (overlap(&none, 0.6), overlap(&wisps, 0.6));
+    assert!(after < 0.1 * before, "{after} m of {before} m");
+}
+
+#[test]
+fn hair_takes_room() {
+    // Mean distance of guides from the skin: the volume of the paper's figure 4.
+    let stand = |style: &Hairstyle| {
+        let distances = (0..60).flat_map(|i| points(style, i)).map(|(_, p)| p);
+        let all: Vec<f64> = distances.map(|p| head().signed_distance().value(p)).collect();
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    let none = stand(&style(HairContact::None));
+    for hair in [HairContact::Layers, HairContact::Wisps] {
+        let some = stand(&style(hair));
+        assert!(some > none + 2e-3, "{hair:?}: {some} {none}");
+    }
+}
+
+#[test]
+fn a_lower_tolerance_finds_a_lower_energy() {
+    let energy = |tolerance| {
+        let mut spec = spec(HairContact::Wisps);
+        spec.equilibrium.tolerance = tolerance;
+        let report = predict(&spec, head(), &()).unwrap().report(head());
+        assert!(report.gradient_norm <= tolerance, "{report:?}");
+        report.energy.total()
+    };
+    // On the same way down: what is left at the tolerance of a picture is a fraction of a percent.
+    let (coarse, fine) = (energy(0.03), energy(1e-4));
+    assert!(fine <= coarse && fine > coarse * 1.02, "{fine} {coarse}");
+}
+
+#[test]
+fn a_head_on_its_side_still_has_its_volume() {
+    // Layers follow the altitude of the root, which means nothing here; wisps know nothing of it.
+    let turn = DQuat::from_rotation_y(0.6);
+    let skin = head().surface();
+    let turned = skin.positions().iter().map(|p| turn * *p).collect();
+    let surface = Surface::new(turned, skin.triangles().to_vec()).unwrap();
+    let scalp = ScalpSource::Weights(head().scalp().to_vec());
+    let tilted = Head::from_surface(surface, scalp).unwrap();
+    let mut spec = spec(HairContact::Wisps);
+    spec.wisps.count = 40;
+    let style = predict(&spec, &tilted, &()).unwrap();
+    let report = style.report(&tilted);
+    assert_eq!(report.stable, 40, "{report:?}");
+    assert!(report.penetration < 5e-4, "{report:?}");
+    assert!(overlap(&style, 0.5) < 0.2, "{}", overlap(&style, 0.5));
+}
+
+#[test]
+fn wisps_keep_apart_without_a_body_and_on_spheres() {
+    for body in [Body::None, Body::Spheres] {
+        let mut spec = spec(HairContact::Wisps);
+        spec.wisps.count = 30;
+        spec.contact.body = body;
+        let report = predict(&spec, head(), &()).unwrap().report(head());
+        // A crease between spheres can hold a guide that does not come to rest.
+        assert!(report.stable >= 29, "{body:?}: {report:?}");
+    }
+}
