@@ -101,7 +101,7 @@ fn a_head_on_its_side_still_has_its_volume() {
     let mut spec = spec(HairContact::Wisps);
     spec.wisps.count = 40;
     // A long first element would reach into the skin of this head, stiff as its natural curl.
-    spec.equilibrium.resolution = frisure_rod::Resolution::Elements(40);
+    spec.equilibrium.resolution = frisure_rod::Resolution::Elements(60);
     let style = predict(&spec, &tilted, &()).unwrap();
     let report = style.report(&tilted);
     assert_eq!(report.stable, 40, "{report:?}");
