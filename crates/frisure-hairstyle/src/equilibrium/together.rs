@@ -155,6 +155,11 @@ impl Throng<'_> {
             stage.check()?;
             self.look_around();
             let newton = self.newton_steps();
+            let steepest =
+                self.wisps.iter().zip(&newton).map(|(w, n)| slope(w, n)).fold(0.0, f64::max);
+            let first = *first.get_or_insert(steepest);
+            let done = (first / steepest).ln() / (first / self.tolerance).ln().max(1e-9);
+            stage.at(SORTED + (1.0 - SORTED) * done);
             let still =
                 |(w, n): (&Wisp<'_>, &NewtonStep)| slope(w, n) <= self.tolerance && n.positive;
             if self.wisps.iter().zip(&newton).all(still) {
