@@ -417,7 +417,7 @@ impl Population<'_> {
         }
         let wanted = least + width * beyond.exp().ln_1p();
         let mut p = p + gradient.normalize_or(root.normal) * (wanted - distance);
-        for _ in 0..2 {
+        for _ in 0..4 {
             // Where the skin is curved the way out is not straight.
             let (distance, gradient) = self.head.signed_distance().value_gradient(p);
             if distance >= least {

@@ -42,7 +42,7 @@ pub(super) struct File {
     pub(super) region: Vec<Region>,
     /// Guides and the drawn hairs around them.
     pub(super) wisps: Wisps,
-    /// Hair against the head.
+    /// Hair against the head and against hair.
     pub(super) contact: Contact,
     /// How the equilibrium of each guide is computed.
     pub(super) equilibrium: Equilibrium,
