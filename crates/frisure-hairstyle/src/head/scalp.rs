@@ -32,6 +32,8 @@ pub(crate) struct Edge {
     landmarks: Landmarks,
     /// Azimuth and elevation (rad) on the left side, from the forehead to the nape.
     line: Vec<[f64; 2]>,
+    /// Smallest and largest angles of each piece of [`STEPS`] segments.
+    boxes: Vec<[[f64; 2]; 2]>,
     hairline: Hairline,
     /// Wave vectors (rad/m) and phases.
     waves: Vec<(DVec3, f64)>,
@@ -48,7 +50,8 @@ impl Edge {
         };
         let waves = (0..count).map(|_| wave()).collect();
         let line = curve(&anchors(landmarks));
-        Self { landmarks: landmarks.clone(), line, hairline: *hairline, waves }
+        let boxes = (0..line.len()).step_by(STEPS).map(|i| bounds(&line[i..], STEPS + 1)).collect();
+        Self { landmarks: landmarks.clone(), line, boxes, hairline: *hairline, waves }
     }
 
     /// Density of hair at a point (m) of the skin, 0 to 1.
@@ -89,15 +92,17 @@ impl Edge {
     /// Angle to the line (rad).
     fn distance(&self, at: [f64; 2]) -> f64 {
         let shrink = at[1].cos();
-        let segments = self.line.windows(2).map(|w| {
-            let flat = |q: [f64; 2]| [(q[0] - at[0]) * shrink, q[1] - at[1]];
-            let ([ax, ay], [bx, by]) = (flat(w[0]), flat(w[1]));
-            let (dx, dy) = (bx - ax, by - ay);
-            let t = -(ax * dx + ay * dy) / (dx * dx + dy * dy).max(1e-12);
-            let t = t.clamp(0.0, 1.0);
-            (ax + t * dx).hypot(ay + t * dy)
-        });
-        segments.fold(f64::INFINITY, f64::min)
+        let mut least = f64::INFINITY;
+        for (i, [low, high]) in self.boxes.iter().enumerate() {
+            // No nearer than the box around the piece.
+            let gap = |x: usize| (low[x] - at[x]).max(at[x] - high[x]).max(0.0);
+            if (gap(0) * shrink).powi(2) + gap(1).powi(2) < least {
+                let end = (STEPS * (i + 1)).min(self.line.len() - 1);
+                let segments = self.line[STEPS * i..=end].windows(2);
+                least = segments.map(|w| square_gap(at, shrink, w)).fold(least, f64::min);
+            }
+        }
+        least.sqrt()
     }
 
     /// Whether a direction lies above the line: the line is below it an odd number of times.
@@ -160,9 +165,29 @@ fn anchors(l: &Landmarks) -> Vec<[f64; 2]> {
     line
 }
 
+/// Segments of the line between two corners.
+const STEPS: usize = 8;
+
+/// Smallest and largest angles of the first `count` points of a line.
+fn bounds(line: &[[f64; 2]], count: usize) -> [[f64; 2]; 2] {
+    let points = line.iter().take(count);
+    points.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], p| {
+        [[0, 1].map(|x| low[x].min(p[x])), [0, 1].map(|x| high[x].max(p[x]))]
+    })
+}
+
+/// Square of the angle (rad²) from a direction to a segment, azimuths being shorter by `shrink`.
+fn square_gap(at: [f64; 2], shrink: f64, segment: &[[f64; 2]]) -> f64 {
+    let flat = |q: [f64; 2]| [(q[0] - at[0]) * shrink, q[1] - at[1]];
+    let ([ax, ay], [bx, by]) = (flat(segment[0]), flat(segment[1]));
+    let (dx, dy) = (bx - ax, by - ay);
+    let t = -(ax * dx + ay * dy) / (dx * dx + dy * dy).max(1e-12);
+    let t = t.clamp(0.0, 1.0);
+    (ax + t * dx).powi(2) + (ay + t * dy).powi(2)
+}
+
 /// A smooth curve through the corners.
 fn curve(corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    const STEPS: usize = 8;
     let get = |i: isize| {
         // Mirrored at the ends, where the line meets that of the right side.
         let last = corners.len() as isize - 1;
