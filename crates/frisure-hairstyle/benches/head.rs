@@ -4,7 +4,7 @@
 
 use divan::Bencher;
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::{Hairs, HairstyleSpec, predict, preset};
+use frisure_hairstyle::{Effort, HairContact, Hairs, HairstyleSpec, predict, predict_from, preset};
 use frisure_rod::Resolution;
 
 fn main() {
@@ -25,12 +25,42 @@ fn mannequin() -> Head {
     Head::mannequin()
 }
 
-/// Guides × elements, with contact, from scratch: the paper's head of hair is 100 × 15, and took
-/// it six seconds.
-#[divan::bench(args = [(100, 15), (100, 30), (200, 15), (400, 15)], sample_count = 8)]
-fn guides(bencher: Bencher<'_, '_>, (guides, elements): (usize, usize)) {
-    let (head, spec) = (Head::mannequin(), spec(guides, elements));
+/// The head of the paper and larger ones, with hair in layers: guides × elements, from scratch.
+#[divan::bench(args = SIZES, sample_count = 8)]
+fn layers(bencher: Bencher<'_, '_>, size: (usize, usize)) {
+    cold(bencher, size, HairContact::Layers);
+}
+
+/// The same with wisps that repel each other.
+#[divan::bench(args = SIZES, sample_count = 4)]
+fn wisps(bencher: Bencher<'_, '_>, size: (usize, usize)) {
+    cold(bencher, size, HairContact::Wisps);
+}
+
+/// Guides × elements: the paper's head of hair is 100 × 15, and took it six seconds.
+const SIZES: [(usize, usize); 5] = [(100, 15), (100, 30), (200, 15), (400, 15), (100, 60)];
+
+fn cold(bencher: Bencher<'_, '_>, (guides, elements): (usize, usize), hair: HairContact) {
+    let (head, mut spec) = (Head::mannequin(), spec(guides, elements));
+    spec.contact.hair = hair;
     bencher.bench(|| predict(&spec, &head, &()));
+}
+
+/// Contact, and most sweeps.
+const WARM: [(HairContact, usize); 3] =
+    [(HairContact::Layers, 1), (HairContact::Wisps, 2), (HairContact::Wisps, 1000)];
+
+/// After the radius of curls has grown by 2 %: to rest in layers, then among wisps in two sweeps and
+/// to rest.
+#[divan::bench(args = 0..3, sample_count = 20)]
+fn warm(bencher: Bencher<'_, '_>, case: usize) {
+    let (hair, sweeps) = WARM[case];
+    let (head, mut spec) = (Head::mannequin(), spec(100, 15));
+    spec.contact.hair = hair;
+    let before = predict(&spec, &head, &()).expect("a valid description");
+    spec.curl.strain /= 1.02;
+    let effort = Effort { sweeps, ..Effort::FULL };
+    bencher.bench(|| predict_from(&spec, &head, &before, effort, &()));
 }
 
 /// A hundred thousand hairs of 48 points around 100 guides.

@@ -68,12 +68,17 @@ impl Grid {
         self.within(p, 1)
     }
 
+    /// Rings of cells that a search within `reach` (m) takes.
+    pub(crate) fn rings(&self, reach: f64) -> i32 {
+        (reach / self.cell).ceil().clamp(1.0, 1e6) as i32
+    }
+
     /// All points in the order of their cells.
     pub(crate) fn order(&self) -> &[u32] {
         &self.indices
     }
 
-    /// Indices of all points within `rings` reaches of `p`, and of some that are farther.
+    /// Indices of all points within `rings` cells of `p`, and of some that are farther.
     pub(crate) fn within(&self, p: DVec3, rings: i32) -> impl Iterator<Item = usize> + '_ {
         self.rows(p, rings).flat_map(|row| self.indices[row].iter().map(|&i| i as usize))
     }

@@ -2,6 +2,7 @@
 
 use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
+use rayon::prelude::*;
 
 use crate::contact::{Layer, Thickness};
 use crate::fibre::{Curl, Handedness};
@@ -10,7 +11,7 @@ use crate::head::{Head, Region};
 use crate::implantation::{self, Layout};
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
-use crate::spec::HairstyleSpec;
+use crate::spec::{Hairline, HairstyleSpec};
 
 /// A guide before it has come to rest.
 #[derive(Clone, Debug)]
@@ -49,30 +50,66 @@ fn short(area: f64) -> f64 {
     (area * 1e7).round() / 1e3
 }
 
+/// Where the guides of a head are rooted.
+#[derive(Clone, Debug)]
+pub(crate) struct Planting {
+    /// What it depends on: head, seed, hairline.
+    of: (u64, u64, Hairline),
+    /// Weighted area of the scalp (m²).
+    area: f64,
+    roots: Vec<Root>,
+}
+
+impl Planting {
+    /// # Errors
+    /// [`PredictError`], if the scalp is too small.
+    pub(crate) fn new(spec: &HairstyleSpec, head: &Head) -> Result<Self, PredictError> {
+        let scalp = Scalp::grown(head, spec);
+        let (count, area) = (spec.wisps.count, scalp.area());
+        let most = (area * DENSEST) as usize;
+        if count > most {
+            return Err(Crowded { count, area, most }.into());
+        }
+        let roots = scalp.even(count, spec.seed, Purpose::GuideRoots);
+        Ok(Self { of: Self::key(spec, head), area, roots })
+    }
+
+    /// Weighted area of the scalp (m²).
+    pub(crate) fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// This one, if it is that of the description, too.
+    pub(crate) fn fitting(&self, spec: &HairstyleSpec, head: &Head) -> Option<Self> {
+        let same = self.of == Self::key(spec, head) && self.roots.len() == spec.wisps.count;
+        same.then(|| self.clone())
+    }
+
+    fn key(spec: &HairstyleSpec, head: &Head) -> (u64, u64, Hairline) {
+        (head.fingerprint(), spec.seed, spec.implantation.hairline)
+    }
+}
+
 /// Plans the guides of a head.
 ///
 /// # Errors
-/// [`PredictError`], if length, curl or fibre cannot make a rod, or the scalp is too small.
+/// [`PredictError`], if length, curl or fibre cannot make a rod, or too much is drawn.
 pub(crate) fn plan(
     spec: &HairstyleSpec,
     head: &Head,
     layout: &Layout,
+    planting: &Planting,
 ) -> Result<Vec<Guide>, PredictError> {
-    let scalp = Scalp::grown(head, spec);
-    let (count, area) = (spec.wisps.count, scalp.area());
+    let Planting { area, roots, .. } = planting;
+    let area = *area;
     spec.wisps.check_size(area)?;
-    let most = (area * DENSEST) as usize;
-    if count > most {
-        return Err(Crowded { count, area, most }.into());
-    }
-    let roots = scalp.even(count, spec.seed, Purpose::GuideRoots);
     let heights = roots.iter().map(|r| r.position.z);
     let (low, high) =
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
     roots
-        .into_iter()
+        .par_iter()
         .enumerate()
-        .map(|(index, root)| {
+        .map(|(index, &root)| {
             let altitude = (root.position.z - low) / (high - low).max(1e-9);
             let region = head.landmarks().region(root.position);
             let rod = rod(spec, head, layout, &root, index)?;

@@ -4,8 +4,8 @@ use frisure_rod::{Equilibrium, InvalidQuantity};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use thiserror::Error;
 
-use crate::equilibrium::{Rest, SettlingReport, settle};
-use crate::guides::{Crowded, Guide, plan};
+use crate::equilibrium::{Effort, Rest, SettlingReport, settle, settle_from};
+use crate::guides::{Crowded, Guide, Planting, plan};
 use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
 use crate::monitor::{Cancelled, Monitor};
@@ -16,6 +16,7 @@ use crate::strands;
 #[derive(Clone, Debug)]
 pub struct Hairstyle {
     spec: HairstyleSpec,
+    planting: Planting,
     layout: Layout,
     guides: Vec<Guide>,
     rest: Rest,
@@ -53,10 +54,42 @@ pub fn predict(
     monitor: &dyn Monitor,
 ) -> Result<Hairstyle, PredictError> {
     spec.check()?;
+    let planting = Planting::new(spec, head)?;
     let layout = Layout::new(spec, head)?;
-    let guides = plan(spec, head, &layout)?;
+    let guides = plan(spec, head, &layout, &planting)?;
     let rest = settle(spec, head, &guides, monitor)?;
-    Ok(Hairstyle { spec: spec.clone(), layout, guides, rest })
+    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest })
+}
+
+/// As [`predict`], but each guide starts from where that of the same index rests in `previous`
+/// instead of from its natural shape: for a description that was changed a little, as by a slider.
+///
+/// It gives the equilibrium downhill from there, which need not be the one that gravity leads to.
+/// Work that does not fit into `effort` is left for the next call, with the answer of this one; until
+/// it is done [`Hairstyle::report`] counts guides that are not at rest. Where the number of guides
+/// has changed, this is [`predict`].
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_from(
+    spec: &HairstyleSpec,
+    head: &Head,
+    previous: &Hairstyle,
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<Hairstyle, PredictError> {
+    if spec.wisps.count != previous.guides.len() {
+        return predict(spec, head, monitor);
+    }
+    spec.check()?;
+    let planting = match previous.planting.fitting(spec, head) {
+        Some(planting) => planting,
+        None => Planting::new(spec, head)?,
+    };
+    let layout = Layout::new(spec, head)?;
+    let guides = plan(spec, head, &layout, &planting)?;
+    let rest = settle_from(spec, head, &guides, &previous.rest.guides, effort, monitor)?;
+    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest })
 }
 
 impl Hairstyle {
@@ -82,6 +115,12 @@ impl Hairstyle {
     #[must_use]
     pub fn report(&self, head: &Head) -> SettlingReport {
         SettlingReport::new(head, &self.rest)
+    }
+
+    /// How many hairs grow on the scalp, drawn or not.
+    #[must_use]
+    pub fn grown(&self) -> f64 {
+        self.planting.area() * self.spec.implantation.density
     }
 
     /// The guides as strands of `points` points, with the attribute `guide`.

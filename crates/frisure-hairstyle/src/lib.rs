@@ -13,16 +13,17 @@ mod equilibrium;
 mod guides;
 mod hairstyle;
 mod strands;
+mod volume;
 mod wisps;
 
 mod grid;
 mod monitor;
 mod random;
 
-pub use equilibrium::SettlingReport;
+pub use equilibrium::{Effort, SettlingReport};
 pub use fibre::{Curl, Fibre, Handedness};
 pub use guides::{Crowded, Guide};
-pub use hairstyle::{Hairstyle, PredictError, predict};
+pub use hairstyle::{Hairstyle, PredictError, predict, predict_from};
 pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};
 pub use presets::{Ellipticity, HairType, NaturalCurl, PRESETS, Preset, Wetting, preset};
@@ -33,3 +34,4 @@ pub use spec::{
     Whorls, Wisps,
 };
 pub use strands::penetration;
+pub use volume::{Volume, volume};

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_hairstyle::head::{Head, HeadError, Region, ScalpSource};
 use frisure_hairstyle::{
-    Body, Hairs, HairstyleSpec, Monitor, PRESETS, Parting, Place, PredictError, RegionLength,
-    RegionStyle, predict, preset,
+    Body, Effort, HairContact, Hairs, HairstyleSpec, Monitor, PRESETS, Parting, Place,
+    PredictError, RegionLength, RegionStyle, predict, predict_from, preset,
 };
 use frisure_strands::{AttributeValues, Strands, Surface};
 
@@ -347,4 +347,51 @@ fn more_hairs_than_can_be_drawn_are_refused() {
         };
         assert_eq!(error.field, field);
     }
+}
+
+/// A description of a few guides of fixed elements, with either contact between hairs.
+fn few(hair: HairContact) -> HairstyleSpec {
+    let mut spec = small("caucasian-curly");
+    spec.equilibrium.resolution = frisure_rod::Resolution::Elements(15);
+    spec.contact.hair = hair;
+    spec
+}
+
+#[test]
+fn a_warm_start_from_itself_changes_nothing() {
+    for hair in [HairContact::Layers, HairContact::Wisps] {
+        let spec = few(hair);
+        let style = predict(&spec, head(), &()).unwrap();
+        let again = predict_from(&spec, head(), &style, Effort::FULL, &()).unwrap();
+        let report = again.report(head());
+        assert!(report.stable == 40 && report.iterations <= 40, "{report:?}");
+        for (a, b) in style.equilibria().iter().zip(again.equilibria()) {
+            for (p, q) in a.shape.positions.iter().zip(&b.shape.positions) {
+                assert!(p.distance(*q) < 1e-6, "{hair:?}: {p} {q}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_warm_start_finds_as_low_an_energy_in_as_many_calls_as_it_takes() {
+    let spec = few(HairContact::Layers);
+    let style = predict(&spec, head(), &()).unwrap();
+    let mut changed = spec;
+    changed.curl.strain *= 1.02;
+    let cold = predict(&changed, head(), &()).unwrap().report(head());
+    let scale = cold.energy.elastic + cold.energy.gravity.abs();
+    let little = Effort { iterations: 2, sweeps: 1 };
+    let mut warm = predict_from(&changed, head(), &style, little, &()).unwrap();
+    assert!(warm.report(head()).not_converged > 0);
+    for _ in 0..200 {
+        warm = predict_from(&changed, head(), &warm, little, &()).unwrap();
+        if warm.report(head()).not_converged == 0 {
+            break;
+        }
+    }
+    let report = warm.report(head());
+    assert_eq!(report.stable, 40, "{report:?}");
+    let above = (report.energy.total() - cold.energy.total()) / scale;
+    assert!(above < 0.01, "{above}: {report:?} {cold:?}");
 }

@@ -11,7 +11,9 @@
 use glam::{DMat3, DVec3};
 
 use crate::ElementKind;
-use crate::rotation::{RotationSeries, exponential, right_jacobian, right_jacobian_derivative};
+use crate::rotation::{
+    RotationSeries, exponential, nearest_turn, right_jacobian, right_jacobian_derivative,
+};
 use crate::stumpff::{ORDERS, stumpff};
 
 /// What an element has before it is bent.
@@ -103,7 +105,7 @@ impl Geometry {
             Curve::Helix => *turn,
             Curve::Jointed(j) => j.before.transpose() * *turn * j.after.transpose(),
         };
-        glam::DQuat::from_mat3(&turn).normalize().to_scaled_axis()
+        nearest_turn(glam::DQuat::from_mat3(&turn).normalize().to_scaled_axis(), self.rest())
     }
 
     /// Rotation and advance (m) from the start of the element to arc length `from` (m) within it, at

@@ -74,6 +74,15 @@ pub(crate) fn deviation(m: &DMat3) -> DVec3 {
     skew / (1.0 + trace).max(0.04).sqrt()
 }
 
+/// Of all rotation vectors (rad) of the rotation that `turn` is one of, the nearest to `rest`: a
+/// long element of a tight curl turns by more than half a turn.
+pub(crate) fn nearest_turn(turn: DVec3, rest: DVec3) -> DVec3 {
+    let angle = turn.length();
+    let axis = if angle > 1e-9 { turn / angle } else { rest.normalize_or_zero() };
+    let whole = ((rest.dot(axis) - angle) / std::f64::consts::TAU).round();
+    turn + axis * (whole * std::f64::consts::TAU)
+}
+
 /// `F(c) = a + c×B(y) + c×(c×C(y))`, y = |c|², with the vectors B and C and their derivatives by y.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RotationSeries {
@@ -230,6 +239,18 @@ mod tests {
             let d = right_jacobian_derivative(c, &t, OMEGA);
             assert!((OMEGA.dot(second) - x.dot(d * x)).abs() < 1e-6, "{c}");
         }
+    }
+
+    #[test]
+    fn turns_beyond_half_a_turn_are_found_near_rest() {
+        let rest = DVec3::new(3.0, 1.0, 2.0);
+        for turn in [rest * 0.9, rest * 1.1 + DVec3::X * 0.1, rest * 2.5] {
+            let short =
+                glam::DQuat::from_mat3(&DMat3::from_quat(glam::DQuat::from_scaled_axis(turn)))
+                    .to_scaled_axis();
+            assert!(nearest_turn(short, turn * 1.05).distance(turn) < 1e-9, "{turn}");
+        }
+        assert_eq!(nearest_turn(DVec3::Z * 0.3, DVec3::ZERO), DVec3::Z * 0.3);
     }
 
     #[test]

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use frisure::hairstyle::head::{Head, ScalpSource};
 use frisure::hairstyle::{
-    HairstyleSpec, Monitor, PredictError, SettlingReport, penetration, predict,
+    Body, HairContact, Hairstyle, HairstyleSpec, Monitor, PredictError, Volume, penetration,
+    predict, volume,
 };
 use frisure::io::groom::{Format, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
@@ -72,12 +73,16 @@ struct Numbers {
     hair_type: &'static str,
     seed: u64,
     guides: Guides,
+    contact: Contact,
+    thickness: Thickness,
     /// Of all guides (J).
     energy: Energies,
     hairs: usize,
     points: usize,
     /// Deepest that a drawn hair is inside the head (m); measured for the report alone.
     hair_penetration: Option<f64>,
+    /// Of the drawn hairs; without them there is none.
+    volume: Option<Litres>,
     /// Smallest and largest corner of the box around the hair (m).
     bounds: Option<[[f32; 3]; 2]>,
 }
@@ -91,10 +96,41 @@ struct Guides {
     not_converged: usize,
     elements: usize,
     iterations: usize,
+    /// Over all guides, in which wisps made way for each other.
+    sweeps: usize,
     /// Largest relative gradient.
     gradient_norm: f64,
+    /// The relative gradient that wisps among each other were to reach.
+    tolerance: f64,
     /// Deepest that a guide is inside the head (m).
     penetration: f64,
+}
+
+/// The models of contact.
+#[derive(Debug, Serialize)]
+struct Contact {
+    body: &'static str,
+    hair: &'static str,
+}
+
+/// Mean over wisps, half-way along.
+#[derive(Debug, Serialize)]
+struct Thickness {
+    /// Packed radius (m).
+    radius: f64,
+    /// Fraction of a wisp that is hair.
+    packing: f64,
+}
+
+/// Space that the drawn hairs take (m³).
+#[derive(Debug, Serialize)]
+struct Litres {
+    /// Air between hairs included.
+    region: f64,
+    /// The hairs themselves, for as many as grow.
+    hair: f64,
+    /// Side of the cells over which hair was averaged (m).
+    cell: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -164,7 +200,8 @@ fn compute(
         Strands::new()
     };
     let picture = wanted.picture.then(|| draw(scene, &strands, &head, progress)).transpose()?;
-    let mut numbers = numbers(scene, spec.seed, &hairstyle.report(&head), &strands);
+    let mut numbers = numbers(scene, &hairstyle, &head, &strands);
+    numbers.volume = wanted.strands.then(|| litres(&volume(&strands, &head, hairstyle.grown())));
     numbers.hair_penetration = wanted.report.then(|| penetration(&strands, &head));
     Ok(Computed { numbers, strands, picture })
 }
@@ -211,12 +248,13 @@ fn draw(
     Ok((width, height, image.to_srgb8()))
 }
 
-fn numbers(scene: &Scene, seed: u64, settling: &SettlingReport, strands: &Strands) -> Numbers {
+fn numbers(scene: &Scene, hairstyle: &Hairstyle, head: &Head, strands: &Strands) -> Numbers {
+    let (spec, settling) = (hairstyle.spec(), hairstyle.report(head));
     let energy = &settling.energy;
     Numbers {
         scene: scene.name.clone(),
         hair_type: scene.hair_type,
-        seed,
+        seed: spec.seed,
         guides: Guides {
             count: settling.guides,
             stable: settling.stable,
@@ -224,9 +262,13 @@ fn numbers(scene: &Scene, seed: u64, settling: &SettlingReport, strands: &Strand
             not_converged: settling.not_converged,
             elements: settling.elements,
             iterations: settling.iterations,
+            sweeps: settling.sweeps,
             gradient_norm: settling.gradient_norm,
+            tolerance: spec.equilibrium.tolerance,
             penetration: settling.penetration,
         },
+        contact: Contact { body: body(spec.contact.body), hair: hair(spec.contact.hair) },
+        thickness: thickness(hairstyle),
         energy: Energies {
             elastic: energy.elastic,
             gravity: energy.gravity,
@@ -236,8 +278,41 @@ fn numbers(scene: &Scene, seed: u64, settling: &SettlingReport, strands: &Strand
         hairs: strands.len(),
         points: strands.points().len(),
         hair_penetration: None,
+        volume: None,
         bounds: strands.bounds().map(|(low, high)| [low.to_array(), high.to_array()]),
     }
+}
+
+fn body(body: Body) -> &'static str {
+    match body {
+        Body::None => "none",
+        Body::Spheres => "spheres",
+        Body::SignedDistance => "signed-distance",
+    }
+}
+
+fn hair(hair: HairContact) -> &'static str {
+    match hair {
+        HairContact::None => "none",
+        HairContact::Layers => "layers",
+        HairContact::Wisps => "wisps",
+    }
+}
+
+fn thickness(hairstyle: &Hairstyle) -> Thickness {
+    let guides = hairstyle.guides();
+    let mean = |of: fn(&frisure::hairstyle::contact::Thickness, f64) -> f64| {
+        let sum: f64 = guides.iter().map(|g| of(&g.thickness, 0.5 * g.rod.length())).sum();
+        sum / guides.len().max(1) as f64
+    };
+    Thickness {
+        radius: mean(frisure::hairstyle::contact::Thickness::packed),
+        packing: mean(frisure::hairstyle::contact::Thickness::packing),
+    }
+}
+
+fn litres(volume: &Volume) -> Litres {
+    Litres { region: volume.region, hair: volume.hair, cell: volume.cell }
 }
 
 /// Writes all outputs, and gives their paths.
@@ -277,7 +352,11 @@ fn summary(numbers: &Numbers, written: &[&Path]) -> String {
         let _ = writeln!(out, "\nnothing was written: {hint}");
         return out;
     }
-    let _ = writeln!(out, "; {} hairs of {} points in all", numbers.hairs, numbers.points);
+    let _ = write!(out, "; {} hairs of {} points in all", numbers.hairs, numbers.points);
+    if let Some(volume) = &numbers.volume {
+        let _ = write!(out, ", {:.1} litres of hair", volume.region * 1e3);
+    }
+    out.push('\n');
     for path in written {
         let _ = writeln!(out, "wrote {}", path.display());
     }

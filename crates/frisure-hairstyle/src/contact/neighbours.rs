@@ -61,34 +61,104 @@ struct Point {
     index: u32,
 }
 
-impl Nearby {
-    /// What the points `own` of one guide may touch, of all points `sorted` in the order of `grid`.
-    fn new(own: &[Point], grid: &Grid, sorted: &[Point]) -> Self {
-        let mut near = Self { starts: vec![0], ..Self::default() };
-        for p in own {
-            for q in grid.rows(p.position, 1).flat_map(|row| &sorted[row]) {
-                let reach = p.reach + q.reach;
-                if q.position.distance_squared(p.position) < reach * reach && q.guide != p.guide {
-                    near.touches.push((q.guide, q.index));
-                }
-            }
-            near.starts.push(near.touches.len() as u32);
+/// Points of about the same reach, so that a few that reach far do not make all searches wide.
+struct Shelf {
+    /// The largest of them (m).
+    reach: f64,
+    grid: Grid,
+    /// In the order of the grid.
+    points: Vec<Point>,
+}
+
+/// Shelves, each for half the reach of the one before; the last for all that is less.
+const SHELVES: usize = 3;
+
+impl Shelf {
+    fn sort(points: &[Point]) -> Vec<Self> {
+        let most = points.iter().map(|p| p.reach).fold(0.0, f64::max);
+        let mut shelves = vec![Vec::new(); SHELVES];
+        for p in points {
+            let halvings = (most / p.reach.max(1e-9)).log2() as usize;
+            shelves[halvings.min(SHELVES - 1)].push(*p);
         }
-        near.guides = near.touches.iter().map(|t| t.0).collect();
-        near.guides.sort_unstable();
-        near.guides.dedup();
-        near
+        shelves.into_iter().filter(|points| !points.is_empty()).map(Self::new).collect()
+    }
+
+    fn new(points: Vec<Point>) -> Self {
+        let reach = points.iter().map(|p| p.reach).fold(0.0, f64::max);
+        let positions: Vec<DVec3> = points.iter().map(|p| p.position).collect();
+        let grid = Grid::new(&positions, 2.0 * reach);
+        let points = grid.order().iter().map(|&i| points[i as usize]).collect();
+        Self { reach, grid, points }
+    }
+
+    /// Calls `found` with those that may be within reach of a point.
+    fn for_each_near(&self, p: &Point, mut found: impl FnMut(&Point)) {
+        let rings = self.grid.rings(p.reach + self.reach);
+        for row in self.grid.rows(p.position, rings) {
+            self.points[row].iter().for_each(&mut found);
+        }
+    }
+}
+
+/// A point of one guide, and guide and point of what it may touch.
+type Touch = (u32, (u32, u32));
+
+impl Nearby {
+    /// What the points `own` of one guide may touch.
+    fn search(own: &[Point], shelves: &[Shelf]) -> Self {
+        let mut found = Vec::new();
+        for p in own {
+            for shelf in shelves {
+                shelf.for_each_near(p, |q| {
+                    let reach = p.reach + q.reach;
+                    let near = q.position.distance_squared(p.position) < reach * reach;
+                    if near && q.guide != p.guide {
+                        found.push((p.index, (q.guide, q.index)));
+                    }
+                });
+            }
+        }
+        Self::new(found, own.len())
+    }
+
+    fn new(mut found: Vec<Touch>, points: usize) -> Self {
+        // Of runs that are in order already.
+        found.sort_by_key(|t| t.0);
+        let start = |k: usize| found.partition_point(|t| (t.0 as usize) < k) as u32;
+        let starts = (0..=points).map(start).collect();
+        let touches: Vec<(u32, u32)> = found.into_iter().map(|t| t.1).collect();
+        let mut guides: Vec<u32> = touches.iter().map(|t| t.0).collect();
+        guides.sort_unstable();
+        guides.dedup();
+        Self { starts, touches, guides }
+    }
+
+    fn points(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    fn of_point(&self, k: usize) -> &[(u32, u32)] {
+        &self.touches[self.starts[k] as usize..self.starts[k + 1] as usize]
+    }
+
+    fn iter(&self) -> impl Iterator<Item = Touch> {
+        (0..self.points()).flat_map(|k| self.of_point(k).iter().map(move |t| (k as u32, *t)))
+    }
+
+    /// The same, but for what it may touch of those guides that were looked at again.
+    fn amended(self, met: Vec<Touch>, again: &[bool]) -> Self {
+        if met.is_empty() && !self.guides.iter().any(|&g| again[g as usize]) {
+            return self;
+        }
+        let stays = |t: &Touch| !again[t.1.0 as usize];
+        Self::new(self.iter().filter(stays).chain(met).collect(), self.points())
     }
 }
 
 impl Crowd {
     pub(crate) fn new(samples: Vec<Samples>, stiffness: f64) -> Self {
         Self { stiffness, samples, nearby: Vec::new() }
-    }
-
-    /// Largest radius of any wisp (m).
-    pub(crate) fn largest_radius(&self) -> f64 {
-        self.samples.iter().flat_map(|s| &s.radii).copied().fold(0.0, f64::max)
     }
 
     /// Moves the points of a guide; who may touch whom stays until [`Self::look_around`]. Gives the
@@ -100,26 +170,43 @@ impl Crowd {
         farthest.sqrt()
     }
 
-    /// Finds which points can touch while each guide moves by at most its margin (m).
-    pub(crate) fn look_around(&mut self, margins: &[f64]) {
-        let most = margins.iter().copied().fold(0.0, f64::max);
-        let all: Vec<DVec3> = self.samples.iter().flat_map(|s| s.positions.clone()).collect();
-        let grid = Grid::new(&all, 2.0 * (self.largest_radius() + most));
-        let points: Vec<Point> = (self.samples.iter().enumerate())
-            .flat_map(|(guide, s)| {
-                (s.positions.iter().zip(&s.radii).enumerate()).map(move |(k, (p, radius))| Point {
-                    position: *p,
-                    reach: radius + margins[guide],
-                    guide: guide as u32,
-                    index: k as u32,
-                })
-            })
+    /// Finds which points can touch while each guide moves by at most its margin (m) from where it
+    /// is now, of guides that are looked at again, or from where it was when it last was.
+    pub(crate) fn look_around(&mut self, margins: &[f64], again: &[bool]) {
+        let points = self.points(margins);
+        let shelves = Shelf::sort(&points);
+        let found: Vec<Option<Nearby>> = points
+            .par_chunk_by(|a, b| a.guide == b.guide)
+            .map(|own| again[own[0].guide as usize].then(|| Nearby::search(own, &shelves)))
             .collect();
-        let sorted: Vec<Point> = grid.order().iter().map(|&i| points[i as usize]).collect();
-        let mut rest = points.as_slice();
-        let own = self.samples.iter().map(|s| rest.split_off(..s.positions.len()).unwrap_or(&[]));
-        let own: Vec<&[Point]> = own.collect();
-        self.nearby = own.into_par_iter().map(|own| Nearby::new(own, &grid, &sorted)).collect();
+        let mut met: Vec<Vec<Touch>> = vec![Vec::new(); found.len()];
+        for (guide, near) in found.iter().enumerate() {
+            for (k, (other, point)) in near.iter().flat_map(Nearby::iter) {
+                if !again[other as usize] {
+                    met[other as usize].push((point, (guide as u32, k)));
+                }
+            }
+        }
+        let mut before = std::mem::take(&mut self.nearby);
+        before.resize_with(found.len(), Nearby::default);
+        let kept = found.into_par_iter().zip(before).zip(met);
+        self.nearby = kept
+            .map(|((found, before), met)| found.unwrap_or_else(|| before.amended(met, again)))
+            .collect();
+    }
+
+    /// All points, guide by guide.
+    fn points(&self, margins: &[f64]) -> Vec<Point> {
+        let of = |(guide, s): (usize, &Samples)| {
+            let point = |k: usize| Point {
+                position: s.positions[k],
+                reach: s.radii[k] + margins[guide],
+                guide: guide as u32,
+                index: k as u32,
+            };
+            (0..s.positions.len()).map(point).collect::<Vec<_>>()
+        };
+        self.samples.iter().enumerate().flat_map(of).collect()
     }
 
     /// Guides in groups of which no two may touch, taken in the given order.
@@ -138,6 +225,11 @@ impl Crowd {
             groups[free].push(guide);
         }
         groups
+    }
+
+    /// The guides that one guide may touch.
+    pub(crate) fn touched_by(&self, guide: usize) -> impl Iterator<Item = usize> {
+        self.nearby[guide].guides.iter().map(|&g| g as usize)
     }
 
     /// What one guide feels of the others.
@@ -180,7 +272,7 @@ impl Neighbours<'_> {
         let near = &self.crowd.nearby[self.guide];
         let k = ((s / own.spacing).round() as usize).clamp(1, own.positions.len()) - 1;
         let radius = own.radii[k];
-        for &(guide, point) in &near.touches[near.starts[k] as usize..near.starts[k + 1] as usize] {
+        for &(guide, point) in near.of_point(k) {
             let other = &self.crowd.samples[guide as usize];
             let point = point as usize;
             let reach = radius + other.radii[point];
@@ -230,7 +322,7 @@ mod tests {
 
     fn crowd(gap: f64) -> Crowd {
         let mut crowd = Crowd::new(vec![line(DVec3::ZERO), line(DVec3::Y * gap)], 2.0);
-        crowd.look_around(&[1e-3, 0.0]);
+        crowd.look_around(&[1e-3, 0.0], &[true; 2]);
         crowd
     }
 

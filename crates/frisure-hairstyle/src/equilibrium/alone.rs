@@ -23,7 +23,7 @@ const DEEPEST: f64 = 3e-4;
 const TOLERANCE: f64 = 1e-8;
 
 /// Most iterations at each step: contact comes and goes, so it can take hundreds.
-const MAX_ITERATIONS: usize = 1000;
+pub(super) const MAX_ITERATIONS: usize = 1000;
 
 /// Brings every guide to rest.
 ///
@@ -47,8 +47,84 @@ pub(super) fn settle(
         .collect()
 }
 
-fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
+/// Brings every guide to rest from where the guide of the same index rested before, in so many
+/// iterations at most.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(super) fn settle_from(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    before: &[Equilibrium],
+    iterations: usize,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Equilibrium>, Cancelled> {
+    let stage = Stage::new(monitor, "settling guides", guides.len());
+    (guides.par_iter().zip(before))
+        .map(|(guide, before)| {
+            stage.check()?;
+            let rest = settle_one_from(spec, head, guide, before, iterations);
+            stage.advance();
+            Ok(rest)
+        })
+        .collect()
+}
+
+fn settle_one_from(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guide: &Guide,
+    before: &Equilibrium,
+    iterations: usize,
+) -> Equilibrium {
+    let elements = elements_like(spec, before);
     let options = Options {
+        resolution: Resolution::Elements(elements),
+        max_iterations: iterations,
+        ..options(spec)
+    };
+    if spec.contact.body == Body::None {
+        return equilibrium_from(&guide.rod, &[], &options, before);
+    }
+    let body = body(spec, head, guide, layer(spec, guide));
+    let body = along(&body, guide, elements);
+    let rest = equilibrium_from(&guide.rod, &[&body], &options, before);
+    // It may have been pushed into the body: then it comes down from its root again.
+    if depth(head, &rest) > depth(head, before) + DEEPEST {
+        return settle_one(spec, head, guide);
+    }
+    rest
+}
+
+/// Guides in the shapes of those before them.
+pub(super) fn carried(
+    spec: &HairstyleSpec,
+    guides: &[Guide],
+    before: &[Equilibrium],
+) -> Vec<Equilibrium> {
+    let options = Options { max_iterations: 0, tolerance: 0.0, ..options(spec) };
+    (guides.par_iter().zip(before))
+        .map(|(guide, before)| {
+            let resolution = Resolution::Elements(elements_like(spec, before));
+            let mut carried =
+                equilibrium_from(&guide.rod, &[], &Options { resolution, ..options }, before);
+            carried.certificate.iterations = 0;
+            carried
+        })
+        .collect()
+}
+
+/// The division of a guide: that of the one before it, if an accuracy is asked for.
+fn elements_like(spec: &HairstyleSpec, before: &Equilibrium) -> usize {
+    match spec.equilibrium.resolution {
+        Resolution::Elements(n) => n,
+        Resolution::Accuracy(_) => before.elements,
+    }
+}
+
+fn options(spec: &HairstyleSpec) -> Options {
+    Options {
         resolution: spec.equilibrium.resolution,
         element: spec.equilibrium.element,
         max_elements: MOST_ELEMENTS,
@@ -57,7 +133,16 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
         estimate_error: false,
         eigenvalue: false,
         ..Options::default()
-    };
+    }
+}
+
+/// The bed of hair that a guide lies on while it is alone.
+fn layer(spec: &HairstyleSpec, guide: &Guide) -> Layer {
+    if spec.contact.hair == HairContact::None { Layer::NONE } else { guide.layer }
+}
+
+fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
+    let options = options(spec);
     if spec.contact.body == Body::None && spec.contact.hair != HairContact::Wisps {
         return equilibrium(&guide.rod, &[], &options);
     }
@@ -97,7 +182,7 @@ fn harden(
     let Resolution::Elements(elements) = options.resolution else {
         unreachable!("the division is fixed before")
     };
-    let layer = if spec.contact.hair == HairContact::None { Layer::NONE } else { guide.layer };
+    let layer = layer(spec, guide);
     let settle = |hardness: f64, previous: Option<&Equilibrium>| {
         let mut body = body(spec, head, guide, layer);
         body.skin *= hardness;

@@ -43,6 +43,46 @@ pub(crate) fn settle(
     Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
 }
 
+/// How much work a warm start may do: what does not fit is left for the next one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Most iterations of each guide on its own.
+    pub iterations: usize,
+    /// Most sweeps over all guides in which wisps make way for each other.
+    pub sweeps: usize,
+}
+
+impl Effort {
+    /// As much as [`crate::predict`] would do.
+    pub const FULL: Self = Self { iterations: alone::MAX_ITERATIONS, sweeps: together::MOST_STEPS };
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self::FULL
+    }
+}
+
+/// Brings every guide to rest from where the guide of the same index rested before.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(crate) fn settle_from(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    before: &[Equilibrium],
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    if spec.contact.hair == HairContact::Wisps {
+        let start = alone::carried(spec, guides, before);
+        return together::go_on(spec, head, guides, &start, effort.sweeps, monitor);
+    }
+    let alone = alone::settle_from(spec, head, guides, before, effort.iterations, monitor)?;
+    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
+}
+
 /// Largest distance (m) between the points at which a guide feels the body …
 const BODY_SPACING: f64 = 5e-3;
 

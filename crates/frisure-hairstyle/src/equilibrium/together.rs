@@ -29,13 +29,16 @@ const CALM: f64 = 2e-4;
 const SORTED: f64 = 0.3;
 
 /// Most steps of all guides together, and how far each may move in one, as a share of a sweep.
-const MOST_STEPS: usize = 1000;
+pub(super) const MOST_STEPS: usize = 1000;
 const LARGEST_STEP: f64 = 0.4;
 
 /// How far a guide may move in one sweep, as a fraction of the mean radius of wisps: not so far that
 /// it could jump over another. And the most that it is (m).
 const LARGEST_MOVE: f64 = 1.5;
 const MOST_REACH: f64 = 4e-3;
+
+/// The restless are few where they are at most one of so many.
+const FEW: usize = 4;
 
 /// The least distance (m) for which neighbours are looked for beyond their thickness.
 const LEAST_REACH: f64 = 6e-4;
@@ -51,33 +54,29 @@ pub(super) fn settle(
     alone: &[Equilibrium],
     monitor: &dyn Monitor,
 ) -> Result<Rest, Cancelled> {
-    let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
-    let wisps: Vec<Wisp<'_>> = guides.iter().zip(alone).map(wisp).collect();
-    let samples = wisps.iter().map(Wisp::samples).collect();
-    let crowd = Crowd::new(samples, spec.contact.hair_stiffness);
-    let mut order: Vec<usize> = (0..guides.len()).collect();
-    // Hair rooted lower lies lower: it is the first to be pushed out of the way.
-    let height = |i: usize| guides[i].root.position.z;
-    order.sort_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
-    let count = wisps.len();
-    let radius =
-        guides.iter().map(|g| g.thickness.packed(0.5 * g.rod.length())).sum::<f64>() / count as f64;
-    let largest = (LARGEST_MOVE * radius).clamp(LEAST_REACH, MOST_REACH);
-    let mut throng = Throng {
-        tolerance: spec.equilibrium.tolerance,
-        wisps,
-        crowd,
-        order,
-        groups: Vec::new(),
-        farthest: largest,
-        reach: vec![largest; count],
-        drift: vec![f64::INFINITY; count],
-        last: vec![largest; count],
-    };
     let stage = Stage::new(monitor, "wisps making way", 1);
+    let mut throng = Throng::new(spec, head, guides, alone);
     let sweeps = throng.sort_out(&stage)?;
-    let steps = throng.converge(&stage)?;
+    let steps = throng.converge(&stage, MOST_STEPS)?;
     Ok(throng.finish(sweeps + steps))
+}
+
+/// Lets wisps make way for each other in so many steps at most, from where they were nearly at rest.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(super) fn go_on(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    start: &[Equilibrium],
+    most: usize,
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    let stage = Stage::new(monitor, "wisps making way", 1);
+    let mut throng = Throng::new(spec, head, guides, start);
+    let steps = throng.converge(&stage, most)?;
+    Ok(throng.finish(steps))
 }
 
 /// All guides of a head on their way to rest.
@@ -99,12 +98,46 @@ struct Throng<'a> {
     last: Vec<f64>,
 }
 
+impl<'a> Throng<'a> {
+    fn new(
+        spec: &HairstyleSpec,
+        head: &'a Head,
+        guides: &'a [Guide],
+        alone: &'a [Equilibrium],
+    ) -> Self {
+        let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
+        let wisps: Vec<Wisp<'_>> = guides.iter().zip(alone).map(wisp).collect();
+        let samples = wisps.iter().map(Wisp::samples).collect();
+        let crowd = Crowd::new(samples, spec.contact.hair_stiffness);
+        let mut order: Vec<usize> = (0..guides.len()).collect();
+        // Hair rooted lower lies lower: it is the first to be pushed out of the way.
+        let height = |i: usize| guides[i].root.position.z;
+        order.sort_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
+        let count = wisps.len();
+        let middle = |g: &Guide| g.thickness.packed(0.5 * g.rod.length());
+        let radius = guides.iter().map(middle).sum::<f64>() / count as f64;
+        let largest = (LARGEST_MOVE * radius).clamp(LEAST_REACH, MOST_REACH);
+        Self {
+            tolerance: spec.equilibrium.tolerance,
+            wisps,
+            crowd,
+            order,
+            groups: Vec::new(),
+            farthest: largest,
+            reach: vec![largest; count],
+            drift: vec![f64::INFINITY; count],
+            last: vec![largest; count],
+        }
+    }
+}
+
 impl Throng<'_> {
     /// Sweeps until most guides are calm; gives the number of sweeps.
     fn sort_out(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
+        let everyone = vec![true; self.wisps.len()];
         for sweep in 1..=MOST_SWEEPS {
             self.look_around();
-            self.sweep(stage)?;
+            self.sweep(stage, &everyone)?;
             self.order.reverse();
             stage.at(SORTED * sweep as f64 / MOST_SWEEPS as f64);
             let calm = self.last.iter().filter(|&&m| m < CALM).count();
@@ -115,28 +148,31 @@ impl Throng<'_> {
         Ok(MOST_SWEEPS)
     }
 
-    /// Looks for neighbours, if any guide has used up most of its reach.
+    /// Looks for neighbours of the guides that have used up most of their reach.
     fn look_around(&mut self) {
-        let used_up = |i: usize| self.drift[i] > 0.5 * self.reach[i];
-        if (0..self.wisps.len()).any(used_up) {
-            for (reach, last) in self.reach.iter_mut().zip(&self.last) {
-                *reach = (4.0 * last).clamp(LEAST_REACH, 2.0 * self.farthest);
-            }
-            self.crowd.look_around(&self.reach);
-            self.groups = self.crowd.groups(&self.order);
-            self.drift.fill(0.0);
+        let used_up: Vec<bool> =
+            self.drift.iter().zip(&self.reach).map(|(drift, reach)| *drift > 0.5 * reach).collect();
+        if !used_up.contains(&true) {
+            return;
         }
+        for i in (0..self.wisps.len()).filter(|&i| used_up[i]) {
+            self.reach[i] = (4.0 * self.last[i]).clamp(LEAST_REACH, 2.0 * self.farthest);
+            self.drift[i] = 0.0;
+        }
+        self.crowd.look_around(&self.reach, &used_up);
+        self.groups = self.crowd.groups(&self.order);
     }
 
-    /// Every guide goes downhill once, those that cannot touch at the same time.
-    fn sweep(&mut self, stage: &Stage<'_>) -> Result<(), Cancelled> {
+    /// Every guide that is to goes downhill once, those that cannot touch at the same time.
+    fn sweep(&mut self, stage: &Stage<'_>, who: &[bool]) -> Result<(), Cancelled> {
         for group in &self.groups {
             stage.check()?;
+            let group: Vec<usize> = group.iter().copied().filter(|&i| who[i]).collect();
             let settled: Vec<_> = group
                 .par_iter()
                 .map(|&i| self.wisps[i].downhill(&self.crowd, i, self.reach[i] - self.drift[i]))
                 .collect();
-            for (&i, settled) in group.iter().zip(settled) {
+            for (i, settled) in group.into_iter().zip(settled) {
                 self.wisps[i].take(settled);
                 self.last[i] = self.crowd.place(i, self.wisps[i].points());
                 self.drift[i] += self.last[i];
@@ -145,43 +181,76 @@ impl Throng<'_> {
         Ok(())
     }
 
-    /// Goes downhill with all guides together until the head is at rest; gives the number of steps.
-    fn converge(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
+    /// Goes downhill until the head is at rest: with the restless guides one after the other while
+    /// they are few, else with all together. Gives the number of steps.
+    fn converge(&mut self, stage: &Stage<'_>, most: usize) -> Result<usize, Cancelled> {
         self.farthest *= LARGEST_STEP;
         self.drift.fill(f64::INFINITY);
+        let mut newton: Vec<Option<NewtonStep>> = vec![None; self.wisps.len()];
         let mut previous: Option<Direction> = None;
         let mut first: Option<f64> = None;
-        for step in 0..MOST_STEPS {
+        for step in 0..most {
             stage.check()?;
             self.look_around();
-            let newton = self.newton_steps();
-            let steepest =
-                self.wisps.iter().zip(&newton).map(|(w, n)| slope(w, n)).fold(0.0, f64::max);
+            self.newton_steps(&mut newton);
+            let restless = self.restless(&newton);
+            let few = restless.iter().filter(|r| **r).count();
+            if few == 0 {
+                return Ok(step);
+            }
+            let steepest = self.steepest(&newton);
             let first = *first.get_or_insert(steepest);
             let done = (first / steepest).ln() / (first / self.tolerance).ln().max(1e-9);
             stage.at(SORTED + (1.0 - SORTED) * done);
-            let still =
-                |(w, n): (&Wisp<'_>, &NewtonStep)| slope(w, n) <= self.tolerance && n.positive;
-            if self.wisps.iter().zip(&newton).all(still) {
-                return Ok(step);
-            }
-            let mut direction = Direction::new(newton, previous.as_ref());
-            if self.search(&mut direction) {
-                previous = Some(direction);
-            } else {
-                // Some guides have far to go: each by itself does better.
-                self.look_around();
-                self.sweep(stage)?;
+            if few * FEW <= self.wisps.len() {
+                self.sweep(stage, &restless)?;
+                self.forget(&mut newton, &restless);
                 previous = None;
+            } else {
+                let all = newton.iter_mut().map(|n| n.take().expect("known for all")).collect();
+                let mut direction = Direction::new(all, previous.as_ref());
+                if self.search(&mut direction) {
+                    previous = Some(direction);
+                } else {
+                    // Some guides have far to go: each by itself does better.
+                    self.look_around();
+                    self.sweep(stage, &restless)?;
+                    previous = None;
+                }
             }
         }
-        Ok(MOST_STEPS)
+        Ok(most)
     }
 
-    fn newton_steps(&self) -> Vec<NewtonStep> {
-        let reach = |i: usize| self.reach[i] - self.drift[i];
-        let step = |(i, w): (usize, &Wisp<'_>)| w.newton_step(&self.crowd, i, reach(i));
-        self.wisps.par_iter().enumerate().map(step).collect()
+    /// Fills in Newton's steps where they are not known.
+    fn newton_steps(&self, newton: &mut [Option<NewtonStep>]) {
+        newton.par_iter_mut().enumerate().filter(|(_, n)| n.is_none()).for_each(|(i, n)| {
+            let reach = self.reach[i] - self.drift[i];
+            *n = Some(self.wisps[i].newton_step(&self.crowd, i, reach));
+        });
+    }
+
+    /// Largest relative gradient of any guide.
+    fn steepest(&self, newton: &[Option<NewtonStep>]) -> f64 {
+        let known = self.wisps.iter().zip(newton.iter().flatten());
+        known.map(|(w, n)| slope(w, n)).fold(0.0, f64::max)
+    }
+
+    /// Which guides are not at rest.
+    fn restless(&self, newton: &[Option<NewtonStep>]) -> Vec<bool> {
+        let still = |(w, n): (&Wisp<'_>, &Option<NewtonStep>)| {
+            n.as_ref().is_some_and(|n| slope(w, n) <= self.tolerance && n.positive)
+        };
+        self.wisps.iter().zip(newton).map(|wn| !still(wn)).collect()
+    }
+
+    /// Forgets the steps of guides that have moved, and of those that may touch them.
+    fn forget(&self, newton: &mut [Option<NewtonStep>], moved: &[bool]) {
+        for (i, step) in newton.iter_mut().enumerate() {
+            if moved[i] || self.crowd.touched_by(i).any(|j| moved[j]) {
+                *step = None;
+            }
+        }
     }
 
     /// Goes along a direction to about the least energy there; whether it is lower than here.
@@ -245,7 +314,8 @@ impl Throng<'_> {
     }
 
     fn finish(mut self, sweeps: usize) -> Rest {
-        self.crowd.look_around(&vec![0.0; self.wisps.len()]);
+        let count = self.wisps.len();
+        self.crowd.look_around(&vec![0.0; count], &vec![true; count]);
         let crowd = &self.crowd;
         let crowding =
             self.wisps.iter().enumerate().map(|(i, w)| w.crowding(crowd, i)).sum::<f64>() * 0.5;

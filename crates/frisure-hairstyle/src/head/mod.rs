@@ -39,6 +39,7 @@ pub struct Head {
     landmarks: Landmarks,
     signed_distance: SignedDistance,
     spheres: Vec<Sphere>,
+    fingerprint: u64,
 }
 
 /// Where the scalp of a mesh comes from.
@@ -135,7 +136,13 @@ impl Head {
     fn assemble(surface: Surface, scalp: Vec<f64>, natural: bool, landmarks: Landmarks) -> Self {
         let signed_distance = SignedDistance::new(&surface);
         let spheres = spheres::fit(&surface, &scalp, &landmarks, &signed_distance);
-        Self { surface, scalp, natural, landmarks, signed_distance, spheres }
+        let fingerprint = fingerprint(&surface, &scalp);
+        Self { surface, scalp, natural, landmarks, signed_distance, spheres, fingerprint }
+    }
+
+    /// A number that two heads share only if skin and scalp are the same.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        self.fingerprint
     }
 
     /// The skin (m).
@@ -172,6 +179,15 @@ impl Head {
     pub fn spheres(&self) -> &[Sphere] {
         &self.spheres
     }
+}
+
+/// Fowler, Noll & Vo's hash (FNV-1a), of words.
+fn fingerprint(surface: &Surface, scalp: &[f64]) -> u64 {
+    let positions = surface.positions().iter().flat_map(glam::DVec3::to_array).map(f64::to_bits);
+    let corners = surface.triangles().iter().flatten().map(|&v| u64::from(v));
+    let weights = scalp.iter().map(|w| w.to_bits());
+    let words = positions.chain(corners).chain(weights);
+    words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
 }
 
 fn checked(weights: Vec<f64>, vertices: usize) -> Result<Vec<f64>, HeadError> {
