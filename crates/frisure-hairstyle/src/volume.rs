@@ -24,8 +24,7 @@ pub struct Volume {
 const CELL: f64 = 5e-3;
 
 /// … and the fraction of one that hair must fill for it to be occupied. A lone hair of 70 µm fills
-/// 0.015 % of a cell that it crosses, and hair that lies together more than 1 %: flyaways do not
-/// count, and the answer depends little on the fraction.
+/// 0.015 % of a cell that it crosses, and a wisp is several per cent hair: flyaways do not count.
 const OCCUPIED: f64 = 1e-3;
 
 /// Most cells: hair that reaches farther than 1 m is averaged over larger ones.
