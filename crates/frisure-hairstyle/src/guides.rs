@@ -125,9 +125,10 @@ pub(crate) fn plan(
 /// The wisp about a guide. Hairs that stray from their wisp are those that do not share its curl:
 /// the share of the spread between wisps that is found within one.
 fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
-    let hairs = spec.implantation.density * scalp / spec.wisps.count as f64;
+    let patch = scalp / spec.wisps.count as f64;
+    let hairs = spec.implantation.density * patch;
     let spread = spec.wisps.fuzziness * spec.curl.variation_between;
-    Thickness::new(rod, spec.curl.strain, hairs, spread, spec.contact.volume)
+    Thickness::new(rod, spec.curl.strain, (hairs, patch), spread, spec.contact.volume)
 }
 
 /// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.

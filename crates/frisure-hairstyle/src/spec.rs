@@ -432,7 +432,13 @@ impl HairstyleSpec {
         range("wisps.flyaways", self.wisps.flyaways, 0.0, 1.0, fraction)?;
         count("wisps.splits", self.wisps.splits, 100, "between 1 and 100")?;
         for factor in self.wisps.profile {
-            range("wisps.profile", factor, 0.0, 10.0, "three factors between 0 and 10")?;
+            range(
+                "wisps.profile",
+                factor,
+                0.0,
+                10.0,
+                "three factors between 0 and 10 each, such as [1, 1, 0.5]",
+            )?;
         }
         range("wisps.blending", self.wisps.blending, 0.0, 1.0, fraction)?;
         let points = self.wisps.points as f64;
@@ -449,6 +455,9 @@ impl HairstyleSpec {
         range("wisps.density", grown, 1e4, 1e7, "between 1 and 1000 1/cm^2")?;
         range("contact.volume", self.contact.volume, 0.0, 10.0, "between 0 and 10")?;
         range("gravity", self.gravity, 0.0, 1000.0, "between 0 and 1000 m/s²")?;
+        if let frisure_rod::Resolution::Elements(n) = self.equilibrium.resolution {
+            count("equilibrium.elements", n, 1000, "between 1 and 1000 on a head")?;
+        }
         let tolerance = self.equilibrium.tolerance;
         range("equilibrium.tolerance", tolerance, 1e-8, 0.1, "between 1e-8 and 0.1")?;
         self.equilibrium.resolution.check().map_err(|e| InvalidSpec {

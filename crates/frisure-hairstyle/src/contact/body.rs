@@ -61,7 +61,7 @@ impl BodyContact<'_> {
     /// Energy per length (J/m) at a distance (m), and its first two derivatives.
     fn penalty(&self, keep: f64, distance: f64) -> [f64; 3] {
         let (soft, hard) = ((keep - distance).max(0.0), (-distance).max(0.0));
-        let hair = if soft > 0.0 { self.hair * soft / keep } else { 0.0 };
+        let hair = if soft > 0.0 && keep > 0.0 { self.hair * soft / keep } else { 0.0 };
         let skin = if hard > 0.0 { self.skin } else { 0.0 };
         [
             hair * soft * soft / 6.0 + 0.5 * skin * hard * hard,
@@ -131,6 +131,13 @@ mod tests {
                 let p = top + top.normalize() * out + DVec3::new(0.003, 0.001, 0.0);
                 agrees_with_differences(&contact, 0.04, p);
             }
+            // Without any hair there is the skin alone.
+            let bare = BodyContact {
+                thickness: contact.thickness.scaled(0.0),
+                layer: Layer::NONE,
+                ..contact
+            };
+            agrees_with_differences(&bare, 0.04, top - top.normalize() * 0.004);
             assert_eq!(contact.derivatives(0.04, top * 2.0), None);
             assert_eq!(contact.energy(0.04, top * 2.0), 0.0);
         }

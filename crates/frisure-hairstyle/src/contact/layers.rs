@@ -9,11 +9,14 @@
 /// the distance m away along the skin: `ν A min(s, m)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
-    /// Growth of the bed per arc length, ν A.
+    /// Growth of the bed per arc length, ν A, at most [`STEEPEST`].
     pub slope: f64,
     /// Distance m along the skin down to the lowest root (m).
     pub most: f64,
 }
+
+/// The steepest bed: hair that stands up by more has no hair beneath it, but beside it.
+const STEEPEST: f64 = 0.6;
 
 impl Layer {
     /// No hair beneath.
@@ -25,7 +28,7 @@ impl Layer {
     #[must_use]
     pub fn new(altitude: f64, scalp: f64, cover: f64) -> Self {
         let radius = (scalp / std::f64::consts::TAU).sqrt();
-        Self { slope: cover, most: radius * altitude.clamp(0.0, 1.0).asin() }
+        Self { slope: cover.min(STEEPEST), most: radius * altitude.clamp(0.0, 1.0).asin() }
     }
 
     /// Distance to keep at arc length `s` (m), in m.

@@ -20,8 +20,8 @@ use super::rise;
 /// Ball 2012, whose ponytail swells by the random curvature of its hairs). q is the natural turn
 /// per length; near the tip, where there is no tension, a fibre still sags over its
 /// elasto-gravitational length ℓ. A hair gives way to its neighbour by half of that, and tubes of
-/// radius `r + w/2` pack hexagonally: a hair takes `A(s) = √12 (r + w/2)²`, n hairs a wisp of radius
-/// `√(n A/π)`. Curly, frizzy and short hair is fluffy; long, straight, wet hair is dense.
+/// radius `r + w/2` pack hexagonally: a hair takes `A(s) = √12 (r + w/2)²`, but no more than the skin
+/// that it grows on, and n hairs make a wisp of radius `√(n A/π)`. Curly, frizzy and short hair is fluffy; long, straight, wet hair is dense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thickness {
     hairs: f64,
@@ -36,6 +36,8 @@ pub struct Thickness {
     /// ℓ (m).
     slack: f64,
     length: f64,
+    /// Skin that a hair grows on (m²).
+    ground: f64,
     /// Factor on radii.
     volume: f64,
 }
@@ -44,10 +46,17 @@ pub struct Thickness {
 const GATHERING: f64 = 4.0;
 
 impl Thickness {
-    /// Of `hairs` hairs like `rod`, on a head of the mean natural strain `natural` (rad/m), whose
-    /// natural curvatures differ by the relative spread `spread`; `volume` is a factor on the radius.
+    /// Of `hairs` hairs like `rod` from a patch of skin of the area `patch` (m²), on a head of the
+    /// mean natural strain `natural` (rad/m), whose natural curvatures differ by the relative spread
+    /// `spread`; `volume` is a factor on the radius.
     #[must_use]
-    pub fn new(rod: &Rod, natural: DVec3, hairs: f64, spread: f64, volume: f64) -> Self {
+    pub fn new(
+        rod: &Rod,
+        natural: DVec3,
+        (hairs, patch): (f64, f64),
+        spread: f64,
+        volume: f64,
+    ) -> Self {
         let stiffness = rod.stiffness();
         let sag = rod.weight() / (stiffness.x * stiffness.y).sqrt();
         Self {
@@ -59,8 +68,15 @@ impl Thickness {
             // Without weight there is no tension, however far from the tip.
             slack: if sag > 0.0 { sag.cbrt().recip() } else { 0.0 },
             length: rod.length(),
+            ground: patch / hairs,
             volume,
         }
+    }
+
+    /// The same with another factor on the radius.
+    #[must_use]
+    pub fn scaled(self, volume: f64) -> Self {
+        Self { volume, ..self }
     }
 
     /// Cross-section that one hair takes (m²) at arc length `s` (m), without the factor.
@@ -69,7 +85,7 @@ impl Thickness {
         let tension = self.sag * (self.length - s).max(self.slack);
         let wander = self.spread / (self.wave + tension).max(1e-12);
         let tube = self.fibre + 0.5 * wander;
-        12.0_f64.sqrt() * tube * tube
+        (12.0_f64.sqrt() * tube * tube).min(self.ground)
     }
 
     /// Fraction of a wisp that is hair, at arc length `s` (m).
@@ -113,7 +129,7 @@ mod tests {
     }
 
     fn wisp(rod: &Rod, hairs: f64, spread: f64) -> Thickness {
-        Thickness::new(rod, rod.natural().at(0.0), hairs, spread, 1.0)
+        Thickness::new(rod, rod.natural().at(0.0), (hairs, 1.0), spread, 1.0)
     }
 
     #[test]
@@ -141,5 +157,10 @@ mod tests {
         let double = wisp(0.1, 600.0, 9.81);
         assert!((double.packed(0.05) / short.packed(0.05) - 2.0_f64.sqrt()).abs() < 1e-12);
         assert_eq!(short.at(0.0), 0.0);
+        // No wisp is thicker than the skin it grows on is wide.
+        let free = rod(0.2, (0.3, 0.5), 0.0);
+        let strain = free.natural().at(0.0);
+        let wide = Thickness::new(&free, strain, (400.0, 2e-4), 0.5, 1.0);
+        assert!((wide.packed(0.1) - (2e-4 / PI).sqrt()).abs() < 1e-12);
     }
 }

@@ -1,6 +1,6 @@
 //! Each guide on its own, on the body and on the bed of hair.
 
-use frisure_rod::{Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
+use frisure_rod::{Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
 use rayon::prelude::*;
 
 use super::{along, body};
@@ -18,6 +18,9 @@ const HARDNESS: [f64; 3] = [0.0016, 0.04, 1.0];
 
 /// Depth (m) in the body beyond which another way out is sought.
 const DEEPEST: f64 = 3e-4;
+
+/// Shapes that are tried for a guide that is still deeper.
+const STARTS: u32 = 8;
 
 /// Relative gradient at which a guide is at rest.
 const TOLERANCE: f64 = 1e-8;
@@ -168,7 +171,15 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
         return rest;
     }
     let hard = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
-    if depth(head, &hard) < depth(head, &rest) { hard } else { rest }
+    let rest = if depth(head, &hard) < depth(head, &rest) { hard } else { rest };
+    if depth(head, &rest) <= DEEPEST {
+        return rest;
+    }
+    // It was born into the body: of several shapes the one that is not in it has the least energy.
+    let branch = Branch::Lowest { starts: STARTS, seed: spec.seed };
+    let options = Options { branch, ..options };
+    let freed = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
+    if depth(head, &freed) < depth(head, &rest) { freed } else { rest }
 }
 
 /// Settles a guide on ever harder bodies, each from the shape on the one before.

@@ -156,7 +156,8 @@ impl Throng<'_> {
             return;
         }
         for i in (0..self.wisps.len()).filter(|&i| used_up[i]) {
-            self.reach[i] = (4.0 * self.last[i]).clamp(LEAST_REACH, 2.0 * self.farthest);
+            let most = (2.0 * self.farthest).max(LEAST_REACH);
+            self.reach[i] = (4.0 * self.last[i]).clamp(LEAST_REACH, most);
             self.drift[i] = 0.0;
         }
         self.crowd.look_around(&self.reach, &used_up);

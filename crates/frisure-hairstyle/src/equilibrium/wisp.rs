@@ -2,7 +2,7 @@
 
 use frisure_rod::minimise::{Minimiser, Minimum, NewtonStep, Problem, Riccati, Stopping};
 use frisure_rod::potential::{Field, InField, Potential};
-use frisure_rod::{Chain, Equilibrium, Shape};
+use frisure_rod::{Chain, Equilibrium, Rod, Shape};
 use glam::{DMat3, DVec3};
 
 use super::{along, samples};
@@ -48,7 +48,7 @@ impl<'a> Wisp<'a> {
         let settled = Settled {
             shape: alone.shape.clone(),
             iterations: alone.certificate.iterations,
-            tether: guide.rod.weight() / FIRST_SAG,
+            tether: firmness(&guide.rod),
         };
         Self { guide, chain: alone.chain(), body, resolution, settled }
     }
@@ -85,7 +85,8 @@ impl<'a> Wisp<'a> {
                 return Settled {
                     shape: found.shape,
                     iterations: found.iterations,
-                    tether: stiffness * looser,
+                    // Not so loose that it takes long to be held again.
+                    tether: (stiffness * looser).max(1e-4 * firmness(&self.guide.rod)),
                 };
             }
             stiffness *= 4.0;
@@ -177,6 +178,12 @@ impl<'a> Wisp<'a> {
             Equilibrium::from_minimum(problem, minimum)
         })
     }
+}
+
+/// Stiffness (Pa) that holds a guide in its first sweep: its weight and its elasticity move it by
+/// about [`FIRST_SAG`] against it.
+fn firmness(rod: &Rod) -> f64 {
+    rod.moment_scale() / rod.length().powi(2) / FIRST_SAG
 }
 
 /// Largest distance (m) between nodes of two shapes.
