@@ -33,7 +33,7 @@ pub(crate) fn cut_at(styles: &[RegionStyle], marks: &Landmarks, p: DVec3) -> Opt
 }
 
 /// Height (m) of a level on a head.
-fn height(level: Level, marks: &Landmarks) -> f64 {
+pub(crate) fn height(level: Level, marks: &Landmarks) -> f64 {
     let face = marks.hairline.z - marks.brow.z;
     match level {
         Level::Brows => marks.brow.z,
@@ -51,6 +51,9 @@ const STEP: f64 = 3e-3;
 /// Shortest and longest (m) that a level makes hair.
 const LENGTHS: (f64, f64) = (0.01, 0.6);
 
+/// So many steps that lead hardly farther down than two, below the brows, lie on an ear.
+const LYING: usize = 8;
+
 /// Length (m) that a style gives hair that leaves `root` in a direction.
 pub(crate) fn length(length: RegionLength, head: &Head, root: &Root, direction: DVec3) -> f64 {
     match length {
@@ -64,6 +67,7 @@ pub(crate) fn length(length: RegionLength, head: &Head, root: &Root, direction: 
 /// The way (m) along the skin, or hanging where it overhangs, from a root down to a height (m).
 fn down_to(height: f64, head: &Head, root: &Root, direction: DVec3) -> f64 {
     let (mut p, mut way, mut length) = (root.position, direction, 0.0);
+    let (mut steps, mut before, brows) = (0, root.position.z, head.landmarks().brow.z);
     while p.z > height && length < LENGTHS.1 {
         let (distance, away) = head.signed_distance().value_gradient(p);
         let out = away.normalize_or(root.normal);
@@ -74,6 +78,14 @@ fn down_to(height: f64, head: &Head, root: &Root, direction: DVec3) -> f64 {
         way = way.normalize_or(DVec3::NEG_Z);
         p += way * STEP;
         length += STEP;
+        steps += 1;
+        if steps % LYING == 0 {
+            if p.z < brows && before - p.z < 2.0 * STEP {
+                // Hair slides off and hangs from there.
+                return length + (p.z - height).max(0.0);
+            }
+            before = p.z;
+        }
     }
     length.max(LENGTHS.0)
 }

@@ -196,6 +196,24 @@ fn regions_have_directions_and_lengths_of_their_own() {
 }
 
 #[test]
+fn hair_cut_to_the_chin_is_not_caught_on_an_ear() {
+    let all = RegionStyle {
+        places: vec![Place::Everywhere],
+        length: Some(crate::spec::RegionLength::DownTo(crate::spec::Level::Chin)),
+        ..RegionStyle::default()
+    };
+    let layout = layout(Flow::Parted { offset: 0.0 }, |s| s.regions = vec![all]);
+    let marks = head().landmarks();
+    // Hair from the sides, below the brows, goes straight down past the ears, give or take a comb.
+    let low = |r: &Root| r.position.z < marks.brow.z;
+    for r in Scalp::new(head()).stratified(2000, 1, Purpose::HairRoots).into_iter().filter(low) {
+        let least = r.position.z - regions::height(crate::spec::Level::Chin, marks);
+        let length = layout.length(head(), &r).unwrap();
+        assert!(length < least.max(0.0) + 0.05, "{length}, {least} from {}", r.position);
+    }
+}
+
+#[test]
 fn shares_of_regions_are_those_of_the_regions() {
     let marks = head().landmarks();
     let roots = Scalp::new(head()).stratified(5000, 1, Purpose::HairRoots);
