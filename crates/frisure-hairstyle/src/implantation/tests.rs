@@ -209,7 +209,7 @@ fn hair_cut_to_the_chin_is_not_caught_on_an_ear() {
     for r in Scalp::new(head()).stratified(2000, 1, Purpose::HairRoots).into_iter().filter(low) {
         let least = r.position.z - regions::height(crate::spec::Level::Chin, marks);
         let length = layout.length(head(), &r).unwrap();
-        assert!(length < least.max(0.0) + 0.05, "{length}, {least} from {}", r.position);
+        assert!(length < least.max(0.0) + 0.08, "{length}, {least} from {}", r.position);
     }
 }
 
