@@ -659,7 +659,12 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
             // Lengths and moduli above zero are bounded again by what can be computed.
             if limit != 0.0 {
                 let scene = good(&inside);
-                assert!(scene.hairstyle_spec().is_ok(), "{inside}");
+                // One hair may have more elements than those of a head.
+                if path == "equilibrium.elements" && bound == "maximum" {
+                    assert!(scene.single_hair().is_ok(), "{inside}");
+                } else {
+                    assert!(scene.hairstyle_spec().is_ok(), "{inside}");
+                }
             }
         }
     }

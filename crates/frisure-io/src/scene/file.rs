@@ -366,7 +366,7 @@ pub(super) struct Contact {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Equilibrium {
-    /// Number of elements per hair; 1 to 10000.
+    /// Number of elements per hair; 1 to 10000, at most 1000 on a head.
     #[schemars(range(min = 1, max = 10_000))]
     pub(super) elements: Key<Count>,
     /// Instead of `elements`: as many as it takes to be this near to the exact shape; more than 0.
