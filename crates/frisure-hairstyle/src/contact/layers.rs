@@ -9,7 +9,7 @@
 /// the distance m away along the skin: `ν A min(s, m)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
-    /// Growth of the bed per arc length, ν A, at most [`STEEPEST`].
+    /// Growth of the bed per arc length, ν A, at most 0.6.
     pub slope: f64,
     /// Distance m along the skin down to the lowest root (m).
     pub most: f64,
