@@ -25,6 +25,9 @@ const STARTS: u32 = 8;
 /// Relative gradient at which a guide is at rest.
 const TOLERANCE: f64 = 1e-8;
 
+/// The same after a warm start, which has to follow a slider: a hundredth of a hair's breadth.
+const WARM_TOLERANCE: f64 = 1e-5;
+
 /// Most iterations at each step: contact comes and goes, so it can take hundreds.
 pub(super) const MAX_ITERATIONS: usize = 1000;
 
@@ -85,6 +88,7 @@ fn settle_one_from(
     let options = Options {
         resolution: Resolution::Elements(elements),
         max_iterations: iterations,
+        tolerance: WARM_TOLERANCE,
         ..options(spec)
     };
     if spec.contact.body == Body::None {
@@ -94,7 +98,8 @@ fn settle_one_from(
     let body = along(&body, guide, elements);
     let rest = equilibrium_from(&guide.rod, &[&body], &options, before);
     // It may have been pushed into the body: then it comes down from its root again.
-    if depth(head, &rest) > depth(head, before) + DEEPEST {
+    let deep = depth(head, &rest);
+    if deep > DEEPEST && deep > depth(head, before) + DEEPEST {
         return settle_one(spec, head, guide);
     }
     rest

@@ -84,7 +84,7 @@ pub(crate) fn settle_from(
 }
 
 /// Largest distance (m) between the points at which a guide feels the body …
-const BODY_SPACING: f64 = 2.5e-3;
+const BODY_SPACING: f64 = 3e-3;
 
 /// … and the largest natural turn between them (rad), so that no coil slips into the skin.
 const BODY_TURN: f64 = 0.7;
