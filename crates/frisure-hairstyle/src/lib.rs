@@ -12,6 +12,7 @@ pub mod contact;
 mod equilibrium;
 mod guides;
 mod hairstyle;
+mod splits;
 mod strands;
 mod volume;
 mod wisps;

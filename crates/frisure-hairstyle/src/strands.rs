@@ -6,8 +6,6 @@
 //! ones, neighbouring wisps blend where hair is a smooth mass, every hair is rooted in the skin where
 //! its root is, and hairs that would lie in the body are laid on it, in the order in which they lay.
 
-use std::f64::consts::TAU;
-
 use frisure_rod::Equilibrium;
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
@@ -22,6 +20,7 @@ use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
 use crate::spec::{Body, HairstyleSpec, Wisps};
+use crate::splits::{Split, Waves, splits};
 use crate::wisps::Wisp;
 
 /// How many neighbouring guides a hair can follow.
@@ -50,6 +49,18 @@ const ROOT_DEPTH: f64 = 3e-4;
 
 /// Radius at the tip, as a fraction of the fibre's.
 const TIP: f64 = 0.35;
+
+/// How much of the way to the middle of its split a hair has come at the tip.
+const GATHERED: f64 = 0.75;
+
+/// Least distance of a hair from the skin far from its root (m).
+const LEAST_DISTANCE: f64 = 4e-4;
+
+/// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
+const PRESSED: f64 = 0.3;
+
+/// … and how many of them farther out no hair is moved.
+const FREE: f64 = 6.0;
 
 /// Everything that drawing a hair needs.
 struct Population<'a> {
@@ -169,65 +180,6 @@ struct Character {
     /// Coherent deviation.
     waves: Waves,
 }
-
-/// A coherent deviation along a hair: amplitude (m), wave number (rad per length) and phase.
-#[derive(Clone, Copy)]
-struct Waves([(DVec3, f64, f64); 3]);
-
-impl Waves {
-    /// Of about `amplitude` (m) on hair of `length` (m).
-    fn new(amplitude: f64, length: f64, random: &mut Stream) -> Self {
-        let mut wave = |wavelength: f64, share: f64| {
-            let wave_number = TAU * length / (wavelength * random.factor(0.3));
-            let direction = DVec3::new(random.normal(), random.normal(), random.normal());
-            (direction * (amplitude * share), wave_number, TAU * random.unit())
-        };
-        Self([wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)])
-    }
-
-    /// Deviation (m) at `x` from 0 (root) to 1 (tip); none at the root.
-    fn at(&self, x: f64) -> DVec3 {
-        let wave = |(amplitude, number, phase): &(DVec3, f64, f64)| {
-            *amplitude * ((number * x + phase).sin() - phase.sin())
-        };
-        self.0.iter().map(wave).sum()
-    }
-}
-
-/// A thinner wisp that a wisp splits into.
-#[derive(Clone, Copy)]
-struct Split {
-    /// Its middle in the wisp's patch of skin (m, from the guide's root).
-    middle: DVec3,
-    waves: Waves,
-}
-
-/// How much of the way to the middle of its split a hair has come at the tip.
-const GATHERED: f64 = 0.75;
-
-/// The thinner wisps of each wisp, spread over its patch.
-fn splits(spec: &HairstyleSpec, guides: &[Guide], patch: f64) -> Vec<Vec<Split>> {
-    let split = |guide: &Guide, random: &mut Stream| {
-        let normal = guide.root.normal;
-        let (u, v) = normal.any_orthonormal_pair();
-        let (radius, angle) = (patch * random.unit().sqrt(), TAU * random.unit());
-        let amplitude = SPLIT_STRAY * spec.wisps.fuzziness * patch;
-        let length = guide.rod.length();
-        Split {
-            middle: (u * angle.cos() + v * angle.sin()) * radius,
-            waves: Waves::new(amplitude, length, random),
-        }
-    };
-    (guides.iter().enumerate())
-        .map(|(index, guide)| {
-            let mut random = Stream::new(spec.seed, Purpose::Split, index);
-            (0..spec.wisps.splits).map(|_| split(guide, &mut random)).collect()
-        })
-        .collect()
-}
-
-/// How far a split strays from its wisp, as a fraction of fuzziness times the patch's radius.
-const SPLIT_STRAY: f64 = 0.5;
 
 impl Character {
     fn new(wisps: &Wisps, length: f64, spacing: f64, random: &mut Stream) -> Self {
@@ -428,12 +380,3 @@ impl Population<'_> {
         p
     }
 }
-
-/// Least distance of a hair from the skin far from its root (m).
-const LEAST_DISTANCE: f64 = 4e-4;
-
-/// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
-const PRESSED: f64 = 0.3;
-
-/// … and how many of them farther out no hair is moved.
-const FREE: f64 = 6.0;

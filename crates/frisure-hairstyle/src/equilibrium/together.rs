@@ -4,8 +4,9 @@
 //! overlap. First one guide after the other goes downhill in it while the others hold still (block
 //! coordinate descent), so that no step can raise it; guides that cannot touch move at the same
 //! time. That sorts out who lies on whom, in a few sweeps. Then all move together, along conjugate
-//! directions of which each guide's Newton step is the preconditioner (Polak & Ribière 1969), until
-//! the derivative of the whole energy by every control of every guide is below the tolerance.
+//! directions of which each guide's Newton step is the preconditioner (Polak & Ribière 1969), and at
+//! last the few that are still restless, each by itself; until the derivative of the whole energy by
+//! every control of every guide is below the tolerance.
 
 use frisure_rod::Equilibrium;
 use frisure_rod::minimise::NewtonStep;

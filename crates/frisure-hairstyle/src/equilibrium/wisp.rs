@@ -15,6 +15,9 @@ const ITERATIONS: usize = 1;
 /// How far (m) its own weight pulls a guide against what holds it in its first sweep.
 const FIRST_SAG: f64 = 4e-3;
 
+/// How often the tether of a guide that moves too far is made four times as stiff.
+const MOST_TETHERS: usize = 40;
+
 /// Distance between points at which wisps feel each other, as a fraction of their radius …
 const SPACING: f64 = 1.1;
 
@@ -73,7 +76,7 @@ impl<'a> Wisp<'a> {
         let stopping = Stopping { tolerance: 0.0, max_iterations: ITERATIONS };
         let from = &self.settled.shape;
         let mut stiffness = self.settled.tether;
-        loop {
+        for _ in 0..MOST_TETHERS {
             let tether = Tether { stiffness, spacing: self.chain.arc()[1], from };
             let tether = InField::new(&tether, 1);
             let found = self.among(crowd, index, Some(&tether), |problem| {
@@ -91,6 +94,8 @@ impl<'a> Wisp<'a> {
             }
             stiffness *= 4.0;
         }
+        // No tether holds it: it stays where it is.
+        Settled { tether: stiffness, iterations: 0, shape: from.clone() }
     }
 
     /// Takes a new shape over.
@@ -104,7 +109,7 @@ impl<'a> Wisp<'a> {
         let from = &self.settled.shape;
         let mut newton =
             self.among(crowd, index, None, |problem| Riccati::default().newton_step(problem, from));
-        let moved = farthest(&self.stepped(&newton.step, 1.0), from);
+        let moved = self.length_of(&newton.step);
         if moved > reach {
             for x in &mut newton.step {
                 *x *= reach / moved;
@@ -113,23 +118,23 @@ impl<'a> Wisp<'a> {
         newton
     }
 
-    /// The shape a fraction of a step away.
-    fn stepped(&self, step: &[DVec3], fraction: f64) -> Shape {
-        let controls = self.settled.shape.controls.iter().zip(step);
+    /// The shape a fraction of a step away from another.
+    fn stepped(&self, from: &Shape, step: &[DVec3], fraction: f64) -> Shape {
+        let controls = from.controls.iter().zip(step);
         self.chain.shape(controls.map(|(c, x)| *c + *x * fraction).collect())
     }
 
     /// Goes a fraction of a step from a given shape; gives [`Self::points`] there.
     pub(super) fn go(&mut self, from: &Settled, step: &[DVec3], fraction: f64) -> Vec<DVec3> {
-        self.settled.shape.clone_from(&from.shape);
-        self.settled.shape = self.stepped(step, fraction);
+        self.settled.shape = self.stepped(&from.shape, step, fraction);
         self.settled.iterations = from.iterations + 1;
         self.points()
     }
 
     /// Largest distance (m) that a step moves a node.
     pub(super) fn length_of(&self, step: &[DVec3]) -> f64 {
-        farthest(&self.stepped(step, 1.0), &self.settled.shape)
+        let from = &self.settled.shape;
+        farthest(&self.stepped(from, step, 1.0), from)
     }
 
     /// What gradients are measured against (N m).

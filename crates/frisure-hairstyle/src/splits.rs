@@ -1,0 +1,66 @@
+//! How hairs stray, and the thinner wisps that a wisp splits into.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::guides::Guide;
+use crate::random::{Purpose, Stream};
+use crate::spec::HairstyleSpec;
+
+/// How far a split strays from its wisp, as a fraction of fuzziness times the patch's radius.
+const STRAY: f64 = 0.5;
+
+/// A coherent deviation along a hair: amplitude (m), wave number (rad per length) and phase.
+#[derive(Clone, Copy)]
+pub(crate) struct Waves([(DVec3, f64, f64); 3]);
+
+impl Waves {
+    /// Of about `amplitude` (m) on hair of `length` (m).
+    pub(crate) fn new(amplitude: f64, length: f64, random: &mut Stream) -> Self {
+        let mut wave = |wavelength: f64, share: f64| {
+            let wave_number = TAU * length / (wavelength * random.factor(0.3));
+            let direction = DVec3::new(random.normal(), random.normal(), random.normal());
+            (direction * (amplitude * share), wave_number, TAU * random.unit())
+        };
+        Self([wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)])
+    }
+
+    /// Deviation (m) at `x` from 0 (root) to 1 (tip); none at the root.
+    pub(crate) fn at(&self, x: f64) -> DVec3 {
+        let wave = |(amplitude, number, phase): &(DVec3, f64, f64)| {
+            *amplitude * ((number * x + phase).sin() - phase.sin())
+        };
+        self.0.iter().map(wave).sum()
+    }
+}
+
+/// A thinner wisp that a wisp splits into.
+#[derive(Clone, Copy)]
+pub(crate) struct Split {
+    /// Its middle in the wisp's patch of skin (m, from the guide's root).
+    pub(crate) middle: DVec3,
+    /// How it strays.
+    pub(crate) waves: Waves,
+}
+
+/// The thinner wisps of each wisp, spread over its patch.
+pub(crate) fn splits(spec: &HairstyleSpec, guides: &[Guide], patch: f64) -> Vec<Vec<Split>> {
+    let split = |guide: &Guide, random: &mut Stream| {
+        let normal = guide.root.normal;
+        let (u, v) = normal.any_orthonormal_pair();
+        let (radius, angle) = (patch * random.unit().sqrt(), TAU * random.unit());
+        let amplitude = STRAY * spec.wisps.fuzziness * patch;
+        let length = guide.rod.length();
+        Split {
+            middle: (u * angle.cos() + v * angle.sin()) * radius,
+            waves: Waves::new(amplitude, length, random),
+        }
+    };
+    (guides.iter().enumerate())
+        .map(|(index, guide)| {
+            let mut random = Stream::new(spec.seed, Purpose::Split, index);
+            (0..spec.wisps.splits).map(|_| split(guide, &mut random)).collect()
+        })
+        .collect()
+}
