@@ -17,6 +17,8 @@ mod strands;
 mod volume;
 mod wisps;
 
+pub mod styling;
+
 mod grid;
 mod monitor;
 mod random;

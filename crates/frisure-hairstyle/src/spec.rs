@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 use crate::fibre::{Curl, Fibre};
 use crate::head::Region;
 use crate::implantation::segments_cross;
+use crate::presets::Wetting;
 
 /// A whole head of hair, described.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct HairstyleSpec {
     pub seed: u64,
     /// Section and material.
     pub fibre: Fibre,
+    /// What water makes of the fibre.
+    pub wetting: Wetting,
     /// Natural curl.
     pub curl: Curl,
     /// How long the hair is.
@@ -40,6 +43,8 @@ pub struct Length {
     pub mean: f64,
     /// Standard deviation between wisps, as a fraction of the mean.
     pub variation_between: f64,
+    /// How fast it grows (m/s).
+    pub growth_rate: f64,
 }
 
 /// How hair leaves the scalp.
@@ -407,6 +412,9 @@ impl HairstyleSpec {
         range("hair.length", self.length.mean, 1e-3, 3.0, "between 1 mm and 3 m")?;
         range("hair.length_variation", self.length.variation_between, 0.0, 0.5, "0 to 0.5")?;
         range("hair.fibre.variation", self.fibre.variation, 0.0, 0.5, "between 0 and 0.5")?;
+        let growth = self.length.growth_rate;
+        range("hair.growth_rate", growth, 0.0, 1e-7, "between 0 and 26 cm a month")?;
+        self.wetting.check()?;
         let shape = self.fibre.axis_ratio_variation;
         range("hair.fibre.axis_ratio_variation", shape, 0.0, 1.0, fraction)?;
         let strain = self.curl.strain.length();
@@ -562,7 +570,7 @@ impl RegionStyle {
     }
 }
 
-fn range(
+pub(crate) fn range(
     field: &'static str,
     value: f64,
     min: f64,

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use frisure_rod::{InvalidQuantity, Material, Section, TorsionConstant};
 
 use crate::fibre::{Curl, Fibre};
+use crate::spec::{InvalidSpec, range};
 
 /// What is known of one type of hair, dry at about 60 % relative humidity: numbers of fibre and
 /// follicle, without any styling. The source of each number is in `docs/hair-types.md`.
@@ -66,6 +67,9 @@ pub struct Wetting {
     pub diameter: f64,
     /// Factor on the length.
     pub length: f64,
+    /// Factor on the radius of wisps, and on the distances that contact keeps: a film of water draws
+    /// hairs together.
+    pub wisp: f64,
 }
 
 /// Which of a type's two shapes of the section is taken.
@@ -150,14 +154,33 @@ impl NaturalCurl {
 }
 
 impl Wetting {
-    /// The paper's: Young's modulus ÷ 5, radius + 13 %, length + 1 %. \[paper\] §3.2.1
+    /// The paper's: Young's modulus ÷ 5, radius + 13 %, length + 1 %, wisps − 40 %. \[paper\] §3.2.1
     ///
     /// Its shear modulus follows from Poisson's ratio, so it falls as much.
     pub const PAPER: Self =
-        Self { youngs_modulus: 0.2, shear_modulus: 0.2, diameter: 1.13, length: 1.01 };
+        Self { youngs_modulus: 0.2, shear_modulus: 0.2, diameter: 1.13, length: 1.01, wisp: 0.6 };
 
     /// Measured in water against room-dry hair (Robbins 2012): moduli 3.9 → 1.7 GPa and
-    /// 0.89 → 0.2 GPa; diameter and length from 60 % to 100 % relative humidity.
-    pub const MEASURED: Self =
-        Self { youngs_modulus: 0.43, shear_modulus: 0.22, diameter: 1.065, length: 1.003 };
+    /// 0.89 → 0.2 GPa; diameter and length from 60 % to 100 % relative humidity. Nobody measured
+    /// wisps: theirs is the paper's.
+    pub const MEASURED: Self = Self {
+        youngs_modulus: 0.43,
+        shear_modulus: 0.22,
+        diameter: 1.065,
+        length: 1.003,
+        wisp: 0.6,
+    };
+
+    /// Checks every factor against the range in which it means something.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], naming the first that is out of range.
+    pub fn check(&self) -> Result<(), InvalidSpec> {
+        let softer = "between 0.01 and 1";
+        range("hair.wetting.youngs_modulus", self.youngs_modulus, 0.01, 1.0, softer)?;
+        range("hair.wetting.shear_modulus", self.shear_modulus, 0.01, 1.0, softer)?;
+        range("hair.wetting.diameter", self.diameter, 1.0, 1.5, "between 1 and 1.5")?;
+        range("hair.wetting.length", self.length, 1.0, 1.1, "between 1 and 1.1")?;
+        range("hair.wetting.wisp", self.wisp, 0.1, 1.0, "between 0.1 and 1")
+    }
 }

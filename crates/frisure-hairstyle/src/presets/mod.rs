@@ -146,7 +146,12 @@ impl Preset {
             seed: 1,
             fibre: hair.fibre(Ellipticity::Measured).expect("presets are valid"),
             curl: hair.curl.curl().expect("presets are valid"),
-            length: Length { mean: style.length, variation_between: 0.05 },
+            wetting: hair.paper_wetting,
+            length: Length {
+                mean: style.length,
+                variation_between: 0.05,
+                growth_rate: hair.growth_rate,
+            },
             implantation: Implantation {
                 flow: style.flow,
                 lift: Lift::Regional { scale: hair.lift_scale },

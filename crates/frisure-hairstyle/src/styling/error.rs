@@ -1,0 +1,75 @@
+//! Why something cannot be done to a hairstyle.
+
+use std::fmt;
+
+use frisure_rod::InvalidQuantity;
+use thiserror::Error;
+
+use crate::hairstyle::PredictError;
+use crate::implantation::PartingError;
+use crate::monitor::Cancelled;
+use crate::spec::InvalidSpec;
+
+/// Why an operation cannot be applied; the hairstyle is as it was.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StyleError {
+    /// A number of the operation is out of range.
+    #[error(transparent)]
+    Invalid(#[from] InvalidSpec),
+    /// The selection has no wisp in it.
+    #[error("no wisp is selected")]
+    NothingSelected,
+    /// A wisp is selected that there is not.
+    #[error("there is no wisp {wisp}; this head has the wisps 0 to {}", count - 1)]
+    NoSuchWisp {
+        /// The number asked for.
+        wisp: usize,
+        /// How many wisps the head has.
+        count: usize,
+    },
+    /// The cut goes through the scalp: it would leave nothing of some wisps.
+    #[error("the cut passes above the roots of {} of {selected} wisps: {}", wisps.len(), List(wisps))]
+    AboveRoot {
+        /// The wisps that would be left without hair.
+        wisps: Vec<usize>,
+        /// How many are selected.
+        selected: usize,
+    },
+    /// Hair would become longer than can be computed.
+    #[error("wisp {wisp} would grow to {length} m; at most {most} m can be computed")]
+    TooLong {
+        /// The wisp.
+        wisp: usize,
+        /// The length it would have (m).
+        length: f64,
+        /// The most (m).
+        most: f64,
+    },
+    /// A physical quantity of a guide is out of range.
+    #[error(transparent)]
+    Quantity(#[from] InvalidQuantity),
+    /// A parting is not on the scalp.
+    #[error(transparent)]
+    Parting(#[from] PartingError),
+    /// The monitor said to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The hairstyle to begin with cannot be predicted.
+    #[error(transparent)]
+    Predict(#[from] PredictError),
+}
+
+/// The first of some numbers.
+struct List<'a>(&'a [usize]);
+
+impl fmt::Display for List<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const SHOWN: usize = 12;
+        let first: Vec<_> = self.0.iter().take(SHOWN).map(ToString::to_string).collect();
+        write!(f, "{}", first.join(", "))?;
+        if self.0.len() > SHOWN {
+            write!(f, " and {} more", self.0.len() - SHOWN)?;
+        }
+        Ok(())
+    }
+}
