@@ -9,6 +9,7 @@ use crate::fibre::{Curl, Handedness};
 use crate::hairstyle::PredictError;
 use crate::head::{Head, Region};
 use crate::implantation::{self, Layout};
+use crate::pull::Pull;
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
 use crate::spec::{Hairline, HairstyleSpec};
@@ -26,6 +27,12 @@ pub struct Guide {
     pub thickness: Thickness,
     /// The hair beneath it, as the paper has it.
     pub layer: Layer,
+    /// What pulls at it, if it is being combed or is clipped.
+    pub pull: Option<Pull>,
+    /// Mean natural strain (rad/m), about which it varies along the hair.
+    pub(crate) curl: DVec3,
+    /// Its planned length over that of the head; 1 where a region says the length.
+    pub(crate) share: f64,
 }
 
 /// Standard deviation (rad) of the direction about the root tangent in which curls lean.
@@ -112,14 +119,40 @@ pub(crate) fn plan(
         .map(|(index, &root)| {
             let altitude = (root.position.z - low) / (high - low).max(1e-9);
             let region = head.landmarks().region(root.position);
-            let rod = rod(spec, head, layout, &root, index)?;
+            let Planned { rod, curl, share } = fibre(spec, head, layout, &root, index)?;
             let thickness = thickness(spec, area, &rod);
-            let taken = thickness.area_per_hair(0.5 * rod.length());
-            let cover = spec.contact.volume * spec.implantation.density * taken;
-            let layer = Layer::new(altitude, area, cover);
-            Ok(Guide { root, region, rod, thickness, layer })
+            let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
+            Ok(Guide { root, region, rod, thickness, layer, pull: None, curl, share })
         })
         .collect()
+}
+
+/// Cross-section of hair per area of skin, in the middle of a guide.
+fn cover(spec: &HairstyleSpec, thickness: &Thickness, rod: &Rod) -> f64 {
+    let taken = thickness.area_per_hair(0.5 * rod.length());
+    spec.contact.volume * spec.implantation.density * taken
+}
+
+impl Guide {
+    /// The guide with another rod in its place, its wisp as thick as that of the rod `dry` times
+    /// `packed`; `area` is that of the scalp (m²).
+    pub(crate) fn with_rod(
+        &self,
+        spec: &HairstyleSpec,
+        area: f64,
+        rod: Rod,
+        dry: &Rod,
+        packed: f64,
+    ) -> Self {
+        let thickness = thickness(spec, area, dry);
+        let slope = cover(spec, &thickness, dry);
+        Self {
+            rod,
+            thickness: thickness.scaled(spec.contact.volume * packed),
+            layer: self.layer.with_slope(slope).scaled(packed),
+            ..self.clone()
+        }
+    }
 }
 
 /// The wisp about a guide. Hairs that stray from their wisp are those that do not share its curl:
@@ -134,27 +167,37 @@ fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
 /// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.
 const SPARE: f64 = 5e-3;
 
-fn rod(
+/// The fibre that a guide is.
+struct Planned {
+    rod: Rod,
+    /// Mean natural strain (rad/m).
+    curl: DVec3,
+    /// Length over that of the head.
+    share: f64,
+}
+
+fn fibre(
     spec: &HairstyleSpec,
     head: &Head,
     layout: &Layout,
     root: &Root,
     index: usize,
-) -> Result<Rod, InvalidQuantity> {
+) -> Result<Planned, InvalidQuantity> {
     let mut random = Stream::new(spec.seed, Purpose::GuideFibre, index);
     let varied = random.factor(spec.length.variation_between);
-    let length = match layout.length(head, root) {
+    let (length, share) = match layout.length(head, root) {
         // Cut to a line: there it does not vary.
-        Some(length) => length + SPARE,
-        None => spec.length.mean * varied,
+        Some(length) => (length + SPARE, 1.0),
+        None => (spec.length.mean * varied, varied),
     };
-    let natural = natural_strain(&spec.curl, layout.curl(root), length, &mut random)?;
+    let curl = mean_strain(&spec.curl, layout.curl(root), &mut random);
+    let natural = natural_strain(&spec.curl, curl, length, &mut random)?;
     let tangent = jittered(spec, head, layout, root, index);
     let strain = natural.at(0.0);
     let d1 = leaning(strain, tangent, layout.lean(root, tangent, strain), &mut random);
     // Drawn last: seeds keep their curls whatever the section does.
     let section = spec.fibre.varied(&mut random)?;
-    Rod::new(RodSpec {
+    let rod = Rod::new(RodSpec {
         length,
         section,
         material: spec.fibre.material,
@@ -162,7 +205,8 @@ fn rod(
         natural,
         root: frisure_rod::Root::from_tangent(root.position, tangent, d1)?,
         gravity: spec.gravity,
-    })
+    })?;
+    Ok(Planned { rod, curl, share })
 }
 
 /// The root's direction, turned at random, but never into the skin.
@@ -198,37 +242,85 @@ fn leaning(strain: DVec3, tangent: DVec3, lean: DVec3, random: &mut Stream) -> D
     DQuat::from_axis_angle(tangent, ROLL * random.normal() + hand - phase) * out
 }
 
-/// The natural strain of one guide: the mean times a factor, varied between guides and along the
-/// hair.
-fn natural_strain(
-    curl: &Curl,
-    factor: f64,
-    length: f64,
-    random: &mut Stream,
-) -> Result<NaturalStrain, InvalidQuantity> {
+/// The mean natural strain of one guide (rad/m): the head's, varied between guides.
+fn mean_strain(curl: &Curl, factor: f64, random: &mut Stream) -> DVec3 {
     let mut mean = curl.strain * (factor * random.factor(curl.variation_between));
     if curl.handedness == Handedness::Random && random.unit() < 0.5 {
         mean.z = -mean.z;
     }
+    mean
+}
+
+/// The natural strain of one guide: its mean, varied along the hair.
+fn natural_strain(
+    curl: &Curl,
+    mean: DVec3,
+    length: f64,
+    random: &mut Stream,
+) -> Result<NaturalStrain, InvalidQuantity> {
     if curl.variation_along == 0.0 || mean == DVec3::ZERO {
         return Ok(NaturalStrain::Uniform(mean));
     }
-    // An Ornstein–Uhlenbeck process in arc length: correlated over `variation_scale`.
     let step = (0.5 * curl.variation_scale).max(length / 500.0);
-    let keep = (-step / curl.variation_scale).exp();
-    let fresh = curl.variation_along * (1.0 - keep * keep).sqrt();
-    let mut bend = curl.variation_along * random.normal();
-    let mut twist = curl.variation_along * random.normal();
-    let count = (length / step).ceil() as usize + 1;
-    let knots = (0..count)
-        .map(|i| {
-            let factor = DVec3::new(1.0 + bend, 1.0 + bend, 1.0 + twist);
-            bend = keep * bend + fresh * random.normal();
-            twist = keep * twist + fresh * random.normal();
-            (i as f64 * step, mean * factor)
-        })
-        .collect();
+    let first = [curl.variation_along * random.normal(), curl.variation_along * random.normal()];
+    let knots = Wander { curl, mean, step, at: 0.0, off: first }.knots(length, random);
     Ok(NaturalStrain::Varying(StrainProfile::new(knots)?))
+}
+
+/// The natural strain of a planned guide that has grown to a length (m): the hair that it was
+/// planned with, and beyond it hair that varies as that does.
+pub(crate) fn grown_strain(
+    spec: &HairstyleSpec,
+    guide: &Guide,
+    index: usize,
+    length: f64,
+) -> Result<NaturalStrain, InvalidQuantity> {
+    let planned = guide.rod.natural();
+    let NaturalStrain::Varying(profile) = planned else { return Ok(planned.clone()) };
+    let mut knots = profile.knots().to_vec();
+    let Some(&(at, strain)) = knots.last() else { return Ok(planned.clone()) };
+    if at >= length {
+        return Ok(planned.clone());
+    }
+    let step = knots.get(1).map_or(0.5 * spec.curl.variation_scale, |second| second.0);
+    let off = |x: f64, mean: f64| if mean == 0.0 { 0.0 } else { x / mean - 1.0 };
+    let mean = guide.curl;
+    let bend = if mean.x == 0.0 { off(strain.y, mean.y) } else { off(strain.x, mean.x) };
+    let off = [bend, off(strain.z, mean.z)];
+    let mut random = Stream::new(spec.seed, Purpose::GrownCurl, index);
+    let more = Wander { curl: &spec.curl, mean, step, at, off }.knots(length, &mut random);
+    knots.extend(more.into_iter().skip(1));
+    Ok(NaturalStrain::Varying(StrainProfile::new(knots)?))
+}
+
+/// An Ornstein–Uhlenbeck process in arc length: strain that is correlated over `variation_scale`.
+struct Wander<'a> {
+    curl: &'a Curl,
+    mean: DVec3,
+    /// Distance of knots (m).
+    step: f64,
+    /// Where it begins (m) …
+    at: f64,
+    /// … and how far bending and twist are off their mean there, relative to it.
+    off: [f64; 2],
+}
+
+impl Wander<'_> {
+    /// Arc lengths (m) and strains, from where it begins to `length` (m) or a little beyond.
+    fn knots(self, length: f64, random: &mut Stream) -> Vec<(f64, DVec3)> {
+        let Self { curl, mean, step, at, off: [mut bend, mut twist] } = self;
+        let keep = (-step / curl.variation_scale).exp();
+        let fresh = curl.variation_along * (1.0 - keep * keep).sqrt();
+        let count = ((length - at) / step).ceil() as usize + 1;
+        (0..count)
+            .map(|i| {
+                let factor = DVec3::new(1.0 + bend, 1.0 + bend, 1.0 + twist);
+                bend = keep * bend + fresh * random.normal();
+                twist = keep * twist + fresh * random.normal();
+                (at + i as f64 * step, mean * factor)
+            })
+            .collect()
+    }
 }
 
 #[cfg(test)]

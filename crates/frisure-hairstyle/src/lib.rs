@@ -9,6 +9,8 @@ mod implantation;
 mod roots;
 
 pub mod contact;
+mod pull;
+
 mod equilibrium;
 mod guides;
 mod hairstyle;
@@ -30,6 +32,7 @@ pub use hairstyle::{Hairstyle, PredictError, predict, predict_from};
 pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};
 pub use presets::{Ellipticity, HairType, NaturalCurl, PRESETS, Preset, Wetting, preset};
+pub use pull::Pull;
 pub use roots::{Root, scalp_area};
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, Hairline, Hairs, HairstyleSpec, Implantation,

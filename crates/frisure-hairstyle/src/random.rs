@@ -15,6 +15,7 @@ pub(crate) enum Purpose {
     Hairline,
     BabyHair,
     Split,
+    GrownCurl,
 }
 
 /// A stream of random numbers.

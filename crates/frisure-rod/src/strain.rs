@@ -57,6 +57,12 @@ impl StrainProfile {
         Ok(Self { knots: knots.into(), integrals: integrals.into() })
     }
 
+    /// Arc lengths (m) and strains (rad/m) between which it is linear.
+    #[must_use]
+    pub fn knots(&self) -> &[(f64, DVec3)] {
+        &self.knots
+    }
+
     /// The strain at arc length `s` (m), in rad/m.
     #[must_use]
     pub fn at(&self, s: f64) -> DVec3 {

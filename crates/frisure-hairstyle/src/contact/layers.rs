@@ -31,6 +31,18 @@ impl Layer {
         Self { slope: cover.min(STEEPEST), most: radius * altitude.clamp(0.0, 1.0).asin() }
     }
 
+    /// The same with another growth of the bed per arc length, ν A.
+    #[must_use]
+    pub fn with_slope(self, slope: f64) -> Self {
+        Self { slope: slope.min(STEEPEST), ..self }
+    }
+
+    /// The same, thicker by a factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { slope: self.slope * factor, ..self }
+    }
+
     /// Distance to keep at arc length `s` (m), in m.
     #[must_use]
     pub fn at(&self, s: f64) -> f64 {

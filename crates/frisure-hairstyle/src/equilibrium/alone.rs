@@ -1,5 +1,6 @@
 //! Each guide on its own, on the body and on the bed of hair.
 
+use frisure_rod::potential::Potential;
 use frisure_rod::{Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
 use rayon::prelude::*;
 
@@ -8,6 +9,7 @@ use crate::contact::Layer;
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::pull::Pull;
 use crate::spec::{Body, HairContact, HairstyleSpec};
 
 /// Most elements of a guide, whatever accuracy is asked for.
@@ -75,6 +77,65 @@ pub(super) fn settle_from(
             Ok(rest)
         })
         .collect()
+}
+
+/// Brings the guides that have changed to rest from where they lay before.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(super) fn resettle(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    (before, changed): (&[Equilibrium], &[bool]),
+    monitor: &dyn Monitor,
+) -> Result<Vec<Equilibrium>, Cancelled> {
+    let stage = Stage::new(monitor, "settling guides", guides.len());
+    (guides.par_iter().zip(before).zip(changed))
+        .map(|((guide, before), &changed)| {
+            stage.check()?;
+            let rest = if changed { resettle_one(spec, head, guide, before) } else { before.clone() };
+            stage.advance();
+            Ok(rest)
+        })
+        .collect()
+}
+
+/// How hard a comb or a clip pulls, in steps: it does not tear hair through the head.
+const PULLS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
+
+fn resettle_one(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guide: &Guide,
+    before: &Equilibrium,
+) -> Equilibrium {
+    if spec.contact.body == Body::None && guide.pull.is_none() {
+        return equilibrium_from(&guide.rod, &[], &options(spec), before);
+    }
+    let elements = division(spec, guide);
+    let options = Options { resolution: Resolution::Elements(elements), ..options(spec) };
+    let body = body(spec, head, guide, layer(spec, guide));
+    let body = along(&body, guide, elements);
+    let settle = |pull: Option<Pull>, from: &Equilibrium| match &pull {
+        None => equilibrium_from(&guide.rod, &[&body], &options, from),
+        Some(pull) => {
+            equilibrium_from(&guide.rod, &[&body, &along(pull, guide, elements)], &options, from)
+        }
+    };
+    let rest = match guide.pull {
+        None => settle(None, before),
+        Some(pull) => PULLS[1..].iter().fold(
+            settle(Some(pull.scaled(PULLS[0])), before),
+            |rest, &share| settle(Some(pull.scaled(share)), &rest),
+        ),
+    };
+    // It may have been pushed into the body: then it comes down from its root again.
+    let deep = depth(head, &rest);
+    if deep > DEEPEST && deep > depth(head, before) + DEEPEST {
+        return settle_one(spec, head, guide);
+    }
+    rest
 }
 
 fn settle_one_from(
@@ -151,22 +212,13 @@ fn layer(spec: &HairstyleSpec, guide: &Guide) -> Layer {
 
 fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     let options = options(spec);
-    if spec.contact.body == Body::None && spec.contact.hair != HairContact::Wisps {
+    let alone = spec.contact.body == Body::None && guide.pull.is_none();
+    if alone && spec.contact.hair != HairContact::Wisps {
         return equilibrium(&guide.rod, &[], &options);
     }
-    // Extrapolation needs a smooth answer, and contact comes and goes: the division that the
-    // accuracy takes without contact is taken over.
-    let elements = match spec.equilibrium.resolution {
-        Resolution::Elements(n) => n,
-        Resolution::Accuracy(_)
-            if 4 * spec.equilibrium.element.resolving_elements(&guide.rod) > MOST_ELEMENTS =>
-        {
-            MOST_ELEMENTS
-        }
-        Resolution::Accuracy(_) => equilibrium(&guide.rod, &[], &options).elements,
-    };
+    let elements = division(spec, guide);
     let options = Options { resolution: Resolution::Elements(elements), ..options };
-    if spec.contact.body == Body::None {
+    if alone {
         return equilibrium(&guide.rod, &[], &options);
     }
     // On a soft body the branch of gravity is followed in a fifth of the iterations; from one
@@ -187,6 +239,20 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     if depth(head, &freed) < depth(head, &rest) { freed } else { rest }
 }
 
+/// The division of a guide. Extrapolation needs a smooth answer, and contact comes and goes: the
+/// division that the accuracy takes without contact is taken over.
+fn division(spec: &HairstyleSpec, guide: &Guide) -> usize {
+    match spec.equilibrium.resolution {
+        Resolution::Elements(n) => n,
+        Resolution::Accuracy(_)
+            if 4 * spec.equilibrium.element.resolving_elements(&guide.rod) > MOST_ELEMENTS =>
+        {
+            MOST_ELEMENTS
+        }
+        Resolution::Accuracy(_) => equilibrium(&guide.rod, &[], &options(spec)).elements,
+    }
+}
+
 /// Settles a guide on ever harder bodies, each from the shape on the one before.
 fn harden(
     spec: &HairstyleSpec,
@@ -203,9 +269,12 @@ fn harden(
         let mut body = body(spec, head, guide, layer);
         body.skin *= hardness;
         let body = along(&body, guide, elements);
+        let pull = guide.pull.as_ref().map(|pull| along(pull, guide, elements));
+        let mut felt: Vec<&dyn Potential> = vec![&body];
+        felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
         match previous {
-            None => equilibrium(&guide.rod, &[&body], options),
-            Some(previous) => equilibrium_from(&guide.rod, &[&body], options, previous),
+            None => equilibrium(&guide.rod, &felt, options),
+            Some(previous) => equilibrium_from(&guide.rod, &felt, options, previous),
         }
     };
     hardness[1..].iter().fold(settle(hardness[0], None), |softer, &hardness| {

@@ -8,7 +8,7 @@ mod wisp;
 pub use report::SettlingReport;
 
 use frisure_rod::Equilibrium;
-use frisure_rod::potential::InField;
+use frisure_rod::potential::{Field, InField};
 
 use crate::contact::{BodyContact, Layer};
 use crate::guides::Guide;
@@ -83,6 +83,25 @@ pub(crate) fn settle_from(
     Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
 }
 
+/// Brings guides to rest again after some of them were changed: those from where they lay before,
+/// while the others stay where they are unless a wisp pushes them.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(crate) fn resettle(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    (before, changed): (&[Equilibrium], &[bool]),
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    let alone = alone::resettle(spec, head, guides, (before, changed), monitor)?;
+    if spec.contact.hair == HairContact::Wisps {
+        return together::settle(spec, head, guides, &alone, monitor);
+    }
+    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
+}
+
 /// Largest distance (m) between the points at which a guide feels the body …
 const BODY_SPACING: f64 = 3e-3;
 
@@ -101,14 +120,10 @@ fn body<'a>(spec: &HairstyleSpec, head: &'a Head, guide: &Guide, layer: Layer) -
     }
 }
 
-/// The body along a guide of so many elements.
-fn along<'a>(
-    body: &'a BodyContact<'_>,
-    guide: &Guide,
-    elements: usize,
-) -> InField<'a, BodyContact<'a>> {
+/// The body, or what pulls, along a guide of so many elements.
+fn along<'a, F: Field>(field: &'a F, guide: &Guide, elements: usize) -> InField<'a, F> {
     let strain = guide.rod.natural().mean(0.0, guide.rod.length()).length();
-    InField::new(body, samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))))
+    InField::new(field, samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))))
 }
 
 /// Points per element so that they are at most `spacing` (m) apart.

@@ -152,11 +152,22 @@ impl<'a> Wisp<'a> {
     ) -> T {
         let around = crowd.around(index);
         let around = InField::new(&around, self.resolution);
+        self.feeling(&around, tether, act)
+    }
+
+    /// Calls `act` with the energy of this guide in the body, in what pulls at it and in more.
+    fn feeling<T>(
+        &self,
+        around: &dyn Potential,
+        tether: Option<&dyn Potential>,
+        act: impl FnOnce(&Problem<'_>) -> T,
+    ) -> T {
         let body = along(&self.body, self.guide, self.chain.len());
-        match tether {
-            Some(tether) => act(&Problem::new(&self.chain, &[&body, &around, tether])),
-            None => act(&Problem::new(&self.chain, &[&body, &around])),
-        }
+        let pull = self.guide.pull.as_ref().map(|pull| along(pull, self.guide, self.chain.len()));
+        let mut felt: Vec<&dyn Potential> = vec![&body, around];
+        felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
+        felt.extend(tether);
+        act(&Problem::new(&self.chain, &felt))
     }
 
     /// Energy of overlapping others (J).
@@ -167,10 +178,9 @@ impl<'a> Wisp<'a> {
 
     /// What the guide adds to the energy of the head (J): half of what it shares with others.
     pub(super) fn share(&self, crowd: &Crowd, index: usize) -> f64 {
-        let body = along(&self.body, self.guide, self.chain.len());
         let around = crowd.shared(index);
         let around = InField::new(&around, self.resolution);
-        Problem::new(&self.chain, &[&body, &around]).energy(&self.settled.shape).total()
+        self.feeling(&around, None, |problem| problem.energy(&self.settled.shape).total())
     }
 
     /// The guide as an equilibrium.
