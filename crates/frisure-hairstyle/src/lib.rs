@@ -29,7 +29,7 @@ pub use guides::{Crowded, Guide};
 pub use hairstyle::{Hairstyle, PredictError, predict, predict_from};
 pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};
-pub use presets::{Ellipticity, HairType, NaturalCurl, PRESETS, Preset, Wetting, preset};
+pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset, Wetting, preset};
 pub use roots::{Root, scalp_area};
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, Hairline, Hairs, HairstyleSpec, Implantation,
