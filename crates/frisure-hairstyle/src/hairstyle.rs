@@ -11,15 +11,17 @@ use crate::implantation::{Layout, PartingError};
 use crate::monitor::{Cancelled, Monitor};
 use crate::spec::{HairstyleSpec, InvalidSpec};
 use crate::strands;
+use crate::styling::{Styling, WispState};
 
 /// Guides at rest on a head, and the description that they were predicted from.
 #[derive(Clone, Debug)]
 pub struct Hairstyle {
-    spec: HairstyleSpec,
-    planting: Planting,
-    layout: Layout,
-    guides: Vec<Guide>,
-    rest: Rest,
+    pub(crate) spec: HairstyleSpec,
+    pub(crate) planting: Planting,
+    pub(crate) layout: Layout,
+    pub(crate) guides: Vec<Guide>,
+    pub(crate) rest: Rest,
+    pub(crate) styling: Styling,
 }
 
 /// Why there is no hairstyle.
@@ -58,7 +60,8 @@ pub fn predict(
     let layout = Layout::new(spec, head)?;
     let guides = plan(spec, head, &layout, &planting)?;
     let rest = settle(spec, head, &guides, monitor)?;
-    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest })
+    let styling = Styling::none(&guides);
+    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest, styling })
 }
 
 /// As [`predict`], but each guide starts from where that of the same index rests in `previous`
@@ -89,7 +92,8 @@ pub fn predict_from(
     let layout = Layout::new(spec, head)?;
     let guides = plan(spec, head, &layout, &planting)?;
     let rest = settle_from(spec, head, &guides, &previous.rest.guides, effort, monitor)?;
-    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest })
+    let styling = Styling::none(&guides);
+    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest, styling })
 }
 
 impl Hairstyle {
@@ -99,7 +103,25 @@ impl Hairstyle {
         &self.spec
     }
 
-    /// The guides, as they were planted.
+    /// What styling has made of each wisp, in the order of [`Self::guides`].
+    #[must_use]
+    pub fn wisps(&self) -> &[WispState] {
+        self.styling.wisps()
+    }
+
+    /// Mass (kg) of all hair that grows on the head, with the water in it, each hair taken to be as
+    /// long as its guide.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        let each = self.grown() / self.guides.len() as f64;
+        let mass = |guide: &Guide| {
+            let rod = guide.rod.spec();
+            rod.material.density() * rod.section.area() * rod.length
+        };
+        self.guides.iter().map(mass).sum::<f64>() * each
+    }
+
+    /// The guides, as they were planted, cut, grown and wetted.
     #[must_use]
     pub fn guides(&self) -> &[Guide] {
         &self.guides
@@ -143,6 +165,6 @@ impl Hairstyle {
     /// # Errors
     /// [`Cancelled`], if the monitor says to stop.
     pub fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Cancelled> {
-        strands::draw(&self.spec, head, &self.layout, &self.guides, &self.rest.guides, monitor)
+        strands::draw(self, head, monitor)
     }
 }

@@ -21,6 +21,8 @@ mod wisps;
 
 pub mod styling;
 
+mod history;
+
 mod grid;
 mod monitor;
 mod random;
@@ -29,9 +31,10 @@ pub use equilibrium::{Effort, SettlingReport};
 pub use fibre::{Curl, Fibre, Handedness};
 pub use guides::{Crowded, Guide};
 pub use hairstyle::{Hairstyle, PredictError, predict, predict_from};
+pub use history::{History, HistoryError};
 pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};
-pub use presets::{Ellipticity, HairType, NaturalCurl, PRESETS, Preset, Wetting, preset};
+pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset, Wetting, preset};
 pub use pull::Pull;
 pub use roots::{Root, scalp_area};
 pub use spec::{

@@ -8,12 +8,15 @@
 use std::f64::consts::TAU;
 
 use frisure_rod::Equilibrium;
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 /// A guide at rest, sampled evenly from root to tip.
 #[derive(Clone, Debug)]
 pub(crate) struct Wisp {
     pub(crate) length: f64,
+    /// Distance (m) of the positions.
+    spacing: f64,
+    /// From the root to the tip and perhaps beyond.
     positions: Vec<DVec3>,
     /// Rotation of the axis from the root.
     turns: Vec<DQuat>,
@@ -23,25 +26,58 @@ pub(crate) struct Wisp {
 const STRAIGHT_WINDOW: f64 = 0.01;
 
 impl Wisp {
-    pub(crate) fn new(guide: &Equilibrium, samples: usize) -> Self {
-        let positions = guide.centre_line(samples);
+    /// Of so many samples; goes on `beyond` the tip (m), for hairs that end a little farther out.
+    pub(crate) fn new(guide: &Equilibrium, samples: usize, beyond: f64) -> Self {
+        let line = guide.sample(samples);
         let length = guide.rod.length();
+        let spacing = length / (samples - 1) as f64;
+        let more = beyond_tip(guide, line[samples - 1], spacing, (beyond / spacing) as usize);
+        let positions: Vec<DVec3> = line.into_iter().map(|(p, _)| p).chain(more).collect();
         let strain = guide.rod.natural().mean(0.0, length).length();
         let period = TAU / strain.max(1e-9);
         let window = if period < 0.5 * length { period } else { STRAIGHT_WINDOW.min(length) };
         let half = (0.5 * window / length * (samples - 1) as f64).max(1.0);
         let turns = transported(&positions, half);
-        Self { length, positions, turns }
+        Self { length, spacing, positions, turns }
     }
 
-    /// Position (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip).
+    /// How far it is known, 1 for the tip.
+    pub(crate) fn end(&self) -> f64 {
+        (self.positions.len() - 1) as f64 * self.spacing / self.length
+    }
+
+    /// Position (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip) or to
+    /// [`Self::end`].
     pub(crate) fn at(&self, x: f64) -> (DVec3, DQuat) {
         let last = self.positions.len() - 1;
-        let place = x.clamp(0.0, 1.0) * last as f64;
+        let place = (x.max(0.0) * self.length / self.spacing).min(last as f64);
         let i = (place as usize).min(last - 1);
         let t = place - i as f64;
         (catmull_rom(&self.positions, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
     }
+}
+
+/// Most samples beyond the tip.
+const MOST_BEYOND: usize = 200;
+
+/// Points beyond the tip, where the guide goes on as it ends: its last strain stays the same.
+fn beyond_tip(
+    guide: &Equilibrium,
+    (mut p, mut frame): (DVec3, DMat3),
+    spacing: f64,
+    count: usize,
+) -> Vec<DVec3> {
+    let step = guide.rod.length() / guide.elements as f64;
+    let turn = guide.shape.controls.last().map_or(DVec3::ZERO, |c| *c * (spacing / step));
+    let half = DMat3::from_quat(DQuat::from_scaled_axis(0.5 * turn));
+    (0..count.min(MOST_BEYOND))
+        .map(|_| {
+            frame *= half;
+            p += frame.z_axis * spacing;
+            frame *= half;
+            p
+        })
+        .collect()
 }
 
 /// The interpolating cubic through evenly spaced points, between points `i` and `i + 1`.

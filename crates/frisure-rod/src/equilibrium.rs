@@ -155,14 +155,16 @@ impl Equilibrium {
     pub fn sample(&self, points: usize) -> Vec<(DVec3, DMat3)> {
         let n = points.max(2);
         let chain = self.chain();
-        (0..n)
-            .map(|k| {
-                let x = k as f64 / (n - 1) as f64;
-                let (position, frame) = chain.point(&self.shape, x * self.rod.length());
-                let (shift, turn) = self.correction_at(x * self.elements as f64);
-                (position + shift, DMat3::from_quat(DQuat::from_scaled_axis(turn)) * frame)
-            })
-            .collect()
+        (0..n).map(|k| self.at(&chain, k as f64 / (n - 1) as f64)).collect()
+    }
+
+    /// Position (m) and material frame at a part of the arc length, 0 (root) to 1 (tip), of the
+    /// [`Self::chain`].
+    #[must_use]
+    pub fn at(&self, chain: &Chain<'_>, x: f64) -> (DVec3, DMat3) {
+        let (position, frame) = chain.point(&self.shape, x * self.rod.length());
+        let (shift, turn) = self.correction_at(x * self.elements as f64);
+        (position + shift, DMat3::from_quat(DQuat::from_scaled_axis(turn)) * frame)
     }
 
     /// The centre line as `points` positions (m), evenly spaced in arc length; at least two.

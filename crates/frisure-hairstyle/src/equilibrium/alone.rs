@@ -4,7 +4,7 @@ use frisure_rod::potential::Potential;
 use frisure_rod::{Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
 use rayon::prelude::*;
 
-use super::{along, body};
+use super::{Change, along, body};
 use crate::contact::Layer;
 use crate::guides::Guide;
 use crate::head::Head;
@@ -79,7 +79,7 @@ pub(super) fn settle_from(
         .collect()
 }
 
-/// Brings the guides that have changed to rest from where they lay before.
+/// Brings the guides to which something was done to rest.
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
@@ -87,30 +87,40 @@ pub(super) fn resettle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    (before, changed): (&[Equilibrium], &[bool]),
+    (before, changes): (&[Equilibrium], &[Change]),
     monitor: &dyn Monitor,
 ) -> Result<Vec<Equilibrium>, Cancelled> {
     let stage = Stage::new(monitor, "settling guides", guides.len());
-    (guides.par_iter().zip(before).zip(changed))
-        .map(|((guide, before), &changed)| {
+    (guides.par_iter().zip(before).zip(changes))
+        .map(|((guide, before), change)| {
             stage.check()?;
-            let rest = if changed { resettle_one(spec, head, guide, before) } else { before.clone() };
+            let rest = match change {
+                Change::None => before.clone(),
+                Change::Changed => resettle_one(spec, head, guide, before, None),
+                Change::LetGo(pull) => resettle_one(spec, head, guide, before, Some(*pull)),
+                Change::Moulded => settle_one(spec, head, guide),
+            };
             stage.advance();
             Ok(rest)
         })
         .collect()
 }
 
-/// How hard a comb or a clip pulls, in steps: it does not tear hair through the head.
+/// How hard a comb or a clip pulls, in steps: it does not tear hair through the head …
 const PULLS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
+
+/// … and how hard while it lets go: hair sinks to where it is let go.
+const LETTING_GO: [f64; 7] = [0.6, 0.35, 0.2, 0.1, 0.05, 0.02, 0.0];
 
 fn resettle_one(
     spec: &HairstyleSpec,
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
+    gone: Option<Pull>,
 ) -> Equilibrium {
-    if spec.contact.body == Body::None && guide.pull.is_none() {
+    let alone = guide.pull.is_none() && gone.is_none();
+    if spec.contact.body == Body::None && alone {
         return equilibrium_from(&guide.rod, &[], &options(spec), before);
     }
     let elements = division(spec, guide);
@@ -123,12 +133,18 @@ fn resettle_one(
             equilibrium_from(&guide.rod, &[&body, &along(pull, guide, elements)], &options, from)
         }
     };
-    let rest = match guide.pull {
-        None => settle(None, before),
-        Some(pull) => PULLS[1..].iter().fold(
-            settle(Some(pull.scaled(PULLS[0])), before),
-            |rest, &share| settle(Some(pull.scaled(share)), &rest),
-        ),
+    let rest = match (guide.pull, gone) {
+        (None, None) => settle(None, before),
+        (Some(pull), _) => {
+            PULLS[1..].iter().fold(settle(Some(pull.scaled(PULLS[0])), before), |rest, &share| {
+                settle(Some(pull.scaled(share)), &rest)
+            })
+        }
+        (None, Some(gone)) => LETTING_GO[1..]
+            .iter()
+            .fold(settle(Some(gone.scaled(LETTING_GO[0])), before), |rest, &share| {
+                settle((share > 0.0).then(|| gone.scaled(share)), &rest)
+            }),
     };
     // It may have been pushed into the body: then it comes down from its root again.
     let deep = depth(head, &rest);

@@ -14,6 +14,7 @@ use crate::contact::{BodyContact, Layer};
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor};
+use crate::pull::Pull;
 use crate::spec::{HairContact, HairstyleSpec};
 
 /// Guides at rest.
@@ -83,8 +84,20 @@ pub(crate) fn settle_from(
     Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
 }
 
-/// Brings guides to rest again after some of them were changed: those from where they lay before,
-/// while the others stay where they are unless a wisp pushes them.
+/// What was done to a guide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Change {
+    /// Nothing: it stays where it is, unless a wisp pushes it.
+    None,
+    /// It comes to rest from where it lay before.
+    Changed,
+    /// It was put into another shape by hand.
+    Moulded,
+    /// What pulled at it lets go, gently.
+    LetGo(Pull),
+}
+
+/// Brings guides to rest again after something was done to some of them.
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
@@ -92,10 +105,10 @@ pub(crate) fn resettle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    (before, changed): (&[Equilibrium], &[bool]),
+    (before, changes): (&[Equilibrium], &[Change]),
     monitor: &dyn Monitor,
 ) -> Result<Rest, Cancelled> {
-    let alone = alone::resettle(spec, head, guides, (before, changed), monitor)?;
+    let alone = alone::resettle(spec, head, guides, (before, changes), monitor)?;
     if spec.contact.hair == HairContact::Wisps {
         return together::settle(spec, head, guides, &alone, monitor);
     }

@@ -2,6 +2,7 @@
 
 mod fibres;
 mod hair_type;
+mod humidity;
 mod styles;
 
 use frisure_rod::{ElementKind, Resolution};
@@ -10,6 +11,7 @@ use crate::spec::{
     Body, Contact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
 };
 pub use hair_type::{Ellipticity, HairType, NaturalCurl, Wetting};
+pub use humidity::Moisture;
 use styles::Style;
 
 /// A named hair type.

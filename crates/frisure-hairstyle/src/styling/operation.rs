@@ -20,7 +20,7 @@ pub enum Operation {
     Grow(Grow),
     /// Drags hair aside, and lets it go unless it is to be held.
     Comb(Comb),
-    /// Combs hair away from a line to both sides, and lets it go.
+    /// Parts hair anew.
     Part(Part),
     /// Winds, braids, straightens or clips hair, and holds it so.
     Hold(Hold),
@@ -181,15 +181,29 @@ pub enum Direction {
     Along(DVec3),
 }
 
-/// Combs hair away from a line to both sides.
+impl Direction {
+    /// The direction (unit) of the pull, in the head's frame.
+    #[must_use]
+    pub fn vector(self) -> DVec3 {
+        let d = match self {
+            Self::Along(d) => d,
+            // A comb draws hair along the head, not off it.
+            Self::Named(spec::Comb::Forward) => DVec3::new(0.0, -1.0, -0.6),
+            Self::Named(spec::Comb::Back) => DVec3::new(0.0, 1.0, -0.6),
+            Self::Named(spec::Comb::Down) => DVec3::NEG_Z,
+            Self::Named(spec::Comb::Left) => DVec3::new(1.0, 0.0, -0.6),
+            Self::Named(spec::Comb::Right) => DVec3::new(-1.0, 0.0, -0.6),
+        };
+        d.normalize_or_zero()
+    }
+}
+
+/// Parts all hair anew: roots turn away from the line to both sides, and hair falls to the side that
+/// it is turned to. What keeps it there is the hair beside it, as with [`crate::Flow::Parted`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Which wisps.
-    pub selection: Selection,
     /// The line.
     pub line: Parting,
-    /// How hard, as [`Comb::strength`].
-    pub strength: f64,
 }
 
 /// Holds hair in a shape or at a place.
@@ -277,10 +291,7 @@ impl Operation {
                     Direction::Along(d) => direction("comb.towards", d),
                 }
             }
-            Self::Part(part) => {
-                range("part.strength", part.strength, 0.0, 100.0, "between 0 and 100")?;
-                part.line.check()
-            }
+            Self::Part(part) => part.line.check(),
             Self::Hold(hold) => hold.by.check(),
             Self::Release(_) => Ok(()),
         }
@@ -295,10 +306,9 @@ impl Operation {
             | Self::Cut(Cut { selection, .. })
             | Self::Grow(Grow { selection, .. })
             | Self::Comb(Comb { selection, .. })
-            | Self::Part(Part { selection, .. })
             | Self::Hold(Hold { selection, .. })
             | Self::Release(Release { selection }) => Some(selection),
-            Self::Humidity(_) => None,
+            Self::Humidity(_) | Self::Part(_) => None,
         }
     }
 

@@ -1,0 +1,103 @@
+//! Where one hair goes: the guides that it follows, and how it differs from them.
+
+use glam::DVec3;
+
+use super::population::Population;
+use crate::implantation::smooth;
+use crate::random::Stream;
+use crate::roots::Root;
+use crate::spec::Wisps;
+use crate::splits::{Split, Waves};
+
+/// How much of the way to the middle of its split a hair has come at the tip.
+const GATHERED: f64 = 0.75;
+
+/// What makes one hair differ from its neighbours.
+pub(super) struct Character {
+    /// Length as a fraction of its guides'.
+    pub(super) length: f64,
+    /// Factor on the arc length at which it follows its guides: how its curl drifts.
+    drift: f64,
+    /// Coherent deviation.
+    waves: Waves,
+}
+
+impl Character {
+    pub(super) fn new(wisps: &Wisps, length: f64, spacing: f64, random: &mut Stream) -> Self {
+        let stray = random.unit() < wisps.flyaways;
+        let fuzz = wisps.fuzziness * random.factor(0.5) * if stray { 2.5 } else { 1.0 };
+        Self {
+            waves: Waves::new(0.3 * fuzz * spacing, length, random),
+            length: (1.0 - wisps.length_variation * random.normal().abs()).max(0.2),
+            drift: 1.0 + (0.006 + 0.06 * wisps.fuzziness) * random.normal(),
+        }
+    }
+}
+
+/// Where one hair goes.
+pub(super) struct Course<'a> {
+    pub(super) root: Root,
+    /// Guides that it follows, with weights that sum to one; its own first.
+    pub(super) followed: Vec<(usize, f64)>,
+    pub(super) character: Character,
+    /// The thinner wisp that it belongs to.
+    pub(super) split: Option<&'a Split>,
+    /// Length of its guides (m).
+    pub(super) length: f64,
+    /// Length that they were planned with, and that they would have if they had never been cut (m):
+    /// waves do not shrink when hair is cut, and what is left does not gather more.
+    pub(super) planned: f64,
+    pub(super) uncut: f64,
+    /// Where it ends, in their length.
+    pub(super) end: f64,
+    /// Its length (m) when it is dry, and whether it has been cut.
+    pub(super) dry: f64,
+    pub(super) cut: bool,
+    /// Factor on its diameter.
+    pub(super) thickness: f64,
+}
+
+impl Course<'_> {
+    /// Its own guide.
+    pub(super) fn main(&self) -> usize {
+        self.followed[0].0
+    }
+}
+
+impl Population<'_> {
+    /// Point of a hair at `x` of its guides' length.
+    pub(super) fn followed_point(&self, course: &Course<'_>, x: f64) -> DVec3 {
+        let Course { root, followed, character, split, length, planned, uncut, .. } = course;
+        let along = x * length;
+        let rise = smooth(0.0, 0.06_f64.min(0.5 * length), along);
+        let gathered = smooth(0.0, 1.0, (along / uncut).powf(0.8));
+        let drifted = x * (1.0 + (character.drift - 1.0) * rise);
+        let mut carried = character.waves.at(along / planned) * rise;
+        for (rank, &(g, weight)) in followed.iter().enumerate() {
+            let (centre, turn) = self.wisps[g].at(drifted);
+            let mut place = root.position - self.roots[g];
+            if rank == 0
+                && let Some(split) = split
+            {
+                // All of the hair goes with its split, of which only the first wisp knows.
+                place += (split.middle - place) * (GATHERED * gathered / weight);
+                carried += split.waves.at(along / planned) * rise;
+            }
+            carried += (centre + turn * place * self.narrowing(g, along, gathered)) * weight;
+        }
+        carried
+    }
+
+    /// Width of a wisp at arc length `s` (m), as a fraction of its patch of skin.
+    fn narrowing(&self, guide: usize, s: f64, gathered: f64) -> f64 {
+        let packed = self.guides[guide].thickness.packed(s) / self.patch;
+        let [root, middle, tip] = self.spec.wisps.profile;
+        let x = (s / self.states[guide].uncut).min(1.0);
+        let along = if x < 0.5 {
+            root + (middle - root) * 2.0 * x
+        } else {
+            middle + (tip - middle) * (2.0 * x - 1.0)
+        };
+        (1.0 + self.spec.wisps.clumping * gathered * (packed - 1.0)) * along
+    }
+}

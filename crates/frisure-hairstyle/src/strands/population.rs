@@ -1,0 +1,292 @@
+//! All drawn hairs of a head: where each is rooted, and which guides it follows.
+
+use frisure_rod::Equilibrium;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::course::{Character, Course};
+use super::skin::{Free, PRESSED};
+use crate::grid::Grid;
+use crate::guides::Guide;
+use crate::hairstyle::Hairstyle;
+use crate::head::Head;
+use crate::implantation::rim::Rim;
+use crate::implantation::{Layout, smooth};
+use crate::random::{Purpose, Stream};
+use crate::roots::{Root, Scalp};
+use crate::spec::HairstyleSpec;
+use crate::splits::{Split, splits};
+use crate::styling::WispState;
+use crate::wisps::Wisp;
+
+/// How many neighbouring guides a hair can follow.
+const FOLLOWED: usize = 5;
+
+/// How many guides are looked at where the nearest are across a parting.
+const SOUGHT: usize = 24;
+
+/// Width of the strip along the hairline in which baby hairs grow (m).
+const BABY_RIM: f64 = 0.015;
+
+/// Shortest and longest baby hair (m).
+const BABY_LENGTH: (f64, f64) = (0.02, 0.05);
+
+/// Diameter of a baby hair, as a fraction of other hair's.
+const THIN: f64 = 0.5;
+
+/// Least length of a hair that is cut to a line, as a fraction: a cut leaves no short hairs.
+const CUT: f64 = 0.97;
+
+/// How much farther away a guide seems for going another way than the hair's own root.
+const AGAINST: f64 = 8.0;
+
+/// How far (m) beyond the end of its guide a hair that was cut can end.
+const BEYOND: f64 = 0.05;
+
+/// Everything that drawing a hair needs.
+pub(crate) struct Population<'a> {
+    pub(super) spec: &'a HairstyleSpec,
+    pub(super) head: &'a Head,
+    layout: &'a Layout,
+    rim: Rim,
+    planned: &'a [Guide],
+    pub(super) guides: &'a [Guide],
+    pub(super) states: &'a [WispState],
+    /// Length (m) at which each hair has been cut.
+    limits: Option<&'a [f32]>,
+    pub(super) wisps: Vec<Wisp>,
+    grid: Grid,
+    pub(super) roots: Vec<DVec3>,
+    /// Mean distance of neighbouring guides (m).
+    pub(super) spacing: f64,
+    /// Radius of the patch of skin that a wisp grows from (m).
+    pub(super) patch: f64,
+    /// The thinner wisps that each wisp splits into.
+    splits: Vec<Vec<Split>>,
+    /// Largest width (m) over which hairs of any wisp are moved out of the body.
+    pub(super) widest: f64,
+}
+
+/// Distance (m) between the points at which a hair is looked at for where it is cut …
+const CUT_STEP: f64 = 5e-3;
+/// … and how often the piece between two is halved: to a millionth of it.
+const BISECTIONS: u32 = 20;
+
+/// One drawn hair.
+pub(super) struct Hair {
+    pub(super) guide: u32,
+    /// Factor on its diameter.
+    pub(super) thickness: f64,
+    /// Whether its end was cut.
+    pub(super) cut: bool,
+    pub(super) points: Vec<Vec3>,
+}
+
+/// Where the drawn hairs of a head are rooted.
+pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head) -> Vec<Root> {
+    let Hairstyle { spec, layout, .. } = hairstyle;
+    let scalp = Scalp::grown(head, spec);
+    let count = spec.wisps.hair_count(scalp.area());
+    let roots = scalp.stratified(count, spec.seed, Purpose::HairRoots);
+    roots.into_par_iter().map(|root| layout.gathered(head, root)).collect()
+}
+
+impl<'a> Population<'a> {
+    pub(crate) fn new(hairstyle: &'a Hairstyle, head: &'a Head) -> Self {
+        let Hairstyle { spec, layout, guides, rest, styling, .. } = hairstyle;
+        let spacing = (hairstyle.planting.area() / guides.len() as f64).sqrt();
+        let samples = (2 * spec.wisps.points).max(64);
+        let limits = styling.limits();
+        let beyond = if limits.is_some() { BEYOND } else { 0.0 };
+        let roots: Vec<DVec3> = guides.iter().map(|g| g.root.position).collect();
+        let patch = spacing / std::f64::consts::PI.sqrt();
+        let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
+        let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, beyond);
+        Self {
+            spec,
+            head,
+            layout,
+            rim: Rim::new(head, head.edge(&spec.implantation.hairline, spec.seed), BABY_RIM),
+            planned: styling.planned(),
+            guides,
+            states: styling.wisps(),
+            limits,
+            wisps: rest.guides.par_iter().map(wisp).collect(),
+            grid: Grid::new(&roots, spacing),
+            roots,
+            spacing,
+            patch,
+            splits: splits(spec, styling.planned(), patch),
+            widest: PRESSED * guides.iter().map(thickest).fold(0.0, f64::max),
+        }
+    }
+
+    /// The hair rooted somewhere.
+    pub(super) fn hair(&self, root: &Root, index: usize) -> Hair {
+        let course = self.course(root, index);
+        let last = self.spec.wisps.points - 1;
+        let mut free = Free::NOWHERE;
+        let points = (0..=last)
+            .map(|k| self.point(&course, k as f64 / last as f64 * course.end, &mut free).as_vec3())
+            .collect();
+        let Course { thickness, cut, .. } = course;
+        Hair { guide: course.main() as u32, thickness, cut, points }
+    }
+
+    /// Where a hair is at `x` of its guides' length.
+    fn point(&self, course: &Course<'_>, x: f64, free: &mut Free) -> DVec3 {
+        let p = self.followed_point(course, x);
+        self.laid_on_body(&course.root, p, x * course.length, course.main(), free)
+    }
+
+    fn course(&self, root: &Root, index: usize) -> Course<'_> {
+        let mut random = Stream::new(self.spec.seed, Purpose::Hair, index);
+        let followed = self.followed(root);
+        let main = followed[0].0;
+        let mean = |of: &dyn Fn(usize) -> f64| followed.iter().map(|&(g, w)| w * of(g)).sum();
+        let length: f64 = mean(&|g| self.wisps[g].length);
+        let uncut: f64 = mean(&|g| self.states[g].uncut);
+        let planned: f64 = mean(&|g| self.planned[g].rod.length());
+        let character = Character::new(&self.spec.wisps, planned, self.spacing, &mut random);
+        let grown = match self.layout.length(self.head, root) {
+            // Roots behind and before the guide's reach the same line.
+            Some(own) => (character.length.max(CUT) * own + (uncut - planned)).min(uncut),
+            None => character.length * uncut,
+        };
+        let baby = self.baby(root, index);
+        let grown = baby.map_or(grown, |baby| baby.min(grown));
+        let limit = self.limits.map_or(f64::INFINITY, |limits| f64::from(limits[index]));
+        let (dry, cut) = (grown.min(limit), limit < grown);
+        // Wet hair is longer than dry hair.
+        let stretch = self.guides[main].rod.length() / self.states[main].length;
+        let known = self.wisps[main].end();
+        Course {
+            root: *root,
+            split: self.split(main, root.position),
+            followed,
+            character,
+            length,
+            planned,
+            uncut,
+            end: (dry * stretch / length).min(known),
+            dry,
+            cut,
+            thickness: if baby.is_some() { THIN } else { 1.0 },
+        }
+    }
+
+    /// The guide of a hair rooted somewhere.
+    pub(crate) fn main(&self, root: &Root) -> usize {
+        self.sorted(root)[0]
+    }
+
+    /// The length (m, of dry hair) that is left of a hair when it is cut where it first comes to
+    /// where `outside` is positive; none if it does not.
+    pub(crate) fn cut_where(
+        &self,
+        root: &Root,
+        index: usize,
+        outside: impl Fn(DVec3) -> f64,
+    ) -> Option<f64> {
+        let course = self.course(root, index);
+        let steps = (course.end * course.length / CUT_STEP).ceil().clamp(8.0, 400.0) as usize;
+        let at = |x: f64| outside(self.point(&course, x, &mut { Free::NOWHERE }));
+        let place = |k: usize| k as f64 / steps as f64 * course.end;
+        let first = (0..=steps).find(|&k| at(place(k)) > 0.0)?;
+        if first == 0 {
+            return Some(0.0);
+        }
+        let (mut inside, mut beyond) = (place(first - 1), place(first));
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (inside + beyond);
+            if at(middle) > 0.0 {
+                beyond = middle;
+            } else {
+                inside = middle;
+            }
+        }
+        Some(inside / course.end * course.dry)
+    }
+
+    /// Guides near a root that its hair can go with, the one most like it first.
+    fn sorted(&self, root: &Root) -> Vec<usize> {
+        let mut near = self.near(root.position);
+        // Beside a parting the nearest guide may go to the other side.
+        let own = self.layout.direction(root);
+        near.sort_by(|&a, &b| {
+            let farness = |g: usize| self.farness(root, own, g);
+            farness(a).total_cmp(&farness(b)).then(a.cmp(&b))
+        });
+        near
+    }
+
+    /// How far (m²) a guide is from a root whose hair leaves in the direction `own`.
+    fn farness(&self, root: &Root, own: DVec3, guide: usize) -> f64 {
+        let against = 1.0 - own.dot(self.guides[guide].rod.root().frame().z_axis);
+        root.position.distance_squared(self.roots[guide]) * (1.0 + AGAINST * against)
+    }
+
+    /// Guides that a hair follows, with weights that sum to one; the nearest first.
+    fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
+        let near = self.sorted(root);
+        let (first, own) = (near[0], self.layout.direction(root));
+        let farness = |g: usize| self.farness(root, own, g);
+        let reach = (0.9 * self.spacing * self.spec.wisps.blending).max(1e-9);
+        let weight = |g: usize| {
+            let excess = (farness(g) - farness(first)).max(0.0);
+            (-excess / (reach * reach)).exp() * self.agreement(first, g)
+        };
+        let mut followed: Vec<_> = near.iter().map(|&g| (g, weight(g))).collect();
+        followed.retain(|f| f.1 > 1e-3);
+        let sum: f64 = followed.iter().map(|f| f.1).sum();
+        for f in &mut followed {
+            f.1 /= sum;
+        }
+        followed
+    }
+
+    /// Guides near a root that its hair can go with, nearest first; at least one.
+    fn near(&self, root: DVec3) -> Vec<usize> {
+        let mut near = self.grid.nearest(root, FOLLOWED, &self.roots);
+        if !self.layout.divides() {
+            return near;
+        }
+        let nearest = near[0];
+        let together = |g: &usize| !self.layout.apart(root, self.roots[*g]);
+        near.retain(together);
+        if near.is_empty() {
+            near = self.grid.nearest(root, SOUGHT, &self.roots);
+            near.retain(together);
+            near.truncate(FOLLOWED);
+        }
+        if near.is_empty() { vec![nearest] } else { near }
+    }
+
+    /// The length (m) of a baby hair; none for other hair.
+    fn baby(&self, root: &Root, index: usize) -> Option<f64> {
+        let share = self.spec.implantation.baby_hairs;
+        if share == 0.0 {
+            return None;
+        }
+        let mut random = Stream::new(self.spec.seed, Purpose::BabyHair, index);
+        let chosen = random.unit() < share;
+        (chosen && self.rim.distance(root.position) < BABY_RIM)
+            .then(|| random.between(BABY_LENGTH.0, BABY_LENGTH.1))
+    }
+
+    /// Whether two guides go the same way, from 1 to 0: hair beside a parting or around an ear falls
+    /// on one side or the other, not in the middle.
+    fn agreement(&self, a: usize, b: usize) -> f64 {
+        let apart = |x: f64| self.wisps[a].at(x).0.distance(self.wisps[b].at(x).0);
+        let least = apart(0.0) + self.spacing;
+        let most = [0.3, 0.65, 1.0].into_iter().map(apart).fold(0.0, f64::max);
+        1.0 - smooth(0.8, 1.6, most / least)
+    }
+
+    /// The split of a wisp that a hair belongs to: the nearest in the skin.
+    fn split(&self, guide: usize, root: DVec3) -> Option<&Split> {
+        let place = root - self.roots[guide];
+        let far = |s: &&Split| s.middle.distance_squared(place);
+        self.splits[guide].iter().min_by(|a, b| far(a).total_cmp(&far(b)))
+    }
+}

@@ -1,0 +1,75 @@
+//! Hairs that would lie in the body are laid on it.
+
+use glam::DVec3;
+
+use super::population::Population;
+use crate::roots::Root;
+use crate::spec::Body;
+
+/// Depth of the first point of a hair below the skin (m), so that no root floats.
+const ROOT_DEPTH: f64 = 3e-4;
+
+/// Least distance of a hair from the skin far from its root (m).
+const LEAST_DISTANCE: f64 = 4e-4;
+
+/// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
+pub(super) const PRESSED: f64 = 0.3;
+
+/// … and how many of them farther out no hair is moved.
+const FREE: f64 = 6.0;
+
+/// A ball (m) known to be free of the body and of its layers: most points need no look-up.
+pub(super) struct Free {
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Free {
+    pub(super) const NOWHERE: Self = Self { centre: DVec3::ZERO, radius: -1.0 };
+
+    fn holds(&self, p: DVec3) -> bool {
+        self.radius > 0.0 && p.distance_squared(self.centre) < self.radius * self.radius
+    }
+}
+
+impl Population<'_> {
+    /// Moves a point at arc length `s` (m) that is in the body, or nearly, out of it.
+    ///
+    /// What would lie at the depths of a wisp that is pressed on the skin comes to lie at
+    /// `m + w ln(1 + exp((d − m)/w))`, d its distance before: in the same order, nothing in the skin,
+    /// and no two layers in one.
+    pub(super) fn laid_on_body(
+        &self,
+        root: &Root,
+        p: DVec3,
+        s: f64,
+        guide: usize,
+        free: &mut Free,
+    ) -> DVec3 {
+        if s <= 0.0 {
+            return root.position - root.normal * ROOT_DEPTH;
+        }
+        if self.spec.contact.body == Body::None || free.holds(p) {
+            return p;
+        }
+        let least = LEAST_DISTANCE * (s / 0.003).min(1.0);
+        let width = (PRESSED * self.guides[guide].thickness.at(s)).max(2e-5);
+        let (distance, gradient) = self.head.signed_distance().value_gradient(p);
+        let beyond = (distance - least) / width;
+        if beyond > FREE {
+            *free = Free { centre: p, radius: distance - least - FREE * self.widest };
+            return p;
+        }
+        let wanted = least + width * beyond.exp().ln_1p();
+        let mut p = p + gradient.normalize_or(root.normal) * (wanted - distance);
+        for _ in 0..4 {
+            // Where the skin is curved the way out is not straight.
+            let (distance, gradient) = self.head.signed_distance().value_gradient(p);
+            if distance >= least {
+                break;
+            }
+            p += gradient.normalize_or(root.normal) * (least - distance);
+        }
+        p
+    }
+}

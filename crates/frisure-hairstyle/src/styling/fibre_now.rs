@@ -1,0 +1,156 @@
+//! The guide that a wisp has now: the planned one, cut or grown, wet, set and held.
+
+use std::f64::consts::TAU;
+
+use frisure_rod::{InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, StrainProfile};
+use glam::DVec3;
+
+use super::operation::Holder;
+use super::wisp_state::{Grip, WispState};
+use crate::guides::{Guide, grown_strain};
+use crate::presets::{Moisture, Wetting};
+use crate::pull::Pull;
+use crate::spec::HairstyleSpec;
+
+/// How much stiffer hair is for being held in a shape.
+const MOULD: f64 = 30.0;
+
+/// Knots of a braid's strain per pitch.
+const BRAID_KNOTS: f64 = 16.0;
+
+/// Force (in EI/L³) that bends a hair as a comb does.
+const BENDING: f64 = 20.0;
+
+/// Stiffness (Pa) with which a clip holds a piece of hair, and the length (m) of the piece.
+const CLIP: (f64, f64) = (20.0, 0.012);
+
+/// What water does to a wisp: factors, exactly 1 in room-dry hair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Factors {
+    youngs_modulus: f64,
+    shear_modulus: f64,
+    diameter: f64,
+    pub(super) length: f64,
+    mass: f64,
+    wisp: f64,
+}
+
+impl Factors {
+    /// Of a wisp in air of a relative humidity. \[paper\] §3.2.1
+    pub(super) fn new(wetting: &Wetting, state: &WispState, humidity: f64) -> Self {
+        let (air, wet) = (Moisture::in_air(humidity), state.wetness);
+        // Between air and water, as wetness says.
+        let factor = |share: f64, full: f64| 1.0 + (share + (1.0 - share) * wet) * (full - 1.0);
+        Self {
+            youngs_modulus: factor(air.softening, wetting.youngs_modulus),
+            shear_modulus: factor(air.shear_softening, wetting.shear_modulus),
+            diameter: factor(air.swelling, wetting.diameter),
+            length: factor(air.elongation, wetting.length),
+            mass: 1.0 + state.water * wet,
+            // What draws hairs together is a film of water, which damp air does not leave.
+            wisp: factor(0.0, wetting.wisp),
+        }
+    }
+}
+
+/// The guide of a wisp as styling has made it; `area` is that of the scalp (m²).
+pub(super) fn guide(
+    spec: &HairstyleSpec,
+    area: f64,
+    (index, planned): (usize, &Guide),
+    state: &WispState,
+    humidity: f64,
+) -> Result<Guide, InvalidQuantity> {
+    let factors = Factors::new(&spec.wetting, state, humidity);
+    let grown = grown_strain(spec, planned, index, state.length)?;
+    let base = planned.rod.spec();
+    let dry = Rod::new(RodSpec { length: state.length, natural: grown.clone(), ..base.clone() })?;
+    let natural = stretched(&state.with_sets(grown)?, factors.length)?;
+    let rod = wetted(&dry, natural, &factors)?;
+    let rod = match state.grip {
+        Some(Grip::Holder(holder)) => held(rod, holder)?,
+        _ => rod,
+    };
+    let mut guide = planned.with_rod(spec, area, rod, &dry, factors.wisp);
+    guide.pull = pull(&guide.rod, state.grip);
+    Ok(guide)
+}
+
+/// The strain of hair that has become longer by a factor: as much turn in more length.
+fn stretched(natural: &NaturalStrain, factor: f64) -> Result<NaturalStrain, InvalidQuantity> {
+    Ok(match natural {
+        NaturalStrain::Uniform(strain) => NaturalStrain::Uniform(*strain / factor),
+        NaturalStrain::Varying(profile) => {
+            let knots = profile.knots().iter().map(|&(s, strain)| (s * factor, strain / factor));
+            NaturalStrain::Varying(StrainProfile::new(knots.collect())?)
+        }
+    })
+}
+
+fn wetted(dry: &Rod, natural: NaturalStrain, by: &Factors) -> Result<Rod, InvalidQuantity> {
+    let spec = dry.spec();
+    let material = spec.material;
+    // Swollen hair weighs what it did, and the water in it.
+    let volume = by.diameter * by.diameter * by.length;
+    Rod::new(RodSpec {
+        length: spec.length * by.length,
+        section: spec.section.scaled(by.diameter)?,
+        material: Material::new(
+            material.youngs_modulus() * by.youngs_modulus,
+            material.shear_modulus() * by.shear_modulus,
+            material.density() * (by.mass / volume),
+        )?,
+        natural,
+        ..spec.clone()
+    })
+}
+
+/// The rod in what moulds it: stiff in that shape.
+fn held(rod: Rod, holder: Holder) -> Result<Rod, InvalidQuantity> {
+    let natural = match holder {
+        Holder::Clip { .. } => return Ok(rod),
+        Holder::Straight => NaturalStrain::STRAIGHT,
+        Holder::Roller { radius, pitch } => NaturalStrain::helix(radius, pitch)?,
+        Holder::Braid { width, pitch } => braid(width, pitch, rod.length())?,
+    };
+    let material = rod.spec().material;
+    let material = Material::new(
+        material.youngs_modulus() * MOULD,
+        material.shear_modulus() * MOULD,
+        material.density(),
+    )?;
+    Rod::new(RodSpec { natural, material, ..rod.spec().clone() })
+}
+
+/// The strain of a part of a braid of three: it goes to and fro across the braid once, and over and
+/// under the others twice, in each pitch P. Curvature of `½ w cos(2πs/P)` and `⅛ w cos(4πs/P)`.
+fn braid(width: f64, pitch: f64, length: f64) -> Result<NaturalStrain, InvalidQuantity> {
+    let wave = TAU / pitch;
+    let (across, over) = (0.5 * width * wave * wave, 0.5 * width * wave * wave);
+    let step = (pitch / BRAID_KNOTS).max(length / 2000.0);
+    let count = (length / step).ceil() as usize + 1;
+    let knots = (0..count).map(|i| {
+        let s = i as f64 * step;
+        (s, DVec3::new(across * (wave * s).cos(), over * (2.0 * wave * s).cos(), 0.0))
+    });
+    Ok(NaturalStrain::Varying(StrainProfile::new(knots.collect())?))
+}
+
+/// What pulls at a rod that is gripped.
+pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
+    match grip? {
+        Grip::Comb { direction, strength } => {
+            let bending = BENDING * rod.stiffness().truncate().min_element() / rod.length().powi(3);
+            let force = direction * (strength * rod.weight().max(bending));
+            Some(Pull::Comb { force })
+        }
+        Grip::Holder(Holder::Clip { at, to: point }) => {
+            let middle = at * rod.length();
+            let half = 0.5 * CLIP.1.min(rod.length());
+            let middle = middle.clamp(half, rod.length() - half);
+            let piece = [middle - half, middle + half];
+            Some(Pull::Clip { piece, point, stiffness: CLIP.0 })
+        }
+        Grip::Holder(_) => None,
+    }
+}

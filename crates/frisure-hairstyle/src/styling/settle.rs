@@ -1,0 +1,112 @@
+//! A hairstyle comes to rest after an operation.
+
+use std::sync::Arc;
+
+use frisure_rod::InvalidQuantity;
+use rayon::prelude::*;
+
+use super::fibre_now;
+use super::wisp_state::{Grip, WispState};
+use super::{Lay, StyleError, Styling};
+use crate::equilibrium::{Change, Rest, resettle};
+use crate::guides::Guide;
+use crate::hairstyle::Hairstyle;
+use crate::head::Head;
+use crate::monitor::Monitor;
+
+impl Hairstyle {
+    /// How dry wisps lie now, and those that are wet lay before they were wetted.
+    pub(super) fn lay(&self) -> Arc<Lay> {
+        let Styling { wisps, humidity, lay: before, .. } = &self.styling;
+        let before = before.as_ref().filter(|before| before.humidity == *humidity);
+        let all_dry = wisps.iter().all(|wisp| wisp.wetness == 0.0);
+        let now = |(index, wisp): (usize, &WispState)| match (wisp.wetness, before) {
+            (0.0, _) => Some((wisp.clone(), self.rest.guides[index].clone())),
+            (_, before) => before.and_then(|before| before.wisps[index].clone()),
+        };
+        let whole = all_dry.then(|| (wisps.clone(), self.rest.clone()));
+        let whole = whole.or_else(|| before.and_then(|before| before.whole.clone()));
+        Arc::new(Lay {
+            humidity: *humidity,
+            wisps: wisps.iter().enumerate().map(now).collect(),
+            whole,
+        })
+    }
+
+    /// The hairstyle that styling makes of this one, at rest.
+    pub(super) fn with(
+        &self,
+        head: &Head,
+        styling: Styling,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, StyleError> {
+        let old = &self.styling;
+        let air = styling.humidity != old.humidity;
+        let changed: Vec<bool> =
+            styling.wisps.iter().zip(&old.wisps).map(|(new, old)| air || new != old).collect();
+        if !changed.contains(&true) {
+            return Ok(Self { styling, ..self.clone() });
+        }
+        let area = self.planting.area();
+        let guides: Vec<Guide> = (0..self.guides.len())
+            .into_par_iter()
+            .map(|i| match changed[i] {
+                false => Ok(self.guides[i].clone()),
+                true => fibre_now::guide(
+                    &self.spec,
+                    area,
+                    (i, &styling.planned[i]),
+                    &styling.wisps[i],
+                    styling.humidity,
+                ),
+            })
+            .collect::<Result<_, InvalidQuantity>>()?;
+        let rest = self.rest_of(head, &styling, &guides, changed, monitor)?;
+        Ok(Self { guides, rest, styling, ..self.clone() })
+    }
+
+    /// Brings changed guides to rest; those that lie as they lay before they were wetted are known.
+    fn rest_of(
+        &self,
+        head: &Head,
+        styling: &Styling,
+        guides: &[Guide],
+        changed: Vec<bool>,
+        monitor: &dyn Monitor,
+    ) -> Result<Rest, StyleError> {
+        let mut before = self.rest.guides.clone();
+        let mut changes: Vec<Change> = (changed.iter().enumerate())
+            .map(|(i, &changed)| if changed { self.change(styling, i) } else { Change::None })
+            .collect();
+        let lay = styling.lay.as_ref().filter(|lay| lay.humidity == styling.humidity);
+        if let Some(lay) = lay {
+            if let Some((states, rest)) = &lay.whole
+                && *states == styling.wisps
+            {
+                return Ok(rest.clone());
+            }
+            for (i, known) in lay.wisps.iter().enumerate() {
+                if let Some((state, rest)) = known
+                    && *state == styling.wisps[i]
+                    && changed[i]
+                {
+                    before[i].clone_from(rest);
+                    changes[i] = Change::None;
+                }
+            }
+        }
+        Ok(resettle(&self.spec, head, guides, (&before, &changes), monitor)?)
+    }
+
+    /// What was done to a wisp that changed.
+    fn change(&self, styling: &Styling, wisp: usize) -> Change {
+        let (old, new) = (self.styling.wisps[wisp].grip, styling.wisps[wisp].grip);
+        let replanted = !Arc::ptr_eq(&styling.planned, &self.styling.planned);
+        let moulded = new != old && new.is_some_and(Grip::moulds);
+        match self.guides[wisp].pull {
+            _ if replanted || moulded => Change::Moulded,
+            Some(pull) if new.is_none() => Change::LetGo(pull),
+            _ => Change::Changed,
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! What styling has made of one wisp.
+
+use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain, StrainProfile};
+use glam::{DMat3, DQuat, DVec3};
+
+use super::operation::Holder;
+
+/// What styling has made of one wisp. Lengths are those of dry hair, in air of 60 %.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WispState {
+    /// Length of the guide (m).
+    pub length: f64,
+    /// Length that the guide would have if it had never been cut (m).
+    pub uncut: f64,
+    /// 0 (dry) to 1 (wet).
+    pub wetness: f64,
+    /// Mass of the water in the wisp when it is fully wet, over that of the dry hair.
+    pub water: f64,
+    /// Shapes that it was dried in and keeps part of, the oldest first.
+    pub(super) sets: Vec<Set>,
+    /// What holds it.
+    pub(super) grip: Option<Grip>,
+    /// How often it was moved by hand: where it lay before means nothing then.
+    pub(super) moved: u32,
+}
+
+/// What holds a wisp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Grip {
+    /// Rollers, braids, plates and clips.
+    Holder(Holder),
+    /// A comb that is not taken away.
+    Comb {
+        /// A unit vector.
+        direction: DVec3,
+        /// As [`super::Comb::strength`].
+        strength: f64,
+    },
+}
+
+impl Grip {
+    /// Whether it gives hair another shape, rather than another place.
+    pub(super) fn moulds(self) -> bool {
+        match self {
+            Self::Holder(Holder::Clip { .. }) | Self::Comb { .. } => false,
+            Self::Holder(_) => true,
+        }
+    }
+}
+
+/// A shape that hair was dried in: hydrogen bonds that water had opened close again, and keep part
+/// of it until water opens them again.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Set {
+    /// Strain (rad/m) of the shape along the dry hair, from where it begins.
+    held: NaturalStrain,
+    /// Where it begins (m): hair that has grown since does not have it.
+    from: f64,
+    /// How much of it is kept, 0 to 1.
+    share: f64,
+}
+
+/// A set of which less is left is gone.
+const LEAST_SHARE: f64 = 1e-3;
+
+/// Distance of the knots (m) of a natural strain that has a set in it, at least …
+const KNOTS: f64 = 2e-3;
+/// … and their most number.
+const MOST_KNOTS: f64 = 1000.0;
+
+impl WispState {
+    pub(super) fn new(length: f64) -> Self {
+        let (sets, grip) = (Vec::new(), None);
+        Self { length, uncut: length, wetness: 0.0, water: 0.0, sets, grip, moved: 0 }
+    }
+
+    /// Whether something holds the wisp.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.grip.is_some()
+    }
+
+    /// Wets the wisp, or lets it dry to some wetness; what water opens loses its set.
+    pub(super) fn wet(&mut self, to: f64) {
+        if to > self.wetness {
+            let closed = (1.0 - to) / (1.0 - self.wetness);
+            for set in &mut self.sets {
+                set.share *= closed;
+            }
+            self.sets.retain(|set| set.share > LEAST_SHARE);
+        }
+        self.wetness = to;
+        if to == 0.0 {
+            self.water = 0.0;
+        }
+    }
+
+    /// Lets the wisp keep a share of a shape, given as strain along the dry hair.
+    pub(super) fn keep(&mut self, held: NaturalStrain, share: f64) {
+        if share > LEAST_SHARE {
+            self.sets.push(Set { held, from: 0.0, share });
+        }
+    }
+
+    /// Lets the wisp grow by a length (m) at its root.
+    pub(super) fn grow(&mut self, by: f64) {
+        self.length += by;
+        self.uncut += by;
+        for set in &mut self.sets {
+            set.from += by;
+        }
+    }
+
+    /// The natural strain (rad/m, along the dry hair) with what is kept of shapes it was dried in.
+    pub(super) fn with_sets(&self, grown: NaturalStrain) -> Result<NaturalStrain, InvalidQuantity> {
+        if self.sets.is_empty() {
+            return Ok(grown);
+        }
+        let count = (self.length / KNOTS).ceil().clamp(8.0, MOST_KNOTS);
+        let strain = |s: f64| {
+            self.sets.iter().fold(grown.at(s), |strain, set| match s - set.from {
+                s if s < 0.0 => strain,
+                s => strain.lerp(set.held.at(s), set.share),
+            })
+        };
+        let knots = (0..=count as usize).map(|i| i as f64 * (self.length / count));
+        let profile = StrainProfile::new(knots.map(|s| (s, strain(s))).collect())?;
+        Ok(NaturalStrain::Varying(profile))
+    }
+}
+
+/// Distance (m) of the frames between which the strain of a shape is taken.
+const FRAMES: f64 = 1e-3;
+
+/// The strain (rad/m) of a guide as it lies, along the dry hair, which is `stretch` times shorter.
+pub(super) fn strain_of(
+    guide: &Equilibrium,
+    stretch: f64,
+) -> Result<NaturalStrain, InvalidQuantity> {
+    let length = guide.rod.length();
+    let count = (length / FRAMES).ceil().clamp(8.0, MOST_KNOTS) as usize;
+    let step = length / count as f64;
+    let frames = guide.sample(count + 1);
+    let knot = |(i, pair): (usize, &[(DVec3, DMat3)])| {
+        let turn = DQuat::from_mat3(&(pair[0].1.transpose() * pair[1].1)).to_scaled_axis();
+        ((i as f64 + 0.5) * step / stretch, turn / step * stretch)
+    };
+    let knots = frames.windows(2).enumerate().map(knot).collect();
+    Ok(NaturalStrain::Varying(StrainProfile::new(knots)?))
+}

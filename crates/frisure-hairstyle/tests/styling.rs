@@ -1,0 +1,372 @@
+//! What styling does to a hairstyle: laws that hold for any hair.
+
+use std::sync::LazyLock;
+
+use frisure_hairstyle::head::{Head, Region};
+use frisure_hairstyle::styling::{
+    Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Hold, Holder, Humidity,
+    Operation, Part, Release, Selection, StyleError, Wet,
+};
+use frisure_hairstyle::{
+    Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place, predict, preset,
+};
+
+static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
+
+fn spec(name: &str, wisps: usize, contact: HairContact) -> HairstyleSpec {
+    let mut spec = preset(name).unwrap().spec();
+    spec.wisps.count = wisps;
+    spec.wisps.hairs = Hairs::Count(300);
+    spec.contact.hair = contact;
+    spec
+}
+
+fn hairstyle(name: &str, wisps: usize) -> Hairstyle {
+    predict(&spec(name, wisps, HairContact::Layers), &HEAD, &()).unwrap()
+}
+
+fn done(before: &Hairstyle, operation: &Operation) -> Hairstyle {
+    before.styled(&HEAD, operation, &()).unwrap()
+}
+
+fn wet() -> Operation {
+    Operation::Wet(Wet::default())
+}
+
+fn dry() -> Operation {
+    Operation::Dry(Dry::default())
+}
+
+fn cut_below(z: f64, selection: Selection) -> Operation {
+    let line = CutLine::Below(Height::At(z));
+    Operation::Cut(Cut { selection, line, held: Held::Down })
+}
+
+fn grow(amount: Growth) -> Operation {
+    Operation::Grow(Grow { selection: Selection::Everything, amount, stages: 1 })
+}
+
+/// Whether two hairstyles are the same to the last bit.
+fn same(a: &Hairstyle, b: &Hairstyle) -> bool {
+    let shapes = a.equilibria().iter().zip(b.equilibria());
+    let drawn = |h: &Hairstyle| h.strands(&HEAD, &()).unwrap();
+    shapes.clone().all(|(a, b)| a.shape == b.shape && a.rod == b.rod) && drawn(a) == drawn(b)
+}
+
+/// Largest distance (m) of the tips of two hairstyles.
+fn farthest_tip(a: &Hairstyle, b: &Hairstyle) -> f64 {
+    let tips = a.equilibria().iter().zip(b.equilibria());
+    tips.map(|(a, b)| a.tip().distance(b.tip())).fold(0.0, f64::max)
+}
+
+#[test]
+fn drying_is_the_inverse_of_wetting_to_the_last_bit() {
+    for contact in [HairContact::Layers, HairContact::Wisps] {
+        let before = predict(&spec("caucasian-curly", 40, contact), &HEAD, &()).unwrap();
+        let wetted = done(&before, &wet());
+        assert!(!same(&before, &wetted));
+        assert!(same(&before, &done(&wetted, &dry())));
+        // By halves, and by regions.
+        let half = Operation::Wet(Wet { to: 0.5, ..Wet::default() });
+        let fringe = Selection::Place(Place::Region(Region::Fringe));
+        let wetter = Operation::Wet(Wet { selection: fringe.clone(), ..Wet::default() });
+        let dried = Operation::Dry(Dry { selection: fringe, ..Dry::default() });
+        let there = done(&done(&done(&done(&before, &half), &wetter), &dried), &dry());
+        assert!(same(&before, &there));
+    }
+}
+
+#[test]
+fn wet_hair_weighs_the_same_and_hangs_lower_and_straighter() {
+    for preset in PRESETS {
+        let before = hairstyle(preset.name, 60);
+        let after = done(&before, &wet());
+        assert!((after.mass() / before.mass() - 1.0).abs() < 1e-12, "{}", preset.name);
+        let mean = |h: &Hairstyle, of: fn(&frisure_hairstyle::Guide, glam::DVec3) -> f64| {
+            let each = h.guides().iter().zip(h.equilibria());
+            each.map(|(guide, rest)| of(guide, rest.tip())).sum::<f64>() / 60.0
+        };
+        let height = |h: &Hairstyle| mean(h, |_, tip| tip.z);
+        let spanned = |h: &Hairstyle| mean(h, |g, tip| tip.distance(g.root.position));
+        assert!(height(&after) < height(&before), "{}", preset.name);
+        assert!(spanned(&after) > spanned(&before), "{}", preset.name);
+    }
+}
+
+#[test]
+fn a_cut_takes_what_is_below_and_cutting_again_takes_nothing() {
+    let before = hairstyle("caucasian-wavy", 60);
+    let line = 0.02;
+    let above = Selection::Beyond { point: glam::DVec3::Z * (line + 0.01), normal: glam::DVec3::Z };
+    let cut = cut_below(line, above.clone());
+    let after = done(&before, &cut);
+    let chosen = before.selected(&HEAD, &above).unwrap();
+    let each = before.grown() / 60.0;
+    let mut removed = 0.0;
+    for (i, chosen) in chosen.iter().enumerate() {
+        let (old, new) = (&before.guides()[i], &after.guides()[i]);
+        let held = old.root.position.z - line;
+        let expected = if *chosen { old.rod.length().min(held) } else { old.rod.length() };
+        assert!((new.rod.length() - expected).abs() < 1e-15);
+        let rod = old.rod.spec();
+        let thick = rod.material.density() * rod.section.area();
+        removed += each * thick * (old.rod.length() - new.rod.length());
+    }
+    assert!((before.mass() - after.mass() - removed).abs() < 1e-12 * before.mass());
+    assert!(removed > 0.1 * before.mass());
+    assert!(same(&after, &done(&after, &cut)));
+}
+
+#[test]
+fn a_cut_above_roots_names_the_wisps() {
+    let before = hairstyle("caucasian-wavy", 30);
+    let error = before.styled(&HEAD, &cut_below(0.05, Selection::Everything), &()).unwrap_err();
+    let StyleError::AboveRoot { wisps, selected } = &error else { panic!("{error}") };
+    assert_eq!(*selected, 30);
+    for (i, guide) in before.guides().iter().enumerate() {
+        assert_eq!(wisps.contains(&i), guide.root.position.z < 0.051);
+    }
+    assert!(error.to_string().contains("above the roots of"), "{error}");
+}
+
+#[test]
+fn every_hair_cut_as_it_hangs_ends_at_the_line() {
+    let mut spec = spec("caucasian-straight", 120, HairContact::Layers);
+    spec.curl = Curl::STRAIGHT;
+    let before = predict(&spec, &HEAD, &()).unwrap();
+    let line = CutLine::Plane {
+        point: glam::DVec3::new(0.0, 0.0, -0.10),
+        normal: glam::DVec3::new(0.3, 0.0, -1.0),
+    };
+    let cut = Cut { selection: Selection::Everything, line, held: Held::Hanging };
+    let after = done(&before, &Operation::Cut(cut));
+    let beyond = |p: glam::DVec3| {
+        (p - glam::DVec3::Z * -0.1).dot(glam::DVec3::new(0.3, 0.0, -1.0).normalize())
+    };
+    let (mut cut, mut at_line) = (0, 0);
+    let (old, new) = (before.strands(&HEAD, &()).unwrap(), after.strands(&HEAD, &()).unwrap());
+    for (old, new) in old.iter().zip(new.iter()) {
+        let end = |points: &[glam::Vec3]| beyond(points.last().unwrap().as_dvec3());
+        if end(old.points) > 0.005 {
+            cut += 1;
+            at_line += usize::from(end(new.points).abs() < 3e-3);
+        }
+    }
+    // Hair that has lost weight springs up a little, and where it parts at an ear it moves more.
+    assert!(cut > 100 && at_line * 10 > cut * 9, "{at_line} of {cut}");
+}
+
+#[test]
+fn hair_that_grew_and_is_cut_back_lies_as_before() {
+    let mut spec = spec("caucasian-wavy", 40, HairContact::Layers);
+    spec.length.variation_between = 0.0;
+    spec.length.mean = 0.12;
+    let before = predict(&spec, &HEAD, &()).unwrap();
+    let grown = done(&before, &grow(Growth::By(0.04)));
+    assert!(farthest_tip(&before, &grown) > 0.02);
+    let line = CutLine::Length(0.12);
+    let cut = Cut { selection: Selection::Everything, line, held: Held::Down };
+    let after = done(&grown, &Operation::Cut(cut));
+    for (a, b) in before.guides().iter().zip(after.guides()) {
+        assert_eq!(a.rod, b.rod);
+    }
+    let mut moved: Vec<f64> = before
+        .equilibria()
+        .iter()
+        .zip(after.equilibria())
+        .map(|(a, b)| a.tip().distance(b.tip()))
+        .collect();
+    moved.sort_by(f64::total_cmp);
+    // All but those that an ear has caught meanwhile.
+    assert!(moved[35] < 1e-6, "{moved:?}");
+}
+
+#[test]
+fn bad_operations_are_refused() {
+    let before = hairstyle("straight", 10);
+    let refused = |operation: &Operation| before.styled(&HEAD, operation, &()).unwrap_err();
+    let nobody = Selection::Not(Box::new(Selection::Everything));
+    assert_eq!(
+        refused(&Operation::Wet(Wet { selection: nobody, ..Wet::default() })),
+        StyleError::NothingSelected
+    );
+    let tenth = Selection::Wisps(vec![10]);
+    assert_eq!(
+        refused(&Operation::Release(Release { selection: tenth })),
+        StyleError::NoSuchWisp { wisp: 10, count: 10 }
+    );
+    for wetness in [-0.1, 1.1, f64::NAN] {
+        let wet = Operation::Wet(Wet { to: wetness, ..Wet::default() });
+        assert!(matches!(refused(&wet), StyleError::Invalid(_)));
+    }
+    assert!(matches!(refused(&grow(Growth::By(2.9))), StyleError::TooLong { wisp: 0, .. }));
+}
+
+#[test]
+fn hair_that_is_dried_in_a_shape_keeps_part_of_it_until_it_is_wet_again() {
+    let before = hairstyle("caucasian-straight", 20);
+    let roll = Hold {
+        selection: Selection::Everything,
+        by: Holder::Roller { radius: 0.012, pitch: 0.005 },
+    };
+    let release = Operation::Release(Release { selection: Selection::Everything });
+    let rolled =
+        done(&done(&done(&done(&before, &wet()), &Operation::Hold(roll)), &dry()), &release);
+    let spanned = |h: &Hairstyle| {
+        let each = h.guides().iter().zip(h.equilibria());
+        each.map(|(g, r)| r.tip().distance(g.root.position)).sum::<f64>()
+    };
+    assert!(
+        spanned(&rolled) < 0.95 * spanned(&before),
+        "{} {}",
+        spanned(&rolled),
+        spanned(&before)
+    );
+    let again = done(&done(&rolled, &wet()), &dry());
+    assert_eq!(again.guides()[3].rod, before.guides()[3].rod);
+}
+
+#[test]
+fn damp_air_softens_hair_and_dry_air_stiffens_it() {
+    let before = hairstyle("caucasian-curly", 10);
+    let stiffness = |relative: f64| {
+        let after = done(&before, &Operation::Humidity(Humidity { relative }));
+        after.guides()[0].rod.spec().material.youngs_modulus()
+    };
+    assert_eq!(stiffness(0.6), before.guides()[0].rod.spec().material.youngs_modulus());
+    assert!(stiffness(0.9) < stiffness(0.6) && stiffness(0.6) < stiffness(0.2));
+}
+
+#[test]
+fn combed_hair_falls_to_an_equilibrium_that_need_not_be_the_old_one() {
+    let before = hairstyle("caucasian-straight", 80);
+    let sides = Selection::Place(Place::Region(Region::Sides));
+    let comb = |hold: bool| {
+        let (selection, towards) = (sides.clone(), Direction::Named(frisure_hairstyle::Comb::Back));
+        Operation::Comb(Comb { selection, towards, strength: 4.0, hold })
+    };
+    let held = done(&before, &comb(true));
+    let free = done(&before, &comb(false));
+    let chosen = before.selected(&HEAD, &sides).unwrap();
+    let back = |h: &Hairstyle| {
+        let tips = h.equilibria().iter().zip(&chosen).filter(|(_, chosen)| **chosen);
+        tips.map(|(r, _)| r.tip().y).sum::<f64>()
+    };
+    assert!(back(&held) > back(&free) && back(&free) > back(&before));
+    let (report, fallen) = (free.report(&HEAD), farthest_tip(&before, &free));
+    assert!(report.not_converged == 0 && fallen > 0.03, "{report:?} {fallen}");
+    // Let go later, it falls to the same.
+    let released = done(&held, &Operation::Release(Release { selection: sides.clone() }));
+    assert!(farthest_tip(&released, &free) < 1e-9);
+    // What was not combed did not move.
+    let others = before.equilibria().iter().zip(free.equilibria()).zip(&chosen);
+    assert!(others.filter(|(_, chosen)| !**chosen).all(|((a, b), _)| a.shape == b.shape));
+}
+
+#[test]
+fn a_clip_holds_hair_where_it_is_put() {
+    let before = hairstyle("caucasian-straight", 80);
+    let wisp = (0..80).find(|&i| before.guides()[i].region == Region::Sides).unwrap();
+    let to = HEAD.landmarks().whorl + glam::DVec3::new(0.0, 0.03, 0.03);
+    let clip = Hold { selection: Selection::Wisps(vec![wisp]), by: Holder::Clip { at: 1.0, to } };
+    let clipped = done(&before, &Operation::Hold(clip));
+    let distance = clipped.equilibria()[wisp].tip().distance(to);
+    assert!(distance < 0.01, "{distance}");
+    assert_eq!(clipped.report(&HEAD).not_converged, 0);
+}
+
+#[test]
+fn a_new_parting_sends_hair_to_both_sides_of_it() {
+    let before = hairstyle("caucasian-straight", 100);
+    let offset = -0.03;
+    let parted = done(&before, &Operation::Part(Part { line: Parting::Straight { offset } }));
+    // Hair rooted between the middle and the parting on the right falls to the left now.
+    let top =
+        |h: &Hairstyle, i: usize| matches!(h.guides()[i].region, Region::Top | Region::Fringe);
+    let between = (0..100).filter(|&i| {
+        let x = before.guides()[i].root.position.x;
+        top(&before, i) && x > offset + 0.005 && x < -0.005
+    });
+    let aside = |h: &Hairstyle| {
+        let tips = between.clone().map(|i| h.equilibria()[i].tip().x);
+        (tips.clone().filter(|x| *x > 0.0).count(), tips.count())
+    };
+    let ((left_before, _), (left_after, all)) = (aside(&before), aside(&parted));
+    assert!(
+        all >= 3 && left_after > left_before && 3 * left_after >= 2 * all,
+        "{left_before} {left_after} {all}"
+    );
+    for (a, b) in before.guides().iter().zip(parted.guides()) {
+        assert_eq!((a.rod.length(), a.rod.stiffness()), (b.rod.length(), b.rod.stiffness()));
+    }
+}
+
+#[test]
+fn what_is_done_to_different_wisps_can_be_done_in_any_order() {
+    let before = hairstyle("caucasian-wavy", 60);
+    let place = |region| Selection::Place(Place::Region(region));
+    let wet = Operation::Wet(Wet { selection: place(Region::Back), ..Wet::default() });
+    let cut = cut_below(0.045, place(Region::Fringe));
+    let (a, b) = (done(&done(&before, &wet), &cut), done(&done(&before, &cut), &wet));
+    assert!(same(&a, &b));
+    // Wet hair is longer: what is left of it is shorter than of dry hair.
+    let dry_first = done(&before, &cut_below(0.045, place(Region::Top)));
+    let wet_first = done(&done(&before, &self::wet()), &cut_below(0.045, place(Region::Top)));
+    let shorter = dry_first.wisps().iter().zip(wet_first.wisps());
+    assert!(shorter.clone().all(|(dry, wet)| wet.length <= dry.length));
+    assert!(shorter.clone().any(|(dry, wet)| wet.length < dry.length));
+}
+
+#[test]
+fn hair_grows_at_its_own_rate_and_the_same_in_any_number_of_stages() {
+    let before = hairstyle("caucasian-straight", 12);
+    let month = 30.0 * 86_400.0;
+    let grown = done(&before, &grow(Growth::For(month)));
+    let by = month * before.spec().length.growth_rate;
+    assert!((0.008..0.015).contains(&by), "about a centimetre a month: {by}");
+    for (a, b) in before.wisps().iter().zip(grown.wisps()) {
+        assert!((b.length - a.length - by).abs() < 1e-12);
+    }
+    let (selection, amount) = (Selection::Everything, Growth::For(month));
+    let film =
+        before.stages(&HEAD, &Operation::Grow(Grow { selection, amount, stages: 4 }), &()).unwrap();
+    assert_eq!(film.len(), 4);
+    // But for a hair that slips from one resting place to another on its way.
+    let tips = film[3].equilibria().iter().zip(grown.equilibria());
+    let differ = tips.filter(|(a, b)| a.tip().distance(b.tip()) > 1e-6).count();
+    assert!(differ <= 1, "{differ}");
+}
+
+#[test]
+fn hair_standing_up_grows_straight_then_buckles_at_its_own_threshold() {
+    // ρSgL³/EI = 7.8373 (Greenhill); a circle, so that no direction is weaker.
+    let mut spec = spec("straight", 12, HairContact::None);
+    spec.contact.body = frisure_hairstyle::Body::None;
+    spec.curl = Curl::STRAIGHT;
+    spec.length.mean = 0.02;
+    spec.implantation.lift = frisure_hairstyle::Lift::Uniform(std::f64::consts::FRAC_PI_2);
+    spec.implantation.jitter = 0.0;
+    spec.fibre.section = frisure_rod::Section::from_diameter(80e-6, 1.0).unwrap();
+    spec.fibre.variation = 0.0;
+    let mut hair = predict(&spec, &HEAD, &()).unwrap();
+    let up = |i: usize| hair.guides()[i].rod.root().frame().z_axis.z;
+    let top = (0..12).max_by(|&a, &b| up(a).total_cmp(&up(b))).unwrap();
+    let rod = &hair.guides()[top].rod;
+    let threshold = (7.8373 * rod.stiffness().x / (rod.weight() * up(top))).cbrt();
+    let bent = |h: &Hairstyle| {
+        let (root, tip) = (h.guides()[top].rod.root(), h.equilibria()[top].tip());
+        1.0 - (tip - root.position()).normalize().dot(root.frame().z_axis)
+    };
+    let mut before = bent(&hair);
+    let mut steepest = (0.0, 0.0);
+    while hair.wisps()[top].length < 1.8 * threshold {
+        hair = done(&hair, &grow(Growth::By(0.002)));
+        let now = bent(&hair);
+        if now - before > steepest.1 {
+            steepest = (hair.wisps()[top].length, now - before);
+        }
+        before = now;
+    }
+    let ratio = steepest.0 / threshold;
+    assert!((0.9..1.5).contains(&ratio), "falls at {} of {threshold}", steepest.0);
+}
