@@ -3,7 +3,7 @@
 //!
 //! | module | reads | writes |
 //! | --- | --- | --- |
-//! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from |
+//! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from, and steps |
 //! | [`head`] | OBJ meshes and scalp masks | |
 //! | [`groom`] | `.hair` | `.hair`, `.obj`, `.ply` |
 //! | [`picture`] | | PNG |

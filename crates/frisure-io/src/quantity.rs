@@ -116,12 +116,57 @@ pub const ACCELERATION: Dimension = Dimension {
     units: &[("m/s^2", 1.0), ("cm/s^2", 1e-2)],
 };
 
+/// A month (s), the twelfth part of a year of 365.2425 days.
+pub const MONTH: f64 = 30.436_875 * 86_400.0;
+
+/// Times, SI s.
+pub const TIME: Dimension = Dimension {
+    name: "a time",
+    si: "s",
+    example: "6 weeks",
+    units: &[
+        ("days", 86_400.0),
+        ("day", 86_400.0),
+        ("weeks", 604_800.0),
+        ("week", 604_800.0),
+        ("months", MONTH),
+        ("month", MONTH),
+        ("years", 12.0 * MONTH),
+        ("year", 12.0 * MONTH),
+        ("s", 1.0),
+    ],
+};
+
+/// Speeds, as hair grows; SI m/s.
+pub const SPEED: Dimension = Dimension {
+    name: "a speed",
+    si: "m/s",
+    example: "1.2 cm/month",
+    units: &[
+        ("cm/month", 1.0 / (100.0 * MONTH)),
+        ("mm/month", 1.0 / (1000.0 * MONTH)),
+        ("mm/day", 1.0 / 86_400_000.0),
+        ("um/day", 1.0 / 86_400_000_000.0),
+        ("m/s", 1.0),
+    ],
+};
+
 /// Pure numbers; a text may give a percentage.
 pub const RATIO: Dimension =
     Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
 
-const ALL: [&Dimension; 8] =
-    [&LENGTH, &ANGLE, &PRESSURE, &DENSITY, &STRAIN, &NUMBER_DENSITY, &ACCELERATION, &RATIO];
+const ALL: [&Dimension; 10] = [
+    &LENGTH,
+    &ANGLE,
+    &PRESSURE,
+    &DENSITY,
+    &STRAIN,
+    &NUMBER_DENSITY,
+    &ACCELERATION,
+    &TIME,
+    &SPEED,
+    &RATIO,
+];
 
 impl Dimension {
     /// The value in SI units of a text such as `25 cm`.
@@ -144,6 +189,21 @@ impl Dimension {
         };
         let value = scaled(number, factor);
         if value.is_finite() { Ok(value) } else { Err(QuantityError::NotFinite) }
+    }
+
+    /// The value as a person would write it, in one of some units: the shortest text of at most six
+    /// digits that reads as exactly this number, if there is one.
+    pub(crate) fn text(&self, value: f64, units: &[&str]) -> Option<String> {
+        let exact = |text: &String| {
+            self.parse(text).is_ok_and(|parsed| parsed.to_bits() == value.to_bits())
+        };
+        let written = |unit: &&str| {
+            // Rounded to six digits, and printed with as many as that leaves.
+            let scaled = value / self.factor(unit)?;
+            let short: f64 = format!("{scaled:.5e}").parse().ok()?;
+            (short.abs() < 1e6).then(|| format!("{short} {unit}")).filter(exact)
+        };
+        units.iter().filter_map(written).min_by_key(String::len)
     }
 
     /// Units that can be written, the most usual first.
@@ -227,6 +287,10 @@ mod tests {
             (&NUMBER_DENSITY, "1.9/mm²", 1.9e6),
             (&NUMBER_DENSITY, "190 cm⁻²", 190e4),
             (&ACCELERATION, "9.81 m/s²", 9.81),
+            (&TIME, "2 weeks", 1_209_600.0),
+            (&TIME, "1 year", 365.2425 * 86_400.0),
+            (&SPEED, "3 mm/day", 3.0 / 86_400_000.0),
+            (&SPEED, "367 µm/day", 367.0 / 86_400_000_000.0),
             (&RATIO, "5 %", 0.05),
             (&RATIO, "0.3", 0.3),
         ];

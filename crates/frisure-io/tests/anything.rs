@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
+use frisure_hairstyle::styling::{Dry, Operation};
 use frisure_io::groom::hair;
 use frisure_io::head;
 use frisure_io::quantity::LENGTH;
-use frisure_io::scene::{HeadFile, ScalpSource, Scene, UpAxis, template};
+use frisure_io::scene::{HeadFile, ScalpSource, Scene, UpAxis, edit, template, write_step};
 use proptest::prelude::*;
 
 fn use_scene(text: &str) {
     match Scene::parse("any", text, Path::new("")) {
         Ok(scene) => {
+            edit_steps(text, scene.steps());
             let _ = scene.hairstyle_spec();
             let _ = scene.single_hair();
         }
@@ -21,6 +23,18 @@ fn use_scene(text: &str) {
             assert!(!fault.to_string().is_empty());
         }
     }
+}
+
+/// A scene can be edited, or says why not.
+fn edit_steps(text: &str, steps: &[Operation]) {
+    let dry = Operation::Dry(Dry::default());
+    for at in [0, steps.len() / 2, steps.len()] {
+        let _ = edit::insert(text, at, std::slice::from_ref(&dry));
+        let _ = edit::replace(text, at, &dry);
+        let _ = edit::remove(text, at);
+    }
+    let written = steps.iter().filter_map(|step| write_step(step).ok()).count();
+    assert_eq!(written, steps.len(), "a step that can be read can be written");
 }
 
 fn use_file(name: &str, bytes: &[u8], read: impl FnOnce(&Path)) {
@@ -50,6 +64,8 @@ fn whole_scene() -> String {
     let mut text: Vec<_> = lines.map(str::to_owned).collect();
     text.push("[hair.root]\nd1 = [0, 1, 0]\nd2 = [0, 0, 1]\nt = [1, 0, 0]\n".into());
     text.push("[equilibrium]\nelements = 20\nbranch = \"lowest\"\nstarts = 4\n".into());
+    text.push("[[step]] # c\nrelease = { where = { any = [\"top\", { wisps = [1] }] } }\n".into());
+    text.push("[[step]]\n[step.cut]\nplane.point = [0, 0, 0]\nplane.normal = [0, 0, 1]\n".into());
     text.push("[head]\nmesh = \"a.obj\"\nunit = \"cm\"\nscalp_mask = \"b.png\"\n".into());
     text.join("\n")
 }
@@ -96,6 +112,8 @@ fn piece() -> impl Strategy<Value = String> {
         "\u{0}",
         "\u{feff}",
         "along = [{}]",
+        "[[step]]\nwet = {}\n",
+        "step = [{ dry = {} }]\n",
     ];
     prop_oneof![proptest::sample::select(words.to_vec()).prop_map(str::to_owned), ".{0,12}",]
 }
@@ -167,6 +185,13 @@ fn deep_nesting_is_no_way_to_end_a_program() {
     for text in ["[", "a=[", "a={b=", "a.", "[a."] {
         use_scene(&text.repeat(200_000));
     }
+}
+
+#[test]
+fn a_scene_of_many_steps_is_read_in_time() {
+    let text = "[[step]]\ngrow = { by = \"1 mm\", where = [\"top\", \"nape\"] }\n".repeat(5000);
+    use_scene(&text);
+    use_scene(&format!("{text}[[step]]\nwet = {{ to = 2 }}"));
 }
 
 #[test]

@@ -13,17 +13,30 @@ const START: &str = "<!-- keys: made from the schema; see crates/frisure-io/test
 /// The tables of keys, from the schema.
 fn reference() -> String {
     let mut out = String::new();
-    table(schema(), "", &mut out);
+    rows(schema(), "", &mut out);
+    let place = &schema()["$defs"]["where"];
+    let _ = write!(out, "\n## `where`\n\n{}\n", text(&place["description"]));
+    for way in place["anyOf"].as_array().into_iter().flatten() {
+        if way.get("properties").is_some() {
+            rows(way, "where", &mut out);
+        }
+    }
     out
 }
 
 fn table(schema: &Value, path: &str, out: &mut String) {
-    let Some(keys) = schema["properties"].as_object() else { return };
-    if !path.is_empty() {
-        let text = |s: &Value| s["description"].as_str().unwrap_or("").replace('\n', " ");
-        let _ = write!(out, "\n## `[{path}]`\n\n{}\n", text(schema));
+    if schema.get("properties").is_some() {
+        let text = text(&schema["description"]).replace('\n', " ");
+        let _ = write!(out, "\n## `[{path}]`\n\n{text}\n");
+        rows(schema, path, out);
     }
-    let is_table = |s: &Value| s.get("properties").is_some();
+}
+
+/// The keys of a table, and then the tables in it.
+fn rows(schema: &Value, path: &str, out: &mut String) {
+    let Some(keys) = schema["properties"].as_object() else { return };
+    // A table of places or numbers is a value.
+    let is_table = |s: &Value| s.get("properties").is_some() && s.get("required").is_none();
     if keys.values().any(|s| !is_table(s)) {
         let _ = write!(out, "\n| key | value | |\n| --- | --- | --- |\n");
     }
@@ -35,7 +48,9 @@ fn table(schema: &Value, path: &str, out: &mut String) {
         if schema["items"].get("properties").is_some() && key != "along" {
             list(schema, &join(path, key), out);
         }
-        table(schema, &join(path, key), out);
+        if is_table(schema) {
+            table(schema, &join(path, key), out);
+        }
     }
 }
 
@@ -45,10 +60,9 @@ fn join(path: &str, key: &str) -> String {
 
 /// The keys of tables in a list.
 fn list(schema: &Value, path: &str, out: &mut String) {
-    let mut keys = String::new();
-    table(&schema["items"], "", &mut keys);
     let text = schema["description"].as_str().unwrap_or("").replace('\n', " ");
-    let _ = write!(out, "\n## `[[{path}]]`\n\n{text}\n{keys}");
+    let _ = write!(out, "\n## `[[{path}]]`\n\n{text}\n");
+    rows(&schema["items"], path, out);
 }
 
 /// What kind of value a key has, in words.
@@ -65,11 +79,23 @@ fn value(schema: &Value) -> String {
     if schema["items"]["oneOf"].is_array() {
         return "a list of these".into();
     }
+    if schema["$ref"] == "#/$defs/where" {
+        return "see [where](#where)".into();
+    }
+    if schema["items"]["$ref"] == "#/$defs/where" {
+        return "list of choices".into();
+    }
+    if let Some(keys) = schema["properties"].as_object() {
+        let each = |(key, schema): (&String, &Value)| {
+            format!("`{key}` {}", schema["description"].as_str().unwrap_or(""))
+        };
+        return format!("table: {}", keys.iter().map(each).collect::<Vec<_>>().join(" "));
+    }
     if let Some(items) = schema["items"]["properties"].as_object() {
         let names: Vec<_> = items.keys().map(|k| format!("`{k}`")).collect();
         return format!("list of tables with {}", names.join(", "));
     }
-    match schema["x-unit"].as_str() {
+    match schema["x-unit"].as_str().filter(|_| schema["type"] != "array") {
         Some("a pure number") => return "number".into(),
         Some(unit) => return format!("{unit}, or `{}`", schema["examples"][0]),
         None => {}
@@ -78,6 +104,8 @@ fn value(schema: &Value) -> String {
     match schema["type"].as_str() {
         Some("integer") => "whole number".into(),
         Some("string") => "text".into(),
+        Some("boolean") => "true or false".into(),
+        Some("array") if example.is_null() => "list of whole numbers".into(),
         _ => format!("such as `{example}`"),
     }
 }
@@ -105,7 +133,7 @@ fn the_scenes_in_the_text_are_scenes() {
     let text = std::fs::read_to_string(path).unwrap();
     let scenes: Vec<_> =
         text.split("```toml\n").skip(1).filter_map(|s| s.split("```").next()).collect();
-    assert_eq!(scenes.len(), 2);
+    assert_eq!(scenes.len(), 3);
     for scene in scenes {
         let scene = Scene::parse("scene.md", scene, Path::new("")).unwrap();
         assert_eq!(scene.hair_type, "caucasian-curly");

@@ -277,7 +277,7 @@ fn faults_name_place_value_range_and_hint() {
             "",
             &["unknown key `x`"],
         ),
-        ("[[step]]\nwet = {}", 1, 3, "step", "", &["unknown key `step`"]),
+        ("[[stepp]]\nwet = {}", 1, 3, "stepp", "", &["did you mean `step`?"]),
         // Kinds.
         ("hair = 3", 1, 8, "hair", "3", &["it must be a table"]),
         ("[hair.curl]\nalong = 3", 2, 9, "hair.curl.along", "3", &["a list of tables"]),

@@ -11,11 +11,12 @@ use serde::Deserialize;
 
 use super::key::{
     Acceleration, Angle, Colour, Count, Density, Key, Length, Modulus, NumberDensity, OneOf, Pair,
-    Points, Ratio, Strain, Text, Vector,
+    Points, Ratio, Speed, Strain, Text, Vector,
 };
+use super::step::Step;
 use super::words::{
     BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places,
-    UnitWord, UpAxis, Which,
+    UnitWord, UpAxis, WettingWord, Which,
 };
 
 /// A scene: hair, the head it grows on, and how to look at it.
@@ -46,6 +47,8 @@ pub(super) struct File {
     pub(super) contact: Contact,
     /// How the equilibrium of each guide is computed.
     pub(super) equilibrium: Equilibrium,
+    /// What is done to the hair, in this order; each step has exactly one of these keys.
+    pub(super) step: Vec<Step>,
     /// Colours.
     pub(super) look: Look,
     /// Where the picture is taken from. All of the hair and the head is always in it, though not
@@ -74,6 +77,11 @@ pub(super) struct Hair {
     /// Which shape of the type's section is taken, where `[hair.fibre]` gives none. Default
     /// "measured".
     pub(super) ellipticity: Key<OneOf<Which<frisure_hairstyle::Ellipticity>>>,
+    /// How fast it grows; 0 to 26 cm a month. Default the type's.
+    #[schemars(range(min = 0.0, max = 1e-7))]
+    pub(super) growth_rate: Key<Speed>,
+    /// What water makes of a fibre. Default "paper".
+    pub(super) wetting: Key<OneOf<Which<WettingWord>>>,
     /// Section and material of a fibre. The section is said in one way: `diameter` or
     /// `mean_radius`, with `eccentricity` or `axis_ratio`; or both semi-axes.
     pub(super) fibre: Fibre,

@@ -5,6 +5,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
 
+use frisure_hairstyle::InvalidSpec;
 use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer};
@@ -34,20 +35,69 @@ pub(super) trait Kind {
 }
 
 /// A value that is not of its kind.
+#[derive(Default)]
 pub(super) struct Refusal {
     /// What would be allowed, in words.
     allowed: String,
     /// What to try; may be empty.
     hint: String,
+    /// What is wrong, where it is not that the value is outside what is allowed.
+    problem: String,
+    /// What stands there in other words, where the text itself would be long.
+    value: Option<Box<str>>,
+    /// Path inside the value, such as `.plane.normal` or `[1]`, to what is wrong.
+    inside: Box<str>,
+    /// Whether it is the key that is wrong, not its value.
+    in_key: bool,
 }
 
 impl Refusal {
     pub(super) fn new(allowed: impl Into<String>) -> Self {
-        Self { allowed: allowed.into(), hint: String::new() }
+        Self { allowed: allowed.into(), ..Self::default() }
     }
 
-    fn hint(self, hint: impl Into<String>) -> Self {
+    /// What is wrong, in words.
+    pub(super) fn because(problem: impl Into<String>) -> Self {
+        Self { problem: problem.into(), ..Self::default() }
+    }
+
+    /// A key of a table that has none of that name.
+    pub(super) fn unknown_key(name: &str, known: &[&str]) -> Self {
+        let hint = match nearest(name, known.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("known keys: {}", known.join(", ")),
+        };
+        let refusal = Self::because(format!("unknown key `{name}`")).hint(hint);
+        Self { in_key: true, ..refusal }.inside(&format!(".{name}"))
+    }
+
+    /// A number that a hairstyle refuses, in a part of the value.
+    pub(super) fn out_of_range(error: &InvalidSpec, inside: &str) -> Self {
+        let refusal = Self::new(error.allowed).inside(inside);
+        Self { value: Some(error.value.as_str().into()), ..refusal }
+    }
+
+    pub(super) fn hint(self, hint: impl Into<String>) -> Self {
         Self { hint: hint.into(), ..self }
+    }
+
+    /// The same, of a part of the value that is read.
+    pub(super) fn inside(self, part: &str) -> Self {
+        Self { inside: format!("{part}{}", self.inside).into(), ..self }
+    }
+
+    /// The refusal of a value that stands at a place of a scene.
+    fn at(self, span: Range<usize>, source: &Source) -> SceneError {
+        let Self { allowed, hint, problem, value, inside, in_key } = self;
+        let key = source.path_at(&span) + &inside;
+        let span = match inside.is_empty() {
+            true => span,
+            false if in_key => source.locate_key(&key),
+            false => source.locate(&key),
+        };
+        let value = value.map_or_else(|| source.slice(span.clone()).to_owned(), String::from);
+        let fault = Fault { problem, ..Fault::outside(allowed) };
+        fault.hint(hint).key(key).value(value).at(source, span)
     }
 }
 
@@ -103,17 +153,62 @@ impl<K: Kind> Key<K> {
     /// With the key's place, if the value is not of its kind.
     pub(super) fn get(&self, source: &Source) -> Result<Option<K::Value>, SceneError> {
         let Some(written) = &self.written else { return Ok(None) };
-        let span = written.span();
-        K::read(written.get_ref()).map(Some).map_err(|Refusal { allowed, hint }| {
-            let key = source.path_at(&span);
-            let value = source.slice(span.clone());
-            Fault::outside(allowed).hint(hint).key(key).value(value).at(source, span)
-        })
+        let refuse = |refusal: Refusal| refusal.at(written.span(), source);
+        K::read(written.get_ref()).map(Some).map_err(refuse)
     }
 
     /// The value, or `default` if the key is not written.
     pub(super) fn or(&self, default: K::Value, source: &Source) -> Result<K::Value, SceneError> {
         Ok(self.get(source)?.unwrap_or(default))
+    }
+}
+
+/// A table of keys that may be written in a scene, with its place there.
+pub(super) struct Table<T> {
+    written: Option<Spanned<T>>,
+}
+
+impl<T> Default for Table<T> {
+    fn default() -> Self {
+        Self { written: None }
+    }
+}
+
+impl<T: fmt::Debug> fmt::Debug for Table<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.written.fmt(f)
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(Self { written: Some(Spanned::deserialize(deserializer)?) })
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Table<T> {
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
+impl<T> Table<T> {
+    /// The keys, if the table is written.
+    pub(super) fn get(&self) -> Option<&T> {
+        self.written.as_ref().map(Spanned::get_ref)
+    }
+
+    /// Bytes of the table or of its header, if it is written.
+    pub(super) fn span(&self) -> Option<Range<usize>> {
+        self.written.as_ref().map(Spanned::span)
     }
 }
 
@@ -201,6 +296,25 @@ quantities! {
     Acceleration = ACCELERATION;
     /// A pure number.
     Ratio = RATIO;
+    /// A speed (m/s).
+    Speed = SPEED;
+    /// A time (s).
+    Time = TIME;
+}
+
+/// Yes or no.
+pub(super) struct Flag;
+
+impl Kind for Flag {
+    type Value = bool;
+
+    fn read(value: &Value) -> Result<bool, Refusal> {
+        value.as_bool().ok_or_else(|| Refusal::new("true or false"))
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "type": "boolean" })
+    }
 }
 
 /// A whole number of at least 0.
@@ -259,6 +373,31 @@ impl Kind for Vector {
         json_schema!({
             "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3,
             "examples": [[0, 0, 1]],
+        })
+    }
+}
+
+/// Three lengths (m).
+pub(super) struct Point;
+
+impl Kind for Point {
+    type Value = DVec3;
+
+    fn read(value: &Value) -> Result<DVec3, Refusal> {
+        let allowed = "three lengths, such as [\"5 cm\", 0, \"12 cm\"]";
+        let array = value.as_array().filter(|a| a.len() == 3);
+        let array = array.ok_or_else(|| Refusal::new(allowed))?;
+        let mut out = [0.0; 3];
+        for (i, (x, value)) in out.iter_mut().zip(array).enumerate() {
+            *x = Length::read(value).map_err(|e| e.inside(&format!("[{i}]")))?;
+        }
+        Ok(out.into())
+    }
+
+    fn schema() -> Schema {
+        json_schema!({
+            "type": "array", "items": { "type": ["number", "string"] }, "minItems": 3,
+            "maxItems": 3, "x-unit": "m", "examples": [["5 cm", 0, "12 cm"]],
         })
     }
 }

@@ -13,16 +13,19 @@ mod resolve;
 mod schema;
 mod shape;
 mod source;
+mod step;
 mod template;
 mod words;
 
 use std::path::{Path, PathBuf};
 
+use frisure_hairstyle::styling::{Operation, StyleError};
 use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
 use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
 
 pub use error::{Fault, SceneError};
 pub use schema::schema;
+pub use step::{WriteStepError, edit, parse_step, write_step};
 pub use template::template;
 pub use words::UpAxis;
 
@@ -54,6 +57,7 @@ pub struct Scene {
     /// The picture's size.
     pub output: Output,
     spec: HairstyleSpec,
+    steps: Vec<Operation>,
     along: Option<StrainProfile>,
     frame: [glam::DVec3; 3],
     branch: Branch,
@@ -168,9 +172,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`].
     pub fn parse(name: &str, text: impl Into<String>, folder: &Path) -> Result<Self, SceneError> {
-        // Editors on some systems begin a text with a byte order mark; TOML has none.
-        let text: String = text.into();
-        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        let text = without_mark(text.into());
         resolve::scene(Source { name: name.to_owned(), text }, folder)
     }
 
@@ -181,6 +183,26 @@ impl Scene {
     /// wisps vary by chance, not as given.
     pub fn hairstyle_spec(&self) -> Result<HairstyleSpec, SceneError> {
         resolve::hairstyle(self)
+    }
+
+    /// What is done to the hair, in this order.
+    #[must_use]
+    pub fn steps(&self) -> &[Operation] {
+        &self.steps
+    }
+
+    /// The text that the scene was read from.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// Why a step, counted from 0, cannot be done, at the step or at the key in it that says what
+    /// cannot be.
+    #[must_use]
+    pub fn step_fault(&self, index: usize, error: &StyleError) -> SceneError {
+        let operation = self.steps.get(index).map_or("", Operation::name);
+        step::fault(index, operation, error, &self.source)
     }
 
     /// The single hair that the scene describes, without variation.
@@ -233,4 +255,9 @@ impl Scene {
     pub fn out_of_range(&self, error: &InvalidSpec) -> SceneError {
         blame::out_of_range(error, &self.source)
     }
+}
+
+/// A text without the byte order mark that editors on some systems begin it with; TOML has none.
+fn without_mark(text: String) -> String {
+    text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)
 }

@@ -23,7 +23,7 @@ use super::source::Source;
 use super::words::{BranchKind, FlowWord, HairType, UnitWord, Which};
 use super::{
     Camera, HeadFile, HeadSource, Light, Look, Output, ScalpSource, Scene, SingleHair, UpAxis,
-    schema, shape,
+    schema, shape, step,
 };
 
 /// The hair type of a scene that names none.
@@ -36,7 +36,7 @@ const MAX_HEAVINESS: f64 = 1e8;
 /// Largest ratio of a section's axes; measured hair reaches 3.
 const MAX_AXIS_RATIO: f64 = 20.0;
 
-type Result<T, E = SceneError> = std::result::Result<T, E>;
+pub(super) type Result<T, E = SceneError> = std::result::Result<T, E>;
 
 /// Reads the whole scene.
 pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
@@ -51,6 +51,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
     wisps(&file.wisps, &mut spec, &source)?;
     implantation(&file.implantation, &mut spec, &source)?;
     spec.regions = regions(&file.region, &source)?;
+    let steps = step::operations(&file.step, &source)?;
     let c = &file.contact;
     spec.contact.body = c.body.get(&source)?.map_or(spec.contact.body, |b| b.0);
     spec.contact.hair = c.hair.get(&source)?.map_or(spec.contact.hair, |h| h.0);
@@ -71,6 +72,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
         frame: frame(&file.hair.root, &source)?,
         branch,
         spec,
+        steps,
         source,
     })
 }
@@ -139,6 +141,10 @@ fn hair(file: &File, preset: &Preset, spec: &mut HairstyleSpec, source: &Source)
     set(&mut spec.gravity, &file.gravity, source)?;
     set(&mut spec.length.mean, &hair.length, source)?;
     set(&mut spec.length.variation_between, &hair.length_variation, source)?;
+    set(&mut spec.length.growth_rate, &hair.growth_rate, source)?;
+    if let Some(Which(wetting)) = hair.wetting.get(source)? {
+        spec.wetting = wetting.of(preset.hair_type());
+    }
     let curl = &mut spec.curl;
     curl.strain = strain(&hair.curl, curl, source)?;
     curl.handedness = hair.curl.handedness.get(source)?.map_or(curl.handedness, |h| h.0);
@@ -423,7 +429,7 @@ fn region(index: usize, file: &file::Region, source: &Source) -> Result<RegionSt
 }
 
 /// A value that a hairstyle refuses, where it is written.
-fn at_value(error: &InvalidSpec, span: Range<usize>, source: &Source) -> SceneError {
+pub(super) fn at_value(error: &InvalidSpec, span: Range<usize>, source: &Source) -> SceneError {
     let key = source.path_at(&span);
     // A list is long, and only what is wrong with it is worth a sentence.
     let written = source.slice(span.clone());
@@ -569,7 +575,7 @@ fn outside<K>(key: &Key<K>, allowed: &str, source: &Source) -> SceneError {
 }
 
 /// A key that says nothing without another.
-fn missing<K>(given: &Key<K>, other: &str, source: &Source) -> SceneError {
+pub(super) fn missing<K>(given: &Key<K>, other: &str, source: &Source) -> SceneError {
     let span = given.span().unwrap_or(0..0);
     let key = source.path_at(&span);
     let problem = format!("`{key}` needs `{other}` beside it");
@@ -577,7 +583,7 @@ fn missing<K>(given: &Key<K>, other: &str, source: &Source) -> SceneError {
 }
 
 /// Refuses keys of more than one group: groups are different ways to say the same thing.
-fn one_way(source: &Source, groups: &[&[Option<Range<usize>>]]) -> Result<()> {
+pub(super) fn one_way(source: &Source, groups: &[&[Option<Range<usize>>]]) -> Result<()> {
     let first =
         |group: &&[Option<Range<usize>>]| group.iter().flatten().min_by_key(|s| s.start).cloned();
     let mut given: Vec<Range<usize>> = groups.iter().filter_map(first).collect();

@@ -6,10 +6,14 @@ use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
 use super::file::File;
+use super::step;
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
-    settings.into_generator().into_root_schema_for::<File>().to_value()
+    let mut schema = settings.into_generator().into_root_schema_for::<File>().to_value();
+    // A choice of wisps can hold others: the one part that has to be named to be described.
+    schema["$defs"][step::WHERE] = step::where_schema().to_value();
+    schema
 });
 
 /// The JSON Schema of a scene: every key with its description, unit (`x-unit`), range and words.

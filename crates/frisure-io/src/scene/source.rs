@@ -50,36 +50,45 @@ impl Source {
     /// Where the value at a path such as `hair.curl.radius` or `region[1].length` stands, or the
     /// nearest thing around it that is written down; the empty span at the start if nothing is.
     pub(super) fn locate(&self, path: &str) -> Range<usize> {
-        let Ok(document) = self.document() else { return 0..0 };
-        let mut table = document.get_ref();
-        let mut span = 0..0;
-        for step in path.split('.') {
-            let (name, indices) = step.split_once('[').unwrap_or((step, ""));
-            let Some(mut value) = table.get(name) else { break };
-            span = value.span();
-            for index in indices.split(['[', ']']).filter_map(|i| i.parse::<usize>().ok()) {
-                let Some(item) = value.get_ref().get(index) else { break };
-                value = item;
-                span = value.span();
-            }
-            let DeValue::Table(inner) = value.get_ref() else { break };
-            table = inner;
-        }
-        span
+        self.follow(path).last.map_or(0..0, |found| found.value)
+    }
+
+    /// The same of the key, where it has one.
+    pub(super) fn locate_key(&self, path: &str) -> Range<usize> {
+        self.follow(path).last.map_or(0..0, |found| found.key)
     }
 
     /// Where the value at a path stands, if it is written, and whether it is a single value: no
     /// table and no list.
     pub(super) fn find(&self, path: &str) -> Option<(Range<usize>, bool)> {
-        let document = self.document().ok()?;
+        let way = self.follow(path);
+        way.last.filter(|_| way.whole).map(|found| (found.value, found.single))
+    }
+
+    /// Goes along a path as far as it is written.
+    fn follow(&self, path: &str) -> Way {
+        let mut way = Way { last: None, whole: false };
+        let Ok(document) = self.document() else { return way };
         let mut table = document.get_ref();
-        let (tables, last) = path.rsplit_once('.').unwrap_or(("", path));
-        for name in tables.split('.').filter(|n| !n.is_empty()) {
-            table = table.get(name)?.get_ref().as_table()?;
+        let mut steps = path.split('.').peekable();
+        while let Some(step) = steps.next() {
+            let (name, indices) = step.split_once('[').unwrap_or((step, ""));
+            let Some((key, mut value)) = table.get_key_value(name) else { return way };
+            let key = key.span();
+            way.last = Some(Found::new(key.clone(), value));
+            for index in indices.split(['[', ']']).filter_map(|i| i.parse::<usize>().ok()) {
+                let Some(item) = value.get_ref().get(index) else { return way };
+                value = item;
+                way.last = Some(Found::new(key.clone(), value));
+            }
+            match value.get_ref() {
+                DeValue::Table(inner) => table = inner,
+                _ if steps.peek().is_some() => return way,
+                _ => {}
+            }
         }
-        let value = table.get(last)?;
-        let single = !value.get_ref().is_table() && !value.get_ref().is_array();
-        Some((value.span(), single))
+        way.whole = true;
+        way
     }
 
     /// Path of the value that stands at exactly this span.
@@ -89,6 +98,26 @@ impl Source {
             find_in_table(document.get_ref(), span, &mut path);
         }
         path
+    }
+}
+
+/// How far a path is written.
+struct Way {
+    last: Option<Found>,
+    whole: bool,
+}
+
+/// A value, and where it stands.
+struct Found {
+    key: Range<usize>,
+    value: Range<usize>,
+    single: bool,
+}
+
+impl Found {
+    fn new(key: Range<usize>, value: &Spanned<DeValue<'_>>) -> Self {
+        let single = !value.get_ref().is_table() && !value.get_ref().is_array();
+        Self { key, value: value.span(), single }
     }
 }
 

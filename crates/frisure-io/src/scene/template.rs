@@ -60,6 +60,9 @@ type = "{name}"  # {description}
 [output]
 # width = 900
 # height = 1100
+
+# [[step]]                        # done to the hair, in this order; `frisure style` adds more
+# cut = {{ below = "chin", where = "sides" }}
 "##,
         name = preset.name,
         description = preset.description,

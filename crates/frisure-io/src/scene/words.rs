@@ -2,7 +2,7 @@
 
 use frisure_hairstyle::head::Region;
 use frisure_hairstyle::{
-    Comb, Ellipticity, Handedness, Level, PRESETS, Parting, Place, Preset, Turn,
+    Comb, Ellipticity, Handedness, Level, PRESETS, Parting, Place, Preset, Turn, Wetting,
 };
 use frisure_rod::{ElementKind, TorsionConstant};
 use schemars::{Schema, json_schema};
@@ -64,6 +64,31 @@ impl Choice for Which<Ellipticity> {
         vec![
             ("measured", "the measured axis ratio and its spread", Self(Ellipticity::Measured)),
             ("paper", "the paper's eccentricity, nearly a circle", Self(Ellipticity::Paper)),
+        ]
+    }
+}
+
+/// Which of a type's two answers to water is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum WettingWord {
+    Paper,
+    Measured,
+}
+
+impl WettingWord {
+    pub(super) fn of(self, hair: &frisure_hairstyle::HairType) -> Wetting {
+        match self {
+            Self::Paper => hair.paper_wetting,
+            Self::Measured => hair.wetting,
+        }
+    }
+}
+
+impl Choice for Which<WettingWord> {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            ("paper", "a fifth of the stiffness, as in the paper", Self(WettingWord::Paper)),
+            ("measured", "as measured on such hair", Self(WettingWord::Measured)),
         ]
     }
 }
