@@ -90,12 +90,12 @@ fn every_operation_can_be_said() {
     assert_eq!(one("comb = { to = 'left' }"), comb(left, Comb::STRENGTH, false));
     let along = Direction::Along(DVec3::Y);
     assert_eq!(one("comb = { to = [0, 1, 0], strength = 5, hold = true }"), comb(along, 5.0, true));
-    let part = |line, strength| Operation::Part(Part { selection: EVERYTHING, line, strength });
+    let part = |line| Operation::Part(Part { line });
     let middle = Parting::Straight { offset: 0.0 };
-    assert_eq!(one("part = { at = 'middle' }"), part(middle, Comb::STRENGTH));
+    assert_eq!(one("part = { at = 'middle' }"), part(middle));
     let through = Parting::Through(vec![[0.02, 0.0], [0.03, 0.08]]);
-    let text = "part = { line = [['2 cm', 0], ['3 cm', '8 cm']], strength = 1 }";
-    assert_eq!(one(text), part(through, 1.0));
+    let text = "part = { line = [['2 cm', 0], ['3 cm', '8 cm']] }";
+    assert_eq!(one(text), part(through));
     let hold = |by| Operation::Hold(Hold { selection: EVERYTHING, by });
     assert_eq!(
         one("roll = { radius = '1 cm' }"),
@@ -376,7 +376,6 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                     "cut.elevation" => "cut.below = 0",
                     "grow.stages" => "grow.by = 0",
                     "comb.strength" => "comb.to = 'left'",
-                    "part.strength" => "part.at = 0",
                     "roll.pitch" => "roll.radius = 0.01",
                     "braid.width" => "braid.pitch = 0.1",
                     "braid.pitch" => "braid.width = 0.01",
@@ -507,7 +506,6 @@ fn operation() -> impl Strategy<Value = Operation> {
         Just(Parting::Zigzag { offset: 0.0 }),
         number(0.0, 0.2).prop_map(|x| Parting::Through(vec![[x, 0.0], [-x, 0.4]])),
     ];
-    let strength = || number(0.0, 100.0);
     prop_oneof![
         (selection(), number(0.0, 1.0), number(0.0, 0.4))
             .prop_map(|(selection, to, water)| Operation::Wet(Wet { selection, to, water })),
@@ -518,14 +516,12 @@ fn operation() -> impl Strategy<Value = Operation> {
         (selection(), amount, 1_usize..1001).prop_map(|(selection, amount, stages)| {
             Operation::Grow(Grow { selection, amount, stages })
         }),
-        (selection(), towards, strength(), any::<bool>()).prop_map(
+        (selection(), towards, number(0.0, 100.0), any::<bool>()).prop_map(
             |(selection, towards, strength, hold)| {
                 Operation::Comb(Comb { selection, towards, strength, hold })
             }
         ),
-        (selection(), line, strength()).prop_map(|(selection, line, strength)| {
-            Operation::Part(Part { selection, line, strength })
-        }),
+        line.prop_map(|line| Operation::Part(Part { line })),
         (selection(), held_by())
             .prop_map(|(selection, by)| Operation::Hold(Hold { selection, by })),
         selection().prop_map(|selection| Operation::Release(Release { selection })),

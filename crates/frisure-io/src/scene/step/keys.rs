@@ -161,12 +161,6 @@ pub(super) struct Part {
     pub(super) at: Key<PartingPlace>,
     /// Points that it goes smoothly through, as in `[[implantation.partings]]`.
     pub(super) line: Key<Points>,
-    /// How hard, as `comb` says it; 0 to 100. Default 3.
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub(super) strength: Key<Ratio>,
-    /// Which wisps. Default all.
-    #[serde(rename = "where")]
-    pub(super) place: Key<Where>,
 }
 
 /// `roll`.

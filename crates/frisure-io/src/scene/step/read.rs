@@ -239,9 +239,5 @@ fn part(keys: &keys::Part, here: &str, source: &Source) -> Result<Part> {
     one_way(source, &[&[keys.at.span()], &[keys.line.span()]])?;
     let through = keys.line.get(source)?.map(Parting::Through);
     let line = keys.at.get(source)?.or(through);
-    Ok(Part {
-        selection: selection(&keys.place, source)?,
-        line: line.ok_or_else(|| lacks("at = \"middle\"", here, source))?,
-        strength: keys.strength.or(Comb::STRENGTH, source)?,
-    })
+    Ok(Part { line: line.ok_or_else(|| lacks("at = \"middle\"", here, source))? })
 }

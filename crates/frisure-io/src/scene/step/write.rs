@@ -152,14 +152,13 @@ fn comb(comb: &Comb) -> Fields {
 
 fn part(part: &Part) -> Fields {
     let fields = Fields::default();
-    let fields = match &part.line {
+    match &part.line {
         Parting::Straight { offset } if same(*offset, 0.0) => fields.with("at", "\"middle\""),
         Parting::Straight { offset } => fields.with("at", length(*offset)),
         // The one zigzag that there is a word for.
         Parting::Zigzag { .. } => fields.with("at", "\"zigzag\""),
         Parting::Through(points) => fields.with("line", list(points, |p| pair(*p))),
-    };
-    fields.unless(same(part.strength, Comb::STRENGTH), "strength", number(part.strength))
+    }
 }
 
 fn hold(hold: &Hold) -> Fields {
