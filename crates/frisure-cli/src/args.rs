@@ -56,6 +56,7 @@ Examples:
   frisure predict scenes/curly.toml -o out/curly.hair --image out/curly.png
   frisure predict scenes/wavy.toml -o wavy.obj -o wavy.ply --report wavy.json
   frisure new frizzy | frisure predict - --image frizzy.png
+  frisure predict scenes/growth.toml --each-step --image out/growth.png
 
 Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder
 if it comes from standard input.";
@@ -78,6 +79,11 @@ pub(crate) struct Predict {
     /// Write numbers about the result (.json).
     #[arg(long, value_name = "JSON")]
     pub(crate) report: Option<PathBuf>,
+
+    /// Write a groom and a picture before the first step and after each, numbered: hair-00.png,
+    /// hair-01.png and so on, all from one place. Growth in stages counts each stage.
+    #[arg(long)]
+    pub(crate) each_step: bool,
 }
 
 const HAIR_EXAMPLES: &str = "\

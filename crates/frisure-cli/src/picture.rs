@@ -10,14 +10,16 @@ use glam::{DVec3, Vec3};
 /// Part of the picture's width or height that stays free on each side.
 const MARGIN: f64 = 0.05;
 
-/// The renderer's scene: camera, lamps and colours as `scene` says.
+/// The renderer's scene: camera, lamps and colours as `scene` says; all of `framed` would be in the
+/// picture.
 pub(crate) fn scene<'a>(
     scene: &Scene,
     strands: &'a Strands,
+    framed: &Strands,
     surface: &'a Surface,
 ) -> preview::Scene<'a> {
     let aspect = scene.output.width as f64 / scene.output.height as f64;
-    let camera = camera(&scene.camera, shown(strands, surface), aspect);
+    let camera = camera(&scene.camera, shown(framed, surface), aspect);
     let lights = lights(&scene.light, &camera);
     let look = look(&scene.look);
     preview::Scene { strands, surface: Some(surface), camera, lights, look }

@@ -104,8 +104,8 @@ fn rows(hair: &HairType) -> Vec<(&'static str, String)> {
 
 fn wetting(wet: &Wetting) -> String {
     format!(
-        "E x {:.2}, G x {:.2}, diameter x {:.3}, length x {:.3}",
-        wet.youngs_modulus, wet.shear_modulus, wet.diameter, wet.length
+        "E x {:.2}, G x {:.2}, diameter x {:.3}, length x {:.3}, wisps x {:.1}",
+        wet.youngs_modulus, wet.shear_modulus, wet.diameter, wet.length, wet.wisp
     )
 }
 
@@ -154,6 +154,7 @@ struct Wet {
     shear_modulus: f64,
     diameter: f64,
     length: f64,
+    wisp: f64,
 }
 
 impl Described {
@@ -191,7 +192,7 @@ impl Described {
 
 impl Wet {
     fn new(wet: &Wetting) -> Self {
-        let Wetting { youngs_modulus, shear_modulus, diameter, length } = *wet;
-        Self { youngs_modulus, shear_modulus, diameter, length }
+        let Wetting { youngs_modulus, shear_modulus, diameter, length, wisp } = *wet;
+        Self { youngs_modulus, shear_modulus, diameter, length, wisp }
     }
 }

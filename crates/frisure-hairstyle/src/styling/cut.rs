@@ -3,9 +3,8 @@
 use frisure_rod::Equilibrium;
 use glam::DVec3;
 
-use super::operation::{Cut, CutLine, Height, Held};
+use super::operation::{Cut, CutLine, Held};
 use crate::head::Head;
-use crate::implantation::regions::height;
 use crate::roots::Root;
 
 /// A cut on a head.
@@ -30,12 +29,8 @@ const BISECTIONS: u32 = 40;
 impl<'a> Scissors<'a> {
     pub(super) fn new(cut: &Cut, head: &'a Head) -> Self {
         let line = match cut.line {
-            CutLine::Below(level) => {
-                let z = match level {
-                    Height::At(z) => z,
-                    Height::Above(level, by) => height(level, head.landmarks()) + by,
-                };
-                CutLine::Plane { point: DVec3::Z * z, normal: DVec3::NEG_Z }
+            CutLine::Below(height) => {
+                CutLine::Plane { point: DVec3::Z * height.on(head), normal: DVec3::NEG_Z }
             }
             CutLine::Plane { point, normal } => {
                 CutLine::Plane { point, normal: normal.normalize_or(DVec3::NEG_Z) }

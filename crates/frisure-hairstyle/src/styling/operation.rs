@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use super::Selection;
+use crate::head::Head;
+use crate::implantation::regions::height;
 use crate::spec::{self, InvalidSpec, Level, Parting, range};
 
 /// One thing that is done to a hairstyle.
@@ -129,6 +131,17 @@ pub enum Held {
     /// Straight out from its root at an elevation (rad): 0 is flat along the skin downwards (one
     /// length), π/4 graduates, π/2 is perpendicular to the skin (layers), more turns it upwards.
     Elevated(f64),
+}
+
+impl Height {
+    /// The height (m) on a head.
+    #[must_use]
+    pub fn on(self, head: &Head) -> f64 {
+        match self {
+            Self::At(z) => z,
+            Self::Above(level, by) => height(level, head.landmarks()) + by,
+        }
+    }
 }
 
 /// Lets hair grow.

@@ -1,0 +1,156 @@
+//! What is done to the hair of a scene, step by step.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use frisure::hairstyle::head::Head;
+use frisure::hairstyle::styling::{Cut, CutLine, Operation, StyleError};
+use frisure::hairstyle::{Hairstyle, Monitor};
+use frisure::io::scene::Scene;
+use serde::Serialize;
+
+use crate::failure::Failure;
+
+/// What a step did.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct StepNumbers {
+    operation: &'static str,
+    /// Wisps that it was about.
+    wisps: usize,
+    /// Mass of all hair after it (kg), and how much more or less that is than before.
+    mass: f64,
+    mass_change: f64,
+    /// Mean height of the tips of those wisps before and after it (m).
+    tips: [f64; 2],
+    /// Of a cut below a height.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cut: Option<CutNumbers>,
+}
+
+/// Where the ends of wisps are that were cut below a height.
+#[derive(Clone, Debug, Serialize)]
+struct CutNumbers {
+    /// The height (m).
+    line: f64,
+    /// Mean height of their tips above it (m): when they had been cut, and after all steps.
+    above_when_cut: f64,
+    above_at_the_end: f64,
+}
+
+/// The hairstyles on the way: at first, and after each stage of each step.
+pub(super) struct Styled {
+    /// All of them if they are wanted, or the last.
+    pub(super) hairstyles: Vec<Hairstyle>,
+    pub(super) steps: Vec<StepNumbers>,
+}
+
+/// Does all steps of a scene.
+pub(super) fn all(
+    scene: &Scene,
+    head: &Head,
+    start: Hairstyle,
+    each: bool,
+    monitor: &dyn Monitor,
+) -> Result<Styled, Failure> {
+    let mut styled = Styled { hairstyles: vec![start], steps: Vec::new() };
+    let mut cuts: Vec<(usize, Vec<bool>, f64)> = Vec::new();
+    for (index, operation) in scene.steps().iter().enumerate() {
+        let before = styled.hairstyles.last().expect("there is one to begin with");
+        let refused = |e: StyleError| match e {
+            StyleError::Cancelled(_) => Failure::Interrupted,
+            e => scene.step_fault(index, &e).into(),
+        };
+        let chosen = match operation.selection() {
+            Some(selection) => before.selected(head, selection).map_err(refused)?,
+            None => vec![true; before.guides().len()],
+        };
+        let stages = before.stages(head, operation, monitor).map_err(refused)?;
+        let after = stages.last().expect("a step has a stage");
+        styled.steps.push(StepNumbers {
+            operation: operation.name(),
+            wisps: chosen.iter().filter(|chosen| **chosen).count(),
+            mass: after.mass(),
+            mass_change: after.mass() - before.mass(),
+            tips: [mean_tip(before, &chosen), mean_tip(after, &chosen)],
+            cut: None,
+        });
+        if let Operation::Cut(Cut { line: CutLine::Below(height), .. }) = operation {
+            cuts.push((index, chosen, height.on(head)));
+        }
+        if !each {
+            styled.hairstyles.clear();
+        }
+        styled
+            .hairstyles
+            .extend(stages.into_iter().rev().take(if each { usize::MAX } else { 1 }).rev());
+    }
+    let end = styled.hairstyles.last().expect("there is one to begin with");
+    for (index, chosen, line) in cuts {
+        let step = &mut styled.steps[index];
+        step.cut = Some(CutNumbers {
+            line,
+            above_when_cut: step.tips[1] - line,
+            above_at_the_end: mean_tip(end, &chosen) - line,
+        });
+    }
+    Ok(styled)
+}
+
+/// Mean height (m) of the tips of chosen wisps.
+fn mean_tip(hairstyle: &Hairstyle, chosen: &[bool]) -> f64 {
+    let tips = hairstyle.equilibria().iter().zip(chosen).filter(|(_, chosen)| **chosen);
+    let (sum, count) = tips.fold((0.0, 0.0), |(sum, n), (rest, _)| (sum + rest.tip().z, n + 1.0));
+    sum / count
+}
+
+impl StepNumbers {
+    /// One line for a person, where there is something to tell.
+    pub(super) fn tell(&self, out: &mut String) {
+        let grams = self.mass_change * 1e3;
+        // Writing to a String cannot fail.
+        let _ = match (self.operation, &self.cut) {
+            ("cut", Some(cut)) => writeln!(
+                out,
+                "cut {} wisps: {:.1} g fell, and their tips are {:.1} cm above the line",
+                self.wisps,
+                -grams,
+                cut.above_at_the_end * 1e2
+            ),
+            ("cut", None) => writeln!(out, "cut {} wisps: {:.1} g fell", self.wisps, -grams),
+            (name, _) => writeln!(out, "{name}: {} wisps", self.wisps),
+        };
+    }
+}
+
+/// How many hairstyles there are on the way.
+pub(super) fn count(scene: &Scene) -> usize {
+    let stages = |operation: &Operation| match operation {
+        Operation::Grow(grow) => grow.stages,
+        _ => 1,
+    };
+    1 + scene.steps().iter().map(stages).sum::<usize>()
+}
+
+/// The name of an output with a number before the extension: `out/hair.png` is `out/hair-07.png`.
+pub(super) fn numbered(path: &Path, number: usize, count: usize) -> PathBuf {
+    let digits = count.saturating_sub(1).to_string().len().max(2);
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number:0digits$}"));
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_go_before_the_extension() {
+        let name = |path: &str, number, count| numbered(Path::new(path), number, count);
+        assert_eq!(name("out/hair.png", 7, 12), Path::new("out/hair-07.png"));
+        assert_eq!(name("hair", 7, 1200), Path::new("hair-0007"));
+    }
+}
