@@ -9,6 +9,9 @@ use crate::roots::Root;
 use crate::spec::Wisps;
 use crate::splits::{Split, Waves};
 
+/// Least length (m) along which hair gathers into wisps: stubble stands by itself.
+const GATHERING: f64 = 0.06;
+
 /// How much of the way to the middle of its split a hair has come at the tip.
 const GATHERED: f64 = 0.75;
 
@@ -70,7 +73,7 @@ impl Population<'_> {
         let Course { root, followed, character, split, length, planned, uncut, .. } = course;
         let along = x * length;
         let rise = smooth(0.0, 0.06_f64.min(0.5 * length), along);
-        let gathered = smooth(0.0, 1.0, (along / uncut).powf(0.8));
+        let gathered = smooth(0.0, 1.0, (along / uncut.max(GATHERING)).powf(0.8));
         let drifted = x * (1.0 + (character.drift - 1.0) * rise);
         let mut carried = character.waves.at(along / planned) * rise;
         for (rank, &(g, weight)) in followed.iter().enumerate() {

@@ -122,11 +122,12 @@ fn held(rod: Rod, holder: Holder) -> Result<Rod, InvalidQuantity> {
     Rod::new(RodSpec { natural, material, ..rod.spec().clone() })
 }
 
-/// The strain of a part of a braid of three: it goes to and fro across the braid once, and over and
-/// under the others twice, in each pitch P. Curvature of `½ w cos(2πs/P)` and `⅛ w cos(4πs/P)`.
+/// The strain of a part of a braid of three, half as wide as the braid and a third as thick: in each
+/// pitch P it goes once to and fro across the braid and twice over and under the others, along about
+/// `¼ w cos(2πs/P)` and `w/12 cos(4πs/P)`.
 fn braid(width: f64, pitch: f64, length: f64) -> Result<NaturalStrain, InvalidQuantity> {
     let wave = TAU / pitch;
-    let (across, over) = (0.5 * width * wave * wave, 0.5 * width * wave * wave);
+    let (across, over) = (width / 4.0 * wave.powi(2), width / 12.0 * (2.0 * wave).powi(2));
     let step = (pitch / BRAID_KNOTS).max(length / 2000.0);
     let count = (length / step).ceil() as usize + 1;
     let knots = (0..count).map(|i| {

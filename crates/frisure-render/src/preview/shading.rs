@@ -27,6 +27,12 @@ const MEAN_SINE: f32 = std::f32::consts::FRAC_PI_4;
 /// Part of the room that hair mirrors: its neighbours hide the rest.
 const ROOM_GLOSS: f32 = 0.3;
 
+/// How much less diffuse light, and light that was inside the fibre, comes back from wet hair. Chosen so
+/// that a wet head is about a fifth darker than the same dry, as in the paper (§3.2.1): in front, where
+/// the narrower highlight is, less, and behind more.
+const WET_DIFFUSE: f32 = 0.42;
+const WET_RETURNED: f32 = 0.25;
+
 /// Optical depth from which a lamp counts for nothing: it leaves less than half a thousandth.
 const DARK: f32 = 7.6;
 
@@ -92,7 +98,8 @@ impl Shader {
         let wet = vertex.wetness;
         let eye = (self.eye - vertex.position).normalize_or_zero();
         // Wet hair: less light returns through the film, and the film evens out the scales.
-        let diffuse = material.diffuse * (1.0 - 0.3 * wet);
+        let diffuse = material.diffuse * (1.0 - WET_DIFFUSE * wet);
+        let returned = material.returned * (1.0 - WET_RETURNED * wet);
         let shape = LobeShape {
             width: self.shape.width * (1.0 - 0.5 * wet),
             tilt: self.shape.tilt * (1.0 - wet),
@@ -103,8 +110,7 @@ impl Shader {
         let reflected = strength * material.reflected;
 
         let room = self.sky.mean(vertex.position);
-        let mut radiance =
-            room * MEAN_SINE * (diffuse + ROOM_GLOSS * reflected + material.returned);
+        let mut radiance = room * MEAN_SINE * (diffuse + ROOM_GLOSS * reflected + returned);
         for lamp in &self.lamps {
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
             if hairs * self.materials.taken.min_element() > DARK {
@@ -122,7 +128,7 @@ impl Shader {
             let scattered = kajiya_kay::diffuse(vertex.tangent, lamp.to_light)
                 * std::f32::consts::FRAC_1_PI
                 * diffuse;
-            let direct = lobe.r * reflected + lobe.trt * material.returned;
+            let direct = lobe.r * reflected + lobe.trt * returned;
             let through = lobe.tt * material.transmitted;
             radiance += head
                 * lamp.irradiance
