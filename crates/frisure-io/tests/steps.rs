@@ -238,6 +238,12 @@ fn faults_name_place_value_range_and_hint() {
         ("comb = { to = 'lefft' }", 15, "comb.to", &["did you mean \"left\"?"]),
         ("comb = { to = [0, 0, 0] }", 15, "comb.to", &["a direction"]),
         ("comb = { to = 'left', hold = 1 }", 30, "comb.hold", &["true or false"]),
+        (
+            "part = { at = 0, where = 'top' }",
+            18,
+            "part.where",
+            &["unknown key `where`", "known keys: at, line"],
+        ),
         ("part = {}", 8, "part", &["needs `at`"]),
         ("part = { at = '10 cm' }", 15, "part.at", &["within 6 cm"]),
         ("part = { line = [[0, 0]] }", 17, "part.line", &["of 1 points", "2 to 100 points"]),
