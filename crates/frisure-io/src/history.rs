@@ -24,7 +24,7 @@ const WHAT: &str = "a history";
 
 /// A scene, and what is done to its hair.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct History {
+pub struct HistoryFile {
     /// The text of the scene that everything begins from.
     pub scene_text: String,
     /// What was done, in order, and after it what was undone and can be done again.
@@ -37,14 +37,14 @@ pub struct History {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recovered {
     /// The scene and the steps that are whole.
-    pub history: History,
+    pub history: HistoryFile,
     /// How many steps are lost.
     pub lost: usize,
 }
 
 /// Why a history cannot be read.
 #[derive(Debug, Error)]
-pub enum HistoryError {
+pub enum ReadHistoryError {
     /// Its file cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
@@ -107,7 +107,7 @@ pub enum HistoryError {
 
 /// Why a history cannot be written.
 #[derive(Debug, Error)]
-pub enum HistoryWriteError {
+pub enum WriteHistoryError {
     /// A step that cannot be written.
     #[error("step {} cannot be saved", index + 1)]
     Step {
@@ -132,12 +132,12 @@ pub enum HistoryWriteError {
     Write(#[from] WriteError),
 }
 
-impl History {
+impl HistoryFile {
     /// Reads a history.
     ///
     /// # Errors
-    /// [`HistoryError`]; of a file that was cut off [`recover`] gives what is whole.
-    pub fn read(path: &Path) -> Result<Self, HistoryError> {
+    /// [`ReadHistoryError`]; of a file that was cut off [`recover`] gives what is whole.
+    pub fn read(path: &Path) -> Result<Self, ReadHistoryError> {
         let text = read_text(path)?;
         Self::parse(&path.display().to_string(), &text)
     }
@@ -145,25 +145,25 @@ impl History {
     /// Understands the text of a history; `name` is what errors call it.
     ///
     /// # Errors
-    /// [`HistoryError`].
-    pub fn parse(name: &str, text: &str) -> Result<Self, HistoryError> {
+    /// [`ReadHistoryError`].
+    pub fn parse(name: &str, text: &str) -> Result<Self, ReadHistoryError> {
         check_version(name, text)?;
         let named = || name.to_owned();
         let Some(end) = End::of(text) else {
             return Err(match whole(name, text) {
                 Ok(Record { steps, promised, .. }) => {
-                    HistoryError::CutOff { name: named(), whole: steps.len(), promised }
+                    ReadHistoryError::CutOff { name: named(), whole: steps.len(), promised }
                 }
-                Err(_) => HistoryError::NothingLeft { name: named() },
+                Err(_) => ReadHistoryError::NothingLeft { name: named() },
             });
         };
         if end.checksum != checksum(end.body) {
-            return Err(HistoryError::Changed { name: named() });
+            return Err(ReadHistoryError::Changed { name: named() });
         }
         let Record { done, promised, scene, steps } = parse_record(name, end.body)?;
         let count = steps.len();
         if done > count || promised != count || end.steps != count {
-            return Err(HistoryError::Contradicts { name: named(), done, count, promised });
+            return Err(ReadHistoryError::Contradicts { name: named(), done, count, promised });
         }
         Ok(Self { scene_text: scene, operations: steps, done })
     }
@@ -171,43 +171,43 @@ impl History {
     /// The text of the history, which [`Self::parse`] reads as the same.
     ///
     /// # Errors
-    /// [`HistoryWriteError`].
-    pub fn text(&self) -> Result<String, HistoryWriteError> {
+    /// [`WriteHistoryError`].
+    pub fn text(&self) -> Result<String, WriteHistoryError> {
         let (done, count) = (self.done, self.operations.len());
         if done > count {
-            return Err(HistoryWriteError::Done { done, count });
+            return Err(WriteHistoryError::Done { done, count });
         }
         let scene = quoted(&self.scene_text);
         let mut text =
             format!("history = {VERSION}\ndone = {done}\nsteps = {count}\nscene = {scene}\n");
         for (index, operation) in self.operations.iter().enumerate() {
             let step = write_step(operation)
-                .map_err(|source| HistoryWriteError::Step { index, source })?;
+                .map_err(|source| WriteHistoryError::Step { index, source })?;
             text.push('\n');
             text.push_str(&step);
         }
         let end = End { body: &text, steps: count, checksum: checksum(&text) }.line();
         text.push_str(&end);
-        if text.len() as u64 > MAX_SIZE { Err(HistoryWriteError::TooLarge) } else { Ok(text) }
+        if text.len() as u64 > MAX_SIZE { Err(WriteHistoryError::TooLarge) } else { Ok(text) }
     }
 
     /// Writes the history, all or nothing: whenever it is interrupted, the old file or the new one is
     /// there.
     ///
     /// # Errors
-    /// [`HistoryWriteError`]; the file is then as it was.
-    pub fn write(&self, path: &Path) -> Result<(), HistoryWriteError> {
+    /// [`WriteHistoryError`]; the file is then as it was.
+    pub fn write(&self, path: &Path) -> Result<(), WriteHistoryError> {
         let text = self.text()?;
         Ok(files::write_atomically(path, |out| out.write_all(text.as_bytes()))?)
     }
 }
 
-/// What is whole of a history that [`History::read`] refuses as cut off or changed: its scene, and its
+/// What is whole of a history that [`HistoryFile::read`] refuses as cut off or changed: its scene, and its
 /// steps up to the first that is not whole.
 ///
 /// # Errors
-/// [`HistoryError`], if not even the scene is whole, or what is there cannot be read.
-pub fn recover(path: &Path) -> Result<Recovered, HistoryError> {
+/// [`ReadHistoryError`], if not even the scene is whole, or what is there cannot be read.
+pub fn recover(path: &Path) -> Result<Recovered, ReadHistoryError> {
     let text = read_text(path)?;
     recover_text(&path.display().to_string(), &text)
 }
@@ -215,18 +215,18 @@ pub fn recover(path: &Path) -> Result<Recovered, HistoryError> {
 /// The same of a text; `name` is what errors call it.
 ///
 /// # Errors
-/// [`HistoryError`].
-pub fn recover_text(name: &str, text: &str) -> Result<Recovered, HistoryError> {
+/// [`ReadHistoryError`].
+pub fn recover_text(name: &str, text: &str) -> Result<Recovered, ReadHistoryError> {
     check_version(name, text)?;
     let cut = End::of(text).is_none();
     let record = whole(name, text).map_err(|error| match cut {
-        true => HistoryError::NothingLeft { name: name.to_owned() },
+        true => ReadHistoryError::NothingLeft { name: name.to_owned() },
         false => error.into(),
     })?;
     let Record { done, promised, scene, steps } = record;
     let lost = promised.saturating_sub(steps.len());
     let done = done.min(steps.len());
-    Ok(Recovered { history: History { scene_text: scene, operations: steps, done }, lost })
+    Ok(Recovered { history: HistoryFile { scene_text: scene, operations: steps, done }, lost })
 }
 
 fn cut_off(name: &str, whole: usize, promised: usize) -> String {
@@ -259,20 +259,20 @@ fn whole(name: &str, text: &str) -> Result<Record, SceneError> {
 }
 
 /// Refuses what is no history, and histories of versions to come.
-fn check_version(name: &str, text: &str) -> Result<(), HistoryError> {
+fn check_version(name: &str, text: &str) -> Result<(), ReadHistoryError> {
     const KEY: &str = "history = ";
     let line = text.lines().next().unwrap_or("");
     let version = line.strip_prefix(KEY).and_then(|number| number.trim().parse().ok());
     match version {
         Some(version) if version > VERSION => {
-            Err(HistoryError::Newer { name: name.to_owned(), version })
+            Err(ReadHistoryError::Newer { name: name.to_owned(), version })
         }
         Some(VERSION) => Ok(()),
         // Not even the first line is whole.
         None if text == line && (KEY.starts_with(line) || line == KEY) => {
-            Err(HistoryError::NothingLeft { name: name.to_owned() })
+            Err(ReadHistoryError::NothingLeft { name: name.to_owned() })
         }
-        _ => Err(HistoryError::NotHistory { name: name.to_owned() }),
+        _ => Err(ReadHistoryError::NotHistory { name: name.to_owned() }),
     }
 }
 

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use frisure_hairstyle::styling::{Dry, Humidity, Operation};
-use frisure_io::history::{History, HistoryError, HistoryWriteError, recover, recover_text};
+use frisure_io::history::{
+    HistoryFile, ReadHistoryError, WriteHistoryError, recover, recover_text,
+};
 use frisure_io::scene::{parse_step, write_step};
 use proptest::prelude::*;
 
@@ -11,7 +13,7 @@ fn steps(texts: &[&str]) -> Vec<Operation> {
     texts.iter().map(|text| parse_step("step", *text).unwrap()).collect()
 }
 
-fn history() -> History {
+fn history() -> HistoryFile {
     let operations = steps(&[
         "wet = {}",
         "cut = { below = \"brows\", where = { not = [\"nape\"] } }",
@@ -20,23 +22,23 @@ fn history() -> History {
     ]);
     let scene_text = "# Ma coiffure \u{e9}\r\n[hair]\ntype = \"curly\" # \"\"\"\\\u{1}\n\n[[step]]\ndry = \
                       {}\nname = \"\"";
-    History { scene_text: scene_text.into(), operations, done: 3 }
+    HistoryFile { scene_text: scene_text.into(), operations, done: 3 }
 }
 
 fn refused(text: &str) -> String {
-    History::parse("a.history", text).unwrap_err().to_string()
+    HistoryFile::parse("a.history", text).unwrap_err().to_string()
 }
 
 #[test]
 fn a_history_is_read_as_it_was_saved() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.history");
-    for history in [history(), History::default()] {
+    for history in [history(), HistoryFile::default()] {
         history.write(&path).unwrap();
-        assert_eq!(History::read(&path).unwrap(), history);
+        assert_eq!(HistoryFile::read(&path).unwrap(), history);
         // The same history, the same bytes.
         let text = std::fs::read_to_string(&path).unwrap();
-        assert_eq!(History::parse("a", &text).unwrap().text().unwrap(), text);
+        assert_eq!(HistoryFile::parse("a", &text).unwrap().text().unwrap(), text);
     }
     let names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
     assert_eq!(names.len(), 1, "nothing else is left behind");
@@ -45,7 +47,7 @@ fn a_history_is_read_as_it_was_saved() {
 #[test]
 fn a_history_is_legible() {
     let history =
-        History { scene_text: "seed = 1\n".into(), operations: steps(&["wet = {}"]), done: 0 };
+        HistoryFile { scene_text: "seed = 1\n".into(), operations: steps(&["wet = {}"]), done: 0 };
     let text = history.text().unwrap();
     let (body, end) = text.split_once("# end: 1 steps, checksum ").unwrap();
     let start = "history = 1\ndone = 0\nsteps = 1\nscene = \"\"\"\nseed = 1\n\"\"\"\n\n";
@@ -66,10 +68,10 @@ fn cut_off_anywhere_it_is_never_taken_for_a_shorter_one() {
     let ends: Vec<_> = ends.iter().map(|end| end + 1).collect();
     for length in (0..text.len()).filter(|i| text.is_char_boundary(*i)) {
         let cut = &text[..length];
-        match History::parse("a.history", cut) {
+        match HistoryFile::parse("a.history", cut) {
             // All but the end of the last line.
             Ok(read) => assert_eq!((read, length), (history.clone(), text.len() - 1)),
-            Err(HistoryError::CutOff { whole, promised, .. }) => {
+            Err(ReadHistoryError::CutOff { whole, promised, .. }) => {
                 let recovered = recover_text("a.history", cut).unwrap();
                 assert_eq!(recovered.history.operations, history.operations[..whole]);
                 assert_eq!(recovered.history.scene_text, history.scene_text);
@@ -78,7 +80,7 @@ fn cut_off_anywhere_it_is_never_taken_for_a_shorter_one() {
                 // Each step is there as soon as its line is.
                 assert_eq!(whole, ends.iter().filter(|end| **end <= length).count());
             }
-            Err(HistoryError::NothingLeft { .. }) => {
+            Err(ReadHistoryError::NothingLeft { .. }) => {
                 assert!(length < text.find("\n\n[[step]]\nwet = {}\n\n").unwrap() + 1, "{cut}");
                 assert!(recover_text("a.history", cut).is_err());
             }
@@ -95,21 +97,21 @@ fn cut_off_anywhere_it_is_never_taken_for_a_shorter_one() {
 
 #[test]
 fn a_file_may_end_in_the_middle_of_a_letter() {
-    let whole = History { scene_text: "é".into(), operations: steps(&["wet = {}"]), done: 1 };
+    let whole = HistoryFile { scene_text: "é".into(), operations: steps(&["wet = {}"]), done: 1 };
     let text = whole.text().unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.history");
     for length in 0..text.len() - 1 {
         std::fs::write(&path, &text.as_bytes()[..length]).unwrap();
-        let cut = History::read(&path).unwrap_err();
+        let cut = HistoryFile::read(&path).unwrap_err();
         match cut {
-            HistoryError::CutOff { .. } => assert!(recover(&path).unwrap().lost <= 1),
-            HistoryError::NothingLeft { .. } => assert!(recover(&path).is_err()),
+            ReadHistoryError::CutOff { .. } => assert!(recover(&path).unwrap().lost <= 1),
+            ReadHistoryError::NothingLeft { .. } => assert!(recover(&path).is_err()),
             other => panic!("{length}: {other}"),
         }
     }
     std::fs::write(&path, b"history = 1\n\xff\n").unwrap();
-    let error = History::read(&path).unwrap_err().to_string();
+    let error = HistoryFile::read(&path).unwrap_err().to_string();
     assert!(error.contains("not UTF-8 text (byte 1 of line 2)"), "{error}");
 }
 
@@ -130,7 +132,7 @@ fn changed_and_foreign_files_say_so() {
         assert!(refused(other).contains("is no history"), "{other}");
     }
     for (path, part) in [("none.history", "there is no file"), (".", "is a directory")] {
-        let error = History::read(Path::new(path)).unwrap_err().to_string();
+        let error = HistoryFile::read(Path::new(path)).unwrap_err().to_string();
         assert!(error.contains(part), "{error}");
     }
 }
@@ -141,11 +143,11 @@ fn what_cannot_be_saved_leaves_the_old_file() {
     let path = folder.path().join("a.history");
     std::fs::write(&path, "old").unwrap();
     let bad = Operation::Dry(Dry { keep: f64::NAN, ..Dry::default() });
-    let bad = History { operations: vec![bad], ..History::default() };
+    let bad = HistoryFile { operations: vec![bad], ..HistoryFile::default() };
     let refused = bad.write(&path);
-    assert!(matches!(refused, Err(HistoryWriteError::Step { index: 0, .. })));
-    let ahead = History { done: 1, ..History::default() };
-    assert!(matches!(ahead.write(&path), Err(HistoryWriteError::Done { done: 1, count: 0 })));
+    assert!(matches!(refused, Err(WriteHistoryError::Step { index: 0, .. })));
+    let ahead = HistoryFile { done: 1, ..HistoryFile::default() };
+    assert!(matches!(ahead.write(&path), Err(WriteHistoryError::Done { done: 1, count: 0 })));
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
     assert!(history().write(&folder.path().join("none/a.history")).is_err());
 }
@@ -153,9 +155,9 @@ fn what_cannot_be_saved_leaves_the_old_file() {
 proptest! {
     #[test]
     fn any_scene_text_comes_back(scene_text in "[\\PC\"\\\\\n\r\t\u{0}-\u{1f}\u{7f}-\u{9f}]{0,60}") {
-        let history = History { scene_text, operations: steps(&["dry = {}"]), done: 1 };
+        let history = HistoryFile { scene_text, operations: steps(&["dry = {}"]), done: 1 };
         let text = history.text().unwrap();
-        prop_assert_eq!(History::parse("a", &text).unwrap(), history);
+        prop_assert_eq!(HistoryFile::parse("a", &text).unwrap(), history);
     }
 
     #[test]
@@ -169,7 +171,7 @@ proptest! {
         };
         let (from, to) = (near(at), near(at + length));
         let text = if start { format!("{}{text}{}", &whole[..from], &whole[to..]) } else { text };
-        if let Ok(read) = History::parse("a", &text) {
+        if let Ok(read) = HistoryFile::parse("a", &text) {
             prop_assert_eq!(read, history());
         }
         let _ = recover_text("a", &text);
