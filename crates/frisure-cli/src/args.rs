@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand};
+use clap::{ArgGroup, Args, Parser, Subcommand};
 use frisure::hairstyle::PRESETS;
 
 const EXAMPLES: &str = "\
 Examples:
   frisure new caucasian-curly > mine.toml
   frisure predict mine.toml -o out/mine.hair --image out/mine.png
+  frisure style mine.toml --step 'cut = { below = \"chin\" }'
   frisure hair mine.toml --json --points 100
 
 Exit status:
@@ -41,6 +42,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Predict a whole head of hair, and write it as a groom, a picture, a report.
     Predict(Predict),
+    /// Add steps to a scene, take one out, or list them: what is done to the hair.
+    Style(Style),
     /// Compute one hair: its shape, its energies, and how sure they are.
     Hair(Hair),
     /// List the hair types that a scene can start from, or all that is measured of one.
@@ -84,6 +87,47 @@ pub(crate) struct Predict {
     /// hair-01.png and so on, all from one place. Growth in stages counts each stage.
     #[arg(long)]
     pub(crate) each_step: bool,
+}
+
+const STYLE_EXAMPLES: &str = "\
+Examples:
+  frisure style mine.toml --step 'wet = {}' --step 'cut = { below = \"brows\", where = \"fringe\" }'
+  frisure style mine.toml --list
+  frisure style mine.toml --at 2 --step 'comb = { to = \"left\" }'
+  frisure style mine.toml --remove 3 --at 3 --step 'dry = {}'
+  frisure style mine.toml --step 'grow = { months = 3 }' -o later.toml
+
+The scene is written back in one piece, and nothing but the steps changes in it: comments and layout
+stay. If a step is wrong, the scene stays as it is. Steps are numbered from 1; `--remove` comes
+before `--at`. What a step can say is told in docs/scene.md.";
+
+/// Arguments of `frisure style`.
+#[derive(Args, Debug)]
+#[command(after_help = STYLE_EXAMPLES)]
+#[command(group = ArgGroup::new("what").required(true).multiple(true))]
+pub(crate) struct Style {
+    /// The scene (TOML), or `-` for standard input.
+    pub(crate) scene: PathBuf,
+
+    /// Add a step after the others, written as in a scene. May be repeated.
+    #[arg(long = "step", value_name = "STEP", group = "what")]
+    pub(crate) steps: Vec<String>,
+
+    /// Add the steps before the one with this number instead.
+    #[arg(long, value_name = "N", value_parser = step_number, requires = "steps")]
+    pub(crate) at: Option<usize>,
+
+    /// Take out the step with this number, and the comments directly above it.
+    #[arg(long, value_name = "N", value_parser = step_number, group = "what")]
+    pub(crate) remove: Option<usize>,
+
+    /// Print the steps, numbered, and change nothing.
+    #[arg(long, group = "what", conflicts_with_all = ["steps", "remove", "output"])]
+    pub(crate) list: bool,
+
+    /// Write the scene here instead of back to where it was read; `-` for standard output.
+    #[arg(long, short, value_name = "SCENE")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 const HAIR_EXAMPLES: &str = "\
@@ -150,6 +194,10 @@ fn threads(text: &str) -> Result<usize, String> {
 
 fn points(text: &str) -> Result<usize, String> {
     number(text, 2, 1_000_000)
+}
+
+fn step_number(text: &str) -> Result<usize, String> {
+    number(text, 1, usize::MAX).map_err(|_| "steps are numbered from 1".into())
 }
 
 fn number(text: &str, min: usize, max: usize) -> Result<usize, String> {

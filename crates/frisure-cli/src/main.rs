@@ -37,6 +37,7 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
     let quiet = arguments.quiet;
     match arguments.command {
         Command::Predict(predict) => commands::predict::run(predict, quiet),
+        Command::Style(style) => commands::style::run(&style, quiet),
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),

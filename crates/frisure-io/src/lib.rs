@@ -4,6 +4,7 @@
 //! | module | reads | writes |
 //! | --- | --- | --- |
 //! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from, and steps |
+//! | [`history`] | a scene with what was done and undone | the same |
 //! | [`head`] | OBJ meshes and scalp masks | |
 //! | [`groom`] | `.hair` | `.hair`, `.obj`, `.ply` |
 //! | [`picture`] | | PNG |
@@ -16,6 +17,7 @@
 pub mod files;
 pub mod groom;
 pub mod head;
+pub mod history;
 pub mod picture;
 pub mod quantity;
 pub mod report;

@@ -12,7 +12,10 @@ use proptest::prelude::*;
 fn use_scene(text: &str) {
     match Scene::parse("any", text, Path::new("")) {
         Ok(scene) => {
-            edit_steps(text, scene.steps());
+            // Each edit reads the text a few times.
+            if scene.steps().len() < 100 {
+                edit_steps(text, scene.steps());
+            }
             let _ = scene.hairstyle_spec();
             let _ = scene.single_hair();
         }
@@ -178,6 +181,14 @@ proptest! {
             }
         });
     }
+}
+
+#[test]
+fn what_mistakes_are_made_in_is_a_scene() {
+    let text = whole_scene();
+    let scene = Scene::parse("whole", text.as_str(), Path::new("")).unwrap();
+    assert_eq!(scene.steps().len(), 3);
+    edit_steps(&text, scene.steps());
 }
 
 #[test]

@@ -238,6 +238,12 @@ fn faults_name_place_value_range_and_hint() {
         ("comb = { to = 'lefft' }", 15, "comb.to", &["did you mean \"left\"?"]),
         ("comb = { to = [0, 0, 0] }", 15, "comb.to", &["a direction"]),
         ("comb = { to = 'left', hold = 1 }", 30, "comb.hold", &["true or false"]),
+        (
+            "part = { at = 0, where = 'top' }",
+            18,
+            "part.where",
+            &["unknown key `where`", "known keys: at, line"],
+        ),
         ("part = {}", 8, "part", &["needs `at`"]),
         ("part = { at = '10 cm' }", 15, "part.at", &["within 6 cm"]),
         ("part = { line = [[0, 0]] }", 17, "part.line", &["of 1 points", "2 to 100 points"]),
@@ -335,6 +341,12 @@ fn a_step_that_cannot_be_done_is_shown() {
     let above = fault(1, &StyleError::AboveRoot { wisps: vec![3, 4], selected: 9 });
     assert_eq!((above.line, above.column, above.key.as_str()), (4, 7, "step[1].cut"));
     assert!(above.to_string().contains("2 of 9 wisps: 3, 4") && above.hint.contains("cut lower"));
+    let left_out = "where = { all = ['nape', { not = { wisps = [3, 4] } }] }";
+    assert!(above.hint.contains(left_out), "{}", above.hint);
+    // What is proposed can be said.
+    one(&format!("release = {{ {left_out} }}"));
+    let all = fault(2, &StyleError::AboveRoot { wisps: vec![0], selected: 1 }).hint;
+    assert!(all.ends_with("`where = { not = { wisps = [0] } }`"), "{all}");
     // Nothing says which wisps; the header of the table stands for it.
     let none = fault(2, &StyleError::NoSuchWisp { wisp: 7, count: 5 });
     assert_eq!((none.line, none.column, none.key.as_str()), (6, 1, "step[2]"));

@@ -5,6 +5,7 @@ pub(crate) mod new;
 pub(crate) mod predict;
 pub(crate) mod presets;
 pub(crate) mod schema;
+pub(crate) mod style;
 
 use std::io::Read;
 use std::path::Path;
@@ -14,22 +15,38 @@ use frisure::io::scene::{MAX_SIZE, Scene};
 
 use crate::failure::Failure;
 
+/// What a scene is called in errors about its size.
+const WHAT: &str = "a scene";
+
 /// The scene in a file, or on standard input for `-`.
 fn read_scene(path: &Path) -> Result<Scene, Failure> {
+    parse_scene(path, read_text(path)?)
+}
+
+/// The scene of the text that was read at a path.
+fn parse_scene(path: &Path, text: String) -> Result<Scene, Failure> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    Ok(Scene::parse(&name(path), text, folder)?)
+}
+
+/// The text of a scene in a file, or on standard input for `-`.
+fn read_text(path: &Path) -> Result<String, Failure> {
     if path != Path::new("-") {
-        return Ok(Scene::read(path)?);
+        return Ok(files::read_text(path, MAX_SIZE, WHAT)?);
     }
-    let name = Path::new("<stdin>");
+    let name = name(path);
+    let path = Path::new(&name);
     let mut bytes = Vec::new();
     let input = std::io::stdin().lock();
     input.take(MAX_SIZE + 1).read_to_end(&mut bytes).map_err(|e| Failure::failed(&e))?;
     if bytes.len() as u64 > MAX_SIZE {
-        return Err(files::ReadError::TooLarge {
-            path: name.into(),
-            limit: MAX_SIZE,
-            what: "a scene",
-        }
-        .into());
+        let (path, limit) = (path.into(), MAX_SIZE);
+        return Err(files::ReadError::TooLarge { path, limit, what: WHAT }.into());
     }
-    Ok(Scene::parse("<stdin>", files::to_text(bytes, name)?, Path::new(""))?)
+    Ok(files::to_text(bytes, path)?)
+}
+
+/// What errors call a scene.
+fn name(path: &Path) -> String {
+    if path == Path::new("-") { "<stdin>".into() } else { path.display().to_string() }
 }

@@ -4,4 +4,5 @@ mod hair;
 mod help;
 mod predict;
 mod room;
+mod style;
 mod wrong;

@@ -25,6 +25,7 @@ use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
 
 pub use error::{Fault, SceneError};
 pub use schema::schema;
+pub(crate) use step::{Record, parse_record};
 pub use step::{WriteStepError, edit, parse_step, write_step};
 pub use template::template;
 pub use words::UpAxis;

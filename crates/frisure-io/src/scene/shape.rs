@@ -69,7 +69,7 @@ impl Walk<'_> {
         let known = || schema["properties"].as_object().into_iter().flat_map(|p| p.keys());
         let hint = if let Some(near) = nearest(name, known().map(String::as_str)) {
             format!("did you mean `{near}`?")
-        } else if let Some(elsewhere) = find(name, self.root, "") {
+        } else if let [elsewhere] = find(name, self.root, "").as_slice() {
             // The right key in the wrong table.
             format!("there is a `{elsewhere}`")
         } else {
@@ -84,13 +84,13 @@ fn has_keys(schema: &Value) -> bool {
     schema.get("properties").is_some()
 }
 
-/// Path of the first key of that name anywhere in the schema.
-fn find(name: &str, schema: &Value, path: &str) -> Option<String> {
-    let properties = schema["properties"].as_object()?;
+/// Paths of the keys of that name anywhere in the schema.
+fn find(name: &str, schema: &Value, path: &str) -> Vec<String> {
+    let Some(properties) = schema["properties"].as_object() else { return Vec::new() };
     if properties.contains_key(name) {
-        return Some(join(path, name));
+        return vec![join(path, name)];
     }
-    properties.iter().find_map(|(key, inner)| find(name, inner, &join(path, key)))
+    properties.iter().flat_map(|(key, inner)| find(name, inner, &join(path, key))).collect()
 }
 
 fn join(path: &str, name: &str) -> String {

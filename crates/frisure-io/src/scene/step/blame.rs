@@ -62,34 +62,50 @@ pub(in crate::scene) fn fault(
         return out_of_range(error, &here, operation, source);
     }
     let step = join(&here, operation);
+    let place = join(&step, "where");
+    let chosen = source.find(&place).map(|(span, _)| source.slice(span));
+    let hint = hint(error, chosen);
     let key = match error {
-        StyleError::NothingSelected | StyleError::NoSuchWisp { .. } => join(&step, "where"),
+        StyleError::NothingSelected | StyleError::NoSuchWisp { .. } => place,
         _ => step,
     };
     let span = source.locate(&key);
     // The key is only named if it is written.
     let key = if source.find(&key).is_some() { key } else { here };
-    Fault::new(error.to_string()).key(key).hint(hint(error)).at(source, span)
+    Fault::new(error.to_string()).key(key).hint(hint).at(source, span)
 }
 
-/// What to try.
-fn hint(error: &StyleError) -> &'static str {
+/// What to try; `chosen` is what the step says about which wisps.
+fn hint(error: &StyleError, chosen: Option<&str>) -> String {
     match error {
         StyleError::NothingSelected => {
-            "choose a larger part with `where`, or leave `where` out for all hair"
+            "choose a larger part with `where`, or leave `where` out for all hair".into()
         }
         StyleError::NoSuchWisp { .. } => {
-            "wisps are numbered from 0; `wisps.count` says how many there are"
+            "wisps are numbered from 0; `wisps.count` says how many there are".into()
         }
-        StyleError::AboveRoot { .. } => {
-            "cut lower, or leave those wisps out with `where`, such as `where = { not = { wisps = \
-             [0, 1] } }`"
-        }
-        StyleError::TooLong { .. } => "let it grow less, or cut it first",
-        StyleError::Parting(_) => "move the parting so that it lies on the scalp",
-        StyleError::Quantity(_)
-        | StyleError::Invalid(_)
-        | StyleError::Cancelled(_)
-        | StyleError::Predict(_) => "",
+        StyleError::AboveRoot { wisps, .. } => match without(wisps, chosen) {
+            Some(rest) => format!("cut lower, or leave them out: `where = {rest}`"),
+            None => "cut lower, or choose fewer wisps with `where`".into(),
+        },
+        StyleError::TooLong { .. } => "let it grow less, or cut it first".into(),
+        StyleError::Parting(_) => "move the parting so that it lies on the scalp".into(),
+        _ => String::new(),
     }
+}
+
+/// A choice without some wisps, if it is short enough to be shown.
+fn without(wisps: &[usize], chosen: Option<&str>) -> Option<String> {
+    const SHOWN: usize = 12;
+    let chosen = chosen.unwrap_or("");
+    if wisps.len() > SHOWN || chosen.len() > 40 || chosen.contains('\n') {
+        return None;
+    }
+    let wisps: Vec<_> = wisps.iter().map(ToString::to_string).collect();
+    let others = format!("{{ not = {{ wisps = [{}] }} }}", wisps.join(", "));
+    Some(match chosen {
+        "" => others,
+        list if list.starts_with('[') => format!("{{ all = [{{ any = {list} }}, {others}] }}"),
+        one => format!("{{ all = [{one}, {others}] }}"),
+    })
 }

@@ -6,6 +6,7 @@ pub mod edit;
 mod keys;
 mod layout;
 mod read;
+mod record;
 mod shapes;
 mod write;
 
@@ -22,6 +23,7 @@ use super::{schema, shape, without_mark};
 pub(super) use blame::fault;
 pub(super) use chosen::{WHERE, where_schema};
 pub(super) use keys::Step;
+pub(crate) use record::{Record, parse_record};
 pub use write::{WriteStepError, write_step};
 
 /// The operations of the steps of a scene.

@@ -1,0 +1,97 @@
+//! `frisure style`: the steps of a scene, put in, taken out and listed.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use frisure::hairstyle::styling::Operation;
+use frisure::io::files::{self, WriteError};
+use frisure::io::scene::edit::{self, EditError};
+use frisure::io::scene::{parse_step, write_step};
+
+use super::{parse_scene, read_text};
+use crate::args::Style;
+use crate::console;
+use crate::failure::{Done, Failure};
+
+/// What steps on the command line are called in errors.
+const STEP: &str = "--step";
+
+/// Changes the steps of a scene as the arguments say, or lists them.
+pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<Done, Failure> {
+    let text = read_text(&arguments.scene)?;
+    // What is wrong with the scene itself is said with its name and line.
+    let scene = parse_scene(&arguments.scene, text.clone())?;
+    if arguments.list {
+        console::print(&list(scene.steps()))?;
+        return Ok(Done::Well);
+    }
+    let read = |step: &String| parse_step(STEP, step.as_str());
+    let steps = arguments.steps.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let text = edited(&text, arguments, &steps).map_err(refuse)?;
+    let output = arguments.output.as_deref().unwrap_or(&arguments.scene);
+    write(output, &text)?;
+    if !quiet && !is_standard(output) {
+        let left = arguments.remove.map_or(0, |_| 1);
+        console::print(&summary(output, scene.steps().len() + steps.len() - left))?;
+    }
+    Ok(Done::Well)
+}
+
+fn edited(text: &str, arguments: &Style, steps: &[Operation]) -> Result<String, EditError> {
+    let removed = arguments.remove.map(|number| edit::remove(text, number - 1)).transpose()?;
+    let text = removed.as_deref().unwrap_or(text);
+    match arguments.at {
+        Some(number) => edit::insert(text, number - 1, steps),
+        None => edit::append(text, steps),
+    }
+}
+
+fn refuse(error: EditError) -> Failure {
+    let hint = match &error {
+        EditError::NoSuchStep { .. } => "`frisure style SCENE --list` numbers the steps",
+        EditError::Scattered => "edit the scene by hand",
+        _ => "",
+    };
+    match error {
+        EditError::Scene(error) => error.into(),
+        error => Failure::wrong(&error, hint),
+    }
+}
+
+/// Steps as they are written, with their numbers.
+fn list(steps: &[Operation]) -> String {
+    if steps.is_empty() {
+        return "the scene has no steps\n".into();
+    }
+    let width = steps.len().to_string().len();
+    let mut out = String::new();
+    for (i, step) in steps.iter().enumerate() {
+        let text = write_step(step).unwrap_or_else(|_| step.name().to_owned());
+        // The line after the header.
+        let text = text.lines().last().unwrap_or("");
+        // Writing to a String cannot fail.
+        let _ = writeln!(out, "{:width$}  {text}", i + 1);
+    }
+    out
+}
+
+fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    if is_standard(path) {
+        return console::print(text);
+    }
+    let failed = |e: WriteError| Failure::failed(&e);
+    files::write_atomically(path, |out| out.write_all(text.as_bytes())).map_err(failed)
+}
+
+fn summary(path: &Path, count: usize) -> String {
+    let steps = match count {
+        0 => "no steps".to_owned(),
+        1 => "1 step".to_owned(),
+        count => format!("{count} steps"),
+    };
+    format!("{} has {steps}\n", path.display())
+}
