@@ -15,6 +15,9 @@ use crate::spec::HairstyleSpec;
 /// How much stiffer hair is for being held in a shape.
 const MOULD: f64 = 30.0;
 
+/// Tension in hair that is braided or drawn straight, in weights.
+const DRAWN: f64 = 25.0;
+
 /// Knots of a braid's strain per pitch.
 const BRAID_KNOTS: f64 = 16.0;
 
@@ -152,6 +155,10 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
             let piece = [middle - half, middle + half];
             Some(Pull::Clip { piece, point, stiffness: CLIP.0 })
         }
-        Grip::Holder(_) => None,
+        // The hand that braids, or draws hair through plates, draws it down.
+        Grip::Holder(Holder::Braid { .. } | Holder::Straight) => {
+            Some(Pull::Comb { force: DVec3::NEG_Z * (DRAWN * rod.weight()) })
+        }
+        Grip::Holder(Holder::Roller { .. }) => None,
     }
 }

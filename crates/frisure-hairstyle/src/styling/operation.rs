@@ -371,6 +371,12 @@ impl Cut {
             }
             CutLine::Gathered(point) => near("cut.gathered", point),
         }?;
+        if matches!(self.line, CutLine::Length(_) | CutLine::Gathered(_)) {
+            let given = self.held != Held::default();
+            let (field, value) = ("cut.held", "given with `length` or `gathered`".to_owned());
+            let allowed = "left out there: how the hair is held does not matter";
+            return if given { Err(InvalidSpec { field, value, allowed }) } else { Ok(()) };
+        }
         match self.held {
             Held::Elevated(angle) => {
                 let allowed = "between 0 (along the skin) and 180 deg";
