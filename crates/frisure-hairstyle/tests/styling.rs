@@ -4,12 +4,13 @@ use std::sync::LazyLock;
 
 use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::styling::{
-    Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Hold, Holder, Humidity,
-    Operation, Part, Release, Selection, StyleError, Wet,
+    Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Hold, Holder, Humidity, Lasso,
+    Operation, Part, Release, Selection, Spot, StyleError, View, Wet,
 };
 use frisure_hairstyle::{
     Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place, predict, preset,
 };
+use frisure_strands::AttributeValues;
 
 static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
 
@@ -90,6 +91,133 @@ fn wet_hair_weighs_the_same_and_hangs_lower_and_straighter() {
         let spanned = |h: &Hairstyle| mean(h, |g, tip| tip.distance(g.root.position));
         assert!(height(&after) < height(&before), "{}", preset.name);
         assert!(spanned(&after) > spanned(&before), "{}", preset.name);
+    }
+}
+
+#[test]
+fn fully_wet_hair_has_the_numbers_of_the_paper() {
+    // §3.2.1: E ÷ 5, radius + 13 %, length + 1 %, wisps − 40 %; ρ makes up for what has swollen.
+    let before = hairstyle("caucasian-curly", 10);
+    let after = done(&before, &wet());
+    for (dry, wet) in before.guides().iter().zip(after.guides()) {
+        let (a, b) = (dry.rod.spec(), wet.rod.spec());
+        let close = |x: f64, y: f64| assert!((x - y).abs() <= 1e-12 * y.abs(), "{x} {y}");
+        close(b.material.youngs_modulus(), 0.2 * a.material.youngs_modulus());
+        close(b.material.shear_modulus(), 0.2 * a.material.shear_modulus());
+        close(b.section.mean_radius(), 1.13 * a.section.mean_radius());
+        close(b.section.axis_ratio(), a.section.axis_ratio());
+        close(b.length, 1.01 * a.length);
+        close(wet.thickness.packed(0.1), 0.6 * dry.thickness.packed(0.1));
+        close(wet.layer.at(0.05), 0.6 * dry.layer.at(0.05));
+        close(wet.rod.weight() * b.length, dry.rod.weight() * a.length);
+        // As much turn in all.
+        let turn = |rod: &frisure_rod::Rod| rod.natural().mean(0.0, rod.length()).x * rod.length();
+        close(turn(&wet.rod), turn(&dry.rod));
+    }
+    let soaked = done(&before, &Operation::Wet(Wet { water: 0.3, ..Wet::default() }));
+    assert!((soaked.mass() / before.mass() - 1.3).abs() < 1e-12);
+    let wetness = |h: &Hairstyle| h.strands(&HEAD, &()).unwrap().attribute("wetness").cloned();
+    assert!(wetness(&before).is_none());
+    let all_wet = AttributeValues::F32(vec![1.0; 300 * before.spec().wisps.points]);
+    assert_eq!(wetness(&after).unwrap().values, all_wet);
+}
+
+#[test]
+fn the_fringe_cut_wet_springs_up_when_it_dries() {
+    // The paper's Fig. 5.
+    let mut spec = spec("caucasian-curly", 100, HairContact::Layers);
+    let places = vec![Place::Region(Region::Fringe)];
+    let comb = Some(frisure_hairstyle::Comb::Forward);
+    spec.regions = vec![frisure_hairstyle::RegionStyle { places, comb, ..Default::default() }];
+    let before = predict(&spec, &HEAD, &()).unwrap();
+    let fringe = Selection::Place(Place::Region(Region::Fringe));
+    let chosen = before.selected(&HEAD, &fringe).unwrap();
+    let tips = |h: &Hairstyle| {
+        let tips = h.equilibria().iter().zip(&chosen).filter(|(_, chosen)| **chosen);
+        let (sum, count) = tips.fold((0.0, 0.0), |(s, n), (rest, _)| (s + rest.tip().z, n + 1.0));
+        sum / count
+    };
+    let line = -0.03;
+    let wetted = done(&before, &wet());
+    let cut = done(&wetted, &cut_below(line, fringe));
+    let after = done(&cut, &dry());
+    assert!(tips(&wetted) < tips(&before));
+    assert!(tips(&after) > tips(&cut) + 0.005, "{} {}", tips(&cut), tips(&after));
+    assert!(tips(&after) > line + 0.03, "{}", tips(&after));
+    // What was not cut lies as before.
+    let rest = before.equilibria().iter().zip(after.equilibria()).zip(&chosen);
+    assert!(rest.filter(|(_, chosen)| !**chosen).all(|((a, b), _)| a.shape == b.shape));
+}
+
+#[test]
+fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
+    let hair = hairstyle("straight", 150);
+    let marks = HEAD.landmarks();
+    let side = |left: f64, through: bool| {
+        let view = View {
+            eye: marks.cranium_centre + glam::DVec3::new(0.0, -1.0, 0.05),
+            target: marks.cranium_centre,
+            field_of_view: 0.6,
+            aspect: 1.0,
+        };
+        let polygon = vec![[0.0, -9.0], [9.0 * left, -9.0], [9.0 * left, 9.0], [0.0, 9.0]];
+        let lasso = Selection::Lasso(Lasso { view, polygon, through });
+        hair.selected(&HEAD, &lasso).unwrap()
+    };
+    let (left, right, through) = (side(1.0, false), side(-1.0, false), side(1.0, true));
+    let count = |chosen: &[bool]| chosen.iter().filter(|c| **c).count();
+    assert!(count(&left) > 10 && count(&right) > 10);
+    // The head's left is on the right of a picture of its face.
+    for (i, rest) in hair.equilibria().iter().enumerate() {
+        let x: f64 = rest.centre_line(20).iter().map(|p| p.x).sum::<f64>() / 20.0;
+        assert!(!(left[i] && right[i]));
+        assert!(!left[i] || x > -0.01, "{x}");
+    }
+    assert!(count(&through) > count(&left), "the head hides some");
+    let brush = |spot: Spot| {
+        let brush = Selection::Brush { spots: vec![spot], radius: 0.03 };
+        hair.selected(&HEAD, &brush).unwrap()
+    };
+    let near = brush(Spot::At(marks.whorl + glam::DVec3::Z * 0.05));
+    for (near, guide) in near.iter().zip(hair.guides()) {
+        let distance = guide.root.position.distance(marks.whorl);
+        assert!(*near == (distance < 0.03) || (distance - 0.03).abs() < 0.02, "{distance}");
+    }
+    assert!(count(&near) > 0 && count(&brush(Spot::Tape([0.0, 0.05]))) > 0);
+    let both = Selection::All(vec![Selection::Place(Place::Left), Selection::Place(Place::Right)]);
+    assert_eq!(hair.selected(&HEAD, &both), Err(StyleError::NothingSelected));
+    let all = Selection::Any(vec![
+        Selection::Wisps(vec![3]),
+        Selection::Not(Box::new(Selection::Wisps(vec![3]))),
+    ]);
+    assert_eq!(count(&hair.selected(&HEAD, &all).unwrap()), 150);
+}
+
+#[test]
+fn layers_are_as_long_as_the_line_is_far_from_the_skin() {
+    let before = hairstyle("caucasian-straight", 60);
+    let cut = |line: CutLine, held: Held| {
+        done(&before, &Operation::Cut(Cut { selection: Selection::Everything, line, held }))
+    };
+    let out = Held::Elevated(std::f64::consts::FRAC_PI_2);
+    let lengths = |h: &Hairstyle| h.wisps().iter().map(|w| w.length).collect::<Vec<_>>();
+    for length in lengths(&cut(CutLine::OffSkin(0.08), out)) {
+        // Straight out of the skin, but where it is hollow.
+        assert!((0.0799..0.13).contains(&length), "{length}");
+    }
+    assert!(lengths(&cut(CutLine::Length(0.08), Held::Down)).iter().all(|l| *l == 0.08));
+    let centre = HEAD.landmarks().cranium_centre;
+    let sphere = cut(CutLine::Sphere { centre, radius: 0.2 }, out);
+    for (wisp, guide) in sphere.wisps().iter().zip(sphere.guides()) {
+        let end = guide.root.position + guide.root.normal * wisp.length;
+        assert!((end.distance(centre) - 0.2).abs() < 1e-9 || wisp.length > 0.2);
+    }
+    // A stationary guide leaves hair the longer the farther it is rooted.
+    let point = HEAD.landmarks().whorl + glam::DVec3::Z * 0.1;
+    let gathered = cut(CutLine::Gathered(point), Held::Down);
+    for (wisp, guide) in gathered.wisps().iter().zip(before.guides()) {
+        let expected = guide.root.position.distance(point).min(guide.rod.length());
+        assert!((wisp.length - expected).abs() < 1e-12);
     }
 }
 

@@ -31,7 +31,8 @@ pub(in crate::scene) struct Step {
     pub(super) grow: Table<Grow>,
     /// Drags hair aside, and lets it go unless it is to be held.
     pub(super) comb: Table<Comb>,
-    /// Combs hair away from a line to both sides, and lets it go. The line is `at` a place, or a
+    /// Parts all hair anew: roots turn away from a line to both sides, and hair falls as it does from
+    /// there. The line is `at` a place, or a
     /// `line` through points.
     pub(super) part: Table<Part>,
     /// Winds each wisp on a roller, and holds it.
