@@ -59,6 +59,94 @@ fn everything_is_written_the_same_each_time_on_any_number_of_threads() {
     assert_eq!((&report["hairs"], &report["scene"]), (&60.into(), &"Quick".into()));
 }
 
+/// Everything that can be done, on few hairs.
+const STEPS: &str = "\
+[[step]]
+wet = { water = 0.2 }
+[[step]]
+cut = { below = \"brows\", where = \"fringe\" }
+[[step]]
+cut = { plane = { point = [0, 0, \"-15 cm\"], normal = [0, 0.3, -1] }, held = \"hanging\" }
+[[step]]
+roll = { radius = \"2 cm\", where = { any = [\"top\", { wisps = [0, 3] }] } }
+[[step]]
+dry = {}
+[[step]]
+release = {}
+[[step]]
+humidity = 0.8
+[[step]]
+grow = { by = \"3 cm\", stages = 3 }
+[[step]]
+comb = { to = \"back\", where = { not = \"nape\" } }
+[[step]]
+part = { at = \"left\" }
+";
+
+#[test]
+fn every_step_has_its_picture_and_its_groom_the_same_on_any_number_of_threads() {
+    let read = |threads: &str| {
+        let text = format!("{QUICK}[contact]\nhair = \"wisps\"\n{STEPS}");
+        let room = Room::new().with("steps.toml", text.replace("count = 6", "count = 30"));
+        let all = ["-o", "out/a.hair", "--image", "out/a.png", "--report", "out/a.json"];
+        let head = ["predict", "steps.toml", "--each-step", "--threads", threads];
+        let ran = room.run(&[&head[..], &all].concat());
+        assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+        // Before the first of ten steps and after each, two more for growth.
+        let numbered = (0..13).flat_map(|i| ["hair", "png"].map(|e| format!("out/a-{i:02}.{e}")));
+        let names: Vec<String> = numbered.chain(["out/a.json".into()]).collect();
+        assert_eq!(fs::read_dir(room.path("out")).unwrap().count(), names.len());
+        names.iter().map(|name| fs::read(room.path(name)).unwrap()).collect::<Vec<_>>()
+    };
+    let one = read("1");
+    assert!(one == read("3"), "results depend on the number of threads");
+    let report: Value = serde_json::from_slice(one.last().unwrap()).unwrap();
+    assert_eq!(report["guides"]["not_converged"], 0);
+    let steps = report["steps"].as_array().unwrap();
+    assert_eq!(steps.len(), 10);
+    assert_eq!(steps[0]["operation"], "wet");
+    let change =
+        |step: &Value| step["mass_change"].as_f64().unwrap() / step["mass"].as_f64().unwrap();
+    assert!((change(&steps[0]) - 0.2 / 1.2).abs() < 1e-9);
+    assert!(change(&steps[1]) < 0.0 && change(&steps[2]) < 0.0 && change(&steps[7]) > 0.0);
+    let cut = &steps[1]["cut"];
+    assert!(cut["above_at_the_end"].as_f64().unwrap() > 0.0, "{cut}");
+    assert!(steps[2]["cut"].is_null());
+}
+
+#[test]
+fn the_last_step_is_what_is_written_otherwise() {
+    let room = Room::new().with("steps.toml", format!("{QUICK}[[step]]\nwet = {{}}\n"));
+    let run = |extra: &[&str]| {
+        let ran = room.run(&[&["predict", "steps.toml"], extra].concat());
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        ran.out
+    };
+    let told = run(&["-o", "a.hair"]);
+    assert!(told.contains("wet: 6 wisps\n"), "{told}");
+    run(&["--each-step", "-o", "b.hair"]);
+    assert_eq!(room.names(), ["a.hair", "b-00.hair", "b-01.hair", "steps.toml"]);
+    let read = |name: &str| fs::read(room.path(name)).unwrap();
+    assert!(read("a.hair") == read("b-01.hair") && read("a.hair") != read("b-00.hair"));
+}
+
+#[test]
+fn a_step_that_cannot_be_done_is_told_with_its_line_and_nothing_is_written() {
+    for (step, problem) in [
+        ("cut = { below = \"50 cm\" }", "above the roots of 6 of 6 wisps"),
+        ("wet = { where = { wisps = [6] } }", "there is no wisp 6"),
+        ("wet = { where = { not = \"everywhere\" } }", "everywhere"),
+        ("dry = { where = { all = [\"left\", \"right\"] } }", "no wisp is selected"),
+        ("grow = { by = \"2.9 m\" }", "at most 3 m"),
+    ] {
+        let room = Room::new().with("steps.toml", format!("{QUICK}[[step]]\n{step}\n"));
+        let ran = room.run(&["predict", "steps.toml", "--each-step", "-o", "a.hair"]);
+        assert_eq!(ran.code, Some(2), "{step}: {}", ran.err);
+        assert!(ran.err.contains(problem) && ran.err.contains("steps.toml:12:"), "{}", ran.err);
+        assert_eq!(room.names(), ["steps.toml"], "{step}");
+    }
+}
+
 #[test]
 fn the_seed_changes_the_head() {
     let groom = |seed: u32| {
