@@ -70,7 +70,8 @@ pub fn predict(
 /// It gives the equilibrium downhill from there, which need not be the one that gravity leads to.
 /// Work that does not fit into `effort` is left for the next call, with the answer of this one; until
 /// it is done [`Hairstyle::report`] counts guides that are not at rest. Where the number of guides
-/// has changed, this is [`predict`].
+/// has changed, this is [`predict`]. What styling made of `previous` is not carried over: a
+/// [`crate::History`] does its steps again.
 ///
 /// # Errors
 /// As [`predict`].

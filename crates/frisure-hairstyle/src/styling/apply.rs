@@ -175,7 +175,6 @@ impl Hairstyle {
             let share: Vec<f64> = by.iter().map(|by| by / grow.stages as f64).collect();
             stages.push(before.grown_by(head, &share, monitor)?);
         }
-        // The sum of the stages is rounded; the length asked for is not.
         Ok(stages)
     }
 
@@ -240,7 +239,10 @@ impl Hairstyle {
         let everyone = vec![true; planned.len()];
         let mut styling = self.styling.changed(&everyone, |_, wisp| wisp.moved += 1);
         styling.planned = planned.into();
-        Self { spec, layout, ..self.clone() }.with(head, styling, monitor)
+        let mut parted = Self { spec, layout, ..self.clone() }.with(head, styling, monitor)?;
+        let ends = parted.styling.ends.take();
+        parted.styling.ends = ends.map(|ends| ends.replanted(&parted, head));
+        Ok(parted)
     }
 
     fn hold(&self, head: &Head, hold: &Hold, monitor: &dyn Monitor) -> Result<Self, StyleError> {

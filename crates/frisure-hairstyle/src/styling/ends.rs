@@ -50,6 +50,14 @@ impl Ends {
         Self { limits, wisps }
     }
 
+    /// The same hairs where they follow other guides.
+    pub(super) fn replanted(self, hairstyle: &Hairstyle, head: &Head) -> Self {
+        let population = Population::new(hairstyle, head);
+        let wisp = |root: &Root| population.main(root) as u32;
+        let wisps = roots(hairstyle, head).par_iter().map(wisp).collect();
+        Self { wisps, ..self }
+    }
+
     /// Lets hairs grow by the length (m) that each wisp grows by.
     pub(super) fn grown(&self, by: &[f64]) -> Self {
         let grown = |(limit, &wisp): (&f32, &u32)| limit + by[wisp as usize] as f32;
