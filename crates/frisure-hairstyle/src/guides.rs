@@ -242,9 +242,14 @@ fn leaning(strain: DVec3, tangent: DVec3, lean: DVec3, random: &mut Stream) -> D
     DQuat::from_axis_angle(tangent, ROLL * random.normal() + hand - phase) * out
 }
 
+/// How far the curl of a wisp is from the mean at most, in standard deviations.
+const ODDEST: f64 = 1.6;
+
 /// The mean natural strain of one guide (rad/m): the head's, varied between guides.
 fn mean_strain(curl: &Curl, factor: f64, random: &mut Stream) -> DVec3 {
-    let mut mean = curl.strain * (factor * random.factor(curl.variation_between));
+    // A wisp is the mean of hundreds of hairs: it is no freak.
+    let off = random.normal().clamp(-ODDEST, ODDEST);
+    let mut mean = curl.strain * (factor * (curl.variation_between * off).exp());
     if curl.handedness == Handedness::Random && random.unit() < 0.5 {
         mean.z = -mean.z;
     }

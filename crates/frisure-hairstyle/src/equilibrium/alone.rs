@@ -99,11 +99,20 @@ pub(super) fn resettle(
                 Change::Changed => resettle_one(spec, head, guide, before, None),
                 Change::LetGo(pull) => resettle_one(spec, head, guide, before, Some(*pull)),
                 Change::Moulded => settle_one(spec, head, guide),
+                Change::Handled => handled(spec, head, guide, before),
             };
             stage.advance();
             Ok(rest)
         })
         .collect()
+}
+
+/// The lower of two rests: what lay looped over an ear does not stay so when it is cut.
+fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibrium) -> Equilibrium {
+    let lying = resettle_one(spec, head, guide, before, None);
+    let fallen = settle_one(spec, head, guide);
+    let lower = fallen.energy.total() < lying.energy.total();
+    if lower && depth(head, &fallen) <= DEEPEST { fallen } else { lying }
 }
 
 /// How hard a comb or a clip pulls, in steps: it does not tear hair through the head …

@@ -91,6 +91,9 @@ pub(crate) enum Change {
     None,
     /// It comes to rest from where it lay before.
     Changed,
+    /// It was in a hand and is let go: it comes to the lower of two rests, from where it lay and from
+    /// its root.
+    Handled,
     /// It was put into another shape by hand.
     Moulded,
     /// What pulled at it lets go, gently.

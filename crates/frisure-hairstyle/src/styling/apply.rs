@@ -10,6 +10,7 @@ use super::operation::{
 };
 use super::wisp_state::{Grip, WispState, strain_of};
 use super::{Selection, StyleError, Styling};
+use crate::equilibrium::Change;
 use crate::guides::{Guide, plan};
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
@@ -145,7 +146,10 @@ impl Hairstyle {
                 scissors.left_straight(root) / stretch(wisp)
             }
         }));
-        self.with(head, styling, monitor)
+        if scissors.hanging() {
+            return self.with(head, styling, monitor);
+        }
+        self.at_rest(head, styling, Change::Handled, monitor)
     }
 
     fn grow(

@@ -201,11 +201,11 @@ impl Direction {
         let d = match self {
             Self::Along(d) => d,
             // A comb draws hair along the head, not off it.
-            Self::Named(spec::Comb::Forward) => DVec3::new(0.0, -1.0, -0.6),
-            Self::Named(spec::Comb::Back) => DVec3::new(0.0, 1.0, -0.6),
+            Self::Named(spec::Comb::Forward) => DVec3::new(0.0, -1.0, -1.2),
+            Self::Named(spec::Comb::Back) => DVec3::new(0.0, 1.0, -1.2),
             Self::Named(spec::Comb::Down) => DVec3::NEG_Z,
-            Self::Named(spec::Comb::Left) => DVec3::new(1.0, 0.0, -0.6),
-            Self::Named(spec::Comb::Right) => DVec3::new(-1.0, 0.0, -0.6),
+            Self::Named(spec::Comb::Left) => DVec3::new(1.0, 0.0, -1.2),
+            Self::Named(spec::Comb::Right) => DVec3::new(-1.0, 0.0, -1.2),
         };
         d.normalize_or_zero()
     }

@@ -33,11 +33,23 @@ impl Hairstyle {
         })
     }
 
-    /// The hairstyle that styling makes of this one, at rest.
+    /// The hairstyle that styling makes of this one, at rest from where it lay.
     pub(super) fn with(
         &self,
         head: &Head,
         styling: Styling,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, StyleError> {
+        self.at_rest(head, styling, Change::Changed, monitor)
+    }
+
+    /// The hairstyle that styling makes of this one, at rest; `change` is what was done to wisps that
+    /// are another thing now and have not been put into another shape.
+    pub(super) fn at_rest(
+        &self,
+        head: &Head,
+        styling: Styling,
+        change: Change,
         monitor: &dyn Monitor,
     ) -> Result<Self, StyleError> {
         let old = &self.styling;
@@ -61,7 +73,7 @@ impl Hairstyle {
                 ),
             })
             .collect::<Result<_, InvalidQuantity>>()?;
-        let rest = self.rest_of(head, &styling, &guides, changed, monitor)?;
+        let rest = self.rest_of(head, &styling, &guides, (changed, change), monitor)?;
         Ok(Self { guides, rest, styling, ..self.clone() })
     }
 
@@ -71,12 +83,16 @@ impl Hairstyle {
         head: &Head,
         styling: &Styling,
         guides: &[Guide],
-        changed: Vec<bool>,
+        (changed, otherwise): (Vec<bool>, Change),
         monitor: &dyn Monitor,
     ) -> Result<Rest, StyleError> {
         let mut before = self.rest.guides.clone();
         let mut changes: Vec<Change> = (changed.iter().enumerate())
-            .map(|(i, &changed)| if changed { self.change(styling, i) } else { Change::None })
+            .map(
+                |(i, &changed)| {
+                    if changed { self.change(styling, i, otherwise) } else { Change::None }
+                },
+            )
             .collect();
         let lay = styling.lay.as_ref().filter(|lay| lay.humidity == styling.humidity);
         if let Some(lay) = lay {
@@ -99,14 +115,14 @@ impl Hairstyle {
     }
 
     /// What was done to a wisp that changed.
-    fn change(&self, styling: &Styling, wisp: usize) -> Change {
+    fn change(&self, styling: &Styling, wisp: usize, otherwise: Change) -> Change {
         let (old, new) = (self.styling.wisps[wisp].grip, styling.wisps[wisp].grip);
         let replanted = !Arc::ptr_eq(&styling.planned, &self.styling.planned);
         let moulded = new != old && new.is_some_and(Grip::moulds);
         match self.guides[wisp].pull {
             _ if replanted || moulded => Change::Moulded,
             Some(pull) if new.is_none() => Change::LetGo(pull),
-            _ => Change::Changed,
+            _ => otherwise,
         }
     }
 }
