@@ -1,6 +1,7 @@
 //! Files to be written: checked before the work, so that nobody waits for a result that has no
 //! place.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -11,12 +12,16 @@ use crate::failure::Failure;
 /// Checks that all `outputs` are different files, that none is one of the `inputs`, and that each
 /// can be written; makes their folders.
 pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Failure> {
-    for (i, path) in outputs.iter().enumerate() {
-        if outputs[..i].iter().any(|other| same(other, path)) {
+    let read: BTreeSet<PathBuf> = inputs.iter().map(|path| resolved(path)).collect();
+    let mut asked = BTreeSet::new();
+    for path in outputs {
+        let whole = resolved(path);
+        let overwritten = read.contains(&whole);
+        if !asked.insert(whole) {
             let message = format!("`{}` is asked for twice", path.display());
             return Err(Failure::wrong_because(message, "give each output a name of its own"));
         }
-        if inputs.iter().any(|input| same(input, path)) {
+        if overwritten {
             let message = format!("`{}` is read and would be overwritten", path.display());
             return Err(Failure::wrong_because(message, "give the output another name"));
         }
@@ -31,11 +36,6 @@ pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Failure
         files::check_destination(path).map_err(|e| Failure::failed(&e))?;
     }
     Ok(())
-}
-
-/// Whether two paths are one file, existing or not.
-fn same(a: &Path, b: &Path) -> bool {
-    resolved(a) == resolved(b)
 }
 
 /// The path with as much of it as exists made absolute, links followed.

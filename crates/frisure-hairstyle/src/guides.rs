@@ -29,6 +29,9 @@ pub struct Guide {
     pub layer: Layer,
     /// What pulls at it, if it is being combed or is clipped.
     pub pull: Option<Pull>,
+    /// How many times as hard as usual it presses on the skin for being held in a shape, which skin
+    /// has to bear.
+    pub(crate) firmness: f64,
     /// Mean natural strain (rad/m), about which it varies along the hair.
     pub(crate) curl: DVec3,
     /// Its planned length over that of the head; 1 where a region says the length.
@@ -122,7 +125,17 @@ pub(crate) fn plan(
             let Planned { rod, curl, share } = fibre(spec, head, layout, &root, index)?;
             let thickness = thickness(spec, area, &rod);
             let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
-            Ok(Guide { root, region, rod, thickness, layer, pull: None, curl, share })
+            Ok(Guide {
+                root,
+                region,
+                rod,
+                thickness,
+                layer,
+                pull: None,
+                firmness: 1.0,
+                curl,
+                share,
+            })
         })
         .collect()
 }

@@ -3,6 +3,8 @@
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
+use crate::contact::outer;
+
 /// A pull at a guide, as an energy per length of hair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pull {
@@ -11,7 +13,8 @@ pub enum Pull {
         /// Force per length (N/m).
         force: DVec3,
     },
-    /// A clip: a short piece of hair is held at a point, energy `½ c |r − p|²`.
+    /// A clip: a short piece of hair is held at a point, as a spring that never pulls harder than
+    /// `f`: `½ c d²` at the distance d = |r − p| up to f/c, `f d − ½ f²/c` farther away.
     Clip {
         /// Arc length (m) at which the piece begins and ends.
         piece: [f64; 2],
@@ -19,6 +22,8 @@ pub enum Pull {
         point: DVec3,
         /// Stiffness c (Pa).
         stiffness: f64,
+        /// Largest force f per length (N/m).
+        most: f64,
     },
 }
 
@@ -27,8 +32,8 @@ impl Pull {
     pub(crate) fn scaled(self, factor: f64) -> Self {
         match self {
             Self::Comb { force } => Self::Comb { force: force * factor },
-            Self::Clip { piece, point, stiffness } => {
-                Self::Clip { piece, point, stiffness: stiffness * factor }
+            Self::Clip { piece, point, stiffness, most } => {
+                Self::Clip { piece, point, stiffness: stiffness * factor, most: most * factor }
             }
         }
     }
@@ -38,9 +43,12 @@ impl Field for Pull {
     fn energy(&self, s: f64, p: DVec3) -> f64 {
         match *self {
             Self::Comb { force } => -force.dot(p),
-            Self::Clip { piece: [from, to], point, stiffness } => {
-                let held = (from..=to).contains(&s);
-                if held { 0.5 * stiffness * p.distance_squared(point) } else { 0.0 }
+            Self::Clip { piece: [from, to], point, stiffness, most } => {
+                if !(from..=to).contains(&s) {
+                    return 0.0;
+                }
+                let (away, near) = (p.distance(point), most / stiffness);
+                if away < near { 0.5 * stiffness * away * away } else { most * (away - 0.5 * near) }
             }
         }
     }
@@ -48,9 +56,46 @@ impl Field for Pull {
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
         match *self {
             Self::Comb { force } => Some((-force, DMat3::ZERO)),
-            Self::Clip { piece: [from, to], point, stiffness } => (from..=to)
-                .contains(&s)
-                .then(|| ((p - point) * stiffness, DMat3::IDENTITY * stiffness)),
+            Self::Clip { piece: [from, to], point, stiffness, most } => {
+                if !(from..=to).contains(&s) {
+                    return None;
+                }
+                let away = p - point;
+                let distance = away.length();
+                if distance * stiffness < most {
+                    return Some((away * stiffness, DMat3::from_diagonal(DVec3::splat(stiffness))));
+                }
+                let way = away / distance;
+                let across = DMat3::IDENTITY - outer(way, way);
+                Some((way * most, across * (most / distance)))
+            }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let point = DVec3::new(0.01, 0.02, -0.03);
+        let clip = Pull::Clip { piece: [0.0, 0.1], point, stiffness: 20.0, most: 0.1 };
+        for away in [DVec3::X * 1e-3, DVec3::new(0.01, -0.02, 0.03)] {
+            let p = point + away;
+            let (gradient, hessian) = clip.derivatives(0.05, p).unwrap();
+            let h = 1e-6;
+            for axis in 0..3 {
+                let mut step = DVec3::ZERO;
+                step[axis] = h;
+                let slope = (clip.energy(0.05, p + step) - clip.energy(0.05, p - step)) / (2.0 * h);
+                assert!((slope - gradient[axis]).abs() < 1e-8, "{slope} {gradient}");
+                let at = |p| clip.derivatives(0.05, p).unwrap().0;
+                let column = (at(p + step) - at(p - step)) / (2.0 * h);
+                assert!((column - hessian.col(axis)).length() < 1e-6);
+            }
+            assert!(gradient.length() <= 0.1 + 1e-12);
+        }
+        assert!(clip.derivatives(0.2, point).is_none());
     }
 }

@@ -441,7 +441,7 @@ fn selection() -> impl Strategy<Value = Selection> {
         point().prop_map(Spot::At),
         [number(-1.0, 1.0), number(-100.0, 100.0)].prop_map(Spot::Tape),
     ];
-    let brush = (proptest::collection::vec(spot, 0..4), number(1e-4, 1.0))
+    let brush = (proptest::collection::vec(spot, 1..4), number(1e-4, 1.0))
         .prop_map(|(spots, radius)| Selection::Brush { spots, radius });
     let view = (point(), number(2e-3, 3.12), number(1e-3, 1e3)).prop_map(
         |(eye, field_of_view, aspect)| {
@@ -455,13 +455,15 @@ fn selection() -> impl Strategy<Value = Selection> {
     let leaf = prop_oneof![
         Just(Selection::Everything),
         place().prop_map(Selection::Place),
-        proptest::collection::vec(0_usize..20_000, 0..5).prop_map(Selection::Wisps),
+        proptest::collection::vec(0_usize..20_000, 1..5).prop_map(Selection::Wisps),
+        number(-100.0, 100.0).prop_map(|z| Selection::Above(Height::At(z))),
+        Just(Selection::Above(Height::Above(Level::Chin, 0.0))),
         (point(), normal()).prop_map(|(point, normal)| Selection::Beyond { point, normal }),
         brush,
         lasso,
     ];
     leaf.prop_recursive(4, 16, 3, |inner| {
-        let list = proptest::collection::vec(inner.clone(), 0..3);
+        let list = proptest::collection::vec(inner.clone(), 1..3);
         prop_oneof![
             list.clone().prop_map(Selection::Any),
             list.prop_map(Selection::All),

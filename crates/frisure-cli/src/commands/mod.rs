@@ -14,6 +14,7 @@ use frisure::io::files;
 use frisure::io::scene::{MAX_SIZE, Scene};
 
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// What a scene is called in errors about its size.
 const WHAT: &str = "a scene";
@@ -29,8 +30,13 @@ fn parse_scene(path: &Path, text: String) -> Result<Scene, Failure> {
     Ok(Scene::parse(&name(path), text, folder)?)
 }
 
-/// The text of a scene in a file, or on standard input for `-`.
+/// The text of a scene in a file, or on standard input for `-`; Ctrl-C ends the wait for it.
 fn read_text(path: &Path) -> Result<String, Failure> {
+    let path = path.to_owned();
+    interrupt::computing(move || text_of(&path))
+}
+
+fn text_of(path: &Path) -> Result<String, Failure> {
     if path != Path::new("-") {
         return Ok(files::read_text(path, MAX_SIZE, WHAT)?);
     }

@@ -27,14 +27,31 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<Done, Failure> {
     }
     let read = |step: &String| parse_step(STEP, step.as_str());
     let steps = arguments.steps.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let text = edited(&text, arguments, &steps).map_err(refuse)?;
+    let before = text;
+    let text = edited(&before, arguments, &steps).map_err(refuse)?;
     let output = arguments.output.as_deref().unwrap_or(&arguments.scene);
+    if output == arguments.scene && !is_standard(output) {
+        untouched(output, &before)?;
+    }
     write(output, &text)?;
     if !quiet && !is_standard(output) {
         let left = arguments.remove.map_or(0, |_| 1);
         console::print(&summary(output, scene.steps().len() + steps.len() - left))?;
     }
     Ok(Done::Well)
+}
+
+/// Refuses to write over what is no file, or what somebody else has written meanwhile.
+fn untouched(path: &Path, before: &str) -> Result<(), Failure> {
+    if !path.is_file() {
+        let message = format!("`{}` cannot be written back: it is no file", path.display());
+        return Err(Failure::wrong_because(message, "write to another one with `-o`"));
+    }
+    if read_text(path)? != before {
+        let message = format!("`{}` was changed by another program meanwhile", path.display());
+        return Err(Failure::wrong_because(message, "run the same command again"));
+    }
+    Ok(())
 }
 
 fn edited(text: &str, arguments: &Style, steps: &[Operation]) -> Result<String, EditError> {

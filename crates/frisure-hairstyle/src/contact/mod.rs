@@ -24,7 +24,7 @@ pub use thickness::Thickness;
 use glam::{DMat3, DVec3};
 
 /// `a bᵀ`.
-fn outer(a: DVec3, b: DVec3) -> DMat3 {
+pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 

@@ -129,7 +129,7 @@ fn body<'a>(spec: &HairstyleSpec, head: &'a Head, guide: &Guide, layer: Layer) -
     BodyContact {
         head,
         body: spec.contact.body,
-        skin: spec.contact.stiffness,
+        skin: spec.contact.stiffness * guide.firmness,
         hair: spec.contact.hair_stiffness,
         thickness: guide.thickness,
         layer,

@@ -15,6 +15,9 @@ const GATHERING: f64 = 0.06;
 /// How much of the way to the middle of its split a hair has come at the tip.
 const GATHERED: f64 = 0.75;
 
+/// Length (m) along which hair that would be stretched is drawn in to its guides.
+const DRAWN_IN: f64 = 0.02;
+
 /// What makes one hair differ from its neighbours.
 pub(super) struct Character {
     /// Length as a fraction of its guides'.
@@ -58,6 +61,9 @@ pub(super) struct Course<'a> {
     pub(super) cut: bool,
     /// Factor on its diameter.
     pub(super) thickness: f64,
+    /// Factor on how far it is from its guides, for hair that would be stretched by going round them
+    /// that far out.
+    pub(super) narrow: f64,
 }
 
 impl Course<'_> {
@@ -70,12 +76,14 @@ impl Course<'_> {
 impl Population<'_> {
     /// Point of a hair at `x` of its guides' length.
     pub(super) fn followed_point(&self, course: &Course<'_>, x: f64) -> DVec3 {
-        let Course { root, followed, character, split, length, planned, uncut, .. } = course;
+        let Course { root, followed, character, split, length, planned, uncut, narrow, .. } =
+            course;
         let along = x * length;
         let rise = smooth(0.0, 0.06_f64.min(0.5 * length), along);
         let gathered = smooth(0.0, 1.0, (along / uncut.max(GATHERING)).powf(0.8));
         let drifted = x * (1.0 + (character.drift - 1.0) * rise);
-        let mut carried = character.waves.at(along / planned) * rise;
+        let mut carried = character.waves.at(along / planned) * (rise * narrow);
+        let drawn_in = 1.0 + (narrow - 1.0) * smooth(0.0, DRAWN_IN.min(0.5 * length), along);
         for (rank, &(g, weight)) in followed.iter().enumerate() {
             let (centre, turn) = self.wisps[g].at(drifted);
             let mut place = root.position - self.roots[g];
@@ -84,9 +92,10 @@ impl Population<'_> {
             {
                 // All of the hair goes with its split, of which only the first wisp knows.
                 place += (split.middle - place) * (GATHERED * gathered / weight);
-                carried += split.waves.at(along / planned) * rise;
+                carried += split.waves.at(along / planned) * (rise * narrow);
             }
-            carried += (centre + turn * place * self.narrowing(g, along, gathered)) * weight;
+            carried +=
+                (centre + turn * place * (drawn_in * self.narrowing(g, along, gathered))) * weight;
         }
         carried
     }

@@ -82,6 +82,16 @@ pub(super) struct Hair {
     pub(super) points: Vec<Vec3>,
 }
 
+/// How much longer than it is a hair may be drawn …
+const STRETCHED: f64 = 1.12;
+/// … before it comes nearer to its guides, step by step.
+const NARROWER: [f64; 4] = [0.6, 0.3, 0.1, 0.0];
+
+/// Length of a line (m).
+fn length(points: &[Vec3]) -> f64 {
+    points.windows(2).map(|pair| f64::from(pair[0].distance(pair[1]))).sum()
+}
+
 /// Where the drawn hairs of a head are rooted.
 pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head) -> Vec<Root> {
     let Hairstyle { spec, layout, .. } = hairstyle;
@@ -123,14 +133,25 @@ impl<'a> Population<'a> {
 
     /// The hair rooted somewhere.
     pub(super) fn hair(&self, root: &Root, index: usize) -> Hair {
-        let course = self.course(root, index);
-        let last = self.spec.wisps.points - 1;
-        let mut free = Free::NOWHERE;
-        let points = (0..=last)
-            .map(|k| self.point(&course, k as f64 / last as f64 * course.end, &mut free).as_vec3())
-            .collect();
+        let mut course = self.course(root, index);
+        let mut points = self.points(&course);
+        for narrow in NARROWER {
+            if length(&points) <= STRETCHED * course.end * course.length {
+                break;
+            }
+            course.narrow = narrow;
+            points = self.points(&course);
+        }
         let Course { thickness, cut, .. } = course;
         Hair { guide: course.main() as u32, thickness, cut, points }
+    }
+
+    fn points(&self, course: &Course<'_>) -> Vec<Vec3> {
+        let last = self.spec.wisps.points - 1;
+        let mut free = Free::NOWHERE;
+        (0..=last)
+            .map(|k| self.point(course, k as f64 / last as f64 * course.end, &mut free).as_vec3())
+            .collect()
     }
 
     /// Where a hair is at `x` of its guides' length.
@@ -172,6 +193,7 @@ impl<'a> Population<'a> {
             dry,
             cut,
             thickness: if baby.is_some() { THIN } else { 1.0 },
+            narrow: 1.0,
         }
     }
 

@@ -27,6 +27,12 @@ const BENDING: f64 = 20.0;
 /// Stiffness (Pa) with which a clip holds a piece of hair, and the length (m) of the piece.
 const CLIP: (f64, f64) = (20.0, 0.012);
 
+/// Shortest hair (m) that a clip bends; it pulls at stubble no harder.
+const CLIPPABLE: f64 = 0.1;
+
+/// Most that a clip pulls (in what it takes to bend the hair or to carry it).
+const CLIPPED: f64 = 30.0;
+
 /// What water does to a wisp: factors, exactly 1 in room-dry hair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factors {
@@ -41,17 +47,20 @@ pub(super) struct Factors {
 impl Factors {
     /// Of a wisp in air of a relative humidity. \[paper\] §3.2.1
     pub(super) fn new(wetting: &Wetting, state: &WispState, humidity: f64) -> Self {
-        let (air, wet) = (Moisture::in_air(humidity), state.wetness);
-        // Between air and water, as wetness says.
-        let factor = |share: f64, full: f64| 1.0 + (share + (1.0 - share) * wet) * (full - 1.0);
+        let (air, wet, measured) = (Moisture::in_air(humidity), state.wetness, Wetting::MEASURED);
+        // Air is what it is measured to be, whatever water is taken to do; wetness is between them.
+        let factor = |share: f64, of: fn(&Wetting) -> f64| {
+            let dry = 1.0 + share * (of(&measured) - 1.0);
+            dry + wet * (of(wetting) - dry)
+        };
         Self {
-            youngs_modulus: factor(air.softening, wetting.youngs_modulus),
-            shear_modulus: factor(air.shear_softening, wetting.shear_modulus),
-            diameter: factor(air.swelling, wetting.diameter),
-            length: factor(air.elongation, wetting.length),
+            youngs_modulus: factor(air.softening, |w| w.youngs_modulus),
+            shear_modulus: factor(air.shear_softening, |w| w.shear_modulus),
+            diameter: factor(air.swelling, |w| w.diameter),
+            length: factor(air.elongation, |w| w.length),
             mass: 1.0 + state.water * wet,
             // What draws hairs together is a film of water, which damp air does not leave.
-            wisp: factor(0.0, wetting.wisp),
+            wisp: factor(0.0, |w| w.wisp),
         }
     }
 }
@@ -76,6 +85,7 @@ pub(super) fn guide(
     };
     let mut guide = planned.with_rod(spec, area, rod, &dry, factors.wisp);
     guide.pull = pull(&guide.rod, state.grip);
+    guide.firmness = if state.grip.is_some_and(Grip::moulds) { MOULD } else { 1.0 };
     Ok(guide)
 }
 
@@ -140,20 +150,26 @@ fn braid(width: f64, pitch: f64, length: f64) -> Result<NaturalStrain, InvalidQu
     Ok(NaturalStrain::Varying(StrainProfile::new(knots.collect())?))
 }
 
+/// Force per length (N/m) that bends a rod of at least `shortest` (m) or carries it, whichever is more.
+fn effort(rod: &Rod, shortest: f64) -> f64 {
+    let length = rod.length().max(shortest);
+    let bending = BENDING * rod.stiffness().truncate().min_element() / length.powi(3);
+    rod.weight().max(bending)
+}
+
 /// What pulls at a rod that is gripped.
 pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
     match grip? {
         Grip::Comb { direction, strength } => {
-            let bending = BENDING * rod.stiffness().truncate().min_element() / rod.length().powi(3);
-            let force = direction * (strength * rod.weight().max(bending));
-            Some(Pull::Comb { force })
+            Some(Pull::Comb { force: direction * (strength * effort(rod, 0.0)) })
         }
         Grip::Holder(Holder::Clip { at, to: point }) => {
             let middle = at * rod.length();
             let half = 0.5 * CLIP.1.min(rod.length());
             let middle = middle.clamp(half, rod.length() - half);
             let piece = [middle - half, middle + half];
-            Some(Pull::Clip { piece, point, stiffness: CLIP.0 })
+            let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / (2.0 * half);
+            Some(Pull::Clip { piece, point, stiffness: CLIP.0, most })
         }
         // The hand that braids, or draws hair through plates, draws it down.
         Grip::Holder(Holder::Braid { .. } | Holder::Straight) => {

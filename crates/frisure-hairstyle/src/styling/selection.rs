@@ -4,7 +4,7 @@ use frisure_rod::Equilibrium;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::StyleError;
+use super::{Height, StyleError};
 use crate::guides::Guide;
 use crate::head::{Head, Landmarks, Tape};
 use crate::spec::{InvalidSpec, Place, range};
@@ -18,6 +18,8 @@ pub enum Selection {
     Place(Place),
     /// By number, in the order of [`crate::Hairstyle::guides`].
     Wisps(Vec<usize>),
+    /// Those rooted above a height.
+    Above(Height),
     /// Those rooted on the side of a plane that its normal points to.
     Beyond {
         /// A point of the plane (m).
@@ -88,13 +90,19 @@ impl Selection {
             p.to_array().into_iter().try_for_each(|x| number(field, x, allowed))
         };
         match self {
-            Self::Everything | Self::Place(_) | Self::Wisps(_) => Ok(()),
+            Self::Everything | Self::Place(_) => Ok(()),
+            Self::Wisps(wisps) => some("where.wisps", wisps.len()),
+            Self::Above(Height::At(z)) => number("where.above", *z, "within 100 m of the origin"),
+            Self::Above(Height::Above(_, by)) => {
+                range("where.above", *by, -1.0, 1.0, "within 1 m of a level")
+            }
             Self::Beyond { point, normal } => {
                 place("where.plane.point", *point)?;
                 let allowed = "a direction, which has a length between 1e-9 and 1e9";
                 range("where.plane.normal", normal.length(), 1e-9, 1e9, allowed)
             }
             Self::Brush { spots, radius } => {
+                some("where.brush.at", spots.len())?;
                 range("where.brush.radius", *radius, 1e-4, 1.0, "between 0.1 mm and 1 m")?;
                 spots.iter().try_for_each(|spot| match *spot {
                     Spot::At(p) => place("where.brush.at", p),
@@ -105,7 +113,14 @@ impl Selection {
                 })
             }
             Self::Lasso(lasso) => lasso.check(),
-            Self::Any(parts) | Self::All(parts) => parts.iter().try_for_each(Self::check),
+            Self::Any(parts) => {
+                some("where.any", parts.len())?;
+                parts.iter().try_for_each(Self::check)
+            }
+            Self::All(parts) => {
+                some("where.all", parts.len())?;
+                parts.iter().try_for_each(Self::check)
+            }
             Self::Not(part) => part.check(),
         }
     }
@@ -135,6 +150,10 @@ impl Selection {
             Self::Everything => vec![true; guides.len()],
             Self::Place(place) => rooted(&|g| holds(*place, g, marks)),
             Self::Wisps(wisps) => numbered(wisps, guides.len())?,
+            Self::Above(height) => {
+                let height = height.on(head);
+                rooted(&|g| g.root.position.z > height)
+            }
             Self::Beyond { point, normal } => {
                 rooted(&|g| (g.root.position - *point).dot(*normal) > 0.0)
             }
@@ -152,6 +171,12 @@ impl Selection {
             }
         })
     }
+}
+
+/// A list that chooses has something in it: one that a program left empty must not mean all hair.
+fn some(field: &'static str, count: usize) -> Result<(), InvalidSpec> {
+    let allowed = "a list of one or more";
+    if count > 0 { Ok(()) } else { Err(InvalidSpec { field, value: "empty".into(), allowed }) }
 }
 
 fn holds(place: Place, guide: &Guide, marks: &Landmarks) -> bool {

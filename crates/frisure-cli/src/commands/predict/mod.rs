@@ -6,6 +6,7 @@ mod steps;
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use frisure::hairstyle::head::{Head, ScalpSource};
 use frisure::hairstyle::{
@@ -24,6 +25,7 @@ use crate::progress::Progress;
 use crate::{console, interrupt, outputs};
 
 use numbers::{Numbers, litres, numbers, summary};
+use steps::Styled;
 
 /// Computes what the arguments ask for, and writes it.
 pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
@@ -31,10 +33,9 @@ pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
     let spec = scene.hairstyle_spec()?;
     check_outputs(&arguments, &scene)?;
 
-    let progress = Progress::new(quiet);
-    let bar = progress.clone();
-    let result = interrupt::computing(move || Work { arguments, scene, progress: bar }.all(&spec));
-    progress.finish();
+    let work = Arc::new(Work { arguments, scene, progress: Progress::new(quiet) });
+    let result = all(&work, spec);
+    work.progress.finish();
     let (numbers, written) = result?;
 
     if !quiet {
@@ -42,6 +43,30 @@ pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
     }
     let rested = numbers.guides.not_converged == 0;
     Ok(if rested { Done::Well } else { Done::NotConverged })
+}
+
+/// Computes on a thread that can be left, and writes on this one, which always ends what it is at;
+/// gives the numbers of the last hairstyle, and what was written.
+fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<PathBuf>), Failure> {
+    let mine = work.clone();
+    let hair = Arc::new(interrupt::computing(move || mine.hair(&spec))?);
+    let frames = hair.styled.hairstyles.len();
+    let mut written = Vec::new();
+    let mut last = None;
+    for frame in 0..frames {
+        let (mine, all) = (work.clone(), hair.clone());
+        let drawn = interrupt::computing(move || mine.draw(&all, frame))?;
+        work.write(&drawn, frame, frames, &mut written)?;
+        last = drawn.numbers;
+    }
+    let mut numbers = last.expect("the last hairstyle has its numbers");
+    numbers.steps.clone_from(&hair.styled.steps);
+    if let Some(path) = &work.arguments.report {
+        interrupt::check()?;
+        report::write(path, &numbers).map_err(|e| Failure::failed(&e))?;
+        written.push(path.clone());
+    }
+    Ok((numbers, written))
 }
 
 /// Everything that can be known to be wrong before the work.
@@ -107,46 +132,49 @@ struct Work {
     progress: Progress,
 }
 
+/// All hairstyles that are asked for.
+struct Hair {
+    head: Head,
+    styled: Styled,
+    /// What is to be in every picture, if there are several.
+    shown: Option<Strands>,
+}
+
+/// One of them, drawn.
+struct Drawn {
+    strands: Strands,
+    /// Width, height and pixels.
+    picture: Option<(u32, u32, Vec<u8>)>,
+    /// Of the last.
+    numbers: Option<Numbers>,
+}
+
 impl Work {
-    /// Computes and writes everything; gives the numbers of the last hairstyle, and what was written.
-    fn all(self, spec: &HairstyleSpec) -> Result<(Numbers, Vec<PathBuf>), Failure> {
+    fn hair(&self, spec: &HairstyleSpec) -> Result<Hair, Failure> {
         self.progress.show("head", 0.0);
         let (head, watch) = (head(&self.scene)?, Watch(&self.progress));
-        let each = self.arguments.each_step;
         let start = predict(spec, &head, &watch).map_err(|e| refused(&e, &self.scene))?;
-        let styled = steps::all(&self.scene, &head, start, each, &watch)?;
-        let mut written = Vec::new();
-        let mut last = None;
-        let frames = styled.hairstyles.len();
-        let shown = (frames > 1).then(|| swept(&styled.hairstyles));
-        for (frame, hairstyle) in styled.hairstyles.iter().enumerate() {
-            let strands = match self.draws() {
-                true => hairstyle.strands(&head, &watch).map_err(|_| Failure::Interrupted)?,
-                false => Strands::new(),
-            };
-            for path in &self.arguments.outputs {
-                interrupt::check()?;
-                let path = name_of(&self.arguments, path, frame, frames);
-                write_groom(&path, &strands).map_err(|e| Failure::failed(&e))?;
-                written.push(path.into_owned());
+        let styled = steps::all(&self.scene, &head, start, self.arguments.each_step, &watch)?;
+        let several = self.arguments.image.is_some() && styled.hairstyles.len() > 1;
+        let shown = several.then(|| swept(&styled.hairstyles));
+        Ok(Hair { head, styled, shown })
+    }
+
+    fn draw(&self, hair: &Hair, frame: usize) -> Result<Drawn, Failure> {
+        let (hairstyle, head) = (&hair.styled.hairstyles[frame], &hair.head);
+        let strands = match self.draws() {
+            true => {
+                let watch = Watch(&self.progress);
+                hairstyle.strands(head, &watch).map_err(|_| Failure::Interrupted)?
             }
-            if let Some(path) = &self.arguments.image {
-                let path = name_of(&self.arguments, path, frame, frames);
-                self.draw(&path, &strands, shown.as_ref().unwrap_or(&strands), &head)?;
-                written.push(path.into_owned());
-            }
-            if frame + 1 == frames {
-                last = Some(self.numbers(hairstyle, &head, &strands));
-            }
-        }
-        let mut numbers = last.expect("there is one hairstyle at least");
-        numbers.steps = styled.steps;
-        if let Some(path) = &self.arguments.report {
-            interrupt::check()?;
-            report::write(path, &numbers).map_err(|e| Failure::failed(&e))?;
-            written.push(path.clone());
-        }
-        Ok((numbers, written))
+            false => Strands::new(),
+        };
+        let shown = hair.shown.as_ref().unwrap_or(&strands);
+        let picture = self.arguments.image.as_ref().map(|_| self.picture(&strands, shown, head));
+        let picture = picture.transpose()?;
+        let is_last = frame + 1 == hair.styled.hairstyles.len();
+        let numbers = is_last.then(|| self.numbers(hairstyle, head, &strands));
+        Ok(Drawn { strands, picture, numbers })
     }
 
     /// Whether hairs have to be drawn.
@@ -163,14 +191,13 @@ impl Work {
         numbers
     }
 
-    /// Writes a picture of strands, framed so that others would be in it, too.
-    fn draw(
+    /// A picture of strands, framed so that others would be in it, too.
+    fn picture(
         &self,
-        path: &Path,
         strands: &Strands,
         shown: &Strands,
         head: &Head,
-    ) -> Result<(), Failure> {
+    ) -> Result<(u32, u32, Vec<u8>), Failure> {
         let scene::Output { width, height, samples } = self.scene.output;
         let options = PreviewOptions { width, height, samples, ..PreviewOptions::default() };
         let watch = |done: f64| {
@@ -188,8 +215,31 @@ impl Work {
         })?;
         let [width, height] =
             [width, height].map(|n| u32::try_from(n).expect("scenes have at most 16384 pixels"));
-        interrupt::check()?;
-        picture::write(path, width, height, &image.to_srgb8()).map_err(|e| Failure::failed(&e))
+        Ok((width, height, image.to_srgb8()))
+    }
+
+    /// Writes what is asked for of one hairstyle.
+    fn write(
+        &self,
+        drawn: &Drawn,
+        frame: usize,
+        frames: usize,
+        written: &mut Vec<PathBuf>,
+    ) -> Result<(), Failure> {
+        for path in &self.arguments.outputs {
+            interrupt::check()?;
+            let path = name_of(&self.arguments, path, frame, frames);
+            write_groom(&path, &drawn.strands).map_err(|e| Failure::failed(&e))?;
+            written.push(path.into_owned());
+        }
+        if let (Some(path), Some((width, height, pixels))) = (&self.arguments.image, &drawn.picture)
+        {
+            interrupt::check()?;
+            let path = name_of(&self.arguments, path, frame, frames);
+            picture::write(&path, *width, *height, pixels).map_err(|e| Failure::failed(&e))?;
+            written.push(path.into_owned());
+        }
+        Ok(())
     }
 }
 

@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::styling::{Cut, CutLine, Operation, StyleError};
+use frisure::hairstyle::styling::{Cut, CutLine, Hold, Holder, Operation, StyleError};
 use frisure::hairstyle::{Hairstyle, Monitor};
 use frisure::io::scene::Scene;
+use frisure::rod::Equilibrium;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -15,8 +16,12 @@ use crate::failure::Failure;
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct StepNumbers {
     operation: &'static str,
-    /// Wisps that it was about.
+    /// Wisps that it was about, and how many of them it changed.
     wisps: usize,
+    changed: usize,
+    /// Of a clip: wisps that do not reach it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    short: Option<usize>,
     /// Mass of all hair after it (kg), and how much more or less that is than before.
     mass: f64,
     mass_change: f64,
@@ -69,6 +74,8 @@ pub(super) fn all(
         styled.steps.push(StepNumbers {
             operation: operation.name(),
             wisps: chosen.iter().filter(|chosen| **chosen).count(),
+            changed: changed(before, after),
+            short: short_of(operation, after, &chosen),
             mass: after.mass(),
             mass_change: after.mass() - before.mass(),
             tips: [mean_tip(before, &chosen), mean_tip(after, &chosen)],
@@ -96,6 +103,24 @@ pub(super) fn all(
     Ok(styled)
 }
 
+/// How many wisps are another thing than before.
+fn changed(before: &Hairstyle, after: &Hairstyle) -> usize {
+    let rods = before.guides().iter().zip(after.guides()).map(|(a, b)| a.rod != b.rod);
+    let states = before.wisps().iter().zip(after.wisps()).map(|(a, b)| a != b);
+    rods.zip(states).filter(|(rod, state)| *rod || *state).count()
+}
+
+/// How far (m) hair may be from a clip that holds it.
+const AT_CLIP: f64 = 0.01;
+
+/// How many wisps a clip does not hold: they are too short for it, or the head is in the way.
+fn short_of(operation: &Operation, after: &Hairstyle, chosen: &[bool]) -> Option<usize> {
+    let Operation::Hold(Hold { by: Holder::Clip { at, to }, .. }) = operation else { return None };
+    let away = |rest: &Equilibrium| rest.at(&rest.chain(), *at).0.distance(*to);
+    let wisps = after.equilibria().iter().zip(chosen).filter(|(_, chosen)| **chosen);
+    Some(wisps.filter(|(rest, _)| away(rest) > AT_CLIP).count())
+}
+
 /// Mean height (m) of the tips of chosen wisps.
 fn mean_tip(hairstyle: &Hairstyle, chosen: &[bool]) -> f64 {
     let tips = hairstyle.equilibria().iter().zip(chosen).filter(|(_, chosen)| **chosen);
@@ -106,20 +131,35 @@ fn mean_tip(hairstyle: &Hairstyle, chosen: &[bool]) -> f64 {
 impl StepNumbers {
     /// One line for a person, where there is something to tell.
     pub(super) fn tell(&self, out: &mut String) {
-        let grams = self.mass_change * 1e3;
+        let Self { operation, wisps, changed, .. } = self;
         // Writing to a String cannot fail.
-        let _ = match (self.operation, &self.cut) {
-            ("cut", Some(cut)) => writeln!(
-                out,
-                "cut {} wisps: {:.1} g fell, and their tips are {:.1} cm above the line",
-                self.wisps,
-                -grams,
-                cut.above_at_the_end * 1e2
-            ),
-            ("cut", None) => writeln!(out, "cut {} wisps: {:.1} g fell", self.wisps, -grams),
-            (name, _) => writeln!(out, "{name}: {} wisps", self.wisps),
+        let _ = match changed {
+            0 => write!(out, "{operation}: nothing changed"),
+            n if n < wisps => write!(out, "{operation}: {n} of {wisps} wisps"),
+            _ => write!(out, "{operation}: {wisps} wisps"),
         };
+        if *operation == "cut" && *changed > 0 {
+            let _ = write!(out, ", {:.1} g fell", -self.mass_change * 1e3);
+        }
+        if let Some(cut) = self.cut.as_ref().filter(|_| *changed > 0) {
+            let _ = write!(
+                out,
+                "; tips {} the line, {} at the end",
+                beside(cut.above_when_cut),
+                beside(cut.above_at_the_end)
+            );
+        }
+        if let Some(short) = self.short.filter(|short| *short > 0) {
+            let _ = write!(out, ", {short} of which do not reach the clip");
+        }
+        out.push('\n');
     }
+}
+
+/// A height above something, in words.
+fn beside(height: f64) -> String {
+    let side = if height < 0.0 { "below" } else { "above" };
+    format!("{:.1} cm {side}", height.abs() * 1e2)
 }
 
 /// How many hairstyles there are on the way.

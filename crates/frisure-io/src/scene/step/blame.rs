@@ -64,7 +64,11 @@ pub(in crate::scene) fn fault(
     let step = join(&here, operation);
     let place = join(&step, "where");
     let chosen = source.find(&place).map(|(span, _)| source.slice(span));
-    let hint = hint(error, chosen);
+    let written = |place: &str| source.find(place).map(|(span, _)| source.slice(span));
+    // A level that is raised cannot be said in one word.
+    let raised = written(&join(&step, "raise")).is_some();
+    let below = written(&join(&step, "below")).filter(|_| !raised);
+    let hint = hint(error, chosen, below);
     let key = match error {
         StyleError::NothingSelected | StyleError::NoSuchWisp { .. } => place,
         _ => step,
@@ -75,14 +79,26 @@ pub(in crate::scene) fn fault(
     Fault::new(error.to_string()).key(key).hint(hint).at(source, span)
 }
 
-/// What to try; `chosen` is what the step says about which wisps.
-fn hint(error: &StyleError, chosen: Option<&str>) -> String {
+/// What to try; `chosen` is what the step says about which wisps, `below` about a height that it cuts
+/// at.
+fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String {
     match error {
         StyleError::NothingSelected => {
             "choose a larger part with `where`, or leave `where` out for all hair".into()
         }
         StyleError::NoSuchWisp { .. } => {
             "wisps are numbered from 0; `wisps.count` says how many there are".into()
+        }
+        StyleError::AboveRoot { .. } if below.is_some() => {
+            let above = format!("{{ above = {} }}", below.unwrap_or(""));
+            let rest = match chosen {
+                None => above,
+                Some(list) if list.starts_with('[') => {
+                    format!("{{ all = [{{ any = {list} }}, {above}] }}")
+                }
+                Some(one) => format!("{{ all = [{one}, {above}] }}"),
+            };
+            format!("cut lower, or leave out what is rooted lower: `where = {rest}`")
         }
         StyleError::AboveRoot { wisps, .. } => match without(wisps, chosen) {
             Some(rest) => format!("cut lower, or leave them out: `where = {rest}`"),

@@ -6,7 +6,7 @@ use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::Value;
 
-use super::shapes::{Fields, Plane, described};
+use super::shapes::{Below, Fields, Plane, described};
 use crate::scene::key::{
     Angle, Choice, Count, Flag, Kind, Length, OneOf, Pair, Point, Ratio, Refusal,
 };
@@ -18,7 +18,7 @@ pub(in crate::scene) const WHERE: &str = "where";
 const DEEPEST: usize = 32;
 
 /// What a table can say, one of these.
-const WAYS: [&str; 7] = ["wisps", "plane", "brush", "lasso", "any", "all", "not"];
+const WAYS: [&str; 8] = ["above", "wisps", "plane", "brush", "lasso", "any", "all", "not"];
 
 /// A choice of wisps: a word, a list of words, or a table.
 pub(super) struct Where;
@@ -121,6 +121,7 @@ fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, Refusal>
         each(list, |item| selection(item, depth))
     };
     Ok(match way {
+        "above" => Selection::Above(Below::read(value)?),
         "wisps" => Selection::Wisps(wisps(value)?),
         "plane" => {
             let (point, normal) = Plane::read(value)?;
@@ -264,6 +265,7 @@ pub(in crate::scene) fn where_schema() -> Schema {
     let ways = json_schema!({
         "type": "object", "additionalProperties": false, "minProperties": 1, "maxProperties": 1,
         "properties": {
+            "above": of(&Below::schema(), "Rooted above a level of the head, or a height (m)."),
             "wisps": of(&wisps, "By number."),
             "plane": of(&Plane::schema(), "Rooted on the side of a plane that its normal points to."),
             "brush": of(&brush, "Rooted under a brush drawn over the scalp."),

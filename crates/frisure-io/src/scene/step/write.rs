@@ -176,6 +176,14 @@ fn hold(hold: &Hold) -> Fields {
     }
 }
 
+/// A height that is said in one value: a level without more, or metres.
+fn height(height: Height) -> String {
+    match height {
+        Height::At(z) => length(z),
+        Height::Above(level, _) => word(|w: Which<Level>| w.0 == level),
+    }
+}
+
 fn selection(chosen: &Selection) -> String {
     let table = |key, value| Fields::default().with(key, value).text();
     match chosen {
@@ -184,6 +192,7 @@ fn selection(chosen: &Selection) -> String {
         Selection::Any(parts) if !parts.is_empty() && parts.iter().all(is_place) => {
             list(parts, selection)
         }
+        Selection::Above(height) => table("above", self::height(*height)),
         Selection::Wisps(wisps) => table("wisps", list(wisps, ToString::to_string)),
         Selection::Beyond { point, normal } => table("plane", plane(*point, *normal)),
         Selection::Brush { spots, radius } => {
