@@ -18,7 +18,7 @@ pub enum Selection {
     Place(Place),
     /// By number, in the order of [`crate::Hairstyle::guides`].
     Wisps(Vec<usize>),
-    /// Those rooted above a height.
+    /// Those rooted above a height, by 3 mm at least: of these a cut at that height leaves something.
     Above(Height),
     /// Those rooted on the side of a plane that its normal points to.
     Beyond {
@@ -151,7 +151,7 @@ impl Selection {
             Self::Place(place) => rooted(&|g| holds(*place, g, marks)),
             Self::Wisps(wisps) => numbered(wisps, guides.len())?,
             Self::Above(height) => {
-                let height = height.on(head);
+                let height = height.on(head) + CLEAR;
                 rooted(&|g| g.root.position.z > height)
             }
             Self::Beyond { point, normal } => {
@@ -178,6 +178,9 @@ fn some(field: &'static str, count: usize) -> Result<(), InvalidSpec> {
     let allowed = "a list of one or more";
     if count > 0 { Ok(()) } else { Err(InvalidSpec { field, value: "empty".into(), allowed }) }
 }
+
+/// How far (m) above a height is above it.
+const CLEAR: f64 = 3e-3;
 
 fn holds(place: Place, guide: &Guide, marks: &Landmarks) -> bool {
     let left = guide.root.position.x > marks.cranium_centre.x;
