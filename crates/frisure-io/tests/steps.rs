@@ -457,7 +457,7 @@ fn a_step_that_cannot_be_done_is_shown() {
     let above = fault(1, &StyleError::AboveRoot { wisps: vec![3, 4], selected: 9 });
     assert_eq!((above.line, above.column, above.key.as_str()), (4, 7, "step[1].cut"));
     assert!(above.to_string().contains("2 of 9 wisps: 3, 4") && above.hint.contains("cut lower"));
-    let left_out = "where = { all = ['nape', { not = { wisps = [3, 4] } }] }";
+    let left_out = "where = { all = ['nape', { above = 'eyes' }] }";
     assert!(above.hint.contains(left_out), "{}", above.hint);
     // What is proposed can be said.
     one(&format!("release = {{ {left_out} }}"));
