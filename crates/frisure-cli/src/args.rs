@@ -98,8 +98,10 @@ Examples:
   frisure style mine.toml --step 'grow = { months = 3 }' -o later.toml
 
 The scene is written back in one piece, and nothing but the steps changes in it: comments and layout
-stay. If a step is wrong, the scene stays as it is. Steps are numbered from 1; `--remove` comes
-before `--at`. What a step can say is told in docs/scene.md.";
+stay. If a step cannot be understood or a number in it is out of range, the scene stays as it is.
+What only the hair itself can tell, such as whether a cut passes above roots or a wisp exists, is
+found by `frisure predict`. Steps are numbered from 1; `--remove` comes before `--at`. What a step
+can say is told in docs/scene.md.";
 
 /// Arguments of `frisure style`.
 #[derive(Args, Debug)]

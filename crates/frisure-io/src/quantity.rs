@@ -206,6 +206,25 @@ impl Dimension {
         units.iter().filter_map(written).min_by_key(String::len)
     }
 
+    /// A number written without a unit, in the first unit but SI's own in which it is within `least`
+    /// and `most` (SI); the unit of the example comes first. Of pure numbers only fractions are meant
+    /// in per cent.
+    pub(crate) fn meant(&self, number: &str, least: f64, most: f64) -> Option<String> {
+        if self.si.is_empty() && most > 1.0 {
+            return None;
+        }
+        let usual = self.example[number_length(self.example)..].trim();
+        let others = self.units().filter(|unit| *unit != usual && *unit != self.si);
+        let in_unit = |unit: &str| format!("{number} {unit}");
+        let fits = |text: &String| self.parse(text).is_ok_and(|x| (least..=most).contains(&x));
+        Some(usual).into_iter().filter(|u| !u.is_empty()).chain(others).map(in_unit).find(fits)
+    }
+
+    /// The dimension that a unit is SI's own unit of; the empty one is that of pure numbers.
+    pub(crate) fn of_si(unit: &str) -> Option<&'static Self> {
+        ALL.into_iter().find(|dimension| dimension.si == unit)
+    }
+
     /// Units that can be written, the most usual first.
     pub fn units(&self) -> impl Iterator<Item = &'static str> {
         self.units.iter().map(|u| u.0)
@@ -313,6 +332,24 @@ mod tests {
         assert_eq!((unit.as_str(), belongs_to), ("GPa", Some("a modulus")));
         assert!(matches!(bad(&LENGTH, "2 em"), QuantityError::UnknownUnit { .. }));
         assert!(matches!(bad(&LENGTH, "1 2 m"), QuantityError::UnknownUnit { .. }));
+    }
+
+    #[test]
+    fn a_bare_number_is_meant_in_the_first_unit_that_fits() {
+        let meant = |d: &Dimension, number, least, most| d.meant(number, least, most);
+        let text = |text: &str| Some(text.to_owned());
+        assert_eq!(meant(&ANGLE, "45", 0.0, PI), text("45 deg"));
+        assert_eq!(meant(&ANGLE, "1000", 0.0, PI), None);
+        assert_eq!(meant(&LENGTH, "8", 1e-3, 3.0), text("8 cm"));
+        assert_eq!(meant(&LENGTH, "15", 1e-3, 0.1), text("15 mm"));
+        assert_eq!(meant(&LENGTH, "70", 1e-5, 1e-3), text("70 um"));
+        assert_eq!(meant(&RATIO, "50", 0.0, 1.0), text("50 %"));
+        assert_eq!(meant(&RATIO, "50", 0.0, 0.4), None);
+        // Months are no fraction.
+        assert_eq!(meant(&RATIO, "300", 0.0, 240.0), None);
+        for d in ALL {
+            assert_eq!(Dimension::of_si(d.si), Some(d));
+        }
     }
 
     #[test]

@@ -582,6 +582,37 @@ fn faults_name_place_value_range_and_hint() {
 }
 
 #[test]
+fn a_bare_number_out_of_range_is_told_its_unit() {
+    for (text, meant) in [
+        ("hair.length = 25", "a number without quotes is in m; did you mean \"25 cm\"?"),
+        ("implantation.lift = 45", "a number without quotes is in rad; did you mean \"45 deg\"?"),
+        ("camera.elevation = -30", "a number without quotes is in rad; did you mean \"-30 deg\"?"),
+        (
+            "hair.growth_rate = 1.2",
+            "a number without quotes is in m/s; did you mean \"1.2 cm/month\"?",
+        ),
+        ("wisps.flyaways = 5", "did you mean \"5 %\"?"),
+        // Neither is a unit.
+        ("hair.length = '25 m'", ""),
+        ("wisps.count = 0", ""),
+    ] {
+        assert_eq!(fault(text).hint, meant, "{text}");
+    }
+}
+
+#[test]
+fn a_key_of_another_table_is_told_where_it_belongs() {
+    for (text, place) in [
+        ("lenght = '20 cm'", "did you mean `hair.length`?"),
+        ("length = '20 cm'", "there is a `hair.length`"),
+        ("[head]\nflayaways = 0.1", "did you mean `wisps.flyaways`?"),
+        ("ligth = {}", "did you mean `light`?"),
+    ] {
+        assert_eq!(fault(text).hint, place, "{text}");
+    }
+}
+
+#[test]
 fn columns_count_characters() {
     let fault = fault("name = \"é\"\n[hair]\ntype = \"é\" # é");
     assert_eq!((fault.line, fault.column, fault.value.as_str()), (3, 8, "\"é\""));

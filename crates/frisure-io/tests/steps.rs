@@ -242,7 +242,7 @@ fn faults_name_place_value_range_and_hint() {
             "part = { at = 0, where = 'top' }",
             18,
             "part.where",
-            &["unknown key `where`", "known keys: at, line"],
+            &["unknown key `where`", "about the whole head: leave `where` out"],
         ),
         ("part = {}", 8, "part", &["needs `at`"]),
         ("part = { at = '10 cm' }", 15, "part.at", &["within 6 cm"]),
@@ -309,6 +309,122 @@ fn faults_name_place_value_range_and_hint() {
     assert_eq!(fault("step = [3]").key, "step[0]");
 }
 
+/// The hint for a step by itself, which is the same in a scene.
+fn hint(text: &str) -> String {
+    let alone = parse_step("--step", text).expect_err(text).fault().unwrap().clone();
+    assert_eq!(fault(&format!("[[step]]\n{text}\n")).hint, alone.hint, "{text}");
+    alone.hint
+}
+
+#[test]
+fn a_bare_number_out_of_range_is_told_its_unit() {
+    for (text, meant) in [
+        ("cut = { below = 0, elevation = 45 }", "is in rad; did you mean \"45 deg\"?"),
+        ("cut = { length = 8 }", "is in m; did you mean \"8 cm\"?"),
+        ("cut = { below = 200 }", "is in m; write a unit, as in \"25 cm\""),
+        ("roll = { radius = 15 }", "did you mean \"15 mm\"?"),
+        ("part = { at = -2.5 }", "is in m; write a unit, as in \"25 cm\""),
+        ("dry = { keep = 50 }", "did you mean \"50 %\"?"),
+        ("dry = { keep = '50' }", "did you mean \"50 %\"?"),
+        ("humidity = 80", "did you mean \"80 %\"?"),
+        ("release = { where = { brush = { at = [0, 0], radius = 2 } } }", "\"2 cm\"?"),
+    ] {
+        let hint = hint(text);
+        assert!(hint.ends_with(meant), "{text}: {hint}");
+    }
+    // No unit makes these right.
+    for text in ["grow = { months = 300 }", "wet = { to = -1 }", "cut = { length = '8 m' }"] {
+        assert_eq!(hint(text), "", "{text}");
+    }
+}
+
+#[test]
+fn other_words_lead_to_those_that_there_are() {
+    for (text, meant) in [
+        ("release = { where = 'neck' }", "did you mean \"nape\"?"),
+        ("release = { where = 'Bangs' }", "did you mean \"fringe\"?"),
+        ("release = { where = ['top', 'hairline'] }", "did you mean \"fringe\"?"),
+        ("release = { where = 'left side' }", "did you mean \"left-side\"?"),
+        ("release = { where = 'left-back' }", "write { all = [\"left\", \"back\"] }"),
+        ("release = { where = { not = 'neck left' } }", "write { all = [\"nape\", \"left\"] }"),
+        (
+            "release = { where = ['top', 'left-back'] }",
+            "write { any = [{ all = [\"left\", \"back\"] }, …] }",
+        ),
+        ("cut = { below = 'eyebrows' }", "did you mean \"brows\"?"),
+    ] {
+        let hint = hint(text);
+        assert!(hint.ends_with(meant), "{text}: {hint}");
+    }
+    for text in ["cut = { below = 'mouth' }", "cut = { below = 'shoulders' }"] {
+        let sentence = parse_step("--step", text).unwrap_err().to_string();
+        let allowed = "one of \"brows\", \"eyes\", \"ears\", \"chin\", \"nape\", or a height such as \"4 cm\"";
+        assert!(sentence.contains(allowed), "{sentence}");
+    }
+    let months = hint("grow = { months = '12 months' }");
+    assert_eq!(months, "with a unit it is `time = \"12 months\"`");
+    // A region has no table of choices.
+    assert_eq!(fault("[[region]]\nwhere = 'left-back'").hint, "");
+    assert_eq!(fault("[[region]]\nwhere = 'bangs'").hint, "did you mean \"fringe\"?");
+}
+
+#[test]
+fn a_step_said_in_another_way_is_told_how() {
+    for (text, told) in [
+        ("curl = { radius = 1 }", "did you mean `roll`?"),
+        ("snip = {}", "did you mean `cut`?"),
+        ("trim = {}", "did you mean `cut`?"),
+        ("shampoo = {}", "did you mean `wet`?"),
+        ("wash = {}", "did you mean `wet`?"),
+        ("ponytail = {}", "did you mean `clip`?"),
+        ("blow-dry = {}", "did you mean `dry`?"),
+        ("below = 'chin'", "there is a `cut.below`"),
+        ("wet = true", "write `wet = {}`"),
+        ("dry = 0.5", "write `dry = { keep = 0.5 }`"),
+        ("cut = 'chin'", "write `cut = { below = 'chin' }`"),
+        ("cut = 'shoulders'", "write `cut = { below = \"chin\" }`"),
+        ("release = 'fringe'", "write `release = { where = 'fringe' }`"),
+        ("braid = '2 cm'", "write `braid = { width = \"2 cm\", pitch = \"4 cm\" }`"),
+        ("part = { at = 0, where = 'top' }", "leave `where` out"),
+    ] {
+        let hint = hint(text);
+        assert!(hint.ends_with(told), "{text}: {hint}");
+    }
+}
+
+#[test]
+fn a_text_that_is_no_single_step_is_told_what_is() {
+    for (text, told) in [
+        ("dry", "write `dry = {}`"),
+        ("trim", "write `cut = { below = \"chin\" }`"),
+        ("[[step]]\nwet = {}", "leave out `[[step]]`, and write what follows it"),
+        ("[[step]] wet = {}", "leave out `[[step]]`, and write what follows it"),
+        ("wet = {} dry = {}", "`--step` takes one step: give each a `--step` of its own"),
+        ("wet = {}; dry = {}", "`--step` takes one step: give each a `--step` of its own"),
+        ("wet = {}, dry = {}", "`--step` takes one step: give each a `--step` of its own"),
+        ("wet = {}\ndry = {}", "`--step` takes one step: give each a `--step` of its own"),
+        ("wet = {", ""),
+        ("", "a step has one of wet, dry"),
+    ] {
+        let fault = parse_step("--step", text).unwrap_err().fault().unwrap().clone();
+        assert!(fault.hint.starts_with(told), "{text}: {}", fault.hint);
+    }
+    let header = "what follows `[[step]]` begins on a line of its own";
+    assert_eq!(fault("seed = 1\n[[step]] wet = {}\n").hint, header);
+}
+
+#[test]
+fn one_place_of_a_brush_needs_no_list() {
+    for place in ["[0.06, -0.04, 0.09]", "['6 cm', '-4 cm']"] {
+        let brush = |at: &str| {
+            one(&format!("release = {{ where = {{ brush = {{ at = {at}, radius = 0.02 }} }} }}"))
+        };
+        assert_eq!(brush(place), brush(&format!("[{place}]")));
+    }
+    let wrong = "release = { where = { brush = { at = [0.06], radius = 0.02 } } }";
+    assert!(parse_step("--step", wrong).unwrap_err().to_string().contains("a point [x, y, z]"));
+}
+
 #[test]
 fn choices_of_choices_end_somewhere() {
     let nested = |depth: usize| {
@@ -341,7 +457,7 @@ fn a_step_that_cannot_be_done_is_shown() {
     let above = fault(1, &StyleError::AboveRoot { wisps: vec![3, 4], selected: 9 });
     assert_eq!((above.line, above.column, above.key.as_str()), (4, 7, "step[1].cut"));
     assert!(above.to_string().contains("2 of 9 wisps: 3, 4") && above.hint.contains("cut lower"));
-    let left_out = "where = { all = ['nape', { not = { wisps = [3, 4] } }] }";
+    let left_out = "where = { all = ['nape', { above = 'eyes' }] }";
     assert!(above.hint.contains(left_out), "{}", above.hint);
     // What is proposed can be said.
     one(&format!("release = {{ {left_out} }}"));
@@ -626,8 +742,10 @@ fn what_cannot_be_said_is_not_written() {
     let bad = Operation::Humidity(Humidity { relative: f64::NAN });
     assert!(matches!(write_step(&bad), Err(WriteStepError::Invalid(_))));
     let held = Cut { selection: EVERYTHING, line: CutLine::Length(0.1), held: Held::Hanging };
-    let unsaid = Err(WriteStepError::Unsaid { operation: "cut" });
-    assert_eq!(write_step(&Operation::Cut(held)), unsaid);
+    assert!(matches!(write_step(&Operation::Cut(held)), Err(WriteStepError::Invalid(_))));
+    let aside = Part { line: Parting::Zigzag { offset: 0.01 } };
+    let unsaid = Err(WriteStepError::Unsaid { operation: "part" });
+    assert_eq!(write_step(&Operation::Part(aside)), unsaid);
     let wet = one("wet = {}");
     assert!(matches!(edit::append("", &[wet.clone(), bad]), Err(EditError::Step(_))));
     assert!(matches!(edit::append("[hare]", &[wet]), Err(EditError::Scene(_))));

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
+use super::bare;
 use super::source::Source;
 use crate::files::ReadError;
 
@@ -89,7 +90,12 @@ impl Fault {
     pub(super) fn at(self, source: &Source, span: Range<usize>) -> SceneError {
         let (line, column) = source.position(span.start);
         let (file, text) = (source.name.clone(), source.text.clone());
-        SceneError::Fault(Box::new(Self { file, text, line, column, span, ..self }))
+        let hint = match (self.hint.is_empty(), self.problem.is_empty()) {
+            // A number out of range may be one in another unit.
+            (true, true) => bare::hint(&self.key, source.slice(span.clone())).unwrap_or_default(),
+            _ => self.hint,
+        };
+        SceneError::Fault(Box::new(Self { file, text, line, column, span, hint, ..self }))
     }
 
     /// What is wrong in one sentence, without the place and the hint.

@@ -81,6 +81,15 @@ impl Refusal {
         Self { hint: hint.into(), ..self }
     }
 
+    pub(super) fn has_hint(&self) -> bool {
+        !self.hint.is_empty()
+    }
+
+    /// The same, where something else is allowed too.
+    pub(super) fn or(self, also: &str) -> Self {
+        Self { allowed: format!("{}, {also}", self.allowed), ..self }
+    }
+
     /// The same, of a part of the value that is read.
     pub(super) fn inside(self, part: &str) -> Self {
         Self { inside: format!("{part}{}", self.inside).into(), ..self }
@@ -214,13 +223,43 @@ impl<T> Table<T> {
 
 /// The nearest of some words to one that is none of them, if one is near.
 pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    near(word, known).map(|(_, known)| known)
+}
+
+/// The same, with the number of letters that are wrong.
+pub(super) fn near<'a>(
+    word: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Option<(usize, &'a str)> {
     known
         .into_iter()
         .map(|k| (strsim::damerau_levenshtein(word, k), k))
         .min_by_key(|&(distance, _)| distance)
         // Half the letters wrong is another word.
         .filter(|&(distance, k)| distance <= 1 + k.chars().count() / 3)
-        .map(|(_, k)| k)
+}
+
+/// The word of a choice that a person may have meant by another.
+fn meant<C: Choice>(word: &str) -> Option<&'static str> {
+    let word = word.to_lowercase();
+    let known = || C::words().into_iter().map(|w| w.0);
+    let synonym = C::synonyms().iter().find(|(other, _)| *other == word).map(|s| s.1);
+    let near = near(&word, known());
+    synonym.or_else(|| match near {
+        // Two words together are near to many, but are both of them.
+        Some((2.., _)) if two_words::<C>(&word).is_some() => None,
+        near => near.map(|(_, known)| known),
+    })
+}
+
+/// Two words of a choice that are written as one, such as `left-back`.
+pub(super) fn two_words<C: Choice>(word: &str) -> Option<[&'static str; 2]> {
+    let (one, other) = word.split_once(['-', '_', ' '])?;
+    let known = |word: &str| {
+        let synonym = C::synonyms().iter().find(|(other, _)| *other == word).map(|s| s.1);
+        C::words().into_iter().map(|w| w.0).find(|known| *known == word).or(synonym)
+    };
+    Some([known(one)?, known(other)?])
 }
 
 /// A number in SI units or a text with a unit.
@@ -492,6 +531,11 @@ fn hexadecimal(text: &str) -> Option<[f64; 3]> {
 pub(super) trait Choice: Sized + Copy + 'static {
     /// Each word, what it means and what it stands for.
     fn words() -> Vec<(&'static str, &'static str, Self)>;
+
+    /// Words of other people, each with the one that is meant by it.
+    fn synonyms() -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
 }
 
 /// A key that takes one word out of a few.
@@ -505,11 +549,9 @@ impl<C: Choice> Kind for OneOf<C> {
         let list = words.iter().map(|w| format!("\"{}\"", w.0)).collect::<Vec<_>>().join(", ");
         let outside = || Refusal::new(format!("one of {list}"));
         let word = value.as_str().ok_or_else(outside)?;
-        words.iter().find(|w| w.0 == word).map(|w| w.2).ok_or_else(|| {
-            match nearest(word, words.iter().map(|w| w.0)) {
-                Some(near) => outside().hint(format!("did you mean \"{near}\"?")),
-                None => outside(),
-            }
+        words.iter().find(|w| w.0 == word).map(|w| w.2).ok_or_else(|| match meant::<C>(word) {
+            Some(near) => outside().hint(format!("did you mean \"{near}\"?")),
+            None => outside(),
         })
     }
 

@@ -5,6 +5,7 @@
 //! of range (`resolve`). `file` lists the keys and is their reference; the JSON Schema is made from
 //! it.
 
+mod bare;
 mod blame;
 mod error;
 mod file;

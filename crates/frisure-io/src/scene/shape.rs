@@ -6,8 +6,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Fault, SceneError};
-use super::key::nearest;
+use super::key::near;
 use super::source::Source;
+use super::step;
 
 /// Refuses the first key that the schema does not know, and the first value that is not a table
 /// where the schema has one.
@@ -61,36 +62,89 @@ impl Walk<'_> {
     }
 
     fn not(&mut self, value: &Spanned<DeValue<'_>>, path: &str, allowed: &str) {
-        let fault = Fault::outside(allowed).key(path).value(self.source.slice(value.span()));
+        let written = self.source.slice(value.span());
+        let hint = self.operation(path).and_then(|name| step::in_full(name, written));
+        let fault = Fault::outside(allowed).key(path).value(written);
+        let fault = fault.hint(hint.unwrap_or_default());
         self.faults.push(Fault { span: value.span(), ..fault });
     }
 
+    /// The key of a step at a path, if it is one.
+    fn operation<'p>(&self, path: &'p str) -> Option<&'p str> {
+        let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
+        self.is_step(table).then_some(name)
+    }
+
+    /// Whether the table at a path is a step.
+    fn is_step(&self, path: &str) -> bool {
+        match path {
+            "" => self.root["properties"].get("release").is_some(),
+            path => path.starts_with("step[") && path.ends_with(']'),
+        }
+    }
+
     fn unknown(&self, name: &str, path: &str, schema: &Value) -> Fault {
-        let known = || schema["properties"].as_object().into_iter().flat_map(|p| p.keys());
-        let hint = if let Some(near) = nearest(name, known().map(String::as_str)) {
-            format!("did you mean `{near}`?")
-        } else if let [elsewhere] = find(name, self.root, "").as_slice() {
-            // The right key in the wrong table.
-            format!("there is a `{elsewhere}`")
-        } else {
-            format!("known keys: {}", known().map(String::as_str).collect::<Vec<_>>().join(", "))
-        };
         let place = if path.is_empty() { String::new() } else { format!(" in `[{path}]`") };
-        Fault::new(format!("unknown key `{name}`{place}")).key(join(path, name)).hint(hint)
+        let fault = Fault::new(format!("unknown key `{name}`{place}")).key(join(path, name));
+        fault.hint(self.instead(name, path, schema))
+    }
+
+    /// What to try instead of a key that does not exist.
+    fn instead(&self, name: &str, path: &str, schema: &Value) -> String {
+        if self.operation(path) == Some("part") && name == "where" {
+            return "a parting is about the whole head: leave `where` out".into();
+        }
+        let known = || schema["properties"].as_object().into_iter().flat_map(|p| p.keys());
+        let is_step = self.is_step(path);
+        let here = near(name, known().map(String::as_str));
+        let here = here.filter(|(distance, _)| !is_step || *distance < 2);
+        // The right key in the wrong table, if it is nearer than those of this one.
+        let elsewhere = || match is_step {
+            true => elsewhere(name, schema, here),
+            false => elsewhere(name, self.root, here),
+        };
+        if let Some(places) = elsewhere() {
+            return places;
+        }
+        match here.map(|(_, near)| near).or_else(|| step::meant(name).filter(|_| is_step)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("known keys: {}", known().cloned().collect::<Vec<_>>().join(", ")),
+        }
+    }
+}
+
+/// What to say of keys in other tables that are called as a key, or nearly so and nearer than one
+/// that is known here.
+fn elsewhere(name: &str, root: &Value, here: Option<(usize, &str)>) -> Option<String> {
+    let mut paths = Vec::new();
+    below(root, "", &mut paths);
+    let own = |path: &String| path.rsplit('.').next().unwrap_or("").to_owned();
+    let names: Vec<_> = paths.iter().map(own).collect();
+    let (distance, near) = near(name, names.iter().map(String::as_str))?;
+    let of_that_name = paths.iter().zip(&names).filter(|(_, own)| *own == near);
+    let found: Vec<_> = of_that_name.map(|(path, _)| format!("`{path}`")).collect();
+    match (distance, here) {
+        (_, Some((known, _))) if known <= distance => None,
+        // Many tables have such a key, or one is a little like it.
+        _ if found.len() > 3 => None,
+        (0, _) => Some(format!("there is a {}", found.join(", a "))),
+        // Two letters wrong in another table is another word.
+        (2.., _) => None,
+        _ => Some(format!("did you mean {}?", found.join(" or "))),
+    }
+}
+
+/// Paths of all keys of tables in a schema.
+fn below(schema: &Value, path: &str, out: &mut Vec<String>) {
+    for (key, inner) in schema["properties"].as_object().into_iter().flatten() {
+        let path = join(path, key);
+        below(inner, &path, out);
+        out.push(path);
     }
 }
 
 fn has_keys(schema: &Value) -> bool {
     schema.get("properties").is_some()
-}
-
-/// Paths of the keys of that name anywhere in the schema.
-fn find(name: &str, schema: &Value, path: &str) -> Vec<String> {
-    let Some(properties) = schema["properties"].as_object() else { return Vec::new() };
-    if properties.contains_key(name) {
-        return vec![join(path, name)];
-    }
-    properties.iter().flat_map(|(key, inner)| find(name, inner, &join(path, key))).collect()
 }
 
 fn join(path: &str, name: &str) -> String {

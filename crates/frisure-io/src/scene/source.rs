@@ -28,7 +28,16 @@ impl Source {
         if let Some((first, rest)) = message.clone().split_once('\n') {
             message = format!("{first} ({})", rest.replace('\n', ", "));
         }
-        Fault::new(message).at(self, span)
+        let hint = self.after_a_header(span.start).unwrap_or_default();
+        Fault::new(message).hint(hint).at(self, span)
+    }
+
+    /// What to try where something stands behind the header of a table.
+    fn after_a_header(&self, byte: usize) -> Option<String> {
+        let before = self.text.get(..byte)?;
+        let header = before[before.rfind('\n').map_or(0, |i| i + 1)..].trim();
+        let is_header = header.starts_with('[') && header.ends_with(']');
+        is_header.then(|| format!("what follows `{header}` begins on a line of its own"))
     }
 
     /// Line and column of a byte, both from 1; columns count characters.

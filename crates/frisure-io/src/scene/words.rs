@@ -227,6 +227,25 @@ impl Choice for Place {
             ("all", "the whole scalp", Self::Everywhere),
         ]
     }
+
+    fn synonyms() -> &'static [(&'static str, &'static str)] {
+        &[
+            ("bangs", "fringe"),
+            ("forehead", "fringe"),
+            ("front", "fringe"),
+            ("hairline", "fringe"),
+            ("neck", "nape"),
+            ("neckline", "nape"),
+            ("ears", "sides"),
+            ("temples", "sides"),
+            ("whorl", "crown"),
+            ("vertex", "crown"),
+            ("occiput", "back"),
+            ("head", "all"),
+            ("scalp", "all"),
+            ("everywhere", "all"),
+        ]
+    }
 }
 
 /// Parts of the scalp: one word, or a list.
@@ -257,6 +276,10 @@ impl Choice for Which<Level> {
             ("chin", "the chin", Self(Level::Chin)),
             ("nape", "the lowest hair in the neck", Self(Level::Nape)),
         ]
+    }
+
+    fn synonyms() -> &'static [(&'static str, &'static str)] {
+        &[("eyebrows", "brows"), ("eyebrow", "brows"), ("jaw", "chin"), ("neck", "nape")]
     }
 }
 

@@ -1,14 +1,16 @@
 //! `where`: which wisps a step is about.
 
+use std::f64::consts::PI;
+
 use frisure_hairstyle::Place;
 use frisure_hairstyle::styling::{Lasso, Selection, Spot, View};
 use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::Value;
 
-use super::shapes::{Below, Fields, Plane, described};
+use super::shapes::{Below, Fields, Plane, bounded, described};
 use crate::scene::key::{
-    Angle, Choice, Count, Flag, Kind, Length, OneOf, Pair, Point, Ratio, Refusal,
+    Angle, Choice, Count, Flag, Kind, Length, OneOf, Pair, Point, Ratio, Refusal, two_words,
 };
 
 /// Name of the schema of `where`, which refers to itself.
@@ -35,6 +37,10 @@ impl Choice for Word {
         let places = Place::words().into_iter().map(|(word, what, p)| (word, what, Self::Of(p)));
         let everything = ("everything", "all wisps, as without `where`", Self::Everything);
         places.chain([everything]).collect()
+    }
+
+    fn synonyms() -> &'static [(&'static str, &'static str)] {
+        Place::synonyms()
     }
 }
 
@@ -68,15 +74,34 @@ fn selection(value: &Value, depth: usize) -> Result<Selection, Refusal> {
     }
 }
 
+/// A word by itself, where a table might stand as well.
 fn word(value: &Value) -> Result<Selection, Refusal> {
-    OneOf::<Word>::read(value).map(|word| match word {
+    let both = |[one, other]: [&str; 2]| format!("{{ all = [\"{one}\", \"{other}\"] }}");
+    one_word(value, |words| format!("for wisps in both write {}", both(words)))
+}
+
+/// A word; `of_two` is what to try where it is two of them together.
+fn one_word(value: &Value, of_two: impl Fn([&str; 2]) -> String) -> Result<Selection, Refusal> {
+    let place = OneOf::<Word>::read(value).map_err(|refusal| {
+        match value.as_str().and_then(two_words::<Word>) {
+            Some(words) if !refusal.has_hint() => refusal.hint(of_two(words)),
+            _ => refusal,
+        }
+    })?;
+    Ok(match place {
         Word::Everything => Selection::Everything,
         Word::Of(place) => Selection::Place(place),
     })
 }
 
 fn union_of_words(words: &[Value]) -> Result<Selection, Refusal> {
-    each(words, word).map(Selection::Any)
+    let both = |[one, other]: [&str; 2]| {
+        let both = format!("{{ all = [\"{one}\", \"{other}\"] }}");
+        format!(
+            "a list has single words; for wisps in both among others write {{ any = [{both}, …] }}"
+        )
+    };
+    each(words, |value| one_word(value, both)).map(Selection::Any)
 }
 
 /// Every value of a list, understood.
@@ -164,16 +189,27 @@ impl Kind for Spots {
         let allowed = "a list of points [[x, y, z], …] or of places on the skin \
                        [[\"2 cm\", \"5 cm\"], …]";
         let list = value.as_array().ok_or_else(|| Refusal::new(allowed))?;
-        each(list, |spot| match spot.as_array().map(Vec::len) {
-            Some(2) => Pair::read(spot).map(Spot::Tape),
-            Some(3) => Point::read(spot).map(Spot::At),
-            _ => Err(Refusal::new("a point [x, y, z], or a place on the skin [across, back]")),
-        })
+        // One place is a list of one.
+        if list.first().is_some_and(|first| !first.is_array()) {
+            return spot(value).map(|spot| vec![spot]);
+        }
+        each(list, spot)
     }
 
     fn schema() -> Schema {
         let spot = json_schema!({ "anyOf": [Pair::schema(), Point::schema()] });
-        json_schema!({ "type": "array", "items": spot })
+        json_schema!({
+            "anyOf": [{ "type": "array", "items": spot }, Pair::schema(), Point::schema()],
+            "examples": [[["2 cm", "5 cm"], [0, "-4 cm", "9 cm"]]],
+        })
+    }
+}
+
+fn spot(value: &Value) -> Result<Spot, Refusal> {
+    match value.as_array().map(Vec::len) {
+        Some(2) => Pair::read(value).map(Spot::Tape),
+        Some(3) => Point::read(value).map(Spot::At),
+        _ => Err(Refusal::new("a point [x, y, z], or a place on the skin [across, back]")),
     }
 }
 
@@ -201,9 +237,9 @@ impl Kind for Camera {
         json_schema!({
             "type": "object", "additionalProperties": false,
             "properties": {
-                "eye": described(&Point::schema(), "Its place, within 100 m of the origin."),
-                "target": described(&Point::schema(), "The point it looks at, apart from the eye."),
-                "field_of_view": described(&Angle::schema(), field),
+                "eye": described(&Point::schema(), "Its place: a point in the head's frame (m), within 100 m of the origin."),
+                "target": described(&Point::schema(), "The point it looks at, in the same frame; apart from the eye."),
+                "field_of_view": bounded(&Angle::schema(), 0.1 * PI / 180.0, 179.0 * PI / 180.0, field),
                 "aspect": described(&Ratio::schema(), "Width over height; 0.001 to 1000."),
             },
             "required": ["eye", "target", "field_of_view", "aspect"],
@@ -243,14 +279,24 @@ pub(in crate::scene) fn where_schema() -> Schema {
     let brush = json_schema!({
         "type": "object", "additionalProperties": false, "required": ["at", "radius"],
         "properties": {
-            "at": described(&Spots::schema(), "Where it was: points (m), or places on the skin."),
-            "radius": described(&Length::schema(), "0.1 mm to 1 m."),
+            "at": described(
+                &Spots::schema(),
+                "Where it was: points [x, y, z] in the head's frame, or places [across, back] on the \
+                 skin as in a parting's `line`; one, or a list.",
+            ),
+            "radius": bounded(&Length::schema(), 1e-4, 1.0, "0.1 mm to 1 m."),
         },
     });
     let lasso = json_schema!({
         "type": "object", "additionalProperties": false, "required": ["camera", "polygon"],
         "properties": {
-            "camera": described(&Camera::schema(), "The camera of the picture."),
+            "camera": described(
+                &Camera::schema(),
+                "The camera of the picture. `eye` and `target` are points in metres in the head's \
+                 frame (x to its left, the face towards -y, z up, the middle of the head near 0), such \
+                 as { eye = [0, -1, 0.1], target = [0, 0, 0], field_of_view = \"30 deg\", aspect = 0.8 } \
+                 from the front.",
+            ),
             "polygon": described(
                 &Polygon::schema(),
                 "Corners, from -1 to 1 from left to right and from bottom to top.",
@@ -268,7 +314,11 @@ pub(in crate::scene) fn where_schema() -> Schema {
             "above": of(&Below::schema(), "Rooted above a level of the head, or a height (m)."),
             "wisps": of(&wisps, "By number."),
             "plane": of(&Plane::schema(), "Rooted on the side of a plane that its normal points to."),
-            "brush": of(&brush, "Rooted under a brush drawn over the scalp."),
+            "brush": of(
+                &brush,
+                "Rooted under a brush drawn over the scalp, such as { at = [[0, \"-4 cm\", \"9 cm\"]], \
+                 radius = \"2 cm\" }.",
+            ),
             "lasso": of(&lasso, "Mostly seen inside a polygon drawn on a picture."),
             "any": of(&list, "In any of these."),
             "all": of(&list, "In all of these."),
@@ -276,7 +326,8 @@ pub(in crate::scene) fn where_schema() -> Schema {
         },
     });
     json_schema!({
-        "description": "Which wisps: a part of the scalp, a list of parts, or a table with one key.",
+        "description": "Which wisps: a part of the scalp as in `[[region]]`, or \"everything\"; a list \
+                        of parts; or a table with one key. Without it: everything.",
         "anyOf": [word, { "type": "array", "items": word, "minItems": 1 }, ways],
     })
 }

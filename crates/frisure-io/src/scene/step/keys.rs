@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::chosen::Where;
-use super::shapes::{Below, Plane, Sphere, Towards};
+use super::shapes::{Below, Months, Plane, Sphere, Towards};
 use crate::scene::key::{
     Angle, Count, Flag, Key, Length, OneOf, Point, Points, Ratio, Table, Time,
 };
@@ -122,7 +122,7 @@ pub(super) struct Grow {
     pub(super) to: Key<Length>,
     /// For so many months of 30.44 days, at the hair's own rate; 0 to 240.
     #[schemars(range(min = 0.0, max = 240.0))]
-    pub(super) months: Key<Ratio>,
+    pub(super) months: Key<Months>,
     /// For a time, at the hair's own rate; 0 to 20 years.
     #[schemars(range(min = 0.0, max = 631_152_000.0))]
     pub(super) time: Key<Time>,

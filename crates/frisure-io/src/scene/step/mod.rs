@@ -3,6 +3,7 @@
 mod blame;
 mod chosen;
 pub mod edit;
+mod hint;
 mod keys;
 mod layout;
 mod read;
@@ -22,6 +23,7 @@ use super::{schema, shape, without_mark};
 
 pub(super) use blame::fault;
 pub(super) use chosen::{WHERE, where_schema};
+pub(super) use hint::{in_full, meant};
 pub(super) use keys::Step;
 pub(crate) use record::{Record, parse_record};
 pub use write::{WriteStepError, write_step};
@@ -39,11 +41,15 @@ pub(super) fn operations(steps: &[Step], source: &Source) -> Result<Vec<Operatio
 /// [`SceneError`].
 pub fn parse_step(name: &str, text: impl Into<String>) -> Result<Operation, SceneError> {
     let source = Source { name: name.to_owned(), text: without_mark(text.into()) };
+    one_step(&source).map_err(|error| hint::of_one_step(error, &source))
+}
+
+fn one_step(source: &Source) -> Result<Operation> {
     let schema = &schema()["properties"]["step"]["items"];
-    shape::check(&source, source.document()?.get_ref(), schema)?;
+    shape::check(source, source.document()?.get_ref(), schema)?;
     let deserializer = toml::Deserializer::parse(&source.text).map_err(|e| source.syntax(&e))?;
     let step = Step::deserialize(deserializer).map_err(|e| source.syntax(&e))?;
-    read::operation(&step, "", &source)
+    read::operation(&step, "", source)
 }
 
 /// The operations of the text of a scene.

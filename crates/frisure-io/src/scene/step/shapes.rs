@@ -6,7 +6,7 @@ use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::{Table, Value};
 
-use crate::scene::key::{Choice, Kind, Length, OneOf, Point, Refusal, Vector};
+use crate::scene::key::{Choice, Kind, Length, OneOf, Point, Ratio, Refusal, Time, Vector};
 use crate::scene::words::Which;
 
 /// The keys of a table that is a value.
@@ -97,6 +97,14 @@ pub(super) fn described(schema: &Schema, description: &str) -> Schema {
     schema
 }
 
+/// The same, of a number within bounds (SI).
+pub(super) fn bounded(schema: &Schema, least: f64, most: f64, description: &str) -> Schema {
+    let mut schema = described(schema, description);
+    schema.insert("minimum".into(), least.into());
+    schema.insert("maximum".into(), most.into());
+    schema
+}
+
 impl Choice for Which<Held> {
     fn words() -> Vec<(&'static str, &'static str, Self)> {
         vec![
@@ -119,7 +127,8 @@ impl Kind for Below {
 
     fn read(value: &Value) -> Result<Height, Refusal> {
         if is_word(value) {
-            let Which(level) = OneOf::<Which<Level>>::read(value)?;
+            let height = |refusal: Refusal| refusal.or("or a height such as \"4 cm\"");
+            let Which(level) = OneOf::<Which<Level>>::read(value).map_err(height)?;
             return Ok(Height::Above(level, 0.0));
         }
         Length::read(value).map(Height::At)
@@ -127,6 +136,26 @@ impl Kind for Below {
 
     fn schema() -> Schema {
         json_schema!({ "anyOf": [OneOf::<Which<Level>>::schema(), Length::schema()] })
+    }
+}
+
+/// A number of months, which are the unit of the key itself.
+pub(super) struct Months;
+
+impl Kind for Months {
+    type Value = f64;
+
+    fn read(value: &Value) -> Result<f64, Refusal> {
+        Ratio::read(value).map_err(|refusal| match value.as_str() {
+            Some(text) if Time::read(value).is_ok() => {
+                refusal.hint(format!("with a unit it is `time = \"{text}\"`"))
+            }
+            _ => refusal,
+        })
+    }
+
+    fn schema() -> Schema {
+        Ratio::schema()
     }
 }
 
