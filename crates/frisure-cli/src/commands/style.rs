@@ -1,7 +1,9 @@
 //! `frisure style`: the steps of a scene, put in, taken out and listed.
 
 use std::fmt::Write as _;
+use std::fs::{File, TryLockError};
 use std::path::Path;
+use std::time::Duration;
 
 use frisure::hairstyle::styling::Operation;
 use frisure::io::files::{self, WriteError};
@@ -10,14 +12,15 @@ use frisure::io::scene::{parse_step, write_step};
 
 use super::{parse_scene, read_text};
 use crate::args::Style;
-use crate::console;
 use crate::failure::{Done, Failure};
+use crate::{console, interrupt};
 
 /// What steps on the command line are called in errors.
 const STEP: &str = "--step";
 
 /// Changes the steps of a scene as the arguments say, or lists them.
 pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<Done, Failure> {
+    let _turn = turn(&arguments.scene)?;
     let text = read_text(&arguments.scene)?;
     // What is wrong with the scene itself is said with its name and line.
     let scene = parse_scene(&arguments.scene, text.clone())?;
@@ -39,6 +42,18 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<Done, Failure> {
         console::print(&summary(output, scene.steps().len() + steps.len() - left))?;
     }
     Ok(Done::Well)
+}
+
+/// Waits until no other `frisure style` is at a scene of this folder, where folders can be locked:
+/// two at once would lose each other's steps.
+fn turn(scene: &Path) -> Result<Option<File>, Failure> {
+    let folder = scene.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = File::open(folder.unwrap_or(Path::new("."))).ok().filter(|_| !is_standard(scene));
+    while let Some(Err(TryLockError::WouldBlock)) = folder.as_ref().map(File::try_lock) {
+        interrupt::check()?;
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Ok(folder)
 }
 
 /// Refuses to write over what is no file, or what somebody else has written meanwhile.

@@ -115,3 +115,15 @@ fn a_scene_keeps_its_permissions_and_a_link_its_target() {
     assert!(text(&room, "a.toml").contains("dry = {}"));
     assert_eq!(fs::metadata(room.path("a.toml")).unwrap().permissions().mode() & 0o777, 0o640);
 }
+
+#[test]
+fn several_at_once_lose_no_step() {
+    let room = Room::new().with("scene.toml", "name = \"Busy\"\n");
+    let add = || room.command(&["style", "scene.toml", "--step", "dry = {}"]).spawn().unwrap();
+    let running: Vec<_> = (0..8).map(|_| add()).collect();
+    for child in running {
+        assert!(child.wait_with_output().unwrap().status.success());
+    }
+    let text = std::fs::read_to_string(room.path("scene.toml")).unwrap();
+    assert_eq!(text.matches("dry = {}").count(), 8, "{text}");
+}
