@@ -1,0 +1,137 @@
+//! The way of a ray through a section of the fibre: where each lobe leaves, what each surface
+//! reflects, how far it is through the inside.
+//!
+//! Seen along its axis, a ray of inclination θ bends as in two dimensions with the index
+//! η' = √(η² − sin²θ)/cos θ (Bravais); Fresnel's reflectance is that of the angles in space. For an
+//! ellipse every surface is met at an angle of its own, and total reflection inside is possible.
+
+use core::f32::consts::PI;
+
+use glam::{Vec2, Vec2Swizzles};
+
+use crate::fibre::fresnel_between;
+
+/// What becomes of one ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Crossing {
+    /// Azimuth at which R, TT and TRT leave (rad, any turn); of no meaning where all is reflected.
+    pub(super) azimuth: [f32; 3],
+    /// Reflectance where the ray enters and where it meets the surface from inside, three times.
+    pub(super) fresnel: [f32; 4],
+    /// Length of the first three ways through the inside, in mean radii.
+    pub(super) chord: [f32; 3],
+}
+
+/// A ray before it meets the fibre.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Incident {
+    /// Unit direction to where it comes from, in the section (x along d1, y along d2).
+    pub(super) towards: Vec2,
+    /// Its offset h across the projected width, −1 to 1.
+    pub(super) offset: f32,
+    /// cos θ outside.
+    pub(super) cosine: f32,
+    /// cos θ inside.
+    pub(super) inner_cosine: f32,
+    /// Relative index of the inside.
+    pub(super) index: f32,
+}
+
+impl Incident {
+    /// 1/η', which stays finite along the fibre.
+    fn inverse_index(&self) -> f32 {
+        self.cosine / (self.index * self.inner_cosine)
+    }
+
+    /// cos γ where the ray meets a circle.
+    fn offset_cosine(&self) -> f32 {
+        ((1.0 - self.offset) * (1.0 + self.offset)).max(0.0).sqrt()
+    }
+
+    /// Cosine of the angle of incidence, in space, on an ellipse of these axes (product 1).
+    pub(super) fn facing(&self, axes: Vec2) -> f32 {
+        let half_width = (self.towards * axes.yx()).length();
+        let normal = (entry(self, axes) * axes.yx()).length();
+        self.cosine * self.offset_cosine() * half_width / normal
+    }
+
+    /// Reflectance between a ray outside and one inside that meet the surface at these cosines, as
+    /// seen in the section.
+    fn fresnel(&self, outer: f32, inner: f32) -> f32 {
+        fresnel_between(self.cosine * outer, self.inner_cosine * inner, self.index)
+    }
+}
+
+/// A circle of radius 1.
+pub(super) fn circle(ray: &Incident) -> Crossing {
+    let (sine, cosine) = (ray.offset, ray.offset_cosine());
+    let inner_sine = sine * ray.inverse_index();
+    let inner = (1.0 - inner_sine * inner_sine).max(0.0).sqrt();
+    let mirror = ray.towards.y.atan2(ray.towards.x) - 2.0 * sine.atan2(cosine);
+    let each = 2.0 * inner_sine.atan2(inner) + PI;
+    Crossing {
+        azimuth: [mirror, mirror + each, mirror + 2.0 * each],
+        fresnel: [ray.fresnel(cosine, inner); 4],
+        chord: [2.0 * inner; 3],
+    }
+}
+
+/// An ellipse of semi-axes `axes`, whose product is 1.
+///
+/// Points on it are kept as points u on the unit circle, (a u.x, b u.y): a way through the ellipse is
+/// a chord of the circle.
+pub(super) fn ellipse(ray: &Incident, axes: Vec2) -> Crossing {
+    let inverse_axes = axes.yx();
+    let mut at = entry(ray, axes);
+    let normal = (at * inverse_axes).normalize();
+    let outer = normal.dot(ray.towards).clamp(0.0, 1.0);
+    let ratio = ray.inverse_index();
+    let inner = (1.0 - (1.0 - outer * outer) * ratio * ratio).max(0.0).sqrt();
+    let mut way = normal * (outer * ratio - inner) - ray.towards * ratio;
+    let mut crossing = Crossing {
+        azimuth: [azimuth(normal * (2.0 * outer) - ray.towards), 0.0, 0.0],
+        fresnel: [ray.fresnel(outer, inner), 1.0, 1.0, 1.0],
+        chord: [0.0; 3],
+    };
+    for inside in 0..3 {
+        let flat = way * inverse_axes;
+        let length = -2.0 * at.dot(flat) / flat.length_squared();
+        at += flat * length;
+        let normal = (at * inverse_axes).normalize();
+        crossing.chord[inside] = length.max(0.0);
+        let (exit, reflectance) = leave(ray, way, normal);
+        crossing.fresnel[inside + 1] = reflectance;
+        if inside < 2 {
+            crossing.azimuth[inside + 1] = azimuth(exit);
+        }
+        way -= normal * (2.0 * way.dot(normal));
+    }
+    crossing
+}
+
+/// Where the ray meets the ellipse, as a point of the unit circle.
+///
+/// Across the ray the point (a cos ψ, b sin ψ) lies at W (cos ψ, sin ψ)·m, with m a unit vector and W
+/// half the projected width, so that h is minus this product.
+fn entry(ray: &Incident, axes: Vec2) -> Vec2 {
+    let front = (ray.towards * axes.yx()).normalize();
+    front * ray.offset_cosine() - front.perp() * ray.offset
+}
+
+/// Direction and reflectance of a ray that meets the surface from inside along `way`; where all is
+/// reflected, `way` itself and 1.
+fn leave(ray: &Incident, way: Vec2, normal: Vec2) -> (Vec2, f32) {
+    let index = 1.0 / ray.inverse_index();
+    let inner = way.dot(normal).clamp(0.0, 1.0);
+    let sine = index * way.perp_dot(normal);
+    let outer2 = 1.0 - sine * sine;
+    if outer2 <= 0.0 {
+        return (way, 1.0);
+    }
+    let outer = outer2.sqrt();
+    (way * index + normal * (outer - index * inner), ray.fresnel(outer, inner))
+}
+
+fn azimuth(direction: Vec2) -> f32 {
+    direction.y.atan2(direction.x)
+}
