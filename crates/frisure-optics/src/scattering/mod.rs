@@ -12,6 +12,11 @@
 //! and controllable hair and fur model for production path tracing*. For an ellipse the azimuths,
 //! reflectances and lengths come from an exact ray through the section.
 //!
+//! Not reciprocal, as Chiang's is not: the energies belong to the direction towards the eye. Mean over
+//! the offset, exchanging light and eye less than 43° from the normal plane at roughness 0.3 changes f
+//! by 8 % for a circle and 13 % for an axis ratio of 1.5 (root mean square, weighed by f²; with a tilt
+//! of 2° 9 and 13 %).
+//!
 //! [`Fibre`] is prepared once per hair, [`Scattering`] once per hit.
 
 mod azimuthal;

@@ -135,3 +135,42 @@ fn leave(ray: &Incident, way: Vec2, normal: Vec2) -> (Vec2, f32) {
 fn azimuth(direction: Vec2) -> f32 {
     direction.y.atan2(direction.x)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ray(phi: f32, offset: f32, theta: f32) -> Incident {
+        let inner_cosine = (1.0 - (theta.sin() / 1.55).powi(2)).sqrt();
+        let towards = Vec2::from_angle(phi);
+        Incident { towards, offset, cosine: theta.cos(), inner_cosine, index: 1.55 }
+    }
+
+    #[test]
+    fn an_ellipse_of_equal_axes_is_the_circle() {
+        for phi in [0.3, -2.0] {
+            for h in [-0.999, -0.6, 0.0, 0.2, 0.95] {
+                for theta in [0.0, 0.8, -1.5] {
+                    let ray = ray(phi, h, theta);
+                    let (c, e) = (circle(&ray), ellipse(&ray, Vec2::ONE));
+                    for i in 0..3 {
+                        let turn = 0.5 * (c.azimuth[i] - e.azimuth[i]);
+                        assert!(turn.sin().abs() < 5e-5, "{ray:?} {c:?} {e:?}");
+                        assert!((c.chord[i] - e.chord[i]).abs() < 1e-5);
+                    }
+                    for i in 0..4 {
+                        assert!((c.fresnel[i] - e.fresnel[i]).abs() < 1e-4, "{ray:?} {c:?} {e:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn total_reflection_keeps_light_inside() {
+        // Thin and met near the end of its long side: what enters runs along it.
+        let axes = Vec2::new(3.0_f32.sqrt(), 3.0_f32.sqrt().recip());
+        let crossings = [0.5, 0.7, 0.9].map(|h| ellipse(&ray(0.6, h, 0.0), axes));
+        assert!(crossings.iter().any(|c| c.fresnel[1..].contains(&1.0)));
+    }
+}
