@@ -17,6 +17,6 @@ pub mod kajiya_kay;
 mod lobes;
 pub mod scattering;
 
-pub use absorption::{Melanin, absorption, apparent_colour};
+pub use absorption::{Melanin, absorption, absorption_of_colour, apparent_colour};
 pub use fibre::{FibreEnergy, HAIR_INDEX, fibre_energy, fresnel};
 pub use lobes::{Angles, LobeShape, Lobes, lobes};

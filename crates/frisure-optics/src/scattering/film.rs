@@ -4,7 +4,10 @@
 //! more light goes on deeper into the hair, is absorbed there, and the hair is darker. Water
 //! fills the gaps between the scales: half the longitudinal roughness and no tilt, so that the
 //! highlight is narrow; and the surface of the water reflects too, without colour. The film's own
-//! bending of the ray is left out.
+//! bending of the ray, and what its surface throws back from inside, are left out.
+//!
+//! How much darker depends on how the hair is lit: a deep layer of brown fibres has half of its dry
+//! colour, a lock five fibres thick that is lit from all sides 0.97, 0.88, 0.78 (red, green, blue).
 
 use super::fibre::FibreSpec;
 use crate::fibre::fresnel;

@@ -17,7 +17,8 @@
 //! by 8 % for a circle and 13 % for an axis ratio of 1.5 (root mean square, weighed by f²; with a tilt
 //! of 2° 9 and 13 %).
 //!
-//! [`Fibre`] is prepared once per hair, [`Scattering`] once per hit.
+//! [`Fibre`] is prepared once per hair, [`Scattering`] once per hit. [`Marschner2003`] is the older model
+//! as it was printed.
 
 mod azimuthal;
 mod energy;
@@ -26,6 +27,7 @@ mod fibre;
 mod film;
 mod frame;
 mod longitudinal;
+mod marschner;
 mod section;
 
 use core::f32::consts::TAU;
@@ -35,6 +37,7 @@ use glam::Vec3;
 pub use fibre::{Fibre, FibreError, FibreSpec};
 pub use film::WATER_INDEX;
 pub use frame::FibreFrame;
+pub use marschner::Marschner2003;
 
 use energy::{energies, luminance};
 use fibre::towards;
