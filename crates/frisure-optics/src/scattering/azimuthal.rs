@@ -4,7 +4,9 @@
 
 use core::f32::consts::{PI, TAU};
 
-use super::exponential::exp4;
+use glam::Vec4;
+
+use super::elementary::{exp, ln, wrap};
 
 /// The spread of a lobe around the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,49 +36,23 @@ impl Azimuthal {
 
     /// Densities at azimuth `phi` of R, TT and TRT, centred at `centres` (rad), and of the rest.
     #[inline]
-    pub(super) fn values(&self, centres: &[f32; 3], phi: f32) -> [f32; 4] {
-        let mut e = [0.0; 4];
-        for p in 0..3 {
-            e[p] = -wrap(phi - centres[p]).abs() * self.inverse;
-        }
-        let e = exp4(e);
-        let mut value = [1.0 / TAU; 4];
-        for p in 0..3 {
-            let sum = 1.0 + e[p];
-            value[p] = self.norm * e[p] / (sum * sum);
-        }
-        value
+    pub(super) fn values(&self, centres: Vec4, phi: f32) -> Vec4 {
+        let e = exp(wrap(Vec4::splat(phi) - centres).abs() * -self.inverse);
+        let sum = Vec4::ONE + e;
+        (e * self.norm / (sum * sum)).with_w(1.0 / TAU)
     }
 
     /// Angle from a lobe's centre (rad), distributed as the lobe.
     pub(super) fn sample(&self, u: f32) -> f32 {
         let cumulative = u * self.inside + self.below;
-        let x = -self.scale * (1.0 / cumulative.max(1e-30) - 1.0).max(1e-30).ln();
+        let x = -self.scale * ln((1.0 / cumulative.max(1e-30) - 1.0).max(1e-30));
         x.clamp(-PI, PI)
     }
-}
-
-/// The same angle within [−π, π], for angles of a few turns.
-#[inline(always)]
-fn wrap(angle: f32) -> f32 {
-    const ROUND: f32 = 12_582_912.0;
-    let turns = (angle * (1.0 / TAU) + ROUND) - ROUND;
-    angle - turns * TAU
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn wraps() {
-        for i in -40..40_i8 {
-            let x = f32::from(i) * 0.3 + 0.01;
-            let w = wrap(x);
-            assert!(w.abs() <= PI + 1e-5);
-            assert!((w.sin() - x.sin()).abs() < 1e-5 && (w.cos() - x.cos()).abs() < 1e-5);
-        }
-    }
 
     #[test]
     fn integrates_to_one_and_samples_follow() {
@@ -85,7 +61,7 @@ mod tests {
             let steps = 40_000_u16;
             let sum: f64 = (0..steps)
                 .map(|i| TAU * (f32::from(i) + 0.5) / f32::from(steps))
-                .map(|phi| f64::from(n.values(&[1.0, 2.0, 3.0], phi)[0]))
+                .map(|phi| f64::from(n.values(Vec4::ONE, phi).x))
                 .sum();
             assert!((sum * f64::from(TAU) / f64::from(steps) - 1.0).abs() < 1e-4, "{roughness}");
             // The cumulative share up to a sample is the random number it was made of.

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::longitudinal::transmittances;
+use super::elementary::exp;
 use super::section::Crossing;
 
 /// Energies of R, TT, TRT and the rest for a unit of light, given the optical depth per mean radius
@@ -14,7 +14,7 @@ use super::section::Crossing;
 /// (Chiang et al. 2016, §3).
 pub(super) fn energies(crossing: &Crossing, depth: Vec3, film: f32) -> [Vec3; 4] {
     let f = crossing.fresnel;
-    let [first, second, third] = transmittances(crossing.chord.map(|c| depth * c));
+    let [first, second, third] = transmittances(depth, crossing.chord);
     let met = first * ((1.0 - film) * (1.0 - f[0]));
     let returned = second * met * f[1];
     // A ray that grazes has F = 1 and leaves nothing inside: keep 0/0 away.
@@ -26,6 +26,13 @@ pub(super) fn energies(crossing: &Crossing, depth: Vec3, film: f32) -> [Vec3; 4]
         returned * (1.0 - f[2]),
         returned * f[2] * series,
     ]
+}
+
+/// e^(−τ) of the channels of three ways of length `chord` at optical depth `depth` per length.
+#[inline]
+fn transmittances(depth: Vec3, chord: [f32; 3]) -> [Vec3; 3] {
+    let depth = -depth.extend(0.0);
+    chord.map(|c| exp(depth * c).truncate())
 }
 
 /// Luminance of linear sRGB.

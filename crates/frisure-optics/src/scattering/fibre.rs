@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use glam::{Vec2, Vec2Swizzles, Vec3};
+use glam::{Vec2, Vec2Swizzles, Vec3, Vec4};
 
 use super::azimuthal::Azimuthal;
 use super::film::under_film;
@@ -73,8 +73,8 @@ pub struct Fibre {
     pub(super) wetness: f32,
     pub(super) longitudinal: Longitudinal,
     pub(super) azimuthal: Azimuthal,
-    /// sin and cos by which each lobe turns the inclination.
-    turn: [(f32, f32); 3],
+    /// Sines and cosines of the angles by which each lobe turns the inclination.
+    turn: (Vec4, Vec4),
 }
 
 impl Fibre {
@@ -86,7 +86,7 @@ impl Fibre {
     pub fn new(spec: FibreSpec) -> Result<Self, FibreError> {
         check(&spec)?;
         let wet = under_film(&spec);
-        let turn = [-2.0, 1.0, 4.0].map(|times: f32| (times * wet.tilt).sin_cos());
+        let turn = Vec4::new(-2.0, 1.0, 4.0, 0.0) * wet.tilt;
         Ok(Self {
             spec,
             axes: axes(spec.axis_ratio),
@@ -95,7 +95,7 @@ impl Fibre {
             wetness: spec.wetness,
             longitudinal: Longitudinal::new(wet.longitudinal_roughness),
             azimuthal: Azimuthal::new(wet.azimuthal_roughness),
-            turn,
+            turn: (turn.sin(), turn.cos()),
         })
     }
 
@@ -147,12 +147,8 @@ impl Fibre {
 
     /// An inclination as each lobe sees it: tilted by −2α, α and 4α, the rest not.
     pub(super) fn tilted(&self, sine: f32, cosine: f32) -> Inclinations {
-        let mut to = Inclinations { sine: [sine; 4], cosine: [cosine; 4] };
-        for (p, &(s, c)) in self.turn.iter().enumerate() {
-            to.sine[p] = sine * c + cosine * s;
-            to.cosine[p] = (cosine * c - sine * s).abs();
-        }
-        to
+        let (s, c) = self.turn;
+        Inclinations { sine: c * sine + s * cosine, cosine: (c * cosine - s * sine).abs() }
     }
 }
 

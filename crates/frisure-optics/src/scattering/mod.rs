@@ -21,8 +21,8 @@
 //! as it was printed.
 
 mod azimuthal;
+mod elementary;
 mod energy;
-mod exponential;
 mod fibre;
 mod film;
 mod frame;
@@ -32,13 +32,14 @@ mod section;
 
 use core::f32::consts::TAU;
 
-use glam::Vec3;
+use glam::{Mat4, Vec3, Vec4};
 
 pub use fibre::{Fibre, FibreError, FibreSpec};
 pub use film::WATER_INDEX;
 pub use frame::FibreFrame;
 pub use marschner::Marschner2003;
 
+use elementary::{atan2, sin_cos};
 use energy::{energies, luminance};
 use fibre::towards;
 use longitudinal::Inclinations;
@@ -49,9 +50,9 @@ use section::{Incident, circle, ellipse};
 pub struct Scattering<'a> {
     fibre: &'a Fibre,
     from: Inclinations,
-    azimuth: [f32; 3],
-    energy: [Vec3; 4],
-    share: [f32; 4],
+    azimuth: Vec4,
+    /// A column for each lobe: its energy, by colour, and its share in the luminance.
+    energy: Mat4,
 }
 
 /// The model for a pair of directions.
@@ -94,20 +95,21 @@ impl<'a> Scattering<'a> {
         let film = film::reflected(fibre.wetness, ray.facing(fibre.axes));
         let energy = energies(&crossing, fibre.absorption / ray.inner_cosine, film);
         let from = fibre.tilted(sine, cosine);
-        Self { fibre, from, azimuth: crossing.azimuth, energy, share: shares(&energy) }
+        Self { fibre, from, azimuth: crossing.azimuth, energy: with_shares(energy) }
     }
 
     /// Energies of R, TT, TRT and the rest for a unit of light, by colour.
     #[must_use]
     pub fn energies(&self) -> [Vec3; 4] {
-        self.energy
+        let e = &self.energy;
+        [e.x_axis, e.y_axis, e.z_axis, e.w_axis].map(Vec4::truncate)
     }
 
     /// The model for unit local direction `wi` to the light.
     #[must_use]
     pub fn evaluate(&self, wi: Vec3) -> Evaluation {
         let cosine = (wi.x * wi.x + wi.y * wi.y).sqrt();
-        self.at(wi.z, cosine, wi.y.atan2(wi.x))
+        self.at(wi.z, cosine, atan2(Vec4::splat(wi.y), Vec4::splat(wi.x)).x)
     }
 
     /// Draws a direction to the light from numbers in [0, 1).
@@ -116,11 +118,9 @@ impl<'a> Scattering<'a> {
         let p = self.pick(u[0]);
         let sine = self.fibre.longitudinal.sample(p, &self.from, [u[1], u[2]]);
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
-        let phi = match self.azimuth.get(p) {
-            Some(centre) => centre + self.fibre.azimuthal.sample(u[3]),
-            None => TAU * u[3],
-        };
-        let (y, x) = phi.sin_cos();
+        let phi =
+            if p < 3 { self.azimuth[p] + self.fibre.azimuthal.sample(u[3]) } else { TAU * u[3] };
+        let (y, x) = sin_cos(phi);
         let Evaluation { f_cos, pdf } = self.at(sine, cosine, phi);
         let weight = if pdf > 0.0 { f_cos / pdf } else { Vec3::ZERO };
         ScatteringSample { wi: Vec3::new(cosine * x, cosine * y, sine), weight, pdf }
@@ -129,26 +129,24 @@ impl<'a> Scattering<'a> {
     /// The model for light from inclination (sin θ, cos θ) and azimuth φ.
     fn at(&self, sine: f32, cosine: f32, phi: f32) -> Evaluation {
         let m = self.fibre.longitudinal.values(&self.from, sine, cosine);
-        let n = self.fibre.azimuthal.values(&self.azimuth, phi);
-        let mut sum = Evaluation { f_cos: Vec3::ZERO, pdf: 0.0 };
-        for p in 0..4 {
-            let shape = m[p] * n[p];
-            sum.f_cos += self.energy[p] * shape;
-            sum.pdf += self.share[p] * shape;
-        }
-        sum
+        let n = self.fibre.azimuthal.values(self.azimuth, phi);
+        let sum = self.energy * (m * n);
+        Evaluation { f_cos: sum.truncate(), pdf: sum.w }
     }
 
     /// The lobe that the number `u` in [0, 1) stands for.
     fn pick(&self, u: f32) -> usize {
-        let [r, tt, trt, _] = self.share;
-        usize::from(u >= r) + usize::from(u >= r + tt) + usize::from(u >= r + tt + trt)
+        let first = self.energy.x_axis.w;
+        let second = first + self.energy.y_axis.w;
+        let third = second + self.energy.z_axis.w;
+        usize::from(u >= first) + usize::from(u >= second) + usize::from(u >= third)
     }
 }
 
-/// Share of each lobe in the luminance.
-fn shares(energy: &[Vec3; 4]) -> [f32; 4] {
-    let light = energy.map(luminance);
-    let sum: f32 = light.iter().sum();
-    light.map(|l| l / sum)
+/// Energies as columns, each with its share in the luminance.
+fn with_shares(energy: [Vec3; 4]) -> Mat4 {
+    let light = Vec4::from_array(energy.map(luminance));
+    let share = (light / light.element_sum()).to_array();
+    let column = |p: usize| energy[p].extend(share[p]);
+    Mat4::from_cols(column(0), column(1), column(2), column(3))
 }

@@ -7,15 +7,17 @@
 
 use core::f32::consts::PI;
 
-use glam::{Vec2, Vec2Swizzles};
+use glam::{Vec2, Vec2Swizzles, Vec4};
 
+use super::elementary::atan2;
 use crate::fibre::fresnel_between;
 
 /// What becomes of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
-    /// Azimuth at which R, TT and TRT leave (rad, any turn); of no meaning where all is reflected.
-    pub(super) azimuth: [f32; 3],
+    /// Azimuth at which R, TT and TRT leave (rad, any turn); of no meaning where all is reflected, nor
+    /// the fourth.
+    pub(super) azimuth: Vec4,
     /// Reflectance where the ray enters and where it meets the surface from inside, three times.
     pub(super) fresnel: [f32; 4],
     /// Length of the first three ways through the inside, in mean radii.
@@ -67,10 +69,13 @@ pub(super) fn circle(ray: &Incident) -> Crossing {
     let (sine, cosine) = (ray.offset, ray.offset_cosine());
     let inner_sine = sine * ray.inverse_index();
     let inner = (1.0 - inner_sine * inner_sine).max(0.0).sqrt();
-    let mirror = ray.towards.y.atan2(ray.towards.x) - 2.0 * sine.atan2(cosine);
-    let each = 2.0 * inner_sine.atan2(inner) + PI;
+    let angles = atan2(
+        Vec4::new(ray.towards.y, sine, inner_sine, 0.0),
+        Vec4::new(ray.towards.x, cosine, inner, 1.0),
+    );
+    let (mirror, each) = (angles.x - 2.0 * angles.y, 2.0 * angles.z + PI);
     Crossing {
-        azimuth: [mirror, mirror + each, mirror + 2.0 * each],
+        azimuth: Vec4::splat(mirror) + Vec4::new(0.0, 1.0, 2.0, 0.0) * each,
         fresnel: [ray.fresnel(cosine, inner); 4],
         chord: [2.0 * inner; 3],
     }
@@ -89,10 +94,11 @@ pub(super) fn ellipse(ray: &Incident, axes: Vec2) -> Crossing {
     let inner = (1.0 - (1.0 - outer * outer) * ratio * ratio).max(0.0).sqrt();
     let mut way = normal * (outer * ratio - inner) - ray.towards * ratio;
     let mut crossing = Crossing {
-        azimuth: [azimuth(normal * (2.0 * outer) - ray.towards), 0.0, 0.0],
+        azimuth: Vec4::ZERO,
         fresnel: [ray.fresnel(outer, inner), 1.0, 1.0, 1.0],
         chord: [0.0; 3],
     };
+    let mut exits = [normal * (2.0 * outer) - ray.towards; 4];
     for inside in 0..3 {
         let flat = way * inverse_axes;
         let length = -2.0 * at.dot(flat) / flat.length_squared();
@@ -101,11 +107,11 @@ pub(super) fn ellipse(ray: &Incident, axes: Vec2) -> Crossing {
         crossing.chord[inside] = length.max(0.0);
         let (exit, reflectance) = leave(ray, way, normal);
         crossing.fresnel[inside + 1] = reflectance;
-        if inside < 2 {
-            crossing.azimuth[inside + 1] = azimuth(exit);
-        }
+        exits[inside + 1] = exit;
         way -= normal * (2.0 * way.dot(normal));
     }
+    let [x, y] = [exits.map(|e| e.x), exits.map(|e| e.y)];
+    crossing.azimuth = atan2(Vec4::from_array(y), Vec4::from_array(x));
     crossing
 }
 
@@ -130,10 +136,6 @@ fn leave(ray: &Incident, way: Vec2, normal: Vec2) -> (Vec2, f32) {
     }
     let outer = outer2.sqrt();
     (way * index + normal * (outer - index * inner), ray.fresnel(outer, inner))
-}
-
-fn azimuth(direction: Vec2) -> f32 {
-    direction.y.atan2(direction.x)
 }
 
 #[cfg(test)]
