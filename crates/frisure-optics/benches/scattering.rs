@@ -10,10 +10,12 @@ fn main() {
     divan::main();
 }
 
-/// Axis ratios, and wetness: a circle, an ellipse, a wet ellipse.
-const FIBRES: [(f32, f32); 3] = [(1.0, 0.0), (1.4, 0.0), (1.4, 1.0)];
+const FIBRES: [&str; 3] = ["circle", "ellipse", "wet ellipse"];
 
-fn fibre((axis_ratio, wetness): (f32, f32)) -> Fibre {
+/// A brown fibre.
+fn fibre(name: &str) -> Fibre {
+    let axis_ratio = if name == "circle" { 1.0 } else { 1.4 };
+    let wetness = if name == "wet ellipse" { 1.0 } else { 0.0 };
     let absorption = absorption(Melanin::BROWN);
     Fibre::new(FibreSpec { axis_ratio, wetness, absorption, ..Default::default() }).unwrap()
 }
@@ -32,9 +34,9 @@ fn hits() -> Vec<(Vec3, f32, [f32; 4])> {
         .collect()
 }
 
-#[divan::bench(args = [0, 1, 2])]
-fn prepare(bencher: Bencher<'_, '_>, which: usize) {
-    let (fibre, hits) = (fibre(FIBRES[which]), hits());
+#[divan::bench(args = FIBRES)]
+fn prepare(bencher: Bencher<'_, '_>, name: &str) {
+    let (fibre, hits) = (fibre(name), hits());
     bencher.counter(ItemsCount::new(hits.len())).bench_local(|| {
         for &(w, h, _) in &hits {
             black_box(Scattering::new(&fibre, w, h));
@@ -42,9 +44,9 @@ fn prepare(bencher: Bencher<'_, '_>, which: usize) {
     });
 }
 
-#[divan::bench(args = [0, 1, 2])]
-fn prepare_evaluate_sample(bencher: Bencher<'_, '_>, which: usize) {
-    let (fibre, hits) = (fibre(FIBRES[which]), hits());
+#[divan::bench(args = FIBRES)]
+fn prepare_evaluate_sample(bencher: Bencher<'_, '_>, name: &str) {
+    let (fibre, hits) = (fibre(name), hits());
     let light = Vec3::new(0.48, -0.6, 0.64);
     bencher.counter(ItemsCount::new(hits.len())).bench_local(|| {
         for &(w, h, u) in &hits {

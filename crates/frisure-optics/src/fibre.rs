@@ -25,15 +25,9 @@ pub fn fresnel(cosine: f32, index: f32) -> f32 {
     if sine2 >= 1.0 {
         return 1.0;
     }
-    fresnel_between(cosine, (1.0 - sine2).sqrt(), index)
-}
-
-/// Unpolarised Fresnel reflectance of a surface that a ray meets at cosine `outer` outside and
-/// `inner` inside, where the relative index is `index`; the same from both sides.
-#[inline]
-pub(crate) fn fresnel_between(outer: f32, inner: f32, index: f32) -> f32 {
-    let parallel = (index * outer - inner) / (index * outer + inner);
-    let perpendicular = (outer - index * inner) / (outer + index * inner);
+    let inner = (1.0 - sine2).sqrt();
+    let parallel = (index * cosine - inner) / (index * cosine + inner);
+    let perpendicular = (cosine - index * inner) / (cosine + index * inner);
     0.5 * (parallel * parallel + perpendicular * perpendicular)
 }
 

@@ -124,3 +124,32 @@ fn azimuths_of_a_slightly_rough_ellipse_are_near_the_model() {
         }
     }
 }
+
+#[test]
+fn a_ray_at_a_known_place_leaves_where_the_model_says() {
+    let mut random = Random(9);
+    for (axis_ratio, phi, h) in
+        [(1.0, 0.5_f64, 0.4), (1.4, 0.5, 0.4), (0.7, 2.0, -0.3), (1.2, -1.0, 0.7)]
+    {
+        let fibre = Fibre::new(spec(axis_ratio, 0.1)).unwrap();
+        let ratio = f64::from(axis_ratio).sqrt();
+        let eye = DVec3::new(phi.cos(), phi.sin(), 0.0);
+        let at = meet((ratio, 1.0 / ratio), eye, h);
+        let wo = eye.as_vec3();
+        assert!((f64::from(fibre.offset(wo, at.truncate().as_vec2())) - h).abs() < 1e-5);
+        let hit = Scattering::new(&fibre, wo, h as f32);
+        let mut seen = [false; 3];
+        for _ in 0..2000 {
+            let axes = (ratio, 1.0 / ratio);
+            let exit = follow(axes, 1.55, (at, -eye), &mut random, |_| 0.0).unwrap();
+            if exit.ways > 2 || std::mem::replace(&mut seen[exit.ways], true) {
+                continue;
+            }
+            let azimuth = exit.to.y.atan2(exit.to.x) as f32;
+            let [left, top, right] =
+                [-0.05, 0.0, 0.05].map(|turn| hit.evaluate(direction(0.0, azimuth + turn)).f_cos.x);
+            assert!(top > left && top > right, "{axis_ratio} {}: {left} {top} {right}", exit.ways);
+        }
+        assert_eq!(seen, [true; 3]);
+    }
+}

@@ -230,7 +230,7 @@ fn is_finite_for_grazing_and_degenerate_hits() {
                 ..white(axis_ratio, beta, beta)
             });
             for theta in thetas {
-                for h in [-1.0, 1.0, 0.0, -0.999_999_9, 2.0] {
+                for h in [-1.0, 1.0, 0.0, -0.999_999_9, 2.0, f32::NAN] {
                     let hit = Scattering::new(&fibre, direction(theta, 0.3), h);
                     let mut wis: Vec<_> = thetas.iter().map(|t| direction(*t, 1.0)).collect();
                     for _ in 0..8 {

@@ -26,8 +26,9 @@ pub(super) fn under_film(spec: &FibreSpec) -> FibreSpec {
     }
 }
 
-/// Share of the light that the surface of the water reflects, at incidence `cosine`.
+/// Share of the light that the surface of the water reflects, at the cosine of incidence that
+/// `facing` computes: only for wet hair, since most is dry.
 #[inline]
-pub(super) fn reflected(wetness: f32, cosine: f32) -> f32 {
-    if wetness > 0.0 { wetness * fresnel(cosine, WATER_INDEX) } else { 0.0 }
+pub(super) fn reflected(wetness: f32, facing: impl FnOnce() -> f32) -> f32 {
+    if wetness > 0.0 { wetness * fresnel(facing(), WATER_INDEX) } else { 0.0 }
 }

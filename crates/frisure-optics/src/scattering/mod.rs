@@ -40,7 +40,7 @@ pub use frame::FibreFrame;
 pub use marschner::Marschner2003;
 
 use elementary::{atan2, sin_cos};
-use energy::{energies, luminance};
+use energy::energies;
 use fibre::towards;
 use longitudinal::Inclinations;
 use section::{Incident, circle, ellipse};
@@ -83,19 +83,22 @@ impl<'a> Scattering<'a> {
         let sine = wo.z.clamp(-1.0, 1.0);
         let cosine = (wo.x * wo.x + wo.y * wo.y).sqrt().clamp(1e-4, 1.0);
         let inner_sine = sine / fibre.index;
+        // `clamp` would keep NaN, and one bad hit would spoil a picture.
+        #[expect(clippy::manual_clamp)]
+        let offset = h.max(-1.0).min(1.0);
         let ray = Incident {
             towards: towards(wo),
-            offset: h.clamp(-1.0, 1.0),
+            offset,
             cosine,
             inner_cosine: (1.0 - inner_sine * inner_sine).sqrt(),
             index: fibre.index,
         };
         let round = fibre.is_round();
         let crossing = if round { circle(&ray) } else { ellipse(&ray, fibre.axes) };
-        let film = film::reflected(fibre.wetness, ray.facing(fibre.axes));
+        let film = film::reflected(fibre.wetness, || ray.facing(fibre.axes));
         let energy = energies(&crossing, fibre.absorption / ray.inner_cosine, film);
         let from = fibre.tilted(sine, cosine);
-        Self { fibre, from, azimuth: crossing.azimuth, energy: with_shares(energy) }
+        Self { fibre, from, azimuth: crossing.azimuth, energy }
     }
 
     /// Energies of R, TT, TRT and the rest for a unit of light, by colour.
@@ -141,12 +144,4 @@ impl<'a> Scattering<'a> {
         let third = second + self.energy.z_axis.w;
         usize::from(u >= first) + usize::from(u >= second) + usize::from(u >= third)
     }
-}
-
-/// Energies as columns, each with its share in the luminance.
-fn with_shares(energy: [Vec3; 4]) -> Mat4 {
-    let light = Vec4::from_array(energy.map(luminance));
-    let share = (light / light.element_sum()).to_array();
-    let column = |p: usize| energy[p].extend(share[p]);
-    Mat4::from_cols(column(0), column(1), column(2), column(3))
 }

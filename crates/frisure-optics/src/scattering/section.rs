@@ -10,7 +10,6 @@ use core::f32::consts::PI;
 use glam::{Vec2, Vec2Swizzles, Vec4};
 
 use super::elementary::atan2;
-use crate::fibre::fresnel_between;
 
 /// What becomes of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +18,9 @@ pub(super) struct Crossing {
     /// the fourth.
     pub(super) azimuth: Vec4,
     /// Reflectance where the ray enters and where it meets the surface from inside, three times.
-    pub(super) fresnel: [f32; 4],
-    /// Length of the first three ways through the inside, in mean radii.
-    pub(super) chord: [f32; 3],
+    pub(super) fresnel: Vec4,
+    /// Length of the first three ways through the inside, in mean radii; the fourth counts for nothing.
+    pub(super) chord: Vec4,
 }
 
 /// A ray before it meets the fibre.
@@ -57,10 +56,16 @@ impl Incident {
         self.cosine * self.offset_cosine() * half_width / normal
     }
 
-    /// Reflectance between a ray outside and one inside that meet the surface at these cosines, as
-    /// seen in the section.
-    fn fresnel(&self, outer: f32, inner: f32) -> f32 {
-        fresnel_between(self.cosine * outer, self.inner_cosine * inner, self.index)
+    /// Reflectances between rays outside and inside that meet the surface at these cosines, as seen in
+    /// the section; 1 where `outer` is 0.
+    #[inline]
+    fn fresnel(&self, outer: Vec4, inner: Vec4) -> Vec4 {
+        let (outer, inner) = (outer * self.cosine, inner * self.inner_cosine);
+        let (dense_outer, dense_inner) = (outer * self.index, inner * self.index);
+        let least = Vec4::splat(1e-20);
+        let parallel = (dense_outer - inner) / (dense_outer + inner).max(least);
+        let perpendicular = (outer - dense_inner) / (outer + dense_inner).max(least);
+        0.5 * (parallel * parallel + perpendicular * perpendicular)
     }
 }
 
@@ -76,8 +81,8 @@ pub(super) fn circle(ray: &Incident) -> Crossing {
     let (mirror, each) = (angles.x - 2.0 * angles.y, 2.0 * angles.z + PI);
     Crossing {
         azimuth: Vec4::splat(mirror) + Vec4::new(0.0, 1.0, 2.0, 0.0) * each,
-        fresnel: [ray.fresnel(cosine, inner); 4],
-        chord: [2.0 * inner; 3],
+        fresnel: ray.fresnel(Vec4::splat(cosine), Vec4::splat(inner)),
+        chord: Vec4::splat(2.0 * inner),
     }
 }
 
@@ -89,30 +94,32 @@ pub(super) fn ellipse(ray: &Incident, axes: Vec2) -> Crossing {
     let inverse_axes = axes.yx();
     let mut at = entry(ray, axes);
     let normal = (at * inverse_axes).normalize();
-    let outer = normal.dot(ray.towards).clamp(0.0, 1.0);
     let ratio = ray.inverse_index();
+    let index = ratio.recip();
+    let outer = normal.dot(ray.towards).clamp(0.0, 1.0);
     let inner = (1.0 - (1.0 - outer * outer) * ratio * ratio).max(0.0).sqrt();
     let mut way = normal * (outer * ratio - inner) - ray.towards * ratio;
-    let mut crossing = Crossing {
-        azimuth: Vec4::ZERO,
-        fresnel: [ray.fresnel(outer, inner), 1.0, 1.0, 1.0],
-        chord: [0.0; 3],
-    };
     let mut exits = [normal * (2.0 * outer) - ray.towards; 4];
-    for inside in 0..3 {
+    let (mut outers, mut inners, mut chord) = ([outer; 4], [inner; 4], [0.0; 4]);
+    for inside in 1..4 {
         let flat = way * inverse_axes;
         let length = -2.0 * at.dot(flat) / flat.length_squared();
         at += flat * length;
         let normal = (at * inverse_axes).normalize();
-        crossing.chord[inside] = length.max(0.0);
-        let (exit, reflectance) = leave(ray, way, normal);
-        crossing.fresnel[inside + 1] = reflectance;
-        exits[inside + 1] = exit;
+        let inner = way.dot(normal).clamp(0.0, 1.0);
+        let sine = index * way.perp_dot(normal);
+        // 0 where all is reflected; what leaves then has no energy, and its direction no meaning.
+        let outer = (1.0 - sine * sine).max(0.0).sqrt();
+        exits[inside] = way * index + normal * (outer - index * inner);
+        (outers[inside], inners[inside], chord[inside - 1]) = (outer, inner, length.max(0.0));
         way -= normal * (2.0 * way.dot(normal));
     }
     let [x, y] = [exits.map(|e| e.x), exits.map(|e| e.y)];
-    crossing.azimuth = atan2(Vec4::from_array(y), Vec4::from_array(x));
-    crossing
+    Crossing {
+        azimuth: atan2(Vec4::from_array(y), Vec4::from_array(x)),
+        fresnel: ray.fresnel(Vec4::from_array(outers), Vec4::from_array(inners)),
+        chord: Vec4::from_array(chord),
+    }
 }
 
 /// Where the ray meets the ellipse, as a point of the unit circle.
@@ -122,20 +129,6 @@ pub(super) fn ellipse(ray: &Incident, axes: Vec2) -> Crossing {
 fn entry(ray: &Incident, axes: Vec2) -> Vec2 {
     let front = (ray.towards * axes.yx()).normalize();
     front * ray.offset_cosine() - front.perp() * ray.offset
-}
-
-/// Direction and reflectance of a ray that meets the surface from inside along `way`; where all is
-/// reflected, `way` itself and 1.
-fn leave(ray: &Incident, way: Vec2, normal: Vec2) -> (Vec2, f32) {
-    let index = 1.0 / ray.inverse_index();
-    let inner = way.dot(normal).clamp(0.0, 1.0);
-    let sine = index * way.perp_dot(normal);
-    let outer2 = 1.0 - sine * sine;
-    if outer2 <= 0.0 {
-        return (way, 1.0);
-    }
-    let outer = outer2.sqrt();
-    (way * index + normal * (outer - index * inner), ray.fresnel(outer, inner))
 }
 
 #[cfg(test)]
@@ -173,6 +166,6 @@ mod tests {
         // Thin and met near the end of its long side: what enters runs along it.
         let axes = Vec2::new(3.0_f32.sqrt(), 3.0_f32.sqrt().recip());
         let crossings = [0.5, 0.7, 0.9].map(|h| ellipse(&ray(0.6, h, 0.0), axes));
-        assert!(crossings.iter().any(|c| c.fresnel[1..].contains(&1.0)));
+        assert!(crossings.iter().any(|c| c.fresnel.max_element() == 1.0));
     }
 }
