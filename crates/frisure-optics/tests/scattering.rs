@@ -11,6 +11,8 @@ use support::{Random, direction, integrals, white};
 
 /// Roughnesses along and around: smooth, ordinary, rough, matt.
 const ROUGHNESSES: [(f32, f32); 4] = [(0.12, 0.2), (0.3, 0.3), (0.6, 0.8), (1.0, 1.0)];
+/// Smoother than a grid of directions can follow in a test's time.
+const GLOSSY: (f32, f32) = (0.02, 0.02);
 const AXIS_RATIOS: [f32; 6] = [0.55, 0.85, 1.0, 1.3, 1.8, 5.0];
 
 fn fibre(spec: FibreSpec) -> Fibre {
@@ -18,9 +20,9 @@ fn fibre(spec: FibreSpec) -> Fibre {
 }
 
 /// Calls for hits of many fibres.
-fn each_hit(mut test: impl FnMut(&Fibre, Vec3, f32)) {
+fn each_hit(roughnesses: &[(f32, f32)], mut test: impl FnMut(&Fibre, Vec3, f32)) {
     for axis_ratio in AXIS_RATIOS {
-        for (beta_m, beta_n) in ROUGHNESSES {
+        for &(beta_m, beta_n) in roughnesses {
             for wetness in [0.0, 1.0] {
                 let spec = FibreSpec { wetness, ..white(axis_ratio, beta_m, beta_n) };
                 for (theta, phi, h) in [(0.1, 0.4, 0.3), (-0.9, 2.0, -0.8), (1.4, -2.5, 0.97)] {
@@ -34,7 +36,7 @@ fn each_hit(mut test: impl FnMut(&Fibre, Vec3, f32)) {
 #[test]
 fn white_furnace_and_density_are_one_for_every_fibre() {
     let mut worst = 0.0_f64;
-    each_hit(|fibre, wo, h| {
+    each_hit(&ROUGHNESSES, |fibre, wo, h| {
         let (energy, density) = integrals(fibre, wo, h, (160, 96));
         worst = worst.max((energy - 1.0).abs()).max((density - 1.0).abs());
     });
@@ -59,7 +61,7 @@ fn white_furnace_over_the_width() {
 fn samples_without_absorption_weigh_one() {
     let mut random = Random(1);
     let mut worst = 0.0_f32;
-    each_hit(|fibre, wo, h| {
+    each_hit(&[&ROUGHNESSES[..], &[GLOSSY]].concat(), |fibre, wo, h| {
         let hit = Scattering::new(fibre, wo, h);
         for _ in 0..200 {
             let s = hit.sample(random.four());
@@ -74,7 +76,7 @@ fn samples_without_absorption_weigh_one() {
 fn a_sample_has_the_value_and_density_of_its_direction() {
     let mut random = Random(2);
     let pigment = absorption(Melanin::BROWN);
-    each_hit(|fibre, wo, h| {
+    each_hit(&ROUGHNESSES, |fibre, wo, h| {
         let fibre = fibre.with_absorption(pigment).unwrap();
         let hit = Scattering::new(&fibre, wo, h);
         for _ in 0..20 {
