@@ -87,38 +87,65 @@ pub(super) fn circle(ray: &Incident) -> Crossing {
 }
 
 /// An ellipse of semi-axes `axes`, whose product is 1.
-///
-/// Points on it are kept as points u on the unit circle, (a u.x, b u.y): a way through the ellipse is
-/// a chord of the circle.
 pub(super) fn ellipse(ray: &Incident, axes: Vec2) -> Crossing {
-    let inverse_axes = axes.yx();
-    let mut at = entry(ray, axes);
-    let normal = (at * inverse_axes).normalize();
+    let at = entry(ray, axes);
+    let normal = (at * axes.yx()).normalize();
     let ratio = ray.inverse_index();
-    let index = ratio.recip();
     let outer = normal.dot(ray.towards).clamp(0.0, 1.0);
     let inner = (1.0 - (1.0 - outer * outer) * ratio * ratio).max(0.0).sqrt();
-    let mut way = normal * (outer * ratio - inner) - ray.towards * ratio;
-    let mut exits = [normal * (2.0 * outer) - ray.towards; 4];
-    let (mut outers, mut inners, mut chord) = ([outer; 4], [inner; 4], [0.0; 4]);
-    for inside in 1..4 {
-        let flat = way * inverse_axes;
-        let length = -2.0 * at.dot(flat) / flat.length_squared();
-        at += flat * length;
-        let normal = (at * inverse_axes).normalize();
-        let inner = way.dot(normal).clamp(0.0, 1.0);
-        let sine = index * way.perp_dot(normal);
-        // 0 where all is reflected; what leaves then has no energy, and its direction no meaning.
-        let outer = (1.0 - sine * sine).max(0.0).sqrt();
-        exits[inside] = way * index + normal * (outer - index * inner);
-        (outers[inside], inners[inside], chord[inside - 1]) = (outer, inner, length.max(0.0));
-        way -= normal * (2.0 * way.dot(normal));
+    let way = normal * (outer * ratio - inner) - ray.towards * ratio;
+    let (meetings, chord) = Meetings::within(at, way, axes);
+    let ([x, y], outers, inners) = meetings.leave(ratio.recip());
+    let mirrored = normal * (2.0 * outer) - ray.towards;
+    let azimuth = atan2(y.with_x(mirrored.y), x.with_x(mirrored.x));
+    let fresnel = ray.fresnel(outers.with_x(outer), inners.with_x(inner));
+    Crossing { azimuth, fresnel, chord }
+}
+
+/// Unit ways through the inside and normals, of any length, where they end, as x and y of lanes 1 to
+/// 3; lane 0 counts for nothing.
+#[derive(Clone, Copy, Debug)]
+struct Meetings {
+    way: [Vec4; 2],
+    normal: [Vec4; 2],
+}
+
+impl Meetings {
+    /// Three ways on from the point `at` of the surface, and their lengths.
+    ///
+    /// Points are kept as points u on the unit circle, (a u.x, b u.y): a way through the ellipse is a
+    /// chord of the circle. Roots wait until they can be taken together.
+    #[inline(always)]
+    fn within(mut at: Vec2, mut way: Vec2, axes: Vec2) -> (Self, Vec4) {
+        let (mut ways, mut normals, mut chord) = ([way; 4], [at; 4], [0.0; 4]);
+        for i in 0..3 {
+            let flat = way * axes.yx();
+            let length = -2.0 * at.dot(flat) / flat.length_squared();
+            at += flat * length;
+            let normal = at * axes.yx();
+            (ways[i + 1], normals[i + 1], chord[i]) = (way, normal, length.max(0.0));
+            way -= normal * (2.0 * way.dot(normal) / normal.length_squared());
+        }
+        let lanes = |v: [Vec2; 4]| {
+            [Vec4::new(v[0].x, v[1].x, v[2].x, v[3].x), Vec4::new(v[0].y, v[1].y, v[2].y, v[3].y)]
+        };
+        (Self { way: lanes(ways), normal: lanes(normals) }, Vec4::from_array(chord))
     }
-    let [x, y] = [exits.map(|e| e.x), exits.map(|e| e.y)];
-    Crossing {
-        azimuth: atan2(Vec4::from_array(y), Vec4::from_array(x)),
-        fresnel: ray.fresnel(Vec4::from_array(outers), Vec4::from_array(inners)),
-        chord: Vec4::from_array(chord),
+
+    /// Directions in which light leaves, and its cosines outside and inside.
+    ///
+    /// Where all is reflected the cosine outside is 0; what leaves then has no energy, and its
+    /// direction no meaning.
+    #[inline(always)]
+    fn leave(&self, index: f32) -> ([Vec4; 2], Vec4, Vec4) {
+        let ([x, y], [wx, wy]) = (self.normal, self.way);
+        let scale = (x * x + y * y).sqrt().recip();
+        let (x, y) = (x * scale, y * scale);
+        let inner = (wx * x + wy * y).max(Vec4::ZERO).min(Vec4::ONE);
+        let sine = (wx * y - wy * x) * index;
+        let outer = (Vec4::ONE - sine * sine).max(Vec4::ZERO).sqrt();
+        let turn = outer - inner * index;
+        ([wx * index + x * turn, wy * index + y * turn], outer, inner)
     }
 }
 
