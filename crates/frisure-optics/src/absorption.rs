@@ -66,6 +66,18 @@ pub fn apparent_colour(sigma_a: Vec3, azimuthal_roughness: f32) -> Vec3 {
     sigma_a.max(Vec3::ZERO).map(|s| (-s.sqrt() * decay).exp())
 }
 
+/// Absorption per radius of hair that in quantity appears to have `colour` (linear sRGB): the inverse
+/// of [`apparent_colour`], so for a measured reflectance or the colour of a dye.
+///
+/// Channels outside 0.001 to 1, or not numbers, count as the nearest of these.
+#[must_use]
+pub fn absorption_of_colour(colour: Vec3, azimuthal_roughness: f32) -> Vec3 {
+    let decay = reflectance_decay(azimuthal_roughness);
+    // `clamp` would keep NaN.
+    #[expect(clippy::manual_clamp)]
+    colour.map(|c| (c.max(1e-3).min(1.0).ln() / decay).powi(2))
+}
+
 /// d(β_N) of Chiang et al. 2016.
 fn reflectance_decay(b: f32) -> f32 {
     5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))))
@@ -107,6 +119,17 @@ mod tests {
         let two = Melanin { eumelanin: 1.0, pheomelanin: 2.0 };
         assert_eq!(absorption(two), EUMELANIN + 2.0 * PHEOMELANIN);
         assert_eq!(absorption(Melanin { eumelanin: f32::NAN, pheomelanin: -1.0 }), Vec3::ZERO);
+    }
+
+    #[test]
+    fn a_colour_gives_the_absorption_that_gives_it() {
+        for roughness in [0.2, 0.3, 0.8] {
+            let colour = Vec3::new(0.7, 0.35, 0.05);
+            let back = apparent_colour(absorption_of_colour(colour, roughness), roughness);
+            assert!((back - colour).abs().max_element() < 1e-5);
+        }
+        assert_eq!(absorption_of_colour(Vec3::splat(3.0), 0.3), Vec3::ZERO);
+        assert!(absorption_of_colour(Vec3::new(-1.0, 0.0, f32::NAN), 0.3).is_finite());
     }
 
     #[test]

@@ -1,0 +1,211 @@
+//! A fibre to scatter light, checked and prepared.
+
+use core::fmt;
+
+use glam::{Vec2, Vec2Swizzles, Vec3, Vec4};
+
+use super::azimuthal::Azimuthal;
+use super::film::under_film;
+use super::longitudinal::{Inclinations, Longitudinal};
+use crate::HAIR_INDEX;
+
+/// What a fibre is, for light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FibreSpec {
+    /// Semi-axis along d1 over that along d2, 0.2 to 5; 1 is a circle.
+    pub axis_ratio: f32,
+    /// Refractive index, 1.05 to 3.
+    pub index: f32,
+    /// Roughness along the fibre β_M, 0.01 to 1.
+    pub longitudinal_roughness: f32,
+    /// Roughness around the fibre β_N, 0.01 to 1.
+    pub azimuthal_roughness: f32,
+    /// Tilt of the cuticle's scales α (rad), −0.35 to 0.35; positive where they open to the tip.
+    pub tilt: f32,
+    /// Absorption coefficient σ_a per mean radius √(ab), for linear sRGB, not negative.
+    pub absorption: Vec3,
+    /// 0 dry, 1 in a full film of water.
+    pub wetness: f32,
+}
+
+impl Default for FibreSpec {
+    /// Clean round white hair.
+    fn default() -> Self {
+        Self {
+            axis_ratio: 1.0,
+            index: HAIR_INDEX,
+            longitudinal_roughness: 0.3,
+            azimuthal_roughness: 0.3,
+            tilt: 0.035,
+            absorption: Vec3::ZERO,
+            wetness: 0.0,
+        }
+    }
+}
+
+/// A property of a fibre that it cannot have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FibreError {
+    /// Name of the field.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f32,
+    /// Least and greatest allowed value.
+    pub allowed: (f32, f32),
+}
+
+impl fmt::Display for FibreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (least, most) = self.allowed;
+        write!(f, "{} is {}; it must lie in {least} to {most}", self.field, self.value)
+    }
+}
+
+impl core::error::Error for FibreError {}
+
+/// A checked fibre, with all that does not depend on the hit computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fibre {
+    spec: FibreSpec,
+    pub(super) axes: Vec2,
+    pub(super) index: f32,
+    pub(super) absorption: Vec3,
+    pub(super) wetness: f32,
+    pub(super) longitudinal: Longitudinal,
+    pub(super) azimuthal: Azimuthal,
+    /// Sines and cosines of the angles by which each lobe turns the inclination.
+    turn: (Vec4, Vec4),
+}
+
+impl Fibre {
+    /// Checks and prepares.
+    ///
+    /// # Errors
+    ///
+    /// Names the first field that is out of its range.
+    pub fn new(spec: FibreSpec) -> Result<Self, FibreError> {
+        check(&spec)?;
+        let wet = under_film(&spec);
+        let turn = Vec4::new(-2.0, 1.0, 4.0, 0.0) * wet.tilt;
+        Ok(Self {
+            spec,
+            axes: axes(spec.axis_ratio),
+            index: wet.index,
+            absorption: spec.absorption,
+            wetness: spec.wetness,
+            longitudinal: Longitudinal::new(wet.longitudinal_roughness),
+            azimuthal: Azimuthal::new(wet.azimuthal_roughness),
+            turn: (turn.sin(), turn.cos()),
+        })
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn spec(&self) -> &FibreSpec {
+        &self.spec
+    }
+
+    /// The same fibre of another absorption, which hardly costs anything: hairs differ in pigment.
+    ///
+    /// # Errors
+    ///
+    /// If a channel is negative or not a number.
+    pub fn with_absorption(&self, absorption: Vec3) -> Result<Self, FibreError> {
+        let spec = FibreSpec { absorption, ..self.spec };
+        check(&spec)?;
+        Ok(Self { spec, absorption, ..*self })
+    }
+
+    /// The same fibre of another axis ratio.
+    ///
+    /// # Errors
+    ///
+    /// If the ratio is out of its range.
+    pub fn with_axis_ratio(&self, axis_ratio: f32) -> Result<Self, FibreError> {
+        let spec = FibreSpec { axis_ratio, ..self.spec };
+        check(&spec)?;
+        Ok(Self { spec, axes: axes(axis_ratio), ..*self })
+    }
+
+    /// Half the width in mean radii, as seen from local direction `w`.
+    #[must_use]
+    pub fn half_width(&self, w: Vec3) -> f32 {
+        (towards(w) * self.axes.yx()).length()
+    }
+
+    /// Offset h, −1 to 1, at which a ray to local direction `w` passes the point `at` (mean radii, in
+    /// the section): along w × t, over half the width.
+    #[must_use]
+    pub fn offset(&self, w: Vec3, at: Vec2) -> f32 {
+        (at.perp_dot(towards(w)) / self.half_width(w)).clamp(-1.0, 1.0)
+    }
+
+    /// Whether the section is a circle.
+    pub(super) fn is_round(&self) -> bool {
+        self.axes.x == self.axes.y
+    }
+
+    /// An inclination as each lobe sees it: tilted by −2α, α and 4α, the rest not.
+    pub(super) fn tilted(&self, sine: f32, cosine: f32) -> Inclinations {
+        let (s, c) = self.turn;
+        Inclinations { sine: c * sine + s * cosine, cosine: (c * cosine - s * sine).abs() }
+    }
+}
+
+/// Unit direction of `w` seen along the fibre; d1 if it is along the fibre.
+pub(super) fn towards(w: Vec3) -> Vec2 {
+    w.truncate().try_normalize().unwrap_or(Vec2::X)
+}
+
+fn axes(axis_ratio: f32) -> Vec2 {
+    if axis_ratio == 1.0 {
+        return Vec2::ONE;
+    }
+    Vec2::new(axis_ratio.sqrt(), axis_ratio.sqrt().recip())
+}
+
+fn check(spec: &FibreSpec) -> Result<(), FibreError> {
+    let rows = [
+        ("axis_ratio", spec.axis_ratio, (0.2, 5.0)),
+        ("index", spec.index, (1.05, 3.0)),
+        ("longitudinal_roughness", spec.longitudinal_roughness, (0.01, 1.0)),
+        ("azimuthal_roughness", spec.azimuthal_roughness, (0.01, 1.0)),
+        ("tilt", spec.tilt, (-0.35, 0.35)),
+        ("absorption", spec.absorption.x, (0.0, f32::MAX)),
+        ("absorption", spec.absorption.y, (0.0, f32::MAX)),
+        ("absorption", spec.absorption.z, (0.0, f32::MAX)),
+        ("wetness", spec.wetness, (0.0, 1.0)),
+    ];
+    for (field, value, allowed) in rows {
+        if !(value >= allowed.0 && value <= allowed.1) {
+            return Err(FibreError { field, value, allowed });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_by_name() {
+        let of = |spec| Fibre::new(spec).unwrap_err().field;
+        assert_eq!(of(FibreSpec { axis_ratio: f32::NAN, ..Default::default() }), "axis_ratio");
+        assert_eq!(of(FibreSpec { index: 0.9, ..Default::default() }), "index");
+        assert_eq!(of(FibreSpec { wetness: 1.1, ..Default::default() }), "wetness");
+        let error = Fibre::new(FibreSpec { tilt: 2.0, ..Default::default() }).unwrap_err();
+        assert_eq!(error.to_string(), "tilt is 2; it must lie in -0.35 to 0.35");
+    }
+
+    #[test]
+    fn offset_is_the_share_of_the_width() {
+        let fibre = Fibre::new(FibreSpec { axis_ratio: 1.5, ..Default::default() }).unwrap();
+        // From d1 the width is b; a point at d2 = +b lies along −(w × t) there.
+        let b = 1.0 / 1.5_f32.sqrt();
+        assert!((fibre.half_width(Vec3::X) - b).abs() < 1e-6);
+        assert!((fibre.offset(Vec3::X, Vec2::new(0.0, b)) + 1.0).abs() < 1e-6);
+        assert!((Vec3::X.cross(Vec3::Z) + Vec3::Y).length() < 1e-6);
+        assert!((fibre.half_width(Vec3::Y) * b - 1.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,147 @@
+//! One fibre scatters light: the model of the final picture.
+//!
+//! Near-field: where across the fibre's width a ray meets it is known. Light leaves by reflection
+//! (R), straight through (TT), after one reflection inside (TRT), or later (the rest, spread evenly
+//! around the fibre). Each lobe p has an energy A, a spread M along the fibre and N around it,
+//!
+//! ```text
+//! f cos = Σ A_p M_p(θi, θo) N_p(φ),      ∫ M cos θ dθ = ∫ N dφ = 1,      Σ A_p = 1 without absorption,
+//! ```
+//!
+//! so the white furnace holds by construction. For a circle this is Chiang et al. 2016, *A practical
+//! and controllable hair and fur model for production path tracing*. For an ellipse the azimuths,
+//! reflectances and lengths come from an exact ray through the section.
+//!
+//! Not reciprocal, as Chiang's is not: the energies belong to the direction towards the eye. Mean over
+//! the offset, exchanging light and eye less than 43° from the normal plane at roughness 0.3 changes f
+//! by 8 % for a circle and 13 % for an axis ratio of 1.5 (root mean square, weighed by f²; with a tilt
+//! of 2° 9 and 13 %).
+//!
+//! [`Fibre`] is prepared once per hair, [`Scattering`] once per hit. [`Marschner2003`] is the older model
+//! as it was printed.
+
+mod azimuthal;
+mod elementary;
+mod energy;
+mod fibre;
+mod film;
+mod frame;
+mod longitudinal;
+mod marschner;
+mod section;
+
+use core::f32::consts::TAU;
+
+use glam::{Mat4, Vec3, Vec4};
+
+pub use fibre::{Fibre, FibreError, FibreSpec};
+pub use film::WATER_INDEX;
+pub use frame::FibreFrame;
+pub use marschner::Marschner2003;
+
+use elementary::{atan2, sin_cos};
+use energy::energies;
+use fibre::towards;
+use longitudinal::Inclinations;
+use section::{Incident, circle, ellipse};
+
+/// Scattering for one direction to the eye and one offset.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattering<'a> {
+    fibre: &'a Fibre,
+    from: Inclinations,
+    azimuth: Vec4,
+    /// A column for each lobe: its energy, by colour, and its share in the luminance.
+    energy: Mat4,
+}
+
+/// The model for a pair of directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evaluation {
+    /// Scattering function times the cosine (1/sr), by colour.
+    pub f_cos: Vec3,
+    /// Density with which [`Scattering::sample`] gives this direction (1/sr).
+    pub pdf: f32,
+}
+
+/// A direction drawn from the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScatteringSample {
+    /// Local unit direction to the light.
+    pub wi: Vec3,
+    /// f cos over pdf; 1 without absorption.
+    pub weight: Vec3,
+    /// Density (1/sr).
+    pub pdf: f32,
+}
+
+impl<'a> Scattering<'a> {
+    /// For the unit local direction `wo` to the eye and the offset `h` in [−1, 1] of the ray across
+    /// the fibre's projected width, counted along wo × t ([`Fibre::offset`]).
+    #[must_use]
+    pub fn new(fibre: &'a Fibre, wo: Vec3, h: f32) -> Self {
+        let sine = wo.z.clamp(-1.0, 1.0);
+        let cosine = (wo.x * wo.x + wo.y * wo.y).sqrt().clamp(1e-4, 1.0);
+        let inner_sine = sine / fibre.index;
+        // `clamp` would keep NaN, and one bad hit would spoil a picture.
+        #[expect(clippy::manual_clamp)]
+        let offset = h.max(-1.0).min(1.0);
+        let ray = Incident {
+            towards: towards(wo),
+            offset,
+            cosine,
+            inner_cosine: (1.0 - inner_sine * inner_sine).sqrt(),
+            index: fibre.index,
+        };
+        let round = fibre.is_round();
+        let crossing = if round { circle(&ray) } else { ellipse(&ray, fibre.axes) };
+        let film = film::reflected(fibre.wetness, || ray.facing(fibre.axes));
+        let energy = energies(&crossing, fibre.absorption / ray.inner_cosine, film);
+        let from = fibre.tilted(sine, cosine);
+        Self { fibre, from, azimuth: crossing.azimuth, energy }
+    }
+
+    /// Energies of R, TT, TRT and the rest for a unit of light, by colour.
+    #[must_use]
+    pub fn energies(&self) -> [Vec3; 4] {
+        let e = &self.energy;
+        [e.x_axis, e.y_axis, e.z_axis, e.w_axis].map(Vec4::truncate)
+    }
+
+    /// The model for unit local direction `wi` to the light.
+    #[must_use]
+    pub fn evaluate(&self, wi: Vec3) -> Evaluation {
+        let cosine = (wi.x * wi.x + wi.y * wi.y).sqrt();
+        self.at(wi.z, cosine, atan2(Vec4::splat(wi.y), Vec4::splat(wi.x)).x)
+    }
+
+    /// Draws a direction to the light from numbers in [0, 1).
+    #[must_use]
+    pub fn sample(&self, u: [f32; 4]) -> ScatteringSample {
+        let p = self.pick(u[0]);
+        let sine = self.fibre.longitudinal.sample(p, &self.from, [u[1], u[2]]);
+        let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
+        let phi =
+            if p < 3 { self.azimuth[p] + self.fibre.azimuthal.sample(u[3]) } else { TAU * u[3] };
+        let (y, x) = sin_cos(phi);
+        let Evaluation { f_cos, pdf } = self.at(sine, cosine, phi);
+        let weight = if pdf > 0.0 { f_cos / pdf } else { Vec3::ZERO };
+        ScatteringSample { wi: Vec3::new(cosine * x, cosine * y, sine), weight, pdf }
+    }
+
+    /// The model for light from inclination (sin θ, cos θ) and azimuth φ.
+    fn at(&self, sine: f32, cosine: f32, phi: f32) -> Evaluation {
+        let m = self.fibre.longitudinal.values(&self.from, sine, cosine);
+        let n = self.fibre.azimuthal.values(self.azimuth, phi);
+        let sum = self.energy * (m * n);
+        Evaluation { f_cos: sum.truncate(), pdf: sum.w }
+    }
+
+    /// The lobe that the number `u` in [0, 1) stands for.
+    fn pick(&self, u: f32) -> usize {
+        let first = self.energy.x_axis.w;
+        let second = first + self.energy.y_axis.w;
+        let third = second + self.energy.z_axis.w;
+        usize::from(u >= first) + usize::from(u >= second) + usize::from(u >= third)
+    }
+}
