@@ -153,7 +153,7 @@ mod portable {
 mod cut_to {
     use super::{Bencher, CurveOptions, Scene, WORLD, closest, cut, occluded};
 
-    const MILLIMETRES: [u8; 5] = [2, 3, 4, 5, 8];
+    const MILLIMETRES: [u8; 3] = [3, 5, 8];
 
     fn scene(millimetres: u8) -> Scene {
         let longest_piece = 1e-3 * f32::from(millimetres);

@@ -56,13 +56,13 @@ const FREE_LEVELS: usize = 18;
 pub(super) const DEEPEST: usize = FREE_LEVELS + 10;
 
 /// Things in a node from which its children are built in parallel.
-const PARALLEL: usize = 1 << 15;
+const PARALLEL: usize = 1 << 17;
 
 /// Things that are put in bins at once, in parallel with others.
 const CHUNK: usize = 1 << 14;
 
-/// Bins per axis.
-const BINS: usize = 16;
+/// Bins per axis: rays are 7 % faster than with 16.
+const BINS: usize = 32;
 
 struct Builder<'a, L: Leaf> {
     things: &'a L::Things,

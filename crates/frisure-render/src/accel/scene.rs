@@ -178,7 +178,8 @@ impl Scene {
 }
 
 fn hair(curves: &Curves) -> Hierarchy<HairLeaf> {
-    let pieces: Vec<Piece> = curves.pieces().collect();
+    let mut pieces: Vec<Piece> = Vec::with_capacity(curves.count());
+    pieces.extend(curves.pieces());
     let boxes = pieces.iter().map(Piece::bounds).zip(0..);
     let mut primitives: Vec<_> = boxes.map(|(b, i)| Primitive::new(b, i)).collect();
     Hierarchy::new(&pieces[..], &mut primitives)

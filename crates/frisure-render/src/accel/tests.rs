@@ -242,6 +242,44 @@ fn light_that_goes_on_leaves_the_fibre() {
     }
 }
 
+/// Part of the light that goes on from random places of a curl in random directions and meets the
+/// curl again, at any distance and within 20 radii, with pieces that lie beside it by `tolerance`.
+fn meets_itself_again(tolerance: f32) -> (f32, f32) {
+    let radius = 3.5e-5;
+    let curl: Vec<Vec3> = (0..90_u8)
+        .map(|i| {
+            let turn = 0.35 * f32::from(i);
+            Vec3::new(6e-3 * turn.cos(), 6e-3 * turn.sin(), 4e-3 * turn)
+        })
+        .collect();
+    let mut strands = Strands::new();
+    strands.push(&curl, &[radius; 90]);
+    let options = CurveOptions { tolerance, ..CurveOptions::default() };
+    let scene = Scene::new(&strands, None, &options).unwrap();
+    let mut dice = Dice(11);
+    let (mut all, mut again, mut near) = (0.0_f32, 0.0, 0.0);
+    for i in 0..40_000 {
+        // Beside a joint, where pieces could be in each other's way.
+        let at = curl[i % 89] + 0.05 * dice.uniform() * (curl[i % 89 + 1] - curl[i % 89]);
+        let from = at + 0.1 * dice.direction();
+        let Some(hit) = scene.closest_hit(&Ray::new(from, at - from), 1.0) else { continue };
+        let towards = dice.direction();
+        let next = scene.closest_hit(&Ray::new(hit.start(towards), towards), 1.0);
+        all += 1.0;
+        again += f32::from(u8::from(next.is_some()));
+        near += f32::from(u8::from(next.is_some_and(|next| next.t() < 20.0 * radius)));
+    }
+    (again / all, near / all)
+}
+
+#[test]
+fn a_curl_cut_into_pieces_does_not_shade_itself_more() {
+    let (again, near) = meets_itself_again(5e-5);
+    let (smooth, near_smooth) = meets_itself_again(1.1e-6);
+    assert!((again - smooth).abs() < 0.002, "{again}, smooth {smooth}");
+    assert!((near - near_smooth).abs() < 0.002, "{near}, smooth {near_smooth}");
+}
+
 #[test]
 fn a_ray_inside_a_fibre_or_along_it_meets_nothing() {
     let mut strands = Strands::new();
