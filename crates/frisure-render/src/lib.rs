@@ -4,10 +4,12 @@
 //! background) and of what is seen: the strands and, if there is one, the surface they grow on.
 //! [`preview::render`] draws them in a few seconds, by projection: every hair is a line of its true
 //! width, shaded by one bounce of light and by shadows read from density maps. It writes no file:
-//! the [`Image`] it returns holds scene-linear light, and [`Image::to_srgb8`] develops it.
+//! the [`Image`] it returns holds scene-linear light, and [`Image::to_srgb8`] develops it. For pictures
+//! that follow the light itself, [`accel`] finds where rays meet hair and head.
 //!
 //! Lengths are metres, angles radians, z is up, the face looks towards −y; colours are linear sRGB.
 
+pub mod accel;
 mod camera;
 mod film;
 mod light;

@@ -1,0 +1,336 @@
+//! A hierarchy of boxes, eight to a node, and the ways of rays through it.
+
+use glam::{DVec3, Vec3};
+
+use super::Ray;
+use super::bounds::Bounds;
+use super::build::{self, Primitive};
+#[cfg(target_arch = "x86_64")]
+use super::simd::Avx2;
+use super::simd::{LANES, Lanes, Portable, Simd, Vectors, Wide3};
+
+/// Up to eight things that are tested at once.
+pub(super) trait Leaf: Copy + Send + Sync {
+    /// What there is in all.
+    type Things: Sync + ?Sized;
+    /// Up to eight of the things.
+    fn new(things: &Self::Things, indices: &[Primitive]) -> Self;
+    /// Distances along the ray (m) at which things are hit, and bits of those that are, before
+    /// `t_max`. The ray starts at or before the box of the things.
+    fn test<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32);
+}
+
+/// A ray, eight times.
+pub(super) struct WideRay<F> {
+    pub(super) origin: Wide3<F>,
+    pub(super) direction: Wide3<F>,
+}
+
+/// Eight boxes, and what is in them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub(super) struct Node {
+    pub(super) low: [Lanes; 3],
+    pub(super) high: [Lanes; 3],
+    pub(super) child: [Child; LANES],
+}
+
+/// A node or a leaf, by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Child(u32);
+
+const LEAF: u32 = 1 << 31;
+
+impl Child {
+    pub(super) const NONE: Self = Self(u32::MAX);
+
+    // Fewer than 2³¹ things are let in, so that indices fit.
+    pub(super) fn node(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    pub(super) fn leaf(index: usize) -> Self {
+        Self(index as u32 | LEAF)
+    }
+
+    /// The same child after `nodes` and `leaves` others were put before its own.
+    pub(super) fn behind(self, nodes: usize, leaves: usize) -> Self {
+        match self {
+            Self::NONE => self,
+            Self(leaf) if leaf & LEAF != 0 => Self(leaf + leaves as u32),
+            Self(node) => Self(node + nodes as u32),
+        }
+    }
+}
+
+/// Boxes in boxes, and leaves of type `L`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Hierarchy<L> {
+    bounds: Bounds,
+    nodes: Vec<Node>,
+    leaves: Vec<L>,
+}
+
+/// The instructions to trace with.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Level {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+}
+
+impl Level {
+    /// The best that this machine has.
+    pub(super) fn best() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Avx2::detect() {
+            return Self::Avx2(avx2);
+        }
+        Self::Portable
+    }
+}
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Found<'a, L> {
+    /// Distance (m).
+    pub(super) t: f32,
+    pub(super) leaf: &'a L,
+    pub(super) lane: usize,
+}
+
+impl<L: Leaf> Hierarchy<L> {
+    /// The hierarchy over things with these boxes.
+    pub(super) fn new(things: &L::Things, primitives: &mut [Primitive]) -> Self {
+        let bounds = primitives.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+        // What single precision makes of a ray and a box may differ by a few parts in 10⁷.
+        let pad = 5e-7 * bounds.reach();
+        let tree = build::tree(things, primitives, pad);
+        Self { bounds: bounds.grown(2.0 * pad), nodes: tree.nodes, leaves: tree.leaves }
+    }
+
+    /// Box around everything.
+    pub(super) fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..])
+    }
+
+    /// What the ray meets first before `t_max` (m).
+    pub(super) fn closest(&self, level: Level, ray: &Ray, t_max: f32) -> Option<Found<'_, L>> {
+        let (ray, skipped) = self.enter(ray, t_max)?;
+        let found = match level {
+            Level::Portable => trace::<_, L, false>(Portable, self, &ray, t_max - skipped),
+            // SAFETY: an `Avx2` exists only where the machine has AVX2 and FMA.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2(simd) => unsafe {
+                trace_avx2::<L, false>(simd, self, &ray, t_max - skipped)
+            },
+        };
+        found.map(|found| Found { t: found.t + skipped, ..found })
+    }
+
+    /// Whether the ray meets anything before `t_max` (m).
+    pub(super) fn occluded(&self, level: Level, ray: &Ray, t_max: f32) -> bool {
+        let Some((ray, skipped)) = self.enter(ray, t_max) else { return false };
+        match level {
+            Level::Portable => trace::<_, L, true>(Portable, self, &ray, t_max - skipped).is_some(),
+            // SAFETY: an `Avx2` exists only where the machine has AVX2 and FMA.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2(simd) => unsafe {
+                trace_avx2::<L, true>(simd, self, &ray, t_max - skipped).is_some()
+            },
+        }
+    }
+
+    /// The ray from where it is about to enter the box around everything, and how far that is (m);
+    /// `None` if it passes by, is no ray, or gets there after `t_max`. From there coordinates are of
+    /// the size of the box, however far away the eye: precision that thin fibres need.
+    fn enter(&self, ray: &Ray, t_max: f32) -> Option<(ShortRay, f32)> {
+        if !ray.is_finite() {
+            return None;
+        }
+        let inverse = inverse(ray.direction());
+        let (a, b) = (Vec3::from(self.bounds.low), Vec3::from(self.bounds.high));
+        let (a, b) = ((a - ray.origin()) * inverse, (b - ray.origin()) * inverse);
+        let (near, far) = (a.min(b).max_element(), a.max(b).min_element());
+        let reach = self.bounds.reach();
+        let slack = 0.01 * reach + 1e-6 * near.abs();
+        if !(near - slack <= far.min(t_max)) || !(far + slack >= 0.0) {
+            return None;
+        }
+        let skipped = (near - slack).max(0.0);
+        let origin = ray.origin().as_dvec3() + f64::from(skipped) * DVec3::from(ray.direction());
+        Some((ShortRay { origin: origin.as_vec3(), direction: ray.direction(), inverse }, skipped))
+    }
+}
+
+/// A ray that starts near the scene, with the inverse of its direction.
+struct ShortRay {
+    origin: Vec3,
+    direction: Vec3,
+    inverse: Vec3,
+}
+
+/// One over each coordinate, and large instead of infinite, so that nothing becomes not-a-number.
+fn inverse(direction: Vec3) -> Vec3 {
+    direction
+        .to_array()
+        .map(|d| 1.0 / if d.abs() < 1e-18 { 1e-18_f32.copysign(d) } else { d })
+        .into()
+}
+
+/// Wide levels at most: see `build`.
+const STACK: usize = build::DEEPEST * (LANES - 1) + 1;
+
+/// A box still to be visited, and where the ray enters it.
+#[derive(Clone, Copy)]
+struct Visit {
+    near: f32,
+    child: u32,
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn trace_avx2<'a, L: Leaf, const ANY: bool>(
+    simd: Avx2,
+    hierarchy: &'a Hierarchy<L>,
+    ray: &ShortRay,
+    t_max: f32,
+) -> Option<Found<'a, L>> {
+    trace::<Avx2, L, ANY>(simd, hierarchy, ray, t_max)
+}
+
+/// Visits boxes, the nearest first. With `ANY`, the first thing found will do.
+#[inline(always)]
+fn trace<'a, S: Simd, L: Leaf, const ANY: bool>(
+    simd: S,
+    hierarchy: &'a Hierarchy<L>,
+    ray: &ShortRay,
+    mut t_max: f32,
+) -> Option<Found<'a, L>> {
+    let slabs = Slabs::new(simd, ray);
+    let wide = WideRay { origin: simd.splat3(ray.origin), direction: simd.splat3(ray.direction) };
+    let mut found = None;
+    let mut stack = [Visit { near: 0.0, child: 0 }; STACK];
+    let mut height = usize::from(!hierarchy.nodes.is_empty());
+    while height > 0 {
+        height -= 1;
+        let visit = stack[height];
+        if visit.near >= t_max {
+            continue;
+        }
+        let mut child = visit.child;
+        while child & LEAF == 0 {
+            let node = &hierarchy.nodes[child as usize];
+            let (near, bits) = slabs.enter(simd, node, t_max);
+            match nearest(node, &near, bits, &mut stack, &mut height) {
+                Some(next) => child = next,
+                None => break,
+            }
+        }
+        if child & LEAF == 0 {
+            continue;
+        }
+        let leaf = &hierarchy.leaves[(child & !LEAF) as usize];
+        let (t, bits) = leaf.test(simd, &wide, t_max);
+        if bits != 0 {
+            let (lane, t) = first(&simd.store(t), bits);
+            t_max = t;
+            found = Some(Found { t, leaf, lane });
+            if ANY {
+                return found;
+            }
+        }
+    }
+    found
+}
+
+/// The lane of the smallest of the distances that count, and that distance.
+#[inline(always)]
+fn first(t: &Lanes, mut bits: u32) -> (usize, f32) {
+    let mut best = (0, f32::INFINITY);
+    while bits != 0 {
+        let lane = bits.trailing_zeros() as usize & (LANES - 1);
+        bits &= bits - 1;
+        if t.0[lane] < best.1 {
+            best = (lane, t.0[lane]);
+        }
+    }
+    best
+}
+
+/// Of the boxes that the ray enters: the nearest, the others put on the stack, the farthest first.
+#[inline(always)]
+fn nearest(
+    node: &Node,
+    near: &Lanes,
+    mut bits: u32,
+    stack: &mut [Visit; STACK],
+    height: &mut usize,
+) -> Option<u32> {
+    if bits == 0 {
+        return None;
+    }
+    let mut take = || {
+        let lane = bits.trailing_zeros() as usize & (LANES - 1);
+        bits &= bits - 1;
+        (Visit { near: near.0[lane], child: node.child[lane].0 }, bits != 0)
+    };
+    let (mut best, mut more) = take();
+    let floor = *height;
+    while more {
+        let (next, left) = take();
+        more = left;
+        let other = if next.near < best.near { std::mem::replace(&mut best, next) } else { next };
+        let mut place = *height;
+        *height += 1;
+        while place > floor && stack[place - 1].near < other.near {
+            stack[place] = stack[place - 1];
+            place -= 1;
+        }
+        stack[place] = other;
+    }
+    Some(best.child)
+}
+
+/// A ray prepared for boxes.
+struct Slabs<F> {
+    inverse: Wide3<F>,
+    /// −origin × inverse
+    offset: Wide3<F>,
+    backward: [bool; 3],
+}
+
+impl<F: Copy> Slabs<F> {
+    #[inline(always)]
+    fn new<S: Simd<F = F>>(simd: S, ray: &ShortRay) -> Self {
+        Self {
+            inverse: simd.splat3(ray.inverse),
+            offset: simd.splat3(-ray.origin * ray.inverse),
+            backward: ray.inverse.to_array().map(|i| i < 0.0),
+        }
+    }
+
+    /// Where the ray enters each box, and bits of those that it does enter before `t_max`.
+    #[inline(always)]
+    fn enter<S: Simd<F = F>>(&self, simd: S, node: &Node, t_max: f32) -> (Lanes, u32) {
+        let at = |axis: usize, inverse: F, offset: F| {
+            let (mut near, mut far) = (&node.low[axis], &node.high[axis]);
+            if self.backward[axis] {
+                std::mem::swap(&mut near, &mut far);
+            }
+            let [near, far] = [near, far].map(|x| simd.mul_add(simd.load(x), inverse, offset));
+            (near, far)
+        };
+        let (x0, x1) = at(0, self.inverse.x, self.offset.x);
+        let (y0, y1) = at(1, self.inverse.y, self.offset.y);
+        let (z0, z1) = at(2, self.inverse.z, self.offset.z);
+        let near = simd.max(simd.max(x0, y0), simd.max(z0, simd.splat(0.0)));
+        let far = simd.min(simd.min(x1, y1), simd.min(z1, simd.splat(t_max)));
+        (simd.store(near), simd.bits(simd.at_most(near, far)))
+    }
+}

@@ -1,0 +1,112 @@
+//! What a ray meets.
+
+use glam::Vec3;
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hit {
+    /// A strand.
+    Hair(HairHit),
+    /// The head.
+    Skin(SkinHit),
+}
+
+/// Where a ray enters a strand.
+///
+/// A fibre is met where a ray enters it, never where it leaves it: what a fibre does to the light
+/// inside is its scattering's business. A ray that starts inside a fibre does not meet that fibre;
+/// the flat ends of roots and tips are open. Light that goes on starts outside, at [`Self::start`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairHit {
+    /// Distance (m).
+    pub t: f32,
+    /// Index of the strand.
+    pub strand: u32,
+    /// Index in its strand of the point before.
+    pub segment: u32,
+    /// Way from that point (0) to the next (1), as the parameter of the spline.
+    pub u: f32,
+    /// Unit tangent of the smooth curve, root to tip. The pieces that are met are straight; this is
+    /// what to shade with.
+    pub tangent: Vec3,
+    /// Radius (m).
+    pub radius: f32,
+    /// Offset of the ray across the width, −1 to 1: positive where it passes the axis on the side of
+    /// `direction × tangent`. That is pbrt's h = −1 + 2v.
+    ///
+    /// So the normal stands asin(h) further than the way back along the ray, in azimuth counted about
+    /// the tangent from `e` to `tangent × e`; formulas whose reflection leaves at −2 asin(h) count
+    /// the other way round, or want −h.
+    pub h: f32,
+    /// Outward unit normal of the surface met.
+    pub normal: Vec3,
+    /// The point of the axis at the height of the hit (m).
+    pub centre: Vec3,
+    /// Unit direction of the straight piece met, root to tip.
+    pub axis: Vec3,
+}
+
+/// Where a ray meets the head, from either side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkinHit {
+    /// Distance (m).
+    pub t: f32,
+    /// Index of the face.
+    pub face: u32,
+    /// Weights of its three corners; they sum to 1.
+    pub barycentric: [f32; 3],
+    /// Where it is (m).
+    pub position: Vec3,
+    /// Unit normal of the face, outwards.
+    pub normal: Vec3,
+    /// Unit normal interpolated between the corners.
+    pub smooth_normal: Vec3,
+}
+
+/// How far outside a fibre light starts again, in radii: single precision is a thousandth of a
+/// hair's radius at arm's length from the origin.
+const CLEARANCE: f32 = 0.01;
+
+/// How far off the skin light starts again (m).
+const SKIN_CLEARANCE: f32 = 1e-6;
+
+impl Hit {
+    /// Distance (m).
+    #[must_use]
+    pub fn t(&self) -> f32 {
+        match self {
+            Self::Hair(hit) => hit.t,
+            Self::Skin(hit) => hit.t,
+        }
+    }
+
+    /// Where light that goes on in the direction `towards` starts (m).
+    #[must_use]
+    pub fn start(&self, towards: Vec3) -> Vec3 {
+        match self {
+            Self::Hair(hit) => hit.start(towards),
+            Self::Skin(hit) => hit.start(towards),
+        }
+    }
+}
+
+impl HairHit {
+    /// Where light that goes on in the direction `towards` starts (m): at the height of the hit, just
+    /// outside the fibre on the side it goes to. From there a ray only gets farther from the axis of
+    /// the piece, so that it cannot meet this piece again; it may meet other windings of a curl.
+    #[must_use]
+    pub fn start(&self, towards: Vec3) -> Vec3 {
+        let across = |v: Vec3| (v - v.dot(self.axis) * self.axis).try_normalize();
+        let out = across(towards).or_else(|| across(self.normal)).unwrap_or(self.normal);
+        self.centre + (1.0 + CLEARANCE) * self.radius * out
+    }
+}
+
+impl SkinHit {
+    /// Where light that goes on in the direction `towards` starts (m): just off the face, on the side
+    /// it goes to.
+    #[must_use]
+    pub fn start(&self, towards: Vec3) -> Vec3 {
+        self.position + SKIN_CLEARANCE.copysign(towards.dot(self.normal)) * self.normal
+    }
+}

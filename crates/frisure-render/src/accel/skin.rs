@@ -1,0 +1,96 @@
+//! Eight triangles of the head against a ray.
+
+use frisure_strands::Surface;
+use glam::{DVec3, Vec3};
+
+use super::bounds::Bounds;
+use super::build::Primitive;
+use super::hierarchy::{Leaf, WideRay};
+use super::simd::{LANES, Lanes, Simd, Vectors};
+
+/// A triangle: a corner, and the ways to the two others (m).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle {
+    corner: Vec3,
+    edges: [Vec3; 2],
+    face: u32,
+}
+
+impl Triangle {
+    /// The faces of a surface that have an area.
+    pub(super) fn of(surface: &Surface) -> Vec<Self> {
+        let faces = 0..surface.triangles().len();
+        let triangle = |face: usize| {
+            let [a, b, c] = surface.corners(face).map(DVec3::as_vec3);
+            Self { corner: a, edges: [b - a, c - a], face: face as u32 }
+        };
+        faces.map(triangle).filter(|t| t.edges[0].cross(t.edges[1]) != Vec3::ZERO).collect()
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        let [b, c] = self.edges.map(|edge| self.corner + edge);
+        let (low, high) = (self.corner.min(b).min(c), self.corner.max(b).max(c));
+        Bounds { low: low.into(), high: high.into() }
+    }
+}
+
+/// How far a triangle reaches over its edges, as a part of it: rays must not slip through between.
+const OVERLAP: f32 = 1e-5;
+
+/// Up to eight triangles, side by side; unused lanes have no area.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub(super) struct SkinLeaf {
+    corner: [Lanes; 3],
+    edges: [[Lanes; 3]; 2],
+    face: [u32; LANES],
+}
+
+impl Leaf for SkinLeaf {
+    type Things = [Triangle];
+
+    fn new(triangles: &[Triangle], primitives: &[Primitive]) -> Self {
+        let zero = [Lanes([0.0; LANES]); 3];
+        let mut leaf = Self { corner: zero, edges: [zero; 2], face: [0; LANES] };
+        for (lane, primitive) in primitives.iter().enumerate() {
+            leaf.put(lane, &triangles[primitive.index()]);
+        }
+        leaf
+    }
+
+    /// Möller & Trumbore 1997, both sides. Without area the determinant is 0 and its inverse
+    /// infinite: no comparison then holds.
+    #[inline(always)]
+    fn test<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
+        let [e1, e2] = [simd.load3(&self.edges[0]), simd.load3(&self.edges[1])];
+        let p = simd.cross(ray.direction, e2);
+        let inverse = simd.div(simd.splat(1.0), simd.dot(e1, p));
+        let x = simd.sub3(ray.origin, simd.load3(&self.corner));
+        let u = simd.mul(simd.dot(x, p), inverse);
+        let q = simd.cross(x, e1);
+        let v = simd.mul(simd.dot(ray.direction, q), inverse);
+        let t = simd.mul(simd.dot(e2, q), inverse);
+        let within = simd.both(
+            simd.at_most(simd.splat(-OVERLAP), simd.min(u, v)),
+            simd.at_most(simd.add(u, v), simd.splat(1.0 + OVERLAP)),
+        );
+        let ahead = simd.both(simd.at_most(simd.splat(0.0), t), simd.less(t, simd.splat(t_max)));
+        (t, simd.bits(simd.both(within, ahead)))
+    }
+}
+
+impl SkinLeaf {
+    fn put(&mut self, lane: usize, triangle: &Triangle) {
+        for axis in 0..3 {
+            self.corner[axis].0[lane] = triangle.corner[axis];
+            self.edges[0][axis].0[lane] = triangle.edges[0][axis];
+            self.edges[1][axis].0[lane] = triangle.edges[1][axis];
+        }
+        self.face[lane] = triangle.face;
+    }
+
+    /// The face in a lane.
+    pub(super) fn face(&self, lane: usize) -> u32 {
+        self.face[lane]
+    }
+}
