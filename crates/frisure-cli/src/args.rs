@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use clap::{ArgGroup, Args, Parser, Subcommand};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::hairstyle::PRESETS;
 
 const EXAMPLES: &str = "\
@@ -59,6 +59,7 @@ Examples:
   frisure predict scenes/curly.toml -o out/curly.hair --image out/curly.png
   frisure predict scenes/wavy.toml -o wavy.obj -o wavy.ply --report wavy.json
   frisure new frizzy | frisure predict - --image frizzy.png
+  frisure predict scenes/curly.toml --image curly.png --quality final --paths 256
   frisure predict scenes/growth.toml --each-step --image out/growth.png
 
 Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder
@@ -82,6 +83,14 @@ pub(crate) struct Predict {
     /// Write numbers about the result (.json).
     #[arg(long, value_name = "JSON")]
     pub(crate) report: Option<PathBuf>,
+
+    /// How the picture is made.
+    #[arg(long, value_enum, default_value_t = Quality::Preview, value_name = "QUALITY")]
+    pub(crate) quality: Quality,
+
+    /// Paths of light per pixel of a final picture, 1 to 65536: noise falls with their root.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = paths)]
+    pub(crate) paths: usize,
 
     /// Write a groom and a picture before the first step and after each, numbered: hair-00.png,
     /// hair-01.png and so on, all from one place. Growth in stages counts each stage.
@@ -130,6 +139,15 @@ pub(crate) struct Style {
     /// Write the scene here instead of back to where it was read; `-` for standard output.
     #[arg(long, short, value_name = "SCENE")]
     pub(crate) output: Option<PathBuf>,
+}
+
+/// How a picture is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Quality {
+    /// In seconds, by projection, with shadows.
+    Preview,
+    /// In minutes, by following the light from hair to hair.
+    Final,
 }
 
 const HAIR_EXAMPLES: &str = "\
@@ -200,6 +218,10 @@ fn points(text: &str) -> Result<usize, String> {
 
 fn step_number(text: &str) -> Result<usize, String> {
     number(text, 1, usize::MAX).map_err(|_| "steps are numbered from 1".into())
+}
+
+fn paths(text: &str) -> Result<usize, String> {
+    number(text, 1, 65_536)
 }
 
 fn number(text: &str, min: usize, max: usize) -> Result<usize, String> {

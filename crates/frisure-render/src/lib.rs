@@ -4,8 +4,8 @@
 //! background) and of what is seen: the strands and, if there is one, the surface they grow on.
 //! [`preview::render`] draws them in a few seconds, by projection: every hair is a line of its true
 //! width, shaded by one bounce of light and by shadows read from density maps. It writes no file:
-//! the [`Image`] it returns holds scene-linear light, and [`Image::to_srgb8`] develops it. For pictures
-//! that follow the light itself, [`accel`] finds where rays meet hair and head.
+//! the [`Image`] it returns holds scene-linear light, and [`Image::to_srgb8`] develops it. [`trace::render`]
+//! follows the light itself, in minutes; [`accel`] finds where its rays meet hair and head.
 //!
 //! Lengths are metres, angles radians, z is up, the face looks towards −y; colours are linear sRGB.
 
@@ -15,6 +15,7 @@ mod film;
 mod light;
 mod look;
 pub mod preview;
+pub mod trace;
 
 pub use camera::{Camera, CameraError};
 pub use film::{Image, ToneCurve};

@@ -48,11 +48,8 @@ pub(super) struct Materials {
 
 impl Materials {
     pub(super) fn new(strands: &Strands, look: &HairLook) -> Self {
-        let levels = (0..LEVELS).map(|i| material(look, level_factor(i))).collect();
-        let of_strand = match values(strands, "tint") {
-            Some(AttributeValues::F32(tint)) => tint.iter().map(|&t| level(t)).collect(),
-            _ => varied(strands, look.variation),
-        };
+        let (factors, of_strand) = pigment_levels(strands, look);
+        let levels = factors.into_iter().map(|factor| material(look, factor)).collect();
         let middle = material(look, 1.0);
         Self { levels, of_strand, taken: Vec3::ONE - middle.transmitted }
     }
@@ -60,6 +57,15 @@ impl Materials {
     pub(super) fn of(&self, strand: u32) -> &Material {
         &self.levels[usize::from(self.of_strand[strand as usize])]
     }
+}
+
+/// Factors on the pigment, and which of them each strand has.
+pub(crate) fn pigment_levels(strands: &Strands, look: &HairLook) -> (Vec<f32>, Vec<u8>) {
+    let of_strand = match values(strands, "tint") {
+        Some(AttributeValues::F32(tint)) => tint.iter().map(|&t| level(t)).collect(),
+        _ => varied(strands, look.variation),
+    };
+    ((0..LEVELS).map(level_factor).collect(), of_strand)
 }
 
 /// Values of an attribute of the strands.

@@ -32,6 +32,8 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::{Camera, Image, Lights, Look};
+pub(crate) use material::pigment_levels;
+
 use composite::TilePainter;
 use curves::Curves;
 use head::Head;

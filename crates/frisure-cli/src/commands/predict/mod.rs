@@ -16,10 +16,11 @@ use frisure::io::groom::{Format, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
 use frisure::render::preview::{self, PreviewOptions};
+use frisure::render::trace::{self, TraceError, TraceOptions};
 use frisure::strands::Strands;
 
 use super::read_scene;
-use crate::args::Predict;
+use crate::args::{Predict, Quality};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
 use crate::{console, interrupt, outputs};
@@ -199,7 +200,6 @@ impl Work {
         head: &Head,
     ) -> Result<(u32, u32, Vec<u8>), Failure> {
         let scene::Output { width, height, samples } = self.scene.output;
-        let options = PreviewOptions { width, height, samples, ..PreviewOptions::default() };
         let watch = |done: f64| {
             self.progress.show("picture", done);
             if interrupt::interrupted() {
@@ -209,10 +209,23 @@ impl Work {
             }
         };
         let drawn = crate::picture::scene(&self.scene, strands, shown, head.surface());
-        let image = preview::render(&drawn, &options, &watch).map_err(|e| match e {
-            preview::PreviewError::Cancelled => Failure::Interrupted,
-            preview::PreviewError::Size { .. } => Failure::wrong(&e, ""),
-        })?;
+        let image = match self.arguments.quality {
+            Quality::Preview => {
+                let options = PreviewOptions { width, height, samples, ..Default::default() };
+                preview::render(&drawn, &options, &watch).map_err(|e| match e {
+                    preview::PreviewError::Cancelled => Failure::Interrupted,
+                    preview::PreviewError::Size { .. } => Failure::wrong(&e, ""),
+                })?
+            }
+            Quality::Final => {
+                let samples = self.arguments.paths;
+                let options = TraceOptions { width, height, samples, ..Default::default() };
+                trace::render(&drawn, &options, &watch).map_err(|e| match e {
+                    TraceError::Cancelled => Failure::Interrupted,
+                    e => Failure::wrong(&e, ""),
+                })?
+            }
+        };
         let [width, height] =
             [width, height].map(|n| u32::try_from(n).expect("scenes have at most 16384 pixels"));
         Ok((width, height, image.to_srgb8()))
