@@ -34,9 +34,8 @@ pub struct HairHit {
     /// Offset of the ray across the width, −1 to 1: positive where it passes the axis on the side of
     /// `direction × tangent`. That is pbrt's h = −1 + 2v.
     ///
-    /// So the normal stands asin(h) further than the way back along the ray, in azimuth counted about
-    /// the tangent from `e` to `tangent × e`; formulas whose reflection leaves at −2 asin(h) count
-    /// the other way round, or want −h.
+    /// [`frisure_optics::scattering`] counts along `wo × tangent`, with `wo` back along the ray, which
+    /// is the other way round: **give it −h**.
     pub h: f32,
     /// Outward unit normal of the surface met.
     pub normal: Vec3,

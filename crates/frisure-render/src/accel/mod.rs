@@ -16,16 +16,16 @@
 //!
 //! | cut | pieces and kB per strand | rates |
 //! | --- | --- | --- |
-//! | 3 mm | 101, 5.5 | 2.23 / 0.61 / 1.08 |
-//! | 5 mm | 63, 3.6 | 2.05 / 0.57 / 1.04 |
-//! | 8 mm | 43, 2.6 | 1.81 / 0.48 / 0.99 |
-//! | 4 mm, 200 µm beside the curve | 102, 5.6 | 2.20 / 0.61 / 1.08 |
-//! | 4 mm, 100 µm | 141, 7.6 | 2.22 / 0.60 / 1.04 |
-//! | 4 mm, 50 µm | 195, 10.4 | 2.19 / 0.59 / 0.95 |
-//! | 4 mm, 100 µm, without AVX2 and FMA | 141, 7.6 | 1.12 / 0.34 / 0.47 |
+//! | 3 mm | 101, 5.4 | 2.26 / 0.67 / 1.14 |
+//! | 5 mm | 63, 3.5 | 2.19 / 0.62 / 1.13 |
+//! | 8 mm | 43, 2.5 | 1.93 / 0.54 / 1.04 |
+//! | 4 mm, 200 µm beside the curve | 102, 5.5 | 2.34 / 0.68 / 1.14 |
+//! | 4 mm, 100 µm | 141, 7.4 | 2.34 / 0.68 / 1.13 |
+//! | 4 mm, 50 µm (the default) | 195, 10.2 | 2.27 / 0.64 / 1.02 |
+//! | the same without AVX2 and FMA | 195, 10.2 | 1.19 / 0.37 / 0.49 |
 //!
 //! Strands cut finer than 3 mm are no faster; the default takes 4 mm, and 50 µm for the shape of
-//! curls. At 4 mm and 200 µm, as ratios to what is here but with 16 bins: 32 bins 1.06 / 1.07 / 1.07
+//! curls. At 4 mm and 200 µm, programs run one after the other, as ratios to 16 bins: 32 bins 1.06 / 1.07 / 1.07
 //! (kept); leaves of 4 pieces 0.80 / 0.72 / 0.76, and nearly twice the memory; an area heuristic that
 //! counts pieces instead of leaves 0.92 / 0.79 / 0.89. Leaves on a 16-bit grid need 0.69 of the memory
 //! but run at 0.87 / 0.81 / 0.89. Untried: nodes on a grid, oriented boxes, sorted bounces.

@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use frisure_optics::scattering::{Fibre, FibreFrame, FibreSpec};
 use frisure_strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
 
@@ -221,6 +222,24 @@ fn h_is_positive_towards_direction_cross_tangent_and_linear() {
         assert!((hit.t - (0.3 - depth)).abs() < 1e-7);
         assert!((hit.u - 0.6).abs() < 1e-5);
     }
+}
+
+#[test]
+fn optics_counts_the_offset_the_other_way_round() {
+    let strands = tangle(40, 9, 0.006, 1e-3);
+    let scene = scene(&strands, None);
+    let fibre = Fibre::new(FibreSpec::default()).unwrap();
+    assert!((fibre.spec().axis_ratio - 1.0).abs() < 1e-6);
+    let mut hits = 0;
+    for ray in rays(900, 0.06) {
+        let Some(Hit::Hair(hit)) = scene.closest_hit(&ray, f32::INFINITY) else { continue };
+        let frame = FibreFrame::new(hit.axis, hit.axis.any_orthonormal_vector());
+        let at = frame.to_local(ray.at(hit.t) - hit.centre).truncate() / hit.radius;
+        let offset = fibre.offset(frame.to_local(-ray.direction()), at);
+        assert!((offset + hit.h).abs() < 0.03, "{offset} {}", hit.h);
+        hits += 1;
+    }
+    assert!(hits > 100);
 }
 
 #[test]
