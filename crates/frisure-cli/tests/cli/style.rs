@@ -124,6 +124,6 @@ fn several_at_once_lose_no_step() {
     for child in running {
         assert!(child.wait_with_output().unwrap().status.success());
     }
-    let text = std::fs::read_to_string(room.path("scene.toml")).unwrap();
+    let text = fs::read_to_string(room.path("scene.toml")).unwrap();
     assert_eq!(text.matches("dry = {}").count(), 8, "{text}");
 }
