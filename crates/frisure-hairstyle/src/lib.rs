@@ -23,6 +23,7 @@ pub mod styling;
 
 mod history;
 
+mod crossing;
 mod grid;
 mod monitor;
 mod random;

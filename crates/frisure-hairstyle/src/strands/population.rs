@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::course::{Character, Course};
 use super::skin::{Free, PRESSED};
+use crate::crossing::first_positive;
 use crate::grid::Grid;
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
@@ -70,7 +71,7 @@ pub(crate) struct Population<'a> {
 /// Distance (m) between the points at which a hair is looked at for where it is cut …
 const CUT_STEP: f64 = 5e-3;
 /// … and how often the piece between two is halved: to a millionth of it.
-const BISECTIONS: u32 = 20;
+const HALVINGS: u32 = 20;
 
 /// One drawn hair.
 pub(super) struct Hair {
@@ -199,7 +200,7 @@ impl<'a> Population<'a> {
 
     /// The guide of a hair rooted somewhere.
     pub(crate) fn main(&self, root: &Root) -> usize {
-        self.sorted(root)[0]
+        self.sorted(root, self.layout.direction(root))[0]
     }
 
     /// The length (m, of dry hair) that is left of a hair when it is cut where it first comes to
@@ -213,28 +214,15 @@ impl<'a> Population<'a> {
         let course = self.course(root, index);
         let steps = (course.end * course.length / CUT_STEP).ceil().clamp(8.0, 400.0) as usize;
         let at = |x: f64| outside(self.point(&course, x, &mut { Free::NOWHERE }));
-        let place = |k: usize| k as f64 / steps as f64 * course.end;
-        let first = (0..=steps).find(|&k| at(place(k)) > 0.0)?;
-        if first == 0 {
-            return Some(0.0);
-        }
-        let (mut inside, mut beyond) = (place(first - 1), place(first));
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (inside + beyond);
-            if at(middle) > 0.0 {
-                beyond = middle;
-            } else {
-                inside = middle;
-            }
-        }
-        Some(inside / course.end * course.dry)
+        let left = first_positive(course.end, steps, HALVINGS, at)?;
+        Some(left / course.end * course.dry)
     }
 
-    /// Guides near a root that its hair can go with, the one most like it first.
-    fn sorted(&self, root: &Root) -> Vec<usize> {
+    /// Guides near a root that its hair, which leaves in the direction `own`, can go with; the one most
+    /// like it first.
+    fn sorted(&self, root: &Root, own: DVec3) -> Vec<usize> {
         let mut near = self.near(root.position);
         // Beside a parting the nearest guide may go to the other side.
-        let own = self.layout.direction(root);
         near.sort_by(|&a, &b| {
             let farness = |g: usize| self.farness(root, own, g);
             farness(a).total_cmp(&farness(b)).then(a.cmp(&b))
@@ -250,8 +238,9 @@ impl<'a> Population<'a> {
 
     /// Guides that a hair follows, with weights that sum to one; the nearest first.
     fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
-        let near = self.sorted(root);
-        let (first, own) = (near[0], self.layout.direction(root));
+        let own = self.layout.direction(root);
+        let near = self.sorted(root, own);
+        let first = near[0];
         let farness = |g: usize| self.farness(root, own, g);
         let reach = (0.9 * self.spacing * self.spec.wisps.blending).max(1e-9);
         let weight = |g: usize| {

@@ -4,6 +4,7 @@ use frisure_rod::Equilibrium;
 use glam::DVec3;
 
 use super::operation::{Cut, CutLine, Held};
+use crate::crossing::first_positive;
 use crate::head::Head;
 use crate::roots::Root;
 
@@ -24,7 +25,7 @@ const ON_LINE: f64 = 1e-9;
 const LOOKED_AT: usize = 256;
 
 /// How often the piece between two is halved.
-const BISECTIONS: u32 = 40;
+const HALVINGS: u32 = 40;
 
 impl<'a> Scissors<'a> {
     pub(super) fn new(cut: &Cut, head: &'a Head) -> Self {
@@ -115,23 +116,8 @@ impl<'a> Scissors<'a> {
     pub(super) fn left_hanging(&self, guide: &Equilibrium) -> f64 {
         let chain = guide.chain();
         let beyond = |x: f64| self.beyond(guide.at(&chain, x).0);
-        let place = |k: usize| k as f64 / LOOKED_AT as f64;
-        let Some(first) = (0..=LOOKED_AT).find(|&k| beyond(place(k)) > 0.0) else {
-            return f64::INFINITY;
-        };
-        if first == 0 {
-            return 0.0;
-        }
-        let (mut inside, mut outside) = (place(first - 1), place(first));
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (inside + outside);
-            if beyond(middle) > 0.0 {
-                outside = middle;
-            } else {
-                inside = middle;
-            }
-        }
-        inside * guide.rod.length()
+        let left = first_positive(1.0, LOOKED_AT, HALVINGS, beyond);
+        left.map_or(f64::INFINITY, |left| left * guide.rod.length())
     }
 }
 
