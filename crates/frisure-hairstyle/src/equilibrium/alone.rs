@@ -155,12 +155,14 @@ fn resettle_one(
                 settle((share > 0.0).then(|| gone.scaled(share)), &rest)
             }),
     };
-    // It may have been pushed into the body: then it comes down from its root again.
+    // It may have been pushed into the body, or have been there when it was held: then it comes down
+    // from its root again.
     let deep = depth(head, &rest);
-    if deep > DEEPEST && deep > depth(head, before) + DEEPEST {
-        return settle_one(spec, head, guide);
+    if deep <= DEEPEST {
+        return rest;
     }
-    rest
+    let fallen = settle_one(spec, head, guide);
+    if depth(head, &fallen) < deep { fallen } else { rest }
 }
 
 fn settle_one_from(

@@ -13,7 +13,7 @@ use crate::pull::Pull;
 use crate::spec::HairstyleSpec;
 
 /// How much stiffer hair is for being held in a shape.
-const MOULD: f64 = 30.0;
+const MOULD: f64 = 10.0;
 
 /// Tension in hair that is braided or drawn straight, in weights.
 const DRAWN: f64 = 25.0;
