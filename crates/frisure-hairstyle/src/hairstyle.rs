@@ -161,6 +161,16 @@ impl Hairstyle {
         strands
     }
 
+    /// Adds to the drawn hairs of [`Self::strands`] what light needs to know of their sections: `d1`
+    /// (three numbers per point), the director along the semi-axis a, and `axis_ratio` (a/b, a number
+    /// per strand). Twelve bytes per point.
+    ///
+    /// # Panics
+    /// If they have been added before.
+    pub fn add_sections(&self, strands: &mut Strands, head: &Head) {
+        strands::add_sections(strands, self, head);
+    }
+
     /// The drawn hairs around the guides, with the attribute `guide`, the nearest guide of each.
     ///
     /// # Errors

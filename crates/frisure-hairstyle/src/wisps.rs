@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use frisure_rod::Equilibrium;
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 
 /// A guide at rest, sampled evenly from root to tip.
 #[derive(Clone, Debug)]
@@ -20,6 +20,8 @@ pub(crate) struct Wisp {
     positions: Vec<DVec3>,
     /// Rotation of the axis from the root.
     turns: Vec<DQuat>,
+    /// Director d1 of the guide at each position up to its tip.
+    directors: Vec<Vec3>,
 }
 
 /// Longest window (m) for the axis of hair without a curl.
@@ -32,13 +34,14 @@ impl Wisp {
         let length = guide.rod.length();
         let spacing = length / (samples - 1) as f64;
         let more = beyond_tip(guide, line[samples - 1], spacing, (beyond / spacing) as usize);
+        let directors = line.iter().map(|(_, frame)| frame.x_axis.as_vec3()).collect();
         let positions: Vec<DVec3> = line.into_iter().map(|(p, _)| p).chain(more).collect();
         let strain = guide.rod.natural().mean(0.0, length).length();
         let period = TAU / strain.max(1e-9);
         let window = if period < 0.5 * length { period } else { STRAIGHT_WINDOW.min(length) };
         let half = (0.5 * window / length * (samples - 1) as f64).max(1.0);
         let turns = transported(&positions, half);
-        Self { length, spacing, positions, turns }
+        Self { length, spacing, positions, turns, directors }
     }
 
     /// How far it is known, 1 for the tip.
@@ -54,6 +57,17 @@ impl Wisp {
         let i = (place as usize).min(last - 1);
         let t = place - i as f64;
         (catmull_rom(&self.positions, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
+    }
+}
+
+impl Wisp {
+    /// The director d1 of the guide at `x` from 0 (root) to 1 (tip).
+    pub(crate) fn director(&self, x: f64) -> Vec3 {
+        let last = self.directors.len() - 1;
+        let place = (x.max(0.0) * self.length / self.spacing).min(last as f64);
+        let i = (place as usize).min(last - 1);
+        let t = (place - i as f64) as f32;
+        self.directors[i].lerp(self.directors[i + 1], t).normalize_or(self.directors[i])
     }
 }
 

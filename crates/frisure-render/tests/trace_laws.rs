@@ -6,7 +6,7 @@ use frisure_optics::Melanin;
 use frisure_render::preview::Scene;
 use frisure_render::trace::{TraceError, TraceOptions, render};
 use frisure_render::{Background, Image, Lights, Look};
-use frisure_strands::Strands;
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::Vec3;
 
 /// A tuft of curls on a ball's upper half, some centimetres wide.
@@ -101,4 +101,27 @@ fn impossible_pictures_are_refused_before_the_work() {
     let scene = Scene::portrait(&strands, None);
     let stopped = render(&scene, &SMALL, &|_| ControlFlow::Break(()));
     assert_eq!(stopped, Err(TraceError::Cancelled));
+}
+
+#[test]
+fn flat_white_hair_cannot_be_seen_either_and_round_hair_needs_no_frame() {
+    let room = || Some(Lights { lamps: Vec::new(), sky: Vec3::ONE, ground: Vec3::ONE });
+    let with = |ratio: f32| {
+        let mut strands = tuft();
+        let directors = strands.points().iter().map(|p| p.any_orthonormal_vector().to_array());
+        let d1 = AttributeValues::F32x3(directors.collect());
+        let d1 = Attribute { name: "d1".into(), domain: Domain::Point, values: d1 };
+        let values = AttributeValues::F32(vec![ratio; strands.len()]);
+        let ratio = Attribute { name: "axis_ratio".into(), domain: Domain::Strand, values };
+        strands.set_attribute(d1).unwrap();
+        strands.set_attribute(ratio).unwrap();
+        strands
+    };
+    for ratio in [0.6, 1.7] {
+        let light = mean(&drawn(&with(ratio), look(Melanin::WHITE), room(), SMALL));
+        assert!((light - Vec3::ONE).abs().max_element() < 0.01, "{ratio}: {light}");
+    }
+    let plain = mean(&drawn(&tuft(), look(Melanin::BLOND), None, SMALL));
+    let round = mean(&drawn(&with(1.0), look(Melanin::BLOND), None, SMALL));
+    assert!((plain - round).abs().max_element() < 0.03 * plain.max_element(), "{plain} {round}");
 }

@@ -54,6 +54,38 @@ pub(crate) fn draw(
     Ok(strands)
 }
 
+/// Adds the sections of the drawn hairs: the director d1 at each point, and the axis ratio of each
+/// strand.
+pub(crate) fn add_sections(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
+    let Some(AttributeValues::U32(guides)) = strands.attribute("guide").map(|a| &a.values) else {
+        return;
+    };
+    let population = Population::new(hairstyle, head);
+    let last = (hairstyle.spec.wisps.points - 1) as f32;
+    let points = hairstyle.spec.wisps.points;
+    let directors: Vec<[f32; 3]> = (guides.par_iter().enumerate())
+        .flat_map_iter(|(strand, &guide)| {
+            // Hairs of a wisp turn with their guide, at the same distance from the root.
+            let line = strands.strand(strand).points;
+            let length = line.windows(2).map(|p| p[0].distance(p[1])).sum::<f32>();
+            let of = population.share_of(guide as usize, f64::from(length));
+            let director = population.wisp(guide as usize);
+            (0..points).map(move |k| director.director(of * f64::from(k as f32 / last)).to_array())
+        })
+        .collect();
+    let ratio = |&guide: &u32| {
+        let section = hairstyle.guides[guide as usize].rod.spec().section;
+        (section.a() / section.b()) as f32
+    };
+    let ratios = AttributeValues::F32(guides.iter().map(ratio).collect());
+    let d1 = AttributeValues::F32x3(directors);
+    let d1 = Attribute { name: "d1".into(), domain: Domain::Point, values: d1 };
+    let ratios = Attribute { name: "axis_ratio".into(), domain: Domain::Strand, values: ratios };
+    for attribute in [d1, ratios] {
+        strands.set_attribute(attribute).expect("one value each, set once");
+    }
+}
+
 /// Deepest that a point of the strands, other than a root, is inside the body of a head (m); 0 if
 /// none is.
 #[must_use]

@@ -106,8 +106,9 @@ impl World {
     }
 
     fn hair(&self, hit: &HairHit, direction: Vec3) -> Matter<'_> {
-        // Sections are round until strands carry their material frames: any d1 will do.
-        let frame = FibreFrame::new(hit.tangent, hit.tangent.any_orthonormal_vector());
+        let d1 = self.fibres.director(hit.strand, hit.segment, hit.u);
+        let d1 = d1.unwrap_or_else(|| hit.tangent.any_orthonormal_vector());
+        let frame = FibreFrame::new(hit.tangent, d1);
         let eye = frame.to_local(-direction);
         // A hit counts its offset along direction × tangent, a scattering along eye × tangent.
         let scattering = Scattering::new(self.fibres.of(hit.strand), eye, -hit.h);

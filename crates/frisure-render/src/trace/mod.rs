@@ -1,6 +1,8 @@
 //! The final picture: light followed from the eye through hair, head and lamps.
 //!
-//! An unbiased path tracer on the CPU. In the order of the computation: `sampler` gives each sample of
+//! An unbiased path tracer on the CPU. Beside the attributes of [`crate::preview::Scene`] it uses `d1`
+//! (three numbers per point), the director along the semi-axis a of the section, and `axis_ratio` (a/b,
+//! per strand); without them fibres are round. Rays meet round tubes of the mean radius. In the order of the computation: `sampler` gives each sample of
 //! each pixel its numbers, `integrator` follows the light, scattered by the fibres of `hair` and by the
 //! skin, to the `lights`.
 

@@ -163,13 +163,16 @@ impl Work {
 
     fn draw(&self, hair: &Hair, frame: usize) -> Result<Drawn, Failure> {
         let (hairstyle, head) = (&hair.styled.hairstyles[frame], &hair.head);
-        let strands = match self.draws() {
+        let mut strands = match self.draws() {
             true => {
                 let watch = Watch(&self.progress);
                 hairstyle.strands(head, &watch).map_err(|_| Failure::Interrupted)?
             }
             false => Strands::new(),
         };
+        if self.arguments.image.is_some() && self.arguments.quality == Quality::Final {
+            hairstyle.add_sections(&mut strands, head);
+        }
         let shown = hair.shown.as_ref().unwrap_or(&strands);
         let picture = self.arguments.image.as_ref().map(|_| self.picture(&strands, shown, head));
         let picture = picture.transpose()?;
