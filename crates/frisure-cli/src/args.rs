@@ -44,6 +44,8 @@ pub(crate) enum Command {
     Predict(Predict),
     /// Add steps to a scene, take one out, or list them: what is done to the hair.
     Style(Style),
+    /// Draw the final picture of a head of hair, by following the light.
+    Render(Render),
     /// Compute one hair: its shape, its energies, and how sure they are.
     Hair(Hair),
     /// List the hair types that a scene can start from, or all that is measured of one.
@@ -150,6 +152,64 @@ pub(crate) enum Quality {
     Final,
 }
 
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  frisure render scenes/curly.toml -o curly.png
+  frisure render scenes/afro.toml -o back.png --camera back --size 512x640 --paths 256
+
+It is `frisure predict SCENE --image PICTURE --quality final`, with another size or camera than the
+scene's, if asked for. Noise falls with the root of the paths: four times as many, half of it.";
+
+/// Arguments of `frisure render`.
+#[derive(Args, Debug)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct Render {
+    /// The scene (TOML), or `-` for standard input.
+    pub(crate) scene: PathBuf,
+
+    /// The picture (.png).
+    #[arg(long, short, value_name = "PNG")]
+    pub(crate) output: PathBuf,
+
+    /// Paths of light per pixel, 1 to 65536.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = paths)]
+    pub(crate) paths: usize,
+
+    /// Width and height (pixels), instead of the scene's.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub(crate) size: Option<(usize, usize)>,
+
+    /// Where it is taken from, instead of the scene's place.
+    #[arg(long, value_enum, value_name = "CAMERA")]
+    pub(crate) camera: Option<CameraName>,
+}
+
+/// A place to take a picture from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CameraName {
+    /// In front of the face.
+    Front,
+    /// Between front and left side.
+    ThreeQuarter,
+    /// The head's left side.
+    Side,
+    /// Behind.
+    Back,
+}
+
+impl CameraName {
+    /// Angle around the head (rad), from the face to its left.
+    pub(crate) fn azimuth(self) -> f64 {
+        let degrees: f64 = match self {
+            Self::Front => 0.0,
+            Self::ThreeQuarter => 35.0,
+            Self::Side => 90.0,
+            Self::Back => 180.0,
+        };
+        degrees.to_radians()
+    }
+}
+
 const HAIR_EXAMPLES: &str = "\
 Examples:
   frisure hair scenes/curly.toml
@@ -218,6 +278,11 @@ fn points(text: &str) -> Result<usize, String> {
 
 fn step_number(text: &str) -> Result<usize, String> {
     number(text, 1, usize::MAX).map_err(|_| "steps are numbered from 1".into())
+}
+
+fn size(text: &str) -> Result<(usize, usize), String> {
+    let (width, height) = text.split_once('x').ok_or("it must be such as 1024x1280")?;
+    Ok((number(width, 1, 16_384)?, number(height, 1, 16_384)?))
 }
 
 fn paths(text: &str) -> Result<usize, String> {

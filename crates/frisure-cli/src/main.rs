@@ -38,6 +38,7 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
     match arguments.command {
         Command::Predict(predict) => commands::predict::run(predict, quiet),
         Command::Style(style) => commands::style::run(&style, quiet),
+        Command::Render(render) => commands::render::run(render, quiet),
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),

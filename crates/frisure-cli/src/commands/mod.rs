@@ -4,6 +4,7 @@ pub(crate) mod hair;
 pub(crate) mod new;
 pub(crate) mod predict;
 pub(crate) mod presets;
+pub(crate) mod render;
 pub(crate) mod schema;
 pub(crate) mod style;
 

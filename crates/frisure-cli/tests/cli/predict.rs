@@ -148,6 +148,34 @@ fn a_step_that_cannot_be_done_is_told_with_its_line_and_nothing_is_written() {
 }
 
 #[test]
+fn a_final_picture_of_another_size_from_behind() {
+    let room = Room::new().with("quick.toml", QUICK);
+    let size = |name: &str| {
+        let png = fs::read(room.path(name)).unwrap();
+        (png[19], png[23])
+    };
+    let render = |extra: &[&str]| {
+        let ran = room.run(&[&["render", "quick.toml"], extra].concat());
+        (ran.code, ran.err)
+    };
+    assert_eq!(render(&["-o", "a.png", "--paths", "2"]), (Some(0), String::new()));
+    let back = ["--camera", "back", "--size", "20x30", "-o", "b.png", "--paths", "2"];
+    assert_eq!(render(&back), (Some(0), String::new()));
+    assert_eq!((size("a.png"), size("b.png")), ((48, 40), (20, 30)));
+    for (wrong, problem) in [
+        (["--size", "0x10"], "between 1 and 16384"),
+        (["--size", "wide"], "1024x1280"),
+        (["--paths", "0"], "between 1 and 65536"),
+        (["--camera", "above"], "three-quarter"),
+    ] {
+        let (code, err) = render(&[&wrong[..], &["-o", "c.png"]].concat());
+        assert!(code == Some(2) && err.contains(problem), "{err}");
+    }
+    let (code, err) = render(&["-o", "c.jpg"]);
+    assert!(code == Some(2) && err.contains("png"), "{err}");
+}
+
+#[test]
 fn the_seed_changes_the_head() {
     let groom = |seed: u32| {
         let text = format!("seed = {seed}\n{QUICK}");

@@ -31,6 +31,11 @@ use steps::Styled;
 /// Computes what the arguments ask for, and writes it.
 pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
     let scene = read_scene(&arguments.scene)?;
+    run_scene(arguments, scene, quiet)
+}
+
+/// The same for a scene that was read already.
+pub(crate) fn run_scene(arguments: Predict, scene: Scene, quiet: bool) -> Result<Done, Failure> {
     let spec = scene.hairstyle_spec()?;
     check_outputs(&arguments, &scene)?;
 
