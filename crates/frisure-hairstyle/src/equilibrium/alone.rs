@@ -118,9 +118,10 @@ fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibriu
 /// How hard a comb or a clip pulls, in steps: it does not tear hair through the head …
 const PULLS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
 
-/// … and how hard while it lets go: hair sinks to where it is let go.
-const LETTING_GO: [f64; 7] = [0.6, 0.35, 0.2, 0.1, 0.05, 0.02, 0.0];
+/// … and how hard while it lets go, before it is gone: hair sinks to where it is let go.
+const LETTING_GO: [f64; 6] = [0.6, 0.35, 0.2, 0.1, 0.05, 0.02];
 
+/// From where it lay to rest; `gone` is what pulled at it and has let go.
 fn resettle_one(
     spec: &HairstyleSpec,
     head: &Head,
@@ -142,19 +143,16 @@ fn resettle_one(
             equilibrium_from(&guide.rod, &[&body, &along(pull, guide, elements)], &options, from)
         }
     };
-    let rest = match (guide.pull, gone) {
-        (None, None) => settle(None, before),
-        (Some(pull), _) => {
-            PULLS[1..].iter().fold(settle(Some(pull.scaled(PULLS[0])), before), |rest, &share| {
-                settle(Some(pull.scaled(share)), &rest)
-            })
+    let pulls: Vec<Option<Pull>> = match (guide.pull, gone) {
+        (None, None) => vec![None],
+        (Some(pull), _) => PULLS.iter().map(|&share| Some(pull.scaled(share))).collect(),
+        (None, Some(gone)) => {
+            let going = LETTING_GO.iter().map(|&share| Some(gone.scaled(share)));
+            going.chain([None]).collect()
         }
-        (None, Some(gone)) => LETTING_GO[1..]
-            .iter()
-            .fold(settle(Some(gone.scaled(LETTING_GO[0])), before), |rest, &share| {
-                settle((share > 0.0).then(|| gone.scaled(share)), &rest)
-            }),
     };
+    let first = settle(pulls[0], before);
+    let rest = pulls[1..].iter().fold(first, |rest, &pull| settle(pull, &rest));
     // It may have been pushed into the body, or have been there when it was held: then it comes down
     // from its root again.
     let deep = depth(head, &rest);

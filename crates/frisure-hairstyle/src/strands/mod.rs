@@ -61,16 +61,15 @@ pub(crate) fn add_sections(strands: &mut Strands, hairstyle: &Hairstyle, head: &
         return;
     };
     let population = Population::new(hairstyle, head);
-    let last = (hairstyle.spec.wisps.points - 1) as f32;
     let points = hairstyle.spec.wisps.points;
     let directors: Vec<[f32; 3]> = (guides.par_iter().enumerate())
         .flat_map_iter(|(strand, &guide)| {
             // Hairs of a wisp turn with their guide, at the same distance from the root.
             let line = strands.strand(strand).points;
             let length = line.windows(2).map(|p| p[0].distance(p[1])).sum::<f32>();
-            let of = population.share_of(guide as usize, f64::from(length));
-            let director = population.wisp(guide as usize);
-            (0..points).map(move |k| director.director(of * f64::from(k as f32 / last)).to_array())
+            let wisp = population.wisp(guide as usize);
+            let step = f64::from(length) / wisp.length / (points - 1) as f64;
+            (0..points).map(move |k| wisp.director(k as f64 * step).to_array())
         })
         .collect();
     let ratio = |&guide: &u32| {

@@ -203,11 +203,6 @@ impl<'a> Population<'a> {
         &self.wisps[guide]
     }
 
-    /// A length (m) as a share of a guide's.
-    pub(super) fn share_of(&self, guide: usize, length: f64) -> f64 {
-        length / self.wisps[guide].length
-    }
-
     /// The guide of a hair rooted somewhere.
     pub(crate) fn main(&self, root: &Root) -> usize {
         self.sorted(root, self.layout.direction(root))[0]

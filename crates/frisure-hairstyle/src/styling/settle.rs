@@ -87,13 +87,11 @@ impl Hairstyle {
         monitor: &dyn Monitor,
     ) -> Result<Rest, StyleError> {
         let mut before = self.rest.guides.clone();
-        let mut changes: Vec<Change> = (changed.iter().enumerate())
-            .map(
-                |(i, &changed)| {
-                    if changed { self.change(styling, i, otherwise) } else { Change::None }
-                },
-            )
-            .collect();
+        let change = |(wisp, &changed): (usize, &bool)| match changed {
+            true => self.change(styling, wisp, otherwise),
+            false => Change::None,
+        };
+        let mut changes: Vec<Change> = changed.iter().enumerate().map(change).collect();
         let lay = styling.lay.as_ref().filter(|lay| lay.humidity == styling.humidity);
         if let Some(lay) = lay {
             if let Some((states, rest)) = &lay.whole
