@@ -1,4 +1,4 @@
-//! A pinhole camera.
+//! A camera.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -12,7 +12,8 @@ const MARGIN: f64 = 0.05;
 /// Points on each rim of the cylinder that [`Camera::framing`] fits into the picture.
 const AROUND: u32 = 32;
 
-/// A perspective camera: an eye, an upright frame and a vertical field of view.
+/// A perspective camera: an eye, an upright frame, a vertical field of view, and an opening, if it is
+/// not a pinhole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: DVec3,
@@ -20,6 +21,19 @@ pub struct Camera {
     right: DVec3,
     up: DVec3,
     vertical_fov: f64,
+    aperture: Option<Aperture>,
+}
+
+/// The opening of a thin lens: what is nearer or farther than its focus is blurred. For the path tracer
+/// alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aperture {
+    /// Radius of the opening (m). A lens of focal length f at the f-number N has f / 2N: 15 mm for a
+    /// portrait lens of 85 mm at f/2.8.
+    pub radius: f64,
+    /// Distance along the view that is sharp (m); without it, that of the nearest thing in the middle of
+    /// the picture.
+    pub focus: Option<f64>,
 }
 
 /// Why a camera cannot be made.
@@ -40,6 +54,12 @@ pub enum CameraError {
     FieldOfView {
         /// The field of view given (degrees).
         degrees: f64,
+    },
+    /// An opening or a distance of focus that no lens has.
+    #[error("the lens must have an opening of 0 to 1 m and a focus above 0 m, not {aperture:?}")]
+    Aperture {
+        /// The opening given.
+        aperture: Aperture,
     },
 }
 
@@ -64,7 +84,7 @@ impl Camera {
         if !eye.is_finite() {
             return Err(bad);
         }
-        Ok(Self { eye, forward, right, up: right.cross(forward), vertical_fov })
+        Ok(Self { eye, forward, right, up: right.cross(forward), vertical_fov, aperture: None })
     }
 
     /// A camera that shows what stands upright in the box `bounds` (smallest and largest corner, m)
@@ -103,7 +123,26 @@ impl Camera {
                 fit_h.max(fit_v) - rim.dot(forward)
             })
             .fold(0.0, f64::max);
-        Self { eye: centre - distance * forward, forward, right, up, vertical_fov: PORTRAIT_FOV }
+        let eye = centre - distance * forward;
+        Self { eye, forward, right, up, vertical_fov: PORTRAIT_FOV, aperture: None }
+    }
+
+    /// The same camera with an opening.
+    ///
+    /// # Errors
+    /// [`CameraError::Aperture`], if its numbers are impossible.
+    pub fn with_aperture(self, aperture: Aperture) -> Result<Self, CameraError> {
+        let sharp = aperture.focus.is_none_or(|focus| focus > 0.0 && focus.is_finite());
+        match (0.0..=1.0).contains(&aperture.radius) && sharp {
+            true => Ok(Self { aperture: Some(aperture), ..self }),
+            false => Err(CameraError::Aperture { aperture }),
+        }
+    }
+
+    /// The opening; none for a pinhole.
+    #[must_use]
+    pub fn aperture(&self) -> Option<Aperture> {
+        self.aperture
     }
 
     /// Position of the eye (m).

@@ -17,7 +17,7 @@ mod look;
 pub mod preview;
 pub mod trace;
 
-pub use camera::{Camera, CameraError};
+pub use camera::{Aperture, Camera, CameraError};
 pub use film::{Image, ToneCurve};
 pub use light::{DirectionalLight, Lights};
-pub use look::{Background, HairLook, Look, SkinLook};
+pub use look::{Background, Ground, HairLook, Look, SkinLook};

@@ -1,7 +1,7 @@
 //! What things are made of, as far as a picture can tell.
 
 use frisure_optics::{LobeShape, Melanin};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Appearance of everything in a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +12,8 @@ pub struct Look {
     pub skin: SkinLook,
     /// What is behind.
     pub background: Background,
+    /// A floor under the head; drawn by the path tracer alone.
+    pub ground: Option<Ground>,
 }
 
 /// Appearance of hair.
@@ -66,6 +68,18 @@ impl Default for SkinLook {
     }
 }
 
+/// A level floor, lit and shaded like everything else, that is lost in the background far from its
+/// middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ground {
+    /// Its middle (m): the place under the head.
+    pub middle: DVec3,
+    /// Distance from the middle (m) at which only the background is seen.
+    pub reach: f64,
+    /// Diffuse reflectance, linear sRGB.
+    pub colour: Vec3,
+}
+
 /// What is behind the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Background {
@@ -78,6 +92,8 @@ pub enum Background {
         /// Radiance at the corners.
         corner: Vec3,
     },
+    /// What lights the scene: sky and ground.
+    Surroundings,
 }
 
 impl Default for Background {
@@ -87,10 +103,11 @@ impl Default for Background {
 }
 
 impl Background {
-    /// Radiance (premultiplied) and alpha at `u`, `v`, from −1 to 1 across the picture.
+    /// Radiance (premultiplied) and alpha at `u`, `v`, from −1 to 1 across the picture; nothing where
+    /// the direction decides.
     pub(crate) fn at(&self, u: f32, v: f32) -> (Vec3, f32) {
         match *self {
-            Self::Transparent => (Vec3::ZERO, 0.0),
+            Self::Transparent | Self::Surroundings => (Vec3::ZERO, 0.0),
             Self::Gradient { centre, corner } => {
                 let r = (0.5 * (u * u + v * v)).min(1.0);
                 (centre.lerp(corner, r * (2.0 - r)), 1.0)

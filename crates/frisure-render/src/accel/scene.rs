@@ -79,6 +79,19 @@ impl Scene {
         self.skin.occluded(self.level, ray, t_max) || self.hair.occluded(self.level, ray, t_max)
     }
 
+    /// Whether most ways out of a point pass through the head's skin from its inside.
+    #[must_use]
+    pub fn is_inside_head(&self, point: Vec3) -> bool {
+        let corner =
+            |i: u8| Vec3::from_array([1, 2, 4].map(|bit| if i & bit == 0 { -1.0 } else { 0.9 }));
+        let leaves = |direction: Vec3| {
+            let ray = Ray::new(point, direction);
+            let found = self.skin.closest(self.level, &ray, f32::INFINITY);
+            found.is_some_and(|found| self.skin_hit(&ray, &found).normal.dot(direction) > 0.0)
+        };
+        (0..8).filter(|i| leaves(corner(*i))).count() > 4
+    }
+
     /// Smallest and largest corner of a box around everything (m); `None` if there is nothing.
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {

@@ -1,7 +1,7 @@
 //! The fibre that each strand is, for light.
 
-use frisure_optics::absorption;
 use frisure_optics::scattering::{Fibre, FibreError, FibreSpec};
+use frisure_optics::{absorption, apparent_colour};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
@@ -62,6 +62,12 @@ impl Fibres {
         let ratio = self.ratio.as_ref().map_or(0, |ratio| usize::from(ratio[strand]));
         let of = ratio * self.wet_levels + wet;
         &self.fibres[of * self.levels + usize::from(self.level[strand])]
+    }
+
+    /// Colour that much hair like a strand appears to have.
+    pub(super) fn albedo(&self, strand: u32) -> Vec3 {
+        let spec = self.of(strand).spec();
+        apparent_colour(spec.absorption, spec.azimuthal_roughness)
     }
 
     /// Director d1 between a point of a strand and the next; none where the strands do not say.

@@ -3,14 +3,15 @@
 //! Path tracing with next-event estimation; light sampling and scattering share each path of light by
 //! multiple importance sampling with the power heuristic (Veach 1997).
 
-use std::f32::consts::{FRAC_1_PI, TAU};
-
 use frisure_optics::scattering::{FibreFrame, Scattering};
 use glam::Vec3;
 
+use super::ground::Ground;
 use super::hair::Fibres;
-use super::lights::{Outside, about};
+use super::lights::Outside;
+use super::matter::Matter;
 use super::sampler::Sampler;
+use super::surface::Plastic;
 use crate::SkinLook;
 use crate::accel::{HairHit, Hit, Ray, Scene, SkinHit};
 
@@ -20,6 +21,7 @@ pub(super) struct World {
     pub(super) fibres: Fibres,
     pub(super) outside: Outside,
     pub(super) skin: SkinLook,
+    pub(super) ground: Option<Ground>,
     pub(super) bounces: u32,
 }
 
@@ -29,41 +31,61 @@ const SURE_BOUNCES: u32 = 6;
 /// Farthest that light is followed (m).
 const FAR: f32 = 1e4;
 
-/// Width of the skin's soft gloss: exponent of its lobe about the mirrored direction.
-const GLOSS: f32 = 24.0;
-
-/// Share of the light that it mirrors, per unit of [`SkinLook::gloss`].
-const GLOSSED: f32 = 0.08;
-
-/// Light and coverage along a ray.
+/// Light along a ray, and what it met first.
 pub(super) struct Seen {
     pub(super) radiance: Vec3,
-    /// Whether the ray met anything.
-    pub(super) covered: bool,
+    pub(super) first: Option<First>,
 }
 
-/// How light goes on from a hit.
-struct Onward {
-    towards: Vec3,
-    weight: Vec3,
-    pdf: f32,
+/// What a ray from the eye met first.
+pub(super) struct First {
+    /// Distance (m).
+    pub(super) t: f32,
+    pub(super) thing: Thing,
+    /// Share of the light from everywhere that is given back, by colour.
+    pub(super) albedo: Vec3,
+    /// Unit normal, towards the eye.
+    pub(super) normal: Vec3,
 }
 
-/// What a hit does to light.
-enum Matter<'a> {
-    Hair { frame: FibreFrame, scattering: Scattering<'a> },
-    Skin { normal: Vec3, eye: Vec3, look: &'a SkinLook },
+/// What is seen.
+pub(super) enum Thing {
+    Hair {
+        strand: u32,
+        tangent: Vec3,
+    },
+    Skin,
+    /// With the share of the background that is seen instead.
+    Ground {
+        faded: f32,
+    },
+}
+
+/// What a ray meets.
+enum Met {
+    Hit(Hit),
+    Ground { t: f32, point: Vec3 },
+}
+
+impl Met {
+    /// Where light that goes on in the direction `towards` starts (m).
+    fn start(&self, towards: Vec3) -> Vec3 {
+        match self {
+            Self::Hit(hit) => hit.start(towards),
+            Self::Ground { point, .. } => *point,
+        }
+    }
 }
 
 impl World {
     /// Light that arrives along a ray from its start.
     pub(super) fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Seen {
-        let mut seen = Seen { radiance: Vec3::ZERO, covered: false };
+        let mut seen = Seen { radiance: Vec3::ZERO, first: None };
         let (mut ray, mut throughput) = (ray, Vec3::ONE);
         // Density of the direction that led here; the eye's own is beyond choice.
         let mut chosen: Option<f32> = None;
         for bounce in 0..=self.bounces {
-            let Some(hit) = self.scene.closest_hit(&ray, FAR) else {
+            let Some(met) = self.meets(&ray) else {
                 if let Some(pdf) = chosen {
                     let light = self.outside.radiance(ray.direction());
                     let share = power(pdf, self.outside.pdf(ray.direction()));
@@ -71,12 +93,14 @@ impl World {
                 }
                 return seen;
             };
-            seen.covered = true;
+            if bounce == 0 {
+                seen.first = Some(self.first(&met, ray.direction()));
+            }
             if bounce == self.bounces {
                 return seen;
             }
-            let matter = self.matter(&hit, ray.direction());
-            seen.radiance += throughput * self.direct(&hit, &matter, sampler);
+            let matter = self.matter(&met, ray.direction());
+            seen.radiance += throughput * self.direct(&met, &matter, sampler);
             let Some(onward) = matter.sample(sampler) else { return seen };
             throughput *= onward.weight;
             if bounce >= SURE_BOUNCES {
@@ -87,22 +111,73 @@ impl World {
                 }
                 throughput /= survives;
             }
-            ray = Ray::new(hit.start(onward.towards), onward.towards);
+            ray = Ray::new(met.start(onward.towards), onward.towards);
             chosen = Some(onward.pdf);
         }
         seen
     }
 
-    fn matter(&self, hit: &Hit, direction: Vec3) -> Matter<'_> {
-        match hit {
-            Hit::Hair(hit) => self.hair(hit, direction),
-            Hit::Skin(SkinHit { smooth_normal, .. }) => {
-                let eye = -direction;
-                let normal =
-                    if smooth_normal.dot(eye) < 0.0 { -*smooth_normal } else { *smooth_normal };
-                Matter::Skin { normal, eye, look: &self.skin }
+    /// Distance (m) at which a ray meets anything.
+    pub(super) fn distance(&self, ray: &Ray) -> Option<f32> {
+        self.meets(ray).map(|met| match met {
+            Met::Hit(hit) => hit.t(),
+            Met::Ground { t, .. } => t,
+        })
+    }
+
+    fn meets(&self, ray: &Ray) -> Option<Met> {
+        let ground = self.ground.as_ref().and_then(|ground| ground.meets(ray));
+        let hit = self.scene.closest_hit(ray, ground.map_or(FAR, |(t, _)| t));
+        hit.map(Met::Hit).or_else(|| ground.map(|(t, point)| Met::Ground { t, point }))
+    }
+
+    fn hidden(&self, ray: &Ray) -> bool {
+        self.ground.as_ref().is_some_and(|ground| ground.meets(ray).is_some())
+            || self.scene.occluded(ray, FAR)
+    }
+
+    fn first(&self, met: &Met, direction: Vec3) -> First {
+        match met {
+            Met::Hit(Hit::Hair(hit)) => First {
+                t: hit.t,
+                thing: Thing::Hair { strand: hit.strand, tangent: hit.tangent },
+                albedo: self.fibres.albedo(hit.strand),
+                normal: hit.normal,
+            },
+            Met::Hit(Hit::Skin(hit)) => First {
+                t: hit.t,
+                thing: Thing::Skin,
+                albedo: self.skin.colour,
+                normal: facing(hit.smooth_normal, -direction),
+            },
+            Met::Ground { t, point } => {
+                let ground = self.ground.as_ref().expect("it was met");
+                let (albedo, normal) = (ground.colour(), Vec3::Z);
+                First {
+                    t: *t,
+                    thing: Thing::Ground { faded: ground.faded(*point) },
+                    albedo,
+                    normal,
+                }
             }
         }
+    }
+
+    fn matter(&self, met: &Met, direction: Vec3) -> Matter<'_> {
+        match met {
+            Met::Hit(Hit::Hair(hit)) => self.hair(hit, direction),
+            Met::Hit(Hit::Skin(hit)) => Matter::Surface(self.skin(hit, -direction)),
+            Met::Ground { .. } => {
+                let colour = self.ground.as_ref().map_or(Vec3::ZERO, Ground::colour);
+                Matter::Surface(Plastic::new(Vec3::Z, -direction, colour, 0.0, 1.0))
+            }
+        }
+    }
+
+    fn skin(&self, hit: &SkinHit, eye: Vec3) -> Plastic {
+        let SkinLook { colour, gloss } = self.skin;
+        let normal = facing(hit.smooth_normal, eye);
+        Plastic::new(normal, eye, colour, (REFLECTED * gloss).clamp(0.0, 0.2), SKIN_ROUGHNESS)
     }
 
     fn hair(&self, hit: &HairHit, direction: Vec3) -> Matter<'_> {
@@ -116,59 +191,30 @@ impl World {
     }
 
     /// Light that comes straight from outside and is scattered towards the eye.
-    fn direct(&self, hit: &Hit, matter: &Matter<'_>, sampler: &mut Sampler) -> Vec3 {
+    fn direct(&self, met: &Met, matter: &Matter<'_>, sampler: &mut Sampler) -> Vec3 {
         let which = sampler.one();
         let light = self.outside.sample(which, sampler.pair());
         let (value, pdf) = matter.evaluate(light.towards);
         if light.pdf <= 0.0 || value.max_element() <= 0.0 {
             return Vec3::ZERO;
         }
-        let ray = Ray::new(hit.start(light.towards), light.towards);
-        if self.scene.occluded(&ray, FAR) {
+        if self.hidden(&Ray::new(met.start(light.towards), light.towards)) {
             return Vec3::ZERO;
         }
         value * light.radiance * (power(light.pdf, pdf) / light.pdf)
     }
 }
 
-impl Matter<'_> {
-    /// Scattering function times the cosine, and the density of [`Self::sample`] (1/sr).
-    fn evaluate(&self, towards: Vec3) -> (Vec3, f32) {
-        match self {
-            Self::Hair { frame, scattering } => {
-                let found = scattering.evaluate(frame.to_local(towards));
-                (found.f_cos, found.pdf)
-            }
-            Self::Skin { normal, eye, look } => {
-                let cosine = normal.dot(towards);
-                if cosine <= 0.0 {
-                    return (Vec3::ZERO, 0.0);
-                }
-                // A lobe about the mirrored direction, on top of what is diffuse; normalised.
-                let mirrored = 2.0 * normal.dot(*eye) * *normal - *eye;
-                let lobe = mirrored.dot(towards).max(0.0).powf(GLOSS) * (GLOSS + 1.0) / TAU;
-                let gloss = GLOSSED * look.gloss;
-                let diffuse = look.colour * ((1.0 - gloss) * cosine * FRAC_1_PI);
-                (diffuse + Vec3::splat(gloss * lobe), cosine * FRAC_1_PI)
-            }
-        }
-    }
+/// What skin's coat reflects head-on, per unit of [`SkinLook::gloss`]: about 0.03 by default, an index
+/// of 1.4.
+const REFLECTED: f32 = 0.24;
 
-    fn sample(&self, sampler: &mut Sampler) -> Option<Onward> {
-        let ([a, b], [c, d]) = (sampler.pair(), sampler.pair());
-        match self {
-            Self::Hair { frame, scattering } => {
-                let sample = scattering.sample([a, b, c, d]);
-                let (towards, pdf) = (frame.to_world(sample.wi), sample.pdf);
-                (pdf > 0.0).then_some(Onward { towards, weight: sample.weight, pdf })
-            }
-            Self::Skin { normal, .. } => {
-                let towards = about(*normal, (1.0 - a).sqrt(), TAU * b);
-                let (value, pdf) = self.evaluate(towards);
-                (pdf > 0.0).then(|| Onward { towards, weight: value / pdf, pdf })
-            }
-        }
-    }
+/// Roughness of the slopes of skin.
+const SKIN_ROUGHNESS: f32 = 0.3;
+
+/// The normal on the side of the eye.
+fn facing(normal: Vec3, eye: Vec3) -> Vec3 {
+    if normal.dot(eye) < 0.0 { -normal } else { normal }
 }
 
 /// Share of a path that is sampled with the density `mine`, and could have been with `other`.

@@ -1,0 +1,135 @@
+//! Light gathered so far: a picture that can be looked at, put away and exposed further.
+//!
+//! The picture is cut into tiles, the unit of work and of stopping. All pixels of a tile have the same
+//! number of samples, so that a picture that was interrupted anywhere is a picture, and goes on from
+//! there to the same bytes as one that was not.
+
+mod bytes;
+mod layers;
+mod noise;
+
+pub use bytes::{ExposureError, VERSION};
+pub use layers::Layers;
+
+use glam::Vec3;
+
+use crate::Image;
+
+/// Side of a tile (pixels).
+pub(super) const TILE: usize = 16;
+
+/// Light gathered so far.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exposure {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// What the light belongs to ([`super::Tracer::fingerprint`]).
+    pub(super) fingerprint: u64,
+    pub(super) tiles: Vec<Tile>,
+}
+
+/// A square of the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tile {
+    /// First column and row.
+    pub(super) x: usize,
+    pub(super) y: usize,
+    /// Columns.
+    pub(super) width: usize,
+    /// Samples in each pixel.
+    pub(super) samples: u32,
+    pub(super) pixels: Vec<Pixel>,
+}
+
+/// Sums over the samples of a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Pixel {
+    /// Scene-linear light, premultiplied.
+    pub(super) light: Vec3,
+    /// Of it, that of every other sample: what both halves differ by is noise.
+    pub(super) half: Vec3,
+    pub(super) alpha: f32,
+    /// Of what is seen first: reflectance,
+    pub(super) albedo: Vec3,
+    /// unit normal,
+    pub(super) normal: Vec3,
+    /// unit tangent of hair,
+    pub(super) tangent: Vec3,
+    /// distance along the view (m),
+    pub(super) depth: f32,
+    /// samples that met anything,
+    pub(super) met: f32,
+    /// and samples that met hair.
+    pub(super) hair: f32,
+    /// A wisp, counted from 1, and by how much it leads (Boyer and Moore's majority vote).
+    pub(super) wisp: u32,
+    pub(super) lead: u32,
+}
+
+impl Pixel {
+    /// Counts a sample that met a wisp, numbered from 1.
+    pub(super) fn vote(&mut self, wisp: u32) {
+        if self.lead == 0 {
+            (self.wisp, self.lead) = (wisp, 1);
+        } else if self.wisp == wisp {
+            self.lead += 1;
+        } else {
+            self.lead -= 1;
+        }
+    }
+}
+
+impl Exposure {
+    pub(super) fn new(width: usize, height: usize, fingerprint: u64) -> Self {
+        let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
+        let tile = |i: usize| {
+            let (x, y) = (i % across * TILE, i / across * TILE);
+            let (columns, rows) = ((width - x).min(TILE), (height - y).min(TILE));
+            let pixels = vec![Pixel::default(); columns * rows];
+            Tile { x, y, width: columns, samples: 0, pixels }
+        };
+        let tiles = (0..across * down).map(tile).collect();
+        Self { width, height, fingerprint, tiles }
+    }
+
+    /// Pixels across.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Pixels down.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Paths of light per pixel, in the mean.
+    #[must_use]
+    pub fn mean_samples(&self) -> f64 {
+        let of = |tile: &Tile| tile.pixels.len() as f64 * f64::from(tile.samples);
+        self.tiles.iter().map(of).sum::<f64>() / (self.width * self.height) as f64
+    }
+
+    /// The picture as it is now. Where there is no sample yet, it is transparent.
+    #[must_use]
+    pub fn image(&self) -> Image {
+        let mut image = Image::new(self.width, self.height);
+        let width = self.width;
+        self.each(|place, share, pixel| {
+            let light = (pixel.light * share).extend(pixel.alpha * share);
+            image.pixels_mut()[place.1 * width + place.0] = light.to_array();
+        });
+        image
+    }
+
+    /// Visits every pixel that has samples: its place, one over their number, and it.
+    fn each(&self, mut visit: impl FnMut((usize, usize), f32, &Pixel)) {
+        for tile in self.tiles.iter().filter(|tile| tile.samples > 0) {
+            let share = 1.0 / tile.samples as f32;
+            for (i, pixel) in tile.pixels.iter().enumerate() {
+                visit((tile.x + i % tile.width, tile.y + i / tile.width), share, pixel);
+            }
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! A number that tells pictures apart.
+
+/// Fowler, Noll and Vo's hash of 64 bits (FNV-1a), over words of eight bytes.
+#[derive(Clone, Debug)]
+pub(super) struct Fingerprint(u64);
+
+impl Fingerprint {
+    pub(super) fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    /// That of some bytes.
+    pub(super) fn of(bytes: &[u8]) -> u64 {
+        let mut all = Self::new();
+        all.put(bytes);
+        all.value()
+    }
+
+    pub(super) fn put(&mut self, bytes: &[u8]) {
+        let (words, rest) = bytes.as_chunks::<8>();
+        words.iter().for_each(|word| self.word(u64::from_le_bytes(*word)));
+        rest.iter().for_each(|byte| self.word(u64::from(*byte)));
+        self.word(bytes.len() as u64);
+    }
+
+    fn word(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+        // Multiplying only carries upwards.
+        self.0 ^= self.0 >> 32;
+    }
+
+    pub(super) fn value(&self) -> u64 {
+        self.0
+    }
+}

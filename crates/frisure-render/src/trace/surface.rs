@@ -1,0 +1,177 @@
+//! Skin and ground: a coloured, diffuse body under a rough, clear coat.
+//!
+//! The coat is a microfacet surface of Trowbridge and Reitz with Smith's shadowing (Walter et al. 2007),
+//! sampled by its visible normals (Heitz 2018, *Sampling the GGX distribution of visible normals*), with
+//! Schlick's Fresnel term. The body scatters what the coat lets in and out again, after Kelemen and
+//! Szirmay-Kalos 2001, *A microfacet based coupled specular-matte BRDF model with importance sampling*,
+//! which is reciprocal and never more than all.
+
+use std::f32::consts::{PI, TAU};
+
+use glam::Vec3;
+
+/// A surface, seen from a direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plastic {
+    frame: [Vec3; 3],
+    /// To the eye, in the frame.
+    eye: Vec3,
+    body: Vec3,
+    /// What the coat reflects head-on.
+    reflected: f32,
+    roughness: f32,
+    /// Share of the samples that go to the coat.
+    share: f32,
+}
+
+impl Plastic {
+    /// A surface with a unit `normal` seen from the unit direction `eye`, on the same side: of diffuse
+    /// reflectance `body`, with a coat that reflects `reflected` of what comes head-on, with the slopes'
+    /// `roughness`, 0.05 to 1.
+    pub(super) fn new(normal: Vec3, eye: Vec3, body: Vec3, reflected: f32, roughness: f32) -> Self {
+        let x = normal.any_orthonormal_vector();
+        let frame = [x, normal.cross(x), normal];
+        let local = Vec3::from_array(frame.map(|axis| axis.dot(eye)));
+        // A smooth normal may turn away from an eye that sees the face.
+        let eye = local.with_z(local.z.max(1e-3)).normalize();
+        let coat = fresnel(reflected, eye.z);
+        let through = (1.0 - coat) * body.max_element();
+        let share = if reflected > 0.0 { coat / (coat + through).max(1e-6) } else { 0.0 };
+        Self { frame, eye, body, reflected, roughness, share }
+    }
+
+    /// Scattering function times the cosine, and the density of [`Self::sample`] (1/sr).
+    pub(super) fn evaluate(&self, towards: Vec3) -> (Vec3, f32) {
+        let towards = Vec3::from_array(self.frame.map(|axis| axis.dot(towards)));
+        if towards.z <= 0.0 {
+            return (Vec3::ZERO, 0.0);
+        }
+        let diffuse = (1.0 - self.share) * towards.z / PI;
+        if self.reflected <= 0.0 {
+            return (self.body * (towards.z / PI), diffuse);
+        }
+        let body = self.body * (self.diffuse(towards.z) * towards.z);
+        let (coat, density) = self.coat(towards);
+        (body + Vec3::splat(coat), diffuse + self.share * density)
+    }
+
+    /// A unit direction from numbers in [0, 1).
+    pub(super) fn sample(&self, which: f32, [u, v]: [f32; 2]) -> Vec3 {
+        let local = if which < self.share {
+            let half = self.visible_normal(u, v);
+            2.0 * self.eye.dot(half) * half - self.eye
+        } else {
+            let (r, (s, c)) = (u.sqrt(), (TAU * v).sin_cos());
+            Vec3::new(r * c, r * s, (1.0 - u).sqrt())
+        };
+        (self.frame[0] * local.x + self.frame[1] * local.y + self.frame[2] * local.z).normalize()
+    }
+
+    fn diffuse(&self, cosine: f32) -> f32 {
+        let passed = |c: f32| 1.0 - fresnel(self.reflected, c);
+        // The mean of what passes, weighted by the cosine: of (1 − c)⁵ it is 1/21.
+        let mean = (1.0 - self.reflected) * 20.0 / 21.0;
+        passed(cosine) * passed(self.eye.z) / (PI * mean)
+    }
+
+    /// The coat's scattering function times the cosine, and the density of its samples.
+    fn coat(&self, towards: Vec3) -> (f32, f32) {
+        let half = (towards + self.eye).normalize();
+        let a2 = self.roughness * self.roughness;
+        let slope = 1.0 + (a2 - 1.0) * half.z * half.z;
+        let density = a2 / (PI * slope * slope);
+        let hidden = |c: f32| ((1.0 + a2 * (1.0 / (c * c) - 1.0)).sqrt() - 1.0) * 0.5;
+        let (to_eye, to_light) = (hidden(self.eye.z), hidden(towards.z));
+        let seen = density / (4.0 * self.eye.z * (1.0 + to_eye));
+        let both = density / (4.0 * self.eye.z * (1.0 + to_eye + to_light));
+        (fresnel(self.reflected, half.dot(self.eye)) * both, seen)
+    }
+
+    /// A normal of the coat, as often as it is seen from the eye.
+    fn visible_normal(&self, u: f32, v: f32) -> Vec3 {
+        let a = self.roughness;
+        let stretched = Vec3::new(a * self.eye.x, a * self.eye.y, self.eye.z).normalize();
+        let level = stretched.x * stretched.x + stretched.y * stretched.y;
+        let x = match level > 1e-12 {
+            true => Vec3::new(-stretched.y, stretched.x, 0.0) / level.sqrt(),
+            false => Vec3::X,
+        };
+        let y = stretched.cross(x);
+        let (r, (s, c)) = (u.sqrt(), (TAU * v).sin_cos());
+        let p = r * c;
+        let lean = 0.5 * (1.0 + stretched.z);
+        let q = (1.0 - lean) * (1.0 - p * p).max(0.0).sqrt() + lean * r * s;
+        let out = p * x + q * y + (1.0 - p * p - q * q).max(0.0).sqrt() * stretched;
+        Vec3::new(a * out.x, a * out.y, out.z.max(1e-6)).normalize()
+    }
+}
+
+/// Reflection at the cosine of incidence (Schlick 1994).
+fn fresnel(head_on: f32, cosine: f32) -> f32 {
+    head_on + (1.0 - head_on) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const N: usize = 512;
+
+    fn over_the_sphere(mut f: impl FnMut(Vec3) -> f32) -> f32 {
+        let mut sum = 0.0;
+        for i in 0..N {
+            for j in 0..N {
+                let z = 2.0 * (i as f32 + 0.5) / N as f32 - 1.0;
+                let (s, c) = (TAU * (j as f32 + 0.5) / N as f32).sin_cos();
+                let r = (1.0 - z * z).sqrt();
+                sum += f64::from(f(Vec3::new(r * c, r * s, z)));
+            }
+        }
+        (sum * 2.0 * f64::from(TAU) / (N * N) as f64) as f32
+    }
+
+    fn seen_at(angle: f32) -> Plastic {
+        let (s, c) = angle.sin_cos();
+        Plastic::new(Vec3::Z, Vec3::new(s, 0.0, c), Vec3::splat(0.9), 0.04, 0.3)
+    }
+
+    #[test]
+    fn the_density_is_one_in_all_and_no_light_is_made() {
+        for angle in [0.0, 0.7, 1.3, 1.5] {
+            let plastic = seen_at(angle);
+            let whole = over_the_sphere(|towards| plastic.evaluate(towards).1);
+            // Of the coat's mirrored directions some point into the surface.
+            assert!(whole < 1.005 && whole > 0.9, "{angle}: {whole}");
+            let light = over_the_sphere(|towards| plastic.evaluate(towards).0.x);
+            assert!(light < 1.0 && light > if angle < 1.4 { 0.6 } else { 0.4 }, "{angle}: {light}");
+        }
+    }
+
+    #[test]
+    fn samples_give_the_light_that_the_sum_over_directions_gives() {
+        for angle in [0.2, 1.2] {
+            let plastic = seen_at(angle);
+            let mut sum = 0.0;
+            for i in 0..N {
+                for j in 0..N {
+                    let (u, v) = (i as f32 + 0.5, j as f32 + 0.5);
+                    let which = ((i * 7 + j * 3) % N) as f32 / N as f32;
+                    let towards = plastic.sample(which, [u / N as f32, v / N as f32]);
+                    let (value, pdf) = plastic.evaluate(towards);
+                    sum += if pdf > 0.0 { f64::from(value.x / pdf) } else { 0.0 };
+                }
+            }
+            let light = over_the_sphere(|towards| plastic.evaluate(towards).0.x);
+            let sampled = (sum / (N * N) as f64) as f32;
+            assert!((sampled / light - 1.0).abs() < 0.01, "{angle}: {sampled} {light}");
+        }
+    }
+
+    #[test]
+    fn light_and_eye_can_be_exchanged() {
+        let (a, b) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.3, 0.5, 0.7).normalize());
+        let from = |eye| Plastic::new(Vec3::Z, eye, Vec3::splat(0.5), 0.04, 0.3);
+        let (there, back) = (from(a).evaluate(b).0.x / b.z, from(b).evaluate(a).0.x / a.z);
+        assert!((there / back - 1.0).abs() < 1e-3, "{there} {back}");
+    }
+}
