@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::hairstyle::PRESETS;
+use frisure::io::scene;
+use frisure::render::trace::TraceOptions;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -61,7 +63,7 @@ Examples:
   frisure predict scenes/curly.toml -o out/curly.hair --image out/curly.png
   frisure predict scenes/wavy.toml -o wavy.obj -o wavy.ply --report wavy.json
   frisure new frizzy | frisure predict - --image frizzy.png
-  frisure predict scenes/curly.toml --image curly.png --quality final --paths 256
+  frisure predict scenes/curly.toml --image curly.png --quality final
   frisure predict scenes/growth.toml --each-step --image out/growth.png
 
 Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder
@@ -78,8 +80,8 @@ pub(crate) struct Predict {
     #[arg(long = "output", short, value_name = "GROOM")]
     pub(crate) outputs: Vec<PathBuf>,
 
-    /// Write a picture (.png).
-    #[arg(long, value_name = "PNG")]
+    /// Write a picture (.png, or .exr with its light as it is).
+    #[arg(long, value_name = "PICTURE")]
     pub(crate) image: Option<PathBuf>,
 
     /// Write numbers about the result (.json).
@@ -90,9 +92,9 @@ pub(crate) struct Predict {
     #[arg(long, value_enum, default_value_t = Quality::Preview, value_name = "QUALITY")]
     pub(crate) quality: Quality,
 
-    /// Paths of light per pixel of a final picture, 1 to 65536: noise falls with their root.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = paths)]
-    pub(crate) paths: usize,
+    /// How final pictures are traced.
+    #[command(flatten)]
+    pub(crate) tracing: Tracing,
 
     /// Write a groom and a picture before the first step and after each, numbered: hair-00.png,
     /// hair-01.png and so on, all from one place. Growth in stages counts each stage.
@@ -152,28 +154,64 @@ pub(crate) enum Quality {
     Final,
 }
 
+/// How much light is followed.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct Tracing {
+    /// Most paths of light per pixel of a final picture, 1 to 65536: noise falls with their root.
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = paths)]
+    pub(crate) paths: usize,
+
+    /// Noise at which a part of a final picture is good enough and gets no more paths, in percent of
+    /// the way from black to white; 0: all parts get all.
+    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, value_parser = noise)]
+    pub(crate) noise: f32,
+
+    /// Most times that a path of light is followed on, 1 to 10000; light hair needs 50 and more.
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = bounces)]
+    pub(crate) bounces: u32,
+}
+
+impl Tracing {
+    /// The renderer's options, for a picture of a scene's size.
+    pub(crate) fn options(self, output: &scene::Output) -> TraceOptions {
+        TraceOptions {
+            width: output.width,
+            height: output.height,
+            samples: self.paths,
+            noise: (self.noise > 0.0).then_some(0.01 * self.noise),
+            bounces: self.bounces,
+            ..TraceOptions::default()
+        }
+    }
+}
+
 const RENDER_EXAMPLES: &str = "\
 Examples:
   frisure render scenes/curly.toml -o curly.png
-  frisure render scenes/afro.toml -o back.png --camera back --size 512x640 --paths 256
+  frisure render scenes/afro.toml -o back.exr --camera back --size 512x640 --noise 1
+  frisure render scenes/wavy.toml -o turn/wavy.png --turntable 36
+  frisure render mine.hair -o mine.png --look scenes/curly.toml
 
-It is `frisure predict SCENE --image PICTURE --quality final`, with another size or camera than the
-scene's, if asked for. Noise falls with the root of the paths: four times as many, half of it.";
+While it works, the picture so far is saved every minute, and at Ctrl-C; the same command then goes on
+where it was, as long as PICTURE.part lies beside the picture. PNG is what a screen shows (sRGB); EXR
+is the light itself with layers for compositors and denoisers: albedo, normal, tangent, depth, hair,
+wisp.";
 
 /// Arguments of `frisure render`.
 #[derive(Args, Debug)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub(crate) struct Render {
-    /// The scene (TOML), or `-` for standard input.
+    /// The scene (TOML), `-` for standard input, or a groom (.hair).
+    #[arg(value_name = "SCENE|GROOM")]
     pub(crate) scene: PathBuf,
 
-    /// The picture (.png).
-    #[arg(long, short, value_name = "PNG")]
+    /// The picture (.png or .exr).
+    #[arg(long, short, value_name = "PICTURE")]
     pub(crate) output: PathBuf,
 
-    /// Paths of light per pixel, 1 to 65536.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = paths)]
-    pub(crate) paths: usize,
+    /// How it is traced.
+    #[command(flatten)]
+    pub(crate) tracing: Tracing,
 
     /// Width and height (pixels), instead of the scene's.
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -182,6 +220,19 @@ pub(crate) struct Render {
     /// Where it is taken from, instead of the scene's place.
     #[arg(long, value_enum, value_name = "CAMERA")]
     pub(crate) camera: Option<CameraName>,
+
+    /// So many pictures from all around, numbered, in the studio's light; the head turns to its right.
+    #[arg(long, value_name = "FRAMES", value_parser = frames)]
+    pub(crate) turntable: Option<usize>,
+
+    /// The number of the first frame of the turntable that is drawn: to go on with one.
+    #[arg(long, value_name = "FRAME", requires = "turntable", default_value_t = 0)]
+    pub(crate) from: usize,
+
+    /// For a groom: the scene whose head, look, camera and light it is shown with. Without it, a groom
+    /// has no head.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) look: Option<PathBuf>,
 }
 
 /// A place to take a picture from.
@@ -287,6 +338,20 @@ fn size(text: &str) -> Result<(usize, usize), String> {
 
 fn paths(text: &str) -> Result<usize, String> {
     number(text, 1, 65_536)
+}
+
+fn bounces(text: &str) -> Result<u32, String> {
+    number(text, 1, 10_000).map(|n| u32::try_from(n).expect("at most 10000"))
+}
+
+fn frames(text: &str) -> Result<usize, String> {
+    number(text, 2, 10_000)
+}
+
+fn noise(text: &str) -> Result<f32, String> {
+    let text = text.strip_suffix('%').unwrap_or(text).trim();
+    let outside = || "it must be a number of percent between 0 and 100".to_owned();
+    text.parse().ok().filter(|n| (0.0..=100.0).contains(n)).ok_or_else(outside)
 }
 
 fn number(text: &str, min: usize, max: usize) -> Result<usize, String> {

@@ -20,5 +20,6 @@ pub(crate) fn complain(failure: &Failure) {
     let _ = match failure {
         Failure::Failed(report) | Failure::Wrong(report) => writeln!(err, "{report:?}"),
         Failure::Interrupted => writeln!(err, "interrupted"),
+        Failure::Paused(what) => writeln!(err, "interrupted: {what}"),
     };
 }

@@ -36,6 +36,8 @@ pub(crate) enum Failure {
     Wrong(Report),
     /// Ctrl-C.
     Interrupted,
+    /// Ctrl-C, with something to go on from; told in sentences.
+    Paused(String),
 }
 
 impl Failure {
@@ -61,7 +63,7 @@ impl Failure {
             Self::Failed(_) => ExitCode::FAILURE,
             Self::Wrong(_) => ExitCode::from(2),
             // As shells report a death by SIGINT.
-            Self::Interrupted => ExitCode::from(130),
+            Self::Interrupted | Self::Paused(_) => ExitCode::from(130),
         }
     }
 }

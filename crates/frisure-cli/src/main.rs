@@ -3,6 +3,7 @@
 mod args;
 mod commands;
 mod console;
+mod exposing;
 mod failure;
 mod interrupt;
 mod outputs;

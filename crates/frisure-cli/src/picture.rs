@@ -3,9 +3,13 @@
 use frisure::io::scene::{self, Scene};
 use frisure::optics::Melanin;
 use frisure::render::preview;
-use frisure::render::{Background, Camera, DirectionalLight, HairLook, Lights, Look, SkinLook};
+use frisure::render::{
+    Aperture, Background, Camera, DirectionalLight, Ground, HairLook, Image, Lights, Look,
+    SkinLook, ToneCurve,
+};
 use frisure::strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
+use std::f64::consts::TAU;
 
 /// Part of the picture's width or height that stays free on each side.
 const MARGIN: f64 = 0.05;
@@ -16,25 +20,87 @@ pub(crate) fn scene<'a>(
     scene: &Scene,
     strands: &'a Strands,
     framed: &Strands,
-    surface: &'a Surface,
+    surface: Option<&'a Surface>,
 ) -> preview::Scene<'a> {
-    let aspect = scene.output.width as f64 / scene.output.height as f64;
-    let camera = camera(&scene.camera, shown(framed, surface), aspect);
+    let camera = camera(&scene.camera, shown(framed, surface), aspect(scene));
     let lights = lights(&scene.light, &camera);
-    let look = look(&scene.look);
-    preview::Scene { strands, surface: Some(surface), camera, lights, look }
+    let mut look = look(&scene.look);
+    if let Some(colour) = scene.look.floor {
+        look.ground = Some(floor(colour, framed, surface));
+    }
+    preview::Scene { strands, surface, camera, lights, look }
+}
+
+/// The cameras of a turntable, all at one distance, each with its lights: they walk around the head to
+/// its left, so that it seems to turn to its right.
+pub(crate) fn turntable(
+    scene: &Scene,
+    strands: &Strands,
+    surface: Option<&Surface>,
+    frames: usize,
+) -> Vec<(Camera, Lights)> {
+    let (low, high) = preview::bounds(strands, surface);
+    let axis = 0.5 * (low + high);
+    let points: Vec<DVec3> = shown(strands, surface).collect();
+    let around = points.iter().step_by(AROUND).flat_map(|p| {
+        let (radius, height) = ((*p - axis).truncate().length(), p.z);
+        (0..AROUND).map(move |i| {
+            let (s, c) = (i as f64 / AROUND as f64 * TAU).sin_cos();
+            DVec3::new(axis.x + radius * c, axis.y + radius * s, height)
+        })
+    });
+    let first = camera(&scene.camera, around, aspect(scene));
+    let frame = |i: usize| {
+        let camera = first.turned(axis, i as f64 / frames as f64 * TAU);
+        (camera, lights(&scene.light, &camera))
+    };
+    (0..frames).map(frame).collect()
+}
+
+/// Places around the axis of a turntable at which its picture is framed.
+const AROUND: usize = 24;
+
+fn aspect(scene: &Scene) -> f64 {
+    scene.output.width as f64 / scene.output.height as f64
+}
+
+/// Bytes for a PNG: light developed as the scene says.
+pub(crate) fn developed(image: &Image, output: &scene::Output) -> Vec<u8> {
+    let tone = match output.tone {
+        scene::Tone::Plain => ToneCurve::Plain,
+        scene::Tone::Shoulder => ToneCurve::Shoulder,
+        scene::Tone::Filmic => ToneCurve::Filmic,
+    };
+    image.to_srgb8_with(tone, output.exposure as f32)
+}
+
+/// A floor under all there is.
+fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Ground {
+    /// Distance at which the floor is lost in the wall (m).
+    const REACH: f64 = 1.6;
+    let hair = strands.bounds().map(|(low, high)| (low.as_dvec3(), high.as_dvec3()));
+    let (low, high) = match (surface.map(Surface::bounds), hair) {
+        (Some(a), Some(b)) => (a.0.min(b.0), a.1.max(b.1)),
+        (a, b) => a.or(b).unwrap_or_default(),
+    };
+    let middle = (0.5 * (low + high)).with_z(low.z);
+    Ground { middle, reach: REACH, colour: linear(colour) }
 }
 
 /// Every so many points of the hair are enough to frame it.
 const FRAMED_POINTS: usize = 50_000;
 
 /// What a picture should have in it: the hair, and of the surface the head without the shoulders.
-fn shown<'a>(strands: &'a Strands, surface: &'a Surface) -> impl Iterator<Item = DVec3> + Clone {
-    let (low, high) = preview::bounds(strands, Some(surface));
+fn shown<'a>(
+    strands: &'a Strands,
+    surface: Option<&'a Surface>,
+) -> impl Iterator<Item = DVec3> + Clone {
+    let (low, high) = preview::bounds(strands, surface);
     let step = strands.points().len() / FRAMED_POINTS + 1;
     let hair = strands.points().iter().step_by(step).map(|p| p.as_dvec3());
     let inside = move |p: &DVec3| p.cmpge(low).all() && p.cmple(high).all();
-    hair.chain(surface.positions().iter().copied()).filter(inside)
+    let skin = surface.into_iter().flat_map(|s| s.positions().iter().copied());
+    hair.chain(skin).filter(inside)
 }
 
 /// The camera that has all points in its picture, at the field of view asked for.
@@ -69,7 +135,19 @@ fn camera(
         .fold(0.0, f64::max);
     let eye = centre - distance * forward;
     // Points of no extent have no direction to look in; the framing has one all the same.
-    Camera::look_at(eye, centre, DVec3::Z, asked.field_of_view).unwrap_or(framed)
+    let camera = Camera::look_at(eye, centre, DVec3::Z, asked.field_of_view).unwrap_or(framed);
+    match asked.f_number {
+        // The scene's numbers were checked, and a lens that cannot be is a pinhole.
+        Some(n) => camera.with_aperture(aperture(asked, n, aspect)).unwrap_or(camera),
+        None => camera,
+    }
+}
+
+/// The lens that has the field of view on a film of 24 × 36 mm.
+fn aperture(asked: &scene::Camera, f_number: f64, aspect: f64) -> Aperture {
+    let height = if aspect > 1.0 { 0.024 } else { 0.036 };
+    let focal_length = 0.5 * height / (0.5 * asked.field_of_view).tan();
+    Aperture { radius: 0.5 * focal_length / f_number, focus: asked.focus }
 }
 
 fn lights(asked: &scene::Light, camera: &Camera) -> Lights {
@@ -94,13 +172,16 @@ fn look(asked: &scene::Look) -> Look {
     let variation = asked.variation.map_or(default.hair.variation, |v| v as f32);
     let hair = HairLook { melanin: Melanin { eumelanin, pheomelanin }, variation, ..default.hair };
     let colour = asked.skin.map_or(default.skin.colour, linear);
-    let background = asked.background.map(linear);
-    Look {
-        hair,
-        skin: SkinLook { colour, ..default.skin },
-        background: background
-            .map_or(default.background, |c| Background::Gradient { centre: c, corner: c }),
-    }
+    let background = match asked.background {
+        scene::Behind::Wall => default.background,
+        scene::Behind::Transparent => Background::Transparent,
+        scene::Behind::Surroundings => Background::Surroundings,
+        scene::Behind::Colour(colour) => {
+            let colour = linear(colour);
+            Background::Gradient { centre: colour, corner: colour }
+        }
+    };
+    Look { hair, skin: SkinLook { colour, ..default.skin }, background, ground: None }
 }
 
 /// Linear light of an sRGB colour (IEC 61966-2-1).
@@ -131,7 +212,13 @@ mod tests {
                 [(0.0, 0.0, 1.0), (2.0, 1.4, 0.3), (-9.0, -1.4, 4.0)]
             {
                 let field_of_view = f64::to_radians(degrees);
-                let asked = scene::Camera { azimuth, elevation, field_of_view };
+                let asked = scene::Camera {
+                    azimuth,
+                    elevation,
+                    field_of_view,
+                    f_number: None,
+                    focus: None,
+                };
                 let camera = camera(&asked, corners(), aspect);
                 let tan = (0.5 * field_of_view).tan();
                 assert!((camera.vertical_fov() - field_of_view).abs() < 1e-12);
@@ -146,9 +233,22 @@ mod tests {
         }
     }
 
+    fn straight() -> scene::Camera {
+        let (azimuth, elevation, field_of_view) = (0.0, 0.0, 0.4);
+        scene::Camera { azimuth, elevation, field_of_view, f_number: None, focus: None }
+    }
+
+    #[test]
+    fn a_portrait_lens_at_2_8_opens_by_15_mm() {
+        let asked = scene::Camera { f_number: Some(2.8), ..straight() };
+        let asked = scene::Camera { field_of_view: f64::to_radians(23.9), ..asked };
+        let camera = camera(&asked, corners(), 0.8);
+        assert!((camera.aperture().unwrap().radius - 0.0152).abs() < 2e-4);
+    }
+
     #[test]
     fn the_lamp_stands_where_it_is_asked_for() {
-        let asked = scene::Camera { azimuth: 0.0, elevation: 0.0, field_of_view: 0.4 };
+        let asked = straight();
         let camera = camera(&asked, corners(), 1.0);
         let lamp = |azimuth, elevation| {
             let light = scene::Light { direction: Some((azimuth, elevation)), strength: 1.0 };

@@ -16,7 +16,9 @@ impl Progress {
         if quiet || !std::io::stderr().is_terminal() {
             bar.set_draw_target(ProgressDrawTarget::hidden());
         }
-        let style = ProgressStyle::with_template("{msg:>20} {bar:30} {percent:>3} %  {elapsed}");
+        let style = ProgressStyle::with_template(
+            "{msg:>20} {bar:30} {percent:>3} %  {elapsed}, {eta} left",
+        );
         if let Ok(style) = style {
             bar.set_style(style);
         }
@@ -26,9 +28,10 @@ impl Progress {
 
     /// Shows how far a stage is, 0 to 1.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    pub(crate) fn show(&self, stage: &'static str, fraction: f64) {
+    pub(crate) fn show(&self, stage: &str, fraction: f64) {
         if self.0.message() != stage {
-            self.0.set_message(stage);
+            self.0.set_message(stage.to_owned());
+            self.0.reset_eta();
         }
         self.0.set_position((fraction.clamp(0.0, 1.0) * 1000.0) as u64);
     }

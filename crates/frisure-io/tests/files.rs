@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use frisure_io::files::{WriteError, check_destination, write_atomically};
 use frisure_io::groom::{self, EXTENSIONS, GroomError, write_groom};
-use frisure_io::picture::{self, PictureError};
+use frisure_io::picture::exr::{self, Channel, Values};
+use frisure_io::picture::{self, Format, PictureError};
 use frisure_io::report;
 use frisure_strands::Strands;
 use glam::Vec3;
@@ -170,7 +171,7 @@ fn pictures_come_back_as_they_were() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
     let pixels: Vec<u8> = (0..2 * 3 * 4).collect();
-    picture::write(&path, 2, 3, &pixels).unwrap();
+    picture::png::write(&path, 2, 3, &pixels).unwrap();
     let decoder = png::Decoder::new(io::BufReader::new(fs::File::open(&path).unwrap()));
     let mut reader = decoder.read_info().unwrap();
     assert_eq!((reader.info().width, reader.info().height), (2, 3));
@@ -179,11 +180,51 @@ fn pictures_come_back_as_they_were() {
     assert_eq!(read, pixels);
 
     for (width, height) in [(0, 0), (2, 2), (u32::MAX, u32::MAX)] {
-        let bad = picture::write(&path, width, height, &pixels);
+        let bad = picture::png::write(&path, width, height, &pixels);
         assert!(matches!(bad, Err(PictureError::Size { .. })));
     }
-    let bad = picture::write(&folder.path().join("a.jpg"), 2, 3, &pixels);
-    assert!(matches!(bad, Err(PictureError::Extension { .. })));
+    assert_eq!(Format::of(Path::new("a.EXR")).unwrap(), Format::Exr);
+    assert!(matches!(Format::of(Path::new("a.jpg")), Err(PictureError::Extension { .. })));
+}
+
+#[test]
+fn layers_come_back_as_they_were() {
+    use ::exr::prelude::{ReadChannels, ReadLayers};
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    let channel = |name: &str, values| Channel { name: name.into(), values };
+    let depths = vec![0.1, 1.5, 2.25, 1e10, 0.3, 7.0];
+    let channels = vec![
+        channel("R", Values::Half(vec![0.0, 0.5, 1.0, 2.0, -1.0, 1e9])),
+        channel("wisp.id", Values::Whole(vec![0, 1, 2, 3, 4, 5_000_000])),
+        channel("Z", Values::Single(depths.clone())),
+    ];
+    exr::write(&path, 3, 2, channels.clone(), "a test").unwrap();
+    let again = fs::read(&path).unwrap();
+    exr::write(&path, 3, 2, channels.clone(), "a test").unwrap();
+    assert_eq!(fs::read(&path).unwrap(), again, "the same bytes each time");
+
+    let image = ::exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(&path)
+        .unwrap();
+    let layer = &image.layer_data;
+    assert_eq!((layer.size.0, layer.size.1), (3, 2));
+    assert_eq!(layer.attributes.comments.as_ref().unwrap().to_string(), "a test");
+    assert!((image.attributes.chromaticities.unwrap().red.0 - 0.64).abs() < 1e-6);
+    let names: Vec<String> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
+    assert_eq!(names, ["R", "Z", "wisp.id"]);
+    let of = |i: usize| layer.channel_data.list[i].sample_data.values_as_f32().collect::<Vec<_>>();
+    assert_eq!(of(0), [0.0, 0.5, 1.0, 2.0, -1.0, 65_504.0]);
+    assert_eq!(of(1), depths);
+    assert_eq!(of(2)[5], 5e6);
+
+    let short = vec![channel("R", Values::Half(vec![0.0; 5]))];
+    assert!(matches!(exr::write(&path, 3, 2, short, ""), Err(PictureError::Size { .. })));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
 use frisure_io::scene::{
-    Fault, HeadSource, ScalpSource, Scene, SceneError, UpAxis, schema, template,
+    Behind, Fault, HeadSource, ScalpSource, Scene, SceneError, UpAxis, schema, template,
 };
 use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
 use glam::DVec3;
@@ -162,7 +162,7 @@ fn every_key_arrives() {
     assert_eq!((head.up, head.scale), (UpAxis::Z, 0.01));
     assert_eq!(head.scalp, ScalpSource::Mask("scenes/mask.png".into()));
     assert_eq!(scene.look.skin, Some([1.0, 128.0 / 255.0, 0.0]));
-    assert_eq!(scene.look.background, Some([0.0, 0.5, 1.0]));
+    assert_eq!(scene.look.background, Behind::Colour([0.0, 0.5, 1.0]));
     assert_eq!((scene.look.eumelanin, scene.look.pheomelanin), (0.3, 0.4));
     assert!((scene.camera.azimuth.to_degrees() - 90.0).abs() < 1e-12);
     assert!((scene.light.direction.unwrap().0.to_degrees() - 10.0).abs() < 1e-12);
@@ -316,6 +316,10 @@ fn faults_name_place_value_range_and_hint() {
         ),
         ("[hair]\ntype = \"frizy\"", 2, 8, "hair.type", "\"frizy\"", &["did you mean \"frizzy\"?"]),
         ("[look]\nskin = \"#12345g\"", 2, 8, "look.skin", "\"#12345g\"", &["a colour"]),
+        ("[look]\nbackground = \"wal\"", 2, 14, "look.background", "\"wal\"", &["\"wall\""]),
+        ("[camera]\nf_number = 0.1", 2, 12, "camera.f_number", "0.1", &["0.5 and 64"]),
+        ("[output]\ntone = \"film\"", 2, 8, "output.tone", "\"film\"", &["\"filmic\""]),
+        ("[output]\nexposure = 30", 2, 12, "output.exposure", "30", &["-20 and 20"]),
         ("[look]\nskin = [0, 0, 2]", 2, 8, "look.skin", "[0, 0, 2]", &["from 0 to 1"]),
         ("[hair]\nroot.t = [0, 1]", 2, 10, "hair.root.t", "[0, 1]", &["three finite numbers"]),
         // Ranges.

@@ -1,6 +1,6 @@
 //! A camera.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use thiserror::Error;
 
 /// Vertical field of view of [`Camera::framing`] (rad): that of a portrait lens, 24°.
@@ -139,6 +139,20 @@ impl Camera {
         }
     }
 
+    /// The same camera, turned by `angle` (rad) about the vertical through `axis` (m), to the left of a
+    /// head that looks towards −y.
+    #[must_use]
+    pub fn turned(self, axis: DVec3, angle: f64) -> Self {
+        let turn = DMat3::from_rotation_z(angle);
+        Self {
+            eye: axis + turn * (self.eye - axis),
+            forward: turn * self.forward,
+            right: turn * self.right,
+            up: turn * self.up,
+            ..self
+        }
+    }
+
     /// The opening; none for a pinhole.
     #[must_use]
     pub fn aperture(&self) -> Option<Aperture> {
@@ -200,6 +214,13 @@ mod tests {
         assert!(camera.eye().y < -0.3 && camera.eye().x.abs() < 1e-12);
         assert!((camera.right() - DVec3::X).length() < 1e-12);
         assert!((camera.up() - DVec3::Z).length() < 1e-12);
+    }
+
+    #[test]
+    fn a_quarter_turn_goes_from_the_face_to_its_left() {
+        let camera = Camera::default().turned(DVec3::ZERO, std::f64::consts::FRAC_PI_2);
+        assert!(camera.eye().x > 0.3 && camera.eye().y.abs() < 1e-12);
+        assert!((camera.right() - DVec3::Y).length() < 1e-12);
     }
 
     #[test]

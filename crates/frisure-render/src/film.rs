@@ -20,6 +20,9 @@ pub enum ToneCurve {
     /// shape instead of burning out.
     #[default]
     Shoulder,
+    /// A film's curve: a toe that deepens the shadows, and a long shoulder (Hable 2010, *Filmic
+    /// tonemapping operators*, "Uncharted 2", with white at 11.2).
+    Filmic,
 }
 
 impl ToneCurve {
@@ -32,6 +35,7 @@ impl ToneCurve {
             Self::Shoulder if light > KNEE => {
                 KNEE + (1.0 - KNEE) * (1.0 - ((KNEE - light) / (1.0 - KNEE)).exp())
             }
+            Self::Filmic => (hable(2.0 * light) / hable(11.2)).min(1.0),
             _ => light.min(1.0),
         }
     }
@@ -82,14 +86,25 @@ impl Image {
     /// green, blue and *unassociated* alpha per pixel, row by row from the top left.
     #[must_use]
     pub fn to_srgb8(&self) -> Vec<u8> {
-        self.to_srgb8_with(ToneCurve::default())
+        self.to_srgb8_with(ToneCurve::default(), 0.0)
     }
 
-    /// As [`Self::to_srgb8`], with the tone curve given.
+    /// As [`Self::to_srgb8`], with the tone curve given, and lighter by `stops` (factors of two).
     #[must_use]
-    pub fn to_srgb8_with(&self, tone: ToneCurve) -> Vec<u8> {
-        self.pixels.iter().flat_map(|&pixel| develop(pixel, tone)).collect()
+    pub fn to_srgb8_with(&self, tone: ToneCurve, stops: f32) -> Vec<u8> {
+        let gain = stops.exp2();
+        let lit = |[r, g, b, a]: [f32; 4]| [r * gain, g * gain, b * gain, a];
+        self.pixels.iter().flat_map(|&pixel| develop(lit(pixel), tone)).collect()
     }
+}
+
+/// Hable's curve, with his constants.
+fn hable(x: f32) -> f32 {
+    const TOE: f32 = 0.02 / 0.30;
+    if !x.is_finite() {
+        return 1.0;
+    }
+    (x * (0.15 * x + 0.10 * 0.50) + 0.20 * 0.02) / (x * (0.15 * x + 0.50) + 0.20 * 0.30) - TOE
 }
 
 /// One pixel as sRGB bytes with unassociated alpha.
@@ -119,6 +134,16 @@ mod tests {
         assert_eq!((grey(0.0), grey(1.0), grey(9.0), grey(f32::NAN)), (0, 255, 255, 0));
         assert_eq!(grey(0.215_861), 128); // mid grey
         assert_eq!(develop([0.5, 0.0, 0.0, 0.5], ToneCurve::Plain), [255, 0, 0, 128]);
+    }
+
+    #[test]
+    fn the_film_is_dark_in_its_toe_and_reaches_white_where_it_should() {
+        let film = |x: f32| ToneCurve::Filmic.apply(x);
+        assert_eq!((film(0.0), film(f32::NAN)), (0.0, 0.0));
+        assert!((film(5.6) - 1.0).abs() < 1e-6 && film(f32::INFINITY) <= 1.0);
+        assert!((1..500).all(|i| film(0.01 * i as f32) > film(0.01 * (i - 1) as f32)));
+        // In the toe the curve is convex: shadows are deeper than in proportion.
+        assert!(film(0.02) > 2.0 * film(0.01));
     }
 
     #[test]

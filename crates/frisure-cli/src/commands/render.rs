@@ -1,21 +1,116 @@
-//! `frisure render`: the final picture of a scene.
+//! `frisure render`: the final picture of a scene, or of a groom.
 
-use super::{predict, read_scene};
+use std::path::Path;
+
+use frisure::hairstyle::head::Head;
+use frisure::io::groom::read_groom;
+use frisure::io::picture::Format;
+use frisure::io::scene::Scene;
+use frisure::render::trace::Tracer;
+
+use super::predict::{self, Turntable};
+use super::read_scene;
 use crate::args::{Predict, Quality, Render};
+use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
+use crate::progress::Progress;
+use crate::{console, interrupt, outputs, picture};
 
-/// Predicts the scene and follows the light in it.
+/// Predicts the scene, or reads the groom, and follows the light in it.
 pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
-    let Render { scene: path, output, paths, size, camera } = arguments;
-    let mut scene = read_scene(&path)?;
-    if let Some((width, height)) = size {
+    let turntable = turntable(&arguments)?;
+    if is_groom(&arguments.scene) {
+        return groom(&arguments, turntable, quiet);
+    }
+    if let Some(look) = &arguments.look {
+        let message = format!("`--look {}` is for grooms", look.display());
+        let hint = "a scene has its own look; change it there";
+        return Err(Failure::wrong_because(message, hint));
+    }
+    let scene = seen(&arguments, read_scene(&arguments.scene)?);
+    let Render { scene: path, output, tracing, .. } = arguments;
+    let arguments = Predict {
+        scene: path,
+        outputs: Vec::new(),
+        image: Some(output),
+        report: None,
+        quality: Quality::Final,
+        tracing,
+        each_step: false,
+    };
+    predict::run_scene(arguments, scene, turntable, quiet)
+}
+
+fn is_groom(path: &Path) -> bool {
+    frisure::io::groom::Format::of(path).is_ok()
+}
+
+fn turntable(arguments: &Render) -> Result<Option<Turntable>, Failure> {
+    let Some(frames) = arguments.turntable else { return Ok(None) };
+    let from = arguments.from;
+    if from >= frames {
+        let message = format!("frame {from} is none of a turntable of {frames}");
+        return Err(Failure::wrong_because(message, "frames are numbered from 0"));
+    }
+    Ok(Some(Turntable { frames, from }))
+}
+
+/// The scene with the size and the camera that were asked for.
+fn seen(arguments: &Render, mut scene: Scene) -> Scene {
+    if let Some((width, height)) = arguments.size {
         (scene.output.width, scene.output.height) = (width, height);
     }
-    if let Some(camera) = camera {
+    if let Some(camera) = arguments.camera {
         scene.camera.azimuth = camera.azimuth();
     }
-    let (outputs, image, quality) = (Vec::new(), Some(output), Quality::Final);
-    let arguments =
-        Predict { scene: path, outputs, image, report: None, quality, paths, each_step: false };
-    predict::run_scene(arguments, scene, quiet)
+    scene
+}
+
+fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Result<Done, Failure> {
+    let look = match &arguments.look {
+        Some(path) => read_scene(path)?,
+        None => Scene::parse("", "", Path::new(""))?,
+    };
+    let scene = seen(arguments, look);
+    Format::of(&arguments.output).map_err(|e| Failure::wrong(&e, ""))?;
+    let options = arguments.tracing.options(&scene.output);
+    options.check().map_err(|e| Failure::wrong(&e, ""))?;
+    let names = exposing::names(&arguments.output, arguments.turntable);
+    let names: Vec<&Path> = names.iter().map(AsRef::as_ref).collect();
+    let inputs: Vec<&Path> = [Some(&arguments.scene), arguments.look.as_ref()]
+        .into_iter()
+        .flatten()
+        .map(AsRef::as_ref)
+        .collect();
+    outputs::prepare(&names, &inputs)?;
+
+    let progress = Progress::new(quiet);
+    let (path, output, has_head) =
+        (arguments.scene.clone(), scene.output, arguments.look.is_some());
+    let ready = progress.clone();
+    let shot = interrupt::computing(move || {
+        ready.show("strands", 0.0);
+        let strands = read_groom(&path).map_err(|e| Failure::wrong(&e, ""))?;
+        let head = if has_head { Some(predict::head(&scene)?) } else { None };
+        let surface = head.as_ref().map(Head::surface);
+        let drawn = picture::scene(&scene, &strands, &strands, surface);
+        let named = |e| Failure::wrong_because(format!("`{}`: {e}", path.display()), "");
+        let tracer = Tracer::new(&drawn, &options).map_err(named)?;
+        let (views, from) = match turntable {
+            Some(Turntable { frames, from }) => {
+                (picture::turntable(&scene, &strands, surface, frames), from)
+            }
+            None => (Vec::new(), 0),
+        };
+        Ok(Shot { tracer, views, from })
+    });
+    let exposed =
+        shot.and_then(|shot| exposing::shoot(shot, &arguments.output, &output, &progress));
+    progress.finish();
+    let exposed = exposed?;
+    if !quiet {
+        let lines: String = exposed.iter().map(|picture| format!("wrote {picture}\n")).collect();
+        console::print(&lines)?;
+    }
+    Ok(Done::Well)
 }

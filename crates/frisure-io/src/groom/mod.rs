@@ -34,6 +34,12 @@ pub enum GroomError {
         /// The path asked for.
         path: PathBuf,
     },
+    /// The format is written, but not read.
+    #[error("`{}` cannot be read: of grooms, only .hair can", path.display())]
+    Unread {
+        /// The path asked for.
+        path: PathBuf,
+    },
     /// The format cannot hold these strands.
     #[error("a {format} file cannot hold {what}")]
     CannotHold {
@@ -110,4 +116,15 @@ pub fn write_groom(path: &Path, strands: &Strands) -> Result<(), GroomError> {
     };
     write_atomically(path, |out| fill(out, strands))?;
     Ok(())
+}
+
+/// Reads strands from a file in the format that the path's extension names. So far that is `.hair`.
+///
+/// # Errors
+/// [`GroomError`], for a format that is only written, or a file that is not what its name says.
+pub fn read_groom(path: &Path) -> Result<Strands, GroomError> {
+    match Format::of(path)? {
+        Format::Hair => hair::read(path),
+        Format::Obj | Format::Ply => Err(GroomError::Unread { path: path.into() }),
+    }
 }

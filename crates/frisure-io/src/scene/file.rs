@@ -10,12 +10,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::key::{
-    Acceleration, Angle, Colour, Count, Density, Key, Length, Modulus, NumberDensity, OneOf, Pair,
-    Points, Ratio, Speed, Strain, Text, Vector,
+    Acceleration, Angle, BehindKind, Colour, Count, Density, Key, Length, Modulus, NumberDensity,
+    OneOf, Pair, Points, Ratio, Speed, Strain, Text, Vector,
 };
 use super::step::Step;
 use super::words::{
-    BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places,
+    BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places, Tone,
     UnitWord, UpAxis, WettingWord, Which,
 };
 
@@ -410,8 +410,11 @@ pub(super) struct Look {
     pub(super) variation: Key<Ratio>,
     /// Colour of the skin (sRGB).
     pub(super) skin: Key<Colour>,
-    /// Colour behind the head (sRGB). Left out, a grey studio wall.
-    pub(super) background: Key<Colour>,
+    /// What is behind the head. Default "wall".
+    pub(super) background: Key<BehindKind>,
+    /// Colour of a floor under the head (sRGB), which catches its shadow in a final picture. Left out,
+    /// there is none.
+    pub(super) floor: Key<Colour>,
 }
 
 /// `[camera]`.
@@ -426,6 +429,14 @@ pub(super) struct Camera {
     /// Angle from the picture's bottom to its top; 1 to 120 deg. Default 24 deg, a portrait lens.
     #[schemars(range(min = 0.01745, max = 2.0945))]
     pub(super) field_of_view: Key<Angle>,
+    /// How far the lens is closed, in a final picture: at 2.8 what is out of its focus is blurred as in a
+    /// portrait; 0.5 to 64. Left out, everything is sharp.
+    #[schemars(range(min = 0.5, max = 64.0))]
+    pub(super) f_number: Key<Ratio>,
+    /// Distance from the camera that is sharp, with `f_number`; more than 0. Default what is nearest in
+    /// the middle of the picture.
+    #[schemars(range(min = 0.0))]
+    pub(super) focus: Key<Length>,
 }
 
 /// `[light]`.
@@ -454,7 +465,12 @@ pub(super) struct Output {
     /// Pixels down; 1 to 16384. Default 1100.
     #[schemars(range(min = 1, max = 16_384))]
     pub(super) height: Key<Count>,
-    /// Samples of the head per pixel, across and down; 1 to 8. Default 4.
+    /// Samples of the head per pixel of a preview, across and down; 1 to 8. Default 4.
     #[schemars(range(min = 1, max = 8))]
     pub(super) samples: Key<Count>,
+    /// Stops by which a PNG is lighter than the light; -20 to 20. Default 0.
+    #[schemars(range(min = -20.0, max = 20.0))]
+    pub(super) exposure: Key<Ratio>,
+    /// How light becomes a PNG's colours. Default "shoulder".
+    pub(super) tone: Key<OneOf<Tone>>,
 }

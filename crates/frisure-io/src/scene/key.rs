@@ -12,6 +12,7 @@ use serde::{Deserialize, Deserializer};
 use serde_spanned::Spanned;
 use toml::Value;
 
+use super::Behind;
 use super::error::{Fault, SceneError};
 use super::source::Source;
 use crate::quantity::{self, Dimension, QuantityError};
@@ -510,6 +511,41 @@ impl Kind for Colour {
             ],
             "examples": ["#d8b49c"],
         })
+    }
+}
+
+/// What is behind the head: a word, or a colour.
+pub(super) struct BehindKind;
+
+impl BehindKind {
+    const WORDS: [(&str, &str, Behind); 3] = [
+        ("wall", "a grey studio wall", Behind::Wall),
+        ("transparent", "nothing: the picture can be laid over another", Behind::Transparent),
+        ("surroundings", "what lights the hair", Behind::Surroundings),
+    ];
+}
+
+impl Kind for BehindKind {
+    type Value = Behind;
+
+    fn read(value: &Value) -> Result<Behind, Refusal> {
+        let word = Self::WORDS.iter().find(|word| value.as_str() == Some(word.0));
+        match word {
+            Some(word) => Ok(word.2),
+            None => Colour::read(value).map(Behind::Colour).map_err(|_| {
+                let words = Self::WORDS.map(|word| format!("\"{}\"", word.0)).join(", ");
+                let refusal = Refusal::new(format!("{words}, or a colour such as \"#d8b49c\""));
+                let near = value.as_str().and_then(|s| nearest(s, Self::WORDS.map(|word| word.0)));
+                refusal.hint(near.map_or(String::new(), |near| format!("did you mean \"{near}\"?")))
+            }),
+        }
+    }
+
+    fn schema() -> Schema {
+        let words =
+            Self::WORDS.map(|(word, what, _)| json_schema!({ "const": word, "description": what }));
+        let words = words.map(Schema::to_value);
+        json_schema!({ "anyOf": [{ "oneOf": words }, Colour::schema()] })
     }
 }
 

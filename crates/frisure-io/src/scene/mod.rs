@@ -29,7 +29,7 @@ pub use schema::schema;
 pub(crate) use step::{Record, parse_record};
 pub use step::{WriteStepError, edit, parse_step, write_step};
 pub use template::template;
-pub use words::UpAxis;
+pub use words::{Tone, UpAxis};
 
 use crate::files;
 use crate::head::{self, HeadMesh};
@@ -121,8 +121,24 @@ pub struct Look {
     pub variation: Option<f64>,
     /// Skin, sRGB from 0 to 1.
     pub skin: Option<[f64; 3]>,
-    /// Background, sRGB from 0 to 1.
-    pub background: Option<[f64; 3]>,
+    /// What is behind the head.
+    pub background: Behind,
+    /// A floor under the head, sRGB from 0 to 1.
+    pub floor: Option<[f64; 3]>,
+}
+
+/// What is behind the head.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Behind {
+    /// The renderer's studio wall.
+    #[default]
+    Wall,
+    /// Nothing.
+    Transparent,
+    /// What lights the scene.
+    Surroundings,
+    /// A colour, sRGB from 0 to 1.
+    Colour([f64; 3]),
 }
 
 /// Where the picture is taken from.
@@ -134,6 +150,10 @@ pub struct Camera {
     pub elevation: f64,
     /// From the picture's bottom to its top (rad).
     pub field_of_view: f64,
+    /// Focal length over the diameter of the opening; none for a pinhole.
+    pub f_number: Option<f64>,
+    /// Distance that is sharp (m).
+    pub focus: Option<f64>,
 }
 
 /// The lamps.
@@ -146,15 +166,19 @@ pub struct Light {
     pub strength: f64,
 }
 
-/// The picture's size.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The picture's size, and how its light is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output {
     /// Pixels across.
     pub width: usize,
     /// Pixels down.
     pub height: usize,
-    /// Samples per pixel, across and down.
+    /// Samples per pixel of a preview, across and down.
     pub samples: usize,
+    /// Stops by which it is lighter than the light.
+    pub exposure: f64,
+    /// How light becomes colours.
+    pub tone: Tone,
 }
 
 impl Scene {

@@ -20,7 +20,7 @@ use super::error::{Fault, SceneError};
 use super::file::{self, File};
 use super::key::{Key, Kind};
 use super::source::Source;
-use super::words::{BranchKind, FlowWord, HairType, UnitWord, Which};
+use super::words::{BranchKind, FlowWord, HairType, Tone, UnitWord, Which};
 use super::{
     Camera, HeadFile, HeadSource, Light, Look, Output, ScalpSource, Scene, SingleHair, UpAxis,
     schema, shape, step,
@@ -506,7 +506,8 @@ fn look(file: &file::Look, source: &Source) -> Result<Look> {
         pheomelanin: within(&file.pheomelanin, 0.0, 0.0, 100.0, pigment, source)?,
         variation: variation.then_some(fraction),
         skin: file.skin.get(source)?,
-        background: file.background.get(source)?,
+        background: file.background.get(source)?.unwrap_or_default(),
+        floor: file.floor.get(source)?,
     })
 }
 
@@ -525,7 +526,23 @@ fn camera(file: &file::Camera, source: &Source) -> Result<Camera> {
             "between 1 and 120 deg",
             source,
         )?,
+        f_number: f_number(file, source)?,
+        focus: file.focus.get(source)?,
     })
+}
+
+fn f_number(file: &file::Camera, source: &Source) -> Result<Option<f64>> {
+    if file.focus.get(source)?.is_some_and(|focus| focus <= 0.0) {
+        return Err(outside(&file.focus, "more than 0", source));
+    }
+    if !file.f_number.is_given() {
+        return if file.focus.is_given() {
+            Err(missing(&file.focus, "f_number", source))
+        } else {
+            Ok(None)
+        };
+    }
+    within(&file.f_number, 8.0, 0.5, 64.0, "between 0.5 and 64", source).map(Some)
 }
 
 fn light(file: &file::Light, source: &Source) -> Result<Light> {
@@ -553,6 +570,8 @@ fn output(file: &file::Output, source: &Source) -> Result<Output> {
         width: size(&file.width, 900, 16_384, "between 1 and 16384")?,
         height: size(&file.height, 1100, 16_384, "between 1 and 16384")?,
         samples: size(&file.samples, 4, 8, "between 1 and 8")?,
+        exposure: within(&file.exposure, 0.0, -20.0, 20.0, "between -20 and 20", source)?,
+        tone: file.tone.or(Tone::default(), source)?,
     })
 }
 

@@ -43,6 +43,28 @@ impl Choice for Which<UpAxis> {
     }
 }
 
+/// How scene-linear light becomes the colours of a screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// As it is, and cut off at white.
+    Plain,
+    /// As it is, and bent towards white above the middle.
+    #[default]
+    Shoulder,
+    /// The curve of a film, with a toe and a shoulder.
+    Filmic,
+}
+
+impl Choice for Tone {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            ("plain", "as it is, cut off at white", Self::Plain),
+            ("shoulder", "as it is, and softly towards white", Self::Shoulder),
+            ("filmic", "as a film: darker shadows, softer lights", Self::Filmic),
+        ]
+    }
+}
+
 /// Metres per unit of a mesh.
 #[derive(Clone, Copy)]
 pub(super) struct UnitWord(pub(super) f64);

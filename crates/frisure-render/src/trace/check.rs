@@ -93,20 +93,26 @@ pub enum TraceError {
     Fibre(FibreError),
 }
 
-pub(super) fn options(options: &TraceOptions) -> Result<(), TraceError> {
-    let TraceOptions { width, height, samples, noise, .. } = *options;
-    if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
-        return Err(TraceError::Size { width, height });
-    }
-    if width * height > MAX_PIXELS {
-        return Err(TraceError::Pixels { width, height });
-    }
-    if !(1..=MAX_SAMPLES).contains(&samples) {
-        return Err(TraceError::Samples { samples });
-    }
-    match noise {
-        Some(noise) if noise.is_nan() || noise <= 0.0 => Err(TraceError::Noise { noise }),
-        _ => Ok(()),
+impl TraceOptions {
+    /// Whether they are possible: to be known before the strands are computed.
+    ///
+    /// # Errors
+    /// [`TraceError`], for the first that is not.
+    pub fn check(&self) -> Result<(), TraceError> {
+        let Self { width, height, samples, noise, .. } = *self;
+        if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
+            return Err(TraceError::Size { width, height });
+        }
+        if width * height > MAX_PIXELS {
+            return Err(TraceError::Pixels { width, height });
+        }
+        if !(1..=MAX_SAMPLES).contains(&samples) {
+            return Err(TraceError::Samples { samples });
+        }
+        match noise {
+            Some(noise) if noise.is_nan() || noise <= 0.0 => Err(TraceError::Noise { noise }),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -68,7 +68,7 @@ impl Tracer {
     /// # Errors
     /// [`TraceError`], if an option or the scene is impossible.
     pub fn new(scene: &Scene<'_>, options: &TraceOptions) -> Result<Self, TraceError> {
-        check::options(options)?;
+        options.check()?;
         check::strands(scene.strands)?;
         let fibres = Fibres::new(scene.strands, &scene.look.hair).map_err(TraceError::Fibre)?;
         let world = World {

@@ -15,12 +15,14 @@ use frisure::hairstyle::{
 use frisure::io::groom::{Format, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
-use frisure::render::preview::{self, PreviewOptions};
-use frisure::render::trace::{self, TraceError, TraceOptions};
+use frisure::render::Image;
+use frisure::render::preview::{self, PreviewError, PreviewOptions};
+use frisure::render::trace::Tracer;
 use frisure::strands::Strands;
 
 use super::read_scene;
 use crate::args::{Predict, Quality};
+use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
 use crate::{console, interrupt, outputs};
@@ -31,15 +33,29 @@ use steps::Styled;
 /// Computes what the arguments ask for, and writes it.
 pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
     let scene = read_scene(&arguments.scene)?;
-    run_scene(arguments, scene, quiet)
+    run_scene(arguments, scene, None, quiet)
 }
 
-/// The same for a scene that was read already.
-pub(crate) fn run_scene(arguments: Predict, scene: Scene, quiet: bool) -> Result<Done, Failure> {
-    let spec = scene.hairstyle_spec()?;
-    check_outputs(&arguments, &scene)?;
+/// Pictures from all around.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turntable {
+    /// How many.
+    pub(crate) frames: usize,
+    /// The first that is drawn.
+    pub(crate) from: usize,
+}
 
-    let work = Arc::new(Work { arguments, scene, progress: Progress::new(quiet) });
+/// The same for a scene that was read already, with a turntable of its final picture, if wanted.
+pub(crate) fn run_scene(
+    arguments: Predict,
+    scene: Scene,
+    turntable: Option<Turntable>,
+    quiet: bool,
+) -> Result<Done, Failure> {
+    let spec = scene.hairstyle_spec()?;
+    check_outputs(&arguments, &scene, turntable)?;
+
+    let work = Arc::new(Work { arguments, scene, turntable, progress: Progress::new(quiet) });
     let result = all(&work, spec);
     work.progress.finish();
     let (numbers, written) = result?;
@@ -53,7 +69,7 @@ pub(crate) fn run_scene(arguments: Predict, scene: Scene, quiet: bool) -> Result
 
 /// Computes on a thread that can be left, and writes on this one, which always ends what it is at;
 /// gives the numbers of the last hairstyle, and what was written.
-fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<PathBuf>), Failure> {
+fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), Failure> {
     let mine = work.clone();
     let hair = Arc::new(interrupt::computing(move || mine.hair(&spec))?);
     let frames = hair.styled.hairstyles.len();
@@ -62,26 +78,33 @@ fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<PathBuf>),
     for frame in 0..frames {
         let (mine, all) = (work.clone(), hair.clone());
         let drawn = interrupt::computing(move || mine.draw(&all, frame))?;
-        work.write(&drawn, frame, frames, &mut written)?;
-        last = drawn.numbers;
+        last = work.write(drawn, frame, frames, &mut written)?;
     }
     let mut numbers = last.expect("the last hairstyle has its numbers");
     numbers.steps.clone_from(&hair.styled.steps);
     if let Some(path) = &work.arguments.report {
         interrupt::check()?;
         report::write(path, &numbers).map_err(|e| Failure::failed(&e))?;
-        written.push(path.clone());
+        written.push(path.display().to_string());
     }
     Ok((numbers, written))
 }
 
 /// Everything that can be known to be wrong before the work.
-fn check_outputs(arguments: &Predict, scene: &Scene) -> Result<(), Failure> {
+fn check_outputs(
+    arguments: &Predict,
+    scene: &Scene,
+    turntable: Option<Turntable>,
+) -> Result<(), Failure> {
     for path in &arguments.outputs {
         Format::of(path).map_err(|e| Failure::wrong(&e, hint_of(path)))?;
     }
     if let Some(path) = &arguments.image {
-        picture::check_name(path).map_err(|e| Failure::wrong(&e, ""))?;
+        picture::Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
+        if arguments.quality == Quality::Final {
+            let options = arguments.tracing.options(&scene.output);
+            options.check().map_err(|e| Failure::wrong(&e, ""))?;
+        }
     }
     let frames = if arguments.each_step { steps::count(scene) } else { 1 };
     let named = |path: &PathBuf| -> Vec<PathBuf> {
@@ -89,6 +112,9 @@ fn check_outputs(arguments: &Predict, scene: &Scene) -> Result<(), Failure> {
     };
     let mut all: Vec<PathBuf> =
         arguments.outputs.iter().chain(&arguments.image).flat_map(named).collect();
+    if let (Some(path), Some(turntable)) = (&arguments.image, turntable) {
+        all = exposing::names(path, Some(turntable.frames));
+    }
     all.extend(arguments.report.clone());
     let all: Vec<&Path> = all.iter().map(AsRef::as_ref).collect();
     let mut inputs: Vec<&Path> = vec![&arguments.scene];
@@ -105,14 +131,16 @@ fn check_outputs(arguments: &Predict, scene: &Scene) -> Result<(), Failure> {
 /// Where an output of a frame goes.
 fn name_of<'a>(arguments: &Predict, path: &'a Path, frame: usize, frames: usize) -> Cow<'a, Path> {
     match arguments.each_step {
-        true => Cow::Owned(steps::numbered(path, frame, frames)),
+        true => Cow::Owned(exposing::numbered(path, frame, frames)),
         false => Cow::Borrowed(path),
     }
 }
 
 fn hint_of(path: &Path) -> &'static str {
     match path.extension() {
-        Some(e) if e.eq_ignore_ascii_case("png") => "pictures go to `--image`",
+        Some(e) if ["png", "exr"].iter().any(|known| e.eq_ignore_ascii_case(known)) => {
+            "pictures go to `--image`"
+        }
         Some(e) if e.eq_ignore_ascii_case("json") => "numbers go to `--report`",
         _ => "",
     }
@@ -135,6 +163,7 @@ impl Monitor for Watch<'_> {
 struct Work {
     arguments: Predict,
     scene: Scene,
+    turntable: Option<Turntable>,
     progress: Progress,
 }
 
@@ -149,10 +178,15 @@ struct Hair {
 /// One of them, drawn.
 struct Drawn {
     strands: Strands,
-    /// Width, height and pixels.
-    picture: Option<(u32, u32, Vec<u8>)>,
+    picture: Option<Picture>,
     /// Of the last.
     numbers: Option<Numbers>,
+}
+
+/// A picture, or what it is made with.
+enum Picture {
+    Preview(Image),
+    Final(Box<Shot>),
 }
 
 impl Work {
@@ -201,13 +235,26 @@ impl Work {
     }
 
     /// A picture of strands, framed so that others would be in it, too.
-    fn picture(
-        &self,
-        strands: &Strands,
-        shown: &Strands,
-        head: &Head,
-    ) -> Result<(u32, u32, Vec<u8>), Failure> {
-        let scene::Output { width, height, samples } = self.scene.output;
+    fn picture(&self, strands: &Strands, shown: &Strands, head: &Head) -> Result<Picture, Failure> {
+        let surface = Some(head.surface());
+        let drawn = crate::picture::scene(&self.scene, strands, shown, surface);
+        if self.arguments.quality == Quality::Preview {
+            return self.preview(&drawn).map(Picture::Preview);
+        }
+        self.progress.show("strands", 1.0);
+        let options = self.arguments.tracing.options(&self.scene.output);
+        let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
+        let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
+        let views = match self.turntable {
+            Some(_) => crate::picture::turntable(&self.scene, strands, surface, frames),
+            None => Vec::new(),
+        };
+        Ok(Picture::Final(Box::new(Shot { tracer, views, from })))
+    }
+
+    fn preview(&self, drawn: &preview::Scene<'_>) -> Result<Image, Failure> {
+        let scene::Output { width, height, samples, .. } = self.scene.output;
+        let options = PreviewOptions { width, height, samples, ..Default::default() };
         let watch = |done: f64| {
             self.progress.show("picture", done);
             if interrupt::interrupted() {
@@ -216,51 +263,45 @@ impl Work {
                 ControlFlow::Continue(())
             }
         };
-        let drawn = crate::picture::scene(&self.scene, strands, shown, head.surface());
-        let image = match self.arguments.quality {
-            Quality::Preview => {
-                let options = PreviewOptions { width, height, samples, ..Default::default() };
-                preview::render(&drawn, &options, &watch).map_err(|e| match e {
-                    preview::PreviewError::Cancelled => Failure::Interrupted,
-                    preview::PreviewError::Size { .. } => Failure::wrong(&e, ""),
-                })?
-            }
-            Quality::Final => {
-                let samples = self.arguments.paths;
-                let options = TraceOptions { width, height, samples, ..Default::default() };
-                trace::render(&drawn, &options, &watch).map_err(|e| match e {
-                    TraceError::Cancelled => Failure::Interrupted,
-                    e => Failure::wrong(&e, ""),
-                })?
-            }
-        };
-        let [width, height] =
-            [width, height].map(|n| u32::try_from(n).expect("scenes have at most 16384 pixels"));
-        Ok((width, height, image.to_srgb8()))
+        preview::render(drawn, &options, &watch).map_err(|e| match e {
+            PreviewError::Cancelled => Failure::Interrupted,
+            PreviewError::Size { .. } => Failure::wrong(&e, ""),
+        })
     }
 
-    /// Writes what is asked for of one hairstyle.
+    /// Writes what is asked for of one hairstyle, and gives its numbers back.
     fn write(
         &self,
-        drawn: &Drawn,
+        drawn: Drawn,
         frame: usize,
         frames: usize,
-        written: &mut Vec<PathBuf>,
-    ) -> Result<(), Failure> {
+        written: &mut Vec<String>,
+    ) -> Result<Option<Numbers>, Failure> {
+        let Drawn { strands, picture, numbers } = drawn;
         for path in &self.arguments.outputs {
             interrupt::check()?;
             let path = name_of(&self.arguments, path, frame, frames);
-            write_groom(&path, &drawn.strands).map_err(|e| Failure::failed(&e))?;
-            written.push(path.into_owned());
+            write_groom(&path, &strands).map_err(|e| Failure::failed(&e))?;
+            written.push(path.display().to_string());
         }
-        if let (Some(path), Some((width, height, pixels))) = (&self.arguments.image, &drawn.picture)
-        {
-            interrupt::check()?;
-            let path = name_of(&self.arguments, path, frame, frames);
-            picture::write(&path, *width, *height, pixels).map_err(|e| Failure::failed(&e))?;
-            written.push(path.into_owned());
+        let Some((path, picture)) = self.arguments.image.as_ref().zip(picture) else {
+            return Ok(numbers);
+        };
+        interrupt::check()?;
+        let (path, output) = (name_of(&self.arguments, path, frame, frames), &self.scene.output);
+        match picture {
+            Picture::Preview(image) => {
+                exposing::write(&path, &image, output).map_err(|e| Failure::failed(&e))?;
+                written.push(path.display().to_string());
+            }
+            Picture::Final(shot) => {
+                // What the picture no longer needs: the tracer has its own.
+                drop(strands);
+                let all = exposing::shoot(*shot, &path, output, &self.progress)?;
+                written.extend(all.iter().map(ToString::to_string));
+            }
         }
-        Ok(())
+        Ok(numbers)
     }
 }
 
@@ -278,7 +319,8 @@ fn swept(hairstyles: &[Hairstyle]) -> Strands {
     all
 }
 
-fn head(scene: &Scene) -> Result<Head, Failure> {
+/// The head of a scene.
+pub(crate) fn head(scene: &Scene) -> Result<Head, Failure> {
     let Some(mesh) = scene.head_mesh()? else { return Ok(Head::mannequin()) };
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
     Head::from_surface(mesh.surface, scalp)

@@ -1,7 +1,6 @@
 //! The report of `frisure predict`, and its summary.
 
 use std::fmt::Write;
-use std::path::PathBuf;
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{Body, HairContact, Hairstyle, Volume};
@@ -167,7 +166,7 @@ pub(super) fn litres(volume: &Volume) -> Litres {
 }
 
 /// What a person reads when it is done.
-pub(super) fn summary(numbers: &Numbers, written: &[PathBuf]) -> String {
+pub(super) fn summary(numbers: &Numbers, written: &[String]) -> String {
     let guides = &numbers.guides;
     let name = if numbers.scene.is_empty() { numbers.hair_type } else { &numbers.scene };
     let mut out = format!("{name}: {} of {} guides at rest", guides.stable, guides.count);
@@ -192,7 +191,7 @@ pub(super) fn summary(numbers: &Numbers, written: &[PathBuf]) -> String {
         step.tell(&mut out);
     }
     for path in written {
-        let _ = writeln!(out, "wrote {}", path.display());
+        let _ = writeln!(out, "wrote {path}");
     }
     out
 }

@@ -1,7 +1,6 @@
 //! What is done to the hair of a scene, step by step.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::{Cut, CutLine, Hold, Holder, Operation, StyleError};
@@ -169,28 +168,4 @@ pub(super) fn count(scene: &Scene) -> usize {
         _ => 1,
     };
     1 + scene.steps().iter().map(stages).sum::<usize>()
-}
-
-/// The name of an output with a number before the extension: `out/hair.png` is `out/hair-07.png`.
-pub(super) fn numbered(path: &Path, number: usize, count: usize) -> PathBuf {
-    let digits = count.saturating_sub(1).to_string().len().max(2);
-    let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("-{number:0digits$}"));
-    if let Some(extension) = path.extension() {
-        name.push(".");
-        name.push(extension);
-    }
-    path.with_file_name(name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_go_before_the_extension() {
-        let name = |path: &str, number, count| numbered(Path::new(path), number, count);
-        assert_eq!(name("out/hair.png", 7, 12), Path::new("out/hair-07.png"));
-        assert_eq!(name("hair", 7, 1200), Path::new("hair-0007"));
-    }
 }

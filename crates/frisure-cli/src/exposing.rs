@@ -1,0 +1,241 @@
+//! Final pictures: exposed until they are good enough, and saved while they grow.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use frisure::io::files::{self, write_atomically};
+use frisure::io::picture::exr::{self, Channel, Values};
+use frisure::io::picture::{Format, PictureError, png};
+use frisure::io::scene;
+use frisure::render::trace::{Exposure, Layers, Tracer};
+use frisure::render::{Camera, Image, Lights};
+
+use crate::failure::Failure;
+use crate::progress::Progress;
+use crate::{interrupt, picture};
+
+/// How often an unfinished picture is saved.
+const SAVED_EVERY: Duration = Duration::from_mins(1);
+
+/// Largest unfinished picture that is read (bytes).
+const MAX_PART: u64 = 8 << 30;
+
+/// A scene ready for rays, and where it is seen from.
+pub(crate) struct Shot {
+    pub(crate) tracer: Tracer,
+    /// What differs from picture to picture; without any, there is the one that the tracer has.
+    pub(crate) views: Vec<(Camera, Lights)>,
+    /// The first view that is wanted.
+    pub(crate) from: usize,
+}
+
+/// What is told of a picture when it is done.
+#[derive(Clone, Debug)]
+pub(crate) struct Exposed {
+    pub(crate) path: PathBuf,
+    /// Paths per pixel, in the mean.
+    pub(crate) paths: f64,
+    /// Standard error, as a part of the way from black to white.
+    pub(crate) noise: f32,
+    /// Paths per pixel that there were already.
+    pub(crate) before: f64,
+}
+
+impl fmt::Display for Exposed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { path, paths, noise, before } = self;
+        write!(f, "{}: {paths:.0} paths per pixel", path.display())?;
+        if *before > 0.0 {
+            write!(f, ", {before:.0} of them from before")?;
+        }
+        write!(f, ", noise {:.1} %", 100.0 * noise)
+    }
+}
+
+/// The names of the pictures of a turntable, or the one name.
+pub(crate) fn names(path: &Path, turntable: Option<usize>) -> Vec<PathBuf> {
+    match turntable {
+        Some(frames) => (0..frames).map(|frame| numbered(path, frame, frames)).collect(),
+        None => vec![path.to_owned()],
+    }
+}
+
+/// The name of an output with a number before the extension: `out/hair.png` is `out/hair-07.png`.
+pub(crate) fn numbered(path: &Path, number: usize, count: usize) -> PathBuf {
+    let digits = count.saturating_sub(1).to_string().len().max(2);
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number:0digits$}"));
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
+/// Exposes and writes all pictures of a shot.
+pub(crate) fn shoot(
+    mut shot: Shot,
+    path: &Path,
+    output: &scene::Output,
+    progress: &Progress,
+) -> Result<Vec<Exposed>, Failure> {
+    let Shot { tracer, views, from } = &mut shot;
+    if views.is_empty() {
+        let writer = Writer { path: path.to_owned(), output: *output };
+        return Ok(vec![writer.expose(tracer, progress, "picture")?]);
+    }
+    let count = views.len();
+    let mut all = Vec::new();
+    for (frame, (camera, lights)) in views.iter().enumerate().skip(*from) {
+        tracer.look_from(camera, lights).map_err(|e| Failure::wrong(&e, ""))?;
+        let writer = Writer { path: numbered(path, frame, count), output: *output };
+        let name = format!("picture {} of {count}", frame + 1);
+        all.push(writer.expose(tracer, progress, &name).map_err(|e| match e {
+            Failure::Paused(what) => Failure::Paused(format!(
+                "{what} With `--from {frame}` the frames before are not drawn again."
+            )),
+            e => e,
+        })?);
+    }
+    Ok(all)
+}
+
+/// Where a picture goes, and how it is developed.
+struct Writer {
+    path: PathBuf,
+    output: scene::Output,
+}
+
+impl Writer {
+    fn expose(&self, tracer: &Tracer, progress: &Progress, name: &str) -> Result<Exposed, Failure> {
+        let mut exposure = self.unfinished(tracer).unwrap_or_else(|| tracer.exposure());
+        let before = exposure.mean_samples();
+        let mut pause = SAVED_EVERY;
+        loop {
+            let since = Instant::now();
+            let watch = |done: f64| {
+                progress.show(name, done);
+                match interrupt::interrupted() || since.elapsed() > pause {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
+            };
+            let finished = tracer.expose(&mut exposure, &watch).is_continue();
+            let saving = Instant::now();
+            self.write(&exposure).map_err(|e| Failure::failed(&e))?;
+            if finished {
+                // A part that cannot be removed is one that nobody needs.
+                let _ = std::fs::remove_file(self.part());
+                break;
+            }
+            self.put_away(&exposure)?;
+            if interrupt::interrupted() {
+                return Err(Failure::Paused(self.so_far(&exposure)));
+            }
+            // Large pictures take long to write: most of the time is for tracing.
+            pause = SAVED_EVERY.max(20 * saving.elapsed());
+        }
+        let (paths, noise) = (exposure.mean_samples(), exposure.noise());
+        Ok(Exposed { path: self.path.clone(), paths, noise, before })
+    }
+
+    /// The file that keeps an unfinished picture.
+    fn part(&self) -> PathBuf {
+        let mut name = self.path.file_name().unwrap_or_default().to_owned();
+        name.push(".part");
+        self.path.with_file_name(name)
+    }
+
+    /// The exposure that was put away, if it is one of this picture.
+    fn unfinished(&self, tracer: &Tracer) -> Option<Exposure> {
+        let bytes = files::read_bytes(&self.part(), MAX_PART, "an unfinished picture").ok()?;
+        Exposure::from_bytes(&bytes).ok().filter(|exposure| tracer.knows(exposure))
+    }
+
+    fn put_away(&self, exposure: &Exposure) -> Result<(), Failure> {
+        write_atomically(&self.part(), |out| out.write_all(&exposure.to_bytes()))
+            .map_err(|e| Failure::failed(&e))
+    }
+
+    fn so_far(&self, exposure: &Exposure) -> String {
+        let (path, paths) = (self.path.display(), exposure.mean_samples());
+        format!(
+            "`{path}` is what there is so far, {paths:.0} paths per pixel; the same command goes on from there."
+        )
+    }
+
+    fn write(&self, exposure: &Exposure) -> Result<(), PictureError> {
+        let image = exposure.image();
+        match Format::of(&self.path)? {
+            Format::Png => write_png(&self.path, &image, &self.output),
+            Format::Exr => {
+                let mut channels = light(&image);
+                channels.extend(layers(exposure.layers()));
+                let comment = format!(
+                    "{:.0} paths per pixel; lengths in metres, z up, the face towards -y; wisps from 1",
+                    exposure.mean_samples()
+                );
+                exr::write(&self.path, image.width(), image.height(), channels, &comment)
+            }
+        }
+    }
+}
+
+/// Writes an image that has no layers, in the format that the path names.
+pub(crate) fn write(
+    path: &Path,
+    image: &Image,
+    output: &scene::Output,
+) -> Result<(), PictureError> {
+    match Format::of(path)? {
+        Format::Png => write_png(path, image, output),
+        Format::Exr => exr::write(path, image.width(), image.height(), light(image), "a preview"),
+    }
+}
+
+fn write_png(path: &Path, image: &Image, output: &scene::Output) -> Result<(), PictureError> {
+    let [width, height] = [image.width(), image.height()]
+        .map(|n| u32::try_from(n).expect("pictures have at most 16384 pixels a side"));
+    png::write(path, width, height, &picture::developed(image, output))
+}
+
+fn light(image: &Image) -> Vec<Channel> {
+    let of = |i: usize| Values::Half(image.pixels().iter().map(|pixel| pixel[i]).collect());
+    ["R", "G", "B", "A"].into_iter().enumerate().map(|(i, name)| channel(name, of(i))).collect()
+}
+
+fn layers(layers: Layers) -> Vec<Channel> {
+    let Layers { albedo, normal, tangent, depth, hair, wisp, samples } = layers;
+    let three = |layer: &str, names: [&str; 3], values: &[[f32; 3]]| {
+        let of = |i: usize| Values::Half(values.iter().map(|v| v[i]).collect());
+        (0..3).map(|i| channel(&format!("{layer}.{}", names[i]), of(i))).collect::<Vec<_>>()
+    };
+    let mut channels = three("albedo", ["R", "G", "B"], &albedo);
+    channels.extend(three("normal", ["X", "Y", "Z"], &normal));
+    channels.extend(three("tangent", ["X", "Y", "Z"], &tangent));
+    channels.extend([
+        channel("depth.Z", Values::Single(depth)),
+        channel("hair.A", Values::Half(hair)),
+        channel("wisp.id", Values::Whole(wisp)),
+        channel("paths.count", Values::Whole(samples)),
+    ]);
+    channels
+}
+
+fn channel(name: &str, values: Values) -> Channel {
+    Channel { name: name.into(), values }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_go_before_the_extension() {
+        let name = |path: &str, number, count| numbered(Path::new(path), number, count);
+        assert_eq!(name("out/hair.png", 7, 12), Path::new("out/hair-07.png"));
+        assert_eq!(name("hair", 7, 1200), Path::new("hair-0007"));
+    }
+}
