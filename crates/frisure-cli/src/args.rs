@@ -169,6 +169,11 @@ pub(crate) struct Tracing {
     /// Most times that a path of light is followed on, 1 to 10000; light hair needs 50 and more.
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = bounces)]
     pub(crate) bounces: u32,
+
+    /// Take out what noise is left, by Open Image Denoise, if it is installed: pleasant for few paths,
+    /// but no longer the truth. FRISURE_OIDN names its library where the system does not know it.
+    #[arg(long)]
+    pub(crate) denoise: bool,
 }
 
 impl Tracing {

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use frisure::denoise::{Denoiser, Noisy, VARIABLE};
 use frisure::io::files::{self, write_atomically};
 use frisure::io::picture::exr::{self, Channel, Values};
 use frisure::io::picture::{Format, PictureError, png};
@@ -29,6 +30,18 @@ pub(crate) struct Shot {
     pub(crate) views: Vec<(Camera, Lights)>,
     /// The first view that is wanted.
     pub(crate) from: usize,
+    /// Takes out the noise, if that is wanted.
+    pub(crate) denoiser: Option<Denoiser>,
+}
+
+/// The denoiser, if it is wanted: to be known before the work.
+pub(crate) fn denoiser(wanted: bool) -> Result<Option<Denoiser>, Failure> {
+    let hint = format!(
+        "install Open Image Denoise (openimagedenoise.org), or name its library in {VARIABLE}; \
+         without --denoise, more --paths have the same effect"
+    );
+    let found = wanted.then(Denoiser::find).transpose();
+    found.map_err(|e| Failure::failed_because(&e, &hint))
 }
 
 /// What is told of a picture when it is done.
@@ -81,16 +94,17 @@ pub(crate) fn shoot(
     output: &scene::Output,
     progress: &Progress,
 ) -> Result<Vec<Exposed>, Failure> {
-    let Shot { tracer, views, from } = &mut shot;
+    let Shot { tracer, views, from, denoiser } = &mut shot;
+    let denoiser = denoiser.as_ref();
     if views.is_empty() {
-        let writer = Writer { path: path.to_owned(), output: *output };
+        let writer = Writer { path: path.to_owned(), output: *output, denoiser };
         return Ok(vec![writer.expose(tracer, progress, "picture")?]);
     }
     let count = views.len();
     let mut all = Vec::new();
     for (frame, (camera, lights)) in views.iter().enumerate().skip(*from) {
         tracer.look_from(camera, lights).map_err(|e| Failure::wrong(&e, ""))?;
-        let writer = Writer { path: numbered(path, frame, count), output: *output };
+        let writer = Writer { path: numbered(path, frame, count), output: *output, denoiser };
         let name = format!("picture {} of {count}", frame + 1);
         all.push(writer.expose(tracer, progress, &name).map_err(|e| match e {
             Failure::Paused(what) => Failure::Paused(format!(
@@ -103,12 +117,13 @@ pub(crate) fn shoot(
 }
 
 /// Where a picture goes, and how it is developed.
-struct Writer {
+struct Writer<'a> {
     path: PathBuf,
     output: scene::Output,
+    denoiser: Option<&'a Denoiser>,
 }
 
-impl Writer {
+impl Writer<'_> {
     fn expose(&self, tracer: &Tracer, progress: &Progress, name: &str) -> Result<Exposed, Failure> {
         let mut exposure = self.unfinished(tracer).unwrap_or_else(|| tracer.exposure());
         let before = exposure.mean_samples();
@@ -124,7 +139,7 @@ impl Writer {
             };
             let finished = tracer.expose(&mut exposure, &watch).is_continue();
             let saving = Instant::now();
-            self.write(&exposure).map_err(|e| Failure::failed(&e))?;
+            self.write(&exposure)?;
             if finished {
                 // A part that cannot be removed is one that nobody needs.
                 let _ = std::fs::remove_file(self.part());
@@ -166,21 +181,46 @@ impl Writer {
         )
     }
 
-    fn write(&self, exposure: &Exposure) -> Result<(), PictureError> {
-        let image = exposure.image();
-        match Format::of(&self.path)? {
-            Format::Png => write_png(&self.path, &image, &self.output),
+    fn write(&self, exposure: &Exposure) -> Result<(), Failure> {
+        let (image, layers) = (exposure.image(), exposure.layers());
+        let clean = self.denoiser.map(|denoiser| clean(denoiser, &image, &layers)).transpose()?;
+        let shown = clean.as_ref().unwrap_or(&image);
+        let format = Format::of(&self.path).map_err(|e| Failure::failed(&e))?;
+        let written = match format {
+            Format::Png => write_png(&self.path, shown, &self.output),
             Format::Exr => {
-                let mut channels = light(&image);
-                channels.extend(layers(exposure.layers()));
+                let mut channels = light(shown);
+                channels.extend(layer_channels(layers));
+                if clean.is_some() {
+                    channels.extend(noisy(&image));
+                }
                 let comment = format!(
                     "{:.0} paths per pixel; lengths in metres, z up, the face towards -y; wisps from 1",
                     exposure.mean_samples()
                 );
                 exr::write(&self.path, image.width(), image.height(), channels, &comment)
             }
-        }
+        };
+        written.map_err(|e| Failure::failed(&e))
     }
+}
+
+/// The picture without its noise; coverage stays.
+fn clean(denoiser: &Denoiser, image: &Image, layers: &Layers) -> Result<Image, Failure> {
+    let light: Vec<[f32; 3]> = image.pixels().iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    // A hair's normal turns across its width; its tangent is what it shares with its neighbours.
+    let ways = layers.hair.iter().zip(layers.tangent.iter().zip(&layers.normal));
+    let direction: Vec<[f32; 3]> =
+        ways.map(|(hair, (t, n))| if *hair > 0.5 { *t } else { *n }).collect();
+    let (width, height) = (image.width(), image.height());
+    let noisy =
+        Noisy { width, height, light: &light, albedo: &layers.albedo, direction: &direction };
+    let clean = denoiser.denoise(&noisy).map_err(|e| Failure::failed(&e))?;
+    let mut image = image.clone();
+    for (pixel, light) in image.pixels_mut().iter_mut().zip(clean) {
+        pixel[..3].copy_from_slice(&light);
+    }
+    Ok(image)
 }
 
 /// Writes an image that has no layers, in the format that the path names.
@@ -206,7 +246,15 @@ fn light(image: &Image) -> Vec<Channel> {
     ["R", "G", "B", "A"].into_iter().enumerate().map(|(i, name)| channel(name, of(i))).collect()
 }
 
-fn layers(layers: Layers) -> Vec<Channel> {
+/// The light before the noise was taken out.
+fn noisy(image: &Image) -> Vec<Channel> {
+    let mut channels = light(image);
+    channels.truncate(3);
+    channels.iter_mut().for_each(|channel| channel.name.insert_str(0, "noisy."));
+    channels
+}
+
+fn layer_channels(layers: Layers) -> Vec<Channel> {
     let Layers { albedo, normal, tangent, depth, hair, wisp, samples } = layers;
     let three = |layer: &str, names: [&str; 3], values: &[[f32; 3]]| {
         let of = |i: usize| Values::Half(values.iter().map(|v| v[i]).collect());

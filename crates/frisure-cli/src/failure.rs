@@ -46,6 +46,11 @@ impl Failure {
         Self::Failed(report(error, ""))
     }
 
+    /// The same, with what to do.
+    pub(crate) fn failed_because(error: &dyn Error, hint: &str) -> Self {
+        Self::Failed(report(error, hint))
+    }
+
     /// What was asked for is wrong; `hint` says what to do, and may be empty.
     pub(crate) fn wrong(error: &dyn Error, hint: &str) -> Self {
         Self::Wrong(report(error, hint))

@@ -23,6 +23,7 @@
 //! # Ok::<(), frisure::io::scene::SceneError>(())
 //! ```
 
+pub use frisure_denoise as denoise;
 pub use frisure_hairstyle as hairstyle;
 pub use frisure_io as io;
 pub use frisure_optics as optics;

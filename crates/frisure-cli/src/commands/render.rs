@@ -84,6 +84,7 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
         .collect();
     outputs::prepare(&names, &inputs)?;
 
+    let denoiser = exposing::denoiser(arguments.tracing.denoise)?;
     let progress = Progress::new(quiet);
     let (path, output, has_head) =
         (arguments.scene.clone(), scene.output, arguments.look.is_some());
@@ -102,7 +103,7 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
             }
             None => (Vec::new(), 0),
         };
-        Ok(Shot { tracer, views, from })
+        Ok(Shot { tracer, views, from, denoiser })
     });
     let exposed =
         shot.and_then(|shot| exposing::shoot(shot, &arguments.output, &output, &progress));

@@ -104,6 +104,7 @@ fn check_outputs(
         if arguments.quality == Quality::Final {
             let options = arguments.tracing.options(&scene.output);
             options.check().map_err(|e| Failure::wrong(&e, ""))?;
+            exposing::denoiser(arguments.tracing.denoise)?;
         }
     }
     let frames = if arguments.each_step { steps::count(scene) } else { 1 };
@@ -249,7 +250,8 @@ impl Work {
             Some(_) => crate::picture::turntable(&self.scene, strands, surface, frames),
             None => Vec::new(),
         };
-        Ok(Picture::Final(Box::new(Shot { tracer, views, from })))
+        let denoiser = exposing::denoiser(self.arguments.tracing.denoise)?;
+        Ok(Picture::Final(Box::new(Shot { tracer, views, from, denoiser })))
     }
 
     fn preview(&self, drawn: &preview::Scene<'_>) -> Result<Image, Failure> {
