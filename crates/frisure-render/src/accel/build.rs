@@ -12,18 +12,19 @@ use super::bounds::Bounds;
 use super::hierarchy::{Child, Leaf, Node};
 use super::simd::{LANES, Lanes};
 
-/// A thing to be sorted in: its box and its index.
+/// A thing to be sorted in: its box, its index and a number that the thing's kind may use.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
 pub(super) struct Primitive {
     low: [f32; 3],
     index: u32,
     high: [f32; 3],
+    number: u32,
 }
 
 impl Primitive {
-    pub(super) fn new(bounds: Bounds, index: u32) -> Self {
-        Self { low: bounds.low.to_array(), index, high: bounds.high.to_array() }
+    pub(super) fn new(bounds: Bounds, index: u32, number: u32) -> Self {
+        Self { low: bounds.low.to_array(), index, high: bounds.high.to_array(), number }
     }
 
     #[inline]
@@ -33,6 +34,10 @@ impl Primitive {
 
     pub(super) fn index(&self) -> usize {
         self.index as usize
+    }
+
+    pub(super) fn number(&self) -> u32 {
+        self.number
     }
 
     /// Twice the middle of the box.
@@ -61,9 +66,6 @@ const PARALLEL: usize = 1 << 17;
 /// Things that are put in bins at once, in parallel with others.
 const CHUNK: usize = 1 << 14;
 
-/// Bins per axis: rays are 7 % faster than with 16.
-const BINS: usize = 32;
-
 struct Builder<'a, L: Leaf> {
     things: &'a L::Things,
     pad: f32,
@@ -73,16 +75,16 @@ struct Builder<'a, L: Leaf> {
 pub(super) fn tree<L: Leaf>(things: &L::Things, primitives: &mut [Primitive], pad: f32) -> Tree<L> {
     let mut tree = Tree { nodes: Vec::new(), leaves: Vec::new() };
     if !primitives.is_empty() {
-        Builder { things, pad }.node(primitives, 0, &mut tree);
+        Builder { things, pad }.node(Part::new(primitives), 0, &mut tree);
     }
     tree
 }
 
 impl<L: Leaf> Builder<'_, L> {
-    /// Appends the node over `primitives` and everything below it.
-    fn node(&self, primitives: &mut [Primitive], level: usize, tree: &mut Tree<L>) {
-        let wide = primitives.len() > PARALLEL;
-        let parts = eight(primitives, level >= FREE_LEVELS);
+    /// Appends the node over a part and everything below it.
+    fn node(&self, part: Part<'_>, level: usize, tree: &mut Tree<L>) {
+        let wide = part.things.len() > PARALLEL;
+        let parts = eight(part, level >= FREE_LEVELS);
         let index = tree.nodes.len();
         let mut node = Node {
             low: [Lanes([f32::INFINITY; LANES]); 3],
@@ -90,7 +92,7 @@ impl<L: Leaf> Builder<'_, L> {
             child: [Child::NONE; LANES],
         };
         for (lane, part) in parts.iter().enumerate() {
-            let bounds = part.bounds.grown(self.pad);
+            let bounds = part.extent.bounds.grown(self.pad);
             for axis in 0..3 {
                 node.low[axis].0[lane] = bounds.low[axis];
                 node.high[axis].0[lane] = bounds.high[axis];
@@ -112,7 +114,7 @@ impl<L: Leaf> Builder<'_, L> {
             return Child::leaf(tree.leaves.len() - 1);
         }
         let index = tree.nodes.len();
-        self.node(part.things, level, tree);
+        self.node(part, level, tree);
         Child::node(index)
     }
 
@@ -142,16 +144,47 @@ impl<L: Leaf> Builder<'_, L> {
     }
 }
 
-/// A range of things, and the box around them.
+/// The box around things, and the box around (twice) their middles.
+#[derive(Clone, Copy)]
+struct Extent {
+    bounds: Bounds,
+    middles: Bounds,
+}
+
+impl Extent {
+    const EMPTY: Self = Self { bounds: Bounds::EMPTY, middles: Bounds::EMPTY };
+
+    fn of(things: &[Primitive]) -> Self {
+        let mut extent = Self::EMPTY;
+        for thing in things {
+            extent.add(thing);
+        }
+        extent
+    }
+
+    #[inline]
+    fn add(&mut self, thing: &Primitive) {
+        self.bounds = self.bounds.union(thing.bounds());
+        let middle = thing.middle();
+        self.middles = self.middles.union(Bounds { low: middle, high: middle });
+    }
+
+    fn and(self, other: Self) -> Self {
+        let bounds = self.bounds.union(other.bounds);
+        Self { bounds, middles: self.middles.union(other.middles) }
+    }
+}
+
+/// A range of things, and how far they extend.
 struct Part<'a> {
     things: &'a mut [Primitive],
-    bounds: Bounds,
+    extent: Extent,
 }
 
 impl<'a> Part<'a> {
     fn new(things: &'a mut [Primitive]) -> Self {
-        let bounds = things.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
-        Self { things, bounds }
+        let chunks = things.par_chunks(CHUNK).map(Extent::of);
+        Self { extent: chunks.reduce(|| Extent::EMPTY, Extent::and), things }
     }
 
     /// How much there is to win by splitting it.
@@ -159,26 +192,37 @@ impl<'a> Part<'a> {
         if self.things.len() <= LANES {
             return f32::NEG_INFINITY;
         }
-        if halve { self.things.len() as f32 } else { self.bounds.half_area() }
+        if halve { self.things.len() as f32 } else { self.extent.bounds.half_area() }
+    }
+
+    /// Two parts of it: where it costs least, or in the middle.
+    fn split(self, halve: bool) -> [Self; 2] {
+        let Self { things, extent } = self;
+        let best = if halve { None } else { best_split(things, &extent.middles) };
+        let (at, first, second) = match best {
+            Some((grid, axis, bin)) => partition(things, |p| grid.bins_of(p)[axis] < bin),
+            None => {
+                let at = things.len() / 2;
+                (at, Extent::of(&things[..at]), Extent::of(&things[at..]))
+            }
+        };
+        let (left, right) = things.split_at_mut(at);
+        [Self { things: left, extent: first }, Self { things: right, extent: second }]
     }
 }
 
 /// Splits things into at most eight parts.
-fn eight(primitives: &mut [Primitive], halve: bool) -> Vec<Part<'_>> {
+fn eight(part: Part<'_>, halve: bool) -> Vec<Part<'_>> {
     let mut parts = Vec::with_capacity(LANES);
-    parts.push(Part::new(primitives));
+    parts.push(part);
     while parts.len() < LANES {
         let sizes = parts.iter().map(|part| part.size(halve)).enumerate();
         let Some((largest, size)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
         if size == f32::NEG_INFINITY {
             break;
         }
-        let Part { things, .. } = parts.swap_remove(largest);
-        let at = if halve { None } else { best_split(things) };
-        let at = at.unwrap_or(things.len() / 2);
-        let (left, right) = things.split_at_mut(at);
-        parts.push(Part::new(left));
-        parts.push(Part::new(right));
+        let part = parts.swap_remove(largest);
+        parts.extend(part.split(halve));
     }
     parts
 }
@@ -190,16 +234,18 @@ struct Bin {
     bounds: Bounds,
 }
 
-type Bins = [[Bin; BINS]; 3];
-
-const NO_BINS: Bins = [[Bin { count: 0, bounds: Bounds::EMPTY }; BINS]; 3];
+type Bins<const N: usize> = [[Bin; N]; 3];
 
 impl Bin {
+    const EMPTY: Self = Self { count: 0, bounds: Bounds::EMPTY };
+
+    #[inline]
     fn and(self, other: Self) -> Self {
         Self { count: self.count + other.count, bounds: self.bounds.union(other.bounds) }
     }
 
-    /// Expected work in it: leaves are tested eight things at a time.
+    /// Expected work in it: a leaf's things are tested at once.
+    #[inline]
     fn cost(&self) -> f32 {
         self.bounds.half_area() * self.count.div_ceil(LANES) as f32
     }
@@ -210,46 +256,52 @@ impl Bin {
 struct Grid {
     low: Vec3A,
     scale: Vec3A,
+    last: usize,
 }
 
 impl Grid {
+    /// `None` if all middles coincide.
+    fn new(middles: &Bounds, bins: usize) -> Option<Self> {
+        let extent = middles.high - middles.low;
+        // An axis without extent has one bin.
+        let scale = extent.to_array().map(|e| if e > 0.0 { 0.9999 * bins as f32 / e } else { 0.0 });
+        let scale = Vec3A::from(scale);
+        let grid = Self { low: middles.low, scale, last: bins - 1 };
+        (extent.max_element() > 0.0 && scale.is_finite()).then_some(grid)
+    }
+
     #[inline]
     fn bins_of(&self, primitive: &Primitive) -> [usize; 3] {
         let x = (primitive.middle() - self.low) * self.scale;
         // The cast saturates at 0.
-        x.to_array().map(|x| (x as usize).min(BINS - 1))
+        x.to_array().map(|x| (x as usize).min(self.last))
     }
 }
 
-/// Sorts things into the two sides of the best split found, and says where the second begins; `None`
-/// if all middles coincide.
-fn best_split(things: &mut [Primitive]) -> Option<usize> {
-    let grid = grid(things)?;
-    let bins = if things.len() > 2 * CHUNK {
+/// The best split found: axis and first bin of the second side; `None` if all middles coincide.
+///
+/// Many things get 32 bins (rays are 7 % faster than with 16), few things fewer: looking through
+/// the bins would cost more than filling them.
+fn best_split(things: &[Primitive], middles: &Bounds) -> Option<(Grid, usize, usize)> {
+    match things.len() {
+        ..=64 => binned::<16>(things, middles),
+        _ => binned::<32>(things, middles),
+    }
+}
+
+fn binned<const N: usize>(things: &[Primitive], middles: &Bounds) -> Option<(Grid, usize, usize)> {
+    let grid = Grid::new(middles, N)?;
+    let bins: Bins<N> = if things.len() > 2 * CHUNK {
         let chunks = things.par_chunks(CHUNK).map(|chunk| fill(chunk, &grid));
-        chunks.reduce(|| NO_BINS, merge)
+        chunks.reduce(|| [[Bin::EMPTY; N]; 3], merge)
     } else {
         fill(things, &grid)
     };
-    let (axis, bin) = cheapest(&bins)?;
-    Some(partition(things, |p| grid.bins_of(p)[axis] < bin))
+    cheapest(&bins).map(|(axis, bin)| (grid, axis, bin))
 }
 
-fn grid(things: &[Primitive]) -> Option<Grid> {
-    let first = things.first()?.middle();
-    let (low, high) = things.iter().fold((first, first), |(low, high), p| {
-        let middle = p.middle();
-        (low.min(middle), high.max(middle))
-    });
-    let extent = high - low;
-    // An axis without extent has one bin.
-    let scale = extent.to_array().map(|e| if e > 0.0 { 0.9999 * BINS as f32 / e } else { 0.0 });
-    let scale = Vec3A::from(scale);
-    (extent.max_element() > 0.0 && scale.is_finite()).then_some(Grid { low, scale })
-}
-
-fn fill(things: &[Primitive], grid: &Grid) -> Bins {
-    let mut bins = NO_BINS;
+fn fill<const N: usize>(things: &[Primitive], grid: &Grid) -> Bins<N> {
+    let mut bins = [[Bin::EMPTY; N]; 3];
     for thing in things {
         let bounds = thing.bounds();
         for (axis, bin) in grid.bins_of(thing).into_iter().enumerate() {
@@ -262,7 +314,7 @@ fn fill(things: &[Primitive], grid: &Grid) -> Bins {
 }
 
 /// Counts, minima and maxima: the order of merging does not matter.
-fn merge(mut a: Bins, b: Bins) -> Bins {
+fn merge<const N: usize>(mut a: Bins<N>, b: Bins<N>) -> Bins<N> {
     for (a, b) in a.iter_mut().flatten().zip(b.into_iter().flatten()) {
         *a = a.and(b);
     }
@@ -270,16 +322,18 @@ fn merge(mut a: Bins, b: Bins) -> Bins {
 }
 
 /// Axis and first bin of the second side of the cheapest split with something on both sides.
-fn cheapest(bins: &Bins) -> Option<(usize, usize)> {
+fn cheapest<const N: usize>(bins: &Bins<N>) -> Option<(usize, usize)> {
     let mut best = None;
     let mut least = f32::INFINITY;
     for (axis, bins) in bins.iter().enumerate() {
-        let mut right = [bins[BINS - 1]; BINS];
-        for i in (0..BINS - 1).rev() {
-            right[i] = bins[i].and(right[i + 1]);
+        let mut right = [Bin::EMPTY; N];
+        let mut all = Bin::EMPTY;
+        for i in (0..N).rev() {
+            all = all.and(bins[i]);
+            right[i] = all;
         }
         let mut left = bins[0];
-        for i in 1..BINS {
+        for i in 1..N {
             let cost = left.cost() + right[i].cost();
             if left.count > 0 && right[i].count > 0 && cost < least {
                 (least, best) = (cost, Some((axis, i)));
@@ -290,19 +344,22 @@ fn cheapest(bins: &Bins) -> Option<(usize, usize)> {
     best
 }
 
-/// Moves things that are `first` before the others, and says how many they are.
-fn partition(things: &mut [Primitive], first: impl Fn(&Primitive) -> bool) -> usize {
+/// Moves things that are `first` before the others: how many they are, and how far both extend.
+fn partition(
+    things: &mut [Primitive],
+    first: impl Fn(&Primitive) -> bool,
+) -> (usize, Extent, Extent) {
     let (mut begin, mut end) = (0, things.len());
-    loop {
-        while begin < end && first(&things[begin]) {
+    let (mut before, mut behind) = (Extent::EMPTY, Extent::EMPTY);
+    while begin < end {
+        if first(&things[begin]) {
+            before.add(&things[begin]);
             begin += 1;
-        }
-        while begin < end && !first(&things[end - 1]) {
+        } else {
             end -= 1;
+            behind.add(&things[begin]);
+            things.swap(begin, end);
         }
-        if begin >= end {
-            return begin;
-        }
-        things.swap(begin, end - 1);
     }
+    (begin, before, behind)
 }

@@ -1,10 +1,14 @@
 //! Strands as smooth round curves, cut into straight pieces.
 
+use std::ops::Range;
+
 use frisure_strands::{Strand, Strands};
-use glam::{Vec3, Vec3A, Vec4};
+use glam::{Vec3, Vec4};
+use rayon::prelude::*;
 
 use super::AccelError;
 use super::bounds::Bounds;
+use super::build::Primitive;
 use super::error::FARTHEST;
 
 /// How curves are cut into straight pieces.
@@ -18,12 +22,19 @@ pub struct CurveOptions {
 
 impl Default for CurveOptions {
     fn default() -> Self {
-        Self { longest_piece: 4e-3, tolerance: 5e-5 }
+        Self { longest_piece: 4e-3, tolerance: 1e-4 }
     }
 }
 
 /// Most pieces of one segment.
 const MOST_PIECES: f32 = 255.0;
+
+/// Largest second derivative over a piece, in tolerances: 8 for chords of the curve, 16 for pieces
+/// moved outwards by half; between, since segments that bend differently share their joints.
+const BEND: f32 = 12.0;
+
+/// Of so many points, the strand of one is kept.
+const STRIDE: usize = 32;
 
 /// Shortest distance between points of a strand, and smallest radius (m).
 const TINY: f32 = 1e-7;
@@ -38,14 +49,15 @@ pub(super) const REACH: f32 = 0.25;
 /// Strands as smooth curves: Catmull–Rom splines through the points, the ends extrapolated, with a
 /// radius that is linear between points.
 ///
-/// Kept are the points, and for each segment (from a point to the next) its strand and the number of
-/// equal steps of the spline's parameter that the straight *pieces* make: no longer and no farther
-/// beside the curve than [`CurveOptions`] allows.
+/// Kept are the points, and for each segment (from a point to the next) the number of equal steps of
+/// the spline's parameter that the straight *pieces* make: no longer and no farther beside the curve
+/// than [`CurveOptions`] allows. Their ends lie outside the curve as far as their middles lie inside,
+/// so that there need not be so many.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curves {
     /// Points and radii, one strand after another.
     points: Vec<Vec4>,
-    /// Strand of each point.
+    /// Strand of every so many points.
     strand: Vec<u32>,
     /// First point of each strand, and the number of points at the end.
     offsets: Vec<u32>,
@@ -75,39 +87,26 @@ pub(super) struct PieceName {
     pub(super) number: u8,
 }
 
-impl Piece {
-    /// A box around it, with what reaches beyond its ends.
-    pub(super) fn bounds(&self) -> Bounds {
-        let end = self.start + self.axis;
-        let ends = Bounds {
-            low: Vec3A::from(self.start.min(end)),
-            high: Vec3A::from(self.start.max(end)),
-        };
-        // √(1 + REACH²) of the radius, and a little for the change of radius in the reach.
-        ends.grown(1.05 * self.radius.max(self.radius + self.widening))
-    }
-}
+/// How far the box of a piece reaches beyond its axis, in radii: √(1 + REACH²), and a little for the
+/// change of radius in the reach.
+const BESIDE: f32 = 1.05;
 
 impl Curves {
     /// Checks and takes over strands. Strands with fewer than two points are nowhere.
     pub(super) fn new(strands: &Strands, options: &CurveOptions) -> Result<Self, AccelError> {
         check_options(options)?;
         let count = strands.points().len();
+        let points = strands.points().iter().zip(strands.radii());
         let mut curves = Self {
-            points: strands
-                .points()
-                .iter()
-                .zip(strands.radii())
-                .map(|(p, &r)| p.extend(r))
-                .collect(),
-            strand: Vec::with_capacity(count),
+            points: points.map(|(p, &r)| p.extend(r)).collect(),
+            strand: Vec::with_capacity(count / STRIDE + 1),
             offsets: strands.offsets().to_vec(),
             pieces: Vec::with_capacity(count),
         };
         let mut total = 0;
         for (index, strand) in strands.iter().enumerate() {
             check_strand(index, &strand)?;
-            curves.count_pieces(index, &strand, options, &mut total);
+            total += curves.count_pieces(index, options);
             if total > 1 << 31 {
                 return Err(AccelError::TooMany { strand: index });
             }
@@ -115,27 +114,36 @@ impl Curves {
         Ok(curves)
     }
 
-    fn count_pieces(
-        &mut self,
-        index: usize,
-        strand: &Strand<'_>,
-        options: &CurveOptions,
-        total: &mut usize,
-    ) {
-        let first = self.strand.len();
-        self.strand.resize(first + strand.points.len(), index as u32);
-        for point in first..self.strand.len() {
-            let tip = point + 1 == self.strand.len();
-            let pieces = if tip { 0 } else { self.spline(point).pieces(options) };
+    fn count_pieces(&mut self, index: usize, options: &CurveOptions) -> usize {
+        let range = self.range(index);
+        let before = self.pieces.len();
+        for point in range.clone() {
+            if point.is_multiple_of(STRIDE) {
+                self.strand.push(index as u32);
+            }
+            let tip = point + 1 == range.end;
+            let pieces = if tip { 0 } else { self.spline(&range, point).pieces(options) };
             self.pieces.push(pieces);
-            *total += usize::from(pieces);
         }
+        self.pieces[before..].iter().map(|&n| usize::from(n)).sum()
     }
 
-    /// The spline from point `point` to the next. The strands of both must be known.
-    fn spline(&self, point: usize) -> Spline {
-        let strand = self.strand[point] as usize;
-        let range = self.offsets[strand] as usize..self.offsets[strand + 1] as usize;
+    /// Points of a strand.
+    fn range(&self, strand: usize) -> Range<usize> {
+        self.offsets[strand] as usize..self.offsets[strand + 1] as usize
+    }
+
+    /// Strand of a point.
+    fn strand_of(&self, point: usize) -> usize {
+        let mut strand = self.strand[point / STRIDE] as usize;
+        while self.offsets[strand + 1] as usize <= point {
+            strand += 1;
+        }
+        strand
+    }
+
+    /// The spline from point `point` to the next, both in the strand of this range.
+    fn spline(&self, range: &Range<usize>, point: usize) -> Spline {
         let [b, c] = [self.points[point], self.points[point + 1]];
         let a = if point > range.start { self.points[point - 1] } else { 2.0 * b - c };
         let d = if point + 2 < range.end { self.points[point + 2] } else { 2.0 * c - b };
@@ -144,8 +152,8 @@ impl Curves {
 
     /// Strand and segment in the strand of the segment that begins at `point`.
     pub(super) fn segment(&self, point: u32) -> (u32, u32) {
-        let strand = self.strand[point as usize];
-        (strand, point - self.offsets[strand as usize])
+        let strand = self.strand_of(point as usize);
+        (strand as u32, point - self.offsets[strand])
     }
 
     /// Parameter of the segment, 0 to 1, at `s` (0 to 1) along one of its pieces.
@@ -153,38 +161,78 @@ impl Curves {
         (f32::from(name.number) + s) / f32::from(self.pieces[name.point as usize])
     }
 
-    /// Unit tangent of the smooth curve at parameter `u` of a segment, towards the tip; `None` at a
-    /// cusp.
-    pub(super) fn tangent(&self, point: u32, u: f32) -> Option<Vec3> {
-        self.spline(point as usize).velocity(u).try_normalize()
+    /// Unit tangent of the smooth curve at parameter `u` of a segment of a strand, towards the tip;
+    /// `None` at a cusp.
+    pub(super) fn tangent(&self, strand: u32, point: u32, u: f32) -> Option<Vec3> {
+        self.spline(&self.range(strand as usize), point as usize).velocity(u).try_normalize()
     }
 
-    /// All pieces, in the order of the points.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = Piece> {
-        (0..self.points.len()).flat_map(|point| self.pieces_of(point))
+    /// Name of the piece behind one; that of the tip behind the last.
+    fn after(&self, name: PieceName) -> PieceName {
+        if name.number + 1 < self.pieces[name.point as usize] {
+            PieceName { number: name.number + 1, ..name }
+        } else {
+            PieceName { point: name.point + 1, number: 0 }
+        }
+    }
+
+    /// Start and end of a piece, with radii.
+    pub(super) fn ends(&self, name: PieceName) -> [Vec4; 2] {
+        let range = self.range(self.strand_of(name.point as usize));
+        [name, self.after(name)].map(|name| self.vertex(&range, name))
+    }
+
+    /// Where a piece begins, with its radius; a tip has a name, too.
+    fn vertex(&self, range: &Range<usize>, name: PieceName) -> Vec4 {
+        let point = name.point as usize;
+        let count = f32::from(self.pieces[point]);
+        if name.number == 0 {
+            let before = (point > range.start).then(|| {
+                let steps = f32::from(self.pieces[point - 1]);
+                self.spline(range, point - 1).outwards(1.0, steps)
+            });
+            let behind =
+                (point + 1 < range.end).then(|| self.spline(range, point).outwards(0.0, count));
+            let aside = match (before, behind) {
+                (Some(a), Some(b)) => 0.5 * (a + b),
+                (a, b) => a.or(b).unwrap_or_default(),
+            };
+            return self.points[point] + aside.extend(0.0);
+        }
+        let u = f32::from(name.number) / count;
+        let spline = self.spline(range, point);
+        let [r0, r1] = [self.points[point].w, self.points[point + 1].w];
+        (spline.at(u) + spline.outwards(u, count)).extend(r0 + (r1 - r0) * u)
+    }
+
+    /// All pieces, as boxes with their names, in the order of the points; those without length (at a
+    /// cusp) are left out.
+    pub(super) fn boxes(&self) -> Vec<Primitive> {
+        let strands = self.offsets.len().saturating_sub(1);
+        (0..strands).into_par_iter().flat_map_iter(|strand| self.boxes_of(strand)).collect()
+    }
+
+    fn boxes_of(&self, strand: usize) -> impl Iterator<Item = Primitive> {
+        let range = self.range(strand);
+        let names = range.clone().flat_map(|point| {
+            (0..self.pieces[point]).map(move |number| PieceName { point: point as u32, number })
+        });
+        let mut before: Option<Vec4> = None;
+        names.filter_map(move |name| {
+            let start = before.unwrap_or_else(|| self.vertex(&range, name));
+            let end = self.vertex(&range, self.after(name));
+            before = Some(end);
+            let long = start.truncate().distance(end.truncate()) > 0.1 * TINY;
+            let (low, high) = (start.min(end).truncate(), start.max(end).truncate());
+            let bounds = Bounds { low: low.into(), high: high.into() };
+            let bounds = bounds.grown(BESIDE * start.w.max(end.w));
+            long.then(|| Primitive::new(bounds, name.point, u32::from(name.number)))
+        })
     }
 
     /// Number of pieces.
     pub(super) fn count(&self) -> usize {
         self.pieces.iter().map(|&n| usize::from(n)).sum()
-    }
-
-    /// The pieces of the segment that begins at `point`; those without length (at a cusp) are left
-    /// out.
-    fn pieces_of(&self, point: usize) -> impl Iterator<Item = Piece> {
-        let count = self.pieces[point];
-        let spline = (count > 0).then(|| self.spline(point));
-        let radii = spline.map(|_| [self.points[point].w, self.points[point + 1].w]);
-        let spline = spline.zip(radii);
-        (0..count).filter_map(move |number| {
-            let (spline, [r0, r1]) = spline?;
-            let [u, v] = [number, number + 1].map(|k| f32::from(k) / f32::from(count));
-            let (start, end) = (spline.at(u), spline.at(v));
-            let [radius, last] = [u, v].map(|x| r0 + (r1 - r0) * x);
-            let name = PieceName { point: point as u32, number };
-            let piece = Piece { start, axis: end - start, radius, widening: last - radius, name };
-            (piece.axis.length() > 0.1 * TINY).then_some(piece)
-        })
     }
 
     /// Bytes held.
@@ -249,12 +297,22 @@ impl Spline {
         first + u * (2.0 * second + 3.0 * u * third)
     }
 
-    /// Into how many pieces it is cut. A chord over 1/n of the parameter lies beside the curve by at
-    /// most |second derivative| / 8n², and that derivative is largest at an end.
-    fn pieces(&self, options: &CurveOptions) -> u8 {
+    fn acceleration(&self, u: f32) -> Vec3 {
         let [_, second, third] = self.coefficients();
-        let bend = (2.0 * second).length().max((2.0 * second + 6.0 * third).length());
-        let by_bend = (bend / (8.0 * options.tolerance)).sqrt();
+        2.0 * second + 6.0 * u * third
+    }
+
+    /// From the curve to where pieces over 1/`count` of the parameter meet: half as far as a chord's
+    /// middle would lie inside.
+    fn outwards(&self, u: f32, count: f32) -> Vec3 {
+        self.acceleration(u) / (-16.0 * count * count)
+    }
+
+    /// Into how many pieces it is cut. A chord over 1/n of the parameter lies beside the curve by at
+    /// most |second derivative| / 8n², and that derivative is largest at an end; see [`BEND`].
+    fn pieces(&self, options: &CurveOptions) -> u8 {
+        let bend = self.acceleration(0.0).length().max(self.acceleration(1.0).length());
+        let by_bend = (bend / (BEND * options.tolerance)).sqrt();
         let by_length = self.length() / options.longest_piece;
         // The cast of a number from 1 to 255 loses nothing.
         by_bend.max(by_length).ceil().clamp(1.0, MOST_PIECES) as u8

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::bounds::Bounds;
 use super::build::Primitive;
-use super::curves::{Curves, Piece};
+use super::curves::Curves;
 use super::error::FARTHEST;
 use super::hair::{HairLeaf, entry};
 use super::hierarchy::{Found, Hierarchy, Level};
@@ -128,7 +128,7 @@ impl Scene {
         }
         let triangles = Triangle::of(head);
         let boxes = triangles.iter().map(Triangle::bounds).zip(0..);
-        let mut primitives: Vec<_> = boxes.map(|(b, i)| Primitive::new(b, i)).collect();
+        let mut primitives: Vec<_> = boxes.map(|(b, i)| Primitive::new(b, i, 0)).collect();
         self.skin = Hierarchy::new(&triangles[..], &mut primitives);
         self.faces = head.triangles().to_vec();
         self.corners = head.positions().iter().map(|p| p.as_vec3()).collect();
@@ -154,7 +154,7 @@ impl Scene {
             strand,
             segment,
             u,
-            tangent: self.curves.tangent(piece.name.point, u).unwrap_or(axis),
+            tangent: self.curves.tangent(strand, piece.name.point, u).unwrap_or(axis),
             radius,
             h: h.clamp(-1.0, 1.0),
             normal: (out - piece.widening / length * axis).normalize_or(-ray.direction()),
@@ -191,9 +191,5 @@ impl Scene {
 }
 
 fn hair(curves: &Curves) -> Hierarchy<HairLeaf> {
-    let mut pieces: Vec<Piece> = Vec::with_capacity(curves.count());
-    pieces.extend(curves.pieces());
-    let boxes = pieces.iter().map(Piece::bounds).zip(0..);
-    let mut primitives: Vec<_> = boxes.map(|(b, i)| Primitive::new(b, i)).collect();
-    Hierarchy::new(&pieces[..], &mut primitives)
+    Hierarchy::new(curves, &mut curves.boxes())
 }

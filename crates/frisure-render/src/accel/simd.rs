@@ -19,6 +19,8 @@ pub(super) trait Simd: Copy {
 
     fn splat(self, x: f32) -> Self::F;
     fn load(self, x: &Lanes) -> Self::F;
+    fn load_u16(self, x: &[u16; LANES]) -> Self::F;
+    fn load_i16(self, x: &[i16; LANES]) -> Self::F;
     fn store(self, x: Self::F) -> Lanes;
     fn add(self, a: Self::F, b: Self::F) -> Self::F;
     fn sub(self, a: Self::F, b: Self::F) -> Self::F;
@@ -63,6 +65,14 @@ impl Simd for Portable {
     #[inline(always)]
     fn load(self, x: &Lanes) -> Lanes {
         *x
+    }
+    #[inline(always)]
+    fn load_u16(self, x: &[u16; LANES]) -> Lanes {
+        each(|i| f32::from(x[i]))
+    }
+    #[inline(always)]
+    fn load_i16(self, x: &[i16; LANES]) -> Lanes {
+        each(|i| f32::from(x[i]))
     }
     #[inline(always)]
     fn store(self, x: Lanes) -> Lanes {
@@ -166,6 +176,22 @@ mod avx2 {
             unsafe { _mm256_load_ps(x.0.as_ptr()) }
         }
         #[inline(always)]
+        fn load_u16(self, x: &[u16; 8]) -> __m256 {
+            // SAFETY: as above; the load asks for no alignment, and eight halves are sixteen bytes.
+            unsafe {
+                let halves = _mm_loadu_si128(x.as_ptr().cast());
+                _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(halves))
+            }
+        }
+        #[inline(always)]
+        fn load_i16(self, x: &[i16; 8]) -> __m256 {
+            // SAFETY: as above; the load asks for no alignment, and eight halves are sixteen bytes.
+            unsafe {
+                let halves = _mm_loadu_si128(x.as_ptr().cast());
+                _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(halves))
+            }
+        }
+        #[inline(always)]
         fn store(self, x: __m256) -> Lanes {
             let mut lanes = Lanes([0.0; 8]);
             // SAFETY: as above; and `Lanes` is eight floats (repr(C)) aligned to 32 bytes.
@@ -244,6 +270,24 @@ pub(super) trait Vectors: Simd {
     #[inline(always)]
     fn splat3(self, v: glam::Vec3) -> Wide3<Self::F> {
         Wide3 { x: self.splat(v.x), y: self.splat(v.y), z: self.splat(v.z) }
+    }
+    #[inline(always)]
+    fn wide3(self, [x, y, z]: [Self::F; 3]) -> Wide3<Self::F> {
+        Wide3 { x, y, z }
+    }
+    /// Coordinate by coordinate.
+    #[inline(always)]
+    fn scale3(self, a: Wide3<Self::F>, b: Wide3<Self::F>) -> Wide3<Self::F> {
+        Wide3 { x: self.mul(a.x, b.x), y: self.mul(a.y, b.y), z: self.mul(a.z, b.z) }
+    }
+    /// `p − a b`, coordinate by coordinate.
+    #[inline(always)]
+    fn against3(self, p: Wide3<Self::F>, a: Wide3<Self::F>, b: Wide3<Self::F>) -> Wide3<Self::F> {
+        Wide3 {
+            x: self.sub_mul(p.x, a.x, b.x),
+            y: self.sub_mul(p.y, a.y, b.y),
+            z: self.sub_mul(p.z, a.z, b.z),
+        }
     }
     #[inline(always)]
     fn sub3(self, a: Wide3<Self::F>, b: Wide3<Self::F>) -> Wide3<Self::F> {

@@ -7,6 +7,8 @@ use frisure_strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
 
 use super::curves::{Curves, Piece, REACH};
+use super::hair::HairLeaf;
+use super::hierarchy::Leaf as _;
 use super::*;
 
 /// A small generator of random numbers.
@@ -70,7 +72,15 @@ fn scene(strands: &Strands, head: Option<&Surface>) -> Scene {
 }
 
 fn pieces(strands: &Strands) -> Vec<Piece> {
-    Curves::new(strands, &CurveOptions::default()).unwrap().pieces().collect()
+    pieces_of(strands, &CurveOptions::default())
+}
+
+fn pieces_of(strands: &Strands, options: &CurveOptions) -> Vec<Piece> {
+    let curves = Curves::new(strands, options).unwrap();
+    let boxes = curves.boxes();
+    let leaves = boxes.chunks(8).map(|eight| HairLeaf::new(&curves, eight));
+    let pieces = leaves.flat_map(|leaf| (0..8).map(move |i| leaf.piece(i)));
+    pieces.filter(|piece| piece.radius > 0.0).collect()
 }
 
 /// Rays of which many pass near the tangle, from near, far and inside.
@@ -333,9 +343,9 @@ fn a_bent_strand_has_no_gaps_at_its_joints() {
 fn pieces_follow_the_curve_within_the_tolerance() {
     let strands = tangle(40, 9, 0.01, 5e-5);
     let options = CurveOptions { longest_piece: 3e-3, tolerance: 3e-5 };
-    let coarse: Vec<Piece> = Curves::new(&strands, &options).unwrap().pieces().collect();
+    let coarse: Vec<Piece> = pieces_of(&strands, &options);
     let fine = CurveOptions { longest_piece: 1e-3, tolerance: 2e-6 };
-    let fine: Vec<Piece> = Curves::new(&strands, &fine).unwrap().pieces().collect();
+    let fine: Vec<Piece> = pieces_of(&strands, &fine);
     assert!(coarse.iter().all(|p| p.axis.length() < 1.3 * options.longest_piece));
     for p in &fine {
         let own = coarse.iter().filter(|q| q.name.point == p.name.point);
