@@ -6,8 +6,8 @@ use glam::Vec3;
 
 use crate::HairLook;
 
-/// Levels of pigment between the least and the most.
-const LEVELS: usize = 64;
+/// Levels of pigment between the least and the most: an odd number, so that 1 is one of them.
+const LEVELS: usize = 65;
 /// Factors on the pigment that the levels span, as powers of e.
 const SPAN: f32 = 1.4;
 /// Azimuthal roughness of ordinary hair in the terms of Chiang et al. 2016.
@@ -149,8 +149,9 @@ mod tests {
             let back = level_factor(usize::from(level(factor)));
             assert!((back / factor - 1.0).abs() < 0.025, "{factor} {back}");
         }
+        assert_eq!(level_factor(usize::from(level(1.0))), 1.0);
         assert_eq!(level(f32::NAN), level(1.0));
-        assert_eq!((level(-1.0), level(f32::INFINITY)), (0, 63));
+        assert_eq!((level(-1.0), level(f32::INFINITY)), (0, 64));
     }
 
     #[test]
