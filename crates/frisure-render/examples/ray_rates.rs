@@ -5,21 +5,19 @@
 //! time on the clock. Unlike the benchmarks it can be trusted on a machine that others use, if two
 //! versions are run in turns.
 
+#[path = "support/rays.rs"]
+mod rays;
 #[path = "support/wig.rs"]
 mod wig;
 
 use std::error::Error;
-use std::f32::consts::TAU;
 use std::fs;
 use std::io::Write as _;
 use std::time::Instant;
 
-use frisure_render::Camera;
-use frisure_render::accel::{CurveOptions, Hit, Ray, Scene};
-use glam::{DVec3, Vec3};
+use frisure_render::accel::{CurveOptions, Ray, Scene};
+use rays::Rays;
 use wig::Style;
-
-const SIDE: u32 = 512;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -39,19 +37,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::new(&strands, Some(&head), &CurveOptions { tolerance, ..default })?;
     let build = clock.all_threads();
 
-    let primary = primary(&scene);
+    let rays = Rays::new(&scene);
     let met = |r: &Ray| scene.closest_hit(r, f32::INFINITY);
-    let hits: Vec<Hit> = primary.iter().filter_map(met).collect();
-    let from = |(i, hit): (usize, &Hit)| Ray::new(hit.start(direction(i)), direction(i));
-    let bounce: Vec<Ray> = hits.iter().enumerate().map(from).collect();
-    let lamp = Vec3::new(-0.5, -0.6, 0.7).normalize();
-    let shadow: Vec<Ray> = hits.iter().map(|hit| Ray::new(hit.start(lamp), lamp)).collect();
     let mut rates = [0.0_f64; 3];
     for _ in 0..turns {
-        for (rate, rays) in rates.iter_mut().zip([&primary, &bounce]) {
+        for (rate, rays) in rates.iter_mut().zip([&rays.primary, &rays.bounce]) {
             *rate = rate.max(measured(rays, |r| met(r).is_some()));
         }
-        rates[2] = rates[2].max(measured(&shadow, |r| scene.occluded(r, f32::INFINITY)));
+        rates[2] = rates[2].max(measured(&rays.shadow, |r| scene.occluded(r, f32::INFINITY)));
     }
     let (n, [p, b, s]) = (strands.len().max(1), rates);
     writeln!(
@@ -107,25 +100,4 @@ fn all_threads() -> Option<f64> {
     let fields: Vec<&str> = text.rsplit_once(')')?.1.split_whitespace().collect();
     let [user, system] = [11, 12].map(|i| fields.get(i)?.parse::<f64>().ok());
     Some(0.01 * (user? + system?))
-}
-
-/// The picture that a portrait camera takes.
-fn primary(scene: &Scene) -> Vec<Ray> {
-    let Some((low, high)) = scene.bounds() else { return Vec::new() };
-    let camera = Camera::framing((low.as_dvec3(), high.as_dvec3()), 0.5, 0.08, 1.0);
-    let tan = (0.5 * camera.vertical_fov()).tan();
-    let across = |i: u32| (f64::from(2 * i + 1) / f64::from(SIDE) - 1.0) * tan;
-    let towards = |x: u32, y: u32| -> DVec3 {
-        camera.forward() + across(x) * camera.right() - across(y) * camera.up()
-    };
-    let eye = camera.eye().as_vec3();
-    (0..SIDE * SIDE).map(|i| Ray::new(eye, towards(i % SIDE, i / SIDE).as_vec3())).collect()
-}
-
-/// Directions spread evenly over the sphere (the additive recurrence of the plastic number).
-fn direction(i: usize) -> Vec3 {
-    let [u, v] = [0.754_877_666_f64, 0.569_840_291].map(|a| (a * i as f64).fract() as f32);
-    let z = 2.0 * u - 1.0;
-    let r = (1.0 - z * z).max(0.0).sqrt();
-    Vec3::new(r * (TAU * v).cos(), r * (TAU * v).sin(), z)
 }
