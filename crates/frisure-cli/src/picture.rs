@@ -4,8 +4,8 @@ use frisure::io::scene::{self, Scene};
 use frisure::optics::Melanin;
 use frisure::render::preview;
 use frisure::render::{
-    Aperture, Background, Camera, DirectionalLight, Ground, HairLook, Image, Lights, Look,
-    SkinLook, ToneCurve,
+    Aperture, Background, Camera, Ground, HairLook, Image, Lamp, Lights, Look, SkinLook, ToneCurve,
+    beside_camera,
 };
 use frisure::strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
@@ -152,16 +152,15 @@ fn aperture(asked: &scene::Camera, f_number: f64, aspect: f64) -> Aperture {
 
 fn lights(asked: &scene::Light, camera: &Camera) -> Lights {
     let mut lights = Lights::studio(camera);
-    if let (Some((azimuth, elevation)), Some(key)) = (asked.direction, lights.lamps.first_mut()) {
-        let (right, back) = (camera.right(), camera.right().cross(DVec3::Z));
-        let (sa, ca) = azimuth.sin_cos();
-        let level = sa * right + ca * back;
-        let direction = elevation.cos() * level + elevation.sin() * DVec3::Z;
-        *key = DirectionalLight { direction: direction.normalize(), ..*key };
+    if let (Some((azimuth, elevation)), Some(Lamp::Distant(key))) =
+        (asked.direction, lights.lamps.first_mut())
+    {
+        let direction = beside_camera(camera, azimuth, elevation);
+        *key = key.from_direction(direction).expect("angles make a direction");
     }
-    let strength = asked.strength as f32;
+    let strength = Vec3::splat(asked.strength as f32);
     for lamp in &mut lights.lamps {
-        lamp.irradiance *= strength;
+        *lamp = lamp.scaled(strength).expect("a strength from 0 to 100 makes a lamp");
     }
     lights
 }
@@ -252,7 +251,7 @@ mod tests {
         let camera = camera(&asked, corners(), 1.0);
         let lamp = |azimuth, elevation| {
             let light = scene::Light { direction: Some((azimuth, elevation)), strength: 1.0 };
-            lights(&light, &camera).lamps[0].direction
+            lights(&light, &camera).lamps[0].arriving(DVec3::ZERO).unwrap().0
         };
         let right = std::f64::consts::FRAC_PI_2;
         // The camera faces the face, which looks along −y.
