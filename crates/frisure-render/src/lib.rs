@@ -19,5 +19,9 @@ pub mod trace;
 
 pub use camera::{Aperture, Camera, CameraError};
 pub use film::{Image, ToneCurve};
-pub use light::{DirectionalLight, Lights};
+pub use light::{
+    AreaLight, AreaShape, Daylight, DistantLight, EnvironmentMap, InvalidLight, Lamp, Lights,
+    MAX_ENVIRONMENT_WIDTH, PointLight, Room, SOFTBOX, SUN_RADIUS, Setup, beside_camera,
+    colour_of_temperature,
+};
 pub use look::{Background, Ground, HairLook, Look, SkinLook};

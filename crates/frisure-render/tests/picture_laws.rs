@@ -3,7 +3,10 @@
 use std::ops::ControlFlow;
 
 use frisure_render::preview::{PreviewError, PreviewOptions, Scene, bounds, render};
-use frisure_render::{Background, Camera, DirectionalLight, Image, Lights};
+use frisure_render::{
+    AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentMap, Image, Lights,
+    PointLight, Room, Setup,
+};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DVec3, Vec3};
 
@@ -123,7 +126,7 @@ fn the_head_hides_hair_behind_it_and_not_before_it() {
     // No lamps, or hair behind would still cast its shadow.
     let dark = |strands: &'_ Strands| {
         let mut scene = scene(strands, Some(&head));
-        scene.lights = Lights { lamps: Vec::new(), sky: Vec3::ONE, ground: Vec3::ONE };
+        scene.lights = Lights::even(Vec3::ONE);
         draw(&scene)
     };
     let pixel = |image: &Image| image.pixel(80, 60);
@@ -146,8 +149,8 @@ fn hair_between_a_lamp_and_hair_makes_it_darker() {
             curtain(&mut strands, 60, 0.02 + 0.01 * f32::from(layer), 5e-4);
         }
         let mut scene = scene(&strands, None);
-        let lamp = DirectionalLight { direction: DVec3::Y, irradiance: Vec3::splat(3.0) };
-        scene.lights = Lights { lamps: vec![lamp], sky: Vec3::ZERO, ground: Vec3::ZERO };
+        let lamp = DistantLight::new(DVec3::Y, Vec3::splat(3.0), 0.0).unwrap();
+        scene.lights = Lights { lamps: vec![lamp.into()], ..Lights::dark() };
         let image = draw(&scene);
         // Of the first curtain only: the camera sees it before the others.
         image.pixel(80, 60)[0] / image.pixel(80, 60)[3]
@@ -236,4 +239,30 @@ fn progress_goes_from_nothing_to_all() {
     let seen = seen.into_inner().unwrap();
     assert_eq!((seen.first(), seen.last()), (Some(&0.0), Some(&1.0)));
     assert!(seen.iter().all(|d| (0.0..=1.0).contains(d)));
+}
+
+#[test]
+fn every_kind_of_light_is_seen_in_the_preview() {
+    let mut strands = Strands::new();
+    curtain(&mut strands, 60, 0.0, 5e-4);
+    let lit = |lights| light(&draw(&Scene { lights, ..scene(&strands, None) }));
+    let distant = DistantLight::new(-DVec3::Y, Vec3::ONE, 0.1).unwrap();
+    let expected = lit(Lights { lamps: vec![distant.into()], ..Lights::dark() });
+    // As far as its light is of one metre.
+    let point = PointLight::new(-DVec3::Y, Vec3::ONE).unwrap();
+    let area = AreaLight::disc(-DVec3::Y, DVec3::Y, 0.1, Vec3::ONE).unwrap();
+    let radiance = Vec3::splat(1.0 / area.form_factor(1.0) as f32);
+    let area = AreaLight::disc(-DVec3::Y, DVec3::Y, 0.1, radiance).unwrap();
+    for lamp in [point.into(), area.into()] {
+        let found = lit(Lights { lamps: vec![lamp], ..Lights::dark() });
+        assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+    }
+    let map = EnvironmentMap::new(8, 4, vec![[1.0; 3]; 32]).unwrap();
+    let map = lit(Lights { lamps: Vec::new(), room: Room::Environment(map) });
+    let even = lit(Lights::even(Vec3::ONE));
+    assert!((map / even - 1.0).abs() < 0.02, "{map} {even}");
+    for setup in [Setup::Soft, Setup::Overcast, Setup::Daylight(Daylight::default())] {
+        let found = lit(Lights::setup(&setup, &camera()).unwrap());
+        assert!(found > 0.2 * even, "{setup:?}: {found} {even}");
+    }
 }

@@ -5,9 +5,11 @@ use std::ops::ControlFlow;
 use frisure_optics::Melanin;
 use frisure_render::preview::Scene;
 use frisure_render::trace::{TraceError, TraceOptions, render};
-use frisure_render::{Background, Image, Lights, Look};
+use frisure_render::{
+    AreaLight, Background, DistantLight, EnvironmentMap, Image, Lights, Look, PointLight, Room,
+};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A tuft of curls on a ball's upper half, some centimetres wide.
 fn tuft() -> Strands {
@@ -59,7 +61,7 @@ fn mean(image: &Image) -> Vec3 {
 #[test]
 fn white_hair_in_a_white_room_cannot_be_seen() {
     // White furnace: without absorption all light comes back, and is 1 everywhere.
-    let room = Lights { lamps: Vec::new(), sky: Vec3::ONE, ground: Vec3::ONE };
+    let room = Lights::even(Vec3::ONE);
     let image = drawn(&tuft(), look(Melanin::WHITE), Some(room), SMALL);
     let light = mean(&image);
     assert!((light - Vec3::ONE).abs().max_element() < 0.01, "{light}");
@@ -105,7 +107,7 @@ fn impossible_pictures_are_refused_before_the_work() {
 
 #[test]
 fn flat_white_hair_cannot_be_seen_either_and_round_hair_needs_no_frame() {
-    let room = || Some(Lights { lamps: Vec::new(), sky: Vec3::ONE, ground: Vec3::ONE });
+    let room = || Some(Lights::even(Vec3::ONE));
     let with = |ratio: f32| {
         let mut strands = tuft();
         let directors = strands.points().iter().map(|p| p.any_orthonormal_vector().to_array());
@@ -125,4 +127,57 @@ fn flat_white_hair_cannot_be_seen_either_and_round_hair_needs_no_frame() {
     let plain = mean(&drawn(&tuft(), look(Melanin::BLOND), None, SMALL));
     let round = mean(&drawn(&with(1.0), look(Melanin::BLOND), None, SMALL));
     assert!((plain - round).abs().max_element() < 0.03 * plain.max_element(), "{plain} {round}");
+}
+
+/// The brightest pixel against the mean of those that are covered.
+fn outlier(image: &Image) -> f32 {
+    let light = |p: &[f32; 4]| p[0] + p[1] + p[2];
+    image.pixels().iter().map(light).fold(0.0, f32::max) / mean(image).element_sum()
+}
+
+#[test]
+fn small_bright_lights_leave_no_fireflies() {
+    let strands = tuft();
+    let options = TraceOptions { bounces: 40, ..SMALL };
+    let lit = |lights| drawn(&strands, look(Melanin::BLOND), Some(lights), options);
+    // One direction, and the same light from a small lamp, a place and a hot pixel that way.
+    let (way, far) = (DVec3::new(0.4, -0.8, 0.5).normalize(), 6.0);
+    let sun = DistantLight::new(way, Vec3::ONE, 0.0).unwrap();
+    let point = PointLight::new(way * far, Vec3::splat((far * far) as f32)).unwrap();
+    let area = AreaLight::disc(way * far, -way, 0.004, Vec3::ONE).unwrap();
+    let radiance = 1.0 / area.form_factor(far) as f32;
+    let area = AreaLight::disc(way * far, -way, 0.004, Vec3::splat(radiance)).unwrap();
+    let (width, height) = (512_usize, 256_usize);
+    let turn = 0.5 - (way.x).atan2(-way.y) / std::f64::consts::TAU;
+    let [x, y] = [turn * width as f64, way.z.acos() / std::f64::consts::PI * height as f64];
+    let row = y as usize as f64;
+    let edge = |y: f64| (std::f64::consts::PI * y / height as f64).cos();
+    let solid = std::f64::consts::TAU / width as f64 * (edge(row) - edge(row + 1.0));
+    let mut pixels = vec![[0.0; 3]; width * height];
+    pixels[row as usize * width + x as usize] = [(1.0 / solid) as f32; 3];
+    let map = EnvironmentMap::new(width, height, pixels).unwrap();
+    let map = Lights { lamps: Vec::new(), room: Room::Environment(map) };
+    let one = |lamp| Lights { lamps: vec![lamp], ..Lights::dark() };
+
+    let reference = lit(one(sun.into()));
+    for (name, lights) in [("point", one(point.into())), ("area", one(area.into())), ("map", map)] {
+        let image = lit(lights);
+        let ratio = mean(&image) / mean(&reference);
+        // The tuft is a hundredth as wide as the lamp is far.
+        assert!((ratio - Vec3::ONE).abs().max_element() < 0.03, "{name}: {ratio}");
+        let (worst, expected) = (outlier(&image), outlier(&reference));
+        assert!(worst < 1.7 * expected, "{name}: {worst} {expected}");
+    }
+}
+
+#[test]
+fn a_bright_room_in_a_picture_is_the_room() {
+    // The same even light, from a gradient and from a picture in which all are chosen alike.
+    let strands = tuft();
+    let options = TraceOptions { bounces: 40, samples: 128, ..SMALL };
+    let lit = |lights| mean(&drawn(&strands, look(Melanin::BROWN), Some(lights), options));
+    let map = EnvironmentMap::new(64, 32, vec![[0.5, 1.0, 2.0]; 64 * 32]).unwrap();
+    let map = Lights { lamps: Vec::new(), room: Room::Environment(map) };
+    let ratio = lit(map) / lit(Lights::even(Vec3::new(0.5, 1.0, 2.0)));
+    assert!((ratio - Vec3::ONE).abs().max_element() < 0.015, "{ratio}");
 }

@@ -5,7 +5,8 @@
 //! `sky` measure how much hair lies between any point and each lamp or the room, and `shadow` whether
 //! the head does; `tiles` sorts the pieces of hair into small squares of the picture, and `composite`
 //! lays them over the rasterised `head` from front to back, asking `shading` only for hair that is
-//! seen. Lamps follow Kajiya & Kay 1989 with the lobes of Marschner et al. 2003; self-shadowing is
+//! seen. Lamps at a place are taken as far away in the direction in which the middle of the head sees
+//! them, and an environment as its brightest spots and the mean of the rest by direction. Lamps follow Kajiya & Kay 1989 with the lobes of Marschner et al. 2003; self-shadowing is
 //! the light-oriented density map of Bertails, Ménier & Cani 2005.
 //!
 //! What it does not do: light that bounces between hairs is a colour, not a computation; a hair's
@@ -176,8 +177,6 @@ pub fn render(
 /// a head at the origin.
 #[must_use]
 pub fn bounds(strands: &Strands, surface: Option<&Surface>) -> (DVec3, DVec3) {
-    /// From the crown to below the chin (m).
-    const HEAD: f64 = 0.27;
     let hair = enclose(strands.points().iter().map(|p| p.as_dvec3()).filter(|p| p.is_finite()));
     let head = surface.and_then(|surface| {
         let top = surface.bounds().1.z;
@@ -190,6 +189,20 @@ pub fn bounds(strands: &Strands, surface: Option<&Surface>) -> (DVec3, DVec3) {
         (None, None) => (DVec3::splat(-0.15), DVec3::splat(0.15)),
     }
 }
+
+/// The middle of the head (m), or of the hair where there is no head: what lamps are aimed at.
+#[must_use]
+pub fn middle(strands: &Strands, surface: Option<&Surface>) -> DVec3 {
+    let head = surface.and_then(|surface| {
+        let top = surface.bounds().1.z;
+        enclose(surface.positions().iter().copied().filter(|p| p.z > top - HEAD))
+    });
+    let (low, high) = head.unwrap_or_else(|| bounds(strands, None));
+    0.5 * (low + high)
+}
+
+/// From the crown to below the chin (m).
+const HEAD: f64 = 0.27;
 
 /// The box around some points; `None` without points.
 fn enclose(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {

@@ -4,14 +4,15 @@ use frisure_optics::{Angles, LobeShape, kajiya_kay, lobes};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::Scene;
 use super::curves::{Curves, Vertex};
 use super::density::DensityMap;
 use super::head::{Head, HeadPixel};
 use super::material::{Materials, glitter};
 use super::shadow::ShadowMap;
-use super::sky::Sky;
+use super::sky::{self, Sky};
+use super::{Scene, middle};
 use crate::SkinLook;
+use crate::light::PlainLights;
 
 /// How far hair is lifted towards a lamp before the head can hide it (m): roots lie in the scalp.
 const HAIR_BIAS: f32 = 2.5e-3;
@@ -62,11 +63,9 @@ impl Shader {
         head: Option<&mut Head>,
     ) -> Self {
         let shared = head.as_deref();
-        let usable = scene.lights.lamps.iter().filter_map(|lamp| {
-            let to_light = lamp.direction.as_vec3().try_normalize()?;
-            Some((to_light, lamp.irradiance))
-        });
-        let lit: Vec<(Vec3, Vec3)> = usable.collect();
+        let place = middle(scene.strands, scene.surface);
+        let PlainLights { lamps: lit, room } =
+            PlainLights::new(&scene.lights, place, &sky::around());
         let lamps = || -> Vec<Lamp> {
             lit.par_iter()
                 .map(|&(to_light, irradiance)| Lamp {
@@ -77,7 +76,7 @@ impl Shader {
                 })
                 .collect()
         };
-        let sky = || Sky::new(curves, shared, &scene.lights, materials.taken);
+        let sky = || Sky::new(curves, shared, room, materials.taken);
         let (lamps, sky) = rayon::join(lamps, sky);
         if let Some(head) = head {
             head.light_by(&sky);

@@ -10,7 +10,6 @@ use rayon::prelude::*;
 use super::curves::Curves;
 use super::head::Head;
 use super::split;
-use crate::Lights;
 
 /// Finest cell (m).
 const MIN_CELL: f32 = 4.5e-3;
@@ -57,9 +56,9 @@ pub(super) struct Sky {
 }
 
 impl Sky {
-    /// Measures the room's light around `curves` and `head`; each hair on the way takes the part
-    /// `taken` of it.
-    pub(super) fn new(curves: &Curves, head: Option<&Head>, lights: &Lights, taken: Vec3) -> Self {
+    /// Measures the room's light, known from [`around`], around `curves` and `head`; each hair on the way
+    /// takes the part `taken` of it.
+    pub(super) fn new(curves: &Curves, head: Option<&Head>, room: [Vec3; 14], taken: Vec3) -> Self {
         let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let hair = curves.vertices.iter().map(|v| v.position);
         let skin = head.into_iter().flat_map(|h| h.positions().iter().copied());
@@ -71,7 +70,6 @@ impl Sky {
         let cell = ((high - low).max_element() / MAX_CELLS).max(MIN_CELL);
         let low = low - Vec3::splat(1.5 * cell);
         let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(2);
-        let room = DIRECTIONS.map(|(d, _)| lights.room(direction(d)));
         let mut sky = Self { low, cell, size, met: Vec::new(), mean: Vec::new(), room, taken };
         let hair = sky.hair_density(curves);
         let shell = sky.shell(head);
@@ -188,6 +186,11 @@ impl Sky {
     }
 }
 
+/// The directions from which the room's light is known, and their weights.
+pub(super) fn around() -> [(Vec3, f32); 14] {
+    DIRECTIONS.map(|(step, weight)| (direction(step), weight))
+}
+
 fn direction(step: [i32; 3]) -> Vec3 {
     IVec3::from_array(step).as_vec3().normalize()
 }
@@ -199,15 +202,14 @@ mod tests {
     use crate::preview::view::View;
     use frisure_strands::Strands;
 
-    fn room(radiance: f32) -> Lights {
-        let light = Vec3::splat(radiance);
-        Lights { lamps: Vec::new(), sky: light, ground: light }
+    fn room(radiance: f32) -> [Vec3; 14] {
+        [Vec3::splat(radiance); 14]
     }
 
     #[test]
     fn open_air_has_all_the_room() {
         let curves = Curves::new(&Strands::new(), &View::new(&Camera::default(), 8, 8), 1.0);
-        let sky = Sky::new(&curves, None, &room(2.0), Vec3::ONE);
+        let sky = Sky::new(&curves, None, room(2.0), Vec3::ONE);
         assert!((sky.mean(Vec3::ONE) - Vec3::splat(2.0)).length() < 1e-5);
         let on = sky.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
         assert!((on - Vec3::splat(2.0)).length() < 1e-5);
@@ -223,7 +225,7 @@ mod tests {
             }
         }
         let curves = Curves::new(&strands, &View::new(&Camera::default(), 64, 64), 1.0);
-        let sky = Sky::new(&curves, None, &room(1.0), Vec3::ONE);
+        let sky = Sky::new(&curves, None, room(1.0), Vec3::ONE);
         let (middle, edge) = (sky.mean(Vec3::ZERO).x, sky.mean(Vec3::Z * 0.038).x);
         assert!(middle < 0.5 * edge && edge < 0.9, "{middle} {edge}");
     }

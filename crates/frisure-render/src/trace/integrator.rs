@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use super::ground::Ground;
 use super::hair::Fibres;
-use super::lights::Outside;
+use super::lights::{Outside, power};
 use super::matter::Matter;
 use super::sampler::Sampler;
 use super::surface::Plastic;
@@ -30,6 +30,9 @@ const SURE_BOUNCES: u32 = 6;
 
 /// Farthest that light is followed (m).
 const FAR: f32 = 1e4;
+
+/// Part of the way to a lamp in which something can stand.
+const BEFORE: f32 = 0.9999;
 
 /// Light along a ray, and what it met first.
 pub(super) struct Seen {
@@ -55,6 +58,7 @@ pub(super) enum Thing {
         tangent: Vec3,
     },
     Skin,
+    Lamp,
     /// With the share of the background that is seen instead.
     Ground {
         faded: f32,
@@ -75,6 +79,30 @@ impl Met {
             Self::Ground { point, .. } => *point,
         }
     }
+
+    /// Distance (m).
+    fn t(&self) -> f32 {
+        match self {
+            Self::Hit(hit) => hit.t(),
+            Self::Ground { t, .. } => *t,
+        }
+    }
+
+    /// Where it is, as lamps at a place see it (m).
+    fn place(&self) -> Vec3 {
+        match self {
+            Self::Hit(Hit::Hair(hit)) => hit.centre,
+            Self::Hit(Hit::Skin(hit)) => hit.position,
+            Self::Ground { point, .. } => *point,
+        }
+    }
+}
+
+impl First {
+    /// The face of a lamp.
+    fn lamp(t: f32, direction: Vec3) -> Self {
+        Self { t, thing: Thing::Lamp, albedo: Vec3::ZERO, normal: -direction }
+    }
 }
 
 impl World {
@@ -82,17 +110,22 @@ impl World {
     pub(super) fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Seen {
         let mut seen = Seen { radiance: Vec3::ZERO, first: None };
         let (mut ray, mut throughput) = (ray, Vec3::ONE);
-        // Density of the direction that led here; the eye's own is beyond choice.
-        let mut chosen: Option<f32> = None;
+        // Where the light was scattered that led here, and the density of its direction; the eye's own is
+        // beyond choice.
+        let mut scattered: Option<(Vec3, f32)> = None;
         for bounce in 0..=self.bounces {
-            let Some(met) = self.meets(&ray) else {
-                if let Some(pdf) = chosen {
-                    let light = self.outside.radiance(ray.direction());
-                    let share = power(pdf, self.outside.pdf(ray.direction()));
-                    seen.radiance += throughput * light * share;
-                }
-                return seen;
-            };
+            let met = self.meets(&ray);
+            let blocked = met.as_ref().map(Met::t);
+            if let Some((from, pdf)) = scattered {
+                self.outside.met(from, ray.direction(), blocked, |light, other| {
+                    seen.radiance += throughput * light * power(pdf, other);
+                });
+            } else if let Some((t, light)) =
+                self.outside.shown(ray.origin(), ray.direction(), blocked)
+            {
+                return Seen { radiance: light, first: Some(First::lamp(t, ray.direction())) };
+            }
+            let Some(met) = met else { return seen };
             if bounce == 0 {
                 seen.first = Some(self.first(&met, ray.direction()));
             }
@@ -112,17 +145,14 @@ impl World {
                 throughput /= survives;
             }
             ray = Ray::new(met.start(onward.towards), onward.towards);
-            chosen = Some(onward.pdf);
+            scattered = Some((met.place(), onward.pdf));
         }
         seen
     }
 
     /// Distance (m) at which a ray meets anything.
     pub(super) fn distance(&self, ray: &Ray) -> Option<f32> {
-        self.meets(ray).map(|met| match met {
-            Met::Hit(hit) => hit.t(),
-            Met::Ground { t, .. } => t,
-        })
+        self.meets(ray).map(|met| met.t())
     }
 
     fn meets(&self, ray: &Ray) -> Option<Met> {
@@ -131,9 +161,11 @@ impl World {
         hit.map(Met::Hit).or_else(|| ground.map(|(t, point)| Met::Ground { t, point }))
     }
 
-    fn hidden(&self, ray: &Ray) -> bool {
-        self.ground.as_ref().is_some_and(|ground| ground.meets(ray).is_some())
-            || self.scene.occluded(ray, FAR)
+    /// Whether anything stands in the way before a distance (m).
+    fn hidden(&self, ray: &Ray, distance: f32) -> bool {
+        let before = |(t, _): (f32, Vec3)| t < distance;
+        self.ground.as_ref().and_then(|ground| ground.meets(ray)).is_some_and(before)
+            || self.scene.occluded(ray, distance.min(FAR))
     }
 
     fn first(&self, met: &Met, direction: Vec3) -> First {
@@ -190,18 +222,20 @@ impl World {
         Matter::Hair { frame, scattering }
     }
 
-    /// Light that comes straight from outside and is scattered towards the eye.
+    /// Light that comes straight from a lamp or from outside and is scattered towards the eye.
     fn direct(&self, met: &Met, matter: &Matter<'_>, sampler: &mut Sampler) -> Vec3 {
         let which = sampler.one();
-        let light = self.outside.sample(which, sampler.pair());
+        let light = self.outside.sample(met.place(), which, sampler.pair());
         let (value, pdf) = matter.evaluate(light.towards);
         if light.pdf <= 0.0 || value.max_element() <= 0.0 {
             return Vec3::ZERO;
         }
-        if self.hidden(&Ray::new(met.start(light.towards), light.towards)) {
+        let ray = Ray::new(met.start(light.towards), light.towards);
+        if self.hidden(&ray, light.distance * BEFORE) {
             return Vec3::ZERO;
         }
-        value * light.radiance * (power(light.pdf, pdf) / light.pdf)
+        let share = if light.sharp { 1.0 } else { power(light.pdf, pdf) };
+        value * light.radiance * (share / light.pdf)
     }
 }
 
@@ -215,10 +249,4 @@ const SKIN_ROUGHNESS: f32 = 0.3;
 /// The normal on the side of the eye.
 fn facing(normal: Vec3, eye: Vec3) -> Vec3 {
     if normal.dot(eye) < 0.0 { -normal } else { normal }
-}
-
-/// Share of a path that is sampled with the density `mine`, and could have been with `other`.
-fn power(mine: f32, other: f32) -> f32 {
-    let ratio = other / mine;
-    1.0 / (1.0 + ratio * ratio)
 }

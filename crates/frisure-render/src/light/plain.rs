@@ -1,0 +1,151 @@
+//! The same lights in few numbers, for a picture in seconds: directions, and the mean of what is around.
+
+use std::f32::consts::{PI, TAU};
+
+use glam::{DVec3, Vec3};
+
+use super::{EnvironmentMap, Lights, Room};
+
+/// Lamps as seen from one place, and light from a few directions that stand for all.
+pub(crate) struct PlainLights<const N: usize> {
+    /// Unit direction to each, and irradiance on a surface that faces it.
+    pub(crate) lamps: Vec<(Vec3, Vec3)>,
+    /// Radiance about each of the directions asked for.
+    pub(crate) room: [Vec3; N],
+}
+
+/// Most lamps that an environment becomes.
+const FOUND: usize = 3;
+
+/// How much brighter than the mean of all directions what makes a lamp is.
+const BRIGHT: f32 = 12.0;
+
+/// Cosine of half the angle that a lamp takes of an environment: 15°.
+const APART: f32 = 0.966;
+
+impl<const N: usize> PlainLights<N> {
+    /// The lights as they are at `place` (m); the room about each of the unit directions `around`, whose
+    /// weights sum to 1.
+    pub(crate) fn new(lights: &Lights, place: DVec3, around: &[(Vec3, f32); N]) -> Self {
+        let arriving = lights.lamps.iter().filter_map(|lamp| lamp.arriving(place));
+        let lit = arriving.filter(|(_, irradiance)| irradiance.max_element() > 0.0);
+        let mut lamps: Vec<_> = lit.map(|(towards, e)| (towards.as_vec3(), e)).collect();
+        let room = match &lights.room {
+            room @ Room::Gradient { .. } => around.map(|(towards, _)| room.radiance(towards)),
+            Room::Environment(map) => {
+                let (bright, rest) = split(map);
+                lamps.extend(bright);
+                spread(&rest, around)
+            }
+        };
+        Self { lamps, room }
+    }
+}
+
+/// A part of an environment: direction, radiance, solid angle (sr).
+type Part = (Vec3, Vec3, f32);
+
+/// Parts of a picture of few pixels.
+const FEW: usize = 8192;
+
+/// Small parts of an environment: its pixels, or less.
+fn parts(map: &EnvironmentMap) -> Box<dyn Iterator<Item = Part> + '_> {
+    if map.len() >= FEW {
+        return Box::new(map.pixels());
+    }
+    // A spiral of even steps in z, turned by the golden angle each.
+    let solid = 4.0 * PI / FEW as f32;
+    Box::new((0..FEW).map(move |i| {
+        let z = 1.0 - (2.0 * i as f32 + 1.0) / FEW as f32;
+        let (sin, cos) = (TAU * (i as f32 * 0.618_034).fract()).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        let towards = Vec3::new(r * cos, r * sin, z);
+        (towards, map.radiance(towards), solid)
+    }))
+}
+
+/// The lamps that are in an environment, and what is left.
+fn split(map: &EnvironmentMap) -> (Vec<(Vec3, Vec3)>, Vec<Part>) {
+    let threshold = BRIGHT * map.mean().element_sum();
+    let (mut bright, mut rest): (Vec<Part>, Vec<Part>) =
+        parts(map).partition(|(_, radiance, _)| radiance.element_sum() > threshold);
+    let mut lamps = Vec::new();
+    while lamps.len() < FOUND && !bright.is_empty() {
+        let by_light = |a: &&Part, b: &&Part| a.1.element_sum().total_cmp(&b.1.element_sum());
+        let Some(&(top, ..)) = bright.iter().max_by(by_light) else { break };
+        let (near, far) = bright.into_iter().partition(|(d, ..)| d.dot(top) >= APART);
+        let near: Vec<Part> = near;
+        let light: Vec3 = near.iter().map(|(_, radiance, solid)| *radiance * *solid).sum();
+        let middle: Vec3 = near.iter().map(|(d, l, solid)| *d * (l.element_sum() * solid)).sum();
+        lamps.push((middle.normalize_or(top), light));
+        bright = far;
+    }
+    rest.extend(bright);
+    (lamps, rest)
+}
+
+/// Mean radiance about each direction: of what is nearest to it. All together have all of the light.
+fn spread<const N: usize>(parts: &[Part], around: &[(Vec3, f32); N]) -> [Vec3; N] {
+    let (mut light, mut solid) = ([Vec3::ZERO; N], [0.0_f32; N]);
+    for (towards, radiance, of) in parts {
+        let nearness = |(d, _): &(Vec3, f32)| d.dot(*towards);
+        let nearest = (0..N).max_by(|a, b| nearness(&around[*a]).total_cmp(&nearness(&around[*b])));
+        let Some(i) = nearest else { continue };
+        light[i] += *radiance * *of;
+        solid[i] += *of;
+    }
+    let whole: Vec3 = light.iter().sum();
+    let mut means = [Vec3::ZERO; N];
+    for i in 0..N {
+        means[i] = light[i] / solid[i].max(1e-9);
+    }
+    let found: Vec3 = means.iter().zip(around).map(|(mean, (_, weight))| *mean * *weight).sum();
+    let factor = whole / (4.0 * PI) / found.max(Vec3::splat(1e-20));
+    means.map(|mean| mean * factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Lamp, PointLight};
+
+    const AXES: [(Vec3, f32); 6] = [
+        (Vec3::X, 1.0 / 6.0),
+        (Vec3::NEG_X, 1.0 / 6.0),
+        (Vec3::Y, 1.0 / 6.0),
+        (Vec3::NEG_Y, 1.0 / 6.0),
+        (Vec3::Z, 1.0 / 6.0),
+        (Vec3::NEG_Z, 1.0 / 6.0),
+    ];
+
+    fn fluence(plain: &PlainLights<6>) -> Vec3 {
+        let room: Vec3 = plain.room.iter().sum::<Vec3>() / 6.0;
+        plain.lamps.iter().map(|l| l.1).sum::<Vec3>() + 4.0 * PI * room
+    }
+
+    #[test]
+    fn all_light_of_an_environment_is_kept_and_its_sun_becomes_a_lamp() {
+        for (width, height, sun) in [(1, 1, 0), (8, 4, 13), (256, 128, 5000)] {
+            let mut pixels = vec![[0.2, 0.3, 0.5]; width * height];
+            pixels[sun] = [900.0, 800.0, 600.0];
+            let map = EnvironmentMap::new(width, height, pixels).unwrap();
+            let mean = map.mean();
+            let lights = Lights { lamps: Vec::new(), room: Room::Environment(map) };
+            let plain = PlainLights::new(&lights, DVec3::ZERO, &AXES);
+            let ratio = fluence(&plain) / (4.0 * PI * mean);
+            assert!((ratio - Vec3::ONE).abs().max_element() < 0.02, "{width}: {ratio}");
+            assert_eq!(plain.lamps.is_empty(), width == 1);
+            // A pixel of 1.4° is one lamp.
+            assert!(width != 256 || plain.lamps.len() == 1);
+        }
+    }
+
+    #[test]
+    fn a_lamp_at_a_place_is_seen_from_there() {
+        let lamp: Lamp = PointLight::new(DVec3::X * 2.0, Vec3::splat(8.0)).unwrap().into();
+        let lights = Lights { lamps: vec![lamp], ..Lights::dark() };
+        let plain = PlainLights::new(&lights, DVec3::ZERO, &AXES);
+        assert_eq!(plain.lamps, [(Vec3::X, Vec3::splat(2.0))]);
+        assert_eq!(plain.room, [Vec3::ZERO; 6]);
+    }
+}
