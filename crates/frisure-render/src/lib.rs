@@ -14,10 +14,11 @@ mod camera;
 mod film;
 mod light;
 mod look;
+mod pigment;
 pub mod preview;
 pub mod trace;
 
 pub use camera::{Aperture, Camera, CameraError};
 pub use film::{Image, ToneCurve};
 pub use light::{DirectionalLight, Lights};
-pub use look::{Background, Ground, HairLook, Look, SkinLook};
+pub use look::{Background, Dye, Fade, Ground, HairLook, HairSurface, Look, SkinLook};
