@@ -1,13 +1,15 @@
 //! The picture that a scene asks for.
 
 use frisure::io::environment::Environment;
-use frisure::io::scene::{self, Face, LampColour, LampFace, LampPlace, Scene, SceneError};
-use frisure::optics::Melanin;
+use frisure::io::scene::{
+    self, Face, LampColour, LampFace, LampPlace, NaturalColour, Scene, SceneError,
+};
+use frisure::optics::{Melanin, absorption_of_colour};
 use frisure::render::preview;
 use frisure::render::{
-    Aperture, AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentMap, Ground,
-    HairLook, Image, InvalidLight, Lamp, Lights, Look, PointLight, Room, SOFTBOX, Setup, SkinLook,
-    ToneCurve, beside_camera, colour_of_temperature,
+    Aperture, AreaLight, Background, Camera, Daylight, DistantLight, Dye, EnvironmentMap, Fade,
+    Ground, HairLook, HairSurface, Image, InvalidLight, Lamp, Lights, Look, PointLight, Room,
+    SOFTBOX, Setup, SkinLook, ToneCurve, beside_camera, colour_of_temperature,
 };
 use frisure::strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
@@ -251,9 +253,6 @@ fn placed(at: DVec3, middle: DVec3, face: Option<LampFace>) -> Result<Lamp, Inva
 
 fn look(asked: &scene::Look) -> Look {
     let default = Look::default();
-    let (eumelanin, pheomelanin) = (asked.eumelanin as f32, asked.pheomelanin as f32);
-    let variation = asked.variation.map_or(default.hair.variation, |v| v as f32);
-    let hair = HairLook { melanin: Melanin { eumelanin, pheomelanin }, variation, ..default.hair };
     let colour = asked.skin.map_or(default.skin.colour, linear);
     let background = match asked.background {
         scene::Behind::Wall => default.background,
@@ -264,7 +263,53 @@ fn look(asked: &scene::Look) -> Look {
             Background::Gradient { centre: colour, corner: colour }
         }
     };
-    Look { hair, skin: SkinLook { colour, ..default.skin }, background, ground: None }
+    Look { hair: hair(asked), skin: SkinLook { colour, ..default.skin }, background, ground: None }
+}
+
+fn hair(asked: &scene::Look) -> HairLook {
+    let default = HairLook::default();
+    let or = |asked: Option<f64>, default: f32| asked.map_or(default, |value| value as f32);
+    let plain = default.surface;
+    let surface = HairSurface {
+        longitudinal_roughness: or(asked.roughness, plain.longitudinal_roughness),
+        azimuthal_roughness: or(asked.roughness_around, plain.azimuthal_roughness),
+        tilt: or(asked.tilt, plain.tilt),
+        index: or(asked.index, plain.index),
+    };
+    let of_colour = |srgb| absorption_of_colour(linear(srgb), surface.azimuthal_roughness);
+    let (melanin, absorption) = match asked.natural {
+        NaturalColour::Pigments { eumelanin, pheomelanin } => {
+            let (eumelanin, pheomelanin) = (eumelanin as f32, pheomelanin as f32);
+            (Melanin { eumelanin, pheomelanin }, None)
+        }
+        NaturalColour::Reflectance(srgb) => (default.melanin, Some(of_colour(srgb))),
+        NaturalColour::Absorption(rgb) => {
+            (default.melanin, Some(Vec3::from_array(rgb.map(|a| a as f32))))
+        }
+    };
+    let fade = |asked: Option<scene::Fade>| {
+        asked.map_or(Fade::default(), |fade| Fade {
+            factor: fade.pigment as f32,
+            length: fade.length as f32,
+        })
+    };
+    let dye = asked.dye.map(|dye| Dye {
+        absorption: of_colour(dye.colour),
+        strength: dye.strength as f32,
+        regrowth: dye.regrowth as f32,
+    });
+    HairLook {
+        melanin,
+        absorption,
+        white_share: asked.white_share as f32,
+        variation: or(asked.variation, default.variation),
+        roots: fade(asked.roots),
+        tips: fade(asked.tips),
+        dye,
+        surface,
+        // The cast takes the low bits, which is as good a seed.
+        seed: asked.seed as u32,
+    }
 }
 
 /// Linear light of an sRGB colour (IEC 61966-2-1).

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
 use frisure_io::scene::{
-    Behind, Fault, HeadSource, ScalpSource, Scene, SceneError, UpAxis, schema, template,
+    Behind, Dye, Fade, Fault, HeadSource, NaturalColour, ScalpSource, Scene, SceneError, UpAxis,
+    schema, template,
 };
+use frisure_optics::{Melanin, SHADES};
 use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
 use glam::DVec3;
 use serde_json::Value;
@@ -110,6 +112,14 @@ fn every_key_arrives() {
         eumelanin = 0.3
         pheomelanin = 0.4
         variation = 0.5
+        white_share = 0.25
+        roots = { pigment = 1.5, fade = "3 cm" }
+        tips.pigment = 0.6
+        dye = { colour = "#0000ff", strength = 0.8, regrowth = "4 cm" }
+        roughness = 0.25
+        roughness_around = 0.35
+        tilt = "2 deg"
+        index = 1.5
         skin = "#ff8000"
         background = [0, 0.5, 1]
         [camera]
@@ -163,10 +173,48 @@ fn every_key_arrives() {
     assert_eq!(head.scalp, ScalpSource::Mask("scenes/mask.png".into()));
     assert_eq!(scene.look.skin, Some([1.0, 128.0 / 255.0, 0.0]));
     assert_eq!(scene.look.background, Behind::Colour([0.0, 0.5, 1.0]));
-    assert_eq!((scene.look.eumelanin, scene.look.pheomelanin), (0.3, 0.4));
+    let look = scene.look;
+    let pigments = NaturalColour::Pigments { eumelanin: 0.3, pheomelanin: 0.4 };
+    assert_eq!((look.natural, look.variation, look.white_share), (pigments, Some(0.5), 0.25));
+    assert_eq!(look.roots, Some(Fade { pigment: 1.5, length: 0.03 }));
+    assert_eq!(look.tips, Some(Fade { pigment: 0.6, length: 0.05 }));
+    assert_eq!(look.dye, Some(Dye { colour: [0.0, 0.0, 1.0], strength: 0.8, regrowth: 0.04 }));
+    assert_eq!((look.roughness, look.roughness_around), (Some(0.25), Some(0.35)));
+    assert!((look.tilt.unwrap().to_degrees() - 2.0).abs() < 1e-12);
+    assert_eq!((look.index, look.seed), (Some(1.5), spec.seed));
     assert!((scene.camera.azimuth.to_degrees() - 90.0).abs() < 1e-12);
     assert!((scene.light.direction.unwrap().0.to_degrees() - 10.0).abs() < 1e-12);
     assert_eq!((scene.output.width, scene.output.height, scene.output.samples), (31, 32, 3));
+}
+
+#[test]
+fn a_colour_of_hair_is_said_by_name_by_pigments_or_as_measured() {
+    let of = |keys: &str| good(&format!("[look]\n{keys}")).look;
+    let pigments = |eumelanin: f32, pheomelanin: f32| NaturalColour::Pigments {
+        eumelanin: f64::from(eumelanin),
+        pheomelanin: f64::from(pheomelanin),
+    };
+    for shade in &SHADES {
+        let look = of(&format!("colour = \"{}\"", shade.name));
+        let Melanin { eumelanin, pheomelanin } = shade.melanin;
+        assert_eq!(look.natural, pigments(eumelanin, pheomelanin));
+        assert_eq!(look.white_share, f64::from(shade.white_share));
+    }
+    assert_eq!(of("").natural, of("colour = \"brown\"").natural);
+    let NaturalColour::Pigments { eumelanin, .. } =
+        of("colour = \"auburn\"\neumelanin = 0.5").natural
+    else {
+        panic!("pigments were given")
+    };
+    assert_eq!(eumelanin, 0.5);
+    assert_eq!(
+        of("reflectance = \"#ff0000\"").natural,
+        NaturalColour::Reflectance([1.0, 0.0, 0.0])
+    );
+    assert_eq!(
+        of("absorption = [0.1, 0.2, 3]").natural,
+        NaturalColour::Absorption([0.1, 0.2, 3.0])
+    );
 }
 
 #[test]
@@ -455,6 +503,30 @@ fn faults_name_place_value_range_and_hint() {
             "wisps.density",
             "\"190 cm\"",
             &["a number per area", "`cm` is a unit of a length"],
+        ),
+        (
+            "[look]\ncolour = \"blonde\"",
+            2,
+            10,
+            "look.colour",
+            "\"blonde\"",
+            &["one of \"white\", ", "did you mean \"blond\"?"],
+        ),
+        (
+            "[look]\ncolour = \"red\"\nreflectance = \"#aa3300\"",
+            3,
+            15,
+            "look.reflectance",
+            "\"#aa3300\"",
+            &["`look.colour` says on line 2"],
+        ),
+        (
+            "[look]\nabsorption = [1, -1, 0]",
+            2,
+            14,
+            "look.absorption",
+            "[1, -1, 0]",
+            &["0 and 1000"],
         ),
         (
             "hair.fibre.variation = 0.6",

@@ -14,9 +14,9 @@ const PHEOMELANIN: Vec3 = Vec3::new(0.187, 0.4, 1.05);
 /// The two pigments of hair, as concentrations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Melanin {
-    /// Eumelanin, black-brown: about 0.3 blond, 1.3 brown, 8 black; 0 white.
+    /// Eumelanin, black-brown: about 0.15 blond, 0.8 brown, 5 black; 0 white.
     pub eumelanin: f32,
-    /// Pheomelanin, yellow-red: 0 in most hair, about 1.5 in red hair with little eumelanin.
+    /// Pheomelanin, yellow-red: 0 in most hair, about 1 in red hair with little eumelanin.
     pub pheomelanin: f32,
 }
 
@@ -29,11 +29,11 @@ impl Default for Melanin {
 
 impl Melanin {
     /// Fair hair.
-    pub const BLOND: Self = Self { eumelanin: 0.3, pheomelanin: 0.0 };
+    pub const BLOND: Self = Self { eumelanin: 0.14, pheomelanin: 0.05 };
     /// Red hair.
-    pub const RED: Self = Self { eumelanin: 0.25, pheomelanin: 1.6 };
+    pub const RED: Self = Self { eumelanin: 0.2, pheomelanin: 1.7 };
     /// Brown hair.
-    pub const BROWN: Self = Self { eumelanin: 1.3, pheomelanin: 0.0 };
+    pub const BROWN: Self = Self { eumelanin: 0.8, pheomelanin: 0.0 };
     /// Black hair.
     pub const BLACK: Self = Self { eumelanin: 8.0, pheomelanin: 0.0 };
     /// Hair without pigment.

@@ -16,7 +16,9 @@ mod fibre;
 pub mod kajiya_kay;
 mod lobes;
 pub mod scattering;
+mod shade;
 
 pub use absorption::{Melanin, absorption, absorption_of_colour, apparent_colour};
 pub use fibre::{FibreEnergy, HAIR_INDEX, fibre_energy, fresnel};
 pub use lobes::{Angles, LobeShape, Lobes, lobes};
+pub use shade::{SHADES, Shade};

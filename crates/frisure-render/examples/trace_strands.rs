@@ -20,7 +20,7 @@ use std::time::Instant;
 
 use frisure_optics::Melanin;
 use frisure_render::trace::{TraceOptions, render};
-use frisure_render::{Background, Camera, DirectionalLight, Lights, preview};
+use frisure_render::{Background, Camera, DistantLight, Lamp, Lights, Room, SOFTBOX, preview};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
 use wig::Style;
@@ -141,11 +141,11 @@ impl Job {
         Ok(())
     }
 
-    fn lights(&self) -> Lights {
-        let irradiance = Vec3::splat(self.lamp);
-        let lamp = DirectionalLight { direction: self.towards.normalize(), irradiance };
-        let lamps = if self.lamp > 0.0 { vec![lamp] } else { Vec::new() };
-        Lights { lamps, sky: Vec3::splat(self.room), ground: Vec3::splat(self.room) }
+    fn lights(&self) -> Outcome<Lights> {
+        let lamp = DistantLight::new(self.towards, Vec3::splat(self.lamp), SOFTBOX)?;
+        let lamps = if self.lamp > 0.0 { vec![Lamp::Distant(lamp)] } else { Vec::new() };
+        let (sky, ground) = (Vec3::splat(self.room), Vec3::splat(self.room));
+        Ok(Lights { lamps, room: Room::Gradient { sky, ground } })
     }
 }
 
@@ -185,7 +185,7 @@ fn picture(path: &str, out: &str, keys: &[&str]) -> Outcome<()> {
     let mut scene = preview::Scene::portrait(&strands, ball.as_ref());
     let fov = job.field_of_view.to_radians();
     scene.camera = Camera::look_at(job.eye, job.target, DVec3::Z, fov)?;
-    scene.lights = job.lights();
+    scene.lights = job.lights()?;
     scene.look.background = Background::Transparent;
     scene.look.hair.melanin = Melanin { eumelanin: job.eumelanin, pheomelanin: 0.0 };
     scene.look.hair.variation = 0.0;
@@ -193,7 +193,7 @@ fn picture(path: &str, out: &str, keys: &[&str]) -> Outcome<()> {
     scene.look.skin.colour = Vec3::splat(job.ball.unwrap_or(0.0));
     let (width, height) = (job.size, job.size);
     let Job { samples, bounces, seed, .. } = job;
-    let options = TraceOptions { width, height, samples, bounces, seed };
+    let options = TraceOptions { width, height, samples, noise: None, bounces, seed };
     let start = Instant::now();
     let image = render(&scene, &options, &|_| ControlFlow::Continue(()))?;
     writeln!(std::io::stdout().lock(), "{:.2} s", start.elapsed().as_secs_f64())?;

@@ -35,7 +35,7 @@ impl ToneCurve {
             Self::Shoulder if light > KNEE => {
                 KNEE + (1.0 - KNEE) * (1.0 - ((KNEE - light) / (1.0 - KNEE)).exp())
             }
-            Self::Filmic => (hable(2.0 * light) / hable(11.2)).min(1.0),
+            Self::Filmic => (hable(2.0 * light) / hable(11.2)).clamp(0.0, 1.0),
             _ => light.min(1.0),
         }
     }
@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn the_film_is_dark_in_its_toe_and_reaches_white_where_it_should() {
         let film = |x: f32| ToneCurve::Filmic.apply(x);
-        assert_eq!((film(0.0), film(f32::NAN)), (0.0, 0.0));
+        assert!(film(0.0).abs() < 1e-6 && film(f32::NAN).abs() < 1e-6);
         assert!((film(5.6) - 1.0).abs() < 1e-6 && film(f32::INFINITY) <= 1.0);
         assert!((1..500).all(|i| film(0.01 * i as f32) > film(0.01 * (i - 1) as f32)));
         // In the toe the curve is convex: shadows are deeper than in proportion.

@@ -14,6 +14,7 @@ mod camera;
 mod film;
 mod light;
 mod look;
+mod pigment;
 pub mod preview;
 pub mod trace;
 
@@ -24,4 +25,4 @@ pub use light::{
     MAX_ENVIRONMENT_WIDTH, PointLight, Room, SOFTBOX, SUN_RADIUS, Setup, beside_camera,
     colour_of_temperature,
 };
-pub use look::{Background, Ground, HairLook, Look, SkinLook};
+pub use look::{Background, Dye, Fade, Ground, HairLook, HairSurface, Look, SkinLook};

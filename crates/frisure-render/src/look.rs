@@ -1,6 +1,6 @@
 //! What things are made of, as far as a picture can tell.
 
-use frisure_optics::{LobeShape, Melanin};
+use frisure_optics::{HAIR_INDEX, Melanin, absorption};
 use glam::{DVec3, Vec3};
 
 /// Appearance of everything in a picture.
@@ -19,35 +19,102 @@ pub struct Look {
 /// Appearance of hair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HairLook {
-    /// Pigment; a strand's `tint` multiplies it.
+    /// Natural pigment; a strand's `tint` multiplies it.
     pub melanin: Melanin,
-    /// Widths and shifts of the highlights.
-    pub lobes: LobeShape,
-    /// Strength of the white highlight; 1 is what the fibre's surface reflects.
-    pub primary: f32,
-    /// Strength of the coloured highlight; 1 is what the fibre returns.
-    pub secondary: f32,
-    /// Strength of the glow against the light; 1 is what the fibre lets through.
-    pub transmission: f32,
-    /// Strength of the diffuse light (many bounces between hairs); 1 is the model's estimate.
-    pub diffuse: f32,
+    /// Instead of melanin: absorption per mean radius of the fibre, for linear sRGB.
+    pub absorption: Option<Vec3>,
+    /// Share of hairs without any pigment, 0 to 1: grey hair is white and dark hair mixed.
+    pub white_share: f32,
     /// Standard deviation of the pigment from strand to strand, relative. Without a `tint`
     /// attribute it is all the variation there is.
     pub variation: f32,
+    /// Pigment at the roots.
+    pub roots: Fade,
+    /// Pigment at the tips.
+    pub tips: Fade,
+    /// What is on top of the pigment.
+    pub dye: Option<Dye>,
+    /// Surface and shape of the fibre, for light.
+    pub surface: HairSurface,
+    /// Another seed, other hairs that are white, dark or light.
+    pub seed: u32,
+}
+
+/// Natural pigment that differs at one end of the hairs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fade {
+    /// Factor on the pigment at the end.
+    pub factor: f32,
+    /// Distance from the end over which it fades away (m).
+    pub length: f32,
+}
+
+impl Default for Fade {
+    /// No difference.
+    fn default() -> Self {
+        Self { factor: 1.0, length: 0.0 }
+    }
+}
+
+/// Dye: hair that is coloured on purpose, and natural again where it has grown since.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dye {
+    /// Absorption of dyed hair, per mean radius, for linear sRGB
+    /// ([`frisure_optics::absorption_of_colour`] tells that of a colour).
+    pub absorption: Vec3,
+    /// How much of the natural absorption it takes the place of, 0 to 1.
+    pub strength: f32,
+    /// Length from the root that has no dye (m).
+    pub regrowth: f32,
+}
+
+/// Surface of the fibres, as light meets it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairSurface {
+    /// Roughness along the fibre β_M, 0.01 to 1: how wide the highlights are.
+    pub longitudinal_roughness: f32,
+    /// Roughness around the fibre β_N, 0.01 to 1.
+    pub azimuthal_roughness: f32,
+    /// Tilt of the cuticle's scales (rad), −0.35 to 0.35.
+    pub tilt: f32,
+    /// Refractive index, 1.05 to 3.
+    pub index: f32,
+}
+
+impl Default for HairSurface {
+    /// Clean hair: the highlight has a standard deviation of 10°, and the scales stand off by 3°. Marschner
+    /// et al. 2003, table 1, has 5° to 10°, and shifts that belong to scales of 2.5° to 5°.
+    fn default() -> Self {
+        Self {
+            longitudinal_roughness: 0.2,
+            azimuthal_roughness: 0.3,
+            tilt: 0.0524,
+            index: HAIR_INDEX,
+        }
+    }
+}
+
+impl HairLook {
+    /// Absorption of a hair of the natural colour (per mean radius).
+    #[must_use]
+    pub fn natural(&self) -> Vec3 {
+        self.absorption.unwrap_or_else(|| absorption(self.melanin))
+    }
 }
 
 impl Default for HairLook {
+    /// Brown.
     fn default() -> Self {
         Self {
             melanin: Melanin::default(),
-            lobes: LobeShape::default(),
-            // The lobes leave out the rise of reflection at grazing angles.
-            primary: 1.4,
-            secondary: 1.0,
-            // What goes through once mostly meets another hair, which a preview does not follow.
-            transmission: 0.6,
-            diffuse: 1.0,
+            absorption: None,
+            white_share: 0.0,
             variation: 0.18,
+            roots: Fade::default(),
+            tips: Fade::default(),
+            dye: None,
+            surface: HairSurface::default(),
+            seed: 1,
         }
     }
 }

@@ -16,8 +16,8 @@ use super::key::{
 use super::light::Setup;
 use super::step::Step;
 use super::words::{
-    BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places, Tone,
-    UnitWord, UpAxis, WettingWord, Which,
+    BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places,
+    ShadeWord, Tone, UnitWord, UpAxis, WettingWord, Which,
 };
 
 /// A scene: hair, the head it grows on, and how to look at it.
@@ -399,16 +399,43 @@ pub(super) struct Equilibrium {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Look {
-    /// Concentration of the brown pigment: about 0.3 blond, 1.3 brown, 8 black; 0 to 100. Default
-    /// 1.3.
+    /// Colour of natural hair, by its name; the keys below override its numbers. Default "brown".
+    pub(super) colour: Key<OneOf<ShadeWord>>,
+    /// Concentration of the brown pigment: about 0.1 blond, 1 brown, 8 black; 0 to 100.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub(super) eumelanin: Key<Ratio>,
-    /// Concentration of the red pigment; 0 to 100. Default 0.
+    /// Concentration of the red pigment; 0 to 100.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub(super) pheomelanin: Key<Ratio>,
-    /// Relative variation of the pigment from hair to hair; 0 to 1.
+    /// Instead of pigments: the colour (sRGB) that much of this hair has, as measured.
+    pub(super) reflectance: Key<Colour>,
+    /// Instead of pigments: absorption of red, green and blue light per radius of the fibre; each 0
+    /// to 1000.
+    pub(super) absorption: Key<Vector>,
+    /// Fraction of the hairs that have no pigment: grey hair; 0 to 1. Default that of the colour.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) white_share: Key<Ratio>,
+    /// Relative variation of the pigment from hair to hair; 0 to 1. Default 0.18.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) variation: Key<Ratio>,
+    /// Pigment at the roots.
+    pub(super) roots: LookEnd,
+    /// Pigment at the tips, which the sun bleaches.
+    pub(super) tips: LookEnd,
+    /// Hair coloured on purpose.
+    pub(super) dye: LookDye,
+    /// Roughness along the fibre: 0.1 has narrow highlights, 0.5 is matt; 0.05 to 1. Default 0.2.
+    #[schemars(range(min = 0.05, max = 1.0))]
+    pub(super) roughness: Key<Ratio>,
+    /// Roughness around the fibre; 0.05 to 1. Default 0.3.
+    #[schemars(range(min = 0.05, max = 1.0))]
+    pub(super) roughness_around: Key<Ratio>,
+    /// Tilt of the cuticle's scales, which moves the highlights apart; -20 to 20 deg. Default 3 deg.
+    #[schemars(range(min = -0.349, max = 0.349))]
+    pub(super) tilt: Key<Angle>,
+    /// Refractive index of the fibre; 1.05 to 3. Default 1.55.
+    #[schemars(range(min = 1.05, max = 3.0))]
+    pub(super) index: Key<Ratio>,
     /// Colour of the skin (sRGB).
     pub(super) skin: Key<Colour>,
     /// What is behind the head. Default "wall".
@@ -416,6 +443,32 @@ pub(super) struct Look {
     /// Colour of a floor under the head (sRGB), which catches its shadow in a final picture. Left out,
     /// there is none.
     pub(super) floor: Key<Colour>,
+}
+
+/// `[look.roots]` and `[look.tips]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct LookEnd {
+    /// Factor on the pigment at this end; 0 to 10. Default 1.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub(super) pigment: Key<Ratio>,
+    /// Distance from the end over which this fades away; 0 to 3 m. Default 5 cm.
+    #[schemars(range(min = 0.0, max = 3.0))]
+    pub(super) fade: Key<Length>,
+}
+
+/// `[look.dye]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct LookDye {
+    /// Colour (sRGB) that much hair has with this dye.
+    pub(super) colour: Key<Colour>,
+    /// How much of the natural colour it takes the place of; 0 to 1. Default 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) strength: Key<Ratio>,
+    /// Length at the roots that has grown since, without dye; 0 to 3 m. Default 0.
+    #[schemars(range(min = 0.0, max = 3.0))]
+    pub(super) regrowth: Key<Length>,
 }
 
 /// `[camera]`.

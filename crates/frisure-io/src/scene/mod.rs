@@ -117,12 +117,28 @@ pub enum ScalpSource {
 /// Colours of a scene; those not given are the renderer's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Concentration of the brown pigment.
-    pub eumelanin: f64,
-    /// Concentration of the red pigment.
-    pub pheomelanin: f64,
+    /// Natural colour of the hair.
+    pub natural: NaturalColour,
+    /// Share of the hairs without pigment.
+    pub white_share: f64,
     /// Relative variation of the pigment from hair to hair.
     pub variation: Option<f64>,
+    /// Pigment at the roots.
+    pub roots: Option<Fade>,
+    /// Pigment at the tips.
+    pub tips: Option<Fade>,
+    /// What is on top of the natural colour.
+    pub dye: Option<Dye>,
+    /// Roughness along the fibre.
+    pub roughness: Option<f64>,
+    /// Roughness around the fibre.
+    pub roughness_around: Option<f64>,
+    /// Tilt of the cuticle's scales (rad).
+    pub tilt: Option<f64>,
+    /// Refractive index of the fibre.
+    pub index: Option<f64>,
+    /// Seed of what differs from hair to hair: the scene's.
+    pub seed: u64,
     /// Skin, sRGB from 0 to 1.
     pub skin: Option<[f64; 3]>,
     /// What is behind the head.
@@ -143,6 +159,42 @@ pub enum Behind {
     Surroundings,
     /// A colour, sRGB from 0 to 1.
     Colour([f64; 3]),
+}
+
+/// One of the ways to say what colour hair has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NaturalColour {
+    /// By its pigments.
+    Pigments {
+        /// Concentration of the brown pigment.
+        eumelanin: f64,
+        /// Concentration of the red pigment.
+        pheomelanin: f64,
+    },
+    /// By the colour of much hair, sRGB from 0 to 1.
+    Reflectance([f64; 3]),
+    /// By the absorption of red, green and blue per radius.
+    Absorption([f64; 3]),
+}
+
+/// Pigment that differs at one end of the hairs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fade {
+    /// Factor on the pigment at the end.
+    pub pigment: f64,
+    /// Distance over which it fades away (m).
+    pub length: f64,
+}
+
+/// Dye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dye {
+    /// Colour of much dyed hair, sRGB from 0 to 1.
+    pub colour: [f64; 3],
+    /// How much of the natural colour it takes the place of, 0 to 1.
+    pub strength: f64,
+    /// Length at the roots without it (m).
+    pub regrowth: f64,
 }
 
 /// Where the picture is taken from.

@@ -7,6 +7,7 @@ use frisure_hairstyle::{
     Curl, Fibre, Flow, Hairs, HairstyleSpec, InvalidSpec, Lift, Parting, Preset, RegionLength,
     RegionStyle, preset,
 };
+use frisure_optics::Melanin;
 use frisure_rod::{
     Branch, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
     Section, StrainProfile,
@@ -20,10 +21,10 @@ use super::file::{self, File};
 use super::key::{Key, Kind};
 use super::light::light;
 use super::source::Source;
-use super::words::{BranchKind, FlowWord, HairType, Tone, UnitWord, Which};
+use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Tone, UnitWord, Which};
 use super::{
-    Camera, HeadFile, HeadSource, Look, Output, ScalpSource, Scene, SingleHair, UpAxis, schema,
-    shape, step,
+    Camera, Dye, Fade, HeadFile, HeadSource, Look, NaturalColour, Output, ScalpSource, Scene,
+    SingleHair, UpAxis, schema, shape, step,
 };
 
 /// The hair type of a scene that names none.
@@ -64,7 +65,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
         name: file.name.or(String::new(), &source)?,
         hair_type: preset.name,
         head: head(&file.head, folder, &source)?,
-        look: look(&file.look, &source)?,
+        look: look(&file.look, spec.seed, &source)?,
         camera: camera(&file.camera, &source)?,
         light: light(&file.light, folder, &source)?,
         output: output(&file.output, &source)?,
@@ -497,18 +498,66 @@ fn equilibrium(
     }
 }
 
-fn look(file: &file::Look, source: &Source) -> Result<Look> {
-    let pigment = "between 0 and 100";
-    let variation = file.variation.is_given();
-    let fraction = within(&file.variation, 0.0, 0.0, 1.0, "between 0 and 1", source)?;
+fn look(file: &file::Look, seed: u64, source: &Source) -> Result<Look> {
+    let given = |key: &Key<super::key::Ratio>, min, max, allowed: &str| {
+        within(key, min, min, max, allowed, source).map(|value| key.is_given().then_some(value))
+    };
+    let shade = file.colour.get(source)?;
+    let white = shade.map_or(0.0, |ShadeWord(shade)| f64::from(shade.white_share));
+    let (unit, rough) = ("between 0 and 1", "between 0.05 and 1");
+    let most = 20_f64.to_radians();
+    let tilt = within(&file.tilt, 0.0, -most, most, "between -20 and 20 deg", source)?;
     Ok(Look {
-        eumelanin: within(&file.eumelanin, 1.3, 0.0, 100.0, pigment, source)?,
-        pheomelanin: within(&file.pheomelanin, 0.0, 0.0, 100.0, pigment, source)?,
-        variation: variation.then_some(fraction),
+        natural: natural_colour(file, source)?,
+        white_share: within(&file.white_share, white, 0.0, 1.0, unit, source)?,
+        variation: given(&file.variation, 0.0, 1.0, unit)?,
+        roots: look_end(&file.roots, source)?,
+        tips: look_end(&file.tips, source)?,
+        dye: dye(&file.dye, source)?,
+        roughness: given(&file.roughness, 0.05, 1.0, rough)?,
+        roughness_around: given(&file.roughness_around, 0.05, 1.0, rough)?,
+        tilt: file.tilt.is_given().then_some(tilt),
+        index: given(&file.index, 1.05, 3.0, "between 1.05 and 3")?,
+        seed,
         skin: file.skin.get(source)?,
         background: file.background.get(source)?.unwrap_or_default(),
         floor: file.floor.get(source)?,
     })
+}
+
+fn natural_colour(file: &file::Look, source: &Source) -> Result<NaturalColour> {
+    let pigments = [file.colour.span(), file.eumelanin.span(), file.pheomelanin.span()];
+    one_way(source, &[&pigments, &[file.reflectance.span()], &[file.absorption.span()]])?;
+    if let Some(colour) = file.reflectance.get(source)? {
+        return Ok(NaturalColour::Reflectance(colour));
+    }
+    if let Some(absorption) = file.absorption.get(source)? {
+        let absorption = absorption.to_array();
+        return match absorption.iter().all(|a| (0.0..=1000.0).contains(a)) {
+            true => Ok(NaturalColour::Absorption(absorption)),
+            false => Err(outside(&file.absorption, "each between 0 and 1000", source)),
+        };
+    }
+    let shade = file.colour.get(source)?.map_or_else(Melanin::default, |word| word.0.melanin);
+    let of = |key, default: f32| {
+        within(key, f64::from(default), 0.0, 100.0, "between 0 and 100", source)
+    };
+    let eumelanin = of(&file.eumelanin, shade.eumelanin)?;
+    let pheomelanin = of(&file.pheomelanin, shade.pheomelanin)?;
+    Ok(NaturalColour::Pigments { eumelanin, pheomelanin })
+}
+
+fn look_end(file: &file::LookEnd, source: &Source) -> Result<Option<Fade>> {
+    let pigment = within(&file.pigment, 1.0, 0.0, 10.0, "between 0 and 10", source)?;
+    let length = within(&file.fade, 0.05, 0.0, 3.0, "between 0 and 3 m", source)?;
+    Ok(file.pigment.is_given().then_some(Fade { pigment, length }))
+}
+
+fn dye(file: &file::LookDye, source: &Source) -> Result<Option<Dye>> {
+    let strength = within(&file.strength, 1.0, 0.0, 1.0, "between 0 and 1", source)?;
+    let regrowth = within(&file.regrowth, 0.0, 0.0, 3.0, "between 0 and 3 m", source)?;
+    let colour = file.colour.get(source)?;
+    Ok(colour.map(|colour| Dye { colour, strength, regrowth }))
 }
 
 fn camera(file: &file::Camera, source: &Source) -> Result<Camera> {

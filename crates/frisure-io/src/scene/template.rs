@@ -52,7 +52,7 @@ type = "{name}"  # {description}
 # fuzziness = {fuzziness:.2}
 
 [look]
-# eumelanin = 1.3                 # 0.3 blond, 1.3 brown, 8 black
+# colour = "brown"                # or "blond", "black", "red", "grey" ...; or pigments, or a dye
 
 [camera]
 # azimuth = "30 deg"              # 0 faces the face

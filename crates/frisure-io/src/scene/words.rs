@@ -4,6 +4,7 @@ use frisure_hairstyle::head::Region;
 use frisure_hairstyle::{
     Comb, Ellipticity, Handedness, Level, PRESETS, Parting, Place, Preset, Turn, Wetting,
 };
+use frisure_optics::{SHADES, Shade};
 use frisure_rod::{ElementKind, TorsionConstant};
 use schemars::{Schema, json_schema};
 use toml::Value;
@@ -18,6 +19,33 @@ pub(super) struct HairType(pub(super) &'static Preset);
 impl Choice for HairType {
     fn words() -> Vec<(&'static str, &'static str, Self)> {
         PRESETS.iter().map(|p| (p.name, p.description, Self(p))).collect()
+    }
+}
+
+/// A colour of natural hair, by its name.
+#[derive(Clone, Copy)]
+pub(super) struct ShadeWord(pub(super) &'static Shade);
+
+impl Choice for ShadeWord {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        SHADES.iter().map(|shade| (shade.name, shade.description, Self(shade))).collect()
+    }
+
+    fn synonyms() -> &'static [(&'static str, &'static str)] {
+        &[
+            ("blonde", "blond"),
+            ("fair", "blond"),
+            ("golden", "blond"),
+            ("light-blonde", "light-blond"),
+            ("dark-blonde", "dark-blond"),
+            ("gray", "grey"),
+            ("silver", "grey"),
+            ("pepper-and-salt", "salt-and-pepper"),
+            ("chestnut", "brown"),
+            ("brunette", "dark-brown"),
+            ("ginger", "copper"),
+            ("strawberry-blond", "copper"),
+        ]
     }
 }
 

@@ -15,17 +15,17 @@ use super::section::Crossing;
 ///
 /// A column for each lobe: red, green, blue, and the lobe's share in the luminance.
 #[inline]
-pub(super) fn energies(crossing: &Crossing, depth: Vec3, film: f32) -> Mat4 {
+pub(super) fn energies(crossing: &Crossing, depth: Vec3) -> Mat4 {
     let (f, chord) = (crossing.fresnel, crossing.chord);
     let depth = -depth.extend(0.0);
     let [first, second, third] = [chord.x, chord.y, chord.z].map(|way| exp(depth * way));
-    let met = first * ((1.0 - film) * (1.0 - f.x));
+    let met = first * (1.0 - f.x);
     let returned = second * met * f.y;
     // A ray that grazes has F = 1 and leaves nothing inside: keep 0/0 away.
     let mean = (0.25 * f.element_sum()).min(0.9999);
     let series = third * (1.0 - mean) / (Vec4::ONE - third * mean);
     with_shares([
-        Vec4::splat(film + (1.0 - film) * f.x),
+        Vec4::splat(f.x),
         met * (1.0 - f.y),
         returned * (1.0 - f.z),
         returned * f.z * series,

@@ -80,6 +80,13 @@ impl<'a> Scattering<'a> {
     /// the fibre's projected width, counted along wo × t ([`Fibre::offset`]).
     #[must_use]
     pub fn new(fibre: &'a Fibre, wo: Vec3, h: f32) -> Self {
+        Self::coloured(fibre, fibre.absorption, wo, h)
+    }
+
+    /// The same where the fibre absorbs `absorption` per mean radius (not negative), whatever its own:
+    /// the colour of a hair changes along it.
+    #[must_use]
+    pub fn coloured(fibre: &'a Fibre, absorption: Vec3, wo: Vec3, h: f32) -> Self {
         let sine = wo.z.clamp(-1.0, 1.0);
         let cosine = (wo.x * wo.x + wo.y * wo.y).sqrt().clamp(1e-4, 1.0);
         let inner_sine = sine / fibre.index;
@@ -92,11 +99,11 @@ impl<'a> Scattering<'a> {
             cosine,
             inner_cosine: (1.0 - inner_sine * inner_sine).sqrt(),
             index: fibre.index,
+            wetness: fibre.wetness,
         };
         let round = fibre.is_round();
         let crossing = if round { circle(&ray) } else { ellipse(&ray, fibre.axes) };
-        let film = film::reflected(fibre.wetness, || ray.facing(fibre.axes));
-        let energy = energies(&crossing, fibre.absorption / ray.inner_cosine, film);
+        let energy = energies(&crossing, absorption / ray.inner_cosine);
         let from = fibre.tilted(sine, cosine);
         Self { fibre, from, azimuth: crossing.azimuth, energy }
     }

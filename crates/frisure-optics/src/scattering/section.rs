@@ -10,6 +10,7 @@ use core::f32::consts::PI;
 use glam::{Vec2, Vec2Swizzles, Vec4};
 
 use super::elementary::atan2;
+use super::film::{fresnel, reflectance};
 
 /// What becomes of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +37,8 @@ pub(super) struct Incident {
     pub(super) inner_cosine: f32,
     /// Relative index of the inside.
     pub(super) index: f32,
+    /// 0 dry, 1 under a full film of water.
+    pub(super) wetness: f32,
 }
 
 impl Incident {
@@ -49,23 +52,17 @@ impl Incident {
         ((1.0 - self.offset) * (1.0 + self.offset)).max(0.0).sqrt()
     }
 
-    /// Cosine of the angle of incidence, in space, on an ellipse of these axes (product 1).
-    pub(super) fn facing(&self, axes: Vec2) -> f32 {
-        let half_width = (self.towards * axes.yx()).length();
-        let normal = (entry(self, axes) * axes.yx()).length();
-        self.cosine * self.offset_cosine() * half_width / normal
-    }
-
     /// Reflectances between rays outside and inside that meet the surface at these cosines, as seen in
     /// the section; 1 where `outer` is 0.
     #[inline]
     fn fresnel(&self, outer: Vec4, inner: Vec4) -> Vec4 {
         let (outer, inner) = (outer * self.cosine, inner * self.inner_cosine);
-        let (dense_outer, dense_inner) = (outer * self.index, inner * self.index);
-        let least = Vec4::splat(1e-20);
-        let parallel = (dense_outer - inner) / (dense_outer + inner).max(least);
-        let perpendicular = (outer - dense_inner) / (outer + dense_inner).max(least);
-        0.5 * (parallel * parallel + perpendicular * perpendicular)
+        let dry = fresnel(outer, inner, self.index);
+        // Most hair is dry.
+        if self.wetness > 0.0 {
+            return dry.lerp(reflectance(outer, inner, self.index), self.wetness);
+        }
+        dry
     }
 }
 
@@ -165,7 +162,7 @@ mod tests {
     fn ray(phi: f32, offset: f32, theta: f32) -> Incident {
         let inner_cosine = (1.0 - (theta.sin() / 1.55).powi(2)).sqrt();
         let towards = Vec2::from_angle(phi);
-        Incident { towards, offset, cosine: theta.cos(), inner_cosine, index: 1.55 }
+        Incident { towards, offset, cosine: theta.cos(), inner_cosine, index: 1.55, wetness: 0.0 }
     }
 
     #[test]

@@ -31,6 +31,8 @@ pub(super) struct Vertex {
     pub(super) wetness: f32,
     /// Index of the strand it belongs to.
     pub(super) strand: u32,
+    /// Where on it, in points from its root.
+    pub(super) place: f32,
 }
 
 const NOWHERE: Vertex = Vertex {
@@ -39,6 +41,7 @@ const NOWHERE: Vertex = Vertex {
     half_width: 0.0,
     wetness: 0.0,
     strand: u32::MAX,
+    place: 0.0,
 };
 
 /// All drawn curves; vertices `i` and `i + 1` make a piece if they are of one strand.
@@ -224,15 +227,15 @@ fn fill<'a>(
     let wet = |i: usize| {
         wetness.map_or(0.0, |w| if w[i].is_finite() { w[i].clamp(0.0, 1.0) } else { 0.0 })
     };
-    let mut put = |position: Vec3, slope: Vec3, radius: f32, wetness: f32| {
+    let mut put = |place: f32, position: Vec3, slope: Vec3, radius: f32, wetness: f32| {
         if let Some(vertex) = out.next() {
             let tangent = slope.try_normalize().unwrap_or(Vec3::Z);
             let half_width = radius.max(0.0) * width_scale;
-            *vertex = Vertex { position, tangent, half_width, wetness, strand: index };
+            *vertex = Vertex { position, tangent, half_width, wetness, strand: index, place };
         }
     };
     let (points, radii) = (strand.points, strand.radii);
-    put(points[0], slope(points, 0), radii[0], wet(0));
+    put(0.0, points[0], slope(points, 0), radii[0], wet(0));
     for i in 0..points.len() - 1 {
         let (a, b) = (points[i], points[i + 1]);
         let ends = [slope(points, i), slope(points, i + 1)];
@@ -242,7 +245,8 @@ fn fill<'a>(
             let x = k as f32 / n as f32;
             let (position, derivative) = hermite(a, b, ends[0] * h, ends[1] * h, x);
             let mix = |p: f32, q: f32| p + (q - p) * x;
-            put(position, derivative, mix(radii[i], radii[i + 1]), mix(wet(i), wet(i + 1)));
+            let (radius, wetness) = (mix(radii[i], radii[i + 1]), mix(wet(i), wet(i + 1)));
+            put(i as f32 + x, position, derivative, radius, wetness);
         }
     }
 }

@@ -58,8 +58,18 @@ impl DensityMap {
 
     /// Mean number of hairs between `point` and the lamp.
     pub(super) fn hairs_before(&self, point: Vec3) -> f32 {
+        self.hairs_up_to(point, LIFT)
+    }
+
+    /// Mean number of hairs in the cell around `point`, along the light.
+    pub(super) fn hairs_around(&self, point: Vec3) -> f32 {
+        self.hairs_up_to(point, -0.5) - self.hairs_up_to(point, 0.5)
+    }
+
+    /// Mean number of hairs between the lamp and the place `lift` cells nearer to it than `point`.
+    fn hairs_up_to(&self, point: Vec3, lift: f32) -> f32 {
         let mut g = self.grid(point);
-        g.z -= LIFT;
+        g.z -= lift;
         let top = self.size.as_vec3() - Vec3::splat(1.001);
         let g = g.clamp(Vec3::ZERO, top);
         let (base, f) = split(g);

@@ -33,7 +33,6 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::{Camera, Image, Lights, Look};
-pub(crate) use material::pigment_levels;
 
 use composite::TilePainter;
 use curves::Curves;
@@ -142,7 +141,7 @@ pub fn render(
     let scale = width_scale(scene.strands, options);
     let curves = Curves::new(scene.strands, &view, scale);
     go_on(0.1)?;
-    let materials = Materials::new(scene.strands, &scene.look.hair);
+    let materials = Materials::new(scene.strands, &curves, &scene.look.hair);
     let mut head = scene.surface.map(Head::new);
     let shader = Shader::new(scene, &curves, materials, head.as_mut());
     go_on(0.3)?;

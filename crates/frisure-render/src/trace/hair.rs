@@ -1,23 +1,24 @@
-//! The fibre that each strand is, for light.
+//! The fibre that each place of each strand is, for light.
 
+use frisure_optics::apparent_colour;
 use frisure_optics::scattering::{Fibre, FibreError, FibreSpec};
-use frisure_optics::{absorption, apparent_colour};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
 use crate::HairLook;
-use crate::preview::pigment_levels;
+use crate::pigment::Pigments;
 
 /// Steps of wetness between dry and wet.
-const WET_LEVELS: usize = 8;
+const WET_LEVELS: usize = 16;
 
 /// Axis ratios are rounded to this.
 const RATIO_STEP: f32 = 0.05;
 
-/// Fibres by strand.
+/// Fibres by place.
 pub(super) struct Fibres {
-    /// One for each level of pigment, of each level of wetness, of each axis ratio in turn.
+    /// One for each level of wetness, of each axis ratio in turn.
     fibres: Vec<Fibre>,
+    pigments: Pigments,
     /// Axis ratio of each strand, as one of those that there are.
     ratio: Option<Vec<u16>>,
     /// Director d1 at each point.
@@ -25,57 +26,71 @@ pub(super) struct Fibres {
     /// First point of each strand.
     offsets: Vec<u32>,
     wet_levels: usize,
-    /// Pigment of each strand.
-    level: Vec<u8>,
-    levels: usize,
-    /// Wetness of each strand, if any is wet.
+    /// Wetness at each point in levels, if any is wet.
     wet: Option<Vec<u8>>,
 }
 
 impl Fibres {
     pub(super) fn new(strands: &Strands, look: &HairLook) -> Result<Self, FibreError> {
-        let (factors, level) = pigment_levels(strands, look);
         let wet = wetness(strands);
         let steps = if wet.is_some() { WET_LEVELS } else { 0 };
         let (ratios, ratio) = ratios(strands);
-        let mut fibres = Vec::with_capacity(ratios.len() * (steps + 1) * factors.len());
+        let mut fibres = Vec::with_capacity(ratios.len() * (steps + 1));
         for axis_ratio in ratios {
             for step in 0..=steps {
                 let wetness = step as f32 / WET_LEVELS as f32;
-                let base = Fibre::new(FibreSpec { wetness, axis_ratio, ..FibreSpec::default() })?;
-                for factor in &factors {
-                    fibres.push(base.with_absorption(absorption(look.melanin.scaled(*factor)))?);
-                }
+                fibres.push(Fibre::new(FibreSpec { wetness, axis_ratio, ..spec(look) })?);
             }
         }
         let directors = match strands.attribute("d1").map(|a| (&a.values, a.domain)) {
             Some((AttributeValues::F32x3(d1), Domain::Point)) => Some(d1.clone()),
             _ => None,
         };
-        let (offsets, levels) = (strands.offsets().to_vec(), factors.len());
-        Ok(Self { fibres, ratio, directors, offsets, wet_levels: steps + 1, level, levels, wet })
+        let pigments = Pigments::new(strands, look);
+        let (offsets, wet_levels) = (strands.offsets().to_vec(), steps + 1);
+        Ok(Self { fibres, pigments, ratio, directors, offsets, wet_levels, wet })
     }
 
-    pub(super) fn of(&self, strand: u32) -> &Fibre {
-        let strand = strand as usize;
-        let wet = self.wet.as_ref().map_or(0, |wet| usize::from(wet[strand]));
-        let ratio = self.ratio.as_ref().map_or(0, |ratio| usize::from(ratio[strand]));
-        let of = ratio * self.wet_levels + wet;
-        &self.fibres[of * self.levels + usize::from(self.level[strand])]
+    /// The fibre between a point of a strand and the next, and what it absorbs there.
+    pub(super) fn at(&self, strand: u32, segment: u32, u: f32) -> (&Fibre, Vec3) {
+        let ratio = self.ratio.as_ref().map_or(0, |ratio| usize::from(ratio[strand as usize]));
+        let wet = self.wet.as_ref().map_or(0, |wet| {
+            let [before, after] = self.points(strand, segment).map(|point| f32::from(wet[point]));
+            (before + (after - before) * u).round() as usize
+        });
+        let fibre = &self.fibres[ratio * self.wet_levels + wet.min(self.wet_levels - 1)];
+        (fibre, self.pigments.at(strand, segment as f32 + u))
     }
 
-    /// Colour that much hair like a strand appears to have.
-    pub(super) fn albedo(&self, strand: u32) -> Vec3 {
-        let spec = self.of(strand).spec();
-        apparent_colour(spec.absorption, spec.azimuthal_roughness)
+    /// Colour that much hair like a place of a strand appears to have.
+    pub(super) fn albedo(&self, strand: u32, segment: u32, u: f32) -> Vec3 {
+        let (fibre, absorption) = self.at(strand, segment, u);
+        apparent_colour(absorption, fibre.spec().azimuthal_roughness)
     }
 
     /// Director d1 between a point of a strand and the next; none where the strands do not say.
     pub(super) fn director(&self, strand: u32, segment: u32, u: f32) -> Option<Vec3> {
         let directors = self.directors.as_ref()?;
+        let [before, after] =
+            self.points(strand, segment).map(|point| Vec3::from(directors[point]));
+        Some(before.lerp(after, u))
+    }
+
+    /// A point of a strand and the next.
+    fn points(&self, strand: u32, segment: u32) -> [usize; 2] {
         let first = (self.offsets[strand as usize] + segment) as usize;
-        let next = (first + 1).min(self.offsets[strand as usize + 1] as usize - 1);
-        Some(Vec3::from(directors[first]).lerp(directors[next].into(), u))
+        [first, (first + 1).min(self.offsets[strand as usize + 1] as usize - 1)]
+    }
+}
+
+/// A dry round white hair of this look.
+fn spec(look: &HairLook) -> FibreSpec {
+    FibreSpec {
+        index: look.surface.index,
+        longitudinal_roughness: look.surface.longitudinal_roughness,
+        azimuthal_roughness: look.surface.azimuthal_roughness,
+        tilt: look.surface.tilt,
+        ..FibreSpec::default()
     }
 }
 
@@ -96,14 +111,11 @@ fn ratios(strands: &Strands) -> (Vec<f32>, Option<Vec<u16>>) {
     (values.collect(), Some(of_strand))
 }
 
-/// Wetness of each strand: that of its root.
+/// Wetness at each point, in levels.
 fn wetness(strands: &Strands) -> Option<Vec<u8>> {
     let attribute = strands.attribute("wetness").filter(|a| a.domain == Domain::Point)?;
     let AttributeValues::F32(values) = &attribute.values else { return None };
-    let step = |first: &u32| {
-        let wet = values.get(*first as usize).copied().unwrap_or(0.0);
-        (wet.clamp(0.0, 1.0) * WET_LEVELS as f32).round() as u8
-    };
-    let offsets = strands.offsets();
-    Some(offsets[..offsets.len() - 1].iter().map(step).collect())
+    // The cast takes not-a-number for 0.
+    let level = |wet: &f32| (wet.clamp(0.0, 1.0) * WET_LEVELS as f32).round() as u8;
+    values.iter().any(|wet| *wet > 0.0).then(|| values.iter().map(level).collect())
 }

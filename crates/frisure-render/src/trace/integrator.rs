@@ -173,7 +173,7 @@ impl World {
             Met::Hit(Hit::Hair(hit)) => First {
                 t: hit.t,
                 thing: Thing::Hair { strand: hit.strand, tangent: hit.tangent },
-                albedo: self.fibres.albedo(hit.strand),
+                albedo: self.fibres.albedo(hit.strand, hit.segment, hit.u),
                 normal: hit.normal,
             },
             Met::Hit(Hit::Skin(hit)) => First {
@@ -218,7 +218,8 @@ impl World {
         let frame = FibreFrame::new(hit.tangent, d1);
         let eye = frame.to_local(-direction);
         // A hit counts its offset along direction × tangent, a scattering along eye × tangent.
-        let scattering = Scattering::new(self.fibres.of(hit.strand), eye, -hit.h);
+        let (fibre, absorption) = self.fibres.at(hit.strand, hit.segment, hit.u);
+        let scattering = Scattering::coloured(fibre, absorption, eye, -hit.h);
         Matter::Hair { frame, scattering }
     }
 
