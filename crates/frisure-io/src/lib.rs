@@ -7,6 +7,7 @@
 //! | [`history`] | a scene with what was done and undone | the same |
 //! | [`head`] | OBJ meshes and scalp masks | |
 //! | [`groom`] | `.hair` | `.hair`, `.obj`, `.ply` |
+//! | [`environment`] | `.hdr` and `.exr` pictures of surroundings | |
 //! | [`picture`] | | PNG |
 //! | [`report`] | | JSON |
 //!
@@ -14,6 +15,7 @@
 //! an interrupted program leaves the old file or the new one and never a half of it
 //! ([`files::write_atomically`]). The same input gives the same bytes.
 
+pub mod environment;
 pub mod files;
 pub mod groom;
 pub mod head;
