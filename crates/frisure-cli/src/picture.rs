@@ -1,11 +1,13 @@
 //! The picture that a scene asks for.
 
-use frisure::io::scene::{self, Scene};
+use frisure::io::environment::Environment;
+use frisure::io::scene::{self, Face, LampColour, LampFace, LampPlace, Scene, SceneError};
 use frisure::optics::Melanin;
 use frisure::render::preview;
 use frisure::render::{
-    Aperture, Background, Camera, Ground, HairLook, Image, Lamp, Lights, Look, SkinLook, ToneCurve,
-    beside_camera,
+    Aperture, AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentMap, Ground,
+    HairLook, Image, InvalidLight, Lamp, Lights, Look, PointLight, Room, SOFTBOX, Setup, SkinLook,
+    ToneCurve, beside_camera, colour_of_temperature,
 };
 use frisure::strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
@@ -21,14 +23,16 @@ pub(crate) fn scene<'a>(
     strands: &'a Strands,
     framed: &Strands,
     surface: Option<&'a Surface>,
-) -> preview::Scene<'a> {
+    environment: Option<&EnvironmentMap>,
+) -> Result<preview::Scene<'a>, InvalidLight> {
     let camera = camera(&scene.camera, shown(framed, surface), aspect(scene));
-    let lights = lights(&scene.light, &camera);
+    let middle = preview::middle(strands, surface);
+    let lights = lights(&scene.light, &camera, middle, environment)?;
     let mut look = look(&scene.look);
     if let Some(colour) = scene.look.floor {
         look.ground = Some(floor(colour, framed, surface));
     }
-    preview::Scene { strands, surface, camera, lights, look }
+    Ok(preview::Scene { strands, surface, camera, lights, look })
 }
 
 /// The cameras of a turntable, all at one distance, each with its lights: they walk around the head to
@@ -38,7 +42,8 @@ pub(crate) fn turntable(
     strands: &Strands,
     surface: Option<&Surface>,
     frames: usize,
-) -> Vec<(Camera, Lights)> {
+    environment: Option<&EnvironmentMap>,
+) -> Result<Vec<(Camera, Lights)>, InvalidLight> {
     let (low, high) = preview::bounds(strands, surface);
     let axis = 0.5 * (low + high);
     let points: Vec<DVec3> = shown(strands, surface).collect();
@@ -50,9 +55,10 @@ pub(crate) fn turntable(
         })
     });
     let first = camera(&scene.camera, around, aspect(scene));
+    let middle = preview::middle(strands, surface);
     let frame = |i: usize| {
         let camera = first.turned(axis, i as f64 / frames as f64 * TAU);
-        (camera, lights(&scene.light, &camera))
+        Ok((camera, lights(&scene.light, &camera, middle, environment)?))
     };
     (0..frames).map(frame).collect()
 }
@@ -85,6 +91,15 @@ fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Grou
     };
     let middle = (0.5 * (low + high)).with_z(low.z);
     Ground { middle, reach: REACH, colour: linear(colour) }
+}
+
+/// The surroundings that a scene names, read and ready.
+pub(crate) fn environment(scene: &Scene) -> Result<Option<EnvironmentMap>, SceneError> {
+    let Some(Environment { width, height, pixels }) = scene.environment()? else {
+        return Ok(None);
+    };
+    let map = EnvironmentMap::new(width, height, pixels);
+    map.map(Some).map_err(|e| scene.fault("light.environment", e.to_string(), ""))
 }
 
 /// Every so many points of the hair are enough to frame it.
@@ -150,19 +165,88 @@ fn aperture(asked: &scene::Camera, f_number: f64, aspect: f64) -> Aperture {
     Aperture { radius: 0.5 * focal_length / f_number, focus: asked.focus }
 }
 
-fn lights(asked: &scene::Light, camera: &Camera) -> Lights {
-    let mut lights = Lights::studio(camera);
-    if let (Some((azimuth, elevation)), Some(Lamp::Distant(key))) =
-        (asked.direction, lights.lamps.first_mut())
-    {
-        let direction = beside_camera(camera, azimuth, elevation);
-        *key = key.from_direction(direction).expect("angles make a direction");
+/// The lights that a scene asks for, around what stands in `middle` (m).
+fn lights(
+    asked: &scene::Light,
+    camera: &Camera,
+    middle: DVec3,
+    environment: Option<&EnvironmentMap>,
+) -> Result<Lights, InvalidLight> {
+    let mut lights = Lights::setup(&setup(asked), camera)?;
+    if let Some(Lamp::Distant(main)) = lights.lamps.first_mut() {
+        if let Some((azimuth, elevation)) = asked.direction {
+            *main = main.from_direction(beside_camera(camera, azimuth, elevation))?;
+        }
+        if let Some(size) = asked.size {
+            *main = main.with_radius(0.5 * size)?;
+        }
+    }
+    for asked in &asked.lamps {
+        lights.lamps.push(lamp(asked, camera, middle)?);
     }
     let strength = Vec3::splat(asked.strength as f32);
     for lamp in &mut lights.lamps {
-        *lamp = lamp.scaled(strength).expect("a strength from 0 to 100 makes a lamp");
+        *lamp = lamp.scaled(strength)?;
     }
-    lights
+    if let (Some(map), Some(file)) = (environment, &asked.environment) {
+        lights.room = Room::Environment(map.clone().turned(file.rotation));
+    }
+    lights.room = lights.room.scaled(asked.sky_strength as f32);
+    Ok(lights)
+}
+
+fn setup(asked: &scene::Light) -> Setup {
+    let scene::Sun { azimuth, elevation, turbidity } = asked.sun;
+    match asked.setup {
+        scene::Setup::Studio => Setup::Studio,
+        scene::Setup::Soft => Setup::Soft,
+        scene::Setup::Butterfly => Setup::Butterfly,
+        scene::Setup::Rembrandt => Setup::Rembrandt,
+        scene::Setup::Rim => Setup::Rim,
+        scene::Setup::Daylight => {
+            Setup::Daylight(Daylight { sun_azimuth: azimuth, sun_elevation: elevation, turbidity })
+        }
+        scene::Setup::Overcast => Setup::Overcast,
+        scene::Setup::Dark => Setup::Dark,
+    }
+}
+
+/// Irradiance of the studio's main lamp.
+const MAIN: f32 = 5.0;
+
+fn lamp(asked: &scene::Lamp, camera: &Camera, middle: DVec3) -> Result<Lamp, InvalidLight> {
+    let towards = |(azimuth, elevation)| beside_camera(camera, azimuth, elevation);
+    let lamp: Lamp = match asked.place {
+        LampPlace::Far { direction, angle } => {
+            let radius = angle.map_or(SOFTBOX, |angle| 0.5 * angle);
+            DistantLight::new(towards(direction), Vec3::ONE, radius)?.into()
+        }
+        LampPlace::Beside { direction, distance, face } => {
+            placed(middle + distance * towards(direction), middle, face)?
+        }
+        LampPlace::At { position, face } => placed(position, middle, face)?,
+    };
+    let given = lamp.arriving(middle).map_or(1.0, |(_, irradiance)| irradiance.x);
+    let colour = match asked.colour {
+        LampColour::Srgb(colour) => linear(colour),
+        LampColour::Temperature(kelvin) => colour_of_temperature(kelvin),
+    };
+    lamp.scaled(colour * (MAIN * asked.strength as f32 / given))
+}
+
+/// A lamp at a place that looks at the middle.
+fn placed(at: DVec3, middle: DVec3, face: Option<LampFace>) -> Result<Lamp, InvalidLight> {
+    let Some(LampFace { size, shown }) = face else {
+        return Ok(PointLight::new(at, Vec3::ONE)?.into());
+    };
+    let facing = middle - at;
+    let up =
+        if facing.cross(DVec3::Z).length() > 1e-6 * facing.length() { DVec3::Z } else { DVec3::Y };
+    let lamp = match size {
+        Face::Disc(diameter) => AreaLight::disc(at, facing, 0.5 * diameter, Vec3::ONE)?,
+        Face::Rectangle(sides) => AreaLight::rectangle(at, facing, up, sides, Vec3::ONE)?,
+    };
+    Ok(lamp.shown(shown).into())
 }
 
 fn look(asked: &scene::Look) -> Look {
@@ -245,18 +329,38 @@ mod tests {
         assert!((camera.aperture().unwrap().radius - 0.0152).abs() < 2e-4);
     }
 
-    #[test]
-    fn the_lamp_stands_where_it_is_asked_for() {
+    fn lit(text: &str) -> Lights {
         let asked = straight();
         let camera = camera(&asked, corners(), 1.0);
-        let lamp = |azimuth, elevation| {
-            let light = scene::Light { direction: Some((azimuth, elevation)), strength: 1.0 };
-            lights(&light, &camera).lamps[0].arriving(DVec3::ZERO).unwrap().0
-        };
-        let right = std::f64::consts::FRAC_PI_2;
+        let text = format!("[light]\n{text}");
+        let scene = Scene::parse("a", text, std::path::Path::new("")).unwrap();
+        lights(&scene.light, &camera, DVec3::ZERO, None).unwrap()
+    }
+
+    #[test]
+    fn the_lamp_stands_where_it_is_asked_for() {
+        let direction = |text: &str| lit(text).lamps[0].arriving(DVec3::ZERO).unwrap().0;
         // The camera faces the face, which looks along −y.
-        assert!(lamp(0.0, 0.0).distance(-DVec3::Y) < 1e-12);
-        assert!(lamp(right, 0.0).distance(camera.right()) < 1e-12);
-        assert!(lamp(0.3, right).distance(DVec3::Z) < 1e-12);
+        assert!(direction("azimuth = 0\nelevation = 0").distance(-DVec3::Y) < 1e-12);
+        assert!(direction("azimuth = '90 deg'\nelevation = 0").distance(-DVec3::X) > 1.9);
+        assert!(direction("azimuth = 0.3\nelevation = '90 deg'").distance(DVec3::Z) < 1e-9);
+    }
+
+    #[test]
+    fn a_lamp_is_as_bright_wherever_it_stands_and_however_large_it_is() {
+        let ways = [
+            "azimuth = 0",
+            "azimuth = 0\nangle = '40 deg'",
+            "azimuth = 0\ndistance = '1 m'",
+            "azimuth = 0\ndistance = '3 m'\nsize = '1 m'",
+            "position = [0, -2, 0]\nsize = ['50 cm', '2 m']",
+            "elevation = '90 deg'\ndistance = '70 cm'\nsize = ['50 cm', '2 m']",
+        ];
+        for way in ways {
+            let lights = lit(&format!("setup = 'dark'\n[[light.lamp]]\nstrength = 2\n{way}"));
+            let (towards, irradiance) = lights.lamps[0].arriving(DVec3::ZERO).unwrap();
+            assert!((irradiance - Vec3::splat(2.0 * MAIN)).abs().max_element() < 1e-3, "{way}");
+            assert!(towards.y < -0.99 || towards.z > 0.99);
+        }
     }
 }

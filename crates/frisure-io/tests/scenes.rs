@@ -788,3 +788,59 @@ fn faults_of_partings_and_regions_name_their_place() {
         assert!(f.to_string().contains(words), "{f}");
     }
 }
+
+#[test]
+fn lights_are_understood_or_refused_at_their_key() {
+    use frisure_io::scene::{Face, LampColour, LampPlace, Setup};
+    let read = |text: &str| Scene::parse("a", format!("[light]\n{text}"), Path::new("folder"));
+    let light = |text: &str| read(text).unwrap().light;
+    assert_eq!(light("").setup, Setup::Studio);
+    assert_eq!(light("setup = 'rim'\nsize = '40 deg'").size, Some(40_f64.to_radians()));
+    let map = light("environment = 'a.hdr'\nrotation = '30 deg'\nsky_strength = 2");
+    let file = map.environment.unwrap();
+    assert_eq!((map.setup, map.sky_strength), (Setup::Dark, 2.0));
+    assert_eq!(file.path, Path::new("folder").join("a.hdr"));
+    let day = light("setup = 'daylight'\nsun_elevation = '10 deg'\nturbidity = 5").sun;
+    assert!((day.elevation.to_degrees() - 10.0).abs() < 1e-12 && day.turbidity == 5.0);
+    assert_eq!(light("turbidity = 5").setup, Setup::Daylight);
+    let lamps = light(
+        "[[light.lamp]]\nazimuth = '-30 deg'\ndistance = '1.5 m'\nsize = ['60 cm', '90 cm']\n\
+         temperature = 3200\nshown = true\n\
+         [[light.lamp]]\nposition = [0, '-1 m', '2 m']\ncolour = '#ff8000'\nstrength = 0.5\n\
+         [[light.lamp]]\nelevation = '80 deg'\nangle = '0 deg'",
+    )
+    .lamps;
+    let LampPlace::Beside { distance, face: Some(face), .. } = lamps[0].place else {
+        panic!("{lamps:?}")
+    };
+    assert_eq!((distance, face.size, face.shown), (1.5, Face::Rectangle([0.6, 0.9]), true));
+    assert_eq!(lamps[0].colour, LampColour::Temperature(3200.0));
+    assert!(matches!(lamps[1].place, LampPlace::At { face: None, .. }));
+    assert!(matches!(lamps[2].place, LampPlace::Far { angle: Some(0.0), .. }));
+
+    let wrong = [
+        ("setup = 'sun'", "did you mean \"daylight\"?"),
+        ("setup = 'soft'\nturbidity = 3", "`light.turbidity` is about a sun that is not there"),
+        ("setup = 'daylight'\nturbidity = 20", "between 1.9 and 10"),
+        ("setup = 'daylight'\nazimuth = 0", "there is the sun"),
+        ("setup = 'dark'\nsize = 0.1", "there is none"),
+        ("setup = 'overcast'\nenvironment = 'a.exr'", "second sky"),
+        ("rotation = 1", "there is none"),
+        ("size = '180 deg'", "between 0 and 170 deg"),
+        ("[[light.lamp]]\nstrength = 1", "`light.lamp[0]` is nowhere"),
+        ("[[light.lamp]]\nazimuth = 0\nsize = '1 m'", "needs `distance` beside it"),
+        ("[[light.lamp]]\nposition = [0, 0, 1]\nazimuth = 0", "says again"),
+        ("[[light.lamp]]\nposition = [0, 0, 1]\nangle = 0.1", "very far away"),
+        ("[[light.lamp]]\nposition = [0, 0, 1]\nshown = true", "needs `size` beside it"),
+        ("[[light.lamp]]\nazimuth = 0\ntemperature = 100", "between 1667 and 25000 K"),
+        ("[[light.lamp]]\nazimuth = 0\ndistance = '1 cm'\nsize = 0", "between 1 mm and 100 m"),
+    ];
+    for (text, part) in wrong {
+        let error = read(text).unwrap_err().to_string();
+        assert!(error.contains(part), "{text}: {error}");
+    }
+    let none = read("environment = 'nowhere.hdr'").unwrap().environment().unwrap_err().to_string();
+    assert!(none.contains("there is no file") && none.contains("a:2:15"), "{none}");
+    let screen = read("environment = 'a.png'").unwrap().environment().unwrap_err().to_string();
+    assert!(screen.contains("`.hdr` and `.exr`") && screen.contains("cuts off"), "{screen}");
+}

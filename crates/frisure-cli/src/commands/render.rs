@@ -6,6 +6,7 @@ use frisure::hairstyle::head::Head;
 use frisure::io::groom::read_groom;
 use frisure::io::picture::Format;
 use frisure::io::scene::Scene;
+use frisure::render::InvalidLight;
 use frisure::render::trace::Tracer;
 
 use super::predict::{self, Turntable};
@@ -83,6 +84,7 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
         .map(AsRef::as_ref)
         .collect();
     outputs::prepare(&names, &inputs)?;
+    let environment = picture::environment(&scene)?;
 
     let denoiser = exposing::denoiser(arguments.tracing.denoise)?;
     let progress = Progress::new(quiet);
@@ -94,12 +96,15 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
         let strands = read_groom(&path).map_err(|e| Failure::wrong(&e, ""))?;
         let head = if has_head { Some(predict::head(&scene)?) } else { None };
         let surface = head.as_ref().map(Head::surface);
-        let drawn = picture::scene(&scene, &strands, &strands, surface);
+        let wrong = |e: InvalidLight| Failure::wrong(&e, "");
+        let around = environment.as_ref();
+        let drawn = picture::scene(&scene, &strands, &strands, surface, around).map_err(wrong)?;
         let named = |e| Failure::wrong_because(format!("`{}`: {e}", path.display()), "");
         let tracer = Tracer::new(&drawn, &options).map_err(named)?;
         let (views, from) = match turntable {
             Some(Turntable { frames, from }) => {
-                (picture::turntable(&scene, &strands, surface, frames), from)
+                let views = picture::turntable(&scene, &strands, surface, frames, around);
+                (views.map_err(wrong)?, from)
             }
             None => (Vec::new(), 0),
         };

@@ -10,9 +10,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::key::{
-    Acceleration, Angle, BehindKind, Colour, Count, Density, Key, Length, Modulus, NumberDensity,
-    OneOf, Pair, Points, Ratio, Speed, Strain, Text, Vector,
+    Acceleration, Angle, BehindKind, Colour, Count, Density, FaceSize, Flag, Key, Length, Modulus,
+    NumberDensity, OneOf, Pair, Point, Points, Ratio, Speed, Strain, Text, Vector,
 };
+use super::light::Setup;
 use super::step::Step;
 use super::words::{
     BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places, Tone,
@@ -54,8 +55,8 @@ pub(super) struct File {
     /// Where the picture is taken from. All of the hair and the head is always in it, though not
     /// the shoulders.
     pub(super) camera: Camera,
-    /// The lamps: a portrait studio that turns with the camera. With `azimuth` or `elevation` its
-    /// main lamp stands elsewhere.
+    /// What lights the head: a setup whose lamps turn with the camera, or sky or surroundings that
+    /// stay, and further lamps. With `azimuth` or `elevation` the main lamp stands elsewhere.
     pub(super) light: Light,
     /// The picture's size.
     pub(super) output: Output,
@@ -443,6 +444,8 @@ pub(super) struct Camera {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Light {
+    /// How the lights are set. Default "studio"; with an `environment` "dark", with a sun "daylight".
+    pub(super) setup: Key<OneOf<Which<Setup>>>,
     /// Where the main lamp stands: to the right of the camera, seen from the head; negative is to
     /// its left. -180 to 180 deg.
     #[schemars(range(min = -PI, max = PI))]
@@ -450,9 +453,68 @@ pub(super) struct Light {
     /// How far the main lamp stands above the horizon; -90 to 90 deg.
     #[schemars(range(min = -FRAC_PI_2, max = FRAC_PI_2))]
     pub(super) elevation: Key<Angle>,
+    /// How large the main lamp is, as the angle from edge to edge under which the head sees it: a larger
+    /// one is softer. 0 to 170 deg; the studio's is about 10 deg, the sun 0.5 deg.
+    #[schemars(range(min = 0.0, max = 2.967))]
+    pub(super) size: Key<Angle>,
     /// Factor on the strength of all lamps; 0 to 100. Default 1.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub(super) strength: Key<Ratio>,
+    /// Factor on the light that comes from all around: of the room, the sky or the environment; 0 to
+    /// 1000. Default 1.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub(super) sky_strength: Key<Ratio>,
+    /// An equirectangular picture of surroundings with all of their light, `.hdr` or `.exr`, linear sRGB.
+    pub(super) environment: Key<Text>,
+    /// How far the environment is turned towards the head's left. Its middle is before the face at 0,
+    /// the default.
+    pub(super) rotation: Key<Angle>,
+    /// Where the sun of `setup = "daylight"` stands around the head: 0 before the face, 90 deg at its
+    /// left. It stays there when the camera moves. Default 50 deg.
+    pub(super) sun_azimuth: Key<Angle>,
+    /// How far the sun stands above the horizon; 0 to 90 deg. Default 40 deg.
+    #[schemars(range(min = 0.0, max = FRAC_PI_2))]
+    pub(super) sun_elevation: Key<Angle>,
+    /// Haze of the daylight: 2 after rain, 3 clear, 6 hazy, 10 dull; 1.9 to 10. Default 3.
+    #[schemars(range(min = 1.9, max = 10.0))]
+    pub(super) turbidity: Key<Ratio>,
+    /// Further lamps. Each is far away, or at a place with `distance` or `position`.
+    pub(super) lamp: Vec<Lamp>,
+}
+
+/// `[[light.lamp]]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Lamp {
+    /// Where it stands: to the right of the camera, seen from the head; negative is to its left. -180 to
+    /// 180 deg, default 0.
+    #[schemars(range(min = -PI, max = PI))]
+    pub(super) azimuth: Key<Angle>,
+    /// How far it stands above the horizon; -90 to 90 deg. Default 0.
+    #[schemars(range(min = -FRAC_PI_2, max = FRAC_PI_2))]
+    pub(super) elevation: Key<Angle>,
+    /// How far from the middle of the head; 1 cm to 1 km. Left out, it is very far away.
+    #[schemars(range(min = 0.01, max = 1000.0))]
+    pub(super) distance: Key<Length>,
+    /// Instead of these: its place, with x to the head's left, y back, z up; within 1 km.
+    pub(super) position: Key<Point>,
+    /// Angle from edge to edge of a lamp that is very far away; 0 to 170 deg. Default 10 deg.
+    #[schemars(range(min = 0.0, max = 2.967))]
+    pub(super) angle: Key<Angle>,
+    /// Size of a lamp that is not: diameter of a disc, or width and height of a rectangle, facing the
+    /// head; 1 mm to 100 m. Left out, it shines from a point to all sides.
+    pub(super) size: Key<FaceSize>,
+    /// Its brightness in the middle of the head, against the studio's main lamp; 0 to 100. Default 1.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub(super) strength: Key<Ratio>,
+    /// Its colour (sRGB). Default white.
+    pub(super) colour: Key<Colour>,
+    /// Instead of `colour`: its colour temperature in kelvin, 1667 to 25000: 1900 a candle, 2900 a bulb,
+    /// 5500 noon, 6500 white, 10000 blue sky.
+    #[schemars(range(min = 1667.0, max = 25_000.0))]
+    pub(super) temperature: Key<Ratio>,
+    /// Whether a lamp with a `size` is seen in the traced picture. Default false.
+    pub(super) shown: Key<Flag>,
 }
 
 /// `[output]`.

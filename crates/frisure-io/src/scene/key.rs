@@ -464,6 +464,33 @@ impl Kind for Pair {
     }
 }
 
+/// The outline of a lamp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Face {
+    /// A disc, by its diameter (m).
+    Disc(f64),
+    /// A rectangle, by its width and height (m).
+    Rectangle([f64; 2]),
+}
+
+/// A diameter, or a width and a height (m).
+pub(super) struct FaceSize;
+
+impl Kind for FaceSize {
+    type Value = Face;
+
+    fn read(value: &Value) -> Result<Face, Refusal> {
+        match value {
+            Value::Array(_) => Pair::read(value).map(Face::Rectangle),
+            value => Length::read(value).map(Face::Disc),
+        }
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "anyOf": [Length::schema(), Pair::schema()] })
+    }
+}
+
 /// A list of places on the skin, each across and back (m).
 pub(super) struct Points;
 

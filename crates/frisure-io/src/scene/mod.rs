@@ -10,6 +10,7 @@ mod blame;
 mod error;
 mod file;
 mod key;
+mod light;
 mod resolve;
 mod schema;
 mod shape;
@@ -25,12 +26,15 @@ use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
 use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
 
 pub use error::{Fault, SceneError};
+pub use key::Face;
+pub use light::{EnvironmentFile, Lamp, LampColour, LampFace, LampPlace, Light, Setup, Sun};
 pub use schema::schema;
 pub(crate) use step::{Record, parse_record};
 pub use step::{WriteStepError, edit, parse_step, write_step};
 pub use template::template;
 pub use words::{Tone, UpAxis};
 
+use crate::environment::{self, Environment};
 use crate::files;
 use crate::head::{self, HeadMesh};
 use source::Source;
@@ -54,7 +58,7 @@ pub struct Scene {
     pub look: Look,
     /// Where the picture is taken from.
     pub camera: Camera,
-    /// The lamps.
+    /// What lights it, with paths made relative to the scene's folder.
     pub light: Light,
     /// The picture's size.
     pub output: Output,
@@ -156,16 +160,6 @@ pub struct Camera {
     pub focus: Option<f64>,
 }
 
-/// The lamps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Light {
-    /// Direction of the main lamp from the camera's, to the right and upwards (rad), if it is not
-    /// the studio's own.
-    pub direction: Option<(f64, f64)>,
-    /// Factor on all lamps.
-    pub strength: f64,
-}
-
 /// The picture's size, and how its light is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output {
@@ -252,6 +246,21 @@ impl Scene {
                 None => e.to_string(),
             };
             self.fault(e.key(file), message, "")
+        })
+    }
+
+    /// The picture of surroundings that the scene names, if it names one.
+    ///
+    /// # Errors
+    /// [`SceneError`] at the key that names what cannot be used.
+    pub fn environment(&self) -> Result<Option<Environment>, SceneError> {
+        let Some(file) = &self.light.environment else { return Ok(None) };
+        environment::read(&file.path).map(Some).map_err(|e| {
+            let message = match std::error::Error::source(&e) {
+                Some(cause) => format!("{e}: {cause}"),
+                None => e.to_string(),
+            };
+            self.fault("light.environment", message, e.hint())
         })
     }
 

@@ -1,6 +1,5 @@
 //! From the keys as written to a [`Scene`]: presets filled in, contradictions refused.
 
-use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 use std::path::Path;
 
@@ -19,11 +18,12 @@ use super::blame::{blame, out_of_range, place};
 use super::error::{Fault, SceneError};
 use super::file::{self, File};
 use super::key::{Key, Kind};
+use super::light::light;
 use super::source::Source;
 use super::words::{BranchKind, FlowWord, HairType, Tone, UnitWord, Which};
 use super::{
-    Camera, HeadFile, HeadSource, Light, Look, Output, ScalpSource, Scene, SingleHair, UpAxis,
-    schema, shape, step,
+    Camera, HeadFile, HeadSource, Look, Output, ScalpSource, Scene, SingleHair, UpAxis, schema,
+    shape, step,
 };
 
 /// The hair type of a scene that names none.
@@ -66,7 +66,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
         head: head(&file.head, folder, &source)?,
         look: look(&file.look, &source)?,
         camera: camera(&file.camera, &source)?,
-        light: light(&file.light, &source)?,
+        light: light(&file.light, folder, &source)?,
         output: output(&file.output, &source)?,
         along: along(&file.hair.curl, &source)?,
         frame: frame(&file.hair.root, &source)?,
@@ -545,22 +545,6 @@ fn f_number(file: &file::Camera, source: &Source) -> Result<Option<f64>> {
     within(&file.f_number, 8.0, 0.5, 64.0, "between 0.5 and 64", source).map(Some)
 }
 
-fn light(file: &file::Light, source: &Source) -> Result<Light> {
-    let (azimuth, elevation) = (&file.azimuth, &file.elevation);
-    let round = "between -180 and 180 deg";
-    let up = "between -90 and 90 deg";
-    // Where the studio's main lamp stands, for a scene that gives one of the two.
-    let (azimuth_default, elevation_default) = (-0.68, 0.72);
-    let direction = (
-        within(azimuth, azimuth_default, -PI, PI, round, source)?,
-        within(elevation, elevation_default, -FRAC_PI_2, FRAC_PI_2, up, source)?,
-    );
-    Ok(Light {
-        direction: (azimuth.is_given() || elevation.is_given()).then_some(direction),
-        strength: within(&file.strength, 1.0, 0.0, 100.0, "between 0 and 100", source)?,
-    })
-}
-
 fn output(file: &file::Output, source: &Source) -> Result<Output> {
     let size = |key: &Key<super::key::Count>, default, max, allowed| match key.get(source)? {
         Some(n) if n == 0 || n > max => Err(outside(key, allowed, source)),
@@ -575,7 +559,7 @@ fn output(file: &file::Output, source: &Source) -> Result<Output> {
     })
 }
 
-fn within<K: Kind<Value = f64>>(
+pub(super) fn within<K: Kind<Value = f64>>(
     key: &Key<K>,
     default: f64,
     min: f64,
@@ -587,7 +571,7 @@ fn within<K: Kind<Value = f64>>(
     if value >= min && value <= max { Ok(value) } else { Err(outside(key, allowed, source)) }
 }
 
-fn outside<K>(key: &Key<K>, allowed: &str, source: &Source) -> SceneError {
+pub(super) fn outside<K>(key: &Key<K>, allowed: &str, source: &Source) -> SceneError {
     let span = key.span().unwrap_or(0..0);
     let value = source.slice(span.clone());
     Fault::outside(allowed).key(source.path_at(&span)).value(value).at(source, span)

@@ -9,6 +9,7 @@ use schemars::{Schema, json_schema};
 use toml::Value;
 
 use super::key::{Choice, Kind, Length, OneOf, Refusal};
+use super::light::Setup;
 
 /// A hair type, by its name.
 #[derive(Clone, Copy)]
@@ -356,6 +357,48 @@ impl Choice for BodyWord {
             ("none", "hair passes through the head", Self(Body::None)),
             ("spheres", "spheres fitted to the head, as in the paper", Self(Body::Spheres)),
             ("signed-distance", "the mesh itself", Self(Body::SignedDistance)),
+        ]
+    }
+}
+
+impl Choice for Which<Setup> {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            (
+                "studio",
+                "a main lamp high at the left, a weak one at the right, one behind, a soft room",
+                Self(Setup::Studio),
+            ),
+            ("soft", "large soft lamps in a bright room: colour more than form", Self(Setup::Soft)),
+            (
+                "butterfly",
+                "one lamp before the face and above it: symmetrical, glossy",
+                Self(Setup::Butterfly),
+            ),
+            (
+                "rembrandt",
+                "one lamp at the side in a dark room: half of the hair in shadow",
+                Self(Setup::Rembrandt),
+            ),
+            ("rim", "two lamps behind: a bright edge, light through the hair", Self(Setup::Rim)),
+            ("daylight", "sun and clear sky over pale ground", Self(Setup::Daylight)),
+            ("overcast", "a sky full of clouds", Self(Setup::Overcast)),
+            ("dark", "no light but what else is given", Self(Setup::Dark)),
+        ]
+    }
+
+    fn synonyms() -> &'static [(&'static str, &'static str)] {
+        &[
+            ("beauty", "butterfly"),
+            ("paramount", "butterfly"),
+            ("back", "rim"),
+            ("backlight", "rim"),
+            ("sun", "daylight"),
+            ("sky", "daylight"),
+            ("outdoor", "daylight"),
+            ("cloudy", "overcast"),
+            ("none", "dark"),
+            ("black", "dark"),
         ]
     }
 }

@@ -15,9 +15,9 @@ use frisure::hairstyle::{
 use frisure::io::groom::{Format, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
-use frisure::render::Image;
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::Tracer;
+use frisure::render::{EnvironmentMap, Image};
 use frisure::strands::Strands;
 
 use super::read_scene;
@@ -55,7 +55,12 @@ pub(crate) fn run_scene(
     let spec = scene.hairstyle_spec()?;
     check_outputs(&arguments, &scene, turntable)?;
 
-    let work = Arc::new(Work { arguments, scene, turntable, progress: Progress::new(quiet) });
+    let environment = match arguments.image {
+        Some(_) => crate::picture::environment(&scene)?,
+        None => None,
+    };
+    let progress = Progress::new(quiet);
+    let work = Arc::new(Work { arguments, scene, turntable, environment, progress });
     let result = all(&work, spec);
     work.progress.finish();
     let (numbers, written) = result?;
@@ -126,6 +131,7 @@ fn check_outputs(
             scene::ScalpSource::Guess | scene::ScalpSource::Group(_) => {}
         }
     }
+    inputs.extend(scene.light.environment.iter().map(|file| file.path.as_path()));
     outputs::prepare(&all, &inputs)
 }
 
@@ -165,6 +171,8 @@ struct Work {
     arguments: Predict,
     scene: Scene,
     turntable: Option<Turntable>,
+    /// What the scene's file of surroundings shows.
+    environment: Option<EnvironmentMap>,
     progress: Progress,
 }
 
@@ -237,8 +245,9 @@ impl Work {
 
     /// A picture of strands, framed so that others would be in it, too.
     fn picture(&self, strands: &Strands, shown: &Strands, head: &Head) -> Result<Picture, Failure> {
-        let surface = Some(head.surface());
-        let drawn = crate::picture::scene(&self.scene, strands, shown, surface);
+        let (surface, around) = (Some(head.surface()), self.environment.as_ref());
+        let drawn = crate::picture::scene(&self.scene, strands, shown, surface, around)
+            .map_err(|e| Failure::wrong(&e, ""))?;
         if self.arguments.quality == Quality::Preview {
             return self.preview(&drawn).map(Picture::Preview);
         }
@@ -247,7 +256,8 @@ impl Work {
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
         let views = match self.turntable {
-            Some(_) => crate::picture::turntable(&self.scene, strands, surface, frames),
+            Some(_) => crate::picture::turntable(&self.scene, strands, surface, frames, around)
+                .map_err(|e| Failure::wrong(&e, ""))?,
             None => Vec::new(),
         };
         let denoiser = exposing::denoiser(self.arguments.tracing.denoise)?;

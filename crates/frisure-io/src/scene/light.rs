@@ -1,0 +1,319 @@
+//! What lights a scene.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+
+use super::error::Fault;
+use super::file;
+use super::key::{Face, Key, Kind};
+use super::resolve::{Result, missing, one_way, outside, within};
+use super::source::Source;
+use super::words::Which;
+
+/// What lights a scene; colours are sRGB from 0 to 1, angles rad, lengths m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// How the lamps are set.
+    pub setup: Setup,
+    /// Direction of the main lamp from the camera's, to the right and upwards, if it is not the setup's
+    /// own.
+    pub direction: Option<(f64, f64)>,
+    /// Angle from edge to edge of the main lamp, if it is not the setup's own.
+    pub size: Option<f64>,
+    /// Factor on all lamps.
+    pub strength: f64,
+    /// Factor on the light from all around.
+    pub sky_strength: f64,
+    /// Surroundings instead of the setup's.
+    pub environment: Option<EnvironmentFile>,
+    /// The sun of [`Setup::Daylight`].
+    pub sun: Sun,
+    /// Further lamps.
+    pub lamps: Vec<Lamp>,
+}
+
+/// How photographers set lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Setup {
+    /// A portrait studio.
+    #[default]
+    Studio,
+    /// Large soft lights.
+    Soft,
+    /// One light in front, high.
+    Butterfly,
+    /// One light at the side.
+    Rembrandt,
+    /// Lights behind.
+    Rim,
+    /// Sun and sky.
+    Daylight,
+    /// Clouds.
+    Overcast,
+    /// None.
+    Dark,
+}
+
+/// A picture of surroundings in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnvironmentFile {
+    /// The file, relative to the scene's folder made so.
+    pub path: PathBuf,
+    /// Turn towards the head's left.
+    pub rotation: f64,
+}
+
+/// Where the sun is, and how hazy the air.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// Around the head: 0 before the face, π/2 at its left.
+    pub azimuth: f64,
+    /// Above the horizon.
+    pub elevation: f64,
+    /// Haze.
+    pub turbidity: f64,
+}
+
+/// A lamp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// Where it is.
+    pub place: LampPlace,
+    /// Brightness in the middle of the head, against the studio's main lamp.
+    pub strength: f64,
+    /// Its colour.
+    pub colour: LampColour,
+}
+
+/// Where a lamp is, and how large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LampPlace {
+    /// Very far away.
+    Far {
+        /// From the camera's direction to the right, and upwards.
+        direction: (f64, f64),
+        /// Angle from edge to edge; `None` is a softbox's.
+        angle: Option<f64>,
+    },
+    /// At a distance from the middle of the head.
+    Beside {
+        /// From the camera's direction to the right, and upwards.
+        direction: (f64, f64),
+        /// Distance.
+        distance: f64,
+        /// Its face, if it has one.
+        face: Option<LampFace>,
+    },
+    /// At a place.
+    At {
+        /// The place.
+        position: DVec3,
+        /// Its face, if it has one.
+        face: Option<LampFace>,
+    },
+}
+
+/// The face of a lamp, which looks at the head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LampFace {
+    /// Diameter of a disc, or width and height.
+    pub size: Face,
+    /// Whether it is seen in the traced picture.
+    pub shown: bool,
+}
+
+/// The colour of a lamp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LampColour {
+    /// As sRGB.
+    Srgb([f64; 3]),
+    /// That of a glowing body (K).
+    Temperature(f64),
+}
+
+const ROUND: &str = "between -180 and 180 deg";
+const UP: &str = "between -90 and 90 deg";
+const STRENGTH: &str = "between 0 and 100";
+
+/// Largest angle under which a lamp is seen.
+const WIDEST: f64 = 170.0 * PI / 180.0;
+
+/// Understands the keys; paths are relative to `folder`.
+pub(super) fn light(file: &file::Light, folder: &Path, source: &Source) -> Result<Light> {
+    let environment = environment(file, folder, source)?;
+    let sun_keys = [file.sun_azimuth.span(), file.sun_elevation.span(), file.turbidity.span()];
+    let default = match (&environment, sun_keys.iter().any(Option::is_some)) {
+        (Some(_), _) => Setup::Dark,
+        // A sun by itself asks for the day.
+        (None, true) => Setup::Daylight,
+        (None, false) => Setup::Studio,
+    };
+    let Which(setup) = file.setup.or(Which(default), source)?;
+    check_setup(file, setup, source)?;
+    let direction = (
+        // Where the studio's main lamp stands, for a scene that gives one of the two.
+        within(&file.azimuth, -0.68, -PI, PI, ROUND, source)?,
+        within(&file.elevation, 0.72, -FRAC_PI_2, FRAC_PI_2, UP, source)?,
+    );
+    let is_aimed = file.azimuth.is_given() || file.elevation.is_given();
+    let lamps = file.lamp.iter().enumerate().map(|(i, file)| lamp(i, file, source));
+    Ok(Light {
+        setup,
+        direction: is_aimed.then_some(direction),
+        size: angle(&file.size, source)?,
+        strength: within(&file.strength, 1.0, 0.0, 100.0, STRENGTH, source)?,
+        sky_strength: within(&file.sky_strength, 1.0, 0.0, 1e3, "between 0 and 1000", source)?,
+        environment,
+        sun: sun(file, source)?,
+        lamps: lamps.collect::<Result<_>>()?,
+    })
+}
+
+/// Refuses keys of lamps that a setup does not have.
+fn check_setup(file: &file::Light, setup: Setup, source: &Source) -> Result<()> {
+    let refuse = |given: Option<Range<usize>>, problem: &str, hint: &str| match given {
+        None => Ok(()),
+        Some(span) => {
+            let key = source.path_at(&span);
+            Err(Fault::new(format!("`{key}` {problem}")).key(key).hint(hint).at(source, span))
+        }
+    };
+    let first = |spans: &[Option<Range<usize>>]| {
+        spans.iter().flatten().min_by_key(|span| span.start).cloned()
+    };
+    if setup != Setup::Daylight {
+        let sun = [file.sun_azimuth.span(), file.sun_elevation.span(), file.turbidity.span()];
+        refuse(first(&sun), "is about a sun that is not there", "add `setup = \"daylight\"`")?;
+    }
+    let main = [file.azimuth.span(), file.elevation.span()];
+    let sized = [main[0].clone(), main[1].clone(), file.size.span()];
+    match setup {
+        Setup::Daylight => {
+            let hint = "the sun has `sun_azimuth` and `sun_elevation`";
+            refuse(first(&main), "is about a studio's lamp; there is the sun", hint)?;
+        }
+        Setup::Dark | Setup::Overcast => {
+            let hint = "give a `setup` with lamps, or a lamp of its own as `[[light.lamp]]`";
+            refuse(first(&sized), "is about a main lamp; there is none", hint)?;
+        }
+        _ => {}
+    }
+    if matches!(setup, Setup::Daylight | Setup::Overcast) {
+        let hint = "keep `setup` or `environment`";
+        refuse(file.environment.span(), "is a second sky", hint)?;
+    }
+    if !file.environment.is_given() {
+        let hint = "add `environment = \"studio.hdr\"`";
+        refuse(file.rotation.span(), "is about an environment, and there is none", hint)?;
+    }
+    Ok(())
+}
+
+fn environment(
+    file: &file::Light,
+    folder: &Path,
+    source: &Source,
+) -> Result<Option<EnvironmentFile>> {
+    let rotation = file.rotation.or(0.0, source)?;
+    let name = file.environment.get(source)?;
+    Ok(name.map(|name| EnvironmentFile { path: folder.join(name), rotation }))
+}
+
+fn sun(file: &file::Light, source: &Source) -> Result<Sun> {
+    let deg = f64::to_radians;
+    let (elevation, up) = (&file.sun_elevation, "between 0 and 90 deg");
+    Ok(Sun {
+        azimuth: within(
+            &file.sun_azimuth,
+            deg(50.0),
+            -2.0 * PI,
+            2.0 * PI,
+            "a turn at most",
+            source,
+        )?,
+        elevation: within(elevation, deg(40.0), 0.0, FRAC_PI_2, up, source)?,
+        turbidity: within(&file.turbidity, 3.0, 1.9, 10.0, "between 1.9 and 10", source)?,
+    })
+}
+
+fn lamp(index: usize, file: &file::Lamp, source: &Source) -> Result<Lamp> {
+    let beside = [file.azimuth.span(), file.elevation.span(), file.distance.span()];
+    one_way(source, &[&beside, &[file.position.span()]])?;
+    one_way(source, &[&[file.colour.span()], &[file.temperature.span()]])?;
+    one_way(source, &[&[file.angle.span()], &[file.size.span()]])?;
+    let is_near = file.distance.is_given() || file.position.is_given();
+    if beside.iter().all(Option::is_none) && !is_near {
+        let key = format!("light.lamp[{index}]");
+        let span = source.locate(&key);
+        let hint = "add `azimuth` and `elevation`, or `position`";
+        let problem = format!("`{key}` is nowhere");
+        return Err(Fault::new(problem).key(key).hint(hint).at(source, span));
+    }
+    if file.size.is_given() && !is_near {
+        return Err(missing(&file.size, "distance", source));
+    }
+    if file.angle.is_given() && is_near {
+        let span = file.angle.span().unwrap_or(0..0);
+        let key = source.path_at(&span);
+        let hint = "a lamp at a place has a `size`";
+        let problem = format!("`{key}` is that of a lamp very far away");
+        return Err(Fault::new(problem).key(key).hint(hint).at(source, span));
+    }
+    if file.shown.is_given() && !file.size.is_given() {
+        return Err(missing(&file.shown, "size", source));
+    }
+    let temperature = "between 1667 and 25000 K";
+    let temperature = match file.temperature.is_given() {
+        true => {
+            let kelvin = within(&file.temperature, 6500.0, 1667.0, 25_000.0, temperature, source)?;
+            Some(LampColour::Temperature(kelvin))
+        }
+        false => None,
+    };
+    let colour = LampColour::Srgb(file.colour.or([1.0; 3], source)?);
+    Ok(Lamp {
+        place: place(file, source)?,
+        strength: within(&file.strength, 1.0, 0.0, 100.0, STRENGTH, source)?,
+        colour: temperature.unwrap_or(colour),
+    })
+}
+
+fn place(file: &file::Lamp, source: &Source) -> Result<LampPlace> {
+    let face = face(file, source)?;
+    let far = 1e3;
+    if let Some(position) = file.position.get(source)? {
+        if position.abs().max_element() > far {
+            return Err(outside(&file.position, "within 1 km", source));
+        }
+        return Ok(LampPlace::At { position, face });
+    }
+    let direction = (
+        within(&file.azimuth, 0.0, -PI, PI, ROUND, source)?,
+        within(&file.elevation, 0.0, -FRAC_PI_2, FRAC_PI_2, UP, source)?,
+    );
+    if !file.distance.is_given() {
+        return Ok(LampPlace::Far { direction, angle: angle(&file.angle, source)? });
+    }
+    let distance = within(&file.distance, 1.0, 0.01, far, "between 1 cm and 1 km", source)?;
+    Ok(LampPlace::Beside { direction, distance, face })
+}
+
+fn face(file: &file::Lamp, source: &Source) -> Result<Option<LampFace>> {
+    let Some(size) = file.size.get(source)? else { return Ok(None) };
+    let sides = match size {
+        Face::Disc(diameter) => [diameter; 2],
+        Face::Rectangle(sides) => sides,
+    };
+    if !sides.iter().all(|side| (1e-3..=100.0).contains(side)) {
+        return Err(outside(&file.size, "between 1 mm and 100 m", source));
+    }
+    Ok(Some(LampFace { size, shown: file.shown.or(false, source)? }))
+}
+
+fn angle<K: Kind<Value = f64>>(key: &Key<K>, source: &Source) -> Result<Option<f64>> {
+    let angle = within(key, 0.0, 0.0, WIDEST + 1e-9, "between 0 and 170 deg", source)?;
+    Ok(key.is_given().then_some(angle))
+}
