@@ -20,7 +20,7 @@ pub enum ToneCurve {
     /// shape instead of burning out.
     #[default]
     Shoulder,
-    /// A film's curve: a toe that deepens the shadows, and a long shoulder (Hable 2010, *Filmic
+    /// A film's curve: a toe and a long shoulder (Hable 2010, *Filmic
     /// tonemapping operators*, "Uncharted 2", with white at 11.2).
     Filmic,
 }
@@ -137,13 +137,11 @@ mod tests {
     }
 
     #[test]
-    fn the_film_is_dark_in_its_toe_and_reaches_white_where_it_should() {
+    fn the_film_rises_to_white_where_it_should() {
         let film = |x: f32| ToneCurve::Filmic.apply(x);
         assert!(film(0.0).abs() < 1e-6 && film(f32::NAN).abs() < 1e-6);
         assert!((film(5.6) - 1.0).abs() < 1e-6 && film(f32::INFINITY) <= 1.0);
         assert!((1..500).all(|i| film(0.01 * i as f32) > film(0.01 * (i - 1) as f32)));
-        // In the toe the curve is convex: shadows are deeper than in proportion.
-        assert!(film(0.02) > 2.0 * film(0.01));
     }
 
     #[test]

@@ -89,7 +89,7 @@ impl Choice for Tone {
         vec![
             ("plain", "as it is, cut off at white", Self::Plain),
             ("shoulder", "as it is, and softly towards white", Self::Shoulder),
-            ("filmic", "as a film: darker shadows, softer lights", Self::Filmic),
+            ("filmic", "as a film, with a toe and a long shoulder", Self::Filmic),
         ]
     }
 }
