@@ -63,7 +63,8 @@ impl fmt::Display for Exposed {
         if *before > 0.0 {
             write!(f, ", {before:.0} of them from before")?;
         }
-        write!(f, ", noise {:.1} %", 100.0 * noise)
+        // Of very few paths nobody knows.
+        if noise.is_finite() { write!(f, ", noise {:.1} %", 100.0 * noise) } else { Ok(()) }
     }
 }
 

@@ -212,7 +212,7 @@ impl Tracer {
             None => (light, alpha) = (behind, covers),
         }
         pixel.light += light;
-        if index.is_multiple_of(2) {
+        if exposure::in_first_half(index) {
             pixel.half += light;
         }
         pixel.alpha += alpha;

@@ -10,6 +10,7 @@ mod noise;
 
 pub use bytes::{ExposureError, VERSION};
 pub use layers::Layers;
+pub(super) use noise::in_first_half;
 
 use glam::Vec3;
 
@@ -46,7 +47,7 @@ pub(super) struct Tile {
 pub(super) struct Pixel {
     /// Scene-linear light, premultiplied.
     pub(super) light: Vec3,
-    /// Of it, that of every other sample: what both halves differ by is noise.
+    /// Of it, that of half the samples: what both halves differ by is noise.
     pub(super) half: Vec3,
     pub(super) alpha: f32,
     /// Of what is seen first: reflectance,

@@ -2,20 +2,34 @@
 //!
 //! A tile's noise is the standard error of its pixels as a screen would show it: light is taken to the
 //! root, about the transfer curve of displays, so that 0.01 is one part in a hundred from black to white.
-//! It is half the difference of the picture's two halves, every other sample each (as in Dammertz et
-//! al. 2010, *A hierarchical automatic stopping condition for Monte Carlo global illumination*). Samples
-//! that are spread evenly err less than that: the figure is on the safe side.
+//! It is found from the difference of the picture's two halves (as in Dammertz et al. 2010, *A hierarchical
+//! automatic stopping condition for Monte Carlo global illumination*), every other block of samples each. A
+//! block is evenly spread by itself, so that much of what even spreading gains is seen; that all blocks
+//! together are spread evenly, too, is not: the figure is on the safe side.
 
 use super::{Exposure, Pixel, Tile};
 
 /// Light below which the root is taken to be a line: the toe of a display's curve.
 const TOE: f32 = 0.01;
 
+/// Samples of a block.
+const BLOCK: u32 = 8;
+
+/// Whether a sample belongs to the first of the two halves.
+pub(in super::super) fn in_first_half(index: u32) -> bool {
+    (index / BLOCK).is_multiple_of(2)
+}
+
+/// Samples of the first half among so many.
+fn first_half(samples: u32) -> u32 {
+    samples / (2 * BLOCK) * BLOCK + (samples % (2 * BLOCK)).min(BLOCK)
+}
+
 impl Tile {
-    /// Root mean square of the pixels' standard error, on a display's scale; infinite for fewer than
-    /// two samples.
+    /// Root mean square of the pixels' standard error, on a display's scale; infinite before each half
+    /// has a block.
     pub(in super::super) fn noise(&self) -> f32 {
-        if self.samples < 2 {
+        if self.samples < 2 * BLOCK {
             return f32::INFINITY;
         }
         let sum: f32 = self.pixels.iter().map(|pixel| self.squared(pixel)).sum();
@@ -23,17 +37,19 @@ impl Tile {
     }
 
     fn squared(&self, pixel: &Pixel) -> f32 {
-        let (all, half) = (self.samples as f32, self.samples.div_ceil(2) as f32);
+        let (all, first) = (self.samples as f32, first_half(self.samples) as f32);
         let mean = pixel.light / all;
-        let error = mean - pixel.half / half;
-        let slope = 0.5 / mean.element_sum().max(3.0 * TOE).sqrt() * 3.0_f32.sqrt();
-        error.length_squared() / 3.0 * slope * slope
+        let difference = mean - pixel.half / first;
+        // Of halves of a and b samples, the whole differs from the first by b/a of its own variance.
+        let variance = difference.length_squared() / 3.0 * first / (all - first);
+        let slope = 0.5 / (mean.element_sum() / 3.0).max(TOE).sqrt();
+        variance * slope * slope
     }
 }
 
 impl Exposure {
     /// How noisy it is: the root mean square of the pixels' standard error, where 1 is all that a
-    /// display has from black to white. Infinite before every pixel has two samples.
+    /// display has from black to white. Infinite before every pixel has sixteen samples.
     #[must_use]
     pub fn noise(&self) -> f32 {
         let of = |tile: &Tile| tile.pixels.len() as f32 * tile.noise().powi(2);
