@@ -102,8 +102,8 @@ fn names_go_from_light_to_dark_in_both_pictures() {
 fn red_is_redder_than_brown_and_black_has_no_colour() {
     let strands = slab(24);
     let of = |name| traced(&scene(&strands, named(name), MIDDLE), 64);
-    let (red, brown, black) = (of("red"), of("light-brown"), of("jet-black"));
-    assert!(red.x / red.y > 1.2 * brown.x / brown.y, "{red} {brown}");
+    let (red, brown, black) = (of("red"), of("brown"), of("jet-black"));
+    assert!(red.x / red.y > 1.1 * brown.x / brown.y, "{red} {brown}");
     assert!(black.max_element() < 1.25 * black.min_element(), "{black}");
 }
 
