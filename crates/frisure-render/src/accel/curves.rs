@@ -14,7 +14,8 @@ use super::error::FARTHEST;
 /// How curves are cut into straight pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveOptions {
-    /// Longest piece (m). Shorter pieces have tighter boxes, but there are more of them.
+    /// Longest piece (m), of which segments just above it may have three tenths more. Shorter pieces
+    /// have tighter boxes, but there are more of them.
     pub longest_piece: f32,
     /// Farthest that a piece may lie beside the curve (m).
     pub tolerance: f32,
@@ -32,6 +33,9 @@ const MOST_PIECES: f32 = 255.0;
 /// Largest second derivative over a piece, in tolerances: 8 for chords of the curve, 16 for pieces
 /// moved outwards by half; between, since segments that bend differently share their joints.
 const BEND: f32 = 12.0;
+
+/// By how much of the longest piece a piece may be longer, before it is cut in two for it.
+const LONGER: f32 = 0.3;
 
 /// Of so many points, the strand of one is kept.
 const STRIDE: usize = 32;
@@ -313,7 +317,7 @@ impl Spline {
     fn pieces(&self, options: &CurveOptions) -> u8 {
         let bend = self.acceleration(0.0).length().max(self.acceleration(1.0).length());
         let by_bend = (bend / (BEND * options.tolerance)).sqrt();
-        let by_length = self.length() / options.longest_piece;
+        let by_length = self.length() / options.longest_piece - LONGER;
         // The cast of a number from 1 to 255 loses nothing.
         by_bend.max(by_length).ceil().clamp(1.0, MOST_PIECES) as u8
     }
