@@ -84,6 +84,8 @@ pub(crate) fn developed(image: &Image, output: &scene::Output) -> Vec<u8> {
 
 /// A floor under all there is.
 fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Ground {
+    /// How far a bust, whose foot is round at its edge, sinks in (m), or it would seem to float.
+    const FOOT: f64 = 0.02;
     /// Distance at which the floor is lost in the wall (m).
     const REACH: f64 = 1.6;
     let hair = strands.bounds().map(|(low, high)| (low.as_dvec3(), high.as_dvec3()));
@@ -91,7 +93,8 @@ fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Grou
         (Some(a), Some(b)) => (a.0.min(b.0), a.1.max(b.1)),
         (a, b) => a.or(b).unwrap_or_default(),
     };
-    let middle = (0.5 * (low + high)).with_z(low.z);
+    let stands = if surface.is_some_and(|s| s.bounds().0.z <= low.z) { FOOT } else { 0.0 };
+    let middle = (0.5 * (low + high)).with_z(low.z + stands);
     Ground { middle, reach: REACH, colour: linear(colour) }
 }
 
