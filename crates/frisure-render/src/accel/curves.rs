@@ -40,7 +40,7 @@ const LONGER: f32 = 0.3;
 /// Of so many points, the strand of one is kept.
 const STRIDE: usize = 32;
 
-/// Shortest distance between points of a strand, and smallest radius (m).
+/// Shortest piece worth a box, in tenths, and smallest radius (m).
 const TINY: f32 = 1e-7;
 
 /// Largest radius (m): whatever is thicker is no hair, but a slip of units.
@@ -263,9 +263,6 @@ fn check_strand(index: usize, strand: &Strand<'_>) -> Result<(), AccelError> {
         }
         if !(TINY..=THICKEST).contains(&radius) {
             return Err(AccelError::Radius { strand: index, point, radius });
-        }
-        if point > 0 && position.distance(strand.points[point - 1]) < TINY {
-            return Err(AccelError::Coincident { strand: index, point });
         }
     }
     Ok(())

@@ -34,14 +34,6 @@ pub enum AccelError {
         /// The radius (m).
         radius: f32,
     },
-    /// Two points of a strand coincide: it has no direction there.
-    #[error("point {point} of strand {strand} is less than 1e-7 m from the point before it")]
-    Coincident {
-        /// Index of the strand.
-        strand: usize,
-        /// Index of the second of the points in its strand.
-        point: usize,
-    },
     /// A length in the options is not positive.
     #[error("`{option}` must be a length above 1e-6 m, not {value} m")]
     Option {

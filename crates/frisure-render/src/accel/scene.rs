@@ -32,7 +32,7 @@ impl Scene {
     /// nowhere; the result is the same on any number of threads.
     ///
     /// # Errors
-    /// [`AccelError`], if a coordinate, a radius or an option is none, or two points coincide.
+    /// [`AccelError`], if a coordinate, a radius or an option is none.
     pub fn new(
         strands: &Strands,
         head: Option<&Surface>,

@@ -440,8 +440,7 @@ fn what_cannot_be_traced_is_refused_by_strand_and_point() {
         let error = with(&good, &[1e-4, 1e-4, bad]);
         assert!(matches!(error, AccelError::Radius { strand: 1, point: 2, .. }));
     }
-    let error = with(&[Vec3::ZERO, Vec3::X, Vec3::X], &[1e-4; 3]);
-    assert_eq!(error, AccelError::Coincident { strand: 1, point: 2 });
+    let error = with(&[Vec3::ZERO, Vec3::X, Vec3::NAN], &[1e-4; 3]);
     assert!(error.to_string().contains("point 2 of strand 1"));
     for bad in [0.0, f32::NAN, -1.0] {
         let options = CurveOptions { tolerance: bad, ..CurveOptions::default() };
@@ -459,4 +458,32 @@ fn a_thousand_hairs_in_one_place_are_still_found() {
     let ray = Ray::new(Vec3::new(0.001, -0.1, 0.0), Vec3::Y);
     let hit = meet(scene(&strands, None).closest_hit(&ray, f32::INFINITY));
     assert!((hit.t - (0.1 - 5e-5)).abs() < 1e-7);
+}
+
+#[test]
+fn points_that_coincide_change_next_to_nothing() {
+    let along = |xs: &[f32]| {
+        let mut strands = Strands::new();
+        let points: Vec<Vec3> = xs.iter().map(|x| 0.01 * x * Vec3::X).collect();
+        strands.push(&points, &vec![1e-4; xs.len()]);
+        Scene::new(&strands, None, &CurveOptions::default()).unwrap()
+    };
+    let plain = along(&[0.0, 1.0, 2.0, 3.0]);
+    for twice in [
+        &[0.0, 0.0, 1.0, 2.0, 3.0][..],
+        &[0.0, 1.0, 1.0, 1.0, 2.0, 3.0],
+        &[0.0, 1.0, 2.0, 3.0, 3.0],
+    ] {
+        let scene = along(twice);
+        for i in 0..100_u8 {
+            let x = 0.03 * (f32::from(i) + 0.5) / 100.0;
+            let ray = Ray::new(Vec3::new(x, 3e-5, 0.1), -Vec3::Z);
+            let t = |scene: &Scene| scene.closest_hit(&ray, 1.0).map(|hit| hit.t());
+            let (a, b) = (t(&plain).unwrap(), t(&scene).unwrap());
+            assert!((a - b).abs() < 1e-6, "{x}: {a} {b}");
+        }
+    }
+    // All in one place: nowhere.
+    let nothing = along(&[1.0, 1.0, 1.0]);
+    assert!(nothing.closest_hit(&Ray::new(Vec3::new(0.01, 0.0, 0.1), -Vec3::Z), 1.0).is_none());
 }
