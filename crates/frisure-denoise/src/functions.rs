@@ -21,7 +21,7 @@ type SetImage = unsafe extern "C" fn(
 
 type SetBool = unsafe extern "C" fn(filter: Handle, name: *const c_char, value: bool);
 
-/// The functions; valid as long as the library is loaded.
+/// The functions; valid as long as the library is loaded, which is for ever.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Functions {
     pub(crate) new_device: unsafe extern "C" fn(kind: i32) -> Handle,

@@ -12,6 +12,7 @@ mod functions;
 
 use std::error::Error;
 use std::ffi::{CStr, OsStr, OsString, c_void};
+use std::mem::ManuallyDrop;
 
 use libloading::Library;
 use thiserror::Error;
@@ -68,12 +69,11 @@ pub struct Noisy<'a> {
     pub direction: &'a [[f32; 3]],
 }
 
-/// The library, loaded.
-#[derive(Debug)]
+/// The library, loaded once and for all: it keeps threads of its own, which do not survive that their code
+/// is taken away.
+#[derive(Clone, Copy, Debug)]
 pub struct Denoiser {
     functions: Functions,
-    /// Keeps the functions where they are.
-    _library: Library,
 }
 
 impl Denoiser {
@@ -100,9 +100,8 @@ impl Denoiser {
     fn load(name: &OsStr) -> Result<Self, libloading::Error> {
         // SAFETY: loading runs the library's initialisers, which is what whoever installed it, or named it
         // in the variable, asked for. There is no other way to use a library that may be absent.
-        let library = unsafe { Library::new(name) }?;
-        let functions = Functions::of(&library)?;
-        Ok(Self { functions, _library: library })
+        let library = ManuallyDrop::new(unsafe { Library::new(name) }?);
+        Ok(Self { functions: Functions::of(&library)? })
     }
 
     /// The picture without its noise.

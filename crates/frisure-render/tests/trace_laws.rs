@@ -140,7 +140,7 @@ fn outlier(image: &Image) -> f32 {
 #[test]
 fn small_bright_lights_leave_no_fireflies() {
     let strands = tuft();
-    let options = TraceOptions { bounces: 40, ..SMALL };
+    let options = TraceOptions { bounces: 40, samples: 96, ..SMALL };
     let lit = |lights| drawn(&strands, look(Melanin::BLOND), Some(lights), options);
     // One direction, and the same light from a small lamp, a place and a hot pixel that way.
     let (way, far) = (DVec3::new(0.4, -0.8, 0.5).normalize(), 6.0);
