@@ -158,17 +158,19 @@ pub(crate) enum Quality {
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct Tracing {
     /// Most paths of light per pixel of a final picture, 1 to 65536: noise falls with their root.
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = paths)]
-    pub(crate) paths: usize,
+    /// [default: 256]
+    #[arg(long, value_name = "N", value_parser = paths)]
+    pub(crate) paths: Option<usize>,
 
     /// Noise at which a part of a final picture is good enough and gets no more paths, in percent of
-    /// the way from black to white; 0: all parts get all.
-    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, value_parser = noise)]
-    pub(crate) noise: f32,
+    /// the way from black to white; 0: all parts get all. [default: 2]
+    #[arg(long, value_name = "PERCENT", value_parser = noise)]
+    pub(crate) noise: Option<f32>,
 
     /// Most times that a path of light is followed on, 1 to 10000; light hair needs 50 and more.
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = bounces)]
-    pub(crate) bounces: u32,
+    /// [default: 100]
+    #[arg(long, value_name = "N", value_parser = bounces)]
+    pub(crate) bounces: Option<u32>,
 
     /// Take out what noise is left, by Open Image Denoise, if it is installed: pleasant for few paths,
     /// but no longer the truth. FRISURE_OIDN names its library where the system does not know it.
@@ -177,14 +179,20 @@ pub(crate) struct Tracing {
 }
 
 impl Tracing {
+    /// Whether any of them is.
+    pub(crate) fn is_given(self) -> bool {
+        let Self { paths, noise, bounces, denoise } = self;
+        paths.is_some() || noise.is_some() || bounces.is_some() || denoise
+    }
+
     /// The renderer's options, for a picture of a scene's size.
     pub(crate) fn options(self, output: &scene::Output) -> TraceOptions {
         TraceOptions {
             width: output.width,
             height: output.height,
-            samples: self.paths,
-            noise: (self.noise > 0.0).then_some(0.01 * self.noise),
-            bounces: self.bounces,
+            samples: self.paths.unwrap_or(256),
+            noise: Some(0.01 * self.noise.unwrap_or(2.0)).filter(|noise| *noise > 0.0),
+            bounces: self.bounces.unwrap_or(100),
             ..TraceOptions::default()
         }
     }
@@ -218,7 +226,7 @@ pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) tracing: Tracing,
 
-    /// Width and height (pixels), instead of the scene's.
+    /// Width and height (pixels), instead of the scene's: 67108864 pixels at most, as 8192x8192.
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<(usize, usize)>,
 

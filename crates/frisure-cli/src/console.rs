@@ -14,6 +14,11 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Tells on standard error what a person should know, though nothing failed.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "note: {text}");
+}
+
 /// Shows why a command failed. If standard error is closed there is nobody to tell.
 pub(crate) fn complain(failure: &Failure) {
     let mut err = io::stderr().lock();

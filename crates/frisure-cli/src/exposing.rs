@@ -1,21 +1,22 @@
 //! Final pictures: exposed until they are good enough, and saved while they grow.
 
 use std::fmt;
+use std::io::{ErrorKind, Read};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use frisure::denoise::{Denoiser, Noisy, VARIABLE};
-use frisure::io::files::{self, write_atomically};
+use frisure::io::files::{self, ReadError, WriteError, write_atomically};
 use frisure::io::picture::exr::{self, Channel, Values};
 use frisure::io::picture::{Format, PictureError, png};
 use frisure::io::scene;
-use frisure::render::trace::{Exposure, Layers, Tracer};
+use frisure::render::trace::{EXPOSURE_MARK, Exposure, Layers, Tracer};
 use frisure::render::{Camera, Image, Lights};
 
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::{interrupt, picture};
+use crate::{console, interrupt, picture};
 
 /// How often an unfinished picture is saved.
 const SAVED_EVERY: Duration = Duration::from_mins(1);
@@ -37,7 +38,8 @@ pub(crate) struct Shot {
 /// The denoiser, if it is wanted: to be known before the work.
 pub(crate) fn denoiser(wanted: bool) -> Result<Option<Denoiser>, Failure> {
     let hint = format!(
-        "install Open Image Denoise (openimagedenoise.org), or name its library in {VARIABLE}; \
+        "install Open Image Denoise (openimagedenoise.org), or name its library in {VARIABLE} (what it \
+         needs itself must be found, too: LD_LIBRARY_PATH); \
          without --denoise, more --paths have the same effect"
     );
     let found = wanted.then(Denoiser::find).transpose();
@@ -88,6 +90,44 @@ pub(crate) fn numbered(path: &Path, number: usize, count: usize) -> PathBuf {
     path.with_file_name(name)
 }
 
+/// The file that keeps an unfinished picture.
+pub(crate) fn part(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    path.with_file_name(name)
+}
+
+/// Those of all pictures that will be made under a name.
+pub(crate) fn parts(path: &Path, turntable: Option<usize>) -> Vec<PathBuf> {
+    names(path, turntable).iter().map(|path| part(path)).collect()
+}
+
+/// Refuses to begin where a file of somebody else's would be overwritten.
+pub(crate) fn check_parts(parts: &[PathBuf]) -> Result<(), Failure> {
+    let foreign = |path: &&PathBuf| {
+        let mut mark = [0; 8];
+        let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut mark));
+        match read {
+            Ok(()) => mark != EXPOSURE_MARK,
+            // What is not there is nobody's; what is too short or cannot be read is not ours.
+            Err(error) => error.kind() != ErrorKind::NotFound,
+        }
+    };
+    match parts.iter().find(foreign) {
+        Some(path) => {
+            let message = format!(
+                "`{}` is in the way: it is no unfinished picture of this version",
+                path.display()
+            );
+            Err(Failure::wrong_because(
+                message,
+                "the picture so far is kept under that name; move the file away",
+            ))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Exposes and writes all pictures of a shot.
 pub(crate) fn shoot(
     mut shot: Shot,
@@ -126,7 +166,8 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn expose(&self, tracer: &Tracer, progress: &Progress, name: &str) -> Result<Exposed, Failure> {
-        let mut exposure = self.unfinished(tracer).unwrap_or_else(|| tracer.exposure());
+        let unfinished = self.unfinished(tracer)?;
+        let mut exposure = unfinished.unwrap_or_else(|| tracer.exposure());
         let before = exposure.mean_samples();
         let mut pause = SAVED_EVERY;
         loop {
@@ -143,13 +184,14 @@ impl Writer<'_> {
             self.write(&exposure)?;
             if finished {
                 // A part that cannot be removed is one that nobody needs.
-                let _ = std::fs::remove_file(self.part());
+                let _ = std::fs::remove_file(part(&self.path));
                 break;
             }
-            self.put_away(&exposure)?;
+            let kept = self.put_away(&exposure);
             if interrupt::interrupted() {
-                return Err(Failure::Paused(self.so_far(&exposure)));
+                return Err(Failure::Paused(self.so_far(&exposure, kept.err())));
             }
+            // If it cannot be kept now, it may be at the next time; the picture goes on.
             // Large pictures take long to write: most of the time is for tracing.
             pause = SAVED_EVERY.max(20 * saving.elapsed());
         }
@@ -157,29 +199,39 @@ impl Writer<'_> {
         Ok(Exposed { path: self.path.clone(), paths, noise, before })
     }
 
-    /// The file that keeps an unfinished picture.
-    fn part(&self) -> PathBuf {
-        let mut name = self.path.file_name().unwrap_or_default().to_owned();
-        name.push(".part");
-        self.path.with_file_name(name)
+    /// The exposure that was put away, if it is one of this picture. One of another is hours of work,
+    /// too: it is kept under another name.
+    fn unfinished(&self, tracer: &Tracer) -> Result<Option<Exposure>, Failure> {
+        let path = part(&self.path);
+        let bytes = match files::read_bytes(&path, MAX_PART, "an unfinished picture") {
+            Ok(bytes) => bytes,
+            Err(ReadError::Missing { .. }) => return Ok(None),
+            Err(error) => return Err(error.into()),
+        };
+        let found = Exposure::from_bytes(&bytes).ok().filter(|exposure| tracer.knows(exposure));
+        if found.is_none() {
+            let mut name = path.clone().into_os_string();
+            name.push(".old");
+            std::fs::rename(&path, &name).map_err(|e| Failure::failed(&e))?;
+            let (path, old) = (path.display(), Path::new(&name).display());
+            console::note(&format!(
+                "`{path}` is of another picture, or damaged; it is now `{old}`"
+            ));
+        }
+        Ok(found)
     }
 
-    /// The exposure that was put away, if it is one of this picture.
-    fn unfinished(&self, tracer: &Tracer) -> Option<Exposure> {
-        let bytes = files::read_bytes(&self.part(), MAX_PART, "an unfinished picture").ok()?;
-        Exposure::from_bytes(&bytes).ok().filter(|exposure| tracer.knows(exposure))
+    fn put_away(&self, exposure: &Exposure) -> Result<(), WriteError> {
+        write_atomically(&part(&self.path), |out| out.write_all(&exposure.to_bytes()))
     }
 
-    fn put_away(&self, exposure: &Exposure) -> Result<(), Failure> {
-        write_atomically(&self.part(), |out| out.write_all(&exposure.to_bytes()))
-            .map_err(|e| Failure::failed(&e))
-    }
-
-    fn so_far(&self, exposure: &Exposure) -> String {
+    fn so_far(&self, exposure: &Exposure, lost: Option<WriteError>) -> String {
         let (path, paths) = (self.path.display(), exposure.mean_samples());
-        format!(
-            "`{path}` is what there is so far, {paths:.0} paths per pixel; the same command goes on from there."
-        )
+        let so_far = format!("`{path}` is what there is so far, {paths:.0} paths per pixel;");
+        match lost {
+            None => format!("{so_far} the same command goes on from there."),
+            Some(error) => format!("{so_far} it cannot go on from there: {error}."),
+        }
     }
 
     fn write(&self, exposure: &Exposure) -> Result<(), Failure> {

@@ -82,7 +82,7 @@ impl Denoiser {
     /// # Errors
     /// [`DenoiseError::Library`], which says what was tried.
     pub fn find() -> Result<Self, DenoiseError> {
-        let named = std::env::var_os(VARIABLE);
+        let named = std::env::var_os(VARIABLE).filter(|name| !name.is_empty());
         let names: Vec<OsString> = match named {
             Some(name) => vec![name],
             None => NAMES.iter().map(OsString::from).collect(),

@@ -187,6 +187,10 @@ enum Destination {
 }
 
 fn destination(path: &Path) -> Result<Destination, WriteError> {
+    // `a.png/` is a folder's name, though its parts are those of `a.png`.
+    if path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) {
+        return Err(WriteError::Directory { path: path.into() });
+    }
     let existing = match fs::metadata(path) {
         Ok(m) if m.is_dir() => return Err(WriteError::Directory { path: path.into() }),
         Ok(m) if !m.is_file() => return Ok(Destination::Device),

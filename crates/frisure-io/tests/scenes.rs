@@ -754,6 +754,8 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                     // As many as fit on a head depends on how many wisps there are.
                     "wisps.hairs_per_wisp" => "wisps.count = 5\n",
                     "equilibrium.starts" => "equilibrium.branch = \"lowest\"\n",
+                    "camera.focus" => "camera.f_number = 4\n",
+                    "look.dye.strength" | "look.dye.regrowth" => "look.dye.colour = \"#a03020\"\n",
                     _ => "",
                 };
                 format!("{rest}{path} = {x}")

@@ -77,13 +77,17 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     let options = arguments.tracing.options(&scene.output);
     options.check().map_err(|e| Failure::wrong(&e, ""))?;
     let names = exposing::names(&arguments.output, arguments.turntable);
-    let names: Vec<&Path> = names.iter().map(AsRef::as_ref).collect();
-    let inputs: Vec<&Path> = [Some(&arguments.scene), arguments.look.as_ref()]
-        .into_iter()
-        .flatten()
-        .map(AsRef::as_ref)
-        .collect();
+    let parts = exposing::parts(&arguments.output, arguments.turntable);
+    let names: Vec<&Path> = names.iter().chain(&parts).map(AsRef::as_ref).collect();
+    let mut inputs = predict::read_by(&scene);
+    inputs.extend(
+        [Some(&arguments.scene), arguments.look.as_ref()]
+            .into_iter()
+            .flatten()
+            .map(AsRef::<Path>::as_ref),
+    );
     outputs::prepare(&names, &inputs)?;
+    exposing::check_parts(&parts)?;
     let environment = picture::environment(&scene)?;
 
     let denoiser = exposing::denoiser(arguments.tracing.denoise)?;

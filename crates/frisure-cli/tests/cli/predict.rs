@@ -230,6 +230,39 @@ fn a_groom_from_all_around_and_with_its_light() {
     assert!(!room.path("d.png").exists());
 }
 
+#[test]
+fn a_picture_destroys_nothing_that_it_reads_or_that_is_in_its_way() {
+    let lit = format!("{QUICK}[light]\nenvironment = \"env.exr\"\n");
+    let room = Room::new().with("quick.toml", QUICK).with("lit.toml", lit);
+    let run = |arguments: &[&str]| {
+        let ran = room.run(&[arguments, &["--size", "16x16", "--paths", "2"]].concat());
+        (ran.code, ran.err)
+    };
+    assert_eq!(run(&["render", "quick.toml", "-o", "env.exr"]), (Some(0), String::new()));
+    assert_eq!(room.run(&["predict", "quick.toml", "-o", "a.hair"]).code, Some(0));
+    fs::copy(room.path("quick.toml"), room.path("b.png.part")).unwrap();
+    for (wrong, problem) in [
+        (&["render", "a.hair", "--look", "lit.toml", "-o", "env.exr"][..], "would be overwritten"),
+        (&["render", "lit.toml", "-o", "env.exr"], "would be overwritten"),
+        (&["render", "b.png.part", "-o", "b.png"], "would be overwritten"),
+        (&["render", "quick.toml", "-o", "b.png"], "no unfinished picture"),
+        (&["render", "quick.toml", "-o", "c.png/"], "is a directory"),
+        (&["predict", "quick.toml", "--image", "c.png", "--denoise"], "--quality final"),
+    ] {
+        let ran = room.run(wrong);
+        assert!(ran.code != Some(0) && ran.err.contains(problem), "{wrong:?}: {}", ran.err);
+    }
+    assert_eq!(fs::read(room.path("b.png.part")).unwrap(), QUICK.as_bytes());
+
+    // One of another version is no less foreign, one of another picture is kept.
+    let mut other = b"frixpos\x01".to_vec();
+    other.resize(100, 7);
+    fs::write(room.path("b.png.part"), &other).unwrap();
+    let (code, err) = run(&["render", "quick.toml", "-o", "b.png"]);
+    assert!(code == Some(0) && err.contains("b.png.part.old"), "{err}");
+    assert_eq!(fs::read(room.path("b.png.part.old")).unwrap(), other);
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_picture_is_kept_and_goes_on_to_the_same_bytes() {

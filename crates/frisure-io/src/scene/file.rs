@@ -487,9 +487,9 @@ pub(super) struct Camera {
     /// portrait; 0.5 to 64. Left out, everything is sharp.
     #[schemars(range(min = 0.5, max = 64.0))]
     pub(super) f_number: Key<Ratio>,
-    /// Distance from the camera that is sharp, with `f_number`; more than 0. Default what is nearest in
+    /// Distance from the camera that is sharp, with `f_number`; 1 cm to 1 km. Default what is nearest in
     /// the middle of the picture.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.01, max = 1000.0))]
     pub(super) focus: Key<Length>,
 }
 

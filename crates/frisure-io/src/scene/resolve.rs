@@ -557,6 +557,12 @@ fn dye(file: &file::LookDye, source: &Source) -> Result<Option<Dye>> {
     let strength = within(&file.strength, 1.0, 0.0, 1.0, "between 0 and 1", source)?;
     let regrowth = within(&file.regrowth, 0.0, 0.0, 3.0, "between 0 and 3 m", source)?;
     let colour = file.colour.get(source)?;
+    if colour.is_none() && file.strength.is_given() {
+        return Err(missing(&file.strength, "colour", source));
+    }
+    if colour.is_none() && file.regrowth.is_given() {
+        return Err(missing(&file.regrowth, "colour", source));
+    }
     Ok(colour.map(|colour| Dye { colour, strength, regrowth }))
 }
 
@@ -581,9 +587,7 @@ fn camera(file: &file::Camera, source: &Source) -> Result<Camera> {
 }
 
 fn f_number(file: &file::Camera, source: &Source) -> Result<Option<f64>> {
-    if file.focus.get(source)?.is_some_and(|focus| focus <= 0.0) {
-        return Err(outside(&file.focus, "more than 0", source));
-    }
+    within(&file.focus, 1.0, 0.01, 1000.0, "between 1 cm and 1 km", source)?;
     if !file.f_number.is_given() {
         return if file.focus.is_given() {
             Err(missing(&file.focus, "f_number", source))

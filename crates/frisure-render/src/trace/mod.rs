@@ -41,7 +41,9 @@ use lights::Outside;
 use sampler::Sampler;
 
 pub use check::{MAX_PIXELS, MAX_SAMPLES, TraceError, TraceOptions};
-pub use exposure::{Exposure, ExposureError, Layers, VERSION as EXPOSURE_VERSION};
+pub use exposure::{
+    Exposure, ExposureError, Layers, MARK as EXPOSURE_MARK, VERSION as EXPOSURE_VERSION,
+};
 
 /// Samples after which noise is measured, and may be little enough.
 const SURE_SAMPLES: u32 = 32;

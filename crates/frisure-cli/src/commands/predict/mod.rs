@@ -104,6 +104,10 @@ fn check_outputs(
     for path in &arguments.outputs {
         Format::of(path).map_err(|e| Failure::wrong(&e, hint_of(path)))?;
     }
+    if arguments.tracing.is_given() && arguments.quality == Quality::Preview {
+        let message = "`--paths`, `--noise`, `--bounces` and `--denoise` are for final pictures";
+        return Err(Failure::wrong_because(message, "add `--quality final`"));
+    }
     if let Some(path) = &arguments.image {
         picture::Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
         if arguments.quality == Quality::Final {
@@ -122,8 +126,22 @@ fn check_outputs(
         all = exposing::names(path, Some(turntable.frames));
     }
     all.extend(arguments.report.clone());
-    let all: Vec<&Path> = all.iter().map(AsRef::as_ref).collect();
-    let mut inputs: Vec<&Path> = vec![&arguments.scene];
+    let pictures = arguments.image.iter().filter(|_| arguments.quality == Quality::Final);
+    let parts = pictures.flat_map(|path| match turntable {
+        Some(turntable) => exposing::parts(path, Some(turntable.frames)),
+        None => named(path).iter().map(|path| exposing::part(path)).collect(),
+    });
+    let parts: Vec<PathBuf> = parts.collect();
+    let mut inputs = read_by(scene);
+    inputs.push(&arguments.scene);
+    let all: Vec<&Path> = all.iter().chain(&parts).map(AsRef::as_ref).collect();
+    outputs::prepare(&all, &inputs)?;
+    exposing::check_parts(&parts)
+}
+
+/// The files that a scene reads, beside itself.
+pub(crate) fn read_by(scene: &Scene) -> Vec<&Path> {
+    let mut inputs: Vec<&Path> = Vec::new();
     if let HeadSource::Mesh(file) = &scene.head {
         inputs.push(&file.path);
         match &file.scalp {
@@ -132,7 +150,7 @@ fn check_outputs(
         }
     }
     inputs.extend(scene.light.environment.iter().map(|file| file.path.as_path()));
-    outputs::prepare(&all, &inputs)
+    inputs
 }
 
 /// Where an output of a frame goes.

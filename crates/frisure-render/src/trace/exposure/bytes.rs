@@ -15,7 +15,7 @@ use crate::trace::{MAX_PIXELS, MAX_SAMPLES};
 pub const VERSION: u8 = 1;
 
 /// Begins the bytes of an exposure.
-const MARK: [u8; 8] = [b'f', b'r', b'i', b'x', b'p', b'o', b's', VERSION];
+pub const MARK: [u8; 8] = [b'f', b'r', b'i', b'x', b'p', b'o', b's', VERSION];
 
 /// Bytes before the tiles.
 const HEAD: usize = 24;

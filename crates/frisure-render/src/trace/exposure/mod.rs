@@ -8,7 +8,7 @@ mod bytes;
 mod layers;
 mod noise;
 
-pub use bytes::{ExposureError, VERSION};
+pub use bytes::{ExposureError, MARK, VERSION};
 pub use layers::Layers;
 pub(super) use noise::in_first_half;
 
