@@ -30,7 +30,7 @@ pub(crate) fn scene<'a>(
     let camera = camera(&scene.camera, shown(framed, surface), aspect(scene));
     let middle = preview::middle(strands, surface);
     let lights = lights(&scene.light, &camera, middle, environment)?;
-    let mut look = look(&scene.look);
+    let mut look = look(&scene.look, behind(scene.look.background, &lights, &camera, middle));
     if let Some(colour) = scene.look.floor {
         look.ground = Some(floor(colour, framed, surface));
     }
@@ -254,18 +254,43 @@ fn placed(at: DVec3, middle: DVec3, face: Option<LampFace>) -> Result<Lamp, Inva
     Ok(lamp.shown(shown).into())
 }
 
-fn look(asked: &scene::Look) -> Look {
-    let default = Look::default();
-    let colour = asked.skin.map_or(default.skin.colour, linear);
-    let background = match asked.background {
-        scene::Behind::Wall => default.background,
+/// What is behind a head that stands in `middle` (m).
+fn behind(asked: scene::Behind, lights: &Lights, camera: &Camera, middle: DVec3) -> Background {
+    match asked {
+        scene::Behind::Wall => wall(lights, camera, middle),
         scene::Behind::Transparent => Background::Transparent,
         scene::Behind::Surroundings => Background::Surroundings,
         scene::Behind::Colour(colour) => {
             let colour = linear(colour);
             Background::Gradient { centre: colour, corner: colour }
         }
-    };
+    }
+}
+
+/// The studio's wall in these lights: it is as bright as it looks in the studio's own.
+fn wall(lights: &Lights, camera: &Camera, middle: DVec3) -> Background {
+    let studio = on_wall(&Lights::studio(camera), camera, middle);
+    let factor = on_wall(lights, camera, middle) / studio;
+    match Background::default() {
+        Background::Gradient { centre, corner } => {
+            Background::Gradient { centre: centre * factor, corner: corner * factor }
+        }
+        other => other,
+    }
+}
+
+/// Irradiance on a wall that faces the camera, as far behind the head as the lamps are before it, so
+/// that a quarter of their light arrives.
+fn on_wall(lights: &Lights, camera: &Camera, middle: DVec3) -> Vec3 {
+    let lamps = lights.lamps.iter().filter_map(|lamp| lamp.arriving(middle));
+    let faced = |towards: DVec3| (-towards.dot(camera.forward())).max(0.0) as f32;
+    let lamps: Vec3 = lamps.map(|(towards, light)| 0.25 * faced(towards) * light).sum();
+    lamps + std::f32::consts::PI * lights.room.mean()
+}
+
+fn look(asked: &scene::Look, background: Background) -> Look {
+    let default = Look::default();
+    let colour = asked.skin.map_or(default.skin.colour, linear);
     Look { hair: hair(asked), skin: SkinLook { colour, ..default.skin }, background, ground: None }
 }
 
@@ -392,6 +417,31 @@ mod tests {
         assert!(direction("azimuth = 0\nelevation = 0").distance(-DVec3::Y) < 1e-12);
         assert!(direction("azimuth = '90 deg'\nelevation = 0").distance(-DVec3::X) > 1.9);
         assert!(direction("azimuth = 0.3\nelevation = '90 deg'").distance(DVec3::Z) < 1e-9);
+    }
+
+    fn wall_of(text: &str) -> Vec3 {
+        let camera = camera(&straight(), corners(), 1.0);
+        match wall(&lit(text), &camera, DVec3::ZERO) {
+            Background::Gradient { centre, .. } => centre,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_wall_has_the_light_of_the_setup() {
+        let Background::Gradient { centre: studio, .. } = Background::default() else {
+            unreachable!()
+        };
+        assert_eq!(wall_of(""), studio);
+        assert_eq!(wall_of("setup = 'dark'"), Vec3::ZERO);
+        let of = |setup| wall_of(&format!("setup = '{setup}'")).y / studio.y;
+        let scale = ["soft", "studio", "butterfly", "rembrandt", "rim"].map(of);
+        assert!(scale.is_sorted_by(|a, b| a > b), "{scale:?}");
+        // Lamps behind the head do not reach the wall's face, and are seen against it.
+        let behind = "setup = 'dark'\n[[light.lamp]]\nazimuth = '180 deg'";
+        assert_eq!(wall_of(behind), Vec3::ZERO);
+        let twice = wall_of("strength = 2\nsky_strength = 2");
+        assert!((twice / studio - Vec3::splat(2.0)).abs().max_element() < 1e-5);
     }
 
     #[test]

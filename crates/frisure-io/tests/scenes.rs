@@ -877,6 +877,12 @@ fn lights_are_understood_or_refused_at_their_key() {
     let day = light("setup = 'daylight'\nsun_elevation = '10 deg'\nturbidity = 5").sun;
     assert!((day.elevation.to_degrees() - 10.0).abs() < 1e-12 && day.turbidity == 5.0);
     assert_eq!(light("turbidity = 5").setup, Setup::Daylight);
+    let behind = |text: &str| read(text).unwrap().look.background;
+    for sky in ["setup = 'overcast'", "turbidity = 5", "environment = 'a.hdr'"] {
+        assert_eq!(behind(sky), Behind::Surroundings);
+        assert_eq!(behind(&format!("{sky}\n[look]\nbackground = 'wall'")), Behind::Wall);
+    }
+    assert_eq!(behind("setup = 'rim'"), Behind::Wall);
     let lamps = light(
         "[[light.lamp]]\nazimuth = '-30 deg'\ndistance = '1.5 m'\nsize = ['60 cm', '90 cm']\n\
          temperature = 3200\nshown = true\n\

@@ -14,7 +14,7 @@ const PHEOMELANIN: Vec3 = Vec3::new(0.187, 0.4, 1.05);
 /// The two pigments of hair, as concentrations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Melanin {
-    /// Eumelanin, black-brown: about 0.15 blond, 0.8 brown, 5 black; 0 white.
+    /// Eumelanin, black-brown: about 0.1 blond, 0.8 brown, 5 black; 0 white.
     pub eumelanin: f32,
     /// Pheomelanin, yellow-red: 0 in most hair, about 1 in red hair with little eumelanin.
     pub pheomelanin: f32,
@@ -29,9 +29,9 @@ impl Default for Melanin {
 
 impl Melanin {
     /// Fair hair.
-    pub const BLOND: Self = Self { eumelanin: 0.14, pheomelanin: 0.05 };
+    pub const BLOND: Self = Self { eumelanin: 0.09, pheomelanin: 0.03 };
     /// Red hair.
-    pub const RED: Self = Self { eumelanin: 0.2, pheomelanin: 1.7 };
+    pub const RED: Self = Self { eumelanin: 0.08, pheomelanin: 1.1 };
     /// Brown hair.
     pub const BROWN: Self = Self { eumelanin: 0.8, pheomelanin: 0.0 };
     /// Black hair.

@@ -1,9 +1,11 @@
 //! Colours of natural hair by their names.
 //!
 //! The scale of eumelanin is that of d'Eon et al. 2011, for which `pbrt-v3` prints 0.3 blond, 1.3
-//! brown and 8 black. The numbers here are chosen from heads of a hundred thousand hairs in the traced
-//! studio, where 0.3 is a dark blond. Hair of every colour but red has little pheomelanin; it is left
-//! out where eumelanin hides it.
+//! brown and 8 black. The numbers here were chosen by eye, as a colourist would name them, on a head of
+//! 125 000 straight hairs in the traced studio (`docs/pictures/colours.jpg`). There light meets many hairs
+//! on its way, so that 0.3 is already a light brown, 1.3 a dark brown, and blonds have a tenth. For the
+//! same reason pheomelanin of 1.7 is auburn rather than red. Hair of every colour but red has little
+//! pheomelanin, or blond would be orange; it is left out where eumelanin hides it.
 
 use crate::Melanin;
 
@@ -36,18 +38,18 @@ const fn grey(name: &'static str, description: &'static str, white_share: f32) -
 /// The colours that have names: the scale from light to dark, then the reds, and hair of which a part is white.
 pub const SHADES: [Shade; 15] = [
     shade("white", "no pigment", 0.0, 0.0),
-    shade("platinum", "the lightest blond", 0.02, 0.01),
-    shade("light-blond", "", 0.06, 0.03),
-    shade("blond", "", 0.14, 0.05),
-    shade("dark-blond", "", 0.24, 0.08),
-    shade("light-brown", "", 0.42, 0.1),
+    shade("platinum", "the lightest blond", 0.01, 0.004),
+    shade("light-blond", "", 0.045, 0.015),
+    shade("blond", "", 0.09, 0.03),
+    shade("dark-blond", "", 0.18, 0.05),
+    shade("light-brown", "", 0.36, 0.08),
     shade("brown", "", 0.8, 0.0),
-    shade("dark-brown", "", 1.6, 0.0),
-    shade("black", "brown where light comes through", 4.5, 0.0),
+    shade("dark-brown", "", 1.3, 0.0),
+    shade("black", "brown where light comes through", 3.2, 0.0),
     shade("jet-black", "the darkest", 9.0, 0.0),
-    shade("copper", "light red", 0.06, 1.0),
-    shade("red", "", 0.2, 1.7),
-    shade("auburn", "dark red", 0.8, 1.6),
+    shade("copper", "light red", 0.03, 0.7),
+    shade("red", "", 0.08, 1.1),
+    shade("auburn", "dark red", 0.35, 1.6),
     grey("grey", "dark hair of which three quarters are white", 0.75),
     grey("salt-and-pepper", "dark hair of which two fifths are white", 0.4),
 ];

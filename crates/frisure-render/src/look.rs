@@ -159,7 +159,7 @@ pub enum Background {
         /// Radiance at the corners.
         corner: Vec3,
     },
-    /// What lights the scene: sky and ground.
+    /// What is around the scene and lights it, as the direction has it.
     Surroundings,
 }
 

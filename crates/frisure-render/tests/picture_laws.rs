@@ -94,6 +94,26 @@ fn without_anything_the_picture_is_the_background() {
 }
 
 #[test]
+fn surroundings_are_seen_where_they_are() {
+    let strands = Strands::new();
+    let mut scene = scene(&strands, None);
+    scene.look.background = Background::Surroundings;
+    scene.lights = Lights::overcast();
+    let image = draw(&scene);
+    assert!(image.pixels().iter().all(|p| p[3] == 1.0));
+    let (width, height) = (image.width(), image.height());
+    let tan = (0.5 * scene.camera.vertical_fov()).tan();
+    for (x, y) in [(0, 0), (width - 1, 0), (width / 2, height - 1)] {
+        let slope = |i: usize, of: usize| (2.0 * i as f64 + 1.0) / of as f64 - 1.0;
+        let across = slope(x, width) * tan * width as f64 / height as f64 * scene.camera.right();
+        let towards = scene.camera.forward() + across - slope(y, height) * tan * scene.camera.up();
+        let seen = Vec3::from_slice(&image.pixel(x, y)[..3]);
+        let there = scene.lights.room.radiance(towards.normalize().as_vec3());
+        assert!((seen - there).abs().max_element() < 0.02 * there.y, "{seen} {there}");
+    }
+}
+
+#[test]
 fn strands_that_are_no_curves_change_nothing() {
     let mut strands = strand(Vec3::X * -0.05, Vec3::X * 0.05, 1e-4);
     let clean = strands.clone();

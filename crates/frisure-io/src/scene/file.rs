@@ -438,7 +438,7 @@ pub(super) struct Look {
     pub(super) index: Key<Ratio>,
     /// Colour of the skin (sRGB).
     pub(super) skin: Key<Colour>,
-    /// What is behind the head. Default "wall".
+    /// What is behind the head. Default "surroundings" where sky or an environment light it, else "wall".
     pub(super) background: Key<BehindKind>,
     /// Colour of a floor under the head (sRGB), which catches its shadow in a final picture. Left out,
     /// there is none.

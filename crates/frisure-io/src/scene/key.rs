@@ -546,9 +546,13 @@ pub(super) struct BehindKind;
 
 impl BehindKind {
     const WORDS: [(&str, &str, Behind); 3] = [
-        ("wall", "a grey studio wall", Behind::Wall),
+        ("wall", "a grey wall that the lights fall on", Behind::Wall),
         ("transparent", "nothing: the picture can be laid over another", Behind::Transparent),
-        ("surroundings", "what lights the hair", Behind::Surroundings),
+        (
+            "surroundings",
+            "the room, the sky or the environment that light it",
+            Behind::Surroundings,
+        ),
     ];
 }
 

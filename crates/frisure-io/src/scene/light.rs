@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
+use super::Behind;
 use super::error::Fault;
 use super::file;
 use super::key::{Face, Key, Kind};
@@ -33,6 +34,17 @@ pub struct Light {
     pub sun: Sun,
     /// Further lamps.
     pub lamps: Vec<Lamp>,
+}
+
+impl Light {
+    /// What is behind the head, if the scene does not say it.
+    pub(super) fn behind(&self) -> Behind {
+        match self.setup {
+            Setup::Daylight | Setup::Overcast => Behind::Surroundings,
+            _ if self.environment.is_some() => Behind::Surroundings,
+            _ => Behind::Wall,
+        }
+    }
 }
 
 /// How photographers set lights.

@@ -148,10 +148,9 @@ pub struct Look {
 }
 
 /// What is behind the head.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Behind {
-    /// The renderer's studio wall.
-    #[default]
+    /// The studio's wall, as the lights fall on it.
     Wall,
     /// Nothing.
     Transparent,

@@ -23,8 +23,8 @@ use super::light::light;
 use super::source::Source;
 use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Tone, UnitWord, Which};
 use super::{
-    Camera, Dye, Fade, HeadFile, HeadSource, Look, NaturalColour, Output, ScalpSource, Scene,
-    SingleHair, UpAxis, schema, shape, step,
+    Behind, Camera, Dye, Fade, HeadFile, HeadSource, Look, NaturalColour, Output, ScalpSource,
+    Scene, SingleHair, UpAxis, schema, shape, step,
 };
 
 /// The hair type of a scene that names none.
@@ -60,14 +60,15 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
     set(&mut spec.contact.hair_stiffness, &c.hair_stiffness, &source)?;
     set(&mut spec.contact.volume, &c.volume, &source)?;
     let branch = equilibrium(&file.equilibrium, &mut spec, &source)?;
+    let light = light(&file.light, folder, &source)?;
 
     Ok(Scene {
         name: file.name.or(String::new(), &source)?,
         hair_type: preset.name,
         head: head(&file.head, folder, &source)?,
-        look: look(&file.look, spec.seed, &source)?,
+        look: look(&file.look, spec.seed, light.behind(), &source)?,
         camera: camera(&file.camera, &source)?,
-        light: light(&file.light, folder, &source)?,
+        light,
         output: output(&file.output, &source)?,
         along: along(&file.hair.curl, &source)?,
         frame: frame(&file.hair.root, &source)?,
@@ -498,7 +499,7 @@ fn equilibrium(
     }
 }
 
-fn look(file: &file::Look, seed: u64, source: &Source) -> Result<Look> {
+fn look(file: &file::Look, seed: u64, behind: Behind, source: &Source) -> Result<Look> {
     let given = |key: &Key<super::key::Ratio>, min, max, allowed: &str| {
         within(key, min, min, max, allowed, source).map(|value| key.is_given().then_some(value))
     };
@@ -520,7 +521,7 @@ fn look(file: &file::Look, seed: u64, source: &Source) -> Result<Look> {
         index: given(&file.index, 1.05, 3.0, "between 1.05 and 3")?,
         seed,
         skin: file.skin.get(source)?,
-        background: file.background.get(source)?.unwrap_or_default(),
+        background: file.background.get(source)?.unwrap_or(behind),
         floor: file.floor.get(source)?,
     })
 }

@@ -51,7 +51,9 @@ impl Lights {
         Ok(match setup {
             Setup::Studio => Self::studio(camera),
             Setup::Soft => standing(camera, &SOFT, [0.80, 0.80, 0.80], [0.42, 0.41, 0.40]),
-            Setup::Butterfly => standing(camera, &BUTTERFLY, [0.2, 0.21, 0.22], [0.1, 0.1, 0.1]),
+            Setup::Butterfly => {
+                standing(camera, &BUTTERFLY, [0.1, 0.105, 0.11], [0.05, 0.05, 0.05])
+            }
             Setup::Rembrandt => standing(camera, &REMBRANDT, [0.1, 0.1, 0.11], [0.05, 0.05, 0.05]),
             Setup::Rim => standing(camera, &RIM, [0.1, 0.105, 0.115], [0.05, 0.05, 0.05]),
             Setup::Daylight(day) => return Self::daylight(day),
@@ -88,9 +90,9 @@ const SOFT: [Stand; 3] = [
 ];
 
 const BUTTERFLY: [Stand; 3] = [
-    (0.0, 48.0, [5.6, 5.5, 5.35], 0.12),
-    (0.0, -35.0, [0.8, 0.8, 0.8], 0.3),
-    (180.0, 50.0, [2.2, 2.2, 2.3], SOFTBOX),
+    (0.0, 54.0, [6.2, 6.1, 5.95], SOFTBOX),
+    (0.0, -35.0, [0.6, 0.6, 0.6], 0.3),
+    (180.0, 50.0, [1.4, 1.4, 1.45], SOFTBOX),
 ];
 
 const REMBRANDT: [Stand; 3] = [
@@ -102,7 +104,7 @@ const REMBRANDT: [Stand; 3] = [
 const RIM: [Stand; 3] = [
     (-145.0, 30.0, [7.5, 7.3, 7.0], SOFTBOX),
     (140.0, 20.0, [5.5, 5.6, 5.9], SOFTBOX),
-    (10.0, 25.0, [0.5, 0.5, 0.5], 0.4),
+    (10.0, 25.0, [1.0, 1.0, 1.0], 0.4),
 ];
 
 fn standing(camera: &Camera, stands: &[Stand], sky: [f32; 3], ground: [f32; 3]) -> Lights {

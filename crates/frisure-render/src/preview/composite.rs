@@ -12,7 +12,7 @@ use super::head::{Head, HeadPixel};
 use super::shading::Shader;
 use super::tiles::{Area, TILE, TileGrid};
 use super::view::View;
-use crate::Background;
+use crate::{Background, Room};
 
 /// How far across a hair its softened edge can reach (pixels): half a pixel and half of the rise of
 /// a line within a column.
@@ -29,6 +29,7 @@ pub(super) struct TilePainter<'a> {
     pub(super) head: Option<&'a Head>,
     pub(super) shader: &'a Shader,
     pub(super) background: Background,
+    pub(super) room: &'a Room,
     pub(super) samples: usize,
 }
 
@@ -204,6 +205,16 @@ impl TilePainter<'_> {
         Some(Line { from: p.x, to: q.x, across: p.y, slope, half, depth, steep, reversed })
     }
 
+    /// Radiance and alpha of what is behind a pixel.
+    fn behind(&self, x: usize, y: usize) -> (Vec3, f32) {
+        let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
+        let (width, height) = (self.view.width as f32, self.view.height as f32);
+        match self.background {
+            Background::Surroundings => (self.room.radiance(self.view.towards(x, y)), 1.0),
+            other => other.at(2.0 * x / width - 1.0, 2.0 * y / height - 1.0),
+        }
+    }
+
     /// Turns layers into light.
     fn resolve(&self, area: &Area, heads: &[HeadPixel], pixels: &[Pixel]) -> Vec<[f32; 4]> {
         let mut out = vec![[0.0; 4]; TILE * TILE];
@@ -211,11 +222,9 @@ impl TilePainter<'_> {
             for x in area.x0..area.x1 {
                 let i = (y - area.y0) * TILE + x - area.x0;
                 let (pixel, head) = (&pixels[i], &heads[i]);
-                let u = (2 * x + 1) as f32 / self.view.width as f32 - 1.0;
-                let v = (2 * y + 1) as f32 / self.view.height as f32 - 1.0;
-                let (wall, alpha) = self.background.at(u, v);
+                let (behind, alpha) = self.behind(x, y);
                 let free = 1.0 - head.coverage;
-                let mut light = free * pixel.beside.over(wall);
+                let mut light = free * pixel.beside.over(behind);
                 if head.coverage > 0.0 {
                     light += head.coverage * pixel.on_head.over(self.shader.skin(head));
                 }

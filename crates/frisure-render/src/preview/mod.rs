@@ -154,6 +154,7 @@ pub fn render(
         head: head.as_ref(),
         shader: &shader,
         background: scene.look.background,
+        room: &scene.lights.room,
         samples: options.samples.clamp(1, 8),
     };
     let done = AtomicUsize::new(0);

@@ -45,4 +45,11 @@ impl View {
             depth,
         )
     }
+
+    /// The unit direction from the eye through a place in the picture (pixels, from the top left).
+    pub(super) fn towards(&self, x: f32, y: f32) -> Vec3 {
+        let right = (x - 0.5 * self.width as f32) * self.right;
+        let up = (0.5 * self.height as f32 - y) * self.up;
+        (self.focal * self.forward + right + up).normalize()
+    }
 }
