@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::hairstyle::PRESETS;
-use frisure::io::scene;
+use frisure::io::scene::Scene;
 use frisure::render::trace::TraceOptions;
 
 const EXAMPLES: &str = "\
@@ -185,15 +185,16 @@ impl Tracing {
         paths.is_some() || noise.is_some() || bounces.is_some() || denoise
     }
 
-    /// The renderer's options, for a picture of a scene's size.
-    pub(crate) fn options(self, output: &scene::Output) -> TraceOptions {
+    /// The renderer's options, for a picture of a scene's size, with the scene's seed.
+    pub(crate) fn options(self, scene: &Scene) -> TraceOptions {
         TraceOptions {
-            width: output.width,
-            height: output.height,
+            width: scene.output.width,
+            height: scene.output.height,
             samples: self.paths.unwrap_or(256),
             noise: Some(0.01 * self.noise.unwrap_or(2.0)).filter(|noise| *noise > 0.0),
             bounces: self.bounces.unwrap_or(100),
-            ..TraceOptions::default()
+            // The cast takes the low bits, which is as good a seed.
+            seed: scene.look.seed as u32,
         }
     }
 }

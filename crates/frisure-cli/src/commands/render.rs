@@ -74,7 +74,7 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     };
     let scene = seen(arguments, look);
     Format::of(&arguments.output).map_err(|e| Failure::wrong(&e, ""))?;
-    let options = arguments.tracing.options(&scene.output);
+    let options = arguments.tracing.options(&scene);
     options.check().map_err(|e| Failure::wrong(&e, ""))?;
     let names = exposing::names(&arguments.output, arguments.turntable);
     let parts = exposing::parts(&arguments.output, arguments.turntable);

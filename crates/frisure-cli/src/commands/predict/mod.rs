@@ -111,7 +111,7 @@ fn check_outputs(
     if let Some(path) = &arguments.image {
         picture::Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
         if arguments.quality == Quality::Final {
-            let options = arguments.tracing.options(&scene.output);
+            let options = arguments.tracing.options(&scene);
             options.check().map_err(|e| Failure::wrong(&e, ""))?;
             exposing::denoiser(arguments.tracing.denoise)?;
         }
@@ -270,7 +270,7 @@ impl Work {
             return self.preview(&drawn).map(Picture::Preview);
         }
         self.progress.show("strands", 1.0);
-        let options = self.arguments.tracing.options(&self.scene.output);
+        let options = self.arguments.tracing.options(&self.scene);
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
         let views = match self.turntable {
