@@ -111,7 +111,7 @@ fn check_outputs(
     if let Some(path) = &arguments.image {
         picture::Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
         if arguments.quality == Quality::Final {
-            let options = arguments.tracing.options(&scene);
+            let options = arguments.tracing.options(scene);
             options.check().map_err(|e| Failure::wrong(&e, ""))?;
             exposing::denoiser(arguments.tracing.denoise)?;
         }
