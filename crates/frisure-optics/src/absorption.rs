@@ -14,7 +14,7 @@ const PHEOMELANIN: Vec3 = Vec3::new(0.187, 0.4, 1.05);
 /// The two pigments of hair, as concentrations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Melanin {
-    /// Eumelanin, black-brown: about 0.1 blond, 0.8 brown, 5 black; 0 white.
+    /// Eumelanin, black-brown: about 0.1 blond, 0.8 brown, 3 black; 0 white.
     pub eumelanin: f32,
     /// Pheomelanin, yellow-red: 0 in most hair, about 1 in red hair with little eumelanin.
     pub pheomelanin: f32,

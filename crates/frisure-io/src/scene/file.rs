@@ -401,7 +401,7 @@ pub(super) struct Equilibrium {
 pub(super) struct Look {
     /// Colour of natural hair, by its name; the keys below override its numbers. Default "brown".
     pub(super) colour: Key<OneOf<ShadeWord>>,
-    /// Concentration of the brown pigment: about 0.1 blond, 1 brown, 8 black; 0 to 100.
+    /// Concentration of the brown pigment: about 0.1 blond, 0.8 brown, 3 black; 0 to 100.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub(super) eumelanin: Key<Ratio>,
     /// Concentration of the red pigment; 0 to 100.
