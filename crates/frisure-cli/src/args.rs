@@ -174,15 +174,17 @@ pub(crate) struct Tracing {
 
     /// Take out what noise is left, by Open Image Denoise, if it is installed: pleasant for few paths,
     /// but no longer the truth. FRISURE_OIDN names its library where the system does not know it.
-    #[arg(long)]
-    pub(crate) denoise: bool,
+    /// `--denoise=50` takes out half of it, which keeps the finest hairs.
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "100", value_parser = noise)]
+    pub(crate) denoise: Option<f32>,
 }
 
 impl Tracing {
     /// Whether any of them is.
     pub(crate) fn is_given(self) -> bool {
         let Self { paths, noise, bounces, denoise } = self;
-        paths.is_some() || noise.is_some() || bounces.is_some() || denoise
+        paths.is_some() || noise.is_some() || bounces.is_some() || denoise.is_some()
     }
 
     /// The renderer's options, for a picture of a scene's size, with the scene's seed.

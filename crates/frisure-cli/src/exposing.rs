@@ -32,17 +32,26 @@ pub(crate) struct Shot {
     /// The first view that is wanted.
     pub(crate) from: usize,
     /// Takes out the noise, if that is wanted.
-    pub(crate) denoiser: Option<Denoiser>,
+    pub(crate) denoiser: Option<Cleaner>,
 }
 
-/// The denoiser, if it is wanted: to be known before the work.
-pub(crate) fn denoiser(wanted: bool) -> Result<Option<Denoiser>, Failure> {
+/// Takes out a part of the noise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cleaner {
+    denoiser: Denoiser,
+    /// 0 to 1.
+    part: f32,
+}
+
+/// The denoiser for so many percent of the noise, if it is wanted: to be known before the work.
+pub(crate) fn denoiser(percent: Option<f32>) -> Result<Option<Cleaner>, Failure> {
     let hint = format!(
         "install Open Image Denoise (openimagedenoise.org), or name its library in {VARIABLE} (what it \
          needs itself must be found, too: LD_LIBRARY_PATH); \
          without --denoise, more --paths have the same effect"
     );
-    let found = wanted.then(Denoiser::find).transpose();
+    let find = |percent| Denoiser::find().map(|d| Cleaner { denoiser: d, part: 0.01 * percent });
+    let found = percent.map(find).transpose();
     found.map_err(|e| Failure::failed_because(&e, &hint))
 }
 
@@ -161,7 +170,7 @@ pub(crate) fn shoot(
 struct Writer<'a> {
     path: PathBuf,
     output: scene::Output,
-    denoiser: Option<&'a Denoiser>,
+    denoiser: Option<&'a Cleaner>,
 }
 
 impl Writer<'_> {
@@ -259,7 +268,7 @@ impl Writer<'_> {
 }
 
 /// The picture without its noise; coverage stays.
-fn clean(denoiser: &Denoiser, image: &Image, layers: &Layers) -> Result<Image, Failure> {
+fn clean(cleaner: &Cleaner, image: &Image, layers: &Layers) -> Result<Image, Failure> {
     let light: Vec<[f32; 3]> = image.pixels().iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
     // A hair's normal turns across its width; its tangent is what it shares with its neighbours.
     let ways = layers.hair.iter().zip(layers.tangent.iter().zip(&layers.normal));
@@ -268,10 +277,12 @@ fn clean(denoiser: &Denoiser, image: &Image, layers: &Layers) -> Result<Image, F
     let (width, height) = (image.width(), image.height());
     let noisy =
         Noisy { width, height, light: &light, albedo: &layers.albedo, direction: &direction };
-    let clean = denoiser.denoise(&noisy).map_err(|e| Failure::failed(&e))?;
+    let clean = cleaner.denoiser.denoise(&noisy).map_err(|e| Failure::failed(&e))?;
     let mut image = image.clone();
     for (pixel, light) in image.pixels_mut().iter_mut().zip(clean) {
-        pixel[..3].copy_from_slice(&light);
+        for (noisy, clean) in pixel.iter_mut().zip(light) {
+            *noisy += cleaner.part * (clean - *noisy);
+        }
     }
     Ok(image)
 }
