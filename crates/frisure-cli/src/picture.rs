@@ -116,8 +116,12 @@ fn shown<'a>(
     surface: Option<&'a Surface>,
 ) -> impl Iterator<Item = DVec3> + Clone {
     let (low, high) = preview::bounds(strands, surface);
+    // Whole hairs, or points at one distance from the root may all be left out; and every tip.
     let step = strands.points().len() / FRAMED_POINTS + 1;
-    let hair = strands.points().iter().step_by(step).map(|p| p.as_dvec3());
+    let points = |ends: &'a [u32]| &strands.points()[ends[0] as usize..ends[1] as usize];
+    let whole = strands.offsets().windows(2).step_by(step).flat_map(points);
+    let tips = strands.offsets().windows(2).filter_map(move |ends| points(ends).last());
+    let hair = whole.chain(tips).map(|p| p.as_dvec3());
     let inside = move |p: &DVec3| p.cmpge(low).all() && p.cmple(high).all();
     let skin = surface.into_iter().flat_map(|s| s.positions().iter().copied());
     hair.chain(skin).filter(inside)
@@ -392,6 +396,20 @@ mod tests {
     fn straight() -> scene::Camera {
         let (azimuth, elevation, field_of_view) = (0.0, 0.0, 0.4);
         scene::Camera { azimuth, elevation, field_of_view, f_number: None, focus: None }
+    }
+
+    #[test]
+    fn every_tip_is_in_the_picture_however_many_points_there_are() {
+        // As many points that every so manyth is never a tip, and one hair longer than all others.
+        let mut strands = Strands::new();
+        for i in 0..4000_u16 {
+            let length = if i == 1234 { 0.4 } else { 0.2 };
+            let points: Vec<Vec3> =
+                (0..50_u8).map(|k| Vec3::NEG_Z * length * f32::from(k) / 49.0).collect();
+            strands.push(&points, &[3e-5; 50]);
+        }
+        let lowest = shown(&strands, None).map(|p| p.z).fold(0.0, f64::min);
+        assert!((lowest + 0.4).abs() < 1e-6, "{lowest}");
     }
 
     #[test]

@@ -52,8 +52,8 @@ const EXPOSED: f64 = 9.5;
 const UNDER_CLOUDS: f32 = 1.35;
 
 /// Columns and rows of the sky that is computed.
-const WIDTH: usize = 256;
-const HEIGHT: usize = 128;
+const WIDTH: usize = 512;
+const HEIGHT: usize = 256;
 
 impl Lights {
     /// Sun and sky of a clear day over pale ground, as bright as a camera would be set for. The one lamp

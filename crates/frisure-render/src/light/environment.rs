@@ -109,6 +109,13 @@ impl EnvironmentMap {
         self.strength * self.table.at(x, y)
     }
 
+    /// Radiance as an eye should see it from a unit direction: even between the middles of pixels, where
+    /// [`Self::radiance`] is even in each.
+    #[must_use]
+    pub fn seen(&self, towards: Vec3) -> Vec3 {
+        self.strength * self.table.between(self.unturned(towards))
+    }
+
     /// Mean radiance over all directions.
     #[must_use]
     pub fn mean(&self) -> Vec3 {
@@ -155,6 +162,14 @@ impl EnvironmentMap {
         let [c, s] = self.turn;
         Vec3::new(c * v.x + s * v.y, c * v.y - s * v.x, v.z)
     }
+}
+
+/// Where a unit direction is in the picture, as parts of its width and height.
+fn place(towards: Vec3) -> [f32; 2] {
+    let u = 0.5 + (-towards.x).atan2(-towards.y) / TAU;
+    // The arc cosine of what is near 1 has lost its digits.
+    let across = towards.truncate().length();
+    [u, (FRAC_PI_2 - towards.z.atan2(across)) / PI]
 }
 
 /// The unit direction at a part `u` of the picture's width and a height `z`.
@@ -228,12 +243,23 @@ impl Table {
     }
 
     fn pixel(&self, towards: Vec3) -> [usize; 2] {
-        let u = 0.5 + (-towards.x).atan2(-towards.y) / TAU;
-        // The arc cosine of what is near 1 has lost its digits.
-        let across = towards.truncate().length();
-        let v = (FRAC_PI_2 - towards.z.atan2(across)) / PI;
+        let [u, v] = place(towards);
         let index = |x: f32, n: usize| ((x * n as f32) as usize).min(n - 1);
         [index(u, self.width), index(v, self.height)]
+    }
+
+    /// Linear between the middles of the four pixels around a direction.
+    fn between(&self, towards: Vec3) -> Vec3 {
+        let [u, v] = place(towards);
+        let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
+        let y = y.clamp(0.0, (self.height - 1) as f32);
+        let (left, top) = (x.floor(), (y as usize).min(self.height - 1));
+        // The picture closes around the sides, and ends above and below.
+        let columns =
+            [left, left + 1.0].map(|x| x.rem_euclid(self.width as f32) as usize % self.width);
+        let bottom = (top + 1).min(self.height - 1);
+        let row = |y: usize| self.at(columns[0], y).lerp(self.at(columns[1], y), x - left);
+        row(top).lerp(row(bottom), y - top as f32)
     }
 }
 

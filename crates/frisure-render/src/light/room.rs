@@ -33,6 +33,16 @@ impl Room {
         }
     }
 
+    /// Radiance (linear sRGB) as an eye should see it from the unit direction `towards`: without the edges of
+    /// a picture's pixels.
+    #[must_use]
+    pub fn seen(&self, towards: Vec3) -> Vec3 {
+        match self {
+            Self::Gradient { .. } => self.radiance(towards),
+            Self::Environment(map) => map.seen(towards),
+        }
+    }
+
     /// Mean radiance over all directions.
     #[must_use]
     pub fn mean(&self) -> Vec3 {

@@ -210,7 +210,7 @@ impl TilePainter<'_> {
         let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
         let (width, height) = (self.view.width as f32, self.view.height as f32);
         match self.background {
-            Background::Surroundings => (self.room.radiance(self.view.towards(x, y)), 1.0),
+            Background::Surroundings => (self.room.seen(self.view.towards(x, y)), 1.0),
             other => other.at(2.0 * x / width - 1.0, 2.0 * y / height - 1.0),
         }
     }

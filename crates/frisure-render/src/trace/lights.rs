@@ -51,6 +51,13 @@ struct Disc {
     before: f32,
 }
 
+impl Disc {
+    /// Whether a unit direction is on it.
+    fn has(&self, towards: Vec3) -> bool {
+        (towards - self.towards).length_squared() <= self.chord * (1.0 + ROUNDING)
+    }
+}
+
 enum Around {
     /// Radiance `middle` + z · `slope`, and how much of its light's strength changes with z.
     Gradient {
@@ -178,9 +185,10 @@ impl Outside {
         before.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Radiance of what is far away in a unit direction.
-    pub(super) fn radiance(&self, towards: Vec3) -> Vec3 {
-        self.far.look(towards).0
+    /// Radiance of what is far away in a unit direction, as an eye sees it.
+    pub(super) fn seen(&self, towards: Vec3) -> Vec3 {
+        let shown = self.far.lamps.iter().filter(|lamp| lamp.has(towards));
+        self.far.room.seen(towards) + shown.map(|lamp| lamp.radiance).sum::<Vec3>()
     }
 
     /// A direction from a place (m) to light, from numbers in [0, 1).
@@ -260,7 +268,7 @@ impl Far {
         let (mut radiance, pdf) = self.room.look(towards);
         let mut pdf = self.to_room * pdf;
         for lamp in &self.lamps {
-            if (towards - lamp.towards).length_squared() <= lamp.chord * (1.0 + ROUNDING) {
+            if lamp.has(towards) {
                 radiance += lamp.radiance;
                 pdf += lamp.share * lamp.density;
             }
@@ -307,6 +315,13 @@ impl Around {
                 (*middle + *slope * towards.z, pdf)
             }
             Self::Environment(map) => map.look(towards),
+        }
+    }
+
+    fn seen(&self, towards: Vec3) -> Vec3 {
+        match self {
+            Self::Gradient { .. } => self.look(towards).0,
+            Self::Environment(map) => map.seen(towards),
         }
     }
 

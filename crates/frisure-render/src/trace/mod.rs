@@ -225,7 +225,7 @@ impl Tracer {
 
     fn background(&self, place: [f32; 2], towards: Vec3) -> (Vec3, f32) {
         match self.background {
-            Background::Surroundings => (self.world.outside.radiance(towards), 1.0),
+            Background::Surroundings => (self.world.outside.seen(towards), 1.0),
             other => other.at(place[0], place[1]),
         }
     }
