@@ -196,11 +196,11 @@ impl Writer<'_> {
                 let _ = std::fs::remove_file(part(&self.path));
                 break;
             }
+            // If it cannot be kept now, it may be at the next time; the picture goes on.
             let kept = self.put_away(&exposure);
             if interrupt::interrupted() {
                 return Err(Failure::Paused(self.so_far(&exposure, kept.err())));
             }
-            // If it cannot be kept now, it may be at the next time; the picture goes on.
             // Large pictures take long to write: most of the time is for tracing.
             pause = SAVED_EVERY.max(20 * saving.elapsed());
         }
