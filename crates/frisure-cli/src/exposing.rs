@@ -14,9 +14,11 @@ use frisure::io::scene;
 use frisure::render::trace::{EXPOSURE_MARK, Exposure, Layers, Tracer};
 use frisure::render::{Camera, Image, Lights};
 
+use frisure_stylist::picture;
+
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::{console, interrupt, picture};
+use crate::{console, interrupt};
 
 /// How often an unfinished picture is saved.
 const SAVED_EVERY: Duration = Duration::from_mins(1);

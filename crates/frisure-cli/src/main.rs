@@ -7,7 +7,6 @@ mod exposing;
 mod failure;
 mod interrupt;
 mod outputs;
-mod picture;
 mod progress;
 
 use std::process::ExitCode;

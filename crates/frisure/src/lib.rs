@@ -23,6 +23,7 @@
 //! # Ok::<(), frisure::io::scene::SceneError>(())
 //! ```
 
+#[cfg(not(target_arch = "wasm32"))]
 pub use frisure_denoise as denoise;
 pub use frisure_hairstyle as hairstyle;
 pub use frisure_io as io;

@@ -15,7 +15,8 @@ use crate::args::{Predict, Quality, Render};
 use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
-use crate::{console, interrupt, outputs, picture};
+use crate::{console, interrupt, outputs};
+use frisure_stylist::picture;
 
 /// Predicts the scene, or reads the groom, and follows the light in it.
 pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {

@@ -56,7 +56,7 @@ pub(crate) fn run_scene(
     check_outputs(&arguments, &scene, turntable)?;
 
     let environment = match arguments.image {
-        Some(_) => crate::picture::environment(&scene)?,
+        Some(_) => frisure_stylist::picture::environment(&scene)?,
         None => None,
     };
     let progress = Progress::new(quiet);
@@ -264,7 +264,7 @@ impl Work {
     /// A picture of strands, framed so that others would be in it, too.
     fn picture(&self, strands: &Strands, shown: &Strands, head: &Head) -> Result<Picture, Failure> {
         let (surface, around) = (Some(head.surface()), self.environment.as_ref());
-        let drawn = crate::picture::scene(&self.scene, strands, shown, surface, around)
+        let drawn = frisure_stylist::picture::scene(&self.scene, strands, shown, surface, around)
             .map_err(|e| Failure::wrong(&e, ""))?;
         if self.arguments.quality == Quality::Preview {
             return self.preview(&drawn).map(Picture::Preview);
@@ -274,7 +274,7 @@ impl Work {
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
         let views = match self.turntable {
-            Some(_) => crate::picture::turntable(&self.scene, strands, surface, frames, around)
+            Some(_) => frisure_stylist::picture::turntable(&self.scene, strands, surface, frames, around)
                 .map_err(|e| Failure::wrong(&e, ""))?,
             None => Vec::new(),
         };

@@ -20,7 +20,7 @@ const MARGIN: f64 = 0.05;
 
 /// The renderer's scene: camera, lamps and colours as `scene` says; all of `framed` would be in the
 /// picture.
-pub(crate) fn scene<'a>(
+pub fn scene<'a>(
     scene: &Scene,
     strands: &'a Strands,
     framed: &Strands,
@@ -39,7 +39,7 @@ pub(crate) fn scene<'a>(
 
 /// The cameras of a turntable, all at one distance, each with its lights: they walk around the head to
 /// its left, so that it seems to turn to its right.
-pub(crate) fn turntable(
+pub fn turntable(
     scene: &Scene,
     strands: &Strands,
     surface: Option<&Surface>,
@@ -73,7 +73,7 @@ fn aspect(scene: &Scene) -> f64 {
 }
 
 /// Bytes for a PNG: light developed as the scene says.
-pub(crate) fn developed(image: &Image, output: &scene::Output) -> Vec<u8> {
+pub fn developed(image: &Image, output: &scene::Output) -> Vec<u8> {
     let tone = match output.tone {
         scene::Tone::Plain => ToneCurve::Plain,
         scene::Tone::Shoulder => ToneCurve::Shoulder,
@@ -99,7 +99,7 @@ fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Grou
 }
 
 /// The surroundings that a scene names, read and ready.
-pub(crate) fn environment(scene: &Scene) -> Result<Option<EnvironmentMap>, SceneError> {
+pub fn environment(scene: &Scene) -> Result<Option<EnvironmentMap>, SceneError> {
     let Some(Environment { width, height, pixels }) = scene.environment()? else {
         return Ok(None);
     };

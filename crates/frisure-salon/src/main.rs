@@ -1,0 +1,3 @@
+//! The salon in a window.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Interactive pictures of hair on a GPU.

@@ -1,0 +1,3 @@
+//! Builds and serves the page of the salon.
+
+fn main() {}
