@@ -141,6 +141,11 @@ impl Document {
         self.saved = Some(self.at);
     }
 
+    /// Nobody has it as it is, such as after a crash.
+    pub(super) fn unsaved(&mut self) {
+        self.saved = Some(usize::MAX);
+    }
+
     /// A copy of it was handed out, such as a page's download.
     pub fn handed_out(&mut self) {
         self.saved = Some(self.at);

@@ -1,0 +1,121 @@
+//! What there is to begin with.
+
+use frisure::hairstyle::PRESETS;
+
+/// A card of the gallery.
+#[derive(Clone, Copy, Debug)]
+pub struct Card {
+    /// What it is called in words.
+    pub title: &'static str,
+    /// A name without spaces: of the hair type, or of the scene.
+    pub name: &'static str,
+    /// One sentence.
+    pub description: &'static str,
+    /// A picture of it (PNG).
+    pub picture: &'static [u8],
+    /// Its scene; empty for a hair type, whose scene is one line.
+    scene: &'static str,
+}
+
+macro_rules! card {
+    (type $name:literal, $title:literal) => {
+        Card {
+            title: $title,
+            name: $name,
+            description: "",
+            picture: include_bytes!(concat!("../../gallery/", $name, ".png")),
+            scene: "",
+        }
+    };
+    (scene $name:literal, $title:literal, $description:literal) => {
+        Card {
+            title: $title,
+            name: $name,
+            description: $description,
+            picture: include_bytes!(concat!("../../gallery/scene-", $name, ".png")),
+            scene: include_str!(concat!("../../../../scenes/", $name, ".toml")),
+        }
+    };
+}
+
+/// Hair types.
+pub const TYPES: &[Card] = &[
+    card!(type "straight", "Straight"),
+    card!(type "wavy", "Wavy"),
+    card!(type "curly", "Curly"),
+    card!(type "coily", "Coily"),
+    card!(type "frizzy", "Frizzy"),
+    card!(type "asian-straight", "Asian, straight"),
+    card!(type "asian-wavy", "Asian, wavy"),
+    card!(type "caucasian-straight", "Caucasian, straight"),
+    card!(type "caucasian-wavy", "Caucasian, wavy"),
+    card!(type "caucasian-curly", "Caucasian, curly"),
+    card!(type "african-coily", "African, coily"),
+    card!(type "african-kinky", "African, kinky"),
+    card!(type "kinky", "Kinky"),
+    card!(type "type-1", "Type I"),
+    card!(type "type-2", "Type II"),
+    card!(type "type-3", "Type III"),
+    card!(type "type-4", "Type IV"),
+    card!(type "type-5", "Type V"),
+    card!(type "type-6", "Type VI"),
+    card!(type "type-7", "Type VII"),
+    card!(type "type-8", "Type VIII"),
+];
+
+/// Hairstyles.
+pub const SCENES: &[Card] = &[
+    card!(scene "bob", "Bob", "cut to one length"),
+    card!(scene "fringe", "Fringe", "long, with a fringe"),
+    card!(scene "ringlets", "Ringlets", "long curls of one radius"),
+    card!(scene "long-straight", "Long", "down the back"),
+    card!(scene "afro", "Afro", "kinky hair that stands off"),
+    card!(scene "short-asian", "Short", "stands up by itself"),
+    card!(scene "parting", "Parting", "parted at the side"),
+    card!(scene "rollers", "Rollers", "set on rollers and dried"),
+];
+
+/// The card of a name.
+#[must_use]
+pub fn card(name: &str) -> Option<&'static Card> {
+    TYPES.iter().chain(SCENES).find(|card| card.name == name)
+}
+
+impl Card {
+    /// Its scene.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match self.scene {
+            "" => format!("name = \"{}\"\n\n[hair]\ntype = \"{}\"\n", self.title, self.name),
+            text => text.to_owned(),
+        }
+    }
+
+    /// One sentence about it.
+    #[must_use]
+    pub fn about(&self) -> &'static str {
+        let preset = PRESETS.iter().find(|p| p.name == self.name && self.scene.is_empty());
+        preset.map_or(self.description, |p| p.description)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frisure::io::scene::Scene;
+    use std::path::Path;
+
+    #[test]
+    fn every_card_is_a_scene_and_every_hair_type_a_card() {
+        for card in TYPES.iter().chain(SCENES) {
+            let scene = Scene::parse(card.name, card.text(), Path::new("")).unwrap();
+            assert!(scene.hairstyle_spec().is_ok(), "{}", card.name);
+            assert!(scene.head_mesh().unwrap().is_none(), "{} needs no file", card.name);
+            assert!(!card.about().is_empty(), "{}", card.name);
+        }
+        let carded = |name: &str| TYPES.iter().any(|card| card.name == name);
+        for preset in PRESETS {
+            assert!(carded(preset.name), "{} has no card", preset.name);
+        }
+    }
+}

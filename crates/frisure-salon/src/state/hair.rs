@@ -1,0 +1,233 @@
+//! The hair that follows from the text: when it is asked for, and how well.
+
+use std::sync::Arc;
+
+use frisure::hairstyle::HairstyleSpec;
+use frisure::hairstyle::styling::{Operation, Release};
+use frisure::io::scene::{HeadSource, write_step};
+use frisure_stylist::order::{Answer, Effort, Order, Shown};
+
+use super::desk::Purpose;
+use super::{HeadMesh, Salon, Seen, Understood};
+
+/// What the shape of the hair depends on: two scenes with the same key have the same hair.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct HairKey {
+    spec: HairstyleSpec,
+    steps: Vec<Operation>,
+    head: HeadSource,
+}
+
+impl HairKey {
+    pub(super) fn of(understood: &Understood) -> Self {
+        Self {
+            spec: understood.spec.clone(),
+            steps: understood.scene.steps().to_vec(),
+            head: understood.scene.head.clone(),
+        }
+    }
+}
+
+/// How the hair that is seen stands to the text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Badge {
+    /// There is none.
+    Empty,
+    /// It is on its way.
+    Settling,
+    /// It is at rest, every guide at a minimum of its energy.
+    AtRest,
+    /// It has come to rest where a breath would move it, or not come to rest: so many guides.
+    Unstable(usize),
+    /// What the text says cannot be; the hair is what it was before.
+    Refused(String),
+}
+
+/// Points along a hair that is looked at alone.
+const ALONE: usize = 120;
+
+impl Salon {
+    /// How the hair stands.
+    #[must_use]
+    pub fn badge(&self) -> Badge {
+        let Some(understood) = &self.scene else { return Badge::Empty };
+        let key = HairKey::of(understood);
+        if let Some((_, refusal)) = self.refused.as_ref().filter(|(refused, _)| *refused == key) {
+            return Badge::Refused(refusal.problem.clone());
+        }
+        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key == key) else {
+            return Badge::Settling;
+        };
+        let numbers = &seen.hair.numbers;
+        match numbers.unstable + numbers.moving {
+            _ if seen.hair.effort == Effort::Coarse => Badge::Settling,
+            0 => Badge::AtRest,
+            n => Badge::Unstable(n),
+        }
+    }
+
+    /// Whether the hair that is seen is that of the text, at rest.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        matches!(self.badge(), Badge::AtRest | Badge::Unstable(_))
+    }
+
+    /// Starts what is to be done next for the hair, and stops what is for nothing.
+    pub(super) fn schedule(&mut self) {
+        let (Some(understood), Some(asked)) = (self.scene.clone(), self.asked()) else { return };
+        let key = HairKey::of(&understood);
+        let effort = self.wanted(&key);
+        if let Some(job) = &self.desk.hair {
+            // Coarse work is short, and shows the way; exact work on another text is for nothing.
+            let other = job.asked != asked || effort.is_some_and(|e| e == Effort::Coarse);
+            if other && matches!(job.purpose, Purpose::Show(Effort::Exact)) {
+                if self.differs(&job.asked.text.clone(), &key) {
+                    self.desk.outdate();
+                }
+            }
+            return;
+        }
+        match effort {
+            Some(effort) => {
+                self.progress = None;
+                let order = Order::Show { asked: asked.clone(), effort };
+                self.desk.start(Purpose::Show(effort), asked, order);
+            }
+            None => self.ask_about_it(asked),
+        }
+    }
+
+    /// Whether a text has other hair than a key.
+    fn differs(&self, text: &str, key: &HairKey) -> bool {
+        let Some(document) = &self.document else { return true };
+        let other = super::command::understand(document, text);
+        !other.is_ok_and(|other| HairKey::of(&other) == *key)
+    }
+
+    /// How well the hair of a key is to be computed now; `None` if it is there, or cannot be.
+    fn wanted(&self, key: &HairKey) -> Option<Effort> {
+        if self.refused.as_ref().is_some_and(|(refused, _)| refused == key) {
+            return None;
+        }
+        let held = self.document.as_ref().is_some_and(super::Document::is_draft);
+        match self.shown.as_ref().filter(|seen| seen.key == *key).map(|seen| seen.hair.effort) {
+            Some(Effort::Exact) => None,
+            Some(Effort::Coarse) if held => None,
+            Some(Effort::Coarse) => Some(Effort::Exact),
+            None => Some(Effort::Coarse),
+        }
+    }
+
+    /// What else is asked about hair that is there.
+    fn ask_about_it(&mut self, asked: frisure_stylist::order::Asked) {
+        let Some(version) = self.shown.as_ref().map(|seen| seen.version) else { return };
+        if !self.chosen.is_everything() && self.chosen.wisps.is_none() {
+            let step = Operation::Release(Release { selection: self.chosen.selection.clone() });
+            match write_step(&step) {
+                Ok(text) => {
+                    let step = text.trim_start_matches("[[step]]").trim().to_owned();
+                    let order = Order::Choose { asked: asked.clone(), step };
+                    self.desk.start(Purpose::Choose, asked, order);
+                }
+                Err(e) => {
+                    self.tell(e.to_string(), "Choose other hair.", true);
+                    self.chosen = super::Chosen::default();
+                }
+            }
+            return;
+        }
+        if let Some(alone) = self.alone.as_ref().filter(|alone| alone.version != version) {
+            let order = Order::Hair { asked: asked.clone(), wisp: alone.wisp, points: ALONE };
+            self.desk.start(Purpose::Hair, asked, order);
+        }
+    }
+
+    /// Takes an answer about the hair.
+    pub(super) fn receive_hair(&mut self, answer: Answer) {
+        if let Answer::Progress { stage, fraction } = answer {
+            self.progress = Some((stage, fraction));
+            return;
+        }
+        let Some(job) = self.desk.hair.take() else { return };
+        match answer {
+            Answer::Shown(hair) => self.show(&job.asked.text, *hair, job.outdated),
+            _ if job.outdated => {}
+            Answer::Chosen(wisps) => self.chosen.wisps = Some(wisps),
+            Answer::Hair(hair) => self.show_alone(*hair),
+            Answer::Refused(refusal) => {
+                self.complain(&refusal);
+                match job.purpose {
+                    Purpose::Choose => self.chosen = super::Chosen::default(),
+                    Purpose::Hair => self.alone = None,
+                    _ => {
+                        let understood = self.scene.as_ref().map(|u| HairKey::of(u));
+                        self.refused = understood.map(|key| (key, refusal));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn show(&mut self, text: &str, mut hair: Shown, outdated: bool) {
+        if let Some(head) = hair.head.take() {
+            self.head = Some(Arc::new(HeadMesh::new(head)));
+        }
+        let Some(document) = &self.document else { return };
+        let Ok(understood) = super::command::understand(document, text) else { return };
+        let key = HairKey::of(&understood);
+        // Hair that is out of date is better than older hair while a slider moves, but not
+        // than newer.
+        let newest = self.scene.as_ref().is_some_and(|u| HairKey::of(u) == key);
+        if outdated && !newest {
+            return;
+        }
+        self.version += 1;
+        self.tell_what_fell(&hair);
+        self.shown = Some(Seen { key, hair: Arc::new(hair), version: self.version });
+        self.falling = None;
+        if !self.framed {
+            self.framed = true;
+            self.frame_all(1.0);
+        }
+    }
+
+    fn show_alone(&mut self, hair: frisure_stylist::order::OneHair) {
+        let version = self.shown.as_ref().map_or(0, |seen| seen.version);
+        let wisp = hair.wisp;
+        self.alone = Some(super::Alone { wisp, hair: Some(Arc::new(hair)), version });
+    }
+
+    /// After a step that took hair away, how much.
+    fn tell_what_fell(&mut self, hair: &Shown) {
+        if hair.effort != Effort::Exact {
+            return;
+        }
+        let Some(mass) = self.mass_before.take() else { return };
+        let fell = mass - hair.numbers.mass;
+        if fell > 1e-7 {
+            self.tell(format!("{:.1} g of hair fell.", fell * 1e3), "", false);
+        }
+    }
+
+    /// Brings all of the hair and the head into a picture of an aspect.
+    pub(super) fn frame_all(&mut self, aspect: f64) {
+        let Some(seen) = &self.shown else { return };
+        let hair = bounds(&seen.hair.strands.points);
+        let head = self.head.as_ref().map(|head| head.framed());
+        let all = match (hair, head) {
+            (Some(a), Some(b)) => (a.0.min(b.0), a.1.max(b.1)),
+            (Some(a), None) | (None, Some(a)) => a,
+            (None, None) => return,
+        };
+        self.orbit.frame(all, aspect);
+    }
+}
+
+/// The box around points, three numbers each (m).
+fn bounds(points: &[f32]) -> Option<(glam::DVec3, glam::DVec3)> {
+    let points = points.chunks_exact(3).map(|p| glam::Vec3::new(p[0], p[1], p[2]).as_dvec3());
+    let mut points = points.filter(|p| p.is_finite());
+    let first = points.next()?;
+    Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
+}

@@ -1,0 +1,101 @@
+//! The gallery: hair to begin with.
+
+use eframe::egui::{
+    self, Align2, ColorImage, FontId, Rect, Sense, StrokeKind, TextureHandle, TextureOptions, Ui,
+    Vec2, vec2,
+};
+use std::collections::BTreeMap;
+
+use super::{probe, theme};
+use crate::state::{Card, Command, SCENES, Salon, TYPES};
+
+/// Pictures of cards on the device.
+#[derive(Default)]
+pub(super) struct Pictures(BTreeMap<&'static str, TextureHandle>);
+
+const CARD: Vec2 = vec2(150.0, 184.0);
+const CAPTION: f32 = 40.0;
+
+impl Pictures {
+    fn of(&mut self, ui: &Ui, card: &Card) -> Option<&TextureHandle> {
+        if !self.0.contains_key(card.name) {
+            let image = decoded(card.picture)?;
+            let texture = ui.ctx().load_texture(card.name, image, TextureOptions::LINEAR);
+            self.0.insert(card.name, texture);
+        }
+        self.0.get(card.name)
+    }
+}
+
+/// A PNG of ours, whatever its palette.
+fn decoded(bytes: &[u8]) -> Option<ColorImage> {
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
+    let mut reader = decoder.read_info().ok()?;
+    let mut pixels = vec![0; reader.output_buffer_size()?];
+    let info = reader.next_frame(&mut pixels).ok()?;
+    let size = [info.width as usize, info.height as usize];
+    Some(ColorImage::from_rgba_unmultiplied(size, &pixels[..info.buffer_size()]))
+}
+
+pub(super) fn show(ui: &mut Ui, salon: &Salon, pictures: &mut Pictures, out: &mut Vec<Command>) {
+    egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            ui.heading("What hair do you want to begin with?");
+            if salon.document().is_some() {
+                let back = super::widgets::plain(ui, "Back to the head", "Escape");
+                if back.clicked() {
+                    out.push(Command::Gallery(false));
+                }
+            }
+        });
+        ui.weak("Pick a hair type or a hairstyle, open a scene, or drop a file on the window.");
+        ui.add_space(8.0);
+        row(ui, "Hair types", TYPES, pictures, out);
+        row(ui, "Hairstyles", SCENES, pictures, out);
+        ui.add_space(12.0);
+    });
+}
+
+fn row(ui: &mut Ui, title: &str, all: &[Card], pictures: &mut Pictures, out: &mut Vec<Command>) {
+    ui.add_space(6.0);
+    ui.label(egui::RichText::new(title).strong().size(16.0));
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(10.0, 10.0);
+        for one in all {
+            if card(ui, one, pictures) {
+                out.push(Command::Begin(one.name.to_owned()));
+            }
+        }
+    });
+}
+
+/// A card that can be clicked.
+fn card(ui: &mut Ui, card: &Card, pictures: &mut Pictures) -> bool {
+    let (rect, response) = ui.allocate_exact_size(CARD + vec2(0.0, CAPTION), Sense::click());
+    probe::record(card.name, rect);
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Begin: {}", card.title))
+    });
+    if ui.is_rect_visible(rect) {
+        let visuals = ui.style().interact(&response);
+        let (fill, text) = (visuals.bg_fill, ui.visuals().text_color());
+        let weak = ui.visuals().weak_text_color();
+        ui.painter().rect_filled(rect, 8.0, fill);
+        let top = Rect::from_min_size(rect.min, CARD);
+        if let Some(texture) = pictures.of(ui, card) {
+            let uv = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter().image(texture.id(), top.shrink(3.0), uv, egui::Color32::WHITE);
+        }
+        let at = |y: f32| egui::pos2(rect.left() + 8.0, top.bottom() + y);
+        let painter = ui.painter().with_clip_rect(rect);
+        painter.text(at(3.0), Align2::LEFT_TOP, card.title, FontId::proportional(14.0), text);
+        painter.text(at(21.0), Align2::LEFT_TOP, card.about(), FontId::proportional(11.0), weak);
+        if response.hovered() || response.has_focus() {
+            let stroke = egui::Stroke::new(2.0, theme::ACCENT);
+            ui.painter().rect_stroke(rect, 8.0, stroke, StrokeKind::Inside);
+        }
+    }
+    response.on_hover_text(card.about()).clicked()
+}

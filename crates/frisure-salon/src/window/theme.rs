@@ -1,0 +1,44 @@
+//! How the window looks, light and dark.
+
+use eframe::egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme};
+
+/// The colour of what is chosen and of what is on.
+pub(super) const ACCENT: Color32 = Color32::from_rgb(0x2f, 0x8f, 0xd8);
+/// The colour of what falls.
+pub(super) const FALLING: Color32 = Color32::from_rgb(0xd8, 0x4a, 0x3a);
+
+/// Sets both themes up.
+pub(super) fn install(context: &Context) {
+    context.style_mut_of(Theme::Dark, |style| set(style, true));
+    context.style_mut_of(Theme::Light, |style| set(style, false));
+}
+
+fn set(style: &mut Style, dark: bool) {
+    let visuals = &mut style.visuals;
+    visuals.selection.bg_fill = if dark { ACCENT.gamma_multiply(0.75) } else { ACCENT };
+    visuals.selection.stroke = Stroke::new(1.0, Color32::WHITE);
+    visuals.hyperlink_color = ACCENT;
+    let round = CornerRadius::same(5);
+    for widget in [
+        &mut visuals.widgets.noninteractive,
+        &mut visuals.widgets.inactive,
+        &mut visuals.widgets.hovered,
+        &mut visuals.widgets.active,
+        &mut visuals.widgets.open,
+    ] {
+        widget.corner_radius = round;
+    }
+    if dark {
+        visuals.panel_fill = Color32::from_gray(30);
+        visuals.override_text_color = Some(Color32::from_gray(222));
+    } else {
+        visuals.panel_fill = Color32::from_gray(246);
+        visuals.override_text_color = Some(Color32::from_gray(25));
+    }
+    style.spacing.item_spacing.y = 5.0;
+    style.spacing.button_padding = eframe::egui::vec2(8.0, 4.0);
+    style.text_styles.insert(TextStyle::Body, FontId::proportional(14.0));
+    style.text_styles.insert(TextStyle::Button, FontId::proportional(14.0));
+    style.text_styles.insert(TextStyle::Small, FontId::proportional(12.0));
+    style.text_styles.insert(TextStyle::Heading, FontId::proportional(19.0));
+}

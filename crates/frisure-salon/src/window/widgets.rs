@@ -1,0 +1,70 @@
+//! Widgets that are used in more than one place.
+
+use eframe::egui::{Button, Response, RichText, Slider, Ui, Widget, vec2};
+
+use super::probe;
+use crate::state::{Command, Control};
+
+/// A button with a label, a key, and a sentence on what it does.
+pub(super) fn button(ui: &mut Ui, label: &str, key: &str, help: &str) -> Response {
+    labelled(ui, label, Button::new(label).shortcut_text(RichText::new(key).weak()), help)
+}
+
+/// A plain button.
+pub(super) fn plain(ui: &mut Ui, label: &str, help: &str) -> Response {
+    labelled(ui, label, Button::new(label), help)
+}
+
+/// A button that stays down.
+pub(super) fn toggle(ui: &mut Ui, label: &str, on: bool, help: &str) -> Response {
+    labelled(ui, label, Button::selectable(on, label), help)
+}
+
+fn labelled(ui: &mut Ui, label: &str, button: impl Widget, help: &str) -> Response {
+    let response = ui.add(button);
+    probe::record(label, response.rect);
+    if help.is_empty() { response } else { response.on_hover_text(help) }
+}
+
+/// A slider of a control under its name; the command it gives, if it is moved.
+pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Option<Command> {
+    let mut command = None;
+    ui.horizontal(|ui| {
+        let name = ui.label(control.label).on_hover_text(control.help);
+        ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
+            let reset = Button::new("↺").frame(false).min_size(vec2(18.0, 0.0));
+            let reset = ui.add(reset).on_hover_text("As the hair type has it");
+            reset.widget_info(|| {
+                let label = format!("Reset {}", control.label);
+                eframe::egui::WidgetInfo::labeled(eframe::egui::WidgetType::Button, true, label)
+            });
+            if reset.clicked() {
+                command = Some(Command::Reset(control.key));
+            }
+        });
+        name.id
+    });
+    let mut now = value.clamp(control.range.0, control.range.1);
+    ui.spacing_mut().slider_width = (ui.available_width() - 92.0).max(60.0);
+    let suffix = match control.unit {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let slider = Slider::new(&mut now, control.range.0..=control.range.1)
+        .logarithmic(control.logarithmic)
+        .smallest_positive(0.01)
+        .max_decimals(control.decimals)
+        .suffix(suffix);
+    let response = ui.add(slider).on_hover_text(control.help);
+    response.widget_info(|| eframe::egui::WidgetInfo::slider(true, value, control.label));
+    probe::record(control.label, response.rect);
+    if response.drag_stopped() {
+        command = Some(Command::LetGo);
+    } else if response.changed() {
+        command = Some(match response.dragged() {
+            true => Command::Drag(control.key, now),
+            false => Command::Set(control.key, now),
+        });
+    }
+    command
+}
