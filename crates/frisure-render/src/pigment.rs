@@ -49,6 +49,11 @@ impl Pigments {
         Self { natural, factors, along: Along::new(strands, look) }
     }
 
+    /// Whether strands differ from root to tip.
+    pub(crate) fn vary_along(&self) -> bool {
+        self.along.is_some()
+    }
+
     /// Absorption per mean radius of a strand, `place` points from its root: 2.5 is in the middle
     /// between the third point and the fourth.
     pub(crate) fn at(&self, strand: u32, place: f32) -> Vec3 {

@@ -35,7 +35,7 @@ pub(super) struct Vertex {
     pub(super) place: f32,
 }
 
-const NOWHERE: Vertex = Vertex {
+pub(super) const NOWHERE: Vertex = Vertex {
     position: Vec3::ZERO,
     tangent: Vec3::Z,
     half_width: 0.0,
@@ -77,6 +77,12 @@ impl Curves {
             }
         });
         Self { vertices }
+    }
+
+    /// Where each vertex is: its strand, and points from the root.
+    pub(super) fn places(&self) -> impl Iterator<Item = (u32, f32)> {
+        let drawn = self.vertices.iter().filter(|v| v.strand != u32::MAX);
+        drawn.map(|v| (v.strand, v.place))
     }
 
     /// The two ends of piece `index`, if there is such a piece.
@@ -141,7 +147,7 @@ impl Lump {
 }
 
 /// The attribute `wetness`, if it is one scalar per point.
-fn point_wetness(strands: &Strands) -> Option<&[f32]> {
+pub(super) fn point_wetness(strands: &Strands) -> Option<&[f32]> {
     let attribute = strands.attribute("wetness")?;
     match (attribute.domain, &attribute.values) {
         (Domain::Point, AttributeValues::F32(values)) => Some(values),
@@ -191,6 +197,50 @@ fn slope(points: &[Vec3], i: usize) -> Vec3 {
     }
 }
 
+/// Calls `put` for each point of the strand's smooth curve, from root to tip: where it is in points from the
+/// root (2.5 is in the middle between the third point and the fourth), its position (m) and its unit tangent.
+///
+/// `pieces` says how many straight pieces stand for the curve between two points at a distance (m) where it
+/// turns by an angle (rad); 0 counts as 1. A strand with fewer than two points or with one that is not finite
+/// has no curve.
+pub fn smooth(
+    strand: Strand<'_>,
+    pieces: impl Fn(f32, f32) -> u32,
+    mut put: impl FnMut(f32, Vec3, Vec3),
+) {
+    if !drawable(strand) {
+        return;
+    }
+    trace(strand.points, |a, b, ends| pieces(a.distance(b), turn(ends)).max(1), &mut put);
+}
+
+/// Visits the smooth curve through `points`, of which there are at least two.
+fn trace(
+    points: &[Vec3],
+    pieces: impl Fn(Vec3, Vec3, [Vec3; 2]) -> u32,
+    put: &mut impl FnMut(f32, Vec3, Vec3),
+) {
+    let unit = |slope: Vec3| slope.try_normalize().unwrap_or(Vec3::Z);
+    put(0.0, points[0], unit(slope(points, 0)));
+    for i in 0..points.len() - 1 {
+        let (a, b) = (points[i], points[i + 1]);
+        let ends = [slope(points, i), slope(points, i + 1)];
+        let n = pieces(a, b, ends);
+        let h = reach(a.distance(b), ends);
+        for k in 1..=n {
+            let x = k as f32 / n as f32;
+            let (position, derivative) = hermite(a, b, ends[0] * h, ends[1] * h, x);
+            put(i as f32 + x, position, unit(derivative));
+        }
+    }
+}
+
+/// Angle between two unit tangents (rad).
+fn turn(ends: [Vec3; 2]) -> f32 {
+    let turn = ends[0].angle_between(ends[1]);
+    if turn.is_finite() { turn } else { 0.0 }
+}
+
 /// Length of the end derivatives that bends a cubic of chord `chord` and unit end tangents into the
 /// arc of a circle: chord / cos²(turn / 4). Hair curls, and a Catmull-Rom spline would draw its
 /// circles too small by a hundredth at eight points a turn.
@@ -202,8 +252,7 @@ fn reach(chord: f32, ends: [Vec3; 2]) -> f32 {
 /// How many straight pieces stand for the curve from `a` to `b` with slopes `ends`.
 fn pieces(a: Vec3, b: Vec3, ends: [Vec3; 2], view: &View) -> u32 {
     let length = a.distance(b);
-    let turn = ends[0].angle_between(ends[1]);
-    let turn = if turn.is_finite() { turn } else { 0.0 };
+    let turn = turn(ends);
     let depth = (a.midpoint(b) - view.eye).dot(view.forward);
     let pixels = if depth > NEAR { length * view.focal / depth } else { 0.0 };
     // A chord of an arc of length l that turns by t lies l t / 8 off its middle.
@@ -224,31 +273,29 @@ fn fill<'a>(
     if !drawable(strand) {
         return;
     }
-    let wet = |i: usize| {
-        wetness.map_or(0.0, |w| if w[i].is_finite() { w[i].clamp(0.0, 1.0) } else { 0.0 })
-    };
-    let mut put = |place: f32, position: Vec3, slope: Vec3, radius: f32, wetness: f32| {
+    let wet = |i: usize| wetness.map_or(0.0, |w| portion(w[i]));
+    let (points, radii) = (strand.points, strand.radii);
+    let count = |a: Vec3, b: Vec3, ends: [Vec3; 2]| pieces(a, b, ends, view);
+    trace(points, count, &mut |place, position, tangent| {
+        let (radius, wetness) = (along(place, |i| radii[i]), along(place, wet));
         if let Some(vertex) = out.next() {
-            let tangent = slope.try_normalize().unwrap_or(Vec3::Z);
             let half_width = radius.max(0.0) * width_scale;
             *vertex = Vertex { position, tangent, half_width, wetness, strand: index, place };
         }
-    };
-    let (points, radii) = (strand.points, strand.radii);
-    put(0.0, points[0], slope(points, 0), radii[0], wet(0));
-    for i in 0..points.len() - 1 {
-        let (a, b) = (points[i], points[i + 1]);
-        let ends = [slope(points, i), slope(points, i + 1)];
-        let n = pieces(a, b, ends, view);
-        let h = reach(a.distance(b), ends);
-        for k in 1..=n {
-            let x = k as f32 / n as f32;
-            let (position, derivative) = hermite(a, b, ends[0] * h, ends[1] * h, x);
-            let mix = |p: f32, q: f32| p + (q - p) * x;
-            let (radius, wetness) = (mix(radii[i], radii[i + 1]), mix(wet(i), wet(i + 1)));
-            put(i as f32 + x, position, derivative, radius, wetness);
-        }
-    }
+    });
+}
+
+/// A value between those of the points around a place, which is in points from the root.
+pub(super) fn along(place: f32, value: impl Fn(usize) -> f32) -> f32 {
+    // The cast cuts off what is behind the point.
+    let (before, x) = (place as usize, place.fract());
+    let from = value(before);
+    if x > 0.0 { from + (value(before + 1) - from) * x } else { from }
+}
+
+/// A part from 0 to 1; not-a-number is 0.
+pub(super) fn portion(value: f32) -> f32 {
+    if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// Point and derivative at `x` ∈ [0, 1] of the cubic from `a` to `b` with derivatives `da`, `db`.

@@ -4,7 +4,6 @@ use frisure_optics::{FibreEnergy, apparent_colour, fibre_energy};
 use frisure_strands::Strands;
 use glam::Vec3;
 
-use super::curves::Curves;
 use crate::HairLook;
 use crate::pigment::{Pigments, deviate};
 
@@ -37,48 +36,68 @@ const GLITTER_SHIFT: f32 = 0.05;
 
 /// What light makes of the hair at one place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Material {
+pub struct Material {
     /// Colour of light scattered by this hair and its neighbours.
-    pub(super) diffuse: Vec3,
+    pub diffuse: Vec3,
     /// Energy of the light reflected at the surface.
-    pub(super) reflected: Vec3,
+    pub reflected: Vec3,
     /// Energy of the light let through.
-    pub(super) transmitted: Vec3,
+    pub transmitted: Vec3,
     /// Energy of the light returned from inside.
-    pub(super) returned: Vec3,
+    pub returned: Vec3,
 }
 
 /// The material of every place.
-pub(super) struct Materials {
+pub struct Materials {
     pigments: Pigments,
     /// Diffuse, transmitted and returned light by absorption; each colour is looked up for itself.
     table: Vec<[f32; 3]>,
     reflected: Vec3,
-    /// Part of the light that a hair takes away from what goes on past it.
-    pub(super) taken: Vec3,
 }
 
 impl Materials {
-    pub(super) fn new(strands: &Strands, curves: &Curves, look: &HairLook) -> Self {
+    /// Of all strands, in a look.
+    #[must_use]
+    pub fn new(strands: &Strands, look: &HairLook) -> Self {
         let pigments = Pigments::new(strands, look);
         let absorptions = (0..=((GREATEST - LEAST) * PER_E) as u16)
             .map(|i| if i == 0 { 0.0 } else { (LEAST + f32::from(i) / PER_E).exp() });
         let table = absorptions.map(|sigma| entry(sigma, look)).collect();
         let reflected = PRIMARY * fibre_energy(Vec3::ZERO, look.surface.index).reflected;
-        let mut materials = Self { pigments, table, reflected, taken: Vec3::ONE };
-        let (mut through, mut count) = (Vec3::ZERO, 0.0);
-        let step = curves.vertices.len() / TAKEN_SAMPLES + 1;
-        for vertex in curves.vertices.iter().step_by(step).filter(|v| v.strand != u32::MAX) {
-            through += materials.at(vertex.strand, vertex.place).transmitted;
-            count += 1.0;
-        }
-        materials.taken = Vec3::ONE - through / f32::max(count, 1.0);
-        materials
+        Self { pigments, table, reflected }
     }
 
     /// The material of a strand, `place` points from its root.
-    pub(super) fn at(&self, strand: u32, place: f32) -> Material {
+    ///
+    /// # Panics
+    /// If there is no such strand.
+    #[must_use]
+    pub fn at(&self, strand: u32, place: f32) -> Material {
         self.of(self.pigments.at(strand, place))
+    }
+
+    /// Energy of the light reflected at the surface, the same everywhere.
+    #[must_use]
+    pub fn reflected(&self) -> Vec3 {
+        self.reflected
+    }
+
+    /// Whether strands differ from root to tip.
+    #[must_use]
+    pub fn vary_along(&self) -> bool {
+        self.pigments.vary_along()
+    }
+
+    /// Part of the light that a hair takes away from what goes on past it: the mean over some of the
+    /// places (strand, points from its root), of which there are `count`.
+    #[must_use]
+    pub fn taken(&self, count: usize, places: impl Iterator<Item = (u32, f32)>) -> Vec3 {
+        let (mut through, mut visited) = (Vec3::ZERO, 0.0);
+        for (strand, place) in places.step_by(count / TAKEN_SAMPLES + 1) {
+            through += self.at(strand, place).transmitted;
+            visited += 1.0;
+        }
+        Vec3::ONE - through / f32::max(visited, 1.0)
     }
 
     fn of(&self, absorption: Vec3) -> Material {
@@ -111,7 +130,8 @@ fn entry(sigma: f32, look: &HairLook) -> [f32; 3] {
 
 /// How a strand's highlights differ from its neighbours': factor on the white one, and shift (rad).
 /// Scales wear and stand off unevenly, and it is this glitter that tells strands apart.
-pub(super) fn glitter(strand: u32) -> (f32, f32) {
+#[must_use]
+pub fn glitter(strand: u32) -> (f32, f32) {
     let strength = (GLITTER_STRENGTH * deviate(strand, 0xc2b2_ae35)).exp();
     (strength, GLITTER_SHIFT * deviate(strand, 0x27d4_eb2f))
 }

@@ -17,6 +17,8 @@ mod curves;
 mod density;
 mod head;
 mod material;
+pub mod numbers;
+pub mod parts;
 mod raster;
 mod shading;
 mod shadow;
@@ -141,7 +143,7 @@ pub fn render(
     let scale = width_scale(scene.strands, options);
     let curves = Curves::new(scene.strands, &view, scale);
     go_on(0.1)?;
-    let materials = Materials::new(scene.strands, &curves, &scene.look.hair);
+    let materials = Materials::new(scene.strands, &scene.look.hair);
     let mut head = scene.surface.map(Head::new);
     let shader = Shader::new(scene, &curves, materials, head.as_mut());
     go_on(0.3)?;
@@ -210,12 +212,18 @@ fn enclose(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
     Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
 }
 
-/// The factor on the strands' width: given, or such that fewer than a full head still cover it.
+/// The factor on the strands' width: given, or chosen.
 fn width_scale(strands: &Strands, options: &PreviewOptions) -> f32 {
+    let given = options.width_scale.filter(|s| s.is_finite() && *s > 0.0);
+    given.unwrap_or_else(|| chosen_width(strands.len()))
+}
+
+/// The factor on the width of `count` strands with which fewer than a full head still cover it.
+#[must_use]
+pub fn chosen_width(count: usize) -> f32 {
     /// Hairs on a head.
     const FULL_HEAD: f32 = 100_000.0;
-    let chosen = || (FULL_HEAD / strands.len().max(1) as f32).powf(0.7).clamp(1.0, 6.0);
-    options.width_scale.filter(|s| s.is_finite() && *s > 0.0).unwrap_or_else(chosen)
+    (FULL_HEAD / count.max(1) as f32).powf(0.7).clamp(1.0, 6.0)
 }
 
 /// Puts the tiles into one picture.

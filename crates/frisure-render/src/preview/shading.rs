@@ -8,34 +8,15 @@ use super::curves::{Curves, Vertex};
 use super::density::DensityMap;
 use super::head::{Head, HeadPixel};
 use super::material::{Materials, glitter};
+use super::numbers::{
+    HAIR_BIAS, OVERLAP, ROOM_GLOSS, SKIN_BIAS, SKIN_GLOSS, SKIN_PENUMBRA, WET_DIFFUSE,
+    WET_REFLECTED, WET_RETURNED, WET_WIDTH, WRAP,
+};
 use super::shadow::ShadowMap;
 use super::sky::{self, Sky};
 use super::{Scene, middle};
 use crate::SkinLook;
 use crate::light::PlainLights;
-
-/// How far hair is lifted towards a lamp before the head can hide it (m): roots lie in the scalp.
-const HAIR_BIAS: f32 = 2.5e-3;
-/// The same for the head itself (m), whose facets would shade each other.
-const SKIN_BIAS: f32 = 3e-3;
-/// Radius over which the head's shadow on itself is blurred (m).
-const SKIN_PENUMBRA: f32 = 5e-3;
-/// How far skin is lit past the terminator, as light seeps through it.
-const WRAP: f32 = 0.2;
-
-/// Part of the room that hair mirrors: its neighbours hide the rest.
-const ROOM_GLOSS: f32 = 0.45;
-
-/// How much less diffuse light, light that was inside the fibre, and light that its surface reflects comes
-/// back from wet hair: so that a wet head of brown hair has the traced 0.84, 0.79 and 0.72 of its dry
-/// colour, a fifth less light, as in the paper (§3.2.1).
-const WET_DIFFUSE: f32 = 0.1;
-const WET_RETURNED: f32 = 0.4;
-const WET_REFLECTED: f32 = 0.3;
-
-/// Share of the light of a lamp that hair which is seen takes from other such hair, where it is dense: of
-/// two directions through a dense layer, each counts for half (Lommel and Seeliger).
-const OVERLAP: f32 = 0.5;
 
 /// Optical depth from which a lamp counts for nothing: it leaves less than half a thousandth.
 const DARK: f32 = 7.6;
@@ -54,6 +35,8 @@ pub(super) struct Shader {
     lamps: Vec<Lamp>,
     sky: Sky,
     materials: Materials,
+    /// Part of the light that a hair takes away from what goes on past it.
+    taken: Vec3,
     shape: LobeShape,
     skin: SkinLook,
 }
@@ -66,6 +49,7 @@ impl Shader {
         head: Option<&mut Head>,
     ) -> Self {
         let shared = head.as_deref();
+        let taken = materials.taken(curves.vertices.len(), curves.places());
         let place = middle(scene.strands, scene.surface);
         let PlainLights { lamps: lit, room } =
             PlainLights::new(&scene.lights, place, &sky::around());
@@ -79,7 +63,7 @@ impl Shader {
                 })
                 .collect()
         };
-        let sky = || Sky::new(curves, shared, room, materials.taken);
+        let sky = || Sky::new(curves, shared, room, taken, sky::MAX_CELLS);
         let (lamps, sky) = rayon::join(lamps, sky);
         if let Some(head) = head {
             head.light_by(&sky);
@@ -90,6 +74,7 @@ impl Shader {
             lamps,
             sky,
             materials,
+            taken,
             shape: LobeShape::of(
                 surface.longitudinal_roughness,
                 surface.azimuthal_roughness,
@@ -108,7 +93,7 @@ impl Shader {
         let diffuse = material.diffuse * (1.0 - WET_DIFFUSE * wet);
         let returned = material.returned * (1.0 - WET_RETURNED * wet);
         let shape = LobeShape {
-            width: self.shape.width * (1.0 - 0.5 * wet),
+            width: self.shape.width * (1.0 - WET_WIDTH * wet),
             tilt: self.shape.tilt * (1.0 - wet),
             ..self.shape
         };
@@ -120,14 +105,14 @@ impl Shader {
         let mut radiance = room * (diffuse + ROOM_GLOSS * reflected + returned);
         for lamp in &self.lamps {
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
-            if hairs * self.materials.taken.min_element() > DARK {
+            if hairs * self.taken.min_element() > DARK {
                 continue;
             }
             let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(vertex.position, HAIR_BIAS));
             if head <= 0.0 {
                 continue;
             }
-            let passed = (-hairs * self.materials.taken).exp();
+            let passed = (-hairs * self.taken).exp();
             let straight = (-hairs).exp();
             let mut angles = Angles::new(vertex.tangent, lamp.to_light, eye);
             angles.theta_eye += shift;
@@ -162,9 +147,9 @@ impl Shader {
             let head =
                 lamp.head.as_ref().map_or(1.0, |m| m.softly_lit(lifted, SKIN_BIAS, SKIN_PENUMBRA));
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(lifted));
-            let passed = head * (-hairs * self.materials.taken).exp();
+            let passed = head * (-hairs * self.taken).exp();
             let half = (lamp.to_light + eye).normalize_or_zero();
-            let gloss = self.skin.gloss * normal.dot(half).max(0.0).powi(24);
+            let gloss = self.skin.gloss * normal.dot(half).max(0.0).powi(SKIN_GLOSS);
             radiance += passed
                 * lamp.irradiance
                 * std::f32::consts::FRAC_1_PI

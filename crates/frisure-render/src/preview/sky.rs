@@ -14,7 +14,7 @@ use super::split;
 /// Finest cell (m).
 const MIN_CELL: f32 = 4.5e-3;
 /// Most cells along a side.
-const MAX_CELLS: f32 = 88.0;
+pub(super) const MAX_CELLS: f32 = 88.0;
 /// Hairs met in crossing a cell of the head's shell: as good as opaque.
 const SHELL: f32 = 40.0;
 
@@ -46,13 +46,13 @@ const DIRECTIONS: [([i32; 3], f32); 14] = {
 
 /// Light of the room inside and around the hair.
 pub(super) struct Sky {
-    low: Vec3,
-    cell: f32,
-    size: UVec3,
+    pub(super) low: Vec3,
+    pub(super) cell: f32,
+    pub(super) size: UVec3,
     /// Per direction and node, hairs met between the node and the room.
     met: Vec<Vec<f32>>,
     /// Radiance that white hair at each node would have in the room.
-    mean: Vec<Vec3>,
+    pub(super) mean: Vec<Vec3>,
     /// Radiance of the room in each direction.
     room: [Vec3; 14],
     /// Part of the light that each hair takes.
@@ -61,8 +61,14 @@ pub(super) struct Sky {
 
 impl Sky {
     /// Measures the room's light, known from [`around`], around `curves` and `head`; each hair on the way
-    /// takes the part `taken` of it.
-    pub(super) fn new(curves: &Curves, head: Option<&Head>, room: [Vec3; 14], taken: Vec3) -> Self {
+    /// takes the part `taken` of it. There are at most `cells` along a side.
+    pub(super) fn new(
+        curves: &Curves,
+        head: Option<&Head>,
+        room: [Vec3; 14],
+        taken: Vec3,
+        cells: f32,
+    ) -> Self {
         let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let hair = curves.vertices.iter().map(|v| v.position);
         let skin = head.into_iter().flat_map(|h| h.positions().iter().copied());
@@ -71,7 +77,7 @@ impl Sky {
         if !low.is_finite() || !high.is_finite() {
             (low, high) = (Vec3::ZERO, Vec3::ZERO);
         }
-        let cell = ((high - low).max_element() / MAX_CELLS).max(MIN_CELL);
+        let cell = ((high - low).max_element() / cells).max(MIN_CELL);
         let low = low - Vec3::splat(1.5 * cell);
         let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(2);
         let mut sky = Self { low, cell, size, met: Vec::new(), mean: Vec::new(), room, taken };
@@ -228,7 +234,7 @@ mod tests {
     #[test]
     fn open_air_has_all_the_room() {
         let curves = Curves::new(&Strands::new(), &View::new(&Camera::default(), 8, 8), 1.0);
-        let sky = Sky::new(&curves, None, room(2.0), Vec3::ONE);
+        let sky = Sky::new(&curves, None, room(2.0), Vec3::ONE, MAX_CELLS);
         assert!((sky.mean(Vec3::ONE) - Vec3::splat(2.0)).length() < 1e-5);
         let on = sky.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
         assert!((on - Vec3::splat(2.0)).length() < 1e-5);
@@ -244,7 +250,7 @@ mod tests {
             }
         }
         let curves = Curves::new(&strands, &View::new(&Camera::default(), 64, 64), 1.0);
-        let sky = Sky::new(&curves, None, room(1.0), Vec3::ONE);
+        let sky = Sky::new(&curves, None, room(1.0), Vec3::ONE, MAX_CELLS);
         let (middle, edge) = (sky.mean(Vec3::ZERO).x, sky.mean(Vec3::Z * 0.038).x);
         assert!(middle < 0.5 * edge && edge < 0.95, "{middle} {edge}");
     }

@@ -1,0 +1,319 @@
+//! Hair on the device.
+
+mod curves;
+mod nearest;
+mod ranks;
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use bytemuck::cast_slice;
+use frisure_render::HairLook;
+use frisure_render::preview::chosen_width;
+use frisure_render::preview::parts::{Material, Materials, Occluder, glitter};
+use frisure_strands::Strands;
+use glam::{Vec3, Vec4};
+use wgpu::{Device, Queue, Texture, TextureFormat, TextureUsages};
+
+use crate::frame::Mark;
+use crate::gpu;
+use crate::half::halves;
+use crate::renderer::Renderer;
+use curves::Curves;
+pub(crate) use nearest::Nearest;
+
+/// Vertices in a row of a texture; the shaders know it too.
+pub(crate) const ROW: u32 = 2048;
+
+/// Strands on the device, with the colours of a look.
+#[derive(Debug)]
+pub struct Hair {
+    strands: Strands,
+    curves: CurvesOnce,
+    /// Changes whenever anything does.
+    version: u64,
+    /// Changes with the shape.
+    shape: u64,
+    box_: (Vec3, Vec3),
+    taken: Vec3,
+    reflected: Vec3,
+    varies: bool,
+    marked: bool,
+    textures: Textures,
+    pub(crate) groups: Groups,
+}
+
+/// Hides what nobody wants to read.
+struct CurvesOnce(Curves);
+
+impl std::fmt::Debug for CurvesOnce {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} vertices", self.0.places.len())
+    }
+}
+
+#[derive(Debug)]
+struct Textures {
+    places: Texture,
+    traits: Texture,
+    materials: [Texture; 3],
+    marks: Texture,
+}
+
+/// What shaders are given of the hair.
+#[derive(Debug)]
+pub(crate) struct Groups {
+    /// For light at each vertex.
+    pub(crate) shade: wgpu::BindGroup,
+}
+
+impl Hair {
+    /// Puts strands on the device. Strands that cannot be drawn (fewer than two points, numbers that are not
+    /// finite) are left out; where the device has too little room for all, evenly chosen ones are, and the
+    /// others are wider.
+    #[must_use]
+    pub fn new(
+        renderer: &Renderer,
+        device: &Device,
+        queue: &Queue,
+        strands: &Strands,
+        look: &HairLook,
+    ) -> Self {
+        let side = device.limits().max_texture_dimension_2d;
+        let curves = Curves::new(strands, ROW as usize * side as usize);
+        let textures = Textures::new(device, queue, &curves);
+        let groups = textures.groups(renderer, device);
+        let shape = version();
+        let mut hair = Self {
+            strands: strands.clone(),
+            box_: enclosing(&curves),
+            curves: CurvesOnce(curves),
+            version: shape,
+            shape,
+            taken: Vec3::ONE,
+            reflected: Vec3::ZERO,
+            varies: false,
+            marked: false,
+            textures,
+            groups,
+        };
+        hair.paint(renderer, device, queue, look);
+        hair
+    }
+
+    /// Gives the same strands the colours of another look.
+    pub fn recolour(
+        &mut self,
+        renderer: &Renderer,
+        device: &Device,
+        queue: &Queue,
+        look: &HairLook,
+    ) {
+        self.paint(renderer, device, queue, look);
+        self.version = version();
+    }
+
+    /// Marks strands, one mark for each of those that the hair was made of; those without one have none.
+    pub fn mark(&mut self, queue: &Queue, marks: &[Mark]) {
+        let special = |mark: &Mark| mark.chosen || mark.falls_from < 1.0;
+        let any = marks.iter().any(special);
+        if any || self.marked {
+            let of = |&strand: &u32| marks.get(strand as usize).copied().unwrap_or_default();
+            let values = self.curves.0.strands.iter().map(of);
+            let bytes = padded(values.map(texel_of), ROW as usize, [0.0, NEVER]);
+            gpu::fill(queue, &self.textures.marks, ROW as usize * 8, cast_slice(&bytes));
+            self.version = version();
+        }
+        self.marked = any;
+    }
+
+    /// Strands that are on the device; some of those asked for may not be.
+    #[must_use]
+    pub fn strands(&self) -> usize {
+        self.curves.0.strands.len()
+    }
+
+    /// Vertices that are on the device.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.curves.0.places.len()
+    }
+
+    pub(crate) fn version(&self) -> u64 {
+        self.version
+    }
+
+    pub(crate) fn shape(&self) -> u64 {
+        self.shape
+    }
+
+    pub(crate) fn taken(&self) -> Vec3 {
+        self.taken
+    }
+
+    pub(crate) fn reflected(&self) -> Vec3 {
+        self.reflected
+    }
+
+    pub(crate) fn varies(&self) -> bool {
+        self.varies
+    }
+
+    /// Smallest and largest corner (m).
+    pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
+        self.box_
+    }
+
+    /// Strands of a share (0 to 1), and the factor on the width of each.
+    pub(crate) fn shared(&self, share: f32) -> (usize, f32) {
+        let (kept, all) = (self.strands(), self.curves.0.drawable);
+        let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 };
+        let drawn = ((kept as f32 * share).ceil() as usize).min(kept);
+        (drawn, chosen_width(all) * all as f32 / drawn.max(1) as f32)
+    }
+
+    /// Strands of which there are at most `pieces` pieces, and the factor on the width of each.
+    pub(crate) fn some(&self, pieces: usize) -> (usize, f32) {
+        let drawn = self.curves.0.firsts.partition_point(|&f| f as usize <= pieces).max(2) - 1;
+        let (kept, all) = (self.strands(), self.curves.0.drawable);
+        let drawn = drawn.min(kept);
+        (drawn, chosen_width(all) * all as f32 / drawn.max(1) as f32)
+    }
+
+    /// Vertices of the first strands.
+    pub(crate) fn vertices_of(&self, strands: usize) -> usize {
+        self.curves.0.firsts[strands.min(self.strands())] as usize
+    }
+
+    /// First vertices of the pieces of the first strands.
+    pub(crate) fn pieces_of(&self, strands: usize) -> Vec<u32> {
+        let firsts = &self.curves.0.firsts;
+        let strands = strands.min(self.strands());
+        firsts[..=strands].windows(2).flat_map(|ends| ends[0]..ends[1].max(1) - 1).collect()
+    }
+
+    /// The pieces of the first strands by depth.
+    pub(crate) fn nearest(&self, strands: usize, eye: Vec3, forward: Vec3) -> Nearest {
+        let Curves { places, firsts, .. } = &self.curves.0;
+        Nearest::new(places, firsts, strands, eye, forward)
+    }
+
+    /// The first strands, `factor` wider, as what keeps the room's light out.
+    pub(crate) fn occluders(&self, strands: usize, factor: f32) -> impl Iterator<Item = Occluder> {
+        let end = self.vertices_of(strands);
+        (0..end).map(move |i| Occluder {
+            position: self.curves.0.position(i),
+            half_width: self.curves.0.places[i][3] * factor,
+            strand: self.curves.0.traits[i][2],
+        })
+    }
+
+    /// Computes colours and sends them.
+    fn paint(&mut self, renderer: &Renderer, device: &Device, queue: &Queue, look: &HairLook) {
+        let materials = Materials::new(&self.strands, look);
+        let curves = &self.curves.0;
+        let varies = materials.vary_along();
+        if varies != self.varies {
+            let count = if varies { curves.places.len() } else { curves.strands.len() };
+            self.textures.materials = material_textures(device, count);
+            self.groups = self.textures.groups(renderer, device);
+            self.varies = varies;
+        }
+        let strand = |vertex: usize| curves.strands[curves.traits[vertex][2] as usize];
+        let places = (0..curves.places.len()).map(|i| (strand(i), curves.along[i]));
+        self.taken = materials.taken(curves.places.len(), places.clone());
+        self.reflected = materials.reflected();
+        let texels: Vec<[[u16; 4]; 3]> = if varies {
+            places.map(|(strand, place)| texels(&materials.at(strand, place), strand)).collect()
+        } else {
+            let one = |&strand: &u32| texels(&materials.at(strand, 0.0), strand);
+            curves.strands.iter().map(one).collect()
+        };
+        for (which, texture) in self.textures.materials.iter().enumerate() {
+            let bytes = padded(texels.iter().map(|t| t[which]), ROW as usize, [0; 4]);
+            gpu::fill(queue, texture, ROW as usize * 8, cast_slice(&bytes));
+        }
+    }
+}
+
+/// No length is cut here.
+const NEVER: f32 = 2.0;
+
+/// A mark as its texture has it.
+fn texel_of(mark: Mark) -> [f32; 2] {
+    let from = if mark.falls_from < 1.0 { mark.falls_from.max(0.0) } else { NEVER };
+    [f32::from(u8::from(mark.chosen)), from]
+}
+
+/// A material as its textures have it.
+fn texels(material: &Material, strand: u32) -> [[u16; 4]; 3] {
+    let (strength, shift) = glitter(strand);
+    let texel = |colour: Vec3, rest: f32| halves(Vec4::from((colour, rest)).to_array());
+    [
+        texel(material.diffuse, strength),
+        texel(material.transmitted, shift),
+        texel(material.returned, 0.0),
+    ]
+}
+
+/// Whole rows.
+fn padded<T: Clone>(values: impl Iterator<Item = T>, row: usize, nothing: T) -> Vec<T> {
+    let mut all: Vec<T> = values.collect();
+    all.resize(all.len().next_multiple_of(row), nothing);
+    all
+}
+
+impl Textures {
+    fn new(device: &Device, queue: &Queue, curves: &Curves) -> Self {
+        let vertices = curves.places.len();
+        let places = rows(device, "places", vertices, TextureFormat::Rgba32Float);
+        let traits = rows(device, "traits", vertices, TextureFormat::Rgba32Uint);
+        let marks = rows(device, "marks", curves.strands.len(), TextureFormat::Rg32Float);
+        let row = ROW as usize;
+        let bytes = padded(curves.places.iter().copied(), row, [0.0; 4]);
+        gpu::fill(queue, &places, row * 16, cast_slice(&bytes));
+        let bytes = padded(curves.traits.iter().copied(), row, [0; 4]);
+        gpu::fill(queue, &traits, row * 16, cast_slice(&bytes));
+        let bytes = vec![[0.0, NEVER]; curves.strands.len().next_multiple_of(row)];
+        gpu::fill(queue, &marks, row * 8, cast_slice(&bytes));
+        let materials = material_textures(device, curves.strands.len());
+        Self { places, traits, materials, marks }
+    }
+
+    fn groups(&self, renderer: &Renderer, device: &Device) -> Groups {
+        let [a, b, c] = &self.materials;
+        let all = [&self.places, &self.traits, a, b, c, &self.marks].map(gpu::whole);
+        let views = all.each_ref().map(wgpu::BindingResource::TextureView);
+        Groups { shade: gpu::group(device, &renderer.layouts.hair, &views) }
+    }
+}
+
+impl Hair {
+    pub(crate) fn places(&self) -> wgpu::TextureView {
+        gpu::whole(&self.textures.places)
+    }
+}
+
+/// A texture with room for so many texels in rows.
+fn rows(device: &Device, label: &str, count: usize, format: TextureFormat) -> Texture {
+    let height = (count as u32).div_ceil(ROW).max(1);
+    gpu::texture(device, label, [ROW, height, 1], format, TextureUsages::COPY_DST)
+}
+
+fn material_textures(device: &Device, count: usize) -> [Texture; 3] {
+    ["diffuse", "transmitted", "returned"]
+        .map(|label| rows(device, label, count, TextureFormat::Rgba16Float))
+}
+
+/// The box around all vertices.
+fn enclosing(curves: &Curves) -> (Vec3, Vec3) {
+    let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let grown = |(low, high): (Vec3, Vec3), p: Vec3| (low.min(p), high.max(p));
+    let all = (0..curves.places.len()).map(|i| curves.position(i)).fold(empty, grown);
+    if all.0.is_finite() { all } else { (Vec3::ZERO, Vec3::ZERO) }
+}
+
+/// A number that was not there before.
+pub(crate) fn version() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}

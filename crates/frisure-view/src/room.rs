@@ -1,0 +1,96 @@
+//! Light of the room on the device: a grid around hair and head.
+
+use bytemuck::cast_slice;
+use frisure_render::Room;
+use frisure_render::preview::parts::{AROUND, RoomLight};
+use glam::Vec3;
+use wgpu::{BufferUsages, Device, Queue, TextureDimension, TextureFormat, TextureUsages};
+
+use crate::gpu;
+use crate::half::halves;
+use crate::{Hair, Skin};
+
+/// Most nodes along a side of the grid.
+const CELLS: f32 = 48.0;
+/// Pieces of hair that are enough to know how much hair is where.
+const PIECES: usize = 150_000;
+
+/// The grid, and what of the room each vertex of the head has.
+#[derive(Debug)]
+pub(crate) struct RoomOnDevice {
+    pub(crate) low: Vec3,
+    pub(crate) per_metre: f32,
+    pub(crate) size: Vec3,
+    pub(crate) group: wgpu::BindGroup,
+    pub(crate) on_skin: wgpu::Buffer,
+}
+
+impl RoomOnDevice {
+    pub(crate) fn new(
+        layout: &wgpu::BindGroupLayout,
+        device: &Device,
+        queue: &Queue,
+        (hair, skin): (Option<&Hair>, Option<&Skin>),
+        room: [Vec3; AROUND],
+    ) -> Self {
+        let (strands, factor) = hair.map_or((0, 1.0), |hair| hair.some(PIECES));
+        let occluders = hair.into_iter().flat_map(|hair| hair.occluders(strands, factor));
+        let taken = hair.map_or(Vec3::ONE, Hair::taken);
+        let light = RoomLight::new(occluders, skin.map(Skin::surface), room, taken, CELLS);
+        let (low, cell, size) = light.grid();
+        let nodes: Vec<[u16; 4]> =
+            light.nodes().iter().map(|n| halves([n.x, n.y, n.z, 0.0])).collect();
+        let texture = gpu::texture_of(
+            device,
+            "room",
+            size.to_array(),
+            TextureDimension::D3,
+            TextureFormat::Rgba16Float,
+            TextureUsages::COPY_DST,
+        );
+        gpu::fill(queue, &texture, size.x as usize * 8, cast_slice(&nodes));
+        let view = gpu::whole(&texture);
+        let on_skin: Vec<[f32; 3]> = skin
+            .into_iter()
+            .flat_map(Skin::places)
+            .map(|(p, n)| light.on_surface(p, n).to_array())
+            .collect();
+        Self {
+            low,
+            per_metre: 1.0 / cell,
+            size: size.as_vec3(),
+            group: gpu::group(device, layout, &[wgpu::BindingResource::TextureView(&view)]),
+            on_skin: gpu::buffer(
+                device,
+                queue,
+                "room on the head",
+                cast_slice(&on_skin),
+                BufferUsages::VERTEX,
+            ),
+        }
+    }
+}
+
+/// Texels across and down of a picture of the surroundings.
+const AROUND_SIZE: [u32; 2] = [512, 256];
+
+/// The surroundings as a picture: a turn about the vertical across, from above to below down. One texel
+/// without them.
+pub(crate) fn surroundings(device: &Device, queue: &Queue, room: Option<&Room>) -> wgpu::Texture {
+    let [width, height] = if room.is_some() { AROUND_SIZE } else { [1, 1] };
+    let format = TextureFormat::Rgba16Float;
+    let usage = TextureUsages::COPY_DST;
+    let texture = gpu::texture(device, "surroundings", [width, height, 1], format, usage);
+    let Some(room) = room else { return texture };
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let light = texels.map(|(x, y)| {
+        let turn = ((x as f32 + 0.5) / width as f32 - 0.5) * std::f32::consts::TAU;
+        let (sine, cosine) = ((y as f32 + 0.5) / height as f32 * std::f32::consts::PI).sin_cos();
+        let [r, g, b] =
+            room.seen(Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)).to_array();
+        halves([r, g, b, 1.0])
+    });
+    let light: Vec<[u16; 4]> = light.collect();
+    gpu::fill(queue, &texture, width as usize * 8, cast_slice(&light));
+    texture
+}

@@ -1,0 +1,72 @@
+// Hair over head over background, developed for a screen. Needs `common`.
+
+@group(1) @binding(0) var hair: texture_2d<f32>;
+@group(1) @binding(1) var head: texture_2d<f32>;
+@group(1) @binding(2) var around: texture_2d<f32>;
+@group(1) @binding(3) var smooth_sampler: sampler;
+
+@vertex
+fn whole(@builtin(vertex_index) corner: u32) -> @builtin(position) vec4<f32> {
+    return everything(corner);
+}
+
+// Hable's curve.
+fn hable(x: vec3<f32>) -> vec3<f32> {
+    return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.0666667;
+}
+
+fn developed(light: vec3<f32>) -> vec3<f32> {
+    let kind = i32(picture.film.y);
+    let x = max(light, vec3<f32>(0.0));
+    if kind == 1 {
+        let bent = 0.55 + 0.45 * (1.0 - exp((0.55 - x) / 0.45));
+        return select(x, bent, x > vec3<f32>(0.55));
+    }
+    if kind == 2 {
+        return clamp(hable(2.0 * min(x, vec3<f32>(1e4))) / hable(vec3<f32>(11.2)), vec3<f32>(0.0), vec3<f32>(1.0));
+    }
+    return min(x, vec3<f32>(1.0));
+}
+
+fn encoded(linear: vec3<f32>) -> vec3<f32> {
+    let high = 1.055 * pow(max(linear, vec3<f32>(0.0)), vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, 12.92 * linear, linear <= vec3<f32>(0.0031308));
+}
+
+// Less than a step of the screen, different from pixel to pixel: smooth backgrounds show no bands.
+fn dither(at: vec2<f32>) -> f32 {
+    return fract(52.9829189 * fract(dot(at, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
+}
+
+fn behind(at: vec2<f32>) -> vec4<f32> {
+    let kind = i32(picture.centre.w);
+    let size = vec2<f32>(picture.right.w, picture.up.w);
+    let from_middle = at - 0.5 * size;
+    let way = normalize(picture.eye.w * picture.forward.xyz
+        + from_middle.x * picture.right.xyz - from_middle.y * picture.up.xyz);
+    if kind == 0 {
+        return vec4<f32>(0.0);
+    }
+    var light: vec3<f32>;
+    if kind == 1 {
+        let uv = 2.0 * at / size - 1.0;
+        let r = min(0.5 * dot(uv, uv), 1.0);
+        light = mix(picture.centre.rgb, picture.corner.rgb, r * (2.0 - r));
+    } else {
+        let turn = atan2(way.y, way.x) / TAU + 0.5;
+        light = textureSampleLevel(around, smooth_sampler, vec2<f32>(turn, acos(clamp(way.z, -1.0, 1.0)) / PI), 0.0).rgb;
+    }
+    return vec4<f32>(behind_planes(light, picture.eye.xyz + 50.0 * way), 1.0);
+}
+
+@fragment
+fn compose(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+    let texel_ = vec2<i32>(at.xy);
+    let back = behind(at.xy);
+    let skin = textureLoad(head, texel_, 0);
+    let front = textureLoad(hair, texel_, 0);
+    var all = skin + (1.0 - skin.a) * back;
+    all = front + (1.0 - front.a) * all;
+    let light = all.rgb * picture.film.x / max(all.a, 1e-6);
+    return vec4<f32>(encoded(developed(light)) + dither(at.xy) / 255.0, all.a);
+}

@@ -1,0 +1,18 @@
+// Closes the pixels that let nothing through any more. Needs `common`.
+
+@group(1) @binding(0) var hair: texture_2d<f32>;
+
+// What a pixel covers when it counts as finished.
+const FINISHED: f32 = 0.985;
+
+@vertex
+fn at_depth(@builtin(vertex_index) corner: u32, @location(0) depth: f32) -> @builtin(position) vec4<f32> {
+    return vec4<f32>(everything(corner).xy, buffer_depth(max(depth, NEAR)), 1.0);
+}
+
+@fragment
+fn close(@builtin(position) at: vec4<f32>) {
+    if textureLoad(hair, vec2<i32>(at.xy), 0).a < FINISHED {
+        discard;
+    }
+}

@@ -1,0 +1,64 @@
+// How much of a lamp's light gets to a point. Needs `common` and `layers`.
+
+@group(1) @binding(0) var first_hair: texture_2d_array<f32>;
+@group(1) @binding(1) var hair_met: texture_2d_array<f32>;
+@group(1) @binding(2) var head_depth: texture_2d_array<f32>;
+@group(1) @binding(3) var smooth_sampler: sampler;
+
+struct Met {
+    // Hairs between the lamp and the point.
+    before: f32,
+    // Hairs around it, along the light.
+    around: f32,
+}
+
+fn tent(k: f32, first: f32) -> vec4<f32> {
+    return max(vec4<f32>(0.0), 1.0 - abs(vec4<f32>(first, first + 1.0, first + 2.0, first + 3.0) - k));
+}
+
+// Hairs met around a point, seen `lift` nearer to the lamp (m).
+fn hairs_met(lamp: Lamp, p: vec3<f32>, lift: f32, half_cell: f32) -> Met {
+    let m = in_hair_map(lamp, p);
+    let uv = m.xy / lamp.hair.z;
+    if lamp.light.w == 0.0 || any(uv < vec2<f32>(0.0)) || any(uv > vec2<f32>(1.0)) {
+        return Met(0.0, 0.0);
+    }
+    let index = i32(lamp.towards.w);
+    let depth = m.z - textureSampleLevel(first_hair, smooth_sampler, uv, index, 0.0).x;
+    let here = min(layer(depth - lift), LAST_LAYER);
+    let near = min(layer(depth - half_cell), LAST_LAYER);
+    let far = min(layer(depth + half_cell), LAST_LAYER);
+    var before = 0.0;
+    var around = 0.0;
+    for (var g = 0; g < 4; g += 1) {
+        let met = textureSampleLevel(hair_met, smooth_sampler, uv, 4 * index + g, 0.0);
+        let k = 4.0 * f32(g);
+        before += dot(met, tent(here, k));
+        around += dot(met, tent(far, k) - tent(near, k));
+    }
+    return Met(before, max(around, 0.0));
+}
+
+// Part of the lamp that the head does not hide from a point, which is taken `bias` (m) nearer to it.
+fn past_head(lamp: Lamp, p: vec3<f32>, bias: f32) -> f32 {
+    if lamp.head.z == 0.0 {
+        return 1.0;
+    }
+    let m = in_maps(lamp, p);
+    let size = lamp.head.w;
+    let g = (0.5 + 0.5 * (m.xy - lamp.head.xy) * lamp.head.z) * size - 0.5;
+    if any(g < vec2<f32>(1.0)) || any(g > vec2<f32>(size - 2.0)) {
+        return 1.0;
+    }
+    let cell = floor(g);
+    let f = g - cell;
+    let weight = f * f * (3.0 - 2.0 * f);
+    let at = vec2<i32>(cell);
+    let index = i32(lamp.towards.w);
+    let nearer = m.z - bias;
+    let a = step(nearer, textureLoad(head_depth, at, index, 0).x);
+    let b = step(nearer, textureLoad(head_depth, at + vec2<i32>(1, 0), index, 0).x);
+    let c = step(nearer, textureLoad(head_depth, at + vec2<i32>(0, 1), index, 0).x);
+    let d = step(nearer, textureLoad(head_depth, at + vec2<i32>(1, 1), index, 0).x);
+    return mix(mix(a, b, weight.x), mix(c, d, weight.x), weight.y);
+}

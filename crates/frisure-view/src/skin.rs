@@ -1,0 +1,81 @@
+//! The head on the device.
+
+use bytemuck::cast_slice;
+use frisure_render::preview;
+use frisure_strands::{Strands, Surface};
+use glam::{DVec3, Vec3};
+use wgpu::{Buffer, BufferUsages, Device, Queue};
+
+use crate::gpu;
+use crate::hair::version;
+use crate::renderer::Renderer;
+
+/// A surface on the device.
+#[derive(Debug)]
+pub struct Skin {
+    surface: Surface,
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    middle: DVec3,
+    version: u64,
+    /// Position and normal of each vertex.
+    pub(crate) vertices: Buffer,
+    pub(crate) indices: Buffer,
+    pub(crate) corners: u32,
+}
+
+impl Skin {
+    /// Puts a surface on the device.
+    #[must_use]
+    pub fn new(_renderer: &Renderer, device: &Device, queue: &Queue, surface: &Surface) -> Self {
+        let positions: Vec<Vec3> = surface.positions().iter().map(|p| p.as_vec3()).collect();
+        let normals: Vec<Vec3> = surface.vertex_normals().iter().map(|n| n.as_vec3()).collect();
+        let both = positions.iter().zip(&normals);
+        let values: Vec<[f32; 3]> = both.flat_map(|(p, n)| [p.to_array(), n.to_array()]).collect();
+        let most = device.limits().max_buffer_size / 24;
+        // A surface beyond the device's limit is cut short rather than refused: no head has that many faces.
+        let kept = (values.len() / 2).min(most as usize);
+        let faces = surface.triangles().iter().filter(|t| t.iter().all(|&v| (v as usize) < kept));
+        let indices: Vec<u32> = faces.flatten().copied().take(most as usize / 3 * 3).collect();
+        Self {
+            middle: preview::middle(&Strands::new(), Some(surface)),
+            vertices: gpu::buffer(
+                device,
+                queue,
+                "head",
+                cast_slice(&values[..2 * kept]),
+                BufferUsages::VERTEX,
+            ),
+            indices: gpu::buffer(device, queue, "faces", cast_slice(&indices), BufferUsages::INDEX),
+            corners: indices.len() as u32,
+            surface: surface.clone(),
+            positions,
+            normals,
+            version: version(),
+        }
+    }
+
+    pub(crate) fn version(&self) -> u64 {
+        self.version
+    }
+
+    pub(crate) fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Places and unit normals of the vertices.
+    pub(crate) fn places(&self) -> impl ExactSizeIterator<Item = (Vec3, Vec3)> {
+        self.positions.iter().copied().zip(self.normals.iter().copied())
+    }
+
+    /// What lamps are aimed at (m).
+    pub(crate) fn middle(&self) -> DVec3 {
+        self.middle
+    }
+
+    /// Smallest and largest corner (m).
+    pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
+        let (low, high) = self.surface.bounds();
+        (low.as_vec3(), high.as_vec3())
+    }
+}

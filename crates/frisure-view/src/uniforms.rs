@@ -1,0 +1,119 @@
+//! The numbers of a picture as the shaders have them (`shaders/common.wgsl`).
+
+use frisure_optics::LobeShape;
+use frisure_render::preview::numbers;
+use frisure_render::{Background, Camera, ToneCurve};
+use glam::{DVec3, Vec3};
+
+use crate::frame::{Frame, MAX_PLANES, Plane, linear};
+use crate::lamps::{LAMPS, Lamp};
+use crate::room::RoomOnDevice;
+
+/// How much nearer to a lamp hair looks up how much hair is before it (m): hair must not shade itself.
+const LIFT: f32 = 2.0e-3;
+/// Half of what counts as around a hair (m): of a cell of the preview's finest maps.
+const HALF_CELL: f32 = 1.1e-3;
+
+/// A vector and a number.
+fn four(v: Vec3, w: f32) -> [f32; 4] {
+    [v.x, v.y, v.z, w]
+}
+
+/// All of them, in order.
+pub(crate) fn packed(
+    frame: &Frame<'_>,
+    [width, height]: [u32; 2],
+    room: &RoomOnDevice,
+    lamps: &[Lamp],
+    width_factor: f32,
+    vertices: usize,
+) -> Vec<[f32; 4]> {
+    let mut all = Vec::with_capacity(18 + 7 * LAMPS + 5 * MAX_PLANES);
+    all.extend(view(&frame.camera, width, height, width_factor));
+    all.extend(matter(frame, vertices));
+    all.push(four(room.low, room.per_metre));
+    all.push(four(room.size, numbers::HAIR_BIAS));
+    all.extend(behind(frame.look.background));
+    let planes: Vec<_> = frame.planes.iter().filter_map(plane).take(MAX_PLANES).collect();
+    all.push([frame.stops.exp2(), tone(frame.tone), lamps.len() as f32, planes.len() as f32]);
+    all.extend(marks(frame));
+    let varies = frame.hair.is_some_and(crate::Hair::varies);
+    all.push([f32::from(u8::from(varies)), 0.0, LIFT, HALF_CELL]);
+    for i in 0..LAMPS {
+        all.extend(lamps.get(i).map_or([[0.0; 4]; 7], |lamp| lamp.packed(i)));
+    }
+    for i in 0..MAX_PLANES {
+        all.extend(planes.get(i).copied().unwrap_or([[0.0; 4]; 5]));
+    }
+    all
+}
+
+fn view(camera: &Camera, width: u32, height: u32, width_factor: f32) -> [[f32; 4]; 4] {
+    let v = |d: DVec3| d.as_vec3();
+    let focal = 0.5 * f64::from(height) / (0.5 * camera.vertical_fov()).tan();
+    [
+        four(v(camera.eye()), focal as f32),
+        four(v(camera.right()), width as f32),
+        four(v(camera.up()), height as f32),
+        four(v(camera.forward()), width_factor),
+    ]
+}
+
+fn matter(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 6] {
+    let surface = frame.look.hair.surface;
+    let shape =
+        LobeShape::of(surface.longitudinal_roughness, surface.azimuthal_roughness, surface.tilt);
+    let (taken, reflected) =
+        frame.hair.map_or((Vec3::ONE, Vec3::ZERO), |hair| (hair.taken(), hair.reflected()));
+    let skin = frame.look.skin;
+    [
+        four(taken, vertices as f32),
+        four(reflected, numbers::ROOM_GLOSS),
+        [shape.width, shape.tilt, shape.azimuthal_width, numbers::OVERLAP],
+        [numbers::WET_DIFFUSE, numbers::WET_RETURNED, numbers::WET_REFLECTED, numbers::WET_WIDTH],
+        four(skin.colour, skin.gloss),
+        [numbers::WRAP, numbers::SKIN_BIAS, numbers::SKIN_PENUMBRA, numbers::SKIN_GLOSS as f32],
+    ]
+}
+
+fn behind(background: Background) -> [[f32; 4]; 2] {
+    match background {
+        Background::Transparent => [[0.0; 4]; 2],
+        Background::Gradient { centre, corner } => [four(centre, 1.0), four(corner, 0.0)],
+        Background::Surroundings => [[0.0, 0.0, 0.0, 2.0], [0.0; 4]],
+    }
+}
+
+fn tone(tone: ToneCurve) -> f32 {
+    match tone {
+        ToneCurve::Plain => 0.0,
+        ToneCurve::Shoulder => 1.0,
+        ToneCurve::Filmic => 2.0,
+    }
+}
+
+fn marks(frame: &Frame<'_>) -> [[f32; 4]; 2] {
+    let colours = frame.mark_colours;
+    let of = |c: [f32; 3]| Vec3::from(c.map(linear));
+    [four(of(colours.chosen), colours.strength), four(of(colours.falling), colours.remains)]
+}
+
+/// A plane as the shaders have it, if it is one.
+fn plane(plane: &Plane) -> Option<[[f32; 4]; 5]> {
+    let [right, up] = plane.arms;
+    let normal = right.cross(up).try_normalize()?;
+    let over = |arm: Vec3| arm / arm.length_squared();
+    let [r, g, b, a] = plane.colour;
+    let sound = plane.centre.is_finite() && over(right).is_finite() && over(up).is_finite();
+    let colour =
+        [linear(r), linear(g), linear(b), if a.is_finite() { a.clamp(0.0, 1.0) } else { 0.0 }];
+    sound.then(|| {
+        [
+            four(plane.centre, 1.0),
+            four(over(right), 1.0),
+            four(over(up), 0.0),
+            four(normal, 0.0),
+            colour,
+        ]
+    })
+}
