@@ -56,7 +56,7 @@ pub(crate) fn run_scene(
     check_outputs(&arguments, &scene, turntable)?;
 
     let environment = match arguments.image {
-        Some(_) => frisure_stylist::picture::environment(&scene)?,
+        Some(_) => frisure_stylist::picture::environment(&scene, &Files::default())?,
         None => None,
     };
     let progress = Progress::new(quiet);
@@ -274,8 +274,10 @@ impl Work {
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
         let views = match self.turntable {
-            Some(_) => frisure_stylist::picture::turntable(&self.scene, strands, surface, frames, around)
-                .map_err(|e| Failure::wrong(&e, ""))?,
+            Some(_) => {
+                frisure_stylist::picture::turntable(&self.scene, strands, surface, frames, around)
+                    .map_err(|e| Failure::wrong(&e, ""))?
+            }
             None => Vec::new(),
         };
         let denoiser = exposing::denoiser(self.arguments.tracing.denoise)?;
