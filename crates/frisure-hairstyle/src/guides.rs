@@ -1,5 +1,7 @@
 //! The guide of each wisp: where it is rooted, and the rod that it is.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -68,6 +70,8 @@ pub(crate) struct Planting {
     /// Weighted area of the scalp (m²).
     area: f64,
     roots: Vec<Root>,
+    /// Where drawn hairs are rooted, once that has been asked for; shared by all clones.
+    hairs: Arc<Mutex<Option<Arc<[Root]>>>>,
 }
 
 impl Planting {
@@ -81,7 +85,7 @@ impl Planting {
             return Err(Crowded { count, area, most }.into());
         }
         let roots = scalp.even(count, spec.seed, Purpose::GuideRoots);
-        Ok(Self { of: Self::key(spec, head), area, roots })
+        Ok(Self { of: Self::key(spec, head), area, roots, hairs: Arc::default() })
     }
 
     /// Weighted area of the scalp (m²).
@@ -93,6 +97,25 @@ impl Planting {
     pub(crate) fn fitting(&self, spec: &HairstyleSpec, head: &Head) -> Option<Self> {
         let same = self.of == Self::key(spec, head) && self.roots.len() == spec.wisps.count;
         same.then(|| self.clone())
+    }
+
+    /// Where the drawn hairs of the description are rooted, before they gather along partings.
+    pub(crate) fn hairs(&self, spec: &HairstyleSpec, head: &Head) -> Arc<[Root]> {
+        let compute = || -> Arc<[Root]> {
+            let scalp = Scalp::grown(head, spec);
+            let count = spec.wisps.hair_count(scalp.area());
+            scalp.stratified(count, spec.seed, Purpose::HairRoots).into()
+        };
+        if self.of != Self::key(spec, head) {
+            return compute();
+        }
+        let count = spec.wisps.hair_count(self.area);
+        // A poisoned lock guards a whole list all the same: it is only ever replaced.
+        let mut known = self.hairs.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*known {
+            Some(roots) if roots.len() == count => roots.clone(),
+            _ => known.insert(compute()).clone(),
+        }
     }
 
     fn key(spec: &HairstyleSpec, head: &Head) -> (u64, u64, Hairline) {

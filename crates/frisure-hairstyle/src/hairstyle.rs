@@ -1,15 +1,20 @@
 //! A hairstyle: guides at rest on a head.
 
+use std::sync::Arc;
+
 use frisure_rod::{Equilibrium, InvalidQuantity};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
+use glam::DVec3;
+use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::equilibrium::{Effort, Rest, SettlingReport, settle, settle_from};
+use crate::equilibrium::{Effort, Rest, SettlingReport, settle, settle_from, settle_roughly};
+use crate::grid::Grid;
 use crate::guides::{Crowded, Guide, Planting, plan};
 use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
 use crate::monitor::{Cancelled, Monitor};
-use crate::spec::{HairstyleSpec, InvalidSpec};
+use crate::spec::{HairstyleSpec, Implantation, InvalidSpec, Wisps};
 use crate::strands;
 use crate::styling::{Styling, WispState};
 
@@ -22,6 +27,16 @@ pub struct Hairstyle {
     pub(crate) guides: Vec<Guide>,
     pub(crate) rest: Rest,
     pub(crate) styling: Styling,
+    /// What is done to it is done roughly.
+    pub(crate) rough: Option<Rough>,
+}
+
+/// How roughly something is done to a hairstyle.
+#[derive(Clone, Debug)]
+pub(crate) struct Rough {
+    pub(crate) effort: Effort,
+    /// Where guides are to start from.
+    pub(crate) like: Option<Arc<[Equilibrium]>>,
 }
 
 /// Why there is no hairstyle.
@@ -55,13 +70,28 @@ pub fn predict(
     head: &Head,
     monitor: &dyn Monitor,
 ) -> Result<Hairstyle, PredictError> {
+    predict_again(spec, head, None, monitor)
+}
+
+/// As [`predict`], to the same bytes; what it has in common with `previous`, such as where hairs are
+/// rooted, is not computed again.
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_again(
+    spec: &HairstyleSpec,
+    head: &Head,
+    previous: Option<&Hairstyle>,
+    monitor: &dyn Monitor,
+) -> Result<Hairstyle, PredictError> {
     spec.check()?;
-    let planting = Planting::new(spec, head)?;
+    let known = previous.and_then(|previous| previous.planting.fitting(spec, head));
+    let planting = known.map_or_else(|| Planting::new(spec, head), Ok)?;
     let layout = Layout::new(spec, head)?;
     let guides = plan(spec, head, &layout, &planting)?;
     let rest = settle(spec, head, &guides, monitor)?;
     let styling = Styling::none(&guides);
-    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest, styling })
+    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest, styling, rough: None })
 }
 
 /// As [`predict`], but each guide starts from where that of the same index rests in `previous`
@@ -94,7 +124,53 @@ pub fn predict_from(
     let guides = plan(spec, head, &layout, &planting)?;
     let rest = settle_from(spec, head, &guides, &previous.rest.guides, effort, monitor)?;
     let styling = Styling::none(&guides);
-    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest, styling })
+    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest, styling, rough: None })
+}
+
+/// A hairstyle for the eye, in about the time that a slider needs: the guides start from where the
+/// nearest guide of `previous` rests, and do no more than `effort`. Unlike in [`predict_from`], another
+/// number of guides, another seed or another head may be described. Without `previous` each guide comes
+/// to rest alone, and `effort` is what follows.
+///
+/// # Errors
+/// As [`predict`].
+pub fn predict_roughly(
+    spec: &HairstyleSpec,
+    head: &Head,
+    previous: Option<&Hairstyle>,
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<Hairstyle, PredictError> {
+    spec.check()?;
+    let known = previous.and_then(|previous| previous.planting.fitting(spec, head));
+    let same = known.is_some();
+    let planting = known.map_or_else(|| Planting::new(spec, head), Ok)?;
+    let layout = Layout::new(spec, head)?;
+    let guides = plan(spec, head, &layout, &planting)?;
+    let rest = match previous {
+        None => settle_roughly(spec, head, &guides, effort, monitor)?,
+        Some(previous) if same => {
+            settle_from(spec, head, &guides, &previous.rest.guides, effort, monitor)?
+        }
+        Some(previous) => {
+            let before = nearest(&guides, previous);
+            settle_from(spec, head, &guides, &before, effort, monitor)?
+        }
+    };
+    let styling = Styling::none(&guides);
+    Ok(Hairstyle { spec: spec.clone(), planting, layout, guides, rest, styling, rough: None })
+}
+
+/// For each guide, how the one that is rooted nearest to it rests in another hairstyle.
+fn nearest(guides: &[Guide], other: &Hairstyle) -> Vec<Equilibrium> {
+    let roots: Vec<DVec3> = other.guides.iter().map(|guide| guide.root.position).collect();
+    let spacing = (other.planting.area() / roots.len() as f64).sqrt();
+    let grid = Grid::new(&roots, spacing);
+    let like = |guide: &Guide| {
+        let nearest = grid.nearest(guide.root.position, 1, &roots);
+        other.rest.guides[nearest[0]].clone()
+    };
+    guides.par_iter().map(like).collect()
 }
 
 impl Hairstyle {
@@ -176,6 +252,41 @@ impl Hairstyle {
     /// # Errors
     /// [`Cancelled`], if the monitor says to stop.
     pub fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Cancelled> {
-        strands::draw(self, head, monitor)
+        strands::draw(self, head, 1, monitor)
+    }
+
+    /// Of the hairs of [`Self::strands`] the first and every so manyth after it, the same to the last
+    /// bit: for a view that has to be quick.
+    ///
+    /// # Errors
+    /// [`Cancelled`], if the monitor says to stop.
+    pub fn some_strands(
+        &self,
+        head: &Head,
+        every: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Strands, Cancelled> {
+        strands::draw(self, head, every, monitor)
+    }
+
+    /// The hairstyle of another description as [`predict`] would give it, if the two differ in nothing but
+    /// which hairs are drawn around the guides; none also for a hairstyle that was styled.
+    #[must_use]
+    pub fn redrawn(&self, spec: &HairstyleSpec) -> Option<Self> {
+        let Wisps { count, fuzziness, .. } = spec.wisps;
+        let wisps = Wisps { count, fuzziness, ..self.spec.wisps };
+        let baby_hairs = self.spec.implantation.baby_hairs;
+        let implantation = Implantation { baby_hairs, ..spec.implantation.clone() };
+        let same = HairstyleSpec { wisps, implantation, ..spec.clone() } == self.spec;
+        let unstyled = || self.styling.is_none(&self.guides);
+        let possible =
+            || spec.check().is_ok() && spec.wisps.check_size(self.planting.area()).is_ok();
+        (same && unstyled() && possible()).then(|| Self { spec: spec.clone(), ..self.clone() })
+    }
+
+    /// How many hairs [`Self::strands`] draws.
+    #[must_use]
+    pub fn drawn(&self) -> usize {
+        self.spec.wisps.hair_count(self.planting.area())
     }
 }

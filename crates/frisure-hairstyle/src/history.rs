@@ -208,6 +208,39 @@ impl History {
         self.become_list(operations, step, done, head, monitor)
     }
 
+    /// The hairstyle after so many operations, if it is known.
+    #[must_use]
+    pub fn known(&self, done: usize) -> Option<&Arc<Hairstyle>> {
+        match done.checked_sub(1) {
+            None => Some(&self.start),
+            Some(last) => self.known.get(last)?.as_ref(),
+        }
+    }
+
+    /// Takes another list over, of which the first `done` are to be done; at most all. What is known of
+    /// the operations that both lists begin with stays known, also where it fails: then so many are done
+    /// as could be.
+    ///
+    /// # Errors
+    /// [`HistoryError`], if one cannot be done.
+    pub fn follow(
+        &mut self,
+        operations: Vec<Operation>,
+        done: usize,
+        head: &Head,
+        monitor: &dyn Monitor,
+    ) -> Result<&Hairstyle, HistoryError> {
+        let same = self.operations.iter().zip(&operations).take_while(|(a, b)| a == b).count();
+        self.known.truncate(same);
+        self.known.resize(operations.len(), None);
+        self.operations = operations;
+        if let Err(error) = self.go_to(done, head, monitor) {
+            (self.done, self.current) = self.nearest(error.step);
+            return Err(error);
+        }
+        Ok(&self.current)
+    }
+
     /// Takes another list over, the same up to `step`, of which `done` are done; all or nothing.
     fn become_list(
         &mut self,

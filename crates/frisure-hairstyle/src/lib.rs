@@ -31,7 +31,9 @@ mod random;
 pub use equilibrium::{Effort, SettlingReport};
 pub use fibre::{Curl, Fibre, Handedness};
 pub use guides::{Crowded, Guide};
-pub use hairstyle::{Hairstyle, PredictError, predict, predict_from};
+pub use hairstyle::{
+    Hairstyle, PredictError, predict, predict_again, predict_from, predict_roughly,
+};
 pub use history::{History, HistoryError};
 pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};

@@ -1,8 +1,10 @@
 //! Whole files, read with a limit and written all or not at all.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use thiserror::Error;
 
@@ -98,13 +100,99 @@ pub enum WriteError {
     },
 }
 
+/// Where files are read from: those that were handed over as bytes, as to a page in a browser, before
+/// those of the system. By default only the latter.
+#[derive(Clone, Debug, Default)]
+pub struct Files {
+    provided: BTreeMap<PathBuf, Arc<[u8]>>,
+}
+
+/// Tells one state of a file from another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stamp {
+    /// Its size (bytes).
+    size: u64,
+    /// When it was written, or what is in it.
+    mark: u128,
+}
+
+impl Files {
+    /// Hands over a file; one of the same path is replaced.
+    pub fn provide(&mut self, path: impl Into<PathBuf>, bytes: impl Into<Arc<[u8]>>) {
+        self.provided.insert(path.into(), bytes.into());
+    }
+
+    /// Forgets a file that was handed over.
+    pub fn forget(&mut self, path: &Path) {
+        self.provided.remove(path);
+    }
+
+    /// A file that was handed over: by its path, or else the only one of its name, since what is dropped
+    /// on a page has no folder.
+    fn provided(&self, path: &Path) -> Option<&Arc<[u8]>> {
+        let named = || {
+            let mut same = self.provided.iter().filter(|(p, _)| p.file_name() == path.file_name());
+            let first = same.next().map(|(_, bytes)| bytes);
+            first.filter(|_| same.next().is_none())
+        };
+        self.provided.get(path).or_else(named)
+    }
+
+    /// What tells this state of a file from another; none if it is not there.
+    #[must_use]
+    pub fn stamp(&self, path: &Path) -> Option<Stamp> {
+        if let Some(bytes) = self.provided(path) {
+            let mark = bytes.as_ptr() as usize as u128;
+            return Some(Stamp { size: bytes.len() as u64, mark });
+        }
+        let about = fs::metadata(path).ok()?;
+        let since = about.modified().ok()?.duration_since(std::time::UNIX_EPOCH).ok()?;
+        Some(Stamp { size: about.len(), mark: since.as_nanos() })
+    }
+
+    /// As [`read_bytes`].
+    ///
+    /// # Errors
+    /// As [`read_bytes`].
+    pub fn read_bytes(
+        &self,
+        path: &Path,
+        limit: u64,
+        what: &'static str,
+    ) -> Result<Vec<u8>, ReadError> {
+        match self.provided(path) {
+            Some(bytes) if bytes.len() as u64 > limit => {
+                Err(ReadError::TooLarge { path: path.into(), limit, what })
+            }
+            Some(bytes) => Ok(bytes.to_vec()),
+            None => read_bytes(path, limit, what),
+        }
+    }
+
+    /// As [`read_text`].
+    ///
+    /// # Errors
+    /// As [`read_text`].
+    pub fn read_text(
+        &self,
+        path: &Path,
+        limit: u64,
+        what: &'static str,
+    ) -> Result<String, ReadError> {
+        to_text(self.read_bytes(path, limit, what)?, path)
+    }
+}
+
 /// The bytes of a file of at most `limit` bytes; `what` names it in errors (`a scene`).
 ///
 /// # Errors
 /// [`ReadError`], for a file that is missing, a directory, too large or unreadable.
 pub fn read_bytes(path: &Path, limit: u64, what: &'static str) -> Result<Vec<u8>, ReadError> {
     let fail = |source: io::Error| match source.kind() {
-        io::ErrorKind::NotFound => ReadError::Missing { path: path.into() },
+        // Where there is no file system, there is no file.
+        io::ErrorKind::NotFound | io::ErrorKind::Unsupported => {
+            ReadError::Missing { path: path.into() }
+        }
         io::ErrorKind::IsADirectory => ReadError::Directory { path: path.into() },
         _ => ReadError::Io { path: path.into(), source },
     };

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use frisure_hairstyle::styling::{Dry, Operation};
+use frisure_io::files::Files;
 use frisure_io::groom::hair;
 use frisure_io::head;
 use frisure_io::quantity::LENGTH;
@@ -51,10 +52,16 @@ fn use_head(bytes: &[u8]) {
     use_file("head.obj", bytes, |path| {
         for scalp in [ScalpSource::Guess, ScalpSource::Group("g".into())] {
             let (path, up) = (path.to_path_buf(), UpAxis::Y);
-            let _ = head::read(&HeadFile { path: path.clone(), up, scale: 0.1, scalp });
+            let _ = head::read(
+                &HeadFile { path: path.clone(), up, scale: 0.1, scalp },
+                &Files::default(),
+            );
             // The mesh as its own mask and list of weights.
             for scalp in [ScalpSource::Mask(path.clone()), ScalpSource::Weights(path.clone())] {
-                let _ = head::read(&HeadFile { path: path.clone(), up, scale: 0.1, scalp });
+                let _ = head::read(
+                    &HeadFile { path: path.clone(), up, scale: 0.1, scalp },
+                    &Files::default(),
+                );
             }
         }
     });

@@ -40,6 +40,15 @@ pub struct Viewpoint {
 /// A job.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Order {
+    /// Keeps a file for scenes that name it (a head, a scalp, surroundings), where there is no file
+    /// system: by its path, or by its name alone. Answer: [`Answer::Kept`].
+    Keep {
+        /// Its path, as scenes name it from their folder, or just its name.
+        path: String,
+        /// What is in it.
+        #[serde(with = "crate::bytes::whole")]
+        bytes: Vec<u8>,
+    },
     /// The hair, for the eye. Answer: [`Answer::Shown`].
     Show {
         /// Of what.
@@ -118,6 +127,7 @@ pub enum Answer {
         /// Pixels across and down.
         size: [usize; 2],
         /// Red, green, blue, alpha (sRGB), rows from the top.
+        #[serde(with = "crate::bytes::whole")]
         rgba: Vec<u8>,
         /// How far it is (0 to 1).
         fraction: f32,
@@ -129,8 +139,11 @@ pub enum Answer {
         /// What it is called, with its extension.
         name: String,
         /// What is in it.
+        #[serde(with = "crate::bytes::whole")]
         bytes: Vec<u8>,
     },
+    /// The file is kept.
+    Kept,
     /// It was told to stop.
     Cancelled,
     /// It cannot be done.
@@ -157,6 +170,9 @@ pub struct Shown {
     pub effort: Effort,
     /// The drawn hairs.
     pub strands: StrandsData,
+    /// For how many hairs each of them stands: 1 if all are drawn, more for a coarse answer and for more
+    /// hairs than can be looked at.
+    pub every: usize,
     /// The head, if it is another than in the last answer of this stylist: positions (m), three each.
     pub head: Option<HeadData>,
     /// What is known about it.

@@ -1,15 +1,19 @@
 //! The picture that a scene asks for.
+//!
+//! Lengths are metres, angles radians; the frame is the head's: x to its left, the face towards −y, z
+//! up. Light is scene-linear sRGB.
 
 use frisure::io::environment::Environment;
+use frisure::io::files::Files;
 use frisure::io::scene::{
     self, Face, LampColour, LampFace, LampPlace, NaturalColour, Scene, SceneError,
 };
 use frisure::optics::{Melanin, absorption_of_colour};
 use frisure::render::preview;
 use frisure::render::{
-    Aperture, AreaLight, Background, Camera, Daylight, DistantLight, Dye, EnvironmentMap, Fade,
-    Ground, HairLook, HairSurface, Image, InvalidLight, Lamp, Lights, Look, PointLight, Room,
-    SOFTBOX, Setup, SkinLook, ToneCurve, beside_camera, colour_of_temperature,
+    Aperture, AreaLight, Background, Camera, CameraError, Daylight, DistantLight, Dye,
+    EnvironmentMap, Fade, Ground, HairLook, HairSurface, Image, InvalidLight, Lamp, Lights, Look,
+    PointLight, Room, SOFTBOX, Setup, SkinLook, ToneCurve, beside_camera, colour_of_temperature,
 };
 use frisure::strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
@@ -20,6 +24,9 @@ const MARGIN: f64 = 0.05;
 
 /// The renderer's scene: camera, lamps and colours as `scene` says; all of `framed` would be in the
 /// picture.
+///
+/// # Errors
+/// [`InvalidLight`], for lamps that cannot be where the scene has them.
 pub fn scene<'a>(
     scene: &Scene,
     strands: &'a Strands,
@@ -27,18 +34,80 @@ pub fn scene<'a>(
     surface: Option<&'a Surface>,
     environment: Option<&EnvironmentMap>,
 ) -> Result<preview::Scene<'a>, InvalidLight> {
-    let camera = camera(&scene.camera, shown(framed, surface), aspect(scene));
+    let camera = framing(scene, framed, surface, aspect(scene));
+    seen_from(scene, camera, (strands, framed), surface, environment)
+}
+
+/// The renderer's scene, seen from a camera of one's own; a floor is under all of `framed`.
+///
+/// # Errors
+/// As [`self::scene`].
+pub fn seen_from<'a>(
+    scene: &Scene,
+    camera: Camera,
+    (strands, framed): (&'a Strands, &Strands),
+    surface: Option<&'a Surface>,
+    environment: Option<&EnvironmentMap>,
+) -> Result<preview::Scene<'a>, InvalidLight> {
     let middle = preview::middle(strands, surface);
-    let lights = lights(&scene.light, &camera, middle, environment)?;
-    let mut look = look(&scene.look, behind(scene.look.background, &lights, &camera, middle));
+    let (mut look, lights) = look_and_lights(scene, &camera, middle, environment)?;
     if let Some(colour) = scene.look.floor {
         look.ground = Some(floor(colour, framed, surface));
     }
     Ok(preview::Scene { strands, surface, camera, lights, look })
 }
 
+/// What hair, skin and background look like, and what lights them, for a head with its middle
+/// ([`preview::middle`], m) somewhere. Studio lamps turn with the camera; sky and environment stay. There
+/// is no floor in it.
+///
+/// # Errors
+/// As [`self::scene`].
+pub fn look_and_lights(
+    scene: &Scene,
+    camera: &Camera,
+    middle: DVec3,
+    environment: Option<&EnvironmentMap>,
+) -> Result<(Look, Lights), InvalidLight> {
+    let lights = lights(&scene.light, camera, middle, environment)?;
+    let behind = behind(scene.look.background, &lights, camera, middle);
+    Ok((look(&scene.look, behind), lights))
+}
+
+/// The scene's camera in front of strands and the head without its shoulders, as near as it can be with
+/// all of them in a picture of a width over height (`aspect`).
+#[must_use]
+pub fn framing(scene: &Scene, strands: &Strands, surface: Option<&Surface>, aspect: f64) -> Camera {
+    camera(&scene.camera, shown(strands, surface), aspect)
+}
+
+/// The scene's lens at another place: `eye` and `target` in m, `field_of_view` from the picture's bottom
+/// to its top.
+///
+/// # Errors
+/// [`CameraError`], for an eye at the target, or a field of view that no lens has.
+pub fn camera_at(
+    scene: &Scene,
+    eye: DVec3,
+    target: DVec3,
+    field_of_view: f64,
+    aspect: f64,
+) -> Result<Camera, CameraError> {
+    let camera = Camera::look_at(eye, target, DVec3::Z, field_of_view)?;
+    match scene.camera.f_number {
+        Some(n) => {
+            let asked = scene::Camera { field_of_view, ..scene.camera };
+            camera.with_aperture(aperture(&asked, n, aspect))
+        }
+        None => Ok(camera),
+    }
+}
+
 /// The cameras of a turntable, all at one distance, each with its lights: they walk around the head to
 /// its left, so that it seems to turn to its right.
+///
+/// # Errors
+/// As [`self::scene`].
 pub fn turntable(
     scene: &Scene,
     strands: &Strands,
@@ -57,7 +126,22 @@ pub fn turntable(
         })
     });
     let first = camera(&scene.camera, around, aspect(scene));
-    let middle = preview::middle(strands, surface);
+    turned(scene, first, (strands, surface), frames, environment)
+}
+
+/// The cameras of a turntable that begins at one of one's own, each with its lights.
+///
+/// # Errors
+/// As [`self::scene`].
+pub fn turned(
+    scene: &Scene,
+    first: Camera,
+    (strands, surface): (&Strands, Option<&Surface>),
+    frames: usize,
+    environment: Option<&EnvironmentMap>,
+) -> Result<Vec<(Camera, Lights)>, InvalidLight> {
+    let (low, high) = preview::bounds(strands, surface);
+    let (axis, middle) = (0.5 * (low + high), preview::middle(strands, surface));
     let frame = |i: usize| {
         let camera = first.turned(axis, i as f64 / frames as f64 * TAU);
         Ok((camera, lights(&scene.light, &camera, middle, environment)?))
@@ -72,7 +156,9 @@ fn aspect(scene: &Scene) -> f64 {
     scene.output.width as f64 / scene.output.height as f64
 }
 
-/// Bytes for a PNG: light developed as the scene says.
+/// Bytes for a PNG, four per pixel (red, green, blue, alpha; sRGB), rows from the top: light developed
+/// as the scene says.
+#[must_use]
 pub fn developed(image: &Image, output: &scene::Output) -> Vec<u8> {
     let tone = match output.tone {
         scene::Tone::Plain => ToneCurve::Plain,
@@ -99,8 +185,11 @@ fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Grou
 }
 
 /// The surroundings that a scene names, read and ready.
-pub fn environment(scene: &Scene) -> Result<Option<EnvironmentMap>, SceneError> {
-    let Some(Environment { width, height, pixels }) = scene.environment()? else {
+///
+/// # Errors
+/// [`SceneError`] at the key that names what cannot be used.
+pub fn environment(scene: &Scene, files: &Files) -> Result<Option<EnvironmentMap>, SceneError> {
+    let Some(Environment { width, height, pixels }) = scene.environment_in(files)? else {
         return Ok(None);
     };
     let map = EnvironmentMap::new(width, height, pixels);

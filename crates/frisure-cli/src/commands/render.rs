@@ -89,7 +89,7 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     );
     outputs::prepare(&names, &inputs)?;
     exposing::check_parts(&parts)?;
-    let environment = picture::environment(&scene)?;
+    let environment = picture::environment(&scene, &Files::default())?;
 
     let denoiser = exposing::denoiser(arguments.tracing.denoise)?;
     let progress = Progress::new(quiet);

@@ -79,7 +79,8 @@ pub(super) fn settle_from(
         .collect()
 }
 
-/// Brings the guides to which something was done to rest.
+/// Brings the guides to which something was done to rest; with fewer than [`MAX_ITERATIONS`] those that
+/// are not put into another shape come nearer to it.
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
@@ -88,6 +89,7 @@ pub(super) fn resettle(
     head: &Head,
     guides: &[Guide],
     (before, changes): (&[Equilibrium], &[Change]),
+    iterations: usize,
     monitor: &dyn Monitor,
 ) -> Result<Vec<Equilibrium>, Cancelled> {
     let stage = Stage::new(monitor, "settling guides", guides.len());
@@ -96,6 +98,9 @@ pub(super) fn resettle(
             stage.check()?;
             let rest = match change {
                 Change::None => before.clone(),
+                Change::Changed | Change::LetGo(_) if iterations < MAX_ITERATIONS => {
+                    settle_one_from(spec, head, guide, before, iterations)
+                }
                 Change::Changed => resettle_one(spec, head, guide, before, None),
                 Change::LetGo(pull) => resettle_one(spec, head, guide, before, Some(*pull)),
                 Change::Moulded => settle_one(spec, head, guide),
@@ -177,12 +182,15 @@ fn settle_one_from(
         tolerance: WARM_TOLERANCE,
         ..options(spec)
     };
-    if spec.contact.body == Body::None {
+    if spec.contact.body == Body::None && guide.pull.is_none() {
         return equilibrium_from(&guide.rod, &[], &options, before);
     }
     let body = body(spec, head, guide, layer(spec, guide));
     let body = along(&body, guide, elements);
-    let rest = equilibrium_from(&guide.rod, &[&body], &options, before);
+    let pull = guide.pull.as_ref().map(|pull| along(pull, guide, elements));
+    let mut felt: Vec<&dyn Potential> = vec![&body];
+    felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
+    let rest = equilibrium_from(&guide.rod, &felt, &options, before);
     // It may have been pushed into the body: then it comes down from its root again.
     let deep = depth(head, &rest);
     if deep > DEEPEST && deep > depth(head, before) + DEEPEST {

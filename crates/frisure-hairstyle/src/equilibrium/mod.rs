@@ -56,6 +56,9 @@ pub struct Effort {
 impl Effort {
     /// As much as [`crate::predict`] would do.
     pub const FULL: Self = Self { iterations: alone::MAX_ITERATIONS, sweeps: together::MOST_STEPS };
+
+    /// Nothing at all: guides are in the shapes that they start from.
+    pub const NONE: Self = Self { iterations: 0, sweeps: 0 };
 }
 
 impl Default for Effort {
@@ -76,11 +79,41 @@ pub(crate) fn settle_from(
     effort: Effort,
     monitor: &dyn Monitor,
 ) -> Result<Rest, Cancelled> {
-    if spec.contact.hair == HairContact::Wisps {
+    if effort == Effort::NONE || spec.contact.hair == HairContact::Wisps {
         let start = alone::carried(spec, guides, before);
-        return together::go_on(spec, head, guides, &start, effort.sweeps, monitor);
+        return among(spec, head, guides, start, effort, monitor);
     }
     let alone = alone::settle_from(spec, head, guides, before, effort.iterations, monitor)?;
+    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
+}
+
+/// Brings every guide to rest alone, and then does no more than `effort`.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(crate) fn settle_roughly(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    let alone = alone::settle(spec, head, guides, monitor)?;
+    among(spec, head, guides, alone, effort, monitor)
+}
+
+/// Wisps make way for each other, where they do, in no more than `effort`.
+fn among(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    alone: Vec<Equilibrium>,
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    if spec.contact.hair == HairContact::Wisps && effort.sweeps > 0 {
+        return together::go_on(spec, head, guides, &alone, effort.sweeps, monitor);
+    }
     Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
 }
 
@@ -111,11 +144,29 @@ pub(crate) fn resettle(
     (before, changes): (&[Equilibrium], &[Change]),
     monitor: &dyn Monitor,
 ) -> Result<Rest, Cancelled> {
-    let alone = alone::resettle(spec, head, guides, (before, changes), monitor)?;
+    let most = Effort::FULL.iterations;
+    let alone = alone::resettle(spec, head, guides, (before, changes), most, monitor)?;
     if spec.contact.hair == HairContact::Wisps {
         return together::settle(spec, head, guides, &alone, monitor);
     }
     Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
+}
+
+/// As [`resettle`], doing no more than `effort`.
+///
+/// # Errors
+/// [`Cancelled`], if the monitor says so.
+pub(crate) fn resettle_roughly(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    (before, changes): (&[Equilibrium], &[Change]),
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<Rest, Cancelled> {
+    let most = effort.iterations;
+    let alone = alone::resettle(spec, head, guides, (before, changes), most, monitor)?;
+    among(spec, head, guides, alone, effort, monitor)
 }
 
 /// Largest distance (m) between the points at which a guide feels the body …

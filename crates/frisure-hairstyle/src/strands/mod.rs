@@ -27,24 +27,24 @@ pub(crate) use population::{Population, roots};
 /// Radius at the tip, as a fraction of the fibre's.
 const TIP: f64 = 0.35;
 
-/// Draws the hairs of a head.
+/// Draws every so manyth hair of a head, the first among them.
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
 pub(crate) fn draw(
     hairstyle: &Hairstyle,
     head: &Head,
+    every: usize,
     monitor: &dyn Monitor,
 ) -> Result<Strands, Cancelled> {
     let population = Population::new(hairstyle, head);
-    let roots = roots(hairstyle, head);
+    let roots = roots(hairstyle, head, every);
     let stage = Stage::new(monitor, "drawing hairs", roots.len());
     let hairs: Vec<Hair> = roots
         .par_iter()
-        .enumerate()
         .map(|(index, root)| {
             stage.check()?;
-            let hair = population.hair(root, index);
+            let hair = population.hair(root, *index);
             stage.advance();
             Ok(hair)
         })

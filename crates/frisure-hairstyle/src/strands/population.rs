@@ -14,7 +14,7 @@ use crate::head::Head;
 use crate::implantation::rim::Rim;
 use crate::implantation::{Layout, smooth};
 use crate::random::{Purpose, Stream};
-use crate::roots::{Root, Scalp};
+use crate::roots::Root;
 use crate::spec::HairstyleSpec;
 use crate::splits::{Split, splits};
 use crate::styling::WispState;
@@ -93,13 +93,12 @@ fn length(points: &[Vec3]) -> f64 {
     points.windows(2).map(|pair| f64::from(pair[0].distance(pair[1]))).sum()
 }
 
-/// Where the drawn hairs of a head are rooted.
-pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head) -> Vec<Root> {
-    let Hairstyle { spec, layout, .. } = hairstyle;
-    let scalp = Scalp::grown(head, spec);
-    let count = spec.wisps.hair_count(scalp.area());
-    let roots = scalp.stratified(count, spec.seed, Purpose::HairRoots);
-    roots.into_par_iter().map(|root| layout.gathered(head, root)).collect()
+/// Where every so manyth drawn hair of a head is rooted, with the index of the hair.
+pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, every: usize) -> Vec<(usize, Root)> {
+    let Hairstyle { spec, layout, planting, .. } = hairstyle;
+    let roots = planting.hairs(spec, head);
+    let gathered = |(index, root): (usize, &Root)| (index, layout.gathered(head, *root));
+    roots.par_iter().enumerate().step_by(every.max(1)).map(gathered).collect()
 }
 
 impl<'a> Population<'a> {

@@ -10,9 +10,9 @@ use super::operation::{
 };
 use super::wisp_state::{Grip, WispState, strain_of};
 use super::{Selection, StyleError, Styling};
-use crate::equilibrium::Change;
+use crate::equilibrium::{Change, Effort};
 use crate::guides::{Guide, plan};
-use crate::hairstyle::Hairstyle;
+use crate::hairstyle::{Hairstyle, Rough};
 use crate::head::Head;
 use crate::implantation::Layout;
 use crate::monitor::Monitor;
@@ -40,6 +40,26 @@ impl Hairstyle {
     ) -> Result<Self, StyleError> {
         let mut stages = self.stages(head, operation, monitor)?;
         Ok(stages.pop().expect("at least one stage"))
+    }
+
+    /// As [`Self::styled`], for the eye, doing no more than `effort` each time that hair comes to rest.
+    /// Guides start from where those of `like` rest, which is the answer of a call that was nearly the
+    /// same; without it, from where they lay.
+    ///
+    /// # Errors
+    /// As [`Self::styled`].
+    pub fn styled_roughly(
+        &self,
+        head: &Head,
+        operation: &Operation,
+        like: Option<&Self>,
+        effort: Effort,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, StyleError> {
+        let like = like.filter(|like| like.guides.len() == self.guides.len());
+        let like = like.map(|like| like.rest.guides.as_slice().into());
+        let rough = Self { rough: Some(Rough { effort, like }), ..self.clone() };
+        Ok(Self { rough: None, ..rough.styled(head, operation, monitor)? })
     }
 
     /// As [`Self::styled`], with every stage on the way, the result last. Only growth has more than

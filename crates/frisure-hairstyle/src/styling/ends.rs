@@ -32,13 +32,13 @@ impl Ends {
         left: impl Fn(&Population<'_>, &Root, usize, usize) -> f64 + Sync,
     ) -> Self {
         let population = Population::new(hairstyle, head);
-        let roots = roots(hairstyle, head);
+        let roots = roots(hairstyle, head, 1);
         let before = hairstyle.styling.ends.as_ref();
         let wisps: Arc<[u32]> = match before {
             Some(ends) => ends.wisps.clone(),
-            None => roots.par_iter().map(|root| population.main(root) as u32).collect(),
+            None => roots.par_iter().map(|(_, root)| population.main(root) as u32).collect(),
         };
-        let limit = |(index, root): (usize, &Root)| {
+        let limit = |&(index, ref root): &(usize, Root)| {
             let limit = before.map_or(f32::INFINITY, |ends| ends.limits[index]);
             let wisp = wisps[index] as usize;
             if !chosen[wisp] {
@@ -46,15 +46,15 @@ impl Ends {
             }
             limit.min(left(&population, root, index, wisp).max(STUBBLE) as f32)
         };
-        let limits = roots.par_iter().enumerate().map(limit).collect();
+        let limits = roots.par_iter().map(limit).collect();
         Self { limits, wisps }
     }
 
     /// The same hairs where they follow other guides.
     pub(super) fn replanted(self, hairstyle: &Hairstyle, head: &Head) -> Self {
         let population = Population::new(hairstyle, head);
-        let wisp = |root: &Root| population.main(root) as u32;
-        let wisps = roots(hairstyle, head).par_iter().map(wisp).collect();
+        let wisp = |(_, root): &(usize, Root)| population.main(root) as u32;
+        let wisps = roots(hairstyle, head, 1).par_iter().map(wisp).collect();
         Self { wisps, ..self }
     }
 

@@ -66,6 +66,15 @@ impl Styling {
         Self { planned: planned.into(), wisps, humidity: ROOM, ends: None, lay: None }
     }
 
+    /// Whether nothing has been done to guides.
+    pub(crate) fn is_none(&self, guides: &[Guide]) -> bool {
+        let untouched = guides.iter().map(|g| WispState::new(g.rod.length()));
+        self.humidity == ROOM
+            && self.ends.is_none()
+            && self.lay.is_none()
+            && self.wisps.iter().cloned().eq(untouched)
+    }
+
     /// The guides as they were planned.
     pub(crate) fn planned(&self) -> &[Guide] {
         &self.planned

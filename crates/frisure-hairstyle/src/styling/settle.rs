@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use super::fibre_now;
 use super::wisp_state::{Grip, WispState};
 use super::{Lay, StyleError, Styling};
-use crate::equilibrium::{Change, Rest, resettle};
+use crate::equilibrium::{Change, Rest, resettle, resettle_roughly, settle_from};
 use crate::guides::Guide;
-use crate::hairstyle::Hairstyle;
+use crate::hairstyle::{Hairstyle, Rough};
 use crate::head::Head;
 use crate::monitor::Monitor;
 
@@ -73,7 +73,12 @@ impl Hairstyle {
                 ),
             })
             .collect::<Result<_, InvalidQuantity>>()?;
-        let rest = self.rest_of(head, &styling, &guides, (changed, change), monitor)?;
+        let rest = match &self.rough {
+            None => self.rest_of(head, &styling, &guides, (changed, change), monitor)?,
+            Some(rough) => {
+                self.rough_rest_of(head, &styling, &guides, (&changed, change, rough), monitor)?
+            }
+        };
         Ok(Self { guides, rest, styling, ..self.clone() })
     }
 
@@ -110,6 +115,27 @@ impl Hairstyle {
             }
         }
         Ok(resettle(&self.spec, head, guides, (&before, &changes), monitor)?)
+    }
+
+    /// Brings changed guides nearer to rest, from where they are likely to end.
+    fn rough_rest_of(
+        &self,
+        head: &Head,
+        styling: &Styling,
+        guides: &[Guide],
+        (changed, otherwise, rough): (&[bool], Change, &Rough),
+        monitor: &dyn Monitor,
+    ) -> Result<Rest, StyleError> {
+        if let Some(like) = &rough.like {
+            return Ok(settle_from(&self.spec, head, guides, like, rough.effort, monitor)?);
+        }
+        let change = |(wisp, &changed): (usize, &bool)| match changed {
+            true => self.change(styling, wisp, otherwise),
+            false => Change::None,
+        };
+        let changes: Vec<Change> = changed.iter().enumerate().map(change).collect();
+        let from = (self.rest.guides.as_slice(), changes.as_slice());
+        Ok(resettle_roughly(&self.spec, head, guides, from, rough.effort, monitor)?)
     }
 
     /// What was done to a wisp that changed.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::files::{ReadError, read_bytes};
+use crate::files::{Files, ReadError};
 
 /// Most pixels across and down.
 const MOST: [usize; 2] = [16_384, 8192];
@@ -82,14 +82,14 @@ fn is_of_screens(path: &Path) -> bool {
 /// # Errors
 /// [`EnvironmentError`], also for a picture that is not twice as wide as it is high, larger than 16 384 ×
 /// 8192, or that has light below zero, above 1e12 or not finite. Negative light down to −0.01 becomes 0.
-pub fn read(path: &Path) -> Result<Environment, EnvironmentError> {
+pub fn read(path: &Path, files: &Files) -> Result<Environment, EnvironmentError> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
     let decode = match ending.as_str() {
         "hdr" => radiance::decode,
         "exr" => openexr::decode,
         _ => return Err(EnvironmentError::Extension { path: path.into() }),
     };
-    let bytes = read_bytes(path, MAX_SIZE, "an environment")?;
+    let bytes = files.read_bytes(path, MAX_SIZE, "an environment")?;
     let broken = |problem| EnvironmentError::Broken { path: path.into(), problem };
     let mut environment = decode(&bytes).map_err(broken)?;
     clean(&mut environment).map_err(broken)?;

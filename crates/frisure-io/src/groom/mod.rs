@@ -102,8 +102,29 @@ impl Format {
 /// # Errors
 /// [`GroomError`].
 pub fn write_groom(path: &Path, strands: &Strands) -> Result<(), GroomError> {
-    type Fill = fn(&mut dyn io::Write, &Strands) -> io::Result<()>;
-    let fill: Fill = match Format::of(path)? {
+    let fill = encoder(Format::of(path)?, strands)?;
+    write_atomically(path, |out| fill(out, strands))?;
+    Ok(())
+}
+
+/// The bytes of a groom file, the same that [`write_groom`] writes.
+///
+/// # Errors
+/// [`GroomError::CannotHold`].
+pub fn encode(format: Format, strands: &Strands) -> Result<Vec<u8>, GroomError> {
+    let fill = encoder(format, strands)?;
+    let mut bytes = Vec::new();
+    // Memory takes all bytes.
+    fill(&mut bytes, strands).map_err(|source| WriteError::Io { path: PathBuf::new(), source })?;
+    Ok(bytes)
+}
+
+/// Writes strands to anything.
+type Encoder = fn(&mut dyn io::Write, &Strands) -> io::Result<()>;
+
+/// What writes strands in a format, if it can hold them.
+fn encoder(format: Format, strands: &Strands) -> Result<Encoder, GroomError> {
+    Ok(match format {
         Format::Hair => {
             hair::check(strands)?;
             hair::encode
@@ -113,9 +134,7 @@ pub fn write_groom(path: &Path, strands: &Strands) -> Result<(), GroomError> {
             ply::check(strands)?;
             ply::encode
         }
-    };
-    write_atomically(path, |out| fill(out, strands))?;
-    Ok(())
+    })
 }
 
 /// Reads strands from a file in the format that the path's extension names. So far that is `.hair`.

@@ -9,7 +9,7 @@ use frisure_strands::{Surface, SurfaceError};
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::files::{self, ReadError};
+use crate::files::{Files, ReadError};
 use crate::scene::{HeadFile, ScalpSource, UpAxis};
 
 pub use obj::Group;
@@ -148,9 +148,9 @@ fn unit_hint(size: f64, scale: f64) -> String {
 ///
 /// # Errors
 /// [`HeadFileError`].
-pub fn read(head: &HeadFile) -> Result<HeadMesh, HeadFileError> {
+pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
     let path = &head.path;
-    let text = files::read_text(path, MAX_SIZE, "a mesh")?;
+    let text = files.read_text(path, MAX_SIZE, "a mesh")?;
     let mesh = obj::parse(&text).map_err(|(line, problem)| HeadFileError::Line {
         path: path.clone(),
         line,
@@ -176,8 +176,8 @@ pub fn read(head: &HeadFile) -> Result<HeadMesh, HeadFileError> {
     let scalp = match &head.scalp {
         ScalpSource::Guess => None,
         ScalpSource::Group(name) => Some(scalp::from_group(&mesh, name, path)?),
-        ScalpSource::Mask(mask) => Some(scalp::from_mask(&mesh, mask, path)?),
-        ScalpSource::Weights(weights) => Some(scalp::from_text(&mesh, weights)?),
+        ScalpSource::Mask(mask) => Some(scalp::from_mask(&mesh, (mask, files), path)?),
+        ScalpSource::Weights(weights) => Some(scalp::from_text(&mesh, weights, files)?),
     };
     if let Some(weights) = &scalp {
         check_area(&surface, weights, &head.scalp)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::obj::Mesh;
 use super::{HeadFileError, MAX_SIZE};
-use crate::files;
+use crate::files::Files;
 
 /// Largest mask that is decoded (bytes of pixels): a small file can claim a huge picture.
 const MAX_PIXELS: usize = 1 << 28;
@@ -28,12 +28,16 @@ pub(super) fn from_group(mesh: &Mesh, name: &str, path: &Path) -> Result<Vec<f64
 
 /// The mask's brightness at each vertex, averaged over the corners that meet there: vertices on a
 /// seam have several texture coordinates.
-pub(super) fn from_mask(mesh: &Mesh, mask: &Path, path: &Path) -> Result<Vec<f64>, HeadFileError> {
+pub(super) fn from_mask(
+    mesh: &Mesh,
+    (mask, files): (&Path, &Files),
+    path: &Path,
+) -> Result<Vec<f64>, HeadFileError> {
     if mesh.triangle_uvs.iter().all(Option::is_none) {
         let problem = "a scalp mask needs texture coordinates, and its faces have none";
         return Err(super::not_a_mesh(path, problem));
     }
-    let picture = Mask::read(mask)?;
+    let picture = Mask::read(mask, files)?;
     let mut sums = vec![(0.0, 0_u32); mesh.positions.len()];
     for (triangle, uvs) in mesh.triangles.iter().zip(&mesh.triangle_uvs) {
         let Some(uvs) = uvs else { continue };
@@ -47,8 +51,12 @@ pub(super) fn from_mask(mesh: &Mesh, mask: &Path, path: &Path) -> Result<Vec<f64
 }
 
 /// One number per line and vertex.
-pub(super) fn from_text(mesh: &Mesh, path: &Path) -> Result<Vec<f64>, HeadFileError> {
-    let text = files::read_text(path, MAX_SIZE, "a list of weights")?;
+pub(super) fn from_text(
+    mesh: &Mesh,
+    path: &Path,
+    files: &Files,
+) -> Result<Vec<f64>, HeadFileError> {
+    let text = files.read_text(path, MAX_SIZE, "a list of weights")?;
     let fault = |line, problem| HeadFileError::Line { path: path.into(), line, problem };
     let mut weights = Vec::with_capacity(mesh.positions.len());
     for (i, line) in text.lines().enumerate() {
@@ -79,8 +87,8 @@ struct Mask {
 }
 
 impl Mask {
-    fn read(path: &Path) -> Result<Self, HeadFileError> {
-        let bytes = files::read_bytes(path, MAX_SIZE, "a mask")?;
+    fn read(path: &Path, files: &Files) -> Result<Self, HeadFileError> {
+        let bytes = files.read_bytes(path, MAX_SIZE, "a mask")?;
         Self::decode(&bytes).map_err(|problem| HeadFileError::Format {
             path: path.into(),
             expected: "a PNG picture",

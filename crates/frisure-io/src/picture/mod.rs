@@ -31,7 +31,7 @@ pub enum PictureError {
         name: String,
     },
     /// The pixels cannot be encoded.
-    #[error("cannot make an OpenEXR picture: {0}")]
+    #[error("cannot encode the picture: {0}")]
     Encoding(String),
     /// The file could not be written.
     #[error(transparent)]

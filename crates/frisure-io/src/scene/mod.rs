@@ -35,7 +35,7 @@ pub use template::template;
 pub use words::{Tone, UpAxis};
 
 use crate::environment::{self, Environment};
-use crate::files;
+use crate::files::{self, Files};
 use crate::head::{self, HeadMesh};
 use source::Source;
 
@@ -289,8 +289,16 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] at the key that names what cannot be used.
     pub fn head_mesh(&self) -> Result<Option<HeadMesh>, SceneError> {
+        self.head_mesh_in(&Files::default())
+    }
+
+    /// The same, with files from somewhere.
+    ///
+    /// # Errors
+    /// As [`Self::head_mesh`].
+    pub fn head_mesh_in(&self, files: &Files) -> Result<Option<HeadMesh>, SceneError> {
         let HeadSource::Mesh(file) = &self.head else { return Ok(None) };
-        head::read(file).map(Some).map_err(|e| {
+        head::read(file, files).map(Some).map_err(|e| {
             // A cause, such as what the system said, belongs to the same sentence.
             let message = match std::error::Error::source(&e) {
                 Some(cause) => format!("{e}: {cause}"),
@@ -305,8 +313,16 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] at the key that names what cannot be used.
     pub fn environment(&self) -> Result<Option<Environment>, SceneError> {
+        self.environment_in(&Files::default())
+    }
+
+    /// The same, with files from somewhere.
+    ///
+    /// # Errors
+    /// As [`Self::environment`].
+    pub fn environment_in(&self, files: &Files) -> Result<Option<Environment>, SceneError> {
         let Some(file) = &self.light.environment else { return Ok(None) };
-        environment::read(&file.path).map(Some).map_err(|e| {
+        environment::read(&file.path, files).map(Some).map_err(|e| {
             let message = match std::error::Error::source(&e) {
                 Some(cause) => format!("{e}: {cause}"),
                 None => e.to_string(),

@@ -56,7 +56,7 @@ pub(crate) fn run_scene(
     check_outputs(&arguments, &scene, turntable)?;
 
     let environment = match arguments.image {
-        Some(_) => frisure_stylist::picture::environment(&scene)?,
+        Some(_) => frisure_stylist::picture::environment(&scene, &Files::default())?,
         None => None,
     };
     let progress = Progress::new(quiet);
