@@ -274,8 +274,10 @@ impl Work {
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
         let views = match self.turntable {
-            Some(_) => frisure_stylist::picture::turntable(&self.scene, strands, surface, frames, around)
-                .map_err(|e| Failure::wrong(&e, ""))?,
+            Some(_) => {
+                frisure_stylist::picture::turntable(&self.scene, strands, surface, frames, around)
+                    .map_err(|e| Failure::wrong(&e, ""))?
+            }
             None => Vec::new(),
         };
         let denoiser = exposing::denoiser(self.arguments.tracing.denoise)?;
