@@ -9,6 +9,7 @@ use frisure::hairstyle::styling::{
 };
 use frisure::hairstyle::{Comb as Named, Place};
 use frisure::io::scene::{Scene, SceneError, edit};
+use super::shim;
 use frisure_stylist::order::Refusal;
 use glam::DVec3;
 
@@ -159,8 +160,8 @@ pub(super) fn understand(document: &Document, text: &str) -> Result<Understood, 
 }
 
 /// What a person reads of a scene that is none.
-fn refusal(error: &SceneError) -> Refusal {
-    frisure_stylist::refusal(error)
+fn refusal(error: SceneError) -> Refusal {
+    error.into()
 }
 
 impl Salon {
@@ -236,7 +237,7 @@ impl Salon {
                 self.orbit.look_from(view.azimuth, view.elevation);
                 self.orbit.field_of_view = view.field_of_view;
             }
-            Err(error) => self.complain(&refusal(&error)),
+            Err(error) => self.complain(&refusal(error)),
         }
     }
 
@@ -246,7 +247,7 @@ impl Salon {
         let text = match text {
             Ok(text) => text,
             Err(error) => {
-                let refusal = match &error {
+                let refusal = match error {
                     edit::EditError::Scene(error) => refusal(error),
                     other => Refusal { problem: other.to_string(), ..Refusal::default() },
                 };
@@ -264,7 +265,7 @@ impl Salon {
                 true
             }
             Err(error) => {
-                self.complain(&refusal(&error));
+                self.complain(&refusal(error));
                 false
             }
         }
@@ -278,7 +279,7 @@ impl Salon {
 
     fn set(&mut self, key: &'static str, value: f64, held: bool) {
         let (Some(control), Some(base)) = (super::control_of(key), self.base()) else { return };
-        let text = edit::set_key(base, key, &control.written(value));
+        let text = shim::set_key(base, key, &control.written(value));
         self.change(&label(control, value), text, held);
     }
 
@@ -302,14 +303,14 @@ impl Salon {
             option.map(|(_, said)| format!("{}: {}", choice.label, said.to_lowercase()))
         };
         let label = all.iter().find(|c| c.key == key).and_then(said);
-        let text = edit::set_key(base, key, word);
+        let text = shim::set_key(base, key, word);
         self.change(label.as_deref().unwrap_or("Changed"), text, false);
     }
 
     fn reset(&mut self, key: &'static str) {
         let Some(base) = self.base() else { return };
         let name = super::control_of(key).map_or(key, |control| control.label);
-        let text = edit::unset_key(base, key);
+        let text = shim::unset_key(base, key);
         self.change(&format!("{name} as the hair type has it"), text, false);
     }
 
@@ -318,9 +319,9 @@ impl Salon {
         let (label, text) = match path {
             Some(path) => {
                 let written = format!("{path:?}");
-                ("Another head", edit::set_key(base, "head.mesh", &written))
+                ("Another head", shim::set_key(base, "head.mesh", &written))
             }
-            None => ("The mannequin's head", edit::unset_key(base, "head.mesh")),
+            None => ("The mannequin's head", shim::unset_key(base, "head.mesh")),
         };
         if self.change(label, text, false) {
             self.framed = false;
@@ -524,7 +525,7 @@ impl Salon {
             ("camera.elevation", format!("\"{} deg\"", degrees(self.orbit.elevation))),
         ];
         let keys: Vec<_> = keys.iter().map(|(key, value)| (*key, value.as_str())).collect();
-        let text = edit::set_keys(base, &keys);
+        let text = shim::set_keys(base, &keys);
         self.change("The scene's camera", text, false);
     }
 
@@ -610,3 +611,4 @@ fn changed(before: &str, now: &Understood) -> String {
         |control| label(control, control.value(&now.scene, &now.spec)),
     )
 }
+pub(super) use frisure::io::scene::edit as edit2;

@@ -18,6 +18,7 @@ mod keeping;
 mod orbit;
 mod picture;
 mod selecting;
+mod shim;
 mod touch;
 
 use std::sync::Arc;

@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 use std::collections::BTreeMap;
 
-use super::{probe, theme};
+use super::theme;
 use crate::state::{Card, Command, SCENES, Salon, TYPES};
 
 /// Pictures of cards on the device.
@@ -74,9 +74,8 @@ fn row(ui: &mut Ui, title: &str, all: &[Card], pictures: &mut Pictures, out: &mu
 /// A card that can be clicked.
 fn card(ui: &mut Ui, card: &Card, pictures: &mut Pictures) -> bool {
     let (rect, response) = ui.allocate_exact_size(CARD + vec2(0.0, CAPTION), Sense::click());
-    probe::record(card.name, rect);
     response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Begin: {}", card.title))
+        egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Begin: {}", card.title))
     });
     if ui.is_rect_visible(rect) {
         let visuals = ui.style().interact(&response);

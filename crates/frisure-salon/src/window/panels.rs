@@ -2,7 +2,7 @@
 
 use eframe::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Ui};
 
-use super::{probe, widgets};
+use super::widgets;
 use crate::state::{CONTROLS, Choice, Command, Panel, Salon};
 
 /// All of them.
@@ -24,7 +24,6 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, choices: &[Choice], out: &mut Vec
                     head(ui, salon, out);
                 }
             });
-            probe::record(panel.title(), section.header_response.rect);
         }
     });
 }
@@ -41,13 +40,11 @@ fn words(ui: &mut Ui, salon: &Salon, choice: &Choice, out: &mut Vec<Command>) {
             for (written, said) in &choice.options {
                 let on = Some(written) == current.as_ref();
                 let option = ui.selectable_label(on, said);
-                probe::record(&format!("{}: {said}", choice.label), option.rect);
                 if option.clicked() && !on {
                     out.push(Command::Word(choice.key, written.clone()));
                 }
             }
         });
-        probe::record(choice.label, shown.response.rect);
         shown.response.labelled_by(label.id).on_hover_text(choice.help);
     });
 }
@@ -92,7 +89,7 @@ pub(super) fn history(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
                 let compare = compare.on_hover_text("See it beside the hair as it is now");
                 compare.widget_info(|| {
                     let label = format!("Compare with {}", edit.label);
-                    let kind = eframe::egui::WidgetType::Button;
+                    let kind = eframe::egui::Role::Button;
                     eframe::egui::WidgetInfo::selected(kind, true, before, label)
                 });
                 if compare.clicked() {
@@ -101,7 +98,6 @@ pub(super) fn history(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
                 let text = RichText::new(&edit.label);
                 let text = if index > document.at() { text.weak() } else { text };
                 let row = ui.selectable_label(index == document.at(), text);
-                probe::record(&format!("history {index}"), row.rect);
                 if row.clicked() {
                     out.push(Command::GoTo(index));
                 }

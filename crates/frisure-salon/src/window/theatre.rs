@@ -5,7 +5,9 @@ use std::sync::{Arc, Mutex};
 use eframe::egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui, wgpu};
 use frisure::render::{Camera, Lights, Look, ToneCurve};
+use frisure::strands::{Attribute, AttributeValues, Domain, Strands};
 use frisure_stylist::order::StrandsData;
+use glam::Vec3;
 use frisure_view::{Canvas, Frame, Hair, Line, Mark, Plane, Renderer, Shadows, Skin, ViewError};
 
 use crate::state::HeadMesh;
@@ -51,6 +53,27 @@ impl AsStrands for frisure_stylist::order::Shown {
     fn strands(&self) -> &StrandsData {
         &self.strands
     }
+}
+
+/// Plain arrays as strands; of arrays that do not fit together, what does.
+fn as_strands(data: &StrandsData) -> Strands {
+    let mut strands = Strands::with_capacity(data.guide.len(), data.radii.len());
+    let points: Vec<Vec3> = data.points.as_chunks().0.iter().map(|p| Vec3::from_array(*p)).collect();
+    for ends in data.offsets.windows(2) {
+        let piece = ends[0] as usize..ends[1] as usize;
+        if let (Some(points), Some(radii)) = (points.get(piece.clone()), data.radii.get(piece)) {
+            strands.push(points, radii);
+        }
+    }
+    let mut set = |name: &str, domain, values| {
+        // What does not fit is left out.
+        let _ = strands.set_attribute(Attribute { name: name.into(), domain, values });
+    };
+    set("guide", Domain::Strand, AttributeValues::U32(data.guide.clone()));
+    if !data.wetness.is_empty() {
+        set("wetness", Domain::Point, AttributeValues::F32(data.wetness.clone()));
+    }
+    strands
 }
 
 /// What is on the device.
@@ -222,7 +245,7 @@ impl Stage {
         };
         let look = picture.look.hair;
         if self.hair.as_ref().is_none_or(|dressed| dressed.version != *version) {
-            let strands = hair.strands().strands();
+            let strands = as_strands(hair.strands());
             let hair = Hair::new(renderer, device, queue, &strands, &look);
             self.hair = Some(Dressed { hair, version: *version, look, marks: 0 });
         }

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use eframe::egui::{
     self, Align2, Color32, CursorIcon, FontId, Key, PointerButton, Pos2, Rect, Response, Sense,
-    Shape, Stroke, Ui, pos2, vec2,
+    Shape, Stroke, Ui, vec2,
 };
 use eframe::egui_wgpu::Callback;
 use frisure::render::{Camera, Lights, Look, ToneCurve};
@@ -52,7 +52,7 @@ impl Viewport {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "The head")
+            egui::WidgetInfo::labeled(egui::Role::Image, true, "The head")
         });
         probe::record("The head", rect);
         let sides = sides(rect, salon.compared().is_some());
@@ -485,6 +485,7 @@ fn told(ui: &Ui, hair: &OneHair, rect: Rect) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui::pos2;
 
     #[test]
     fn places_of_the_picture_come_back() {

@@ -2,7 +2,6 @@
 
 use eframe::egui::{Button, Response, RichText, Slider, Ui, Widget, vec2};
 
-use super::probe;
 use crate::state::{Command, Control};
 
 /// A button with a label, a key, and a sentence on what it does.
@@ -22,7 +21,6 @@ pub(super) fn toggle(ui: &mut Ui, label: &str, on: bool, help: &str) -> Response
 
 fn labelled(ui: &mut Ui, label: &str, button: impl Widget, help: &str) -> Response {
     let response = ui.add(button);
-    probe::record(label, response.rect);
     if help.is_empty() { response } else { response.on_hover_text(help) }
 }
 
@@ -36,7 +34,7 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Opti
             let reset = ui.add(reset).on_hover_text("As the hair type has it");
             reset.widget_info(|| {
                 let label = format!("Reset {}", control.label);
-                eframe::egui::WidgetInfo::labeled(eframe::egui::WidgetType::Button, true, label)
+                eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, label)
             });
             if reset.clicked() {
                 command = Some(Command::Reset(control.key));
@@ -57,7 +55,6 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Opti
         .suffix(suffix);
     let response = ui.add(slider).on_hover_text(control.help);
     response.widget_info(|| eframe::egui::WidgetInfo::slider(true, value, control.label));
-    probe::record(control.label, response.rect);
     if response.drag_stopped() {
         command = Some(Command::LetGo);
     } else if response.changed() {

@@ -1,7 +1,6 @@
 //! The stylist on a thread.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -10,24 +9,21 @@ use std::thread;
 use frisure_stylist::order::{Answer, Order, Refusal};
 use frisure_stylist::{Stylist, Watch};
 
-use super::{Wake, Worker};
-use crate::state::Ticket;
+use super::Worker;
 
-/// A thread with a stylist.
+/// Called, from any thread, when there is an answer to poll.
+pub type Wake = Box<dyn Fn() + Send + Sync>;
+
+/// A thread with a stylist. Dropped, it ends.
 pub struct Thread {
-    orders: Sender<Job>,
-    answers: Receiver<(Ticket, Answer)>,
+    orders: Sender<(u64, Order)>,
+    answers: Receiver<(u64, Answer)>,
     /// Orders up to this ticket were cancelled.
     cancelled: Arc<AtomicU64>,
 }
 
-enum Job {
-    Order(Ticket, Order),
-    File(PathBuf, Vec<u8>),
-}
-
 impl Thread {
-    /// Starts it. It ends when this is dropped, after the order that it is at.
+    /// Starts it.
     ///
     /// # Errors
     /// If the system has no room for a thread.
@@ -44,13 +40,13 @@ impl Thread {
 }
 
 struct Outbox {
-    out: Sender<(Ticket, Answer)>,
+    out: Sender<(u64, Answer)>,
     wake: Wake,
     told: Arc<AtomicU64>,
 }
 
 impl Outbox {
-    fn send(&self, ticket: Ticket, answer: Answer) {
+    fn send(&self, ticket: u64, answer: Answer) {
         // A window that is gone needs no answer.
         if self.out.send((ticket, answer)).is_ok() {
             (self.wake)();
@@ -58,7 +54,7 @@ impl Outbox {
     }
 }
 
-struct Watching<'a>(Ticket, &'a Outbox);
+struct Watching<'a>(u64, &'a Outbox);
 
 impl Watch for Watching<'_> {
     fn tell(&self, answer: Answer) {
@@ -70,16 +66,9 @@ impl Watch for Watching<'_> {
     }
 }
 
-fn serve(jobs: &Receiver<Job>, outbox: &Outbox) {
+fn serve(jobs: &Receiver<(u64, Order)>, outbox: &Outbox) {
     let mut stylist = Stylist::new();
-    while let Ok(job) = jobs.recv() {
-        let (ticket, order) = match job {
-            Job::Order(ticket, order) => (ticket, order),
-            Job::File(path, bytes) => {
-                stylist.provide(&path, bytes);
-                continue;
-            }
-        };
+    while let Ok((ticket, order)) = jobs.recv() {
         let work = AssertUnwindSafe(|| stylist.carry_out(&order, &Watching(ticket, outbox)));
         let answer = catch_unwind(work).unwrap_or_else(|_| {
             // What it knew may be half done.
@@ -95,21 +84,17 @@ fn serve(jobs: &Receiver<Job>, outbox: &Outbox) {
 }
 
 impl Worker for Thread {
-    fn send(&mut self, ticket: Ticket, order: Order) {
+    fn send(&mut self, ticket: u64, order: Order) {
         // The thread ends only with this.
-        let _ = self.orders.send(Job::Order(ticket, order));
+        let _ = self.orders.send((ticket, order));
     }
 
-    fn cancel(&mut self, ticket: Ticket) {
+    fn cancel(&mut self, ticket: u64) {
         self.cancelled.fetch_max(ticket, Ordering::Relaxed);
     }
 
-    fn poll(&mut self) -> Option<(Ticket, Answer)> {
+    fn poll(&mut self) -> Option<(u64, Answer)> {
         self.answers.try_recv().ok()
-    }
-
-    fn provide(&mut self, path: &Path, bytes: &[u8]) {
-        let _ = self.orders.send(Job::File(path.into(), bytes.to_vec()));
     }
 }
 

@@ -1,0 +1,37 @@
+//! The page: the salon for WebAssembly, its JavaScript, and what is written by hand.
+
+mod compile;
+mod files;
+mod sizes;
+
+pub(crate) use sizes::beside;
+
+use anyhow::{Context, Result};
+use std::path::{Path, PathBuf};
+
+/// The workspace.
+pub(crate) fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.ancestors().nth(2).unwrap_or(here).to_owned()
+}
+
+/// Where the page is built.
+pub(crate) fn folder() -> PathBuf {
+    root().join("out/page")
+}
+
+/// Compiles the salon, writes the page, tells its size, and refuses one that is too large.
+pub(crate) fn build(dev: bool) -> Result<()> {
+    let wasm = compile::salon(dev)?;
+    let folder = folder();
+    files::empty(&folder)?;
+    compile::bind(&wasm, &folder)?;
+    files::write_by_hand(&folder)?;
+    let sizes = sizes::compress(&folder, dev).context("cannot compress the page")?;
+    crate::say(&sizes.table());
+    crate::say(&format!("the page is in {}", folder.display()));
+    match dev {
+        true => Ok(()),
+        false => sizes.check(),
+    }
+}

@@ -1,0 +1,269 @@
+//! Chromium without a window, driven through a pipe: its DevTools protocol, one line of JSON each
+//! way, needs nothing but the browser.
+
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// For one answer of the browser.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// What browsers are called.
+const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+
+/// One page in one browser with an empty profile.
+pub(crate) struct Chromium {
+    browser: Child,
+    to: ChildStdin,
+    from: Receiver<Value>,
+    session: Option<String>,
+    last: u64,
+    /// What the page wrote to its console, and what it did not catch.
+    pub(crate) console: Vec<String>,
+    folder: tempfile::TempDir,
+}
+
+/// A browser, if one is installed.
+pub(crate) fn installed() -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    NAMES.iter().flat_map(|name| folders.iter().map(move |f| f.join(name))).find(|p| p.is_file())
+}
+
+impl Chromium {
+    /// Starts it with an empty page of this size.
+    pub(crate) fn start(program: &Path, [width, height]: [u32; 2]) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let log = std::fs::File::create(folder.path().join("log")).expect("a log");
+        // The protocol goes through the files 3 and 4, which a shell can set.
+        let mut browser = Command::new("sh")
+            .args(["-c", r#"exec "$0" "$@" 3<&0 4>&1 1>&2 0</dev/null"#])
+            .arg(program)
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"])
+            .args(["--no-first-run", "--disable-background-networking", "--disable-sync"])
+            .args(["--disable-component-update", "--enable-unsafe-swiftshader"])
+            .args(["--hide-scrollbars", "--force-color-profile=srgb", "--force-dark-mode"])
+            .args([format!("--window-size={width},{height}"), "--remote-debugging-pipe".into()])
+            .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(log)
+            .spawn()
+            .expect("a browser");
+        let to = browser.stdin.take().expect("a pipe");
+        let from = messages(browser.stdout.take().expect("a pipe"));
+        let (session, console) = (None, Vec::new());
+        let mut this = Self { browser, to, from, session, last: 0, console, folder };
+        this.open_page([width, height]);
+        this
+    }
+
+    fn open_page(&mut self, [width, height]: [u32; 2]) {
+        let target = self.call("Target.createTarget", &json!({ "url": "about:blank" }));
+        let asked = json!({ "targetId": target["targetId"], "flatten": true });
+        let attached = self.call("Target.attachToTarget", &asked);
+        self.session = attached["sessionId"].as_str().map(str::to_owned);
+        for domain in ["Page.enable", "Runtime.enable"] {
+            self.call(domain, &json!({}));
+        }
+        let size =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", &size);
+        let downloads = json!({ "behavior": "allow", "downloadPath": self.downloads() });
+        self.call("Page.setDownloadBehavior", &downloads);
+    }
+
+    /// Where downloads arrive.
+    pub(crate) fn downloads(&self) -> PathBuf {
+        self.folder.path().join("downloads")
+    }
+
+    /// A file in that folder, once it is complete.
+    pub(crate) fn downloaded(&mut self, name: &str) -> Vec<u8> {
+        let path = self.downloads().join(name);
+        let until = Instant::now() + PATIENCE;
+        while Instant::now() < until {
+            // While it arrives, it has another name.
+            if let Ok(bytes) = std::fs::read(&path) {
+                return bytes;
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        let there: Vec<_> = std::fs::read_dir(self.downloads())
+            .map(|entries| entries.flatten().map(|e| e.file_name()).collect())
+            .unwrap_or_default();
+        panic!("{name} did not arrive; there are {there:?}; console: {:#?}", self.console)
+    }
+
+    /// Goes to an address.
+    pub(crate) fn open(&mut self, address: &str) {
+        let told = self.call("Page.navigate", &json!({ "url": address }));
+        assert!(told["errorText"].is_null(), "{address}: {told}");
+    }
+
+    /// What an expression of JavaScript gives; promises are waited for.
+    pub(crate) fn evaluate(&mut self, expression: &str) -> Value {
+        let asked =
+            json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
+        let told = self.call("Runtime.evaluate", &asked);
+        assert!(told["exceptionDetails"].is_null(), "{expression}: {told}");
+        told["result"]["value"].clone()
+    }
+
+    /// The first value of an expression that is true in JavaScript's sense.
+    pub(crate) fn wait_for(&mut self, expression: &str, seconds: u64) -> Value {
+        let until = Instant::now() + Duration::from_secs(seconds);
+        loop {
+            let value = self
+                .evaluate(&format!("(() => {{ const v = {expression}; return v ? v : null; }})()"));
+            if !value.is_null() {
+                return value;
+            }
+            if Instant::now() > until {
+                let notice = self.evaluate("document.getElementById('notice')?.textContent");
+                let state = self.evaluate("JSON.stringify(window.frisure?.state())");
+                panic!(
+                    "not in {seconds} s: {expression}\nnotice: {notice}\nstate: {state}\nconsole: {:#?}",
+                    self.console
+                );
+            }
+            std::thread::sleep(Duration::from_millis(150));
+        }
+    }
+
+    /// Presses and releases the left button there.
+    pub(crate) fn click(&mut self, x: f64, y: f64) {
+        self.mouse("mouseMoved", x, y, 0);
+        self.mouse("mousePressed", x, y, 1);
+        self.mouse("mouseReleased", x, y, 0);
+    }
+
+    /// Drags from the first through all the other points.
+    pub(crate) fn drag(&mut self, points: &[[f64; 2]]) {
+        let ([x, y], [to_x, to_y]) = (points[0], points[points.len() - 1]);
+        self.mouse("mouseMoved", x, y, 0);
+        self.mouse("mousePressed", x, y, 1);
+        for [x, y] in &points[1..] {
+            self.mouse("mouseMoved", *x, *y, 1);
+            std::thread::sleep(Duration::from_millis(60));
+        }
+        self.mouse("mouseReleased", to_x, to_y, 0);
+    }
+
+    fn mouse(&mut self, kind: &str, x: f64, y: f64, buttons: u32) {
+        let button = if kind == "mouseMoved" && buttons == 0 { "none" } else { "left" };
+        let event = json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 });
+        self.call("Input.dispatchMouseEvent", &event);
+    }
+
+    /// What is seen now, as the bytes of a PNG.
+    pub(crate) fn screenshot(&mut self) -> Vec<u8> {
+        let told = self.call("Page.captureScreenshot", &json!({ "format": "png" }));
+        from_base64(told["data"].as_str().expect("a picture"))
+    }
+
+    /// Calls a method of the protocol.
+    pub(crate) fn call(&mut self, method: &str, params: &Value) -> Value {
+        self.last += 1;
+        let mut message = json!({ "id": self.last, "method": method, "params": params });
+        if let Some(session) = &self.session {
+            message["sessionId"] = json!(session);
+        }
+        self.to.write_all(format!("{message}\0").as_bytes()).expect("a message to the browser");
+        loop {
+            let answer = self.from.recv_timeout(PATIENCE).unwrap_or_else(|_| {
+                let log = std::fs::read_to_string(self.folder.path().join("log"));
+                panic!("no answer to {method}; the browser's log: {}", log.unwrap_or_default())
+            });
+            if answer["id"] == json!(self.last) {
+                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
+                return answer["result"].clone();
+            }
+            self.note(&answer);
+        }
+    }
+
+    /// Keeps what the page writes to its console.
+    fn note(&mut self, event: &Value) {
+        let params = &event["params"];
+        match event["method"].as_str() {
+            Some("Runtime.consoleAPICalled") => {
+                let words: Vec<String> = params["args"]
+                    .as_array()
+                    .into_iter()
+                    .flatten()
+                    .map(|arg| {
+                        arg["value"]
+                            .as_str()
+                            .map_or_else(|| arg["description"].to_string(), str::to_owned)
+                    })
+                    .collect();
+                self.console.push(format!(
+                    "{}: {}",
+                    params["type"].as_str().unwrap_or(""),
+                    words.join(" ")
+                ));
+            }
+            Some("Runtime.exceptionThrown") => {
+                self.console.push(format!("uncaught: {}", params["exceptionDetails"]));
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Drop for Chromium {
+    fn drop(&mut self) {
+        // Politely first: it ends its own processes.
+        let _ = self.to.write_all(b"{\"id\":0,\"method\":\"Browser.close\"}\0");
+        let until = Instant::now() + Duration::from_secs(5);
+        while Instant::now() < until {
+            if matches!(self.browser.try_wait(), Ok(Some(_))) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        let _ = self.browser.kill();
+        let _ = self.browser.wait();
+    }
+}
+
+/// Messages of the browser, each ended by a zero byte.
+fn messages(pipe: impl std::io::Read + Send + 'static) -> Receiver<Value> {
+    let (send, receive) = channel();
+    std::thread::spawn(move || {
+        let mut pipe = BufReader::new(pipe);
+        let mut bytes = Vec::new();
+        while pipe.read_until(0, &mut bytes).is_ok_and(|n| n > 0) {
+            bytes.pop();
+            let Ok(message) = serde_json::from_slice(&bytes) else { break };
+            if send.send(message).is_err() {
+                break;
+            }
+            bytes.clear();
+        }
+    });
+    receive
+}
+
+/// RFC 4648, section 4.
+fn from_base64(text: &str) -> Vec<u8> {
+    let sixth = |c: u8| match c {
+        b'A'..=b'Z' => Some(u32::from(c - b'A')),
+        b'a'..=b'z' => Some(u32::from(c - b'a') + 26),
+        b'0'..=b'9' => Some(u32::from(c - b'0') + 52),
+        b'+' => Some(62),
+        b'/' => Some(63),
+        _ => None,
+    };
+    let sixths: Vec<u32> = text.bytes().filter_map(sixth).collect();
+    let mut bytes = Vec::with_capacity(sixths.len() * 3 / 4);
+    for group in sixths.chunks(4) {
+        let word = group.iter().enumerate().fold(0, |word, (i, s)| word | s << (18 - 6 * i));
+        bytes.extend(&word.to_be_bytes()[1..group.len()]);
+    }
+    bytes
+}
