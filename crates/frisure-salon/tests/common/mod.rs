@@ -1,0 +1,109 @@
+//! A world for a salon without a window: a stylist who works at once, and files in memory.
+
+use std::collections::BTreeMap;
+
+use frisure_salon::state::{Command, Errand, Lane, Salon, Save};
+use frisure_stylist::Stylist;
+use frisure_stylist::order::Answer;
+
+/// A salon, and the world outside it.
+pub struct World {
+    pub salon: Salon,
+    hair: Stylist,
+    aside: Stylist,
+    /// Files by what a person calls them.
+    pub files: BTreeMap<String, Vec<u8>>,
+    /// What survives a crash.
+    pub kept: Option<String>,
+    /// Whether writing fails.
+    pub full: bool,
+    now: f64,
+}
+
+impl World {
+    pub fn new() -> Self {
+        Self {
+            salon: Salon::new(),
+            hair: Stylist::new(),
+            aside: Stylist::new(),
+            files: BTreeMap::new(),
+            kept: None,
+            full: false,
+            now: 0.0,
+        }
+    }
+
+    /// Does a command and all that comes of it.
+    pub fn run(&mut self, command: Command) {
+        self.salon.run(command);
+        self.settle();
+    }
+
+    /// Carries errands out until there are none; time passes.
+    pub fn settle(&mut self) {
+        for _ in 0..100 {
+            self.now += 2.0;
+            self.salon.tick(self.now);
+            let errands = self.salon.errands();
+            if errands.is_empty() {
+                return;
+            }
+            for errand in errands {
+                self.errand(errand);
+            }
+        }
+        panic!("the salon never rests");
+    }
+
+    fn errand(&mut self, errand: Errand) {
+        match errand {
+            Errand::Work(lane, ticket, order) => {
+                let stylist = match lane {
+                    Lane::Hair => &mut self.hair,
+                    Lane::Aside => &mut self.aside,
+                };
+                let answer = stylist.carry_out(&order, &());
+                self.salon.receive(ticket, answer);
+            }
+            // All is done at once here, so that nothing is left to cancel.
+            Errand::Cancel(..) => {}
+            Errand::Save(save) => self.save(&save),
+            Errand::Autosave(text) => self.kept = text,
+        }
+    }
+
+    fn save(&mut self, save: &Save) {
+        let result = match self.full {
+            true => Err("no space left".to_owned()),
+            false => {
+                self.files.insert(save.to.said(), save.bytes.clone());
+                Ok(())
+            }
+        };
+        self.salon.saved(save, result);
+    }
+
+    /// A head with few hairs, so that tests are quick.
+    pub fn small(&mut self, hair_type: &str) {
+        let text = format!(
+            "[hair]\ntype = \"{hair_type}\"\n\n[wisps]\ncount = 40\nhairs = 800\npoints = 12\n"
+        );
+        let name = "small".to_owned();
+        self.run(Command::Open { path: None, name, text });
+        assert!(self.salon.is_settled(), "{:?} {:?}", self.salon.badge(), self.salon.messages());
+    }
+
+    /// The text that is edited.
+    pub fn text(&self) -> &str {
+        self.salon.document().expect("a document").text()
+    }
+
+    /// Mean height of the tips (m).
+    pub fn tips(&self) -> f64 {
+        self.salon.shown().expect("hair").0.numbers.tips
+    }
+}
+
+/// An answer that is none, for tickets nobody gave.
+#[allow(dead_code, reason = "not every test sends one")]
+pub const STRAY: Answer = Answer::Cancelled;
