@@ -104,7 +104,17 @@ pub enum WriteError {
 /// those of the system. By default only the latter.
 #[derive(Clone, Debug, Default)]
 pub struct Files {
-    provided: BTreeMap<PathBuf, Arc<[u8]>>,
+    provided: BTreeMap<PathBuf, Provided>,
+    /// How many were handed over so far.
+    count: u64,
+}
+
+/// A file that was handed over.
+#[derive(Clone, Debug)]
+struct Provided {
+    bytes: Arc<[u8]>,
+    /// As the how manyth.
+    number: u64,
 }
 
 /// Tells one state of a file from another.
@@ -112,14 +122,16 @@ pub struct Files {
 pub struct Stamp {
     /// Its size (bytes).
     size: u64,
-    /// When it was written, or what is in it.
+    /// When it was written, or as the how manyth it was handed over.
     mark: u128,
 }
 
 impl Files {
     /// Hands over a file; one of the same path is replaced.
     pub fn provide(&mut self, path: impl Into<PathBuf>, bytes: impl Into<Arc<[u8]>>) {
-        self.provided.insert(path.into(), bytes.into());
+        self.count += 1;
+        let provided = Provided { bytes: bytes.into(), number: self.count };
+        self.provided.insert(path.into(), provided);
     }
 
     /// Forgets a file that was handed over.
@@ -129,10 +141,10 @@ impl Files {
 
     /// A file that was handed over: by its path, or else the only one of its name, since what is dropped
     /// on a page has no folder.
-    fn provided(&self, path: &Path) -> Option<&Arc<[u8]>> {
+    fn provided(&self, path: &Path) -> Option<&Provided> {
         let named = || {
             let mut same = self.provided.iter().filter(|(p, _)| p.file_name() == path.file_name());
-            let first = same.next().map(|(_, bytes)| bytes);
+            let first = same.next().map(|(_, provided)| provided);
             first.filter(|_| same.next().is_none())
         };
         self.provided.get(path).or_else(named)
@@ -141,9 +153,8 @@ impl Files {
     /// What tells this state of a file from another; none if it is not there.
     #[must_use]
     pub fn stamp(&self, path: &Path) -> Option<Stamp> {
-        if let Some(bytes) = self.provided(path) {
-            let mark = bytes.as_ptr() as usize as u128;
-            return Some(Stamp { size: bytes.len() as u64, mark });
+        if let Some(Provided { bytes, number }) = self.provided(path) {
+            return Some(Stamp { size: bytes.len() as u64, mark: u128::from(*number) });
         }
         let about = fs::metadata(path).ok()?;
         let since = about.modified().ok()?.duration_since(std::time::UNIX_EPOCH).ok()?;
@@ -161,10 +172,10 @@ impl Files {
         what: &'static str,
     ) -> Result<Vec<u8>, ReadError> {
         match self.provided(path) {
-            Some(bytes) if bytes.len() as u64 > limit => {
+            Some(file) if file.bytes.len() as u64 > limit => {
                 Err(ReadError::TooLarge { path: path.into(), limit, what })
             }
-            Some(bytes) => Ok(bytes.to_vec()),
+            Some(file) => Ok(file.bytes.to_vec()),
             None => read_bytes(path, limit, what),
         }
     }

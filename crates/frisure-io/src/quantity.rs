@@ -206,6 +206,37 @@ impl Dimension {
         units.iter().filter_map(written).min_by_key(String::len)
     }
 
+    /// The value as a person would write it, to four digits, in a unit in which the number is handy: a
+    /// curl in mm, hair in cm. Pure numbers have no unit.
+    #[must_use]
+    pub fn written(&self, value: f64) -> String {
+        let unit = self.handy(value);
+        let scaled = value / unit.and_then(|unit| self.factor(unit)).unwrap_or(1.0);
+        // Four digits, without the zeros at their end.
+        let short: f64 = format!("{scaled:.3e}").parse().unwrap_or(scaled);
+        let number = match short.abs() {
+            x if x != 0.0 && !(1e-5..1e9).contains(&x) => format!("{short:e}"),
+            _ => format!("{short}"),
+        };
+        unit.map_or(number.clone(), |unit| format!("{number} {unit}"))
+    }
+
+    /// The unit in which a value is handy.
+    fn handy(&self, value: f64) -> Option<&'static str> {
+        let steps: &[(f64, &str)] = match self.si {
+            "" => return None,
+            "m" => &[(1e-3, "um"), (4.95e-2, "mm"), (2.0, "cm"), (f64::INFINITY, "m")],
+            "Pa" => &[(1e3, "Pa"), (1e6, "kPa"), (1e9, "MPa"), (f64::INFINITY, "GPa")],
+            "s" => &[(86_400.0, "s"), (1_209_600.0, "days"), (f64::INFINITY, "months")],
+            _ => &[],
+        };
+        let usual = self.example[number_length(self.example)..].trim();
+        let usual = self.units().find(|unit| *unit == usual);
+        let size = value.abs();
+        let fitting = steps.iter().find(|(most, _)| size < *most && size > 0.0);
+        fitting.map(|(_, unit)| *unit).or(usual)
+    }
+
     /// A number written without a unit, in the first unit but SI's own in which it is within `least`
     /// and `most` (SI); the unit of the example comes first. Of pure numbers only fractions are meant
     /// in per cent.
@@ -315,6 +346,46 @@ mod tests {
         ];
         for (dimension, text, value) in cases {
             assert_eq!(dimension.parse(text), Ok(*value), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_number_is_written_as_a_person_would() {
+        let cases: &[(&Dimension, f64, &str)] = &[
+            (&LENGTH, 0.009_5, "9.5 mm"),
+            (&LENGTH, 70e-6, "70 um"),
+            (&LENGTH, 0.28, "28 cm"),
+            (&LENGTH, 0.0, "0 cm"),
+            (&LENGTH, -0.02, "-20 mm"),
+            (&LENGTH, 2.5, "2.5 m"),
+            (&LENGTH, 0.123_456, "12.35 cm"),
+            (&ANGLE, PI / 6.0, "30 deg"),
+            (&PRESSURE, 3.9e9, "3.9 GPa"),
+            (&PRESSURE, 0.5, "0.5 Pa"),
+            (&DENSITY, 1320.0, "1.32 g/cm^3"),
+            (&NUMBER_DENSITY, 1.9e6, "190 1/cm^2"),
+            (&STRAIN, 100.0, "100 1/m"),
+            (&ACCELERATION, 9.81, "9.81 m/s^2"),
+            (&TIME, 604_800.0, "7 days"),
+            (&SPEED, 0.012 / MONTH, "1.2 cm/month"),
+            (&RATIO, 0.25, "0.25"),
+        ];
+        for (dimension, value, text) in cases {
+            assert_eq!(&dimension.written(*value), text);
+        }
+    }
+
+    #[test]
+    fn what_is_written_reads_as_the_same_to_four_digits() {
+        for dimension in ALL {
+            for exponent in -12..12 {
+                for digits in [1.0, 1.2345, -9.999_96] {
+                    let value = digits * 10_f64.powi(exponent);
+                    let text = dimension.written(value);
+                    let read = dimension.parse(&text).unwrap();
+                    assert!((read / value - 1.0).abs() < 5e-4, "{text} is not {value}");
+                }
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use frisure::hairstyle::head::Head;
+use frisure::io::files::Files;
 use frisure::io::groom::read_groom;
 use frisure::io::picture::Format;
 use frisure::io::scene::Scene;

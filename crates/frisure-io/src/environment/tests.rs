@@ -62,7 +62,7 @@ fn read_as(name: &str, bytes: &[u8]) -> Result<Environment, EnvironmentError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
-    read(&path)
+    read(&path, &Files::default())
 }
 
 fn says(result: Result<Environment, EnvironmentError>, part: &str) {
@@ -109,7 +109,7 @@ fn cut_files_are_refused_wherever_they_end() {
 
 #[test]
 fn what_is_no_environment_says_why() {
-    says(read(Path::new("nowhere.hdr")), "there is no file");
+    says(read(Path::new("nowhere.hdr"), &Files::default()), "there is no file");
     says(read_as("a.png", b"x"), "`.hdr` and `.exr`");
     let error = read_as("a.JPG", b"x").unwrap_err();
     assert!(error.hint().contains("cuts off"));

@@ -21,7 +21,7 @@ fn head(text: impl AsRef<[u8]>, change: impl FnOnce(&mut HeadFile)) -> Result<He
         }
     }
     let place = format!("{}/", folder.path().display());
-    read(&file).map_err(|e| e.to_string().replace(&place, ""))
+    read(&file, &Files::default()).map_err(|e| e.to_string().replace(&place, ""))
 }
 
 #[test]

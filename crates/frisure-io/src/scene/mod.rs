@@ -7,6 +7,7 @@
 
 mod bare;
 mod blame;
+pub mod edit;
 mod error;
 mod file;
 mod key;
@@ -30,7 +31,7 @@ pub use key::Face;
 pub use light::{EnvironmentFile, Lamp, LampColour, LampFace, LampPlace, Light, Setup, Sun};
 pub use schema::schema;
 pub(crate) use step::{Record, parse_record};
-pub use step::{WriteStepError, edit, parse_step, write_step};
+pub use step::{WriteStepError, parse_step, write_step};
 pub use template::template;
 pub use words::{Tone, UpAxis};
 

@@ -30,7 +30,12 @@ pub(crate) fn asked(text: &str, done: usize) -> Asked {
     Asked { name: "scene".into(), text: text.into(), folder: String::new(), done }
 }
 
-pub(crate) fn show(stylist: &mut Stylist, asked: &Asked, effort: Effort, watch: &dyn Watch) -> Answer {
+pub(crate) fn show(
+    stylist: &mut Stylist,
+    asked: &Asked,
+    effort: Effort,
+    watch: &dyn Watch,
+) -> Answer {
     stylist.carry_out(&Order::Show { asked: asked.clone(), effort }, watch)
 }
 

@@ -8,10 +8,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use frisure::hairstyle::head::{Head, ScalpSource};
+use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
     Hairstyle, HairstyleSpec, Monitor, PredictError, penetration, predict, volume,
 };
+use frisure::io::files::Files;
 use frisure::io::groom::{Format, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
@@ -19,6 +20,8 @@ use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::Tracer;
 use frisure::render::{EnvironmentMap, Image};
 use frisure::strands::Strands;
+use frisure_stylist::carry;
+use frisure_stylist::picture as seen;
 
 use super::read_scene;
 use crate::args::{Predict, Quality};
@@ -56,7 +59,7 @@ pub(crate) fn run_scene(
     check_outputs(&arguments, &scene, turntable)?;
 
     let environment = match arguments.image {
-        Some(_) => frisure_stylist::picture::environment(&scene, &Files::default())?,
+        Some(_) => seen::environment(&scene, &Files::default())?,
         None => None,
     };
     let progress = Progress::new(quiet);
@@ -264,7 +267,7 @@ impl Work {
     /// A picture of strands, framed so that others would be in it, too.
     fn picture(&self, strands: &Strands, shown: &Strands, head: &Head) -> Result<Picture, Failure> {
         let (surface, around) = (Some(head.surface()), self.environment.as_ref());
-        let drawn = frisure_stylist::picture::scene(&self.scene, strands, shown, surface, around)
+        let drawn = seen::scene(&self.scene, strands, shown, surface, around)
             .map_err(|e| Failure::wrong(&e, ""))?;
         if self.arguments.quality == Quality::Preview {
             return self.preview(&drawn).map(Picture::Preview);
@@ -274,10 +277,8 @@ impl Work {
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
         let views = match self.turntable {
-            Some(_) => {
-                frisure_stylist::picture::turntable(&self.scene, strands, surface, frames, around)
-                    .map_err(|e| Failure::wrong(&e, ""))?
-            }
+            Some(_) => seen::turntable(&self.scene, strands, surface, frames, around)
+                .map_err(|e| Failure::wrong(&e, ""))?,
             None => Vec::new(),
         };
         let denoiser = exposing::denoiser(self.arguments.tracing.denoise)?;
@@ -353,21 +354,10 @@ fn swept(hairstyles: &[Hairstyle]) -> Strands {
 
 /// The head of a scene.
 pub(crate) fn head(scene: &Scene) -> Result<Head, Failure> {
-    let Some(mesh) = scene.head_mesh()? else { return Ok(Head::mannequin()) };
-    let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
-    Head::from_surface(mesh.surface, scalp)
-        .map_err(|e| scene.fault("head.mesh", e.to_string(), "").into())
+    Ok(carry::head(scene, &Files::default())?)
 }
 
+/// Why nothing was predicted.
 fn refused(error: &PredictError, scene: &Scene) -> Failure {
-    match error {
-        PredictError::Cancelled(_) => Failure::Interrupted,
-        PredictError::Quantity(error) => scene.blame(error).into(),
-        PredictError::Parting(e) => {
-            let key = format!("implantation.partings[{}].line[{}]", e.index, e.place);
-            scene.fault(&key, e.to_string(), "").into()
-        }
-        PredictError::Crowded(e) => scene.fault("wisps.count", e.to_string(), "").into(),
-        PredictError::Spec(error) => scene.out_of_range(error).into(),
-    }
+    carry::not_predicted(error, scene).map_or(Failure::Interrupted, Failure::from)
 }

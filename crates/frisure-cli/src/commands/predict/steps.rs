@@ -7,6 +7,7 @@ use frisure::hairstyle::styling::{Cut, CutLine, Hold, Holder, Operation, StyleEr
 use frisure::hairstyle::{Hairstyle, Monitor};
 use frisure::io::scene::Scene;
 use frisure::rod::Equilibrium;
+use frisure_stylist::carry;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -60,9 +61,8 @@ pub(super) fn all(
     let mut cuts: Vec<(usize, Vec<bool>, f64)> = Vec::new();
     for (index, operation) in scene.steps().iter().enumerate() {
         let before = styled.hairstyles.last().expect("there is one to begin with");
-        let refused = |e: StyleError| match e {
-            StyleError::Cancelled(_) => Failure::Interrupted,
-            e => scene.step_fault(index, &e).into(),
+        let refused = |e: StyleError| {
+            carry::not_done(index, &e, scene).map_or(Failure::Interrupted, Failure::from)
         };
         let chosen = match operation.selection() {
             Some(selection) => before.selected(head, selection).map_err(refused)?,

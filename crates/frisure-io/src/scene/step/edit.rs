@@ -32,6 +32,20 @@ pub enum EditError {
         /// How many steps the scene has.
         count: usize,
     },
+    /// A value that is none.
+    #[error("`{key}` cannot be set: {problem}")]
+    Value {
+        /// The key that was to have it.
+        key: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// There is no such place.
+    #[error("`{key}` is no place for a value in this scene")]
+    NoPlace {
+        /// The path asked for.
+        key: String,
+    },
     /// The text does not say afterwards what was meant.
     #[error("the steps of this scene are too mixed with the rest to be edited one by one")]
     Scattered,

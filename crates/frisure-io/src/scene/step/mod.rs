@@ -2,7 +2,7 @@
 
 mod blame;
 mod chosen;
-pub mod edit;
+pub(super) mod edit;
 mod hint;
 mod keys;
 mod layout;
