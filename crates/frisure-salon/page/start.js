@@ -42,17 +42,20 @@ async function count(answer) {
 }
 
 /** Why this browser cannot run the salon, or nothing. */
-function missing() {
+async function missing() {
   if (typeof WebAssembly !== "object" || !simd()) {
     return "It needs WebAssembly with vector instructions. Every browser has it since 2023: update yours, or switch WebAssembly on.";
   }
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl2");
   gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  if (!gl && !navigator.gpu) {
+  if (!gl && !(await adapter())) {
     return "It needs WebGL 2 or WebGPU, and this browser has neither. Switch on hardware acceleration in its settings, or try another browser.";
   }
 }
+
+/** What WebGPU would draw with; many browsers know WebGPU and have nothing to draw with. */
+const adapter = async () => navigator.gpu?.requestAdapter().catch(() => null);
 
 /** Whether a module of one vector instruction is understood. */
 function simd() {
@@ -101,6 +104,7 @@ function automation(salon) {
     command: (name) => salon.command(name),
     widget: (label) => text(salon.widget(label)),
     widgets: () => text(salon.widgets()),
+    breakDown: () => salon.break_down(),
     measured: () => text(salon.measured()),
   };
 }
@@ -116,7 +120,7 @@ function describe(salon) {
 }
 
 async function open() {
-  const reason = missing();
+  const reason = await missing();
   if (reason) {
     trouble({ title: "This browser cannot show the salon", text: reason, again: false });
     return;

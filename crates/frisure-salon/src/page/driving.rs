@@ -40,6 +40,12 @@ pub fn command(name: &str) {
     }
 }
 
+/// Breaks down, to see what the page does then.
+#[wasm_bindgen]
+pub fn break_down() {
+    panic!("asked to break down");
+}
+
 /// The widget of this accessible name, as JSON, in the canvas's own pixels; nothing if it is not on
 /// the screen.
 #[wasm_bindgen]

@@ -10,7 +10,7 @@ use eframe::egui::{Context, FullOutput, Plugin};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use wasm_bindgen::prelude::*;
-use web_sys::{Document, Event, HtmlElement, KeyboardEvent};
+use web_sys::{Document, Event, HtmlElement, KeyboardEvent, Node};
 
 /// One element: what it was made of, and what listens to it.
 struct Shown {
@@ -39,15 +39,17 @@ pub(crate) fn describe_in(home: HtmlElement, ctx: &Context) {
 impl Mirror {
     /// Makes, changes and removes elements.
     fn follow(&mut self, ctx: &Context) -> Result<(), JsValue> {
-        let widgets: BTreeMap<NodeId, Widget> =
+        let widgets: Vec<(NodeId, Widget)> =
             probe::widgets().into_iter().filter_map(|w| Some((w.node?, w))).collect();
+        let roles: BTreeMap<NodeId, Role> = widgets.iter().map(|(n, w)| (*n, w.role)).collect();
         self.shown.retain(|node, shown| {
-            let stays = widgets.get(node).is_some_and(|w| w.role == shown.widget.role);
+            let stays = roles.get(node) == Some(&shown.widget.role);
             if !stays {
                 shown.element.remove();
             }
             stays
         });
+        let order: Vec<NodeId> = widgets.iter().map(|(node, _)| *node).collect();
         for (node, widget) in widgets {
             match self.shown.get_mut(&node) {
                 Some(shown) if shown.widget == widget => {}
@@ -56,6 +58,20 @@ impl Mirror {
                     shown.widget = widget;
                 }
                 None => self.show(node, widget, ctx)?,
+            }
+        }
+        self.sort(&order)
+    }
+
+    /// Puts the elements in the order in which they are read; those in their place stay untouched.
+    fn sort(&self, order: &[NodeId]) -> Result<(), JsValue> {
+        let mut next = self.home.first_child();
+        for shown in order.iter().filter_map(|node| self.shown.get(node)) {
+            let element: &Node = &shown.element;
+            if next.as_ref() == Some(element) {
+                next = element.next_sibling();
+            } else {
+                self.home.insert_before(element, next.as_ref())?;
             }
         }
         Ok(())

@@ -34,8 +34,8 @@ pub(crate) fn installed() -> Option<PathBuf> {
 }
 
 impl Chromium {
-    /// Starts it with an empty page of this size.
-    pub(crate) fn start(program: &Path, [width, height]: [u32; 2]) -> Self {
+    /// Starts it with an empty page of this size, and with more flags.
+    pub(crate) fn start(program: &Path, [width, height]: [u32; 2], flags: &[&str]) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let log = std::fs::File::create(folder.path().join("log")).expect("a log");
         // The protocol goes through the files 3 and 4, which a shell can set.
@@ -47,6 +47,7 @@ impl Chromium {
             .args(["--disable-component-update", "--enable-unsafe-swiftshader"])
             .args(["--hide-scrollbars", "--force-color-profile=srgb", "--force-dark-mode"])
             .args([format!("--window-size={width},{height}"), "--remote-debugging-pipe".into()])
+            .args(flags)
             .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -104,6 +105,13 @@ impl Chromium {
         assert!(told["errorText"].is_null(), "{address}: {told}");
     }
 
+    /// Lets the page have nothing from such addresses any more.
+    pub(crate) fn block(&mut self, pattern: &str) {
+        self.call("Network.enable", &json!({}));
+        self.call("Network.setCacheDisabled", &json!({ "cacheDisabled": true }));
+        self.call("Network.setBlockedURLs", &json!({ "urls": [pattern] }));
+    }
+
     /// What an expression of JavaScript gives; promises are waited for.
     pub(crate) fn evaluate(&mut self, expression: &str) -> Value {
         let asked =
@@ -113,25 +121,30 @@ impl Chromium {
         told["result"]["value"].clone()
     }
 
-    /// The first value of an expression that is true in JavaScript's sense.
+    /// The first value of an expression that is true in JavaScript's sense. While it cannot be
+    /// evaluated, it is not.
     pub(crate) fn wait_for(&mut self, expression: &str, seconds: u64) -> Value {
         let until = Instant::now() + Duration::from_secs(seconds);
+        let guarded = format!(
+            "(() => {{ try {{ return ({expression}) || null }} catch {{ return null }} }})()"
+        );
         loop {
-            let value = self
-                .evaluate(&format!("(() => {{ const v = {expression}; return v ? v : null; }})()"));
+            let value = self.evaluate(&guarded);
             if !value.is_null() {
                 return value;
             }
             if Instant::now() > until {
-                let notice = self.evaluate("document.getElementById('notice')?.textContent");
-                let state = self.evaluate("JSON.stringify(window.frisure?.state())");
-                panic!(
-                    "not in {seconds} s: {expression}\nnotice: {notice}\nstate: {state}\nconsole: {:#?}",
-                    self.console
-                );
+                self.give_up(&format!("not in {seconds} s: {expression}"));
             }
             std::thread::sleep(Duration::from_millis(150));
         }
+    }
+
+    /// Fails with all that is known.
+    fn give_up(&mut self, reason: &str) -> ! {
+        let notice = self.evaluate("document.getElementById('notice')?.textContent");
+        let state = self.evaluate("JSON.stringify(window.frisure?.state())");
+        panic!("{reason}\nnotice: {notice}\nstate: {state}\nconsole: {:#?}", self.console)
     }
 
     /// Presses and releases the left button there.
