@@ -37,7 +37,8 @@ mod tests {
     #[test]
     fn what_is_kept_comes_back() {
         for path in [None, Some(PathBuf::from("/a b/Ringlets.toml"))] {
-            let document = Document::new("x", path.clone(), "Opened", "[hair]\nlength = \"9 cm\"\n");
+            let document =
+                Document::new("x", path.clone(), "Opened", "[hair]\nlength = \"9 cm\"\n");
             let back = kept(&keep(&document)).unwrap();
             assert_eq!((back.text(), back.path()), (document.text(), path.as_deref()));
             assert!(back.is_changed());

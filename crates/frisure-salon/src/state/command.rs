@@ -9,7 +9,6 @@ use frisure::hairstyle::styling::{
 };
 use frisure::hairstyle::{Comb as Named, Place};
 use frisure::io::scene::{Scene, SceneError, edit};
-use super::shim;
 use frisure_stylist::order::Refusal;
 use glam::DVec3;
 
@@ -279,7 +278,7 @@ impl Salon {
 
     fn set(&mut self, key: &'static str, value: f64, held: bool) {
         let (Some(control), Some(base)) = (super::control_of(key), self.base()) else { return };
-        let text = shim::set_key(base, key, &control.written(value));
+        let text = edit::set_key(base, key, &control.written(value));
         self.change(&label(control, value), text, held);
     }
 
@@ -303,14 +302,14 @@ impl Salon {
             option.map(|(_, said)| format!("{}: {}", choice.label, said.to_lowercase()))
         };
         let label = all.iter().find(|c| c.key == key).and_then(said);
-        let text = shim::set_key(base, key, word);
+        let text = edit::set_key(base, key, word);
         self.change(label.as_deref().unwrap_or("Changed"), text, false);
     }
 
     fn reset(&mut self, key: &'static str) {
         let Some(base) = self.base() else { return };
         let name = super::control_of(key).map_or(key, |control| control.label);
-        let text = shim::unset_key(base, key);
+        let text = edit::unset_key(base, key);
         self.change(&format!("{name} as the hair type has it"), text, false);
     }
 
@@ -319,9 +318,9 @@ impl Salon {
         let (label, text) = match path {
             Some(path) => {
                 let written = format!("{path:?}");
-                ("Another head", shim::set_key(base, "head.mesh", &written))
+                ("Another head", edit::set_key(base, "head.mesh", &written))
             }
-            None => ("The mannequin's head", shim::unset_key(base, "head.mesh")),
+            None => ("The mannequin's head", edit::unset_key(base, "head.mesh")),
         };
         if self.change(label, text, false) {
             self.framed = false;
@@ -407,9 +406,7 @@ impl Salon {
             Command::Wet | Command::Water => {
                 (Operation::Wet(Wet { selection, ..Wet::default() }), format!("Wetted {of}"))
             }
-            Command::Dry(keep) => {
-                (Operation::Dry(Dry { selection, keep }), format!("Dried {of}"))
-            }
+            Command::Dry(keep) => (Operation::Dry(Dry { selection, keep }), format!("Dried {of}")),
             Command::Grow(growing) => {
                 let (amount, said) = match growing {
                     Growing::By(length) => {
@@ -480,9 +477,8 @@ impl Salon {
         let chosen = self.chosen.wisps.as_deref();
         let is = |i: &usize| chosen.is_none_or(|c| c.get(*i).copied().unwrap_or(false));
         let wetness = &seen.hair.wetness;
-        let (sum, count) = (0..wetness.len())
-            .filter(is)
-            .fold((0.0, 0), |(sum, n), i| (sum + wetness[i], n + 1));
+        let (sum, count) =
+            (0..wetness.len()).filter(is).fold((0.0, 0), |(sum, n), i| (sum + wetness[i], n + 1));
         sum > 0.5 * count as f32
     }
 
@@ -524,8 +520,8 @@ impl Salon {
             ("camera.azimuth", format!("\"{around} deg\"")),
             ("camera.elevation", format!("\"{} deg\"", degrees(self.orbit.elevation))),
         ];
-        let keys: Vec<_> = keys.iter().map(|(key, value)| (*key, value.as_str())).collect();
-        let text = shim::set_keys(base, &keys);
+        let keys: Vec<_> = keys.iter().map(|(key, value)| (*key, Some(value.as_str()))).collect();
+        let text = edit::set_keys(base, &keys);
         self.change("The scene's camera", text, false);
     }
 
@@ -611,4 +607,3 @@ fn changed(before: &str, now: &Understood) -> String {
         |control| label(control, control.value(&now.scene, &now.spec)),
     )
 }
-pub(super) use frisure::io::scene::edit as edit2;

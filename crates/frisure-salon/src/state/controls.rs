@@ -597,11 +597,7 @@ pub fn choices() -> Vec<Choice> {
             Panel::Implantation,
             "Flow",
             "implantation.flow",
-            words(&[
-                ("whorl", "As it grows"),
-                ("parted", "Parted"),
-                ("swept-back", "Swept back"),
-            ]),
+            words(&[("whorl", "As it grows"), ("parted", "Parted"), ("swept-back", "Swept back")]),
             "The direction in which hair leaves the scalp.",
         ),
         choice(

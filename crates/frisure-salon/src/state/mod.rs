@@ -18,7 +18,6 @@ mod keeping;
 mod orbit;
 mod picture;
 mod selecting;
-mod shim;
 mod touch;
 
 use std::sync::Arc;

@@ -9,12 +9,7 @@ use super::{keys, theme, widgets};
 use crate::state::{Command, Growing, Hold, Mode, PLACES, Plane, Salon, Tool, VIEWS};
 
 /// The bar at the top.
-pub(super) fn top(
-    ui: &mut Ui,
-    salon: &Salon,
-    out: &mut Vec<Command>,
-    dialog: &mut Option<Dialog>,
-) {
+pub(super) fn top(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>, dialog: &mut Option<Dialog>) {
     let open = salon.document().is_some();
     ui.horizontal_centered(|ui| {
         if widgets::toggle(ui, "Gallery", salon.is_gallery(), "Hair to begin with").clicked() {
@@ -30,7 +25,14 @@ pub(super) fn top(
         ask(ui, "Open…", "Ctrl O", "Open a scene", Dialog::Open, true);
         ask(ui, "Save…", "Ctrl S", "Save the scene", Dialog::Save, open);
         ask(ui, "Export…", "Ctrl E", "Write the hair as a groom", Dialog::Export, open);
-        ask(ui, "Picture…", "Ctrl P", "Render a final picture or a turntable", Dialog::Picture, open);
+        ask(
+            ui,
+            "Picture…",
+            "Ctrl P",
+            "Render a final picture or a turntable",
+            Dialog::Picture,
+            open,
+        );
         ui.separator();
         ui.add_enabled_ui(open && !salon.is_gallery(), |ui| {
             let (at, last) = salon.document().map_or((0, 0), |d| (d.at(), d.edits().len() - 1));
@@ -55,7 +57,9 @@ pub(super) fn top(
                 out.push(Command::Grow(Growing::Months(1.0)));
             }
             let compared = salon.compared().is_some();
-            if widgets::toggle(ui, "Compare", compared, "Before and after, side by side (X)").clicked() {
+            if widgets::toggle(ui, "Compare", compared, "Before and after, side by side (X)")
+                .clicked()
+            {
                 out.push(keys::compare(salon));
             }
         });
@@ -63,7 +67,11 @@ pub(super) fn top(
             if widgets::plain(ui, "Help", "Keys and tools (F1)").clicked() {
                 *dialog = Some(Dialog::Help);
             }
-            egui::widgets::global_theme_preference_buttons(ui);
+            let dark = ui.visuals().dark_mode;
+            let other = if dark { "Light" } else { "Dark" };
+            if widgets::plain(ui, other, "A light or a dark window").clicked() {
+                ui.ctx().set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
+            }
             if let Some(document) = salon.document() {
                 let changed = if document.is_changed() { " •" } else { "" };
                 ui.weak(format!("{}{changed}", document.name()));
@@ -115,7 +123,7 @@ fn views(ui: &mut Ui, out: &mut Vec<Command>) {
 fn cut(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     let mut plane = *salon.plane();
     let mut height = plane.point.z * 100.0;
-    let mut lean = |ui: &mut Ui, label: &str, angle: &mut f64| {
+    let lean = |ui: &mut Ui, label: &str, angle: &mut f64| {
         let mut degrees = angle.to_degrees();
         let name = ui.label(label);
         let field = DragValue::new(&mut degrees).range(-80.0..=80.0).suffix("°").max_decimals(0);
@@ -131,7 +139,11 @@ fn cut(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     lean(ui, "to its left", &mut plane.roll);
     lean(ui, "to the back", &mut plane.pitch);
     let mut down = plane.held == Hold::Down;
-    if ui.checkbox(&mut down, "combed down").on_hover_text("Each hair is drawn straight down before it is cut, as in the paper").changed() {
+    if ui
+        .checkbox(&mut down, "combed down")
+        .on_hover_text("Each hair is drawn straight down before it is cut, as in the paper")
+        .changed()
+    {
         plane.held = if down { Hold::Down } else { Hold::Hanging };
     }
     if plane != *salon.plane() {
@@ -257,7 +269,7 @@ fn holds(ui: &mut Ui, out: &mut Vec<Command>) {
 pub(super) fn status(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     for (index, message) in salon.messages().iter().enumerate().rev().take(2) {
         ui.horizontal(|ui| {
-            if ui.small_button("✕").on_hover_text("Dismiss").clicked() {
+            if ui.small_button("×").on_hover_text("Dismiss").clicked() {
                 out.push(Command::Dismiss(index));
             }
             let colour = if message.is_error { theme::FALLING } else { ui.visuals().text_color() };

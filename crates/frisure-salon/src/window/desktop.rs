@@ -99,7 +99,8 @@ impl Outside for Desktop {
         // What cannot be read is told by name, as what cannot be understood is.
         let path = file.path();
         let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let given = read(path).unwrap_or(Given { path: Some(path.into()), name, bytes: Vec::new() });
+        let given =
+            read(path).unwrap_or(Given { path: Some(path.into()), name, bytes: Vec::new() });
         let _ = self.given.0.send(given);
     }
 

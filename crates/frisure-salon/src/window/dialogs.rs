@@ -113,7 +113,9 @@ impl Dialogs {
     }
 
     fn opening(&mut self, ui: &mut Ui, outside: &mut dyn Outside) {
-        ui.label("A scene is a .toml file; an .obj file is a head. Both can be dropped on the window.");
+        ui.label(
+            "A scene is a .toml file; an .obj file is a head. Both can be dropped on the window.",
+        );
         if outside.has_paths() {
             let entered = self.path(ui);
             ui.horizontal(|ui| {
@@ -228,11 +230,9 @@ impl Dialogs {
         if widgets::plain(ui, label, "").clicked() {
             let shot = match self.film {
                 true => Shot::Turntable { size: self.size, frames: self.frames },
-                false => Shot::Picture {
-                    size: self.size,
-                    paths: self.paths,
-                    noise: self.noise / 100.0,
-                },
+                false => {
+                    Shot::Picture { size: self.size, paths: self.paths, noise: self.noise / 100.0 }
+                }
             };
             out.push(Command::Shoot(shot, self.destination(salon, outside, "png")));
         }

@@ -14,7 +14,7 @@ use crate::state::{Card, Command, SCENES, Salon, TYPES};
 pub(super) struct Pictures(BTreeMap<&'static str, TextureHandle>);
 
 const CARD: Vec2 = vec2(150.0, 184.0);
-const CAPTION: f32 = 40.0;
+const CAPTION: f32 = 50.0;
 
 impl Pictures {
     fn of(&mut self, ui: &Ui, card: &Card) -> Option<&TextureHandle> {
@@ -90,7 +90,13 @@ fn card(ui: &mut Ui, card: &Card, pictures: &mut Pictures) -> bool {
         let at = |y: f32| egui::pos2(rect.left() + 8.0, top.bottom() + y);
         let painter = ui.painter().with_clip_rect(rect);
         painter.text(at(3.0), Align2::LEFT_TOP, card.title, FontId::proportional(14.0), text);
-        painter.text(at(21.0), Align2::LEFT_TOP, card.about(), FontId::proportional(11.0), weak);
+        let about = painter.layout(
+            card.about().to_owned(),
+            FontId::proportional(11.0),
+            weak,
+            rect.width() - 14.0,
+        );
+        painter.galley(at(21.0), about, weak);
         if response.hovered() || response.has_focus() {
             let stroke = egui::Stroke::new(2.0, theme::ACCENT);
             ui.painter().rect_stroke(rect, 8.0, stroke, StrokeKind::Inside);

@@ -343,7 +343,9 @@ impl eframe::App for App {
             self.open(&path);
         }
         let (commands, dialog) = keys::commands(ui, &self.salon, self.aspect);
-        if let Some(dialog) = dialog.filter(|d| needs_no_hair(*d) || self.salon.document().is_some()) {
+        if let Some(dialog) =
+            dialog.filter(|d| needs_no_hair(*d) || self.salon.document().is_some())
+        {
             self.dialogs.ask(dialog, &self.salon, self.outside.as_ref());
         }
         if !commands.is_empty() {

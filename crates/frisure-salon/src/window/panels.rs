@@ -12,7 +12,7 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, choices: &[Choice], out: &mut Vec
         for panel in Panel::ALL {
             let open = matches!(panel, Panel::Fibre | Panel::Curl | Panel::Length);
             let header = CollapsingHeader::new(RichText::new(panel.title()).strong());
-            let section = header.default_open(open).show(ui, |ui| {
+            header.default_open(open).show(ui, |ui| {
                 for choice in choices.iter().filter(|choice| choice.panel == panel) {
                     words(ui, salon, choice, out);
                 }
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, choices: &[Choice], out: &mut Vec
 fn words(ui: &mut Ui, salon: &Salon, choice: &Choice, out: &mut Vec<Command>) {
     let current = salon.document().and_then(|d| frisure_key(d.text(), choice.key));
     let chosen = choice.options.iter().find(|(written, _)| Some(written) == current.as_ref());
-    let said = chosen.map_or("—", |(_, said)| said.as_str());
+    let said = chosen.map_or("as usual", |(_, said)| said.as_str());
     ui.horizontal(|ui| {
         let label = ui.label(choice.label).on_hover_text(choice.help);
         let list = ComboBox::from_id_salt(choice.key).selected_text(said).width(150.0);
@@ -85,7 +85,7 @@ pub(super) fn history(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
         for (index, edit) in document.edits().iter().enumerate() {
             ui.horizontal(|ui| {
                 let before = compared == Some(index);
-                let compare = ui.selectable_label(before, "◧");
+                let compare = ui.selectable_label(before, RichText::new("vs").small());
                 let compare = compare.on_hover_text("See it beside the hair as it is now");
                 compare.widget_info(|| {
                     let label = format!("Compare with {}", edit.label);

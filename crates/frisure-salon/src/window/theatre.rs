@@ -7,8 +7,8 @@ use eframe::{egui, wgpu};
 use frisure::render::{Camera, Lights, Look, ToneCurve};
 use frisure::strands::{Attribute, AttributeValues, Domain, Strands};
 use frisure_stylist::order::StrandsData;
-use glam::Vec3;
 use frisure_view::{Canvas, Frame, Hair, Line, Mark, Plane, Renderer, Shadows, Skin, ViewError};
+use glam::Vec3;
 
 use crate::state::HeadMesh;
 
@@ -58,7 +58,8 @@ impl AsStrands for frisure_stylist::order::Shown {
 /// Plain arrays as strands; of arrays that do not fit together, what does.
 fn as_strands(data: &StrandsData) -> Strands {
     let mut strands = Strands::with_capacity(data.guide.len(), data.radii.len());
-    let points: Vec<Vec3> = data.points.as_chunks().0.iter().map(|p| Vec3::from_array(*p)).collect();
+    let points: Vec<Vec3> =
+        data.points.as_chunks().0.iter().map(|p| Vec3::from_array(*p)).collect();
     for ends in data.offsets.windows(2) {
         let piece = ends[0] as usize..ends[1] as usize;
         if let (Some(points), Some(radii)) = (points.get(piece.clone()), data.radii.get(piece)) {
@@ -119,12 +120,8 @@ struct Drawn {
 /// Makes the theatre of a window.
 pub(super) fn build(state: &RenderState, samples: u32) {
     let renderer = Renderer::new(&state.device, &state.queue, state.target_format, samples);
-    let theatre = Theatre {
-        device: state.device.clone(),
-        renderer,
-        stages: Default::default(),
-        skin: None,
-    };
+    let theatre =
+        Theatre { device: state.device.clone(), renderer, stages: Default::default(), skin: None };
     state.renderer.write().callback_resources.insert(theatre);
 }
 

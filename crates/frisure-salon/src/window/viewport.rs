@@ -51,9 +51,7 @@ impl Viewport {
     pub(super) fn show(&mut self, ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::Image, true, "The head")
-        });
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The head"));
         probe::record("The head", rect);
         let sides = sides(rect, salon.compared().is_some());
         let here = sides.iter().find(|(_, r)| {
@@ -88,7 +86,13 @@ impl Viewport {
             self.share = 0.3;
         }
         let took = ui.input(|i| i.unstable_dt);
-        let factor = if took > 0.05 { 0.75 } else if took < 0.022 { 1.25 } else { 1.0 };
+        let factor = if took > 0.05 {
+            0.75
+        } else if took < 0.022 {
+            1.25
+        } else {
+            1.0
+        };
         self.share = (self.share * factor).clamp(0.02, 1.0);
         ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(REST + 0.01));
         // Steps, so that not every frame draws another choice of hairs.
@@ -130,9 +134,8 @@ impl Viewport {
                     let right = salon.orbit().camera().right();
                     plane.tilt(-across * 3.0 * right.x, -across * 3.0 * right.y);
                 } else {
-                    let height = 2.0
-                        * salon.orbit().distance
-                        * (0.5 * salon.orbit().field_of_view).tan();
+                    let height =
+                        2.0 * salon.orbit().distance * (0.5 * salon.orbit().field_of_view).tan();
                     plane.raise(-delta * height);
                 }
                 out.push(Command::Plane(plane));
@@ -303,11 +306,13 @@ impl Viewport {
         let chosen = salon.chosen();
         let wisps = chosen.wisps.clone().filter(|_| !chosen.is_everything());
         let plane = falling.as_ref().map(|_| *salon.plane());
-        let same = self.marks.as_ref().is_some_and(|m| {
-            (m.hair, &m.chosen, m.falling) == (version, &wisps, plane)
-        });
+        let same = self
+            .marks
+            .as_ref()
+            .is_some_and(|m| (m.hair, &m.chosen, m.falling) == (version, &wisps, plane));
         if !same {
-            let is = |guide: u32| wisps.as_ref().is_some_and(|w| w.get(guide as usize) == Some(&true));
+            let is =
+                |guide: u32| wisps.as_ref().is_some_and(|w| w.get(guide as usize) == Some(&true));
             let special = wisps.is_some() || falling.is_some();
             let marks = special.then(|| {
                 let mark = |(i, guide): (usize, &u32)| Mark {
@@ -331,7 +336,8 @@ impl Viewport {
             painter.add(Shape::line(self.lasso.clone(), Stroke::new(2.0, theme::ACCENT)));
             painter.add(Shape::convex_polygon(vec![], fill, Stroke::NONE));
         }
-        let Some(pointer) = ui.input(|i| i.pointer.hover_pos()).filter(|p| rect.contains(*p)) else {
+        let Some(pointer) = ui.input(|i| i.pointer.hover_pos()).filter(|p| rect.contains(*p))
+        else {
             return;
         };
         if matches!(salon.tool(), Tool::Brush | Tool::Comb) {
@@ -455,9 +461,10 @@ pub(super) fn badge(salon: &Salon) -> (String, Color32) {
             let text = format!("Unstable: {count} guides");
             (text, Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230))
         }
-        Badge::Refused(_) => {
-            ("Not possible: as before".into(), Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230))
-        }
+        Badge::Refused(_) => (
+            "Not possible: as before".into(),
+            Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230),
+        ),
     }
 }
 

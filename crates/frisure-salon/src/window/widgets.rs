@@ -1,25 +1,23 @@
 //! Widgets that are used in more than one place.
 
-use eframe::egui::{Button, Response, RichText, Slider, Ui, Widget, vec2};
+use eframe::egui::{Button, Response, RichText, Slider, Ui, Widget};
 
 use crate::state::{Command, Control};
 
-/// A button with a label, a key, and a sentence on what it does.
-pub(super) fn button(ui: &mut Ui, label: &str, key: &str, help: &str) -> Response {
-    labelled(ui, label, Button::new(label).shortcut_text(RichText::new(key).weak()), help)
-}
+/// Room for the value beside a slider (points).
+const VALUE: f32 = 104.0;
 
 /// A plain button.
 pub(super) fn plain(ui: &mut Ui, label: &str, help: &str) -> Response {
-    labelled(ui, label, Button::new(label), help)
+    with_help(ui, Button::new(label), help)
 }
 
 /// A button that stays down.
 pub(super) fn toggle(ui: &mut Ui, label: &str, on: bool, help: &str) -> Response {
-    labelled(ui, label, Button::selectable(on, label), help)
+    with_help(ui, Button::selectable(on, label), help)
 }
 
-fn labelled(ui: &mut Ui, label: &str, button: impl Widget, help: &str) -> Response {
+fn with_help(ui: &mut Ui, button: impl Widget, help: &str) -> Response {
     let response = ui.add(button);
     if help.is_empty() { response } else { response.on_hover_text(help) }
 }
@@ -30,7 +28,7 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Opti
     ui.horizontal(|ui| {
         let name = ui.label(control.label).on_hover_text(control.help);
         ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
-            let reset = Button::new("↺").frame(false).min_size(vec2(18.0, 0.0));
+            let reset = Button::new(RichText::new("reset").small().weak()).frame(false);
             let reset = ui.add(reset).on_hover_text("As the hair type has it");
             reset.widget_info(|| {
                 let label = format!("Reset {}", control.label);
@@ -43,7 +41,7 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Opti
         name.id
     });
     let mut now = value.clamp(control.range.0, control.range.1);
-    ui.spacing_mut().slider_width = (ui.available_width() - 92.0).max(60.0);
+    ui.spacing_mut().slider_width = (ui.available_width() - VALUE).max(60.0);
     let suffix = match control.unit {
         "" => String::new(),
         unit => format!(" {unit}"),
@@ -55,9 +53,11 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Opti
         .suffix(suffix);
     let response = ui.add(slider).on_hover_text(control.help);
     response.widget_info(|| eframe::egui::WidgetInfo::slider(true, value, control.label));
+    // A value that is shown rounded is no change.
+    let moved = control.clean(now) != control.clean(value);
     if response.drag_stopped() {
         command = Some(Command::LetGo);
-    } else if response.changed() {
+    } else if response.changed() && moved {
         command = Some(match response.dragged() {
             true => Command::Drag(control.key, now),
             false => Command::Set(control.key, now),

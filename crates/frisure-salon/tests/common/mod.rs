@@ -7,21 +7,21 @@ use frisure_stylist::Stylist;
 use frisure_stylist::order::Answer;
 
 /// A salon, and the world outside it.
-pub struct World {
-    pub salon: Salon,
+pub(crate) struct World {
+    pub(crate) salon: Salon,
     hair: Stylist,
     aside: Stylist,
     /// Files by what a person calls them.
-    pub files: BTreeMap<String, Vec<u8>>,
+    pub(crate) files: BTreeMap<String, Vec<u8>>,
     /// What survives a crash.
-    pub kept: Option<String>,
+    pub(crate) kept: Option<String>,
     /// Whether writing fails.
-    pub full: bool,
+    pub(crate) full: bool,
     now: f64,
 }
 
 impl World {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             salon: Salon::new(),
             hair: Stylist::new(),
@@ -34,13 +34,13 @@ impl World {
     }
 
     /// Does a command and all that comes of it.
-    pub fn run(&mut self, command: Command) {
+    pub(crate) fn run(&mut self, command: Command) {
         self.salon.run(command);
         self.settle();
     }
 
     /// Carries errands out until there are none; time passes.
-    pub fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         for _ in 0..100 {
             self.now += 2.0;
             self.salon.tick(self.now);
@@ -84,7 +84,7 @@ impl World {
     }
 
     /// A head with few hairs, so that tests are quick.
-    pub fn small(&mut self, hair_type: &str) {
+    pub(crate) fn small(&mut self, hair_type: &str) {
         let text = format!(
             "[hair]\ntype = \"{hair_type}\"\n\n[wisps]\ncount = 40\nhairs = 800\npoints = 12\n"
         );
@@ -94,16 +94,16 @@ impl World {
     }
 
     /// The text that is edited.
-    pub fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         self.salon.document().expect("a document").text()
     }
 
     /// Mean height of the tips (m).
-    pub fn tips(&self) -> f64 {
+    pub(crate) fn tips(&self) -> f64 {
         self.salon.shown().expect("hair").0.numbers.tips
     }
 }
 
 /// An answer that is none, for tickets nobody gave.
 #[allow(dead_code, reason = "not every test sends one")]
-pub const STRAY: Answer = Answer::Cancelled;
+pub(crate) const STRAY: Answer = Answer::Cancelled;
