@@ -248,16 +248,16 @@ pub const CONTROLS: &[Control] = &[
         |_, s| helix(s)[0],
         "Radius of the curl that a hair would have without weight.",
     )),
-    control(
+    logarithmic(control(
         Panel::Curl,
         "Curl pitch",
         "hair.curl.pitch",
         MM,
-        (-100.0, 100.0),
+        (-500.0, 500.0),
         1,
         |_, s| helix(s)[1],
         "How far a curl advances in a turn, without weight. Negative turns the other way.",
-    ),
+    )),
     control(
         Panel::Curl,
         "Varies between wisps by",

@@ -165,14 +165,12 @@ mod tests {
         let bounds = (DVec3::new(-0.2, -0.15, -0.4), DVec3::new(0.2, 0.15, 0.12));
         for aspect in [0.6, 1.0, 1.9] {
             orbit.frame(bounds, aspect);
-            for i in 0..8 {
-                let p = DVec3::new(
-                    if i & 1 == 0 { bounds.0.x } else { bounds.1.x },
-                    if i & 2 == 0 { bounds.0.y } else { bounds.1.y },
-                    if i & 4 == 0 { bounds.0.z } else { bounds.1.z },
-                );
-                let [x, y] = orbit.project(p, aspect).unwrap();
-                assert!(x.abs() < 1.1 && y.abs() < 1.1, "{x} {y}");
+            let (middle, half) = (0.5 * (bounds.0 + bounds.1), 0.5 * (bounds.1 - bounds.0));
+            for way in [DVec3::X, DVec3::Y, DVec3::Z] {
+                for p in [middle + half * way, middle - half * way] {
+                    let [x, y] = orbit.project(p, aspect).unwrap();
+                    assert!(x.abs() < 1.0 && y.abs() < 1.0, "{x} {y}");
+                }
             }
         }
     }

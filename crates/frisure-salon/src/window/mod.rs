@@ -107,6 +107,11 @@ impl App {
         self.salon.run(command);
     }
 
+    /// Offers a text that another window kept.
+    pub fn found_kept(&mut self, text: &str) {
+        self.salon.found_kept(text);
+    }
+
     /// Takes a file that somebody opened or dropped: a scene, or a head for the scene there is.
     pub fn take(&mut self, given: Given) {
         let extension = given.name.rsplit_once('.').map(|(_, e)| e.to_ascii_lowercase());

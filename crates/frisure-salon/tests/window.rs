@@ -1,0 +1,353 @@
+//! The real window, without a display: driven through its accessibility tree, drawn by whatever
+//! graphics there are.
+//!
+//! With `FRISURE_SCREENSHOTS=FOLDER` each screen is written there, which is how the pictures of
+//! `docs/salon.md` are made.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use frisure_salon::state::{Badge, Command};
+use frisure_salon::window::desktop::Desktop;
+use frisure_salon::window::outside::Given;
+use frisure_salon::window::{App, Parts};
+use frisure_salon::work::native::Thread;
+
+/// Longest that hair may take to settle on the slowest machine.
+const PATIENCE: Duration = Duration::from_secs(240);
+
+struct Window {
+    harness: Harness<'static, App>,
+    folder: tempfile::TempDir,
+    screens: usize,
+}
+
+/// Whether there is something to draw with. Where the gate has installed it, there has to be.
+fn has_graphics() -> bool {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapters = instance.enumerate_adapters(wgpu::Backends::from_env().unwrap_or_default());
+    let any = !pollster::block_on(adapters).is_empty();
+    assert!(any || std::env::var_os("FRISURE_NEEDS_GPU").is_none(), "no graphics driver");
+    any
+}
+
+impl Window {
+    fn open(size: [f32; 2], scale: f32) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let kept = folder.path().join("kept.toml");
+        let harness = Harness::builder()
+            .with_size(vec2(size[0], size[1]))
+            .with_pixels_per_point(scale)
+            .with_max_steps(64)
+            .wgpu()
+            .build_eframe(move |cc| {
+                let worker = || Box::new(Thread::start(Box::new(|| ())).expect("a thread"));
+                let outside = Box::new(Desktop::new(Some(kept), Arc::new(|| ())));
+                let parts = Parts { hair: worker(), aside: worker(), outside, samples: 1 };
+                App::new(cc, parts)
+            });
+        Self { harness, folder, screens: 0 }
+    }
+
+    fn steps(&mut self, count: usize) {
+        for _ in 0..count {
+            self.harness.step();
+        }
+    }
+
+    /// Lets the hair come to rest, and the picture with it.
+    fn settle(&mut self) {
+        self.wait("the hair", |app| app.salon().is_settled() && app.salon().aside().is_none());
+        // Pictures are complete a moment after the last movement.
+        for _ in 0..30 {
+            self.harness.step();
+        }
+    }
+
+    fn wait(&mut self, what: &str, done: impl Fn(&App) -> bool) {
+        let since = Instant::now();
+        loop {
+            self.steps(2);
+            if done(self.harness.state()) {
+                return;
+            }
+            let salon = self.harness.state().salon();
+            let (badge, messages) = (salon.badge(), salon.messages());
+            assert!(since.elapsed() < PATIENCE, "{what} is late: {badge:?} {messages:?}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Clicks what has a name.
+    fn click(&mut self, label: &str) {
+        self.harness.get_by_role_and_label(Role::Button, label).click();
+        self.steps(3);
+    }
+
+    fn key(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.steps(3);
+    }
+
+    /// Draws with the left button held.
+    fn drag(&mut self, path: &[Pos2], modifiers: Modifiers) {
+        let button = |pos, pressed| Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers,
+        };
+        self.harness.event(Event::PointerMoved(path[0]));
+        self.steps(1);
+        self.harness.event(button(path[0], true));
+        self.steps(1);
+        for at in path {
+            self.harness.event(Event::PointerMoved(*at));
+            self.steps(1);
+        }
+        self.harness.event(button(path[path.len() - 1], false));
+        self.steps(2);
+    }
+
+    /// Writes into the field of a name.
+    fn write(&mut self, label: &str, text: &str) {
+        let field = self.harness.get_by_role_and_label(Role::TextInput, label);
+        field.focus();
+        self.steps(2);
+        self.key(Modifiers::COMMAND, Key::A);
+        self.harness.get_by_role_and_label(Role::TextInput, label).type_text(text);
+        self.steps(2);
+    }
+
+    /// A picture of the window, which has to show something.
+    fn screen(&mut self, name: &str) -> Vec<u8> {
+        let image = self.harness.render().expect("a picture");
+        let pixels = image.as_raw().clone();
+        let first = &pixels[..4];
+        assert!(pixels.chunks_exact(4).any(|p| p != first), "{name} is blank");
+        self.screens += 1;
+        if let Some(folder) = std::env::var_os("FRISURE_SCREENSHOTS") {
+            let path = PathBuf::from(folder).join(format!("{name}.png"));
+            image.save(path).expect("a file");
+        }
+        pixels
+    }
+
+    /// Opens a head with few hairs.
+    fn small(&mut self, hair_type: &str) {
+        let text = format!(
+            "[hair]\ntype = \"{hair_type}\"\n\n[wisps]\ncount = 40\nhairs = 1500\npoints = 12\n"
+        );
+        let given = Given { path: None, name: "small.toml".into(), bytes: text.into_bytes() };
+        self.harness.state_mut().take(given);
+        self.settle();
+    }
+
+    fn text(&self) -> String {
+        self.harness.state().salon().document().expect("a document").text().to_owned()
+    }
+}
+
+#[test]
+fn a_session_in_the_window() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 1.0);
+    window.steps(3);
+    let gallery = window.screen("gallery");
+    // The gallery's own button, then a head with fewer hairs, for the time's sake.
+    window.click("Begin: Curly");
+    assert_eq!(window.harness.state().salon().document().map(|d| d.name()), Some("Curly"));
+    window.small("curly");
+    let dry = window.screen("test-dry");
+    assert!(dry != gallery);
+
+    window.click("Wet");
+    window.settle();
+    let wet = window.screen("test-wet");
+    assert!(wet != dry && window.text().contains("wet = {}"));
+
+    window.click("Fringe");
+    window.wait("the choice", |app| app.salon().chosen().count().is_some());
+    window.click("Cut");
+    window.steps(10);
+    window.screen("test-cut");
+    window.click("Cut here");
+    window.settle();
+    assert!(window.text().contains("cut = {"), "{}", window.text());
+
+    window.click("Dry");
+    window.settle();
+    assert!(window.text().contains("dry = {"), "{}", window.text());
+    window.click("Undo");
+    window.settle();
+    assert!(!window.text().contains("dry = {"));
+    window.key(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.settle();
+    assert!(window.text().contains("dry = {"));
+
+    let scene = window.folder.path().join("curls.toml");
+    window.key(Modifiers::COMMAND, Key::S);
+    window.write("File", &scene.display().to_string());
+    window.click("Save scene");
+    window.steps(3);
+    assert_eq!(std::fs::read_to_string(&scene).expect("a file"), window.text());
+
+    let groom = window.folder.path().join("curls.hair");
+    window.key(Modifiers::COMMAND, Key::E);
+    window.write("File", &groom.display().to_string());
+    window.click("Export groom");
+    window.settle();
+    assert_eq!(&std::fs::read(&groom).expect("a file")[..4], b"HAIR");
+}
+
+#[test]
+fn hands_on_the_head() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 1.0);
+    window.small("curly");
+    let before = *window.harness.state().salon().orbit();
+    let path: Vec<Pos2> = (0..10).map(|i| pos2(400.0 + 12.0 * i as f32, 400.0)).collect();
+    window.drag(&path, Modifiers::NONE);
+    assert!(window.harness.state().salon().orbit().azimuth != before.azimuth);
+
+    window.key(Modifiers::NONE, Key::Num1);
+    window.key(Modifiers::NONE, Key::F);
+    window.key(Modifiers::NONE, Key::L);
+    let around = [(250.0, 150.0), (700.0, 150.0), (700.0, 320.0), (250.0, 320.0), (250.0, 160.0)];
+    let path: Vec<Pos2> = around.iter().map(|(x, y)| pos2(*x, *y)).collect();
+    window.drag(&path, Modifiers::NONE);
+    window.wait("the choice", |app| app.salon().chosen().count().is_some());
+    let count = window.harness.state().salon().chosen().count().expect("wisps");
+    assert!(count > 0 && count < 40, "{count}");
+
+    window.key(Modifiers::NONE, Key::C);
+    let plane = *window.harness.state().salon().plane();
+    let path: Vec<Pos2> = (0..6).map(|i| pos2(450.0, 500.0 - 8.0 * i as f32)).collect();
+    window.drag(&path, Modifiers::NONE);
+    let raised = *window.harness.state().salon().plane();
+    assert!(raised.point.z > plane.point.z + 0.005, "{plane:?} {raised:?}");
+    window.drag(&[pos2(450.0, 400.0), pos2(500.0, 400.0)], Modifiers::SHIFT);
+    assert!(window.harness.state().salon().plane().roll != 0.0);
+    window.key(Modifiers::NONE, Key::Enter);
+    window.settle();
+    assert!(window.text().contains("cut = {"), "{}", window.text());
+
+    window.key(Modifiers::NONE, Key::H);
+    window.drag(&[pos2(450.0, 250.0)], Modifiers::NONE);
+    window.wait("the hair", |app| app.salon().alone().is_some_and(|a| a.hair.is_some()));
+    window.screen("test-alone");
+    window.key(Modifiers::NONE, Key::Escape);
+    assert!(window.harness.state().salon().alone().is_none());
+}
+
+#[test]
+fn a_slider_is_dragged_and_typed() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 1.0);
+    window.small("wavy");
+    let edits = window.harness.state().salon().document().expect("one").edits().len();
+    let slider = window.harness.get_by_role_and_label(Role::Slider, "Diameter").rect();
+    let y = slider.center().y;
+    let path: Vec<Pos2> = (0..5).map(|i| pos2(slider.left() + 20.0 + 8.0 * i as f32, y)).collect();
+    window.drag(&path, Modifiers::NONE);
+    window.settle();
+    let document = window.harness.state().salon().document().expect("one").clone();
+    assert_eq!(document.edits().len(), edits + 1, "one edit for one drag");
+    assert!(document.text().contains("diameter"), "{}", document.text());
+    let labels: Vec<_> = document.edits().iter().map(|e| e.label.clone()).collect();
+    assert!(labels[edits].starts_with("Diameter: "), "{labels:?}");
+}
+
+#[test]
+fn it_is_readable_light_dark_and_at_twice_the_scale() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 2.0);
+    window.small("curly");
+    window.screen("test-twice");
+    window.click("Light");
+    window.settle();
+    window.screen("test-light");
+    // Everything that can be pressed has a name.
+    let root = window.harness.root();
+    let nameless = root.children_recursive().filter(|node| {
+        let node = node.accesskit_node();
+        matches!(node.role(), Role::Button | Role::Slider | Role::CheckBox | Role::ComboBox)
+            && node.label().is_none_or(|label| label.trim().is_empty())
+    });
+    let nameless: Vec<_> = nameless.map(|n| format!("{n:?}")).collect();
+    assert!(nameless.is_empty(), "{nameless:#?}");
+}
+
+#[test]
+fn broken_files_dropped_on_the_window_are_told() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 1.0);
+    window.small("curly");
+    let text = window.text();
+    let files: [(&str, &[u8]); 5] = [
+        ("bad.toml", b"[hair]\ntype = \"curvy\"\n"),
+        ("binary.toml", &[0xff, 0xfe, 0, 1, 2]),
+        ("picture.png", b"\x89PNG"),
+        ("empty", b""),
+        ("empty.toml", b"\0"),
+    ];
+    for (name, bytes) in files {
+        let given = Given { path: None, name: name.into(), bytes: bytes.to_vec() };
+        window.harness.state_mut().take(given);
+        window.steps(3);
+        let message = window.harness.state().salon().messages().last().cloned();
+        assert!(message.as_ref().is_some_and(|m| m.is_error), "{name}: {message:?}");
+    }
+    let given = Given { path: None, name: "no-head.obj".into(), bytes: b"nonsense".to_vec() };
+    window.harness.state_mut().take(given);
+    window.wait("the refusal", |app| matches!(app.salon().badge(), Badge::Refused(_)));
+    window.harness.state_mut().run(Command::Undo);
+    window.settle();
+    assert_eq!(window.text(), text);
+    window.screen("test-told");
+}
+
+#[test]
+fn a_window_that_was_killed_offers_its_work() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1000.0, 700.0], 1.0);
+    window.small("curly");
+    window.click("Wet");
+    window.settle();
+    let kept = window.folder.path().join("kept.toml");
+    let since = Instant::now();
+    while !kept.exists() && since.elapsed() < PATIENCE {
+        window.steps(1);
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let text = window.text();
+    let Window { harness, folder, .. } = window;
+    drop(harness);
+    let mut next = Window::open([1000.0, 700.0], 1.0);
+    std::fs::copy(folder.path().join("kept.toml"), next.folder.path().join("kept.toml"))
+        .expect("kept");
+    let kept = std::fs::read_to_string(next.folder.path().join("kept.toml")).expect("kept");
+    next.harness.state_mut().found_kept(&kept);
+    next.steps(3);
+    next.screen("recovery");
+    next.click("Take it up");
+    next.settle();
+    assert_eq!(next.text(), text);
+}
