@@ -102,15 +102,16 @@ impl Window {
             pressed,
             modifiers,
         };
-        self.harness.event(Event::PointerMoved(path[0]));
+        self.harness.event_modifiers(Event::PointerMoved(path[0]), modifiers);
         self.steps(1);
         self.harness.event(button(path[0], true));
         self.steps(1);
         for at in path {
-            self.harness.event(Event::PointerMoved(*at));
+            self.harness.event_modifiers(Event::PointerMoved(*at), modifiers);
             self.steps(1);
         }
         self.harness.event(button(path[path.len() - 1], false));
+        self.harness.event(Event::ModifiersChanged(Modifiers::NONE));
         self.steps(2);
     }
 

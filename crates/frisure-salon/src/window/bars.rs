@@ -245,7 +245,8 @@ pub(super) fn choosing(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
 }
 
 fn holds(ui: &mut Ui, out: &mut Vec<Command>) {
-    ComboBox::from_id_salt("hold").selected_text("Hold…").width(80.0).show_ui(ui, |ui| {
+    let list = ComboBox::from_id_salt("hold").selected_text("Hold…").width(80.0);
+    let shown = list.show_ui(ui, |ui| {
         let holders = [
             ("On rollers", Holder::Roller { radius: 0.012, pitch: 0.006 }),
             ("In braids", Holder::Braid { width: 0.02, pitch: 0.04 }),
@@ -257,6 +258,7 @@ fn holds(ui: &mut Ui, out: &mut Vec<Command>) {
             }
         }
     });
+    shown.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Hold"));
     if widgets::plain(ui, "Let go", "Let go of what is held (R)").clicked() {
         out.push(Command::Release);
     }

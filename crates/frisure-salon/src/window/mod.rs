@@ -266,9 +266,9 @@ impl App {
         }
         Edge::top("tools").show(ui, |ui| bars::tools(ui, &mut self.salon, out));
         Edge::bottom("choosing").show(ui, |ui| bars::choosing(ui, &self.salon, out));
-        let side = Edge::right("side").default_size(310.0).size_range(240.0..=480.0);
-        side.resizable(true).show(ui, |ui| {
-            Edge::bottom("history").resizable(true).default_size(170.0).show(ui, |ui| {
+        let side = Edge::right("side").exact_size(330.0);
+        side.resizable(false).show(ui, |ui| {
+            Edge::bottom("history").exact_size(170.0).show(ui, |ui| {
                 ui.strong("History");
                 panels::history(ui, &self.salon, out);
             });
