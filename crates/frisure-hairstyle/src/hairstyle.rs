@@ -35,6 +35,8 @@ pub struct Hairstyle {
 #[derive(Clone, Debug)]
 pub(crate) struct Rough {
     pub(crate) effort: Effort,
+    /// Of drawn hairs only every so manyth is cut.
+    pub(crate) every: usize,
     /// Where guides are to start from.
     pub(crate) like: Option<Arc<[Equilibrium]>>,
 }

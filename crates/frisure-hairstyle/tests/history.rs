@@ -126,3 +126,20 @@ fn an_edit_that_fails_loses_nothing() {
     assert!(same(history.current(), &now));
     assert_eq!((history.operations(), history.done()), (operations.as_slice(), 1));
 }
+
+#[test]
+fn another_list_is_taken_over_with_what_is_known() {
+    let mut history = history(&[wet(), cut(0.12), dry()]);
+    let cut_hair = history.known(2).unwrap().clone();
+    let list = vec![wet(), cut(0.12), grow(0.01)];
+    history.follow(list.clone(), 2, &HEAD, &()).unwrap();
+    assert!(std::sync::Arc::ptr_eq(&cut_hair, history.known(2).unwrap()));
+    assert_eq!((history.done(), history.operations()), (2, list.as_slice()));
+    history.follow(list, 3, &HEAD, &()).unwrap();
+    let grown = cut_hair.styled(&HEAD, &grow(0.01), &()).unwrap();
+    assert!(same(history.current(), &grown));
+    // Of a list that cannot be done it does what it can.
+    let error = history.follow(vec![wet(), grow(9.0), dry()], 3, &HEAD, &()).unwrap_err();
+    assert_eq!((error.step, history.done()), (1, 1));
+    assert!(history.known(1).is_some() && history.known(2).is_none());
+}

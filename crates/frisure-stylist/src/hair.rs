@@ -14,17 +14,19 @@ use frisure::hairstyle::{
 };
 use frisure::io::scene::Scene;
 
-use crate::carry;
 use crate::refusal::Stop;
+use crate::{carry, order, shown};
 
 /// How many descriptions are remembered with all that was done to them.
 const KEPT: usize = 4;
 
-/// What a slider leaves time for.
-const COARSE: Effort = Effort { iterations: 3, sweeps: 2 };
+/// What a slider leaves time for. A slider asks again, and each answer goes on from the last.
+const COARSE: Effort = Effort { iterations: 2, sweeps: 1 };
 
-/// The same for hair that the next step is about, and that nobody sees.
-const PASSING: Effort = Effort { iterations: 1, sweeps: 1 };
+/// The same for more guides than …
+const MANY: Effort = Effort { iterations: 1, sweeps: 1 };
+/// … these.
+const FEW: usize = 400;
 
 /// A hairstyle to compute.
 pub(crate) struct Wanted<'a> {
@@ -148,7 +150,7 @@ impl Hair {
             Some(start) => start,
             None => {
                 let before = self.draft.as_ref().map(|draft| &*draft.start);
-                let effort = effort(steps, 0);
+                let effort = effort(steps, 0, wanted);
                 predict_roughly(&wanted.spec, wanted.head, before, effort, monitor)
                     .map_err(|e| stopped(carry::not_predicted(&e, wanted.scene)))?
             }
@@ -166,19 +168,23 @@ impl Hair {
         monitor: &dyn Monitor,
     ) -> Result<Arc<Hairstyle>, Stop> {
         let like = self.draft.as_ref().and_then(|before| before.after(index, &steps[index]));
-        let effort = if like.is_some() { effort(steps, index + 1) } else { COARSE };
-        let styled = draft.last().styled_roughly(wanted.head, &steps[index], like, effort, monitor);
+        let done = if like.is_some() { index + 1 } else { steps.len() };
+        let effort = effort(steps, done, wanted);
+        let every = shown::every(draft.last(), order::Effort::Coarse);
+        let styled =
+            draft.last().styled_roughly(wanted.head, &steps[index], like, (effort, every), monitor);
         styled.map(Arc::new).map_err(|e| stopped(carry::not_done(index, &e, wanted.scene)))
     }
 }
 
 /// How well hair has to lie after so many steps: the last is seen, and scissors and what keeps a shape
 /// go by how it lies.
-fn effort(steps: &[Operation], done: usize) -> Effort {
+fn effort(steps: &[Operation], done: usize, wanted: &Wanted<'_>) -> Effort {
     match steps.get(done) {
-        None => COARSE,
-        Some(Operation::Cut(_) | Operation::Dry(_)) => PASSING,
+        Some(Operation::Cut(_) | Operation::Dry(_)) => MANY,
         Some(_) => Effort::NONE,
+        None if wanted.spec.wisps.count > FEW => MANY,
+        None => COARSE,
     }
 }
 

@@ -7,12 +7,12 @@ use frisure::hairstyle::{Cancelled, Hairstyle, Monitor};
 use frisure::io::scene::Scene;
 use frisure::rod::Stability;
 use frisure::strands::{AttributeValues, Strands};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::order::{Effort, HeadData, Numbers, OneHair, Refusal, Shown, StrandsData};
 
 /// Points that are drawn for a coarse answer, per thread: what a slider leaves time for.
-const COARSE_POINTS: usize = 90_000;
+const COARSE_POINTS: usize = 70_000;
 
 /// Most points that are shown: a page in a browser has 4 GiB in all.
 const MOST_POINTS: usize = 16_000_000;
@@ -84,7 +84,7 @@ fn plain(strands: &Strands) -> StrandsData {
     };
     StrandsData {
         offsets: strands.offsets().to_vec(),
-        points: strands.points().iter().flat_map(|p| p.to_array()).collect(),
+        points: strands.points().iter().flat_map(Vec3::to_array).collect(),
         radii: strands.radii().to_vec(),
         guide,
         wetness,
@@ -95,7 +95,7 @@ fn plain(strands: &Strands) -> StrandsData {
 pub(crate) fn head_data(head: &Head) -> HeadData {
     let surface = head.surface();
     HeadData {
-        positions: surface.positions().iter().flat_map(|p| p.to_array()).collect(),
+        positions: surface.positions().iter().flat_map(DVec3::to_array).collect(),
         triangles: surface.triangles().to_vec(),
     }
 }

@@ -6,6 +6,11 @@ use common::{CURLY, Counted, asked, exact, refused, show, shown};
 use frisure_stylist::Stylist;
 use frisure_stylist::order::{Answer, Asked, Effort};
 
+/// The small scene, with wisps that make way for each other.
+fn among_wisps() -> String {
+    CURLY.replace("\"layers\"", "\"wisps\"").replace("count = 24", "count = 12")
+}
+
 /// The same scene with a part replaced.
 fn with(asked: &Asked, from: &str, to: &str) -> Asked {
     assert!(asked.text.contains(from), "{from}");
@@ -47,6 +52,18 @@ fn whatever_was_asked_before_exact_answers_have_the_same_bytes() {
 }
 
 #[test]
+fn among_wisps_too() {
+    let first = asked(&among_wisps(), 0);
+    let second = with(&first, "9 mm", "10 mm");
+    let mut stylist = Stylist::new();
+    shown(show(&mut stylist, &first, Effort::Coarse, &()));
+    exact(&mut stylist, &first);
+    shown(show(&mut stylist, &second, Effort::Coarse, &()));
+    let cold = exact(&mut Stylist::new(), &second);
+    assert_eq!(exact(&mut stylist, &second).strands, cold.strands);
+}
+
+#[test]
 fn the_head_is_told_once() {
     let mut stylist = Stylist::new();
     let asked = asked(CURLY, 0);
@@ -75,7 +92,7 @@ fn coarse_hair_is_some_of_the_same_hair() {
 #[test]
 fn coarse_hair_goes_to_where_exact_hair_is() {
     let mut stylist = Stylist::new();
-    let start = asked(CURLY, 0);
+    let start = asked(&among_wisps(), 0);
     exact(&mut stylist, &start);
     let end = with(&start, "9 mm", "10 mm");
     let far = |some: &frisure_stylist::order::Shown, all: &frisure_stylist::order::Shown| {

@@ -44,7 +44,8 @@ impl Hairstyle {
 
     /// As [`Self::styled`], for the eye, doing no more than `effort` each time that hair comes to rest.
     /// Guides start from where those of `like` rest, which is the answer of a call that was nearly the
-    /// same; without it, from where they lay.
+    /// same; without it, from where they lay. Of the drawn hairs, scissors cut those that
+    /// [`Self::some_strands`] draws for the same `every`.
     ///
     /// # Errors
     /// As [`Self::styled`].
@@ -53,12 +54,13 @@ impl Hairstyle {
         head: &Head,
         operation: &Operation,
         like: Option<&Self>,
-        effort: Effort,
+        (effort, every): (Effort, usize),
         monitor: &dyn Monitor,
     ) -> Result<Self, StyleError> {
         let like = like.filter(|like| like.guides.len() == self.guides.len());
         let like = like.map(|like| like.rest.guides.as_slice().into());
-        let rough = Self { rough: Some(Rough { effort, like }), ..self.clone() };
+        let rough =
+            Self { rough: Some(Rough { effort, every: every.max(1), like }), ..self.clone() };
         Ok(Self { rough: None, ..rough.styled(head, operation, monitor)? })
     }
 

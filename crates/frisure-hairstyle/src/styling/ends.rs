@@ -32,22 +32,26 @@ impl Ends {
         left: impl Fn(&Population<'_>, &Root, usize, usize) -> f64 + Sync,
     ) -> Self {
         let population = Population::new(hairstyle, head);
-        let roots = roots(hairstyle, head, 1);
+        let roots = roots(hairstyle, head, hairstyle.rough.as_ref().map_or(1, |r| r.every));
         let before = hairstyle.styling.ends.as_ref();
-        let wisps: Arc<[u32]> = match before {
-            Some(ends) => ends.wisps.clone(),
-            None => roots.par_iter().map(|(_, root)| population.main(root) as u32).collect(),
-        };
-        let limit = |&(index, ref root): &(usize, Root)| {
-            let limit = before.map_or(f32::INFINITY, |ends| ends.limits[index]);
-            let wisp = wisps[index] as usize;
-            if !chosen[wisp] {
-                return limit;
-            }
-            limit.min(left(&population, root, index, wisp).max(STUBBLE) as f32)
-        };
-        let limits = roots.par_iter().map(limit).collect();
-        Self { limits, wisps }
+        let cut: Vec<(usize, u32, f32)> = (roots.par_iter())
+            .map(|&(index, ref root)| {
+                let wisp = match before {
+                    Some(ends) => ends.wisps[index],
+                    None => population.main(root) as u32,
+                };
+                let chosen = chosen[wisp as usize];
+                let left = || left(&population, root, index, wisp as usize).max(STUBBLE) as f32;
+                (index, wisp, if chosen { left() } else { f32::INFINITY })
+            })
+            .collect();
+        let count = hairstyle.drawn();
+        let mut limits = before.map_or(vec![f32::INFINITY; count], |ends| ends.limits.to_vec());
+        let mut wisps = before.map_or(vec![0; count], |ends| ends.wisps.to_vec());
+        for (index, wisp, left) in cut {
+            (limits[index], wisps[index]) = (limits[index].min(left), wisp);
+        }
+        Self { limits: limits.into(), wisps: wisps.into() }
     }
 
     /// The same hairs where they follow other guides.

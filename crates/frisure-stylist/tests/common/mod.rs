@@ -20,6 +20,8 @@ count = 24
 hairs = 300
 points = 24
 clumping = 0.5
+[contact]
+hair = "layers"
 [equilibrium]
 elements = 12
 [look]
