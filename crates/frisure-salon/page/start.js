@@ -1,6 +1,7 @@
 // Loads the salon and starts it.
 //
-// In the address: ?backend=webgl or webgpu, ?scene=NAME, ?hairs=N (draw no more than so many).
+// In the address: ?backend=webgl or webgpu, ?scene=NAME, ?hairs=N (draw so many), ?samples=1 (rough
+// edges, for slow devices).
 
 import { loading, ready, trouble } from "./notice.js?v={{build}}";
 
@@ -86,6 +87,7 @@ async function start(salon, module) {
         worker: at("worker.js"),
         scene: asked.get("scene") ?? undefined,
         hairs: Number(asked.get("hairs")) || undefined,
+        samples: [1, 4].find((n) => String(n) === asked.get("samples")),
         broken,
       });
       return;

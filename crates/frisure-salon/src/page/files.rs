@@ -1,5 +1,6 @@
 //! Files in and out of a page: chosen by the person who sits there, or saved to their downloads.
 
+use crate::window::Wake;
 use js_sys::{Array, Uint8Array};
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -52,11 +53,11 @@ fn save(name: &str, bytes: &[u8]) -> Result<(), JsValue> {
 ///
 /// # Errors
 /// The browser's words.
-pub fn choose(accept: &str, inbox: Inbox, wake: Rc<dyn Fn()>) -> Result<(), String> {
+pub fn choose(accept: &str, inbox: Inbox, wake: Wake) -> Result<(), String> {
     ask(accept, inbox, wake).map_err(|e| words(&e))
 }
 
-fn ask(accept: &str, inbox: Inbox, wake: Rc<dyn Fn()>) -> Result<(), JsValue> {
+fn ask(accept: &str, inbox: Inbox, wake: Wake) -> Result<(), JsValue> {
     let document = document()?;
     let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
     input.set_type("file");
@@ -74,7 +75,7 @@ fn ask(accept: &str, inbox: Inbox, wake: Rc<dyn Fn()>) -> Result<(), JsValue> {
         chosen.remove();
         let Some(files) = chosen.files() else { return };
         for file in (0..files.length()).filter_map(|i| files.get(i)) {
-            spawn_local(arrive(file, Rc::clone(&inbox), Rc::clone(&wake)));
+            spawn_local(arrive(file, Rc::clone(&inbox), Wake::clone(&wake)));
         }
     });
     input.set_onchange(Some(read.unchecked_ref()));
@@ -82,7 +83,7 @@ fn ask(accept: &str, inbox: Inbox, wake: Rc<dyn Fn()>) -> Result<(), JsValue> {
     Ok(())
 }
 
-async fn arrive(file: File, inbox: Inbox, wake: Rc<dyn Fn()>) {
+async fn arrive(file: File, inbox: Inbox, wake: Wake) {
     let read = JsFuture::from(file.array_buffer()).await;
     let bytes = read.map(|buffer| Uint8Array::new(&buffer).to_vec()).map_err(|e| words(&e));
     inbox.borrow_mut().push_back(Chosen { name: file.name(), bytes });

@@ -4,12 +4,18 @@ pub mod driving;
 pub mod files;
 mod graphics;
 mod mirror;
+mod outside;
 pub mod storage;
 mod trouble;
 pub mod worker;
 
-use crate::window::App;
+use crate::state::Command;
+
+use crate::window::{App, Parts, wake};
+use crate::work::web::WebWorker;
 use eframe::{CreationContext, WebOptions, WebRunner};
+use frisure::io::scene::edit;
+use frisure_stylist::order::Order;
 use std::cell::RefCell;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
@@ -32,6 +38,8 @@ extern "C" {
     #[wasm_bindgen(method, getter)]
     fn hairs(this: &Opened) -> Option<f64>;
     #[wasm_bindgen(method, getter)]
+    fn samples(this: &Opened) -> Option<f64>;
+    #[wasm_bindgen(method, getter)]
     fn broken(this: &Opened) -> js_sys::Function;
 }
 
@@ -44,17 +52,15 @@ pub(crate) fn opened() -> Option<Opened> {
     OPENED.with(|opened| opened.borrow().clone())
 }
 
-/// The scene that the page's address asks for (`?scene=`).
-#[must_use]
-pub fn scene_asked() -> Option<String> {
-    opened()?.scene()
-}
-
-/// How many hairs to draw at most, if the page's address says (`?hairs=`).
-#[must_use]
-pub fn hairs_asked() -> Option<usize> {
-    // JavaScript's numbers are f64; a cast from one stays within the range.
-    opened()?.hairs().map(|hairs| hairs as usize)
+/// An order that draws no more hairs than the page's address allows (`?hairs=`): for slow devices.
+pub(crate) fn fewer_hairs(mut order: Order) -> Order {
+    let most = opened().and_then(|opened| opened.hairs());
+    if let (Order::Show { asked, .. }, Some(most)) = (&mut order, most)
+        && let Ok(text) = edit::set_key(&asked.text, "wisps.hairs", &format!("{most:.0}"))
+    {
+        asked.text = text;
+    }
+    order
 }
 
 /// Starts the salon on a canvas.
@@ -62,12 +68,29 @@ pub fn hairs_asked() -> Option<usize> {
 pub async fn start(canvas: HtmlCanvasElement, opened: Opened) -> Result<(), JsValue> {
     trouble::call(opened.broken());
     let graphics = graphics::wanted(&opened.backend());
-    OPENED.with(|known| *known.borrow_mut() = Some(opened));
+    OPENED.with(|known| *known.borrow_mut() = Some(opened.clone()));
     let options = WebOptions { wgpu_options: graphics, ..Default::default() };
-    let create = |cc: &CreationContext<'_>| {
+    let create = move |cc: &CreationContext<'_>| {
         driving::drive(&cc.egui_ctx);
         graphics::tell_when_lost(cc);
-        Ok(Box::new(App::new(cc)) as Box<dyn eframe::App>)
+        app(cc, &opened)
     };
     WebRunner::new().start(canvas, options, Box::new(create)).await
 }
+
+fn app(cc: &CreationContext<'_>, opened: &Opened) -> Created {
+    let wake = wake(&cc.egui_ctx);
+    let parts = Parts {
+        hair: Box::new(WebWorker::start(wake.clone())?),
+        aside: Box::new(WebWorker::start(wake.clone())?),
+        outside: Box::new(outside::Page::new(wake)),
+        samples: opened.samples().map_or(4, |samples| samples as u32),
+    };
+    let mut app = App::new(cc, parts);
+    if let Some(name) = opened.scene() {
+        app.run(Command::Begin(name));
+    }
+    Ok(Box::new(app))
+}
+
+type Created = Result<Box<dyn eframe::App>, Box<dyn std::error::Error + Send + Sync>>;

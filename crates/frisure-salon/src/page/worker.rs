@@ -1,7 +1,7 @@
 //! The other side: in a worker, orders are carried out one after the other.
 //!
-//! Messages in: `[path, bytes]` is a file, `[ticket, order]` an order. Messages out: `[ticket,
-//! answer]`; or `[-1, report]` when the worker is broken.
+//! Messages in are `[ticket, order]`, messages out `[ticket, answer]`, or `[-1, report]` when the worker is
+//! broken.
 
 use super::trouble;
 use frisure_stylist::order::{Answer, Order};
@@ -36,18 +36,15 @@ pub fn worker_main(stop: Option<Int32Array>) {
 /// Does what a message says.
 #[wasm_bindgen]
 pub fn worker_message(message: &Array) {
-    let (first, bytes) = (message.get(0), Uint8Array::new(&message.get(1)).to_vec());
-    match first.as_string() {
-        Some(path) => frisure_stylist::files::provide(&path, bytes),
-        None => carry_out(first.as_f64().unwrap_or_default(), &bytes),
-    }
+    let bytes = Uint8Array::new(&message.get(1)).to_vec();
+    carry_out(message.get(0).as_f64().unwrap_or_default(), &bytes);
 }
 
 fn carry_out(ticket: f64, order: &[u8]) {
     TICKET.set(ticket);
     TOLD.set(None);
     let answer = match postcard::from_bytes::<Order>(order) {
-        Ok(order) => STYLIST.with(|stylist| stylist.borrow_mut().carry_out(&order, &Page)),
+        Ok(order) => STYLIST.with_borrow_mut(|stylist| stylist.carry_out(&order, &Page)),
         // Both sides are one program: only a mistake in it can come here.
         Err(mistake) => panic!("an order cannot be read: {mistake}"),
     };

@@ -5,7 +5,8 @@
 //! and another takes its place.
 
 use super::Worker;
-use crate::page::{Opened, opened};
+use crate::page::{Opened, fewer_hairs, opened};
+use crate::window::Wake;
 use frisure_stylist::order::{Answer, Order, Refusal};
 use js_sys::{Array, Atomics, Int32Array, Object, Reflect, SharedArrayBuffer, Uint8Array};
 use std::cell::RefCell;
@@ -17,8 +18,11 @@ use web_sys::{ErrorEvent, MessageEvent, WorkerOptions, WorkerType};
 /// How long a worker that cannot be told to stop may go on (ms): its memory is worth waiting for.
 const PATIENCE: i32 = 1500;
 
-/// Wakes the window when there is an answer.
-pub type Wake = Rc<dyn Fn()>;
+/// The ticket of a worker that says that it is broken.
+const BROKEN: f64 = -1.0;
+
+/// The ticket of an order whose answer nobody waits for.
+const UNASKED: f64 = -2.0;
 
 /// A worker of the page. Dropped, it ends.
 pub struct WebWorker(Rc<RefCell<Desk>>);
@@ -28,17 +32,12 @@ impl WebWorker {
     ///
     /// # Errors
     /// The browser's words, if it does not start workers.
-    pub fn new(wake: Wake) -> Result<Self, String> {
+    pub fn start(wake: Wake) -> Result<Self, String> {
         let opened = opened().ok_or("only a page has workers")?;
         let desk = Rc::new(RefCell::new(Desk::new(opened, wake)));
         desk.borrow_mut().me = Rc::downgrade(&desk);
         desk.borrow_mut().hire().map_err(|e| format!("{e:?}"))?;
         Ok(Self(desk))
-    }
-
-    /// Hands over a file, for orders that name it.
-    pub fn give(&mut self, path: &str, bytes: &[u8]) {
-        self.0.borrow_mut().give(path, bytes);
     }
 }
 
@@ -78,7 +77,8 @@ struct Desk {
     wake: Wake,
     me: Weak<RefCell<Desk>>,
     hired: Option<Hired>,
-    files: BTreeMap<String, Uint8Array>,
+    /// Files that were given, for a worker that takes the place of this one.
+    kept: BTreeMap<String, Order>,
     waiting: VecDeque<(u64, Order)>,
     busy: Option<u64>,
     outdated: bool,
@@ -92,7 +92,7 @@ impl Desk {
             wake,
             me: Weak::new(),
             hired: None,
-            files: BTreeMap::new(),
+            kept: BTreeMap::new(),
             waiting: VecDeque::new(),
             busy: None,
             outdated: false,
@@ -108,8 +108,8 @@ impl Desk {
         let worker = web_sys::Worker::new_with_options(&self.opened.worker(), &options)?;
         let stop = shared_number();
         worker.post_message(self.first_message(stop.as_ref())?.as_ref())?;
-        for (path, bytes) in &self.files {
-            worker.post_message(&Array::of2(&path.into(), bytes))?;
+        for kept in self.kept.values() {
+            post(&worker, UNASKED, kept)?;
         }
         let heard = self.listener(|desk, event: MessageEvent| desk.heard(&event.data().into()));
         worker.set_onmessage(Some(heard.as_ref().unchecked_ref()));
@@ -136,22 +136,15 @@ impl Desk {
         Closure::new(move |event| {
             let Some(desk) = me.upgrade() else { return };
             act(&mut desk.borrow_mut(), event);
-            let wake = Rc::clone(&desk.borrow().wake);
-            wake();
+            (desk.borrow().wake)();
         })
     }
 
-    fn give(&mut self, path: &str, bytes: &[u8]) {
-        let bytes = Uint8Array::from(bytes);
-        if let Some(hired) = &self.hired {
-            // A worker that does not take messages is told of in its own way.
-            let _ = hired.worker.post_message(&Array::of2(&path.into(), &bytes));
-        }
-        self.files.insert(path.to_owned(), bytes);
-    }
-
     fn send(&mut self, ticket: u64, order: Order) {
-        self.waiting.push_back((ticket, order));
+        if let Order::Keep { path, .. } = &order {
+            self.kept.insert(path.clone(), order.clone());
+        }
+        self.waiting.push_back((ticket, fewer_hairs(order)));
         self.next();
     }
 
@@ -176,17 +169,16 @@ impl Desk {
         if let Some(stop) = &hired.stop {
             Atomics::store(stop, 0, 0)?;
         }
-        let bytes = postcard::to_stdvec(order).map_err(|e| JsValue::from(e.to_string()))?;
-        let bytes = Uint8Array::from(bytes.as_slice()).buffer();
         // Tickets count up from 1: f64 holds them for ever.
-        let message = Array::of2(&(ticket as f64).into(), &bytes);
-        hired.worker.post_message_with_transfer(&message, &Array::of1(&bytes))
+        post(&hired.worker, ticket as f64, order)
     }
 
     fn heard(&mut self, message: &Array) {
-        let ticket = message.get(0).as_f64().unwrap_or(-1.0);
-        if ticket < 0.0 {
+        let ticket = message.get(0).as_f64().unwrap_or(BROKEN);
+        if ticket == BROKEN {
             self.broken(&message.get(1).as_string().unwrap_or_default());
+        }
+        if ticket < 0.0 {
             return;
         }
         let bytes = Uint8Array::new(&message.get(1)).to_vec();
@@ -230,8 +222,7 @@ impl Desk {
                 after(PATIENCE, move || {
                     let Some(desk) = me.upgrade() else { return };
                     desk.borrow_mut().end(ticket);
-                    let wake = Rc::clone(&desk.borrow().wake);
-                    wake();
+                    (desk.borrow().wake)();
                 });
             }
         }
@@ -256,6 +247,14 @@ impl Desk {
         self.answers.push_back((ticket, answer));
         self.next();
     }
+}
+
+/// Sends an order; its memory goes over, it is not copied.
+fn post(worker: &web_sys::Worker, ticket: f64, order: &Order) -> Result<(), JsValue> {
+    let bytes = postcard::to_stdvec(order).map_err(|e| JsValue::from(e.to_string()))?;
+    let bytes = Uint8Array::from(bytes.as_slice()).buffer();
+    let message = Array::of2(&ticket.into(), &bytes);
+    worker.post_message_with_transfer(&message, &Array::of1(&bytes))
 }
 
 fn refusal(report: &str) -> Refusal {

@@ -67,7 +67,7 @@ impl Chromium {
         let asked = json!({ "targetId": target["targetId"], "flatten": true });
         let attached = self.call("Target.attachToTarget", &asked);
         self.session = attached["sessionId"].as_str().map(str::to_owned);
-        for domain in ["Page.enable", "Runtime.enable"] {
+        for domain in ["Page.enable", "Runtime.enable", "DOM.enable"] {
             self.call(domain, &json!({}));
         }
         let size =
@@ -154,22 +154,47 @@ impl Chromium {
         self.mouse("mouseReleased", x, y, 0);
     }
 
-    /// Drags from the first through all the other points.
-    pub(crate) fn drag(&mut self, points: &[[f64; 2]]) {
-        let ([x, y], [to_x, to_y]) = (points[0], points[points.len() - 1]);
-        self.mouse("mouseMoved", x, y, 0);
-        self.mouse("mousePressed", x, y, 1);
-        for [x, y] in &points[1..] {
-            self.mouse("mouseMoved", *x, *y, 1);
-            std::thread::sleep(Duration::from_millis(60));
+    /// Drags from one place to another.
+    pub(crate) fn drag(&mut self, from: [f64; 2], to: [f64; 2]) {
+        self.mouse("mouseMoved", from[0], from[1], 0);
+        self.mouse("mousePressed", from[0], from[1], 1);
+        for part in [0.25, 0.5, 0.75, 1.0] {
+            let at = [0, 1].map(|i| from[i] + part * (to[i] - from[i]));
+            self.mouse("mouseMoved", at[0], at[1], 1);
         }
-        self.mouse("mouseReleased", to_x, to_y, 0);
+        self.mouse("mouseReleased", to[0], to[1], 0);
     }
 
     fn mouse(&mut self, kind: &str, x: f64, y: f64, buttons: u32) {
         let button = if kind == "mouseMoved" && buttons == 0 { "none" } else { "left" };
         let event = json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 });
         self.call("Input.dispatchMouseEvent", &event);
+    }
+
+    /// Drops a file with this text on the middle of the page.
+    pub(crate) fn drop_file(&mut self, name: &str, text: &str) {
+        let path = self.file(name, text);
+        let data = json!({ "items": [], "files": [path], "dragOperationsMask": 1 });
+        for kind in ["dragEnter", "dragOver", "drop"] {
+            let event = json!({ "type": kind, "x": 400, "y": 400, "data": data });
+            self.call("Input.dispatchDragEvent", &event);
+        }
+    }
+
+    /// Chooses a file with this text where the page asks for one.
+    pub(crate) fn choose_file(&mut self, name: &str, text: &str) {
+        let path = self.file(name, text);
+        let field = "document.querySelector('input[type=file]')";
+        self.wait_for(field, 60);
+        let found = self.call("Runtime.evaluate", &json!({ "expression": field }));
+        let object = &found["result"]["objectId"];
+        self.call("DOM.setFileInputFiles", &json!({ "files": [path], "objectId": object }));
+    }
+
+    fn file(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.folder.path().join(name);
+        std::fs::write(&path, text).expect("a file");
+        path
     }
 
     /// What is seen now, as the bytes of a PNG.

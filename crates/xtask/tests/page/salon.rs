@@ -9,7 +9,7 @@ use std::sync::MutexGuard;
 use std::time::{Duration, Instant};
 
 /// Seconds for what takes a second on a computer with a graphics card and nothing else to do.
-pub(crate) const LONG: u64 = 150;
+pub(crate) const LONG: u64 = 240;
 
 /// A page that is open.
 pub(crate) struct Salon {

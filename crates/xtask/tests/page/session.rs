@@ -2,12 +2,138 @@
 
 use crate::salon::Salon;
 
+/// Few hairs and one sample: all is drawn without a graphics card.
+const QUERY: &str = "?backend=webgl&samples=1&hairs=1500";
+
+/// Where the head is in a picture: left, top, width and height as parts of 1.
+const HEAD: [f64; 4] = [0.05, 0.15, 0.5, 0.7];
+
 #[test]
-fn the_page_runs_without_headers_and_under_a_path() {
+fn a_head_is_chosen_wetted_cut_dried_saved_and_exported() {
+    let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
+    println!("the page runs after {:.1} s", salon.runs().as_secs_f64());
+    assert_eq!(salon.page.evaluate("window.crossOriginIsolated"), true);
+    let gallery = salon.picture("1-gallery");
+    assert!(gallery.colours([0.0, 0.0, 1.0, 1.0]) > 500, "an empty gallery");
+
+    let start = std::time::Instant::now();
+    salon.click("Begin: Curly");
+    salon.until("s.drawn > 1000 && s.name");
+    println!("the first head after {:.1} s more", start.elapsed().as_secs_f64());
+    let curly = salon.picture("2-curly");
+    assert!(curly.colours(HEAD) > 500, "no head");
+
+    salon.click("Wet");
+    salon.until("s.wet");
+    let wet = salon.picture("3-wet");
+    assert!(wet.change(&curly, HEAD) > 0.01, "wet hair looks as dry hair");
+
+    salon.click("Fringe");
+    salon.until("s.chosen == 'fringe' && s.chosenWisps > 0");
+    let before = salon.state("mass").as_f64().expect("a mass");
+    salon.click("Cut");
+    // Above the chosen tips: the plane follows the hand.
+    let [x, y] = salon.middle("The head");
+    salon.page.drag([x, y + 120.0], [x, y - 60.0]);
+    salon.picture("4-plane");
+    salon.click("Cut here");
+    salon.until(&format!("s.mass < {before} - 1e-5"));
+    let cut = salon.picture("5-cut");
+    assert!(cut.change(&wet, HEAD) > 0.001, "a cut fringe looks as before");
+
+    salon.click("Dry");
+    salon.until("!s.wet && s.history.length == s.at + 1");
+    salon.picture("6-dry");
+    let done = salon.state("history.map((label) => label.split(' ')[0])");
+    assert_eq!(done, serde_json::json!(["Curly", "Wet", "Cut", "Dried"]));
+
+    salon.click("Undo");
+    salon.until("s.wet && s.at == 2");
+
+    salon.click("Save…");
+    salon.click("Save scene");
+    let scene = String::from_utf8(salon.page.downloaded("curly.toml")).expect("a text");
+    assert!(scene.contains("wet") && scene.contains("cut"), "{scene}");
+    assert_eq!(serde_json::json!(scene), salon.state("text"));
+
+    salon.click("Export…");
+    salon.click("Export groom");
+    let groom = salon.page.downloaded("curly.hair");
+    assert_eq!(&groom[..4], b"HAIR");
+    let strands = u32::from_le_bytes([groom[4], groom[5], groom[6], groom[7]]);
+    assert!(strands > 50_000, "all hairs are exported, not those that are drawn: {strands}");
+    println!("memory: {}", salon.page.evaluate("frisure.measured().window / 1e6"));
+    salon.picture("7-saved");
+    salon.is_quiet();
+}
+
+#[test]
+fn work_is_kept_when_the_page_is_left() {
+    let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
+    salon.runs();
+    salon.click("Begin: Straight");
+    salon.until("s.drawn");
+    salon.click("Wet");
+    salon.until("s.at == 1");
+    salon.page.wait_for("Object.keys(localStorage).length", 60);
+    let text = salon.state("text");
+    salon.again(QUERY);
+    salon.runs();
+    salon.picture("kept");
+    salon.click("Take it up");
+    salon.until("s.drawn");
+    assert_eq!(salon.state("text"), text);
+}
+
+#[test]
+fn files_come_by_drop_and_by_choice() {
+    let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
+    salon.runs();
+    salon.page.drop_file("broken.toml", "[hair]\nlenght = \"20 cm\"\n");
+    salon.until("s.messages.some((m) => m.includes('lenght') && m.includes('line 2'))");
+    salon.page.drop_file("notes.doc", "hair");
+    salon.until("s.messages.some((m) => m.includes('notes.doc'))");
+    salon.click("Open…");
+    salon.click("Choose a file…");
+    salon.page.choose_file("short.toml", "[hair]\ntype = \"straight\"\nlength = \"9 cm\"\n");
+    salon.until("s.name == 'short.toml' && s.drawn");
+    salon.page.drop_file("ball.obj", "v 0 0 0\nf 1 1 9\n");
+    salon.until("s.messages.some((m) => m.includes('ball.obj'))");
+    salon.picture("files");
+}
+
+#[test]
+fn it_runs_without_headers_and_under_a_path() {
     let server = ["--plain", "--under", "some/where"];
-    let Some(mut salon) = Salon::open("?backend=webgl&hairs=500", &server, &[]) else { return };
+    let Some(mut salon) = Salon::open(&format!("{QUERY}&scene=straight"), &server, &[]) else {
+        return;
+    };
     salon.runs();
     assert_eq!(salon.page.evaluate("window.crossOriginIsolated"), false);
-    salon.until("s.head");
+    salon.until("s.drawn");
+    // What is outdated ends, and what comes after it is done.
+    salon.command("wet");
+    salon.command("undo");
+    salon.command("wet");
+    salon.until("s.wet");
     salon.is_quiet();
+}
+
+#[test]
+fn a_screen_reader_finds_and_uses_widgets() {
+    let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
+    salon.runs();
+    salon.page.evaluate("document.getElementById('spoken').click()");
+    let card = "document.querySelector('#mirror button[aria-label=\"Begin: Straight\"]')";
+    salon.page.wait_for(card, 60);
+    salon.page.evaluate(&format!("{card}.click()"));
+    salon.until("s.drawn");
+    let length = "document.querySelector('#mirror [role=slider][aria-label=\"Length\"]')";
+    salon.page.wait_for(length, 60);
+    let value = format!("Number({length}.getAttribute('aria-valuenow'))");
+    let before = salon.page.evaluate(&value).as_f64().expect("a length");
+    salon.page.evaluate(&format!(
+        "{length}.dispatchEvent(new KeyboardEvent('keydown', {{ key: 'ArrowUp' }}))"
+    ));
+    salon.page.wait_for(&format!("{value} > {before}"), 60);
 }
