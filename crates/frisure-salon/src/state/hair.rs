@@ -43,6 +43,11 @@ pub enum Badge {
     Refused(String),
 }
 
+/// Most coarse answers one after the other to one text, while a slider is held and when it is not: exact
+/// work takes seconds, and hair that has not come far yet is no sight.
+const ROUGH_HELD: usize = 30;
+const ROUGH: usize = 8;
+
 /// Points along a hair that is looked at alone.
 const ALONE: usize = 120;
 
@@ -110,11 +115,18 @@ impl Salon {
             return None;
         }
         let held = self.document.as_ref().is_some_and(super::Document::is_draft);
-        match self.shown.as_ref().filter(|seen| seen.key == *key).map(|seen| seen.hair.effort) {
-            Some(Effort::Exact) => None,
-            Some(Effort::Coarse) if held => None,
-            Some(Effort::Coarse) => Some(Effort::Exact),
-            None => Some(Effort::Coarse),
+        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key == *key) else {
+            return Some(Effort::Coarse);
+        };
+        let most = if held { ROUGH_HELD } else { ROUGH };
+        match seen.hair.effort {
+            Effort::Exact => None,
+            // Each coarse answer goes on from the last.
+            Effort::Coarse if seen.hair.numbers.moving > 0 && seen.rough < most => {
+                Some(Effort::Coarse)
+            }
+            Effort::Coarse if held => None,
+            Effort::Coarse => Some(Effort::Exact),
         }
     }
 
@@ -184,7 +196,9 @@ impl Salon {
         }
         self.version += 1;
         self.tell_what_fell(&hair);
-        self.shown = Some(Seen { key, hair: Arc::new(hair), version: self.version });
+        let known = self.shown.as_ref().filter(|seen| seen.key == key);
+        let rough = known.map_or(0, |seen| seen.rough) + 1;
+        self.shown = Some(Seen { key, hair: Arc::new(hair), version: self.version, rough });
         self.falling = None;
         if !self.framed {
             self.framed = true;

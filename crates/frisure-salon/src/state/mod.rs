@@ -99,6 +99,8 @@ struct Seen {
     key: HairKey,
     hair: Arc<Shown>,
     version: u64,
+    /// How many coarse answers to this text there were.
+    rough: usize,
 }
 
 /// Hair to compare with.

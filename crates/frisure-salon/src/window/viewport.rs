@@ -43,6 +43,9 @@ struct MarksOf {
 /// Seconds after the last movement until all hairs are drawn.
 const REST: f64 = 0.25;
 
+/// Hairs that are drawn while something moves, at least: fewer are no hair.
+const FEWEST: f32 = 4000.0;
+
 /// Radians for a drag over the viewport's height.
 const TURN: f64 = 3.5;
 
@@ -93,7 +96,9 @@ impl Viewport {
         } else {
             1.0
         };
-        self.share = (self.share * factor).clamp(0.02, 1.0);
+        let drawn = salon.shown().map_or(1, |(hair, _)| hair.numbers.drawn.max(1));
+        let least = (FEWEST / drawn as f32).min(1.0);
+        self.share = (self.share * factor).clamp(least, 1.0);
         ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(REST + 0.01));
         // Steps, so that not every frame draws another choice of hairs.
         let steps = (self.share.log2() * 2.0).round() / 2.0;
