@@ -17,6 +17,7 @@ use frisure_strands::{Attribute, AttributeValues, Domain};
 use frisure_view::{Frame, Hair, Skin};
 use glam::DVec3;
 use support::Gpu;
+use support::measure::compare;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -70,10 +71,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Default::default()
     };
     let image = preview::render(&scene, &options, &|_| ControlFlow::Continue(()))?;
+    let empty = gpu.picture(&Frame::new(scene.camera, &scene.lights, &scene.look), size)?;
+    let difference = compare(&image.to_srgb8(), &view, &empty, size);
+    let info = gpu.adapter.get_info();
     writeln!(
         std::io::stdout().lock(),
-        "{}: {} strands, {} vertices: made {made:.2} s, drawn {drawn:.2} s",
-        gpu.adapter.get_info().name,
+        "{} ({}): {} strands, {} vertices: made {made:.2} s, drawn {drawn:.2} s\n{difference:.4?}",
+        info.name,
+        info.backend,
         hair.strands(),
         hair.vertices()
     )?;

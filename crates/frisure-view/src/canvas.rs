@@ -12,7 +12,7 @@ use crate::paint::Known;
 pub struct Canvas {
     pub(crate) size: [u32; 2],
     pub(crate) targets: Targets,
-    /// Several samples per pixel of the head, made when first needed.
+    /// For the head, with several samples per pixel, made when first needed.
     pub(crate) fine: Option<Fine>,
     pub(crate) known: Known,
     pub(crate) surroundings: Option<(Option<Room>, wgpu::TextureView)>,

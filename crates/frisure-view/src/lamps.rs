@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 pub(crate) const LAMPS: usize = 4;
 /// Texels along a side of the maps of hair, of where hair begins, and of the head.
 pub(crate) const HAIR_MAP: u32 = 256;
-pub(crate) const FIRST_MAP: u32 = 64;
+pub(crate) const FIRST_MAP: u32 = 128;
 pub(crate) const HEAD_MAP: u32 = 384;
 
 /// A lamp as the shaders have it.
@@ -75,6 +75,7 @@ impl Lamp {
         let four = |v: Vec3, w: f32| [v.x, v.y, v.z, w];
         let size = HAIR_MAP as f32;
         let (hair, head) = (self.hair, self.head);
+        let head_texels = if head.half > 0.0 { HEAD_MAP as f32 } else { 0.0 };
         let inverse = |x: f32| if x > 0.0 { 1.0 / x } else { 0.0 };
         [
             four(self.towards, index as f32),
@@ -82,7 +83,7 @@ impl Lamp {
             four(self.right, hair.centre.x),
             four(self.down, hair.centre.y),
             [inverse(hair.half), hair.nearest, size, hair.half / size],
-            [head.centre.x, head.centre.y, inverse(head.half), HEAD_MAP as f32],
+            [head.centre.x, head.centre.y, inverse(head.half), head_texels],
             [head.nearest, inverse(head.deep), 0.0, 0.0],
         ]
     }

@@ -43,7 +43,7 @@ impl Maps {
         let lamps = LAMPS as u32;
         let first = of("first hair", FIRST_MAP, lamps, TextureFormat::R16Float);
         let met = of("hair met", HAIR_MAP, QUARTERS * lamps, LIGHT);
-        let head = of("head from lamps", HEAD_MAP, lamps, TextureFormat::R32Float);
+        let head = of("head from lamps", HEAD_MAP, lamps, TextureFormat::R16Float);
         let depth =
             gpu::texture(device, "depth from a lamp", [HEAD_MAP, HEAD_MAP, 1], DEPTH, drawn);
         let views = [&first, &met, &head].map(gpu::layers);
@@ -183,15 +183,13 @@ impl Maps {
     ) {
         for i in 0..lamps as u32 {
             let view = gpu::one_layer(&self.head, i);
-            let targets = [gpu::target(&view, Some([1e9; 4]))];
+            let targets = [gpu::target(&view, Some([FAR; 4]))];
             let depth = Some(gpu::depth_target(&self.head_depth, true));
             let mut pass = gpu::pass(encoder, "head from a lamp", &targets, depth);
             pass.set_pipeline(&renderer.pipelines.head_depth);
             pass.set_bind_group(0, picture, &[]);
             pass.set_bind_group(1, &self.current.1, &[STRIDE as u32 * i]);
-            pass.set_vertex_buffer(0, skin.vertices.slice(..));
-            pass.set_index_buffer(skin.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..skin.corners, 0, 0..1);
+            skin.draw(&mut pass);
         }
     }
 }

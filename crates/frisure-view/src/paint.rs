@@ -95,8 +95,9 @@ impl Renderer {
         let picture = picture.clone();
         self.draw_maps(device, queue, encoder, canvas, frame, &lamps, &picture);
         self.shade(encoder, canvas, frame, vertices, &picture);
-        self.draw_head(device, encoder, canvas, frame, &picture);
+        self.draw_head_depth(encoder, canvas, frame, &picture);
         self.draw_hair(device, queue, encoder, canvas, frame, strands, &picture);
+        self.draw_head(device, encoder, canvas, frame, &picture);
         self.compose(device, queue, encoder, canvas, frame, &picture);
     }
 
@@ -198,7 +199,25 @@ impl Renderer {
         pass.draw(0..3, 0..1);
     }
 
-    /// The head: its light, and its depth for hair that is behind it.
+    /// How far away the head is, for hair that is behind it.
+    fn draw_head_depth(
+        &self,
+        encoder: &mut CommandEncoder,
+        canvas: &Canvas,
+        frame: &Frame<'_>,
+        picture: &wgpu::BindGroup,
+    ) {
+        let depth = gpu::whole(&canvas.targets.depth);
+        let clear = Some(gpu::depth_target(&depth, true));
+        let mut pass = gpu::pass(encoder, "depth of the head", &[], clear);
+        if let Some(skin) = frame.skin {
+            pass.set_pipeline(&self.pipelines.skin_depth);
+            pass.set_bind_group(0, picture, &[]);
+            skin.draw(&mut pass);
+        }
+    }
+
+    /// The head, where hair does not hide it.
     fn draw_head(
         &self,
         device: &Device,
@@ -207,46 +226,31 @@ impl Renderer {
         frame: &Frame<'_>,
         picture: &wgpu::BindGroup,
     ) {
-        let size = canvas.size;
+        let (size, count) = (canvas.size, self.samples);
         let Known { maps: Some(maps), room: Some((_, _, room)), .. } = &canvas.known else {
             return;
         };
+        let fine = canvas.fine.get_or_insert_with(|| Fine::new(device, size, count));
         let head = gpu::whole(&canvas.targets.head);
-        let depth = gpu::whole(&canvas.targets.depth);
-        let (fine_light, fine_depth);
-        let (mut light, depths) = if self.samples > 1 {
-            let fine = canvas.fine.get_or_insert_with(|| Fine::new(device, size, self.samples));
-            (fine_light, fine_depth) = (gpu::whole(&fine.light), gpu::whole(&fine.depth));
-            (gpu::target(&fine_light, Some([0.0; 4])), &fine_depth)
-        } else {
-            (gpu::target(&head, Some([0.0; 4])), &depth)
-        };
-        if self.samples > 1
-            && let Some(light) = &mut light
+        let (light, depth) = (gpu::whole(&fine.light), gpu::whole(&fine.depth));
+        let mut target = gpu::target(if count > 1 { &light } else { &head }, Some([0.0; 4]));
+        if let Some(target) = &mut target
+            && count > 1
         {
-            light.resolve_target = Some(&head);
+            target.resolve_target = Some(&head);
+            target.ops.store = wgpu::StoreOp::Discard;
         }
-        let mut pass = gpu::pass(encoder, "head", &[light], Some(gpu::depth_target(depths, true)));
+        let hair = gpu::whole(&canvas.targets.hair);
+        let resources = [wgpu::BindingResource::TextureView(&hair)];
+        let covered = gpu::group(device, &self.layouts.finish, &resources);
+        let mut pass = gpu::pass(encoder, "head", &[target], Some(gpu::depth_target(&depth, true)));
         if let Some(skin) = frame.skin {
             pass.set_pipeline(&self.pipelines.skin);
             pass.set_bind_group(0, picture, &[]);
             pass.set_bind_group(1, maps.group(), &[]);
-            pass.set_vertex_buffer(0, skin.vertices.slice(..));
+            pass.set_bind_group(2, &covered, &[]);
             pass.set_vertex_buffer(1, room.on_skin.slice(..));
-            pass.set_index_buffer(skin.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..skin.corners, 0, 0..1);
-        }
-        drop(pass);
-        if self.samples > 1 {
-            let clear = Some(gpu::depth_target(&depth, true));
-            let mut pass = gpu::pass(encoder, "depth of the head", &[], clear);
-            if let Some(skin) = frame.skin {
-                pass.set_pipeline(&self.pipelines.skin_depth);
-                pass.set_bind_group(0, picture, &[]);
-                pass.set_vertex_buffer(0, skin.vertices.slice(..));
-                pass.set_index_buffer(skin.indices.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(0..skin.corners, 0, 0..1);
-            }
+            skin.draw(&mut pass);
         }
     }
 

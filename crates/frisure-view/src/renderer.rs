@@ -218,7 +218,7 @@ fn head_depth(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipe
         fragment: Some("depth"),
         groups: &[&l.picture, &l.current],
         buffers: &[POSITION],
-        targets: &[(TextureFormat::R32Float, None)],
+        targets: &[(TextureFormat::R16Float, None)],
         depth: Some((CompareFunction::Less, true)),
         ..plain("head from a lamp", shader, "from_lamp")
     }
@@ -242,7 +242,7 @@ fn skin(device: &Device, l: &Layouts, samples: u32) -> RenderPipeline {
     let shader = module(device, "skin", &[COMMON, LAYERS, SHADOWS, own]);
     Recipe {
         fragment: Some("skin"),
-        groups: &[&l.picture, &l.shadows],
+        groups: &[&l.picture, &l.shadows, &l.finish],
         buffers: &[SKIN, ROOM],
         targets: &[(LIGHT, None)],
         depth: Some((CompareFunction::Less, true)),

@@ -19,9 +19,9 @@ pub struct Skin {
     middle: DVec3,
     version: u64,
     /// Position and normal of each vertex.
-    pub(crate) vertices: Buffer,
-    pub(crate) indices: Buffer,
-    pub(crate) corners: u32,
+    vertices: Buffer,
+    indices: Buffer,
+    corners: u32,
 }
 
 impl Skin {
@@ -53,6 +53,13 @@ impl Skin {
             normals,
             version: version(),
         }
+    }
+
+    /// Draws it with the pipeline that is set.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..self.corners, 0, 0..1);
     }
 
     pub(crate) fn version(&self) -> u64 {

@@ -10,7 +10,7 @@ use crate::lamps::{LAMPS, Lamp};
 use crate::room::RoomOnDevice;
 
 /// How much nearer to a lamp hair looks up how much hair is before it (m): hair must not shade itself.
-const LIFT: f32 = 2.0e-3;
+const LIFT: f32 = 1.6e-3;
 /// Half of what counts as around a hair (m): of a cell of the preview's finest maps.
 const HALF_CELL: f32 = 1.1e-3;
 

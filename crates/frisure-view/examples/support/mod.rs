@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "shared by programs that each use a part")]
 #![allow(unreachable_pub, reason = "as above")]
 
+pub mod measure;
+
 use frisure_view::{Canvas, Frame, Renderer, ViewError};
 use wgpu::{Adapter, Backends, Device, Queue};
 

@@ -9,10 +9,12 @@ use super::ranks::ranks;
 
 /// Greatest turn within a piece (rad) and greatest length of one (m): the first that gives no more than
 /// [`VERTICES`] is taken.
-const DETAIL: [(f32, f32); 5] =
-    [(0.12, 0.006), (0.2, 0.01), (0.3, 0.02), (0.45, 0.05), (f32::INFINITY, f32::INFINITY)];
+const DETAIL: [(f32, f32); 6] =
+    [(0.15, 0.014), (0.2, 0.016), (0.25, 0.02), (0.33, 0.025), (0.45, 0.03), (0.6, 0.04)];
 /// Vertices that a device can well draw many times a second.
-const VERTICES: usize = 2_000_000;
+const VERTICES: usize = 1_800_000;
+/// Strands that tell how many vertices all need.
+const SAMPLE: usize = 2048;
 /// Most pieces for one segment of the input.
 const MAX_PIECES: u32 = 32;
 /// Strands per parallel job.
@@ -41,19 +43,23 @@ impl Curves {
     /// The strands that can be drawn, `most` vertices at most: where that is too few, fewer strands.
     pub(super) fn new(strands: &Strands, most: usize) -> Self {
         let order = ranks(strands.len());
-        let detail = DETAIL.into_iter().find(|&d| count(strands, d) <= VERTICES.min(most));
-        let detail = detail.unwrap_or(DETAIL[DETAIL.len() - 1]);
         let wetness = Wetness::new(strands);
-        let parts: Vec<Self> = order
-            .par_chunks(CHUNK)
-            .map(|ranks| {
-                let mut part = Self::default();
-                for &strand in ranks {
-                    part.push(strands, strand, detail, &wetness);
-                }
-                part
-            })
-            .collect();
+        let made = |ranks: &[u32], detail: (f32, f32)| {
+            let mut part = Self::default();
+            for &strand in ranks {
+                part.push(strands, strand, detail, &wetness);
+            }
+            part
+        };
+        let sample = &order[..order.len().min(SAMPLE)];
+        let expected = |detail| {
+            let vertices = made(sample, detail).places.len();
+            vertices as f64 * order.len() as f64 / sample.len().max(1) as f64
+        };
+        let enough = VERTICES.min(most) as f64;
+        let detail = DETAIL.into_iter().find(|&detail| expected(detail) <= enough);
+        let detail = detail.unwrap_or(DETAIL[DETAIL.len() - 1]);
+        let parts: Vec<Self> = order.par_chunks(CHUNK).map(|ranks| made(ranks, detail)).collect();
         Self::joined(parts, most)
     }
 
@@ -63,21 +69,25 @@ impl Curves {
         if strand.radii.iter().any(|r| !r.is_finite()) {
             return;
         }
-        let (first, rank) = (self.places.len(), self.strands.len() as u32);
-        let mut reached = 0.0;
+        let mut curve = Vec::new();
         smooth(
             strand,
             |length, turn| pieces(length, turn, detail),
             |place, position, tangent| {
-                let before = self.places[first..].last().map_or(position, |p| Vec3::from_slice(p));
-                reached += before.distance(position);
-                let half = between(place, strand.radii).max(0.0);
-                let wet = wetness.at(index as usize, place);
-                self.places.push([position.x, position.y, position.z, half]);
-                self.along.push(place);
-                self.traits.push([folded(tangent), half_word(wet), rank, reached.to_bits()]);
+                curve.push(Point { place, position, tangent });
             },
         );
+        let (first, rank) = (self.places.len(), self.strands.len() as u32);
+        let mut reached = 0.0;
+        for Point { place, position, tangent } in thinned(&curve, detail) {
+            let before = self.places[first..].last().map_or(position, |p| Vec3::from_slice(p));
+            reached += before.distance(position);
+            let half = between(place, strand.radii).max(0.0);
+            let wet = wetness.at(index as usize, place);
+            self.places.push([position.x, position.y, position.z, half]);
+            self.along.push(place);
+            self.traits.push([folded(tangent), half_word(wet), rank, reached.to_bits()]);
+        }
         if self.places.len() == first {
             return;
         }
@@ -125,24 +135,29 @@ impl Curves {
     }
 }
 
-/// Vertices that this detail asks for.
-fn count(strands: &Strands, detail: (f32, f32)) -> usize {
-    if detail.0.is_infinite() {
-        return strands.points().len();
-    }
-    (0..strands.len())
-        .into_par_iter()
-        .with_min_len(CHUNK)
-        .map(|i| {
-            let points = strands.strand(i).points;
-            let chords = points.windows(3).map(|w| (w[1] - w[0], w[2] - w[1]));
-            let pieces = chords.map(|(a, b)| {
-                let turn = a.angle_between(b);
-                pieces(b.length(), if turn.is_finite() { turn } else { 0.0 }, detail) as usize
-            });
-            2 + pieces.sum::<usize>()
-        })
-        .sum()
+/// A point of a curve: points from the root, position (m), unit tangent.
+#[derive(Clone, Copy)]
+struct Point {
+    place: f32,
+    position: Vec3,
+    tangent: Vec3,
+}
+
+/// The points that this detail needs: both ends, and those without which a piece would be too long or turn
+/// too much.
+fn thinned(curve: &[Point], (most_turn, most_length): (f32, f32)) -> impl Iterator<Item = Point> {
+    let cosine = most_turn.cos();
+    let mut kept: Option<Point> = None;
+    curve.iter().enumerate().filter_map(move |(i, point)| {
+        let needed = match (kept, curve.get(i + 1)) {
+            (Some(kept), Some(next)) => {
+                kept.tangent.dot(next.tangent) < cosine
+                    || kept.position.distance_squared(next.position) > most_length * most_length
+            }
+            _ => true,
+        };
+        needed.then(|| *kept.insert(*point))
+    })
 }
 
 /// Straight pieces for a curve of this chord (m) and turn (rad).

@@ -1,4 +1,7 @@
 // What every shader knows: the camera, the lamps and the look of one picture.
+//
+// No branch and no loop is decided by these numbers alone: Mesa's software rasteriser would compile the shader
+// anew for each camera. What has to be decided by them comes as a number that vertex shaders hand on.
 
 struct Lamp {
     // Unit direction to it; w: its number as a layer.
@@ -11,7 +14,7 @@ struct Lamp {
     down: vec4<f32>,
     // Hair's map: 1 / half its side (1/m), nearest depth (m), texels along a side, half a texel (m).
     hair: vec4<f32>,
-    // Head's map: centre (m), 1 / half its side (1/m), texels along a side; 0 without a head.
+    // Head's map: centre (m), 1 / half its side (1/m), texels along a side, or 0 without a head.
     head: vec4<f32>,
     // Head's map: nearest depth (m), 1 / range of depths (1/m).
     head_range: vec4<f32>,
@@ -108,21 +111,23 @@ fn in_hair_map(lamp: Lamp, p: vec3<f32>) -> vec3<f32> {
     return vec3<f32>((0.5 + 0.5 * uv) * lamp.hair.z, m.z - lamp.hair.y);
 }
 
-// Light from behind the planes between the eye and a point.
+// Light from behind a plane, if that is between the eye and a point.
+fn behind_plane(light: vec3<f32>, p: vec3<f32>, plane: Plane) -> vec3<f32> {
+    let way = p - picture.eye.xyz;
+    let slope = dot(way, plane.normal.xyz);
+    let t = dot(plane.centre.xyz - picture.eye.xyz, plane.normal.xyz)
+        / select(slope, 1e-9, abs(slope) < 1e-9);
+    let h = picture.eye.xyz + t * way - plane.centre.xyz;
+    let inside = max(abs(dot(h, plane.right.xyz)), abs(dot(h, plane.up.xyz)));
+    let edge = smoothstep(0.975, 0.985, inside);
+    let opacity = plane.colour.a * (1.0 + 1.5 * edge) * step(t, 1.0) * step(1e-9, t) * step(inside, 1.0);
+    return mix(light, plane.colour.rgb, min(opacity, 1.0));
+}
+
+// Light from behind all planes.
 fn behind_planes(light: vec3<f32>, p: vec3<f32>) -> vec3<f32> {
-    var seen = light;
-    for (var i = 0; i < i32(picture.film.w); i += 1) {
-        let plane = picture.planes[i];
-        let way = p - picture.eye.xyz;
-        let slope = dot(way, plane.normal.xyz);
-        let t = dot(plane.centre.xyz - picture.eye.xyz, plane.normal.xyz)
-            / select(slope, 1e-9, abs(slope) < 1e-9);
-        let h = picture.eye.xyz + t * way - plane.centre.xyz;
-        let inside = max(abs(dot(h, plane.right.xyz)), abs(dot(h, plane.up.xyz)));
-        if t > 0.0 && t < 1.0 && inside < 1.0 {
-            let edge = smoothstep(0.975, 0.985, inside);
-            seen = mix(seen, plane.colour.rgb, plane.colour.a + (1.0 - plane.colour.a) * 0.6 * edge);
-        }
-    }
-    return seen;
+    let a = behind_plane(light, p, picture.planes[0]);
+    let b = behind_plane(a, p, picture.planes[1]);
+    let c = behind_plane(b, p, picture.planes[2]);
+    return behind_plane(c, p, picture.planes[3]);
 }

@@ -5,9 +5,15 @@
 @group(1) @binding(2) var around: texture_2d<f32>;
 @group(1) @binding(3) var smooth_sampler: sampler;
 
+struct Whole {
+    @builtin(position) at: vec4<f32>,
+    // Kinds of background and of tone curve.
+    @location(0) @interpolate(flat) kinds: vec2<i32>,
+}
+
 @vertex
-fn whole(@builtin(vertex_index) corner: u32) -> @builtin(position) vec4<f32> {
-    return everything(corner);
+fn whole(@builtin(vertex_index) corner: u32) -> Whole {
+    return Whole(everything(corner), vec2<i32>(i32(picture.centre.w), i32(picture.film.y)));
 }
 
 // Hable's curve.
@@ -15,8 +21,7 @@ fn hable(x: vec3<f32>) -> vec3<f32> {
     return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.0666667;
 }
 
-fn developed(light: vec3<f32>) -> vec3<f32> {
-    let kind = i32(picture.film.y);
+fn developed(light: vec3<f32>, kind: i32) -> vec3<f32> {
     let x = max(light, vec3<f32>(0.0));
     if kind == 1 {
         let bent = 0.55 + 0.45 * (1.0 - exp((0.55 - x) / 0.45));
@@ -38,8 +43,7 @@ fn dither(at: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(at, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
 }
 
-fn behind(at: vec2<f32>) -> vec4<f32> {
-    let kind = i32(picture.centre.w);
+fn behind(at: vec2<f32>, kind: i32) -> vec4<f32> {
     let size = vec2<f32>(picture.right.w, picture.up.w);
     let from_middle = at - 0.5 * size;
     let way = normalize(picture.eye.w * picture.forward.xyz
@@ -59,14 +63,34 @@ fn behind(at: vec2<f32>) -> vec4<f32> {
     return vec4<f32>(behind_planes(light, picture.eye.xyz + 50.0 * way), 1.0);
 }
 
+// Hair over background beside the head's edge: what the part of a pixel shows that the head leaves free, where
+// the head's depth has hidden the hair behind.
+fn beside(texel_: vec2<i32>, back: vec4<f32>) -> vec4<f32> {
+    let most = vec2<i32>(textureDimensions(hair)) - 1;
+    var sum = vec4<f32>(0.0);
+    var weight = 1e-6;
+    for (var i = 0; i < 9; i += 1) {
+        let at = clamp(texel_ + vec2<i32>(i % 3 - 1, i / 3 - 1), vec2<i32>(0), most);
+        let free = 1.0 - textureLoad(head, at, 0).a;
+        let own = select(free * free, 0.02 * free, i == 4);
+        let front = textureLoad(hair, at, 0);
+        sum += own * (front + (1.0 - front.a) * back);
+        weight += own;
+    }
+    return sum / weight;
+}
+
 @fragment
-fn compose(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
-    let texel_ = vec2<i32>(at.xy);
-    let back = behind(at.xy);
+fn compose(in: Whole) -> @location(0) vec4<f32> {
+    let texel_ = vec2<i32>(in.at.xy);
     let skin = textureLoad(head, texel_, 0);
+    var back = behind(in.at.xy, in.kinds.x);
+    if skin.a > 0.003 && skin.a < 0.997 {
+        back = beside(texel_, back);
+    }
     let front = textureLoad(hair, texel_, 0);
     var all = skin + (1.0 - skin.a) * back;
     all = front + (1.0 - front.a) * all;
     let light = all.rgb * picture.film.x / max(all.a, 1e-6);
-    return vec4<f32>(encoded(developed(light)) + dither(at.xy) / 255.0, all.a);
+    return vec4<f32>(encoded(developed(light, in.kinds.y)) + dither(in.at.xy) / 255.0, all.a);
 }

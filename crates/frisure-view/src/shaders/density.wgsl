@@ -73,7 +73,7 @@ fn lay(in: Ribbon) -> Layers {
     let k = layer(in.depth - front);
     // Wide hair that stands for many counts as many do.
     let met = covered(in.offset, in.shape.x, in.shape.y);
-    let four = vec4<f32>(0.0, 1.0, 2.0, 3.0) - k;
+    let four = vec4<f32>(0.5, 1.5, 2.5, 3.5) - k;
     var out: Layers;
     out.a = met * clamp(four, vec4<f32>(0.0), vec4<f32>(1.0));
     out.b = met * clamp(four + 4.0, vec4<f32>(0.0), vec4<f32>(1.0));

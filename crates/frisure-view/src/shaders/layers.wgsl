@@ -5,7 +5,8 @@ const LAYER_A: f32 = 0.006;
 const LAYER_LOG_R: f32 = 0.24686;
 const LAST_LAYER: f32 = 15.0;
 
-// Layer at a distance behind the first hair (m).
+// Layer at a distance behind the first hair (m); evenly spaced before it.
 fn layer(distance: f32) -> f32 {
-    return log(1.0 + max(distance, 0.0) / LAYER_A) / LAYER_LOG_R;
+    let behind = log(1.0 + max(distance, 0.0) / LAYER_A);
+    return (behind + min(distance, 0.0) / LAYER_A) / LAYER_LOG_R;
 }

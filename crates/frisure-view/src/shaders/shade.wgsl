@@ -9,9 +9,14 @@
 @group(2) @binding(5) var marks: texture_2d<f32>;
 @group(3) @binding(0) var room: texture_3d<f32>;
 
+struct Rows {
+    @builtin(position) at: vec4<f32>,
+    @location(0) @interpolate(flat) lamps: i32,
+}
+
 @vertex
-fn every_vertex(@builtin(vertex_index) corner: u32) -> @builtin(position) vec4<f32> {
-    return everything(corner);
+fn every_vertex(@builtin(vertex_index) corner: u32) -> Rows {
+    return Rows(everything(corner), i32(picture.film.z));
 }
 
 // The unit vector that an octahedron was unfolded from.
@@ -35,63 +40,86 @@ fn room_light(p: vec3<f32>) -> vec3<f32> {
     return textureSampleLevel(room, smooth_sampler, (g + 0.5) / size, 0.0).rgb;
 }
 
+// What is known of a vertex before any lamp is looked at.
+struct Point {
+    p: vec3<f32>,
+    tangent: vec3<f32>,
+    eye: vec3<f32>,
+    diffuse: vec3<f32>,
+    reflected: vec3<f32>,
+    transmitted: vec3<f32>,
+    returned: vec3<f32>,
+    // Deviation along the fibre, tilt, deviation around it, shift of the highlights (rad).
+    lobes: vec4<f32>,
+}
+
+// The light of a lamp that a point sends to the eye.
+fn from_lamp(at: Point, lamp: Lamp) -> vec3<f32> {
+    let met = hairs_met(lamp, at.p, picture.hair.z, picture.hair.w);
+    let head = past_head(lamp, at.p, picture.room_size.w);
+    let passed = exp(-met.before * picture.taken.rgb);
+    let straight = exp(-met.before);
+
+    let sl = clamp(dot(at.tangent, lamp.towards.xyz), -1.0, 1.0);
+    let se = clamp(dot(at.tangent, at.eye), -1.0, 1.0);
+    let across = sqrt(max((1.0 - sl * sl) * (1.0 - se * se), 1e-12));
+    let cos_phi = clamp((dot(lamp.towards.xyz, at.eye) - sl * se) / across, -1.0, 1.0);
+    let sum = asin(sl) + asin(se) + at.lobes.w;
+    let caught = sqrt(max(1.0 - sl * sl, 0.0));
+    let phi = acos(cos_phi);
+    let width = at.lobes.x;
+    let tilt = at.lobes.y;
+    let r = caught * gaussian(sum + 2.0 * tilt, width) * 0.25 * cos(0.5 * phi);
+    let tt = caught * gaussian(sum - tilt, 0.5 * width) * gaussian(PI - phi, at.lobes.z);
+    let trt = caught * gaussian(sum - 4.0 * tilt, 2.0 * width) * (1.0 + cos_phi) / TAU;
+
+    let scattered = caught / PI * at.diffuse;
+    let direct = r * at.reflected + trt * at.returned;
+    let through = tt * at.transmitted;
+    let open = 1.0 - picture.lobes.w * (1.0 - exp(-met.around));
+    return head * lamp.light.rgb
+        * (passed * scattered + open * (0.5 * (passed + straight) * direct + straight * through));
+}
+
 @fragment
-fn shade(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
-    let where_ = vec2<i32>(at.xy);
+fn shade(in: Rows) -> @location(0) vec4<f32> {
+    let where_ = vec2<i32>(in.at.xy);
     let index = u32(where_.y) * ROW + u32(where_.x);
     if index >= u32(picture.taken.w) {
         return vec4<f32>(0.0);
     }
-    let p = textureLoad(places, where_, 0).xyz;
     let own = textureLoad(traits, where_, 0);
-    let tangent = unfolded(own.x);
     let wet_and_part = unpack2x16unorm(own.y);
     let wet = wet_and_part.x;
     let strand = own.z;
-
     let matter = texel(select(strand, index, picture.hair.x > 0.5));
     let diffuse_strength = textureLoad(diffuses, matter, 0);
     let transmitted_shift = textureLoad(transmissions, matter, 0);
-    let diffuse = diffuse_strength.rgb * (1.0 - picture.wet.x * wet);
-    let transmitted = transmitted_shift.rgb;
-    let returned = textureLoad(returns, matter, 0).rgb * (1.0 - picture.wet.y * wet);
-    let reflected = diffuse_strength.a * (1.0 - picture.wet.z * wet) * picture.reflected.rgb;
-    let shift = transmitted_shift.a;
-    let width = picture.lobes.x * (1.0 - picture.wet.w * wet);
-    let tilt = picture.lobes.y * (1.0 - wet);
-    let spread = picture.lobes.z;
 
-    let eye = normalize(picture.eye.xyz - p);
-    var light = room_light(p) * (diffuse + picture.reflected.w * reflected + returned);
-    for (var i = 0; i < i32(picture.film.z); i += 1) {
-        let lamp = picture.lamps[i];
-        let met = hairs_met(lamp, p, picture.hair.z, picture.hair.w);
-        let head = past_head(lamp, p, picture.room_size.w);
-        let passed = exp(-met.before * picture.taken.rgb);
-        let straight = exp(-met.before);
+    var point: Point;
+    point.p = textureLoad(places, where_, 0).xyz;
+    point.tangent = unfolded(own.x);
+    point.eye = normalize(picture.eye.xyz - point.p);
+    point.diffuse = diffuse_strength.rgb * (1.0 - picture.wet.x * wet);
+    point.transmitted = transmitted_shift.rgb;
+    point.returned = textureLoad(returns, matter, 0).rgb * (1.0 - picture.wet.y * wet);
+    point.reflected = diffuse_strength.a * (1.0 - picture.wet.z * wet) * picture.reflected.rgb;
+    point.lobes = vec4<f32>(
+        picture.lobes.x * (1.0 - picture.wet.w * wet),
+        picture.lobes.y * (1.0 - wet),
+        picture.lobes.z,
+        transmitted_shift.a,
+    );
 
-        let sl = clamp(dot(tangent, lamp.towards.xyz), -1.0, 1.0);
-        let se = clamp(dot(tangent, eye), -1.0, 1.0);
-        let across = sqrt(max((1.0 - sl * sl) * (1.0 - se * se), 1e-12));
-        let cos_phi = clamp((dot(lamp.towards.xyz, eye) - sl * se) / across, -1.0, 1.0);
-        let sum = asin(sl) + asin(se) + shift;
-        let caught = sqrt(max(1.0 - sl * sl, 0.0));
-        let phi = acos(cos_phi);
-        let r = caught * gaussian(sum + 2.0 * tilt, width) * 0.25 * cos(0.5 * phi);
-        let tt = caught * gaussian(sum - tilt, 0.5 * width) * gaussian(PI - phi, spread);
-        let trt = caught * gaussian(sum - 4.0 * tilt, 2.0 * width) * (1.0 + cos_phi) / TAU;
-
-        let scattered = caught / PI * diffuse;
-        let direct = r * reflected + trt * returned;
-        let through = tt * transmitted;
-        let open = 1.0 - picture.lobes.w * (1.0 - exp(-met.around));
-        light += head * lamp.light.rgb
-            * (passed * scattered + open * (0.5 * (passed + straight) * direct + straight * through));
+    let mirrored = point.diffuse + picture.reflected.w * point.reflected + point.returned;
+    var light = room_light(point.p) * mirrored;
+    for (var i = 0; i < in.lamps; i += 1) {
+        light += from_lamp(point, picture.lamps[i]);
     }
 
     let mark = textureLoad(marks, texel(strand), 0);
     let bright = max(max(light.r, light.g), light.b);
     light = mix(light, picture.chosen.rgb * (0.25 + bright), picture.chosen.a * mark.x);
-    light = behind_planes(light, p);
+    light = behind_planes(light, point.p);
     return vec4<f32>(light, wet_and_part.y - mark.y);
 }

@@ -20,7 +20,9 @@ fn tent(k: f32, first: f32) -> vec4<f32> {
 fn hairs_met(lamp: Lamp, p: vec3<f32>, lift: f32, half_cell: f32) -> Met {
     let m = in_hair_map(lamp, p);
     let uv = m.xy / lamp.hair.z;
-    if lamp.light.w == 0.0 || any(uv < vec2<f32>(0.0)) || any(uv > vec2<f32>(1.0)) {
+    // Where hair keeps no light out, all is beside the map.
+    let beside = abs(uv - 0.5) + 1.0 - lamp.light.w;
+    if max(beside.x, beside.y) > 0.5 {
         return Met(0.0, 0.0);
     }
     let index = i32(lamp.towards.w);
@@ -28,22 +30,19 @@ fn hairs_met(lamp: Lamp, p: vec3<f32>, lift: f32, half_cell: f32) -> Met {
     let here = min(layer(depth - lift), LAST_LAYER);
     let near = min(layer(depth - half_cell), LAST_LAYER);
     let far = min(layer(depth + half_cell), LAST_LAYER);
-    var before = 0.0;
-    var around = 0.0;
-    for (var g = 0; g < 4; g += 1) {
-        let met = textureSampleLevel(hair_met, smooth_sampler, uv, 4 * index + g, 0.0);
-        let k = 4.0 * f32(g);
-        before += dot(met, tent(here, k));
-        around += dot(met, tent(far, k) - tent(near, k));
-    }
+    let a = textureSampleLevel(hair_met, smooth_sampler, uv, 4 * index, 0.0);
+    let b = textureSampleLevel(hair_met, smooth_sampler, uv, 4 * index + 1, 0.0);
+    let c = textureSampleLevel(hair_met, smooth_sampler, uv, 4 * index + 2, 0.0);
+    let d = textureSampleLevel(hair_met, smooth_sampler, uv, 4 * index + 3, 0.0);
+    let before = dot(a, tent(here, 0.0)) + dot(b, tent(here, 4.0))
+        + dot(c, tent(here, 8.0)) + dot(d, tent(here, 12.0));
+    let around = dot(a, tent(far, 0.0) - tent(near, 0.0)) + dot(b, tent(far, 4.0) - tent(near, 4.0))
+        + dot(c, tent(far, 8.0) - tent(near, 8.0)) + dot(d, tent(far, 12.0) - tent(near, 12.0));
     return Met(before, max(around, 0.0));
 }
 
 // Part of the lamp that the head does not hide from a point, which is taken `bias` (m) nearer to it.
 fn past_head(lamp: Lamp, p: vec3<f32>, bias: f32) -> f32 {
-    if lamp.head.z == 0.0 {
-        return 1.0;
-    }
     let m = in_maps(lamp, p);
     let size = lamp.head.w;
     let g = (0.5 + 0.5 * (m.xy - lamp.head.xy) * lamp.head.z) * size - 0.5;
@@ -55,7 +54,7 @@ fn past_head(lamp: Lamp, p: vec3<f32>, bias: f32) -> f32 {
     let weight = f * f * (3.0 - 2.0 * f);
     let at = vec2<i32>(cell);
     let index = i32(lamp.towards.w);
-    let nearer = m.z - bias;
+    let nearer = m.z - lamp.head_range.x - bias;
     let a = step(nearer, textureLoad(head_depth, at, index, 0).x);
     let b = step(nearer, textureLoad(head_depth, at + vec2<i32>(1, 0), index, 0).x);
     let c = step(nearer, textureLoad(head_depth, at + vec2<i32>(0, 1), index, 0).x);

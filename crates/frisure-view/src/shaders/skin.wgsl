@@ -1,5 +1,10 @@
 // The head. Needs `common`, `layers` and `shadows`.
 
+@group(2) @binding(0) var hair: texture_2d<f32>;
+
+// What a pixel's hair covers when nobody sees the head behind it.
+const HIDDEN: f32 = 0.998;
+
 struct Vertex {
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
@@ -11,6 +16,7 @@ struct Skin {
     @location(0) place: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) room: vec3<f32>,
+    @location(3) @interpolate(flat) lamps: i32,
 }
 
 fn projected(p: vec3<f32>) -> vec4<f32> {
@@ -23,39 +29,60 @@ fn projected(p: vec3<f32>) -> vec4<f32> {
 
 @vertex
 fn skin_vertex(in: Vertex) -> Skin {
-    return Skin(projected(in.position), in.position, in.normal, in.room);
+    return Skin(projected(in.position), in.position, in.normal, in.room, i32(picture.film.z));
+}
+
+fn aside(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, eighths: f32) -> f32 {
+    let angle = TAU / 8.0 * eighths;
+    return past_head(lamp, p + radius * (cos(angle) * lamp.right.xyz + sin(angle) * lamp.down.xyz), bias);
+}
+
+// Mean over a lamp as wide as a soft box: over the middle and two rings of four and of eight places. Most of the
+// head is all lit or all dark, and four places of the outer ring tell.
+fn softly_past_head(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32) -> f32 {
+    let outer = 0.855 * radius;
+    var open = past_head(lamp, p, bias) + aside(lamp, p, bias, outer, 0.5) + aside(lamp, p, bias, outer, 2.5)
+        + aside(lamp, p, bias, outer, 4.5) + aside(lamp, p, bias, outer, 6.5);
+    if open == 0.0 || open == 5.0 {
+        return open / 5.0;
+    }
+    let inner = 0.44 * radius;
+    open += aside(lamp, p, bias, outer, 1.5) + aside(lamp, p, bias, outer, 3.5)
+        + aside(lamp, p, bias, outer, 5.5) + aside(lamp, p, bias, outer, 7.5);
+    open += aside(lamp, p, bias, inner, 1.0) + aside(lamp, p, bias, inner, 3.0)
+        + aside(lamp, p, bias, inner, 5.0) + aside(lamp, p, bias, inner, 7.0);
+    return open / 13.0;
+}
+
+// The light of a lamp that skin at a place sends to the eye.
+fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
+    let wrap = picture.skin_shape.x;
+    let bias = picture.skin_shape.y;
+    let facing = (dot(normal, lamp.towards.xyz) + wrap) / (1.0 + wrap);
+    if facing <= 0.0 {
+        return vec3<f32>(0.0);
+    }
+    let lifted = place + bias * normal;
+    let open = softly_past_head(lamp, lifted, bias, picture.skin_shape.z);
+    let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
+    let passed = open * exp(-met.before * picture.taken.rgb);
+    let half = normalize(lamp.towards.xyz + eye);
+    let gloss = picture.skin.a * pow(max(dot(normal, half), 0.0), picture.skin_shape.w);
+    return passed * lamp.light.rgb / PI * (facing * picture.skin.rgb + min(facing, 1.0) * gloss);
 }
 
 // The room's light and the lamps', as the preview has it.
 @fragment
 fn skin(in: Skin) -> @location(0) vec4<f32> {
+    if textureLoad(hair, vec2<i32>(in.at.xy), 0).a > HIDDEN {
+        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
+    }
     let eye = normalize(picture.eye.xyz - in.place);
     var normal = normalize(in.normal);
     normal = select(normal, -normal, dot(normal, eye) < 0.0);
-    let colour = picture.skin.rgb;
-    let wrap = picture.skin_shape.x;
-    let bias = picture.skin_shape.y;
-    let radius = picture.skin_shape.z;
-    var light = in.room * colour;
-    for (var i = 0; i < i32(picture.film.z); i += 1) {
-        let lamp = picture.lamps[i];
-        let facing = (dot(normal, lamp.towards.xyz) + wrap) / (1.0 + wrap);
-        if facing <= 0.0 {
-            continue;
-        }
-        let lifted = in.place + bias * normal;
-        var open = past_head(lamp, lifted, bias);
-        for (var k = 0; k < 12; k += 1) {
-            let angle = TAU * (f32(k) + 0.5) / 4.0 * select(0.5, 1.0, k < 4);
-            let r = radius * select(0.85, 0.44, k < 4);
-            let aside = r * (cos(angle) * lamp.right.xyz + sin(angle) * lamp.down.xyz);
-            open += past_head(lamp, lifted + aside, bias);
-        }
-        let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
-        let passed = open / 13.0 * exp(-met.before * picture.taken.rgb);
-        let half = normalize(lamp.towards.xyz + eye);
-        let gloss = picture.skin.a * pow(max(dot(normal, half), 0.0), picture.skin_shape.w);
-        light += passed * lamp.light.rgb / PI * (facing * colour + min(facing, 1.0) * gloss);
+    var light = in.room * picture.skin.rgb;
+    for (var i = 0; i < in.lamps; i += 1) {
+        light += skin_from(picture.lamps[i], in.place, normal, eye);
     }
     return vec4<f32>(behind_planes(light, in.place), 1.0);
 }

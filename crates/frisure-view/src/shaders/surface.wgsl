@@ -21,7 +21,7 @@ fn from_lamp(@location(0) p: vec3<f32>) -> Seen {
     let lamp = picture.lamps[i32(current.x)];
     let m = in_maps(lamp, p);
     let uv = (m.xy - lamp.head.xy) * lamp.head.z;
-    return Seen(vec4<f32>(uv.x, -uv.y, clamp((m.z - lamp.head_range.x) * lamp.head_range.y, 0.0, 1.0), 1.0), m.z);
+    return Seen(vec4<f32>(uv.x, -uv.y, clamp((m.z - lamp.head_range.x) * lamp.head_range.y, 0.0, 1.0), 1.0), m.z - lamp.head_range.x);
 }
 
 @fragment
