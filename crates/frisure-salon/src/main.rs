@@ -13,14 +13,14 @@ mod desktop {
     use std::io::Write;
     use std::path::PathBuf;
     use std::process::ExitCode;
-    use std::sync::Arc;
+    use std::sync::{Arc, Mutex};
 
     use clap::{Parser, ValueEnum};
     use eframe::egui::ViewportBuilder;
-    use eframe::{CreationContext, NativeOptions, egui_wgpu, wgpu};
-    use frisure_salon::state::Command;
+    use eframe::{CreationContext, NativeOptions, egui, egui_wgpu, wgpu};
+    use frisure_salon::state::{Command, Salon};
     use frisure_salon::window::desktop::Desktop;
-    use frisure_salon::window::{App, Parts, wake};
+    use frisure_salon::window::{App, Parts, Wake, wake};
     use frisure_salon::work::native::Thread;
 
     /// See a head of natural hair, change its fibres, wet it, cut it, dry it.
@@ -80,6 +80,26 @@ mod desktop {
         {
             return Err(format!("there is no hair called `{name}` in the gallery"));
         }
+        let mut taken_over = None;
+        for _ in 0..MOST_WINDOWS {
+            let lost = Lost::default();
+            let salon = taken_over.take();
+            let create = |cc: &CreationContext<'_>| window(cc, arguments, &lost, salon);
+            eframe::run_native("frisure salon", options(arguments), Box::new(create))
+                .map_err(|e| explained(&e))?;
+            taken_over = lost.salon();
+            if taken_over.is_none() {
+                return Ok(());
+            }
+        }
+        Err("the graphics device was lost again and again; what was not saved is kept, and offered at \
+             the next start\n  hint: update the graphics driver, or try --backend gl".into())
+    }
+
+    /// Windows that are opened one after the other as graphics devices are lost.
+    const MOST_WINDOWS: usize = 5;
+
+    fn options(arguments: &Arguments) -> NativeOptions {
         let viewport = ViewportBuilder::default()
             .with_title("frisure salon")
             .with_app_id("frisure-salon")
@@ -92,15 +112,77 @@ mod desktop {
         {
             setup.instance_descriptor.backends = backend.mask();
         }
-        let create = |cc: &CreationContext<'_>| app(cc, arguments);
-        let result = eframe::run_native("frisure salon", options, Box::new(create));
-        result.map_err(|e| explained(&e))
+        options
+    }
+
+    /// Whether the graphics device is gone, and the salon that the next window takes over.
+    #[derive(Clone, Default)]
+    struct Lost {
+        why: Arc<Mutex<Option<String>>>,
+        salon: Arc<Mutex<Option<Salon>>>,
+    }
+
+    impl Lost {
+        fn salon(&self) -> Option<Salon> {
+            self.salon.lock().ok()?.take()
+        }
+
+        fn why(&self) -> Option<String> {
+            self.why.lock().ok()?.take()
+        }
+
+        /// Has a device tell when it is gone.
+        fn watch(&self, device: &wgpu::Device, wake: Wake) {
+            let why = Arc::clone(&self.why);
+            device.set_device_lost_callback(move |reason, message| {
+                // Dropped at the end of a window, it is not lost.
+                if reason == wgpu::DeviceLostReason::Unknown
+                    && let Ok(mut why) = why.lock()
+                {
+                    *why = Some(message);
+                    wake();
+                }
+            });
+        }
+    }
+
+    /// A window that hands its salon over when its graphics device is lost.
+    struct Window {
+        app: App,
+        lost: Lost,
+    }
+
+    impl eframe::App for Window {
+        fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+            if let Some(why) = self.lost.why() {
+                let mut salon = self.app.hand_over();
+                let hint = "Nothing is lost but the picture, which was drawn anew.";
+                salon.tell(format!("the graphics device was lost: {why}"), hint, true);
+                if let Ok(mut slot) = self.lost.salon.lock() {
+                    *slot = Some(salon);
+                }
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+            self.app.logic(ctx, frame);
+        }
+
+        fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+            self.app.ui(ui, frame);
+        }
     }
 
     type Created = Result<Box<dyn eframe::App>, Box<dyn std::error::Error + Send + Sync>>;
 
-    fn app(cc: &CreationContext<'_>, arguments: &Arguments) -> Created {
+    fn window(
+        cc: &CreationContext<'_>,
+        arguments: &Arguments,
+        lost: &Lost,
+        salon: Option<Salon>,
+    ) -> Created {
         let wake = wake(&cc.egui_ctx);
+        if let Some(state) = &cc.wgpu_render_state {
+            lost.watch(&state.device, Arc::clone(&wake));
+        }
         let worker = || {
             let wake = wake.clone();
             Thread::start(Box::new(move || wake()))
@@ -112,13 +194,13 @@ mod desktop {
             samples: arguments.samples,
         };
         let mut app = App::new(cc, parts);
-        if let Some(scene) = &arguments.scene {
-            app.open(scene);
+        match (salon, &arguments.scene, &arguments.begin) {
+            (Some(salon), ..) => app.take_over(salon),
+            (None, Some(scene), _) => app.open(scene),
+            (None, None, Some(name)) => app.run(Command::Begin(name.clone())),
+            (None, None, None) => {}
         }
-        if let Some(name) = &arguments.begin {
-            app.run(Command::Begin(name.clone()));
-        }
-        Ok(Box::new(app))
+        Ok(Box::new(Window { app, lost: lost.clone() }))
     }
 
     /// What a newcomer can do about it.

@@ -331,3 +331,15 @@ fn a_stylist_who_fails_leaves_the_hair_as_it_was() {
     world.run(Command::Undo);
     assert!(world.salon.is_settled());
 }
+
+#[test]
+fn other_workers_begin_again_with_what_was_under_way() {
+    let mut world = World::new();
+    world.small("curly");
+    world.salon.run(Command::Wet);
+    // The order was handed out, and nobody carries it out.
+    assert!(!world.salon.errands().is_empty() && world.salon.errands().is_empty());
+    world.salon.begin_again();
+    world.settle();
+    assert!(world.salon.is_settled() && world.salon.is_wet());
+}

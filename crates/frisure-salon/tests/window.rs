@@ -352,3 +352,51 @@ fn a_window_that_was_killed_offers_its_work() {
     next.settle();
     assert_eq!(next.text(), text);
 }
+
+/// The pictures of `docs/salon.md`, with all hairs: only where somebody asks for them.
+#[test]
+fn the_tour() {
+    if std::env::var_os("FRISURE_SCREENSHOTS").is_none() || !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 1.0);
+    window.click("Begin: Curly");
+    window.settle();
+    window.key(Modifiers::NONE, Key::F);
+    window.settle();
+    window.screen("head");
+    window.click("Wet");
+    window.settle();
+    window.screen("wet");
+    window.click("Fringe");
+    window.settle();
+    window.click("Front");
+    window.click("Cut");
+    let plane = frisure_salon::state::Plane::level(0.0);
+    window.harness.state_mut().run(Command::Plane(plane));
+    window.settle();
+    window.screen("cut");
+    window.click("Cut here");
+    window.settle();
+    window.click("Dry");
+    window.settle();
+    window.click("Turn");
+    window.click("All");
+    window.harness.state_mut().run(Command::Compare(Some(0)));
+    window.settle();
+    window.screen("compare");
+    window.harness.state_mut().run(Command::Compare(None));
+    window.click("One hair");
+    window.click("Three-quarter");
+    window.harness.state_mut().run(Command::Alone(Some(20)));
+    window.settle();
+    window.screen("alone");
+    window.click("All hair");
+    window.key(Modifiers::COMMAND, Key::P);
+    window.steps(5);
+    window.screen("picture");
+    window.click("Close");
+    window.key(Modifiers::NONE, Key::F1);
+    window.steps(5);
+    window.screen("keys");
+}

@@ -109,6 +109,13 @@ impl Desk {
         }
     }
 
+    /// Nothing is under way any more, and nothing waits.
+    pub(super) fn forget(&mut self) {
+        (self.hair, self.aside) = (None, None);
+        self.waiting.clear();
+        self.errands.retain(|errand| !matches!(errand, Errand::Work(..) | Errand::Cancel(..)));
+    }
+
     /// The lane that an order is done in.
     pub(super) fn lane_of(&self, ticket: Ticket) -> Option<Lane> {
         let is = |job: &Option<Job>| job.as_ref().is_some_and(|job| job.ticket == ticket);

@@ -198,6 +198,13 @@ impl Salon {
         self.schedule();
     }
 
+    /// The workers are other ones, who know nothing of what was under way: it is ordered anew.
+    pub fn begin_again(&mut self) {
+        self.desk.forget();
+        (self.progress, self.aside_progress) = (None, None);
+        self.schedule();
+    }
+
     /// What is to be done outside, in order; each once.
     pub fn errands(&mut self) -> Vec<Errand> {
         self.desk.errands.drain(..).collect()

@@ -96,6 +96,17 @@ impl App {
         }
     }
 
+    /// Takes up a salon from a window that is no more.
+    pub fn take_over(&mut self, mut salon: Salon) {
+        salon.begin_again();
+        self.salon = salon;
+    }
+
+    /// Gives the salon away, for another window to take over.
+    pub fn hand_over(&mut self) -> Salon {
+        std::mem::take(&mut self.salon)
+    }
+
     /// The state.
     #[must_use]
     pub fn salon(&self) -> &Salon {
