@@ -2,6 +2,7 @@
 
 use super::mirror;
 use crate::window::probe::{self, Widget};
+use crate::work::web::last_took;
 use eframe::egui::{Context, Rect};
 use serde_json::{Value, json};
 use std::cell::RefCell;
@@ -64,13 +65,14 @@ pub fn widgets() -> Option<String> {
     Some(Value::Array(all).to_string())
 }
 
-/// How much memory the window's side of the program has (bytes), as JSON.
+/// Memory of the window's side of the program (bytes), frames that were looked at, and how long the
+/// last work took (s), as JSON.
 #[wasm_bindgen]
 #[must_use]
 pub fn measured() -> String {
     const PAGE: usize = 65_536;
-    json!({ "window": core::arch::wasm32::memory_size(0) * PAGE, "frames": probe::passes() })
-        .to_string()
+    let memory = core::arch::wasm32::memory_size(0) * PAGE;
+    json!({ "memory": memory, "frames": probe::passes(), "took": last_took() }).to_string()
 }
 
 /// Describes the salon in this element, for screen readers, from now on.

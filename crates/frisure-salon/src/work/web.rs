@@ -9,14 +9,24 @@ use crate::page::{Opened, fewer_hairs, opened};
 use crate::window::Wake;
 use frisure_stylist::order::{Answer, Order, Refusal};
 use js_sys::{Array, Atomics, Int32Array, Object, Reflect, SharedArrayBuffer, Uint8Array};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, VecDeque};
 use std::rc::{Rc, Weak};
 use wasm_bindgen::prelude::*;
 use web_sys::{ErrorEvent, MessageEvent, WorkerOptions, WorkerType};
+use web_time::Instant;
 
 /// How long a worker that cannot be told to stop may go on (ms): its memory is worth waiting for.
 const PATIENCE: i32 = 1500;
+
+thread_local! {
+    static TOOK: Cell<f64> = const { Cell::new(0.0) };
+}
+
+/// How long the last order took that was carried out to its end (s).
+pub(crate) fn last_took() -> f64 {
+    TOOK.get()
+}
 
 /// The ticket of a worker that says that it is broken.
 const BROKEN: f64 = -1.0;
@@ -81,6 +91,7 @@ struct Desk {
     kept: BTreeMap<String, Order>,
     waiting: VecDeque<(u64, Order)>,
     busy: Option<u64>,
+    since: Instant,
     outdated: bool,
     answers: VecDeque<(u64, Answer)>,
 }
@@ -95,6 +106,7 @@ impl Desk {
             kept: BTreeMap::new(),
             waiting: VecDeque::new(),
             busy: None,
+            since: Instant::now(),
             outdated: false,
             answers: VecDeque::new(),
         }
@@ -154,7 +166,7 @@ impl Desk {
             return;
         }
         let Some((ticket, order)) = self.waiting.pop_front() else { return };
-        self.busy = Some(ticket);
+        (self.busy, self.since) = (Some(ticket), Instant::now());
         self.outdated = false;
         if let Err(reason) = self.post(ticket, &order) {
             self.broken(&format!("{reason:?}"));
@@ -197,6 +209,9 @@ impl Desk {
         };
         self.answers.push_back((ticket, answer));
         if last {
+            if !self.outdated {
+                TOOK.set(self.since.elapsed().as_secs_f64());
+            }
             self.busy = None;
             self.next();
         }
