@@ -3,6 +3,12 @@
 //! Where no Chromium is installed these tests say so and pass; with `FRISURE_NEEDS_BROWSER` set they
 //! fail then. Pictures of the run are kept in `target/tmp/page`.
 
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "figures and reasons, for whoever reads a test's output"
+)]
+
 mod chromium;
 mod picture;
 mod salon;

@@ -48,7 +48,7 @@ fn a_head_is_chosen_wetted_cut_dried_saved_and_exported() {
     salon.until("!s.wet && s.history.length == s.at + 1");
     salon.picture("6-dry");
     let done = salon.state("history.map((label) => label.split(' ')[0])");
-    assert_eq!(done, serde_json::json!(["Curly", "Wet", "Cut", "Dried"]));
+    assert_eq!(done, serde_json::json!(["Curly", "Wetted", "Cut", "Dried"]));
 
     salon.click("Undo");
     salon.until("s.wet && s.at == 2");
