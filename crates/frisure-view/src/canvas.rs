@@ -1,6 +1,7 @@
 //! Where a picture is drawn.
 
-use frisure_render::Room;
+use std::future::Future as _;
+
 use wgpu::{Device, Queue, Texture, TextureFormat, TextureUsages};
 
 use crate::error::ViewError;
@@ -15,7 +16,8 @@ pub struct Canvas {
     /// For the head, with several samples per pixel, made when first needed.
     pub(crate) fine: Option<Fine>,
     pub(crate) known: Known,
-    pub(crate) surroundings: Option<(Option<Room>, wgpu::TextureView)>,
+    /// The picture for somebody else's pass.
+    pub(crate) shown: Option<wgpu::BindGroup>,
 }
 
 /// What is drawn on.
@@ -46,7 +48,7 @@ impl Canvas {
             targets: Targets::new(device, size),
             fine: None,
             known: Known::default(),
-            surroundings: None,
+            shown: None,
         })
     }
 
@@ -60,6 +62,7 @@ impl Canvas {
             self.size = size;
             self.targets = Targets::new(device, size);
             self.fine = None;
+            self.shown = None;
             self.known.forget_picture();
         }
         Ok(())
@@ -84,16 +87,27 @@ impl Canvas {
         if needed > most {
             return Err(ViewError::TooLarge { what: "the picture", needed, most });
         }
+        let bytes = watched(device, || self.bytes(device, queue, needed, stride))?;
+        let rows = bytes.chunks_exact(stride as usize);
+        Ok(rows.flat_map(|all| &all[..row as usize]).copied().collect())
+    }
+
+    /// Rows of the picture, each filled up to `stride` bytes.
+    fn bytes(
+        &self,
+        device: &Device,
+        queue: &Queue,
+        size: u64,
+        stride: u32,
+    ) -> Result<Vec<u8>, ViewError> {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("picture"),
-            size: needed,
+            size,
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
         self.copy(device, queue, &buffer, stride);
-        let bytes = mapped(device, &buffer)?;
-        let rows = bytes.chunks_exact(stride as usize);
-        Ok(rows.flat_map(|all| &all[..row as usize]).copied().collect())
+        mapped(device, &buffer)
     }
 
     fn copy(&self, device: &Device, queue: &Queue, buffer: &wgpu::Buffer, stride: u32) {
@@ -121,11 +135,29 @@ fn mapped(device: &Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ViewError> 
         // Nobody listens where waiting failed.
         let _ = send.send(result);
     });
-    let lost = |error: &dyn std::fmt::Display| ViewError::Lost(error.to_string());
-    device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| lost(&e))?;
-    receive.recv().map_err(|e| lost(&e))?.map_err(|e| lost(&e))?;
-    let view = buffer.slice(..).get_mapped_range().map_err(|e| lost(&e))?;
+    device.poll(wgpu::PollType::wait_indefinitely()).map_err(lost)?;
+    receive.recv().map_err(lost)?.map_err(lost)?;
+    let view = buffer.slice(..).get_mapped_range().map_err(lost)?;
     Ok(view.to_vec())
+}
+
+/// Does something whose errors would otherwise end the program.
+fn watched<T>(
+    device: &Device,
+    task: impl FnOnce() -> Result<T, ViewError>,
+) -> Result<T, ViewError> {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let result = task();
+    let mut context = std::task::Context::from_waker(std::task::Waker::noop());
+    // Where there are no pages, the answer is there at once.
+    match std::pin::pin!(scope.pop()).poll(&mut context) {
+        std::task::Poll::Ready(Some(error)) => Err(lost(error)),
+        _ => result,
+    }
+}
+
+fn lost(error: impl std::fmt::Display) -> ViewError {
+    ViewError::Lost(error.to_string())
 }
 
 /// Whether there can be pictures of this size.

@@ -87,11 +87,6 @@ impl Lamp {
             [head.nearest, inverse(head.deep), 0.0, 0.0],
         ]
     }
-
-    /// Side of a texel of the hair's map (m).
-    pub(crate) fn texel(&self) -> f32 {
-        2.0 * self.hair.half / HAIR_MAP as f32
-    }
 }
 
 impl Square {

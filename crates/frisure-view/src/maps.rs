@@ -6,10 +6,12 @@ use wgpu::{
     TextureUsages,
 };
 
-use crate::frame::{Frame, Shadows};
+use crate::frame::Shadows;
 use crate::gpu::{self, DEPTH, LIGHT};
 use crate::lamps::{FIRST_MAP, HAIR_MAP, HEAD_MAP, LAMPS, Lamp};
+use crate::paint::Job;
 use crate::renderer::Renderer;
+use crate::{Hair, Skin};
 
 /// Pieces of hair that are enough for a density map, and while something moves.
 const PIECES: [usize; 2] = [250_000, 50_000];
@@ -77,117 +79,115 @@ impl Maps {
     /// Draws what has changed.
     pub(crate) fn draw(
         &mut self,
-        renderer: &Renderer,
-        device: &Device,
-        queue: &Queue,
+        job: &Job<'_>,
         encoder: &mut CommandEncoder,
-        (picture, ribbons): (&BindGroup, Option<&BindGroup>),
-        frame: &Frame<'_>,
-        lamps: &[Lamp],
+        ribbons: Option<&BindGroup>,
     ) {
-        let places: Vec<Lamp> = lamps.iter().map(Lamp::place).collect();
-        let most = match frame.shadows {
+        let places: Vec<Lamp> = job.lamps.iter().map(Lamp::place).collect();
+        let most = match job.frame.shadows {
             Shadows::None => None,
             Shadows::Coarse => Some(PIECES[1]),
             Shadows::Fine => Some(PIECES[0]),
         };
-        let some = frame.hair.and_then(|hair| most.map(|most| hair.some(most)));
-        let factor = some.map_or(1.0, |(_, factor)| factor);
+        let some = job.frame.hair.and_then(|hair| Some((hair, hair.some(most?))));
+        let factor = some.map_or(1.0, |(_, (_, factor))| factor);
         for i in 0..LAMPS {
             let numbers = [i as f32, factor, FIRST_MAP as f32, 0.0];
-            queue.write_buffer(&self.current.0, STRIDE * i as u64, cast_slice(&numbers));
+            job.queue.write_buffer(&self.current.0, STRIDE * i as u64, cast_slice(&numbers));
         }
-        if let Some(skin) = frame.skin {
+        if let Some(skin) = job.frame.skin {
             let key = Some((skin.version(), places.clone()));
             if self.head_key != key {
-                self.draw_head(renderer, encoder, picture, skin, lamps.len());
+                self.draw_head(job, encoder, skin);
                 self.head_key = key;
             }
         }
-        let (Some(hair), Some(ribbons)) = (frame.hair, ribbons) else { return };
-        let Some((strands, _)) = some else { return };
+        let (Some((hair, (strands, _))), Some(ribbons)) = (some, ribbons) else { return };
         let key = Some((hair.shape(), strands, places));
-        if self.hair_key == key {
-            return;
+        if self.hair_key != key {
+            self.draw_hair(job, encoder, ribbons, hair, strands);
+            self.hair_key = key;
         }
+    }
+
+    /// The density maps of some strands from all lamps.
+    fn draw_hair(
+        &mut self,
+        job: &Job<'_>,
+        encoder: &mut CommandEncoder,
+        ribbons: &BindGroup,
+        hair: &Hair,
+        strands: usize,
+    ) {
         if self.pieces.as_ref().is_none_or(|p| (p.0, p.1) != (hair.shape(), strands)) {
-            let pieces = hair.pieces_of(strands);
-            let usage = BufferUsages::VERTEX;
-            let buffer = gpu::buffer(device, queue, "some pieces", cast_slice(&pieces), usage);
+            let (pieces, usage) = (hair.pieces_of(strands), BufferUsages::VERTEX);
+            let bytes = cast_slice(&pieces);
+            let buffer = gpu::buffer(job.device, job.queue, "some pieces", bytes, usage);
             self.pieces = Some((hair.shape(), strands, pieces.len() as u32, buffer));
         }
         let view = gpu::layers(&self.first);
         let resources = [
             wgpu::BindingResource::TextureView(&hair.places()),
             wgpu::BindingResource::TextureView(&view),
-            wgpu::BindingResource::Sampler(&renderer.sampler),
+            wgpu::BindingResource::Sampler(&job.renderer.sampler),
         ];
-        let density = gpu::group(device, &renderer.layouts.density, &resources);
-        for i in 0..lamps.len() {
-            self.draw_first(renderer, encoder, picture, ribbons, i);
-            self.draw_density(renderer, encoder, picture, &density, i);
+        let density = gpu::group(job.device, &job.renderer.layouts.density, &resources);
+        for i in 0..job.lamps.len() as u32 {
+            self.draw_first(job, encoder, ribbons, i);
+            self.draw_density(job, encoder, &density, i);
         }
-        self.hair_key = key;
     }
 
     /// Where hair begins.
     fn draw_first(
         &self,
-        renderer: &Renderer,
+        job: &Job<'_>,
         encoder: &mut CommandEncoder,
-        picture: &BindGroup,
         ribbons: &BindGroup,
-        lamp: usize,
+        lamp: u32,
     ) {
-        let Some((_, _, count, pieces)) = &self.pieces else { return };
-        let view = gpu::one_layer(&self.first, lamp as u32);
+        let view = gpu::one_layer(&self.first, lamp);
         let targets = [gpu::target(&view, Some([FAR; 4]))];
         let mut pass = gpu::pass(encoder, "first hair", &targets, None);
-        pass.set_pipeline(&renderer.pipelines.first);
-        pass.set_bind_group(0, picture, &[]);
+        pass.set_pipeline(&job.renderer.pipelines.first);
         pass.set_bind_group(1, ribbons, &[]);
-        pass.set_bind_group(2, &self.current.1, &[STRIDE as u32 * lamp as u32]);
-        pass.set_vertex_buffer(0, pieces.slice(..));
-        pass.draw(0..4, 0..*count);
+        self.draw_pieces(job, &mut pass, lamp);
     }
 
     /// How much hair is met up to each layer.
     fn draw_density(
         &self,
-        renderer: &Renderer,
+        job: &Job<'_>,
         encoder: &mut CommandEncoder,
-        picture: &BindGroup,
         density: &BindGroup,
-        lamp: usize,
+        lamp: u32,
     ) {
-        let Some((_, _, count, pieces)) = &self.pieces else { return };
-        let views = [0, 1, 2, 3].map(|i| gpu::one_layer(&self.met, QUARTERS * lamp as u32 + i));
+        let views = [0, 1, 2, 3].map(|i| gpu::one_layer(&self.met, QUARTERS * lamp + i));
         let targets = views.each_ref().map(|view| gpu::target(view, Some([0.0; 4])));
         let mut pass = gpu::pass(encoder, "density", &targets, None);
-        pass.set_pipeline(&renderer.pipelines.density);
-        pass.set_bind_group(0, picture, &[]);
+        pass.set_pipeline(&job.renderer.pipelines.density);
         pass.set_bind_group(1, density, &[]);
-        pass.set_bind_group(2, &self.current.1, &[STRIDE as u32 * lamp as u32]);
+        self.draw_pieces(job, &mut pass, lamp);
+    }
+
+    /// The pieces, with the pipeline and the group 1 that are set.
+    fn draw_pieces(&self, job: &Job<'_>, pass: &mut wgpu::RenderPass<'_>, lamp: u32) {
+        let Some((_, _, count, pieces)) = &self.pieces else { return };
+        pass.set_bind_group(0, &job.picture, &[]);
+        pass.set_bind_group(2, &self.current.1, &[STRIDE as u32 * lamp]);
         pass.set_vertex_buffer(0, pieces.slice(..));
         pass.draw(0..4, 0..*count);
     }
 
     /// Depth of the head from each lamp.
-    fn draw_head(
-        &self,
-        renderer: &Renderer,
-        encoder: &mut CommandEncoder,
-        picture: &BindGroup,
-        skin: &crate::Skin,
-        lamps: usize,
-    ) {
-        for i in 0..lamps as u32 {
+    fn draw_head(&self, job: &Job<'_>, encoder: &mut CommandEncoder, skin: &Skin) {
+        for i in 0..job.lamps.len() as u32 {
             let view = gpu::one_layer(&self.head, i);
             let targets = [gpu::target(&view, Some([FAR; 4]))];
             let depth = Some(gpu::depth_target(&self.head_depth, true));
             let mut pass = gpu::pass(encoder, "head from a lamp", &targets, depth);
-            pass.set_pipeline(&renderer.pipelines.head_depth);
-            pass.set_bind_group(0, picture, &[]);
+            pass.set_pipeline(&job.renderer.pipelines.head_depth);
+            pass.set_bind_group(0, &job.picture, &[]);
             pass.set_bind_group(1, &self.current.1, &[STRIDE as u32 * i]);
             skin.draw(&mut pass);
         }

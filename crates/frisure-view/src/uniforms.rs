@@ -14,6 +14,9 @@ const LIFT: f32 = 1.6e-3;
 /// Half of what counts as around a hair (m): of a cell of the preview's finest maps.
 const HALF_CELL: f32 = 1.1e-3;
 
+/// Bytes of all of them.
+pub(crate) const BYTES: usize = 16 * (18 + 7 * LAMPS + 5 * MAX_PLANES);
+
 /// A vector and a number.
 fn four(v: Vec3, w: f32) -> [f32; 4] {
     [v.x, v.y, v.z, w]
@@ -28,7 +31,7 @@ pub(crate) fn packed(
     width_factor: f32,
     vertices: usize,
 ) -> Vec<[f32; 4]> {
-    let mut all = Vec::with_capacity(18 + 7 * LAMPS + 5 * MAX_PLANES);
+    let mut all = Vec::with_capacity(BYTES / 16);
     all.extend(view(&frame.camera, width, height, width_factor));
     all.extend(matter(frame, vertices));
     all.push(four(room.low, room.per_metre));

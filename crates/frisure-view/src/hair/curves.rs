@@ -108,7 +108,7 @@ impl Curves {
         all.places.reserve(total);
         all.traits.reserve(total);
         all.along.reserve(total);
-        for part in parts {
+        for part in parts.into_iter().filter(|part| !part.strands.is_empty()) {
             let (vertices, ranks) = (all.places.len() as u32, all.strands.len() as u32);
             let ends = part.firsts.iter().skip(1).map(|&f| f as usize);
             let fits = ends

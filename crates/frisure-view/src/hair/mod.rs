@@ -39,7 +39,8 @@ pub struct Hair {
     varies: bool,
     marked: bool,
     textures: Textures,
-    pub(crate) groups: Groups,
+    /// What shaders are given.
+    group: wgpu::BindGroup,
 }
 
 /// Hides what nobody wants to read.
@@ -59,13 +60,6 @@ struct Textures {
     marks: Texture,
 }
 
-/// What shaders are given of the hair.
-#[derive(Debug)]
-pub(crate) struct Groups {
-    /// For light at each vertex.
-    pub(crate) shade: wgpu::BindGroup,
-}
-
 impl Hair {
     /// Puts strands on the device. Strands that cannot be drawn (fewer than two points, numbers that are not
     /// finite) are left out; where the device has too little room for all, evenly chosen ones are, and the
@@ -81,7 +75,7 @@ impl Hair {
         let side = device.limits().max_texture_dimension_2d;
         let curves = Curves::new(strands, ROW as usize * side as usize);
         let textures = Textures::new(device, queue, &curves);
-        let groups = textures.groups(renderer, device);
+        let group = textures.group(renderer, device);
         let shape = version();
         let mut hair = Self {
             strands: strands.clone(),
@@ -94,7 +88,7 @@ impl Hair {
             varies: false,
             marked: false,
             textures,
-            groups,
+            group,
         };
         hair.paint(renderer, device, queue, look);
         hair
@@ -207,6 +201,15 @@ impl Hair {
         })
     }
 
+    /// What shaders read.
+    pub(crate) fn group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+
+    pub(crate) fn places(&self) -> wgpu::TextureView {
+        gpu::whole(&self.textures.places)
+    }
+
     /// Computes colours and sends them.
     fn paint(&mut self, renderer: &Renderer, device: &Device, queue: &Queue, look: &HairLook) {
         let materials = Materials::new(&self.strands, look);
@@ -215,7 +218,7 @@ impl Hair {
         if varies != self.varies {
             let count = if varies { curves.places.len() } else { curves.strands.len() };
             self.textures.materials = material_textures(device, count);
-            self.groups = self.textures.groups(renderer, device);
+            self.group = self.textures.group(renderer, device);
             self.varies = varies;
         }
         let strand = |vertex: usize| curves.strands[curves.traits[vertex][2] as usize];
@@ -279,17 +282,11 @@ impl Textures {
         Self { places, traits, materials, marks }
     }
 
-    fn groups(&self, renderer: &Renderer, device: &Device) -> Groups {
+    fn group(&self, renderer: &Renderer, device: &Device) -> wgpu::BindGroup {
         let [a, b, c] = &self.materials;
         let all = [&self.places, &self.traits, a, b, c, &self.marks].map(gpu::whole);
         let views = all.each_ref().map(wgpu::BindingResource::TextureView);
-        Groups { shade: gpu::group(device, &renderer.layouts.hair, &views) }
-    }
-}
-
-impl Hair {
-    pub(crate) fn places(&self) -> wgpu::TextureView {
-        gpu::whole(&self.textures.places)
+        gpu::group(device, &renderer.layouts.hair, &views)
     }
 }
 

@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn what_is_nearer_comes_first() {
         let places: Vec<Place> =
-            (0..100_u8).map(|i| [0.0, f32::from(i * 37 % 100), 0.0, 1.0]).collect();
+            (0..100_u16).map(|i| [0.0, f32::from(i * 37 % 100), 0.0, 1.0]).collect();
         let firsts: Vec<u32> = (0..=50).map(|i| 2 * i).collect();
         let sorted = Nearest::new(&places, &firsts, 50, -Vec3::Y, Vec3::Y);
         assert_eq!(sorted.pieces.len(), 50);

@@ -3,7 +3,7 @@
 @group(1) @binding(0) var hair: texture_2d<f32>;
 
 // What a pixel covers when it counts as finished.
-const FINISHED: f32 = 0.985;
+const FINISHED: f32 = 0.995;
 
 @vertex
 fn at_depth(@builtin(vertex_index) corner: u32, @location(0) depth: f32) -> @builtin(position) vec4<f32> {

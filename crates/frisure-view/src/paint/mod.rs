@@ -1,0 +1,94 @@
+//! One picture, in the order in which it is drawn.
+
+mod compose;
+mod hair;
+mod head;
+mod known;
+
+use bytemuck::cast_slice;
+use wgpu::{BindGroup, CommandEncoder, Device, Queue, RenderPass};
+
+use crate::canvas::Canvas;
+use crate::frame::{Frame, Shadows};
+use crate::hair::Hair;
+use crate::lamps::{Lamp, strongest};
+use crate::renderer::Renderer;
+use crate::uniforms;
+
+pub(crate) use known::Known;
+
+/// A picture in the making.
+pub(crate) struct Job<'a> {
+    pub(crate) renderer: &'a Renderer,
+    pub(crate) device: &'a Device,
+    pub(crate) queue: &'a Queue,
+    pub(crate) frame: &'a Frame<'a>,
+    /// Its numbers, for shaders.
+    pub(crate) picture: BindGroup,
+    pub(crate) lamps: Vec<Lamp>,
+    /// Strands that are drawn, and vertices of these.
+    strands: usize,
+    vertices: usize,
+}
+
+impl Renderer {
+    /// Draws into the canvas: shadows, light along the hairs, hair, head, lines. Where the canvas shows this
+    /// very frame already, nothing is done. The commands take effect when the caller submits the encoder.
+    pub fn draw(
+        &self,
+        device: &Device,
+        queue: &Queue,
+        encoder: &mut CommandEncoder,
+        canvas: &mut Canvas,
+        frame: &Frame<'_>,
+    ) {
+        if canvas.known.shows(frame) {
+            return;
+        }
+        let hair = frame.hair.filter(|hair| hair.strands() > 0);
+        let frame = &Frame { hair, ..frame.clone() };
+        canvas.known.prepare(self, device, queue, frame);
+        let size = canvas.size;
+        let Some(job) = canvas.known.job(self, (device, queue), frame, size) else { return };
+        canvas.known.draw_maps(&job, encoder);
+        canvas.known.shade(&job, encoder);
+        job.draw_head_depth(encoder, canvas);
+        job.draw_hair(encoder, canvas);
+        job.draw_head(encoder, canvas);
+        job.compose(encoder, canvas);
+        canvas.known.remember(frame);
+    }
+
+    /// Draws the finished picture over the whole viewport of somebody else's pass; nothing before there is one.
+    pub fn show(&self, pass: &mut RenderPass<'_>, canvas: &Canvas) {
+        if let Some(group) = &canvas.shown {
+            pass.set_pipeline(&self.pipelines.show);
+            pass.set_bind_group(0, group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+    }
+}
+
+impl Known {
+    /// What is to be drawn, its numbers on the device.
+    fn job<'a>(
+        &self,
+        renderer: &'a Renderer,
+        (device, queue): (&'a Device, &'a Queue),
+        frame: &'a Frame<'a>,
+        size: [u32; 2],
+    ) -> Option<Job<'a>> {
+        let (buffer, group) = self.numbers.as_ref()?;
+        let (lights, room) = (self.lights()?, self.room()?);
+        let (hair, head) = (frame.hair.map(Hair::bounds), frame.skin.map(crate::Skin::bounds));
+        let shadowed = frame.shadows != Shadows::None;
+        let of = |lamp| Lamp::new(lamp, hair, head, shadowed);
+        let lamps: Vec<Lamp> = strongest(lights).into_iter().map(of).collect();
+        let (strands, factor) = frame.hair.map_or((0, 1.0), |hair| hair.shared(frame.share));
+        let vertices = frame.hair.map_or(0, |hair| hair.vertices_of(strands));
+        let numbers = uniforms::packed(frame, size, room, &lamps, factor, vertices);
+        queue.write_buffer(buffer, 0, cast_slice(&numbers));
+        let picture = group.clone();
+        Some(Job { renderer, device, queue, frame, picture, lamps, strands, vertices })
+    }
+}
