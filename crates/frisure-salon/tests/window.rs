@@ -12,7 +12,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use frisure_salon::state::{Badge, Command};
+use frisure_salon::state::{Badge, Command, Document};
 use frisure_salon::window::desktop::Desktop;
 use frisure_salon::window::outside::Given;
 use frisure_salon::window::{App, Parts};
@@ -185,7 +185,7 @@ fn a_session_in_the_window() {
     let gallery = window.screen("gallery");
     // The gallery's own button, then a head with fewer hairs, for the time's sake.
     window.click("Begin: Curly");
-    assert_eq!(window.harness.state().salon().document().map(|d| d.name()), Some("Curly"));
+    assert_eq!(window.harness.state().salon().document().map(Document::name), Some("Curly"));
     window.small("curly");
     let dry = window.screen("test-dry");
     assert!(dry != gallery);

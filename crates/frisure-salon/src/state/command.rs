@@ -388,7 +388,7 @@ impl Salon {
             }
         }
         let spots: Vec<Spot> = spots.into_iter().map(|p| Spot::At(tidy(p, 1e-4))).collect();
-        (!spots.is_empty()).then(|| Selection::Brush { spots, radius: self.brush })
+        (!spots.is_empty()).then_some(Selection::Brush { spots, radius: self.brush })
     }
 
     /// A step on what is chosen.

@@ -130,6 +130,7 @@ pub struct Choice {
     pub moves_hair: bool,
 }
 
+#[expect(clippy::too_many_arguments, reason = "a row of the table below")]
 const fn control(
     panel: Panel,
     label: &'static str,

@@ -85,10 +85,9 @@ impl Salon {
         if let Some(job) = &self.desk.hair {
             // Coarse work is short, and shows the way; exact work on another text is for nothing.
             let other = job.asked != asked || effort.is_some_and(|e| e == Effort::Coarse);
-            if other && matches!(job.purpose, Purpose::Show(Effort::Exact)) {
-                if self.differs(&job.asked.text.clone(), &key) {
-                    self.desk.outdate();
-                }
+            let is_exact = matches!(job.purpose, Purpose::Show(Effort::Exact));
+            if other && is_exact && self.differs(&job.asked.text, &key) {
+                self.desk.outdate();
             }
             return;
         }

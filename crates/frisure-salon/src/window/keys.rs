@@ -3,7 +3,7 @@
 use eframe::egui::{Key, KeyboardShortcut, Modifiers, Ui};
 
 use super::dialogs::Dialog;
-use crate::state::{Command, Growing, Salon, Tool, VIEWS};
+use crate::state::{Command, Document, Growing, Salon, Tool, VIEWS};
 
 /// What a key does, as the help shows it.
 pub(super) const HELP: &[(&str, &str)] = &[
@@ -96,7 +96,7 @@ fn letters(hit: &dyn Fn(Modifiers, Key) -> bool, salon: &Salon, out: &mut Vec<Co
 
 /// Before and after: what was before the last change, or the end of it.
 pub(super) fn compare(salon: &Salon) -> Command {
-    let at = salon.document().map_or(0, |d| d.at());
+    let at = salon.document().map_or(0, Document::at);
     Command::Compare(salon.compared().is_none().then(|| at.saturating_sub(1)))
 }
 

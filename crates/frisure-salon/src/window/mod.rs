@@ -24,7 +24,7 @@ use eframe::egui::{self, CentralPanel, Panel as Edge, Ui};
 use frisure_stylist::order::Order;
 use web_time::{Duration, Instant};
 
-use crate::state::{Choice, Command, Errand, Lane, Salon, choices};
+use crate::state::{Choice, Command, Document, Errand, Lane, Salon, choices};
 use crate::work::Worker;
 use dialogs::{Dialog, Dialogs};
 use outside::{Given, Outside};
@@ -322,10 +322,10 @@ impl App {
         let hair = self.salon.shown().map(|(hair, _)| &hair.numbers);
         serde_json::json!({
             "gallery": self.salon.is_gallery(),
-            "name": document.map(|d| d.name()),
-            "text": document.map(|d| d.text()),
+            "name": document.map(Document::name),
+            "text": document.map(Document::text),
             "history": document.map(|d| d.edits().iter().map(|e| e.label.clone()).collect::<Vec<_>>()),
-            "at": document.map(|d| d.at()),
+            "at": document.map(Document::at),
             "badge": badge,
             "settled": self.salon.is_settled(),
             "chosen": self.salon.chosen().label,

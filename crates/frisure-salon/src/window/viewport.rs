@@ -120,10 +120,10 @@ impl Viewport {
         let pointer = response.interact_pointer_pos();
         let drags = response.dragged_by(PointerButton::Primary) && !camera_keys(ui);
         match (salon.tool(), pointer) {
-            (Tool::Lasso, Some(at)) if drags => {
-                if self.lasso.last().is_none_or(|last| last.distance(at) > 2.0) {
-                    self.lasso.push(at);
-                }
+            (Tool::Lasso, Some(at))
+                if drags && self.lasso.last().is_none_or(|last| last.distance(at) > 2.0) =>
+            {
+                self.lasso.push(at);
             }
             (Tool::Brush | Tool::Comb, Some(at)) if drags || response.clicked() => {
                 let (from, way) = salon.orbit().ray(place(at, rect), aspect(rect));
