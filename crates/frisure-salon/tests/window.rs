@@ -407,8 +407,8 @@ fn the_tour() {
     window.settle();
     window.screen("compare");
     window.harness.state_mut().run(Command::Compare(None));
-    window.click("One hair");
     window.click("Three-quarter");
+    window.click("One hair");
     window.harness.state_mut().run(Command::Alone(Some(20)));
     window.settle();
     window.screen("alone");

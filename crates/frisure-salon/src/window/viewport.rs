@@ -1,5 +1,6 @@
 //! The head in the middle of the window, and the hand on it.
 
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use eframe::egui::{
@@ -7,7 +8,9 @@ use eframe::egui::{
     Shape, Stroke, Ui, vec2,
 };
 use eframe::egui_wgpu::Callback;
-use frisure::render::{Camera, Lights, Look, ToneCurve};
+use frisure::io::files::Files;
+use frisure::io::scene::Scene;
+use frisure::render::{Camera, EnvironmentMap, Lights, Look, ToneCurve};
 use frisure_stylist::order::OneHair;
 use frisure_stylist::picture;
 use frisure_view::{Line, Mark, Plane, Shadows};
@@ -30,6 +33,8 @@ pub(super) struct Viewport {
     share: f32,
     marks: Option<MarksOf>,
     marks_version: u64,
+    /// The picture of surroundings that was read last: its path, and what it shows.
+    surroundings: Option<(PathBuf, Option<EnvironmentMap>)>,
     pub(super) trouble: Arc<Mutex<Option<String>>>,
 }
 
@@ -241,7 +246,7 @@ impl Viewport {
             let (low, high) = head.framed();
             0.5 * (low + high)
         });
-        let (look, lights) = self.lit(salon, &understood.scene, &camera, middle)?;
+        let (look, lights) = self.lit(&understood.scene, &camera, middle);
         let (hair, version) = match side {
             Side::Now => salon.shown().map(|(hair, version)| (hair.clone(), version))?,
             Side::Before => {
@@ -286,21 +291,34 @@ impl Viewport {
     }
 
     /// The scene's look and light, or the default if they cannot be.
-    fn lit(
-        &self,
-        _salon: &Salon,
-        scene: &frisure::io::scene::Scene,
-        camera: &Camera,
-        middle: DVec3,
-    ) -> Option<(Look, Lights)> {
-        match picture::look_and_lights(scene, camera, middle, None) {
-            Ok(both) => Some(both),
-            Err(error) => {
-                if let Ok(mut trouble) = self.trouble.lock() {
-                    *trouble = Some(error.to_string());
-                }
-                Some((Look::default(), Lights::studio(camera)))
-            }
+    fn lit(&mut self, scene: &Scene, camera: &Camera, middle: DVec3) -> (Look, Lights) {
+        self.look_around(scene);
+        let around = self.surroundings.as_ref().and_then(|(_, map)| map.as_ref());
+        picture::look_and_lights(scene, camera, middle, around).unwrap_or_else(|error| {
+            self.complain(error.to_string());
+            (Look::default(), Lights::studio(camera))
+        })
+    }
+
+    /// Reads the picture of surroundings that a scene names, once.
+    fn look_around(&mut self, scene: &Scene) {
+        let Some(file) = &scene.light.environment else {
+            self.surroundings = None;
+            return;
+        };
+        if self.surroundings.as_ref().is_some_and(|(path, _)| *path == file.path) {
+            return;
+        }
+        let map = picture::environment(scene, &Files::default()).unwrap_or_else(|error| {
+            self.complain(error.to_string());
+            None
+        });
+        self.surroundings = Some((file.path.clone(), map));
+    }
+
+    fn complain(&self, problem: String) {
+        if let Ok(mut trouble) = self.trouble.lock() {
+            *trouble = Some(problem);
         }
     }
 
