@@ -144,14 +144,20 @@ impl Chromium {
     fn give_up(&mut self, reason: &str) -> ! {
         let notice = self.evaluate("document.getElementById('notice')?.textContent");
         let state = self.evaluate("JSON.stringify(window.frisure?.state())");
+        let path = crate::picture::folder().join("failed.png");
+        std::fs::write(path, self.screenshot()).expect("a picture");
         panic!("{reason}\nnotice: {notice}\nstate: {state}\nconsole: {:#?}", self.console)
     }
 
     /// Presses and releases the left button there.
     pub(crate) fn click(&mut self, x: f64, y: f64) {
         self.mouse("mouseMoved", x, y, 0);
-        self.mouse("mousePressed", x, y, 1);
-        self.mouse("mouseReleased", x, y, 0);
+        // At once, as a finger does: what is held for a second, because the page is busy between, is
+        // no click.
+        let press = self.send("Input.dispatchMouseEvent", &left("mousePressed", x, y, 1));
+        let release = self.send("Input.dispatchMouseEvent", &left("mouseReleased", x, y, 0));
+        self.answer(press, "mousePressed");
+        self.answer(release, "mouseReleased");
     }
 
     /// Drags from one place to another.
@@ -166,9 +172,7 @@ impl Chromium {
     }
 
     fn mouse(&mut self, kind: &str, x: f64, y: f64, buttons: u32) {
-        let button = if kind == "mouseMoved" && buttons == 0 { "none" } else { "left" };
-        let event = json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 });
-        self.call("Input.dispatchMouseEvent", &event);
+        self.call("Input.dispatchMouseEvent", &left(kind, x, y, buttons));
     }
 
     /// Drops a file with this text on the middle of the page.
@@ -205,18 +209,27 @@ impl Chromium {
 
     /// Calls a method of the protocol.
     pub(crate) fn call(&mut self, method: &str, params: &Value) -> Value {
+        let id = self.send(method, params);
+        self.answer(id, method)
+    }
+
+    fn send(&mut self, method: &str, params: &Value) -> u64 {
         self.last += 1;
         let mut message = json!({ "id": self.last, "method": method, "params": params });
         if let Some(session) = &self.session {
             message["sessionId"] = json!(session);
         }
         self.to.write_all(format!("{message}\0").as_bytes()).expect("a message to the browser");
+        self.last
+    }
+
+    fn answer(&mut self, id: u64, method: &str) -> Value {
         loop {
             let answer = self.from.recv_timeout(PATIENCE).unwrap_or_else(|_| {
                 let log = std::fs::read_to_string(self.folder.path().join("log"));
                 panic!("no answer to {method}; the browser's log: {}", log.unwrap_or_default())
             });
-            if answer["id"] == json!(self.last) {
+            if answer["id"] == json!(id) {
                 assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
                 return answer["result"].clone();
             }
@@ -267,6 +280,12 @@ impl Drop for Chromium {
         let _ = self.browser.kill();
         let _ = self.browser.wait();
     }
+}
+
+/// An event of the mouse with its left button, or with none while it moves freely.
+fn left(kind: &str, x: f64, y: f64, buttons: u32) -> Value {
+    let button = if kind == "mouseMoved" && buttons == 0 { "none" } else { "left" };
+    json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1 })
 }
 
 /// Messages of the browser, each ended by a zero byte.
