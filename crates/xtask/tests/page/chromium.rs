@@ -213,6 +213,14 @@ impl Chromium {
         self.answer(id, method)
     }
 
+    /// Calls a method that is about the whole browser.
+    pub(crate) fn call_browser(&mut self, method: &str, params: &Value) -> Value {
+        let session = self.session.take();
+        let id = self.send(method, params);
+        self.session = session;
+        self.answer(id, method)
+    }
+
     fn send(&mut self, method: &str, params: &Value) -> u64 {
         self.last += 1;
         let mut message = json!({ "id": self.last, "method": method, "params": params });

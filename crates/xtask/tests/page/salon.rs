@@ -4,7 +4,7 @@ use crate::chromium::Chromium;
 use crate::picture::{self, Picture};
 use crate::site::{self, Site};
 use crate::{SIZE, browser};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::sync::MutexGuard;
 use std::time::{Duration, Instant};
 
@@ -94,6 +94,20 @@ impl Salon {
         self.page.wait_for(shown, LONG);
         let text = self.page.evaluate("document.getElementById('notice').innerText");
         text.as_str().unwrap_or_default().to_owned()
+    }
+
+    /// Prints what the page and its browser's processes have done so far (seconds of a core).
+    pub(crate) fn tell_work(&mut self, when: &str) {
+        let processes = self.page.call_browser("SystemInfo.getProcessInfo", &json!({}));
+        let work: Vec<String> = processes["processInfo"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter(|p| p["type"] == "GPU" || p["type"] == "renderer")
+            .map(|p| format!("{} {:.1} s", p["type"], p["cpuTime"].as_f64().unwrap_or(0.0)))
+            .collect();
+        let measured = self.page.evaluate("JSON.stringify(window.frisure.measured())");
+        println!("{when}: {measured}; {}", work.join(", "));
     }
 
     /// Nothing was written to the console that somebody should see.

@@ -151,14 +151,18 @@ fn a_screen_reader_finds_and_uses_widgets() {
 fn measures() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     println!("the gallery after {:.2} s", salon.runs().as_secs_f64());
-    salon.command("begin curly");
-    salon.until("s.drawn");
-    println!("the first head: {}", salon.page.evaluate("frisure.measured().took"));
+    salon.tell_work("gallery");
+    salon.page.drop_file("small.toml", SMALL);
     salon.until("s.settled");
-    println!("at rest: {}", salon.page.evaluate("JSON.stringify(frisure.measured())"));
+    salon.picture("measured-small");
+    salon.tell_work("a small head");
+    salon.command("begin curly");
+    salon.until("s.drawn && s.name == 'Curly'");
+    salon.picture("measured-first");
+    salon.tell_work("the first head");
+    salon.until("s.settled");
+    salon.picture("measured-rest");
+    salon.tell_work("at rest");
     std::thread::sleep(std::time::Duration::from_secs(5));
-    println!("5 s later: {}", salon.page.evaluate("JSON.stringify(frisure.measured())"));
-    println!("state: {}", salon.page.evaluate("JSON.stringify(frisure.state())"));
-    let heap = salon.page.call("Runtime.getHeapUsage", &serde_json::json!({}));
-    println!("JavaScript: {heap}");
+    salon.tell_work("5 s later");
 }
