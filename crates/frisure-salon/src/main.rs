@@ -209,13 +209,17 @@ mod desktop {
             eframe::Error::Wgpu(_) => {
                 "The salon needs a graphics driver with Vulkan, Metal, DirectX 12 or OpenGL. On Linux \
                  without a GPU, install the software drivers (on Debian: mesa-vulkan-drivers), or try \
-                 --backend gl. The command `frisure` works without."
+                 another --backend. The command `frisure` works without."
             }
             _ => {
                 "The salon needs a screen. Without one, use the command `frisure`, or the page in a \
                  browser."
             }
         };
-        format!("the window cannot be opened: {error}\n  hint: {hint}")
+        // Where in whose source it was found helps nobody here.
+        let told = error.to_string();
+        let words = told.split_whitespace().filter(|word| !word.contains("/registry/"));
+        let told = words.collect::<Vec<_>>().join(" ");
+        format!("the window cannot be opened: {told}\n  hint: {hint}")
     }
 }

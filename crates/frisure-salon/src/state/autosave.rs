@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use super::Document;
 
-/// First line of what is kept: what follows is the path of the scene's file, if it had one.
+/// First line of what is kept: what follows is the path of the scene's file, if it had one, and what it
+/// is called.
 const MARK: &str = "# kept by the salon, not saved; file: ";
+const NAME: &str = "; name: ";
 
 /// Seconds from a change to when it is kept.
 pub(super) const AFTER: f64 = 1.0;
@@ -14,18 +16,19 @@ pub(super) const AFTER: f64 = 1.0;
 #[must_use]
 pub(super) fn keep(document: &Document) -> String {
     let path = document.path().unwrap_or(Path::new("")).display();
-    format!("{MARK}{path}\n{}", document.text())
+    // A name with a line's end would be part of the scene.
+    let name = document.name().replace(char::is_control, " ");
+    format!("{MARK}{path}{NAME}{name}\n{}", document.text())
 }
 
 /// A document that was kept; `None` for a text that no salon wrote.
 #[must_use]
 pub(super) fn kept(text: &str) -> Option<Document> {
     let (first, rest) = text.split_once('\n')?;
-    let path = first.strip_prefix(MARK)?.trim();
+    let (path, name) = first.strip_prefix(MARK)?.rsplit_once(NAME)?;
+    let path = path.trim();
     let path = (!path.is_empty()).then(|| PathBuf::from(path));
-    let name = path.as_deref().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
-    let mut document =
-        Document::new(name.unwrap_or_else(|| "Recovered".into()), path, "Recovered", rest);
+    let mut document = Document::new(name, path, "Recovered", rest);
     document.unsaved();
     Some(document)
 }

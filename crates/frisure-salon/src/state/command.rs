@@ -413,7 +413,8 @@ impl Salon {
                         (Growth::By(length), format!("{:.1} cm", length * 100.0))
                     }
                     Growing::Months(months) => {
-                        (Growth::For(months * MONTH), format!("{months} months"))
+                        let plural = if months == 1.0 { "" } else { "s" };
+                        (Growth::For(months * MONTH), format!("{months} month{plural}"))
                     }
                 };
                 let grow = Grow { selection, amount, stages: 1 };

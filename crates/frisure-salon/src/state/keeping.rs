@@ -121,6 +121,10 @@ impl Salon {
     /// What another start of the salon kept and nobody saved.
     pub fn found_kept(&mut self, text: &str) {
         self.recoverable = autosave::kept(text);
+        if self.recoverable.is_none() && !text.trim().is_empty() {
+            let hint = "It is left as it is until something else is kept.";
+            self.tell("what was kept over the last crash cannot be read", hint, true);
+        }
     }
 
     /// Takes up what was kept, or forgets it.

@@ -70,9 +70,12 @@ impl Chosen {
         Self { selection, label, wisps: None }
     }
 
-    /// All hair but this.
+    /// All hair but this; of all hair, all of it, since nothing cannot be chosen.
     #[must_use]
     pub fn inverted(&self) -> Self {
+        if self.is_everything() {
+            return self.clone();
+        }
         let label = format!("all but {}", self.label);
         let (selection, label) = match self.selection.clone() {
             Selection::Not(inner) => {

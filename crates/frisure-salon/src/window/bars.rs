@@ -270,7 +270,7 @@ fn holds(ui: &mut Ui, out: &mut Vec<Command>) {
 /// What is under way, and what there is to tell.
 pub(super) fn status(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     for (index, message) in salon.messages().iter().enumerate().rev().take(2) {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             if ui.small_button("×").on_hover_text("Dismiss").clicked() {
                 out.push(Command::Dismiss(index));
             }

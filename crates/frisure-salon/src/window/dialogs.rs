@@ -31,6 +31,8 @@ pub(super) struct Dialogs {
     frames: usize,
     film: bool,
     texture: Option<(u64, TextureHandle)>,
+    /// The question has just been opened: its field wants the keyboard.
+    is_new: bool,
     /// A path to open, for the window.
     pub(super) wanted: Option<PathBuf>,
 }
@@ -47,6 +49,7 @@ impl Default for Dialogs {
             frames: 24,
             film: false,
             texture: None,
+            is_new: false,
             wanted: None,
         }
     }
@@ -55,7 +58,7 @@ impl Default for Dialogs {
 impl Dialogs {
     /// Opens a question, with the usual answer.
     pub(super) fn ask(&mut self, dialog: Dialog, salon: &Salon, outside: &dyn Outside) {
-        self.open = Some(dialog);
+        (self.open, self.is_new) = (Some(dialog), true);
         let saved = salon.document().and_then(|d| d.path().map(PathBuf::from));
         let usual = |extension: &str| outside.folder().join(salon.file_name(extension));
         let path = match dialog {
@@ -109,6 +112,9 @@ impl Dialogs {
         let name = ui.label("File");
         let field = egui::TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(name.id);
+        if std::mem::take(&mut self.is_new) {
+            field.request_focus();
+        }
         field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter))
     }
 

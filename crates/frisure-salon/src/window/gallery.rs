@@ -14,7 +14,7 @@ use crate::state::{Card, Command, SCENES, Salon, TYPES};
 pub(super) struct Pictures(BTreeMap<&'static str, TextureHandle>);
 
 const CARD: Vec2 = vec2(150.0, 184.0);
-const CAPTION: f32 = 50.0;
+const CAPTION: f32 = 66.0;
 
 impl Pictures {
     fn of(&mut self, ui: &Ui, card: &Card) -> Option<&TextureHandle> {
@@ -25,6 +25,21 @@ impl Pictures {
         }
         self.0.get(card.name)
     }
+}
+
+/// Until there is hair of its own, the picture of a hair type in the middle of a place.
+pub(super) fn meanwhile(ui: &Ui, rect: Rect, hair_type: &str, pictures: &mut Pictures) {
+    let Some(card) = TYPES.iter().find(|card| card.name == hair_type) else { return };
+    let Some(texture) = pictures.of(ui, card) else { return };
+    let size = texture.size_vec2();
+    let size = size * (0.6 * rect.height() / size.y);
+    let place = Rect::from_center_size(rect.center(), size);
+    let uv = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+    let faint = egui::Color32::from_white_alpha(70);
+    ui.painter().image(texture.id(), place, uv, faint);
+    let text = "The first hair is coming…";
+    let (at, font) = (place.center_bottom() + vec2(0.0, 14.0), FontId::proportional(16.0));
+    ui.painter().text(at, Align2::CENTER_TOP, text, font, egui::Color32::from_gray(200));
 }
 
 /// A PNG of ours, whatever its palette.

@@ -30,8 +30,18 @@ pub(super) const HELP: &[(&str, &str)] = &[
 ];
 
 /// The commands that keys give in this frame, and the dialog that one opens.
-pub(super) fn commands(ui: &Ui, salon: &Salon, aspect: f64) -> (Vec<Command>, Option<Dialog>) {
+///
+/// While a question is open (`asking`), keys belong to it.
+pub(super) fn commands(
+    ui: &Ui,
+    salon: &Salon,
+    aspect: f64,
+    asking: bool,
+) -> (Vec<Command>, Option<Dialog>) {
     let mut out = Vec::new();
+    if asking {
+        return (out, None);
+    }
     let hit = |modifiers: Modifiers, key: Key| {
         ui.input_mut(|i| i.consume_shortcut(&KeyboardShortcut::new(modifiers, key)))
     };

@@ -279,7 +279,7 @@ impl App {
         Edge::bottom("choosing").show(ui, |ui| bars::choosing(ui, &self.salon, out));
         let side = Edge::right("side").exact_size(330.0);
         side.resizable(false).show(ui, |ui| {
-            Edge::bottom("history").exact_size(170.0).show(ui, |ui| {
+            Edge::bottom("history").exact_size(132.0).show(ui, |ui| {
                 ui.strong("History");
                 panels::history(ui, &self.salon, out);
             });
@@ -291,7 +291,12 @@ impl App {
         CentralPanel::default().frame(frame).show(ui, |ui| {
             self.aspect = viewport::aspect(ui.available_rect_before_wrap());
             if self.has_theatre {
+                let rect = ui.available_rect_before_wrap();
                 self.viewport.show(ui, &mut self.salon, out);
+                if let (None, Some(understood)) = (self.salon.shown(), self.salon.scene()) {
+                    let hair_type = understood.scene.hair_type;
+                    gallery::meanwhile(ui, rect, hair_type, &mut self.pictures);
+                }
             } else {
                 ui.label("There is no graphics device to draw the head with.");
             }
@@ -353,12 +358,17 @@ impl eframe::App for App {
         self.dropped(ui);
         let mut out = Vec::new();
         self.body(ui, &mut out);
+        // Escape that closes a question is no key for the head behind it.
+        let was_asking = self.dialogs.open.is_some();
         self.dialogs.show(ui, &self.salon, self.outside.as_mut(), &mut out);
         self.recovery(ui, &mut out);
         if let Some(path) = self.dialogs.wanted.take() {
             self.open(&path);
         }
-        let (commands, dialog) = keys::commands(ui, &self.salon, self.aspect);
+        let (commands, dialog) = {
+            let asking = self.dialogs.open.is_some() || self.salon.recoverable().is_some();
+            keys::commands(ui, &self.salon, self.aspect, was_asking || asking)
+        };
         if let Some(dialog) =
             dialog.filter(|d| needs_no_hair(*d) || self.salon.document().is_some())
         {

@@ -484,10 +484,13 @@ pub(super) fn badge(salon: &Salon) -> (String, Color32) {
             let text = format!("Unstable: {count} guides");
             (text, Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230))
         }
-        Badge::Refused(_) => (
-            "Not possible: as before".into(),
-            Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230),
-        ),
+        Badge::Refused(_) => {
+            let text = match salon.shown() {
+                Some(_) => "Not possible: as before",
+                None => "Not possible",
+            };
+            (text.into(), Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230))
+        }
     }
 }
 

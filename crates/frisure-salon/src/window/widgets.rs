@@ -22,9 +22,9 @@ fn with_help(ui: &mut Ui, button: impl Widget, help: &str) -> Response {
     if help.is_empty() { response } else { response.on_hover_text(help) }
 }
 
-/// A slider of a control under its name; the command it gives, if it is moved.
-pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Option<Command> {
-    let mut command = None;
+/// A slider of a control under its name; the commands it gives, if it is moved.
+pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Vec<Command> {
+    let mut commands = Vec::new();
     ui.horizontal(|ui| {
         let name = ui.label(control.label).on_hover_text(control.help);
         ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
@@ -35,7 +35,7 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Opti
                 eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, label)
             });
             if reset.clicked() {
-                command = Some(Command::Reset(control.key));
+                commands.push(Command::Reset(control.key));
             }
         });
         name.id
@@ -55,13 +55,15 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Opti
     response.widget_info(|| eframe::egui::WidgetInfo::slider(true, value, control.label));
     // A value that is shown rounded is no change.
     let moved = control.clean(now) != control.clean(value);
-    if response.drag_stopped() {
-        command = Some(Command::LetGo);
-    } else if response.changed() && moved {
-        command = Some(match response.dragged() {
+    let held = response.dragged() || response.drag_stopped();
+    if response.changed() && moved {
+        commands.push(match held {
             true => Command::Drag(control.key, now),
             false => Command::Set(control.key, now),
         });
     }
-    command
+    if response.drag_stopped() {
+        commands.push(Command::LetGo);
+    }
+    commands
 }
