@@ -16,8 +16,6 @@ pub struct Canvas {
     /// For the head, with several samples per pixel, made when first needed.
     pub(crate) fine: Option<Fine>,
     pub(crate) known: Known,
-    /// The picture for somebody else's pass.
-    pub(crate) shown: Option<wgpu::BindGroup>,
 }
 
 /// What is drawn on.
@@ -43,13 +41,7 @@ impl Canvas {
     /// [`ViewError::Size`], if the device has no such pictures.
     pub fn new(device: &Device, size: [u32; 2]) -> Result<Self, ViewError> {
         check(device, size)?;
-        Ok(Self {
-            size,
-            targets: Targets::new(device, size),
-            fine: None,
-            known: Known::default(),
-            shown: None,
-        })
+        Ok(Self { size, targets: Targets::new(device, size), fine: None, known: Known::default() })
     }
 
     /// Gives it another size; what it showed is lost.
@@ -62,8 +54,6 @@ impl Canvas {
             self.size = size;
             self.targets = Targets::new(device, size);
             self.fine = None;
-            self.shown = None;
-            self.known.forget_picture();
         }
         Ok(())
     }
@@ -75,7 +65,7 @@ impl Canvas {
     }
 
     /// The finished picture: red, green, blue as on the screen (sRGB) and unassociated alpha per pixel, row by
-    /// row from the top left. Waits for the device; not for pages.
+    /// row from the top left. Waits for the device, which pages cannot do.
     ///
     /// # Errors
     /// [`ViewError::Lost`], if the device does not answer; [`ViewError::TooLarge`].
@@ -136,7 +126,7 @@ fn mapped(device: &Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ViewError> 
         let _ = send.send(result);
     });
     device.poll(wgpu::PollType::wait_indefinitely()).map_err(lost)?;
-    receive.recv().map_err(lost)?.map_err(lost)?;
+    receive.try_recv().map_err(lost)?.map_err(lost)?;
     let view = buffer.slice(..).get_mapped_range().map_err(lost)?;
     Ok(view.to_vec())
 }

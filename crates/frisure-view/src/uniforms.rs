@@ -5,12 +5,12 @@ use frisure_render::preview::numbers;
 use frisure_render::{Background, Camera, ToneCurve};
 use glam::{DVec3, Vec3};
 
-use crate::frame::{Frame, MAX_PLANES, Plane, linear};
+use crate::frame::{Frame, MAX_PLANES, Plane, Shadows, linear};
 use crate::lamps::{LAMPS, Lamp};
 use crate::room::RoomOnDevice;
 
 /// How much nearer to a lamp hair looks up how much hair is before it (m): hair must not shade itself.
-const LIFT: f32 = 1.6e-3;
+const LIFT: f32 = 2.3e-3;
 /// Half of what counts as around a hair (m): of a cell of the preview's finest maps.
 const HALF_CELL: f32 = 1.1e-3;
 
@@ -41,7 +41,8 @@ pub(crate) fn packed(
     all.push([frame.stops.exp2(), tone(frame.tone), lamps.len() as f32, planes.len() as f32]);
     all.extend(marks(frame));
     let varies = frame.hair.is_some_and(crate::Hair::varies);
-    all.push([f32::from(u8::from(varies)), 0.0, LIFT, HALF_CELL]);
+    let soft = frame.shadows == Shadows::Fine;
+    all.push([f32::from(u8::from(varies)), f32::from(u8::from(soft)), LIFT, HALF_CELL]);
     for i in 0..LAMPS {
         all.extend(lamps.get(i).map_or([[0.0; 4]; 7], |lamp| lamp.packed(i)));
     }

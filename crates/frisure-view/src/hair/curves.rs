@@ -13,6 +13,8 @@ const DETAIL: [(f32, f32); 6] =
     [(0.15, 0.014), (0.2, 0.016), (0.25, 0.02), (0.33, 0.025), (0.45, 0.03), (0.6, 0.04)];
 /// Vertices that a device can well draw many times a second.
 const VERTICES: usize = 1_800_000;
+/// Most vertices, whatever the detail; fewer strands are kept where there are more.
+pub(super) const MOST: usize = if cfg!(target_arch = "wasm32") { 3_000_000 } else { 6_000_000 };
 /// Strands that tell how many vertices all need.
 const SAMPLE: usize = 2048;
 /// Most pieces for one segment of the input.

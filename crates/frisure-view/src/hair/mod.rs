@@ -29,8 +29,6 @@ pub(crate) const ROW: u32 = 2048;
 pub struct Hair {
     strands: Strands,
     curves: CurvesOnce,
-    /// Changes whenever anything does.
-    version: u64,
     /// Changes with the shape.
     shape: u64,
     box_: (Vec3, Vec3),
@@ -62,8 +60,8 @@ struct Textures {
 
 impl Hair {
     /// Puts strands on the device. Strands that cannot be drawn (fewer than two points, numbers that are not
-    /// finite) are left out; where the device has too little room for all, evenly chosen ones are, and the
-    /// others are wider.
+    /// finite) are left out; where there is too little room for all, evenly chosen ones are, and the others are
+    /// wider.
     #[must_use]
     pub fn new(
         renderer: &Renderer,
@@ -73,7 +71,7 @@ impl Hair {
         look: &HairLook,
     ) -> Self {
         let side = device.limits().max_texture_dimension_2d;
-        let curves = Curves::new(strands, ROW as usize * side as usize);
+        let curves = Curves::new(strands, curves::MOST.min(ROW as usize * side as usize));
         let textures = Textures::new(device, queue, &curves);
         let group = textures.group(renderer, device);
         let shape = version();
@@ -81,7 +79,6 @@ impl Hair {
             strands: strands.clone(),
             box_: enclosing(&curves),
             curves: CurvesOnce(curves),
-            version: shape,
             shape,
             taken: Vec3::ONE,
             reflected: Vec3::ZERO,
@@ -103,7 +100,6 @@ impl Hair {
         look: &HairLook,
     ) {
         self.paint(renderer, device, queue, look);
-        self.version = version();
     }
 
     /// Marks strands, one mark for each of those that the hair was made of; those without one have none.
@@ -115,7 +111,6 @@ impl Hair {
             let values = self.curves.0.strands.iter().map(of);
             let bytes = padded(values.map(texel_of), ROW as usize, [0.0, NEVER]);
             gpu::fill(queue, &self.textures.marks, ROW as usize * 8, cast_slice(&bytes));
-            self.version = version();
         }
         self.marked = any;
     }
@@ -130,10 +125,6 @@ impl Hair {
     #[must_use]
     pub fn vertices(&self) -> usize {
         self.curves.0.places.len()
-    }
-
-    pub(crate) fn version(&self) -> u64 {
-        self.version
     }
 
     pub(crate) fn shape(&self) -> u64 {

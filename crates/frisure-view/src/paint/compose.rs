@@ -10,13 +10,13 @@ use crate::gpu;
 
 impl Job<'_> {
     /// Hair over head over background, and lines.
-    pub(super) fn compose(&self, encoder: &mut CommandEncoder, canvas: &mut Canvas) {
+    pub(super) fn compose(&self, encoder: &mut CommandEncoder, canvas: &Canvas) {
         let (targets, sampler) = (&canvas.targets, &self.renderer.sampler);
         let Some((_, around)) = &canvas.known.surroundings else { return };
         let (hair, head) = (gpu::whole(&targets.hair), gpu::whole(&targets.head));
         let [hair, head, around] = [&hair, &head, around].map(BindingResource::TextureView);
         let sampler = BindingResource::Sampler(sampler);
-        let resources = [hair, head, around, sampler.clone()];
+        let resources = [hair, head, around, sampler];
         let layers = gpu::group(self.device, &self.renderer.layouts.compose, &resources);
         let view = gpu::whole(&targets.picture);
         let target = [gpu::target(&view, Some([0.0; 4]))];
@@ -27,8 +27,6 @@ impl Job<'_> {
         pass.draw(0..3, 0..1);
         drop(pass);
         self.draw_lines(encoder, canvas, &view);
-        let resources = [BindingResource::TextureView(&view), sampler];
-        canvas.shown = Some(gpu::group(self.device, &self.renderer.layouts.show, &resources));
     }
 
     /// Lines that head and hair may hide, then those on top.

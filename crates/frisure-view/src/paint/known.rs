@@ -1,16 +1,15 @@
 //! What was computed for the last picture and may be right for the next.
 
 use frisure_render::preview::parts::FewLights;
-use frisure_render::{Background, Camera, Lights, Look, Room, ToneCurve, preview};
+use frisure_render::{Background, Lights, Room, preview};
 use frisure_strands::Strands;
 use glam::{DVec3, Vec3};
 use wgpu::{BindGroup, Buffer, BufferUsages, CommandEncoder, Device, Queue, TextureView};
 
 use super::Job;
 use super::hair::{Shaded, Sorted};
-use crate::frame::{Frame, Line, MarkColours, Plane, Shadows};
+use crate::frame::Frame;
 use crate::gpu;
-use crate::hair::Hair;
 use crate::maps::Maps;
 use crate::renderer::Renderer;
 use crate::room::{RoomOnDevice, surroundings};
@@ -19,7 +18,6 @@ use crate::uniforms;
 /// All of it.
 #[derive(Debug, Default)]
 pub(crate) struct Known {
-    shown: Option<Shown>,
     pub(super) numbers: Option<(Buffer, BindGroup)>,
     lights: Option<(Lights, DVec3, FewLights)>,
     room: Option<(RoomKey, RoomOnDevice)>,
@@ -32,63 +30,7 @@ pub(crate) struct Known {
 /// What the room's light depends on.
 type RoomKey = (Option<(u64, Vec3)>, Option<u64>, [Vec3; preview::parts::AROUND]);
 
-/// The frame that a canvas shows.
-#[derive(Debug)]
-struct Shown {
-    camera: Camera,
-    lights: Lights,
-    look: Look,
-    things: (Option<u64>, Option<u64>),
-    share: f32,
-    shadows: Shadows,
-    lines: Vec<Line>,
-    planes: Vec<Plane>,
-    film: (ToneCurve, f32),
-    mark_colours: MarkColours,
-}
-
-/// Versions of hair and head.
-fn things(frame: &Frame<'_>) -> (Option<u64>, Option<u64>) {
-    (frame.hair.map(Hair::version), frame.skin.map(crate::Skin::version))
-}
-
 impl Known {
-    /// Whether this very frame was drawn last.
-    pub(super) fn shows(&self, frame: &Frame<'_>) -> bool {
-        self.shown.as_ref().is_some_and(|shown| {
-            shown.camera == frame.camera
-                && shown.things == things(frame)
-                && shown.share == frame.share
-                && shown.shadows == frame.shadows
-                && shown.lines == frame.lines
-                && shown.planes == frame.planes
-                && shown.film == (frame.tone, frame.stops)
-                && shown.mark_colours == frame.mark_colours
-                && shown.look == *frame.look
-                && shown.lights == *frame.lights
-        })
-    }
-
-    pub(super) fn remember(&mut self, frame: &Frame<'_>) {
-        self.shown = Some(Shown {
-            camera: frame.camera,
-            lights: frame.lights.clone(),
-            look: frame.look.clone(),
-            things: things(frame),
-            share: frame.share,
-            shadows: frame.shadows,
-            lines: frame.lines.to_vec(),
-            planes: frame.planes.to_vec(),
-            film: (frame.tone, frame.stops),
-            mark_colours: frame.mark_colours,
-        });
-    }
-
-    /// The picture is another, or gone.
-    pub(crate) fn forget_picture(&mut self) {
-        self.shown = None;
-    }
-
     pub(super) fn lights(&self) -> Option<&FewLights> {
         self.lights.as_ref().map(|(_, _, few)| few)
     }

@@ -6,10 +6,11 @@ mod head;
 mod known;
 
 use bytemuck::cast_slice;
-use wgpu::{BindGroup, CommandEncoder, Device, Queue, RenderPass};
+use wgpu::{BindGroup, BindingResource, CommandEncoder, Device, Queue, RenderPass};
 
 use crate::canvas::Canvas;
 use crate::frame::{Frame, Shadows};
+use crate::gpu;
 use crate::hair::Hair;
 use crate::lamps::{Lamp, strongest};
 use crate::renderer::Renderer;
@@ -32,8 +33,8 @@ pub(crate) struct Job<'a> {
 }
 
 impl Renderer {
-    /// Draws into the canvas: shadows, light along the hairs, hair, head, lines. Where the canvas shows this
-    /// very frame already, nothing is done. The commands take effect when the caller submits the encoder.
+    /// Draws into the canvas: shadows, light along the hairs, hair, head, lines. The commands take effect when
+    /// the caller submits the encoder.
     pub fn draw(
         &self,
         device: &Device,
@@ -42,9 +43,6 @@ impl Renderer {
         canvas: &mut Canvas,
         frame: &Frame<'_>,
     ) {
-        if canvas.known.shows(frame) {
-            return;
-        }
         let hair = frame.hair.filter(|hair| hair.strands() > 0);
         let frame = &Frame { hair, ..frame.clone() };
         canvas.known.prepare(self, device, queue, frame);
@@ -56,16 +54,17 @@ impl Renderer {
         job.draw_hair(encoder, canvas);
         job.draw_head(encoder, canvas);
         job.compose(encoder, canvas);
-        canvas.known.remember(frame);
     }
 
-    /// Draws the finished picture over the whole viewport of somebody else's pass; nothing before there is one.
-    pub fn show(&self, pass: &mut RenderPass<'_>, canvas: &Canvas) {
-        if let Some(group) = &canvas.shown {
-            pass.set_pipeline(&self.pipelines.show);
-            pass.set_bind_group(0, group, &[]);
-            pass.draw(0..3, 0..1);
-        }
+    /// Draws the finished picture over the whole viewport of somebody else's pass.
+    pub fn show(&self, device: &Device, pass: &mut RenderPass<'_>, canvas: &Canvas) {
+        let view = gpu::whole(&canvas.targets.picture);
+        let sampler = BindingResource::Sampler(&self.sampler);
+        let resources = [BindingResource::TextureView(&view), sampler];
+        let group = gpu::group(device, &self.layouts.show, &resources);
+        pass.set_pipeline(&self.pipelines.show);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
     }
 }
 

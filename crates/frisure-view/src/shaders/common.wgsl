@@ -66,7 +66,8 @@ struct Picture {
     chosen: vec4<f32>,
     // Linear colour of hair that will fall; w: its opacity.
     falling: vec4<f32>,
-    // Material per vertex (1) or per strand (0); y: unused; how much nearer to a lamp hair looks up how much
+    // Material per vertex (1) or per strand (0); whether the head's shadows on itself are soft (1) or not (0);
+    // how much nearer to a lamp hair looks up how much
     // hair is before it, and half of what counts as around it (m).
     hair: vec4<f32>,
     lamps: array<Lamp, 4>,
@@ -87,7 +88,7 @@ fn texel(index: u32) -> vec2<i32> {
     return vec2<i32>(i32(index % ROW), i32(index / ROW));
 }
 
-// Two triangles' worth of a triangle that covers everything.
+// A triangle that covers everything.
 fn everything(corner: u32) -> vec4<f32> {
     let x = f32((corner << 1u) & 2u);
     let y = f32(corner & 2u);

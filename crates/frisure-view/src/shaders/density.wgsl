@@ -45,7 +45,8 @@ fn ribbon(@builtin(vertex_index) corner: u32, @location(0) first: u32) -> Ribbon
     let p = in_hair_map(lamp, a.xyz);
     let q = in_hair_map(lamp, b.xyz);
     let width = 0.25 * (a.w + b.w) * current.y * lamp.hair.x * lamp.hair.z;
-    let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(2.0, 2.0), corner);
+    // About as soft as the preview's maps: the pieces drawn are a sample of all.
+    let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(3.5, 3.5), corner);
     let ndc = line.at / lamp.hair.z * 2.0 - 1.0;
     out.offset = line.offset;
     out.depth = select(p.z, q.z, line.end > 0.5);

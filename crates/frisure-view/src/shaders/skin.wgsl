@@ -16,7 +16,8 @@ struct Skin {
     @location(0) place: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) room: vec3<f32>,
-    @location(3) @interpolate(flat) lamps: i32,
+    // Lamps, and whether the head's shadows are soft.
+    @location(3) @interpolate(flat) kinds: vec2<i32>,
 }
 
 fn projected(p: vec3<f32>) -> vec4<f32> {
@@ -29,7 +30,7 @@ fn projected(p: vec3<f32>) -> vec4<f32> {
 
 @vertex
 fn skin_vertex(in: Vertex) -> Skin {
-    return Skin(projected(in.position), in.position, in.normal, in.room, i32(picture.film.z));
+    return Skin(projected(in.position), in.position, in.normal, in.room, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)));
 }
 
 fn aside(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, eighths: f32) -> f32 {
@@ -39,9 +40,9 @@ fn aside(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, eighths: f32) -> f32 
 
 // Mean over a lamp as wide as a soft box: over the middle and two rings of four and of eight places. Most of the
 // head is all lit or all dark, and four places of the outer ring tell.
-fn softly_past_head(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32) -> f32 {
+fn softly_past_head(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, middle: f32) -> f32 {
     let outer = 0.855 * radius;
-    var open = past_head(lamp, p, bias) + aside(lamp, p, bias, outer, 0.5) + aside(lamp, p, bias, outer, 2.5)
+    var open = middle + aside(lamp, p, bias, outer, 0.5) + aside(lamp, p, bias, outer, 2.5)
         + aside(lamp, p, bias, outer, 4.5) + aside(lamp, p, bias, outer, 6.5);
     if open == 0.0 || open == 5.0 {
         return open / 5.0;
@@ -55,7 +56,7 @@ fn softly_past_head(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32) -> f32 {
 }
 
 // The light of a lamp that skin at a place sends to the eye.
-fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>) -> vec3<f32> {
+fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, soft: bool) -> vec3<f32> {
     let wrap = picture.skin_shape.x;
     let bias = picture.skin_shape.y;
     let facing = (dot(normal, lamp.towards.xyz) + wrap) / (1.0 + wrap);
@@ -63,7 +64,10 @@ fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>) ->
         return vec3<f32>(0.0);
     }
     let lifted = place + bias * normal;
-    let open = softly_past_head(lamp, lifted, bias, picture.skin_shape.z);
+    var open = past_head(lamp, lifted, bias);
+    if soft {
+        open = softly_past_head(lamp, lifted, bias, picture.skin_shape.z, open);
+    }
     let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
     let passed = open * exp(-met.before * picture.taken.rgb);
     let half = normalize(lamp.towards.xyz + eye);
@@ -81,8 +85,8 @@ fn skin(in: Skin) -> @location(0) vec4<f32> {
     var normal = normalize(in.normal);
     normal = select(normal, -normal, dot(normal, eye) < 0.0);
     var light = in.room * picture.skin.rgb;
-    for (var i = 0; i < in.lamps; i += 1) {
-        light += skin_from(picture.lamps[i], in.place, normal, eye);
+    for (var i = 0; i < in.kinds.x; i += 1) {
+        light += skin_from(picture.lamps[i], in.place, normal, eye, in.kinds.y > 0);
     }
     return vec4<f32>(behind_planes(light, in.place), 1.0);
 }
