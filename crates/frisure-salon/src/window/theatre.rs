@@ -79,6 +79,7 @@ fn as_strands(data: &StrandsData) -> Strands {
 
 /// What is on the device.
 struct Theatre {
+    device: wgpu::Device,
     renderer: Renderer,
     stages: [Stage; 2],
     skin: Option<(Skin, u64)>,
@@ -119,7 +120,8 @@ struct Drawn {
 /// Makes the theatre of a window.
 pub(super) fn build(state: &RenderState, samples: u32) {
     let renderer = Renderer::new(&state.device, &state.queue, state.target_format, samples);
-    let theatre = Theatre { renderer, stages: Default::default(), skin: None };
+    let theatre =
+        Theatre { device: state.device.clone(), renderer, stages: Default::default(), skin: None };
     state.renderer.write().callback_resources.insert(theatre);
 }
 
@@ -153,7 +155,7 @@ impl CallbackTrait for Picture {
     ) {
         let Some(theatre) = resources.get::<Theatre>() else { return };
         if let Some(canvas) = &theatre.stages[self.side as usize].canvas {
-            theatre.renderer.show(pass, canvas);
+            theatre.renderer.show(&theatre.device, pass, canvas);
         }
     }
 }

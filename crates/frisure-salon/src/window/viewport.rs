@@ -257,14 +257,14 @@ impl Viewport {
         let marks = (side == Side::Now).then(|| self.marks(salon)).flatten();
         let alone = salon.alone().and_then(|alone| alone.hair.clone());
         let (mut lines, mut planes) = (Vec::new(), Vec::new());
-        if let Some(hair) = alone.as_ref().filter(|_| side == Side::Now) {
+        // The others are out of the way.
+        let isolated = alone.is_some() && side == Side::Now;
+        if let Some(hair) = alone.as_ref().filter(|_| isolated) {
             lines = frames(hair);
         }
         if salon.tool() == Tool::Cut && side == Side::Now {
             planes.push(cutting_plane(salon.plane()));
         }
-        // One hair is seen among a few others, so that it is clear where it is.
-        let share = if alone.is_some() { 0.004 } else { share };
         let tone = match understood.scene.output.tone {
             frisure::io::scene::Tone::Plain => ToneCurve::Plain,
             frisure::io::scene::Tone::Shoulder => ToneCurve::Shoulder,
@@ -273,7 +273,7 @@ impl Viewport {
         let head = salon.head().map(|head| (head.clone(), Arc::as_ptr(head) as usize as u64));
         Some(Picture {
             side,
-            hair: Some((hair, version)),
+            hair: (!isolated).then_some((hair, version)),
             head,
             camera,
             lights,
