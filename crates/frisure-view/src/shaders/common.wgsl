@@ -121,7 +121,9 @@ fn behind_plane(light: vec3<f32>, p: vec3<f32>, plane: Plane) -> vec3<f32> {
     let h = picture.eye.xyz + t * way - plane.centre.xyz;
     let inside = max(abs(dot(h, plane.right.xyz)), abs(dot(h, plane.up.xyz)));
     let edge = smoothstep(0.975, 0.985, inside);
-    let opacity = plane.colour.a * (1.0 + 1.5 * edge) * step(t, 1.0) * step(1e-9, t) * step(inside, 1.0);
+    // Seen along itself it would be a row of dots.
+    let facing = smoothstep(0.01, 0.04, abs(slope) / max(length(way), 1e-6));
+    let opacity = plane.colour.a * facing * (1.0 + 1.5 * edge) * step(t, 1.0) * step(1e-9, t) * step(inside, 1.0);
     return mix(light, plane.colour.rgb, min(opacity, 1.0));
 }
 

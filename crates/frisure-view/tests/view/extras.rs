@@ -5,14 +5,14 @@ use frisure_strands::{Strands, Surface};
 use frisure_view::{Frame, Hair, Line, Mark, Plane, Skin};
 use glam::Vec3;
 
-use crate::support::Gpu;
+use crate::Turn;
 use crate::support::measure::compare;
 use crate::wig::{self, Style};
 
 const SIZE: [u32; 2] = [128, 128];
 
 struct Scene {
-    gpu: &'static Gpu,
+    gpu: Turn,
     hair: Hair,
     skin: Skin,
     camera: Camera,
@@ -25,14 +25,9 @@ impl Scene {
         let gpu = crate::gpu()?;
         let (device, queue, look) = (&gpu.device, &gpu.queue, Look::default());
         let camera = Camera::framing(preview::bounds(strands, Some(ball)), 0.4, 0.1, 1.0);
-        Some(Self {
-            gpu,
-            hair: Hair::new(&gpu.renderer, device, queue, strands, &look.hair),
-            skin: Skin::new(&gpu.renderer, device, queue, ball),
-            camera,
-            lights: Lights::studio(&camera),
-            look,
-        })
+        let hair = Hair::new(&gpu.renderer, device, queue, strands, &look.hair);
+        let skin = Skin::new(&gpu.renderer, device, queue, ball);
+        Some(Self { gpu, hair, skin, camera, lights: Lights::studio(&camera), look })
     }
 
     fn wig() -> Option<Self> {

@@ -29,20 +29,20 @@ fn picture(gpu: &Gpu, strands: &Strands) -> Vec<u8> {
 #[test]
 fn strands_that_cannot_be_drawn_are_left_out() {
     let Some(gpu) = crate::gpu() else { return };
-    let empty = picture(gpu, &Strands::new());
+    let empty = picture(&gpu, &Strands::new());
     assert_eq!(empty.len(), 32 * 48 * 4);
     let mut strands = Strands::new();
     strands.push(&[], &[]);
     strands.push(&[Vec3::ZERO], &[1e-5]);
     strands.push(&[Vec3::ZERO, Vec3::NAN], &[1e-5; 2]);
     strands.push(&[Vec3::ZERO, Vec3::Z], &[1e-5, f32::INFINITY]);
-    assert_eq!(picture(gpu, &strands), empty);
+    assert_eq!(picture(&gpu, &strands), empty);
     // Of no length, of no width, behind the eye, and far too long: they are drawn as far as can be.
     strands.push(&[Vec3::ZERO; 3], &[1e-5; 3]);
     strands.push(&[Vec3::ZERO, Vec3::X], &[0.0, -1.0]);
     strands.push(&[Vec3::NEG_Y * 9.0, Vec3::Y * 9.0], &[1e-5; 2]);
     strands.push(&[Vec3::ZERO, Vec3::Z * 1e30], &[1e-5; 2]);
-    assert_eq!(picture(gpu, &strands).len(), empty.len());
+    assert_eq!(picture(&gpu, &strands).len(), empty.len());
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn an_eye_in_the_hair_sees_something() {
 #[test]
 fn a_lost_device_is_an_error() {
     // Its own: the others go on.
-    let Some(_) = crate::gpu() else { return };
+    let Some(_turn) = crate::gpu() else { return };
     let Some(gpu) = Gpu::new() else { return };
     let (lights, look) = (Lights::default(), Look::default());
     let mut canvas = Canvas::new(&gpu.device, SIZE).unwrap();
