@@ -41,7 +41,7 @@ pub fn scene<'a>(
 /// The renderer's scene, seen from a camera of one's own; a floor is under all of `framed`.
 ///
 /// # Errors
-/// As [`self::scene`].
+/// As [`scene()`].
 pub fn seen_from<'a>(
     scene: &Scene,
     camera: Camera,
@@ -62,7 +62,7 @@ pub fn seen_from<'a>(
 /// is no floor in it.
 ///
 /// # Errors
-/// As [`self::scene`].
+/// As [`scene()`].
 pub fn look_and_lights(
     scene: &Scene,
     camera: &Camera,
@@ -107,7 +107,7 @@ pub fn camera_at(
 /// its left, so that it seems to turn to its right.
 ///
 /// # Errors
-/// As [`self::scene`].
+/// As [`scene()`].
 pub fn turntable(
     scene: &Scene,
     strands: &Strands,
@@ -132,7 +132,7 @@ pub fn turntable(
 /// The cameras of a turntable that begins at one of one's own, each with its lights.
 ///
 /// # Errors
-/// As [`self::scene`].
+/// As [`scene()`].
 pub fn turned(
     scene: &Scene,
     first: Camera,

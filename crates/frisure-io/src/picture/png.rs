@@ -17,7 +17,7 @@ pub fn write(path: &Path, width: u32, height: u32, rgba: &[u8]) -> Result<(), Pi
     Ok(())
 }
 
-/// The bytes of the file that [`write`] writes.
+/// The bytes of the file that [`write()`] writes.
 ///
 /// # Errors
 /// [`PictureError::Size`].
@@ -28,7 +28,7 @@ pub fn encode(width: u32, height: u32, rgba: &[u8]) -> Result<Vec<u8>, PictureEr
     Ok(bytes)
 }
 
-/// The bytes of an animated PNG that never ends, of frames as in [`write`], each seen for as many
+/// The bytes of an animated PNG that never ends, of frames as in [`write()`], each seen for as many
 /// milliseconds. Programs that know no animation show the first.
 ///
 /// # Errors
