@@ -46,7 +46,7 @@ pub enum Badge {
 /// Most coarse answers one after the other to one text, while a slider is held and when it is not: exact
 /// work takes seconds, and hair that has not come far yet is no sight.
 const ROUGH_HELD: usize = 30;
-const ROUGH: usize = 8;
+const ROUGH: usize = 3;
 
 /// Points along a hair that is looked at alone.
 const ALONE: usize = 120;

@@ -76,7 +76,7 @@ impl App {
         if let Some(state) = &cc.wgpu_render_state {
             theatre::build(state, parts.samples);
         }
-        let Parts { hair, aside, mut outside, .. } = parts;
+        let Parts { hair, aside, mut outside, samples } = parts;
         let mut salon = Salon::new();
         if let Some(text) = outside.kept() {
             salon.found_kept(&text);
@@ -86,7 +86,7 @@ impl App {
             hair,
             aside,
             outside,
-            viewport: Viewport::default(),
+            viewport: Viewport::new(samples == 1),
             dialogs: Dialogs::default(),
             pictures: gallery::Pictures::default(),
             choices: choices(),

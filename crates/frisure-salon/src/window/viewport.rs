@@ -36,6 +36,8 @@ pub(super) struct Viewport {
     /// The picture of surroundings that was read last: its path, and what it shows.
     surroundings: Option<(PathBuf, Option<EnvironmentMap>)>,
     pub(super) trouble: Arc<Mutex<Option<String>>>,
+    /// The device is slow, as somebody said who asked for one sample.
+    is_slow: bool,
 }
 
 struct MarksOf {
@@ -55,6 +57,11 @@ const FEWEST: f32 = 4000.0;
 const TURN: f64 = 3.5;
 
 impl Viewport {
+    /// A viewport on a device that is slow, or not.
+    pub(super) fn new(is_slow: bool) -> Self {
+        Self { is_slow, ..Self::default() }
+    }
+
     /// Shows it, and says what the hand does.
     pub(super) fn show(&mut self, ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
         let rect = ui.available_rect_before_wrap();
@@ -88,7 +95,8 @@ impl Viewport {
     fn pace(&mut self, ui: &Ui, now: f64, salon: &Salon) -> (f32, Shadows) {
         let held = salon.document().is_some_and(crate::state::Document::is_draft);
         if now - self.moved > REST && !held {
-            return (1.0, Shadows::Fine);
+            // Maps of density are what costs most without a graphics card.
+            return (1.0, if self.is_slow { Shadows::None } else { Shadows::Fine });
         }
         if self.share == 0.0 {
             self.share = 0.3;
@@ -107,7 +115,11 @@ impl Viewport {
         ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(REST + 0.01));
         // Steps, so that not every frame draws another choice of hairs.
         let steps = (self.share.log2() * 2.0).round() / 2.0;
-        let shadows = if self.share < 1.0 { Shadows::Coarse } else { Shadows::Fine };
+        let shadows = match (self.is_slow, self.share < 1.0) {
+            (true, _) => Shadows::None,
+            (false, true) => Shadows::Coarse,
+            (false, false) => Shadows::Fine,
+        };
         (steps.exp2().min(1.0), shadows)
     }
 
