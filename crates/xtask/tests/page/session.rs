@@ -3,7 +3,7 @@
 use crate::salon::Salon;
 
 /// Few hairs and one sample: all is drawn without a graphics card.
-const QUERY: &str = "?backend=webgl&samples=1&hairs=300";
+const QUERY: &str = "?backend=webgl&samples=1&hairs=150";
 
 /// A scene that takes no time.
 const SMALL: &str = "[hair]\ntype = \"straight\"\nlength = \"9 cm\"\n[wisps]\ncount = 30\n";
