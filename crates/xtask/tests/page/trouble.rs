@@ -2,7 +2,7 @@
 
 use crate::salon::Salon;
 
-const QUERY: &str = "?backend=webgl&samples=1&hairs=500";
+const QUERY: &str = "?backend=webgl&samples=1&hairs=150";
 
 #[test]
 fn a_program_that_breaks_down_says_so_and_opens_again() {
