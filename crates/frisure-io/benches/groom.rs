@@ -1,6 +1,7 @@
 //! Writing a whole head of hair: 100 000 strands of 30 points.
 
-use frisure_io::groom::{hair, write_groom};
+use frisure_io::frame::FrameChoice;
+use frisure_io::groom::{Groom, read_groom, write_groom};
 use frisure_strands::Strands;
 use glam::Vec3;
 
@@ -8,7 +9,7 @@ fn main() {
     divan::main();
 }
 
-fn head() -> Strands {
+fn head() -> Groom {
     let (count, points) = (100_000_u32, 30_u32);
     let mut strands = Strands::with_capacity(count as usize, (count * points) as usize);
     for i in 0..count {
@@ -22,7 +23,7 @@ fn head() -> Strands {
             .collect();
         strands.push(&line, &[35e-6; 30]);
     }
-    strands
+    Groom::of(strands)
 }
 
 #[divan::bench(args = ["hair", "ply", "obj"], sample_count = 10)]
@@ -30,13 +31,15 @@ fn write(bencher: divan::Bencher, extension: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("head.{extension}"));
     let strands = head();
-    bencher.bench_local(|| write_groom(&path, &strands).expect("it is written"));
+    bencher.bench_local(|| {
+        write_groom(&path, &strands, FrameChoice::default()).expect("it is written")
+    });
 }
 
 #[divan::bench(sample_count = 10)]
 fn read_hair(bencher: divan::Bencher) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("head.hair");
-    write_groom(&path, &head()).expect("it is written");
-    bencher.bench_local(|| hair::read(&path).expect("it is read"));
+    write_groom(&path, &head(), FrameChoice::default()).expect("it is written");
+    bencher.bench_local(|| read_groom(&path, FrameChoice::default()).expect("it is read"));
 }

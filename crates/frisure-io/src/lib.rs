@@ -17,6 +17,7 @@
 
 pub mod environment;
 pub mod files;
+pub mod frame;
 pub mod groom;
 pub mod head;
 pub mod history;

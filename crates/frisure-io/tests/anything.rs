@@ -4,10 +4,12 @@ use std::path::Path;
 
 use frisure_hairstyle::styling::{Dry, Operation};
 use frisure_io::files::Files;
-use frisure_io::groom::hair;
+use frisure_io::frame::FrameChoice;
+use frisure_io::frame::UpAxis;
+use frisure_io::groom::read_groom;
 use frisure_io::head;
 use frisure_io::quantity::LENGTH;
-use frisure_io::scene::{HeadFile, ScalpSource, Scene, UpAxis, edit, template, write_step};
+use frisure_io::scene::{HeadFile, ScalpSource, Scene, edit, template, write_step};
 use proptest::prelude::*;
 
 fn use_scene(text: &str) {
@@ -183,8 +185,8 @@ proptest! {
         bytes.extend(counts.iter().flat_map(|c| c.to_le_bytes()));
         bytes.extend(rest);
         use_file("a.hair", &bytes, |path| {
-            if let Ok(strands) = hair::read(path) {
-                assert!(strands.points().iter().all(|p| p.is_finite()));
+            if let Ok(groom) = read_groom(path, FrameChoice::default()) {
+                assert!(groom.hairs.points().iter().all(|p| p.is_finite()));
             }
         });
     }

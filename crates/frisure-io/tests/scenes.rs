@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
+use frisure_io::frame::UpAxis;
 use frisure_io::scene::{
-    Behind, Dye, Fade, Fault, HeadSource, NaturalColour, ScalpSource, Scene, SceneError, UpAxis,
-    schema, template,
+    Behind, Dye, Fade, Fault, HeadSource, NaturalColour, ScalpSource, Scene, SceneError, schema,
+    template,
 };
 use frisure_optics::{Melanin, SHADES};
 use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};

@@ -5,8 +5,10 @@
 //! its left is +x. Bulk data are `f32`: at arm's length from the origin that is 30 nm, a thousandth
 //! of a hair's diameter. Nothing here knows where strands come from or where they go.
 
+mod resample;
 mod strands;
 mod surface;
 
+pub use resample::Resampled;
 pub use strands::{Attribute, AttributeError, AttributeValues, Domain, Strand, Strands};
 pub use surface::{Surface, SurfaceError};

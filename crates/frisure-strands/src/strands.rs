@@ -37,6 +37,8 @@ pub enum Domain {
 pub enum AttributeValues {
     /// Indices and identifiers.
     U32(Vec<u32>),
+    /// Triples of indices.
+    U32x3(Vec<[u32; 3]>),
     /// Scalars.
     F32(Vec<f32>),
     /// Pairs, such as texture coordinates.
@@ -51,6 +53,7 @@ impl AttributeValues {
     pub fn len(&self) -> usize {
         match self {
             Self::U32(v) => v.len(),
+            Self::U32x3(v) => v.len(),
             Self::F32(v) => v.len(),
             Self::F32x2(v) => v.len(),
             Self::F32x3(v) => v.len(),

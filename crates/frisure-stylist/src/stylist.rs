@@ -8,7 +8,8 @@ use std::sync::Arc;
 use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
 use frisure::io::files::Files;
-use frisure::io::groom::{self, Format};
+use frisure::io::frame::FrameChoice;
+use frisure::io::groom::{self, Format, Groom};
 use frisure::io::scene::{Scene, parse_step};
 use frisure::strands::Strands;
 use web_time::Instant;
@@ -132,7 +133,9 @@ impl Stylist {
         let format = Format::of(Path::new(&path)).map_err(|e| Refusal::of(&e, ""))?;
         let read = self.hair(asked, Effort::Exact, watch)?;
         let strands = self.all_strands(&read, watch)?;
-        let bytes = groom::encode(format, &strands).map_err(|e| Refusal::of(&e, ""))?;
+        let groom = Groom::of(Strands::clone(&*strands));
+        let bytes = groom::encode(format, &groom, FrameChoice::default())
+            .map_err(|e| Refusal::of(&e, ""))?;
         let extension = path.rsplit('.').next().unwrap_or_default();
         Ok(Answer::File { name: shown::file_name(&read.scene, extension), bytes })
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use frisure::hairstyle::head::Head;
 use frisure::io::files::Files;
+use frisure::io::frame::FrameChoice;
 use frisure::io::groom::read_groom;
 use frisure::io::picture::Format;
 use frisure::io::scene::Scene;
@@ -99,7 +100,8 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     let ready = progress.clone();
     let shot = interrupt::computing(move || {
         ready.show("strands", 0.0);
-        let strands = read_groom(&path).map_err(|e| Failure::wrong(&e, ""))?;
+        let groom = read_groom(&path, FrameChoice::default());
+        let strands = groom.map_err(|e| Failure::wrong(&e, ""))?.hairs;
         let head = if has_head { Some(predict::head(&scene)?) } else { None };
         let surface = head.as_ref().map(Head::surface);
         let wrong = |e: InvalidLight| Failure::wrong(&e, "");

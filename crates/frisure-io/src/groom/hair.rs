@@ -1,18 +1,19 @@
 //! Cem Yuksel's `.hair`: a header of 128 bytes, then flat little-endian arrays.
 //!
-//! The format names no unit and no axes. frisure writes centimetres, z up, and the fibre's mean
-//! *diameter* as thickness, and says so in the header's text; the reader takes files so.
+//! The format names no unit and no axes. frisure writes centimetres, z up, unless told otherwise, and
+//! the fibre's mean *diameter* as thickness, and says so in the header's text; the reader takes files
+//! of centimetres, z up.
 //!
 //! Source of the layout: <http://www.cemyuksel.com/research/hairmodels/> ("HAIR file format").
 
 use std::io::{self, Write};
-use std::path::Path;
 
 use frisure_strands::{AttributeValues, Domain, Strands};
-use glam::Vec3;
 
-use super::GroomError;
-use crate::files;
+use super::attributes::COLOUR as COLOUR_ATTRIBUTE;
+use super::checked::Curves;
+use super::{Format, Groom};
+use crate::frame::{Frame, FrameChoice, UpAxis};
 
 const HEADER: usize = 128;
 const SEGMENTS: u32 = 1;
@@ -21,49 +22,52 @@ const THICKNESS: u32 = 4;
 const TRANSPARENCY: u32 = 8;
 const COLOUR: u32 = 16;
 
-/// Metres to the file's unit.
-const CM_PER_M: f32 = 100.0;
-
 /// What the header says for people: at most 88 bytes.
-const INFO: &[u8] = b"frisure; centimetres, z up, thickness = diameter";
+fn info(frame: Frame) -> String {
+    let up = match frame.up {
+        UpAxis::Y => "y",
+        UpAxis::Z => "z",
+    };
+    // Exactly a centimetre is what nearly all files have.
+    let unit = if frame.metres == 0.01 {
+        "centimetres".into()
+    } else {
+        format!("unit {} m", frame.metres)
+    };
+    let mut info = format!("frisure; {unit}, {up} up, thickness = diameter");
+    info.truncate(88);
+    info
+}
 
 /// Colour of strands that have none of their own: brown.
 const DEFAULT_COLOUR: [f32; 3] = [0.25, 0.15, 0.09];
 
-/// Largest file that is read (bytes).
-const MAX_SIZE: u64 = 4 << 30;
-
-fn malformed(path: &Path, what: impl Into<String>) -> GroomError {
-    GroomError::Malformed { path: path.into(), format: ".hair", what: what.into() }
-}
-
 /// Checks that the format has room: strands of 1 to 65 536 points.
-pub(super) fn check(strands: &Strands) -> Result<(), GroomError> {
-    let cannot = |what| GroomError::CannotHold { format: ".hair", what };
+pub(super) fn check(strands: &Strands) -> Result<(), String> {
     for (i, strand) in strands.iter().enumerate() {
         let points = strand.points.len();
         if points == 0 || points > 1 + usize::from(u16::MAX) {
-            return Err(cannot(format!("strand {i} of {points} points: 1 to 65536 are possible")));
+            return Err(format!("strand {i} of {points} points: 1 to 65536 are possible"));
         }
     }
     if u32::try_from(strands.len()).is_err() {
-        return Err(cannot(format!("{} strands", strands.len())));
+        return Err(format!("{} strands", strands.len()));
     }
     Ok(())
 }
 
 /// Writes what [`check`] has passed.
 #[expect(clippy::cast_possible_truncation, reason = "counts were checked to fit")]
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands) -> io::Result<()> {
+pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let segments = |i: usize| strands.offsets()[i + 1] - strands.offsets()[i] - 1;
     let first = if strands.is_empty() { 0 } else { segments(0) };
     // A single count in the header serves when all strands are alike.
     let alike = (0..strands.len()).all(|i| segments(i) == first);
-    let colours = strands.attribute("color").and_then(|a| match (&a.domain, &a.values) {
+    let colours = strands.attribute(COLOUR_ATTRIBUTE).and_then(|a| match (&a.domain, &a.values) {
         (Domain::Point, AttributeValues::F32x3(c)) => Some(c),
         _ => None,
     });
-    let thickness = strands.radii().first().map_or(0.0, |r| 2.0 * r * CM_PER_M);
+    let thickness = strands.radii().first().map_or(0.0, |r| frame.length_to_file(2.0 * r));
     let mut arrays = POINTS | THICKNESS;
     if !alike {
         arrays |= SEGMENTS;
@@ -80,7 +84,7 @@ pub(super) fn encode(out: &mut dyn Write, strands: &Strands) -> io::Result<()> {
     for x in [thickness, 0.0].iter().chain(&DEFAULT_COLOUR) {
         header.extend_from_slice(&x.to_le_bytes());
     }
-    header.extend_from_slice(INFO);
+    header.extend_from_slice(info(frame).as_bytes());
     header.resize(HEADER, 0);
     out.write_all(&header)?;
 
@@ -90,10 +94,10 @@ pub(super) fn encode(out: &mut dyn Write, strands: &Strands) -> io::Result<()> {
         }
     }
     for p in strands.points() {
-        write_floats(out, (*p * CM_PER_M).to_array())?;
+        write_floats(out, frame.position_to_file(*p).to_array())?;
     }
     for r in strands.radii() {
-        write_floats(out, [2.0 * r * CM_PER_M])?;
+        write_floats(out, [frame.length_to_file(2.0 * r)])?;
     }
     for c in colours.into_iter().flatten() {
         write_floats(out, *c)?;
@@ -110,18 +114,8 @@ fn write_floats<const N: usize>(out: &mut dyn Write, values: [f32; N]) -> io::Re
     out.write_all(bytes.as_flattened())
 }
 
-/// Reads a file into strands (m); thickness is taken as the diameter in centimetres.
-///
-/// # Errors
-/// [`GroomError`], for a file that cannot be read, or whose counts do not fit its size or each
-/// other, or with coordinates that are not finite.
-pub fn read(path: &Path) -> Result<Strands, GroomError> {
-    let bytes = files::read_bytes(path, MAX_SIZE, "a groom")?;
-    decode(&bytes).map_err(|what| malformed(path, what))
-}
-
-/// Bytes of a file into strands (m), or what is wrong with them.
-fn decode(bytes: &[u8]) -> Result<Strands, String> {
+/// Bytes of a file into hairs (m), or what is wrong with them; thickness is taken as the diameter.
+pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let (header, mut rest) = bytes.split_at_checked(HEADER).ok_or_else(|| {
         format!("it has {} bytes, and the header alone has {HEADER}", bytes.len())
     })?;
@@ -151,36 +145,19 @@ fn decode(bytes: &[u8]) -> Result<Strands, String> {
         let words = take(2 * strands).chunks_exact(2);
         words.map(|b| usize::from(u16::from_le_bytes([b[0], b[1]])) + 1).collect()
     };
+    // Bad counts are told before anything is taken for them.
     let total: usize = counts.iter().sum();
     if total != points {
         return Err(format!("its strands have {total} points, and the header says {points}"));
     }
-    let positions: Vec<Vec3> = floats(take(12 * points))
-        .as_chunks()
-        .0
-        .iter()
-        .map(|&p| Vec3::from_array(p) / CM_PER_M)
-        .collect();
-    if let Some(i) = positions.iter().position(|p| !p.is_finite()) {
-        return Err(format!("point {i} is not finite"));
-    }
-    let thickness = if arrays & THICKNESS == 0 {
+    let positions = floats(take(12 * points)).as_chunks().0.to_vec();
+    let diameters = if arrays & THICKNESS == 0 {
         vec![default_thickness; points]
     } else {
         floats(take(4 * points))
     };
-    if let Some(i) = thickness.iter().position(|t| !(t.is_finite() && *t >= 0.0)) {
-        return Err(format!("the thickness of point {i} is not a positive number"));
-    }
-    let radii: Vec<f32> = thickness.iter().map(|t| 0.5 * t / CM_PER_M).collect();
-
-    let mut out = Strands::with_capacity(strands, points);
-    let mut start = 0;
-    for count in counts {
-        out.push(&positions[start..start + count], &radii[start..start + count]);
-        start += count;
-    }
-    Ok(out)
+    let curves = Curves { counts, points: positions, diameters, ..Curves::default() };
+    Ok(Groom::of(curves.strands(choice.or(Format::Hair.frame()))?))
 }
 
 /// Compares the counts in the header with the bytes that follow it, before anything is allocated
@@ -206,7 +183,11 @@ fn floats(bytes: &[u8]) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
+
+    const CM: Frame = Frame::CENTIMETRES_Z;
 
     fn groom(counts: &[usize]) -> Strands {
         let mut strands = Strands::new();
@@ -220,7 +201,7 @@ mod tests {
 
     fn bytes(strands: &Strands) -> Vec<u8> {
         let mut out = Vec::new();
-        encode(&mut out, strands).unwrap();
+        encode(&mut out, strands, CM).unwrap();
         out
     }
 
@@ -234,8 +215,8 @@ mod tests {
         assert_eq!(float(20), 2.0 / 32_768.0 * 100.0);
         assert_eq!(float(24), 0.0);
         assert_eq!([float(28), float(32), float(36)], DEFAULT_COLOUR);
-        assert_eq!(&b[40..40 + INFO.len()], INFO);
-        assert!(INFO.len() <= 88);
+        let info = b"frisure; centimetres, z up, thickness = diameter\0";
+        assert_eq!(&b[40..40 + info.len()], info);
         // Segments, points, thickness.
         assert_eq!(b.len(), 128 + 2 * 2 + 5 * 12 + 5 * 4);
         assert_eq!(&b[128..132], &[2, 0, 1, 0]);
@@ -246,7 +227,7 @@ mod tests {
     fn what_was_written_is_read() {
         for counts in [&[3, 2][..], &[4, 4, 4], &[1], &[]] {
             let strands = groom(counts);
-            let read = decode(&bytes(&strands)).unwrap();
+            let read = decode(&bytes(&strands), FrameChoice::default()).unwrap().hairs;
             assert_eq!(read.offsets(), strands.offsets());
             for (a, b) in read.points().iter().zip(strands.points()) {
                 assert!(a.distance(*b) < 1e-7);
@@ -268,23 +249,24 @@ mod tests {
     fn cut_files_and_lying_counts_are_refused() {
         let whole = bytes(&groom(&[3, 2]));
         for n in 0..whole.len() {
-            assert!(decode(&whole[..n]).is_err(), "{n}");
+            assert!(decode(&whole[..n], FrameChoice::default()).is_err(), "{n}");
         }
         for (at, value) in [(4, u32::MAX), (8, u32::MAX), (4, 1), (8, 4), (12, 0), (12, 31)] {
             let mut b = whole.clone();
             b[at..at + 4].copy_from_slice(&value.to_le_bytes());
-            assert!(decode(&b).is_err(), "{value} at {at}");
+            assert!(decode(&b, FrameChoice::default()).is_err(), "{value} at {at}");
         }
         let mut huge = bytes(&groom(&[2, 2]));
         huge[16..20].copy_from_slice(&u32::MAX.to_le_bytes());
-        assert!(decode(&huge).is_err());
+        assert!(decode(&huge, FrameChoice::default()).is_err());
     }
 
     #[test]
     fn points_that_are_not_finite_are_refused() {
         let mut b = bytes(&groom(&[2]));
         b[128..132].copy_from_slice(&f32::NAN.to_le_bytes());
-        assert_eq!(decode(&b), Err("point 0 is not finite".into()));
+        let error = decode(&b, FrameChoice::default());
+        assert_eq!(error, Err("point 0, of strand 0, is not finite".into()));
     }
 
     #[test]

@@ -1,11 +1,10 @@
-//! Grooms: strands in the formats that other programs read.
+//! Grooms: hair in the files of other programs.
 //!
-//! | extension | what is in it | unit, axes |
-//! | --- | --- | --- |
-//! | `.hair` | points, thickness, colour | cm, z up |
-//! | `.obj` | polylines | m, y up |
-//! | `.ply` | points with radius and strand number, edges | m, z up |
+//! One module per format; [`Format`] says what each can hold, and `docs/formats.md` tells every byte that
+//! matters. What is read has been checked: see [`checked`].
 
+pub mod attributes;
+mod checked;
 pub mod hair;
 pub mod obj;
 pub mod ply;
@@ -13,29 +12,67 @@ pub mod ply;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use frisure_strands::Strands;
+use frisure_optics::Melanin;
+use frisure_strands::{Strands, Surface};
 use thiserror::Error;
 
-use crate::files::{ReadError, WriteError, write_atomically};
+use crate::files::{self, ReadError, WriteError, write_atomically};
+use crate::frame::{Frame, FrameChoice};
 
-/// Extensions that grooms can be written with.
-pub const EXTENSIONS: [&str; 3] = ["hair", "obj", "ply"];
+pub use checked::MAX_STRANDS;
+
+/// What a groom file holds, in metres, z up. Not every format holds all of it: see [`Format`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Groom {
+    /// What it is called; may be empty.
+    pub name: String,
+    /// The hairs, with attributes of the names in [`attributes`]; may be empty.
+    pub hairs: Strands,
+    /// The guides that they follow, in the order in which `guide` counts them; may be empty.
+    pub guides: Strands,
+    /// The head that it is rooted in.
+    pub head: Option<Surface>,
+    /// The colour of its hairs, where they have none of their own.
+    pub colour: Option<HairColour>,
+}
+
+/// What a picture has to know of the colour of hair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairColour {
+    /// Its pigment; unknown where hair is dyed.
+    pub melanin: Option<Melanin>,
+    /// Colour of much of it (linear, primaries of sRGB).
+    pub colour: [f32; 3],
+}
+
+impl Groom {
+    /// A groom of nothing but hairs.
+    #[must_use]
+    pub fn of(hairs: Strands) -> Self {
+        Self { hairs, ..Self::default() }
+    }
+
+    /// The strands for a format that knows one kind: the hairs, or the guides where there are none.
+    #[must_use]
+    pub fn strands(&self) -> &Strands {
+        if self.hairs.is_empty() { &self.guides } else { &self.hairs }
+    }
+}
+
+/// Largest file that is read (bytes).
+const MAX_SIZE: u64 = 8 << 30;
 
 /// Why a groom could not be written or read.
 #[derive(Debug, Error)]
 pub enum GroomError {
     /// The extension names no known format.
-    #[error(
-        "`{}` has no known groom extension; known are {}",
-        path.display(),
-        known()
-    )]
+    #[error("`{}` has no known groom extension; known are {}", path.display(), known(|_| true))]
     Extension {
         /// The path asked for.
         path: PathBuf,
     },
     /// The format is written, but not read.
-    #[error("`{}` cannot be read: of grooms, only .hair can", path.display())]
+    #[error("`{}` cannot be read: of grooms, only {} can", path.display(), known(Format::is_read))]
     Unread {
         /// The path asked for.
         path: PathBuf,
@@ -49,7 +86,7 @@ pub enum GroomError {
         what: String,
     },
     /// The file is not what its name says, or is damaged.
-    #[error("`{}` is not a {format} file: {what}", path.display())]
+    #[error("`{}` is not a usable {format} file: {what}", path.display())]
     Malformed {
         /// The path read.
         path: PathBuf,
@@ -66,8 +103,9 @@ pub enum GroomError {
     Write(#[from] WriteError),
 }
 
-fn known() -> String {
-    EXTENSIONS.map(|e| format!(".{e}")).join(", ")
+fn known(which: impl Fn(Format) -> bool) -> String {
+    let names = Format::ALL.into_iter().filter(|f| which(*f)).flat_map(|f| f.extensions());
+    names.map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ")
 }
 
 /// A groom format.
@@ -82,28 +120,85 @@ pub enum Format {
 }
 
 impl Format {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Hair, Self::Obj, Self::Ply];
+
+    /// The extensions that name it, without a dot; the first is the one to show.
+    #[must_use]
+    pub fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Hair => &["hair"],
+            Self::Obj => &["obj"],
+            Self::Ply => &["ply"],
+        }
+    }
+
+    /// What it is, in a few words for a person.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Hair => "Cem Yuksel's hair file",
+            Self::Obj => "Wavefront polylines",
+            Self::Ply => "Stanford points and edges",
+        }
+    }
+
+    /// Whether it is read, too.
+    #[must_use]
+    pub fn is_read(self) -> bool {
+        match self {
+            Self::Hair => true,
+            Self::Obj | Self::Ply => false,
+        }
+    }
+
+    /// Whether it tells guides from hairs, so that a file can hold both.
+    #[must_use]
+    pub fn tells_guides(self) -> bool {
+        match self {
+            Self::Hair | Self::Obj | Self::Ply => false,
+        }
+    }
+
+    /// Unit and axes that it has by convention, where neither file nor person says anything else.
+    #[must_use]
+    pub fn frame(self) -> Frame {
+        match self {
+            Self::Hair => Frame::CENTIMETRES_Z,
+            Self::Obj => Frame::METRES_Y,
+            Self::Ply => Frame::METRES_Z,
+        }
+    }
+
     /// The format that a path's extension names.
     ///
     /// # Errors
     /// [`GroomError::Extension`], listing those that are known.
     pub fn of(path: &Path) -> Result<Self, GroomError> {
         let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-        match extension.as_deref() {
-            Some("hair") => Ok(Self::Hair),
-            Some("obj") => Ok(Self::Obj),
-            Some("ply") => Ok(Self::Ply),
-            _ => Err(GroomError::Extension { path: path.into() }),
+        let named = |f: &Self| extension.as_deref().is_some_and(|e| f.extensions().contains(&e));
+        Self::ALL.into_iter().find(named).ok_or_else(|| GroomError::Extension { path: path.into() })
+    }
+
+    /// How errors call it, such as `.hair`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hair => ".hair",
+            Self::Obj => ".obj",
+            Self::Ply => ".ply",
         }
     }
 }
 
-/// Writes strands in the format that the path's extension names, atomically.
+/// Writes a groom in the format that the path's extension names, atomically.
 ///
 /// # Errors
 /// [`GroomError`].
-pub fn write_groom(path: &Path, strands: &Strands) -> Result<(), GroomError> {
-    let fill = encoder(Format::of(path)?, strands)?;
-    write_atomically(path, |out| fill(out, strands))?;
+pub fn write_groom(path: &Path, groom: &Groom, choice: FrameChoice) -> Result<(), GroomError> {
+    let format = Format::of(path)?;
+    check(format, groom)?;
+    write_atomically(path, |out| fill(format, out, groom, choice.or(format.frame())))?;
     Ok(())
 }
 
@@ -111,39 +206,60 @@ pub fn write_groom(path: &Path, strands: &Strands) -> Result<(), GroomError> {
 ///
 /// # Errors
 /// [`GroomError::CannotHold`].
-pub fn encode(format: Format, strands: &Strands) -> Result<Vec<u8>, GroomError> {
-    let fill = encoder(format, strands)?;
+pub fn encode(format: Format, groom: &Groom, choice: FrameChoice) -> Result<Vec<u8>, GroomError> {
+    check(format, groom)?;
     let mut bytes = Vec::new();
     // Memory takes all bytes.
-    fill(&mut bytes, strands).map_err(|source| WriteError::Io { path: PathBuf::new(), source })?;
+    fill(format, &mut bytes, groom, choice.or(format.frame()))
+        .map_err(|source| WriteError::Io { path: PathBuf::new(), source })?;
     Ok(bytes)
 }
 
-/// Writes strands to anything.
-type Encoder = fn(&mut dyn io::Write, &Strands) -> io::Result<()>;
-
-/// What writes strands in a format, if it can hold them.
-fn encoder(format: Format, strands: &Strands) -> Result<Encoder, GroomError> {
-    Ok(match format {
-        Format::Hair => {
-            hair::check(strands)?;
-            hair::encode
-        }
-        Format::Obj => obj::encode,
-        Format::Ply => {
-            ply::check(strands)?;
-            ply::encode
-        }
-    })
+/// Checks that a format has room for a groom.
+fn check(format: Format, groom: &Groom) -> Result<(), GroomError> {
+    let checked = match format {
+        Format::Hair => hair::check(groom.strands()),
+        Format::Obj => Ok(()),
+        Format::Ply => ply::check(groom.strands()),
+    };
+    checked.map_err(|what| GroomError::CannotHold { format: format.name(), what })
 }
 
-/// Reads strands from a file in the format that the path's extension names. So far that is `.hair`.
+/// Writes what [`check`] has passed.
+fn fill(format: Format, out: &mut dyn io::Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+    match format {
+        Format::Hair => hair::encode(out, groom.strands(), frame),
+        Format::Obj => obj::encode(out, groom.strands(), frame),
+        Format::Ply => ply::encode(out, groom.strands(), frame),
+    }
+}
+
+/// Reads a groom from a file in the format that the path's extension names.
 ///
 /// # Errors
 /// [`GroomError`], for a format that is only written, or a file that is not what its name says.
-pub fn read_groom(path: &Path) -> Result<Strands, GroomError> {
-    match Format::of(path)? {
-        Format::Hair => hair::read(path),
-        Format::Obj | Format::Ply => Err(GroomError::Unread { path: path.into() }),
+pub fn read_groom(path: &Path, choice: FrameChoice) -> Result<Groom, GroomError> {
+    let format = Format::of(path)?;
+    if !format.is_read() {
+        return Err(GroomError::Unread { path: path.into() });
     }
+    let bytes = files::read_bytes(path, MAX_SIZE, "a groom")?;
+    decode(format, &bytes, path, choice)
+}
+
+/// A groom from the bytes of a file; `path` is what errors call it.
+///
+/// # Errors
+/// As [`read_groom`].
+pub fn decode(
+    format: Format,
+    bytes: &[u8],
+    path: &Path,
+    choice: FrameChoice,
+) -> Result<Groom, GroomError> {
+    let groom = match format {
+        Format::Hair => hair::decode(bytes, choice),
+        Format::Obj | Format::Ply => return Err(GroomError::Unread { path: path.into() }),
+    };
+    groom.map_err(|what| GroomError::Malformed { path: path.into(), format: format.name(), what })
 }

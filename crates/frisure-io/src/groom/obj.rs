@@ -1,23 +1,29 @@
 //! Wavefront `.obj` polylines (`v` and `l`): read by nearly everything, without thickness.
 //!
-//! Metres, y up with the face towards +z, as programs expect of OBJ and as heads are read: a groom
-//! predicted on an OBJ head in metres lies on that head.
+//! Metres, y up with the face towards +z, unless told otherwise, as programs expect of OBJ and as heads
+//! are read: a groom predicted on an OBJ head in metres lies on that head.
 
 use std::io::{self, Write};
 
 use frisure_strands::Strands;
 use glam::Vec3;
 
+use crate::frame::{Frame, UpAxis};
+
 /// Writes strands as one `l` each.
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands) -> io::Result<()> {
+pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let (count, points) = (strands.len(), strands.points().len());
-    writeln!(out, "# frisure: {count} strands, {points} points; metres, y up")?;
+    let up = match frame.up {
+        UpAxis::Y => 'y',
+        UpAxis::Z => 'z',
+    };
+    writeln!(out, "# frisure: {count} strands, {points} points; unit {} m, {up} up", frame.metres)?;
     let mut line = Vec::with_capacity(1 << 12);
-    for &Vec3 { x, y, z } in strands.points() {
+    for &point in strands.points() {
         line.clear();
         line.push(b'v');
-        // z up to y up: the inverse of how heads are read.
-        for c in [x, z, -y] {
+        let Vec3 { x, y, z } = frame.position_to_file(point);
+        for c in [x, y, z] {
             line.push(b' ');
             push_decimal(&mut line, c);
         }
@@ -83,10 +89,10 @@ mod tests {
         strands.push(&[Vec3::ZERO], &[1e-5]);
         strands.push(&[Vec3::ZERO, Vec3::X, Vec3::Y], &[1e-5; 3]);
         let mut out = Vec::new();
-        encode(&mut out, &strands).unwrap();
+        encode(&mut out, &strands, Frame::METRES_Y).unwrap();
         let text = String::from_utf8(out).unwrap();
         let lines: Vec<_> = text.lines().collect();
-        assert_eq!(lines[0], "# frisure: 3 strands, 6 points; metres, y up");
+        assert_eq!(lines[0], "# frisure: 3 strands, 6 points; unit 1 m, y up");
         assert_eq!(lines[1], "v 0.1000000 1.5000000 0.2500000");
         assert_eq!(lines[2], "v -0.0000001 -12.0000000 0.0000000");
         assert_eq!(&lines[7..], ["l 1 2", "l 4 5 6"]);

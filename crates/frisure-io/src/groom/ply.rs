@@ -1,41 +1,47 @@
 //! Stanford `.ply`, binary little-endian: points with radius and strand number, and edges.
 //!
-//! Metres, z up: the strands as they were computed.
+//! Metres, z up, unless told otherwise: the strands as they were computed.
 
 use std::io::{self, Write};
 
 use frisure_strands::Strands;
 
-use super::GroomError;
+use crate::frame::{Frame, UpAxis};
 
 /// Checks that the format has room: vertex indices are signed in most readers.
-pub(super) fn check(strands: &Strands) -> Result<(), GroomError> {
+pub(super) fn check(strands: &Strands) -> Result<(), String> {
     let points = strands.points().len();
     if i32::try_from(points).is_ok() {
         return Ok(());
     }
-    Err(GroomError::CannotHold { format: ".ply", what: format!("{points} points") })
+    Err(format!("{points} points"))
 }
 
 /// Writes what [`check`] has passed.
 #[expect(clippy::cast_possible_truncation, reason = "counts were checked to fit")]
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands) -> io::Result<()> {
+pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
+    let up = match frame.up {
+        UpAxis::Y => 'y',
+        UpAxis::Z => 'z',
+    };
     let points = strands.points().len();
     let edges: usize = strands.iter().map(|s| s.points.len().saturating_sub(1)).sum();
     write!(
         out,
         "ply\nformat binary_little_endian 1.0\n\
-         comment frisure: {} strands; metres, z up\n\
+         comment frisure: {} strands; unit {} m, {up} up\n\
          element vertex {points}\n\
          property float x\nproperty float y\nproperty float z\n\
          property float radius\nproperty uint strand\n\
          element edge {edges}\n\
          property int vertex1\nproperty int vertex2\n\
          end_header\n",
-        strands.len()
+        strands.len(),
+        frame.metres
     )?;
     for (i, strand) in strands.iter().enumerate() {
         for (p, r) in strand.points.iter().zip(strand.radii) {
+            let (p, r) = (frame.position_to_file(*p), frame.length_to_file(*r));
             let words = [p.x.to_bits(), p.y.to_bits(), p.z.to_bits(), r.to_bits(), i as u32];
             out.write_all(words.map(u32::to_le_bytes).as_flattened())?;
         }
@@ -61,7 +67,7 @@ mod tests {
         strands.push(&[], &[]);
         strands.push(&[Vec3::X, Vec3::Y], &[0.5, 0.25]);
         let mut out = Vec::new();
-        encode(&mut out, &strands).unwrap();
+        encode(&mut out, &strands, Frame::METRES_Z).unwrap();
         let end = b"end_header\n";
         let body = out.windows(end.len()).position(|w| w == end).unwrap() + end.len();
         let header = std::str::from_utf8(&out[..body]).unwrap();

@@ -10,7 +10,8 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::files::{Files, ReadError};
-use crate::scene::{HeadFile, ScalpSource, UpAxis};
+use crate::frame::Frame;
+use crate::scene::{HeadFile, ScalpSource};
 
 pub use obj::Group;
 
@@ -164,7 +165,8 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
         };
         return Err(not_a_mesh(path, problem));
     }
-    let metres = |p: &[f64; 3]| to_z_up(*p, head.up) * head.scale;
+    let frame = Frame { metres: head.scale, up: head.up };
+    let metres = |p: &[f64; 3]| frame.position_from_file(DVec3::from_array(*p));
     let positions: Vec<DVec3> = mesh.positions.iter().map(metres).collect();
     // Before anything is computed from coordinates: the squares of huge ones overflow.
     let size = extent(&positions, &mesh.triangles);
@@ -188,14 +190,6 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
 fn not_a_mesh(path: &Path, problem: impl Into<String>) -> HeadFileError {
     let (expected, problem) = ("an OBJ mesh", problem.into());
     HeadFileError::Format { path: path.into(), expected, problem }
-}
-
-/// A point with z up and the face towards −y: the frame of everything else.
-fn to_z_up([x, y, z]: [f64; 3], up: UpAxis) -> DVec3 {
-    match up {
-        UpAxis::Y => DVec3::new(x, -z, y),
-        UpAxis::Z => DVec3::new(x, y, z),
-    }
 }
 
 /// Longest side of the box around the vertices that faces use: files keep strays of what was cut

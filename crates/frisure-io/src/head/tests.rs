@@ -1,6 +1,7 @@
 use std::fs;
 
 use super::*;
+use crate::frame::UpAxis;
 
 /// A tetrahedron 20 units high, with a group and texture coordinates.
 const TETRAHEDRON: &str = "\

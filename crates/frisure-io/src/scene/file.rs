@@ -17,8 +17,9 @@ use super::light::Setup;
 use super::step::Step;
 use super::words::{
     BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places,
-    ShadeWord, Tone, UnitWord, UpAxis, WettingWord, Which,
+    ShadeWord, Tone, UnitWord, WettingWord, Which,
 };
+use crate::frame::UpAxis;
 
 /// A scene: hair, the head it grows on, and how to look at it.
 ///

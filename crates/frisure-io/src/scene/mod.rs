@@ -33,10 +33,11 @@ pub use schema::schema;
 pub(crate) use step::{Record, parse_record};
 pub use step::{WriteStepError, parse_step, write_step};
 pub use template::template;
-pub use words::{Tone, UpAxis};
+pub use words::Tone;
 
 use crate::environment::{self, Environment};
 use crate::files::{self, Files};
+use crate::frame::UpAxis;
 use crate::head::{self, HeadMesh};
 use source::Source;
 

@@ -24,8 +24,9 @@ use super::source::Source;
 use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Tone, UnitWord, Which};
 use super::{
     Behind, Camera, Dye, Fade, HeadFile, HeadSource, Look, NaturalColour, Output, ScalpSource,
-    Scene, SingleHair, UpAxis, schema, shape, step,
+    Scene, SingleHair, schema, shape, step,
 };
+use crate::frame::UpAxis;
 
 /// The hair type of a scene that names none.
 const DEFAULT_TYPE: &str = "caucasian-straight";

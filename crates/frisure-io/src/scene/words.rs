@@ -11,6 +11,7 @@ use toml::Value;
 
 use super::key::{Choice, Kind, Length, OneOf, Refusal};
 use super::light::Setup;
+use crate::frame::UpAxis;
 
 /// A hair type, by its name.
 #[derive(Clone, Copy)]
@@ -52,16 +53,6 @@ impl Choice for ShadeWord {
 /// A value that is itself one of a few: each word stands for it.
 #[derive(Clone, Copy)]
 pub(super) struct Which<T>(pub(super) T);
-
-/// The axis of a mesh that points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum UpAxis {
-    /// y up, face towards +z, as most OBJ files are.
-    #[default]
-    Y,
-    /// z up, face towards −y, as frisure itself.
-    Z,
-}
 
 impl Choice for Which<UpAxis> {
     fn words() -> Vec<(&'static str, &'static str, Self)> {

@@ -146,6 +146,9 @@ pub(super) fn fingerprint(scene: &Scene<'_>, options: &TraceOptions) -> Fingerpr
             AttributeValues::F32x2(values) => put(&mut all, values.as_flattened()),
             AttributeValues::F32x3(values) => put(&mut all, values.as_flattened()),
             AttributeValues::U32(values) => values.iter().for_each(|x| all.put(&x.to_le_bytes())),
+            AttributeValues::U32x3(values) => {
+                values.as_flattened().iter().for_each(|x| all.put(&x.to_le_bytes()));
+            }
         }
     }
     if let Some(surface) = surface {

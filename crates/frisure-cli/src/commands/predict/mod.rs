@@ -13,7 +13,8 @@ use frisure::hairstyle::{
     Hairstyle, HairstyleSpec, Monitor, PredictError, penetration, predict, volume,
 };
 use frisure::io::files::Files;
-use frisure::io::groom::{Format, write_groom};
+use frisure::io::frame::FrameChoice;
+use frisure::io::groom::{Format, Groom, write_groom};
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
@@ -311,10 +312,11 @@ impl Work {
         written: &mut Vec<String>,
     ) -> Result<Option<Numbers>, Failure> {
         let Drawn { strands, picture, numbers } = drawn;
+        let groom = Groom::of(strands);
         for path in &self.arguments.outputs {
             interrupt::check()?;
             let path = name_of(&self.arguments, path, frame, frames);
-            write_groom(&path, &strands).map_err(|e| Failure::failed(&e))?;
+            write_groom(&path, &groom, FrameChoice::default()).map_err(|e| Failure::failed(&e))?;
             written.push(path.display().to_string());
         }
         let Some((path, picture)) = self.arguments.image.as_ref().zip(picture) else {
@@ -329,7 +331,7 @@ impl Work {
             }
             Picture::Final(shot) => {
                 // What the picture no longer needs: the tracer has its own.
-                drop(strands);
+                drop(groom);
                 let all = exposing::shoot(*shot, &path, output, &self.progress)?;
                 written.extend(all.iter().map(ToString::to_string));
             }
