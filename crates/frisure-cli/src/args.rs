@@ -1,10 +1,13 @@
 //! The command line.
 
+use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::hairstyle::PRESETS;
+use frisure::io::frame::{Frame, FrameChoice, UpAxis};
+use frisure::io::groom::Format;
 use frisure::io::scene::Scene;
 use frisure::render::trace::TraceOptions;
 
@@ -48,6 +51,8 @@ pub(crate) enum Command {
     Style(Style),
     /// Draw the final picture of a head of hair, by following the light.
     Render(Render),
+    /// Read a groom and write it in another format, with other units, axes or points.
+    Convert(Convert),
     /// Compute one hair: its shape, its energies, and how sure they are.
     Hair(Hair),
     /// List the hair types that a scene can start from, or all that is measured of one.
@@ -76,9 +81,19 @@ pub(crate) struct Predict {
     /// The scene (TOML), or `-` for standard input.
     pub(crate) scene: PathBuf,
 
-    /// Write the strands; the extension names the format: .hair, .obj or .ply. May be repeated.
+    /// Write the groom; the extension names the format, as `frisure convert --help` lists them. May be
+    /// repeated.
     #[arg(long = "output", short, value_name = "GROOM")]
     pub(crate) outputs: Vec<PathBuf>,
+
+    /// What is in grooms, and how.
+    #[command(flatten)]
+    pub(crate) writing: Writing,
+
+    /// Write into grooms, for every hair, what its fibre is like along it: directors and natural
+    /// strains. Guides have them anyway.
+    #[arg(long)]
+    pub(crate) fibres: bool,
 
     /// Write a picture (.png, or .exr with its light as it is).
     #[arg(long, value_name = "PICTURE")]
@@ -277,6 +292,128 @@ impl CameraName {
     }
 }
 
+/// What is in a groom file, and how.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(crate) struct Writing {
+    /// What a groom holds. By default both, in formats that tell guides from hairs, and hairs in others.
+    #[arg(long, value_enum, value_name = "CONTENT")]
+    pub(crate) content: Option<Content>,
+
+    /// Give each strand so many points, evenly spaced along it: 2 to 65536. How far the strands are from what
+    /// they were is told.
+    #[arg(long, value_name = "N", value_parser = groom_points)]
+    pub(crate) points: Option<usize>,
+
+    /// The unit of positions and widths, instead of the format's.
+    #[arg(long, value_enum, value_name = "UNIT")]
+    pub(crate) unit: Option<Unit>,
+
+    /// The axis that points up, instead of the format's: y (the face looks along z) or z (along -y).
+    #[arg(long, value_enum, value_name = "AXIS")]
+    pub(crate) up: Option<Up>,
+}
+
+/// What a groom file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Content {
+    /// The drawn hairs.
+    Hairs,
+    /// The guides.
+    Guides,
+    /// Both, told apart.
+    Both,
+}
+
+/// A unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Unit {
+    /// Metres.
+    M,
+    /// Decimetres.
+    Dm,
+    /// Centimetres.
+    Cm,
+    /// Millimetres.
+    Mm,
+    /// Inches.
+    In,
+}
+
+impl Unit {
+    /// Metres per unit.
+    fn metres(self) -> f64 {
+        match self {
+            Self::M => 1.0,
+            Self::Dm => 0.1,
+            Self::Cm => 0.01,
+            Self::Mm => 0.001,
+            Self::In => 0.0254,
+        }
+    }
+}
+
+/// An axis that can point up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Up {
+    /// y.
+    Y,
+    /// z.
+    Z,
+}
+
+/// Unit and axes where they were asked for.
+pub(crate) fn frame(unit: Option<Unit>, up: Option<Up>) -> FrameChoice {
+    let up = up.map(|up| match up {
+        Up::Y => UpAxis::Y,
+        Up::Z => UpAxis::Z,
+    });
+    FrameChoice { metres: unit.map(Unit::metres), up }
+}
+
+const CONVERT_EXAMPLES: &str = "\
+Examples:
+  frisure convert wDemo.hair -o demo.ply
+  frisure convert scan.hair --from-unit mm --from-up y -o scan.obj --points 100";
+
+/// Arguments of `frisure convert`.
+#[derive(Args, Debug)]
+#[command(after_help = after_convert())]
+pub(crate) struct Convert {
+    /// The groom; its extension names the format.
+    pub(crate) groom: PathBuf,
+
+    /// Write it here; the extension names the format. May be repeated.
+    #[arg(long = "output", short, value_name = "GROOM", required = true)]
+    pub(crate) outputs: Vec<PathBuf>,
+
+    /// What is written, and how.
+    #[command(flatten)]
+    pub(crate) writing: Writing,
+
+    /// The unit of the groom that is read, instead of its own or its format's.
+    #[arg(long, value_enum, value_name = "UNIT")]
+    pub(crate) from_unit: Option<Unit>,
+
+    /// The axis that points up in the groom that is read, instead of its own or its format's.
+    #[arg(long, value_enum, value_name = "AXIS")]
+    pub(crate) from_up: Option<Up>,
+}
+
+/// Examples, and the formats.
+fn after_convert() -> String {
+    let mut text = format!("{CONVERT_EXAMPLES}\n\nFormats:\n");
+    for format in Format::ALL {
+        let names = format.extensions().iter().map(|e| format!(".{e}")).collect::<Vec<_>>();
+        let Frame { metres, up } = format.frame();
+        let unit = if metres == 1.0 { "m" } else { "cm" };
+        let up = if up == UpAxis::Y { "y" } else { "z" };
+        let how = if format.is_read() { "" } else { "; written only" };
+        let _ = writeln!(text, "  {:16}{} ({unit}, {up} up{how})", names.join(" "), format.title());
+    }
+    text.push_str("\nWhat each holds is told in docs/formats.md.");
+    text
+}
+
 const HAIR_EXAMPLES: &str = "\
 Examples:
   frisure hair scenes/curly.toml
@@ -341,6 +478,10 @@ fn threads(text: &str) -> Result<usize, String> {
 
 fn points(text: &str) -> Result<usize, String> {
     number(text, 2, 1_000_000)
+}
+
+fn groom_points(text: &str) -> Result<usize, String> {
+    number(text, 2, 65_536)
 }
 
 fn step_number(text: &str) -> Result<usize, String> {

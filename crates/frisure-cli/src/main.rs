@@ -8,6 +8,7 @@ mod failure;
 mod interrupt;
 mod outputs;
 mod progress;
+mod written;
 
 use std::process::ExitCode;
 
@@ -39,6 +40,7 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
         Command::Predict(predict) => commands::predict::run(predict, quiet),
         Command::Style(style) => commands::style::run(&style, quiet),
         Command::Render(render) => commands::render::run(render, quiet),
+        Command::Convert(convert) => commands::convert::run(convert, quiet),
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),

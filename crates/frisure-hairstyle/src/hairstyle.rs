@@ -249,6 +249,33 @@ impl Hairstyle {
         strands::add_sections(strands, self, head);
     }
 
+    /// Adds to the drawn hairs of [`Self::strands`], all of them, what programs that groom want to know:
+    /// `closest_guides`, `guide_weights`, `id`, `group` and `root_uv`, as [`frisure_strands::names`] has them.
+    /// The texture coordinates of roots are a map of the head from above (azimuthal equidistant): (½, ½)
+    /// is above the middle of the cranium, u grows to the head's left, v to the back, and the distance from the
+    /// middle is the angle from the vertical over 2π.
+    ///
+    /// # Panics
+    /// If they have been added before, or these are not all drawn hairs.
+    pub fn describe(&self, strands: &mut Strands, head: &Head) {
+        strands::describe_hairs(strands, self, head);
+    }
+
+    /// Adds to drawn hairs the natural strains (rad/m) of the guides that they follow, `natural_strain`.
+    ///
+    /// # Panics
+    /// If they have been added before.
+    pub fn add_natural_strains(&self, strands: &mut Strands) {
+        strands::add_natural_strains(strands, self);
+    }
+
+    /// The guides as strands of `points` points, at least 2, with `id`, `group`, `root_uv`, `axis_ratio`, `d1`,
+    /// `natural_strain`, and `wetness` if any is wet.
+    #[must_use]
+    pub fn described_guides(&self, head: &Head, points: usize) -> Strands {
+        strands::described_guides(self, head, points)
+    }
+
     /// The drawn hairs around the guides, with the attribute `guide`, the nearest guide of each.
     ///
     /// # Errors

@@ -7,6 +7,7 @@
 mod bytes;
 pub mod carry;
 mod exposing;
+pub mod groom;
 mod hair;
 mod heads;
 pub mod order;

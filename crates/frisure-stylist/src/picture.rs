@@ -384,10 +384,17 @@ fn on_wall(lights: &Lights, camera: &Camera, middle: DVec3) -> Vec3 {
 fn look(asked: &scene::Look, background: Background) -> Look {
     let default = Look::default();
     let colour = asked.skin.map_or(default.skin.colour, linear);
-    Look { hair: hair(asked), skin: SkinLook { colour, ..default.skin }, background, ground: None }
+    Look {
+        hair: hair_look(asked),
+        skin: SkinLook { colour, ..default.skin },
+        background,
+        ground: None,
+    }
 }
 
-fn hair(asked: &scene::Look) -> HairLook {
+/// What a scene says that its hair looks like.
+#[must_use]
+pub fn hair_look(asked: &scene::Look) -> HairLook {
     let default = HairLook::default();
     let or = |asked: Option<f64>, default: f32| asked.map_or(default, |value| value as f32);
     let plain = default.surface;

@@ -9,7 +9,7 @@ use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
 use frisure::io::files::Files;
 use frisure::io::frame::FrameChoice;
-use frisure::io::groom::{self, Format, Groom};
+use frisure::io::groom::{self, Format};
 use frisure::io::scene::{Scene, parse_step};
 use frisure::strands::Strands;
 use web_time::Instant;
@@ -133,7 +133,8 @@ impl Stylist {
         let format = Format::of(Path::new(&path)).map_err(|e| Refusal::of(&e, ""))?;
         let read = self.hair(asked, Effort::Exact, watch)?;
         let strands = self.all_strands(&read, watch)?;
-        let groom = Groom::of(Strands::clone(&*strands));
+        let hairs = Strands::clone(&*strands);
+        let groom = crate::groom::groom(&read.scene, &read.hairstyle, &read.head, hairs, false);
         let bytes = groom::encode(format, &groom, FrameChoice::default())
             .map_err(|e| Refusal::of(&e, ""))?;
         let extension = path.rsplit('.').next().unwrap_or_default();

@@ -81,7 +81,7 @@ fn a_groom_is_what_the_command_line_writes() {
         let hair =
             frisure::hairstyle::predict(&scene.hairstyle_spec().unwrap(), &head, &()).unwrap();
         let strands = hair.strands(&head, &()).unwrap();
-        let groom = frisure::io::groom::Groom::of(strands);
+        let groom = frisure_stylist::groom::groom(&scene, &hair, &head, strands, false);
         frisure::io::groom::write_groom(&path, &groom, Default::default()).unwrap();
         assert_eq!(std::fs::read(path).unwrap(), bytes);
     }

@@ -1,5 +1,6 @@
 //! The commands, one per file.
 
+pub(crate) mod convert;
 pub(crate) mod hair;
 pub(crate) mod new;
 pub(crate) mod predict;

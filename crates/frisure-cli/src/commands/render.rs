@@ -13,7 +13,7 @@ use frisure::render::trace::Tracer;
 
 use super::predict::{self, Turntable};
 use super::read_scene;
-use crate::args::{Predict, Quality, Render};
+use crate::args::{Predict, Quality, Render, Writing};
 use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
@@ -41,6 +41,8 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
         quality: Quality::Final,
         tracing,
         each_step: false,
+        writing: Writing::default(),
+        fibres: false,
     };
     predict::run_scene(arguments, scene, turntable, quiet)
 }

@@ -13,6 +13,7 @@ fn help_of_everything() {
     insta::assert_snapshot!("frisure", help(&["--help"]));
     insta::assert_snapshot!("predict", help(&["predict", "--help"]));
     insta::assert_snapshot!("render", help(&["render", "--help"]));
+    insta::assert_snapshot!("convert", help(&["convert", "--help"]));
     insta::assert_snapshot!("style", help(&["style", "--help"]));
     insta::assert_snapshot!("hair", help(&["hair", "--help"]));
     insta::assert_snapshot!("presets-help", help(&["presets", "--help"]));

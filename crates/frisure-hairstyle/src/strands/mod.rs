@@ -7,6 +7,7 @@
 //! its root is, and hairs that would lie in the body are laid on it, in the order in which they lay.
 
 mod course;
+mod described;
 mod population;
 mod skin;
 
@@ -21,6 +22,7 @@ use crate::implantation::smooth;
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::HairstyleSpec;
 
+pub(crate) use described::{add_natural_strains, describe_hairs, described_guides};
 use population::Hair;
 pub(crate) use population::{Population, roots};
 

@@ -241,7 +241,7 @@ impl<'a> Population<'a> {
     }
 
     /// Guides that a hair follows, with weights that sum to one; the nearest first.
-    fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
+    pub(super) fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
         let own = self.layout.direction(root);
         let near = self.sorted(root, own);
         let first = near[0];

@@ -1,31 +1,10 @@
-//! The names of attributes that grooms carry, each with its kind, in the order of a table of formats.
+//! The attributes that grooms carry: their names, and values by name.
 //!
 //! Formats have their own names for some of them (`groom_id`, `primvars:…`); these are the ones inside.
 
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 
-/// Index of the guide that a hair follows most; strand, u32. On guides: their own index.
-pub const GUIDE: &str = "guide";
-/// Indices of the three guides that a hair follows most, the first first; strand, 3 × u32.
-pub const CLOSEST_GUIDES: &str = "closest_guides";
-/// How much it follows each of [`CLOSEST_GUIDES`]: together 1; strand, 3 × f32.
-pub const GUIDE_WEIGHTS: &str = "guide_weights";
-/// Number of the hair in the whole head, from 0; strand, u32.
-pub const ID: &str = "id";
-/// Part of the scalp: 0 fringe, 1 top, 2 crown, 3 sides, 4 back, 5 nape; strand, u32.
-pub const GROUP: &str = "group";
-/// Where on the scalp it is rooted, each number from 0 to 1; strand, 2 × f32.
-pub const ROOT_UV: &str = "root_uv";
-/// Colour (linear, primaries of sRGB); strand or point, 3 × f32.
-pub const COLOUR: &str = "color";
-/// Water, from 0 (dry) to 1 (soaked); point, f32.
-pub const WETNESS: &str = "wetness";
-/// Semi-axis a of the section over semi-axis b; strand, f32.
-pub const AXIS_RATIO: &str = "axis_ratio";
-/// Director along semi-axis a, a unit vector; point, 3 × f32.
-pub const DIRECTOR: &str = "d1";
-/// Natural curvatures about d1 and d2 and natural twist (rad/m); point, 3 × f32.
-pub const NATURAL_STRAIN: &str = "natural_strain";
+pub use frisure_strands::names::*;
 
 /// An attribute with one value for each strand.
 #[must_use]

@@ -104,7 +104,7 @@ pub enum GroomError {
 }
 
 fn known(which: impl Fn(Format) -> bool) -> String {
-    let names = Format::ALL.into_iter().filter(|f| which(*f)).flat_map(|f| f.extensions());
+    let names = Format::ALL.into_iter().filter(|f| which(*f)).flat_map(Format::extensions);
     names.map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ")
 }
 
@@ -157,6 +157,14 @@ impl Format {
     pub fn tells_guides(self) -> bool {
         match self {
             Self::Hair | Self::Obj | Self::Ply => false,
+        }
+    }
+
+    /// How many points its readers expect a strand to have, where it matters to them.
+    #[must_use]
+    pub fn usual_points(self) -> Option<usize> {
+        match self {
+            Self::Hair | Self::Obj | Self::Ply => None,
         }
     }
 

@@ -13,22 +13,22 @@ use frisure::hairstyle::{
     Hairstyle, HairstyleSpec, Monitor, PredictError, penetration, predict, volume,
 };
 use frisure::io::files::Files;
-use frisure::io::frame::FrameChoice;
-use frisure::io::groom::{Format, Groom, write_groom};
+use frisure::io::groom::Groom;
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::Tracer;
 use frisure::render::{EnvironmentMap, Image};
 use frisure::strands::Strands;
-use frisure_stylist::carry;
 use frisure_stylist::picture as seen;
+use frisure_stylist::{carry, groom};
 
 use super::read_scene;
 use crate::args::{Predict, Quality};
 use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
+use crate::written::Grooms;
 use crate::{console, interrupt, outputs};
 
 use numbers::{Numbers, litres, numbers, summary};
@@ -105,9 +105,7 @@ fn check_outputs(
     scene: &Scene,
     turntable: Option<Turntable>,
 ) -> Result<(), Failure> {
-    for path in &arguments.outputs {
-        Format::of(path).map_err(|e| Failure::wrong(&e, hint_of(path)))?;
-    }
+    Grooms::new(&arguments.outputs, arguments.writing)?;
     if arguments.tracing.is_given() && arguments.quality == Quality::Preview {
         let message = "`--paths`, `--noise`, `--bounces` and `--denoise` are for final pictures";
         return Err(Failure::wrong_because(message, "add `--quality final`"));
@@ -165,16 +163,6 @@ fn name_of<'a>(arguments: &Predict, path: &'a Path, frame: usize, frames: usize)
     }
 }
 
-fn hint_of(path: &Path) -> &'static str {
-    match path.extension() {
-        Some(e) if ["png", "exr"].iter().any(|known| e.eq_ignore_ascii_case(known)) => {
-            "pictures go to `--image`"
-        }
-        Some(e) if e.eq_ignore_ascii_case("json") => "numbers go to `--report`",
-        _ => "",
-    }
-}
-
 /// Tells how far the work is, and to stop after Ctrl-C.
 struct Watch<'a>(&'a Progress);
 
@@ -208,7 +196,7 @@ struct Hair {
 
 /// One of them, drawn.
 struct Drawn {
-    strands: Strands,
+    groom: Groom,
     picture: Option<Picture>,
     /// Of the last.
     numbers: Option<Numbers>,
@@ -248,7 +236,11 @@ impl Work {
         let picture = picture.transpose()?;
         let is_last = frame + 1 == hair.styled.hairstyles.len();
         let numbers = is_last.then(|| self.numbers(hairstyle, head, &strands));
-        Ok(Drawn { strands, picture, numbers })
+        let groom = match self.arguments.outputs.is_empty() {
+            true => Groom::of(strands),
+            false => groom::groom(&self.scene, hairstyle, head, strands, self.arguments.fibres),
+        };
+        Ok(Drawn { groom, picture, numbers })
     }
 
     /// Whether hairs have to be drawn.
@@ -311,14 +303,11 @@ impl Work {
         frames: usize,
         written: &mut Vec<String>,
     ) -> Result<Option<Numbers>, Failure> {
-        let Drawn { strands, picture, numbers } = drawn;
-        let groom = Groom::of(strands);
-        for path in &self.arguments.outputs {
-            interrupt::check()?;
-            let path = name_of(&self.arguments, path, frame, frames);
-            write_groom(&path, &groom, FrameChoice::default()).map_err(|e| Failure::failed(&e))?;
-            written.push(path.display().to_string());
-        }
+        let Drawn { groom, picture, numbers } = drawn;
+        let name = |path: &PathBuf| name_of(&self.arguments, path, frame, frames).into_owned();
+        let paths: Vec<PathBuf> = self.arguments.outputs.iter().map(name).collect();
+        let grooms = Grooms::new(&paths, self.arguments.writing)?;
+        written.extend(grooms.write(groom, &paths)?);
         let Some((path, picture)) = self.arguments.image.as_ref().zip(picture) else {
             return Ok(numbers);
         };
@@ -330,8 +319,6 @@ impl Work {
                 written.push(path.display().to_string());
             }
             Picture::Final(shot) => {
-                // What the picture no longer needs: the tracer has its own.
-                drop(groom);
                 let all = exposing::shoot(*shot, &path, output, &self.progress)?;
                 written.extend(all.iter().map(ToString::to_string));
             }

@@ -1,0 +1,38 @@
+//! `frisure convert`: a groom from one format to others.
+
+use std::path::Path;
+
+use frisure::io::groom::{Groom, read_groom};
+
+use crate::args::{Convert, frame};
+use crate::failure::{Done, Failure};
+use crate::progress::Progress;
+use crate::written::Grooms;
+use crate::{console, interrupt, outputs};
+
+/// Reads the groom and writes it where the arguments say.
+pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<Done, Failure> {
+    let Convert { groom: path, outputs: asked, writing, from_unit, from_up } = arguments;
+    let grooms = Grooms::new(&asked, writing)?;
+    let names: Vec<&Path> = asked.iter().map(AsRef::as_ref).collect();
+    outputs::prepare(&names, &[&path])?;
+    let progress = Progress::new(quiet);
+    let told = progress.clone();
+    let read = interrupt::computing(move || {
+        told.show("reading", 0.0);
+        let groom = read_groom(&path, frame(from_unit, from_up));
+        groom.map_err(|e| Failure::wrong(&e, "`--from-unit` and `--from-up` say what it has"))
+    });
+    let result = read.and_then(|groom: Groom| {
+        progress.show("writing", 0.0);
+        let counts = (groom.hairs.len(), groom.guides.len());
+        Ok((counts, grooms.write(groom, &asked)?))
+    });
+    progress.finish();
+    let ((hairs, guides), written) = result?;
+    if !quiet {
+        let lines: String = written.iter().map(|line| format!("wrote {line}\n")).collect();
+        console::print(&format!("read {hairs} hairs, {guides} guides\n{lines}"))?;
+    }
+    Ok(Done::Well)
+}

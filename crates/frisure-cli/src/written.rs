@@ -1,0 +1,96 @@
+//! Grooms that are written: what of them, with how many points, in which unit.
+
+use std::path::PathBuf;
+
+use frisure::io::groom::{Format, Groom, GroomError, write_groom};
+use frisure::strands::Strands;
+
+use crate::args::{Content, Writing, frame};
+use crate::failure::Failure;
+use crate::interrupt;
+
+/// How grooms are to be written.
+pub(crate) struct Grooms {
+    writing: Writing,
+}
+
+impl Grooms {
+    /// Checks that every output can hold what is asked for.
+    pub(crate) fn new(outputs: &[PathBuf], writing: Writing) -> Result<Self, Failure> {
+        for path in outputs {
+            let format = Format::of(path).map_err(|e| Failure::wrong(&e, hint_of(path)))?;
+            if writing.content == Some(Content::Both) && !format.tells_guides() {
+                let what = "both guides and hairs: it does not tell them apart".into();
+                let error = GroomError::CannotHold { format: format.name(), what };
+                return Err(Failure::wrong(
+                    &error,
+                    "write each with `--content` to a file of its own",
+                ));
+            }
+        }
+        Ok(Self { writing })
+    }
+
+    /// Writes a groom to each path; gives a line for each, for people.
+    pub(crate) fn write(&self, groom: Groom, paths: &[PathBuf]) -> Result<Vec<String>, Failure> {
+        let Writing { content, points, unit, up } = self.writing;
+        let groom = chosen(groom, content);
+        // Formats of the same number of points share what was resampled.
+        let mut done: Option<(usize, Groom, f32)> = None;
+        let mut lines = Vec::new();
+        for path in paths {
+            interrupt::check()?;
+            let format = Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
+            let mut line = path.display().to_string();
+            let shown = match points.or(format.usual_points()) {
+                None => &groom,
+                Some(points) => {
+                    if done.as_ref().is_none_or(|d| d.0 != points) {
+                        let (groom, error) = resampled(&groom, points);
+                        done = Some((points, groom, error));
+                    }
+                    let (_, groom, error) = done.as_ref().expect("just resampled");
+                    let error = f64::from(*error) * 1e3;
+                    line +=
+                        &format!(" ({points} points each, within {error:.3} mm of what they were)");
+                    groom
+                }
+            };
+            write_groom(path, shown, frame(unit, up)).map_err(|e| match e {
+                GroomError::CannotHold { .. } => Failure::wrong(&e, ""),
+                _ => Failure::failed(&e),
+            })?;
+            lines.push(line);
+        }
+        Ok(lines)
+    }
+}
+
+/// What of a groom is written.
+fn chosen(groom: Groom, content: Option<Content>) -> Groom {
+    match content {
+        None | Some(Content::Both) => groom,
+        Some(Content::Hairs) => Groom { guides: Strands::new(), ..groom },
+        Some(Content::Guides) => Groom { hairs: Strands::new(), ..groom },
+    }
+}
+
+/// The groom with so many points a strand, and how far it is (m) from what it was.
+fn resampled(groom: &Groom, points: usize) -> (Groom, f32) {
+    let (hairs, guides) = (groom.hairs.resampled(points), groom.guides.resampled(points));
+    let error = hairs.error.max(guides.error);
+    let Groom { name, head, colour, .. } = groom;
+    let (name, head, colour) = (name.clone(), head.clone(), *colour);
+    (Groom { name, hairs: hairs.strands, guides: guides.strands, head, colour }, error)
+}
+
+/// Where something goes that is no groom.
+fn hint_of(path: &std::path::Path) -> &'static str {
+    match path.extension() {
+        Some(e) if ["png", "exr"].iter().any(|known| e.eq_ignore_ascii_case(known)) => {
+            "pictures go to `--image`"
+        }
+        Some(e) if e.eq_ignore_ascii_case("json") => "numbers go to `--report`",
+        _ => "",
+    }
+}

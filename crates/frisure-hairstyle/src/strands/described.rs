@@ -1,0 +1,180 @@
+//! What programs that groom want to know of each strand: whom it follows, where it is rooted, and what
+//! fibre it is.
+
+use frisure_rod::Equilibrium;
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands, names};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+use super::population::{Population, roots};
+use crate::guides::Guide;
+use crate::hairstyle::Hairstyle;
+use crate::head::{Head, Landmarks, Region};
+
+/// Adds to all drawn hairs of a hairstyle which guides they follow and where they are rooted.
+pub(crate) fn describe_hairs(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
+    let population = Population::new(hairstyle, head);
+    let marks = head.landmarks();
+    let roots = roots(hairstyle, head, 1);
+    let followed: Vec<([u32; 3], [f32; 3])> =
+        roots.par_iter().map(|(_, root)| most(&population.followed(root))).collect();
+    let (closest, weights) = followed.into_iter().unzip();
+    let group = |p: DVec3| group(marks.region(p));
+    let ids = roots.iter().map(|(index, _)| *index as u32).collect();
+    let groups = roots.iter().map(|(_, root)| group(root.position)).collect();
+    let uvs = roots.iter().map(|(_, root)| root_uv(marks, root.position)).collect();
+    put(strands, Domain::Strand, names::CLOSEST_GUIDES, AttributeValues::U32x3(closest));
+    put(strands, Domain::Strand, names::GUIDE_WEIGHTS, AttributeValues::F32x3(weights));
+    put(strands, Domain::Strand, names::ID, AttributeValues::U32(ids));
+    put(strands, Domain::Strand, names::GROUP, AttributeValues::U32(groups));
+    put(strands, Domain::Strand, names::ROOT_UV, AttributeValues::F32x2(uvs));
+}
+
+/// Adds the natural strains of the hairs: those of the guide that each follows, at the same distance
+/// from the root.
+pub(crate) fn add_natural_strains(strands: &mut Strands, hairstyle: &Hairstyle) {
+    let Some(AttributeValues::U32(guides)) = strands.attribute(names::GUIDE).map(|a| &a.values)
+    else {
+        return;
+    };
+    let strains = (guides.par_iter().enumerate()).flat_map_iter(|(strand, &guide)| {
+        let line = strands.strand(strand).points;
+        let natural = hairstyle.guides[guide as usize].rod.natural();
+        let mut s = 0.0;
+        (0..line.len()).map(move |k| {
+            s += if k > 0 { f64::from(line[k - 1].distance(line[k])) } else { 0.0 };
+            natural.at(s).as_vec3().to_array()
+        })
+    });
+    let values = AttributeValues::F32x3(strains.collect());
+    put(strands, Domain::Point, names::NATURAL_STRAIN, values);
+}
+
+/// The guides at rest as strands of `points` points, with all that is known of them.
+pub(crate) fn described_guides(hairstyle: &Hairstyle, head: &Head, points: usize) -> Strands {
+    let mut strands = hairstyle.guide_strands(points);
+    let Hairstyle { guides, rest, .. } = hairstyle;
+    let marks = head.landmarks();
+    let of = |f: &dyn Fn(&Guide) -> u32| AttributeValues::U32(guides.iter().map(f).collect());
+    let ids = AttributeValues::U32((0..guides.len() as u32).collect());
+    let uv = |g: &Guide| root_uv(marks, g.root.position);
+    let uvs = AttributeValues::F32x2(guides.iter().map(uv).collect());
+    let ratio = |g: &Guide| (g.rod.spec().section.a() / g.rod.spec().section.b()) as f32;
+    let ratios = AttributeValues::F32(guides.iter().map(ratio).collect());
+    put(&mut strands, Domain::Strand, names::ID, ids);
+    put(&mut strands, Domain::Strand, names::GROUP, of(&|g| group(g.region)));
+    put(&mut strands, Domain::Strand, names::ROOT_UV, uvs);
+    put(&mut strands, Domain::Strand, names::AXIS_RATIO, ratios);
+
+    let along = |f: &(dyn Fn(&Equilibrium) -> Vec<[f32; 3]> + Sync)| {
+        AttributeValues::F32x3(rest.guides.par_iter().flat_map_iter(f).collect())
+    };
+    let directors = |guide: &Equilibrium| {
+        let frames = guide.sample(points.max(2));
+        frames.iter().map(|(_, frame)| frame.x_axis.as_vec3().to_array()).collect()
+    };
+    let strains = |guide: &Equilibrium| {
+        let (count, length) = (points.max(2), guide.rod.length());
+        let place = |k: usize| length * k as f64 / (count - 1) as f64;
+        (0..count).map(|k| guide.rod.natural().at(place(k)).as_vec3().to_array()).collect()
+    };
+    put(&mut strands, Domain::Point, names::DIRECTOR, along(&directors));
+    put(&mut strands, Domain::Point, names::NATURAL_STRAIN, along(&strains));
+    let wisps = hairstyle.wisps();
+    if wisps.iter().any(|wisp| wisp.wetness != 0.0) {
+        let wetness = wisps.iter().map(|wisp| wisp.wetness as f32);
+        let values = wetness.flat_map(|w| std::iter::repeat_n(w, points.max(2))).collect();
+        put(&mut strands, Domain::Point, names::WETNESS, AttributeValues::F32(values));
+    }
+    strands
+}
+
+/// The three guides that a hair follows most, and how much; one that follows fewer has its own more than
+/// once, with weight 0.
+fn most(followed: &[(usize, f64)]) -> ([u32; 3], [f32; 3]) {
+    let own = followed[0].0;
+    let mut others: Vec<(usize, f64)> = followed[1..].to_vec();
+    others.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let second = others.first().copied().unwrap_or((own, 0.0));
+    let third = others.get(1).copied().unwrap_or((own, 0.0));
+    let all = [followed[0], second, third];
+    let sum: f64 = all.iter().map(|f| f.1).sum();
+    (all.map(|f| f.0 as u32), all.map(|f| (f.1 / sum) as f32))
+}
+
+/// The number of a region, as [`names::GROUP`] has it.
+fn group(region: Region) -> u32 {
+    Region::ALL.iter().position(|r| *r == region).unwrap_or(0) as u32
+}
+
+/// Where on the head a point is, as on a map drawn from above the cranium: its middle (½, ½) is above the
+/// centre, u grows to the head's left, v to the back, and the distance from the middle to the angle from the
+/// vertical, ½ being straight down (azimuthal equidistant projection).
+fn root_uv(marks: &Landmarks, p: DVec3) -> [f32; 2] {
+    let d = marks.normalized(p).normalize_or(DVec3::Z);
+    let around = d.x.hypot(d.y);
+    let radius = 0.5 * around.atan2(d.z) / PI;
+    let (x, y) = if around > 0.0 { (d.x / around, d.y / around) } else { (0.0, 0.0) };
+    [(0.5 + radius * x) as f32, (0.5 + radius * y) as f32]
+}
+
+fn put(strands: &mut Strands, domain: Domain, name: &str, values: AttributeValues) {
+    let attribute = Attribute { name: name.into(), domain, values };
+    strands.set_attribute(attribute).expect("one value each, set once");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Hairs, PRESETS, predict};
+
+    fn small() -> (Hairstyle, Head) {
+        let mut spec = PRESETS[0].spec();
+        spec.wisps.count = 24;
+        spec.wisps.hairs = Hairs::Count(300);
+        let head = Head::mannequin();
+        (predict(&spec, &head, &()).unwrap(), head)
+    }
+
+    #[test]
+    fn weights_are_shares() {
+        let (hairstyle, head) = small();
+        let mut strands = hairstyle.strands(&head, &()).unwrap();
+        hairstyle.describe(&mut strands, &head);
+        let values = |name: &str| &strands.attribute(name).unwrap().values;
+        let AttributeValues::F32x3(weights) = values(names::GUIDE_WEIGHTS) else { panic!() };
+        let AttributeValues::U32x3(closest) = values(names::CLOSEST_GUIDES) else { panic!() };
+        let AttributeValues::U32(own) = values(names::GUIDE) else { panic!() };
+        for ((weights, closest), own) in weights.iter().zip(closest).zip(own) {
+            assert!((weights.iter().sum::<f32>() - 1.0).abs() < 1e-6);
+            assert_eq!(closest[0], *own);
+            assert!(closest.iter().all(|g| (*g as usize) < hairstyle.guides().len()));
+        }
+    }
+
+    #[test]
+    fn the_map_of_roots_has_its_directions() {
+        let head = Head::mannequin();
+        let marks = head.landmarks();
+        let at = |d: DVec3| root_uv(marks, marks.cranium_centre + d * marks.cranium_radii);
+        assert_eq!(at(DVec3::Z), [0.5, 0.5]);
+        assert_eq!(at(DVec3::X), [0.75, 0.5]);
+        assert_eq!(at(DVec3::Y), [0.5, 0.75]);
+    }
+
+    #[test]
+    fn guides_know_their_fibre() {
+        let (hairstyle, head) = small();
+        let guides = hairstyle.described_guides(&head, 257);
+        let d1 = guides.attribute(names::DIRECTOR).unwrap();
+        let AttributeValues::F32x3(d1) = &d1.values else { panic!() };
+        for (i, strand) in guides.iter().enumerate() {
+            let first = (strand.points[1] - strand.points[0]).normalize();
+            let director = glam::Vec3::from_array(d1[257 * i]);
+            assert!(director.is_normalized());
+            // It is across the hair, up to what a chord of a millimetre turns.
+            assert!(director.dot(first).abs() < 0.1, "{i}: {}", director.dot(first));
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! A hairstyle as a groom for other programs.
+
+use frisure::hairstyle::Hairstyle;
+use frisure::hairstyle::head::Head;
+use frisure::io::groom::{Groom, HairColour};
+use frisure::io::scene::Scene;
+use frisure::optics::apparent_colour;
+use frisure::strands::Strands;
+
+use crate::picture::hair_look;
+
+/// The groom of a hairstyle: `hairs`, which are all its drawn hairs, its guides, its head and its colour.
+/// With `fibres`, each hair has the directors and natural strains of its fibre too, as guides always have.
+#[must_use]
+pub fn groom(
+    scene: &Scene,
+    hairstyle: &Hairstyle,
+    head: &Head,
+    mut hairs: Strands,
+    fibres: bool,
+) -> Groom {
+    if !hairs.is_empty() {
+        hairstyle.describe(&mut hairs, head);
+    }
+    if fibres {
+        if hairs.attribute("d1").is_none() {
+            hairstyle.add_sections(&mut hairs, head);
+        }
+        hairstyle.add_natural_strains(&mut hairs);
+    }
+    let guides = hairstyle.described_guides(head, hairstyle.spec().wisps.points);
+    let head = Some(head.surface().clone());
+    let (name, colour) = (name(scene), Some(colour(scene)));
+    Groom { name, hairs, guides, head, colour }
+}
+
+/// The scene's name as far as a program can have it for a name: letters, digits, underscores.
+fn name(scene: &Scene) -> String {
+    let fit = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    scene.name.chars().map(fit).collect()
+}
+
+/// What much of the hair looks like between its ends.
+fn colour(scene: &Scene) -> HairColour {
+    let hair = hair_look(&scene.look);
+    let natural = hair.natural();
+    let absorption = hair.dye.map_or(natural, |dye| natural.lerp(dye.absorption, dye.strength));
+    let seen = apparent_colour(absorption, hair.surface.azimuthal_roughness);
+    let plain = hair.dye.is_none() && hair.absorption.is_none();
+    HairColour { melanin: plain.then_some(hair.melanin), colour: seen.to_array() }
+}
