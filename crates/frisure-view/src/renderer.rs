@@ -52,7 +52,8 @@ pub(crate) struct Pipelines {
 
 impl Renderer {
     /// For a device, and for passes over targets of the format `output` with one sample per pixel. The head's
-    /// edges have `samples` samples per pixel: 4, or 1 for what is less.
+    /// edges have `samples` samples per pixel: 4, or 1 for what is less, which says that the device is slow: hair is
+    /// drawn with fewer pieces, too.
     #[must_use]
     pub fn new(device: &Device, _queue: &wgpu::Queue, output: TextureFormat, samples: u32) -> Self {
         let samples = if samples >= 4 { 4 } else { 1 };

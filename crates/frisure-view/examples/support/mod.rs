@@ -17,7 +17,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// The first adapter that `WGPU_BACKEND` allows, with the limits that every browser has where `WEB` is set.
+    /// The first adapter that `WGPU_BACKEND` allows, with the limits that every browser has; `SAMPLES` per pixel of the head, 4 by default.
     pub fn new() -> Option<Self> {
         pollster::block_on(Self::open())
     }
@@ -38,7 +38,8 @@ impl Gpu {
         };
         let (device, queue) = adapter.request_device(&descriptor).await.ok()?;
         let format = wgpu::TextureFormat::Rgba8Unorm;
-        let renderer = Renderer::new(&device, &queue, format, 4);
+        let samples = std::env::var("SAMPLES").map_or(4, |s| s.parse().unwrap_or(4));
+        let renderer = Renderer::new(&device, &queue, format, samples);
         Some(Self { adapter, device, queue, renderer })
     }
 

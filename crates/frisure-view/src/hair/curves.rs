@@ -7,12 +7,12 @@ use rayon::prelude::*;
 
 use super::ranks::ranks;
 
-/// Greatest turn within a piece (rad) and greatest length of one (m): the first that gives no more than
-/// [`VERTICES`] is taken.
+/// Greatest turn within a piece (rad) and greatest length of one (m): the first that gives few enough
+/// vertices is taken.
 const DETAIL: [(f32, f32); 6] =
     [(0.15, 0.014), (0.2, 0.016), (0.25, 0.02), (0.33, 0.025), (0.45, 0.03), (0.6, 0.04)];
-/// Vertices that a device can well draw many times a second.
-const VERTICES: usize = 1_800_000;
+/// Vertices that a device can well draw many times a second, and those that one can which is none.
+pub(super) const VERTICES: [usize; 2] = [1_800_000, 250_000];
 /// Most vertices, whatever the detail; fewer strands are kept where there are more.
 pub(super) const MOST: usize = if cfg!(target_arch = "wasm32") { 3_000_000 } else { 6_000_000 };
 /// Strands that tell how many vertices all need.
@@ -42,8 +42,9 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    /// The strands that can be drawn, `most` vertices at most: where that is too few, fewer strands.
-    pub(super) fn new(strands: &Strands, most: usize) -> Self {
+    /// The strands that can be drawn, in about `enough` vertices if the coarsest detail allows it, and `most`
+    /// at most: where that is too few, fewer strands.
+    pub(super) fn new(strands: &Strands, enough: usize, most: usize) -> Self {
         let order = ranks(strands.len());
         let wetness = Wetness::new(strands);
         let made = |ranks: &[u32], detail: (f32, f32)| {
@@ -58,7 +59,7 @@ impl Curves {
             let vertices = made(sample, detail).places.len();
             vertices as f64 * order.len() as f64 / sample.len().max(1) as f64
         };
-        let enough = VERTICES.min(most) as f64;
+        let enough = enough.min(most) as f64;
         let detail = DETAIL.into_iter().find(|&detail| expected(detail) <= enough);
         let detail = detail.unwrap_or(DETAIL[DETAIL.len() - 1]);
         let parts: Vec<Self> = order.par_chunks(CHUNK).map(|ranks| made(ranks, detail)).collect();

@@ -71,7 +71,9 @@ impl Hair {
         look: &HairLook,
     ) -> Self {
         let side = device.limits().max_texture_dimension_2d;
-        let curves = Curves::new(strands, curves::MOST.min(ROW as usize * side as usize));
+        let most = curves::MOST.min(ROW as usize * side as usize);
+        let enough = curves::VERTICES[usize::from(renderer.samples == 1)];
+        let curves = Curves::new(strands, enough, most);
         let textures = Textures::new(device, queue, &curves);
         let group = textures.group(renderer, device);
         let shape = version();

@@ -14,6 +14,8 @@ use crate::renderer::Renderer;
 /// Parts of the hair, nearest first, between which finished pixels are closed: where each ends, in parts of
 /// all. The nearest hair hides most of what is behind it.
 const PARTS: [f32; 6] = [0.1, 0.2, 0.32, 0.48, 0.7, 1.0];
+/// Pieces that are drawn faster than pixels are closed.
+const FEW: usize = 60_000;
 
 /// Light at each vertex.
 #[derive(Debug)]
@@ -58,8 +60,9 @@ impl Sorted {
         }
         let nearest = hair.nearest(job.strands, eye, forward);
         let count = nearest.pieces.len();
-        let ends = PARTS.map(|part| ((part * count as f32) as u32).min(count as u32));
-        let ends = [&ends[..PARTS.len() - 1], &[count as u32]].concat();
+        let parts = if count > FEW { &PARTS[..PARTS.len() - 1] } else { &[] };
+        let end = |part: &f32| ((part * count as f32) as u32).min(count as u32);
+        let ends: Vec<u32> = parts.iter().map(end).chain([count as u32]).collect();
         let level = |&end: &u32| nearest.depth((end as usize).saturating_sub(1));
         let levels: Vec<f32> = ends.iter().map(level).collect();
         let buffer =
@@ -130,6 +133,9 @@ impl Job<'_> {
             }
             drop(pass);
             begin = end;
+            if i + 1 == sorted.ends.len() as u64 {
+                break;
+            }
             let depths = Some(gpu::depth_target(&depth, false));
             let mut pass = gpu::pass(encoder, "finished pixels", &[], depths);
             pass.set_pipeline(&self.renderer.pipelines.finish);

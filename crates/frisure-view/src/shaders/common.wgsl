@@ -100,6 +100,18 @@ fn buffer_depth(depth: f32) -> f32 {
     return FAR / (FAR - NEAR) * (1.0 - NEAR / depth);
 }
 
+// Position in the picture (pixels) and depth (m).
+fn project(p: vec3<f32>) -> vec3<f32> {
+    let d = p - picture.eye.xyz;
+    let depth = dot(d, picture.forward.xyz);
+    let scale = picture.eye.w / max(depth, NEAR);
+    return vec3<f32>(
+        0.5 * picture.right.w + scale * dot(d, picture.right.xyz),
+        0.5 * picture.up.w - scale * dot(d, picture.up.xyz),
+        depth,
+    );
+}
+
 // A point in a lamp's maps: right, down and away from the lamp (m).
 fn in_maps(lamp: Lamp, p: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(p, lamp.right.xyz), dot(p, lamp.down.xyz), -dot(p, lamp.towards.xyz));

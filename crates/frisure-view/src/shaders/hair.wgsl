@@ -11,18 +11,6 @@ struct Ribbon {
     @location(2) @interpolate(flat) shape: vec2<f32>,
 }
 
-// Position in the picture (pixels) and depth (m).
-fn project(p: vec3<f32>) -> vec3<f32> {
-    let d = p - picture.eye.xyz;
-    let depth = dot(d, picture.forward.xyz);
-    let scale = picture.eye.w / max(depth, NEAR);
-    return vec3<f32>(
-        0.5 * picture.right.w + scale * dot(d, picture.right.xyz),
-        0.5 * picture.up.w - scale * dot(d, picture.up.xyz),
-        depth,
-    );
-}
-
 @vertex
 fn ribbon(@builtin(vertex_index) corner: u32, @location(0) first: u32) -> Ribbon {
     var out: Ribbon;

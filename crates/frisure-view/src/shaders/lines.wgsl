@@ -21,17 +21,6 @@ fn kept(p: vec3<f32>, q: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(mix(p, q, (near - dp) / (dq - dp)), 1.0);
 }
 
-fn project(p: vec3<f32>) -> vec3<f32> {
-    let d = p - picture.eye.xyz;
-    let depth = dot(d, picture.forward.xyz);
-    let scale = picture.eye.w / max(depth, NEAR);
-    return vec3<f32>(
-        0.5 * picture.right.w + scale * dot(d, picture.right.xyz),
-        0.5 * picture.up.w - scale * dot(d, picture.up.xyz),
-        depth,
-    );
-}
-
 @vertex
 fn stroke(
     @builtin(vertex_index) corner: u32,

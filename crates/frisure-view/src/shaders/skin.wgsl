@@ -33,30 +33,34 @@ fn skin_vertex(in: Vertex) -> Skin {
     return Skin(projected(in.position), in.position, in.normal, in.room, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)));
 }
 
-fn aside(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, eighths: f32) -> f32 {
-    let angle = TAU / 8.0 * eighths;
-    return past_head(lamp, p + radius * (cos(angle) * lamp.right.xyz + sin(angle) * lamp.down.xyz), bias);
+// Places on a lamp as wide as a soft box: the middle, a ring of eight of which four come first, and a ring of four
+// within.
+const FEW: i32 = 5;
+const ALL: i32 = 13;
+
+fn on_lamp(lamp: Lamp, i: i32, radius: f32) -> vec3<f32> {
+    let outer = i < 9;
+    let turn = TAU / 8.0 * (select(2.0 * f32(i - 9) + 1.0, 2.0 * f32(i - 1) + select(0.5, 1.5, i > 4), outer));
+    let r = radius * select(0.44, 0.855, outer) * min(f32(i), 1.0);
+    return r * (cos(turn) * lamp.right.xyz + sin(turn) * lamp.down.xyz);
 }
 
-// Mean over a lamp as wide as a soft box: over the middle and two rings of four and of eight places. Most of the
-// head is all lit or all dark, and four places of the outer ring tell.
-fn softly_past_head(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, middle: f32) -> f32 {
-    let outer = 0.855 * radius;
-    var open = middle + aside(lamp, p, bias, outer, 0.5) + aside(lamp, p, bias, outer, 2.5)
-        + aside(lamp, p, bias, outer, 4.5) + aside(lamp, p, bias, outer, 6.5);
-    if open == 0.0 || open == 5.0 {
-        return open / 5.0;
+// Part of the lamp that the head does not hide: of `places` places on it, of which the first few tell that all are
+// open or none. One loop and not thirteen calls: software compiles each call anew.
+fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, places: i32) -> f32 {
+    var open = 0.0;
+    var count = places;
+    for (var i = 0; i < count; i += 1) {
+        open += past_head(lamp, p + on_lamp(lamp, i, radius), bias);
+        if i + 1 == FEW && (open == 0.0 || open == f32(FEW)) {
+            count = FEW;
+        }
     }
-    let inner = 0.44 * radius;
-    open += aside(lamp, p, bias, outer, 1.5) + aside(lamp, p, bias, outer, 3.5)
-        + aside(lamp, p, bias, outer, 5.5) + aside(lamp, p, bias, outer, 7.5);
-    open += aside(lamp, p, bias, inner, 1.0) + aside(lamp, p, bias, inner, 3.0)
-        + aside(lamp, p, bias, inner, 5.0) + aside(lamp, p, bias, inner, 7.0);
-    return open / 13.0;
+    return open / f32(count);
 }
 
 // The light of a lamp that skin at a place sends to the eye.
-fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, soft: bool) -> vec3<f32> {
+fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, places: i32) -> vec3<f32> {
     let wrap = picture.skin_shape.x;
     let bias = picture.skin_shape.y;
     let facing = (dot(normal, lamp.towards.xyz) + wrap) / (1.0 + wrap);
@@ -64,10 +68,7 @@ fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, so
         return vec3<f32>(0.0);
     }
     let lifted = place + bias * normal;
-    var open = past_head(lamp, lifted, bias);
-    if soft {
-        open = softly_past_head(lamp, lifted, bias, picture.skin_shape.z, open);
-    }
+    let open = past_head_from(lamp, lifted, bias, picture.skin_shape.z, places);
     let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
     let passed = open * exp(-met.before * picture.taken.rgb);
     let half = normalize(lamp.towards.xyz + eye);
@@ -86,7 +87,7 @@ fn skin(in: Skin) -> @location(0) vec4<f32> {
     normal = select(normal, -normal, dot(normal, eye) < 0.0);
     var light = in.room * picture.skin.rgb;
     for (var i = 0; i < in.kinds.x; i += 1) {
-        light += skin_from(picture.lamps[i], in.place, normal, eye, in.kinds.y > 0);
+        light += skin_from(picture.lamps[i], in.place, normal, eye, select(1, ALL, in.kinds.y > 0));
     }
     return vec4<f32>(behind_planes(light, in.place), 1.0);
 }
