@@ -50,6 +50,7 @@
 //!   adds, such as contact. They are minimised by [`minimise::Riccati`], a Newton method in time
 //!   proportional to the number of elements.
 //! - [`Equilibrium`] is the shape, its energies, and a [`Certificate`].
+//! - [`inverse`] is the other way round: the fibre that rests in a given shape.
 //!
 //! SI units, z up, right-handed; frames are `[d1 d2 t]` in columns. Everything is deterministic: no
 //! clocks, no threads, no hidden randomness. docs/theory.md has the equations and their sources.
@@ -70,6 +71,7 @@ mod chain;
 mod element;
 mod equilibrium;
 mod error;
+pub mod inverse;
 mod material;
 pub mod minimise;
 pub mod potential;

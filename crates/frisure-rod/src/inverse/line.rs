@@ -1,0 +1,152 @@
+//! A line through points, smooth, and frames along it.
+
+use glam::{DMat3, DQuat, DVec3};
+
+/// Pieces of the smooth line for each piece of the given one.
+const PIECES: usize = 8;
+
+/// Points nearer to each other than this (m) are one.
+const APART: f64 = 1e-9;
+
+/// Twists that are tried, for each element.
+const TWISTS: usize = 4;
+
+/// A smooth line through points, by arc length.
+#[derive(Debug)]
+pub(super) struct Line {
+    arc: Vec<f64>,
+    points: Vec<DVec3>,
+    /// Its own points, and the arc lengths at which they are.
+    nodes: Vec<(f64, DVec3)>,
+}
+
+impl Line {
+    /// Through points (m), by centripetal Catmull–Rom splines; none through fewer than two.
+    pub(super) fn through(given: &[DVec3]) -> Option<Self> {
+        let mut nodes: Vec<DVec3> = Vec::with_capacity(given.len());
+        for &p in given {
+            if nodes.last().is_none_or(|last| last.distance(p) > APART) {
+                nodes.push(p);
+            }
+        }
+        let last = nodes.len().checked_sub(1).filter(|&last| last > 0)?;
+        let mut points = vec![nodes[0]];
+        for i in 0..last {
+            let (b, c) = (nodes[i], nodes[i + 1]);
+            let a = if i > 0 { nodes[i - 1] } else { b * 2.0 - c };
+            let d = nodes.get(i + 2).copied().unwrap_or(c * 2.0 - b);
+            points.extend((1..=PIECES).map(|k| spline([a, b, c, d], k as f64 / PIECES as f64)));
+        }
+        let mut length = 0.0;
+        let mut arc = vec![0.0];
+        arc.extend(points.windows(2).map(|pair| {
+            length += pair[0].distance(pair[1]);
+            length
+        }));
+        let nodes = nodes.into_iter().enumerate().map(|(i, p)| (arc[i * PIECES], p)).collect();
+        Some(Self { arc, points, nodes })
+    }
+
+    /// Its length (m).
+    pub(super) fn length(&self) -> f64 {
+        self.arc[self.arc.len() - 1]
+    }
+
+    /// The point (m) at an arc length (m); beyond its ends it goes straight on.
+    pub(super) fn at(&self, s: f64) -> DVec3 {
+        let i = self.arc.partition_point(|&a| a <= s).clamp(1, self.arc.len() - 1) - 1;
+        let (from, to) = (self.arc[i], self.arc[i + 1]);
+        let x = if to > from { (s - from) / (to - from) } else { 0.0 };
+        self.points[i] + (self.points[i + 1] - self.points[i]) * x
+    }
+
+    /// The points (m) that it goes through, each with its arc length (m).
+    pub(super) fn nodes(&self) -> &[(f64, DVec3)] {
+        &self.nodes
+    }
+
+    /// Sum of the angles (rad) between its pieces.
+    pub(super) fn turning(&self) -> f64 {
+        let way = |pair: &[DVec3]| (pair[1] - pair[0]).normalize_or_zero();
+        let turn = |three: &[DVec3]| way(&three[..2]).dot(way(&three[1..])).clamp(-1.0, 1.0).acos();
+        self.points.windows(3).map(turn).sum()
+    }
+
+    /// Frames at the ends of so many equal elements, columns d1, d2, t: t along the line, and d1 about
+    /// which it bends, as nearly as an even twist along the whole line allows. So the soft axis of an
+    /// elliptical section follows the curl, and a helix has a constant strain.
+    pub(super) fn frames(&self, elements: usize) -> Vec<DMat3> {
+        let h = self.length() / elements as f64;
+        let tangent = |i: usize| {
+            let s = h * i as f64;
+            (self.at(s + 0.5 * h) - self.at(s - 0.5 * h)).normalize_or(DVec3::Z)
+        };
+        let tangents: Vec<DVec3> = (0..=elements).map(tangent).collect();
+        let untwisted = untwisted(&tangents);
+        // Bending about d1 and d2 of frames without twist, as complex numbers.
+        let bends: Vec<(f64, f64)> = untwisted
+            .windows(2)
+            .map(|pair| {
+                let turn = DQuat::from_mat3(&(pair[0].transpose() * pair[1])).to_scaled_axis();
+                (turn.x, turn.y)
+            })
+            .collect();
+        let (twist, start) = evenest(&bends);
+        let turned = |(i, frame): (usize, DMat3)| {
+            frame * DMat3::from_rotation_z(start + twist * (i as f64 - 0.5))
+        };
+        untwisted.into_iter().enumerate().map(turned).collect()
+    }
+}
+
+/// Point at the part `x` of the way from the second to the third of four points.
+fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
+    let step = |a: DVec3, b: DVec3| a.distance(b).sqrt().max(APART);
+    let t1 = step(p[0], p[1]);
+    let t2 = t1 + step(p[1], p[2]);
+    let t3 = t2 + step(p[2], p[3]);
+    let t = t1 + x * (t2 - t1);
+    let mix = |a: DVec3, b: DVec3, from: f64, to: f64| a + (b - a) * ((t - from) / (to - from));
+    let (a, b, c) = (mix(p[0], p[1], 0.0, t1), mix(p[1], p[2], t1, t2), mix(p[2], p[3], t2, t3));
+    let (d, e) = (mix(a, b, 0.0, t2), mix(b, c, t1, t3));
+    mix(d, e, t1, t2)
+}
+
+/// Frames with these tangents that turn about them nowhere.
+fn untwisted(tangents: &[DVec3]) -> Vec<DMat3> {
+    let first = tangents[0];
+    let d1 = first.any_orthonormal_vector();
+    let mut frame = DMat3::from_cols(d1, first.cross(d1), first);
+    let mut frames = vec![frame];
+    for pair in tangents.windows(2) {
+        frame = DMat3::from_quat(DQuat::from_rotation_arc(pair[0], pair[1])) * frame;
+        let (t, d1) = (pair[1], frame.x_axis);
+        let d1 = (d1 - t * t.dot(d1)).normalize();
+        frame = DMat3::from_cols(d1, t.cross(d1), t);
+        frames.push(frame);
+    }
+    frames
+}
+
+/// The twist (rad per element) and the angle at the start (rad) of frames in which bending is most about d1:
+/// the peak of the spectrum of the bending.
+fn evenest(bends: &[(f64, f64)]) -> (f64, f64) {
+    let sum = |twist: f64| {
+        bends.iter().enumerate().fold((0.0, 0.0), |(x, y), (i, b)| {
+            let (sin, cos) = (twist * i as f64).sin_cos();
+            (x + b.0 * cos + b.1 * sin, y + b.1 * cos - b.0 * sin)
+        })
+    };
+    let tries = (TWISTS * bends.len()) as i32;
+    // A quarter turn per element is all that elements can follow.
+    let twists = (-tries..=tries)
+        .map(|k| std::f64::consts::FRAC_PI_4 * f64::from(k) / f64::from(tries.max(1)));
+    let strength = |twist: f64| {
+        let (x, y) = sum(twist);
+        // Of twists that serve alike, the least.
+        x.hypot(y) - 1e-9 * twist.abs()
+    };
+    let best = twists.max_by(|a, b| strength(*a).total_cmp(&strength(*b))).unwrap_or(0.0);
+    let (x, y) = sum(best);
+    (best, y.atan2(x))
+}
