@@ -1,6 +1,6 @@
 //! A rod made to rest in a shape rests in it.
 
-use frisure_rod::inverse::hold;
+use frisure_rod::inverse::{Fitted, hold};
 use frisure_rod::{
     Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, Stability,
     TorsionConstant, equilibrium, equilibrium_from,
@@ -110,4 +110,20 @@ fn lines_that_are_none_are_refused() {
     for line in [vec![], vec![DVec3::X], vec![DVec3::X; 5], vec![DVec3::X, DVec3::NAN]] {
         assert!(hold(&line, &spec, &[], &options()).is_err());
     }
+}
+
+/// A straight rod on a table: the table bears all of its weight but what the clamp does, and it needs no curl.
+#[test]
+fn a_table_bears_what_lies_on_it() {
+    let spec = spec(0.1, 1.0, NaturalStrain::STRAIGHT, DVec3::X);
+    let line: Vec<DVec3> = (0..=40).map(|k| DVec3::X * (0.005 * f64::from(k))).collect();
+    let fitted = Fitted::new(&line, &spec).unwrap();
+    let weight = fitted.rod().weight() * fitted.rod().length();
+    let on_table = vec![Some(DVec3::Z); fitted.nodes().len()];
+    let borne: f64 = fitted.least_support(&on_table).iter().sum();
+    assert!((borne / weight - 1.0).abs() < 0.03, "{}", borne / weight);
+    assert!(fitted.least_support(&vec![None; fitted.nodes().len()]).iter().all(|f| *f == 0.0));
+    // Beneath a ceiling nothing is borne.
+    let ceiling = vec![Some(DVec3::NEG_Z); fitted.nodes().len()];
+    assert!(fitted.least_support(&ceiling).iter().all(|f| *f == 0.0));
 }

@@ -13,6 +13,7 @@
 //! equilibrium so made is a minimum is another matter: a soft hair cannot stand on its head, whatever its curl.
 
 mod line;
+mod support;
 
 use glam::{DMat3, DVec3};
 
@@ -57,38 +58,120 @@ const MENDINGS: usize = 2;
 /// Error (m) that needs no mending.
 const GOOD: f64 = 1e-5;
 
-/// The rod that rests in the shape of a line.
-///
-/// Of `spec` the section, the material, the kind of torsion and gravity count; length, natural strain and root are
-/// those of the line, whose first point is the root. The material frame bends about d1 as far as an even twist
-/// allows: a polyline says nothing of the turn of its sections. `external` are the other potentials that act
-/// on it, and `options` how its rest is sought.
+/// The rod that rests in the shape of a line in its own weight and in other potentials: [`Fitted::new`] and
+/// [`Fitted::hold`].
 ///
 /// # Errors
-/// [`InvalidQuantity`], if the line has no length, a coordinate is not finite, or no rod can be made of `spec`.
+/// As they.
 pub fn hold(
     given: &[DVec3],
     spec: &RodSpec,
     external: &[&dyn Potential],
     options: &Options,
 ) -> Result<Held, InvalidQuantity> {
-    let line = checked(given)?;
-    let (rod, target) = fitted(&line, spec)?;
-    let chain = Chain::uniform(&rod, ElementKind::Helix, target.controls.len());
-    let mut strains = balanced(&Problem::new(&chain, external), &target);
-    let mut best = held(&line, spec, (&strains, &target), external, options)?;
-    for _ in 0..MENDINGS {
-        if best.error < GOOD || best.stiffness_needed > 1.0 {
-            break;
-        }
-        strains = mended(&strains, &best.rest, &target);
-        let better = held(&line, spec, (&strains, &target), external, options)?;
-        if better.error >= best.error {
-            break;
-        }
-        best = better;
+    Fitted::new(given, spec)?.hold(external, options)
+}
+
+/// A line as the shape of a rod.
+#[derive(Debug)]
+pub struct Fitted {
+    line: Line,
+    /// The rod that would have this shape without weight.
+    rod: Rod,
+    target: Shape,
+}
+
+impl Fitted {
+    /// The rod in the shape of a line of points (m).
+    ///
+    /// Of `spec` the section, the material, the kind of torsion and gravity count; length, natural strain and
+    /// root are those of the line, whose first point is the root. The material frame bends about d1 as far as
+    /// an even twist allows: a polyline says nothing of the turn of its sections.
+    ///
+    /// # Errors
+    /// [`InvalidQuantity`], if the line has no length, a coordinate is not finite, or no rod can be made of
+    /// `spec`.
+    pub fn new(given: &[DVec3], spec: &RodSpec) -> Result<Self, InvalidQuantity> {
+        let line = checked(given)?;
+        let (rod, target) = fitted(&line, spec)?;
+        Ok(Self { line, rod, target })
     }
-    Ok(best)
+
+    /// The rod that would have this shape without weight.
+    #[must_use]
+    pub fn rod(&self) -> &Rod {
+        &self.rod
+    }
+
+    /// Positions of its nodes (m), evenly spaced from root to tip.
+    #[must_use]
+    pub fn nodes(&self) -> &[DVec3] {
+        &self.target.positions
+    }
+
+    /// The force (N) that something beneath the rod has to bear at each node, so that the rod needs the least
+    /// elastic energy to be in balance: `beneath` is the unit direction in which it can push there, if there
+    /// is something.
+    ///
+    /// # Panics
+    /// If there is not one direction per node.
+    #[must_use]
+    pub fn least_support(&self, beneath: &[Option<DVec3>]) -> Vec<f64> {
+        support::least(&self.rod, &self.target, beneath)
+    }
+
+    /// The rod that rests in this shape. `external` are the potentials that act on it besides its weight, and
+    /// `options` how its rest is sought.
+    ///
+    /// # Errors
+    /// [`InvalidQuantity`], if the natural strain that it would need is not finite.
+    pub fn hold(
+        &self,
+        external: &[&dyn Potential],
+        options: &Options,
+    ) -> Result<Held, InvalidQuantity> {
+        let chain = Chain::uniform(&self.rod, ElementKind::Helix, self.target.controls.len());
+        let mut strains = balanced(&Problem::new(&chain, external), &self.target);
+        let mut best = self.held(&strains, external, options)?;
+        for _ in 0..MENDINGS {
+            if best.error < GOOD || best.stiffness_needed > 1.0 {
+                break;
+            }
+            strains = mended(&strains, &best.rest, &self.target);
+            let better = self.held(&strains, external, options)?;
+            if better.error >= best.error {
+                break;
+            }
+            best = better;
+        }
+        Ok(best)
+    }
+
+    /// The rod with these natural strains, and where it rests.
+    fn held(
+        &self,
+        strains: &[DVec3],
+        external: &[&dyn Potential],
+        options: &Options,
+    ) -> Result<Held, InvalidQuantity> {
+        let (elements, length) = (strains.len(), self.line.length());
+        let natural = profile(length / elements as f64, strains)?;
+        let rod = Rod::new(RodSpec { natural, ..self.rod.spec().clone() })?;
+        let chain = Chain::uniform(&rod, ElementKind::Helix, elements);
+        let problem = Problem::new(&chain, external);
+        let gradient_norm = problem.gradient_norm(&self.target);
+        let least = problem.min_eigenvalue(&self.target);
+        let stability = if least > 0.0 { Stability::Stable } else { Stability::Saddle };
+        let minimum =
+            Minimum { shape: self.target.clone(), gradient_norm, iterations: 0, stability };
+        let start = Equilibrium::from_minimum(&problem, minimum);
+        let rest = equilibrium_from(&rod, external, options, &start);
+        let error = apart(&self.line, &rest);
+        // Stiffness makes the elastic part of the second variation greater, weight and contact stay: with
+        // H x = λ M x, λ becomes 1 − (1 − λ) / factor.
+        let stiffness_needed = if least > 0.0 { 1.0 } else { 1.0 - least };
+        Ok(Held { rod, rest, error, stiffness_needed })
+    }
 }
 
 fn checked(given: &[DVec3]) -> Result<Line, InvalidQuantity> {
@@ -149,35 +232,6 @@ fn balanced(problem: &Problem<'_>, shape: &Shape) -> Vec<DVec3> {
         (element.rest() + gradient / element.stiffness()) / h
     };
     problem.gradient(shape).into_iter().enumerate().map(natural).collect()
-}
-
-/// The rod with these natural strains, and where it rests.
-fn held(
-    line: &Line,
-    spec: &RodSpec,
-    (strains, target): (&[DVec3], &Shape),
-    external: &[&dyn Potential],
-    options: &Options,
-) -> Result<Held, InvalidQuantity> {
-    let elements = strains.len();
-    let length = line.length();
-    let frame: DMat3 = target.frames[0];
-    let root = Root::new(target.positions[0], frame.x_axis, frame.y_axis, frame.z_axis)?;
-    let natural = profile(length / elements as f64, strains)?;
-    let rod = Rod::new(RodSpec { length, natural, root, ..spec.clone() })?;
-    let chain = Chain::uniform(&rod, ElementKind::Helix, elements);
-    let problem = Problem::new(&chain, external);
-    let gradient_norm = problem.gradient_norm(target);
-    let least = problem.min_eigenvalue(target);
-    let stability = if least > 0.0 { Stability::Stable } else { Stability::Saddle };
-    let minimum = Minimum { shape: target.clone(), gradient_norm, iterations: 0, stability };
-    let start = Equilibrium::from_minimum(&problem, minimum);
-    let rest = equilibrium_from(&rod, external, options, &start);
-    let error = apart(line, &rest);
-    // Stiffness makes the elastic part of the second variation greater, weight and contact stay: with
-    // H x = λ M x, λ becomes 1 − (1 − λ) / factor.
-    let stiffness_needed = if least > 0.0 { 1.0 } else { 1.0 - least };
-    Ok(Held { rod, rest, error, stiffness_needed })
 }
 
 /// Natural strains mended by how the rest differs from the target.
