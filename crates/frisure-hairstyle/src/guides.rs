@@ -6,7 +6,7 @@ use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
-use crate::contact::{Layer, Thickness};
+use crate::contact::{Bed, Layer, Thickness};
 use crate::fibre::{Curl, Handedness};
 use crate::hairstyle::PredictError;
 use crate::head::{Head, Region};
@@ -29,6 +29,8 @@ pub struct Guide {
     pub thickness: Thickness,
     /// The hair beneath it, as the paper has it.
     pub layer: Layer,
+    /// The hair beneath it, as the groom shows it that it comes from.
+    pub bed: Option<Arc<Bed>>,
     /// What pulls at it, if it is being combed or is clipped.
     pub pull: Option<Pull>,
     /// How many times as hard as usual it presses on the skin for being held in a shape, which skin
@@ -66,12 +68,12 @@ fn short(area: f64) -> f64 {
 #[derive(Clone, Debug)]
 pub(crate) struct Planting {
     /// What it depends on: head, seed, hairline.
-    of: (u64, u64, Hairline),
+    pub(crate) of: (u64, u64, Hairline),
     /// Weighted area of the scalp (m²).
-    area: f64,
-    roots: Vec<Root>,
+    pub(crate) area: f64,
+    pub(crate) roots: Vec<Root>,
     /// Where drawn hairs are rooted, once that has been asked for; shared by all clones.
-    hairs: Arc<Mutex<Option<Arc<[Root]>>>>,
+    pub(crate) hairs: Arc<Mutex<Option<Arc<[Root]>>>>,
 }
 
 impl Planting {
@@ -118,7 +120,12 @@ impl Planting {
         }
     }
 
-    fn key(spec: &HairstyleSpec, head: &Head) -> (u64, u64, Hairline) {
+    /// Where guides are rooted.
+    pub(crate) fn roots(&self) -> &[Root] {
+        &self.roots
+    }
+
+    pub(crate) fn key(spec: &HairstyleSpec, head: &Head) -> (u64, u64, Hairline) {
         (head.fingerprint(), spec.seed, spec.implantation.hairline)
     }
 }
@@ -144,23 +151,24 @@ pub(crate) fn plan(
         .enumerate()
         .map(|(index, &root)| {
             let altitude = (root.position.z - low) / (high - low).max(1e-9);
-            let region = head.landmarks().region(root.position);
             let Planned { rod, curl, share } = fibre(spec, head, layout, &root, index)?;
-            let thickness = thickness(spec, area, &rod);
-            let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
-            Ok(Guide {
-                root,
-                region,
-                rod,
-                thickness,
-                layer,
-                pull: None,
-                firmness: 1.0,
-                curl,
-                share,
-            })
+            Ok(covered(spec, head, area, (root, altitude), (rod, curl, share)))
         })
         .collect()
+}
+
+/// The guide of a fibre rooted somewhere, with the wisp about it and the hair beneath.
+pub(crate) fn covered(
+    spec: &HairstyleSpec,
+    head: &Head,
+    area: f64,
+    (root, altitude): (Root, f64),
+    (rod, curl, share): (Rod, DVec3, f64),
+) -> Guide {
+    let region = head.landmarks().region(root.position);
+    let thickness = thickness(spec, area, &rod);
+    let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
+    Guide { root, region, rod, thickness, layer, bed: None, pull: None, firmness: 1.0, curl, share }
 }
 
 /// Cross-section of hair per area of skin, in the middle of a guide.

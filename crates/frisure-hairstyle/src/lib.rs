@@ -11,6 +11,7 @@ mod roots;
 pub mod contact;
 mod pull;
 
+mod adopted;
 mod equilibrium;
 mod guides;
 mod hairstyle;
@@ -28,6 +29,7 @@ mod grid;
 mod monitor;
 mod random;
 
+pub use adopted::{Adoption, adopt};
 pub use equilibrium::{Effort, SettlingReport};
 pub use fibre::{Curl, Fibre, Handedness};
 pub use guides::{Crowded, Guide};

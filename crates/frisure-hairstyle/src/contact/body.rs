@@ -3,7 +3,7 @@
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
-use super::{Layer, Thickness, outer};
+use super::{Bed, Layer, Thickness, outer};
 use crate::head::{Head, Sphere};
 use crate::spec::Body;
 
@@ -28,12 +28,17 @@ pub struct BodyContact<'a> {
     pub thickness: Thickness,
     /// Hair beneath the wisp.
     pub layer: Layer,
+    /// What a groom shows of it, instead of thickness and layer.
+    pub bed: Option<&'a Bed>,
 }
 
 impl BodyContact<'_> {
     /// Distance (m) from the skin at which hair begins to be felt, at arc length `s` (m).
     fn keep(&self, s: f64) -> f64 {
-        self.thickness.at(s) + self.layer.at(s)
+        match self.bed {
+            Some(bed) => bed.at(s),
+            None => self.thickness.at(s) + self.layer.at(s),
+        }
     }
 
     /// Calls `touch` with the distance (m), its gradient and its Hessian (1/m), for each part of the
@@ -125,6 +130,7 @@ mod tests {
                 hair: 2.0,
                 thickness: wisp(),
                 layer,
+                bed: None,
             };
             // In the hair over the skin, and in the skin.
             for out in [0.003, -0.004] {

@@ -8,6 +8,7 @@
 //! All energies are per length of hair (\[paper\] §3.1 takes them per sample), so that they do not
 //! depend on how finely a guide is divided.
 
+mod bed;
 mod body;
 mod layers;
 mod neighbours;
@@ -15,6 +16,7 @@ mod neighbours;
 mod test_field;
 mod thickness;
 
+pub use bed::Bed;
 pub use body::BodyContact;
 pub use layers::Layer;
 pub use neighbours::Neighbours;

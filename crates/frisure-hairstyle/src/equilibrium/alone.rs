@@ -225,7 +225,7 @@ fn elements_like(spec: &HairstyleSpec, before: &Equilibrium) -> usize {
     }
 }
 
-fn options(spec: &HairstyleSpec) -> Options {
+pub(super) fn options(spec: &HairstyleSpec) -> Options {
     Options {
         resolution: spec.equilibrium.resolution,
         element: spec.equilibrium.element,

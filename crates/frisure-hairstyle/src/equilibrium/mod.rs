@@ -7,10 +7,11 @@ mod wisp;
 
 pub use report::SettlingReport;
 
-use frisure_rod::Equilibrium;
 use frisure_rod::potential::{Field, InField};
+use frisure_rod::{Equilibrium, Options, Resolution, Rod};
+use glam::DVec3;
 
-use crate::contact::{BodyContact, Layer};
+use crate::contact::{Bed, BodyContact, Layer, Thickness};
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor};
@@ -117,6 +118,37 @@ fn among(
     Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
 }
 
+/// Accuracy (m) with which the fibre of a groom is sought.
+const HOLDING: f64 = 1e-4;
+
+/// What holds a strand of a groom up besides its own curl.
+pub(crate) fn held_up<'a>(
+    spec: &HairstyleSpec,
+    head: &'a Head,
+    rod: &Rod,
+    bed: &'a Bed,
+) -> BodyContact<'a> {
+    BodyContact {
+        head,
+        body: spec.contact.body,
+        skin: spec.contact.stiffness,
+        hair: spec.contact.hair_stiffness,
+        // The bed is as high as it is, whatever wisp lies on it.
+        thickness: Thickness::new(rod, DVec3::ZERO, (1.0, 1.0), 0.0, 0.0),
+        layer: Layer::NONE,
+        bed: Some(bed),
+    }
+}
+
+/// How the rest of a groom's strand is sought, whose fibre is to be found.
+pub(crate) fn holding(spec: &HairstyleSpec) -> Options {
+    let resolution = match spec.equilibrium.resolution {
+        Resolution::Accuracy(accuracy) => Resolution::Accuracy(accuracy.min(HOLDING)),
+        elements @ Resolution::Elements(_) => elements,
+    };
+    Options { resolution, ..alone::options(spec) }
+}
+
 /// What was done to a guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Change {
@@ -176,7 +208,12 @@ const BODY_SPACING: f64 = 3e-3;
 const BODY_TURN: f64 = 0.7;
 
 /// What a guide feels of the body, on a bed of hair or without.
-fn body<'a>(spec: &HairstyleSpec, head: &'a Head, guide: &Guide, layer: Layer) -> BodyContact<'a> {
+fn body<'a>(
+    spec: &HairstyleSpec,
+    head: &'a Head,
+    guide: &'a Guide,
+    layer: Layer,
+) -> BodyContact<'a> {
     BodyContact {
         head,
         body: spec.contact.body,
@@ -184,6 +221,7 @@ fn body<'a>(spec: &HairstyleSpec, head: &'a Head, guide: &Guide, layer: Layer) -
         hair: spec.contact.hair_stiffness,
         thickness: guide.thickness,
         layer,
+        bed: guide.bed.as_deref(),
     }
 }
 

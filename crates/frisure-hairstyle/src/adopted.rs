@@ -1,0 +1,258 @@
+//! Hair of another program made into hair with physics: the groom hangs as it was modelled, and can then be
+//! wetted, cut and grown like any other.
+
+use std::sync::{Arc, Mutex};
+
+use frisure_rod::inverse::{Fitted, Held};
+use frisure_rod::potential::InField;
+use frisure_rod::{InvalidQuantity, NaturalStrain, RodSpec, Root as Clamp};
+use frisure_strands::Strands;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::contact::Bed;
+use crate::equilibrium::{Effort, held_up, holding, settle_from};
+use crate::grid::Grid;
+use crate::guides::{Guide, Planting, covered};
+use crate::hairstyle::{Hairstyle, PredictError};
+use crate::head::Head;
+use crate::implantation::Layout;
+use crate::monitor::{Monitor, Stage};
+use crate::random::{Purpose, Stream};
+use crate::roots::{Root, Scalp};
+use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
+use crate::styling::Styling;
+
+/// How well a groom was adopted; one entry for each of its guides, in their order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Adoption {
+    /// Largest distance (m) of the guide at rest from the groom's, point for point.
+    pub distances: Vec<f64>,
+    /// Factor on the fibre's stiffness from which on the groom's shape would be stable; 1 where it is.
+    pub stiffness_needed: Vec<f64>,
+}
+
+/// The hairstyle of a groom: each strand of `guides` (m) becomes a guide whose natural strain is the one with which
+/// it hangs so (see [`frisure_rod::inverse`]). Fibre, contact with the body, drawn hairs and everything else are those
+/// of `spec`; its length and curl count for nothing. Where the groom has `hairs`, one is drawn at the root of
+/// each; otherwise as many as `spec` says, where the guides are.
+///
+/// A groom says nothing of the hair that each strand lies on. Within 4 cm of the skin something may lie beneath it; it
+/// bears so much that the strand needs the least bending ([`Fitted::least_support`]), and stays as high as the groom
+/// has it ([`Bed`]), however the hair is styled. Between each other strands do not push. What was modelled into the
+/// head comes out of it.
+///
+/// # Errors
+/// [`PredictError`], if the description is out of range, a strand has no length, there is none, or the monitor says
+/// to stop.
+pub fn adopt(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &Strands,
+    hairs: &Strands,
+    monitor: &dyn Monitor,
+) -> Result<(Hairstyle, Adoption), PredictError> {
+    let mut spec = spec.clone();
+    spec.wisps.count = guides.len();
+    spec.contact.hair = HairContact::None;
+    if !hairs.is_empty() {
+        spec.wisps.hairs = Hairs::Count(hairs.len());
+    }
+    spec.check()?;
+    let lines: Vec<Vec<DVec3>> =
+        guides.iter().map(|s| s.points.iter().map(|p| p.as_dvec3()).collect()).collect();
+    let stage = Stage::new(monitor, "finding fibres", lines.len());
+    let held: Vec<(Held, Bed)> = lines
+        .par_iter()
+        .enumerate()
+        .map(|(index, line)| {
+            stage.check()?;
+            let held = held(&spec, head, line, fibre(&spec, index)?)?;
+            stage.advance();
+            Ok(held)
+        })
+        .collect::<Result<_, PredictError>>()?;
+
+    let planting = planting(&mut spec, head, &lines, hairs);
+    spec.wisps.check_size(planting.area())?;
+    let layout = Layout::new(&spec, head)?;
+    let guides = plan(&spec, head, &planting, &held);
+    let before: Vec<_> = held.iter().map(|(held, _)| held.rest.clone()).collect();
+    let rest = settle_from(&spec, head, &guides, &before, Effort::FULL, monitor)?;
+    let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
+    let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();
+    let stiffness_needed = held.iter().map(|(held, _)| held.stiffness_needed).collect();
+    let styling = Styling::none(&guides);
+    let hairstyle = Hairstyle { spec, planting, layout, guides, rest, styling, rough: None };
+    Ok((hairstyle, Adoption { distances, stiffness_needed }))
+}
+
+/// How far (m) from the skin there can be other hair under a strand.
+const DEEPEST_BED: f64 = 0.04;
+
+/// Longest piece (m) along which hair feels what is beneath.
+const FELT: f64 = 1e-3;
+
+/// The strand of a groom as a rod that rests in its shape, and the bed on which it does.
+fn held(
+    spec: &HairstyleSpec,
+    head: &Head,
+    line: &[DVec3],
+    fibre: RodSpec,
+) -> Result<(Held, Bed), InvalidQuantity> {
+    let fitted = Fitted::new(line, &fibre)?;
+    let skin: Vec<(f64, DVec3)> =
+        fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
+    let bears = spec.contact.body != Body::None;
+    let beneath = |(distance, out): &(f64, DVec3)| {
+        (bears && *distance < DEEPEST_BED).then(|| out.normalize_or_zero())
+    };
+    let ways: Vec<Option<DVec3>> = skin.iter().map(beneath).collect();
+    let forces = spread(&fitted.least_support(&ways));
+    let spacing = fitted.rod().length() / (skin.len() - 1) as f64;
+    let borne = skin.iter().zip(&forces).map(|((distance, _), force)| (*distance, force / spacing));
+    let bed = Bed::new(spacing, borne, spec.contact.hair_stiffness);
+    let samples = (spacing / FELT).ceil().max(1.0) as u32;
+    let under = held_up(spec, head, fitted.rod(), &bed);
+    let held = fitted.hold(&[&InField::new(&under, samples)], &holding(spec))?;
+    Ok((held, bed))
+}
+
+/// Forces at nodes, each shared with its neighbours: hair lies on hair, not on the points of a comb.
+fn spread(forces: &[f64]) -> Vec<f64> {
+    let mut spread = forces.to_vec();
+    for _ in 0..3 {
+        let at = |i: usize| spread.get(i).copied().unwrap_or(0.0);
+        let last = spread.len() - 1;
+        spread =
+            (0..=last).map(|i| 0.25 * (at(i.wrapping_sub(1)) + at(i + 1)) + 0.5 * at(i)).collect();
+    }
+    spread
+}
+
+/// The fibre of a guide, without a shape.
+fn fibre(spec: &HairstyleSpec, index: usize) -> Result<RodSpec, InvalidQuantity> {
+    let mut random = Stream::new(spec.seed, Purpose::GuideFibre, index);
+    Ok(RodSpec {
+        length: 1.0,
+        section: spec.fibre.varied(&mut random)?,
+        material: spec.fibre.material,
+        torsion: spec.fibre.torsion,
+        natural: NaturalStrain::STRAIGHT,
+        root: Clamp::from_tangent(DVec3::ZERO, DVec3::Z, DVec3::X)?,
+        gravity: spec.gravity,
+    })
+}
+
+/// Where guides and hairs are rooted.
+fn planting(
+    spec: &mut HairstyleSpec,
+    head: &Head,
+    lines: &[Vec<DVec3>],
+    hairs: &Strands,
+) -> Planting {
+    let root = |p: DVec3| Root {
+        position: p,
+        normal: head.signed_distance().value_gradient(p).1.normalize_or(DVec3::Z),
+    };
+    let roots: Vec<Root> = lines.iter().map(|line| root(line[0])).collect();
+    let scalp = Scalp::grown(head, spec);
+    // Of the scalp counts what is about as near to some guide as guides are to each other.
+    let samples = scalp.stratified(SAMPLES, spec.seed, Purpose::HairRoots);
+    let near = near(&roots, &samples);
+    let area = scalp.area() * (near.len().max(1) as f64 / SAMPLES as f64);
+    let drawn: Vec<Root> = if hairs.is_empty() {
+        let wanted = spec.wisps.hair_count(area);
+        let share = near.len().max(1) as f64 / SAMPLES as f64;
+        let all = (wanted as f64 / share).ceil() as usize;
+        self::near(&roots, &scalp.stratified(all, spec.seed, Purpose::HairRoots))
+    } else {
+        hairs.iter().map(|hair| root(hair.points[0].as_dvec3())).collect()
+    };
+    let drawn = if drawn.is_empty() { roots.clone() } else { drawn };
+    spec.wisps.hairs = Hairs::Count(drawn.len());
+    Planting::adopted(spec, head, area, roots, drawn)
+}
+
+/// Points of the scalp that tell where the groom grows.
+const SAMPLES: usize = 20_000;
+
+/// How far from the nearest guide hair is drawn, in distances of guides from each other: to half-way and a little.
+const REACH: f64 = 1.0;
+
+/// Those roots that are near guides.
+fn near(guides: &[Root], roots: &[Root]) -> Vec<Root> {
+    let places: Vec<DVec3> = guides.iter().map(|root| root.position).collect();
+    let (low, high) =
+        places.iter().fold((places[0], places[0]), |(l, h), p| (l.min(*p), h.max(*p)));
+    let guess = ((high - low).length() / (places.len() as f64).sqrt()).max(1e-3);
+    let grid = Grid::new(&places, guess);
+    // The distance that most guides have to the nearest other.
+    let mut apart: Vec<f64> = (places.iter().enumerate())
+        .filter_map(|(i, p)| {
+            let other = grid.nearest(*p, 2, &places).into_iter().find(|&j| j != i)?;
+            Some(places[other].distance(*p))
+        })
+        .collect();
+    apart.sort_by(f64::total_cmp);
+    let usual = apart.get(apart.len() * 9 / 10).copied().unwrap_or(LONELY).max(1e-3);
+    let is_near = |root: &&Root| {
+        let nearest = grid.nearest(root.position, 1, &places)[0];
+        places[nearest].distance(root.position) < REACH * usual
+    };
+    roots.iter().filter(is_near).copied().collect()
+}
+
+/// Reach (m) of a guide that is alone.
+const LONELY: f64 = 0.01;
+
+/// The guides, with the fibres that were found.
+fn plan(
+    spec: &HairstyleSpec,
+    head: &Head,
+    planting: &Planting,
+    held: &[(Held, Bed)],
+) -> Vec<Guide> {
+    let heights = || planting.roots().iter().map(|root| root.position.z);
+    let (low, high) =
+        (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+    let guide = |(root, (held, bed)): (&Root, &(Held, Bed))| {
+        let altitude = (root.position.z - low) / (high - low).max(1e-9);
+        let curl = held.rod.natural().mean(0.0, held.rod.length());
+        let fibre = (held.rod.clone(), curl, 1.0);
+        let guide = covered(spec, head, planting.area(), (*root, altitude), fibre);
+        Guide { bed: Some(Arc::new(bed.clone())), ..guide }
+    };
+    planting.roots().iter().zip(held).map(guide).collect()
+}
+
+/// Largest distance (m) of a line's points from a guide at rest, each at its part of the length.
+fn apart(line: &[DVec3], rest: &frisure_rod::Equilibrium) -> f64 {
+    let chain = rest.chain();
+    let length: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let mut s = 0.0;
+    let mut largest = 0.0_f64;
+    for (i, p) in line.iter().enumerate() {
+        s += if i > 0 { line[i - 1].distance(*p) } else { 0.0 };
+        largest = largest.max(rest.at(&chain, s / length).0.distance(*p));
+    }
+    largest
+}
+
+impl Planting {
+    /// Roots of another program; they are what they are until the spec is another.
+    fn adopted(
+        spec: &HairstyleSpec,
+        head: &Head,
+        area: f64,
+        roots: Vec<Root>,
+        hairs: Vec<Root>,
+    ) -> Self {
+        Self {
+            of: Self::key(spec, head),
+            area,
+            roots,
+            hairs: Arc::new(Mutex::new(Some(hairs.into()))),
+        }
+    }
+}

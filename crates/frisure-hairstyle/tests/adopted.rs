@@ -1,0 +1,81 @@
+//! A groom of another program hangs as it was modelled, and is hair from then on.
+
+use frisure_hairstyle::head::Head;
+use frisure_hairstyle::styling::{Dry, Operation, Wet};
+use frisure_hairstyle::{Hairs, Hairstyle, HairstyleSpec, adopt, predict, preset};
+use frisure_strands::Strands;
+
+/// Guides of a groom.
+const GUIDES: usize = 24;
+
+fn spec(name: &str) -> HairstyleSpec {
+    let mut spec = preset(name).unwrap().spec();
+    spec.wisps.count = GUIDES;
+    spec.wisps.hairs = Hairs::Count(400);
+    spec
+}
+
+fn modelled(name: &str, head: &Head) -> (HairstyleSpec, Strands) {
+    let spec = spec(name);
+    let points = 120;
+    (spec.clone(), predict(&spec, head, &()).unwrap().guide_strands(points))
+}
+
+fn tips(hairstyle: &Hairstyle) -> f64 {
+    let tips = hairstyle.equilibria().iter().map(|guide| guide.tip().z);
+    tips.sum::<f64>() / hairstyle.guides().len() as f64
+}
+
+#[test]
+fn a_groom_does_not_sag() {
+    let head = Head::mannequin();
+    for name in ["caucasian-straight", "caucasian-curly"] {
+        let (spec, groom) = modelled(name, &head);
+        let (hairstyle, adoption) = adopt(&spec, &head, &groom, &Strands::new(), &()).unwrap();
+        assert_eq!(hairstyle.guides().len(), GUIDES);
+        let held = adoption.distances.iter().filter(|d| **d < 5e-4).count();
+        assert!(held * 10 >= 8 * GUIDES, "{name}: {:?}", adoption.distances);
+        // What was not held is what could not be.
+        let fallen = |(d, f): (&f64, &f64)| *d < 1e-3 || *f > 1.0;
+        assert!(adoption.distances.iter().zip(&adoption.stiffness_needed).all(fallen));
+    }
+}
+
+#[test]
+fn an_adopted_groom_is_wetted_cut_and_dried() {
+    let head = Head::mannequin();
+    let (spec, groom) = modelled("caucasian-curly", &head);
+    let (hairstyle, _) = adopt(&spec, &head, &groom, &Strands::new(), &()).unwrap();
+    let wet = hairstyle.styled(&head, &Operation::Wet(Wet::default()), &()).unwrap();
+    assert!(tips(&wet) < tips(&hairstyle) - 5e-3, "wet hair hangs lower");
+    let dry = wet.styled(&head, &Operation::Dry(Dry::default()), &()).unwrap();
+    assert!((tips(&dry) - tips(&hairstyle)).abs() < 1e-3);
+    let strands = hairstyle.strands(&head, &()).unwrap();
+    assert_eq!(strands.len(), hairstyle.drawn());
+    assert!(strands.len() > 300);
+}
+
+/// Hairs grow where the groom's grow, and nowhere else.
+#[test]
+fn a_fringe_alone_is_a_fringe() {
+    let head = Head::mannequin();
+    let (spec, groom) = modelled("caucasian-straight", &head);
+    let mut fringe = Strands::new();
+    for strand in groom.iter().filter(|strand| strand.points[0].y < -0.02) {
+        fringe.push(strand.points, strand.radii);
+    }
+    assert!((2..30).contains(&fringe.len()), "{}", fringe.len());
+    let (hairstyle, _) = adopt(&spec, &head, &fringe, &Strands::new(), &()).unwrap();
+    let strands = hairstyle.strands(&head, &()).unwrap();
+    assert!(strands.iter().all(|hair| hair.points[0].y < 0.03));
+}
+
+#[test]
+fn what_is_no_groom_is_refused() {
+    let head = Head::mannequin();
+    let spec = spec("caucasian-wavy");
+    let mut groom = Strands::new();
+    assert!(adopt(&spec, &head, &groom, &Strands::new(), &()).is_err());
+    groom.push(&[glam::Vec3::Z; 4], &[1e-5; 4]);
+    assert!(adopt(&spec, &head, &groom, &Strands::new(), &()).is_err());
+}
