@@ -2,6 +2,9 @@
 
 use super::value::{Base, Kind, Value};
 
+/// Properties that a prim may have: they are looked for one by one.
+const MOST_PROPERTIES: usize = 10_000;
+
 /// What one file holds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Layer {
@@ -113,6 +116,14 @@ impl Prim {
 
     pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|a| a.name == name)
+    }
+
+    /// Refuses more properties than any prim has.
+    pub(crate) fn check_properties(&self) -> Result<(), String> {
+        if self.attributes.len() + self.relationships.len() <= MOST_PROPERTIES {
+            return Ok(());
+        }
+        Err(format!("prim `{}` has more than {MOST_PROPERTIES} properties", self.name))
     }
 
     /// The value of an attribute, if it has one.

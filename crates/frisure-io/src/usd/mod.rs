@@ -17,6 +17,7 @@ mod text;
 mod value;
 
 pub(crate) use layer::{Attribute, Layer, Prim};
+pub(crate) use mesh::Mesh;
 pub(crate) use stage::{Place, Stage};
 pub(crate) use value::{Data, Kind, Value};
 

@@ -13,8 +13,8 @@ const USUAL_METRES: f64 = 0.01;
 #[derive(Clone, Debug)]
 pub(crate) struct Place<'a> {
     pub(crate) prim: &'a Prim,
-    /// Such as `/groom/hairs`.
-    pub(crate) path: String,
+    /// The place of the prim that it is in.
+    parent: Option<usize>,
     /// From the prim's own space to the stage's.
     pub(crate) world: DMat4,
     /// Whether it, or what it is in, is there to guide only.
@@ -44,12 +44,12 @@ impl<'a> Stage<'a> {
         let mut stage = Self { places: Vec::new(), frame: frame(layer, choice), elsewhere: vec![] };
         let above = Above { world: DMat4::IDENTITY, is_guide: false };
         for prim in &layer.prims {
-            stage.add(prim, "", above)?;
+            stage.add(prim, None, above)?;
         }
         Ok(stage)
     }
 
-    fn add(&mut self, prim: &'a Prim, folder: &str, above: Above) -> Result<(), String> {
+    fn add(&mut self, prim: &'a Prim, parent: Option<usize>, above: Above) -> Result<(), String> {
         let inactive = prim.meta("active").and_then(Value::number) == Some(0.0);
         let invisible = prim.word("visibility") == Some("invisible");
         // What stands in for something else while it is being worked on.
@@ -62,13 +62,42 @@ impl<'a> Stage<'a> {
                 self.elsewhere.push(arc);
             }
         }
-        let path = format!("{folder}/{}", prim.name);
-        let (own, resets) = transform(prim).map_err(|e| format!("<{path}>: {e}"))?;
+        let (own, resets) = transform(prim).map_err(|e| format!("`{}`: {e}", prim.name))?;
         let world = if resets { own } else { above.world * own };
         let is_guide = above.is_guide || prim.word("purpose") == Some("guide");
-        self.places.push(Place { prim, path: path.clone(), world, is_guide });
+        let here = self.places.len();
+        self.places.push(Place { prim, parent, world, is_guide });
         let above = Above { world, is_guide };
-        prim.children.iter().try_for_each(|child| self.add(child, &path, above))
+        prim.children.iter().try_for_each(|child| self.add(child, Some(here), above))
+    }
+
+    /// Where a prim is, such as `/groom/hairs`: made when it is asked for, since a path has the names of all above.
+    pub(crate) fn path(&self, place: &Place) -> String {
+        let mut names = vec![place.prim.name.as_str()];
+        let mut parent = place.parent;
+        while let Some(above) = parent.and_then(|i| self.places.get(i)) {
+            names.push(&above.prim.name);
+            parent = above.parent;
+        }
+        names.reverse();
+        format!("/{}", names.join("/"))
+    }
+
+    /// An error about a prim.
+    pub(crate) fn fault(&self, place: &Place, problem: &str) -> String {
+        format!("<{}>: {problem}", self.path(place))
+    }
+
+    /// The prim of a path.
+    pub(crate) fn prim(&self, path: &str) -> Option<&'a Prim> {
+        let mut names = path.strip_prefix('/')?.split('/');
+        let first = names.next()?;
+        let roots = self.places.iter().filter(|p| p.parent.is_none()).map(|p| p.prim);
+        let mut prim = roots.into_iter().find(|p| p.name == first)?;
+        for name in names {
+            prim = prim.children.iter().find(|p| p.name == name)?;
+        }
+        Some(prim)
     }
 
     /// Said where nothing is found: what is in other files is not read.

@@ -9,6 +9,10 @@ use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
 use crate::frame::Frame;
 use crate::usd::{self, Data, Kind, Place, Value};
 
+/// Attributes that have no name inside, at most: a constant is a small thing in a file, and one value for each strand
+/// here.
+const MOST_OWN: usize = 32;
+
 /// What there is one value for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Per {
@@ -229,15 +233,25 @@ pub(super) fn attributes(
         found.extend(given.attribute(name, taps).filter(|_| fits));
         Ok(())
     };
-    for (name, primvar, kind) in PRIMVARS {
-        add(name, primvar, Kind::of(kind).map(|(kind, _)| kind))?;
-    }
+    let mut own = 0;
+    // In the order of the file, so that a groom goes round unchanged.
     for attribute in &place.prim.attributes {
-        let name = attribute.name.strip_prefix(OURS).filter(|name| !name.contains(':'));
-        if let Some(name) = name
-            && !PIGMENTS.contains(&attribute.name.as_str())
+        let primvar = attribute.name.as_str();
+        if let Some((name, _, kind)) = PRIMVARS.iter().find(|(_, p, _)| *p == primvar) {
+            // Of several of one name the first of the table.
+            let others = PRIMVARS.iter().filter(|(n, ..)| n == name);
+            let first = others.map(|(_, p, _)| *p).find(|p| place.prim.value(p).is_some());
+            if first == Some(primvar) {
+                add(name, primvar, Kind::of(kind).map(|(kind, _)| kind))?;
+            }
+        } else if let Some(name) = primvar.strip_prefix(OURS).filter(|name| !name.contains(':'))
+            && !PIGMENTS.contains(&primvar)
         {
-            add(name, &attribute.name, None)?;
+            own += 1;
+            if own > MOST_OWN {
+                return Err(format!("it has more than {MOST_OWN} attributes `{OURS}…`"));
+            }
+            add(name, primvar, None)?;
         }
     }
     for attribute in found.iter_mut().filter(|a| a.name == DIRECTOR) {

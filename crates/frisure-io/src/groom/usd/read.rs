@@ -19,15 +19,16 @@ const USUAL_DIAMETER: f64 = 70e-6;
 pub(super) fn groom(stage: &Stage) -> Result<Groom, String> {
     let (mut hairs, mut guides) = (Vec::new(), Vec::new());
     let mut found = false;
-    let mut colour = None;
+    let (mut colour, mut coloured) = (None, false);
     for place in &stage.places {
-        let told = |e: String| format!("<{}>: {e}", place.path);
+        let told = |e: String| stage.fault(place, &e);
         let Some(taps) = taps(place).map_err(told)? else { continue };
         found = true;
         let part = Part::of(place, &taps, stage.frame).map_err(told)?;
         let (own_hairs, own_guides) = part.divided(place, &taps).map_err(told)?;
-        if colour.is_none() && !own_hairs.counts.is_empty() {
-            colour = self::colour(place, &taps, stage);
+        // That of the first prim with hairs.
+        if !coloured && !own_hairs.counts.is_empty() {
+            (colour, coloured) = (self::colour(place, &taps, stage), true);
         }
         hairs.push(own_hairs);
         guides.push(own_guides);
@@ -252,9 +253,8 @@ fn colour(place: &Place, taps: &Taps, stage: &Stage) -> Option<HairColour> {
 fn diffuse(place: &Place, stage: &Stage) -> Option<Vec<f32>> {
     let bound = place.prim.relationships.iter().find(|r| r.name == "material:binding")?;
     let path = bound.targets.first()?;
-    let material = stage.places.iter().find(|p| p.path == *path)?;
-    let shaders = material.prim.children.iter();
-    let shader = shaders.into_iter().find(|s| s.word("info:id") == Some("UsdPreviewSurface"))?;
+    let mut shaders = stage.prim(path)?.children.iter();
+    let shader = shaders.find(|s| s.word("info:id") == Some("UsdPreviewSurface"))?;
     let colour = shader.attribute("inputs:diffuseColor")?;
     // From a texture or so: no single colour.
     if colour.connections.is_empty() { colour.value.as_ref()?.to_floats() } else { None }
@@ -264,8 +264,10 @@ fn diffuse(place: &Place, stage: &Stage) -> Option<Vec<f32>> {
 fn head(stage: &Stage) -> Result<Option<Surface>, String> {
     let mut meshes = stage.places.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
     let (Some(place), None) = (meshes.next(), meshes.next()) else { return Ok(None) };
-    let mesh = place.mesh().map_err(|e| format!("<{}>: {e}", place.path))?;
+    let mesh = place.mesh().map_err(|e| stage.fault(place, &e))?;
     let metres = |p: &[f64; 3]| stage.frame.position_from_file((*p).into());
     let positions = mesh.positions.iter().map(metres).collect();
-    Surface::new(positions, mesh.triangles).map(Some).map_err(|e| format!("<{}>: {e}", place.path))
+    Surface::new(positions, mesh.triangles)
+        .map(Some)
+        .map_err(|e| stage.fault(place, &e.to_string()))
 }

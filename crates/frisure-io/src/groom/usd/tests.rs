@@ -328,6 +328,21 @@ fn a_byte_wrong_anywhere_is_no_way_to_end_a_program() {
 }
 
 #[test]
+fn many_small_things_do_not_become_large() {
+    let many = |line: &dyn Fn(usize) -> String, n: usize| (0..n).map(line).collect::<String>();
+    let constants = many(&|i| format!("int primvars:frisure:a{i} = 1\n"), 33);
+    let fault = text(&format!("def BasisCurves \"a\" {{ {CURVE} {constants} }}")).unwrap_err();
+    assert!(fault.contains("more than 32 attributes"), "{fault}");
+    let attributes = many(&|i| format!("int a{i}\n"), 10_001);
+    let fault = text(&format!("def BasisCurves \"a\" {{ {attributes} }}")).unwrap_err();
+    assert!(fault.contains("more than 10000 properties"), "{fault}");
+    // A long name above many prims is not repeated in each.
+    let inner = many(&|i| format!("def Xform \"b{i}\" {{}}\n"), 20_000);
+    let long = "n".repeat(1_000_000);
+    assert!(text(&format!("def Xform \"{long}\" {{ {inner} }}")).is_err());
+}
+
+#[test]
 fn deep_nesting_has_an_end() {
     for piece in [
         "def \"a\" { ",

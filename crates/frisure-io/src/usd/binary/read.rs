@@ -154,6 +154,7 @@ impl Reader<'_> {
             let order = self.source.words(*order)?;
             for property in self.inside(path, true, &order)? {
                 self.property(property, &mut prim)?;
+                prim.check_properties()?;
             }
         }
         prim.children = self.prims(path, fields)?;

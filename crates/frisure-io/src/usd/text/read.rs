@@ -112,7 +112,10 @@ impl<'a> Reader<'a> {
                         let child = self.prim(specifier)?;
                         prim.children.push(child);
                     }
-                    None => self.property(word, prim)?,
+                    None => {
+                        self.property(word, prim)?;
+                        prim.check_properties().map_err(|e| self.lexer.fault(e))?;
+                    }
                 },
                 other => return Err(self.unknown(&other.shown())),
             }
