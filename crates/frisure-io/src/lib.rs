@@ -5,7 +5,7 @@
 //! | --- | --- | --- |
 //! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from, and steps |
 //! | [`history`] | a scene with what was done and undone | the same |
-//! | [`head`] | OBJ meshes and scalp masks | |
+//! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
 //! | [`groom`] | `.hair`, `.usdc`, `.usda` | the same, `.obj`, `.ply` |
 //! | [`environment`] | `.hdr` and `.exr` pictures of surroundings | |
 //! | [`picture`] | | PNG |
