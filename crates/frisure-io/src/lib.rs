@@ -5,8 +5,8 @@
 //! | --- | --- | --- |
 //! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from, and steps |
 //! | [`history`] | a scene with what was done and undone | the same |
-//! | [`head`] | OBJ meshes and scalp masks | |
-//! | [`groom`] | `.hair` | `.hair`, `.obj`, `.ply` |
+//! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
+//! | [`groom`] | `.hair`, `.usdc`, `.usda` | the same, `.obj`, `.ply` |
 //! | [`environment`] | `.hdr` and `.exr` pictures of surroundings | |
 //! | [`picture`] | | PNG |
 //! | [`report`] | | JSON |
@@ -25,3 +25,4 @@ pub mod picture;
 pub mod quantity;
 pub mod report;
 pub mod scene;
+mod usd;

@@ -5,7 +5,6 @@ use std::path::Path;
 use frisure_hairstyle::styling::{Dry, Operation};
 use frisure_io::files::Files;
 use frisure_io::frame::FrameChoice;
-use frisure_io::frame::UpAxis;
 use frisure_io::groom::read_groom;
 use frisure_io::head;
 use frisure_io::quantity::LENGTH;
@@ -51,19 +50,17 @@ fn use_file(name: &str, bytes: &[u8], read: impl FnOnce(&Path)) {
 }
 
 fn use_head(bytes: &[u8]) {
+    let frame = FrameChoice { metres: Some(0.1), up: None };
     use_file("head.obj", bytes, |path| {
-        for scalp in [ScalpSource::Guess, ScalpSource::Group("g".into())] {
-            let (path, up) = (path.to_path_buf(), UpAxis::Y);
-            let _ = head::read(
-                &HeadFile { path: path.clone(), up, scale: 0.1, scalp },
-                &Files::default(),
-            );
+        for scalp in
+            [ScalpSource::Guess, ScalpSource::Group("g".into()), ScalpSource::Colour("red".into())]
+        {
+            let path = path.to_path_buf();
+            let _ = head::read(&HeadFile { path: path.clone(), frame, scalp }, &Files::default());
             // The mesh as its own mask and list of weights.
             for scalp in [ScalpSource::Mask(path.clone()), ScalpSource::Weights(path.clone())] {
-                let _ = head::read(
-                    &HeadFile { path: path.clone(), up, scale: 0.1, scalp },
-                    &Files::default(),
-                );
+                let _ =
+                    head::read(&HeadFile { path: path.clone(), frame, scalp }, &Files::default());
             }
         }
     });
@@ -174,6 +171,34 @@ proptest! {
     ) {
         let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\ng g\n{}\n", lines.join("\n"));
         use_head(text.as_bytes());
+    }
+
+    #[test]
+    fn any_ply_as_a_head(
+        lines in proptest::collection::vec(
+            "(element (vertex|face) [0-9]{1,20}|property (list uchar int|float|double|uchar) (x|y|z|red|vertex_indices))",
+            0..8,
+        ),
+        order in "(ascii|binary_little_endian|binary_big_endian)",
+        rest in proptest::collection::vec(any::<u8>(), 0..100),
+    ) {
+        let head = format!("ply\nformat {order} 1.0\n{}\nend_header\n", lines.join("\n"));
+        use_head(&[head.as_bytes(), &rest].concat());
+    }
+
+    #[test]
+    fn any_json_as_a_head(
+        numbers in proptest::collection::vec(prop_oneof![0_u64..8, any::<u64>()], 9),
+        data in "[A-Za-z0-9]{0,80}",
+    ) {
+        let n = &numbers;
+        use_head(format!(
+            r#"{{"nodes":[{{"mesh":{}}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":{}}}}}]}}],
+            "accessors":[{{"bufferView":{},"componentType":5126,"count":{},"type":"VEC3","byteOffset":{}}}],
+            "bufferViews":[{{"buffer":{},"byteOffset":{},"byteLength":{},"byteStride":{}}}],
+            "buffers":[{{"uri":"data:;base64,{data}"}}]}}"#,
+            n[0] % 2, n[1] % 2, n[2] % 2, n[3], n[4], n[5] % 2, n[6], n[7], n[8]
+        ).as_bytes());
     }
 
     #[test]

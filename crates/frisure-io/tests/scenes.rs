@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
-use frisure_io::frame::UpAxis;
+use frisure_io::frame::{FrameChoice, UpAxis};
 use frisure_io::scene::{
     Behind, Dye, Fade, Fault, HeadSource, NaturalColour, ScalpSource, Scene, SceneError, schema,
     template,
@@ -170,7 +170,7 @@ fn every_key_arrives() {
 
     let HeadSource::Mesh(head) = &scene.head else { panic!("a mesh was given") };
     assert_eq!(head.path, Path::new("scenes/a/head.obj"));
-    assert_eq!((head.up, head.scale), (UpAxis::Z, 0.01));
+    assert_eq!(head.frame, FrameChoice { metres: Some(0.01), up: Some(UpAxis::Z) });
     assert_eq!(head.scalp, ScalpSource::Mask("scenes/mask.png".into()));
     assert_eq!(scene.look.skin, Some([1.0, 128.0 / 255.0, 0.0]));
     assert_eq!(scene.look.background, Behind::Colour([0.0, 0.5, 1.0]));
@@ -290,7 +290,7 @@ fn a_mesh_may_be_in_another_folder() {
         panic!("a mesh was given")
     };
     assert_eq!(head.path, Path::new("/data/head.obj"));
-    assert_eq!((head.up, head.scale, head.scalp), (UpAxis::Y, 1.0, ScalpSource::Guess));
+    assert_eq!((head.frame, head.scalp), (FrameChoice::default(), ScalpSource::Guess));
 }
 
 /// Text, line, column, key, value, and parts of the sentence with its hint.

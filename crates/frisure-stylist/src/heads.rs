@@ -58,7 +58,7 @@ fn stamps(source: &HeadSource, files: &Files) -> Vec<Option<Stamp>> {
     let HeadSource::Mesh(file) = source else { return Vec::new() };
     let scalp = match &file.scalp {
         ScalpSource::Mask(path) | ScalpSource::Weights(path) => Some(path.as_path()),
-        ScalpSource::Guess | ScalpSource::Group(_) => None,
+        ScalpSource::Guess | ScalpSource::Group(_) | ScalpSource::Colour(_) => None,
     };
     let paths: [Option<&Path>; 2] = [Some(&file.path), scalp];
     paths.into_iter().flatten().map(|path| files.stamp(path)).collect()

@@ -8,6 +8,7 @@ mod checked;
 pub mod hair;
 pub mod obj;
 pub mod ply;
+mod usd;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -117,11 +118,15 @@ pub enum Format {
     Obj,
     /// Stanford polygons, binary.
     Ply,
+    /// Universal Scene Description, binary.
+    Usdc,
+    /// Universal Scene Description, as text.
+    Usda,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Hair, Self::Obj, Self::Ply];
+    pub const ALL: [Self; 5] = [Self::Hair, Self::Obj, Self::Ply, Self::Usdc, Self::Usda];
 
     /// The extensions that name it, without a dot; the first is the one to show.
     #[must_use]
@@ -130,6 +135,8 @@ impl Format {
             Self::Hair => &["hair"],
             Self::Obj => &["obj"],
             Self::Ply => &["ply"],
+            Self::Usdc => &["usdc", "usd"],
+            Self::Usda => &["usda"],
         }
     }
 
@@ -140,6 +147,8 @@ impl Format {
             Self::Hair => "Cem Yuksel's hair file",
             Self::Obj => "Wavefront polylines",
             Self::Ply => "Stanford points and edges",
+            Self::Usdc => "Universal Scene Description, binary",
+            Self::Usda => "Universal Scene Description, text",
         }
     }
 
@@ -149,6 +158,7 @@ impl Format {
         match self {
             Self::Hair => true,
             Self::Obj | Self::Ply => false,
+            Self::Usdc | Self::Usda => true,
         }
     }
 
@@ -157,6 +167,7 @@ impl Format {
     pub fn tells_guides(self) -> bool {
         match self {
             Self::Hair | Self::Obj | Self::Ply => false,
+            Self::Usdc | Self::Usda => true,
         }
     }
 
@@ -165,6 +176,7 @@ impl Format {
     pub fn usual_points(self) -> Option<usize> {
         match self {
             Self::Hair | Self::Obj | Self::Ply => None,
+            Self::Usdc | Self::Usda => None,
         }
     }
 
@@ -175,6 +187,7 @@ impl Format {
             Self::Hair => Frame::CENTIMETRES_Z,
             Self::Obj => Frame::METRES_Y,
             Self::Ply => Frame::METRES_Z,
+            Self::Usdc | Self::Usda => Frame::METRES_Z,
         }
     }
 
@@ -195,6 +208,8 @@ impl Format {
             Self::Hair => ".hair",
             Self::Obj => ".obj",
             Self::Ply => ".ply",
+            Self::Usdc => ".usdc",
+            Self::Usda => ".usda",
         }
     }
 }
@@ -229,6 +244,7 @@ fn check(format: Format, groom: &Groom) -> Result<(), GroomError> {
         Format::Hair => hair::check(groom.strands()),
         Format::Obj => Ok(()),
         Format::Ply => ply::check(groom.strands()),
+        Format::Usdc | Format::Usda => usd::check(groom),
     };
     checked.map_err(|what| GroomError::CannotHold { format: format.name(), what })
 }
@@ -239,6 +255,8 @@ fn fill(format: Format, out: &mut dyn io::Write, groom: &Groom, frame: Frame) ->
         Format::Hair => hair::encode(out, groom.strands(), frame),
         Format::Obj => obj::encode(out, groom.strands(), frame),
         Format::Ply => ply::encode(out, groom.strands(), frame),
+        Format::Usdc => usd::encode_binary(out, groom, frame),
+        Format::Usda => usd::encode_text(out, groom, frame),
     }
 }
 
@@ -267,6 +285,7 @@ pub fn decode(
 ) -> Result<Groom, GroomError> {
     let groom = match format {
         Format::Hair => hair::decode(bytes, choice),
+        Format::Usdc | Format::Usda => usd::decode(bytes, choice),
         Format::Obj | Format::Ply => return Err(GroomError::Unread { path: path.into() }),
     };
     groom.map_err(|what| GroomError::Malformed { path: path.into(), format: format.name(), what })

@@ -1,19 +1,26 @@
-//! Heads: an OBJ mesh into a [`Surface`] with z up, and where on it hair grows.
+//! Heads: a mesh into a [`Surface`] with z up, and where on it hair grows.
+//!
+//! One module per format, told by the first bytes of a file; each gives a [`mesh::Mesh`] as it stands there.
 
+mod gltf;
+mod mesh;
 mod obj;
+mod ply;
 mod scalp;
+mod usd;
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use frisure_strands::{Surface, SurfaceError};
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::files::{Files, ReadError};
-use crate::frame::Frame;
+use crate::files::{Files, ReadError, to_text};
+use crate::frame::{Frame, FrameChoice};
 use crate::scene::{HeadFile, ScalpSource};
 
-pub use obj::Group;
+pub use mesh::Group;
+use mesh::Mesh;
 
 /// Largest mesh, mask or list of weights that is read (bytes).
 pub const MAX_SIZE: u64 = 1 << 30;
@@ -28,6 +35,8 @@ pub struct HeadMesh {
     pub surface: Surface,
     /// Density of hair at each vertex, 0 to 1; `None` where the scalp is to be guessed.
     pub scalp: Option<Vec<f64>>,
+    /// The unit that it was taken to be in, where neither file nor scene said one and it cannot be metres.
+    pub guessed_unit: Option<&'static str>,
 }
 
 /// Why a head cannot be used.
@@ -89,6 +98,16 @@ pub enum HeadFileError {
         /// The groups there are.
         known: Vec<String>,
     },
+    /// The file has no such number at its vertices.
+    #[error("`{}` has no `{channel}` at its vertices; it has {}", path.display(), list(known))]
+    NoChannel {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        channel: String,
+        /// What there is.
+        known: Vec<String>,
+    },
     /// Hair would grow nowhere.
     #[error("the scalp has no area: {what}")]
     NoScalp {
@@ -103,6 +122,7 @@ impl HeadFileError {
     pub fn key(&self, head: &HeadFile) -> &'static str {
         let path = match self {
             Self::NoGroup { .. } => return "head.scalp_group",
+            Self::NoChannel { .. } => return "head.scalp_colour",
             Self::Size { .. } | Self::Surface { .. } => return "head.mesh",
             Self::NoScalp { .. } => None,
             Self::Line { path, .. } | Self::Format { path, .. } => Some(path),
@@ -112,6 +132,7 @@ impl HeadFileError {
             _ if path == Some(&head.path) => "head.mesh",
             ScalpSource::Guess => "head.mesh",
             ScalpSource::Group(_) => "head.scalp_group",
+            ScalpSource::Colour(_) => "head.scalp_colour",
             ScalpSource::Mask(_) => "head.scalp_mask",
             ScalpSource::Weights(_) => "head.scalp_weights",
         }
@@ -151,12 +172,7 @@ fn unit_hint(size: f64, scale: f64) -> String {
 /// [`HeadFileError`].
 pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
     let path = &head.path;
-    let text = files.read_text(path, MAX_SIZE, "a mesh")?;
-    let mesh = obj::parse(&text).map_err(|(line, problem)| HeadFileError::Line {
-        path: path.clone(),
-        line,
-        problem,
-    })?;
+    let mesh = parse(path, files)?;
     if mesh.triangles.is_empty() {
         let problem = if mesh.positions.is_empty() {
             "it has no vertices"
@@ -165,26 +181,76 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
         };
         return Err(not_a_mesh(path, problem));
     }
-    let frame = Frame { metres: head.scale, up: head.up };
+    let (frame, guessed_unit) = frame(&mesh, head.frame);
     let metres = |p: &[f64; 3]| frame.position_from_file(DVec3::from_array(*p));
     let positions: Vec<DVec3> = mesh.positions.iter().map(metres).collect();
     // Before anything is computed from coordinates: the squares of huge ones overflow.
     let size = extent(&positions, &mesh.triangles);
     if size > 0.0 && !(size >= SENSIBLE.0 && size <= SENSIBLE.1) {
-        return Err(HeadFileError::Size { path: path.clone(), size, scale: head.scale });
+        return Err(HeadFileError::Size { path: path.clone(), size, scale: frame.metres });
     }
     let surface = Surface::new(positions, mesh.triangles.clone())
         .map_err(|source| HeadFileError::Surface { path: path.clone(), source })?;
     let scalp = match &head.scalp {
         ScalpSource::Guess => None,
         ScalpSource::Group(name) => Some(scalp::from_group(&mesh, name, path)?),
+        ScalpSource::Colour(name) => Some(scalp::from_channel(&mesh, name, path)?),
         ScalpSource::Mask(mask) => Some(scalp::from_mask(&mesh, (mask, files), path)?),
         ScalpSource::Weights(weights) => Some(scalp::from_text(&mesh, weights, files)?),
     };
     if let Some(weights) = &scalp {
         check_area(&surface, weights, &head.scalp)?;
     }
-    Ok(HeadMesh { surface, scalp })
+    Ok(HeadMesh { surface, scalp, guessed_unit })
+}
+
+/// The mesh of a file, of the format that its first bytes tell.
+fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
+    let bytes = files.read_bytes(path, MAX_SIZE, "a mesh")?;
+    let (expected, mesh) = if bytes.starts_with(b"PXR-USDC") || bytes.starts_with(b"#usda") {
+        ("a USD stage with meshes", usd::parse(&bytes))
+    } else if bytes.starts_with(b"ply") {
+        ("a PLY mesh", ply::parse(&bytes))
+    } else if bytes.starts_with(b"glTF") || bytes.trim_ascii_start().starts_with(b"{") {
+        let beside = |name: &str| {
+            // Only what lies with it: a mesh from elsewhere is not to look around.
+            let within = |part| matches!(part, Component::Normal(_));
+            if !Path::new(name).components().all(within) {
+                return Err(format!("`{name}` is not beside it"));
+            }
+            let file = path.parent().unwrap_or(Path::new("")).join(name);
+            files.read_bytes(&file, MAX_SIZE, "a buffer").map_err(|e| e.to_string())
+        };
+        ("a glTF mesh", gltf::parse(&bytes, &beside))
+    } else {
+        let text = to_text(bytes, path)?;
+        return obj::parse(&text).map_err(|(line, problem)| {
+            let path = path.into();
+            HeadFileError::Line { path, line, problem }
+        });
+    };
+    mesh.map_err(|problem| HeadFileError::Format { path: path.into(), expected, problem })
+}
+
+/// Unit and axes of a mesh: as told, else as the file has them, else as its format has them and its size lets it be.
+fn frame(mesh: &Mesh, told: FrameChoice) -> (Frame, Option<&'static str>) {
+    let usual = mesh.frame.unwrap_or(Frame::METRES_Y);
+    let frame = told.or(usual);
+    if told.metres.is_some() || mesh.tells_unit {
+        return (frame, None);
+    }
+    let raw: Vec<DVec3> = mesh.positions.iter().map(|p| DVec3::from_array(*p)).collect();
+    let size = extent(&raw, &mesh.triangles);
+    if (SENSIBLE.0..=SENSIBLE.1).contains(&(size * frame.metres)) {
+        return (frame, None);
+    }
+    // The commonest first: 25 units are rather centimetres than inches.
+    let units = [("cm", 0.01), ("mm", 0.001), ("in", 0.0254), ("dm", 0.1)];
+    let usual_size = |(_, metres): &&(&str, f64)| (0.15..0.8).contains(&(size * metres));
+    match units.iter().find(usual_size) {
+        Some((name, metres)) => (Frame { metres: *metres, ..frame }, Some(name)),
+        None => (frame, None),
+    }
 }
 
 fn not_a_mesh(path: &Path, problem: impl Into<String>) -> HeadFileError {
@@ -219,6 +285,7 @@ fn check_area(
     let what = match asked {
         ScalpSource::Guess => "no vertex has hair".to_owned(),
         ScalpSource::Group(name) => format!("no face of group `{name}` has an area"),
+        ScalpSource::Colour(name) => format!("`{name}` is 0 everywhere on the mesh"),
         ScalpSource::Mask(path) => format!("`{}` is black everywhere on the mesh", path.display()),
         ScalpSource::Weights(path) => format!("every weight in `{}` is 0", path.display()),
     };

@@ -3,41 +3,16 @@
 //! Read here and not by a library, for two things that a head needs: vertices that groups share stay
 //! one vertex (a split seam would be a hole in the signed distance), and an error names its line.
 
-use std::collections::BTreeMap;
-
-/// Corners of one face in the file, at most; a fan of more triangles is no head.
-const MAX_CORNERS: usize = 1000;
-
-/// A named group of faces (`g`, `o` or `usemtl`).
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Group {
-    /// Name in the file.
-    pub name: String,
-    /// Indices of its triangles.
-    pub triangles: Vec<usize>,
-}
-
-/// A mesh as it stands in the file.
-#[derive(Debug, Default, PartialEq)]
-pub(super) struct Mesh {
-    /// Vertices, in the file's own unit and axes.
-    pub(super) positions: Vec<[f64; 3]>,
-    /// Texture coordinates.
-    pub(super) uvs: Vec<[f64; 2]>,
-    /// Vertices of each triangle; polygons are cut into fans.
-    pub(super) triangles: Vec<[u32; 3]>,
-    /// Texture coordinates of each triangle's corners, where it has them.
-    pub(super) triangle_uvs: Vec<Option<[u32; 3]>>,
-    /// Groups, by name.
-    pub(super) groups: BTreeMap<String, Group>,
-}
+use super::mesh::{MAX_CORNERS, Mesh};
+use crate::frame::Frame;
 
 /// A line's number from 1, and what is wrong with it.
 type Fault = (usize, String);
 
 /// Reads the text of a file.
 pub(super) fn parse(text: &str) -> Result<Mesh, Fault> {
-    let mut mesh = Mesh::default();
+    let mut mesh = Mesh { frame: Some(Frame::METRES_Y), ..Mesh::default() };
+    let mut colours: Vec<f64> = Vec::new();
     let mut current: Vec<String> = Vec::new();
     let mut material: Option<String> = None;
     let mut object: Option<String> = None;
@@ -46,8 +21,12 @@ pub(super) fn parse(text: &str) -> Result<Mesh, Fault> {
         let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {
-                let p = numbers::<3>(words).map_err(fault)?;
+                let p = numbers::<3>(words.clone()).map_err(fault)?;
                 mesh.positions.push(p);
+                // Some write a colour behind the place.
+                if words.clone().count() == 6 {
+                    colours.extend(numbers::<3>(words.skip(3)).map_err(fault)?);
+                }
             }
             Some("vt") => {
                 let uv = numbers::<2>(words).map_err(fault)?;
@@ -64,6 +43,9 @@ pub(super) fn parse(text: &str) -> Result<Mesh, Fault> {
             // Normals are computed, and the rest is not about shape.
             _ => {}
         }
+    }
+    if !colours.is_empty() && colours.len() == 3 * mesh.positions.len() {
+        mesh.colours(0, &colours, 3);
     }
     Ok(mesh)
 }
@@ -132,9 +114,7 @@ impl Mesh {
             });
         }
         for name in groups {
-            let group = self.groups.entry(name.clone()).or_default();
-            group.name.clone_from(name);
-            group.triangles.extend(first_triangle..self.triangles.len());
+            self.group(name, first_triangle);
         }
         Ok(())
     }

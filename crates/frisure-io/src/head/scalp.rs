@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use super::obj::Mesh;
+use super::mesh::Mesh;
 use super::{HeadFileError, MAX_SIZE};
 use crate::files::Files;
 
@@ -23,6 +23,22 @@ pub(super) fn from_group(mesh: &Mesh, name: &str, path: &Path) -> Result<Vec<f64
             weights[v as usize] = 1.0;
         }
     }
+    Ok(weights)
+}
+
+/// A number that the file has at each vertex, as far as it is between 0 and 1.
+pub(super) fn from_channel(
+    mesh: &Mesh,
+    name: &str,
+    path: &Path,
+) -> Result<Vec<f64>, HeadFileError> {
+    let channel = mesh.channels.get(name).ok_or_else(|| HeadFileError::NoChannel {
+        path: path.into(),
+        channel: name.into(),
+        known: mesh.channels.keys().cloned().collect(),
+    })?;
+    let mut weights: Vec<f64> = channel.iter().map(|x| x.clamp(0.0, 1.0)).collect();
+    weights.resize(mesh.positions.len(), 0.0);
     Ok(weights)
 }
 
@@ -58,7 +74,7 @@ pub(super) fn from_text(
 ) -> Result<Vec<f64>, HeadFileError> {
     let text = files.read_text(path, MAX_SIZE, "a list of weights")?;
     let fault = |line, problem| HeadFileError::Line { path: path.into(), line, problem };
-    let mut weights = Vec::with_capacity(mesh.positions.len());
+    let mut weights = Vec::with_capacity(mesh.file_vertices());
     for (i, line) in text.lines().enumerate() {
         let word = line.split('#').next().unwrap_or("").trim();
         if word.is_empty() {
@@ -71,10 +87,13 @@ pub(super) fn from_text(
         }
         weights.push(weight);
     }
-    if weights.len() == mesh.positions.len() {
+    let (found, expected) = (weights.len(), mesh.file_vertices());
+    if found == expected && mesh.joined.is_empty() {
         return Ok(weights);
     }
-    let (found, expected) = (weights.len(), mesh.positions.len());
+    if found == expected {
+        return Ok(mesh.averaged(&weights, mesh.positions.len()));
+    }
     let problem = format!("it has {found} numbers, and the mesh has {expected} vertices");
     Err(HeadFileError::Format { path: path.into(), expected: "a list of scalp weights", problem })
 }

@@ -13,7 +13,8 @@ fn head(text: impl AsRef<[u8]>, change: impl FnOnce(&mut HeadFile)) -> Result<He
     let path = folder.path().join("head.obj");
     fs::write(&path, text).unwrap();
     let scalp = ScalpSource::Guess;
-    let mut file = HeadFile { path, up: UpAxis::Y, scale: 0.01, scalp };
+    let frame = FrameChoice { metres: Some(0.01), up: None };
+    let mut file = HeadFile { path, frame, scalp };
     change(&mut file);
     if let ScalpSource::Weights(name) | ScalpSource::Mask(name) = &mut file.scalp {
         *name = folder.path().join(&*name);
@@ -32,7 +33,7 @@ fn y_up_becomes_z_up_with_the_face_towards_minus_y() {
     assert!(mesh.surface.positions()[0].distance(DVec3::new(0.0, 0.0, 0.2)) < 1e-15);
     // Half-way to the face (+z in the file) is towards −y.
     assert!(mesh.surface.positions()[1].distance(DVec3::new(0.1, -0.05, 0.0)) < 1e-15);
-    let z_up = head(TETRAHEDRON, |h| h.up = UpAxis::Z).unwrap();
+    let z_up = head(TETRAHEDRON, |h| h.frame.up = Some(UpAxis::Z)).unwrap();
     assert!(z_up.surface.positions()[0].distance(DVec3::new(0.0, 0.2, 0.0)) < 1e-15);
 }
 
@@ -76,7 +77,7 @@ fn what_cannot_be_a_head() {
 
 #[test]
 fn a_head_has_the_size_of_a_head() {
-    let size = |scale: f64| head(TETRAHEDRON, |h| h.scale = scale).unwrap_err();
+    let size = |scale: f64| head(TETRAHEDRON, |h| h.frame.metres = Some(scale)).unwrap_err();
     assert_eq!(
         size(1.0),
         "`head.obj` is 20.000 m across, and a head is between 5 cm and 3 m; \
@@ -102,4 +103,78 @@ fn a_scalp_has_an_area_and_a_mask_needs_coordinates() {
     assert!(fault.contains("needs texture coordinates"), "{fault}");
     let fault = head(TETRAHEDRON, |h| h.scalp = ScalpSource::Mask("m.png".into())).unwrap_err();
     assert!(fault.starts_with("`m.png` is not a PNG picture"), "{fault}");
+}
+
+#[test]
+fn a_unit_that_nobody_says_is_guessed_from_the_size() {
+    let of = |text: &str| head(text, |h| h.frame.metres = None).unwrap();
+    let mesh = of(TETRAHEDRON);
+    assert_eq!(mesh.guessed_unit, Some("cm"));
+    assert!(mesh.surface.positions()[0].distance(DVec3::new(0.0, 0.0, 0.2)) < 1e-15);
+    let metres = of("v 0 0.2 0\nv 0.1 0 0\nv 0 0 0.1\nf 1 2 3\n");
+    assert_eq!(metres.guessed_unit, None);
+    let none = head("v 0 2e9 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", |h| h.frame.metres = None);
+    assert!(none.unwrap_err().contains("set `scale`"));
+    assert_eq!(head(TETRAHEDRON, |_| {}).unwrap().guessed_unit, None);
+}
+
+#[test]
+fn painted_scalps() {
+    let painted = "v 0 20 0 1 0 0\nv 10 0 5 0.5 0 2\nv -10 0 5 0 0 0\nf 1 2 3\n";
+    let colour = |name: &str| head(painted, |h| h.scalp = ScalpSource::Colour(name.into()));
+    assert_eq!(colour("red").unwrap().scalp.unwrap(), [1.0, 0.5, 0.0]);
+    assert_eq!(
+        colour("scalp").unwrap_err(),
+        "`head.obj` has no `scalp` at its vertices; it has `blue`, `brightness`, `green`, `red`"
+    );
+    assert_eq!(
+        colour("green").unwrap_err(),
+        "the scalp has no area: `green` is 0 everywhere on the mesh"
+    );
+}
+
+/// A tetrahedron in a stage of centimetres, y up, higher by 3, with a subset, a material, coordinates and colours.
+const STAGE: &str = r#"#usda 1.0
+(
+    metersPerUnit = 0.01
+    upAxis = "Y"
+)
+def Xform "person"
+{
+    double3 xformOp:translate = (0, 3, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def Mesh "skin"
+    {
+        point3f[] points = [(0, 20, 0), (10, 0, 5), (-10, 0, 5), (0, 0, -10)]
+        int[] faceVertexCounts = [3, 3, 3, 3]
+        int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]
+        float[] primvars:hair = [1, 0.5, 0, 0] (interpolation = "vertex")
+        color3f[] primvars:displayColor = [(1, 0, 0), (0, 0, 0)] (interpolation = "faceVarying")
+        int[] primvars:displayColor:indices = [0, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1, 1]
+        texCoord2f[] primvars:st = [(0.5, 0.9), (0.5, 0.1), (0.5, 0.1), (0.5, 0.1)] (interpolation = "vertex")
+        def GeomSubset "scalp"
+        {
+            uniform token elementType = "face"
+            int[] indices = [0]
+            rel material:binding = </materials/hairy>
+        }
+    }
+}
+"#;
+
+#[test]
+fn heads_in_stages() {
+    let of = |scalp: ScalpSource| {
+        head(STAGE, |h| (h.scalp, h.frame) = (scalp, FrameChoice::default())).unwrap()
+    };
+    let mesh = of(ScalpSource::Group("scalp".into()));
+    assert!(mesh.surface.positions()[0].distance(DVec3::new(0.0, 0.0, 0.23)) < 1e-15);
+    assert_eq!(mesh.scalp.unwrap(), [1.0, 1.0, 1.0, 0.0]);
+    assert_eq!(of(ScalpSource::Group("hairy".into())).scalp.unwrap()[3], 0.0);
+    assert_eq!(of(ScalpSource::Group("skin".into())).scalp.unwrap()[3], 1.0);
+    assert_eq!(of(ScalpSource::Colour("hair".into())).scalp.unwrap(), [1.0, 0.5, 0.0, 0.0]);
+    assert_eq!(of(ScalpSource::Colour("red".into())).scalp.unwrap(), [1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(of(ScalpSource::Weights("w.txt".into())).scalp.unwrap(), [1.0, 0.5, 0.0, 0.0]);
+    let none = head("#usda 1.0\ndef Xform \"a\" {}\n", |_| {}).unwrap_err();
+    assert_eq!(none, "`head.obj` is not a USD stage with meshes: it has no meshes");
 }

@@ -203,17 +203,21 @@ pub(super) struct Root {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Head {
-    /// Path of an OBJ mesh, relative to the scene. Left out, the built-in mannequin.
+    /// Path of a mesh (OBJ, USD, glTF or PLY), relative to the scene. Left out, the built-in mannequin.
     pub(super) mesh: Key<Text>,
-    /// Which axis of the mesh points up; the face looks along +z or -y then. Default "y".
+    /// Which axis of the mesh points up; the face looks along +z or -y then. Default that of the file or format, "y" of
+    /// most.
     pub(super) up: Key<OneOf<Which<UpAxis>>>,
-    /// Unit of the mesh. Default "m".
+    /// Unit of the mesh. Default that of the file or format; of OBJ and PLY, which say none, "m", or as the size shows.
     pub(super) unit: Key<OneOf<UnitWord>>,
     /// Metres per unit of the mesh, instead of `unit`; more than 0.
     #[schemars(range(min = 0.0))]
     pub(super) scale: Key<Ratio>,
-    /// Group of faces on which hair grows. Without scalp keys, the scalp is guessed.
+    /// Group of faces on which hair grows, or the material that they have. Without scalp keys, the scalp is guessed.
     pub(super) scalp_group: Key<Text>,
+    /// What is painted on the mesh's vertices where hair grows: "red", "green", "blue", "alpha" or "brightness" of their
+    /// colours, or the name of another attribute with numbers from 0 to 1.
+    pub(super) scalp_colour: Key<Text>,
     /// Path of a PNG over the mesh's texture coordinates, white where hair grows.
     pub(super) scalp_mask: Key<Text>,
     /// Path of a text file with one density from 0 to 1 per vertex, in the order of the mesh.

@@ -37,7 +37,7 @@ pub use words::Tone;
 
 use crate::environment::{self, Environment};
 use crate::files::{self, Files};
-use crate::frame::UpAxis;
+use crate::frame::FrameChoice;
 use crate::head::{self, HeadMesh};
 use source::Source;
 
@@ -93,12 +93,10 @@ pub enum HeadSource {
 /// A head in files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadFile {
-    /// The OBJ mesh.
+    /// The mesh: OBJ, USD, glTF or PLY.
     pub path: PathBuf,
-    /// Its axis that points up.
-    pub up: UpAxis,
-    /// Metres per unit.
-    pub scale: f64,
+    /// Unit and axes, where the scene says them.
+    pub frame: FrameChoice,
     /// Where hair grows.
     pub scalp: ScalpSource,
 }
@@ -110,6 +108,8 @@ pub enum ScalpSource {
     Guess,
     /// On a group of faces, by name.
     Group(String),
+    /// By what is painted on the vertices: `red`, `green`, `blue`, `alpha`, `brightness`, or another name that the file has.
+    Colour(String),
     /// Where a PNG over the texture coordinates is white.
     Mask(PathBuf),
     /// As a text file says, a number per vertex.
@@ -331,6 +331,18 @@ impl Scene {
             };
             self.fault("light.environment", message, e.hint())
         })
+    }
+
+    /// What had to be guessed of the head's mesh, for people.
+    #[must_use]
+    pub fn head_note(&self, files: &Files) -> Option<String> {
+        let HeadSource::Mesh(file) = &self.head else { return None };
+        if file.frame.metres.is_some() {
+            return None;
+        }
+        let unit = head::read(file, files).ok()?.guessed_unit?;
+        let path = file.path.display();
+        Some(format!("{path} says no unit and is taken to be in {unit}: `head.unit` says another"))
     }
 
     /// An error found later in what `key` says, such as a mesh at `head.mesh` that is no head;

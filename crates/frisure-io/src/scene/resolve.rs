@@ -21,12 +21,12 @@ use super::file::{self, File};
 use super::key::{Key, Kind};
 use super::light::light;
 use super::source::Source;
-use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Tone, UnitWord, Which};
+use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Tone, Which};
 use super::{
     Behind, Camera, Dye, Fade, HeadFile, HeadSource, Look, NaturalColour, Output, ScalpSource,
     Scene, SingleHair, schema, shape, step,
 };
-use crate::frame::UpAxis;
+use crate::frame::FrameChoice;
 
 /// The hair type of a scene that names none.
 const DEFAULT_TYPE: &str = "caucasian-straight";
@@ -283,7 +283,12 @@ fn frame(file: &file::Root, source: &Source) -> Result<[DVec3; 3]> {
 }
 
 fn head(file: &file::Head, folder: &Path, source: &Source) -> Result<HeadSource> {
-    let scalp = [file.scalp_group.span(), file.scalp_mask.span(), file.scalp_weights.span()];
+    let scalp = [
+        file.scalp_group.span(),
+        file.scalp_colour.span(),
+        file.scalp_mask.span(),
+        file.scalp_weights.span(),
+    ];
     one_way(source, &scalp.each_ref().map(std::slice::from_ref))?;
     one_way(source, &[&[file.unit.span()], &[file.scale.span()]])?;
     let Some(mesh) = file.mesh.get(source)? else {
@@ -296,13 +301,15 @@ fn head(file: &file::Head, folder: &Path, source: &Source) -> Result<HeadSource>
             Err(Fault::new(problem).key(key).hint(hint).at(source, span))
         });
     };
-    let scale = match file.scale.get(source)? {
-        Some(scale) if scale > 0.0 => scale,
+    let metres = match file.scale.get(source)? {
+        Some(scale) if scale > 0.0 => Some(scale),
         Some(_) => return Err(outside(&file.scale, "greater than zero (metres per unit)", source)),
-        None => file.unit.or(UnitWord(1.0), source)?.0,
+        None => file.unit.get(source)?.map(|unit| unit.0),
     };
     let scalp = if let Some(group) = file.scalp_group.get(source)? {
         ScalpSource::Group(group)
+    } else if let Some(name) = file.scalp_colour.get(source)? {
+        ScalpSource::Colour(name)
     } else if let Some(mask) = file.scalp_mask.get(source)? {
         ScalpSource::Mask(folder.join(mask))
     } else if let Some(weights) = file.scalp_weights.get(source)? {
@@ -310,8 +317,8 @@ fn head(file: &file::Head, folder: &Path, source: &Source) -> Result<HeadSource>
     } else {
         ScalpSource::Guess
     };
-    let Which(up) = file.up.or(Which(UpAxis::Y), source)?;
-    Ok(HeadSource::Mesh(HeadFile { path: folder.join(mesh), up, scale, scalp }))
+    let frame = FrameChoice { metres, up: file.up.get(source)?.map(|Which(up)| up) };
+    Ok(HeadSource::Mesh(HeadFile { path: folder.join(mesh), frame, scalp }))
 }
 
 fn implantation(

@@ -70,7 +70,9 @@ pub(crate) fn run_scene(
     let (numbers, written) = result?;
 
     if !quiet {
-        console::print(&summary(&numbers, &written))?;
+        let note = work.scene.head_note(&Files::default());
+        let note = note.map_or_else(String::new, |note| note + "\n");
+        console::print(&(note + &summary(&numbers, &written)))?;
     }
     let rested = numbers.guides.not_converged == 0;
     Ok(if rested { Done::Well } else { Done::NotConverged })
@@ -148,7 +150,9 @@ pub(crate) fn read_by(scene: &Scene) -> Vec<&Path> {
         inputs.push(&file.path);
         match &file.scalp {
             scene::ScalpSource::Mask(path) | scene::ScalpSource::Weights(path) => inputs.push(path),
-            scene::ScalpSource::Guess | scene::ScalpSource::Group(_) => {}
+            scene::ScalpSource::Guess
+            | scene::ScalpSource::Group(_)
+            | scene::ScalpSource::Colour(_) => {}
         }
     }
     inputs.extend(scene.light.environment.iter().map(|file| file.path.as_path()));

@@ -1,0 +1,30 @@
+//! What our attributes are called in a stage.
+
+use super::super::attributes as inside;
+
+/// The prefix of attributes that only we know: physical quantities, in SI units whatever the unit of the stage.
+pub(super) const OURS: &str = "primvars:frisure:";
+
+/// Name inside, primvar, type of one value. Where several primvars have one name inside, readers take the first that
+/// is there.
+pub(super) const PRIMVARS: [(&str, &str, &str); 10] = [
+    (inside::GUIDE, "primvars:guide_curve_index", "int"),
+    (inside::CLOSEST_GUIDES, "primvars:groom_closest_guides", "int3"),
+    (inside::GUIDE_WEIGHTS, "primvars:groom_guide_weights", "float3"),
+    (inside::ID, "primvars:groom_id", "int"),
+    (inside::GROUP, "primvars:groom_group_id", "int"),
+    // What Blender keeps where hair sits on a mesh, and what Unreal does.
+    (inside::ROOT_UV, "primvars:surface_uv_coordinate", "texCoord2f"),
+    (inside::ROOT_UV, "primvars:groom_root_uv", "float2"),
+    (inside::COLOUR, "primvars:groom_color", "float3"),
+    (inside::COLOUR, "primvars:displayColor", "color3f"),
+    // A direction, which turns with the stage.
+    (inside::DIRECTOR, "primvars:frisure:d1", "vector3f"),
+];
+
+/// 1 on guides, 0 on hairs.
+pub(super) const IS_GUIDE: &str = "primvars:groom_guide";
+
+/// Pigments of all hair; their unit is that of the scene's `look`.
+pub(super) const PIGMENTS: [&str; 2] =
+    ["primvars:frisure:eumelanin", "primvars:frisure:pheomelanin"];

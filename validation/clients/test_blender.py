@@ -1,0 +1,140 @@
+"""Blender, as a module: it imports what frisure writes, and frisure reads what it exports."""
+
+import os
+import pathlib
+
+import bpy
+import numpy as np
+import pytest
+
+KINDS = ("usda", "usdc")
+
+
+def quietly(work):
+    """Carries it out; what Blender printed, without how long it took."""
+    report = pathlib.Path(bpy.app.tempdir) / "said.txt"
+    old = os.dup(1), os.dup(2)
+    with open(report, "w") as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+        try:
+            assert work() == {"FINISHED"}
+        finally:
+            for number, kept in enumerate(old, 1):
+                os.dup2(kept, number)
+                os.close(kept)
+    return [line for line in report.read_text().splitlines() if line and " took " not in line]
+
+
+@pytest.fixture(autouse=True)
+def empty():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+def values(attribute, name, width):
+    found = np.zeros(len(attribute.data) * width, np.float32)
+    attribute.data.foreach_get(name, found)
+    return found.reshape(-1, width) if width > 1 else found
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_hair_and_head_are_imported(head, kind, hair_of):
+    path = str(head / f"head.{kind}")
+    said = quietly(lambda: bpy.ops.wm.usd_import(filepath=path, import_guide=True, import_all_materials=True))
+    assert said == []
+    positions, thickness, counts = hair_of(head / "head.hair")
+    hairs = bpy.data.objects["hairs"]
+    curves = hairs.data
+    assert hairs.type == "CURVES" and np.allclose(hairs.matrix_world, np.eye(4))
+    assert [c.points_length for c in curves.curves] == list(counts)
+    assert np.abs(values(curves.attributes["position"], "vector", 3) - positions).max() < 2e-7
+    assert np.abs(values(curves.attributes["radius"], "value", 1) - thickness / 2).max() < 1e-9
+    assert {c.curve_type for c in curves.curves} == {"CATMULL_ROM"} if hasattr(curves.curves[0], "curve_type") else True
+    domains = {a.name: a.domain for a in curves.attributes}
+    for name in ("surface_uv_coordinate", "guide_curve_index", "groom_id", "groom_group_id", "groom_guide_weights"):
+        assert domains[name] == "CURVE"
+    for name in ("frisure:d1", "frisure:natural_strain"):
+        assert domains[name] == "POINT"
+    guides = bpy.data.objects["guides"].data
+    assert len(guides.curves) > 50
+    index = np.zeros(len(counts), np.int32)
+    curves.attributes["guide_curve_index"].data.foreach_get("value", index)
+    assert 0 <= index.min() and index.max() < len(guides.curves)
+    skin = bpy.data.objects["head"].data.materials[0]
+    colour = next(n for n in skin.node_tree.nodes if n.type == "BSDF_PRINCIPLED").inputs["Base Color"]
+    assert np.allclose(colour.default_value[:3], [0.40, 0.29, 0.235])
+    # Blender gives imported curves no material, but has it.
+    assert "hair" in bpy.data.materials
+
+
+def test_guides_are_not_drawn_unasked(head):
+    quietly(lambda: bpy.ops.wm.usd_import(filepath=str(head / "head.usdc")))
+    assert "guides" not in bpy.data.objects and "hairs" in bpy.data.objects
+
+
+def test_roots_are_on_the_head(head):
+    quietly(lambda: bpy.ops.wm.usd_import(filepath=str(head / "head.usdc")))
+    skin = bpy.data.objects["head"]
+    curves = bpy.data.objects["hairs"].data
+    for curve in list(curves.curves)[::20]:
+        root = curves.points[curve.first_point_index].position
+        found, place, _, _ = skin.closest_point_on_mesh(root)
+        assert found and (place - root).length < 1e-3
+
+
+def make(kind):
+    """Three curves of 4, 5 and 6 points, moved and turned."""
+    data = bpy.data.hair_curves.new(kind)
+    data.add_curves([4, 5, 6])
+    points = [[0.01 * i, 0.004 * k * k, 1.5 - 0.02 * k] for i, n in enumerate([4, 5, 6]) for k in range(n)]
+    data.attributes["position"].data.foreach_set("vector", np.array(points, np.float32).ravel())
+    radius = data.attributes.new("radius", "FLOAT", "POINT")
+    radius.data.foreach_set("value", np.linspace(1e-4, 5e-5, 15, dtype=np.float32))
+    index = data.attributes.new("groom_group_id", "INT", "CURVE")
+    index.data.foreach_set("value", np.array([2, 1, 0], np.int32))
+    data.set_types(type=kind)
+    place = bpy.data.objects.new(kind, data)
+    place.location, place.rotation_euler, place.scale = (0.1, 0.2, 0.0), (0.0, 0.3, 0.5), (1.5, 1.5, 1.5)
+    bpy.context.scene.collection.objects.link(place)
+    bpy.context.view_layer.update()
+    return np.array([place.matrix_world @ __import__("mathutils").Vector(p) for p in points])
+
+
+@pytest.mark.parametrize("extension", KINDS)
+@pytest.mark.parametrize("kind", ["POLY", "CATMULL_ROM"])
+def test_what_blender_exports_is_read(kind, extension, hair_of, tmp_path):
+    world = make(kind)
+    path = str(tmp_path / f"{kind}.{extension}")
+    quietly(lambda: bpy.ops.wm.usd_export(filepath=path))
+    positions, thickness, counts = hair_of(path)
+    assert list(counts) == [4, 5, 6]
+    assert np.abs(positions - world).max() < 1e-6
+    assert np.allclose(thickness, 2 * 1.5 * np.linspace(1e-4, 5e-5, 15), rtol=1e-5)
+
+
+def test_nurbs_are_read_as_points_on_them(hair_of, tmp_path):
+    world = make("NURBS")
+    path = str(tmp_path / "nurbs.usdc")
+    quietly(lambda: bpy.ops.wm.usd_export(filepath=path))
+    positions, _, counts = hair_of(path)
+    assert list(counts) == [4, 5, 6]
+    # Within the hulls of their vertices.
+    for first, n in ((0, 4), (4, 5), (9, 6)):
+        low, high = world[first : first + n].min(axis=0), world[first : first + n].max(axis=0)
+        own = positions[first : first + n]
+        assert (own > low - 1e-6).all() and (own < high + 1e-6).all()
+
+
+def test_other_units_are_the_same_size(head, frisure, tmp_path):
+    out = tmp_path / "cm.usdc"
+    frisure.convert(head / "head.usdc", out, unit="cm", up="y")
+    quietly(lambda: bpy.ops.wm.usd_import(filepath=str(head / "head.usdc")))
+    bpy.context.view_layer.update()
+    skin = bpy.data.objects["head"]
+    metres = [tuple(skin.matrix_world @ v.co) for v in list(skin.data.vertices)[:50]]
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    quietly(lambda: bpy.ops.wm.usd_import(filepath=str(out)))
+    bpy.context.view_layer.update()
+    skin = bpy.data.objects["head"]
+    turned = [tuple(skin.matrix_world @ v.co) for v in list(skin.data.vertices)[:50]]
+    assert np.allclose(metres, turned, atol=1e-5)
