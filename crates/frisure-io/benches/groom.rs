@@ -26,20 +26,20 @@ fn head() -> Groom {
     Groom::of(strands)
 }
 
-#[divan::bench(args = ["hair", "ply", "obj"], sample_count = 10)]
+#[divan::bench(args = ["hair", "ply", "obj", "abc"], sample_count = 10)]
 fn write(bencher: divan::Bencher, extension: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("head.{extension}"));
     let strands = head();
     bencher.bench_local(|| {
-        write_groom(&path, &strands, FrameChoice::default()).expect("it is written")
+        write_groom(&path, &strands, FrameChoice::default()).expect("it is written");
     });
 }
 
-#[divan::bench(sample_count = 10)]
-fn read_hair(bencher: divan::Bencher) {
+#[divan::bench(args = ["hair", "abc"], sample_count = 10)]
+fn read(bencher: divan::Bencher, extension: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let path = folder.path().join("head.hair");
+    let path = folder.path().join(format!("head.{extension}"));
     write_groom(&path, &head(), FrameChoice::default()).expect("it is written");
     bencher.bench_local(|| read_groom(&path, FrameChoice::default()).expect("it is read"));
 }

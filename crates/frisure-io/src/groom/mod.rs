@@ -3,6 +3,7 @@
 //! One module per format; [`Format`] says what each can hold, and `docs/formats.md` tells every byte that
 //! matters. What is read has been checked: see [`checked`].
 
+mod alembic;
 pub mod attributes;
 mod checked;
 pub mod hair;
@@ -117,11 +118,13 @@ pub enum Format {
     Obj,
     /// Stanford polygons, binary.
     Ply,
+    /// Alembic in the Ogawa container, as Unreal's specification of grooms has it.
+    Alembic,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Hair, Self::Obj, Self::Ply];
+    pub const ALL: [Self; 4] = [Self::Hair, Self::Obj, Self::Ply, Self::Alembic];
 
     /// The extensions that name it, without a dot; the first is the one to show.
     #[must_use]
@@ -130,6 +133,7 @@ impl Format {
             Self::Hair => &["hair"],
             Self::Obj => &["obj"],
             Self::Ply => &["ply"],
+            Self::Alembic => &["abc"],
         }
     }
 
@@ -140,6 +144,7 @@ impl Format {
             Self::Hair => "Cem Yuksel's hair file",
             Self::Obj => "Wavefront polylines",
             Self::Ply => "Stanford points and edges",
+            Self::Alembic => "Alembic curves for Unreal, Blender, Houdini and Maya",
         }
     }
 
@@ -147,7 +152,7 @@ impl Format {
     #[must_use]
     pub fn is_read(self) -> bool {
         match self {
-            Self::Hair => true,
+            Self::Hair | Self::Alembic => true,
             Self::Obj | Self::Ply => false,
         }
     }
@@ -156,6 +161,7 @@ impl Format {
     #[must_use]
     pub fn tells_guides(self) -> bool {
         match self {
+            Self::Alembic => true,
             Self::Hair | Self::Obj | Self::Ply => false,
         }
     }
@@ -164,7 +170,7 @@ impl Format {
     #[must_use]
     pub fn usual_points(self) -> Option<usize> {
         match self {
-            Self::Hair | Self::Obj | Self::Ply => None,
+            Self::Hair | Self::Obj | Self::Ply | Self::Alembic => None,
         }
     }
 
@@ -175,6 +181,7 @@ impl Format {
             Self::Hair => Frame::CENTIMETRES_Z,
             Self::Obj => Frame::METRES_Y,
             Self::Ply => Frame::METRES_Z,
+            Self::Alembic => Frame::CENTIMETRES_Y,
         }
     }
 
@@ -195,6 +202,7 @@ impl Format {
             Self::Hair => ".hair",
             Self::Obj => ".obj",
             Self::Ply => ".ply",
+            Self::Alembic => ".abc",
         }
     }
 }
@@ -229,6 +237,7 @@ fn check(format: Format, groom: &Groom) -> Result<(), GroomError> {
         Format::Hair => hair::check(groom.strands()),
         Format::Obj => Ok(()),
         Format::Ply => ply::check(groom.strands()),
+        Format::Alembic => alembic::check(groom),
     };
     checked.map_err(|what| GroomError::CannotHold { format: format.name(), what })
 }
@@ -239,6 +248,7 @@ fn fill(format: Format, out: &mut dyn io::Write, groom: &Groom, frame: Frame) ->
         Format::Hair => hair::encode(out, groom.strands(), frame),
         Format::Obj => obj::encode(out, groom.strands(), frame),
         Format::Ply => ply::encode(out, groom.strands(), frame),
+        Format::Alembic => alembic::encode(out, groom, frame),
     }
 }
 
@@ -267,6 +277,7 @@ pub fn decode(
 ) -> Result<Groom, GroomError> {
     let groom = match format {
         Format::Hair => hair::decode(bytes, choice),
+        Format::Alembic => alembic::decode(bytes, choice),
         Format::Obj | Format::Ply => return Err(GroomError::Unread { path: path.into() }),
     };
     groom.map_err(|what| GroomError::Malformed { path: path.into(), format: format.name(), what })
