@@ -26,7 +26,7 @@ fn head() -> Groom {
     Groom::of(strands)
 }
 
-#[divan::bench(args = ["hair", "ply", "obj", "abc"], sample_count = 10)]
+#[divan::bench(args = ["hair", "ply", "obj", "abc", "data", "npz", "txt", "pbrt", "glb"], sample_count = 10)]
 fn write(bencher: divan::Bencher, extension: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("head.{extension}"));
@@ -36,7 +36,7 @@ fn write(bencher: divan::Bencher, extension: &str) {
     });
 }
 
-#[divan::bench(args = ["hair", "abc"], sample_count = 10)]
+#[divan::bench(args = ["hair", "ply", "obj", "abc", "data", "npz"], sample_count = 10)]
 fn read(bencher: divan::Bencher, extension: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("head.{extension}"));

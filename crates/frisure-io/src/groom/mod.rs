@@ -6,9 +6,15 @@
 mod alembic;
 pub mod attributes;
 mod checked;
+mod gltf;
 pub mod hair;
+mod lines;
+mod mitsuba;
+mod npz;
 pub mod obj;
+mod pbrt;
 pub mod ply;
+mod usc;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -120,11 +126,31 @@ pub enum Format {
     Ply,
     /// Alembic in the Ogawa container, as Unreal's specification of grooms has it.
     Alembic,
+    /// `.data` of USC-HairSalon, for what learns from hairstyles.
+    Usc,
+    /// Arrays of `NumPy`.
+    Npz,
+    /// Text of Mitsuba 3's curves.
+    Mitsuba,
+    /// Curves of pbrt-v4.
+    Pbrt,
+    /// Lines of glTF, binary.
+    Gltf,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Hair, Self::Obj, Self::Ply, Self::Alembic];
+    pub const ALL: [Self; 9] = [
+        Self::Hair,
+        Self::Obj,
+        Self::Ply,
+        Self::Alembic,
+        Self::Usc,
+        Self::Npz,
+        Self::Mitsuba,
+        Self::Pbrt,
+        Self::Gltf,
+    ];
 
     /// The extensions that name it, without a dot; the first is the one to show.
     #[must_use]
@@ -134,6 +160,11 @@ impl Format {
             Self::Obj => &["obj"],
             Self::Ply => &["ply"],
             Self::Alembic => &["abc"],
+            Self::Usc => &["data"],
+            Self::Npz => &["npz"],
+            Self::Mitsuba => &["txt"],
+            Self::Pbrt => &["pbrt"],
+            Self::Gltf => &["glb"],
         }
     }
 
@@ -145,6 +176,11 @@ impl Format {
             Self::Obj => "Wavefront polylines",
             Self::Ply => "Stanford points and edges",
             Self::Alembic => "Alembic curves for Unreal, Blender, Houdini and Maya",
+            Self::Usc => "hairstyles of USC-HairSalon",
+            Self::Npz => "arrays for NumPy",
+            Self::Mitsuba => "curves for Mitsuba 3",
+            Self::Pbrt => "curves for pbrt-v4",
+            Self::Gltf => "glTF lines for the web",
         }
     }
 
@@ -152,8 +188,9 @@ impl Format {
     #[must_use]
     pub fn is_read(self) -> bool {
         match self {
-            Self::Hair | Self::Alembic => true,
-            Self::Obj | Self::Ply => false,
+            Self::Hair | Self::Obj | Self::Ply => true,
+            Self::Alembic | Self::Usc | Self::Npz => true,
+            Self::Mitsuba | Self::Pbrt | Self::Gltf => false,
         }
     }
 
@@ -161,8 +198,9 @@ impl Format {
     #[must_use]
     pub fn tells_guides(self) -> bool {
         match self {
-            Self::Alembic => true,
+            Self::Alembic | Self::Npz | Self::Gltf => true,
             Self::Hair | Self::Obj | Self::Ply => false,
+            Self::Usc | Self::Mitsuba | Self::Pbrt => false,
         }
     }
 
@@ -171,6 +209,8 @@ impl Format {
     pub fn usual_points(self) -> Option<usize> {
         match self {
             Self::Hair | Self::Obj | Self::Ply | Self::Alembic => None,
+            Self::Usc => Some(100),
+            Self::Npz | Self::Mitsuba | Self::Pbrt | Self::Gltf => None,
         }
     }
 
@@ -182,6 +222,11 @@ impl Format {
             Self::Obj => Frame::METRES_Y,
             Self::Ply => Frame::METRES_Z,
             Self::Alembic => Frame::CENTIMETRES_Y,
+            Self::Usc => Frame::METRES_Y,
+            Self::Npz => Frame::METRES_Z,
+            Self::Mitsuba => Frame::METRES_Y,
+            Self::Pbrt => Frame::METRES_Y,
+            Self::Gltf => Frame::METRES_Y,
         }
     }
 
@@ -203,6 +248,11 @@ impl Format {
             Self::Obj => ".obj",
             Self::Ply => ".ply",
             Self::Alembic => ".abc",
+            Self::Usc => ".data",
+            Self::Npz => ".npz",
+            Self::Mitsuba => ".txt",
+            Self::Pbrt => ".pbrt",
+            Self::Gltf => ".glb",
         }
     }
 }
@@ -238,6 +288,11 @@ fn check(format: Format, groom: &Groom) -> Result<(), GroomError> {
         Format::Obj => Ok(()),
         Format::Ply => ply::check(groom.strands()),
         Format::Alembic => alembic::check(groom),
+        Format::Usc => usc::check(groom.strands()),
+        Format::Npz => Ok(()),
+        Format::Mitsuba => mitsuba::check(groom.strands()),
+        Format::Pbrt => pbrt::check(groom.strands()),
+        Format::Gltf => gltf::check(groom),
     };
     checked.map_err(|what| GroomError::CannotHold { format: format.name(), what })
 }
@@ -249,6 +304,11 @@ fn fill(format: Format, out: &mut dyn io::Write, groom: &Groom, frame: Frame) ->
         Format::Obj => obj::encode(out, groom.strands(), frame),
         Format::Ply => ply::encode(out, groom.strands(), frame),
         Format::Alembic => alembic::encode(out, groom, frame),
+        Format::Usc => usc::encode(out, groom.strands(), frame),
+        Format::Npz => npz::encode(out, groom, frame),
+        Format::Mitsuba => mitsuba::encode(out, groom.strands(), frame),
+        Format::Pbrt => pbrt::encode(out, groom.strands(), frame),
+        Format::Gltf => gltf::encode(out, groom, frame),
     }
 }
 
@@ -278,7 +338,13 @@ pub fn decode(
     let groom = match format {
         Format::Hair => hair::decode(bytes, choice),
         Format::Alembic => alembic::decode(bytes, choice),
-        Format::Obj | Format::Ply => return Err(GroomError::Unread { path: path.into() }),
+        Format::Obj => obj::decode(bytes, choice),
+        Format::Ply => ply::decode(bytes, choice),
+        Format::Usc => usc::decode(bytes, choice),
+        Format::Npz => npz::decode(bytes, choice),
+        Format::Mitsuba | Format::Pbrt | Format::Gltf => {
+            return Err(GroomError::Unread { path: path.into() });
+        }
     };
     groom.map_err(|what| GroomError::Malformed { path: path.into(), format: format.name(), what })
 }
