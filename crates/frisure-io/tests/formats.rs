@@ -20,7 +20,8 @@ fn groom() -> Groom {
         of_strands(names::CLOSEST_GUIDES, Values::U32x3(vec![[1, 0, 0], [0, 1, 1], [1, 1, 0]])),
         of_strands(names::GUIDE_WEIGHTS, Values::F32x3(vec![[0.5, 0.25, 0.25]; 3])),
         of_strands(names::ID, Values::U32(vec![10, 11, 12])),
-        of_strands(names::GROUP, Values::U32(vec![0, 5, 0])),
+        // The last follows a guide of another group.
+        of_strands(names::GROUP, Values::U32(vec![0, 5, 5])),
         of_strands(names::ROOT_UV, Values::F32x2(vec![[0.25, 0.5], [0.75, 0.125], [0.0, 1.0]])),
         of_strands(names::AXIS_RATIO, Values::F32(vec![1.25, 1.5, 1.75])),
         of_points(
@@ -135,6 +136,23 @@ fn the_same_groom_gives_the_same_bytes() {
     for format in Format::ALL {
         assert_eq!(written(format, &groom()), written(format, &groom()));
     }
+}
+
+/// Written by the Alembic library 1.8.12: two lines of three points under a transform by (1, 2, 3), with
+/// properties of Unreal's.
+#[test]
+fn a_file_of_the_alembic_library_is_read() {
+    let groom = read(Format::Alembic, include_bytes!("data/library.abc")).unwrap();
+    assert_eq!((groom.name.as_str(), groom.hairs.offsets()), ("groom", &[0, 3, 6][..]));
+    // Point i is (i, 2i, 0), in centimetres, y up.
+    for (i, p) in groom.hairs.points().iter().enumerate() {
+        let (x, y) = (i as f32 + 1.0, 2.0 * i as f32 + 2.0);
+        assert!(p.distance(0.01 * Vec3::new(x, -3.0, y)) < 1e-7);
+    }
+    assert!(groom.hairs.radii().iter().all(|r| (r - 5e-4).abs() < 1e-9));
+    assert_eq!(names::indices(&groom.hairs, names::ID), Some(&[4, 5][..]));
+    let uv = groom.hairs.attribute(names::ROOT_UV).map(|a| &a.values);
+    assert_eq!(uv, Some(&Values::F32x2(vec![[0.1, 0.2], [0.3, 0.4]])));
 }
 
 #[test]

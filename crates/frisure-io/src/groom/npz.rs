@@ -18,7 +18,7 @@ use glam::Vec3;
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, ZipArchive};
 
-use self::array::{Array, Data, header};
+use self::array::{Array, header};
 use super::attributes as names;
 use super::checked::{Curves, MAX_STRANDS};
 use super::{Format, Groom, HairColour};
@@ -28,7 +28,7 @@ use crate::frame::{Frame, FrameChoice, UpAxis};
 const GUIDE: &str = "guide_";
 
 /// How much larger arrays can be than the file that they are packed in, and what they can have in any case.
-const MOST_PACKED: u64 = 64;
+const MOST_PACKED: u64 = 16;
 const FREE: u64 = 64 << 20;
 
 /// Arrays of a file beside those of strands.
@@ -167,19 +167,11 @@ fn array(
 /// Bytes of a file into a groom, or what is wrong with them.
 pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let mut arrays = arrays(bytes)?;
-    let metres = match arrays.remove(METRES).map(|a| a.data) {
-        Some(Data::Real(v)) if v.len() == 1 => Some(v[0]),
-        _ => None,
-    };
-    let up = match arrays.remove(UP).map(|a| a.data) {
-        Some(Data::Text(t)) => Some(if t == "y" { UpAxis::Y } else { UpAxis::Z }),
-        _ => None,
-    };
+    let metres = arrays.remove(METRES).and_then(|a| a.number());
+    let up = arrays.remove(UP).and_then(|a| a.text());
+    let up = up.map(|t| if t == "y" { UpAxis::Y } else { UpAxis::Z });
     let frame = choice.or(FrameChoice { metres, up }.or(Format::Npz.frame()));
-    let name = match arrays.remove(NAME).map(|a| a.data) {
-        Some(Data::Text(t)) => t,
-        _ => String::new(),
-    };
+    let name = arrays.remove(NAME).and_then(|a| a.text()).unwrap_or_default();
     let colour = colour(&mut arrays);
     let keys: Vec<String> = arrays.keys().cloned().collect();
     let is_of_guides = |k: &String| k.starts_with(GUIDE) && k != names::GUIDE_WEIGHTS;
@@ -203,9 +195,9 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
 }
 
 fn colour(arrays: &mut BTreeMap<String, Array>) -> Option<HairColour> {
-    let mut pair = |name: &str, count: usize| match arrays.remove(name)?.data {
-        Data::Real(v) if v.len() == count => Some(v.iter().map(|x| *x as f32).collect::<Vec<_>>()),
-        _ => None,
+    let mut pair = |name: &str, count: usize| {
+        let values = arrays.remove(name)?.real()?;
+        (values.len() == count).then_some(values)
     };
     let (colour, melanin) = (pair(HAIR_COLOUR, 3), pair(MELANIN, 2));
     let melanin = melanin.map(|m| Melanin { eumelanin: m[0], pheomelanin: m[1] });
@@ -236,7 +228,7 @@ fn arrays(bytes: &[u8]) -> Result<BTreeMap<String, Array>, String> {
         let size = size as u64;
         left =
             left.checked_sub(size).ok_or_else(|| format!("`{name}` is far more than the file"))?;
-        if let Some(array) = Array::read(&inner).map_err(|e| format!("`{name}`: {e}"))? {
+        if let Some(array) = Array::read(inner).map_err(|e| format!("`{name}`: {e}"))? {
             arrays.insert(name, array);
         }
     }
@@ -253,13 +245,11 @@ fn curves(mut arrays: BTreeMap<String, Array>, frame: Frame) -> Result<Curves, S
     let mut curves = Curves { counts, points, ..Curves::default() };
     let total = curves.points.len();
     if let Some(radii) = arrays.remove("radii") {
-        let Data::Real(radii) = radii.data else {
-            return Err("`radii` are no real numbers".into());
-        };
+        let radii = radii.real().ok_or("`radii` are no real numbers")?;
         if radii.len() != total {
             return Err(format!("`radii` are {}, and there are {total} points", radii.len()));
         }
-        curves.diameters = radii.iter().map(|r| (2.0 * r) as f32).collect();
+        curves.diameters = radii.into_iter().map(|r| 2.0 * r).collect();
     }
     for (name, array) in arrays {
         curves.attributes.extend(attribute(name, array, curves.counts.len(), total, frame));
@@ -269,18 +259,13 @@ fn curves(mut arrays: BTreeMap<String, Array>, frame: Frame) -> Result<Curves, S
 
 type Rows = (Vec<usize>, Vec<[f32; 3]>);
 
-fn triples(data: &Data) -> Option<Vec<[f32; 3]>> {
-    match data {
-        Data::Real(v) => {
-            Some(v.as_chunks().0.iter().map(|p: &[f64; 3]| p.map(|x| x as f32)).collect())
-        }
-        Data::Whole(_) | Data::Text(_) => None,
-    }
+fn triples(array: &Array) -> Option<Vec<[f32; 3]>> {
+    Some(array.real()?.as_chunks().0.to_vec())
 }
 
 fn even(array: Array) -> Result<Rows, String> {
-    let Array { shape, data } = array;
-    let (&[strands, count, 3], Some(points)) = (&shape[..], triples(&data)) else {
+    let shape = &array.shape;
+    let (&[strands, count, 3], Some(points)) = (&shape[..], triples(&array)) else {
         return Err(format!("`positions` are {shape:?}, and should be real numbers, N × P × 3"));
     };
     // Rows without points would be as many as anyone likes.
@@ -292,12 +277,11 @@ fn even(array: Array) -> Result<Rows, String> {
 
 fn uneven(arrays: &mut BTreeMap<String, Array>) -> Result<Rows, String> {
     let points = arrays.remove("points").ok_or("it has neither `positions` nor `points`")?;
-    let (&[total, 3], Some(points)) = (&points.shape[..], triples(&points.data)) else {
+    let (&[total, 3], Some(points)) = (&points.shape[..], triples(&points)) else {
         return Err(format!("`points` are {:?}, and should be real numbers, N × 3", points.shape));
     };
-    let Some(Array { data: Data::Whole(offsets), .. }) = arrays.remove("offsets") else {
-        return Err("it has `points`, but no whole `offsets`".into());
-    };
+    let offsets = arrays.remove("offsets").and_then(|a| a.whole(|x| x));
+    let offsets = offsets.ok_or("it has `points`, but no whole `offsets`")?;
     if offsets.first() != Some(&0) || offsets.last() != Some(&(total as i64)) {
         return Err(format!("`offsets` do not go from 0 to {total}"));
     }
@@ -317,25 +301,28 @@ fn attribute(
     frame: Frame,
 ) -> Option<Attribute> {
     let (domain, extent) = meaning(&name, &array.shape, strands, points)?;
-    let values = match (array.data, extent) {
-        (Data::Whole(v), 1) => AttributeValues::U32(v.iter().map(|x| *x as u32).collect()),
-        (Data::Whole(v), 3) => {
-            let rows = v.as_chunks().0.iter();
-            AttributeValues::U32x3(rows.map(|x: &[i64; 3]| x.map(|i| i as u32)).collect())
+    // Numbers below 0 wrap round, as -1 is written for nothing.
+    let values = if let Some(whole) = array.whole(|x| x as u32) {
+        match extent {
+            1 => AttributeValues::U32(whole),
+            3 => AttributeValues::U32x3(whole.as_chunks().0.to_vec()),
+            _ => return None,
         }
-        (Data::Real(v), 1) => AttributeValues::F32(v.iter().map(|x| *x as f32).collect()),
-        (Data::Real(v), 2) => {
-            let rows = v.as_chunks().0.iter();
-            AttributeValues::F32x2(rows.map(|x: &[f64; 2]| x.map(|i| i as f32)).collect())
+    } else {
+        let real = array.real()?;
+        match extent {
+            1 => AttributeValues::F32(real),
+            2 => AttributeValues::F32x2(real.as_chunks().0.to_vec()),
+            _ => {
+                let mut rows = real.as_chunks().0.to_vec();
+                if name == names::DIRECTOR {
+                    for d in &mut rows {
+                        *d = frame.direction_from_file(Vec3::from_array(*d)).to_array();
+                    }
+                }
+                AttributeValues::F32x3(rows)
+            }
         }
-        (Data::Real(v), 3) => {
-            let turn = |d: [f32; 3]| frame.direction_from_file(Vec3::from_array(d)).to_array();
-            let is_direction = name == names::DIRECTOR;
-            let rows = v.as_chunks().0.iter().map(|x: &[f64; 3]| x.map(|i| i as f32));
-            let rows = rows.map(|x| if is_direction { turn(x) } else { x });
-            AttributeValues::F32x3(rows.collect())
-        }
-        _ => return None,
     };
     Some(Attribute { name, domain, values })
 }

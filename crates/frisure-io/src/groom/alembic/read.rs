@@ -16,6 +16,9 @@ use crate::groom::{Format, Groom, HairColour};
 /// How deep objects can be in each other.
 const DEEPEST: usize = 64;
 
+/// How many attributes curves can have: those of an object take memory for each strand.
+const MOST_ATTRIBUTES: usize = 64;
+
 /// Bytes of a file into a groom, or what is wrong with them.
 pub(in crate::groom) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let archive = Archive::open(bytes)?;
@@ -347,8 +350,12 @@ fn parameter<'a>(
             *d = turned.normalize_or_zero().as_vec3().to_array();
         }
     }
-    if part.attributes.iter().all(|a| a.name != attribute.name) {
-        part.attributes.push(attribute);
+    match part.attributes.iter().position(|a| a.name == attribute.name) {
+        // Ours say it better where there are both: groups are changed for Unreal.
+        Some(at) if ours.is_some() => part.attributes[at] = attribute,
+        Some(_) => {}
+        None if part.attributes.len() < MOST_ATTRIBUTES => part.attributes.push(attribute),
+        None => return Err(format!("it has more than {MOST_ATTRIBUTES} attributes")),
     }
     Ok(())
 }

@@ -2,6 +2,9 @@
 
 use super::ogawa::{Container, Reference};
 
+/// Bytes of a name that are kept.
+const LONGEST: usize = 256;
+
 /// A file.
 pub(super) struct Archive<'a> {
     container: Container<'a>,
@@ -113,7 +116,8 @@ impl<'a> Archive<'a> {
         let mut children = Vec::new();
         for &reference in groups {
             let size = rest.number(4)?;
-            let name = String::from_utf8_lossy(rest.take(size)?).into_owned();
+            let name = rest.take(size)?;
+            let name = String::from_utf8_lossy(&name[..name.len().min(LONGEST)]).into_owned();
             let index = rest.number(1)?;
             let metadata = self.metadata(index, 4, &mut rest)?;
             children.push(Object { name, metadata, reference });

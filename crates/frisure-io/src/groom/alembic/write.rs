@@ -30,7 +30,7 @@ pub(in crate::groom) fn check(groom: &Groom) -> Result<(), String> {
 /// Writes what [`check`] has passed.
 pub(in crate::groom) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     let of_guides = with_extras(&groom.guides, guide_extras(&groom.guides));
-    let of_hairs = with_extras(&groom.hairs, hair_extras(&groom.hairs));
+    let of_hairs = with_extras(&groom.hairs, hair_extras(groom));
     let mut parts = Vec::new();
     if !groom.guides.is_empty() {
         parts.push(Part {
@@ -42,7 +42,8 @@ pub(in crate::groom) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame)
             attributes: &of_guides,
         });
     }
-    parts.extend(groups(&groom.hairs, &of_hairs));
+    let group = group_of_hairs(groom);
+    parts.extend(groups(&groom.hairs, &of_hairs, group.as_deref()));
     let children = parts.iter().map(|p| p.object(frame, groom.colour)).collect();
     let top = Object {
         name: object_name(&groom.name),
@@ -68,8 +69,21 @@ fn guide_extras(guides: &Strands) -> Vec<Attribute> {
     vec![of_strands(names::ID, AttributeValues::U32(own))]
 }
 
+/// The group of each hair: that of the guide that it follows most. Unreal looks for the guides of a hair
+/// in its group only, and at the border of two groups hairs follow guides of the other.
+fn group_of_hairs(groom: &Groom) -> Option<Vec<u32>> {
+    let own = indices(&groom.hairs, names::GROUP)?;
+    let of_guides = indices(&groom.guides, names::GROUP);
+    let (Some(guide), Some(of_guides)) = (indices(&groom.hairs, names::GUIDE), of_guides) else {
+        return Some(own.to_vec());
+    };
+    let group = |(own, guide): (&u32, &u32)| *of_guides.get(*guide as usize).unwrap_or(own);
+    Some(own.iter().zip(guide).map(group).collect())
+}
+
 /// What Unreal wants to know of each hair.
-fn hair_extras(hairs: &Strands) -> Vec<Attribute> {
+fn hair_extras(groom: &Groom) -> Vec<Attribute> {
+    let hairs = &groom.hairs;
     let mut extras = Vec::new();
     if indices(hairs, names::ID).is_none() {
         let ids = (0..hairs.len() as u32).collect();
@@ -98,7 +112,11 @@ struct Part<'a> {
 }
 
 /// Hairs by their group.
-fn groups<'a>(hairs: &'a Strands, attributes: &'a [Cow<'a, Attribute>]) -> Vec<Part<'a>> {
+fn groups<'a>(
+    hairs: &'a Strands,
+    attributes: &'a [Cow<'a, Attribute>],
+    group: Option<&[u32]>,
+) -> Vec<Part<'a>> {
     if hairs.is_empty() {
         return Vec::new();
     }
@@ -110,7 +128,7 @@ fn groups<'a>(hairs: &'a Strands, attributes: &'a [Cow<'a, Attribute>]) -> Vec<P
         attributes,
         rows,
     };
-    let Some(group) = indices(hairs, names::GROUP) else {
+    let Some(group) = group else {
         return vec![part("hair".into(), 0, (0..hairs.len()).collect())];
     };
     let mut all = group.to_vec();
@@ -238,10 +256,12 @@ impl Part<'_> {
             all.push(parameter("groom_group_name", Scope::Strand, "", Values::texts(&called)));
         }
         for attribute in self.attributes {
-            let one_group = attribute.name == names::GROUP && self.group.is_some();
-            if !one_group {
-                all.push(self.attribute(attribute, frame));
+            if attribute.name == names::GROUP && self.is_one_group(attribute) {
+                continue;
             }
+            // The group of hairs was said, but perhaps not that of each.
+            let ours = attribute.name == names::GROUP && self.group.is_some();
+            all.push(self.attribute(attribute, frame, ours));
         }
         if self.attributes.iter().all(|a| a.name != names::COLOUR)
             && !self.is_guide
@@ -253,9 +273,23 @@ impl Part<'_> {
         all
     }
 
-    fn attribute<'a>(&'a self, attribute: &'a Attribute, frame: Frame) -> Property<'a> {
+    /// Whether an attribute says what the group of the whole says already.
+    fn is_one_group(&self, attribute: &Attribute) -> bool {
+        match (&attribute.values, self.group) {
+            (AttributeValues::U32(v), Some(g)) => {
+                attribute.domain == Domain::Strand && self.rows.iter().all(|&row| v[row] == g)
+            }
+            _ => false,
+        }
+    }
+
+    /// An attribute under Unreal's name, if it has one, or else under ours.
+    fn attribute<'a>(&'a self, attribute: &'a Attribute, frame: Frame, ours: bool) -> Property<'a> {
         let Attribute { name, domain, values } = attribute;
-        let known = KNOWN.iter().find(|(ours, _)| ours == name && fits(ours, *domain, values));
+        let known = KNOWN
+            .iter()
+            .filter(|_| !ours)
+            .find(|(ours, _)| ours == name && fits(ours, *domain, values));
         // A colour for each point is all that the specification has.
         let spread = *domain == Domain::Strand && known.is_some() && name == names::COLOUR;
         let is_direction = name == names::DIRECTOR;

@@ -2,19 +2,59 @@
 //!
 //! Source: `numpy.lib.format`.
 
-/// An array.
+/// An array, with its numbers as they are in the file.
 pub(super) struct Array {
     /// Its lengths; none of a single value.
     pub(super) shape: Vec<usize>,
-    pub(super) data: Data,
+    kind: Kind,
+    /// Header and numbers.
+    bytes: Vec<u8>,
+    /// Where the numbers begin.
+    start: usize,
 }
 
-/// What an array has, the last index fastest.
-pub(super) enum Data {
-    Real(Vec<f64>),
-    Whole(Vec<i64>),
-    /// A single text.
-    Text(String),
+/// Kinds of values.
+#[derive(Clone, Copy)]
+enum Kind {
+    F4,
+    F8,
+    I1,
+    U1,
+    I2,
+    U2,
+    I4,
+    U4,
+    I8,
+    /// So many letters of four bytes.
+    Text(usize),
+}
+
+impl Kind {
+    fn of(descr: &str) -> Option<Self> {
+        Some(match descr.trim_start_matches(['<', '|', '=']) {
+            "f4" => Self::F4,
+            "f8" => Self::F8,
+            "i1" => Self::I1,
+            "u1" | "b1" => Self::U1,
+            "i2" => Self::I2,
+            "u2" => Self::U2,
+            "i4" => Self::I4,
+            "u4" => Self::U4,
+            "i8" | "u8" => Self::I8,
+            text => Self::Text(text.strip_prefix('U')?.parse().ok()?),
+        })
+    }
+
+    /// Bytes of one.
+    fn width(self) -> usize {
+        match self {
+            Self::I1 | Self::U1 => 1,
+            Self::I2 | Self::U2 => 2,
+            Self::F4 | Self::I4 | Self::U4 => 4,
+            Self::F8 | Self::I8 => 8,
+            Self::Text(letters) => letters.saturating_mul(4),
+        }
+    }
 }
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -37,7 +77,7 @@ pub(super) fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
 
 impl Array {
     /// An array, or nothing where it is of a kind that grooms do not have.
-    pub(super) fn read(bytes: &[u8]) -> Result<Option<Self>, String> {
+    pub(super) fn read(bytes: Vec<u8>) -> Result<Option<Self>, String> {
         let rest = bytes.strip_prefix(MAGIC).ok_or("it is no array of NumPy")?;
         let cut = "its header is cut short";
         let ([major, _minor], rest) = rest.split_first_chunk().ok_or(cut)?;
@@ -50,21 +90,67 @@ impl Array {
         };
         let (text, numbers) = rest.split_at_checked(size).ok_or(cut)?;
         let text = std::str::from_utf8(text).map_err(|_| "its header is no text")?;
-        let kind = value(text, "descr").ok_or("its header has no `descr`")?;
-        let kind = kind.trim_start_matches(['\'', '"']).split(['\'', '"']).next().unwrap_or("");
+        let descr = value(text, "descr").ok_or("its header has no `descr`")?;
+        let descr = descr.trim_start_matches(['\'', '"']).split(['\'', '"']).next().unwrap_or("");
+        if descr.starts_with('>') {
+            return Err(format!("its kind is `{descr}`, and only little-endian numbers are read"));
+        }
         let order = value(text, "fortran_order").ok_or("its header has no `fortran_order`")?;
         let shape = shape(text)?;
         if order.starts_with("True") && shape.len() > 1 {
-            return Err(
-                "its order is Fortran's, and only C's is read (`numpy.ascontiguousarray`)".into()
-            );
+            let hint = "`numpy.ascontiguousarray`";
+            return Err(format!("its order is Fortran's, and only C's is read ({hint})"));
         }
-        let Some((width, data)) = data(kind, numbers)? else { return Ok(None) };
-        let expected = shape.iter().try_fold(width, |n, &m| n.checked_mul(m));
+        let Some(kind) = Kind::of(descr) else { return Ok(None) };
+        let expected = shape.iter().try_fold(kind.width(), |n, &m| n.checked_mul(m));
         if expected != Some(numbers.len()) {
-            return Err(format!("{} bytes are not {shape:?} of `{kind}`", numbers.len()));
+            return Err(format!("{} bytes are not {shape:?} of `{descr}`", numbers.len()));
         }
-        Ok(Some(Self { shape, data }))
+        let start = bytes.len() - numbers.len();
+        Ok(Some(Self { shape, kind, bytes, start }))
+    }
+
+    fn words<const N: usize>(&self) -> std::slice::Iter<'_, [u8; N]> {
+        self.bytes[self.start..].as_chunks().0.iter()
+    }
+
+    /// Its numbers, where they are real ones.
+    pub(super) fn real(&self) -> Option<Vec<f32>> {
+        Some(match self.kind {
+            Kind::F4 => self.words().map(|w| f32::from_le_bytes(*w)).collect(),
+            Kind::F8 => self.words().map(|w| f64::from_le_bytes(*w) as f32).collect(),
+            _ => return None,
+        })
+    }
+
+    /// Its numbers, where they are whole ones, as something else.
+    pub(super) fn whole<T>(&self, to: impl Fn(i64) -> T) -> Option<Vec<T>> {
+        Some(match self.kind {
+            Kind::I1 => self.words().map(|&[b]| to(i64::from(b as i8))).collect(),
+            Kind::U1 => self.words().map(|&[b]| to(i64::from(b))).collect(),
+            Kind::I2 => self.words().map(|w| to(i64::from(i16::from_le_bytes(*w)))).collect(),
+            Kind::U2 => self.words().map(|w| to(i64::from(u16::from_le_bytes(*w)))).collect(),
+            Kind::I4 => self.words().map(|w| to(i64::from(i32::from_le_bytes(*w)))).collect(),
+            Kind::U4 => self.words().map(|w| to(i64::from(u32::from_le_bytes(*w)))).collect(),
+            Kind::I8 => self.words().map(|w| to(i64::from_le_bytes(*w))).collect(),
+            _ => return None,
+        })
+    }
+
+    /// A single real number, to its last bit.
+    pub(super) fn number(&self) -> Option<f64> {
+        match (self.kind, &self.shape[..]) {
+            (Kind::F8, [] | [1]) => self.words().next().map(|w| f64::from_le_bytes(*w)),
+            (Kind::F4, [] | [1]) => self.words().next().map(|w| f64::from(f32::from_le_bytes(*w))),
+            _ => None,
+        }
+    }
+
+    /// Its text, where it is one.
+    pub(super) fn text(&self) -> Option<String> {
+        let Kind::Text(_) = self.kind else { return None };
+        let letters = self.words().map(|w| u32::from_le_bytes(*w)).take_while(|c| *c != 0);
+        Some(letters.filter_map(char::from_u32).take(1000).collect())
     }
 }
 
@@ -82,34 +168,6 @@ fn shape(text: &str) -> Result<Vec<usize>, String> {
     let parsed =
         lengths.map(|n| n.trim_end_matches('L').parse().map_err(|_| format!("`{n}` is no length")));
     parsed.collect()
-}
-
-/// Numbers of a kind, and the bytes of one.
-fn data(kind: &str, bytes: &[u8]) -> Result<Option<(usize, Data)>, String> {
-    fn words<const N: usize>(bytes: &[u8]) -> impl Iterator<Item = [u8; N]> {
-        bytes.as_chunks().0.iter().copied()
-    }
-    if kind.starts_with('>') {
-        return Err(format!("its kind is `{kind}`, and only little-endian numbers are read"));
-    }
-    let whole = |v: Vec<i64>| Data::Whole(v);
-    Ok(Some(match kind.trim_start_matches(['<', '|', '=']) {
-        "f4" => (4, Data::Real(words(bytes).map(|w| f64::from(f32::from_le_bytes(w))).collect())),
-        "f8" => (8, Data::Real(words(bytes).map(f64::from_le_bytes).collect())),
-        "i1" => (1, whole(bytes.iter().map(|&b| i64::from(b as i8)).collect())),
-        "u1" | "b1" => (1, whole(bytes.iter().map(|&b| i64::from(b)).collect())),
-        "i2" => (2, whole(words(bytes).map(|w| i64::from(i16::from_le_bytes(w))).collect())),
-        "u2" => (2, whole(words(bytes).map(|w| i64::from(u16::from_le_bytes(w))).collect())),
-        "i4" => (4, whole(words(bytes).map(|w| i64::from(i32::from_le_bytes(w))).collect())),
-        "u4" => (4, whole(words(bytes).map(|w| i64::from(u32::from_le_bytes(w))).collect())),
-        "i8" | "u8" => (8, whole(words(bytes).map(i64::from_le_bytes).collect())),
-        text if text.starts_with('U') => {
-            let letters = words(bytes).map(u32::from_le_bytes).take_while(|c| *c != 0);
-            let text = letters.filter_map(char::from_u32).take(1000).collect();
-            (bytes.len(), Data::Text(text))
-        }
-        _ => return Ok(None),
-    }))
 }
 
 #[cfg(test)]
@@ -131,12 +189,12 @@ mod tests {
     #[test]
     fn shapes_must_fit_the_numbers() {
         let with = |shape: &[usize], bytes: usize| [header("<i4", shape), vec![0; bytes]].concat();
-        assert!(Array::read(&with(&[2, 3], 24)).unwrap().is_some());
-        assert!(Array::read(&with(&[2, 3], 25)).is_err());
-        assert!(Array::read(&with(&[usize::MAX, 3], 24)).is_err());
-        assert!(Array::read(&with(&[], 4)).unwrap().is_some());
+        assert!(Array::read(with(&[2, 3], 24)).unwrap().is_some());
+        assert!(Array::read(with(&[2, 3], 25)).is_err());
+        assert!(Array::read(with(&[usize::MAX, 3], 24)).is_err());
+        assert!(Array::read(with(&[], 4)).unwrap().is_some());
         for n in 0..128 {
-            let _ = Array::read(&with(&[2, 3], 24)[..n]);
+            let _ = Array::read(with(&[2, 3], 24)[..n].to_vec());
         }
     }
 }
