@@ -358,6 +358,26 @@ def test_guides_and_attributes(write, frisure, tmp_path):
         assert "unknown" not in found.files
 
 
+def test_texture_coordinates_are_those_of_roots(write, frisure, tmp_path):
+    def build(top):
+        counts = array("i", [3, 3])
+        value = AbcGeom.OCurvesSchemaSample(
+            vectors(np.concatenate([line(3), line(3, 1.0)])), counts, CurveType.kLinear,
+            CurvePeriodicity.kNonPeriodic)
+        uvs = imath.V2fArray(2)
+        uvs[0], uvs[1] = imath.V2f(0.25, 0.5), imath.V2f(0.75, 1)
+        value.setUVs(AbcGeom.OV2fGeomParamSample(uvs, GeometryScope.kUniformScope))
+        out = AbcGeom.OCurves(top, "hair")
+        out.getSchema().set(value)
+        parameter(out.getSchema().getArbGeomParams(), "Float", "groom_width",
+                  array("f", [0.008]), GeometryScope.kConstantScope)
+
+    frisure.convert(write(build), tmp_path / "out.npz")
+    with np.load(tmp_path / "out.npz") as found:
+        assert found["root_uv"].tolist() == [[0.25, 0.5], [0.75, 1]]
+        np.testing.assert_allclose(found["radii"], 4e-5, rtol=1e-6)
+
+
 def test_the_first_sample_of_what_moves(write, hair_of):
     def build(top):
         out = curves(top, "hair", [line()])

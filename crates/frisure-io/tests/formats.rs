@@ -156,6 +156,37 @@ fn a_file_of_the_alembic_library_is_read() {
 }
 
 #[test]
+fn what_is_wrong_is_told() {
+    let cases: [(Format, &[u8], &str); 9] = [
+        (Format::Alembic, b"\x89HDF\r\n\x1a\n and so on", "HDF5"),
+        (Format::Alembic, b"Ogawa\x00\x00\x01\0\0\0\0\0\0\0\0", "did not finish"),
+        (Format::Alembic, b"ogre", "does not begin with `Ogawa`"),
+        (Format::Npz, b"PK", "its zip is damaged"),
+        (Format::Usc, b"\xff\xff\xff\x7f", "2147483647 strands cannot be in 4 bytes"),
+        (Format::Obj, b"v 0 0 0\nl 1 2", "names point 1 of 1"),
+        (Format::Obj, b"v 0 0 0\nv 0 0", "in line 2, a point has fewer than 3 numbers"),
+        (Format::Ply, b"ply\nformat ascii 1.0\nelement vertex 9\nend_header\n", "no x, y and z"),
+        (Format::Ply, b"obj", "its header has no end"),
+    ];
+    for (format, bytes, expected) in cases {
+        let error = read(format, bytes).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+/// Numbers of guides that are not in the file would be taken for those of hairs.
+#[test]
+fn hairs_alone_follow_nobody_in_unreal() {
+    let alone = Groom { guides: Strands::new(), ..groom() };
+    let bytes = written(Format::Alembic, &alone);
+    let has = |name: &[u8]| bytes.windows(name.len()).any(|w| w == name);
+    assert!(!has(b"groom_closest_guides") && has(b"frisure_closest_guides"));
+    let back = read(Format::Alembic, &bytes).unwrap();
+    let closest = |g: &Groom| g.hairs.attribute(names::CLOSEST_GUIDES).cloned();
+    assert_eq!(closest(&back), closest(&alone));
+}
+
+#[test]
 fn nothing_is_something() {
     for format in readable() {
         let empty = encode(format, &Groom::default(), FrameChoice::default());

@@ -22,7 +22,7 @@ const BROWN: [f32; 3] = [0.1, 0.05, 0.025];
 pub(super) fn check(groom: &Groom) -> Result<(), String> {
     let size: u64 = parts(groom).map(|(_, s)| size(s)).sum();
     if size == 0 {
-        return Err("no line at all".into());
+        return Err("a groom without lines".into());
     }
     if size > u64::from(u32::MAX) / 2 {
         return Err(format!("{size} bytes"));

@@ -244,7 +244,12 @@ fn curves<'a>(
         points.iter().map(moved).collect()
     };
     let mut part = Part { counts, points, ..Part::default() };
-    if let Some(width) = named(geometry, "width")
+    let parameters = match named(geometry, ".arbGeomParams") {
+        Some(compound) => archive.parts(&compound)?,
+        None => Vec::new(),
+    };
+    // Some programs write the width as a parameter of Unreal's only.
+    if let Some(width) = named(geometry, "width").or(named(&parameters, "groom_width"))
         && let Some(Parameter { scope, extent: 1, values: Numbers::Real(values) }) =
             archive.parameter(&width, part.counts.len(), part.points.len())?
     {
@@ -252,10 +257,17 @@ fn curves<'a>(
         part.diameters = part.per_point(scope, &scaled);
     }
     let mut guides = vec![false; part.counts.len()];
-    if let Some(parameters) = named(geometry, ".arbGeomParams") {
-        for property in archive.parts(&parameters)? {
-            parameter(archive, &property, placed, &mut part, &mut guides)?;
-        }
+    for property in &parameters {
+        parameter(archive, property, placed, &mut part, &mut guides)?;
+    }
+    // Texture coordinates of strands are those of their roots.
+    let has_roots = part.attributes.iter().any(|a| a.name == names::ROOT_UV);
+    if let Some(uv) = named(geometry, "uv").filter(|_| !has_roots)
+        && let Some(found) = archive.parameter(&uv, part.counts.len(), part.points.len())?
+        && let Some(uv) = attribute(names::ROOT_UV, found, part.counts.len())
+        && fits(&uv.name, uv.domain, &uv.values)
+    {
+        part.attributes.push(uv);
     }
     if let Some(stencils) = stencils {
         part = part.evaluated(&stencils);

@@ -36,6 +36,7 @@ pub(in crate::groom) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame)
         parts.push(Part {
             name: "guides".into(),
             is_guide: true,
+            has_guides: true,
             group: None,
             rows: (0..groom.guides.len()).collect(),
             strands: &groom.guides,
@@ -43,7 +44,10 @@ pub(in crate::groom) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame)
         });
     }
     let group = group_of_hairs(groom);
-    parts.extend(groups(&groom.hairs, &of_hairs, group.as_deref()));
+    let has_guides = !groom.guides.is_empty();
+    let mut of_groups = groups(&groom.hairs, &of_hairs, group.as_deref());
+    of_groups.iter_mut().for_each(|part| part.has_guides = has_guides);
+    parts.extend(of_groups);
     let children = parts.iter().map(|p| p.object(frame, groom.colour)).collect();
     let top = Object {
         name: object_name(&groom.name),
@@ -90,6 +94,7 @@ fn hair_extras(groom: &Groom) -> Vec<Attribute> {
         extras.push(of_strands(names::ID, AttributeValues::U32(ids)));
     }
     if let Some(guide) = indices(hairs, names::GUIDE)
+        && !groom.guides.is_empty()
         && hairs.attribute(names::CLOSEST_GUIDES).is_none()
     {
         let closest = guide.iter().map(|&g| [g; 3]).collect();
@@ -104,6 +109,8 @@ fn hair_extras(groom: &Groom) -> Vec<Attribute> {
 struct Part<'a> {
     name: String,
     is_guide: bool,
+    /// Whether there are guides in the file.
+    has_guides: bool,
     /// The group, where all are of one.
     group: Option<u32>,
     strands: &'a Strands,
@@ -123,6 +130,7 @@ fn groups<'a>(
     let part = |name: String, group: u32, rows: Vec<usize>| Part {
         name,
         is_guide: false,
+        has_guides: false,
         group: Some(group),
         strands: hairs,
         attributes,
@@ -286,10 +294,11 @@ impl Part<'_> {
     /// An attribute under Unreal's name, if it has one, or else under ours.
     fn attribute<'a>(&'a self, attribute: &'a Attribute, frame: Frame, ours: bool) -> Property<'a> {
         let Attribute { name, domain, values } = attribute;
-        let known = KNOWN
-            .iter()
-            .filter(|_| !ours)
-            .find(|(ours, _)| ours == name && fits(ours, *domain, values));
+        let is_known = |known: &str| known == name && fits(known, *domain, values);
+        let known = KNOWN.iter().filter(|_| !ours).find(|(known, _)| is_known(known));
+        // Without guides Unreal makes its own, of the same numbers as hairs.
+        let lost = [names::CLOSEST_GUIDES, names::GUIDE_WEIGHTS].contains(&name.as_str());
+        let known = known.filter(|_| !lost || self.has_guides);
         // A colour for each point is all that the specification has.
         let spread = *domain == Domain::Strand && known.is_some() && name == names::COLOUR;
         let is_direction = name == names::DIRECTOR;
