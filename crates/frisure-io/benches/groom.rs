@@ -26,7 +26,7 @@ fn head() -> Groom {
     Groom::of(strands)
 }
 
-#[divan::bench(args = ["hair", "ply", "obj", "usdc", "usda"], sample_count = 10)]
+#[divan::bench(args = ["hair", "ply", "obj", "usdc", "usda", "abc", "data", "npz", "txt", "pbrt", "glb"], sample_count = 10)]
 fn write(bencher: divan::Bencher, extension: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("head.{extension}"));
@@ -36,7 +36,7 @@ fn write(bencher: divan::Bencher, extension: &str) {
     });
 }
 
-#[divan::bench(args = ["hair", "usdc", "usda"], sample_count = 10)]
+#[divan::bench(args = ["hair", "ply", "obj", "usdc", "usda", "abc", "data", "npz"], sample_count = 10)]
 fn read(bencher: divan::Bencher, extension: &str) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join(format!("head.{extension}"));

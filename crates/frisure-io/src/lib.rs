@@ -6,7 +6,7 @@
 //! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from, and steps |
 //! | [`history`] | a scene with what was done and undone | the same |
 //! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
-//! | [`groom`] | `.hair`, `.usdc`, `.usda` | the same, `.obj`, `.ply` |
+//! | [`groom`] | `.hair`, `.obj`, `.ply`, `.usdc`, `.usda`, `.abc`, `.data`, `.npz` | the same, `.txt` and `.pbrt` for renderers, `.glb` |
 //! | [`environment`] | `.hdr` and `.exr` pictures of surroundings | |
 //! | [`picture`] | | PNG |
 //! | [`report`] | | JSON |

@@ -15,7 +15,7 @@ const SENSIBLE: (f64, f64) = (1e-4, 5.0);
 const THICKEST: f32 = 0.01;
 
 /// Radius of fibres where a file says nothing of it (m): a common human hair.
-const USUAL_RADIUS: f32 = 35e-6;
+pub(super) const USUAL_RADIUS: f32 = 35e-6;
 
 /// Curves as a file has them.
 #[derive(Debug, Default)]

@@ -10,12 +10,14 @@ use std::io::{self, Write};
 
 use frisure_strands::{AttributeValues, Domain, Strands};
 
-use super::attributes::COLOUR as COLOUR_ATTRIBUTE;
+use super::attributes::{COLOUR as COLOUR_ATTRIBUTE, of_points};
 use super::checked::Curves;
 use super::{Format, Groom};
 use crate::frame::{Frame, FrameChoice, UpAxis};
 
 const HEADER: usize = 128;
+/// Name of the attribute of the points that are not opaque, from 0 to 1.
+const TRANSPARENCY_ATTRIBUTE: &str = "transparency";
 const SEGMENTS: u32 = 1;
 const POINTS: u32 = 2;
 const THICKNESS: u32 = 4;
@@ -67,10 +69,18 @@ pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io
         (Domain::Point, AttributeValues::F32x3(c)) => Some(c),
         _ => None,
     });
+    let transparency = strands.attribute(TRANSPARENCY_ATTRIBUTE);
+    let transparency = transparency.and_then(|a| match (&a.domain, &a.values) {
+        (Domain::Point, AttributeValues::F32(t)) => Some(t),
+        _ => None,
+    });
     let thickness = strands.radii().first().map_or(0.0, |r| frame.length_to_file(2.0 * r));
     let mut arrays = POINTS | THICKNESS;
     if !alike {
         arrays |= SEGMENTS;
+    }
+    if transparency.is_some() {
+        arrays |= TRANSPARENCY;
     }
     if colours.is_some() {
         arrays |= COLOUR;
@@ -98,6 +108,9 @@ pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io
     }
     for r in strands.radii() {
         write_floats(out, [frame.length_to_file(2.0 * r)])?;
+    }
+    for t in transparency.into_iter().flatten() {
+        write_floats(out, [*t])?;
     }
     for c in colours.into_iter().flatten() {
         write_floats(out, *c)?;
@@ -156,7 +169,16 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
     } else {
         floats(take(4 * points))
     };
-    let curves = Curves { counts, points: positions, diameters, ..Curves::default() };
+    let mut attributes = Vec::new();
+    if arrays & TRANSPARENCY != 0 {
+        let values = AttributeValues::F32(floats(take(4 * points)));
+        attributes.push(of_points(TRANSPARENCY_ATTRIBUTE, values));
+    }
+    if arrays & COLOUR != 0 {
+        let values = AttributeValues::F32x3(floats(take(12 * points)).as_chunks().0.to_vec());
+        attributes.push(of_points(COLOUR_ATTRIBUTE, values));
+    }
+    let curves = Curves { counts, points: positions, diameters, attributes };
     Ok(Groom::of(curves.strands(choice.or(Format::Hair.frame()))?))
 }
 
@@ -236,6 +258,17 @@ mod tests {
                 assert!((a - b).abs() < 1e-11);
             }
         }
+    }
+
+    #[test]
+    fn colours_and_transparency_come_back() {
+        let mut strands = groom(&[3, 2]);
+        let colours = AttributeValues::F32x3(vec![[0.5, 0.25, 0.125]; 5]);
+        let transparency = AttributeValues::F32(vec![0.75; 5]);
+        strands.set_attribute(of_points(TRANSPARENCY_ATTRIBUTE, transparency)).unwrap();
+        strands.set_attribute(of_points(COLOUR_ATTRIBUTE, colours)).unwrap();
+        let read = decode(&bytes(&strands), FrameChoice::default()).unwrap().hairs;
+        assert_eq!(read.attributes(), strands.attributes());
     }
 
     #[test]

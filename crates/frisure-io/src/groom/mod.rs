@@ -3,11 +3,18 @@
 //! One module per format; [`Format`] says what each can hold, and `docs/formats.md` tells every byte that
 //! matters. What is read has been checked: see [`checked`].
 
+mod alembic;
 pub mod attributes;
 mod checked;
+mod gltf;
 pub mod hair;
+mod lines;
+mod mitsuba;
+mod npz;
 pub mod obj;
+mod pbrt;
 pub mod ply;
+mod usc;
 mod usd;
 
 use std::io;
@@ -122,11 +129,35 @@ pub enum Format {
     Usdc,
     /// Universal Scene Description, as text.
     Usda,
+    /// Alembic in the Ogawa container, as Unreal's specification of grooms has it.
+    Alembic,
+    /// `.data` of USC-HairSalon, for what learns from hairstyles.
+    Usc,
+    /// Arrays of `NumPy`.
+    Npz,
+    /// Text of Mitsuba 3's curves.
+    Mitsuba,
+    /// Curves of pbrt-v4.
+    Pbrt,
+    /// Lines of glTF, binary.
+    Gltf,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Hair, Self::Obj, Self::Ply, Self::Usdc, Self::Usda];
+    pub const ALL: [Self; 11] = [
+        Self::Hair,
+        Self::Obj,
+        Self::Ply,
+        Self::Usdc,
+        Self::Usda,
+        Self::Alembic,
+        Self::Usc,
+        Self::Npz,
+        Self::Mitsuba,
+        Self::Pbrt,
+        Self::Gltf,
+    ];
 
     /// The extensions that name it, without a dot; the first is the one to show.
     #[must_use]
@@ -137,6 +168,12 @@ impl Format {
             Self::Ply => &["ply"],
             Self::Usdc => &["usdc", "usd"],
             Self::Usda => &["usda"],
+            Self::Alembic => &["abc"],
+            Self::Usc => &["data"],
+            Self::Npz => &["npz"],
+            Self::Mitsuba => &["txt"],
+            Self::Pbrt => &["pbrt"],
+            Self::Gltf => &["glb"],
         }
     }
 
@@ -149,6 +186,12 @@ impl Format {
             Self::Ply => "Stanford points and edges",
             Self::Usdc => "Universal Scene Description, binary",
             Self::Usda => "Universal Scene Description, text",
+            Self::Alembic => "Alembic curves for Unreal, Blender, Houdini and Maya",
+            Self::Usc => "hairstyles of USC-HairSalon",
+            Self::Npz => "arrays for NumPy",
+            Self::Mitsuba => "curves for Mitsuba 3",
+            Self::Pbrt => "curves for pbrt-v4",
+            Self::Gltf => "glTF lines for the web",
         }
     }
 
@@ -156,9 +199,9 @@ impl Format {
     #[must_use]
     pub fn is_read(self) -> bool {
         match self {
-            Self::Hair => true,
-            Self::Obj | Self::Ply => false,
-            Self::Usdc | Self::Usda => true,
+            Self::Hair | Self::Obj | Self::Ply => true,
+            Self::Usdc | Self::Usda | Self::Alembic | Self::Usc | Self::Npz => true,
+            Self::Mitsuba | Self::Pbrt | Self::Gltf => false,
         }
     }
 
@@ -166,8 +209,10 @@ impl Format {
     #[must_use]
     pub fn tells_guides(self) -> bool {
         match self {
+            Self::Alembic | Self::Npz | Self::Gltf => true,
             Self::Hair | Self::Obj | Self::Ply => false,
             Self::Usdc | Self::Usda => true,
+            Self::Usc | Self::Mitsuba | Self::Pbrt => false,
         }
     }
 
@@ -176,7 +221,9 @@ impl Format {
     pub fn usual_points(self) -> Option<usize> {
         match self {
             Self::Hair | Self::Obj | Self::Ply => None,
-            Self::Usdc | Self::Usda => None,
+            Self::Usdc | Self::Usda | Self::Alembic => None,
+            Self::Usc => Some(100),
+            Self::Npz | Self::Mitsuba | Self::Pbrt | Self::Gltf => None,
         }
     }
 
@@ -188,6 +235,12 @@ impl Format {
             Self::Obj => Frame::METRES_Y,
             Self::Ply => Frame::METRES_Z,
             Self::Usdc | Self::Usda => Frame::METRES_Z,
+            Self::Alembic => Frame::CENTIMETRES_Y,
+            Self::Usc => Frame::METRES_Y,
+            Self::Npz => Frame::METRES_Z,
+            Self::Mitsuba => Frame::METRES_Y,
+            Self::Pbrt => Frame::METRES_Y,
+            Self::Gltf => Frame::METRES_Y,
         }
     }
 
@@ -210,6 +263,12 @@ impl Format {
             Self::Ply => ".ply",
             Self::Usdc => ".usdc",
             Self::Usda => ".usda",
+            Self::Alembic => ".abc",
+            Self::Usc => ".data",
+            Self::Npz => ".npz",
+            Self::Mitsuba => ".txt",
+            Self::Pbrt => ".pbrt",
+            Self::Gltf => ".glb",
         }
     }
 }
@@ -245,6 +304,12 @@ fn check(format: Format, groom: &Groom) -> Result<(), GroomError> {
         Format::Obj => Ok(()),
         Format::Ply => ply::check(groom.strands()),
         Format::Usdc | Format::Usda => usd::check(groom),
+        Format::Alembic => alembic::check(groom),
+        Format::Usc => usc::check(groom.strands()),
+        Format::Npz => Ok(()),
+        Format::Mitsuba => mitsuba::check(groom.strands()),
+        Format::Pbrt => pbrt::check(groom.strands()),
+        Format::Gltf => gltf::check(groom),
     };
     checked.map_err(|what| GroomError::CannotHold { format: format.name(), what })
 }
@@ -257,6 +322,12 @@ fn fill(format: Format, out: &mut dyn io::Write, groom: &Groom, frame: Frame) ->
         Format::Ply => ply::encode(out, groom.strands(), frame),
         Format::Usdc => usd::encode_binary(out, groom, frame),
         Format::Usda => usd::encode_text(out, groom, frame),
+        Format::Alembic => alembic::encode(out, groom, frame),
+        Format::Usc => usc::encode(out, groom.strands(), frame),
+        Format::Npz => npz::encode(out, groom, frame),
+        Format::Mitsuba => mitsuba::encode(out, groom.strands(), frame),
+        Format::Pbrt => pbrt::encode(out, groom.strands(), frame),
+        Format::Gltf => gltf::encode(out, groom, frame),
     }
 }
 
@@ -286,7 +357,14 @@ pub fn decode(
     let groom = match format {
         Format::Hair => hair::decode(bytes, choice),
         Format::Usdc | Format::Usda => usd::decode(bytes, choice),
-        Format::Obj | Format::Ply => return Err(GroomError::Unread { path: path.into() }),
+        Format::Alembic => alembic::decode(bytes, choice),
+        Format::Obj => obj::decode(bytes, choice),
+        Format::Ply => ply::decode(bytes, choice),
+        Format::Usc => usc::decode(bytes, choice),
+        Format::Npz => npz::decode(bytes, choice),
+        Format::Mitsuba | Format::Pbrt | Format::Gltf => {
+            return Err(GroomError::Unread { path: path.into() });
+        }
     };
     groom.map_err(|what| GroomError::Malformed { path: path.into(), format: format.name(), what })
 }

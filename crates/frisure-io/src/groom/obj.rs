@@ -8,7 +8,9 @@ use std::io::{self, Write};
 use frisure_strands::Strands;
 use glam::Vec3;
 
-use crate::frame::{Frame, UpAxis};
+use super::lines::Lines;
+use super::{Format, Groom};
+use crate::frame::{Frame, FrameChoice, UpAxis};
 
 /// Writes strands as one `l` each.
 pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
@@ -78,9 +80,87 @@ fn push_digits(line: &mut Vec<u8>, mut value: u64, width: usize) {
     line.extend_from_slice(&digits[at.min(digits.len() - width)..]);
 }
 
+/// Bytes of a file into hairs (m), or what is wrong with them. Faces and all else are passed over.
+pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+    let mut points: Vec<[f32; 3]> = Vec::new();
+    let mut lines = Lines::default();
+    let mut line: Vec<u32> = Vec::new();
+    let mut goes_on = false;
+    for (number, text) in bytes.split(|b| *b == b'\n').enumerate() {
+        let within = |what: String| format!("in line {}, {what}", number + 1);
+        let mut words = text.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty()).peekable();
+        let kind = if goes_on { Some(&b"l"[..]) } else { words.next() };
+        match kind {
+            Some(b"v") => points.push(position(&mut words).map_err(within)?),
+            Some(b"l") => {
+                goes_on = false;
+                for word in words {
+                    if word == b"\\" {
+                        goes_on = true;
+                        break;
+                    }
+                    line.push(index(word, points.len()).map_err(within)?);
+                }
+                if !goes_on {
+                    lines.push(&line);
+                    line.clear();
+                }
+            }
+            Some(b"curv" | b"curv2") => {
+                return Err(within(
+                    "there is a spline (`curv`), and only lines (`l`) are read".into(),
+                ));
+            }
+            _ => {}
+        }
+    }
+    if lines.is_empty() && !points.is_empty() {
+        return Err("it has points, but no lines (`l`)".into());
+    }
+    let curves = lines.curves(&points, &[])?;
+    Ok(Groom::of(curves.strands(choice.or(Format::Obj.frame()))?))
+}
+
+fn position<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Result<[f32; 3], String> {
+    let mut point = [0.0; 3];
+    for x in &mut point {
+        let word = words.next().ok_or("a point has fewer than 3 numbers")?;
+        let parsed = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
+        *x = parsed.ok_or_else(|| format!("`{}` is no number", String::from_utf8_lossy(word)))?;
+    }
+    Ok(point)
+}
+
+/// The number of a point, from 0: in the file from 1, or from the last one backwards.
+fn index(word: &[u8], points: usize) -> Result<u32, String> {
+    // What follows a slash is a texture coordinate.
+    let first = word.split(|b| *b == b'/').next().unwrap_or(word);
+    let parsed = std::str::from_utf8(first).ok().and_then(|w| w.parse::<i64>().ok());
+    let found = parsed.and_then(|i| match i {
+        1.. => Some(i - 1),
+        0 => None,
+        _ => i.checked_add(points as i64),
+    });
+    let found = found.and_then(|i| u32::try_from(i).ok());
+    found.ok_or_else(|| format!("`{}` is no point", String::from_utf8_lossy(word)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lines_of_other_programs_are_read() {
+        let text = "o hair\nv 0 1 0 1.0\nv 0 0.5 0\nv 0 0 0.1\nf 1 2 3\nl 1 2\nl 2/7 3\n\
+                    v 0 0 1\nl -1 -2 \\\n 1\r\n";
+        let groom = decode(text.as_bytes(), FrameChoice::default()).unwrap();
+        assert_eq!(groom.hairs.offsets(), [0, 3, 6]);
+        assert_eq!(groom.hairs.strand(1).points[0], Vec3::NEG_Y);
+        for wrong in ["l 1 2", "v 0 0 0\nl 1 0", "v 0 0\n", "v 0 0 x", "v 0 0 0", "curv 0 1 1 2"] {
+            assert!(decode(wrong.as_bytes(), FrameChoice::default()).is_err(), "{wrong}");
+        }
+        assert!(decode(b"v 0 0 0\nv 0 1 0\nl -3 1", FrameChoice::default()).is_err());
+    }
 
     #[test]
     fn lines_in_metres_with_y_up() {

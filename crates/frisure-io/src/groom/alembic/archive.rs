@@ -1,0 +1,286 @@
+//! Objects and properties of an Alembic file, as groups and blocks of [`ogawa`].
+//!
+//! An object is a group of its properties, of its children, and a block that names the children. A compound
+//! property is a group of its properties and a block that names them; a scalar one, a group of a sample; an
+//! array, a group of a sample and its dimensions. A sample is a [`digest`] and the values.
+
+use std::io::{self, Write};
+
+use super::digest::digest;
+use super::ogawa::{self, Block, Node};
+
+/// Kinds of values, as they are numbered in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pod {
+    Bool = 0,
+    U8 = 1,
+    I16 = 4,
+    U32 = 5,
+    I32 = 6,
+    F32 = 10,
+    F64 = 11,
+    Text = 12,
+}
+
+impl Pod {
+    /// As metadata call it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Bool => "bool_t",
+            Self::U8 => "uint8_t",
+            Self::I16 => "int16_t",
+            Self::U32 => "uint32_t",
+            Self::I32 => "int32_t",
+            Self::F32 => "float32_t",
+            Self::F64 => "float64_t",
+            Self::Text => "string",
+        }
+    }
+}
+
+/// Values of a property.
+pub(super) struct Values<'a> {
+    pod: Pod,
+    /// How many of them make one.
+    extent: u8,
+    /// How many there are of those.
+    count: usize,
+    digest: [u8; 16],
+    block: Block<'a>,
+}
+
+impl<'a> Values<'a> {
+    /// Values whose bytes are made twice: for their digest, and when they are written.
+    pub(super) fn of(pod: Pod, extent: u8, count: usize, fill: impl Fn(&mut Vec<u8>) + 'a) -> Self {
+        let mut bytes = Vec::new();
+        fill(&mut bytes);
+        let size = bytes.len();
+        Self {
+            pod,
+            extent,
+            count,
+            digest: digest(&bytes),
+            block: Block { size, fill: Box::new(fill) },
+        }
+    }
+
+    /// A text, or several.
+    pub(super) fn texts(texts: &[&str]) -> Self {
+        let bytes = texts.iter().flat_map(|t| t.bytes().chain([0])).collect::<Vec<u8>>();
+        Self::of(Pod::Text, 1, texts.len(), move |out| out.extend_from_slice(&bytes))
+    }
+
+    /// What they are, and how many make one.
+    pub(super) fn kind(&self) -> (Pod, u8) {
+        (self.pod, self.extent)
+    }
+
+    fn sample(self) -> Node<'a> {
+        let Self { digest, block, .. } = self;
+        if block.size == 0 {
+            return Node::bytes(Vec::new());
+        }
+        let fill = move |out: &mut Vec<u8>| {
+            out.extend_from_slice(&digest);
+            (block.fill)(out);
+        };
+        Node::Block(Block { size: 16 + block.size, fill: Box::new(fill) })
+    }
+}
+
+/// A property.
+pub(super) struct Property<'a> {
+    pub(super) name: String,
+    /// `key=value` with semicolons between, in the order of the keys.
+    pub(super) metadata: String,
+    pub(super) what: What<'a>,
+}
+
+/// What a property is.
+pub(super) enum What<'a> {
+    Compound(Vec<Property<'a>>),
+    Scalar(Values<'a>),
+    Array(Values<'a>),
+}
+
+impl<'a> Property<'a> {
+    /// Properties under a name.
+    pub(super) fn compound(name: &str, metadata: &str, parts: Vec<Self>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), what: What::Compound(parts) }
+    }
+
+    /// One value.
+    pub(super) fn scalar(name: &str, metadata: &str, values: Values<'a>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), what: What::Scalar(values) }
+    }
+
+    /// Any number of values.
+    pub(super) fn array(name: &str, metadata: &str, values: Values<'a>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), what: What::Array(values) }
+    }
+}
+
+/// An object.
+pub(super) struct Object<'a> {
+    pub(super) name: String,
+    pub(super) metadata: String,
+    pub(super) properties: Vec<Property<'a>>,
+    pub(super) children: Vec<Object<'a>>,
+}
+
+/// The version of the Alembic library whose files these are like.
+const LIBRARY: i32 = 1_08_12;
+
+/// The one sampling in time there is: one sample at 0, one second apart.
+fn times() -> Vec<u8> {
+    let mut bytes = 1_u32.to_le_bytes().to_vec();
+    bytes.extend(1.0_f64.to_le_bytes());
+    bytes.extend(1_u32.to_le_bytes());
+    bytes.extend(0.0_f64.to_le_bytes());
+    bytes
+}
+
+/// Writes a file of objects.
+pub(super) fn write(
+    out: &mut dyn Write,
+    metadata: &str,
+    objects: Vec<Object<'_>>,
+) -> io::Result<()> {
+    let mut names = Metadata::default();
+    let top = Object {
+        name: "ABC".into(),
+        metadata: String::new(),
+        properties: Vec::new(),
+        children: objects,
+    };
+    let (top, _) = object(top, &mut names);
+    let root = Node::Group(vec![
+        Node::bytes(0_i32.to_le_bytes().to_vec()),
+        Node::bytes(LIBRARY.to_le_bytes().to_vec()),
+        top,
+        Node::bytes(metadata.as_bytes().to_vec()),
+        Node::bytes(times()),
+        Node::bytes(names.bytes()),
+    ]);
+    ogawa::write(out, &root)
+}
+
+/// Metadata that are numbered: each is written once.
+#[derive(Default)]
+struct Metadata(Vec<String>);
+
+impl Metadata {
+    /// A number from 1, 0 for none, or 255 for what has to be written out.
+    fn number(&mut self, text: &str) -> u8 {
+        if text.is_empty() {
+            return 0;
+        }
+        if let Some(i) = self.0.iter().position(|t| t == text) {
+            return i as u8 + 1;
+        }
+        if text.len() > 255 || self.0.len() >= 254 {
+            return 255;
+        }
+        self.0.push(text.into());
+        self.0.len() as u8
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        self.0.iter().flat_map(|t| [t.len() as u8].into_iter().chain(t.bytes())).collect()
+    }
+}
+
+/// An object, and a digest of all that is in it.
+fn object<'a>(object: Object<'a>, names: &mut Metadata) -> (Node<'a>, [u8; 16]) {
+    let (properties, mut hashes) = compound(object.properties, names);
+    let mut nodes = vec![properties];
+    let mut headers = Vec::new();
+    let mut inner = Vec::new();
+    for child in object.children {
+        let number = names.number(&child.metadata);
+        headers.extend((child.name.len() as u32).to_le_bytes());
+        headers.extend(child.name.as_bytes());
+        headers.push(number);
+        if number == 255 {
+            headers.extend((child.metadata.len() as u32).to_le_bytes());
+            headers.extend(child.metadata.as_bytes());
+        }
+        let (node, hash) = self::object(child, names);
+        nodes.push(node);
+        inner.extend(hash);
+    }
+    // Programs compare these to find what they have read already.
+    hashes.extend(digest(&inner));
+    headers.extend(digest(&hashes));
+    headers.extend(if inner.is_empty() { [0; 16] } else { digest(&inner) });
+    nodes.push(Node::bytes(headers));
+    (Node::Group(nodes), digest(&hashes))
+}
+
+/// Properties, and digests of them.
+fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a>, Vec<u8>) {
+    let mut nodes = Vec::new();
+    let (mut headers, mut hashes) = (Vec::new(), Vec::new());
+    for property in properties {
+        let header = header(&property, names);
+        hashes.extend(&header);
+        headers.extend(header);
+        nodes.push(match property.what {
+            What::Compound(parts) => {
+                let (node, inner) = compound(parts, names);
+                hashes.extend(inner);
+                node
+            }
+            What::Scalar(values) => {
+                hashes.extend(values.digest);
+                Node::Group(vec![values.sample()])
+            }
+            What::Array(values) => {
+                hashes.extend(values.digest);
+                // The number of texts is not the number of bytes.
+                let told = values.pod == Pod::Text;
+                let size = if told { (values.count as u64).to_le_bytes().to_vec() } else { vec![] };
+                Node::Group(vec![values.sample(), Node::bytes(size)])
+            }
+        });
+    }
+    if !headers.is_empty() {
+        nodes.push(Node::bytes(headers));
+    }
+    (Node::Group(nodes), hashes)
+}
+
+/// What tells of a property: bits, the number of samples, name, and metadata.
+fn header(property: &Property<'_>, names: &mut Metadata) -> Vec<u8> {
+    let Property { name, metadata, what } = property;
+    // Bytes of the numbers below: 1, 2, or 4.
+    let hint = match name.len().max(metadata.len()) {
+        0..256 => 0,
+        256..65_536 => 1,
+        _ => 2,
+    };
+    let number = |n: usize| n.to_le_bytes()[..1 << hint].to_vec();
+    let index = names.number(metadata);
+    let mut info = u32::from(index) << 20 | hint << 2;
+    // One sample that never changes, of the same size every time.
+    let values = |v: &Values<'_>| {
+        0x800 | 0x400 | u32::from(v.extent) << 12 | (v.pod as u32) << 4 | u32::from(v.count == 1)
+    };
+    let is_compound = matches!(what, What::Compound(_));
+    info |= match what {
+        What::Compound(_) => 0,
+        What::Scalar(v) => 1 | values(v),
+        What::Array(v) => 2 | values(v),
+    };
+    let mut bytes = info.to_le_bytes().to_vec();
+    if !is_compound {
+        bytes.extend(number(1));
+    }
+    bytes.extend(number(name.len()));
+    bytes.extend(name.as_bytes());
+    if index == 255 {
+        bytes.extend(number(metadata.len()));
+        bytes.extend(metadata.as_bytes());
+    }
+    bytes
+}

@@ -1,0 +1,203 @@
+//! Objects and properties of an Alembic file that is read: the layout is told in [`super::archive`].
+
+use super::ogawa::{Container, Reference};
+
+/// Bytes of a name that are kept.
+const LONGEST: usize = 256;
+
+/// A file.
+pub(super) struct Archive<'a> {
+    container: Container<'a>,
+    /// Metadata that are numbered, the first of them none.
+    metadata: Vec<&'a [u8]>,
+    top: Reference,
+}
+
+/// An object of it.
+pub(super) struct Object<'a> {
+    pub(super) name: String,
+    metadata: &'a [u8],
+    reference: Reference,
+}
+
+/// A property.
+#[derive(Clone, Copy)]
+pub(super) struct Property<'a> {
+    pub(super) name: &'a [u8],
+    metadata: &'a [u8],
+    pub(super) kind: Kind,
+    reference: Reference,
+}
+
+/// What a property is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Properties under a name.
+    Compound,
+    /// Values of a kind of number, so many of which make one.
+    Values {
+        /// As [`super::archive::Pod`] numbers them.
+        pod: u8,
+        /// How many make one.
+        extent: u8,
+    },
+}
+
+/// A value of `key` in metadata.
+fn lookup<'a>(metadata: &'a [u8], key: &str) -> Option<&'a [u8]> {
+    let mut pairs = metadata.split(|b| *b == b';');
+    pairs.find_map(|pair| pair.strip_prefix(key.as_bytes())?.strip_prefix(b"="))
+}
+
+impl<'a> Property<'a> {
+    pub(super) fn metadata(&self, key: &str) -> Option<&'a [u8]> {
+        lookup(self.metadata, key)
+    }
+}
+
+impl Object<'_> {
+    /// Its schema, such as `AbcGeom_Curve_v2`.
+    pub(super) fn schema(&self) -> &[u8] {
+        lookup(self.metadata, "schema").unwrap_or_default()
+    }
+}
+
+/// Bytes that are taken from the front.
+struct Bytes<'a>(&'a [u8]);
+
+impl<'a> Bytes<'a> {
+    fn take(&mut self, count: usize) -> Result<&'a [u8], String> {
+        let Some((head, tail)) = self.0.split_at_checked(count) else {
+            return Err(format!("a header ends {} bytes early", count - self.0.len()));
+        };
+        self.0 = tail;
+        Ok(head)
+    }
+
+    /// A number of `width` bytes, at most 4.
+    fn number(&mut self, width: usize) -> Result<usize, String> {
+        let mut word = [0; 4];
+        word[..width].copy_from_slice(self.take(width)?);
+        Ok(u32::from_le_bytes(word) as usize)
+    }
+}
+
+impl<'a> Archive<'a> {
+    /// Opens a file.
+    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, String> {
+        let (container, root) = Container::open(bytes)?;
+        let [_, _, top, _, _, names, ..] = root[..] else {
+            return Err(format!("its root has {} parts, and should have 6", root.len()));
+        };
+        let mut rest = Bytes(container.block(names)?);
+        let mut metadata = vec![&[][..]];
+        while !rest.0.is_empty() {
+            let size = rest.number(1)?;
+            metadata.push(rest.take(size)?);
+        }
+        Ok(Self { container, metadata, top })
+    }
+
+    /// The object that all others are under.
+    pub(super) fn top(&self) -> Object<'a> {
+        Object { name: String::new(), metadata: &[], reference: self.top }
+    }
+
+    /// What is under an object.
+    pub(super) fn children(&self, object: &Object<'a>) -> Result<Vec<Object<'a>>, String> {
+        let parts = self.container.group(object.reference)?;
+        let [_, groups @ .., headers] = &parts[..] else { return Ok(Vec::new()) };
+        if groups.is_empty() {
+            return Ok(Vec::new());
+        }
+        // Two digests are at the end.
+        let headers = self.container.block(*headers)?;
+        let mut rest = Bytes(&headers[..headers.len().saturating_sub(32)]);
+        let mut children = Vec::new();
+        for &reference in groups {
+            let size = rest.number(4)?;
+            let name = rest.take(size)?;
+            let name = String::from_utf8_lossy(&name[..name.len().min(LONGEST)]).into_owned();
+            let index = rest.number(1)?;
+            let metadata = self.metadata(index, 4, &mut rest)?;
+            children.push(Object { name, metadata, reference });
+        }
+        Ok(children)
+    }
+
+    fn metadata(
+        &self,
+        index: usize,
+        width: usize,
+        rest: &mut Bytes<'a>,
+    ) -> Result<&'a [u8], String> {
+        if index == 255 {
+            let size = rest.number(width)?;
+            return rest.take(size);
+        }
+        let known = self.metadata.len();
+        let found = self.metadata.get(index).copied();
+        found.ok_or_else(|| format!("metadata {index} of {known} are asked for"))
+    }
+
+    /// The properties of an object.
+    pub(super) fn properties(&self, object: &Object<'a>) -> Result<Vec<Property<'a>>, String> {
+        match self.container.group(object.reference)?.first() {
+            Some(&properties) => self.under(properties),
+            None => Ok(Vec::new()),
+        }
+    }
+
+    /// The properties of a compound one.
+    pub(super) fn parts(&self, property: &Property<'a>) -> Result<Vec<Property<'a>>, String> {
+        match property.kind {
+            Kind::Compound => self.under(property.reference),
+            Kind::Values { .. } => Ok(Vec::new()),
+        }
+    }
+
+    fn under(&self, group: Reference) -> Result<Vec<Property<'a>>, String> {
+        let parts = self.container.group(group)?;
+        let [groups @ .., headers] = &parts[..] else { return Ok(Vec::new()) };
+        let mut rest = Bytes(self.container.block(*headers)?);
+        let mut properties = Vec::new();
+        for &reference in groups {
+            let info = rest.number(4)?;
+            let width = match info >> 2 & 3 {
+                0 => 1,
+                1 => 2,
+                _ => 4,
+            };
+            let kind = if info & 3 == 0 {
+                Kind::Compound
+            } else {
+                // The number of samples, the first and last that differ, and the times.
+                for present in [true, info & 0x200 != 0, info & 0x200 != 0, info & 0x100 != 0] {
+                    if present {
+                        rest.number(width)?;
+                    }
+                }
+                Kind::Values { pod: (info >> 4 & 15) as u8, extent: (info >> 12) as u8 }
+            };
+            let size = rest.number(width)?;
+            let name = rest.take(size)?;
+            let metadata = self.metadata(info >> 20 & 255, width, &mut rest)?;
+            properties.push(Property { name, metadata, kind, reference });
+        }
+        Ok(properties)
+    }
+
+    /// The bytes of the first sample of a property; none where it has no sample.
+    pub(super) fn sample(&self, property: &Property<'a>) -> Result<&'a [u8], String> {
+        let Some(&first) = self.container.group(property.reference)?.first() else {
+            return Ok(&[]);
+        };
+        let bytes = self.container.block(first)?;
+        // A digest is in front.
+        if bytes.is_empty() {
+            Ok(bytes)
+        } else {
+            bytes.get(16..).ok_or_else(|| "a sample of less than 16 bytes".into())
+        }
+    }
+}
