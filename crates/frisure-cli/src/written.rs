@@ -46,7 +46,7 @@ impl Grooms {
                 None => &groom,
                 Some(points) => {
                     if done.as_ref().is_none_or(|d| d.0 != points) {
-                        let (groom, error) = resampled(&groom, points);
+                        let (groom, error) = groom.resampled(points);
                         done = Some((points, groom, error));
                     }
                     let (_, groom, error) = done.as_ref().expect("just resampled");
@@ -73,15 +73,6 @@ fn chosen(groom: Groom, content: Option<Content>) -> Groom {
         Some(Content::Hairs) => Groom { guides: Strands::new(), ..groom },
         Some(Content::Guides) => Groom { hairs: Strands::new(), ..groom },
     }
-}
-
-/// The groom with so many points a strand, and how far it is (m) from what it was.
-fn resampled(groom: &Groom, points: usize) -> (Groom, f32) {
-    let (hairs, guides) = (groom.hairs.resampled(points), groom.guides.resampled(points));
-    let error = hairs.error.max(guides.error);
-    let Groom { name, head, colour, .. } = groom;
-    let (name, head, colour) = (name.clone(), head.clone(), *colour);
-    (Groom { name, hairs: hairs.strands, guides: guides.strands, head, colour }, error)
 }
 
 /// Where something goes that is no groom.

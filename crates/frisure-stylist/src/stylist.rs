@@ -135,6 +135,10 @@ impl Stylist {
         let strands = self.all_strands(&read, watch)?;
         let hairs = Strands::clone(&*strands);
         let groom = crate::groom::groom(&read.scene, &read.hairstyle, &read.head, hairs, false);
+        let groom = match format.usual_points() {
+            Some(points) => groom.resampled(points).0,
+            None => groom,
+        };
         let bytes = groom::encode(format, &groom, FrameChoice::default())
             .map_err(|e| Refusal::of(&e, ""))?;
         let extension = path.rsplit('.').next().unwrap_or_default();

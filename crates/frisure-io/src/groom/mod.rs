@@ -60,6 +60,17 @@ impl Groom {
         Self { hairs, ..Self::default() }
     }
 
+    /// The groom with so many points a strand, and how far (m) its strands are from what they were: see
+    /// [`Strands::resampled`].
+    #[must_use]
+    pub fn resampled(&self, points: usize) -> (Self, f32) {
+        let (hairs, guides) = (self.hairs.resampled(points), self.guides.resampled(points));
+        let error = hairs.error.max(guides.error);
+        let Self { name, head, colour, .. } = self;
+        let (name, head, colour) = (name.clone(), head.clone(), *colour);
+        (Self { name, hairs: hairs.strands, guides: guides.strands, head, colour }, error)
+    }
+
     /// The strands for a format that knows one kind: the hairs, or the guides where there are none.
     #[must_use]
     pub fn strands(&self) -> &Strands {
@@ -161,7 +172,7 @@ impl Format {
 
     /// The extensions that name it, without a dot; the first is the one to show.
     #[must_use]
-    pub fn extensions(self) -> &'static [&'static str] {
+    pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Hair => &["hair"],
             Self::Obj => &["obj"],
@@ -179,7 +190,7 @@ impl Format {
 
     /// What it is, in a few words for a person.
     #[must_use]
-    pub fn title(self) -> &'static str {
+    pub const fn title(self) -> &'static str {
         match self {
             Self::Hair => "Cem Yuksel's hair file",
             Self::Obj => "Wavefront polylines",

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use frisure::io::groom::Format;
 use frisure_stylist::order::Order;
 
 use super::desk::Purpose;
@@ -49,8 +50,15 @@ impl Destination {
 }
 
 /// Groom formats that can be exported: extension, and what it is.
-pub const FORMATS: [(&str, &str); 3] =
-    [("hair", "Cem Yuksel's .hair"), ("obj", "Wavefront polylines"), ("ply", "Stanford polygons")];
+pub const FORMATS: [(&str, &str); Format::ALL.len()] = {
+    let mut formats = [("", ""); Format::ALL.len()];
+    let mut i = 0;
+    while i < formats.len() {
+        formats[i] = (Format::ALL[i].extensions()[0], Format::ALL[i].title());
+        i += 1;
+    }
+    formats
+};
 
 impl Salon {
     /// Hands the scene out to be written.
