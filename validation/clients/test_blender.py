@@ -138,3 +138,47 @@ def test_other_units_are_the_same_size(head, frisure, tmp_path):
     skin = bpy.data.objects["head"]
     turned = [tuple(skin.matrix_world @ v.co) for v in list(skin.data.vertices)[:50]]
     assert np.allclose(metres, turned, atol=1e-5)
+
+
+HEADS = {
+    "usdc": lambda path: bpy.ops.wm.usd_export(filepath=path),
+    "usda": lambda path: bpy.ops.wm.usd_export(filepath=path),
+    "glb": lambda path: bpy.ops.export_scene.gltf(filepath=path, export_vertex_color="ACTIVE"),
+    "gltf": lambda path: bpy.ops.export_scene.gltf(
+        filepath=path, export_format="GLTF_SEPARATE", export_vertex_color="ACTIVE"
+    ),
+    "ply": lambda path: bpy.ops.wm.ply_export(filepath=path, up_axis="Y", forward_axis="NEGATIVE_Z"),
+    "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_colors=True),
+}
+
+
+@pytest.mark.parametrize("extension", HEADS)
+def test_hair_grows_where_blender_painted(extension, head, frisure, hair_of, tmp_path):
+    quietly(lambda: bpy.ops.wm.usd_import(filepath=str(head / "head.usdc")))
+    for other in [o for o in bpy.data.objects if o.type == "CURVES"]:
+        bpy.data.objects.remove(other)
+    skin = bpy.data.objects["head"].data
+    for name in [a.name for a in skin.color_attributes]:
+        skin.color_attributes.remove(skin.color_attributes[name])
+    # White on the top of its left half, black elsewhere.
+    paint = skin.color_attributes.new("displayColor", "BYTE_COLOR", "CORNER")
+    top = max(v.co.z for v in skin.vertices)
+    for corner in skin.loops:
+        place = skin.vertices[corner.vertex_index].co
+        white = float(place.z > top - 0.05 and place.x > 0)
+        paint.data[corner.index].color = (white, white, white, 1.0)
+    skin.color_attributes.active_color = paint
+    skin.color_attributes.render_color_index = 0
+    quietly(lambda: HEADS[extension](str(tmp_path / f"painted.{extension}")))
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        f'[hair]\ntype = "straight"\nlength = "3 cm"\n[wisps]\nhairs = 200\ncount = 40\n'
+        f'[head]\nmesh = "painted.{extension}"\nscalp_colour = "red"\n'
+    )
+    frisure.run("predict", scene, "-o", tmp_path / "grown.usdc")
+    positions, _, counts = hair_of(tmp_path / "grown.usdc")
+    roots = positions[np.concatenate([[0], np.cumsum(counts)[:-1]])]
+    assert len(roots) == 200
+    # Up to a triangle beside what is white.
+    assert roots[:, 2].min() > top - 0.07 and roots[:, 2].max() < top + 1e-3
+    assert roots[:, 0].min() > -0.02 and roots[:, 0].max() > 0.03
