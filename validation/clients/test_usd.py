@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdValidation, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, UsdUtils, UsdValidation, Vt
 
 KINDS = ("usda", "usdc")
 
@@ -163,3 +163,18 @@ def test_what_the_library_writes_is_read(kind, hair_of, tmp_path):
     middle = (inside[1::5] + 4 * inside[2::5] + inside[3::5]) / 6
     assert np.abs(positions[2::5] - middle).max() < 1e-6
     assert np.allclose(thickness.reshape(40, 5)[:2], [[1.2e-4] * 5, [4e-5] * 5], atol=1e-9)
+
+
+def test_packages_are_read(head, hair_of, tmp_path):
+    out = tmp_path / "head.usdz"
+    assert UsdUtils.CreateNewUsdzPackage(str(head / "head.usdc"), str(out))
+    for told, found in zip(hair_of(head / "head.hair"), hair_of(out)):
+        assert np.allclose(told, found, atol=2e-7)
+
+
+def test_packages_are_opened(head, frisure, tmp_path):
+    out = tmp_path / "head.usdz"
+    frisure.convert(head / "head.usdc", out)
+    stage = Usd.Stage.Open(str(out))
+    assert faults(stage) == []
+    assert len(UsdGeom.BasisCurves.Get(stage, "/groom/hairs").GetCurveVertexCountsAttr().Get()) == 600

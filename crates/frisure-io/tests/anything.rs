@@ -187,6 +187,30 @@ proptest! {
     }
 
     #[test]
+    fn any_stage_as_a_head(
+        counts in proptest::collection::vec(-1_i64..6, 0..6),
+        indices in proptest::collection::vec(-1_i64..9, 0..20),
+        points in proptest::collection::vec(-1e3_f64..1e3, 0..24),
+        per in "(vertex|faceVarying|uniform|constant|)",
+        orientation in "(leftHanded|rightHanded)",
+    ) {
+        let points: Vec<_> = points.as_chunks().0.iter().map(|[x, y, z]| (x, y, z)).collect();
+        use_head(format!(
+            r#"#usda 1.0
+            def Mesh "g" {{
+                uniform token orientation = "{orientation}"
+                point3f[] points = {points:?}
+                int[] faceVertexCounts = {counts:?}
+                int[] faceVertexIndices = {indices:?}
+                color3f[] primvars:displayColor = {points:?} (interpolation = "{per}")
+                int[] primvars:displayColor:indices = {indices:?}
+                texCoord2f[] primvars:st = [(0, 0), (0, 1), (1, 1)] (interpolation = "{per}")
+                def GeomSubset "red" {{ int[] indices = {indices:?} }}
+            }}"#
+        ).as_bytes());
+    }
+
+    #[test]
     fn any_json_as_a_head(
         numbers in proptest::collection::vec(prop_oneof![0_u64..8, any::<u64>()], 9),
         data in "[A-Za-z0-9]{0,80}",

@@ -140,6 +140,8 @@ pub enum Format {
     Usdc,
     /// Universal Scene Description, as text.
     Usda,
+    /// Universal Scene Description, a package.
+    Usdz,
     /// Alembic in the Ogawa container, as Unreal's specification of grooms has it.
     Alembic,
     /// `.data` of USC-HairSalon, for what learns from hairstyles.
@@ -156,12 +158,13 @@ pub enum Format {
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Hair,
         Self::Obj,
         Self::Ply,
         Self::Usdc,
         Self::Usda,
+        Self::Usdz,
         Self::Alembic,
         Self::Usc,
         Self::Npz,
@@ -179,6 +182,7 @@ impl Format {
             Self::Ply => &["ply"],
             Self::Usdc => &["usdc", "usd"],
             Self::Usda => &["usda"],
+            Self::Usdz => &["usdz"],
             Self::Alembic => &["abc"],
             Self::Usc => &["data"],
             Self::Npz => &["npz"],
@@ -197,6 +201,7 @@ impl Format {
             Self::Ply => "Stanford points and edges",
             Self::Usdc => "Universal Scene Description, binary",
             Self::Usda => "Universal Scene Description, text",
+            Self::Usdz => "Universal Scene Description, package",
             Self::Alembic => "Alembic curves for Unreal, Blender, Houdini and Maya",
             Self::Usc => "hairstyles of USC-HairSalon",
             Self::Npz => "arrays for NumPy",
@@ -211,7 +216,7 @@ impl Format {
     pub fn is_read(self) -> bool {
         match self {
             Self::Hair | Self::Obj | Self::Ply => true,
-            Self::Usdc | Self::Usda | Self::Alembic | Self::Usc | Self::Npz => true,
+            Self::Usdc | Self::Usda | Self::Usdz | Self::Alembic | Self::Usc | Self::Npz => true,
             Self::Mitsuba | Self::Pbrt | Self::Gltf => false,
         }
     }
@@ -222,7 +227,7 @@ impl Format {
         match self {
             Self::Alembic | Self::Npz | Self::Gltf => true,
             Self::Hair | Self::Obj | Self::Ply => false,
-            Self::Usdc | Self::Usda => true,
+            Self::Usdc | Self::Usda | Self::Usdz => true,
             Self::Usc | Self::Mitsuba | Self::Pbrt => false,
         }
     }
@@ -232,7 +237,7 @@ impl Format {
     pub fn usual_points(self) -> Option<usize> {
         match self {
             Self::Hair | Self::Obj | Self::Ply => None,
-            Self::Usdc | Self::Usda | Self::Alembic => None,
+            Self::Usdc | Self::Usda | Self::Usdz | Self::Alembic => None,
             Self::Usc => Some(100),
             Self::Npz | Self::Mitsuba | Self::Pbrt | Self::Gltf => None,
         }
@@ -245,7 +250,7 @@ impl Format {
             Self::Hair => Frame::CENTIMETRES_Z,
             Self::Obj => Frame::METRES_Y,
             Self::Ply => Frame::METRES_Z,
-            Self::Usdc | Self::Usda => Frame::METRES_Z,
+            Self::Usdc | Self::Usda | Self::Usdz => Frame::METRES_Z,
             Self::Alembic => Frame::CENTIMETRES_Y,
             Self::Usc => Frame::METRES_Y,
             Self::Npz => Frame::METRES_Z,
@@ -274,6 +279,7 @@ impl Format {
             Self::Ply => ".ply",
             Self::Usdc => ".usdc",
             Self::Usda => ".usda",
+            Self::Usdz => ".usdz",
             Self::Alembic => ".abc",
             Self::Usc => ".data",
             Self::Npz => ".npz",
@@ -314,7 +320,7 @@ fn check(format: Format, groom: &Groom) -> Result<(), GroomError> {
         Format::Hair => hair::check(groom.strands()),
         Format::Obj => Ok(()),
         Format::Ply => ply::check(groom.strands()),
-        Format::Usdc | Format::Usda => usd::check(groom),
+        Format::Usdc | Format::Usda | Format::Usdz => usd::check(groom),
         Format::Alembic => alembic::check(groom),
         Format::Usc => usc::check(groom.strands()),
         Format::Npz => Ok(()),
@@ -333,6 +339,7 @@ fn fill(format: Format, out: &mut dyn io::Write, groom: &Groom, frame: Frame) ->
         Format::Ply => ply::encode(out, groom.strands(), frame),
         Format::Usdc => usd::encode_binary(out, groom, frame),
         Format::Usda => usd::encode_text(out, groom, frame),
+        Format::Usdz => usd::encode_package(out, groom, frame),
         Format::Alembic => alembic::encode(out, groom, frame),
         Format::Usc => usc::encode(out, groom.strands(), frame),
         Format::Npz => npz::encode(out, groom, frame),
@@ -367,7 +374,7 @@ pub fn decode(
 ) -> Result<Groom, GroomError> {
     let groom = match format {
         Format::Hair => hair::decode(bytes, choice),
-        Format::Usdc | Format::Usda => usd::decode(bytes, choice),
+        Format::Usdc | Format::Usda | Format::Usdz => usd::decode(bytes, choice),
         Format::Alembic => alembic::decode(bytes, choice),
         Format::Obj => obj::decode(bytes, choice),
         Format::Ply => ply::decode(bytes, choice),

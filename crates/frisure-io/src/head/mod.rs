@@ -207,7 +207,7 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
 /// The mesh of a file, of the format that its first bytes tell.
 fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
     let bytes = files.read_bytes(path, MAX_SIZE, "a mesh")?;
-    let (expected, mesh) = if bytes.starts_with(b"PXR-USDC") || bytes.starts_with(b"#usda") {
+    let (expected, mesh) = if crate::usd::is_one(&bytes) {
         ("a USD stage with meshes", usd::parse(&bytes))
     } else if bytes.starts_with(b"ply") {
         ("a PLY mesh", ply::parse(&bytes))

@@ -12,6 +12,7 @@
 mod binary;
 mod layer;
 mod mesh;
+mod package;
 mod stage;
 mod text;
 mod value;
@@ -21,11 +22,17 @@ pub(crate) use mesh::Mesh;
 pub(crate) use stage::{Place, Stage};
 pub(crate) use value::{Data, Kind, Value};
 
+/// Whether a file begins as one of the three kinds does.
+pub(crate) fn is_one(bytes: &[u8]) -> bool {
+    [binary::MAGIC, package::MAGIC, b"#usda"].iter().any(|magic| bytes.starts_with(magic))
+}
+
 /// Prims within prims, at most.
 pub(crate) const MAX_DEPTH: usize = 200;
 
 /// A layer from a file of any of the three kinds, told by its first bytes; the error says what is wrong where.
 pub(crate) fn read(bytes: &[u8]) -> Result<Layer, String> {
+    let bytes = if bytes.starts_with(package::MAGIC) { package::first(bytes)? } else { bytes };
     if bytes.starts_with(binary::MAGIC) {
         return binary::read(bytes);
     }

@@ -29,7 +29,7 @@ pub(super) fn layer(groom: &Groom, frame: Frame) -> Layer {
     let mut root = Prim::new("Xform", "groom");
     root.metadata.push(("kind".into(), Value::token("component")));
     if !groom.name.is_empty() {
-        root.metadata.push(("displayName".into(), Value::string(&groom.name)));
+        root.metadata.push(("displayName".into(), Value::string(&groom.name.replace('\0', ""))));
     }
     let mut colours = Vec::new();
     let colour = colour(groom);
@@ -125,9 +125,17 @@ fn put(prim: &mut Prim, attribute: &Attribute, frame: Frame) {
             prim.primvar(&format!("{kind}[]"), primvar, value.clone(), per);
         }
     }
-    if !known {
-        prim.primvar(usual, &format!("{OURS}{}", attribute.name), value, per);
+    let own = format!("{OURS}{}", identifier(&attribute.name));
+    if !known && prim.attribute(&own).is_none() {
+        prim.primvar(usual, &own, value, per);
     }
+}
+
+/// A name that stages can have.
+fn identifier(name: &str) -> String {
+    let fit = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let name: String = name.chars().map(fit).collect();
+    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
 }
 
 /// Writes three integers for each as three values: Blender knows no other.
