@@ -174,6 +174,13 @@ fn what_is_wrong_is_told() {
     }
 }
 
+#[test]
+fn nobody_follows_a_guide_that_is_not_there() {
+    let one = Groom { guides: strands(&[3]), ..groom() };
+    let error = read(Format::Npz, &written(Format::Npz, &one)).unwrap_err();
+    assert!(error.ends_with("strand 0 follows guide 1, and it has 1"), "{error}");
+}
+
 /// Numbers of guides that are not in the file would be taken for those of hairs.
 #[test]
 fn hairs_alone_follow_nobody_in_unreal() {

@@ -214,7 +214,7 @@ fn a_groom_from_all_around_and_with_its_light() {
         (&["render", "cut.hair", "-o", "d.png"][..], "cut short"),
         (&["render", "none.hair", "-o", "d.png"], "no strand has two points"),
         (&["render", "missing.hair", "-o", "d.png"], "there is no file"),
-        (&["render", "a.ply", "-o", "d.png"], "only .hair can"),
+        (&["render", "a.glb", "-o", "d.png"], "only .hair, .obj, .ply"),
         (&["render", "a.hair", "-o", "a.hair"], "neither"),
         (&["render", "quick.toml", "--look", "quick.toml", "-o", "d.png"], "for grooms"),
         (

@@ -114,7 +114,7 @@ fn outputs_are_checked_before_the_work() {
     std::fs::set_permissions(&path, permissions).unwrap();
     std::fs::create_dir(room.path("folder.hair")).unwrap();
     let cases: &[(&[&str], i32, &str)] = &[
-        (&["-o", "a.abc"], 2, "known are .hair, .obj, .ply"),
+        (&["-o", "a.xyz"], 2, "known are .hair, .obj, .ply"),
         (&["-o", "a"], 2, "known are .hair, .obj, .ply"),
         (&["-o", "a.png"], 2, "pictures go to `--image`"),
         (&["-o", "a.json"], 2, "numbers go to `--report`"),

@@ -1,8 +1,10 @@
 //! What every file of curves has to stand before it becomes strands.
 
-use frisure_strands::{Attribute, Strands};
+use frisure_strands::{Attribute, AttributeValues, Strands};
 use glam::{DVec3, Vec3};
 
+use super::Groom;
+use super::attributes::{self as names, indices};
 use crate::frame::Frame;
 
 /// Most strands that are read from a file.
@@ -68,6 +70,27 @@ impl Curves {
         }
         Ok(strands)
     }
+}
+
+/// Refuses hairs that follow guides which are not there.
+pub(super) fn check_following(groom: &Groom) -> Result<(), String> {
+    let guides = groom.guides.len();
+    // A file of hairs alone may say what they followed elsewhere.
+    if guides == 0 {
+        return Ok(());
+    }
+    let first = indices(&groom.hairs, names::GUIDE).unwrap_or_default();
+    let three = match groom.hairs.attribute(names::CLOSEST_GUIDES).map(|a| &a.values) {
+        Some(AttributeValues::U32x3(three)) => three.as_flattened(),
+        _ => &[],
+    };
+    for (all, each) in [(first, 1), (three, 3)] {
+        if let Some(at) = all.iter().position(|guide| *guide as usize >= guides) {
+            let (strand, guide) = (at / each, all[at]);
+            return Err(format!("strand {strand} follows guide {guide}, and it has {guides}"));
+        }
+    }
+    Ok(())
 }
 
 fn check_counts(counts: &[usize], points: usize) -> Result<(), String> {

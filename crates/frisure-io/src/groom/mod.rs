@@ -384,5 +384,9 @@ pub fn decode(
             return Err(GroomError::Unread { path: path.into() });
         }
     };
+    let groom = groom.and_then(|groom| {
+        checked::check_following(&groom)?;
+        Ok(groom)
+    });
     groom.map_err(|what| GroomError::Malformed { path: path.into(), format: format.name(), what })
 }
