@@ -1,7 +1,7 @@
 //! Grooms: hair in the files of other programs.
 //!
 //! One module per format; [`Format`] says what each can hold, and `docs/formats.md` tells every byte that
-//! matters. What is read has been checked: see [`checked`].
+//! matters. What is read has been checked: counts, sizes, widths, points that are nowhere.
 
 mod alembic;
 pub mod attributes;
