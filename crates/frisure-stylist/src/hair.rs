@@ -12,7 +12,8 @@ use frisure::hairstyle::styling::Operation;
 use frisure::hairstyle::{
     Effort, Hairstyle, HairstyleSpec, History, Monitor, predict_again, predict_roughly,
 };
-use frisure::io::scene::Scene;
+use frisure::io::files::{Files, Stamp};
+use frisure::io::scene::{GroomFile, Scene};
 
 use crate::refusal::Stop;
 use crate::{carry, order, shown};
@@ -35,6 +36,14 @@ pub(crate) struct Wanted<'a> {
     pub(crate) head: &'a Arc<Head>,
     /// How many of the scene's steps are done.
     pub(crate) done: usize,
+    pub(crate) files: &'a Files,
+}
+
+impl Wanted<'_> {
+    /// The groom that the hair is made of, as it is now.
+    fn groom(&self) -> Option<(GroomFile, Option<Stamp>)> {
+        self.scene.groom.as_ref().map(|file| (file.clone(), self.files.stamp(&file.path)))
+    }
 }
 
 /// Hairstyles that are known.
@@ -50,6 +59,9 @@ pub(crate) struct Hair {
 #[derive(Debug)]
 struct Exact {
     head: Arc<Head>,
+    /// The description it was asked for with, and the groom that it was made of.
+    spec: HairstyleSpec,
+    groom: Option<(GroomFile, Option<Stamp>)>,
     history: History,
 }
 
@@ -92,20 +104,27 @@ impl Hair {
     /// Where a description is remembered.
     fn place(&self, wanted: &Wanted<'_>) -> Option<usize> {
         self.exact.iter().position(|known| {
-            Arc::ptr_eq(&known.head, wanted.head) && *known.history.start().spec() == wanted.spec
+            Arc::ptr_eq(&known.head, wanted.head)
+                && known.spec == wanted.spec
+                && known.groom == wanted.groom()
         })
     }
 
     fn predict(&mut self, wanted: &Wanted<'_>, monitor: &dyn Monitor) -> Result<usize, Stop> {
         let start = match self.redrawn(wanted) {
             Some(start) => start,
+            None if wanted.scene.groom.is_some() => {
+                let Wanted { scene, spec, head, files, .. } = wanted;
+                carry::beginning(scene, spec, head, files, monitor).map_err(stopped)?.0
+            }
             None => {
                 let before = self.draft.as_ref().map(|draft| &*draft.start);
                 predict_again(&wanted.spec, wanted.head, before, monitor)
                     .map_err(|e| stopped(carry::not_predicted(&e, wanted.scene)))?
             }
         };
-        self.exact.push(Exact { head: wanted.head.clone(), history: History::new(start) });
+        let (head, spec, groom) = (wanted.head.clone(), wanted.spec.clone(), wanted.groom());
+        self.exact.push(Exact { head, spec, groom, history: History::new(start) });
         if self.exact.len() > KEPT {
             self.exact.remove(0);
         }
@@ -114,6 +133,9 @@ impl Hair {
 
     /// A known hairstyle of which only other hairs are to be drawn.
     fn redrawn(&self, wanted: &Wanted<'_>) -> Option<Hairstyle> {
+        if wanted.scene.groom.is_some() {
+            return None;
+        }
         let same_head = |known: &&Exact| Arc::ptr_eq(&known.head, wanted.head);
         let mut known = self.exact.iter().rev().filter(same_head);
         known.find_map(|known| known.history.start().redrawn(&wanted.spec))
@@ -126,6 +148,9 @@ impl Hair {
         monitor: &dyn Monitor,
     ) -> Result<Arc<Hairstyle>, Stop> {
         let steps = &wanted.scene.steps()[..wanted.done.min(wanted.scene.steps().len())];
+        if wanted.scene.groom.is_some() && self.place(wanted).is_none() {
+            self.predict(wanted, monitor)?;
+        }
         let mut draft = self.beginning(wanted, steps, monitor)?;
         for index in draft.steps.len()..steps.len() {
             let after = self.next(&draft, index, steps, wanted, monitor)?;

@@ -206,7 +206,7 @@ impl Stylist {
         let spec = scene.hairstyle_spec()?;
         let head = self.heads.of(&scene, &self.files)?;
         let monitor = Watched(watch);
-        let wanted = Wanted { scene: &scene, spec, head: &head, done };
+        let wanted = Wanted { scene: &scene, spec, head: &head, done, files: &self.files };
         let hairstyle = match effort {
             Effort::Coarse => self.hair.coarse(&wanted, &monitor)?,
             Effort::Exact => self.hair.exact(&wanted, &monitor)?,

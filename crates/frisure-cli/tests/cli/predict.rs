@@ -341,3 +341,46 @@ fn ctrl_c_leaves_no_file() {
     assert_eq!(String::from_utf8_lossy(&output.stderr), "interrupted\n");
     assert_eq!(room.names(), ["long.toml"]);
 }
+
+/// A groom of whatever program hangs as it was modelled, and can be styled; what is wrong with it is told at its key.
+#[test]
+fn a_groom_is_hair() {
+    let groomed = format!("{QUICK}[groom]\nfile = \"a.npz\"\n");
+    let wet = format!("{groomed}[[step]]\nwet = {{}}\n");
+    let room = Room::new()
+        .with("quick.toml", QUICK)
+        .with("groomed.toml", &groomed)
+        .with("wet.toml", wet)
+        .with("few.toml", format!("{groomed}guides = 3\n"))
+        .with("bad.npz", "no archive")
+        .with("bad.toml", groomed.replace("a.npz", "bad.npz"))
+        .with("none.toml", groomed.replace("a.npz", "none.usd"))
+        .with("picture.toml", groomed.replace("a.npz", "a.png"))
+        .with("unit.toml", format!("{groomed}unit = \"mm\"\n"))
+        .with("small.toml", format!("{groomed}unit = \"dm\"\n"))
+        .with("stray.toml", format!("{QUICK}[groom]\nup = \"y\"\n"));
+    assert_eq!(room.run(&["predict", "quick.toml", "-o", "a.npz"]).code, Some(0));
+    let ran = room.run(&["predict", "groomed.toml", "-o", "b.npz", "--report", "b.json"]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+    assert!(ran.out.contains("strands stay within 1 mm"), "{}", ran.out);
+    let report: Value = serde_json::from_slice(&fs::read(room.path("b.json")).unwrap()).unwrap();
+    let groom = &report["groom"];
+    assert_eq!(groom["strands"], report["guides"]["count"]);
+    assert!(groom["median_distance"].as_f64().unwrap() < 1e-3, "{groom}");
+    assert_eq!(room.run(&["predict", "wet.toml", "-o", "c.usda"]).code, Some(0));
+    let few = room.run(&["predict", "few.toml", "-o", "d.hair"]);
+    assert!(few.out.contains(" of 3 strands stay"), "{}", few.out);
+    for (scene, problem) in [
+        ("bad.toml", "bad.npz"),
+        ("none.toml", "there is no file"),
+        ("picture.toml", "no known groom extension"),
+        ("unit.toml", "is it in m?"),
+        ("small.toml", "from the skin of the head"),
+        ("stray.toml", "the scene has none"),
+    ] {
+        let ran = room.run(&["predict", scene, "-o", "e.hair"]);
+        assert!(ran.code == Some(2) && ran.err.contains(problem), "{scene}: {}", ran.err);
+        assert!(ran.err.contains("[groom]") || ran.err.contains("groom."), "{}", ran.err);
+    }
+    assert!(!room.path("e.hair").exists());
+}

@@ -11,7 +11,7 @@ use crate::frame::Frame;
 pub const MAX_STRANDS: usize = 10_000_000;
 
 /// Sizes (m) that hair can have, from one end of the groom to the other.
-const SENSIBLE: (f64, f64) = (1e-4, 5.0);
+const SENSIBLE: (f64, f64) = (2e-3, 5.0);
 
 /// Largest radius of a fibre (m).
 const THICKEST: f32 = 0.01;
@@ -157,7 +157,7 @@ fn check_size(
         ));
     }
     let hint = unit_hint(size / frame.metres);
-    Err(format!("it is {size:.3e} m across, and hair is between 0.1 mm and 5 m{hint}"))
+    Err(format!("it is {size:.3e} m across, and hair is between 2 mm and 5 m{hint}"))
 }
 
 fn median(points: &[DVec3]) -> DVec3 {

@@ -79,7 +79,7 @@ impl Groom {
 }
 
 /// Largest file that is read (bytes).
-const MAX_SIZE: u64 = 8 << 30;
+pub const MAX_SIZE: u64 = 8 << 30;
 
 /// Why a groom could not be written or read.
 #[derive(Debug, Error)]

@@ -39,6 +39,10 @@ pub(super) struct File {
     pub(super) hair: Hair,
     /// The head that hair grows on; left out, the built-in mannequin.
     pub(super) head: Head,
+    /// Hair from another program instead of predicted hair: its strands, or those that it calls guides, become guides with the
+    /// fibre of `[hair]`, so curled that they hang as they were modelled, and can be wetted, cut and grown. Length and curl
+    /// of `[hair]` count for nothing then.
+    pub(super) groom: Groom,
     /// How hair leaves the scalp.
     pub(super) implantation: Implantation,
     /// What parts of the scalp have that the rest has not; later ones override earlier ones.
@@ -222,6 +226,21 @@ pub(super) struct Head {
     pub(super) scalp_mask: Key<Text>,
     /// Path of a text file with one density from 0 to 1 per vertex, in the order of the mesh.
     pub(super) scalp_weights: Key<Text>,
+}
+
+/// `[groom]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Groom {
+    /// Path of the groom, relative to the scene: .hair, .obj, .ply, .usd, .abc, .data or .npz. It is rooted on the head of `[head]`.
+    pub(super) file: Key<Text>,
+    /// Which axis of the groom points up; the face looks along +z or -y then. Default that of the file or format.
+    pub(super) up: Key<OneOf<Which<UpAxis>>>,
+    /// Unit of the groom. Default that of the file or format.
+    pub(super) unit: Key<OneOf<UnitWord>>,
+    /// How many of its strands become guides at most, evenly chosen; the others are drawn around them. 1 to 100000. Default 1000.
+    #[schemars(range(min = 1, max = 100_000))]
+    pub(super) guides: Key<Count>,
 }
 
 /// `[implantation]`.

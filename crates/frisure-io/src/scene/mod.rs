@@ -38,6 +38,7 @@ pub use words::Tone;
 use crate::environment::{self, Environment};
 use crate::files::{self, Files};
 use crate::frame::FrameChoice;
+use crate::groom::{self, Groom, GroomError};
 use crate::head::{self, HeadMesh};
 use source::Source;
 
@@ -56,6 +57,8 @@ pub struct Scene {
     pub hair_type: &'static str,
     /// The head, with paths made relative to the scene's folder.
     pub head: HeadSource,
+    /// Hair of another program, with paths made relative to the scene's folder.
+    pub groom: Option<GroomFile>,
     /// Colours.
     pub look: Look,
     /// Where the picture is taken from.
@@ -99,6 +102,17 @@ pub struct HeadFile {
     pub frame: FrameChoice,
     /// Where hair grows.
     pub scalp: ScalpSource,
+}
+
+/// Hair of another program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroomFile {
+    /// The groom.
+    pub path: PathBuf,
+    /// Unit and axes, where the scene says them.
+    pub frame: FrameChoice,
+    /// How many strands become guides at most.
+    pub guides: usize,
 }
 
 /// Where on a mesh hair grows.
@@ -308,6 +322,30 @@ impl Scene {
             };
             self.fault(e.key(file), message, "")
         })
+    }
+
+    /// The groom that the scene names, if it names one.
+    ///
+    /// # Errors
+    /// [`SceneError`] at the key that names what cannot be used.
+    pub fn groom_in(&self, files: &Files) -> Result<Option<Groom>, SceneError> {
+        let Some(GroomFile { path, frame, .. }) = &self.groom else { return Ok(None) };
+        let wrong = |e: GroomError| {
+            let message = match std::error::Error::source(&e) {
+                Some(cause) => format!("{e}: {cause}"),
+                None => e.to_string(),
+            };
+            self.fault("groom.file", message, "`unit` and `up` of `[groom]` say what it is in")
+        };
+        let format = groom::Format::of(path).map_err(wrong)?;
+        let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
+        let bytes = bytes.map_err(|e| wrong(e.into()))?;
+        let groom = groom::decode(format, &bytes, path, *frame).map_err(wrong)?;
+        if groom.strands().is_empty() {
+            let message = format!("`{}` has no strands", path.display());
+            return Err(self.fault("groom.file", message, ""));
+        }
+        Ok(Some(groom))
     }
 
     /// The picture of surroundings that the scene names, if it names one.

@@ -23,8 +23,8 @@ use super::light::light;
 use super::source::Source;
 use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Tone, Which};
 use super::{
-    Behind, Camera, Dye, Fade, HeadFile, HeadSource, Look, NaturalColour, Output, ScalpSource,
-    Scene, SingleHair, schema, shape, step,
+    Behind, Camera, Dye, Fade, GroomFile, HeadFile, HeadSource, Look, NaturalColour, Output,
+    ScalpSource, Scene, SingleHair, schema, shape, step,
 };
 use crate::frame::FrameChoice;
 
@@ -67,6 +67,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
         name: file.name.or(String::new(), &source)?,
         hair_type: preset.name,
         head: head(&file.head, folder, &source)?,
+        groom: groom(&file.groom, folder, &source)?,
         look: look(&file.look, spec.seed, light.behind(), &source)?,
         camera: camera(&file.camera, &source)?,
         light,
@@ -319,6 +320,30 @@ fn head(file: &file::Head, folder: &Path, source: &Source) -> Result<HeadSource>
     };
     let frame = FrameChoice { metres, up: file.up.get(source)?.map(|Which(up)| up) };
     Ok(HeadSource::Mesh(HeadFile { path: folder.join(mesh), frame, scalp }))
+}
+
+/// Most guides of a groom, where the scene says nothing.
+const GROOM_GUIDES: usize = 1000;
+
+fn groom(file: &file::Groom, folder: &Path, source: &Source) -> Result<Option<GroomFile>> {
+    let Some(path) = file.file.get(source)? else {
+        let rest = [file.up.span(), file.unit.span(), file.guides.span()];
+        let stray = rest.into_iter().flatten().min_by_key(|s| s.start);
+        return stray.map_or(Ok(None), |span| {
+            let key = source.path_at(&span);
+            let problem = format!("`{key}` is about a groom, and the scene has none");
+            let hint = "add `file = \"hair.usd\"` to `[groom]`";
+            Err(Fault::new(problem).key(key).hint(hint).at(source, span))
+        });
+    };
+    let guides = match file.guides.get(source)? {
+        None => GROOM_GUIDES,
+        Some(guides @ 1..=100_000) => guides,
+        Some(_) => return Err(outside(&file.guides, "between 1 and 100000", source)),
+    };
+    let metres = file.unit.get(source)?.map(|unit| unit.0);
+    let frame = FrameChoice { metres, up: file.up.get(source)?.map(|Which(up)| up) };
+    Ok(Some(GroomFile { path: folder.join(path), frame, guides }))
 }
 
 fn implantation(

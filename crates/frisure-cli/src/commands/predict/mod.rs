@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{
-    Hairstyle, HairstyleSpec, Monitor, PredictError, penetration, predict, volume,
-};
+use frisure::hairstyle::{Adoption, Hairstyle, HairstyleSpec, Monitor, penetration, volume};
 use frisure::io::files::Files;
 use frisure::io::groom::Groom;
 use frisure::io::scene::{self, HeadSource, Scene};
@@ -31,7 +29,7 @@ use crate::progress::Progress;
 use crate::written::Grooms;
 use crate::{console, interrupt, outputs};
 
-use numbers::{Numbers, litres, numbers, summary};
+use numbers::{Numbers, held, litres, numbers, summary};
 use steps::Styled;
 
 /// Computes what the arguments ask for, and writes it.
@@ -92,6 +90,7 @@ fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), 
         last = work.write(drawn, frame, frames, &mut written)?;
     }
     let mut numbers = last.expect("the last hairstyle has its numbers");
+    numbers.groom = hair.adoption.as_ref().map(held);
     numbers.steps.clone_from(&hair.styled.steps);
     if let Some(path) = &work.arguments.report {
         interrupt::check()?;
@@ -155,6 +154,7 @@ pub(crate) fn read_by(scene: &Scene) -> Vec<&Path> {
             | scene::ScalpSource::Colour(_) => {}
         }
     }
+    inputs.extend(scene.groom.iter().map(|file| file.path.as_path()));
     inputs.extend(scene.light.environment.iter().map(|file| file.path.as_path()));
     inputs
 }
@@ -196,6 +196,8 @@ struct Hair {
     styled: Styled,
     /// What is to be in every picture, if there are several.
     shown: Option<Strands>,
+    /// How well the scene's groom was held.
+    adoption: Option<Adoption>,
 }
 
 /// One of them, drawn.
@@ -216,11 +218,13 @@ impl Work {
     fn hair(&self, spec: &HairstyleSpec) -> Result<Hair, Failure> {
         self.progress.show("head", 0.0);
         let (head, watch) = (head(&self.scene)?, Watch(&self.progress));
-        let start = predict(spec, &head, &watch).map_err(|e| refused(&e, &self.scene))?;
+        let (start, adoption) =
+            carry::beginning(&self.scene, spec, &head, &Files::default(), &watch)
+                .map_err(|e| e.map_or(Failure::Interrupted, Failure::from))?;
         let styled = steps::all(&self.scene, &head, start, self.arguments.each_step, &watch)?;
         let several = self.arguments.image.is_some() && styled.hairstyles.len() > 1;
         let shown = several.then(|| swept(&styled.hairstyles));
-        Ok(Hair { head, styled, shown })
+        Ok(Hair { head, styled, shown, adoption })
     }
 
     fn draw(&self, hair: &Hair, frame: usize) -> Result<Drawn, Failure> {
@@ -348,9 +352,4 @@ fn swept(hairstyles: &[Hairstyle]) -> Strands {
 /// The head of a scene.
 pub(crate) fn head(scene: &Scene) -> Result<Head, Failure> {
     Ok(carry::head(scene, &Files::default())?)
-}
-
-/// Why nothing was predicted.
-fn refused(error: &PredictError, scene: &Scene) -> Failure {
-    carry::not_predicted(error, scene).map_or(Failure::Interrupted, Failure::from)
 }
