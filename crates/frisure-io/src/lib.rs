@@ -22,6 +22,7 @@ pub mod groom;
 pub mod head;
 pub mod history;
 pub mod picture;
+mod ply;
 pub mod quantity;
 pub mod report;
 pub mod scene;

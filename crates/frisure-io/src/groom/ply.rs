@@ -10,6 +10,7 @@ use super::checked::Curves;
 use super::lines::Lines;
 use super::{Format, Groom};
 use crate::frame::{Frame, FrameChoice, UpAxis};
+use crate::ply::open;
 
 /// Checks that the format has room: vertex indices are signed in most readers.
 pub(super) fn check(strands: &Strands) -> Result<(), String> {
@@ -57,62 +58,11 @@ pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io
     Ok(())
 }
 
-/// How numbers are written.
-#[derive(Clone, Copy, PartialEq)]
-enum Encoding {
-    Text,
-    Little,
-    Big,
-}
-
-/// Kinds of numbers.
-#[derive(Clone, Copy)]
-enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Kind {
-    fn of(name: &str) -> Option<Self> {
-        Some(match name {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return None,
-        })
-    }
-}
-
-/// What a row of an element has: a number, or a number of numbers and these.
-struct Property {
-    name: String,
-    count: Option<Kind>,
-    kind: Kind,
-}
-
-struct Element {
-    name: String,
-    rows: usize,
-    properties: Vec<Property>,
-}
-
 /// Bytes of a file into hairs (m), or what is wrong with them.
 ///
 /// Strands are told by `strand` of the vertices, or else by the edges.
 pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
-    let (encoding, elements, rest) = header(bytes)?;
-    let mut body = Body { rest, encoding };
+    let (elements, mut body) = open(bytes)?;
     let (mut points, mut diameters, mut strands) = (Vec::new(), Vec::new(), Vec::new());
     let mut lines = Lines::default();
     for element in &elements {
@@ -137,7 +87,7 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
                 let index = |x: f64| if x >= 0.0 { x as u32 } else { u32::MAX };
                 body.rows(element, |row| lines.push(&[index(row[a]), index(row[b])]))?;
             }
-            _ => body.rows(element, |_| ())?,
+            _ => body.pass(element)?,
         }
     }
     let curves = if strands.is_empty() {
@@ -150,113 +100,6 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
         Curves { counts, points, diameters, ..Curves::default() }
     };
     Ok(Groom::of(curves.strands(choice.or(Format::Ply.frame()))?))
-}
-
-fn header(bytes: &[u8]) -> Result<(Encoding, Vec<Element>, &[u8]), String> {
-    let mut rest = bytes;
-    let (mut encoding, mut elements) = (None, Vec::<Element>::new());
-    for number in 1.. {
-        let end = rest.iter().position(|b| *b == b'\n').ok_or("its header has no end")?;
-        let line = std::str::from_utf8(&rest[..end]).map_err(|_| "its header is no text")?;
-        rest = &rest[end + 1..];
-        let wrong = || format!("line {number} of its header is `{}`", line.trim());
-        let words: Vec<&str> = line.split_whitespace().collect();
-        match (number, &words[..]) {
-            (1, ["ply"]) => {}
-            (1, _) => return Err("it does not begin with `ply`".into()),
-            (_, ["comment" | "obj_info", ..] | []) => {}
-            (_, ["format", kind, "1.0"]) => {
-                encoding = Some(match *kind {
-                    "ascii" => Encoding::Text,
-                    "binary_little_endian" => Encoding::Little,
-                    "binary_big_endian" => Encoding::Big,
-                    _ => return Err(wrong()),
-                });
-            }
-            (_, ["element", name, rows]) => {
-                let rows = rows.parse().map_err(|_| wrong())?;
-                elements.push(Element { name: (*name).into(), rows, properties: Vec::new() });
-            }
-            (_, ["property", of @ .., kind, name]) => {
-                let kind = Kind::of(kind).ok_or_else(wrong)?;
-                let count = match of {
-                    [] => None,
-                    ["list", count] => Some(Kind::of(count).ok_or_else(wrong)?),
-                    _ => return Err(wrong()),
-                };
-                let element = elements.last_mut().ok_or_else(wrong)?;
-                element.properties.push(Property { name: (*name).into(), count, kind });
-            }
-            (_, ["end_header"]) => {
-                return Ok((encoding.ok_or("its header has no format")?, elements, rest));
-            }
-            _ => return Err(wrong()),
-        }
-    }
-    unreachable!("the lines of a file end")
-}
-
-/// What follows the header.
-struct Body<'a> {
-    rest: &'a [u8],
-    encoding: Encoding,
-}
-
-impl Body<'_> {
-    /// Gives each row of an element; what is a list counts as its number.
-    fn rows(&mut self, element: &Element, mut each: impl FnMut(&[f64])) -> Result<(), String> {
-        let Element { name, rows, properties } = element;
-        // Rows without a byte could be as many as anyone says.
-        if properties.is_empty() && *rows > 0 {
-            return Err(format!("its element `{name}` has no properties"));
-        }
-        let mut values = Vec::with_capacity(properties.len());
-        for row in 0..*rows {
-            let cut = || format!("it is cut short at {name} {row} of {rows}");
-            values.clear();
-            for property in properties {
-                let value = self.number(property.count.unwrap_or(property.kind)).ok_or_else(cut)?;
-                values.push(value);
-                if property.count.is_some() {
-                    for _ in 0..value as u64 {
-                        self.number(property.kind).ok_or_else(cut)?;
-                    }
-                }
-            }
-            each(&values);
-        }
-        Ok(())
-    }
-
-    fn number(&mut self, kind: Kind) -> Option<f64> {
-        if self.encoding == Encoding::Text {
-            let rest = self.rest.trim_ascii_start();
-            let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-            self.rest = &rest[end..];
-            return std::str::from_utf8(&rest[..end]).ok()?.parse().ok();
-        }
-        Some(match kind {
-            Kind::I8 => f64::from(i8::from_le_bytes(self.word()?)),
-            Kind::U8 => f64::from(u8::from_le_bytes(self.word()?)),
-            Kind::I16 => f64::from(i16::from_le_bytes(self.word()?)),
-            Kind::U16 => f64::from(u16::from_le_bytes(self.word()?)),
-            Kind::I32 => f64::from(i32::from_le_bytes(self.word()?)),
-            Kind::U32 => f64::from(u32::from_le_bytes(self.word()?)),
-            Kind::F32 => f64::from(f32::from_le_bytes(self.word()?)),
-            Kind::F64 => f64::from_le_bytes(self.word()?),
-        })
-    }
-
-    /// The next bytes, in little-endian order.
-    fn word<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let (word, rest) = self.rest.split_first_chunk()?;
-        self.rest = rest;
-        let mut word = *word;
-        if self.encoding == Encoding::Big {
-            word.reverse();
-        }
-        Some(word)
-    }
 }
 
 #[cfg(test)]

@@ -4,98 +4,17 @@
 
 use super::mesh::{COLOURS, MAX_CORNERS, Mesh};
 use crate::frame::Frame;
-
-/// What a number of the file is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Kind {
-    fn of(word: &str) -> Option<Self> {
-        Some(match word {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
-
-    /// Little-endian bytes as a number.
-    fn number(self, b: [u8; 8]) -> f64 {
-        match self {
-            Self::I8 => f64::from(b[0].cast_signed()),
-            Self::U8 => f64::from(b[0]),
-            Self::I16 => f64::from(i16::from_le_bytes([b[0], b[1]])),
-            Self::U16 => f64::from(u16::from_le_bytes([b[0], b[1]])),
-            Self::I32 => f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]])),
-            Self::U32 => f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]])),
-            Self::F32 => f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
-            Self::F64 => f64::from_le_bytes(b),
-        }
-    }
-
-    /// The largest that a colour of this kind has.
-    fn full(self) -> f64 {
-        match self {
-            Self::U8 => 255.0,
-            Self::U16 => 65535.0,
-            _ => 1.0,
-        }
-    }
-}
-
-struct Property {
-    name: String,
-    kind: Kind,
-    /// Of a list, what its number is.
-    list: Option<Kind>,
-}
-
-struct Element {
-    name: String,
-    count: usize,
-    properties: Vec<Property>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Order {
-    Text,
-    Little,
-    Big,
-}
+use crate::ply::{Body, Element, Property, open};
 
 /// Reads a file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, String> {
-    let (order, elements, rest) = header(bytes)?;
-    let mut body = Body { order, rest };
+    let (elements, mut body) = open(bytes)?;
     let mut mesh = Mesh { frame: Some(Frame::METRES_Y), ..Mesh::default() };
     for element in &elements {
         match element.name.as_str() {
             "vertex" => vertices(&mut mesh, element, &mut body)?,
             "face" => faces(&mut mesh, element, &mut body)?,
-            _ => pass(element, &mut body)?,
+            _ => body.pass(element)?,
         }
     }
     mesh.triangle_uvs.resize(mesh.triangles.len(), None);
@@ -103,115 +22,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-fn header(bytes: &[u8]) -> Result<(Order, Vec<Element>, &[u8]), String> {
-    let mut rest = bytes;
-    let mut order = None;
-    let mut elements: Vec<Element> = Vec::new();
-    for number in 1.. {
-        let end = rest.iter().position(|&b| b == b'\n').ok_or("its header has no end")?;
-        let line = String::from_utf8_lossy(&rest[..end]).into_owned();
-        rest = &rest[end + 1..];
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let bad =
-            || format!("line {number}: `{}`", line.trim().chars().take(60).collect::<String>());
-        match words[..] {
-            ["ply"] if number == 1 => {}
-            ["end_header"] => break,
-            ["format", "ascii", _] => order = Some(Order::Text),
-            ["format", "binary_little_endian", _] => order = Some(Order::Little),
-            ["format", "binary_big_endian", _] => order = Some(Order::Big),
-            ["comment" | "obj_info", ..] | [] => {}
-            ["element", name, count] => {
-                let count = count.parse().map_err(|_| bad())?;
-                elements.push(Element { name: name.into(), count, properties: Vec::new() });
-            }
-            ["property", "list", count, kind, name] => {
-                let (list, kind) = (Kind::of(count), Kind::of(kind).ok_or_else(bad)?);
-                let property =
-                    Property { name: name.into(), kind, list: Some(list.ok_or_else(bad)?) };
-                elements.last_mut().ok_or_else(bad)?.properties.push(property);
-            }
-            ["property", kind, name] => {
-                let kind = Kind::of(kind).ok_or_else(bad)?;
-                let property = Property { name: name.into(), kind, list: None };
-                elements.last_mut().ok_or_else(bad)?.properties.push(property);
-            }
-            _ => return Err(bad()),
-        }
-    }
-    Ok((order.ok_or("its header has no format")?, elements, rest))
-}
-
-/// Numbers one after another.
-struct Body<'a> {
-    order: Order,
-    rest: &'a [u8],
-}
-
-impl Body<'_> {
-    fn number(&mut self, kind: Kind) -> Result<f64, String> {
-        if self.order == Order::Text {
-            return self.word();
-        }
-        let (bytes, rest) = self.rest.split_at_checked(kind.size()).ok_or("it is cut short")?;
-        self.rest = rest;
-        let mut all = [0; 8];
-        all[..bytes.len()].copy_from_slice(bytes);
-        if self.order == Order::Big {
-            all[..bytes.len()].reverse();
-        }
-        Ok(kind.number(all))
-    }
-
-    fn word(&mut self) -> Result<f64, String> {
-        let start = self.rest.iter().position(|b| !b.is_ascii_whitespace());
-        let rest = &self.rest[start.ok_or("it is cut short")?..];
-        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-        let word = String::from_utf8_lossy(&rest[..end]);
-        self.rest = &rest[end..];
-        word.parse()
-            .map_err(|_| format!("`{}` is not a number", word.chars().take(40).collect::<String>()))
-    }
-
-    /// The number of a list, which what is left of the file has to hold.
-    fn count(&mut self, kind: Kind) -> Result<usize, String> {
-        let count = self.number(kind)?;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-        if count >= 0.0 && count <= self.rest.len() as f64 {
-            Ok(count as usize)
-        } else {
-            Err(format!("it is cut short: a list of {count}"))
-        }
-    }
-}
-
-/// Refuses more things than bytes: each has at least one.
-fn check(element: &Element, body: &Body) -> Result<(), String> {
-    if element.properties.is_empty() || element.count <= body.rest.len() {
-        return Ok(());
-    }
-    let Element { name, count, .. } = element;
-    Err(format!("it is cut short: {count} of `{name}` in {} bytes", body.rest.len()))
-}
-
-fn pass(element: &Element, body: &mut Body) -> Result<(), String> {
-    check(element, body)?;
-    if element.properties.is_empty() {
-        return Ok(());
-    }
-    for _ in 0..element.count {
-        for property in &element.properties {
-            let count = property.list.map_or(Ok(1), |kind| body.count(kind))?;
-            for _ in 0..count {
-                body.number(property.kind)?;
-            }
-        }
-    }
-    Ok(())
-}
-
 fn vertices(mesh: &mut Mesh, element: &Element, body: &mut Body) -> Result<(), String> {
-    check(element, body)?;
+    body.check(element)?;
     let properties = &element.properties;
     if properties.iter().any(|p| p.list.is_some()) {
         return Err("its vertices have lists".into());
@@ -260,7 +72,7 @@ fn textures(mesh: &mut Mesh, columns: &[Vec<f64>], place: impl Fn(&str) -> Optio
 }
 
 fn faces(mesh: &mut Mesh, element: &Element, body: &mut Body) -> Result<(), String> {
-    check(element, body)?;
+    body.check(element)?;
     let is_corners = |p: &Property| p.list.is_some() && p.name.starts_with("vertex_ind");
     if !element.properties.iter().any(is_corners) {
         return Err("its faces have no vertices".into());
