@@ -67,6 +67,21 @@ impl AttributeValues {
     }
 }
 
+impl AttributeValues {
+    /// Appends values of the same kind; of another kind nothing is appended, and the answer is false.
+    pub fn append(&mut self, more: &Self) -> bool {
+        match (self, more) {
+            (Self::U32(a), Self::U32(b)) => a.extend(b),
+            (Self::U32x3(a), Self::U32x3(b)) => a.extend(b),
+            (Self::F32(a), Self::F32(b)) => a.extend(b),
+            (Self::F32x2(a), Self::F32x2(b)) => a.extend(b),
+            (Self::F32x3(a), Self::F32x3(b)) => a.extend(b),
+            _ => return false,
+        }
+        true
+    }
+}
+
 /// A named array over the strands or over their points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute {

@@ -209,24 +209,11 @@ pub(super) fn joined(mut parts: Vec<Part>) -> Part {
             all.attributes.retain_mut(|a| {
                 let of = |b: &Attribute| b.name == a.name && b.domain == a.domain;
                 let Some(at) = rest.iter().position(of) else { return false };
-                extended(&mut a.values, rest.swap_remove(at).values)
+                a.values.append(&rest.swap_remove(at).values)
             });
         }
     }
     all
-}
-
-/// Appends values of the same kind.
-fn extended(values: &mut AttributeValues, more: AttributeValues) -> bool {
-    match (values, more) {
-        (AttributeValues::U32(a), AttributeValues::U32(b)) => a.extend(b),
-        (AttributeValues::U32x3(a), AttributeValues::U32x3(b)) => a.extend(b),
-        (AttributeValues::F32(a), AttributeValues::F32(b)) => a.extend(b),
-        (AttributeValues::F32x2(a), AttributeValues::F32x2(b)) => a.extend(b),
-        (AttributeValues::F32x3(a), AttributeValues::F32x3(b)) => a.extend(b),
-        _ => return false,
-    }
-    true
 }
 
 /// Parts as one: hairs that were put into groups in the order of their numbers, if each has its own.

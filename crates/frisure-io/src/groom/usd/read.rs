@@ -206,7 +206,7 @@ fn joined(parts: Vec<Part>, frame: Frame) -> Result<Strands, String> {
         all.attributes.retain_mut(|attribute| {
             let other = part.attributes.iter().find(|other| other.name == attribute.name);
             other.is_some_and(|other| {
-                other.domain == attribute.domain && append(&mut attribute.values, &other.values)
+                other.domain == attribute.domain && attribute.values.append(&other.values)
             })
         });
     }
@@ -220,19 +220,6 @@ fn fill(part: &mut Part, frame: Frame) {
     if part.diameters.is_empty() {
         part.diameters = vec![(USUAL_DIAMETER / frame.metres) as f32; part.points.len()];
     }
-}
-
-/// Whether values of the same kind were there to append.
-fn append(all: &mut AttributeValues, more: &AttributeValues) -> bool {
-    match (all, more) {
-        (AttributeValues::U32(a), AttributeValues::U32(b)) => a.extend(b),
-        (AttributeValues::U32x3(a), AttributeValues::U32x3(b)) => a.extend(b),
-        (AttributeValues::F32(a), AttributeValues::F32(b)) => a.extend(b),
-        (AttributeValues::F32x2(a), AttributeValues::F32x2(b)) => a.extend(b),
-        (AttributeValues::F32x3(a), AttributeValues::F32x3(b)) => a.extend(b),
-        _ => return false,
-    }
-    true
 }
 
 /// The colour of a prim's hair: that of its material, or one for all its curves.

@@ -110,14 +110,7 @@ impl Text<'_> {
             }
             self.word("]\n");
         }
-        for (key, value) in &prim.metadata {
-            self.indent();
-            self.metadata(key, value)?;
-            self.word("\n");
-        }
-        self.depth -= 1;
-        self.line(&[")"]);
-        Ok(())
+        self.entries(&prim.metadata)
     }
 
     fn attribute(&mut self, attribute: &Attribute) -> io::Result<()> {
@@ -141,13 +134,8 @@ impl Text<'_> {
         Ok(())
     }
 
-    /// The metadata of an attribute.
-    fn brackets(&mut self, metadata: &[(String, Value)]) -> io::Result<()> {
-        if metadata.is_empty() {
-            return Ok(());
-        }
-        self.word(" (\n");
-        self.depth += 1;
+    /// Metadata, a line each, and the bracket that closes them.
+    fn entries(&mut self, metadata: &[(String, Value)]) -> io::Result<()> {
         for (key, value) in metadata {
             self.indent();
             self.metadata(key, value)?;
@@ -156,6 +144,16 @@ impl Text<'_> {
         self.depth -= 1;
         self.line(&[")"]);
         Ok(())
+    }
+
+    /// The metadata of an attribute.
+    fn brackets(&mut self, metadata: &[(String, Value)]) -> io::Result<()> {
+        if metadata.is_empty() {
+            return Ok(());
+        }
+        self.word(" (\n");
+        self.depth += 1;
+        self.entries(metadata)
     }
 
     fn relationship(&mut self, relationship: &Relationship) {
