@@ -8,6 +8,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::hairstyle::PRESETS;
 use frisure::io::frame::{Frame, FrameChoice, UpAxis};
 use frisure::io::groom::Format;
+use frisure::io::quantity::{Dimension, LENGTH, RATIO, STRAIN};
 use frisure::io::scene::Scene;
 use frisure::render::trace::TraceOptions;
 
@@ -59,6 +60,8 @@ pub(crate) enum Command {
     Presets(Presets),
     /// Print a commented scene to start from.
     New(New),
+    /// Turn tables of measured hair into a scene of that hair.
+    Measured(Measured),
     /// Print the JSON Schema of scenes: every key, its unit and its range.
     Schema,
 }
@@ -470,6 +473,98 @@ pub(crate) struct New {
     #[arg(value_parser = PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)))]
     #[arg(default_value = "caucasian-wavy")]
     pub(crate) hair_type: String,
+}
+
+const MEASURED_EXAMPLES: &str = "\
+Examples:
+  frisure measured summary_section_data.csv analysis/ImageSum_*.csv -o mine.toml
+  frisure measured WithinElement/*.csv --pitch '24 mm' -o mine.toml
+  frisure measured lab.csv --column 'D1=max diameter (um)' --column 'D2=min diameter (um)'
+  frisure measured people.csv --rows 'texture=curly'
+
+What fibermorph writes is known. Columns of other tables are known by their headings, with a unit:
+  diameter (um), min diameter (um), max diameter (um), area (um^2), axis ratio, eccentricity,
+  curvature (1/mm), curve diameter (mm), curl radius (mm), curl diameter (mm), pitch (mm),
+  curl index, turns (1/cm), hair length (cm), Young's modulus (GPa), shear modulus (GPa),
+  density (g/cm^3)
+`hair` tells rows of one hair, as windows along it; `n` says how many hairs a row stands for; names
+with mean, median or sd are of many hairs. The scene says where each number is from, and what was not
+measured. docs/measurements.md tells how.";
+
+/// Arguments of `frisure measured`.
+#[derive(Args, Debug)]
+#[command(after_help = MEASURED_EXAMPLES)]
+#[command(group = ArgGroup::new("steepness"))]
+pub(crate) struct Measured {
+    /// The tables (CSV, with commas, semicolons or tabs).
+    #[arg(value_name = "TABLE", required = true)]
+    pub(crate) tables: Vec<PathBuf>,
+
+    /// Write the scene here instead of to standard output.
+    #[arg(long, short, value_name = "SCENE")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// The hair type that everything else comes from. By default the one with the nearest curl.
+    #[arg(long = "type", value_name = "TYPE", hide_possible_values = true)]
+    #[arg(value_parser = PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)))]
+    pub(crate) hair_type: Option<String>,
+
+    /// Read a column as if it had another heading: 'D1=max diameter (um)'. May be repeated.
+    #[arg(long = "column", value_name = "COLUMN=HEADING", value_parser = pair)]
+    pub(crate) columns: Vec<(String, String)>,
+
+    /// Take only rows with this text in that column; a star stands for any text. May be repeated.
+    #[arg(long = "rows", value_name = "COLUMN=TEXT", value_parser = pair)]
+    pub(crate) rows: Vec<(String, String)>,
+
+    /// Of curvatures measured with windows of several lengths, this one. [default: the longest]
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(crate) window: Option<f64>,
+
+    /// Take the shape of sections and not their size: micrographs without a scale.
+    #[arg(long)]
+    pub(crate) shape_only: bool,
+
+    /// How far the curl without weight advances in a turn, such as '24 mm': the curvature does not tell.
+    #[arg(long, value_name = "LENGTH", value_parser = length, group = "steepness")]
+    pub(crate) pitch: Option<f64>,
+
+    /// Instead of the pitch: the radius of the curl without weight.
+    #[arg(long, value_name = "LENGTH", value_parser = length, group = "steepness")]
+    pub(crate) radius: Option<f64>,
+
+    /// Instead of the pitch: length along the hair over the distance that it spans, without weight.
+    #[arg(long, value_name = "RATIO", value_parser = curl_index, group = "steepness")]
+    pub(crate) curl_index: Option<f64>,
+
+    /// Instead of the pitch: turns per length along the hair, such as '0.8 1/cm'.
+    #[arg(long, value_name = "TURNS", value_parser = turns, group = "steepness")]
+    pub(crate) turns: Option<f64>,
+}
+
+/// Two texts with a sign between.
+fn pair(text: &str) -> Result<(String, String), String> {
+    let (left, right) = text.split_once('=').ok_or("it must be two texts with `=` between")?;
+    Ok((left.trim().to_owned(), right.trim().to_owned()))
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    positive(&LENGTH, text)
+}
+
+fn turns(text: &str) -> Result<f64, String> {
+    positive(&STRAIN, text)
+}
+
+fn curl_index(text: &str) -> Result<f64, String> {
+    positive(&RATIO, text)
+        .and_then(|x| if x > 1.0 { Ok(x) } else { Err("it must be more than 1".into()) })
+}
+
+fn positive(dimension: &Dimension, text: &str) -> Result<f64, String> {
+    let value = dimension.parse(text);
+    let value = value.map_err(|e| format!("{e}; it must be such as \"{}\"", dimension.example))?;
+    if value > 0.0 { Ok(value) } else { Err("it must be more than 0".into()) }
 }
 
 fn threads(text: &str) -> Result<usize, String> {

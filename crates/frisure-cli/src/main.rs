@@ -44,6 +44,7 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),
+        Command::Measured(measured) => commands::measured::run(&measured, quiet),
         Command::Schema => commands::schema::run(),
     }
 }

@@ -7,6 +7,7 @@
 //! | [`history`] | a scene with what was done and undone | the same |
 //! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
 //! | [`groom`] | `.hair`, `.obj`, `.ply`, `.usdc`, `.usda`, `.abc`, `.data`, `.npz` | the same, `.txt` and `.pbrt` for renderers, `.glb` |
+//! | [`measurements`] | tables of measured hair (`.csv`) | a scene of that hair |
 //! | [`environment`] | `.hdr` and `.exr` pictures of surroundings | |
 //! | [`picture`] | | PNG |
 //! | [`report`] | | JSON |
@@ -21,6 +22,7 @@ pub mod frame;
 pub mod groom;
 pub mod head;
 pub mod history;
+pub mod measurements;
 pub mod picture;
 mod ply;
 pub mod quantity;

@@ -92,6 +92,14 @@ pub const STRAIN: Dimension = Dimension {
     ],
 };
 
+/// Areas of sections, SI m².
+pub const AREA: Dimension = Dimension {
+    name: "an area",
+    si: "m^2",
+    example: "4000 um^2",
+    units: &[("um^2", 1e-12), ("mm^2", 1e-6), ("cm^2", 1e-4), ("m^2", 1.0)],
+};
+
 /// Numbers of things per area, SI 1/m².
 pub const NUMBER_DENSITY: Dimension = Dimension {
     name: "a number per area",
@@ -155,8 +163,9 @@ pub const SPEED: Dimension = Dimension {
 pub const RATIO: Dimension =
     Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
 
-const ALL: [&Dimension; 10] = [
+const ALL: [&Dimension; 11] = [
     &LENGTH,
+    &AREA,
     &ANGLE,
     &PRESSURE,
     &DENSITY,

@@ -2,6 +2,7 @@
 
 pub(crate) mod convert;
 pub(crate) mod hair;
+pub(crate) mod measured;
 pub(crate) mod new;
 pub(crate) mod predict;
 pub(crate) mod presets;

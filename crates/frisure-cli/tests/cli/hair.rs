@@ -1,4 +1,4 @@
-//! `frisure hair`, `presets`, `new` and `schema`.
+//! `frisure hair`, `presets`, `new`, `measured` and `schema`.
 
 use std::process::Stdio;
 
@@ -171,4 +171,25 @@ fn a_full_disk_is_an_error() {
     let output = room.command(&["schema"]).stdout(Stdio::from(full)).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("No space left"));
+}
+
+#[test]
+fn measured_hair_becomes_a_scene_that_says_what_was_not_measured() {
+    let table = "curvature (1/mm),diameter (um)\n0.1,70\n0.1,72\n";
+    let room = Room::new().with("hairs.csv", table);
+    let ran = room.run(&["measured", "hairs.csv", "--pitch", "24 mm", "-o", "mine.toml"]);
+    assert_eq!((ran.code, ran.out.as_str()), (Some(0), ""), "{}", ran.err);
+    assert!(ran.err.contains("note: How much diameters and curvatures differ"), "{}", ran.err);
+    let hair = room.run(&["hair", "mine.toml", "--json"]);
+    assert_eq!(hair.code, Some(0), "{}", hair.err);
+
+    let ran = room.run(&["measured", "hairs.csv", "--pitch", "9 cm"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(
+        ran.err.contains("a pitch of 9 cm does not go with a curvature of 0.1 1/mm"),
+        "{}",
+        ran.err
+    );
+    let ran = room.run(&["measured", "hairs.csv", "--pitch", "9 cm", "--radius", "1 mm"]);
+    assert_eq!(ran.code, Some(2));
 }

@@ -1,0 +1,53 @@
+//! `frisure measured`: tables of measured hair into a scene of that hair.
+
+use std::path::Path;
+
+use frisure::hairstyle::preset;
+use frisure::io::files;
+use frisure::io::measurements::{Choices, Steepness, measured};
+
+use super::parse_scene;
+use crate::args::Measured;
+use crate::failure::{Done, Failure};
+use crate::{console, interrupt, outputs};
+
+/// Reads the tables and writes the scene, with notes on what they do not tell.
+pub(crate) fn run(arguments: &Measured, quiet: bool) -> Result<Done, Failure> {
+    let tables = arguments.tables.clone();
+    let read: Vec<&Path> = tables.iter().map(AsRef::as_ref).collect();
+    outputs::prepare(&arguments.output.iter().map(AsRef::as_ref).collect::<Vec<_>>(), &read)?;
+    let choices = choices(arguments);
+    let estimate = interrupt::computing(move || {
+        let read: Vec<&Path> = tables.iter().map(AsRef::as_ref).collect();
+        measured(&read, &choices).map_err(|e| Failure::wrong(&e, &e.hint()))
+    })?;
+    let text = estimate.scene();
+    let name = arguments.output.as_deref().unwrap_or(Path::new("measured.toml"));
+    // Numbers that are well each for itself may make no hair together.
+    parse_scene(name, text.clone())?.hairstyle_spec()?;
+    match &arguments.output {
+        Some(path) => {
+            let written = files::write_atomically(path, |out| out.write_all(text.as_bytes()));
+            written.map_err(|e| Failure::failed(&e))?;
+        }
+        None => console::print(&text)?,
+    }
+    if !quiet {
+        estimate.notes.iter().for_each(|note| console::note(note));
+    }
+    Ok(Done::Well)
+}
+
+fn choices(arguments: &Measured) -> Choices {
+    let steepness = arguments.pitch.map(Steepness::Pitch);
+    let steepness = steepness.or(arguments.radius.map(Steepness::Radius));
+    let steepness = steepness.or(arguments.curl_index.map(Steepness::CurlIndex));
+    Choices {
+        columns: arguments.columns.clone(),
+        rows: arguments.rows.clone(),
+        window: arguments.window,
+        shape_only: arguments.shape_only,
+        hair_type: arguments.hair_type.as_deref().and_then(preset),
+        steepness: steepness.or(arguments.turns.map(Steepness::Turns)),
+    }
+}
