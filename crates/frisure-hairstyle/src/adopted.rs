@@ -21,7 +21,9 @@ use crate::monitor::{Monitor, Stage};
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
 use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
+use crate::strands::Carried;
 use crate::styling::Styling;
+use crate::wisps::Wisp;
 
 /// How well a groom was adopted; one entry for each of its guides, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,8 +36,8 @@ pub struct Adoption {
 
 /// The hairstyle of a groom: each strand of `guides` (m) becomes a guide whose natural strain is the one with which
 /// it hangs so (see [`frisure_rod::inverse`]). Fibre, contact with the body, drawn hairs and everything else are those
-/// of `spec`; its length and curl count for nothing. Where the groom has `hairs`, one is drawn at the root of
-/// each; otherwise as many as `spec` says, where the guides are.
+/// of `spec`; its length and curl count for nothing. Where the groom has `hairs`, these are drawn, each in its own
+/// shape as long as its guides are in theirs; otherwise as many as `spec` says, where the guides are.
 ///
 /// A groom says nothing of the hair that each strand lies on. Within 4 cm of the skin something may lie beneath it; it
 /// bears so much that the strand needs the least bending ([`Fitted::least_support`]), and stays as high as the groom
@@ -73,7 +75,7 @@ pub fn adopt(
         })
         .collect::<Result<_, PredictError>>()?;
 
-    let planting = planting(&mut spec, head, &lines, hairs);
+    let planting = planting(&mut spec, head, &lines, hairs, &held);
     spec.wisps.check_size(planting.area())?;
     let layout = Layout::new(&spec, head)?;
     let guides = plan(&spec, head, &planting, &held);
@@ -150,6 +152,7 @@ fn planting(
     head: &Head,
     lines: &[Vec<DVec3>],
     hairs: &Strands,
+    held: &[(Held, Bed)],
 ) -> Planting {
     let root = |p: DVec3| Root {
         position: p,
@@ -171,7 +174,27 @@ fn planting(
     };
     let drawn = if drawn.is_empty() { roots.clone() } else { drawn };
     spec.wisps.hairs = Hairs::Count(drawn.len());
-    Planting::adopted(spec, head, area, roots, drawn)
+    let carried = (!hairs.is_empty()).then(|| {
+        spec.wisps.points = spec.wisps.points.max(usual_points(hairs));
+        let wisp = |(held, _): &(Held, Bed)| Wisp::new(&held.given, WISP_SAMPLES, 0.0);
+        Arc::new(Carried::new(hairs, held.par_iter().map(wisp).collect()))
+    });
+    let hairs = Arc::new(Mutex::new(Some(drawn.into())));
+    Planting { of: Planting::key(spec, head), area, roots, hairs, carried }
+}
+
+/// Samples along guides as the groom has them.
+const WISP_SAMPLES: usize = 128;
+
+/// Most points that hairs are drawn with because the groom's have as many, on one hair and on all.
+const MOST_POINTS: (usize, usize) = (256, 20_000_000);
+
+/// The number of points that strands of a groom have, in the median, as far as memory allows.
+fn usual_points(hairs: &Strands) -> usize {
+    let mut counts: Vec<usize> = hairs.iter().map(|hair| hair.points.len()).collect();
+    let half = counts.len() / 2;
+    let usual = *counts.select_nth_unstable(half).1;
+    usual.min(MOST_POINTS.0).min(MOST_POINTS.1 / hairs.len()).max(2)
 }
 
 /// Points of the scalp that tell where the groom grows.
@@ -237,22 +260,4 @@ fn apart(line: &[DVec3], rest: &frisure_rod::Equilibrium) -> f64 {
         largest = largest.max(rest.at(&chain, s / length).0.distance(*p));
     }
     largest
-}
-
-impl Planting {
-    /// Roots of another program; they are what they are until the spec is another.
-    fn adopted(
-        spec: &HairstyleSpec,
-        head: &Head,
-        area: f64,
-        roots: Vec<Root>,
-        hairs: Vec<Root>,
-    ) -> Self {
-        Self {
-            of: Self::key(spec, head),
-            area,
-            roots,
-            hairs: Arc::new(Mutex::new(Some(hairs.into()))),
-        }
-    }
 }

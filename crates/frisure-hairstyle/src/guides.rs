@@ -15,6 +15,7 @@ use crate::pull::Pull;
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
 use crate::spec::{Hairline, HairstyleSpec};
+use crate::strands::Carried;
 
 /// A guide before it has come to rest.
 #[derive(Clone, Debug)]
@@ -74,6 +75,8 @@ pub(crate) struct Planting {
     pub(crate) roots: Vec<Root>,
     /// Where drawn hairs are rooted, once that has been asked for; shared by all clones.
     pub(crate) hairs: Arc<Mutex<Option<Arc<[Root]>>>>,
+    /// Hairs that have shapes of their own.
+    pub(crate) carried: Option<Arc<Carried>>,
 }
 
 impl Planting {
@@ -87,7 +90,7 @@ impl Planting {
             return Err(Crowded { count, area, most }.into());
         }
         let roots = scalp.even(count, spec.seed, Purpose::GuideRoots);
-        Ok(Self { of: Self::key(spec, head), area, roots, hairs: Arc::default() })
+        Ok(Self { of: Self::key(spec, head), area, roots, hairs: Arc::default(), carried: None })
     }
 
     /// Weighted area of the scalp (m²).
@@ -118,6 +121,13 @@ impl Planting {
             Some(roots) if roots.len() == count => roots.clone(),
             _ => known.insert(compute()).clone(),
         }
+    }
+
+    /// Hairs that have shapes of their own, as long as the description is that which they were made for.
+    pub(crate) fn carried(&self, spec: &HairstyleSpec, head: &Head) -> Option<&Carried> {
+        let carried = self.carried.as_deref();
+        let fits = |c: &&Carried| c.len() == spec.wisps.hair_count(self.area);
+        carried.filter(fits).filter(|_| self.of == Self::key(spec, head))
     }
 
     /// Where guides are rooted.

@@ -79,3 +79,45 @@ fn what_is_no_groom_is_refused() {
     groom.push(&[glam::Vec3::Z; 4], &[1e-5; 4]);
     assert!(adopt(&spec, &head, &groom, &Strands::new(), &()).is_err());
 }
+
+/// Largest distance (m) of a strand's points from a line.
+fn off(points: &[glam::Vec3], line: &[glam::Vec3]) -> f32 {
+    let near = |p: &glam::Vec3| {
+        let to = |pair: &[glam::Vec3]| {
+            let (a, along) = (pair[0], pair[1] - pair[0]);
+            let t = ((*p - a).dot(along) / along.length_squared().max(1e-20)).clamp(0.0, 1.0);
+            (a + along * t).distance(*p)
+        };
+        line.windows(2).map(to).fold(f32::INFINITY, f32::min)
+    };
+    points.iter().map(near).fold(0.0, f32::max)
+}
+
+/// Every hair is where the groom has it, not only the guides.
+#[test]
+fn hairs_keep_their_own_shapes() {
+    let head = Head::mannequin();
+    for name in ["caucasian-straight", "caucasian-curly"] {
+        let spec = spec(name);
+        let predicted = predict(&spec, &head, &()).unwrap();
+        let (guides, hairs) =
+            (predicted.guide_strands(120), predicted.strands(&head, &()).unwrap());
+        let (hairstyle, adoption) = adopt(&spec, &head, &guides, &hairs, &()).unwrap();
+        let drawn = hairstyle.strands(&head, &()).unwrap();
+        assert_eq!(drawn.len(), hairs.len());
+        let mut apart: Vec<f32> = (0..hairs.len())
+            .map(|i| off(&drawn.strand(i).points[1..], hairs.strand(i).points))
+            .collect();
+        apart.sort_by(f32::total_cmp);
+        let held = adoption.distances.iter().filter(|d| **d < 5e-4).count() * apart.len() / GUIDES;
+        // Some hairs are carried by one guide that was held and one that was not.
+        assert!(apart[held * 8 / 10] < 1e-3, "{name}: {:?}", &apart[held * 7 / 10..]);
+        assert!(apart[apart.len() / 2] < 4e-4, "{name}: {}", apart[apart.len() / 2]);
+
+        let wet = hairstyle.styled(&head, &Operation::Wet(Wet::default()), &()).unwrap();
+        let wet = wet.strands(&head, &()).unwrap();
+        let low =
+            |strands: &Strands| strands.iter().map(|s| s.points[s.points.len() - 1].z).sum::<f32>();
+        assert!(low(&wet) < low(&drawn), "{name}: wet hair hangs lower");
+    }
+}

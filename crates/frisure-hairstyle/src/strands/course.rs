@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::carried::{Carried, Own};
 use super::population::Population;
 use crate::implantation::smooth;
 use crate::random::Stream;
@@ -64,6 +65,8 @@ pub(super) struct Course<'a> {
     /// Factor on how far it is from its guides, for hair that would be stretched by going round them
     /// that far out.
     pub(super) narrow: f64,
+    /// Its own shape, if it is a groom's.
+    pub(super) own: Option<Own>,
 }
 
 impl Course<'_> {
@@ -76,6 +79,9 @@ impl Course<'_> {
 impl Population<'_> {
     /// Point of a hair at `x` of its guides' length.
     pub(super) fn followed_point(&self, course: &Course<'_>, x: f64) -> DVec3 {
+        if let (Some(own), Some(carried)) = (&course.own, self.carried) {
+            return self.carried_point(course, own, carried, x);
+        }
         let Course { root, followed, character, split, length, planned, uncut, narrow, .. } =
             course;
         let along = x * length;
@@ -98,6 +104,30 @@ impl Population<'_> {
                 (centre + turn * place * (drawn_in * self.narrowing(g, along, gathered))) * weight;
         }
         carried
+    }
+
+    /// The same, of a hair of a groom.
+    ///
+    /// What a hair is away from a guide is known as far as the guide was and still is; from there on it goes
+    /// straight on. What has grown since stays as far away as the tip is.
+    fn carried_point(&self, course: &Course<'_>, own: &Own, carried: &Carried, x: f64) -> DVec3 {
+        let dry = x / course.end.max(1e-12) * course.dry;
+        let (s, grown) = (dry.min(own.length()), (dry - own.length()).max(0.0));
+        let at = own.at(s);
+        let along = x * course.length;
+        let narrow =
+            1.0 + (course.narrow - 1.0) * smooth(0.0, DRAWN_IN.min(0.5 * course.length), along);
+        let mut point = DVec3::ZERO;
+        for &(g, weight) in &course.followed {
+            let (now, before) = (&self.wisps[g], &carried.wisps[g]);
+            // Lengths (m) of dry hair.
+            let length = self.states[g].length;
+            let known = before.length.min(now.end() * length);
+            let (old, turned) = before.at(s.min(known) / before.length);
+            let (new, turn) = now.at((s.min(known) + grown) / length);
+            point += (new + turn * (turned.inverse() * (at - old)) * narrow) * weight;
+        }
+        point
     }
 
     /// Width of a wisp at arc length `s` (m), as a fraction of its patch of skin.

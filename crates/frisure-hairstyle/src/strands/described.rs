@@ -18,7 +18,7 @@ pub(crate) fn describe_hairs(strands: &mut Strands, hairstyle: &Hairstyle, head:
     let marks = head.landmarks();
     let roots = roots(hairstyle, head, 1);
     let followed: Vec<([u32; 3], [f32; 3])> =
-        roots.par_iter().map(|(_, root)| most(&population.followed(root))).collect();
+        (roots.par_iter()).map(|(index, root)| most(&population.followed(root, *index))).collect();
     let (closest, weights) = followed.into_iter().unzip();
     let group = |p: DVec3| group(marks.region(p));
     let ids = roots.iter().map(|(index, _)| *index as u32).collect();

@@ -6,6 +6,7 @@
 //! ones, neighbouring wisps blend where hair is a smooth mass, every hair is rooted in the skin where
 //! its root is, and hairs that would lie in the body are laid on it, in the order in which they lay.
 
+mod carried;
 mod course;
 mod described;
 mod population;
@@ -22,6 +23,7 @@ use crate::implantation::smooth;
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::HairstyleSpec;
 
+pub(crate) use carried::Carried;
 pub(crate) use described::{add_natural_strains, describe_hairs, described_guides};
 use population::Hair;
 pub(crate) use population::{Population, roots};

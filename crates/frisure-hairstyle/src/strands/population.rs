@@ -4,8 +4,9 @@ use frisure_rod::Equilibrium;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::carried::Carried;
 use super::course::{Character, Course};
-use super::skin::{Free, PRESSED};
+use super::skin::{Free, LAID, PRESSED};
 use crate::crossing::first_positive;
 use crate::grid::Grid;
 use crate::guides::Guide;
@@ -49,6 +50,8 @@ pub(crate) struct Population<'a> {
     pub(super) spec: &'a HairstyleSpec,
     pub(super) head: &'a Head,
     layout: &'a Layout,
+    /// Hairs that have shapes of their own.
+    pub(super) carried: Option<&'a Carried>,
     rim: Rim,
     planned: &'a [Guide],
     pub(super) guides: &'a [Guide],
@@ -116,6 +119,7 @@ impl<'a> Population<'a> {
             spec,
             head,
             layout,
+            carried: hairstyle.planting.carried(spec, head),
             rim: Rim::new(head, head.edge(&spec.implantation.hairline, spec.seed), BABY_RIM),
             planned: styling.planned(),
             guides,
@@ -157,30 +161,39 @@ impl<'a> Population<'a> {
     /// Where a hair is at `x` of its guides' length.
     fn point(&self, course: &Course<'_>, x: f64, free: &mut Free) -> DVec3 {
         let p = self.followed_point(course, x);
-        self.laid_on_body(&course.root, p, x * course.length, course.main(), free)
+        // Hair of a groom lies as it lies; only what is in the body comes out.
+        let width = match course.own {
+            Some(_) => LAID,
+            None => {
+                (PRESSED * self.guides[course.main()].thickness.at(x * course.length)).max(LAID)
+            }
+        };
+        self.laid_on_body(&course.root, p, x * course.length, width, free)
     }
 
     fn course(&self, root: &Root, index: usize) -> Course<'_> {
         let mut random = Stream::new(self.spec.seed, Purpose::Hair, index);
-        let followed = self.followed(root);
+        let followed = self.followed(root, index);
+        let own = self.carried.map(|carried| carried.own(index));
         let main = followed[0].0;
         let mean = |of: &dyn Fn(usize) -> f64| followed.iter().map(|&(g, w)| w * of(g)).sum();
         let length: f64 = mean(&|g| self.wisps[g].length);
         let uncut: f64 = mean(&|g| self.states[g].uncut);
         let planned: f64 = mean(&|g| self.planned[g].rod.length());
         let character = Character::new(&self.spec.wisps, planned, self.spacing, &mut random);
-        let grown = match self.layout.length(self.head, root) {
+        let grown = match (&own, self.layout.length(self.head, root)) {
+            (Some(own), _) => own.length() + (uncut - planned),
             // Roots behind and before the guide's reach the same line.
-            Some(own) => (character.length.max(CUT) * own + (uncut - planned)).min(uncut),
-            None => character.length * uncut,
+            (_, Some(own)) => (character.length.max(CUT) * own + (uncut - planned)).min(uncut),
+            _ => character.length * uncut,
         };
-        let baby = self.baby(root, index);
+        let baby = if own.is_some() { None } else { self.baby(root, index) };
         let grown = baby.map_or(grown, |baby| baby.min(grown));
         let limit = self.limits.map_or(f64::INFINITY, |limits| f64::from(limits[index]));
         let (dry, cut) = (grown.min(limit), limit < grown);
         // Wet hair is longer than dry hair.
         let stretch = self.guides[main].rod.length() / self.states[main].length;
-        let known = self.wisps[main].end();
+        let known = if own.is_some() { f64::INFINITY } else { self.wisps[main].end() };
         Course {
             root: *root,
             split: self.split(main, root.position),
@@ -194,6 +207,7 @@ impl<'a> Population<'a> {
             cut,
             thickness: if baby.is_some() { THIN } else { 1.0 },
             narrow: 1.0,
+            own,
         }
     }
 
@@ -202,9 +216,12 @@ impl<'a> Population<'a> {
         &self.wisps[guide]
     }
 
-    /// The guide of a hair rooted somewhere.
-    pub(crate) fn main(&self, root: &Root) -> usize {
-        self.sorted(root, self.layout.direction(root))[0]
+    /// The guide of the hair of this index that is rooted somewhere.
+    pub(crate) fn main(&self, root: &Root, index: usize) -> usize {
+        match self.carried {
+            Some(carried) => carried.carriers(index)[0].0,
+            None => self.sorted(root, self.layout.direction(root))[0],
+        }
     }
 
     /// The length (m, of dry hair) that is left of a hair when it is cut where it first comes to
@@ -241,7 +258,10 @@ impl<'a> Population<'a> {
     }
 
     /// Guides that a hair follows, with weights that sum to one; the nearest first.
-    pub(super) fn followed(&self, root: &Root) -> Vec<(usize, f64)> {
+    pub(super) fn followed(&self, root: &Root, index: usize) -> Vec<(usize, f64)> {
+        if let Some(carried) = self.carried {
+            return carried.carriers(index).to_vec();
+        }
         let own = self.layout.direction(root);
         let near = self.sorted(root, own);
         let first = near[0];

@@ -15,6 +15,9 @@ const LEAST_DISTANCE: f64 = 4e-4;
 /// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
 pub(super) const PRESSED: f64 = 0.3;
 
+/// … at least (m) …
+pub(super) const LAID: f64 = 2e-5;
+
 /// … and how many of them farther out no hair is moved.
 const FREE: f64 = 6.0;
 
@@ -33,7 +36,8 @@ impl Free {
 }
 
 impl Population<'_> {
-    /// Moves a point at arc length `s` (m) that is in the body, or nearly, out of it.
+    /// Moves a point at arc length `s` (m) that is in the body, or within about `width` (m) of it, out of
+    /// it.
     ///
     /// What would lie at the depths of a wisp that is pressed on the skin comes to lie at
     /// `m + w ln(1 + exp((d − m)/w))`, d its distance before: in the same order, nothing in the skin,
@@ -43,7 +47,7 @@ impl Population<'_> {
         root: &Root,
         p: DVec3,
         s: f64,
-        guide: usize,
+        width: f64,
         free: &mut Free,
     ) -> DVec3 {
         if s <= 0.0 {
@@ -53,7 +57,6 @@ impl Population<'_> {
             return p;
         }
         let least = LEAST_DISTANCE * (s / 0.003).min(1.0);
-        let width = (PRESSED * self.guides[guide].thickness.at(s)).max(2e-5);
         let (distance, gradient) = self.head.signed_distance().value_gradient(p);
         let beyond = (distance - least) / width;
         if beyond > FREE {

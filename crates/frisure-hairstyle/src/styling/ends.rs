@@ -38,7 +38,7 @@ impl Ends {
             .map(|&(index, ref root)| {
                 let wisp = match before {
                     Some(ends) => ends.wisps[index],
-                    None => population.main(root) as u32,
+                    None => population.main(root, index) as u32,
                 };
                 let chosen = chosen[wisp as usize];
                 let left = || left(&population, root, index, wisp as usize).max(STUBBLE) as f32;
@@ -57,7 +57,7 @@ impl Ends {
     /// The same hairs where they follow other guides.
     pub(super) fn replanted(self, hairstyle: &Hairstyle, head: &Head) -> Self {
         let population = Population::new(hairstyle, head);
-        let wisp = |(_, root): &(usize, Root)| population.main(root) as u32;
+        let wisp = |(index, root): &(usize, Root)| population.main(root, *index) as u32;
         let wisps = roots(hairstyle, head, 1).par_iter().map(wisp).collect();
         Self { wisps, ..self }
     }

@@ -40,8 +40,8 @@ pub(super) struct File {
     /// The head that hair grows on; left out, the built-in mannequin.
     pub(super) head: Head,
     /// Hair from another program instead of predicted hair: its strands, or those that it calls guides, become guides with the
-    /// fibre of `[hair]`, so curled that they hang as they were modelled, and can be wetted, cut and grown. Length and curl
-    /// of `[hair]` count for nothing then.
+    /// fibre of `[hair]`, so curled that they hang as they were modelled, and can be wetted, cut and grown. They carry the other
+    /// strands. Length and curl of `[hair]` count for nothing then.
     pub(super) groom: Groom,
     /// How hair leaves the scalp.
     pub(super) implantation: Implantation,
@@ -238,7 +238,7 @@ pub(super) struct Groom {
     pub(super) up: Key<OneOf<Which<UpAxis>>>,
     /// Unit of the groom. Default that of the file or format.
     pub(super) unit: Key<OneOf<UnitWord>>,
-    /// How many of its strands become guides at most, evenly chosen; the others are drawn around them. 1 to 100000. Default 1000.
+    /// How many of its strands become guides at most, evenly chosen; these carry the others. 1 to 100000. Default 1000.
     #[schemars(range(min = 1, max = 100_000))]
     pub(super) guides: Key<Count>,
 }

@@ -34,6 +34,8 @@ pub struct Held {
     pub rod: Rod,
     /// Where it rests.
     pub rest: Equilibrium,
+    /// The given shape as one of the rod, at rest there or not.
+    pub given: Equilibrium,
     /// Largest distance (m) of a given point from where the rod rests, at the same part of its length.
     pub error: f64,
     /// Factor on the fibre's stiffness from which on the given shape would be stable; 1 where it is.
@@ -170,7 +172,7 @@ impl Fitted {
         // Stiffness makes the elastic part of the second variation greater, weight and contact stay: with
         // H x = λ M x, λ becomes 1 − (1 − λ) / factor.
         let stiffness_needed = if least > 0.0 { 1.0 } else { 1.0 - least };
-        Ok(Held { rod, rest, error, stiffness_needed })
+        Ok(Held { rod, rest, given: start, error, stiffness_needed })
     }
 }
 

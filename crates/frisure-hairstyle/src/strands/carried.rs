@@ -1,0 +1,139 @@
+//! Hairs of a groom that keep their own shapes: each is carried by the guides that are most like it.
+//!
+//! While guides are as the groom has them, each hair is where the groom has it, to the last point. When they
+//! move, what a hair is away from each guide moves and turns with that guide's axis, as everywhere in a wisp.
+
+use frisure_strands::Strands;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::grid::Grid;
+use crate::wisps::Wisp;
+
+/// Most guides that carry one hair, and among how many the nearest in the skin they are sought.
+const CARRIERS: usize = 3;
+const SOUGHT: usize = 24;
+
+/// Places along a hair at which it is compared with guides.
+const COMPARED: usize = 8;
+
+/// Distance (m) below which a guide is as good as the hair itself.
+const ALIKE: f64 = 5e-4;
+
+/// The hairs of a groom, with what is needed to carry them.
+#[derive(Debug)]
+pub(crate) struct Carried {
+    hairs: Strands,
+    /// Guides with weights that sum to one, the most alike first.
+    carriers: Vec<Vec<(usize, f64)>>,
+    /// The guides as the groom has them.
+    pub(super) wisps: Vec<Wisp>,
+}
+
+/// One hair of a groom, by arc length.
+pub(super) struct Own {
+    points: Vec<DVec3>,
+    /// Distance (m) from the root along the hair.
+    arcs: Vec<f64>,
+}
+
+impl Own {
+    fn new(points: impl Iterator<Item = DVec3>) -> Self {
+        let points: Vec<DVec3> = points.collect();
+        let mut s = 0.0;
+        let arc = |k: usize| {
+            s += if k > 0 { points[k - 1].distance(points[k]) } else { 0.0 };
+            s
+        };
+        let arcs = (0..points.len()).map(arc).collect();
+        Self { points, arcs }
+    }
+
+    /// Length along the hair (m).
+    pub(super) fn length(&self) -> f64 {
+        self.arcs.last().copied().unwrap_or(0.0)
+    }
+
+    /// The point at a distance from the root (m), straight between those of the groom.
+    pub(super) fn at(&self, s: f64) -> DVec3 {
+        let next = self.arcs.partition_point(|arc| *arc < s);
+        if next == 0 {
+            return self.points[0];
+        }
+        let Some(arc) = self.arcs.get(next) else { return self.points[next - 1] };
+        let before = self.arcs[next - 1];
+        self.points[next - 1].lerp(self.points[next], (s - before) / (arc - before).max(1e-12))
+    }
+}
+
+impl Carried {
+    /// The hairs of a groom, and its guides as it has them.
+    pub(crate) fn new(hairs: &Strands, wisps: Vec<Wisp>) -> Self {
+        let roots: Vec<DVec3> = wisps.iter().map(|wisp| wisp.at(0.0).0).collect();
+        let (low, high) =
+            roots.iter().fold((roots[0], roots[0]), |(l, h), p| (l.min(*p), h.max(*p)));
+        let spacing = ((high - low).length() / (roots.len() as f64).sqrt()).max(1e-3);
+        let grid = Grid::new(&roots, spacing);
+        let carriers = (0..hairs.len())
+            .into_par_iter()
+            .map(|hair| {
+                let own = Own::new(hairs.strand(hair).points.iter().map(|p| p.as_dvec3()));
+                carriers(&own, &grid.nearest(own.points[0], SOUGHT, &roots), &wisps)
+            })
+            .collect();
+        Self { hairs: hairs.clone(), carriers, wisps }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.hairs.len()
+    }
+
+    pub(super) fn own(&self, hair: usize) -> Own {
+        Own::new(self.hairs.strand(hair).points.iter().map(|p| p.as_dvec3()))
+    }
+
+    pub(super) fn carriers(&self, hair: usize) -> &[(usize, f64)] {
+        &self.carriers[hair]
+    }
+}
+
+/// Those of some guides that go most as a hair goes.
+fn carriers(own: &Own, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f64)> {
+    let apart = |guide: usize| {
+        let wisp = &wisps[guide];
+        let square = |k: usize| {
+            let s = own.length() * k as f64 / COMPARED as f64;
+            own.at(s).distance_squared(wisp.at(s / wisp.length).0)
+        };
+        let mean = (0..=COMPARED).map(square).sum::<f64>() / (COMPARED + 1) as f64;
+        (guide, mean + ALIKE * ALIKE)
+    };
+    let mut found: Vec<(usize, f64)> = near.iter().map(|&guide| apart(guide)).collect();
+    found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    found.truncate(CARRIERS);
+    let nearest = found[0].1;
+    for carrier in &mut found {
+        carrier.1 = (nearest / carrier.1).powi(2);
+    }
+    found.retain(|carrier| carrier.1 > 1e-2);
+    let sum: f64 = found.iter().map(|carrier| carrier.1).sum();
+    found.iter_mut().for_each(|carrier| carrier.1 /= sum);
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hair_by_arc_length() {
+        let points = [DVec3::ZERO, DVec3::X, DVec3::X, DVec3::new(1.0, 2.0, 0.0)];
+        let own = Own::new(points.into_iter());
+        assert_eq!(own.length(), 3.0);
+        assert_eq!(own.at(0.5), DVec3::new(0.5, 0.0, 0.0));
+        assert_eq!(own.at(1.0), DVec3::X);
+        assert_eq!(own.at(2.0), DVec3::new(1.0, 1.0, 0.0));
+        assert_eq!(own.at(9.0), points[3]);
+        assert_eq!(own.at(-1.0), points[0]);
+    }
+}
