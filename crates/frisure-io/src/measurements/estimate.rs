@@ -154,8 +154,8 @@ impl Estimate {
         if let Some(c) = &self.curvature {
             if of_fragments && c.mean < FRAGMENTS_TELL_FROM {
                 note(format!(
-                    "A curvature of {} is near what short fragments read where hair is straight (0.03 to \
-                     0.1 1/mm): the hair may be straighter than this.",
+                    "A curvature of {} is near what fragments of a few millimetres read where hair is \
+                     straight (0.03 to 0.1 1/mm): the hair may be straighter than this.",
                     per_millimetre(c.mean)
                 ));
             }

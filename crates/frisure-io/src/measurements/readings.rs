@@ -27,7 +27,7 @@ pub(super) struct Readings {
     numbers: BTreeMap<Property, Numbers>,
     /// What a person should know of how they were read.
     pub(super) notes: Vec<String>,
-    /// Whether curvature comes from windows of fibermorph.
+    /// Whether curvature was read as such, which is done on fragments.
     pub(super) of_fragments: bool,
 }
 
@@ -262,7 +262,7 @@ impl Layout {
                         () if sections && (name.is("min") || name.is("max")) => Some("um".into()),
                         () => None,
                     });
-                    of_fragments |= name.is("curv");
+                    of_fragments |= name.is("curv") || name.is("curvature");
                     let factor = factor(name.dimension, unit.as_deref()).map_err(|problem| {
                         let (path, column) = (table.path.clone(), table.headings[index].clone());
                         MeasurementError::Unit { path, column, problem }
