@@ -2,6 +2,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use frisure_rod::batch::{Batch, Precision};
 use frisure_rod::{
     ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
     TorsionConstant, equilibrium, equilibrium_from,
@@ -98,4 +99,20 @@ fn a_thousand_hairs_within_a_tenth_of_a_millimetre(bencher: Bencher<'_, '_>) {
         let tips = rods.par_iter().map(|rod| equilibrium(rod, &[], &options).tip());
         tips.collect::<Vec<_>>()
     });
+}
+
+/// On one thread; beside [`one_hair`] this is what lanes gain.
+#[divan::bench(args = [5, 15, 30, 60, 120, 240], sample_count = 10)]
+fn a_batch(bencher: Bencher<'_, '_>, elements: usize) {
+    let (rods, batch) = (many(4096), Batch { elements, ..Batch::default() });
+    let count = ItemsCount::new(rods.len());
+    bencher.counter(count).bench_local(|| batch.settle(divan::black_box(&rods)));
+}
+
+#[divan::bench(args = [5, 15, 30, 60, 120, 240], sample_count = 10)]
+fn a_batch_in_single_precision(bencher: Bencher<'_, '_>, elements: usize) {
+    let rods = many(4096);
+    let batch = Batch { elements, precision: Precision::Single, ..Batch::default() };
+    let count = ItemsCount::new(rods.len());
+    bencher.counter(count).bench_local(|| batch.settle(divan::black_box(&rods)));
 }

@@ -50,6 +50,7 @@
 //!   adds, such as contact. They are minimised by [`minimise::Riccati`], a Newton method in time
 //!   proportional to the number of elements.
 //! - [`Equilibrium`] is the shape, its energies, and a [`Certificate`].
+//! - [`batch`] brings thousands of rods to rest at once, side by side in the lanes of vectors.
 //! - [`inverse`] is the other way round: the fibre that rests in a given shape.
 //!
 //! SI units, z up, right-handed; frames are `[d1 d2 t]` in columns. Everything is deterministic: no
@@ -67,6 +68,7 @@
 //! - Beyond hair (Γ above 1e5, or dozens of turns with one stiffness many times the other) answers
 //!   take seconds instead of a millisecond. They still say what they are.
 
+pub mod batch;
 mod chain;
 mod element;
 mod equilibrium;

@@ -1,0 +1,89 @@
+//! A hair as a chain of joints, for one hair; what the sweeps then do is the same for all.
+//!
+//! An element is two pieces of the natural helix, A and B, and a joint between them (see
+//! [`crate::element`]). Weight alone sees nothing of a frame but ζ, which way up is in it. Between joints
+//! ζ turns by constant matrices C = B A⁺ (⁺: of the next element), so that the hair is ζ⁺ = Cᵀ y,
+//! y = exp(−\[c\]) ζ, and its energy Σ ½ cᵀ K c + y·a: all that hangs from a joint hangs in its frame from an
+//! arm a, to which what the next element's first piece bears belongs too.
+
+use glam::{DMat3, DVec3};
+
+use crate::Rod;
+use crate::element::helix_piece;
+
+/// A hair divided into joints.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Joints {
+    /// C after each joint but the last; one for all if they are alike.
+    pub(super) turns: Vec<DMat3>,
+    /// a (N m).
+    pub(super) arms: Vec<DVec3>,
+    /// ζ before the first joint.
+    pub(super) up: DVec3,
+    /// K (N m).
+    pub(super) stiffness: DVec3,
+    /// What no joint can change (J).
+    pub(super) constant: f64,
+}
+
+/// Half of an element.
+#[derive(Clone)]
+struct Piece {
+    turn: DMat3,
+    /// What it adds to the arm of the joint: how far (m) it goes, and the first moment (m²).
+    advance: DVec3,
+    moment: DVec3,
+}
+
+impl Piece {
+    fn of(strain: DVec3, half: f64) -> Self {
+        let (turn, advance, moment) = helix_piece(strain * half, half);
+        Self { turn, advance, moment }
+    }
+}
+
+impl Joints {
+    /// Divides a hair into `n` elements.
+    pub(super) fn divide(&mut self, rod: &Rod, n: usize) {
+        let h = rod.length() / n as f64;
+        let half = 0.5 * h;
+        let (natural, weight) = (rod.natural(), rod.weight());
+        let uniform = matches!(natural, crate::NaturalStrain::Uniform(_));
+        let piece = |k: usize| {
+            let from = k as f64 * half;
+            let strain = if uniform { natural.at(0.0) } else { natural.mean(from, from + half) };
+            Piece::of(strain, half)
+        };
+        self.turns.clear();
+        self.arms.clear();
+        self.stiffness = rod.stiffness() / h;
+        let (mut first, mut second) = (piece(0), piece(1));
+        self.up = (rod.root().frame() * first.turn).transpose() * DVec3::Z;
+        for i in 0..n {
+            // The weight (N) of all that hangs beyond the element.
+            let hanging = weight * h * (n - 1 - i) as f64;
+            let bears = first.advance * (hanging + weight * half) + first.moment * weight;
+            if i == 0 {
+                self.constant = (rod.root().frame() * bears).z;
+            } else if uniform {
+                self.arms[i - 1] += second.turn * bears;
+            }
+            self.arms.push(second.advance * hanging + second.moment * weight);
+            if i + 1 < n && (i == 0 || !uniform) {
+                let next = if uniform { first.clone() } else { piece(2 * i + 2) };
+                self.turns.push(second.turn * next.turn);
+                if !uniform {
+                    let hanging = hanging - weight * h;
+                    let bears = next.advance * (hanging + weight * half) + next.moment * weight;
+                    self.arms[i] += second.turn * bears;
+                    (first, second) = (next, piece(2 * i + 3));
+                }
+            }
+        }
+    }
+
+    /// C after a joint.
+    pub(super) fn turn(&self, joint: usize) -> &DMat3 {
+        if self.turns.len() == 1 { &self.turns[0] } else { &self.turns[joint] }
+    }
+}

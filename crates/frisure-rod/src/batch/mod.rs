@@ -1,0 +1,162 @@
+//! Many hairs at once, each its own rod in its own weight, side by side in the lanes of the processor's
+//! vectors.
+//!
+//! The elements are those of [`crate::ElementKind::Jointed`], the energy is exactly theirs, and so is the minimum;
+//! only the way there is another: straight from the natural shape, without following gravity. What does
+//! not come to rest, or to rest on a saddle, goes to [`crate::equilibrium()`].
+//!
+//! Which hairs share a vector changes nothing: lanes do not see each other. Vectors are as wide as the processor
+//! has them, with fused multiplication and addition where it has that; between processors with and without,
+//! the last digits differ.
+
+mod joints;
+mod lanes;
+mod settle;
+mod sweep;
+mod turn;
+
+use glam::DVec3;
+
+use crate::minimise::Stability;
+use crate::{Chain, ElementKind, Options, Resolution, Rod, Shape, equilibrium};
+use settle::{End, Rest};
+
+/// Which numbers the way to rest is computed with; the end is double precision always.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// 64 bits from the start.
+    #[default]
+    Double,
+    /// 32 bits until nothing gets better, twice as many hairs at once, then 64.
+    Single,
+}
+
+/// How many hairs are brought to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Batch {
+    /// Elements of each hair, at least 1.
+    pub elements: usize,
+    /// Gradient at rest, relative to [`Rod::moment_scale`].
+    pub tolerance: f64,
+    /// Most iterations of a hair before it goes to [`crate::equilibrium()`].
+    pub max_iterations: usize,
+    /// The numbers.
+    pub precision: Precision,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self { elements: 15, tolerance: 1e-8, max_iterations: 200, precision: Precision::default() }
+    }
+}
+
+/// One hair of a batch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settled {
+    /// What the shape is.
+    pub stability: Stability,
+    /// Relative gradient, in double precision.
+    pub gradient_norm: f64,
+    /// Iterations, of all kinds.
+    pub iterations: usize,
+    /// Elastic energy and that of the weight (J), as [`crate::Energy::total`].
+    pub energy: f64,
+}
+
+/// Hairs at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batched {
+    /// Elements of each hair.
+    pub elements: usize,
+    /// Turns of the joints (rad), those of a hair one after the other.
+    pub controls: Vec<DVec3>,
+    /// One for each hair.
+    pub hairs: Vec<Settled>,
+}
+
+/// Gradient at which single precision may stop.
+const SINGLE_TOLERANCE: f64 = 1e-4;
+
+/// Most iterations in single precision: what takes longer drowns in rounding.
+const SINGLE_ITERATIONS: usize = 60;
+
+impl Batch {
+    /// Brings hairs to rest in their own weight, on this thread.
+    ///
+    /// # Panics
+    /// If there are no elements.
+    #[must_use]
+    pub fn settle(&self, rods: &[Rod]) -> Batched {
+        self.settle_from(rods, vec![DVec3::ZERO; rods.len() * self.elements])
+    }
+
+    /// The same, from other shapes: the turn of each joint (rad), those of a hair one after the other. Zero is the
+    /// natural shape.
+    ///
+    /// # Panics
+    /// If there are no elements, or not as many turns as joints.
+    #[must_use]
+    pub fn settle_from(&self, rods: &[Rod], mut controls: Vec<DVec3>) -> Batched {
+        let n = self.elements;
+        assert!(n > 0, "a hair has at least one element");
+        assert_eq!(controls.len(), rods.len() * n, "one turn for each joint");
+        let mut ends = vec![End::default(); rods.len()];
+        let mut before = vec![0; rods.len()];
+        if self.precision == Precision::Single {
+            let tolerance = self.tolerance.max(SINGLE_TOLERANCE);
+            let rest = Rest { elements: n, tolerance, max_iterations: SINGLE_ITERATIONS };
+            settle::single(rods, rest, &mut controls, &mut ends);
+            before = ends.iter().map(|end| end.iterations).collect();
+        }
+        let (tolerance, max_iterations) = (self.tolerance, self.max_iterations);
+        let rest = Rest { elements: n, tolerance, max_iterations };
+        settle::double(rods, rest, &mut controls, &mut ends);
+        let hairs = (ends.iter().zip(&before).enumerate())
+            .map(|(hair, (end, before))| {
+                let mut settled = Settled {
+                    stability: Stability::Stable,
+                    gradient_norm: end.gradient,
+                    iterations: end.iterations + before,
+                    energy: end.energy,
+                };
+                if !end.settled {
+                    let alone = self.alone(&rods[hair], &mut controls[hair * n..(hair + 1) * n]);
+                    settled =
+                        Settled { iterations: settled.iterations + alone.iterations, ..alone };
+                }
+                settled
+            })
+            .collect();
+        Batched { elements: n, controls, hairs }
+    }
+
+    /// A hair by itself, along gravity's branch.
+    fn alone(&self, rod: &Rod, controls: &mut [DVec3]) -> Settled {
+        let options = Options {
+            resolution: Resolution::Elements(self.elements),
+            element: ElementKind::Jointed,
+            tolerance: self.tolerance,
+            estimate_error: false,
+            eigenvalue: false,
+            ..Options::default()
+        };
+        let rest = equilibrium(rod, &[], &options);
+        controls.copy_from_slice(&rest.shape.controls);
+        Settled {
+            stability: rest.certificate.stability,
+            gradient_norm: rest.certificate.gradient_norm,
+            iterations: rest.certificate.iterations,
+            energy: rest.energy.total(),
+        }
+    }
+}
+
+impl Batched {
+    /// The shape of a hair; `rod` is the one that it was computed of.
+    #[must_use]
+    pub fn shape(&self, rod: &Rod, hair: usize) -> Shape {
+        let n = self.elements;
+        let chain = Chain::uniform(rod, ElementKind::Jointed, n);
+        chain.shape(self.controls[hair * n..(hair + 1) * n].to_vec())
+    }
+}

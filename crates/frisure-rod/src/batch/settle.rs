@@ -1,0 +1,203 @@
+//! Hair after hair through the lanes: one that has come to rest makes room for the next.
+
+use fearless_simd::{Level, Simd, SimdFrom, dispatch};
+use glam::DVec3;
+
+use super::joints::Joints;
+use super::lanes::{Lanes, Mat3, Vec3, Wide};
+use super::sweep::{Bundle, Joint};
+use super::turn::LARGEST_SQUARE;
+use crate::Rod;
+
+/// Damping after a first failed pivot or a step that went up, as a fraction of the stiffness; as in
+/// [`crate::minimise::Riccati`].
+const FIRST_DAMPING: f64 = 0.3;
+
+/// Damping from which on a hair is given up.
+const LARGEST_DAMPING: f64 = 1e9;
+
+/// Part of the expected decrease that a step has to reach.
+const ENOUGH: f64 = 1e-4;
+
+/// When a hair is at rest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest {
+    pub(super) elements: usize,
+    /// Relative gradient.
+    pub(super) tolerance: f64,
+    pub(super) max_iterations: usize,
+}
+
+/// How one hair ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct End {
+    /// Whether at a minimum.
+    pub(super) settled: bool,
+    /// Relative gradient.
+    pub(super) gradient: f64,
+    pub(super) iterations: usize,
+    /// Energy (J).
+    pub(super) energy: f64,
+}
+
+/// Brings hairs to rest in double precision, from the controls that are given; these become theirs at rest.
+pub(super) fn double(rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
+    dispatch!(Level::new(), simd => run(f64s(simd), rods, rest, controls, ends));
+}
+
+/// The same in single precision.
+pub(super) fn single(rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
+    dispatch!(Level::new(), simd => run(f32s(simd), rods, rest, controls, ends));
+}
+
+#[inline(always)]
+fn f64s<S: Simd>(simd: S) -> Wide<S, S::f64s> {
+    Wide::new(simd, S::f64s::simd_from(simd, 0.0))
+}
+
+#[inline(always)]
+fn f32s<S: Simd>(simd: S) -> Wide<S, S::f32s> {
+    Wide::new(simd, S::f32s::simd_from(simd, 0.0))
+}
+
+/// A lane and the hair that is in it.
+#[derive(Clone, Copy)]
+struct Lane {
+    /// None: it is empty.
+    hair: Option<usize>,
+    energy: f64,
+    constant: f64,
+    damping: f64,
+    /// The moment (N m) that gradients are measured against.
+    scale: f64,
+    iterations: usize,
+    /// Whether a step is being tried.
+    trying: bool,
+}
+
+const EMPTY: Lane = Lane {
+    hair: None,
+    energy: 0.0,
+    constant: 0.0,
+    damping: 0.0,
+    scale: 1.0,
+    iterations: 0,
+    trying: false,
+};
+
+/// Most lanes that any processor has.
+const MOST_LANES: usize = 16;
+
+#[inline(always)]
+fn run<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
+    let n = rest.elements;
+    let alike = rods.iter().all(|rod| matches!(rod.natural(), crate::NaturalStrain::Uniform(_)));
+    let turns = if alike { 1 } else { n };
+    let mut bundle = Bundle {
+        joints: vec![Joint::nothing(zero); n],
+        turns: vec![Mat3::all(zero); turns],
+        root: Vec3::all(zero),
+        stiffness: Vec3::all(zero.all(1.0)),
+    };
+    let mut lanes = [EMPTY; MOST_LANES];
+    let mut joints = Joints::default();
+    let mut next = 0;
+    let mut accepted = zero.truth(0);
+    loop {
+        for (index, lane) in lanes[..F::COUNT].iter_mut().enumerate() {
+            if lane.hair.is_none() && next < rods.len() {
+                let start = &controls[next * n..(next + 1) * n];
+                joints.divide(&rods[next], n);
+                let energy = load(&mut bundle, index, &joints, start);
+                let scale = rods[next].moment_scale();
+                let constant = joints.constant;
+                *lane = Lane { hair: Some(next), energy, constant, scale, ..EMPTY };
+                next += 1;
+            }
+        }
+        if lanes[..F::COUNT].iter().all(|lane| lane.hair.is_none()) {
+            return;
+        }
+        let mut damping = zero;
+        for (index, lane) in lanes[..F::COUNT].iter().enumerate() {
+            damping.set(index, lane.damping);
+        }
+        let found = bundle.backward(accepted, damping);
+        for (index, lane) in lanes[..F::COUNT].iter_mut().enumerate() {
+            let Some(hair) = lane.hair else { continue };
+            let gradient = found.gradient.get(index).sqrt() / lane.scale;
+            let positive = found.pivot.get(index) > 0.0;
+            let at_rest = gradient <= rest.tolerance;
+            let settled = at_rest && lane.damping == 0.0 && positive;
+            let lost = !(found.turned.get(index) < LARGEST_SQUARE)
+                || lane.damping > LARGEST_DAMPING
+                || lane.iterations >= rest.max_iterations
+                || (at_rest && lane.damping == 0.0 && !positive);
+            lane.trying = false;
+            if settled || lost {
+                for (i, joint) in bundle.joints.iter().enumerate() {
+                    controls[hair * n + i] = joint.control.get(index);
+                }
+                let energy = lane.energy + lane.constant;
+                ends[hair] = End { settled, gradient, iterations: lane.iterations, energy };
+                lane.hair = None;
+            } else if at_rest {
+                // Only the undamped sweep tells what kind of rest it is.
+                lane.damping = 0.0;
+            } else if positive {
+                lane.trying = true;
+            } else {
+                lane.damping = FIRST_DAMPING.max(4.0 * lane.damping);
+            }
+        }
+        let energy = bundle.forward();
+        let mut bits = 0_u64;
+        for (index, lane) in lanes[..F::COUNT].iter_mut().enumerate() {
+            lane.iterations += 1;
+            if !lane.trying {
+                continue;
+            }
+            let (tried, expected) = (energy.get(index), found.decrease.get(index));
+            let noise = F::NOISE * lane.energy.abs().max(lane.constant.abs());
+            let lower = tried <= lane.energy - ENOUGH * expected
+                || (expected < noise && tried <= lane.energy + noise);
+            if lower {
+                bits |= 1 << index;
+                lane.energy = tried;
+                lane.damping = if lane.damping < 0.05 { 0.0 } else { 0.2 * lane.damping };
+            } else {
+                lane.damping = FIRST_DAMPING.max(4.0 * lane.damping);
+            }
+        }
+        accepted = zero.truth(bits);
+    }
+}
+
+/// Puts a hair into a lane, its joints turned as given, and tells its energy (J) but for the constant.
+#[inline(always)]
+fn load<F: Lanes>(bundle: &mut Bundle<F>, lane: usize, joints: &Joints, start: &[DVec3]) -> f64 {
+    bundle.root.set(lane, joints.up);
+    bundle.stiffness.set(lane, joints.stiffness);
+    let mut up = joints.up;
+    let mut energy = 0.0;
+    let last = start.len() - 1;
+    for (i, turn) in bundle.turns.iter_mut().enumerate() {
+        if i < last {
+            turn.set(lane, joints.turn(i));
+        }
+    }
+    for (i, control) in start.iter().enumerate() {
+        if *control != DVec3::ZERO {
+            up = glam::DQuat::from_scaled_axis(-*control) * up;
+        }
+        let joint = &mut bundle.joints[i];
+        joint.arm.set(lane, joints.arms[i]);
+        joint.control.set(lane, *control);
+        joint.up.set(lane, up);
+        energy += 0.5 * control.dot(joints.stiffness * *control) + joints.arms[i].dot(up);
+        if i < last {
+            up = joints.turn(i).transpose() * up;
+        }
+    }
+    energy
+}

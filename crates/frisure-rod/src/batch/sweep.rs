@@ -1,0 +1,203 @@
+//! Newton's sweeps over the joints of many hairs: backward for the laws, forward to apply them.
+//!
+//! The exact second-order model of the energy of all that hangs from a joint, as a function of which way up
+//! is there, is carried from tip to root with the turns of the joints eliminated (differential dynamic
+//! programming, as in [`crate::minimise::Riccati`]). A turn ε of up, `y → exp(−[ε]) y`, changes the energy by
+//! `g·ε + ½ εᵀ P ε`. With a joint's turn `c + x` and up turned by θ after it,
+//!
+//! ```text
+//! ε = J x + ½ x·D x + θ − ½ (J x) × θ + …
+//! ```
+//!
+//! so that x is eliminated by the 3×3 block `H = K + Jᵀ P J + D(g)` and `M = Jᵀ (P + ½ [g]×)`.
+
+use super::lanes::{Lanes, Mat3, Sym3, Vec3};
+use super::turn::Table;
+
+/// One joint of each hair.
+#[derive(Clone, Copy)]
+pub(super) struct Joint<F> {
+    /// a (N m).
+    pub(super) arm: Vec3<F>,
+    /// Its turn c (rad), and which way up is after it.
+    pub(super) control: Vec3<F>,
+    pub(super) up: Vec3<F>,
+    /// The same after the step that is being tried.
+    pub(super) trial: Vec3<F>,
+    pub(super) trial_up: Vec3<F>,
+    /// What the step is, and how it answers to up having turned: `−(step + gain θ)`.
+    step: Vec3<F>,
+    gain: Mat3<F>,
+    /// `exp([c]×)`.
+    rotation: Mat3<F>,
+}
+
+/// So many hairs side by side, divided into as many joints each.
+pub(super) struct Bundle<F> {
+    pub(super) joints: Vec<Joint<F>>,
+    /// C after each joint; one for all if those of each hair are alike.
+    pub(super) turns: Vec<Mat3<F>>,
+    /// ζ before the first joint.
+    pub(super) root: Vec3<F>,
+    /// K (N m).
+    pub(super) stiffness: Vec3<F>,
+}
+
+/// What a backward sweep finds of each hair.
+pub(super) struct Backward<F> {
+    /// Square of the largest derivative of the energy by a joint's turn (N² m²).
+    pub(super) gradient: F,
+    /// What the quadratic model loses by the whole step (J).
+    pub(super) decrease: F,
+    /// The least pivot of the eliminations, against the diagonal that it comes from: positive where the second
+    /// variation is.
+    pub(super) pivot: F,
+    /// Square of the largest turn of a joint (rad²).
+    pub(super) turned: F,
+}
+
+/// A pivot this small against its diagonal is zero but for rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Largest change of a joint's turn in one step (rad).
+const LARGEST_TURN: f64 = 1.0;
+
+impl<F: Lanes> Joint<F> {
+    pub(super) fn nothing(zero: F) -> Self {
+        let (v, m) = (Vec3::all(zero), Mat3::all(zero));
+        Self { arm: v, control: v, up: v, trial: v, trial_up: v, step: v, gain: m, rotation: m }
+    }
+}
+
+impl<F: Lanes> Bundle<F> {
+    /// C after a joint.
+    #[inline(always)]
+    fn turn(&self, joint: usize) -> &Mat3<F> {
+        if self.turns.len() == 1 { &self.turns[0] } else { &self.turns[joint] }
+    }
+
+    /// Takes over the trial where `accepted`, and finds the next step with stiffness `1 + damping` times as
+    /// great.
+    #[inline(always)]
+    pub(super) fn backward(&mut self, accepted: F::Truth, damping: F) -> Backward<F> {
+        let zero = damping.all(0.0);
+        let one = damping.all(1.0);
+        let half = damping.all(0.5);
+        let stiffness = self.stiffness;
+        let damped = stiffness.scaled(one + damping);
+        let mut found = Backward { gradient: zero, decrease: zero, pivot: one, turned: zero };
+        let mut hessian = Sym3::all(zero);
+        // Of the model, and of the energy itself with no joint moved.
+        let (mut slope, mut pure) = (Vec3::all(zero), Vec3::all(zero));
+        for i in (0..self.joints.len()).rev() {
+            let joint = &mut self.joints[i];
+            let c = Vec3::choose(accepted, joint.trial, joint.control);
+            let up = Vec3::choose(accepted, joint.trial_up, joint.up);
+            (joint.control, joint.up) = (c, up);
+            let arm = joint.arm;
+            let pull = arm.cross(up);
+            let (g, h) = (slope.plus(pull), pure.plus(pull));
+            let p = hessian.plus_outer(arm.scaled(half), up).plus_diagonal(Vec3::all(-arm.dot(up)));
+
+            let table = Table::of(c);
+            let rotation = table.rotation(c);
+            let j = table.jacobian(c);
+            let bent = stiffness.each(c);
+            let residue = j.transposed_times(g).plus(bent);
+            let exact = j.transposed_times(h).plus(bent);
+            found.gradient = found.gradient.largest(exact.dot(exact));
+            found.turned = found.turned.largest(c.dot(c));
+
+            // Columns of J after P, and rows of M.
+            let (px, py, pz) = (p.times(j.x), p.times(j.y), p.times(j.z));
+            let row = |pj: Vec3<F>, j: Vec3<F>| g.cross(j).scaled_plus(-half, pj);
+            let (mx, my, mz) = (row(px, j.x), row(py, j.y), row(pz, j.z));
+            let block = Sym3 {
+                xx: j.x.dot(px),
+                xy: j.x.dot(py),
+                xz: j.x.dot(pz),
+                yy: j.y.dot(py),
+                yz: j.y.dot(pz),
+                zz: j.z.dot(pz),
+            };
+            let block = table.add_second(c, g, block.plus_diagonal(damped));
+
+            // L D Lᵀ of the block, and what it makes of the residue and the rows.
+            let small = one.all(ROUNDING);
+            let inverse = |d: F| one / d;
+            let d1 = inverse(block.xx);
+            let (l21, l31) = (block.xy * d1, block.xz * d1);
+            let second = (-l21).times_plus(block.xy, block.yy);
+            let e = (-l31).times_plus(block.xy, block.yz);
+            let d2 = inverse(second);
+            let l32 = e * d2;
+            let third = (-l32).times_plus(e, (-l31).times_plus(block.xz, block.zz));
+            let d3 = inverse(third);
+            // A diagonal that is not positive makes its quotient so, whatever its sign.
+            let least = |x: F, of: F| F::choose(zero.less(of), x / of, -one) - small;
+            let pivots = least(block.xx, block.xx)
+                .smallest(least(second, block.yy))
+                .smallest(least(third, block.zz));
+            found.pivot = found.pivot.smallest(pivots);
+
+            let (r1, m1) = (residue.x, mx);
+            let (r2, m2) = ((-l21).times_plus(r1, residue.y), m1.scaled_plus(-l21, my));
+            let r3 = (-l32).times_plus(r2, (-l31).times_plus(r1, residue.z));
+            let m3 = m2.scaled_plus(-l32, m1.scaled_plus(-l31, mz));
+            let (q1, q2, q3) = (r1 * d1, r2 * d2, r3 * d3);
+            let lost = r1.times_plus(q1, r2.times_plus(q2, r3 * q3));
+            found.decrease = half.times_plus(lost, found.decrease);
+
+            let z = q3;
+            let y = (-l32).times_plus(z, q2);
+            let x = (-l21).times_plus(y, (-l31).times_plus(z, q1));
+            joint.step = Vec3::new(x, y, z);
+            let gz = m3.scaled(d3);
+            let gy = gz.scaled_plus(-l32, m2.scaled(d2));
+            let gx = gy.scaled_plus(-l21, gz.scaled_plus(-l31, m1.scaled(d1)));
+            // By rows; its transpose is applied.
+            joint.gain = Mat3 { x: gx, y: gy, z: gz };
+            joint.rotation = rotation;
+
+            if i == 0 {
+                break;
+            }
+            let slope_before = m3.scaled_plus(-q3, m2.scaled_plus(-q2, m1.scaled_plus(-q1, g)));
+            let hessian_before = p.minus_square(d1, m1).minus_square(d2, m2).minus_square(d3, m3);
+            let back = self.turn(i - 1).product(rotation);
+            slope = back.times(slope_before);
+            pure = back.times(h);
+            hessian = back.turned(hessian_before);
+        }
+        found
+    }
+
+    /// Tries the step, and gives the energy there (J), but for what no joint can change.
+    #[inline(always)]
+    pub(super) fn forward(&mut self) -> F {
+        let one = self.root.x.all(1.0);
+        let most = one.all(LARGEST_TURN);
+        let half = one.all(0.5);
+        let mut energy = one.all(0.0);
+        let mut before = self.root;
+        let last = self.joints.len() - 1;
+        for i in 0..=last {
+            let joint = &mut self.joints[i];
+            let seen = joint.rotation.transposed_times(before);
+            let turned = seen.cross(joint.up);
+            let answer = joint.gain.transposed_times(turned).plus(joint.step);
+            let square = answer.dot(answer);
+            let shortened = F::choose((most * most).less(square), most / square.root(), one);
+            let c = answer.scaled_plus(-shortened, joint.control);
+            let table = Table::of(c);
+            let up = table.back(c, before);
+            let elastic = c.dot(self.stiffness.each(c));
+            energy = half.times_plus(elastic, energy) + joint.arm.dot(up);
+            (joint.trial, joint.trial_up) = (c, up);
+            if i < last {
+                before = self.turn(i).transposed_times(up);
+            }
+        }
+        energy
+    }
+}
