@@ -13,10 +13,13 @@ pub(super) trait Scalar: Copy + Send + Sync + 'static {
     fn wide(self) -> f64;
     /// Relative error of an energy.
     const NOISE: f64;
+    /// Terms of a series of 1/k! that count.
+    const TERMS: usize;
 }
 
 impl Scalar for f64 {
     const NOISE: f64 = 1e-14;
+    const TERMS: usize = 13;
 
     #[inline(always)]
     fn of(x: f64) -> Self {
@@ -31,6 +34,7 @@ impl Scalar for f64 {
 
 impl Scalar for f32 {
     const NOISE: f64 = 1e-6;
+    const TERMS: usize = 8;
 
     #[inline(always)]
     fn of(x: f64) -> Self {
@@ -59,6 +63,8 @@ pub(super) trait Lanes:
     const COUNT: usize;
     /// Relative error of an energy.
     const NOISE: f64;
+    /// Terms that the series of [`super::turn`] need.
+    const TERMS: usize;
 
     /// The same number for all.
     fn all(self, x: f64) -> Self;
@@ -67,6 +73,7 @@ pub(super) trait Lanes:
     fn root(self) -> Self;
     fn less(self, other: Self) -> Self::Truth;
     fn choose(truth: Self::Truth, yes: Self, no: Self) -> Self;
+    fn any(truth: Self::Truth) -> bool;
     /// One truth per bit.
     fn truth(self, bits: u64) -> Self::Truth;
     fn largest(self, other: Self) -> Self;
@@ -149,6 +156,7 @@ where
 
     const COUNT: usize = V::LEN;
     const NOISE: f64 = Element::<S, V>::NOISE;
+    const TERMS: usize = Element::<S, V>::TERMS;
 
     #[inline(always)]
     fn all(self, x: f64) -> Self {
@@ -173,6 +181,11 @@ where
     #[inline(always)]
     fn choose(truth: V::Mask, yes: Self, no: Self) -> Self {
         yes.with(truth.select(yes.v, no.v))
+    }
+
+    #[inline(always)]
+    fn any(truth: V::Mask) -> bool {
+        truth.any_true()
     }
 
     #[inline(always)]

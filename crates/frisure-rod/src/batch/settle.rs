@@ -8,6 +8,7 @@ use super::lanes::{Lanes, Mat3, Vec3, Wide};
 use super::sweep::{Bundle, Joint};
 use super::turn::LARGEST_SQUARE;
 use crate::Rod;
+use crate::stumpff::stumpff;
 
 /// Damping after a first failed pivot or a step that went up, as a fraction of the stiffness; as in
 /// [`crate::minimise::Riccati`].
@@ -188,7 +189,9 @@ fn load<F: Lanes>(bundle: &mut Bundle<F>, lane: usize, joints: &Joints, start: &
     }
     for (i, control) in start.iter().enumerate() {
         if *control != DVec3::ZERO {
-            up = glam::DQuat::from_scaled_axis(-*control) * up;
+            let table = stumpff(control.length_squared());
+            let once = control.cross(up);
+            up += control.cross(once) * table[2] - once * table[1];
         }
         let joint = &mut bundle.joints[i];
         joint.arm.set(lane, joints.arms[i]);

@@ -49,8 +49,7 @@ pub(super) struct Backward<F> {
     pub(super) gradient: F,
     /// What the quadratic model loses by the whole step (J).
     pub(super) decrease: F,
-    /// The least pivot of the eliminations, against the diagonal that it comes from: positive where the second
-    /// variation is.
+    /// The least pivot of the eliminations (N m), but for rounding: positive where the second variation is.
     pub(super) pivot: F,
     /// Square of the largest turn of a joint (rad²).
     pub(super) turned: F,
@@ -133,11 +132,9 @@ impl<F: Lanes> Bundle<F> {
             let l32 = e * d2;
             let third = (-l32).times_plus(e, (-l31).times_plus(block.xz, block.zz));
             let d3 = inverse(third);
-            // A diagonal that is not positive makes its quotient so, whatever its sign.
-            let least = |x: F, of: F| F::choose(zero.less(of), x / of, -one) - small;
-            let pivots = least(block.xx, block.xx)
-                .smallest(least(second, block.yy))
-                .smallest(least(third, block.zz));
+            let beyond = |pivot: F, of: F| small.times_plus(-of, pivot);
+            let pivots =
+                block.xx.smallest(beyond(second, block.yy)).smallest(beyond(third, block.zz));
             found.pivot = found.pivot.smallest(pivots);
 
             let (r1, m1) = (residue.x, mx);
@@ -187,8 +184,12 @@ impl<F: Lanes> Bundle<F> {
             let turned = seen.cross(joint.up);
             let answer = joint.gain.transposed_times(turned).plus(joint.step);
             let square = answer.dot(answer);
-            let shortened = F::choose((most * most).less(square), most / square.root(), one);
-            let c = answer.scaled_plus(-shortened, joint.control);
+            let long = (most * most).less(square);
+            let answer = match F::any(long) {
+                true => answer.scaled(F::choose(long, most / square.root(), one)),
+                false => answer,
+            };
+            let c = answer.scaled_plus(-one, joint.control);
             let table = Table::of(c);
             let up = table.back(c, before);
             let elastic = c.dot(self.stiffness.each(c));

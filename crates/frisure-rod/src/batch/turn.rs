@@ -44,8 +44,9 @@ impl<F: Lanes> Table<F> {
     pub(super) fn of(c: Vec3<F>) -> Self {
         let square = c.dot(c);
         let down = -square;
-        let (mut c4, mut c5) = (square.all(SERIES[TERMS - 1].0), square.all(SERIES[TERMS - 1].1));
-        for &(even, odd) in SERIES[..TERMS - 1].iter().rev() {
+        let last = SERIES[F::TERMS - 1];
+        let (mut c4, mut c5) = (square.all(last.0), square.all(last.1));
+        for &(even, odd) in SERIES[..F::TERMS - 1].iter().rev() {
             c4 = down.times_plus(c4, square.all(even));
             c5 = down.times_plus(c5, square.all(odd));
         }
