@@ -2,11 +2,12 @@
 
 mod common;
 
-use common::elements;
+use common::{Random, elements, reference_cases, straight};
 use frisure_rod::batch::{Batch, Precision};
+use frisure_rod::minimise::Problem;
 use frisure_rod::{
-    ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant,
-    equilibrium,
+    Chain, ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability,
+    StrainProfile, TorsionConstant, equilibrium,
 };
 use glam::DVec3;
 
@@ -56,4 +57,86 @@ fn a_batch_finds_what_each_hair_finds_alone() {
         }
         assert!(elsewhere <= 2, "{elsewhere} of 120 at another equilibrium ({precision:?})");
     }
+}
+
+/// Weight and stiffness of any size, natural strain of any kind: whatever a batch calls rest is one by the scalar
+/// code's own derivatives.
+#[test]
+fn rest_is_rest() {
+    let mut random = Random(7);
+    let mut rods: Vec<Rod> = (0..200).map(|_| Rod::new(random.hair()).unwrap()).collect();
+    // Natural strain that varies along the hair, in some of a batch of both.
+    for rod in rods.iter_mut().step_by(3) {
+        let (strain, length) = (rod.natural().at(0.0), rod.length());
+        let knots = vec![(0.0, strain), (0.4 * length, -0.5 * strain), (length, 1.5 * strain)];
+        let natural = NaturalStrain::Varying(StrainProfile::new(knots).unwrap());
+        *rod = Rod::new(RodSpec { natural, ..rod.spec().clone() }).unwrap();
+    }
+    for precision in [Precision::Double, Precision::Single] {
+        let batch = Batch { elements: 20, precision, ..Batch::default() };
+        let batched = batch.settle(&rods);
+        for (i, rod) in rods.iter().enumerate() {
+            let chain = Chain::uniform(rod, ElementKind::Jointed, 20);
+            let (problem, shape) = (Problem::new(&chain, &[]), batched.shape(rod, i));
+            assert_eq!(batched.hairs[i].stability, Stability::Stable, "{i}");
+            let gradient = problem.gradient_norm(&shape);
+            assert!(gradient < 2e-8, "{i}: {gradient}");
+            assert!(problem.min_eigenvalue(&shape) > -1e-9, "{i}");
+            let energy = problem.energy(&shape).total();
+            let told = batched.hairs[i].energy;
+            assert!((told - energy).abs() < 1e-9 * rod.moment_scale(), "{i}: {told} {energy}");
+        }
+    }
+}
+
+#[test]
+fn reference_equilibria() {
+    for case in reference_cases() {
+        let batch = Batch { elements: 240, tolerance: 1e-11, ..Batch::default() };
+        let batched = batch.settle(std::slice::from_ref(&case.rod));
+        let tip = batched.shape(&case.rod, 0).positions[240];
+        let alone = equilibrium(&case.rod, &[], &elements(240, ElementKind::Jointed)).tip();
+        let (error, gap) = (tip.distance(case.tip), tip.distance(alone));
+        let length = case.rod.length();
+        assert!(error < 1e-2 * length, "{}: {error}", case.name);
+        assert!(gap < 1e-7 * length, "{}: {gap}", case.name);
+    }
+}
+
+/// Hairs that share a vector do not see each other.
+#[test]
+fn neighbours_change_nothing() {
+    let rods = head(50);
+    for precision in [Precision::Double, Precision::Single] {
+        let batch = Batch { elements: 10, precision, ..Batch::default() };
+        let together = batch.settle(&rods);
+        for (i, rod) in rods.iter().enumerate() {
+            let alone = batch.settle(std::slice::from_ref(rod));
+            assert_eq!(alone.hairs[0], together.hairs[i]);
+            assert_eq!(alone.controls, together.controls[i * 10..(i + 1) * 10]);
+        }
+    }
+}
+
+#[test]
+fn saddles_and_limits() {
+    let mut rods: Vec<Rod> = [1e-6, 1.0, 30.0, 1e4]
+        .into_iter()
+        .flat_map(|gamma| [DVec3::Z, -DVec3::Z, DVec3::X].map(|t| straight(gamma, t)))
+        .collect();
+    // A planar curl in the plane of gravity, and hair without weight.
+    let planar = RodSpec {
+        natural: NaturalStrain::helix(0.01, 0.0).unwrap(),
+        root: Root::new(DVec3::ZERO, DVec3::Y, DVec3::Z, DVec3::X).unwrap(),
+        ..common::curl()
+    };
+    rods.push(Rod::new(planar.clone()).unwrap());
+    rods.push(Rod::new(RodSpec { gravity: 0.0, ..planar }).unwrap());
+    let batched = Batch { elements: 30, ..Batch::default() }.settle(&rods);
+    for (i, hair) in batched.hairs.iter().enumerate() {
+        assert_eq!(hair.stability, Stability::Stable, "{i}: {hair:?}");
+    }
+    assert!(Batch::default().settle(&[]).hairs.is_empty());
+    let one = Batch { elements: 1, ..Batch::default() }.settle(&rods);
+    assert!(one.hairs.iter().all(|hair| hair.stability == Stability::Stable));
 }
