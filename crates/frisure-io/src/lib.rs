@@ -8,6 +8,7 @@
 //! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
 //! | [`groom`] | `.hair`, `.obj`, `.ply`, `.usdc`, `.usda`, `.abc`, `.data`, `.npz` | the same, `.txt` and `.pbrt` for renderers, `.glb` |
 //! | [`measurements`] | tables of measured hair (`.csv`) | a scene of that hair |
+//! | [`contents`] | what a file is that somebody hands over: head, groom, or both | |
 //! | [`environment`] | `.hdr` and `.exr` pictures of surroundings | |
 //! | [`picture`] | | PNG |
 //! | [`report`] | | JSON |
@@ -16,6 +17,7 @@
 //! an interrupted program leaves the old file or the new one and never a half of it
 //! ([`files::write_atomically`]). The same input gives the same bytes.
 
+pub mod contents;
 pub mod environment;
 pub mod files;
 pub mod frame;

@@ -27,10 +27,10 @@ mod desktop {
     #[derive(Parser)]
     #[command(name = "frisure-salon", version, about)]
     struct Arguments {
-        /// A scene to open (.toml); without one the gallery is shown
-        scene: Option<PathBuf>,
+        /// A scene to open (.toml), a head or a groom, or several of them; without any the gallery is shown
+        files: Vec<PathBuf>,
         /// Begin with this hair of the gallery, such as `curly`
-        #[arg(long, value_name = "NAME", conflicts_with = "scene")]
+        #[arg(long, value_name = "NAME", conflicts_with = "files")]
         begin: Option<String>,
         /// Which graphics interface to draw with; by default the best there is
         #[arg(long, value_enum)]
@@ -194,11 +194,10 @@ mod desktop {
             samples: arguments.samples,
         };
         let mut app = App::new(cc, parts);
-        match (salon, &arguments.scene, &arguments.begin) {
-            (Some(salon), ..) => app.take_over(salon),
-            (None, Some(scene), _) => app.open(scene),
-            (None, None, Some(name)) => app.run(Command::Begin(name.clone())),
-            (None, None, None) => {}
+        match (salon, &arguments.begin) {
+            (Some(salon), _) => app.take_over(salon),
+            (None, Some(name)) => app.run(Command::Begin(name.clone())),
+            (None, None) => arguments.files.iter().for_each(|file| app.open(file)),
         }
         Ok(Box::new(Window { app, lost: lost.clone() }))
     }

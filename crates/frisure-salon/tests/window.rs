@@ -12,7 +12,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use frisure_salon::state::{Badge, Command, Document};
+use frisure_salon::state::{Badge, Command, Destination, Document};
 use frisure_salon::window::desktop::Desktop;
 use frisure_salon::window::outside::Given;
 use frisure_salon::window::{App, Parts};
@@ -335,8 +335,14 @@ fn broken_files_dropped_on_the_window_are_told() {
         let message = window.harness.state().salon().messages().last().cloned();
         assert!(message.as_ref().is_some_and(|m| m.is_error), "{name}: {message:?}");
     }
+    let told =
+        |app: &App| app.salon().messages().last().is_some_and(|m| m.text.contains("no-head"));
     let given = Given { path: None, name: "no-head.obj".into(), bytes: b"nonsense".to_vec() };
     window.harness.state_mut().take(given);
+    window.wait("what it is", told);
+    assert_eq!(window.text(), text);
+    let bytes = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec();
+    window.harness.state_mut().take(Given { path: None, name: "flat.obj".into(), bytes });
     window.wait("the refusal", |app| matches!(app.salon().badge(), Badge::Refused(_)));
     window.harness.state_mut().run(Command::Undo);
     window.settle();
@@ -372,6 +378,44 @@ fn a_window_that_was_killed_offers_its_work() {
     next.click("Take it up");
     next.settle();
     assert_eq!(next.text(), text);
+}
+
+#[test]
+fn a_groom_dropped_on_the_window_is_held_and_its_axis_can_be_said() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1280.0, 800.0], 1.0);
+    window.small("wavy");
+    let groom = window.folder.path().join("her-hair.npz");
+    window.harness.state_mut().run(Command::Export(Destination::Path(groom.clone())));
+    window.settle();
+    window.small("straight");
+    let straight = window.screen("test-before-groom");
+
+    window.key(Modifiers::COMMAND, Key::O);
+    window.write("File", &groom.display().to_string());
+    window.click("Open file");
+    window.wait("the groom", |app| app.salon().files().groom);
+    window.settle();
+    assert!(window.screen("test-groom") != straight);
+    let told = "strands stay within 1 mm";
+    let is_told = |app: &App| app.salon().messages().iter().any(|m| m.text.contains(told));
+    assert!(is_told(window.harness.state()));
+    assert!(window.harness.query_by_role_and_label(Role::Slider, "Curl radius").is_none());
+    assert!(window.harness.query_by_role_and_label(Role::Slider, "Diameter").is_some());
+
+    window.harness.get_by_role_and_label(Role::ComboBox, "Up in the groom").click();
+    window.steps(3);
+    window.click("y, the face along z");
+    window.wait("the refusal", |app| matches!(app.salon().badge(), Badge::Refused(_)));
+    window.steps(3);
+    window.screen("test-groom-axis");
+    window.click("Undo");
+    window.settle();
+    window.click("Use hair of its own");
+    window.settle();
+    assert!(!window.text().contains("her-hair"), "{}", window.text());
 }
 
 /// The pictures of `docs/salon.md`, with all hairs: only where somebody asks for them.

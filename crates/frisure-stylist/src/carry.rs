@@ -8,15 +8,18 @@ use frisure::hairstyle::{
 use frisure::io::files::Files;
 use frisure::io::scene::{Scene, SceneError};
 use frisure::strands::Strands;
+use glam::DVec3;
 
-/// The head of a scene.
+/// The head of a scene, and what had to be guessed of it, for people.
 ///
 /// # Errors
 /// [`SceneError`] at the key that names what cannot be used.
-pub fn head(scene: &Scene, files: &Files) -> Result<Head, SceneError> {
-    let Some(mesh) = scene.head_mesh_in(files)? else { return Ok(Head::mannequin()) };
+pub fn head(scene: &Scene, files: &Files) -> Result<(Head, Option<String>), SceneError> {
+    let Some(mesh) = scene.head_mesh_in(files)? else { return Ok((Head::mannequin(), None)) };
+    let note = scene.head_note(&mesh);
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
-    Head::from_surface(mesh.surface, scalp).map_err(|e| scene.fault("head.mesh", e.to_string(), ""))
+    let head = Head::from_surface(mesh.surface, scalp);
+    head.map(|head| (head, note)).map_err(|e| scene.fault("head.mesh", e.to_string(), ""))
 }
 
 /// What the hair of a scene begins with: what its `[hair]` predicts, or the groom that it names, and how well that
@@ -50,21 +53,35 @@ pub fn beginning(
 /// Distance (m) from the skin at which most strands of a groom are rooted at most.
 const ROOTED: f64 = 0.01;
 
+/// Distance (m) at which they are on this head and no other way up.
+const SURE: f64 = 1e-3;
+
+/// Part of a distance that is so much less that the other way up is meant.
+const NEARER: f64 = 0.25;
+
 /// Refuses a groom that is not on the head.
 fn check_rooted(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), SceneError> {
-    let distance = |strand: frisure::strands::Strand<'_>| {
-        head.signed_distance().value(strand.points[0].as_dvec3()).abs()
+    let roots: Vec<DVec3> = guides.iter().map(|strand| strand.points[0].as_dvec3()).collect();
+    let median = |turned: fn(DVec3) -> DVec3| {
+        let distance = |root: &DVec3| head.signed_distance().value(turned(*root)).abs();
+        let mut distances: Vec<f64> = roots.iter().map(distance).collect();
+        let half = distances.len() / 2;
+        *distances.select_nth_unstable_by(half, f64::total_cmp).1
     };
-    let mut distances: Vec<f64> = guides.iter().map(distance).collect();
-    let half = distances.len() / 2;
-    let median = *distances.select_nth_unstable_by(half, f64::total_cmp).1;
-    if median <= ROOTED {
+    let distance = median(|root| root);
+    // A head is so round that roots which were turned over may come to lie near its skin again.
+    let ways: [(&str, fn(DVec3) -> DVec3); 2] =
+        [("y", |p| DVec3::new(p.x, -p.z, p.y)), ("z", |p| DVec3::new(p.x, p.z, -p.y))];
+    let fits = |turned| median(turned) < NEARER * distance;
+    let other = ways.into_iter().find(|(_, turned)| distance > SURE && fits(*turned));
+    if distance <= ROOTED && other.is_none() {
         return Ok(());
     }
+    let possible = if distance > ROOTED { "; 1 cm is possible" } else { "" };
+    let other = other.map_or_else(String::new, |(up, _)| format!(", but with {up} up they fit"));
     let message = format!(
-        "half of the groom's strands are rooted more than {:.1} cm from the skin of the head; {:.0} cm are possible",
-        1e2 * median,
-        1e2 * ROOTED
+        "half of the groom's strands are rooted more than {:.1} cm from the skin of the head{possible}{other}",
+        1e2 * distance
     );
     let hint = "`unit` and `up` of `[groom]` say what it is in; `mesh` of `[head]` is the head that it was made on";
     Err(scene.fault("groom.file", message, hint))

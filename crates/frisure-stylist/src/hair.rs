@@ -15,6 +15,7 @@ use frisure::hairstyle::{
 use frisure::io::files::{Files, Stamp};
 use frisure::io::scene::{GroomFile, Scene};
 
+use crate::held::Held;
 use crate::refusal::Stop;
 use crate::{carry, order, shown};
 
@@ -62,6 +63,8 @@ struct Exact {
     /// The description it was asked for with, and the groom that it was made of.
     spec: HairstyleSpec,
     groom: Option<(GroomFile, Option<Stamp>)>,
+    /// How well that was held.
+    held: Option<Held>,
     history: History,
 }
 
@@ -101,6 +104,11 @@ impl Hair {
         Ok(last)
     }
 
+    /// How well the groom of a hairstyle that is known was held.
+    pub(crate) fn held(&self, wanted: &Wanted<'_>) -> Option<Held> {
+        self.place(wanted).and_then(|place| self.exact[place].held.clone())
+    }
+
     /// Where a description is remembered.
     fn place(&self, wanted: &Wanted<'_>) -> Option<usize> {
         self.exact.iter().position(|known| {
@@ -111,11 +119,15 @@ impl Hair {
     }
 
     fn predict(&mut self, wanted: &Wanted<'_>, monitor: &dyn Monitor) -> Result<usize, Stop> {
+        let mut held = None;
         let start = match self.redrawn(wanted) {
             Some(start) => start,
             None if wanted.scene.groom.is_some() => {
                 let Wanted { scene, spec, head, files, .. } = wanted;
-                carry::beginning(scene, spec, head, files, monitor).map_err(stopped)?.0
+                let (hairstyle, adoption) =
+                    carry::beginning(scene, spec, head, files, monitor).map_err(stopped)?;
+                held = adoption.as_ref().map(Held::of);
+                hairstyle
             }
             None => {
                 let before = self.draft.as_ref().map(|draft| &*draft.start);
@@ -124,7 +136,7 @@ impl Hair {
             }
         };
         let (head, spec, groom) = (wanted.head.clone(), wanted.spec.clone(), wanted.groom());
-        self.exact.push(Exact { head, spec, groom, history: History::new(start) });
+        self.exact.push(Exact { head, spec, groom, held, history: History::new(start) });
         if self.exact.len() > KEPT {
             self.exact.remove(0);
         }

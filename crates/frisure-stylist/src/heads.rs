@@ -15,6 +15,9 @@ const KEPT: usize = 3;
 /// The built-in head, which takes a second to make.
 static MANNEQUIN: LazyLock<Arc<Head>> = LazyLock::new(|| Arc::new(Head::mannequin()));
 
+/// A head, and what had to be guessed of it.
+pub(crate) type Noted = (Arc<Head>, Option<String>);
+
 /// Heads by what scenes say of them.
 #[derive(Debug, Default)]
 pub(crate) struct Heads {
@@ -27,22 +30,22 @@ struct Known {
     source: HeadSource,
     /// Of its files: a mesh may be edited meanwhile.
     stamps: Vec<Option<Stamp>>,
-    head: Arc<Head>,
+    head: Noted,
 }
 
 impl Heads {
     /// The head of a scene: the same one for as long as the scene and its files say the same.
-    pub(crate) fn of(&mut self, scene: &Scene, files: &Files) -> Result<Arc<Head>, SceneError> {
+    pub(crate) fn of(&mut self, scene: &Scene, files: &Files) -> Result<Noted, SceneError> {
         if scene.head == HeadSource::Mannequin {
-            return Ok(MANNEQUIN.clone());
+            return Ok((MANNEQUIN.clone(), None));
         }
         let stamps = stamps(&scene.head, files);
         let same = |known: &Known| known.source == scene.head && known.stamps == stamps;
         let known = match self.known.iter().position(same) {
             Some(place) => self.known.remove(place),
             None => {
-                let (source, head) = (scene.head.clone(), Arc::new(carry::head(scene, files)?));
-                Known { source, stamps, head }
+                let (head, note) = carry::head(scene, files)?;
+                Known { source: scene.head.clone(), stamps, head: (Arc::new(head), note) }
             }
         };
         let head = known.head.clone();

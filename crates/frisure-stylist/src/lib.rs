@@ -10,6 +10,7 @@ mod exposing;
 pub mod groom;
 mod hair;
 mod heads;
+pub mod held;
 pub mod order;
 pub mod picture;
 mod refusal;

@@ -1,7 +1,10 @@
 //! What can be asked of a [`crate::Stylist`], and what it answers: plain data, so that they can pass
 //! between threads and between a page and its workers.
 
+use frisure::io::contents::Contents;
 use serde::{Deserialize, Serialize};
+
+use crate::held::Held;
 
 /// A scene as someone is editing it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,6 +51,11 @@ pub enum Order {
         /// What is in it.
         #[serde(with = "crate::bytes::whole")]
         bytes: Vec<u8>,
+    },
+    /// What is in a file: a head, hair, or both. Answer: [`Answer::Contents`].
+    Contents {
+        /// Its path, or the name under which it was kept.
+        path: String,
     },
     /// The hair, for the eye. Answer: [`Answer::Shown`].
     Show {
@@ -144,6 +152,8 @@ pub enum Answer {
     },
     /// The file is kept.
     Kept,
+    /// What is in the file.
+    Contents(Contents),
     /// It was told to stop.
     Cancelled,
     /// It cannot be done.
@@ -181,6 +191,8 @@ pub struct Shown {
     pub roots: Vec<[f32; 3]>,
     /// How wet each wisp is (0 to 1).
     pub wetness: Vec<f32>,
+    /// How well the hair of another program hangs as it was modelled; none for hair that was predicted.
+    pub held: Option<Held>,
 }
 
 /// Strands as plain arrays: see `frisure::strands::Strands`.
@@ -208,6 +220,8 @@ pub struct HeadData {
     pub positions: Vec<f64>,
     /// Triangles, three vertices each.
     pub triangles: Vec<[u32; 3]>,
+    /// What had to be guessed of it, for people; may be empty.
+    pub note: String,
 }
 
 /// A hairstyle in numbers.

@@ -70,6 +70,7 @@ pub(crate) fn shown(
         numbers: numbers(hairstyle, head, strands.len()),
         roots: hairstyle.guides().iter().map(|guide| root(guide.root.position)).collect(),
         wetness: hairstyle.wisps().iter().map(|wisp| wisp.wetness as f32).collect(),
+        held: None,
     }
 }
 
@@ -91,12 +92,13 @@ fn plain(strands: &Strands) -> StrandsData {
     }
 }
 
-/// A head's surface.
-pub(crate) fn head_data(head: &Head) -> HeadData {
+/// A head's surface, and what had to be guessed of it.
+pub(crate) fn head_data(head: &Head, note: Option<&String>) -> HeadData {
     let surface = head.surface();
     HeadData {
         positions: surface.positions().iter().flat_map(DVec3::to_array).collect(),
         triangles: surface.triangles().to_vec(),
+        note: note.cloned().unwrap_or_default(),
     }
 }
 

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
+use frisure::io::contents;
 use frisure::io::files::Files;
 use frisure::io::frame::FrameChoice;
 use frisure::io::groom::{self, Format};
@@ -17,6 +18,7 @@ use web_time::Instant;
 use crate::exposing::{Quality, Subject, check_turntable};
 use crate::hair::{Hair, Wanted};
 use crate::heads::Heads;
+use crate::held::Held;
 use crate::order::{Answer, Asked, Effort, Order, Refusal, Viewpoint};
 use crate::picture;
 use crate::refusal::Stop;
@@ -49,7 +51,11 @@ pub struct Stylist {
 struct Read {
     scene: Scene,
     head: Arc<Head>,
+    /// What had to be guessed of the head.
+    note: Option<String>,
     hairstyle: Arc<Hairstyle>,
+    /// How well its groom was held.
+    held: Option<Held>,
 }
 
 impl Stylist {
@@ -77,6 +83,7 @@ impl Stylist {
                 self.files.provide(path.as_str(), bytes.as_slice());
                 Ok(Answer::Kept)
             }
+            Order::Contents { path } => self.contents(path),
             Order::Show { asked, effort } => self.show(asked, *effort, watch),
             Order::Choose { asked, step } => self.choose(asked, step, watch),
             Order::Hair { asked, wisp, points } => self.one_hair(asked, *wisp, *points, watch),
@@ -92,14 +99,20 @@ impl Stylist {
         answer.unwrap_or_else(Answer::from)
     }
 
+    fn contents(&self, path: &str) -> Result<Answer, Stop> {
+        let found = contents::of(Path::new(path), &self.files);
+        Ok(Answer::Contents(found.map_err(|e| Refusal::of(&e, ""))?))
+    }
+
     fn show(&mut self, asked: &Asked, effort: Effort, watch: &dyn Watch) -> Result<Answer, Stop> {
         let since = Instant::now();
-        let Read { head, hairstyle, .. } = self.hair(asked, effort, watch)?;
+        let Read { head, note, hairstyle, held, .. } = self.hair(asked, effort, watch)?;
         let every = shown::every(&hairstyle, effort);
         let strands = self.drawn.strands(&hairstyle, &head, every, &Watched(watch))?;
         let mut shown = shown::shown(effort, &hairstyle, &head, (&strands, every));
         let known = self.told.as_ref().is_some_and(|told| Arc::ptr_eq(told, &head));
-        shown.head = (!known).then(|| shown::head_data(&head));
+        shown.head = (!known).then(|| shown::head_data(&head, note.as_ref()));
+        shown.held = held;
         shown.numbers.seconds = since.elapsed().as_secs_f64();
         self.told = Some(head);
         Ok(Answer::Shown(Box::new(shown)))
@@ -204,14 +217,15 @@ impl Stylist {
         watch: &dyn Watch,
     ) -> Result<Read, Stop> {
         let spec = scene.hairstyle_spec()?;
-        let head = self.heads.of(&scene, &self.files)?;
+        let (head, note) = self.heads.of(&scene, &self.files)?;
         let monitor = Watched(watch);
         let wanted = Wanted { scene: &scene, spec, head: &head, done, files: &self.files };
         let hairstyle = match effort {
             Effort::Coarse => self.hair.coarse(&wanted, &monitor)?,
             Effort::Exact => self.hair.exact(&wanted, &monitor)?,
         };
-        Ok(Read { scene, head, hairstyle })
+        let held = self.hair.held(&wanted);
+        Ok(Read { scene, head, note, hairstyle, held })
     }
 
     /// All hairs, for a file or a picture.

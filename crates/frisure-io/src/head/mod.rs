@@ -22,6 +22,9 @@ use crate::scene::{HeadFile, ScalpSource};
 pub use mesh::Group;
 use mesh::Mesh;
 
+/// The extensions that heads have, without a dot. What a file is, its first bytes tell.
+pub const EXTENSIONS: [&str; 8] = ["obj", "usd", "usda", "usdc", "usdz", "glb", "gltf", "ply"];
+
 /// Largest mesh, mask or list of weights that is read (bytes).
 pub const MAX_SIZE: u64 = 1 << 30;
 

@@ -39,7 +39,7 @@ use crate::environment::{self, Environment};
 use crate::files::{self, Files};
 use crate::frame::FrameChoice;
 use crate::groom::{self, Groom, GroomError};
-use crate::head::{self, HeadMesh};
+use crate::head::{self, HeadFileError, HeadMesh};
 use source::Source;
 
 /// Largest scene that is read (bytes).
@@ -320,7 +320,11 @@ impl Scene {
                 Some(cause) => format!("{e}: {cause}"),
                 None => e.to_string(),
             };
-            self.fault(e.key(file), message, "")
+            let hint = match e {
+                HeadFileError::Size { .. } => "`unit` and `up` of `[head]` say what it is in",
+                _ => "",
+            };
+            self.fault(e.key(file), message, hint)
         })
     }
 
@@ -335,7 +339,11 @@ impl Scene {
                 Some(cause) => format!("{e}: {cause}"),
                 None => e.to_string(),
             };
-            self.fault("groom.file", message, "`unit` and `up` of `[groom]` say what it is in")
+            let hint = match e {
+                GroomError::Malformed { .. } => "`unit` and `up` of `[groom]` say what it is in",
+                _ => "",
+            };
+            self.fault("groom.file", message, hint)
         };
         let format = groom::Format::of(path).map_err(wrong)?;
         let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
@@ -373,13 +381,9 @@ impl Scene {
 
     /// What had to be guessed of the head's mesh, for people.
     #[must_use]
-    pub fn head_note(&self, files: &Files) -> Option<String> {
+    pub fn head_note(&self, mesh: &HeadMesh) -> Option<String> {
         let HeadSource::Mesh(file) = &self.head else { return None };
-        if file.frame.metres.is_some() {
-            return None;
-        }
-        let unit = head::read(file, files).ok()?.guessed_unit?;
-        let path = file.path.display();
+        let (path, unit) = (file.path.display(), mesh.guessed_unit?);
         Some(format!("{path} says no unit and is taken to be in {unit}: `head.unit` says another"))
     }
 

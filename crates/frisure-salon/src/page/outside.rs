@@ -4,7 +4,7 @@ use super::files::{self, Chosen, Inbox};
 use super::storage::{self, StorageError};
 use crate::state::Save;
 use crate::window::Wake;
-use crate::window::outside::{Dropped, Given, Outside};
+use crate::window::outside::{Dropped, Given, Outside, extensions};
 use std::path::PathBuf;
 use wasm_bindgen_futures::spawn_local;
 
@@ -51,7 +51,10 @@ impl Outside for Page {
     }
 
     fn ask_for_file(&mut self) {
-        if let Err(problem) = files::choose(".toml,.obj", self.inbox.clone(), self.wake.clone()) {
+        // And what lies beside glTF meshes.
+        let accept = extensions().into_iter().chain(["bin"]).map(|e| format!(".{e}"));
+        let accept = accept.collect::<Vec<_>>().join(",");
+        if let Err(problem) = files::choose(&accept, self.inbox.clone(), self.wake.clone()) {
             web_sys::console::warn_1(&problem.into());
         }
     }

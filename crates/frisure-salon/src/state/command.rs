@@ -8,6 +8,7 @@ use frisure::hairstyle::styling::{
     Selection, Spot, View, Wet,
 };
 use frisure::hairstyle::{Comb as Named, Place};
+use frisure::io::contents::Contents;
 use frisure::io::scene::{Scene, SceneError, edit};
 use frisure_stylist::order::Refusal;
 use glam::DVec3;
@@ -70,8 +71,14 @@ pub enum Command {
     Word(&'static str, String),
     /// Give a key back to the hair type.
     Reset(&'static str),
+    /// Open a file by its path, or the name under which it was kept: as head, as groom, or both, as it turns out.
+    File(String),
+    /// What a refused scene lacked may be there now.
+    TryAgain,
     /// Use a mesh (a path) as the head; `None` is the mannequin.
     Head(Option<String>),
+    /// Use the hair of a file (a path); `None` is that of the scene's own.
+    Groom(Option<String>),
     /// Take up a tool.
     Take(Tool),
     /// Choose a part of the scalp.
@@ -151,6 +158,9 @@ pub enum Command {
     Dismiss(usize),
 }
 
+const HEAD: Contents = Contents { head: true, groom: false };
+const GROOM: Contents = Contents { head: false, groom: true };
+
 /// Understands a text of a document.
 pub(super) fn understand(document: &Document, text: &str) -> Result<Understood, SceneError> {
     let scene = Scene::parse(document.name(), text, document.folder())?;
@@ -177,7 +187,10 @@ impl Salon {
             Command::Set(key, value) => self.set(key, value, false),
             Command::Word(key, word) => self.word(key, &word),
             Command::Reset(key) => self.reset(key),
-            Command::Head(path) => self.change_head(path.as_deref()),
+            Command::File(path) => self.take_file(path),
+            Command::TryAgain => self.try_again(),
+            Command::Head(path) => self.set_file(path, HEAD),
+            Command::Groom(path) => self.set_file(path, GROOM),
             Command::Take(tool) => self.take(tool),
             Command::Choose(..)
             | Command::ChooseAll
@@ -232,6 +245,7 @@ impl Salon {
                 self.document = Some(document);
                 (self.chosen, self.compared, self.alone) = (Chosen::default(), None, None);
                 (self.refused, self.gallery, self.framed) = (None, false, false);
+                self.held = None;
                 (self.tool, self.falling, self.mass_before) = (Tool::Orbit, None, None);
                 self.orbit.look_from(view.azimuth, view.elevation);
                 self.orbit.field_of_view = view.field_of_view;
@@ -241,7 +255,12 @@ impl Salon {
     }
 
     /// Makes a text the current one; `held` while a slider is. A text that is no scene is refused.
-    fn change(&mut self, label: &str, text: Result<String, edit::EditError>, held: bool) -> bool {
+    pub(super) fn change(
+        &mut self,
+        label: &str,
+        text: Result<String, edit::EditError>,
+        held: bool,
+    ) -> bool {
         let Some(document) = &mut self.document else { return false };
         let text = match text {
             Ok(text) => text,
@@ -271,7 +290,7 @@ impl Salon {
     }
 
     /// The text without what a held slider does to it.
-    fn base(&self) -> Option<&str> {
+    pub(super) fn base(&self) -> Option<&str> {
         let document = self.document.as_ref()?;
         Some(&document.edits()[document.at()].text)
     }
@@ -308,22 +327,21 @@ impl Salon {
 
     fn reset(&mut self, key: &'static str) {
         let Some(base) = self.base() else { return };
-        let name = super::control_of(key).map_or(key, |control| control.label);
         let text = edit::unset_key(base, key);
-        self.change(&format!("{name} as the hair type has it"), text, false);
+        let label = match super::choices().into_iter().find(|choice| choice.key == key) {
+            Some(choice) => format!("{}: {}", choice.label, choice.usual),
+            None => {
+                let name = super::control_of(key).map_or(key, |control| control.label);
+                format!("{name} as the hair type has it")
+            }
+        };
+        self.change(&label, text, false);
     }
 
-    fn change_head(&mut self, path: Option<&str>) {
-        let Some(base) = self.base() else { return };
-        let (label, text) = match path {
-            Some(path) => {
-                let written = format!("{path:?}");
-                ("Another head", edit::set_key(base, "head.mesh", &written))
-            }
-            None => ("The mannequin's head", edit::unset_key(base, "head.mesh")),
-        };
-        if self.change(label, text, false) {
-            self.framed = false;
+    fn set_file(&mut self, path: Option<String>, what: Contents) {
+        match path {
+            Some(path) => self.use_file(&path, what),
+            None => self.without_file(what),
         }
     }
 

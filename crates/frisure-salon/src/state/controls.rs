@@ -9,6 +9,8 @@ use frisure::optics::SHADES;
 /// The panels, in the order in which a person meets them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Panel {
+    /// Files that the hair or the head come from.
+    Files,
     /// Section and material.
     Fibre,
     /// Natural curl.
@@ -25,18 +27,26 @@ pub enum Panel {
 
 impl Panel {
     /// All, in order.
-    pub const ALL: [Self; 6] =
-        [Self::Fibre, Self::Curl, Self::Length, Self::Wisps, Self::Implantation, Self::Look];
+    pub const ALL: [Self; 7] = [
+        Self::Files,
+        Self::Fibre,
+        Self::Curl,
+        Self::Length,
+        Self::Wisps,
+        Self::Implantation,
+        Self::Look,
+    ];
 
     /// What it is called.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
+            Self::Files => super::FILES_PANEL,
             Self::Fibre => "Fibre",
             Self::Curl => "Curl",
             Self::Length => "Length",
             Self::Wisps => "Wisps",
-            Self::Implantation => "Head and implantation",
+            Self::Implantation => "Implantation",
             Self::Look => "Look and light",
         }
     }
@@ -73,7 +83,18 @@ pub struct Control {
     read: Read,
 }
 
+/// Keys of the panels of shape that count for hair of another program, too.
+const COUNT_ANYWAY: [&str; 2] = ["hair.growth_rate", "gravity"];
+
 impl Control {
+    /// Whether it does anything to hair that another program has shaped.
+    #[must_use]
+    pub fn counts_for_groom(&self) -> bool {
+        let is_shape = matches!(self.panel, Panel::Curl | Panel::Length | Panel::Implantation)
+            || self.key == "wisps.count";
+        !is_shape || COUNT_ANYWAY.contains(&self.key)
+    }
+
     /// Its value in a scene, in its unit.
     #[must_use]
     pub fn value(&self, scene: &Scene, spec: &HairstyleSpec) -> f64 {
@@ -122,6 +143,8 @@ pub struct Choice {
     pub label: &'static str,
     /// The key of the scene.
     pub key: &'static str,
+    /// What holds where nothing was chosen, in words.
+    pub usual: &'static str,
     /// What can be chosen: as the scene writes it (TOML), and in words.
     pub options: Vec<(String, String)>,
     /// One sentence: what it does.
@@ -576,8 +599,19 @@ fn words(options: &[(&str, &str)]) -> Vec<(String, String)> {
 pub fn choices() -> Vec<Choice> {
     let choice = |panel, label, key, options, help| {
         let moves_hair = panel != Panel::Look;
-        Choice { panel, label, key, options, help, moves_hair }
+        let usual = if panel == Panel::Files { "as the file says" } else { "as usual" };
+        Choice { panel, label, key, usual, options, help, moves_hair }
     };
+    let units = || {
+        words(&[
+            ("m", "Metres"),
+            ("dm", "Decimetres"),
+            ("cm", "Centimetres"),
+            ("mm", "Millimetres"),
+            ("in", "Inches"),
+        ])
+    };
+    let axes = || words(&[("y", "y, the face along z"), ("z", "z, the face against y")]);
     let said = |word: &str| {
         let mut said = word.replace('-', " ");
         if let Some(first) = said.get_mut(0..1) {
@@ -587,6 +621,22 @@ pub fn choices() -> Vec<Choice> {
     };
     let colours = SHADES.iter().map(|s| (format!("\"{}\"", s.name), said(s.name))).collect();
     vec![
+        choice(Panel::Files, "Unit of the head", "head.unit", units(), "What the mesh is in."),
+        choice(
+            Panel::Files,
+            "Up in the head",
+            "head.up",
+            axes(),
+            "The axis of the mesh that points up.",
+        ),
+        choice(Panel::Files, "Unit of the groom", "groom.unit", units(), "What the groom is in."),
+        choice(
+            Panel::Files,
+            "Up in the groom",
+            "groom.up",
+            axes(),
+            "The axis of the groom that points up.",
+        ),
         choice(
             Panel::Fibre,
             "Water",

@@ -35,6 +35,8 @@ pub enum Errand {
 /// What an order is for.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Purpose {
+    /// To know what is in a file.
+    Contents,
     Show(Effort),
     Choose,
     Hair,

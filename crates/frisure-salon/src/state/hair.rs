@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use frisure::hairstyle::HairstyleSpec;
 use frisure::hairstyle::styling::{Operation, Release};
-use frisure::io::scene::{HeadSource, write_step};
-use frisure_stylist::order::{Answer, Effort, Order, Shown};
+use frisure::io::scene::{GroomFile, HeadSource, write_step};
+use frisure_stylist::order::{Answer, Effort, Order, Refusal, Shown};
 
-use super::desk::Purpose;
-use super::{HeadMesh, Salon, Seen, Understood};
+use super::desk::{Job, Purpose};
+use super::{FILES_PANEL, HeadMesh, Salon, Seen, Understood};
 
 /// What the shape of the hair depends on: two scenes with the same key have the same hair.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,7 @@ pub(super) struct HairKey {
     spec: HairstyleSpec,
     steps: Vec<Operation>,
     head: HeadSource,
+    groom: Option<GroomFile>,
 }
 
 impl HairKey {
@@ -24,6 +25,7 @@ impl HairKey {
             spec: understood.spec.clone(),
             steps: understood.scene.steps().to_vec(),
             head: understood.scene.head.clone(),
+            groom: understood.scene.groom.clone(),
         }
     }
 }
@@ -60,7 +62,7 @@ impl Salon {
         if let Some((_, refusal)) = self.refused.as_ref().filter(|(refused, _)| *refused == key) {
             return Badge::Refused(refusal.problem.clone());
         }
-        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key == key) else {
+        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key.as_ref() == Some(&key)) else {
             return Badge::Settling;
         };
         let numbers = &seen.hair.numbers;
@@ -79,14 +81,20 @@ impl Salon {
 
     /// Starts what is to be done next for the hair, and stops what is for nothing.
     pub(super) fn schedule(&mut self) {
+        if self.look_into_files() {
+            return;
+        }
         let (Some(understood), Some(asked)) = (self.scene.clone(), self.asked()) else { return };
         let key = HairKey::of(&understood);
         let effort = self.wanted(&key);
         if let Some(job) = &self.desk.hair {
             // Coarse work is short, and shows the way; exact work on another text is for nothing.
             let other = job.asked != asked || effort.is_some_and(|e| e == Effort::Coarse);
-            let is_exact = matches!(job.purpose, Purpose::Show(Effort::Exact));
-            if other && is_exact && self.differs(&job.asked.text, &key) {
+            // Hair of another program takes as long for the eye.
+            let held = self.document.as_ref().is_some_and(super::Document::is_draft);
+            let is_long =
+                matches!(job.purpose, Purpose::Show(Effort::Exact)) || key.groom.is_some() && !held;
+            if other && is_long && self.differs(&job.asked.text, &key) {
                 self.desk.outdate();
             }
             return;
@@ -114,7 +122,7 @@ impl Salon {
             return None;
         }
         let held = self.document.as_ref().is_some_and(super::Document::is_draft);
-        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key == *key) else {
+        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key.as_ref() == Some(key)) else {
             return Some(Effort::Coarse);
         };
         let most = if held { ROUGH_HELD } else { ROUGH };
@@ -160,28 +168,41 @@ impl Salon {
             return;
         }
         let Some(job) = self.desk.hair.take() else { return };
+        if job.purpose == Purpose::Contents {
+            return self.looked_into(answer);
+        }
         match answer {
             Answer::Shown(hair) => self.show(&job.asked.text, *hair, job.outdated),
             _ if job.outdated => {}
             Answer::Chosen(wisps) => self.chosen.wisps = Some(wisps),
             Answer::Hair(hair) => self.show_alone(*hair),
-            Answer::Refused(refusal) => {
-                self.complain(&refusal);
-                match job.purpose {
-                    Purpose::Choose => self.chosen = super::Chosen::default(),
-                    Purpose::Hair => self.alone = None,
-                    _ => {
-                        let understood = self.scene.as_ref().map(|u| HairKey::of(u));
-                        self.refused = understood.map(|key| (key, refusal));
-                    }
-                }
-            }
+            Answer::Refused(refusal) => self.refuse(&job, refusal),
             _ => {}
         }
     }
 
+    fn refuse(&mut self, job: &Job, refusal: Refusal) {
+        match job.purpose {
+            Purpose::Choose => self.chosen = super::Chosen::default(),
+            Purpose::Hair => self.alone = None,
+            _ => {
+                // Of a text that nobody edits any more nobody wants to know.
+                let now = self.scene.as_ref().map(|understood| HairKey::of(understood));
+                let Some(key) = now.filter(|key| !self.differs(&job.asked.text, key)) else {
+                    return;
+                };
+                self.refused = Some((key, refusal.clone()));
+            }
+        }
+        self.complain(&refusal);
+    }
+
     fn show(&mut self, text: &str, mut hair: Shown, outdated: bool) {
         if let Some(head) = hair.head.take() {
+            if !head.note.is_empty() {
+                let hint = format!("Choose another under “{FILES_PANEL}”.");
+                self.tell(head.note.clone(), hint, false);
+            }
             self.head = Some(Arc::new(HeadMesh::new(head)));
         }
         let Some(document) = &self.document else { return };
@@ -195,9 +216,11 @@ impl Salon {
         }
         self.version += 1;
         self.tell_what_fell(&hair);
-        let known = self.shown.as_ref().filter(|seen| seen.key == key);
+        self.tell_how_it_was_held(&hair);
+        let known = self.shown.as_ref().filter(|seen| seen.key.as_ref() == Some(&key));
         let rough = known.map_or(0, |seen| seen.rough) + 1;
-        self.shown = Some(Seen { key, hair: Arc::new(hair), version: self.version, rough });
+        self.shown =
+            Some(Seen { key: Some(key), hair: Arc::new(hair), version: self.version, rough });
         self.falling = None;
         if !self.framed {
             self.framed = true;
@@ -221,6 +244,20 @@ impl Salon {
         if fell > 1e-7 {
             self.tell(format!("{:.1} g of hair fell.", fell * 1e3), "", false);
         }
+    }
+
+    /// How well hair of another program hangs as it was modelled, when that is new.
+    fn tell_how_it_was_held(&mut self, hair: &Shown) {
+        if hair.effort != Effort::Exact || hair.held == self.held {
+            return;
+        }
+        self.held.clone_from(&hair.held);
+        let Some(held) = &hair.held else { return };
+        let hint = match held.unstable {
+            0 => "",
+            _ => "A stiffer or thicker fibre, or a shorter lock, holds more.",
+        };
+        self.tell(format!("groom: {held}"), hint, false);
     }
 
     /// Brings all of the hair and the head into a picture of an aspect.

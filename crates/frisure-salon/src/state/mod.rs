@@ -12,6 +12,7 @@ mod controls;
 mod cutting;
 mod desk;
 mod document;
+mod files;
 mod gallery;
 mod hair;
 mod keeping;
@@ -20,10 +21,12 @@ mod picture;
 mod selecting;
 mod touch;
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use frisure::hairstyle::HairstyleSpec;
 use frisure::io::scene::Scene;
+use frisure_stylist::held::Held;
 use frisure_stylist::order::{Answer, Asked, OneHair, Refusal, Shown};
 
 pub use command::{Command, Growing, Tool};
@@ -31,6 +34,7 @@ pub use controls::{CONTROLS, Choice, Control, Panel, choices, control_of};
 pub use cutting::{Falling, Hold, Plane};
 pub use desk::{Errand, Lane, Ticket};
 pub use document::{Document, Edit};
+pub use files::FILES_PANEL;
 pub use gallery::{Card, SCENES, TYPES, card};
 pub use hair::Badge;
 pub use keeping::{Destination, FORMATS, Save};
@@ -54,6 +58,10 @@ pub struct Salon {
     head: Option<Arc<HeadMesh>>,
     /// A scene whose hair cannot be, so that it is not asked for again and again.
     refused: Option<(HairKey, Refusal)>,
+    /// Files that were opened, and are not known yet.
+    offered: VecDeque<String>,
+    /// How well the groom was held, as it was told last.
+    held: Option<Held>,
     chosen: Chosen,
     /// The text in which that was chosen.
     chosen_in: Option<String>,
@@ -96,7 +104,8 @@ pub struct Understood {
 /// Hair that is seen.
 #[derive(Clone, Debug)]
 struct Seen {
-    key: HairKey,
+    /// None for hair of a file that may be another by now.
+    key: Option<HairKey>,
     hair: Arc<Shown>,
     version: u64,
     /// How many coarse answers to this text there were.
@@ -128,7 +137,7 @@ pub struct Alone {
 }
 
 /// Something to tell.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Message {
     /// What.
     pub text: String,
@@ -146,6 +155,8 @@ impl Default for Salon {
             shown: None,
             head: None,
             refused: None,
+            offered: VecDeque::new(),
+            held: None,
             chosen: Chosen::default(),
             chosen_in: None,
             compared: None,
@@ -318,7 +329,8 @@ impl Salon {
     /// Whether anything is under way or about to be.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.desk.hair.is_some() || self.desk.aside.is_some() || self.changed_at.is_some()
+        let waits = !self.offered.is_empty() || self.changed_at.is_some();
+        self.desk.hair.is_some() || self.desk.aside.is_some() || waits
     }
 
     /// Tells something.
@@ -340,7 +352,8 @@ impl Salon {
             "" => String::new(),
             key => format!("{key}: "),
         };
-        self.tell(format!("{place}{key}{}", refusal.problem), refusal.hint.clone(), true);
+        let hint = self.hint_for(refusal);
+        self.tell(format!("{place}{key}{}", refusal.problem), hint, true);
     }
 
     /// The scene as it is now, for an order.

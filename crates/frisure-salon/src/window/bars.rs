@@ -22,7 +22,7 @@ pub(super) fn top(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>, dialog: &m
                 }
             });
         };
-        ask(ui, "Open…", "Ctrl O", "Open a scene", Dialog::Open, true);
+        ask(ui, "Open…", "Ctrl O", "Open a scene, a head or a groom", Dialog::Open, true);
         ask(ui, "Save…", "Ctrl S", "Save the scene", Dialog::Save, open);
         ask(ui, "Export…", "Ctrl E", "Write the hair as a groom", Dialog::Export, open);
         ask(

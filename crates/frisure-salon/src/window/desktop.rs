@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
+use frisure::io::contents::{self, Contents};
 use frisure::io::files::{read_bytes, write_atomically};
 
-use super::outside::{Dropped, Given, Outside};
+use super::outside::{Dropped, Given, Outside, extensions};
 use crate::state::{Destination, Save};
 
 /// Largest file that is opened (bytes).
@@ -31,14 +32,19 @@ impl Desktop {
     }
 }
 
-/// Reads a file that somebody names.
+/// Reads a file that somebody names. Heads and grooms are read where hair is computed.
 ///
 /// # Errors
 /// What went wrong, for a person.
 pub fn read(path: &Path) -> Result<Given, String> {
-    let bytes = read_bytes(path, MOST, "a file").map_err(|e| full(&e))?;
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    Ok(Given { path: Some(path.into()), name, bytes })
+    let bytes = match contents::by_name(path) == Contents::default() {
+        true => read_bytes(path, MOST, "a file").map_err(|e| full(&e))?,
+        false => Vec::new(),
+    };
+    // A scene names it from its own folder.
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.into());
+    Ok(Given { path: Some(whole), name, bytes })
 }
 
 fn full(error: &dyn std::error::Error) -> String {
@@ -85,8 +91,8 @@ impl Outside for Desktop {
         // The dialog blocks, and the window must not.
         std::thread::spawn(move || {
             let dialog = rfd::FileDialog::new()
-                .set_title("Open a scene or a head")
-                .add_filter("Scenes and heads", &["toml", "obj"]);
+                .set_title("Open a scene, a head or a groom")
+                .add_filter("Scenes, heads and grooms", &extensions());
             if let Some(given) = dialog.pick_file().and_then(|path| read(&path).ok())
                 && sender.send(given).is_ok()
             {

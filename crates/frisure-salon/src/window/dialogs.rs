@@ -80,7 +80,7 @@ impl Dialogs {
     ) {
         let Some(dialog) = self.open else { return };
         let title = match dialog {
-            Dialog::Open => "Open a scene",
+            Dialog::Open => "Open a scene, a head or a groom",
             Dialog::Save => "Save the scene",
             Dialog::Export => "Export the hair",
             Dialog::Picture => "Take a picture",
@@ -120,7 +120,8 @@ impl Dialogs {
 
     fn opening(&mut self, ui: &mut Ui, outside: &mut dyn Outside) {
         ui.label(
-            "A scene is a .toml file; an .obj file is a head. Both can be dropped on the window.",
+            "A scene is a .toml file. Meshes become the head, curves and lines the hair of the scene that is open: \
+             USD, Alembic, glTF, .obj, .ply, .hair, .data, .npz. All can be dropped on the window.",
         );
         if outside.has_paths() {
             let entered = self.path(ui);

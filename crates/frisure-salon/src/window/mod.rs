@@ -18,9 +18,11 @@ mod theme;
 mod viewport;
 mod widgets;
 
+use std::path::Path;
 use std::sync::Arc;
 
 use eframe::egui::{self, CentralPanel, Panel as Edge, Ui};
+use frisure::io::contents::{self, Contents};
 use frisure_stylist::order::Order;
 use web_time::{Duration, Instant};
 
@@ -123,7 +125,7 @@ impl App {
         self.salon.found_kept(text);
     }
 
-    /// Takes a file that somebody opened or dropped: a scene, or a head for the scene there is.
+    /// Takes a file that somebody opened or dropped: a scene, a head, a groom.
     pub fn take(&mut self, given: Given) {
         let extension = given.name.rsplit_once('.').map(|(_, e)| e.to_ascii_lowercase());
         match extension.as_deref() {
@@ -137,36 +139,34 @@ impl App {
                     self.salon.tell(format!("{} is no text", given.name), hint, true);
                 }
             },
-            Some("obj") => self.take_head(given),
+            // What lies beside a glTF mesh; where there are paths, it is found.
+            Some("bin") => {
+                self.keep(given);
+                self.run(Command::TryAgain);
+            }
+            _ if contents::by_name(Path::new(&given.name)) == Contents::default() => {
+                self.run(Command::File(given.name));
+            }
             _ => {
-                let hint = "Scenes are .toml files, heads are .obj meshes.";
-                self.salon.tell(format!("{} cannot be opened here", given.name), hint, true);
+                let path = given.path.as_ref().map(|path| path.display().to_string());
+                let path = path.unwrap_or_else(|| given.name.clone());
+                self.keep(given);
+                self.run(Command::File(path));
             }
         }
     }
 
-    fn take_head(&mut self, given: Given) {
-        if self.salon.document().is_none() {
-            let hint = "Pick hair in the gallery first, then drop the head.";
-            return self.salon.tell("a head needs hair", hint, true);
-        }
-        let path = match given.path {
-            Some(path) => path.display().to_string(),
-            None => {
-                for worker in [&mut self.hair, &mut self.aside] {
-                    let (path, bytes) = (given.name.clone(), given.bytes.clone());
-                    // Nobody waits for the answer.
-                    worker.send(0, Order::Keep { path, bytes });
-                }
-                given.name
-            }
-        };
-        self.salon.run(Command::Head(Some(path)));
+    /// Has workers keep a file that has no path.
+    fn keep(&mut self, given: Given) {
+        let Given { path: None, name, bytes } = given else { return };
+        // Nobody waits for the answers.
+        self.hair.send(0, Order::Keep { path: name.clone(), bytes: bytes.clone() });
+        self.aside.send(0, Order::Keep { path: name, bytes });
     }
 
     /// Opens a file by its path.
     #[cfg(not(target_arch = "wasm32"))]
-    pub fn open(&mut self, path: &std::path::Path) {
+    pub fn open(&mut self, path: &Path) {
         match desktop::read(path) {
             Ok(given) => self.take(given),
             Err(problem) => self.salon.tell(problem, "Is the path right?", true),
@@ -174,7 +174,7 @@ impl App {
     }
 
     #[cfg(target_arch = "wasm32")]
-    fn open(&mut self, _path: &std::path::Path) {}
+    fn open(&mut self, _path: &Path) {}
 
     /// Takes in what came from workers and from outside, and hands out what is to be done.
     pub fn turn_over(&mut self) {
@@ -253,7 +253,7 @@ impl App {
             painter.text(
                 rect.center(),
                 egui::Align2::CENTER_CENTER,
-                "Drop a scene (.toml) or a head (.obj)",
+                "Drop a scene, a head or a groom",
                 egui::FontId::proportional(24.0),
                 egui::Color32::WHITE,
             );
@@ -339,6 +339,7 @@ impl App {
             "drawn": hair.map(|n| n.drawn),
             "mass": hair.map(|n| n.mass),
             "tips": hair.map(|n| n.tips),
+            "held": self.salon.shown().and_then(|(hair, _)| hair.held.as_ref()).map(ToString::to_string),
             "aside": self.salon.aside().is_some(),
             "messages": self.salon.messages().iter().map(|m| m.text.clone()).collect::<Vec<_>>(),
         })

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use eframe::egui::DroppedFile;
+use frisure::io::contents;
 
 use crate::state::{Destination, Save};
 
@@ -18,6 +19,14 @@ pub struct Given {
     pub name: String,
     /// What is in it.
     pub bytes: Vec<u8>,
+}
+
+/// The extensions of what can be opened, without dots.
+#[must_use]
+pub fn extensions() -> Vec<&'static str> {
+    let mut all = contents::extensions();
+    all.insert(0, "toml");
+    all
 }
 
 /// The world outside the window.

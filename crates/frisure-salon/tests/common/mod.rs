@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use frisure_salon::state::{Command, Errand, Lane, Salon, Save};
 use frisure_stylist::Stylist;
-use frisure_stylist::order::Answer;
+use frisure_stylist::order::{Answer, Order};
 
 /// A salon, and the world outside it.
 pub(crate) struct World {
@@ -93,12 +93,29 @@ impl World {
         assert!(self.salon.is_settled(), "{:?} {:?}", self.salon.badge(), self.salon.messages());
     }
 
+    /// Has the stylists keep a file that has no path, as a page does.
+    #[allow(dead_code, reason = "not every test drops a file")]
+    pub(crate) fn keep(&mut self, name: &str, bytes: &[u8]) {
+        let order = Order::Keep { path: name.into(), bytes: bytes.into() };
+        for stylist in [&mut self.hair, &mut self.aside] {
+            assert_eq!(stylist.carry_out(&order, &()), Answer::Kept);
+        }
+    }
+
+    /// Drops a file on a page.
+    #[allow(dead_code, reason = "not every test drops a file")]
+    pub(crate) fn drop(&mut self, name: &str, bytes: &[u8]) {
+        self.keep(name, bytes);
+        self.run(Command::File(name.into()));
+    }
+
     /// The text that is edited.
     pub(crate) fn text(&self) -> &str {
         self.salon.document().expect("a document").text()
     }
 
     /// Mean height of the tips (m).
+    #[allow(dead_code, reason = "not every test asks")]
     pub(crate) fn tips(&self) -> f64 {
         self.salon.shown().expect("hair").0.numbers.tips
     }

@@ -175,9 +175,9 @@ impl Chromium {
         self.call("Input.dispatchMouseEvent", &left(kind, x, y, buttons));
     }
 
-    /// Drops a file with this text on the middle of the page.
-    pub(crate) fn drop_file(&mut self, name: &str, text: &str) {
-        let path = self.file(name, text);
+    /// Drops a file with these bytes on the middle of the page.
+    pub(crate) fn drop_file(&mut self, name: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.file(name, bytes);
         let data = json!({ "items": [], "files": [path], "dragOperationsMask": 1 });
         for kind in ["dragEnter", "dragOver", "drop"] {
             let event = json!({ "type": kind, "x": 400, "y": 400, "data": data });
@@ -185,9 +185,9 @@ impl Chromium {
         }
     }
 
-    /// Chooses a file with this text where the page asks for one.
-    pub(crate) fn choose_file(&mut self, name: &str, text: &str) {
-        let path = self.file(name, text);
+    /// Chooses a file with these bytes where the page asks for one.
+    pub(crate) fn choose_file(&mut self, name: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.file(name, bytes);
         let field = "document.querySelector('input[type=file]')";
         self.wait_for(field, 60);
         let found = self.call("Runtime.evaluate", &json!({ "expression": field }));
@@ -195,9 +195,9 @@ impl Chromium {
         self.call("DOM.setFileInputFiles", &json!({ "files": [path], "objectId": object }));
     }
 
-    fn file(&self, name: &str, text: &str) -> PathBuf {
+    fn file(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.folder.path().join(name);
-        std::fs::write(&path, text).expect("a file");
+        std::fs::write(&path, bytes).expect("a file");
         path
     }
 

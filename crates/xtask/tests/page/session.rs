@@ -106,6 +106,40 @@ fn files_come_by_drop_and_by_choice() {
 }
 
 #[test]
+fn a_groom_is_hair_by_drop_and_by_choice_and_is_wetted() {
+    let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
+    salon.runs();
+    salon.page.drop_file("small.toml", format!("{SMALL}hairs = 150\n"));
+    salon.until("s.drawn && s.settled");
+    salon.click("Export…");
+    salon.click("Export groom");
+    let groom = salon.page.downloaded("small.hair");
+
+    // In an empty salon it begins a scene.
+    salon.again(QUERY);
+    salon.runs();
+    salon.page.drop_file("her-hair.hair", &groom);
+    salon.until(
+        "s.settled && s.name == 'her-hair' && s.drawn == 150 && s.held.includes('within 1 mm')",
+    );
+    salon.until("s.messages.some((m) => m.startsWith('groom: '))");
+    let dry = salon.picture("groom");
+    assert!(dry.colours(HEAD) > 500, "no hair");
+    salon.click("Wet");
+    salon.until("s.wet && s.settled");
+    assert!(salon.picture("groom-wet").change(&dry, HEAD) > 0.003, "wet hair looks as dry hair");
+
+    // One that is damaged is told, and undone.
+    salon.click("Open…");
+    salon.click("Choose a file…");
+    salon.page.choose_file("cut.hair", &groom[..groom.len() / 2]);
+    salon.until("s.messages.some((m) => m.includes('cut.hair'))");
+    salon.command("undo");
+    salon.until("s.settled && s.wet && s.text.includes('her-hair.hair')");
+    salon.is_quiet();
+}
+
+#[test]
 fn it_runs_without_headers_and_under_a_path() {
     let server = ["--plain", "--under", "some/where"];
     let Some(mut salon) = Salon::open(&format!("{QUERY}&scene=bob"), &server, &[]) else { return };

@@ -18,6 +18,7 @@ use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::Tracer;
 use frisure::render::{EnvironmentMap, Image};
 use frisure::strands::Strands;
+use frisure_stylist::held::Held;
 use frisure_stylist::picture as seen;
 use frisure_stylist::{carry, groom};
 
@@ -29,7 +30,7 @@ use crate::progress::Progress;
 use crate::written::Grooms;
 use crate::{console, interrupt, outputs};
 
-use numbers::{Numbers, held, litres, numbers, summary};
+use numbers::{Numbers, litres, numbers, summary};
 use steps::Styled;
 
 /// Computes what the arguments ask for, and writes it.
@@ -68,9 +69,7 @@ pub(crate) fn run_scene(
     let (numbers, written) = result?;
 
     if !quiet {
-        let note = work.scene.head_note(&Files::default());
-        let note = note.map_or_else(String::new, |note| note + "\n");
-        console::print(&(note + &summary(&numbers, &written)))?;
+        console::print(&summary(&numbers, &written))?;
     }
     let rested = numbers.guides.not_converged == 0;
     Ok(if rested { Done::Well } else { Done::NotConverged })
@@ -90,7 +89,8 @@ fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), 
         last = work.write(drawn, frame, frames, &mut written)?;
     }
     let mut numbers = last.expect("the last hairstyle has its numbers");
-    numbers.groom = hair.adoption.as_ref().map(held);
+    numbers.groom = hair.adoption.as_ref().map(Held::of);
+    numbers.head_note.clone_from(&hair.note);
     numbers.steps.clone_from(&hair.styled.steps);
     if let Some(path) = &work.arguments.report {
         interrupt::check()?;
@@ -193,6 +193,8 @@ struct Work {
 /// All hairstyles that are asked for.
 struct Hair {
     head: Head,
+    /// What had to be guessed of the head.
+    note: Option<String>,
     styled: Styled,
     /// What is to be in every picture, if there are several.
     shown: Option<Strands>,
@@ -217,14 +219,15 @@ enum Picture {
 impl Work {
     fn hair(&self, spec: &HairstyleSpec) -> Result<Hair, Failure> {
         self.progress.show("head", 0.0);
-        let (head, watch) = (head(&self.scene)?, Watch(&self.progress));
+        let watch = Watch(&self.progress);
+        let (head, note) = carry::head(&self.scene, &Files::default())?;
         let (start, adoption) =
             carry::beginning(&self.scene, spec, &head, &Files::default(), &watch)
                 .map_err(|e| e.map_or(Failure::Interrupted, Failure::from))?;
         let styled = steps::all(&self.scene, &head, start, self.arguments.each_step, &watch)?;
         let several = self.arguments.image.is_some() && styled.hairstyles.len() > 1;
         let shown = several.then(|| swept(&styled.hairstyles));
-        Ok(Hair { head, styled, shown, adoption })
+        Ok(Hair { head, note, styled, shown, adoption })
     }
 
     fn draw(&self, hair: &Hair, frame: usize) -> Result<Drawn, Failure> {
@@ -351,5 +354,5 @@ fn swept(hairstyles: &[Hairstyle]) -> Strands {
 
 /// The head of a scene.
 pub(crate) fn head(scene: &Scene) -> Result<Head, Failure> {
-    Ok(carry::head(scene, &Files::default())?)
+    Ok(carry::head(scene, &Files::default())?.0)
 }

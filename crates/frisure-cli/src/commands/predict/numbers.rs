@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Adoption, Body, HairContact, Hairstyle, Volume};
+use frisure::hairstyle::{Body, HairContact, Hairstyle, Volume};
 use frisure::io::scene::Scene;
 use frisure::strands::Strands;
+use frisure_stylist::held::Held;
 use serde::Serialize;
 
 use super::steps::StepNumbers;
@@ -20,6 +21,9 @@ pub(super) struct Numbers {
     /// How well the strands of the scene's groom were held; left out without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) groom: Option<Held>,
+    /// What had to be guessed of the head: told, not reported.
+    #[serde(skip)]
+    pub(super) head_note: Option<String>,
     contact: Contact,
     thickness: Thickness,
     /// Of all guides (J).
@@ -56,66 +60,6 @@ pub(super) struct Guides {
     tolerance: f64,
     /// Deepest that a guide is inside the head (m).
     penetration: f64,
-}
-
-/// How well a groom's strands hang as they were modelled.
-#[derive(Debug, Serialize)]
-pub(super) struct Held {
-    strands: usize,
-    /// Those that stay within a millimetre.
-    within_a_millimetre: usize,
-    /// Distance (m) of strands at rest from the groom: the median's and the largest.
-    median_distance: f64,
-    largest_distance: f64,
-    /// Those whose shape is not stable, and how many times as stiff the worst of them would have to be.
-    unstable: usize,
-    stiffness_needed: f64,
-    /// Numbers of the strands that moved by more than a millimetre, the farthest first; at most a hundred.
-    moved: Vec<usize>,
-}
-
-/// Distance (m) that nobody sees.
-const UNSEEN: f64 = 1e-3;
-
-/// Most strands that are named.
-const NAMED: usize = 100;
-
-/// The numbers of an adoption.
-pub(super) fn held(adoption: &Adoption) -> Held {
-    let Adoption { distances, stiffness_needed } = adoption;
-    let mut order: Vec<usize> = (0..distances.len()).collect();
-    order.sort_by(|&a, &b| distances[b].total_cmp(&distances[a]).then(a.cmp(&b)));
-    let distance = |place: usize| order.get(place).map_or(0.0, |&i| distances[i]);
-    let moved = order.iter().take_while(|&&i| distances[i] > UNSEEN).count();
-    Held {
-        strands: distances.len(),
-        within_a_millimetre: distances.len() - moved,
-        median_distance: distance(distances.len() / 2),
-        largest_distance: distance(0),
-        unstable: stiffness_needed.iter().filter(|f| **f > 1.0).count(),
-        stiffness_needed: stiffness_needed.iter().copied().fold(1.0, f64::max),
-        moved: order[..moved.min(NAMED)].to_vec(),
-    }
-}
-
-impl Held {
-    fn tell(&self, out: &mut String) {
-        let Self { strands, within_a_millimetre, median_distance, largest_distance, .. } = self;
-        let _ = write!(
-            out,
-            "groom: {within_a_millimetre} of {strands} strands stay within 1 mm (median {:.2} mm, farthest {:.1} mm)",
-            1e3 * median_distance,
-            1e3 * largest_distance
-        );
-        if self.unstable > 0 {
-            let _ = write!(
-                out,
-                "; {} could not be held, the worst unless {:.1} times as stiff",
-                self.unstable, self.stiffness_needed
-            );
-        }
-        out.push('\n');
-    }
 }
 
 /// The models of contact.
@@ -179,6 +123,7 @@ pub(super) fn numbers(
             penetration: settling.penetration,
         },
         groom: None,
+        head_note: None,
         contact: Contact { body: body(spec.contact.body), hair: hair(spec.contact.hair) },
         thickness: thickness(hairstyle),
         energy: Energies {
@@ -233,8 +178,12 @@ pub(super) fn litres(volume: &Volume) -> Litres {
 pub(super) fn summary(numbers: &Numbers, written: &[String]) -> String {
     let guides = &numbers.guides;
     let name = if numbers.scene.is_empty() { numbers.hair_type } else { &numbers.scene };
-    let mut out = format!("{name}: {} of {} guides at rest", guides.stable, guides.count);
+    let mut out = String::new();
     // Writing to a String cannot fail.
+    if let Some(note) = &numbers.head_note {
+        let _ = writeln!(out, "{note}");
+    }
+    let _ = write!(out, "{name}: {} of {} guides at rest", guides.stable, guides.count);
     if guides.saddles > 0 {
         let _ = write!(out, ", {} on a saddle", guides.saddles);
     }
@@ -252,7 +201,7 @@ pub(super) fn summary(numbers: &Numbers, written: &[String]) -> String {
     }
     out.push('\n');
     if let Some(groom) = &numbers.groom {
-        groom.tell(&mut out);
+        let _ = writeln!(out, "groom: {groom}");
     }
     for step in &numbers.steps {
         step.tell(&mut out);
