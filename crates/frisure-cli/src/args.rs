@@ -225,6 +225,7 @@ Examples:
   frisure render scenes/afro.toml -o back.exr --camera back --size 512x640 --noise 1
   frisure render scenes/wavy.toml -o turn/wavy.png --turntable 36
   frisure render mine.hair -o mine.png --look scenes/curly.toml
+  frisure render scan.ply --unit mm --up y -o scan.png
 
 While it works, the picture so far is saved every minute, and at Ctrl-C; the same command then goes on
 where it was, as long as PICTURE.part lies beside the picture. PNG is what a screen shows (sRGB); EXR
@@ -235,7 +236,7 @@ wisp.";
 #[derive(Args, Debug)]
 #[command(after_help = RENDER_EXAMPLES)]
 pub(crate) struct Render {
-    /// The scene (TOML), `-` for standard input, or a groom (.hair).
+    /// The scene (TOML), `-` for standard input, or a groom of a format that `frisure convert` reads.
     #[arg(value_name = "SCENE|GROOM")]
     pub(crate) scene: PathBuf,
 
@@ -267,6 +268,10 @@ pub(crate) struct Render {
     /// has no head.
     #[arg(long, value_name = "SCENE")]
     pub(crate) look: Option<PathBuf>,
+
+    /// What a groom that is read has.
+    #[command(flatten)]
+    pub(crate) axes: Axes,
 }
 
 /// A place to take a picture from.
@@ -307,13 +312,38 @@ pub(crate) struct Writing {
     #[arg(long, value_name = "N", value_parser = groom_points)]
     pub(crate) points: Option<usize>,
 
-    /// The unit of positions and widths, instead of the format's.
+    /// Unit and axes of what is written.
+    #[command(flatten)]
+    pub(crate) axes: Axes,
+}
+
+/// Unit and axes of a groom's file.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(crate) struct Axes {
+    /// The unit of the groom's positions and widths, instead of its own or its format's.
     #[arg(long, value_enum, value_name = "UNIT")]
     pub(crate) unit: Option<Unit>,
 
-    /// The axis that points up, instead of the format's: y (the face looks along z) or z (along -y).
+    /// The axis that points up in the groom, instead of its own or its format's: y (the face looks along z)
+    /// or z (along -y).
     #[arg(long, value_enum, value_name = "AXIS")]
     pub(crate) up: Option<Up>,
+}
+
+impl Axes {
+    /// Whether any of them is said.
+    pub(crate) fn is_given(self) -> bool {
+        self.unit.is_some() || self.up.is_some()
+    }
+
+    /// What is said.
+    pub(crate) fn choice(self) -> FrameChoice {
+        let up = self.up.map(|up| match up {
+            Up::Y => UpAxis::Y,
+            Up::Z => UpAxis::Z,
+        });
+        FrameChoice { metres: self.unit.map(Unit::metres), up }
+    }
 }
 
 /// What a groom file holds.
@@ -362,15 +392,6 @@ pub(crate) enum Up {
     Y,
     /// z.
     Z,
-}
-
-/// Unit and axes where they were asked for.
-pub(crate) fn frame(unit: Option<Unit>, up: Option<Up>) -> FrameChoice {
-    let up = up.map(|up| match up {
-        Up::Y => UpAxis::Y,
-        Up::Z => UpAxis::Z,
-    });
-    FrameChoice { metres: unit.map(Unit::metres), up }
 }
 
 const CONVERT_EXAMPLES: &str = "\

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use frisure::io::groom::{Format, Groom, GroomError, write_groom};
 use frisure::strands::Strands;
 
-use crate::args::{Content, Writing, frame};
+use crate::args::{Content, Writing};
 use crate::failure::Failure;
 use crate::interrupt;
 
@@ -33,7 +33,7 @@ impl Grooms {
 
     /// Writes a groom to each path; gives a line for each, for people.
     pub(crate) fn write(&self, groom: Groom, paths: &[PathBuf]) -> Result<Vec<String>, Failure> {
-        let Writing { content, points, unit, up } = self.writing;
+        let Writing { content, points, axes } = self.writing;
         let groom = chosen(groom, content);
         // Formats of the same number of points share what was resampled.
         let mut done: Option<(usize, Groom, f32)> = None;
@@ -56,7 +56,7 @@ impl Grooms {
                     groom
                 }
             };
-            write_groom(path, shown, frame(unit, up)).map_err(|e| match e {
+            write_groom(path, shown, axes.choice()).map_err(|e| match e {
                 GroomError::CannotHold { .. } => Failure::wrong(&e, ""),
                 _ => Failure::failed(&e),
             })?;

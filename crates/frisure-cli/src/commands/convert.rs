@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use frisure::io::groom::{Groom, read_groom};
+use frisure::io::groom::Groom;
 
-use crate::args::{Convert, frame};
+use super::read_groom;
+use crate::args::{Axes, Convert};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
 use crate::written::Grooms;
@@ -13,6 +14,7 @@ use crate::{console, interrupt, outputs};
 /// Reads the groom and writes it where the arguments say.
 pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<Done, Failure> {
     let Convert { groom: path, outputs: asked, writing, from_unit, from_up } = arguments;
+    let from = Axes { unit: from_unit, up: from_up };
     let grooms = Grooms::new(&asked, writing)?;
     let names: Vec<&Path> = asked.iter().map(AsRef::as_ref).collect();
     outputs::prepare(&names, &[&path])?;
@@ -20,8 +22,7 @@ pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<Done, Failure> {
     let told = progress.clone();
     let read = interrupt::computing(move || {
         told.show("reading", 0.0);
-        let groom = read_groom(&path, frame(from_unit, from_up));
-        groom.map_err(|e| Failure::wrong(&e, "`--from-unit` and `--from-up` say what it has"))
+        read_groom(&path, from, "`--from-unit` and `--from-up` say what it has")
     });
     let result = read.and_then(|groom: Groom| {
         progress.show("writing", 0.0);

@@ -14,8 +14,10 @@ use std::io::Read;
 use std::path::Path;
 
 use frisure::io::files;
+use frisure::io::groom::{self, Groom, GroomError};
 use frisure::io::scene::{MAX_SIZE, Scene};
 
+use crate::args::Axes;
 use crate::failure::Failure;
 use crate::interrupt;
 
@@ -53,6 +55,14 @@ fn text_of(path: &Path) -> Result<String, Failure> {
         return Err(files::ReadError::TooLarge { path, limit, what: WHAT }.into());
     }
     Ok(files::to_text(bytes, path)?)
+}
+
+/// The groom in a file; `hint` names the flags that say what it has.
+fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Failure> {
+    groom::read_groom(path, axes.choice()).map_err(|e| match e {
+        GroomError::Malformed { .. } => Failure::wrong(&e, hint),
+        _ => Failure::wrong(&e, ""),
+    })
 }
 
 /// What errors call a scene.

@@ -4,16 +4,15 @@ use std::path::Path;
 
 use frisure::hairstyle::head::Head;
 use frisure::io::files::Files;
-use frisure::io::frame::FrameChoice;
-use frisure::io::groom::read_groom;
 use frisure::io::picture::Format;
 use frisure::io::scene::Scene;
 use frisure::render::InvalidLight;
 use frisure::render::trace::Tracer;
+use frisure::strands::Strands;
 
 use super::predict::{self, Turntable};
-use super::read_scene;
-use crate::args::{Predict, Quality, Render, Writing};
+use super::{read_groom, read_scene};
+use crate::args::{Axes, Predict, Quality, Render, Writing};
 use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
@@ -29,6 +28,11 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
     if let Some(look) = &arguments.look {
         let message = format!("`--look {}` is for grooms", look.display());
         let hint = "a scene has its own look; change it there";
+        return Err(Failure::wrong_because(message, hint));
+    }
+    if arguments.axes.is_given() {
+        let message = "`--unit` and `--up` are for grooms";
+        let hint = "of a scene's files, `[head]` and `[groom]` say them";
         return Err(Failure::wrong_because(message, hint));
     }
     let scene = seen(&arguments, read_scene(&arguments.scene)?);
@@ -72,6 +76,12 @@ fn seen(arguments: &Render, mut scene: Scene) -> Scene {
     scene
 }
 
+/// The hairs of a groom, or its guides where it has no others.
+fn strands(path: &Path, axes: Axes) -> Result<Strands, Failure> {
+    let groom = read_groom(path, axes, "`--unit` and `--up` say what it has")?;
+    Ok(if groom.hairs.is_empty() { groom.guides } else { groom.hairs })
+}
+
 fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Result<Done, Failure> {
     let look = match &arguments.look {
         Some(path) => read_scene(path)?,
@@ -99,11 +109,10 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     let progress = Progress::new(quiet);
     let (path, output, has_head) =
         (arguments.scene.clone(), scene.output, arguments.look.is_some());
-    let ready = progress.clone();
+    let (ready, axes) = (progress.clone(), arguments.axes);
     let shot = interrupt::computing(move || {
         ready.show("strands", 0.0);
-        let groom = read_groom(&path, FrameChoice::default());
-        let strands = groom.map_err(|e| Failure::wrong(&e, ""))?.hairs;
+        let strands = strands(&path, axes)?;
         let head = if has_head { Some(predict::head(&scene)?) } else { None };
         let surface = head.as_ref().map(Head::surface);
         let wrong = |e: InvalidLight| Failure::wrong(&e, "");

@@ -207,6 +207,17 @@ fn a_groom_from_all_around_and_with_its_light() {
         assert!(exr.windows(layer.len()).any(|w| w == layer.as_bytes()), "{layer}");
     }
 
+    let others = ["predict", "quick.toml", "-o", "mm.obj", "--unit", "mm", "--up", "z"];
+    assert_eq!(run(&others), (Some(0), String::new()));
+    let (code, err) = run(&["render", "mm.obj", "-o", "d.png"]);
+    assert!(code == Some(2) && err.contains("is it in mm?") && err.contains("--unit"), "{err}");
+    let said = ["render", "mm.obj", "-o", "mm.png", "--unit", "mm", "--up", "z"];
+    assert_eq!(run(&[&said[..], &quick].concat()), (Some(0), String::new()));
+    let guides = ["predict", "quick.toml", "-o", "guides.npz", "--content", "guides"];
+    assert_eq!(run(&guides), (Some(0), String::new()));
+    let guides = ["render", "guides.npz", "-o", "guides.png"];
+    assert_eq!(run(&[&guides[..], &quick].concat()), (Some(0), String::new()));
+
     fs::write(room.path("cut.hair"), &fs::read(room.path("a.hair")).unwrap()[..999]).unwrap();
     fs::write(room.path("none.hair"), [&b"HAIR"[..], &[0; 8], &[2, 0, 0, 0], &[0; 112]].concat())
         .unwrap();
@@ -217,6 +228,7 @@ fn a_groom_from_all_around_and_with_its_light() {
         (&["render", "a.glb", "-o", "d.png"], "only .hair, .obj, .ply"),
         (&["render", "a.hair", "-o", "a.hair"], "neither"),
         (&["render", "quick.toml", "--look", "quick.toml", "-o", "d.png"], "for grooms"),
+        (&["render", "quick.toml", "--unit", "mm", "-o", "d.png"], "for grooms"),
         (
             &["render", "a.hair", "-o", "d.png", "--turntable", "4", "--from", "4"],
             "none of a turntable",
