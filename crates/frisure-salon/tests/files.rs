@@ -186,6 +186,17 @@ fn a_scene_names_what_lies_near_it_from_its_folder() {
         assert!(world.text().contains(&format!("file = \"{written}\"")), "{}", world.text());
         assert!(is_held(&world), "{:?}", world.salon.messages());
     }
+    // Saved elsewhere, it names the same file.
+    let mut world = World::new();
+    let text = "[wisps]\nhairs = 500\n\n[groom]\nfile = \"a.npz\" # hers\n".to_owned();
+    let path = Some(place("scenes/x.toml"));
+    world.run(Command::Open { path, name: "x.toml".into(), text });
+    world.run(Command::Save(Destination::Path(place("y.toml"))));
+    assert!(world.text().contains("file = \"scenes/a.npz\" # hers"), "{}", world.text());
+    assert_eq!(world.files[&place("y.toml").display().to_string()], world.text().as_bytes());
+    assert!(!world.salon.document().unwrap().is_changed() && is_held(&world));
+    world.run(Command::Save(Destination::Path(place("scenes/z.toml"))));
+    assert!(world.text().contains("file = \"a.npz\""), "{}", world.text());
     // A scene without a file has no folder.
     let mut world = World::new();
     let whole = place("grooms/a.npz").display().to_string();

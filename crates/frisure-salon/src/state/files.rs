@@ -1,11 +1,11 @@
 //! Heads and grooms from files: which of them a file is, and the scene that names it.
 
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use frisure::io::contents::{self, Contents};
 use frisure::io::scene::{HeadSource, edit};
 use frisure_stylist::order::{Answer, Asked, Order, Refusal};
-use toml_edit::Value;
+use toml_edit::{DocumentMut, Value};
 
 use super::desk::{Job, Purpose};
 use super::{Chosen, Document, Salon};
@@ -28,6 +28,10 @@ const HEAD: [&str; 8] = [
     "head.scalp_weights",
 ];
 const GROOM: [&str; 4] = ["groom.file", "groom.up", "groom.unit", "groom.guides"];
+
+/// Keys of scenes that name files.
+const PATHS: [&str; 5] =
+    ["head.mesh", "head.scalp_mask", "head.scalp_weights", "groom.file", "light.environment"];
 
 impl Salon {
     /// Takes a file that somebody opened or dropped, and finds out what it is.
@@ -153,6 +157,23 @@ impl Salon {
         near(folder, Path::new(path)).unwrap_or_else(|| path.to_owned())
     }
 
+    /// The text as it is to be in a folder, with the same files.
+    pub(super) fn text_in(&self, folder: &Path) -> Option<String> {
+        let document = self.document.as_ref()?;
+        let text = document.text();
+        let table: DocumentMut = text.parse().ok()?;
+        let moved = PATHS.iter().filter_map(|key| {
+            let item = key.split('.').try_fold(table.as_item(), |item, part| item.get(part))?;
+            let whole = plain(&document.folder().join(item.as_str()?));
+            let from_there = near(folder, &whole).or_else(|| whole.to_str().map(str::to_owned))?;
+            let other = whole.is_absolute() && item.as_str() != Some(&from_there);
+            other.then(|| (*key, quoted(&from_there)))
+        });
+        let moved: Vec<_> = moved.collect();
+        let keys: Vec<_> = moved.iter().map(|(key, value)| (*key, Some(value.as_str()))).collect();
+        if keys.is_empty() { Some(text.to_owned()) } else { edit::set_keys(text, &keys).ok() }
+    }
+
     /// What a person in the salon can do about what is wrong with a file; scenes name keys instead.
     pub(super) fn hint_for(&self, refusal: &Refusal) -> String {
         let is_missing = refusal.problem.contains("there is no file");
@@ -178,6 +199,17 @@ impl Salon {
             groom: understood.scene.groom.is_some(),
         })
     }
+}
+
+/// A path without ways up, as it is written.
+fn plain(path: &Path) -> PathBuf {
+    path.components().fold(PathBuf::new(), |mut all, part| {
+        match part {
+            Component::ParentDir => drop(all.pop()),
+            part => all.push(part),
+        }
+        all
+    })
 }
 
 /// The keys that name a file, and without value those that said something of another.

@@ -1,10 +1,12 @@
 //! Files that leave the salon, and the text that survives a crash.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use frisure::io::groom::Format;
 use frisure_stylist::order::Order;
 
+use super::command::understand;
 use super::desk::Purpose;
 use super::{Document, Errand, Salon, autosave};
 
@@ -64,7 +66,13 @@ impl Salon {
     /// Hands the scene out to be written.
     pub(super) fn save(&mut self, to: Destination) {
         let Some(document) = &self.document else { return };
-        let bytes = document.text().as_bytes().to_vec();
+        let folder = match &to {
+            Destination::Path(path) => path.parent().unwrap_or(Path::new("")),
+            Destination::Download(_) => document.folder(),
+        };
+        // A scene that moves still names the same files.
+        let text = self.text_in(folder).unwrap_or_else(|| document.text().to_owned());
+        let bytes = text.into_bytes();
         self.desk.errands.push_back(Errand::Save(Save { to, bytes, is_scene: true }));
     }
 
@@ -89,8 +97,16 @@ impl Salon {
                 self.tell(format!("Saved {}.", save.to.said()), "", false);
                 if let (true, Some(document)) = (save.is_scene, &mut self.document) {
                     match &save.to {
-                        Destination::Path(path) => document.saved_to(path.clone()),
+                        Destination::Path(path) => {
+                            if let Ok(text) = std::str::from_utf8(&save.bytes) {
+                                document.change("Paths from its folder", text.to_owned());
+                            }
+                            document.saved_to(path.clone());
+                        }
                         Destination::Download(_) => document.handed_out(),
+                    }
+                    if let Ok(understood) = understand(document, document.text()) {
+                        self.scene = Some(Arc::new(understood));
                     }
                     self.forget_kept();
                 }
