@@ -59,10 +59,13 @@ const SURE: f64 = 1e-3;
 /// Part of a distance that is so much less that the other way up is meant.
 const NEARER: f64 = 0.25;
 
+/// A place (m), were another axis up.
+type Turned = fn(DVec3) -> DVec3;
+
 /// Refuses a groom that is not on the head.
 fn check_rooted(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), SceneError> {
     let roots: Vec<DVec3> = guides.iter().map(|strand| strand.points[0].as_dvec3()).collect();
-    let median = |turned: fn(DVec3) -> DVec3| {
+    let median = |turned: Turned| {
         let distance = |root: &DVec3| head.signed_distance().value(turned(*root)).abs();
         let mut distances: Vec<f64> = roots.iter().map(distance).collect();
         let half = distances.len() / 2;
@@ -70,7 +73,7 @@ fn check_rooted(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scen
     };
     let distance = median(|root| root);
     // A head is so round that roots which were turned over may come to lie near its skin again.
-    let ways: [(&str, fn(DVec3) -> DVec3); 2] =
+    let ways: [(&str, Turned); 2] =
         [("y", |p| DVec3::new(p.x, -p.z, p.y)), ("z", |p| DVec3::new(p.x, p.z, -p.y))];
     let fits = |turned| median(turned) < NEARER * distance;
     let other = ways.into_iter().find(|(_, turned)| distance > SURE && fits(*turned));
