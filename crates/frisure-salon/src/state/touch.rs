@@ -78,6 +78,7 @@ mod tests {
                 -1.0, -1.0, 1.0, 1.0, -1.0, 1.0, 0.0, 1.0, 1.0,
             ],
             triangles: vec![[0, 1, 2], [3, 4, 5]],
+            ..HeadData::default()
         };
         let mesh = HeadMesh::new(head);
         let hit = mesh.hit(DVec3::new(0.0, 0.0, 5.0), DVec3::NEG_Z).unwrap();
