@@ -238,7 +238,7 @@ pub(super) struct Groom {
     pub(super) up: Key<OneOf<Which<UpAxis>>>,
     /// Unit of the groom. Default that of the file or format.
     pub(super) unit: Key<OneOf<UnitWord>>,
-    /// How many of its strands become guides at most, evenly chosen; these carry the others. 1 to 100000. Default 1000.
+    /// How many of its strands become guides at most, evenly chosen; these carry the others. 1 to 100000. Default 300.
     #[schemars(range(min = 1, max = 100_000))]
     pub(super) guides: Key<Count>,
 }

@@ -323,7 +323,7 @@ fn head(file: &file::Head, folder: &Path, source: &Source) -> Result<HeadSource>
 }
 
 /// Most guides of a groom, where the scene says nothing.
-const GROOM_GUIDES: usize = 1000;
+const GROOM_GUIDES: usize = 300;
 
 fn groom(file: &file::Groom, folder: &Path, source: &Source) -> Result<Option<GroomFile>> {
     let Some(path) = file.file.get(source)? else {
