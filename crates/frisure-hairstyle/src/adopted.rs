@@ -1,12 +1,13 @@
 //! Hair of another program made into hair with physics: the groom hangs as it was modelled, and can then be
 //! wetted, cut and grown like any other.
 
+use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 
 use frisure_rod::inverse::{Fitted, Held};
 use frisure_rod::potential::InField;
 use frisure_rod::{InvalidQuantity, NaturalStrain, RodSpec, Root as Clamp};
-use frisure_strands::Strands;
+use frisure_strands::{Strand, Strands};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -32,6 +33,10 @@ pub struct Adoption {
     pub distances: Vec<f64>,
     /// Factor on the fibre's stiffness from which on the groom's shape would be stable; 1 where it is.
     pub stiffness_needed: Vec<f64>,
+    /// How many strands of the groom were left out for having no length.
+    pub left_out: usize,
+    /// How many guides the groom has in the head, deeper than 5 mm; they come out of it.
+    pub inside: usize,
 }
 
 /// The hairstyle of a groom: each strand of `guides` (m) becomes a guide whose natural strain is the one with which
@@ -42,7 +47,7 @@ pub struct Adoption {
 /// A groom says nothing of the hair that each strand lies on. Within 4 cm of the skin something may lie beneath it; it
 /// bears so much that the strand needs the least bending ([`Fitted::least_support`]), and stays as high as the groom
 /// has it ([`Bed`]), however the hair is styled. Between each other strands do not push. What was modelled into the
-/// head comes out of it.
+/// head is held as if it were not there, and comes out of it. Strands without length are left out.
 ///
 /// # Errors
 /// [`PredictError`], if the description is out of range, a strand has no length, there is none, or the monitor says
@@ -54,6 +59,9 @@ pub fn adopt(
     hairs: &Strands,
     monitor: &dyn Monitor,
 ) -> Result<(Hairstyle, Adoption), PredictError> {
+    let (guides, hairs) = (with_length(guides), with_length(hairs));
+    let left_out = guides.1 + hairs.1;
+    let (guides, hairs) = (&*guides.0, &*hairs.0);
     let mut spec = spec.clone();
     spec.wisps.count = guides.len();
     spec.contact.hair = HairContact::None;
@@ -84,9 +92,44 @@ pub fn adopt(
     let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
     let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();
     let stiffness_needed = held.iter().map(|(held, _)| held.stiffness_needed).collect();
+    let inside = lines.iter().filter(|line| is_inside(&spec, head, line)).count();
     let styling = Styling::none(&guides);
     let hairstyle = Hairstyle { spec, planting, layout, guides, rest, styling, rough: None };
-    Ok((hairstyle, Adoption { distances, stiffness_needed }))
+    Ok((hairstyle, Adoption { distances, stiffness_needed, left_out, inside }))
+}
+
+/// Least length (m) of a strand that is hair.
+const SHORTEST: f32 = 1e-6;
+
+/// The strands that have a length, and how many have none.
+fn with_length(strands: &Strands) -> (Cow<'_, Strands>, usize) {
+    let has = |strand: &Strand<'_>| {
+        strand.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f32>() > SHORTEST
+    };
+    let count = strands.iter().filter(has).count();
+    if count == strands.len() || count == 0 {
+        return (Cow::Borrowed(strands), 0);
+    }
+    let mut kept = Strands::new();
+    strands.iter().filter(has).for_each(|strand| kept.push(strand.points, strand.radii));
+    (Cow::Owned(kept), strands.len() - count)
+}
+
+/// Depth (m) in the head, and distance (m) along a strand, from which on it is not on the skin but in it.
+const INSIDE: f64 = 5e-3;
+
+/// Whether a strand goes through the head. No fibre is bent by a skull that it is in.
+fn is_inside(spec: &HairstyleSpec, head: &Head, line: &[DVec3]) -> bool {
+    let mut s = 0.0;
+    let deep = |k: usize| {
+        s += if k > 0 { line[k - 1].distance(line[k]) } else { 0.0 };
+        // Long pieces go through the head between their ends.
+        let from = line[k.saturating_sub(1)];
+        let steps = (from.distance(line[k]) / INSIDE).ceil().clamp(1.0, 1000.0);
+        let at = |x: f64| head.signed_distance().value(from.lerp(line[k], x / steps));
+        s > INSIDE && (1..=steps as usize).any(|x| at(x as f64) < -INSIDE)
+    };
+    spec.contact.body != Body::None && (0..line.len()).any(deep)
 }
 
 /// How far (m) from the skin there can be other hair under a strand.
@@ -103,6 +146,10 @@ fn held(
     fibre: RodSpec,
 ) -> Result<(Held, Bed), InvalidQuantity> {
     let fitted = Fitted::new(line, &fibre)?;
+    if is_inside(spec, head, line) {
+        let none = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2].into_iter(), 0.0);
+        return Ok((fitted.hold(&[], &holding(spec))?, none));
+    }
     let skin: Vec<(f64, DVec3)> =
         fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
     let bears = spec.contact.body != Body::None;

@@ -202,6 +202,7 @@ fn people_by_what_they_call_their_hair() {
     near(curly.axis_ratio.as_ref().unwrap().mean, 1.73, 1e-12);
     near(curly.diameter.as_ref().unwrap().mean, (57.0_f64 * 99.0).sqrt() * 1e-6, 1e-9);
     near(curly.curvature.as_ref().unwrap().mean, 382.0, 1e-9);
+    assert!(curly.notes.iter().any(|n| n.contains("Passed over") && n.contains("self_reported")));
     // What differs between people says nothing of the hairs of a head.
     assert_eq!(curly.curvature.as_ref().unwrap().deviation, None);
     assert_eq!(curly.hair_type.name, "kinky");
@@ -281,11 +282,18 @@ fn what_is_wrong_is_named() {
         ("colour,mood\nred,good\n", "nothing in these tables is about hair"),
         ("diameter (um)\nNA\n\n", "nothing in these tables is about hair"),
         ("n,diameter (um)\n0,70\n", "a whole number of at least 1"),
+        ("diameter (um),Fiber diameter (um)\n70,80\n", "say the same"),
     ];
     for (text, expected) in cases {
         let error = one(text).unwrap_err().to_string();
         assert!(error.contains(expected), "{text:?}: {error}");
     }
+    let hint = one("density (kg/m3)\n1300\n").unwrap_err().hint();
+    assert!(hint.contains("=density (g/cm^3)'"), "{hint}");
+    let tables = Tables::new(&[("a.csv", SECTIONS)]);
+    let twice = [tables.paths[0].as_path(), tables.paths[0].as_path()];
+    let error = measured(&twice, &Choices::default()).unwrap_err().to_string();
+    assert!(error.contains("is given twice"), "{error}");
     let refuse = |choices: Choices| with(SECTIONS, &choices).unwrap_err().to_string();
     let no_column = refuse(Choices { rows: pairs(&[("who", "me")]), ..Choices::default() });
     assert!(no_column.contains("no table has a column `who`; there are ID, area"), "{no_column}");

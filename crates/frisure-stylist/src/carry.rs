@@ -59,35 +59,61 @@ const SURE: f64 = 1e-3;
 /// Part of a distance that is so much less that the other way up is meant.
 const NEARER: f64 = 0.25;
 
-/// A place (m), were another axis up.
-type Turned = fn(DVec3) -> DVec3;
+/// Units that a groom of another unit may have been meant in, as lengths of this one.
+const SIZES: [f64; 8] = [0.001, 0.01, 0.0254, 0.1, 10.0, 1.0 / 0.0254, 100.0, 1000.0];
 
 /// Refuses a groom that is not on the head.
 fn check_rooted(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), SceneError> {
     let roots: Vec<DVec3> = guides.iter().map(|strand| strand.points[0].as_dvec3()).collect();
-    let median = |turned: Turned| {
+    let median = |turned: &dyn Fn(DVec3) -> DVec3| {
         let distance = |root: &DVec3| head.signed_distance().value(turned(*root)).abs();
         let mut distances: Vec<f64> = roots.iter().map(distance).collect();
         let half = distances.len() / 2;
         *distances.select_nth_unstable_by(half, f64::total_cmp).1
     };
-    let distance = median(|root| root);
+    let distance = median(&|root| root);
     // A head is so round that roots which were turned over may come to lie near its skin again.
-    let ways: [(&str, Turned); 2] =
-        [("y", |p| DVec3::new(p.x, -p.z, p.y)), ("z", |p| DVec3::new(p.x, p.z, -p.y))];
+    let up_y = |p: DVec3| DVec3::new(p.x, -p.z, p.y);
+    let up_z = |p: DVec3| DVec3::new(p.x, p.z, -p.y);
+    let ways: [(&str, &dyn Fn(DVec3) -> DVec3); 2] = [("y", &up_y), ("z", &up_z)];
     let fits = |turned| median(turned) < NEARER * distance;
-    let other = ways.into_iter().find(|(_, turned)| distance > SURE && fits(*turned));
+    let other = ways.iter().find(|(_, turned)| distance > SURE && fits(*turned));
     if distance <= ROOTED && other.is_none() {
         return Ok(());
     }
     let possible = if distance > ROOTED { "; 1 cm is possible" } else { "" };
-    let other = other.map_or_else(String::new, |(up, _)| format!(", but with {up} up they fit"));
+    let larger = || {
+        let as_it_is: (&str, &dyn Fn(DVec3) -> DVec3) = ("", &|p| p);
+        let near = |size: f64, turned: &dyn Fn(DVec3) -> DVec3| {
+            median(&|p| turned(p * size)) < NEARER * ROOTED
+        };
+        let sized = |(up, turned): &(&'static str, &dyn Fn(DVec3) -> DVec3)| {
+            let size = SIZES.into_iter().find(|size| near(*size, turned))?;
+            let up = if up.is_empty() { String::new() } else { format!(" and with {up} up") };
+            Some(format!(", but {} times as large{up} they fit", short(size)))
+        };
+        [as_it_is, ways[0], ways[1]].iter().find_map(sized)
+    };
+    let other = match other {
+        Some((up, _)) => format!(", but with {up} up they fit"),
+        None => larger().unwrap_or_default(),
+    };
     let message = format!(
         "half of the groom's strands are rooted more than {:.1} cm from the skin of the head{possible}{other}",
         1e2 * distance
     );
-    let hint = "`unit` and `up` of `[groom]` say what it is in; `mesh` of `[head]` is the head that it was made on";
+    let hint = "`unit` and `up` of `[groom]` say what it is in, those of `[head]` what the head is in; `mesh` is the head that \
+                it was made on";
     Err(scene.fault("groom.file", message, hint))
+}
+
+/// A number of at most three digits.
+fn short(x: f64) -> String {
+    if x < 1.0 {
+        format!("1/{:.3}", 1.0 / x).trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').into()
+    }
 }
 
 /// At most so many of some strands, evenly chosen.

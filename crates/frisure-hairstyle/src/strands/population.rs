@@ -100,7 +100,10 @@ fn length(points: &[Vec3]) -> f64 {
 pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, every: usize) -> Vec<(usize, Root)> {
     let Hairstyle { spec, layout, planting, .. } = hairstyle;
     let roots = planting.hairs(spec, head);
-    let gathered = |(index, root): (usize, &Root)| (index, layout.gathered(head, *root));
+    // Hair of a groom is rooted where the groom has it.
+    let own = planting.carried(spec, head).is_some();
+    let place = |root: &Root| if own { *root } else { layout.gathered(head, *root) };
+    let gathered = |(index, root): (usize, &Root)| (index, place(root));
     roots.par_iter().enumerate().step_by(every.max(1)).map(gathered).collect()
 }
 
@@ -161,6 +164,9 @@ impl<'a> Population<'a> {
     /// Where a hair is at `x` of its guides' length.
     fn point(&self, course: &Course<'_>, x: f64, free: &mut Free) -> DVec3 {
         let p = self.followed_point(course, x);
+        if course.own.is_some() && x <= 0.0 {
+            return p;
+        }
         // Hair of a groom lies as it lies; only what is in the body comes out.
         let width = match course.own {
             Some(_) => LAID,

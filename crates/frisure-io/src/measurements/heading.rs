@@ -162,7 +162,22 @@ impl Name {
         matches!(self.reading, Reading::Times(_))
     }
 
-    /// Whether the number itself is what is asked for.
+    /// A heading with a unit.
+    pub(super) fn example(&self) -> String {
+        let unit = self.dimension.example.split_once(' ').map(|(_, unit)| format!(" ({unit})"));
+        let unit = match self.property {
+            Property::ShortAxis | Property::LongAxis | Property::Diameter => {
+                Some(" (um)".to_owned())
+            }
+            Property::Curvature | Property::Turns if self.dimension.si == "rad/m" => {
+                Some(" (1/mm)".to_owned())
+            }
+            _ => unit,
+        };
+        format!("{}{}", self.text, unit.unwrap_or_default())
+    }
+
+    /// Whether this is the name.
     pub(super) fn is(&self, text: &str) -> bool {
         self.text == text
     }

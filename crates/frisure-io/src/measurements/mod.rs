@@ -11,6 +11,7 @@ mod sample;
 mod table;
 mod text;
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -73,6 +74,19 @@ pub enum MeasurementError {
         /// What is wrong.
         problem: String,
     },
+    /// A file is given twice.
+    #[error("`{}` is given twice", .0.display())]
+    Twice(PathBuf),
+    /// Two columns that say the same.
+    #[error("{}: columns `{first}` and `{second}` say the same", path.display())]
+    SameColumns {
+        /// The table.
+        path: PathBuf,
+        /// One heading.
+        first: String,
+        /// The other.
+        second: String,
+    },
     /// More files than anyone measures.
     #[error("{0} tables are more than {MOST_TABLES}")]
     TooMany(usize),
@@ -95,6 +109,8 @@ pub enum MeasurementError {
         path: PathBuf,
         /// Its heading.
         column: String,
+        /// A heading that would do.
+        heading: String,
         /// What is wrong.
         problem: String,
     },
@@ -146,9 +162,15 @@ impl MeasurementError {
     pub fn hint(&self) -> String {
         match self {
             Self::Value { hint, .. } => (*hint).to_owned(),
-            Self::Unit { column, .. } => format!(
-                "write it into the heading, or say what the column is: `--column '{column}=diameter (um)'`"
+            Self::Unit { column, heading, .. } => format!(
+                "write it into the heading, or say what the column is: `--column '{column}={heading}'`"
             ),
+            Self::SameColumns { second, .. } => {
+                format!("say what the other is, or `--column '{second}=other'` to pass it over")
+            }
+            Self::Read(ReadError::NotText { .. }) => {
+                "save the table as UTF-8 text: spreadsheets call it CSV UTF-8".to_owned()
+            }
             Self::Nothing { known } => format!("columns that are understood: {known}"),
             _ => String::new(),
         }
@@ -162,6 +184,11 @@ impl MeasurementError {
 pub fn measured(paths: &[&Path], choices: &Choices) -> Result<Estimate, MeasurementError> {
     if paths.len() > MOST_TABLES {
         return Err(MeasurementError::TooMany(paths.len()));
+    }
+    let mut seen = BTreeSet::new();
+    let whole = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.into());
+    if let Some(twice) = paths.iter().find(|path| !seen.insert(whole(path))) {
+        return Err(MeasurementError::Twice((*twice).into()));
     }
     let tables: Result<Vec<_>, _> = paths.iter().map(|path| table::Table::read(path)).collect();
     Estimate::of(&tables?, choices)

@@ -12,6 +12,9 @@ use crate::quantity::{Dimension, LENGTH};
 /// What fibermorph writes into the names of its samples and files, before the window's length.
 const WINDOW: &str = "WindowSize-";
 
+/// What a column is said to be that is to be passed over.
+const OTHER: &str = "other";
+
 /// Numbers of one property.
 #[derive(Debug, Default)]
 struct Numbers {
@@ -74,6 +77,8 @@ struct Layout {
     hair: Option<usize>,
     level: Level,
     of_fragments: bool,
+    /// Headings that say nothing of hair.
+    passed_over: Vec<String>,
 }
 
 impl Readings {
@@ -84,6 +89,10 @@ impl Readings {
         let mut windows_left_out = false;
         for (index, table) in tables.iter().enumerate() {
             let layout = Layout::of(table, choices)?;
+            if !layout.passed_over.is_empty() {
+                let columns = layout.passed_over.join("`, `");
+                readings.notes.push(format!("Passed over in `{}`: `{columns}`.", table.name()));
+            }
             readings.of_fragments |= layout.of_fragments;
             for row in &table.rows {
                 let its_window = window_of(table, row);
@@ -249,11 +258,13 @@ impl Layout {
         };
         let sections = ["area", "eccentricity", "min", "max"].into_iter().all(has);
         let (mut columns, mut count, mut hair, mut of_fragments) = (Vec::new(), None, None, false);
+        let mut passed_over = Vec::new();
         for (index, meaning) in meanings.into_iter().enumerate() {
             match meaning {
                 Meaning::Count => count = Some(index),
                 Meaning::Hair => hair = Some(index),
-                Meaning::Other => {}
+                Meaning::Other if table.headings[index].is_empty() => {}
+                Meaning::Other => passed_over.push(table.headings[index].clone()),
                 Meaning::Value { name, unit, aggregates } => {
                     // fibermorph's columns have no unit: its documentation has.
                     let unit = unit.or_else(|| match () {
@@ -265,10 +276,25 @@ impl Layout {
                     of_fragments |= name.is("curv") || name.is("curvature");
                     let factor = factor(name.dimension, unit.as_deref()).map_err(|problem| {
                         let (path, column) = (table.path.clone(), table.headings[index].clone());
-                        MeasurementError::Unit { path, column, problem }
+                        let heading = name.example();
+                        MeasurementError::Unit { path, column, heading, problem }
                     })?;
                     columns.push(Column { index, name, factor, aggregates });
                 }
+            }
+        }
+        for (k, column) in columns.iter().enumerate().filter(|(_, column)| column.is_centre()) {
+            let same = |other: &&Column| {
+                other.name.property == column.name.property && other.aggregates == column.aggregates
+            };
+            if let Some(other) = columns[..k].iter().find(same) {
+                let heading = |c: &Column| table.headings[c.index].clone();
+                let (first, second) = (heading(other), heading(column));
+                return Err(MeasurementError::SameColumns {
+                    path: table.path.clone(),
+                    first,
+                    second,
+                });
             }
         }
         let spread = columns.iter().any(|c| !c.is_centre());
@@ -277,7 +303,7 @@ impl Layout {
             Some(hair) if repeats(table, hair) => Level::Window,
             _ => Level::Hair,
         };
-        Ok(Self { columns, count, hair, level, of_fragments })
+        Ok(Self { columns, count, hair, level, of_fragments, passed_over })
     }
 
     /// Where a property stands.
@@ -422,7 +448,7 @@ fn check_columns(tables: &[Table], choices: &Choices) -> Result<(), MeasurementE
             return Err(MeasurementError::NoColumn { column: column.clone(), known: known() });
         }
     }
-    let meant = |title: &String| matches!(Meaning::of(title), Meaning::Other);
+    let meant = |title: &String| title != OTHER && matches!(Meaning::of(title), Meaning::Other);
     if let Some((_, title)) = choices.columns.iter().find(|(_, title)| meant(title)) {
         let (title, known) = (title.clone(), super::known_headings());
         return Err(MeasurementError::NoMeaning { title, known });

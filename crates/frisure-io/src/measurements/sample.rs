@@ -11,7 +11,8 @@ pub struct Sample {
     pub deviation: Option<f64>,
     /// How many hairs or sections.
     pub count: usize,
-    /// In how many groups they were told; 0 if one by one. The median is that of the groups then.
+    /// In how many groups they were told; 0 if one by one. The median is then that of groups, each as often as it
+    /// counts.
     pub groups: usize,
 }
 
@@ -44,8 +45,14 @@ impl Sample {
         let weighted = |x: f64, group: &Group| x * group.count as f64 / count as f64;
         let mean = groups.iter().map(|g| weighted(g.centre, g)).sum();
         let squares = groups.iter().map(|g| g.deviation.map(|d| weighted(d * d, g)));
-        let centres: Vec<f64> = groups.iter().map(|g| g.centre).collect();
-        let median = median(&centres);
+        let mut sorted: Vec<&Group> = groups.iter().collect();
+        sorted.sort_by(|a, b| a.centre.total_cmp(&b.centre));
+        let mut counted = 0;
+        let middle = sorted.iter().find(|g| {
+            counted += g.count;
+            2 * counted >= count
+        });
+        let median = middle.map_or(0.0, |g| g.centre);
         let deviation = squares.sum::<Option<f64>>().map(f64::sqrt);
         (count > 0).then_some(Self { mean, median, deviation, count, groups: groups.len() })
     }
