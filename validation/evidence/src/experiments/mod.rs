@@ -1,0 +1,14 @@
+//! The experiments, one per file, in the order of the report.
+
+mod elastica;
+
+use crate::{Cancelled, Experiment, Monitor};
+
+/// Every experiment.
+pub const EXPERIMENTS: &[&Experiment] = &[&elastica::EXPERIMENT];
+
+/// Says how far an experiment is, and hears whether it should stop.
+fn check(monitor: &dyn Monitor, name: &'static str, fraction: f64) -> Result<(), Cancelled> {
+    monitor.progress(name, fraction);
+    if monitor.cancelled() { Err(Cancelled) } else { Ok(()) }
+}
