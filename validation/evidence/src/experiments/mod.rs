@@ -1,11 +1,16 @@
 //! The experiments, one per file, in the order of the report.
 
+mod buckling;
+mod convergence;
 mod elastica;
+
+mod plane;
 
 use crate::{Cancelled, Experiment, Monitor};
 
 /// Every experiment.
-pub const EXPERIMENTS: &[&Experiment] = &[&elastica::EXPERIMENT];
+pub const EXPERIMENTS: &[&Experiment] =
+    &[&elastica::EXPERIMENT, &buckling::EXPERIMENT, &convergence::EXPERIMENT];
 
 /// Says how far an experiment is, and hears whether it should stop.
 fn check(monitor: &dyn Monitor, name: &'static str, fraction: f64) -> Result<(), Cancelled> {
