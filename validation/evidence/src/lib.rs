@@ -12,6 +12,7 @@
 mod experiments;
 mod finding;
 pub mod plot;
+mod random;
 pub mod reference;
 pub mod report;
 mod rods;

@@ -3,14 +3,28 @@
 mod buckling;
 mod convergence;
 mod elastica;
+mod growth;
+mod invariance;
+mod robustness;
+mod single;
+mod suspended;
 
+mod curls;
 mod plane;
 
 use crate::{Cancelled, Experiment, Monitor};
 
 /// Every experiment.
-pub const EXPERIMENTS: &[&Experiment] =
-    &[&elastica::EXPERIMENT, &buckling::EXPERIMENT, &convergence::EXPERIMENT];
+pub const EXPERIMENTS: &[&Experiment] = &[
+    &elastica::EXPERIMENT,
+    &buckling::EXPERIMENT,
+    &convergence::EXPERIMENT,
+    &invariance::EXPERIMENT,
+    &single::EXPERIMENT,
+    &growth::EXPERIMENT,
+    &suspended::EXPERIMENT,
+    &robustness::EXPERIMENT,
+];
 
 /// Says how far an experiment is, and hears whether it should stop.
 fn check(monitor: &dyn Monitor, name: &'static str, fraction: f64) -> Result<(), Cancelled> {
