@@ -8,6 +8,7 @@ mod invariance;
 mod robustness;
 mod single;
 mod suspended;
+mod types;
 
 mod curls;
 mod plane;
@@ -24,6 +25,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &growth::EXPERIMENT,
     &suspended::EXPERIMENT,
     &robustness::EXPERIMENT,
+    &types::EXPERIMENT,
 ];
 
 /// Says how far an experiment is, and hears whether it should stop.
