@@ -125,6 +125,11 @@ impl Finding {
         self.items.push(Item::Plot(plot));
     }
 
+    /// Adds a picture.
+    pub fn picture(&mut self, picture: Picture) {
+        self.items.push(Item::Picture(picture));
+    }
+
     /// Adds a criterion.
     pub fn judge(&mut self, what: impl Into<String>, measured: f64, limit: Limit) {
         self.criteria.push(Criterion { what: what.into(), measured, limit });

@@ -4,9 +4,11 @@ mod buckling;
 mod convergence;
 mod elastica;
 mod growth;
+mod heads;
 mod invariance;
 mod robustness;
 mod single;
+mod speed;
 mod suspended;
 mod types;
 
@@ -26,6 +28,8 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &suspended::EXPERIMENT,
     &robustness::EXPERIMENT,
     &types::EXPERIMENT,
+    &heads::EXPERIMENT,
+    &speed::EXPERIMENT,
 ];
 
 /// Says how far an experiment is, and hears whether it should stop.
