@@ -284,11 +284,12 @@ fn judge(finding: &mut Finding, hairs: &[Hung], [coils, hooks]: &[Vec<(f64, f64)
         };
         // A border is drawn through few points: what is within 8 % of it is not asked.
         let near = |x: Option<f64>, y: f64| x.is_some_and(|x| (y / x).ln().abs() < 0.08);
-        if let Some(inside) = inside {
-            if !near(along(&by_kappa, kappa), gamma) && !near(along(hooks, gamma), kappa) {
-                asked += 1;
-                right += usize::from(hair.leaves() == inside);
-            }
+        if let Some(inside) = inside
+            && !near(along(&by_kappa, kappa), gamma)
+            && !near(along(hooks, gamma), kappa)
+        {
+            asked += 1;
+            right += usize::from(hair.leaves() == inside);
         }
         let tension = gamma / (B * kappa * kappa);
         if hair.leaves() && !(0.5..2.0).contains(&tension) {
