@@ -8,6 +8,7 @@ use frisure::rod::{
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::curls::curvatures;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::to_accuracy;
 use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
@@ -19,7 +20,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         do their hairs shrink dry and lengthen wet as hair does?",
     method: "The curve diameter of a type is 2/κ of its natural curl; the limits of types I to IV (10.5, 5.5, 3.5 cm, \
         de la Mettrie et al. 2007) are as docs/hair-types.md has them: recalled, not read. Types V to VIII have no \
-        limits that we know.\n\n\
+        limits that we know. Those who measure it lay the hair flat: a curl that is pressed into a plane stays a \
+        circle of 2/κ where τ/κ is below (2/π)√(EI₁/GJ), from the sine-Gordon equation ½EI₁κ² sin²φ + ½GJ(φ′ − τ)² for the \
+        angle φ of its section to the plane (of a nearly round hair), and becomes a wave beyond, whose crests have the \
+        same 2/κ.\n\n\
         A hair of each type, 15 cm along the fibre, hangs from a root at which the axis of its natural curl points down, dry, wet as measured \
         (E × 0.43, G × 0.22, diameter × 1.065) and wet as in the paper (E ÷ 5, diameter × 1.13, length × 1.01), its \
         mass without the water. Its height over its length is compared with the closed form of a curl under tension: \
@@ -107,6 +111,10 @@ struct Found {
     name: &'static str,
     diameter: f64,
     turns: f64,
+    /// Twist over curvature of the natural curl, over that up to which it lies flat as a circle.
+    flat: f64,
+    /// Curve diameter (m) in the middle of the hair as it hangs dry: median of 2/κ.
+    hanging: f64,
     /// Heights over the dry length, found and by the closed form, in each state.
     heights: [[f64; 2]; 3],
     stable: bool,
@@ -116,14 +124,28 @@ fn of(name: &'static str, hair: &HairType) -> Result<Found, Stopped> {
     let states = [None, Some(hair.wetting), Some(hair.paper_wetting)];
     let mut stable = true;
     let mut heights = [[0.0; 2]; 3];
+    let mut hanging = f64::NAN;
     for (state, wetting) in states.into_iter().enumerate() {
         let found = rest(spec(hair, wetting)?)?;
         stable &= found.certificate.stability == Stability::Stable;
+        if state == 0 {
+            hanging = hanging_diameter(&found);
+        }
         heights[state] = [-found.tip().z / LENGTH, height(&found.rod) / LENGTH];
     }
     let u = NaturalStrain::helix(hair.curl.radius, hair.curl.pitch)?.at(0.0);
     let turns = u.length() * LENGTH / std::f64::consts::TAU;
-    Ok(Found { name, diameter: 2.0 / u.x, turns, heights, stable })
+    let stiffness = Rod::new(spec(hair, None)?)?.stiffness();
+    let flat = u.z / u.x / ((stiffness.x / stiffness.z).sqrt() * std::f64::consts::FRAC_2_PI);
+    Ok(Found { name, diameter: 2.0 / u.x, turns, flat, hanging, heights, stable })
+}
+
+/// Median of 2/κ over the middle half of a hair (m).
+fn hanging_diameter(found: &Equilibrium) -> f64 {
+    let line: Vec<DVec3> = found.centre_line(801).iter().map(|p| *p / LENGTH).collect();
+    let mut middle = curvatures(&line)[200..600].to_vec();
+    middle.sort_by(f64::total_cmp);
+    2.0 * LENGTH / middle[middle.len() / 2]
 }
 
 fn run(_: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
@@ -148,7 +170,18 @@ fn run(_: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
 fn table(finding: &mut Finding, found: &[Found]) {
     let mut table = Table::new(
         "A hanging hair of 15 cm: height over length (closed form), and how much longer it is wet",
-        &["type", "curve diameter", "turns", "dry", "wet", "wet, paper", "longer wet", "paper"],
+        &[
+            "type",
+            "curve diameter",
+            "hanging dry",
+            "lies flat as",
+            "turns",
+            "dry",
+            "wet",
+            "wet, paper",
+            "longer wet",
+            "paper",
+        ],
     );
     for one in found {
         let cell = |[found, closed]: [f64; 2]| format!("{found:.3} ({closed:.3})");
@@ -157,6 +190,8 @@ fn table(finding: &mut Finding, found: &[Found]) {
         table.row([
             one.name.to_owned(),
             format!("{:.1} mm", 1e3 * one.diameter),
+            format!("{:.1} mm", 1e3 * one.hanging),
+            if one.flat < 1.0 { "circle".into() } else { "wave".into() },
             format!("{:.1}", one.turns),
             cell(one.heights[0]),
             cell(one.heights[1]),

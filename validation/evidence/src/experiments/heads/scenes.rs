@@ -43,11 +43,11 @@ impl Hair {
         effort: Effort,
         monitor: &dyn Monitor,
     ) -> Result<Self, Stopped> {
-        let [width, height] = effort.pick(["200", "250"], ["340", "420"]);
+        let [width, height] = effort.pick(["160", "200"], ["340", "420"]);
         let mut all =
             vec![("output.width", width), ("output.height", height), ("output.samples", "2")];
         if effort == Effort::Quick {
-            all.extend([("wisps.count", "60"), ("wisps.hairs", "6000")]);
+            all.extend([("wisps.count", "40"), ("wisps.hairs", "3000")]);
         }
         all.extend(changes);
         let all: Vec<(&str, Option<&str>)> = all.into_iter().map(|(k, v)| (k, Some(v))).collect();
