@@ -25,7 +25,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         length with at most 4000 elements. The certificate of each is its relative gradient and whether its second \
         variation is positive. Some realistic hairs are solved by the boundary-value problem too, which gives up where \
         it cannot follow a stable branch: where it does not, the lines are compared.\n\n\
-        Equilibria are counted by minimising from random shapes: every element of a division into 30 to 60 is \
+        Equilibria are counted by minimising from random shapes: every element of a division into 30 to 120 is \
         turned at random about its natural turn. Minima whose lines differ by more than a hundredth of the length are \
         two.",
     run,
@@ -191,7 +191,7 @@ fn compared(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
 /// How many minima a hair has, and whether gravity's branch ends in the lowest.
 fn minima(spec: &RodSpec, starts: usize, seed: usize) -> Result<(usize, bool), Stopped> {
     let rod = Rod::new(spec.clone())?;
-    let count = ElementKind::Jointed.resolving_elements(&rod).clamp(30, 60);
+    let count = ElementKind::Jointed.resolving_elements(&rod).clamp(30, 120);
     let chain = Chain::uniform(&rod, ElementKind::Jointed, count);
     let problem = Problem::new(&chain, &[]);
     let stopping = Stopping { tolerance: 1e-9, max_iterations: 400 };
@@ -231,7 +231,7 @@ fn counted(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     let (hairs, starts) = effort.pick((24, 12), (300, 60));
     let mut table = Table::new(
         &format!(
-            "Minima found from {starts} random shapes, {hairs} hairs of each kind, 4 to 12 cm"
+            "Minima found from {starts} random shapes, {hairs} hairs of each kind, 5 to 30 cm"
         ),
         &["hair", "one", "two", "three", "more", "gravity's branch is the lowest"],
     );
@@ -239,13 +239,13 @@ fn counted(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     for (k, kind) in ["straight", "helices", "planar curls"].into_iter().enumerate() {
         let one = |i: usize| {
             let mut random = Random::new(73, i + 1_000_000 * k);
-            let radius = random.decades(0.004, 0.015);
+            let radius = random.decades(0.003, 0.02);
             let natural = match k {
                 0 => NaturalStrain::STRAIGHT,
                 1 => NaturalStrain::helix(radius, random.between(0.8, 3.0) * radius)?,
                 _ => NaturalStrain::helix(radius, 0.0)?,
             };
-            let length = random.between(0.04, 0.12);
+            let length = random.between(0.05, 0.30);
             minima(&RodSpec { length, natural, ..random.realistic()? }, starts, i)
         };
         let all: Vec<(usize, bool)> =
