@@ -87,7 +87,7 @@ fn counts(to: f64) -> Vec<usize> {
 
 fn slopes(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     let cases = [
-        hair("straight", 0.0, 1.0)?,
+        hair("straight hair", 0.0, 1.0)?,
         hair("a wave of one turn", 1.0, 1.4)?,
         hair("a curl of 4 turns, round", 4.0, 1.0)?,
         hair("a curl of 4 turns, a/b = 1.75", 4.0, 1.75)?,

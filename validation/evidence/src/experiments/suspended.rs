@@ -25,7 +25,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         and tension for T/EIκ² = b cos θ/(b − (b − 1) cos²θ)², b = EI/GJ (from ½EI(Ω sin θ − κ)² + ½GJ(Ω cos θ)² − \
         T cos θ, first by Ω). It is straight for T ≥ bEIκ²: the helix reaches up to bκ²EI/ρSg from the tip, and \
         through the whole hair where Γ < b(κL)². The height of the hair is the integral of cos θ. These \
-        closed forms know nothing of clamp and tip, which cost about a turn each.",
+        closed forms know nothing of clamp and tip, which spoil about a turn each.",
     run,
 };
 
@@ -185,12 +185,12 @@ fn helices(finding: &mut Finding) -> Result<(), Stopped> {
     finding.judge(
         "largest difference of the height from the closed form, over the length",
         worst,
-        Limit::AtMost(0.02),
+        Limit::AtMost(0.005),
     );
     finding.judge(
         "largest difference of a turn's descent from the closed form, but for the turns at the ends",
         angle,
-        Limit::AtMost(0.05),
+        Limit::AtMost(0.01),
     );
     Ok(())
 }

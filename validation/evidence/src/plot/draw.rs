@@ -122,18 +122,7 @@ fn axes(f: &mut Formatter<'_>, plot: &Plot, frame: &Frame) -> Result {
 fn draw(f: &mut Formatter<'_>, series: &Series, colour: &str, frame: &Frame) -> Result {
     let lines = series.mark != Mark::Points;
     if lines {
-        // A gap where a number cannot be drawn.
-        let mut path = String::new();
-        let mut pen = 'M';
-        for point in &series.points {
-            match frame.at(*point) {
-                Some((x, y)) => {
-                    path += &format!("{pen}{x:.1} {y:.1}");
-                    pen = 'L';
-                }
-                None => pen = 'M',
-            }
-        }
+        let path = path(&series.points, frame);
         let dash = if series.mark == Mark::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
         write!(
             f,
@@ -147,6 +136,26 @@ fn draw(f: &mut Formatter<'_>, series: &Series, colour: &str, frame: &Frame) -> 
         }
     }
     Ok(())
+}
+
+/// A line through points, with a gap where a number cannot be drawn.
+fn path(points: &[(f64, f64)], frame: &Frame) -> String {
+    let mut path = String::new();
+    let mut last: Option<(f64, f64)> = None;
+    for (i, point) in points.iter().enumerate() {
+        let Some((x, y)) = frame.at(*point) else {
+            last = None;
+            continue;
+        };
+        // What is nearer to the last point than the eye can see is left out.
+        let near = last.is_some_and(|(a, b)| (x - a).hypot(y - b) < 0.7);
+        if near && i + 1 < points.len() {
+            continue;
+        }
+        path += &format!("{}{x:.1} {y:.1}", if last.is_some() { 'L' } else { 'M' });
+        last = Some((x, y));
+    }
+    path
 }
 
 /// The legend, in the corner with the fewest points.

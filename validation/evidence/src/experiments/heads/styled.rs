@@ -3,6 +3,7 @@
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::{Dry, Operation};
 use frisure::hairstyle::{Hairstyle, volume};
+use frisure::strands::Strands;
 
 use super::scenes::{Hair, failed, strip};
 use crate::{Effort, Finding, Limit, Monitor, Stopped, Table};
@@ -46,9 +47,10 @@ pub(super) fn cut_wet(
     );
     let start = tips(&states[0], &fringe);
     let (mut pictures, mut heights, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
-    for (name, state) in names.into_iter().zip(&states) {
-        let strands = state.strands(head, monitor)?;
-        let litres = 1e3 * volume(&strands, head, state.grown()).region;
+    let drawn = states.iter().map(|state| Ok(state.strands(head, monitor)?));
+    let drawn: Vec<Strands> = drawn.collect::<Result<_, Stopped>>()?;
+    for (name, (state, strands)) in names.into_iter().zip(states.iter().zip(&drawn)) {
+        let litres = 1e3 * volume(strands, head, state.grown()).region;
         let report = state.report(head);
         let height = 1e3 * (tips(state, &fringe) - start);
         table.row([
@@ -59,9 +61,9 @@ pub(super) fn cut_wet(
         ]);
         heights.push(height);
         volumes.push(litres);
-        let framed = states[1].strands(head, monitor)?;
+        // Wet hair reaches farthest.
         let hair = Hair { scene: hair.scene.clone(), hairstyle: state.clone() };
-        pictures.push(hair.picture(&strands, &framed, Some(head), None, monitor)?);
+        pictures.push(hair.picture(strands, &drawn[1], Some(head), None, monitor)?);
     }
     finding.picture(strip(
         "figure-5",
