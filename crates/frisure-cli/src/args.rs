@@ -613,7 +613,7 @@ pub(crate) struct Validate {
     #[arg(long)]
     pub(crate) quick: bool,
 
-    /// Everything: some minutes.
+    /// Everything: five to ten minutes on two cores.
     #[arg(long, conflicts_with = "quick")]
     pub(crate) full: bool,
 
