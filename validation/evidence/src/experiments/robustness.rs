@@ -1,5 +1,6 @@
 //! How often it fails.
 
+use frisure::rod::batch::Batch;
 use frisure::rod::minimise::{Minimiser, Problem, Riccati, Stopping};
 use frisure::rod::{
     Chain, ElementKind, Equilibrium, NaturalStrain, Options, Resolution, Rod, RodSpec, Stability,
@@ -11,7 +12,7 @@ use rayon::prelude::*;
 use crate::plot::{Mark, Plot, Scale};
 use crate::random::Random;
 use crate::reference::Hanging;
-use crate::rods::line;
+use crate::rods::{elements, line};
 use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -45,6 +46,8 @@ fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
     told(&mut finding, &realistic, &absurd);
     compared(&mut finding, effort)?;
     super::check(monitor, "robustness", 0.8)?;
+    side_by_side(&mut finding, effort)?;
+    super::check(monitor, "robustness", 0.85)?;
     counted(&mut finding, effort)?;
     Ok(finding)
 }
@@ -184,6 +187,45 @@ fn compared(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         "share that the boundary-value problem could follow",
         known.len() as f64 / gaps.len() as f64,
         Limit::AtLeast(0.5),
+    );
+    Ok(())
+}
+
+/// The same hairs in a batch, which goes straight to rest, and one by one along gravity's branch, with the same
+/// elements.
+fn side_by_side(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
+    let count = effort.pick(300, 4000);
+    let spec = |i| Random::new(75, i).realistic().and_then(Rod::new);
+    let rods: Vec<Rod> = (0..count).map(spec).collect::<Result<_, _>>()?;
+    let batch = Batch { elements: 60, ..Batch::default() };
+    let batches = rods.par_chunks(200).map(|rods| (rods, batch.settle(rods)));
+    let gaps = batches.flat_map_iter(|(rods, rest)| {
+        let each = move |(k, rod): (usize, &Rod)| {
+            let alone = equilibrium(rod, &[], &elements(60, ElementKind::Jointed));
+            let tip = rest.shape(rod, k).positions[60];
+            let stable = rest.hairs[k].stability == Stability::Stable;
+            (stable, tip.distance(alone.shape.positions[60]) / rod.length())
+        };
+        rods.iter().enumerate().map(each).collect::<Vec<_>>()
+    });
+    let gaps: Vec<(bool, f64)> = gaps.collect();
+    let stable = gaps.iter().filter(|g| g.0).count();
+    let other = gaps.iter().filter(|g| g.1 > 1e-3).count();
+    let worst = gaps.iter().map(|g| g.1).filter(|g| *g <= 1e-3).fold(0.0, f64::max);
+    finding.text(format!(
+        "Side by side, straight from the natural shape (60 jointed elements), {stable} of {count} realistic hairs come to \
+         rest in a minimum; {other} in another one than by gravity's branch. The tips of the others are within \
+         {worst:.0e} of the length."
+    ));
+    finding.judge(
+        "share of hairs that a batch brings to rest in a minimum",
+        stable as f64 / count as f64,
+        Limit::AtLeast(1.0),
+    );
+    finding.judge(
+        "share of hairs that a batch brings to rest elsewhere than gravity's branch",
+        other as f64 / count as f64,
+        Limit::AtMost(0.05),
     );
     Ok(())
 }

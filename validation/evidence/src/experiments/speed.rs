@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{predict, preset};
+use frisure::rod::batch::Batch;
 use frisure::rod::{ElementKind, Rod, RodSpec, Stability, equilibrium};
 use rayon::prelude::*;
 
@@ -41,6 +42,19 @@ fn timed(rods: &[Rod], solve: impl Fn(&Rod) -> Stability) -> (f64, usize) {
     (best, stable)
 }
 
+/// The same for a batch.
+fn batched(rods: &[Rod]) -> (f64, usize) {
+    let mut best = f64::INFINITY;
+    let mut stable = 0;
+    for _ in 0..3 {
+        let start = Instant::now();
+        let found = Batch::default().settle(rods);
+        best = best.min(start.elapsed().as_secs_f64());
+        stable = found.hairs.iter().filter(|h| h.stability == Stability::Stable).count();
+    }
+    (best, stable)
+}
+
 fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     monitor.progress("speed", 0.0);
@@ -59,6 +73,10 @@ fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
         let what = format!("{count} hairs to 0.1 mm, with certificates");
         let (seconds, stable) = timed(&rods, exact);
         finding.timings.push(Timing { what, seconds, beside: "nothing in the paper".into() });
+        right = (right.0 + stable, right.1 + count);
+        let what = format!("{count} hairs, 15 jointed elements, side by side (batch)");
+        let (seconds, stable) = batched(&rods);
+        finding.timings.push(Timing { what, seconds, beside: beside.into() });
         right = (right.0 + stable, right.1 + count);
     }
     super::check(monitor, "speed", 0.3)?;
