@@ -158,7 +158,7 @@ fn edgewise(ratio: f64) -> Result<Option<[f64; 3]>, Stopped> {
     let twist = bar(1.0).rod()?.stiffness();
     let unit = (twist.z / twist.x).sqrt();
     let leaves = |gamma: f64| reference_leaves(&bar(gamma));
-    let Some(reference) = first(2.0, 1.15, 2000.0, leaves)? else { return Ok(None) };
+    let Some(reference) = first(2.0, 1.15, (2000.0, 27), leaves)? else { return Ok(None) };
     let frisure = frisure_threshold(reference, DVec3::Y, 60, bar)?;
     Ok(Some([reference / unit, frisure / unit, reference]))
 }
@@ -213,7 +213,7 @@ fn compared(at: f64, reference: f64, frisure: f64) -> [String; 4] {
 /// The reference's and frisure's threshold of curvature at a weight.
 fn hook(gamma: f64) -> Result<[f64; 2], Stopped> {
     let bar = |kappa: f64| hanging_curl(gamma, kappa);
-    let found = first(2.0, 1.1, 60.0, |kappa| hook_leaves(&bar(kappa)))?;
+    let found = first(2.0, 1.1, (60.0, 27), |kappa| hook_leaves(&bar(kappa)))?;
     let reference =
         found.ok_or_else(|| Stopped::Other(format!("no hook of Γ = {gamma} leaves its plane")))?;
     Ok([reference, frisure_threshold(reference, DVec3::Y, 120, bar)?])
@@ -222,7 +222,7 @@ fn hook(gamma: f64) -> Result<[f64; 2], Stopped> {
 /// The reference's and frisure's threshold of weight at a curvature.
 fn coil(kappa: f64) -> Result<[f64; 2], Stopped> {
     let bar = |gamma: f64| hanging_curl(gamma, kappa);
-    let found = first(1.0, 1.15, 3000.0, |gamma| reference_leaves(&bar(gamma)))?;
+    let found = first(1.0, 1.15, (3000.0, 27), |gamma| reference_leaves(&bar(gamma)))?;
     let reference =
         found.ok_or_else(|| Stopped::Other(format!("no curl of κL = {kappa} leaves its plane")))?;
     let count = (8.0 * kappa).max(160.0) as usize;

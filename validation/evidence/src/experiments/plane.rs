@@ -43,17 +43,18 @@ pub(super) fn bisect(
     Ok(0.5 * (low + high))
 }
 
-/// The first place, in steps of a factor, where the answer is yes, made exact; none before `most`.
+/// The first place, in steps of a factor, where the answer is yes, made exact by so many halvings; none before
+/// `most`.
 pub(super) fn first(
     from: f64,
     factor: f64,
-    most: f64,
+    (most, halvings): (f64, usize),
     yes: impl Fn(f64) -> Result<bool, Stopped>,
 ) -> Result<Option<f64>, Stopped> {
     let mut low = from;
     while low < most {
         if yes(factor * low)? {
-            return bisect(low, factor * low, 34, yes).map(Some);
+            return bisect(low, factor * low, halvings, yes).map(Some);
         }
         low *= factor;
     }

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{predict, preset};
 use frisure::rod::batch::Batch;
 use frisure::rod::{ElementKind, Rod, RodSpec, Stability, equilibrium};
@@ -121,15 +120,15 @@ fn errors(finding: &mut Finding) -> Result<(), Stopped> {
 }
 
 fn head(finding: &mut Finding, effort: Effort, monitor: &dyn Monitor) -> Result<(), Stopped> {
-    let head = Head::mannequin();
+    let head = super::heads::mannequin();
     let preset = preset("caucasian-curly").ok_or_else(|| Stopped::Other("no curly hair".into()))?;
     let mut spec = preset.spec();
     spec.wisps.count = effort.pick(40, 100);
     spec.length.mean = 0.28;
     let start = Instant::now();
-    let hairstyle = predict(&spec, &head, monitor)?;
+    let hairstyle = predict(&spec, head, monitor)?;
     let seconds = start.elapsed().as_secs_f64();
-    let report = hairstyle.report(&head);
+    let report = hairstyle.report(head);
     let what = format!("a head of {} curly guides, all contacts", report.guides);
     finding.timings.push(Timing {
         what,

@@ -243,14 +243,14 @@ fn borders(effort: Effort) -> Result<[Vec<(f64, f64)>; 2], Stopped> {
     let kappas: Vec<f64> = effort
         .pick(vec![7.0, 12.0, 60.0], vec![6.6, 7.0, 8.0, 10.0, 13.0, 17.0, 24.0, 34.0, 46.0, 60.0]);
     let coils = kappas.par_iter().map(|&kappa| {
-        let found = first(1.0, 1.15, 3000.0, |g| reference_leaves(&hanging_curl(g, kappa)))?;
+        let found = first(1.0, 1.15, (3000.0, 9), |g| reference_leaves(&hanging_curl(g, kappa)))?;
         Ok(found.map(|gamma| (gamma, kappa)))
     });
     let coils: Vec<Option<(f64, f64)>> = coils.collect::<Result<_, Stopped>>()?;
     let gammas: Vec<f64> = effort
         .pick(vec![40.0, 300.0, 3000.0], vec![25.0, 40.0, 70.0, 150.0, 400.0, 1000.0, 3000.0]);
     let hooks = gammas.par_iter().map(|&gamma| {
-        let found = first(2.0, 1.1, 60.0, |k| hook_leaves(&hanging_curl(gamma, k)))?;
+        let found = first(2.0, 1.1, (60.0, 9), |k| hook_leaves(&hanging_curl(gamma, k)))?;
         Ok(found.map(|kappa| (gamma, kappa)))
     });
     let hooks: Vec<Option<(f64, f64)>> = hooks.collect::<Result<_, Stopped>>()?;

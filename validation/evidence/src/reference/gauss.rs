@@ -47,7 +47,7 @@ fn step<const N: usize>(
             }
             slopes[i] = new;
         }
-        if change < 1e-16 {
+        if change < 2e-15 {
             break;
         }
     }

@@ -111,7 +111,7 @@ impl Hanging {
         // Within a piece the fastest growth, exp(√Γ s), stays below e².
         let heavy = self.weight / self.stiffness.min_element().min(1.0);
         let pieces = (0.5 * heavy.sqrt()).max(0.5 * turn).ceil().clamp(16.0, 400.0);
-        let steps = (6.0 * (turn + heavy.sqrt() + 6.0) / pieces).ceil().max(8.0);
+        let steps = (6.0 * (turn + heavy.sqrt() + 6.0) / pieces).ceil().max(6.0);
         (pieces as usize, steps as usize)
     }
 }

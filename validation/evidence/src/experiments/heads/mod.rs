@@ -4,6 +4,8 @@ mod collisions;
 mod scenes;
 mod styled;
 
+use std::sync::OnceLock;
+
 use frisure::hairstyle::head::Head;
 use frisure::strands::Strands;
 
@@ -22,15 +24,21 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
+/// The mannequin, made once: its distance takes seconds.
+pub(super) fn mannequin() -> &'static Head {
+    static HEAD: OnceLock<Head> = OnceLock::new();
+    HEAD.get_or_init(Head::mannequin)
+}
+
 fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     monitor.progress("heads", 0.0);
-    let head = Head::mannequin();
-    first(&mut finding, &head, effort, monitor)?;
+    let head = mannequin();
+    first(&mut finding, head, effort, monitor)?;
     collisions::on_a_sphere(&mut finding)?;
-    collisions::on_heads(&mut finding, &head, effort, monitor)?;
-    styled::cut_wet(&mut finding, &head, effort, monitor)?;
-    kinds(&mut finding, &head, effort, monitor)?;
+    collisions::on_heads(&mut finding, head, effort, monitor)?;
+    styled::cut_wet(&mut finding, head, effort, monitor)?;
+    kinds(&mut finding, head, effort, monitor)?;
     Ok(finding)
 }
 
