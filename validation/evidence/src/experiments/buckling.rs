@@ -5,7 +5,9 @@ use frisure::rod::{Chain, ElementKind, equilibrium};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::plane::{bisect, first, frisure_threshold, hook_leaves, reference_leaves};
+use super::plane::{
+    bisect, first, frisure_leaves, frisure_threshold, hook_leaves, reference_leaves,
+};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::{greenhill, prandtl_michell};
 use crate::rods::{Bar, LENGTH, to_accuracy};
@@ -158,7 +160,16 @@ fn edgewise(ratio: f64) -> Result<Option<[f64; 3]>, Stopped> {
     let twist = bar(1.0).rod()?.stiffness();
     let unit = (twist.z / twist.x).sqrt();
     let leaves = |gamma: f64| reference_leaves(&bar(gamma));
-    let Some(reference) = first(2.0, 1.15, (2000.0, 27), leaves)? else { return Ok(None) };
+    let Some(reference) = first(2.0, 1.15, (2000.0, 27), leaves)? else {
+        // frisure must not turn over either; a load at which it does has nothing to agree with.
+        let loads = (1..=20).map(|k| 2000_f64.powf(f64::from(k) / 20.0));
+        for gamma in loads {
+            if frisure_leaves(&bar(gamma), DVec3::Y, 60)? {
+                return Ok(Some([f64::INFINITY, gamma / unit, f64::INFINITY]));
+            }
+        }
+        return Ok(None);
+    };
     let frisure = frisure_threshold(reference, DVec3::Y, 60, bar)?;
     Ok(Some([reference / unit, frisure / unit, reference]))
 }
