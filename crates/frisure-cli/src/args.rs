@@ -11,6 +11,7 @@ use frisure::io::groom::Format;
 use frisure::io::quantity::{Dimension, LENGTH, RATIO, STRAIN};
 use frisure::io::scene::Scene;
 use frisure::render::trace::TraceOptions;
+use frisure_evidence::EXPERIMENTS;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -23,7 +24,7 @@ Exit status:
   0    done
   1    a file could not be written, or something else failed
   2    the command line, the scene or the head is wrong
-  3    computed and written, but some equilibrium did not converge
+  3    computed and written, but some equilibrium did not converge, or a verdict fails
   130  interrupted; no file is left half-written";
 
 /// Predicts how natural hair falls, from the physics of its fibres.
@@ -64,6 +65,8 @@ pub(crate) enum Command {
     Measured(Measured),
     /// Print the JSON Schema of scenes: every key, its unit and its range.
     Schema,
+    /// Hold frisure against independent physics and the paper, and write the book of evidence.
+    Validate(Validate),
 }
 
 const PREDICT_EXAMPLES: &str = "\
@@ -586,6 +589,41 @@ fn positive(dimension: &Dimension, text: &str) -> Result<f64, String> {
     let value = dimension.parse(text);
     let value = value.map_err(|e| format!("{e}; it must be such as \"{}\"", dimension.example))?;
     if value > 0.0 { Ok(value) } else { Err("it must be more than 0".into()) }
+}
+
+const VALIDATE_EXAMPLES: &str = "\
+Examples:
+  frisure validate
+  frisure validate elastica buckling -o out/physics
+  frisure validate --full
+
+Writes index.html, which opens offline with everything inside, and report.md with its pictures
+beside it. What each experiment asks, and what came out, is told in docs/validation.md.";
+
+/// Arguments of `frisure validate`.
+#[derive(Args, Debug)]
+#[command(after_help = VALIDATE_EXAMPLES)]
+pub(crate) struct Validate {
+    /// The experiments to run, by default all.
+    #[arg(value_name = "EXPERIMENT", hide_possible_values = true)]
+    #[arg(value_parser = PossibleValuesParser::new(EXPERIMENTS.iter().map(|e| e.name)))]
+    pub(crate) experiments: Vec<String>,
+
+    /// Fewer hairs and coarser scans, under the same criteria: about a minute. This is the default.
+    #[arg(long)]
+    pub(crate) quick: bool,
+
+    /// Everything: five to ten minutes on two cores.
+    #[arg(long, conflicts_with = "quick")]
+    pub(crate) full: bool,
+
+    /// Write the report into this folder.
+    #[arg(long, short, value_name = "FOLDER", default_value = "out/validation")]
+    pub(crate) output: PathBuf,
+
+    /// Print the experiments and what each asks, and run none.
+    #[arg(long, conflicts_with_all = ["experiments", "quick", "full", "output"])]
+    pub(crate) list: bool,
 }
 
 fn threads(text: &str) -> Result<usize, String> {

@@ -15,6 +15,8 @@ pub(crate) enum Done {
     Well,
     /// A result that says of itself that it is not an equilibrium.
     NotConverged,
+    /// A report in which a verdict fails.
+    NotHeld,
 }
 
 impl Done {
@@ -22,7 +24,7 @@ impl Done {
     pub(crate) fn code(self) -> ExitCode {
         match self {
             Self::Well => ExitCode::SUCCESS,
-            Self::NotConverged => ExitCode::from(3),
+            Self::NotConverged | Self::NotHeld => ExitCode::from(3),
         }
     }
 }

@@ -46,5 +46,6 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
         Command::New(new) => commands::new::run(&new),
         Command::Measured(measured) => commands::measured::run(&measured, quiet),
         Command::Schema => commands::schema::run(),
+        Command::Validate(validate) => commands::validate::run(validate, quiet),
     }
 }

@@ -9,6 +9,7 @@ pub(crate) mod presets;
 pub(crate) mod render;
 pub(crate) mod schema;
 pub(crate) mod style;
+pub(crate) mod validate;
 
 use std::io::Read;
 use std::path::Path;

@@ -5,4 +5,5 @@ mod help;
 mod predict;
 mod room;
 mod style;
+mod validate;
 mod wrong;

@@ -1,0 +1,169 @@
+//! Figures 1, 4, 5 and 7 of the paper: whole heads.
+
+mod collisions;
+mod scenes;
+mod styled;
+
+use std::sync::OnceLock;
+
+use frisure::hairstyle::head::Head;
+use frisure::strands::Strands;
+
+use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use scenes::{Hair, strip};
+
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "heads",
+    title: "Figures 1, 4, 5 and 7: wisps and heads",
+    question: "Do whole heads do what the paper shows: a head of ringlets from about a hundred wisps, volume from \
+        collisions, a fringe that springs up when it is cut wet and dried, and straight, curly and frizzy hair?",
+    method: "The scenes of the repository (`scenes/`), on its mannequin, drawn by the quick renderer. Measured are: how \
+        many guides rest; how deep hair is in the head; the volume of the region that hair occupies, air included; \
+        heights of tips. There is no independent truth for a head; the criteria are the paper's own sentences. Pictures \
+        are for the eye.",
+    run,
+};
+
+/// The mannequin, made once: its distance takes seconds.
+pub(super) fn mannequin() -> &'static Head {
+    static HEAD: OnceLock<Head> = OnceLock::new();
+    HEAD.get_or_init(Head::mannequin)
+}
+
+fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+    let mut finding = Finding::default();
+    monitor.progress("heads", 0.0);
+    let head = mannequin();
+    first(&mut finding, head, effort, monitor)?;
+    collisions::on_a_sphere(&mut finding)?;
+    collisions::on_heads(&mut finding, head, effort, monitor)?;
+    styled::cut_wet(&mut finding, head, effort, monitor)?;
+    kinds(&mut finding, head, effort, monitor)?;
+    Ok(finding)
+}
+
+/// Figure 1: a hair, its wisp, the head.
+fn first(
+    finding: &mut Finding,
+    head: &Head,
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<(), Stopped> {
+    let hair =
+        Hair::of(include_str!("../../../../../scenes/ringlets.toml"), &[], head, effort, monitor)?;
+    let strands = hair.strands(head, monitor)?;
+    // The wisp whose tip hangs lowest.
+    let rest = hair.hairstyle.equilibria();
+    let lowest = (0..rest.len()).min_by(|&a, &b| rest[a].tip().z.total_cmp(&rest[b].tip().z));
+    let chosen = lowest.unwrap_or(0);
+    let mut one = Strands::new();
+    let guides = hair.hairstyle.guide_strands(200);
+    one.push(guides.strand(chosen).points, guides.strand(chosen).radii);
+    let wisp = scenes::wisp(&strands, chosen as u32);
+    let pictures = [
+        hair.picture(&one, &wisp, None, Some(9.0), monitor)?,
+        hair.picture(&wisp, &wisp, None, Some(2.5), monitor)?,
+        hair.picture(&strands, &strands, Some(head), None, monitor)?,
+    ];
+    finding.picture(strip(
+        "figure-1",
+        "Figure 1: a hair, the wisp around it, and a head of such wisps.",
+        &pictures,
+    )?);
+    let report = hair.hairstyle.report(head);
+    finding.text(format!(
+        "The head has {} wisps and {} drawn hairs; its guides have {} elements in all.",
+        report.guides,
+        strands.len(),
+        report.elements
+    ));
+    finding.judge(
+        "share of the guides of figure 1 that rest in a minimum",
+        report.stable as f64 / report.guides as f64,
+        Limit::AtLeast(1.0),
+    );
+    Ok(())
+}
+
+/// Figure 7: straight, curly, frizzy.
+fn kinds(
+    finding: &mut Finding,
+    head: &Head,
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<(), Stopped> {
+    let scenes = [
+        ("straight", include_str!("../../../../../scenes/straight.toml")),
+        ("curly", include_str!("../../../../../scenes/curly.toml")),
+        ("frizzy", include_str!("../../../../../scenes/frizzy.toml")),
+    ];
+    let mut table = Table::new(
+        "Straight, curly and frizzy heads",
+        &[
+            "hair",
+            "guides",
+            "in a minimum",
+            "length (cm)",
+            "tip below root over length",
+            "volume (l)",
+            "hair in it",
+            "deepest guide (mm)",
+        ],
+    );
+    let (mut pictures, mut fills, mut drops) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut stable, mut deepest) = (1.0_f64, 0.0_f64);
+    for (k, (name, text)) in scenes.into_iter().enumerate() {
+        super::check(monitor, "heads", 0.75 + 0.08 * k as f64)?;
+        let hair = Hair::of(text, &[], head, effort, monitor)?;
+        let strands = hair.strands(head, monitor)?;
+        let volume = hair.volume(&strands, head);
+        let report = hair.hairstyle.report(head);
+        let rest = hair.hairstyle.equilibria();
+        let n = rest.len() as f64;
+        let drop = rest
+            .iter()
+            .map(|e| (e.rod.root().position().z - e.tip().z) / e.rod.length())
+            .sum::<f64>()
+            / n;
+        let length = rest.iter().map(|e| e.rod.length()).sum::<f64>() / n;
+        table.row([
+            name.to_owned(),
+            report.guides.to_string(),
+            report.stable.to_string(),
+            format!("{:.1}", 100.0 * length),
+            format!("{drop:.3}"),
+            format!("{:.2}", 1e3 * volume.region),
+            format!("{:.1} %", 100.0 * volume.hair / volume.region),
+            format!("{:.3}", 1e3 * report.penetration),
+        ]);
+        fills.push(volume.hair / volume.region);
+        drops.push(drop);
+        stable = stable.min(report.stable as f64 / report.guides as f64);
+        deepest = deepest.max(report.penetration);
+        pictures.push(hair.picture(&strands, &strands, Some(head), None, monitor)?);
+    }
+    finding.picture(strip("figure-7", "Figure 7: straight, curly and frizzy hair.", &pictures)?);
+    finding.table(table);
+    let falls = |x: &[f64]| x.windows(2).all(|p| p[1] < p[0]);
+    finding.judge(
+        "hair hangs less and less from straight to curly to frizzy (1 if so)",
+        f64::from(u8::from(falls(&drops))),
+        Limit::AtLeast(1.0),
+    );
+    finding.judge(
+        "hair is looser and looser packed from straight to curly to frizzy (1 if so)",
+        f64::from(u8::from(falls(&fills))),
+        Limit::AtLeast(1.0),
+    );
+    finding.judge(
+        "least share of the guides of figure 7 in a minimum",
+        stable,
+        Limit::AtLeast(0.99),
+    );
+    finding.judge(
+        "deepest that a guide of figure 7 is in the head (mm)",
+        1e3 * deepest,
+        Limit::AtMost(0.5),
+    );
+    Ok(())
+}

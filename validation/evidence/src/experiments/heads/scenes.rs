@@ -1,0 +1,119 @@
+//! Scenes carried out and drawn.
+
+use std::fmt::Display;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use frisure::hairstyle::head::Head;
+use frisure::hairstyle::{Hairstyle, Volume, predict, volume};
+use frisure::io::picture::png;
+use frisure::io::scene::{Scene, edit};
+use frisure::render::preview::{self, PreviewOptions};
+use frisure::strands::{AttributeValues, Strands};
+use frisure_stylist::picture as seen;
+
+use crate::{Cancelled, Effort, Monitor, Picture, Stopped};
+
+/// A scene and the hair that it predicts, before any step.
+pub(super) struct Hair {
+    pub(super) scene: Scene,
+    pub(super) hairstyle: Hairstyle,
+}
+
+/// Why something failed, unless it was told to stop.
+pub(super) fn failed(monitor: &dyn Monitor, error: impl Display) -> Stopped {
+    match monitor.cancelled() {
+        true => Stopped::Cancelled(Cancelled),
+        false => Stopped::Other(error.to_string()),
+    }
+}
+
+/// Eight-bit colours with alpha.
+pub(super) struct Pixels {
+    size: [usize; 2],
+    rgba: Vec<u8>,
+}
+
+impl Hair {
+    /// Predicts the hair of a scene's text with some keys changed.
+    pub(super) fn of(
+        text: &str,
+        changes: &[(&str, &str)],
+        head: &Head,
+        effort: Effort,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Stopped> {
+        let [width, height] = effort.pick(["160", "200"], ["340", "420"]);
+        let mut all =
+            vec![("output.width", width), ("output.height", height), ("output.samples", "2")];
+        if effort == Effort::Quick {
+            all.extend([("wisps.count", "40"), ("wisps.hairs", "3000")]);
+        }
+        all.extend(changes);
+        let all: Vec<(&str, Option<&str>)> = all.into_iter().map(|(k, v)| (k, Some(v))).collect();
+        let text = edit::set_keys(text, &all).map_err(|e| failed(monitor, e))?;
+        let scene = Scene::parse("scene", text, Path::new("")).map_err(|e| failed(monitor, e))?;
+        let spec = scene.hairstyle_spec().map_err(|e| failed(monitor, e))?;
+        let hairstyle = predict(&spec, head, monitor)?;
+        Ok(Self { scene, hairstyle })
+    }
+
+    pub(super) fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Stopped> {
+        Ok(self.hairstyle.strands(head, monitor)?)
+    }
+
+    pub(super) fn volume(&self, strands: &Strands, head: &Head) -> Volume {
+        volume(strands, head, self.hairstyle.grown())
+    }
+
+    /// A picture of strands, framed so that others would be in it, with the head or without.
+    pub(super) fn picture(
+        &self,
+        strands: &Strands,
+        framed: &Strands,
+        head: Option<&Head>,
+        width_scale: Option<f32>,
+        monitor: &dyn Monitor,
+    ) -> Result<Pixels, Stopped> {
+        let surface = head.map(Head::surface);
+        let drawn = seen::scene(&self.scene, strands, framed, surface, None)
+            .map_err(|e| failed(monitor, e))?;
+        let output = &self.scene.output;
+        let (width, height) = (output.width, output.height);
+        let options = PreviewOptions { width, height, samples: output.samples, width_scale };
+        let watch = |_: f64| match monitor.cancelled() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        let image = preview::render(&drawn, &options, &watch).map_err(|e| failed(monitor, e))?;
+        Ok(Pixels { size: [width, height], rgba: seen::developed(&image, output) })
+    }
+}
+
+/// The drawn hairs of a wisp.
+pub(super) fn wisp(strands: &Strands, guide: u32) -> Strands {
+    let of = strands.attribute("guide").map(|a| &a.values);
+    let mut chosen = Strands::new();
+    if let Some(AttributeValues::U32(guides)) = of {
+        for i in (0..strands.len()).filter(|&i| guides[i] == guide) {
+            chosen.push(strands.strand(i).points, strands.strand(i).radii);
+        }
+    }
+    chosen
+}
+
+/// Pictures of one height, side by side.
+pub(super) fn strip(name: &str, caption: &str, pictures: &[Pixels]) -> Result<Picture, Stopped> {
+    let height = pictures.iter().map(|p| p.size[1]).min().unwrap_or(0);
+    let width = pictures.iter().map(|p| p.size[0]).sum();
+    let mut rgba = Vec::with_capacity(4 * width * height);
+    for y in 0..height {
+        for picture in pictures {
+            let row = 4 * picture.size[0];
+            rgba.extend_from_slice(&picture.rgba[y * row..(y + 1) * row]);
+        }
+    }
+    let png = png::encode(width as u32, height as u32, &rgba)
+        .map_err(|e| Stopped::Other(e.to_string()))?;
+    Ok(Picture { name: name.to_owned(), caption: caption.to_owned(), width, png })
+}

@@ -1,0 +1,93 @@
+//! Figure 5: wetted, cut, dried.
+
+use frisure::hairstyle::head::Head;
+use frisure::hairstyle::styling::{Dry, Operation};
+use frisure::hairstyle::{Hairstyle, volume};
+use frisure::strands::Strands;
+
+use super::scenes::{Hair, failed, strip};
+use crate::{Effort, Finding, Limit, Monitor, Stopped, Table};
+
+/// Mean height of the tips of some wisps (m).
+fn tips(hairstyle: &Hairstyle, chosen: &[bool]) -> f64 {
+    let rest = hairstyle.equilibria().iter().zip(chosen).filter(|(_, chosen)| **chosen);
+    let heights: Vec<f64> = rest.map(|(guide, _)| guide.tip().z).collect();
+    heights.iter().sum::<f64>() / heights.len() as f64
+}
+
+/// Largest distance between the tips of two states of the same wisps (m).
+fn moved(a: &Hairstyle, b: &Hairstyle) -> f64 {
+    let pairs = a.equilibria().iter().zip(b.equilibria());
+    pairs.map(|(a, b)| a.tip().distance(b.tip())).fold(0.0, f64::max)
+}
+
+pub(super) fn cut_wet(
+    finding: &mut Finding,
+    head: &Head,
+    effort: Effort,
+    monitor: &dyn Monitor,
+) -> Result<(), Stopped> {
+    let text = include_str!("../../../../../scenes/fringe-cut.toml");
+    let hair = Hair::of(text, &[], head, effort, monitor)?;
+    let mut states = vec![hair.hairstyle.clone()];
+    let mut fringe = Vec::new();
+    for (k, operation) in hair.scene.steps().iter().enumerate() {
+        super::super::check(monitor, "heads", 0.55 + 0.05 * k as f64)?;
+        let before = &states[states.len() - 1];
+        if let (Operation::Cut(_), Some(selection)) = (operation, operation.selection()) {
+            fringe = before.selected(head, selection).map_err(|e| failed(monitor, e))?;
+        }
+        let after = before.styled(head, operation, monitor).map_err(|e| failed(monitor, e))?;
+        states.push(after);
+    }
+    let names = ["dry", "wet", "cut", "dry again"];
+    let mut table = Table::new(
+        "Wetted, its fringe cut, dried",
+        &["state", "tips of the fringe, over the first (mm)", "volume (l)", "guides in a minimum"],
+    );
+    let start = tips(&states[0], &fringe);
+    let (mut pictures, mut heights, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
+    let drawn = states.iter().map(|state| Ok(state.strands(head, monitor)?));
+    let drawn: Vec<Strands> = drawn.collect::<Result<_, Stopped>>()?;
+    for (name, (state, strands)) in names.into_iter().zip(states.iter().zip(&drawn)) {
+        let litres = 1e3 * volume(strands, head, state.grown()).region;
+        let report = state.report(head);
+        let height = 1e3 * (tips(state, &fringe) - start);
+        table.row([
+            name.to_owned(),
+            format!("{height:+.1}"),
+            format!("{litres:.2}"),
+            format!("{} of {}", report.stable, report.guides),
+        ]);
+        heights.push(height);
+        volumes.push(litres);
+        // Wet hair reaches farthest.
+        let hair = Hair { scene: hair.scene.clone(), hairstyle: state.clone() };
+        pictures.push(hair.picture(strands, &drawn[1], Some(head), None, monitor)?);
+    }
+    finding.picture(strip(
+        "figure-5",
+        "Figure 5: dry, wet, its fringe cut while wet, dry again.",
+        &pictures,
+    )?);
+    finding.table(table);
+    let dried = Operation::Dry(Dry::default());
+    let back = states[1].styled(head, &dried, monitor).map_err(|e| failed(monitor, e))?;
+    finding.judge(
+        "how far the fringe hangs lower when it is wetted (mm)",
+        heights[0] - heights[1],
+        Limit::AtLeast(3.0),
+    );
+    finding.judge(
+        "how far the cut fringe springs up when it is dried (mm)",
+        heights[3] - heights[2],
+        Limit::AtLeast(3.0),
+    );
+    finding.judge("volume wet over dry", volumes[1] / volumes[0], Limit::AtMost(0.95));
+    finding.judge(
+        "largest distance of a tip from where it was, wetted and dried without a cut (mm)",
+        1e3 * moved(&states[0], &back),
+        Limit::AtMost(0.0),
+    );
+    Ok(())
+}

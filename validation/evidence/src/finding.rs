@@ -1,0 +1,157 @@
+//! What an experiment found, as plain data.
+
+use crate::plot::Plot;
+
+/// What an experiment found.
+#[derive(Clone, Debug, Default)]
+pub struct Finding {
+    /// Tables, plots, pictures and sentences, in the order of the report.
+    pub items: Vec<Item>,
+    /// What decides.
+    pub criteria: Vec<Criterion>,
+    /// How long things took; decides nothing.
+    pub timings: Vec<Timing>,
+}
+
+/// A part of a finding.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// A paragraph.
+    Text(String),
+    /// Numbers.
+    Table(Table),
+    /// Curves.
+    Plot(Plot),
+    /// A picture.
+    Picture(Picture),
+}
+
+/// Rows of cells under a head.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// What it shows.
+    pub title: String,
+    /// Names of the columns.
+    pub head: Vec<String>,
+    /// Cells, as many in each row as there are columns.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// An empty table.
+    #[must_use]
+    pub fn new(title: &str, head: &[&str]) -> Self {
+        let head = head.iter().map(|&name| name.to_owned()).collect();
+        Self { title: title.to_owned(), head, rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+}
+
+/// A picture with its caption.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Name of its file, without extension.
+    pub name: String,
+    /// What it shows.
+    pub caption: String,
+    /// Columns of pixels.
+    pub width: usize,
+    /// The file (PNG).
+    pub png: Vec<u8>,
+}
+
+/// How long something took.
+#[derive(Clone, Debug)]
+pub struct Timing {
+    /// What was timed.
+    pub what: String,
+    /// Wall-clock time (s).
+    pub seconds: f64,
+    /// What it can be compared with.
+    pub beside: String,
+}
+
+/// What a measured number must be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// No more than that.
+    AtMost(f64),
+    /// No less than that.
+    AtLeast(f64),
+    /// Neither less than the first nor more than the second.
+    Between(f64, f64),
+}
+
+/// Something measured, and what it must be.
+#[derive(Clone, Debug)]
+pub struct Criterion {
+    /// What was measured, with its unit.
+    pub what: String,
+    /// The number.
+    pub measured: f64,
+    /// What it must be.
+    pub limit: Limit,
+}
+
+impl Criterion {
+    /// Whether what was measured is what it must be; never for a number that is none.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        match self.limit {
+            Limit::AtMost(most) => self.measured <= most,
+            Limit::AtLeast(least) => self.measured >= least,
+            Limit::Between(least, most) => (least..=most).contains(&self.measured),
+        }
+    }
+}
+
+impl Finding {
+    /// Adds a paragraph.
+    pub fn text(&mut self, text: impl Into<String>) {
+        self.items.push(Item::Text(text.into()));
+    }
+
+    /// Adds a table.
+    pub fn table(&mut self, table: Table) {
+        self.items.push(Item::Table(table));
+    }
+
+    /// Adds curves.
+    pub fn plot(&mut self, plot: Plot) {
+        self.items.push(Item::Plot(plot));
+    }
+
+    /// Adds a picture.
+    pub fn picture(&mut self, picture: Picture) {
+        self.items.push(Item::Picture(picture));
+    }
+
+    /// Adds a criterion.
+    pub fn judge(&mut self, what: impl Into<String>, measured: f64, limit: Limit) {
+        self.criteria.push(Criterion { what: what.into(), measured, limit });
+    }
+
+    /// Whether every criterion holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.criteria.iter().all(Criterion::holds)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_that_is_none_never_holds() {
+        for limit in [Limit::AtMost(1.0), Limit::AtLeast(1.0), Limit::Between(0.0, 1.0)] {
+            let criterion = |measured| Criterion { what: String::new(), measured, limit };
+            assert!(!criterion(f64::NAN).holds());
+            assert!(criterion(1.0).holds());
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! A plot as SVG.
+
+use std::fmt::{Display, Formatter, Result};
+
+use super::axis::Axis;
+use super::{Mark, Plot, Series};
+
+/// Colours that are told apart by those who see few (Okabe & Ito 2008).
+const COLOURS: [&str; 7] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#555555"];
+
+/// Space for what is written at the left, right, top and bottom (pixels).
+const LEFT: f64 = 74.0;
+const RIGHT: f64 = 16.0;
+const TOP: f64 = 34.0;
+const BOTTOM: f64 = 52.0;
+
+/// Height of a line of the legend (pixels).
+const LINE: f64 = 17.0;
+
+struct Frame {
+    axes: [Axis; 2],
+    size: [f64; 2],
+}
+
+impl Frame {
+    fn of(plot: &Plot) -> Self {
+        let numbers = |k: usize| {
+            let one = move |p: &(f64, f64)| if k == 0 { p.0 } else { p.1 };
+            plot.series.iter().flat_map(move |s| s.points.iter().map(one))
+        };
+        let mut axes = [0, 1].map(|k| Axis::around(plot.scales[k], numbers(k)));
+        if plot.equal {
+            let paper = [plot.size[0] - LEFT - RIGHT, plot.size[1] - TOP - BOTTOM];
+            let each = [0, 1].map(|k| (axes[k].to - axes[k].from) / paper[k]);
+            let larger = each[0].max(each[1]);
+            for k in 0..2 {
+                let more = 0.5 * (larger * paper[k] - (axes[k].to - axes[k].from));
+                axes[k].from -= more;
+                axes[k].to += more;
+            }
+        }
+        Self { axes, size: plot.size }
+    }
+
+    /// Pixels of places.
+    fn x(&self, place: f64) -> f64 {
+        let axis = &self.axes[0];
+        LEFT + (place - axis.from) / (axis.to - axis.from) * (self.size[0] - LEFT - RIGHT)
+    }
+
+    fn y(&self, place: f64) -> f64 {
+        let axis = &self.axes[1];
+        let up = (place - axis.from) / (axis.to - axis.from);
+        self.size[1] - BOTTOM - up * (self.size[1] - TOP - BOTTOM)
+    }
+
+    fn at(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
+        Some((self.x(self.axes[0].scale.place(x)?), self.y(self.axes[1].scale.place(y)?)))
+    }
+}
+
+/// The plot as an SVG element.
+impl Display for Plot {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let [width, height] = self.size;
+        let frame = Frame::of(self);
+        write!(
+            f,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+             width=\"{width}\" height=\"{height}\" role=\"img\" font-family=\"sans-serif\" \
+             font-size=\"12\"><title>{}</title><rect width=\"100%\" height=\"100%\" \
+             fill=\"#fff\"/>",
+            escaped(&self.title)
+        )?;
+        axes(f, self, &frame)?;
+        for (i, series) in self.series.iter().enumerate() {
+            draw(f, series, COLOURS[series.colour.unwrap_or(i) % COLOURS.len()], &frame)?;
+        }
+        legend(f, self, &frame)?;
+        write!(f, "</svg>")
+    }
+}
+
+fn axes(f: &mut Formatter<'_>, plot: &Plot, frame: &Frame) -> Result {
+    let [width, height] = frame.size;
+    let (left, right, top, bottom) = (LEFT, width - RIGHT, TOP, height - BOTTOM);
+    for (place, name) in frame.axes[0].ticks() {
+        let x = frame.x(place);
+        write!(f, "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e4e4e4\"/>")?;
+        let y = bottom + 17.0;
+        write!(f, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"middle\">{name}</text>")?;
+    }
+    for (place, name) in frame.axes[1].ticks() {
+        let y = frame.y(place);
+        write!(f, "<path d=\"M{left} {y:.1}H{right}\" stroke=\"#e4e4e4\"/>")?;
+        let (x, y) = (left - 7.0, y + 4.0);
+        write!(f, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{name}</text>")?;
+    }
+    write!(f, "<path d=\"M{left} {top}V{bottom}H{right}V{top}Z\" fill=\"none\" stroke=\"#666\"/>")?;
+    let middle = 0.5 * (left + right);
+    write!(
+        f,
+        "<text x=\"{middle:.1}\" y=\"20\" text-anchor=\"middle\" font-weight=\"bold\">{}</text>",
+        escaped(&plot.title)
+    )?;
+    let y = height - 14.0;
+    write!(
+        f,
+        "<text x=\"{middle:.1}\" y=\"{y:.1}\" text-anchor=\"middle\">{}</text>",
+        escaped(&plot.labels[0])
+    )?;
+    let middle = 0.5 * (top + bottom);
+    write!(
+        f,
+        "<text transform=\"translate(17 {middle:.1}) rotate(-90)\" \
+         text-anchor=\"middle\">{}</text>",
+        escaped(&plot.labels[1])
+    )
+}
+
+fn draw(f: &mut Formatter<'_>, series: &Series, colour: &str, frame: &Frame) -> Result {
+    let lines = series.mark != Mark::Points;
+    if lines {
+        let path = path(&series.points, frame);
+        let dash = if series.mark == Mark::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
+        write!(
+            f,
+            "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\" \
+             stroke-linejoin=\"round\"{dash}/>"
+        )?;
+    }
+    if matches!(series.mark, Mark::Points | Mark::Both) {
+        for (x, y) in series.points.iter().filter_map(|p| frame.at(*p)) {
+            write!(f, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{colour}\"/>")?;
+        }
+    }
+    Ok(())
+}
+
+/// A line through points, with a gap where a number cannot be drawn.
+fn path(points: &[(f64, f64)], frame: &Frame) -> String {
+    let mut path = String::new();
+    let mut last: Option<(f64, f64)> = None;
+    for (i, point) in points.iter().enumerate() {
+        let Some((x, y)) = frame.at(*point) else {
+            last = None;
+            continue;
+        };
+        // What is nearer to the last point than the eye can see is left out.
+        let near = last.is_some_and(|(a, b)| (x - a).hypot(y - b) < 0.7);
+        if near && i + 1 < points.len() {
+            continue;
+        }
+        path += &format!("{}{x:.1} {y:.1}", if last.is_some() { 'L' } else { 'M' });
+        last = Some((x, y));
+    }
+    path
+}
+
+/// The legend, in the corner with the fewest points.
+fn legend(f: &mut Formatter<'_>, plot: &Plot, frame: &Frame) -> Result {
+    let named: Vec<(usize, &Series)> =
+        plot.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()).collect();
+    let Some(longest) = named.iter().map(|(_, s)| s.name.chars().count()).max() else {
+        return Ok(());
+    };
+    let (w, h) = (36.0 + 6.6 * longest as f64, LINE * named.len() as f64 + 8.0);
+    let [width, height] = frame.size;
+    let (right, bottom) = (width - RIGHT - w - 8.0, height - BOTTOM - h - 8.0);
+    let corners =
+        [(right, TOP + 8.0), (LEFT + 8.0, TOP + 8.0), (right, bottom), (LEFT + 8.0, bottom)];
+    let covered = |&(x, y): &(f64, f64)| {
+        let inside = |p: &(f64, f64)| p.0 > x && p.0 < x + w && p.1 > y && p.1 < y + h;
+        let points = plot.series.iter().flat_map(|s| dense(s, frame));
+        points.filter(inside).count()
+    };
+    let (x, y) = corners.into_iter().min_by_key(covered).unwrap_or(corners[0]);
+    write!(
+        f,
+        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"#fff\" \
+         fill-opacity=\"0.85\" stroke=\"#ccc\"/>"
+    )?;
+    for (row, (i, series)) in named.into_iter().enumerate() {
+        let colour = COLOURS[series.colour.unwrap_or(i) % COLOURS.len()];
+        let middle = y + 4.0 + LINE * (row as f64 + 0.5);
+        let x = x + 7.0;
+        let text = middle + 4.0;
+        if series.mark != Mark::Points {
+            let dash = if series.mark == Mark::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
+            write!(
+                f,
+                "<path d=\"M{x:.1} {middle:.1}h18\" stroke=\"{colour}\" stroke-width=\"1.6\"{dash}/>"
+            )?;
+        }
+        if matches!(series.mark, Mark::Points | Mark::Both) {
+            let c = x + 9.0;
+            write!(f, "<circle cx=\"{c:.1}\" cy=\"{middle:.1}\" r=\"3\" fill=\"{colour}\"/>")?;
+        }
+        let x = x + 24.0;
+        write!(f, "<text x=\"{x:.1}\" y=\"{text:.1}\">{}</text>", escaped(&series.name))?;
+    }
+    Ok(())
+}
+
+/// Points of a series as drawn, lines as points along them.
+fn dense(series: &Series, frame: &Frame) -> Vec<(f64, f64)> {
+    let points: Vec<(f64, f64)> = series.points.iter().filter_map(|p| frame.at(*p)).collect();
+    if series.mark == Mark::Points {
+        return points;
+    }
+    let between = |pair: &[(f64, f64)]| {
+        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+        (0..8)
+            .map(move |k| f64::from(k) / 8.0)
+            .map(move |t| (x0 + t * (x1 - x0), y0 + t * (y1 - y0)))
+    };
+    points.windows(2).flat_map(between).collect()
+}
+
+/// Text inside of XML.
+pub(crate) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Scale;
+    use super::*;
+
+    #[test]
+    fn a_plot_is_well_formed_and_the_same_each_time() {
+        let mut plot = Plot::new("a < b", "Γ", "y", [Scale::Log, Scale::Linear]);
+        plot.add("one", Mark::Both, (1..9).map(|i| (f64::from(i), 1.0 / f64::from(i))));
+        plot.add("", Mark::Dashed, [(1.0, f64::NAN), (2.0, 0.5), (3.0, 0.2)]);
+        let text = plot.to_string();
+        assert_eq!(text, plot.to_string());
+        assert!(text.contains("a &lt; b") && text.ends_with("</svg>"));
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        assert_eq!(text.matches("<circle").count(), 8 + 1);
+    }
+
+    #[test]
+    fn a_plot_of_nothing_is_drawn() {
+        let plot = Plot::new("", "x", "y", [Scale::Linear; 2]);
+        assert!(!plot.to_string().contains("NaN"));
+    }
+}

@@ -1,0 +1,60 @@
+//! The same as Markdown.
+
+use std::fmt::Write;
+
+use super::html::{judged, timed};
+use super::{Book, plot_name, words};
+use crate::{Item, Table};
+
+pub(super) fn page(book: &Book<'_>) -> String {
+    let mut out = format!(
+        "# {}\n\n{}\n\n{}\n\n",
+        words::TITLE,
+        words::INTRODUCTION,
+        words::effort(book.effort)
+    );
+    for (experiment, finding) in &book.chapters {
+        let _ = writeln!(out, "- {}: {}", experiment.title, words::verdict_of(finding));
+    }
+    for (experiment, finding) in &book.chapters {
+        let (title, question, method) = (experiment.title, experiment.question, experiment.method);
+        let _ = write!(out, "\n## {title}\n\n*{question}*\n\n{method}\n\n");
+        for (number, item) in finding.items.iter().enumerate() {
+            match item {
+                Item::Text(text) => {
+                    let _ = write!(out, "{text}\n\n");
+                }
+                Item::Table(shown) => table(&mut out, shown),
+                Item::Plot(plot) => {
+                    let file = plot_name(experiment, number);
+                    let _ = write!(out, "![{}]({file})\n\n", plot.title);
+                }
+                Item::Picture(picture) => {
+                    let _ = write!(out, "![{}]({}.png)\n\n", picture.caption, picture.name);
+                }
+            }
+        }
+        table(&mut out, &judged(finding));
+    }
+    if let Some(times) = timed(book) {
+        let _ = write!(out, "\n## Times\n\n{}\n\n", words::TIMES);
+        table(&mut out, &times);
+    }
+    out
+}
+
+fn table(out: &mut String, table: &Table) {
+    if !table.title.is_empty() {
+        let _ = write!(out, "**{}**\n\n", table.title);
+    }
+    let mut line = |cells: &[String]| {
+        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        let _ = writeln!(out, "| {} |", cells.join(" | "));
+    };
+    line(&table.head);
+    line(&vec!["---".to_owned(); table.head.len()]);
+    for row in &table.rows {
+        line(row);
+    }
+    out.push('\n');
+}

@@ -1,0 +1,150 @@
+//! Findings as documents: one page that opens offline, and Markdown with its pictures beside it.
+
+mod html;
+mod markdown;
+pub(crate) mod words;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use frisure::io::files::{WriteError, write_atomically};
+
+use crate::{Effort, Experiment, Finding, Item};
+
+/// Every experiment that was run, and what it found.
+pub struct Book<'a> {
+    /// How much was computed.
+    pub effort: Effort,
+    /// In the order of the report.
+    pub chapters: Vec<(&'a Experiment, Finding)>,
+}
+
+impl Book<'_> {
+    /// Whether every criterion of every finding holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.chapters.iter().all(|(_, finding)| finding.holds())
+    }
+
+    /// One page with everything inside.
+    #[must_use]
+    pub fn html(&self) -> String {
+        html::page(self)
+    }
+
+    /// Markdown that refers to files of [`Self::pictures`].
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        markdown::page(self)
+    }
+
+    /// Names (with extensions) and bytes of plots and pictures.
+    #[must_use]
+    pub fn pictures(&self) -> Vec<(String, Vec<u8>)> {
+        let mut files = Vec::new();
+        for (experiment, finding) in &self.chapters {
+            for (number, item) in finding.items.iter().enumerate() {
+                match item {
+                    Item::Plot(plot) => {
+                        files.push((plot_name(experiment, number), plot.to_string().into_bytes()));
+                    }
+                    Item::Picture(picture) => {
+                        files.push((format!("{}.png", picture.name), picture.png.clone()));
+                    }
+                    Item::Text(_) | Item::Table(_) => {}
+                }
+            }
+        }
+        files
+    }
+
+    /// Writes `index.html`, `report.md` and the pictures into a folder, which is made; gives the paths
+    /// of the two.
+    ///
+    /// # Errors
+    /// [`WriteError`], if a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<[PathBuf; 2], WriteError> {
+        let io = |source| WriteError::Io { path: folder.to_path_buf(), source };
+        fs::create_dir_all(folder).map_err(io)?;
+        let write = |name: &str, bytes: &[u8]| {
+            let path = folder.join(name);
+            write_atomically(&path, |out| out.write_all(bytes)).map(|()| path)
+        };
+        for (name, bytes) in self.pictures() {
+            write(&name, &bytes)?;
+        }
+        Ok([
+            write("index.html", self.html().as_bytes())?,
+            write("report.md", self.markdown().as_bytes())?,
+        ])
+    }
+}
+
+/// The file of the plot that is the `number`th item of a finding.
+fn plot_name(experiment: &Experiment, number: usize) -> String {
+    format!("{}-{number}.svg", experiment.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::{Mark, Plot, Scale};
+    use crate::{Limit, Picture, Table};
+
+    const EXPERIMENT: Experiment = Experiment {
+        name: "test",
+        title: "Is 1 < 2?",
+        question: "Is it?",
+        method: "By `counting`.\n\nTwice.",
+        run: |_, _| Ok(Finding::default()),
+    };
+
+    fn book() -> Book<'static> {
+        let mut finding = Finding::default();
+        finding.text("a & b");
+        let mut table = Table::new("cells", &["a", "b"]);
+        table.row(["x|y".to_owned(), "<z>".to_owned()]);
+        finding.table(table);
+        let mut plot = Plot::new("line", "x", "y", [Scale::Linear; 2]);
+        plot.add("", Mark::Line, [(0.0, 1.0), (1.0, 2.0)]);
+        finding.plot(plot);
+        let (name, caption) = ("dot".to_owned(), "a dot".to_owned());
+        finding.picture(Picture { name, caption, width: 1, png: vec![1, 2, 3] });
+        finding.judge("one", 1.0, Limit::AtMost(2.0));
+        Book { effort: Effort::Quick, chapters: vec![(&EXPERIMENT, finding)] }
+    }
+
+    #[test]
+    fn a_failed_verdict_is_told() {
+        let mut book = book();
+        assert!(book.holds() && book.html().contains("all 1 criteria hold"));
+        book.chapters[0].1.judge("two", 3.0, Limit::AtMost(2.0));
+        assert!(!book.holds());
+        for text in [book.html(), book.markdown()] {
+            assert!(text.contains("1 of 2 criteria FAIL") && text.contains("FAILS"), "{text}");
+        }
+    }
+
+    #[test]
+    fn text_is_escaped_and_pictures_are_inside() {
+        let page = book().html();
+        for text in
+            ["Is 1 &lt; 2?", "a &amp; b", "&lt;z&gt;", "<code>counting</code>", "base64,AQID"]
+        {
+            assert!(page.contains(text), "{text}");
+        }
+        assert!(book().markdown().contains("| x\\|y | <z> |"));
+    }
+
+    #[test]
+    fn the_markdown_names_files_that_are_written() {
+        let folder = std::env::temp_dir().join(format!("frisure-book-{}", std::process::id()));
+        book().write(&folder).unwrap();
+        let text = fs::read_to_string(folder.join("report.md")).unwrap();
+        let names: Vec<&str> =
+            text.split("](").skip(1).filter_map(|link| link.split(')').next()).collect();
+        assert_eq!(names, ["test-2.svg", "dot.png"]);
+        assert!(names.iter().all(|name| folder.join(name).is_file()));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,84 @@
+//! Rods that several experiments use, and what is measured of them.
+
+use frisure::rod::{
+    ElementKind, Equilibrium, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod,
+    RodSpec, Root, Section, TorsionConstant,
+};
+use glam::DVec3;
+
+/// A rod by the numbers without units that its shape depends on. It is 10 cm of hair; gravity is whatever
+/// gives it its heaviness.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bar {
+    /// ρSgL³/EI, EI about d1.
+    pub(crate) gamma: f64,
+    /// Axis along d1 over that along d2: less than 1 turns the stiff axis into the soft one.
+    pub(crate) ratio: f64,
+    /// Natural strain times length.
+    pub(crate) natural: DVec3,
+    /// Direction of the root.
+    pub(crate) tangent: DVec3,
+    /// Director d1 at the root, as near as it can be.
+    pub(crate) d1: DVec3,
+    /// Shear modulus over Young's.
+    pub(crate) shear: f64,
+}
+
+/// Length of a [`Bar`] (m).
+pub(crate) const LENGTH: f64 = 0.1;
+
+impl Bar {
+    /// Straight, round, horizontal, of an incompressible isotropic material.
+    pub(crate) const STRAIGHT: Self = Self {
+        gamma: 1.0,
+        ratio: 1.0,
+        natural: DVec3::ZERO,
+        tangent: DVec3::X,
+        d1: DVec3::Y,
+        shear: 1.0 / 3.0,
+    };
+
+    pub(crate) fn spec(&self) -> Result<RodSpec, InvalidQuantity> {
+        let mean: f64 = 40e-6;
+        let root = self.ratio.sqrt();
+        let section = Section::from_semi_axes(mean * root, mean / root)?;
+        let (e, density) = (3e9, 1300.0);
+        let bend = e * section.i1();
+        Ok(RodSpec {
+            length: LENGTH,
+            section,
+            material: Material::new(e, e * self.shear, density)?,
+            torsion: TorsionConstant::SaintVenant,
+            natural: NaturalStrain::Uniform(self.natural / LENGTH),
+            root: Root::from_tangent(DVec3::ZERO, self.tangent, self.d1)?,
+            gravity: self.gamma * bend / (density * section.area() * LENGTH.powi(3)),
+        })
+    }
+
+    pub(crate) fn rod(&self) -> Result<Rod, InvalidQuantity> {
+        Rod::new(self.spec()?)
+    }
+}
+
+/// The search to an accuracy that is a part of the length, with the certificate.
+pub(crate) fn to_accuracy(rod: &Rod, part: f64) -> Options {
+    Options { resolution: Resolution::Accuracy(part * rod.length()), ..Options::default() }
+}
+
+/// So many elements, and nothing beyond the equilibrium itself.
+pub(crate) fn elements(count: usize, element: ElementKind) -> Options {
+    Options {
+        resolution: Resolution::Elements(count),
+        element,
+        estimate_error: false,
+        eigenvalue: false,
+        ..Options::default()
+    }
+}
+
+/// Position over length at a part of the arc length, relative to the root.
+pub(crate) fn line(found: &Equilibrium) -> impl Fn(f64) -> DVec3 + '_ {
+    let chain = found.chain();
+    let (root, length) = (found.rod.root().position(), found.rod.length());
+    move |x| (found.at(&chain, x).0 - root) / length
+}
