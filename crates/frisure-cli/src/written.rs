@@ -42,7 +42,11 @@ impl Grooms {
             interrupt::check()?;
             let format = Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
             let mut line = path.display().to_string();
-            let shown = match points.or(format.usual_points()) {
+            // What has as many points as its readers expect stays as it is.
+            let strands = || groom.hairs.iter().chain(groom.guides.iter());
+            let usual = format.usual_points();
+            let usual = usual.filter(|n| strands().any(|strand| strand.points.len() != *n));
+            let shown = match points.or(usual) {
                 None => &groom,
                 Some(points) => {
                     if done.as_ref().is_none_or(|d| d.0 != points) {

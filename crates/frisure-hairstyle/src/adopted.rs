@@ -60,7 +60,8 @@ pub fn adopt(
     monitor: &dyn Monitor,
 ) -> Result<(Hairstyle, Adoption), PredictError> {
     let (guides, hairs) = (with_length(guides), with_length(hairs));
-    let left_out = guides.1 + hairs.1;
+    // The same strands may be both.
+    let left_out = guides.1.max(hairs.1);
     let (guides, hairs) = (&*guides.0, &*hairs.0);
     let mut spec = spec.clone();
     spec.wisps.count = guides.len();
@@ -147,7 +148,7 @@ fn held(
 ) -> Result<(Held, Bed), InvalidQuantity> {
     let fitted = Fitted::new(line, &fibre)?;
     if is_inside(spec, head, line) {
-        let none = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2].into_iter(), 0.0);
+        let none = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2], 0.0);
         return Ok((fitted.hold(&[], &holding(spec))?, none));
     }
     let skin: Vec<(f64, DVec3)> =
@@ -300,11 +301,18 @@ fn plan(
 fn apart(line: &[DVec3], rest: &frisure_rod::Equilibrium) -> f64 {
     let chain = rest.chain();
     let length: f64 = line.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let every = line.len().div_ceil(COMPARED);
     let mut s = 0.0;
     let mut largest = 0.0_f64;
     for (i, p) in line.iter().enumerate() {
         s += if i > 0 { line[i - 1].distance(*p) } else { 0.0 };
-        largest = largest.max(rest.at(&chain, s / length).0.distance(*p));
+        // The tip, which moves most, is among them.
+        if (line.len() - 1 - i).is_multiple_of(every) {
+            largest = largest.max(rest.at(&chain, s / length).0.distance(*p));
+        }
     }
     largest
 }
+
+/// Most points of a strand, evenly chosen, that are compared.
+const COMPARED: usize = 512;

@@ -344,11 +344,46 @@ fn replace(
     Ok(())
 }
 
+/// Waits until somebody reads a named pipe, and holds it open; other devices are there at once.
+#[cfg(any(target_os = "linux", target_os = "macos"))]
+fn await_reader(path: &Path) -> io::Result<Option<File>> {
+    use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
+    use std::time::{Duration, Instant};
+    // To open a pipe without a reader waits for ever, and cannot be interrupted.
+    const PATIENCE: Duration = Duration::from_secs(10);
+    // `O_NONBLOCK` and `ENXIO` of <fcntl.h> and <errno.h>; std has no names for them.
+    const NONBLOCK: i32 = if cfg!(target_os = "macos") { 0x4 } else { 0o4000 };
+    const NOBODY: i32 = 6;
+    if !fs::metadata(path)?.file_type().is_fifo() {
+        return Ok(None);
+    }
+    let start = Instant::now();
+    loop {
+        match File::options().write(true).custom_flags(NONBLOCK).open(path) {
+            Err(e) if e.raw_os_error() == Some(NOBODY) => {}
+            opened => return opened.map(Some),
+        }
+        if start.elapsed() > PATIENCE {
+            return Err(io::Error::new(io::ErrorKind::TimedOut, "nobody reads the named pipe"));
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// Other systems have none among files.
+#[cfg(not(any(target_os = "linux", target_os = "macos")))]
+fn await_reader(_: &Path) -> io::Result<Option<File>> {
+    Ok(None)
+}
+
 fn write_directly(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
+    // Open until the file itself is: a reader without any writer would think that this was all.
+    let awaited = await_reader(path)?;
     let mut buffer = BufWriter::new(File::options().write(true).open(path)?);
+    drop(awaited);
     fill(&mut buffer)?;
     buffer.flush()
 }
