@@ -18,6 +18,13 @@ pub(super) struct Joints {
     pub(super) turns: Vec<DMat3>,
     /// a (N m).
     pub(super) arms: Vec<DVec3>,
+    /// From each joint to the next, the last to the tip (m), in the frame after the joint.
+    pub(super) links: Vec<DVec3>,
+    /// The frame before the first joint, and where that is (m).
+    pub(super) frame: DMat3,
+    pub(super) start: DVec3,
+    /// Length of an element (m).
+    pub(super) h: f64,
     /// ζ before the first joint.
     pub(super) up: DVec3,
     /// K (N m).
@@ -54,11 +61,15 @@ impl Joints {
             let strain = if uniform { natural.at(0.0) } else { natural.mean(from, from + half) };
             Piece::of(strain, half)
         };
+        self.h = h;
         self.turns.clear();
         self.arms.clear();
+        self.links.clear();
         self.stiffness = rod.stiffness() / h;
         let (mut first, mut second) = (piece(0), piece(1));
-        self.up = (rod.root().frame() * first.turn).transpose() * DVec3::Z;
+        self.frame = rod.root().frame() * first.turn;
+        self.start = rod.root().position() + rod.root().frame() * first.advance;
+        self.up = self.frame.transpose() * DVec3::Z;
         for i in 0..n {
             // The weight (N) of all that hangs beyond the element.
             let hanging = weight * h * (n - 1 - i) as f64;
@@ -69,6 +80,10 @@ impl Joints {
                 self.arms[i - 1] += second.turn * bears;
             }
             self.arms.push(second.advance * hanging + second.moment * weight);
+            self.links.push(second.advance);
+            if uniform && i + 1 < n {
+                self.links[i] += second.turn * first.advance;
+            }
             if i + 1 < n && (i == 0 || !uniform) {
                 let next = if uniform { first.clone() } else { piece(2 * i + 2) };
                 self.turns.push(second.turn * next.turn);
@@ -76,6 +91,7 @@ impl Joints {
                     let hanging = hanging - weight * h;
                     let bears = next.advance * (hanging + weight * half) + next.moment * weight;
                     self.arms[i] += second.turn * bears;
+                    self.links[i] += second.turn * next.advance;
                     (first, second) = (next, piece(2 * i + 3));
                 }
             }

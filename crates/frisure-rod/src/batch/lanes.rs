@@ -257,6 +257,11 @@ impl<F: Lanes> Vec3<F> {
         Self::new(self.x + o.x, self.y + o.y, self.z + o.z)
     }
 
+    #[inline(always)]
+    pub(super) fn minus(self, o: Self) -> Self {
+        Self::new(self.x - o.x, self.y - o.y, self.z - o.z)
+    }
+
     /// Component by component.
     #[inline(always)]
     pub(super) fn each(self, o: Self) -> Self {
@@ -326,6 +331,38 @@ impl<F: Lanes> Mat3<F> {
     #[inline(always)]
     pub(super) fn transposed_times(self, v: Vec3<F>) -> Vec3<F> {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
+    }
+
+    /// Of a matrix whose rows are the columns of `o`, this one times it, likewise by rows.
+    #[inline(always)]
+    pub(super) fn rows_of(self, o: Self) -> Self {
+        let row = |x: F, y: F, z: F| o.x.scaled_plus(x, o.y.scaled_plus(y, o.z.scaled(z)));
+        Self {
+            x: row(self.x.x, self.y.x, self.z.x),
+            y: row(self.x.y, self.y.y, self.z.y),
+            z: row(self.x.z, self.y.z, self.z.z),
+        }
+    }
+
+    /// The turn from this frame to another, as a vector in it: `2 sin(θ/2)` along the axis, which is smooth up
+    /// to half a turn.
+    #[inline(always)]
+    pub(super) fn deviation(self, to: Self) -> Vec3<F> {
+        let (x, y, z) =
+            (self.transposed_times(to.x), self.transposed_times(to.y), self.transposed_times(to.z));
+        let skew = Vec3::new(y.z - z.y, z.x - x.z, x.y - y.x);
+        let one = x.x.all(1.0);
+        let trace = one + x.x + y.y + z.z;
+        skew.scaled(one / trace.largest(one.all(0.04)).root())
+    }
+
+    #[inline(always)]
+    pub(super) fn choose(truth: F::Truth, yes: Self, no: Self) -> Self {
+        Self {
+            x: Vec3::choose(truth, yes.x, no.x),
+            y: Vec3::choose(truth, yes.y, no.y),
+            z: Vec3::choose(truth, yes.z, no.z),
+        }
     }
 
     #[inline(always)]
@@ -402,6 +439,40 @@ impl<F: Lanes> Sym3<F> {
             yz: w.y.times_plus(v.z, self.yz),
             zz: w.z.times_plus(v.z, self.zz),
         }
+    }
+
+    #[inline(always)]
+    pub(super) fn plus(self, o: Self) -> Self {
+        Self {
+            xx: self.xx + o.xx,
+            xy: self.xy + o.xy,
+            xz: self.xz + o.xz,
+            yy: self.yy + o.yy,
+            yz: self.yz + o.yz,
+            zz: self.zz + o.zz,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn choose(truth: F::Truth, yes: Self, no: Self) -> Self {
+        Self {
+            xx: F::choose(truth, yes.xx, no.xx),
+            xy: F::choose(truth, yes.xy, no.xy),
+            xz: F::choose(truth, yes.xz, no.xz),
+            yy: F::choose(truth, yes.yy, no.yy),
+            yz: F::choose(truth, yes.yz, no.yz),
+            zz: F::choose(truth, yes.zz, no.zz),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, lane: usize, m: &glam::DMat3) {
+        self.xx.set(lane, m.x_axis.x);
+        self.xy.set(lane, m.x_axis.y);
+        self.xz.set(lane, m.x_axis.z);
+        self.yy.set(lane, m.y_axis.y);
+        self.yz.set(lane, m.y_axis.z);
+        self.zz.set(lane, m.z_axis.z);
     }
 
     #[inline(always)]

@@ -9,17 +9,22 @@
 //! has them, with fused multiplication and addition where it has that; between processors with and without,
 //! the last digits differ.
 
+mod hanging;
 mod joints;
 mod lanes;
+mod pivot;
 mod settle;
 mod sweep;
+mod touch;
+mod touching;
 mod turn;
 
 use glam::DVec3;
 
 use crate::minimise::Stability;
 use crate::{Chain, ElementKind, Options, Resolution, Rod, Shape, equilibrium};
-use settle::{End, Rest};
+use settle::{End, Rest, Task};
+pub use touching::{Surroundings, Touch};
 
 /// Which numbers the way to rest is computed with; the end is double precision always.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,7 +101,23 @@ impl Batch {
     /// # Panics
     /// If there are no elements, or not as many turns as joints.
     #[must_use]
-    pub fn settle_from(&self, rods: &[Rod], mut controls: Vec<DVec3>) -> Batched {
+    pub fn settle_from(&self, rods: &[Rod], controls: Vec<DVec3>) -> Batched {
+        self.settle_among(rods, controls, None, 0)
+    }
+
+    /// The same, of hairs that can touch something, to which the first of them is hair `first`. What then does not come to
+    /// rest is told as it is.
+    ///
+    /// # Panics
+    /// As [`Self::settle_from`].
+    #[must_use]
+    pub fn settle_among(
+        &self,
+        rods: &[Rod],
+        mut controls: Vec<DVec3>,
+        surroundings: Option<&dyn Surroundings>,
+        first: usize,
+    ) -> Batched {
         let n = self.elements;
         assert!(n > 0, "a hair has at least one element");
         assert_eq!(controls.len(), rods.len() * n, "one turn for each joint");
@@ -105,12 +126,14 @@ impl Batch {
         if self.precision == Precision::Single {
             let tolerance = self.tolerance.max(SINGLE_TOLERANCE);
             let rest = Rest { elements: n, tolerance, max_iterations: SINGLE_ITERATIONS };
-            settle::single(rods, rest, &mut controls, &mut ends);
+            let task = Task { rods, rest, surroundings, first };
+            settle::single(task, &mut controls, &mut ends);
             before = ends.iter().map(|end| end.iterations).collect();
         }
         let (tolerance, max_iterations) = (self.tolerance, self.max_iterations);
         let rest = Rest { elements: n, tolerance, max_iterations };
-        settle::double(rods, rest, &mut controls, &mut ends);
+        let task = Task { rods, rest, surroundings, first };
+        settle::double(task, &mut controls, &mut ends);
         let hairs = (ends.iter().zip(&before).enumerate())
             .map(|(hair, (end, before))| {
                 let mut settled = Settled {
@@ -119,7 +142,9 @@ impl Batch {
                     iterations: end.iterations + before,
                     energy: end.energy,
                 };
-                if !end.settled {
+                if !end.settled && surroundings.is_some() {
+                    settled.stability = Stability::NotConverged;
+                } else if !end.settled {
                     let alone = self.alone(&rods[hair], &mut controls[hair * n..(hair + 1) * n]);
                     settled =
                         Settled { iterations: settled.iterations + alone.iterations, ..alone };

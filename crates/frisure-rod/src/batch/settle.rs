@@ -3,12 +3,13 @@
 use fearless_simd::{Level, Simd, SimdFrom, dispatch};
 use glam::DVec3;
 
+use super::hanging::Hanging;
 use super::joints::Joints;
-use super::lanes::{Lanes, Mat3, Vec3, Wide};
-use super::sweep::{Bundle, Joint};
+use super::lanes::{Lanes, Wide};
+use super::sweep::Backward;
+use super::touching::{Surroundings, Touching};
 use super::turn::LARGEST_SQUARE;
 use crate::Rod;
-use crate::stumpff::stumpff;
 
 /// Damping after a first failed pivot or a step that went up, as a fraction of the stiffness; as in
 /// [`crate::minimise::Riccati`].
@@ -41,14 +42,53 @@ pub(super) struct End {
     pub(super) energy: f64,
 }
 
+/// What hairs are brought to rest in.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub(super) rods: &'a [Rod],
+    pub(super) rest: Rest,
+    /// What they can touch; the first of them is hair `first` there.
+    pub(super) surroundings: Option<&'a dyn Surroundings>,
+    pub(super) first: usize,
+}
+
 /// Brings hairs to rest in double precision, from the controls that are given; these become theirs at rest.
-pub(super) fn double(rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
-    dispatch!(Level::new(), simd => run(f64s(simd), rods, rest, controls, ends));
+pub(super) fn double(task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
+    dispatch!(Level::new(), simd => any(f64s(simd), task, controls, ends));
 }
 
 /// The same in single precision.
-pub(super) fn single(rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
-    dispatch!(Level::new(), simd => run(f32s(simd), rods, rest, controls, ends));
+pub(super) fn single(task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
+    dispatch!(Level::new(), simd => any(f32s(simd), task, controls, ends));
+}
+
+#[inline(always)]
+fn any<F: Lanes>(zero: F, task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
+    let uniform = |rod: &Rod| matches!(rod.natural(), crate::NaturalStrain::Uniform(_));
+    let n = task.rest.elements;
+    let turns = if task.rods.iter().all(uniform) { 1 } else { n };
+    match task.surroundings {
+        None => run(zero, &mut Hanging::new(zero, n, turns), task, controls, ends),
+        Some(around) => {
+            let touching = &mut Touching::new(zero, n, turns, around);
+            run(zero, touching, task, controls, ends);
+        }
+    }
+}
+
+/// Hairs in lanes, of one kind.
+pub(super) trait Sweeps<F: Lanes> {
+    /// Puts a hair into a lane, its joints turned as given; its energy (J) but for the constant, if the lane is at
+    /// that shape already.
+    fn load(&mut self, lane: usize, hair: usize, joints: &Joints, start: &[DVec3]) -> Option<f64>;
+    /// Makes the given shape the next trial of a lane.
+    fn begin(&mut self, lane: usize);
+    /// As [`super::sweep::Bundle::backward`].
+    fn backward(&mut self, accepted: F::Truth, damping: F) -> Backward<F>;
+    /// As [`super::sweep::Bundle::forward`].
+    fn forward(&mut self) -> F;
+    /// The turn of a joint (rad) of the hair in a lane.
+    fn control(&self, joint: usize, lane: usize) -> DVec3;
 }
 
 #[inline(always)]
@@ -74,6 +114,8 @@ struct Lane {
     iterations: usize,
     /// Whether a step is being tried.
     trying: bool,
+    /// Whether the given shape is.
+    fresh: bool,
 }
 
 const EMPTY: Lane = Lane {
@@ -84,22 +126,22 @@ const EMPTY: Lane = Lane {
     scale: 1.0,
     iterations: 0,
     trying: false,
+    fresh: false,
 };
 
 /// Most lanes that any processor has.
 const MOST_LANES: usize = 16;
 
 #[inline(always)]
-fn run<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
+fn run<F: Lanes>(
+    zero: F,
+    sweeps: &mut impl Sweeps<F>,
+    task: Task<'_>,
+    controls: &mut [DVec3],
+    ends: &mut [End],
+) {
+    let Task { rods, rest, first, .. } = task;
     let n = rest.elements;
-    let alike = rods.iter().all(|rod| matches!(rod.natural(), crate::NaturalStrain::Uniform(_)));
-    let turns = if alike { 1 } else { n };
-    let mut bundle = Bundle {
-        joints: vec![Joint::nothing(zero); n],
-        turns: vec![Mat3::all(zero); turns],
-        root: Vec3::all(zero),
-        stiffness: Vec3::all(zero.all(1.0)),
-    };
     let mut lanes = [EMPTY; MOST_LANES];
     let mut joints = Joints::default();
     let mut next = 0;
@@ -109,10 +151,11 @@ fn run<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends
             if lane.hair.is_none() && next < rods.len() {
                 let start = &controls[next * n..(next + 1) * n];
                 joints.divide(&rods[next], n);
-                let energy = load(&mut bundle, index, &joints, start);
+                let known = sweeps.load(index, first + next, &joints, start);
+                let (fresh, energy) = (known.is_none(), known.unwrap_or_default());
                 let scale = rods[next].moment_scale();
                 let constant = joints.constant;
-                *lane = Lane { hair: Some(next), energy, constant, scale, ..EMPTY };
+                *lane = Lane { hair: Some(next), fresh, energy, constant, scale, ..EMPTY };
                 next += 1;
             }
         }
@@ -123,9 +166,14 @@ fn run<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends
         for (index, lane) in lanes[..F::COUNT].iter().enumerate() {
             damping.set(index, lane.damping);
         }
-        let found = bundle.backward(accepted, damping);
+        let found = sweeps.backward(accepted, damping);
         for (index, lane) in lanes[..F::COUNT].iter_mut().enumerate() {
             let Some(hair) = lane.hair else { continue };
+            lane.trying = false;
+            if lane.fresh {
+                sweeps.begin(index);
+                continue;
+            }
             let gradient = found.gradient.get(index).sqrt() / lane.scale;
             let positive = found.pivot.get(index) > 0.0;
             let at_rest = gradient <= rest.tolerance;
@@ -134,10 +182,9 @@ fn run<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends
                 || lane.damping > LARGEST_DAMPING
                 || lane.iterations >= rest.max_iterations
                 || (at_rest && lane.damping == 0.0 && !positive);
-            lane.trying = false;
             if settled || lost {
-                for (i, joint) in bundle.joints.iter().enumerate() {
-                    controls[hair * n + i] = joint.control.get(index);
+                for i in 0..n {
+                    controls[hair * n + i] = sweeps.control(i, index);
                 }
                 let energy = lane.energy + lane.constant;
                 ends[hair] = End { settled, gradient, iterations: lane.iterations, energy };
@@ -151,10 +198,14 @@ fn run<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends
                 lane.damping = FIRST_DAMPING.max(4.0 * lane.damping);
             }
         }
-        let energy = bundle.forward();
+        let energy = sweeps.forward();
         let mut bits = 0_u64;
         for (index, lane) in lanes[..F::COUNT].iter_mut().enumerate() {
             lane.iterations += 1;
+            if lane.fresh {
+                bits |= 1 << index;
+                (lane.fresh, lane.energy) = (false, energy.get(index));
+            }
             if !lane.trying {
                 continue;
             }
@@ -172,35 +223,4 @@ fn run<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends
         }
         accepted = zero.truth(bits);
     }
-}
-
-/// Puts a hair into a lane, its joints turned as given, and tells its energy (J) but for the constant.
-#[inline(always)]
-fn load<F: Lanes>(bundle: &mut Bundle<F>, lane: usize, joints: &Joints, start: &[DVec3]) -> f64 {
-    bundle.root.set(lane, joints.up);
-    bundle.stiffness.set(lane, joints.stiffness);
-    let mut up = joints.up;
-    let mut energy = 0.0;
-    let last = start.len() - 1;
-    for (i, turn) in bundle.turns.iter_mut().enumerate() {
-        if i < last {
-            turn.set(lane, joints.turn(i));
-        }
-    }
-    for (i, control) in start.iter().enumerate() {
-        if *control != DVec3::ZERO {
-            let table = stumpff(control.length_squared());
-            let once = control.cross(up);
-            up += control.cross(once) * table[2] - once * table[1];
-        }
-        let joint = &mut bundle.joints[i];
-        joint.arm.set(lane, joints.arms[i]);
-        joint.control.set(lane, *control);
-        joint.up.set(lane, up);
-        energy += 0.5 * control.dot(joints.stiffness * *control) + joints.arms[i].dot(up);
-        if i < last {
-            up = joints.turn(i).transpose() * up;
-        }
-    }
-    energy
 }

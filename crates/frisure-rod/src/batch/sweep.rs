@@ -12,6 +12,7 @@
 //! so that x is eliminated by the 3×3 block `H = K + Jᵀ P J + D(g)` and `M = Jᵀ (P + ½ [g]×)`.
 
 use super::lanes::{Lanes, Mat3, Sym3, Vec3};
+use super::pivot::{Factor, JointModel};
 use super::turn::Table;
 
 /// One joint of each hair.
@@ -55,11 +56,8 @@ pub(super) struct Backward<F> {
     pub(super) turned: F,
 }
 
-/// A pivot this small against its diagonal is zero but for rounding.
-const ROUNDING: f64 = 1e-13;
-
 /// Largest change of a joint's turn in one step (rad).
-const LARGEST_TURN: f64 = 1.0;
+pub(super) const LARGEST_TURN: f64 = 1.0;
 
 impl<F: Lanes> Joint<F> {
     pub(super) fn nothing(zero: F) -> Self {
@@ -107,60 +105,24 @@ impl<F: Lanes> Bundle<F> {
             found.gradient = found.gradient.largest(exact.dot(exact));
             found.turned = found.turned.largest(c.dot(c));
 
-            // Columns of J after P, and rows of M.
-            let (px, py, pz) = (p.times(j.x), p.times(j.y), p.times(j.z));
-            let row = |pj: Vec3<F>, j: Vec3<F>| g.cross(j).scaled_plus(-half, pj);
-            let (mx, my, mz) = (row(px, j.x), row(py, j.y), row(pz, j.z));
-            let block = Sym3 {
-                xx: j.x.dot(px),
-                xy: j.x.dot(py),
-                xz: j.x.dot(pz),
-                yy: j.y.dot(py),
-                yz: j.y.dot(pz),
-                zz: j.z.dot(pz),
-            };
-            let block = table.add_second(c, g, block.plus_diagonal(damped));
-
-            // L D Lᵀ of the block, and what it makes of the residue and the rows.
-            let small = one.all(ROUNDING);
-            let inverse = |d: F| one / d;
-            let d1 = inverse(block.xx);
-            let (l21, l31) = (block.xy * d1, block.xz * d1);
-            let second = (-l21).times_plus(block.xy, block.yy);
-            let e = (-l31).times_plus(block.xy, block.yz);
-            let d2 = inverse(second);
-            let l32 = e * d2;
-            let third = (-l32).times_plus(e, (-l31).times_plus(block.xz, block.zz));
-            let d3 = inverse(third);
-            let beyond = |pivot: F, of: F| small.times_plus(-of, pivot);
-            let pivots =
-                block.xx.smallest(beyond(second, block.yy)).smallest(beyond(third, block.zz));
-            found.pivot = found.pivot.smallest(pivots);
-
-            let (r1, m1) = (residue.x, mx);
-            let (r2, m2) = ((-l21).times_plus(r1, residue.y), m1.scaled_plus(-l21, my));
-            let r3 = (-l32).times_plus(r2, (-l31).times_plus(r1, residue.z));
-            let m3 = m2.scaled_plus(-l32, m1.scaled_plus(-l31, mz));
-            let (q1, q2, q3) = (r1 * d1, r2 * d2, r3 * d3);
-            let lost = r1.times_plus(q1, r2.times_plus(q2, r3 * q3));
-            found.decrease = half.times_plus(lost, found.decrease);
-
-            let z = q3;
-            let y = (-l32).times_plus(z, q2);
-            let x = (-l21).times_plus(y, (-l31).times_plus(z, q1));
-            joint.step = Vec3::new(x, y, z);
-            let gz = m3.scaled(d3);
-            let gy = gz.scaled_plus(-l32, m2.scaled(d2));
-            let gx = gy.scaled_plus(-l21, gz.scaled_plus(-l31, m1.scaled(d1)));
-            // By rows; its transpose is applied.
-            joint.gain = Mat3 { x: gx, y: gy, z: gz };
+            let JointModel { block, rows } = JointModel::new(&table, c, j, g, p);
+            let factor = Factor::of(block.plus_diagonal(damped));
+            found.pivot = found.pivot.smallest(factor.least);
+            let lowered = factor.lower(residue);
+            let q = lowered.each(factor.inverse);
+            found.decrease = half.times_plus(lowered.dot(q), found.decrease);
+            let [m1, m2, m3] = factor.lower_rows(rows);
+            joint.step = factor.raise(q);
+            joint.gain = factor.raise_rows([m1, m2, m3]);
             joint.rotation = rotation;
 
             if i == 0 {
                 break;
             }
-            let slope_before = m3.scaled_plus(-q3, m2.scaled_plus(-q2, m1.scaled_plus(-q1, g)));
-            let hessian_before = p.minus_square(d1, m1).minus_square(d2, m2).minus_square(d3, m3);
+            let slope_before = m3.scaled_plus(-q.z, m2.scaled_plus(-q.y, m1.scaled_plus(-q.x, g)));
+            let d = factor.inverse;
+            let hessian_before =
+                p.minus_square(d.x, m1).minus_square(d.y, m2).minus_square(d.z, m3);
             let back = self.turn(i - 1).product(rotation);
             slope = back.times(slope_before);
             pure = back.times(h);

@@ -1,0 +1,296 @@
+//! Hairs that can touch something, into and out of the lanes.
+
+use glam::{DMat3, DVec3};
+
+use super::joints::Joints;
+use super::lanes::{Lanes, Mat3, Vec3};
+use super::settle::Sweeps;
+use super::sweep::Backward;
+use super::touch::{Bundle, Felt, Joint};
+
+/// What hairs can touch.
+pub trait Surroundings: Sync {
+    /// What the hair of an index feels at arc length `s` (m) where it is at `position` (m, world).
+    fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch;
+}
+
+/// What is felt at one place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Touch {
+    /// Nothing, nor anywhere nearer than this distance (m).
+    Free(f64),
+    /// Something.
+    Felt {
+        /// Energy per length of hair (J/m).
+        energy: f64,
+        /// Its gradient by the position (J/m²).
+        gradient: DVec3,
+        /// Its symmetric Hessian (J/m³).
+        hessian: DMat3,
+    },
+}
+
+/// A ball (m) in which a hair feels nothing.
+#[derive(Clone, Copy)]
+struct Free {
+    centre: DVec3,
+    radius: f64,
+}
+
+const NOWHERE: Free = Free { centre: DVec3::ZERO, radius: -1.0 };
+
+/// What a lane's hair is, for those around it.
+#[derive(Clone, Copy)]
+struct Place {
+    hair: usize,
+    /// Length of an element (m).
+    h: f64,
+}
+
+/// Hairs in their own weight, and what they touch.
+pub(super) struct Touching<'a, F> {
+    bundle: Bundle<F>,
+    surroundings: &'a dyn Surroundings,
+    /// Of each lane; none if it is empty.
+    places: Vec<Option<Place>>,
+    /// By joint, then by lane.
+    free: Vec<Free>,
+    nothing: Felt<F>,
+}
+
+impl<'a, F: Lanes> Touching<'a, F> {
+    /// Lanes for hairs of `n` joints, with as many turns between them.
+    #[inline(always)]
+    pub(super) fn new(zero: F, n: usize, turns: usize, surroundings: &'a dyn Surroundings) -> Self {
+        Self {
+            bundle: Bundle {
+                joints: vec![Joint::nothing(zero); n],
+                turns: vec![Mat3::all(zero); turns],
+                frame: Mat3::all(zero),
+                start: Vec3::all(zero),
+                stiffness: Vec3::all(zero.all(1.0)),
+            },
+            surroundings,
+            places: vec![None; F::COUNT],
+            free: vec![NOWHERE; n * F::COUNT],
+            nothing: Felt::nothing(zero),
+        }
+    }
+}
+
+impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
+    #[inline(always)]
+    fn load(&mut self, lane: usize, hair: usize, joints: &Joints, start: &[DVec3]) -> Option<f64> {
+        let bundle = &mut self.bundle;
+        bundle.frame.set(lane, &joints.frame);
+        bundle.start.set(lane, joints.start);
+        bundle.stiffness.set(lane, joints.stiffness);
+        let last = start.len() - 1;
+        for (i, turn) in bundle.turns.iter_mut().enumerate() {
+            if i < last {
+                turn.set(lane, joints.turn(i));
+            }
+        }
+        for (i, control) in start.iter().enumerate() {
+            let joint = &mut bundle.joints[i];
+            joint.arm.set(lane, joints.arms[i]);
+            joint.link.set(lane, joints.links[i]);
+            joint.begin(lane, *control);
+            self.free[i * F::COUNT + lane] = NOWHERE;
+        }
+        self.places[lane] = Some(Place { hair, h: joints.h });
+        None
+    }
+
+    #[inline(always)]
+    fn begin(&mut self, lane: usize) {
+        for joint in &mut self.bundle.joints {
+            let control = joint.control(lane);
+            joint.begin(lane, control);
+        }
+    }
+
+    #[inline(always)]
+    fn backward(&mut self, accepted: F::Truth, damping: F) -> Backward<F> {
+        self.bundle.backward(accepted, damping)
+    }
+
+    #[inline(always)]
+    fn forward(&mut self) -> F {
+        let Self { bundle, surroundings, places, free, nothing } = self;
+        let last = bundle.joints.len() - 1;
+        bundle.forward(|joint, ends| {
+            let mut felt = *nothing;
+            for (lane, place) in places.iter().enumerate() {
+                let Some(Place { hair, h }) = place else { continue };
+                let end = ends.get(lane);
+                let known = &mut free[joint * F::COUNT + lane];
+                if end.distance_squared(known.centre) < known.radius * known.radius.abs() {
+                    continue;
+                }
+                // The next joint is half an element into the next element; the tip has half a share.
+                let (s, share) = match joint == last {
+                    true => ((joint + 1) as f64 * h, 0.5 * h),
+                    false => ((joint as f64 + 1.5) * h, *h),
+                };
+                match surroundings.felt(*hair, s, end) {
+                    Touch::Free(radius) => *known = Free { centre: end, radius },
+                    Touch::Felt { energy, gradient, hessian } => {
+                        felt.set(lane, energy * share, gradient * share, &(hessian * share));
+                    }
+                }
+            }
+            felt
+        })
+    }
+
+    #[inline(always)]
+    fn control(&self, joint: usize, lane: usize) -> DVec3 {
+        self.bundle.joints[joint].control(lane)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Batch, Precision};
+    use super::*;
+    use crate::{Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant};
+
+    /// Springs to a point, different for each hair; or a soft ball that hair lies on.
+    enum Around {
+        Springs(f64),
+        Ball(DVec3, f64),
+        Nothing,
+    }
+
+    impl Surroundings for Around {
+        fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch {
+            let (away, stiffness) = match *self {
+                Self::Nothing => return Touch::Free(f64::INFINITY),
+                Self::Springs(k) => {
+                    let anchor = DVec3::new(0.02, 0.01 * hair as f64, -0.03);
+                    (position - anchor, k * (1.0 + 10.0 * s))
+                }
+                Self::Ball(centre, radius) => {
+                    let away = position - centre;
+                    let distance = away.length() - radius;
+                    if distance > 0.0 {
+                        return Touch::Free(distance);
+                    }
+                    let (normal, bend) = (away.normalize(), 2000.0);
+                    let square =
+                        DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
+                    let round = (DMat3::IDENTITY - square) * (bend * distance / away.length());
+                    return Touch::Felt {
+                        energy: 0.5 * bend * distance * distance,
+                        gradient: normal * (bend * distance),
+                        hessian: square * bend + round,
+                    };
+                }
+            };
+            Touch::Felt {
+                energy: 0.5 * stiffness * away.length_squared(),
+                gradient: away * stiffness,
+                hessian: DMat3::IDENTITY * stiffness,
+            }
+        }
+    }
+
+    fn rods() -> Vec<Rod> {
+        let rod = |k: usize| {
+            let angle = 0.7 * k as f64;
+            let tangent = DVec3::new(angle.cos(), angle.sin(), 0.9 - 0.1 * k as f64);
+            Rod::new(RodSpec {
+                length: 0.08 + 0.01 * k as f64,
+                section: Section::from_diameter(70e-6, 1.5).unwrap(),
+                material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
+                torsion: TorsionConstant::SaintVenant,
+                natural: NaturalStrain::helix(0.012, 0.02 + 0.01 * k as f64).unwrap(),
+                root: Root::from_tangent(DVec3::Z * 0.01, tangent, DVec3::new(0.1, 0.2, 0.9))
+                    .unwrap(),
+                gravity: 9.81,
+            })
+            .unwrap()
+        };
+        (0..11).map(rod).collect()
+    }
+
+    /// The energy (J) of a hair whose joints are turned as given, by nothing but the definition.
+    fn energy(rod: &Rod, hair: usize, controls: &[DVec3], around: &Around) -> f64 {
+        let n = controls.len();
+        let mut joints = Joints::default();
+        joints.divide(rod, n);
+        let (mut frame, mut at) = (joints.frame, joints.start);
+        let mut energy = joints.constant;
+        for (i, c) in controls.iter().enumerate() {
+            frame *= DMat3::from_quat(glam::DQuat::from_scaled_axis(*c));
+            at += frame * joints.links[i];
+            energy += 0.5 * c.dot(joints.stiffness * *c)
+                + joints.arms[i].dot(frame.transpose() * DVec3::Z);
+            let (s, share) = match i + 1 == n {
+                true => (rod.length(), 0.5 * joints.h),
+                false => ((i as f64 + 1.5) * joints.h, joints.h),
+            };
+            if let Touch::Felt { energy: felt, .. } = around.felt(hair, s, at) {
+                energy += felt * share;
+            }
+            if i + 1 < n {
+                frame *= *joints.turn(i);
+            }
+        }
+        energy
+    }
+
+    #[test]
+    fn what_touches_nothing_hangs() {
+        let rods = rods();
+        let batch = Batch { elements: 12, tolerance: 1e-10, ..Batch::default() };
+        let start = || vec![DVec3::ZERO; rods.len() * 12];
+        let free = batch.settle(&rods);
+        let around = batch.settle_among(&rods, start(), Some(&Around::Nothing), 0);
+        for (a, b) in free.controls.iter().zip(&around.controls) {
+            assert!(a.distance(*b) < 1e-7, "{a} {b}");
+        }
+        for (a, b) in free.hairs.iter().zip(&around.hairs) {
+            assert_eq!(b.stability, Stability::Stable);
+            assert!((a.energy - b.energy).abs() < 1e-12 * a.energy.abs());
+        }
+    }
+
+    #[test]
+    fn rest_is_a_minimum_of_the_energy() {
+        let rods = rods();
+        let ball = Around::Ball(DVec3::new(0.0, 0.0, -0.03), 0.035);
+        for around in [Around::Springs(1e-4), Around::Springs(1.0), ball] {
+            for precision in [Precision::Double, Precision::Single] {
+                let batch =
+                    Batch { elements: 12, precision, max_iterations: 5000, ..Batch::default() };
+                let start = vec![DVec3::ZERO; rods.len() * 12];
+                let found = batch.settle_among(&rods, start, Some(&around), 3);
+                for (i, rod) in rods.iter().enumerate() {
+                    let settled = &found.hairs[i];
+                    assert_eq!(settled.stability, Stability::Stable, "{i}: {settled:?}");
+                    let controls = &found.controls[i * 12..(i + 1) * 12];
+                    let at = |controls: &[DVec3]| energy(rod, i + 3, controls, &around);
+                    let least = at(controls);
+                    let scale = rod.moment_scale();
+                    assert!((settled.energy - least).abs() < 1e-9 * scale.max(least.abs()), "{i}");
+                    for joint in 0..12 {
+                        for axis in 0..3 {
+                            let moved = |by: f64| {
+                                let mut moved = controls.to_vec();
+                                moved[joint][axis] += by;
+                                at(&moved)
+                            };
+                            // Small against the kink where skin begins.
+                            let h = 1e-8;
+                            let slope = (moved(h) - moved(-h)) / (2.0 * h);
+                            assert!(slope.abs() < 1e-4 * scale, "{i} {joint}: {}", slope / scale);
+                            assert!(moved(1e-4) + moved(-1e-4) > 2.0 * least, "{i} {joint}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
