@@ -9,7 +9,7 @@ use crate::ply::{Body, Element, Property, open};
 /// Reads a file.
 pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     let (elements, mut body) = open(bytes)?;
-    let mut mesh = Mesh { frame: Some(Frame::METRES_Y), ..Mesh::default() };
+    let mut mesh = Mesh { frame: Some(frame(bytes)), ..Mesh::default() };
     for element in &elements {
         match element.name.as_str() {
             "vertex" => vertices(&mut mesh, element, &mut body)?,
@@ -20,6 +20,17 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     mesh.triangle_uvs.resize(mesh.triangles.len(), None);
     mesh.join();
     Ok(mesh)
+}
+
+/// What Blender writes into the header of its files, which have z up as it has itself.
+const BLENDER: &str = "comment Created in Blender";
+
+/// The format says no axes: y is up, but in files of a program that always has z.
+fn frame(bytes: &[u8]) -> Frame {
+    let lines = bytes.split(|byte| *byte == b'\n');
+    let mut header = lines.take_while(|line| !line.starts_with(b"end_header")).take(1000);
+    let blender = header.any(|line| line.starts_with(BLENDER.as_bytes()));
+    if blender { Frame::METRES_Z } else { Frame::METRES_Y }
 }
 
 fn vertices(mesh: &mut Mesh, element: &Element, body: &mut Body) -> Result<(), String> {
@@ -143,6 +154,13 @@ mod tests {
             bytes.extend(if big { i.to_be_bytes() } else { i.to_le_bytes() });
         }
         bytes
+    }
+
+    #[test]
+    fn what_blender_writes_has_z_up() {
+        let blender = TEXT.replace("made by hand", "Created in Blender version 5.0.1");
+        assert_eq!(parse(blender.as_bytes()).unwrap().frame, Some(Frame::METRES_Z));
+        assert_eq!(parse(TEXT.as_bytes()).unwrap().frame, Some(Frame::METRES_Y));
     }
 
     #[test]
