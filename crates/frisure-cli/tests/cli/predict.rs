@@ -374,14 +374,14 @@ fn a_groom_is_hair() {
     assert_eq!(room.run(&["predict", "quick.toml", "-o", "a.npz"]).code, Some(0));
     let ran = room.run(&["predict", "groomed.toml", "-o", "b.npz", "--report", "b.json"]);
     assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
-    assert!(ran.out.contains("strands stay within 1 mm"), "{}", ran.out);
+    assert!(ran.out.contains("guides stay within 1 mm"), "{}", ran.out);
     let report: Value = serde_json::from_slice(&fs::read(room.path("b.json")).unwrap()).unwrap();
     let groom = &report["groom"];
     assert_eq!(groom["strands"], report["guides"]["count"]);
     assert!(groom["median_distance"].as_f64().unwrap() < 1e-3, "{groom}");
     assert_eq!(room.run(&["predict", "wet.toml", "-o", "c.usda"]).code, Some(0));
     let few = room.run(&["predict", "few.toml", "-o", "d.hair"]);
-    assert!(few.out.contains(" of 3 strands stay"), "{}", few.out);
+    assert!(few.out.contains(" of 3 guides stay"), "{}", few.out);
     for (scene, problem) in [
         ("bad.toml", "bad.npz"),
         ("none.toml", "there is no file"),

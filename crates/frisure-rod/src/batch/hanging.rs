@@ -3,21 +3,22 @@
 use glam::DVec3;
 
 use super::joints::Joints;
-use super::lanes::{Lanes, Mat3, Vec3};
+use super::lanes::{Lanes, Vec3};
 use super::settle::Sweeps;
 use super::sweep::{Backward, Bundle, Joint};
+use super::turns::Turns;
 use crate::stumpff::stumpff;
 
 /// Hairs in their own weight alone.
 pub(super) struct Hanging<F>(Bundle<F>);
 
 impl<F: Lanes> Hanging<F> {
-    /// Lanes for hairs of `n` joints, with as many turns between them.
+    /// Lanes for hairs of `n` joints, between which those of each hair turn alike or not.
     #[inline(always)]
-    pub(super) fn new(zero: F, n: usize, turns: usize) -> Self {
+    pub(super) fn new(zero: F, n: usize, alike: bool) -> Self {
         Self(Bundle {
             joints: vec![Joint::nothing(zero); n],
-            turns: vec![Mat3::all(zero); turns],
+            turns: Turns::new(zero, n, alike),
             root: Vec3::all(zero),
             stiffness: Vec3::all(zero.all(1.0)),
         })
@@ -33,11 +34,7 @@ impl<F: Lanes> Sweeps<F> for Hanging<F> {
         let mut up = joints.up;
         let mut energy = 0.0;
         let last = start.len() - 1;
-        for (i, turn) in bundle.turns.iter_mut().enumerate() {
-            if i < last {
-                turn.set(lane, joints.turn(i));
-            }
-        }
+        bundle.turns.set(lane, joints);
         for (i, control) in start.iter().enumerate() {
             if *control != DVec3::ZERO {
                 let table = stumpff(control.length_squared());

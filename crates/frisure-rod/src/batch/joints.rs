@@ -34,7 +34,7 @@ pub(super) struct Joints {
 }
 
 /// Half of an element.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 struct Piece {
     turn: DMat3,
     /// What it adds to the arm of the joint: how far (m) it goes, and the first moment (m²).
@@ -61,40 +61,37 @@ impl Joints {
             let strain = if uniform { natural.at(0.0) } else { natural.mean(from, from + half) };
             Piece::of(strain, half)
         };
+        let alike = uniform.then(|| piece(0));
         self.h = h;
         self.turns.clear();
         self.arms.clear();
         self.links.clear();
         self.stiffness = rod.stiffness() / h;
-        let (mut first, mut second) = (piece(0), piece(1));
-        self.frame = rod.root().frame() * first.turn;
-        self.start = rod.root().position() + rod.root().frame() * first.advance;
-        self.up = self.frame.transpose() * DVec3::Z;
+        let mut before: Option<Piece> = None;
         for i in 0..n {
+            let [first, second] = [2 * i, 2 * i + 1].map(|k| alike.unwrap_or_else(|| piece(k)));
             // The weight (N) of all that hangs beyond the element.
             let hanging = weight * h * (n - 1 - i) as f64;
             let bears = first.advance * (hanging + weight * half) + first.moment * weight;
-            if i == 0 {
-                self.constant = (rod.root().frame() * bears).z;
-            } else if uniform {
-                self.arms[i - 1] += second.turn * bears;
+            match before {
+                None => {
+                    let clamp = rod.root().frame();
+                    self.constant = (clamp * bears).z;
+                    self.frame = clamp * first.turn;
+                    self.start = rod.root().position() + clamp * first.advance;
+                    self.up = self.frame.transpose() * DVec3::Z;
+                }
+                Some(before) => {
+                    if i == 1 || !uniform {
+                        self.turns.push(before.turn * first.turn);
+                    }
+                    self.arms[i - 1] += before.turn * bears;
+                    self.links[i - 1] += before.turn * first.advance;
+                }
             }
             self.arms.push(second.advance * hanging + second.moment * weight);
             self.links.push(second.advance);
-            if uniform && i + 1 < n {
-                self.links[i] += second.turn * first.advance;
-            }
-            if i + 1 < n && (i == 0 || !uniform) {
-                let next = if uniform { first.clone() } else { piece(2 * i + 2) };
-                self.turns.push(second.turn * next.turn);
-                if !uniform {
-                    let hanging = hanging - weight * h;
-                    let bears = next.advance * (hanging + weight * half) + next.moment * weight;
-                    self.arms[i] += second.turn * bears;
-                    self.links[i] += second.turn * next.advance;
-                    (first, second) = (next, piece(2 * i + 3));
-                }
-            }
+            before = Some(second);
         }
     }
 

@@ -18,6 +18,7 @@ mod sweep;
 mod touch;
 mod touching;
 mod turn;
+mod turns;
 
 use glam::DVec3;
 

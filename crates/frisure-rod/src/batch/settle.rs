@@ -66,11 +66,11 @@ pub(super) fn single(task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
 fn any<F: Lanes>(zero: F, task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
     let uniform = |rod: &Rod| matches!(rod.natural(), crate::NaturalStrain::Uniform(_));
     let n = task.rest.elements;
-    let turns = if task.rods.iter().all(uniform) { 1 } else { n };
+    let alike = task.rods.iter().all(uniform);
     match task.surroundings {
-        None => run(zero, &mut Hanging::new(zero, n, turns), task, controls, ends),
+        None => run(zero, &mut Hanging::new(zero, n, alike), task, controls, ends),
         Some(around) => {
-            let touching = &mut Touching::new(zero, n, turns, around);
+            let touching = &mut Touching::new(zero, n, alike, around);
             run(zero, touching, task, controls, ends);
         }
     }

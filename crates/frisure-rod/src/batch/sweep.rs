@@ -14,6 +14,7 @@
 use super::lanes::{Lanes, Mat3, Sym3, Vec3};
 use super::pivot::{Factor, JointModel};
 use super::turn::Table;
+use super::turns::Turns;
 
 /// One joint of each hair.
 #[derive(Clone, Copy)]
@@ -36,8 +37,7 @@ pub(super) struct Joint<F> {
 /// So many hairs side by side, divided into as many joints each.
 pub(super) struct Bundle<F> {
     pub(super) joints: Vec<Joint<F>>,
-    /// C after each joint; one for all if those of each hair are alike.
-    pub(super) turns: Vec<Mat3<F>>,
+    pub(super) turns: Turns<F>,
     /// ζ before the first joint.
     pub(super) root: Vec3<F>,
     /// K (N m).
@@ -67,12 +67,6 @@ impl<F: Lanes> Joint<F> {
 }
 
 impl<F: Lanes> Bundle<F> {
-    /// C after a joint.
-    #[inline(always)]
-    fn turn(&self, joint: usize) -> &Mat3<F> {
-        if self.turns.len() == 1 { &self.turns[0] } else { &self.turns[joint] }
-    }
-
     /// Takes over the trial where `accepted`, and finds the next step with stiffness `1 + damping` times as
     /// great.
     #[inline(always)]
@@ -123,7 +117,7 @@ impl<F: Lanes> Bundle<F> {
             let d = factor.inverse;
             let hessian_before =
                 p.minus_square(d.x, m1).minus_square(d.y, m2).minus_square(d.z, m3);
-            let back = self.turn(i - 1).product(rotation);
+            let back = self.turns.after(i - 1).product(rotation);
             slope = back.times(slope_before);
             pure = back.times(h);
             hessian = back.turned(hessian_before);
@@ -158,7 +152,7 @@ impl<F: Lanes> Bundle<F> {
             energy = half.times_plus(elastic, energy) + joint.arm.dot(up);
             (joint.trial, joint.trial_up) = (c, up);
             if i < last {
-                before = self.turn(i).transposed_times(up);
+                before = self.turns.after(i).transposed_times(up);
             }
         }
         energy

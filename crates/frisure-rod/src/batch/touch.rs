@@ -9,6 +9,7 @@ use super::lanes::{Lanes, Mat3, Sym3, Vec3};
 use super::pivot::{Factor, JointModel};
 use super::sweep::{Backward, LARGEST_TURN};
 use super::turn::Table;
+use super::turns::Turns;
 
 /// What touches the end of a link: energy (J), gradient and Hessian by its position.
 #[derive(Clone, Copy)]
@@ -49,8 +50,7 @@ pub(super) struct Joint<F> {
 /// So many hairs side by side, divided into as many joints each.
 pub(super) struct Bundle<F> {
     pub(super) joints: Vec<Joint<F>>,
-    /// C after each joint; one for all if those of each hair are alike.
-    pub(super) turns: Vec<Mat3<F>>,
+    pub(super) turns: Turns<F>,
     /// The frame before the first joint, and where that is (m).
     pub(super) frame: Mat3<F>,
     pub(super) start: Vec3<F>,
@@ -131,12 +131,6 @@ impl<F: Lanes> Joint<F> {
 }
 
 impl<F: Lanes> Bundle<F> {
-    /// C after a joint.
-    #[inline(always)]
-    fn turn(&self, joint: usize) -> &Mat3<F> {
-        if self.turns.len() == 1 { &self.turns[0] } else { &self.turns[joint] }
-    }
-
     /// As [`super::sweep::Bundle::backward`].
     #[inline(always)]
     pub(super) fn backward(&mut self, accepted: F::Truth, damping: F) -> Backward<F> {
@@ -243,7 +237,7 @@ impl<F: Lanes> Bundle<F> {
             };
             let slope_before = less(g, turned);
             force = less(force, shifted);
-            let back = self.turn(i - 1).product(rotation);
+            let back = self.turns.after(i - 1).product(rotation);
             slope = back.times(slope_before);
             pure = back.times(h);
             p_next = back.turned(before);
@@ -289,7 +283,7 @@ impl<F: Lanes> Bundle<F> {
             joint.trial = State { control: c, frame, end, felt };
             at = end;
             if i < last {
-                before = frame.product(*self.turn(i));
+                before = frame.product(*self.turns.after(i));
             }
         }
         energy

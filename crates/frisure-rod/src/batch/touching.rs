@@ -7,6 +7,7 @@ use super::lanes::{Lanes, Mat3, Vec3};
 use super::settle::Sweeps;
 use super::sweep::Backward;
 use super::touch::{Bundle, Felt, Joint};
+use super::turns::Turns;
 
 /// What hairs can touch.
 pub trait Surroundings: Sync {
@@ -59,13 +60,13 @@ pub(super) struct Touching<'a, F> {
 }
 
 impl<'a, F: Lanes> Touching<'a, F> {
-    /// Lanes for hairs of `n` joints, with as many turns between them.
+    /// Lanes for hairs of `n` joints, between which those of each hair turn alike or not.
     #[inline(always)]
-    pub(super) fn new(zero: F, n: usize, turns: usize, surroundings: &'a dyn Surroundings) -> Self {
+    pub(super) fn new(zero: F, n: usize, alike: bool, surroundings: &'a dyn Surroundings) -> Self {
         Self {
             bundle: Bundle {
                 joints: vec![Joint::nothing(zero); n],
-                turns: vec![Mat3::all(zero); turns],
+                turns: Turns::new(zero, n, alike),
                 frame: Mat3::all(zero),
                 start: Vec3::all(zero),
                 stiffness: Vec3::all(zero.all(1.0)),
@@ -85,12 +86,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
         bundle.frame.set(lane, &joints.frame);
         bundle.start.set(lane, joints.start);
         bundle.stiffness.set(lane, joints.stiffness);
-        let last = start.len() - 1;
-        for (i, turn) in bundle.turns.iter_mut().enumerate() {
-            if i < last {
-                turn.set(lane, joints.turn(i));
-            }
-        }
+        bundle.turns.set(lane, joints);
         for (i, control) in start.iter().enumerate() {
             let joint = &mut bundle.joints[i];
             joint.arm.set(lane, joints.arms[i]);

@@ -27,7 +27,7 @@ const HEAD: [&str; 8] = [
     "head.scalp_mask",
     "head.scalp_weights",
 ];
-const GROOM: [&str; 4] = ["groom.file", "groom.up", "groom.unit", "groom.guides"];
+const GROOM: [&str; 3] = ["groom.file", "groom.up", "groom.unit"];
 
 /// Keys of scenes that name files.
 const PATHS: [&str; 5] =
@@ -140,12 +140,12 @@ impl Salon {
     /// The mannequin instead of the scene's head, or hair of the scene's own instead of its groom's.
     pub(super) fn without_file(&mut self, contents: Contents) {
         let Some(base) = self.base() else { return };
-        let (label, keys) = match contents.head {
-            true => ("The mannequin's head", &HEAD[..]),
-            false => ("Hair of its own", &GROOM[..]),
+        // The keys that are about the file go with it.
+        let (label, key) = match contents.head {
+            true => ("The mannequin's head", HEAD[0]),
+            false => ("Hair of its own", GROOM[0]),
         };
-        let keys: Vec<_> = keys.iter().map(|key| (*key, None)).collect();
-        let text = edit::set_keys(base, &keys);
+        let text = edit::set_keys(base, &[(key, None)]);
         if self.change(label, text, false) {
             self.framed &= !contents.head;
         }
@@ -220,7 +220,7 @@ fn keys(written: &str, contents: Contents) -> Vec<(&'static str, Option<&str>)> 
         all.filter(|_| wanted).collect::<Vec<_>>()
     };
     // How many guides a groom is to have is said of any.
-    [of(&HEAD, contents.head), of(&GROOM[..3], contents.groom)].concat()
+    [of(&HEAD, contents.head), of(&GROOM, contents.groom)].concat()
 }
 
 fn file_name(path: &str) -> String {

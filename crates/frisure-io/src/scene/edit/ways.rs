@@ -105,6 +105,7 @@ fn said_by(
             "head.scalp_mask",
             "head.scalp_weights",
         ],
+        ("groom.file", None) => vec!["groom.up", "groom.unit", "groom.guides"],
         ("equilibrium.branch", None | Some("gravity")) => vec!["equilibrium.starts"],
         ("light.environment", None) => vec!["light.rotation"],
         ("light.environment", Some(_)) => {
