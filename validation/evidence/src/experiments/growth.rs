@@ -1,11 +1,13 @@
 //! Figure 6 of the paper: hair that grows, and the linear beam.
 
+use frisure::rod::potential::InField;
 use frisure::rod::{
     Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant, equilibrium,
 };
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::sphere::Sphere;
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::{Hanging, anjyo, greenhill};
 use crate::rods::{line, to_accuracy};
@@ -59,7 +61,10 @@ fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
     Ok(finding)
 }
 
-/// Both models from the same roots, on a head that is a circle.
+/// Radius of the head (m).
+const HEAD: f64 = 0.09;
+
+/// Both models from the same roots, on a head that is a sphere.
 fn heads(finding: &mut Finding) -> Result<(), Stopped> {
     let stages = [0.03, threshold()?, 0.12, 0.20];
     for (title, beam) in [("The linear beam of Anjyo et al.", true), ("Rods", false)] {
@@ -73,18 +78,17 @@ fn heads(finding: &mut Finding) -> Result<(), Stopped> {
         plot.size = [760.0, 330.0];
         for (stage, length) in stages.into_iter().enumerate() {
             let middle = 38.0 * stage as f64;
-            let radius = 9.0;
-            let circle =
-                (0..=72).map(|k| DVec2::from_angle(f64::from(k) * 5.0_f64.to_radians()) * radius);
+            let angles = (0..=72).map(|k| f64::from(5 * k).to_radians());
+            let circle = angles.map(|angle| DVec2::from_angle(angle) * (100.0 * HEAD));
             plot.add("", Mark::Line, circle.map(|p| (middle + p.x, p.y))).colour = Some(6);
             for k in 0..=12 {
                 let rise = f64::from(15 * k).to_radians();
                 let (mirror, up) =
                     if k <= 6 { (1.0, rise) } else { (-1.0, std::f64::consts::PI - rise) };
-                let points = if beam { beam_line(length, up)? } else { rod_line(length, up)? };
-                let root = DVec2::from_angle(up) * radius;
+                let points = if beam { beam_line(length, up)? } else { on_the_head(length, up)? };
+                let root = DVec2::from_angle(up) * HEAD;
                 let shown = points.into_iter().map(|p| {
-                    let p = root + p * 100.0;
+                    let p = (root + p) * 100.0;
                     (middle + mirror * p.x, p.y)
                 });
                 plot.add("", Mark::Line, shown).colour = Some(usize::from(beam));
@@ -93,7 +97,7 @@ fn heads(finding: &mut Finding) -> Result<(), Stopped> {
         finding.plot(plot);
     }
     finding.text(
-        "The head is drawn, not felt: there is no contact here. Rods stand, then bend, then hang; the linear beam \
+        "Rods rest on the head, of which the beam knows nothing. Rods stand, then bend, then hang; the linear beam \
          bends roots that lie, but the steeper the root the longer it stays out, and hair at the crown stands for \
          ever.",
     );
@@ -104,6 +108,15 @@ fn heads(finding: &mut Finding) -> Result<(), Stopped> {
 fn rod_line(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
     let found = rest(&spec(length, rise)?)?;
     Ok(found.centre_line(81).iter().map(|p| DVec2::new(p.truncate().length(), p.z)).collect())
+}
+
+/// The same of a rod that rests on the head.
+fn on_the_head(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
+    let rod = Rod::new(spec(length, rise)?)?;
+    let root = DVec3::new(rise.cos(), 0.0, rise.sin()) * (HEAD + 1e-4);
+    let head = Sphere { middle: -root, radius: HEAD, stiffness: 2000.0 };
+    let found = equilibrium(&rod, &[&InField::new(&head, 4)], &to_accuracy(&rod, 1e-3));
+    Ok(found.centre_line(161).iter().map(|p| DVec2::new(p.truncate().length(), p.z)).collect())
 }
 
 fn beam_line(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {

@@ -14,6 +14,7 @@ mod types;
 
 mod curls;
 mod plane;
+mod sphere;
 
 use crate::{Cancelled, Experiment, Monitor};
 

@@ -2,45 +2,21 @@
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::penetration;
-use frisure::rod::potential::{Field, InField};
+use frisure::rod::potential::InField;
 use frisure::rod::{
     Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant, equilibrium,
 };
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::scenes::{Hair, strip};
+use crate::experiments::sphere::Sphere;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::to_accuracy;
 use crate::{Effort, Finding, Limit, Monitor, Stopped, Table};
 
-/// A sphere that pushes out what is in it: ½ k d² per length of hair, d the depth.
-struct Sphere {
-    /// Radius (m), its centre at the origin.
-    radius: f64,
-    /// k (N/m²).
-    stiffness: f64,
-}
-
-impl Field for Sphere {
-    fn energy(&self, _: f64, position: DVec3) -> f64 {
-        0.5 * self.stiffness * (self.radius - position.length()).max(0.0).powi(2)
-    }
-
-    fn derivatives(&self, _: f64, position: DVec3) -> Option<(DVec3, DMat3)> {
-        let distance = position.length();
-        let depth = self.radius - distance;
-        (depth > 0.0).then(|| {
-            let n = position / distance;
-            let outer = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-            let across = (DMat3::IDENTITY - outer) * (depth / distance);
-            (n * (-self.stiffness * depth), (outer - across) * self.stiffness)
-        })
-    }
-}
-
 /// A curly hair on a sphere, with and without contact.
 pub(super) fn on_a_sphere(finding: &mut Finding) -> Result<(), Stopped> {
-    let sphere = Sphere { radius: 0.08, stiffness: 2000.0 };
+    let sphere = Sphere { middle: DVec3::ZERO, radius: 0.08, stiffness: 2000.0 };
     let up = DVec3::new(0.15, 0.0, 0.99).normalize();
     let rod = Rod::new(RodSpec {
         length: 0.28,
