@@ -4,7 +4,9 @@
 
 use divan::Bencher;
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::{Effort, HairContact, Hairs, HairstyleSpec, predict, predict_from, preset};
+use frisure_hairstyle::{
+    Effort, HairContact, HairModel, Hairs, HairstyleSpec, predict, predict_from, preset,
+};
 use frisure_rod::Resolution;
 
 fn main() {
@@ -61,6 +63,18 @@ fn warm(bencher: Bencher<'_, '_>, case: usize) {
     spec.curl.strain /= 1.02;
     let effort = Effort { sweeps, ..Effort::FULL };
     bencher.bench(|| predict_from(&spec, &head, &before, effort, &()));
+}
+
+/// Twenty thousand hairs of 48 points around 200 guides, each a rod of its own on the skin and between its neighbours.
+#[divan::bench(args = ["straight", "wavy", "curly", "frizzy"], sample_count = 3)]
+fn simulated_hairs(bencher: Bencher<'_, '_>, name: &str) {
+    let (head, mut spec) = (Head::mannequin(), preset(name).expect("a preset").spec());
+    spec.wisps.count = 200;
+    spec.wisps.hairs = Hairs::Count(20_000);
+    spec.wisps.strands = HairModel::Simulated;
+    spec.contact.hair = HairContact::Layers;
+    let style = predict(&spec, &head, &()).expect("a valid description");
+    bencher.bench(|| style.strands(&head, &()));
 }
 
 /// A hundred thousand hairs of 48 points around 100 guides.

@@ -15,7 +15,7 @@ use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
 use crate::monitor::{Cancelled, Monitor};
 use crate::spec::{HairstyleSpec, Implantation, InvalidSpec, Wisps};
-use crate::strands;
+use crate::strands::{self, Simulation};
 use crate::styling::{Styling, WispState};
 
 /// Guides at rest on a head, and the description that they were predicted from.
@@ -281,6 +281,18 @@ impl Hairstyle {
     /// # Errors
     /// [`Cancelled`], if the monitor says to stop.
     pub fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Cancelled> {
+        Ok(strands::draw(self, head, 1, monitor)?.0)
+    }
+
+    /// As [`Self::strands`], with how simulated hairs came to rest ([`crate::HairModel::Simulated`]; nothing for others).
+    ///
+    /// # Errors
+    /// [`Cancelled`], if the monitor says to stop.
+    pub fn strands_and_simulation(
+        &self,
+        head: &Head,
+        monitor: &dyn Monitor,
+    ) -> Result<(Strands, Simulation), Cancelled> {
         strands::draw(self, head, 1, monitor)
     }
 
@@ -295,7 +307,7 @@ impl Hairstyle {
         every: usize,
         monitor: &dyn Monitor,
     ) -> Result<Strands, Cancelled> {
-        strands::draw(self, head, every, monitor)
+        Ok(strands::draw(self, head, every, monitor)?.0)
     }
 
     /// The hairstyle of another description as [`predict`] would give it, if the two differ in nothing but

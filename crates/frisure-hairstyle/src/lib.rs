@@ -43,9 +43,9 @@ pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset,
 pub use pull::Pull;
 pub use roots::{Root, scalp_area};
 pub use spec::{
-    Body, Comb, Contact, Flow, HairContact, Hairline, Hairs, HairstyleSpec, Implantation,
-    InvalidSpec, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn,
-    Whorls, Wisps,
+    Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec,
+    Implantation, InvalidSpec, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle,
+    Settling, Turn, Whorls, Wisps,
 };
-pub use strands::penetration;
+pub use strands::{Simulation, penetration};
 pub use volume::{Volume, volume};

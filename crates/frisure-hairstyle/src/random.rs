@@ -16,6 +16,7 @@ pub(crate) enum Purpose {
     BabyHair,
     Split,
     GrownCurl,
+    HairFibre,
 }
 
 /// A stream of random numbers.

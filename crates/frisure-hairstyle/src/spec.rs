@@ -279,6 +279,19 @@ pub struct Wisps {
     pub blending: f64,
     /// Points along each drawn hair.
     pub points: usize,
+    /// What drawn hairs are.
+    pub strands: HairModel,
+}
+
+/// What drawn hairs are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HairModel {
+    /// Hairs that go with the guides around them.
+    #[default]
+    Interpolated,
+    /// Rods with fibres of their own, each at rest on the skin and between its neighbours. Hairs of a groom keep their
+    /// shapes all the same.
+    Simulated,
 }
 
 /// How many hairs are drawn on a head.

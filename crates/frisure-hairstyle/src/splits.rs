@@ -16,6 +16,9 @@ const STRAY: f64 = 0.5;
 pub(crate) struct Waves([(DVec3, f64, f64); 3]);
 
 impl Waves {
+    /// No deviation.
+    pub(crate) const NONE: Self = Self([(DVec3::ZERO, 0.0, 0.0); 3]);
+
     /// Of about `amplitude` (m) on hair of `length` (m).
     pub(crate) fn new(amplitude: f64, length: f64, random: &mut Stream) -> Self {
         let mut wave = |wavelength: f64, share: f64| {

@@ -39,6 +39,14 @@ fn faults_name_place_value_range_and_hint() {
             &["unknown key `x`"],
         ),
         ("[[stepp]]\nwet = {}", 1, 3, "stepp", "", &["did you mean `step`?"]),
+        (
+            "[wisps]\nstrands = \"simulated\"\n[groom]\nfile = \"a.hair\"",
+            2,
+            11,
+            "wisps.strands",
+            "",
+            &["shapes of their own", "leave out `strands`"],
+        ),
         // Kinds.
         ("hair = 3", 1, 8, "hair", "3", &["it must be a table"]),
         ("[hair.curl]\nalong = 3", 2, 9, "hair.curl.along", "3", &["a list of tables"]),

@@ -399,7 +399,7 @@ fn a_groom_dropped_on_the_window_is_held_and_its_axis_can_be_said() {
     window.wait("the groom", |app| app.salon().files().groom);
     window.settle();
     assert!(window.screen("test-groom") != straight);
-    let told = "strands stay within 1 mm";
+    let told = "guides stay within 1 mm";
     let is_told = |app: &App| app.salon().messages().iter().any(|m| m.text.contains(told));
     assert!(is_told(window.harness.state()));
     assert!(window.harness.query_by_role_and_label(Role::Slider, "Curl radius").is_none());

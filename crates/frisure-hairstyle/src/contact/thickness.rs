@@ -82,10 +82,16 @@ impl Thickness {
     /// Cross-section that one hair takes (m²) at arc length `s` (m), without the factor.
     #[must_use]
     pub fn area_per_hair(&self, s: f64) -> f64 {
+        let tube = self.tube(s);
+        (12.0_f64.sqrt() * tube * tube).min(self.ground)
+    }
+
+    /// Radius (m) of the tube that one hair has for itself at arc length `s` (m), `r + w/2`.
+    #[must_use]
+    pub fn tube(&self, s: f64) -> f64 {
         let tension = self.sag * (self.length - s).max(self.slack);
         let wander = self.spread / (self.wave + tension).max(1e-12);
-        let tube = self.fibre + 0.5 * wander;
-        (12.0_f64.sqrt() * tube * tube).min(self.ground)
+        self.fibre + 0.5 * wander
     }
 
     /// Fraction of a wisp that is hair, at arc length `s` (m).

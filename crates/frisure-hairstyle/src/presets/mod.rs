@@ -8,7 +8,7 @@ mod styles;
 use frisure_rod::{ElementKind, Resolution};
 
 use crate::spec::{
-    Body, Contact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
+    Body, Contact, HairModel, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
 };
 pub use hair_type::{Ellipticity, HairType, NaturalCurl, Wetting};
 pub use humidity::Moisture;
@@ -193,6 +193,7 @@ impl Style {
             flyaways: self.flyaways,
             blending: self.blending,
             points: self.points,
+            strands: HairModel::Interpolated,
         }
     }
 }

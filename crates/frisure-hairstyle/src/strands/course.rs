@@ -27,6 +27,8 @@ pub(super) struct Character {
     drift: f64,
     /// Coherent deviation.
     waves: Waves,
+    /// Whether it leaves its wisp.
+    stray: bool,
 }
 
 impl Character {
@@ -37,7 +39,13 @@ impl Character {
             waves: Waves::new(0.3 * fuzz * spacing, length, random),
             length: (1.0 - wisps.length_variation * random.normal().abs()).max(0.2),
             drift: 1.0 + (0.006 + 0.06 * wisps.fuzziness) * random.normal(),
+            stray,
         }
+    }
+
+    /// The same without any deviation.
+    pub(super) fn still(self) -> Self {
+        Self { drift: 1.0, waves: Waves::NONE, ..self }
     }
 }
 
@@ -70,6 +78,11 @@ pub(super) struct Course<'a> {
 }
 
 impl Course<'_> {
+    /// Whether it leaves its wisp.
+    pub(super) fn stray(&self) -> bool {
+        self.character.stray
+    }
+
     /// Its own guide.
     pub(super) fn main(&self) -> usize {
         self.followed[0].0

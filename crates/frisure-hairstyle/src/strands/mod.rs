@@ -10,6 +10,7 @@ mod carried;
 mod course;
 mod described;
 mod population;
+mod simulated;
 mod skin;
 
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
@@ -21,12 +22,14 @@ use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::implantation::smooth;
 use crate::monitor::{Cancelled, Monitor, Stage};
-use crate::spec::HairstyleSpec;
+use crate::spec::{HairModel, HairstyleSpec};
 
 pub(crate) use carried::Carried;
 pub(crate) use described::{add_natural_strains, describe_hairs, described_guides};
 use population::Hair;
 pub(crate) use population::{Population, roots};
+use simulated::Simulated;
+pub use simulated::Simulation;
 
 /// Radius at the tip, as a fraction of the fibre's.
 const TIP: f64 = 0.35;
@@ -40,22 +43,28 @@ pub(crate) fn draw(
     head: &Head,
     every: usize,
     monitor: &dyn Monitor,
-) -> Result<Strands, Cancelled> {
+) -> Result<(Strands, Simulation), Cancelled> {
     let population = Population::new(hairstyle, head);
     let roots = roots(hairstyle, head, every);
-    let stage = Stage::new(monitor, "drawing hairs", roots.len());
-    let hairs: Vec<Hair> = roots
-        .par_iter()
-        .map(|(index, root)| {
-            stage.check()?;
-            let hair = population.hair(root, *index);
-            stage.advance();
-            Ok(hair)
-        })
-        .collect::<Result<_, Cancelled>>()?;
+    let (hairs, simulation) = match hairstyle.spec.wisps.strands {
+        HairModel::Simulated if population.carried.is_none() => {
+            let stage = Stage::new(monitor, "simulating hairs", roots.len());
+            Simulated::new(&population, hairstyle).hairs(&roots, &stage)?
+        }
+        _ => {
+            let stage = Stage::new(monitor, "drawing hairs", roots.len());
+            let hairs = roots.par_iter().map(|(index, root)| {
+                stage.check()?;
+                let hair = population.hair(root, *index);
+                stage.advance();
+                Ok(hair)
+            });
+            (hairs.collect::<Result<_, Cancelled>>()?, Simulation::default())
+        }
+    };
     let mut strands = assemble(&hairstyle.spec, &hairstyle.guides, &hairs);
     wet(&mut strands, hairstyle, &hairs);
-    Ok(strands)
+    Ok((strands, simulation))
 }
 
 /// Adds the sections of the drawn hairs: the director d1 at each point, and the axis ratio of each

@@ -53,7 +53,7 @@ pub(crate) struct Population<'a> {
     /// Hairs that have shapes of their own.
     pub(super) carried: Option<&'a Carried>,
     rim: Rim,
-    planned: &'a [Guide],
+    pub(super) planned: &'a [Guide],
     pub(super) guides: &'a [Guide],
     pub(super) states: &'a [WispState],
     /// Length (m) at which each hair has been cut.
@@ -177,7 +177,7 @@ impl<'a> Population<'a> {
         self.laid_on_body(&course.root, p, x * course.length, width, free)
     }
 
-    fn course(&self, root: &Root, index: usize) -> Course<'_> {
+    pub(super) fn course(&self, root: &Root, index: usize) -> Course<'_> {
         let mut random = Stream::new(self.spec.seed, Purpose::Hair, index);
         let followed = self.followed(root, index);
         let own = self.carried.map(|carried| carried.own(index));
@@ -215,6 +215,11 @@ impl<'a> Population<'a> {
             narrow: 1.0,
             own,
         }
+    }
+
+    /// The course of a hair that deviates from it by its own physics, not by chance.
+    pub(super) fn still<'c>(&self, course: Course<'c>) -> Course<'c> {
+        Course { character: course.character.still(), ..course }
     }
 
     /// A guide's wisp.

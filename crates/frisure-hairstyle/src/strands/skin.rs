@@ -7,10 +7,10 @@ use crate::roots::Root;
 use crate::spec::Body;
 
 /// Depth of the first point of a hair below the skin (m), so that no root floats.
-const ROOT_DEPTH: f64 = 3e-4;
+pub(super) const ROOT_DEPTH: f64 = 3e-4;
 
 /// Least distance of a hair from the skin far from its root (m).
-const LEAST_DISTANCE: f64 = 4e-4;
+pub(super) const LEAST_DISTANCE: f64 = 4e-4;
 
 /// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
 pub(super) const PRESSED: f64 = 0.3;

@@ -374,6 +374,8 @@ pub(super) struct Wisps {
     /// Points along each drawn hair; 2 to 1000.
     #[schemars(range(min = 2, max = 1000))]
     pub(super) points: Key<Count>,
+    /// What drawn hairs are. Default "interpolated".
+    pub(super) strands: Key<OneOf<Which<frisure_hairstyle::HairModel>>>,
 }
 
 /// `[contact]`.

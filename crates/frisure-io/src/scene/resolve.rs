@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use frisure_hairstyle::{
-    Curl, Fibre, Flow, Hairs, HairstyleSpec, InvalidSpec, Lift, Parting, Preset, RegionLength,
-    RegionStyle, preset,
+    Curl, Fibre, Flow, HairModel, Hairs, HairstyleSpec, InvalidSpec, Lift, Parting, Preset,
+    RegionLength, RegionStyle, preset,
 };
 use frisure_optics::Melanin;
 use frisure_rod::{
@@ -62,12 +62,20 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
     set(&mut spec.contact.volume, &c.volume, &source)?;
     let branch = equilibrium(&file.equilibrium, &mut spec, &source)?;
     let light = light(&file.light, folder, &source)?;
+    let groom = groom(&file.groom, folder, &source)?;
+    if groom.is_some() && spec.wisps.strands == HairModel::Simulated {
+        let problem =
+            "the hairs of a groom have shapes of their own, and cannot be simulated one by one";
+        let hint = "leave out `strands`, or `[groom]`";
+        let span = file.wisps.strands.span().unwrap_or_default();
+        return Err(Fault::new(problem).key("wisps.strands").hint(hint).at(&source, span));
+    }
 
     Ok(Scene {
         name: file.name.or(String::new(), &source)?,
         hair_type: preset.name,
         head: head(&file.head, folder, &source)?,
-        groom: groom(&file.groom, folder, &source)?,
+        groom,
         look: look(&file.look, spec.seed, light.behind(), &source)?,
         camera: camera(&file.camera, &source)?,
         light,
@@ -486,6 +494,9 @@ fn wisps(file: &file::Wisps, spec: &mut HairstyleSpec, source: &Source) -> Resul
     set(&mut wisps.length_variation, &file.length_variation, source)?;
     set(&mut wisps.flyaways, &file.flyaways, source)?;
     set(&mut wisps.blending, &file.blending, source)?;
+    if let Some(strands) = file.strands.get(source)? {
+        wisps.strands = strands.0;
+    }
     set(&mut wisps.points, &file.points, source)
 }
 

@@ -2,7 +2,7 @@
 
 use frisure_hairstyle::head::Region;
 use frisure_hairstyle::{
-    Comb, Ellipticity, Handedness, Level, PRESETS, Parting, Place, Preset, Turn, Wetting,
+    Comb, Ellipticity, HairModel, Handedness, Level, PRESETS, Parting, Place, Preset, Turn, Wetting,
 };
 use frisure_optics::{SHADES, Shade};
 use frisure_rod::{ElementKind, TorsionConstant};
@@ -376,6 +376,23 @@ impl Choice for BodyWord {
             ("none", "hair passes through the head", Self(Body::None)),
             ("spheres", "spheres fitted to the head, as in the paper", Self(Body::Spheres)),
             ("signed-distance", "the mesh itself", Self(Body::SignedDistance)),
+        ]
+    }
+}
+
+impl Choice for Which<HairModel> {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        vec![
+            (
+                "interpolated",
+                "hairs that go with the guides around them",
+                Self(HairModel::Interpolated),
+            ),
+            (
+                "simulated",
+                "each a rod with a fibre of its own, at rest on the skin and between its neighbours",
+                Self(HairModel::Simulated),
+            ),
         ]
     }
 }

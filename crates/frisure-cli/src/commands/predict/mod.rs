@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Adoption, Hairstyle, HairstyleSpec, Monitor, penetration, volume};
+use frisure::hairstyle::{
+    Adoption, Hairstyle, HairstyleSpec, Monitor, Simulation, penetration, volume,
+};
 use frisure::io::files::Files;
 use frisure::io::groom::Groom;
 use frisure::io::scene::{self, HeadSource, Scene};
@@ -232,12 +234,13 @@ impl Work {
 
     fn draw(&self, hair: &Hair, frame: usize) -> Result<Drawn, Failure> {
         let (hairstyle, head) = (&hair.styled.hairstyles[frame], &hair.head);
-        let mut strands = match self.draws() {
+        let (mut strands, simulation) = match self.draws() {
             true => {
                 let watch = Watch(&self.progress);
-                hairstyle.strands(head, &watch).map_err(|_| Failure::Interrupted)?
+                let drawn = hairstyle.strands_and_simulation(head, &watch);
+                drawn.map_err(|_| Failure::Interrupted)?
             }
-            false => Strands::new(),
+            false => Default::default(),
         };
         if self.arguments.image.is_some() && self.arguments.quality == Quality::Final {
             hairstyle.add_sections(&mut strands, head);
@@ -246,7 +249,7 @@ impl Work {
         let picture = self.arguments.image.as_ref().map(|_| self.picture(&strands, shown, head));
         let picture = picture.transpose()?;
         let is_last = frame + 1 == hair.styled.hairstyles.len();
-        let numbers = is_last.then(|| self.numbers(hairstyle, head, &strands));
+        let numbers = is_last.then(|| self.numbers(hairstyle, head, (&strands, simulation)));
         let groom = match self.arguments.outputs.is_empty() {
             true => Groom::of(strands),
             false => groom::groom(&self.scene, hairstyle, head, strands, self.arguments.fibres),
@@ -260,8 +263,13 @@ impl Work {
         !outputs.is_empty() || image.is_some() || report.is_some()
     }
 
-    fn numbers(&self, hairstyle: &Hairstyle, head: &Head, strands: &Strands) -> Numbers {
-        let mut numbers = numbers(&self.scene, hairstyle, head, strands);
+    fn numbers(
+        &self,
+        hairstyle: &Hairstyle,
+        head: &Head,
+        (strands, simulation): (&Strands, Simulation),
+    ) -> Numbers {
+        let mut numbers = numbers(&self.scene, hairstyle, head, (strands, simulation));
         numbers.volume = self.draws().then(|| litres(&volume(strands, head, hairstyle.grown())));
         let measured = self.arguments.report.is_some();
         numbers.hair_penetration = measured.then(|| penetration(strands, head));

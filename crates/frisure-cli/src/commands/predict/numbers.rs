@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Body, HairContact, Hairstyle, Volume};
+use frisure::hairstyle::{Body, HairContact, Hairstyle, Simulation, Volume};
 use frisure::io::scene::Scene;
 use frisure::strands::Strands;
 use frisure_stylist::held::Held;
@@ -30,6 +30,9 @@ pub(super) struct Numbers {
     energy: Energies,
     pub(super) hairs: usize,
     pub(super) points: usize,
+    /// How the drawn hairs came to rest, if they are simulated; left out otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulated: Option<Simulated>,
     /// Deepest that a drawn hair is inside the head (m); measured for the report alone.
     pub(super) hair_penetration: Option<f64>,
     /// Of the drawn hairs; without them there is none.
@@ -60,6 +63,15 @@ pub(super) struct Guides {
     tolerance: f64,
     /// Deepest that a guide is inside the head (m).
     penetration: f64,
+}
+
+/// How simulated hairs came to rest.
+#[derive(Debug, Serialize)]
+struct Simulated {
+    hairs: usize,
+    stable: usize,
+    elements: usize,
+    iterations: usize,
 }
 
 /// The models of contact.
@@ -102,7 +114,7 @@ pub(super) fn numbers(
     scene: &Scene,
     hairstyle: &Hairstyle,
     head: &Head,
-    strands: &Strands,
+    (strands, simulation): (&Strands, Simulation),
 ) -> Numbers {
     let (spec, settling) = (hairstyle.spec(), hairstyle.report(head));
     let energy = &settling.energy;
@@ -134,6 +146,12 @@ pub(super) fn numbers(
         },
         hairs: strands.len(),
         points: strands.points().len(),
+        simulated: (simulation.hairs > 0).then_some(Simulated {
+            hairs: simulation.hairs,
+            stable: simulation.at_rest,
+            elements: simulation.elements,
+            iterations: simulation.iterations,
+        }),
         hair_penetration: None,
         volume: None,
         mass: hairstyle.mass(),
@@ -200,6 +218,9 @@ pub(super) fn summary(numbers: &Numbers, written: &[String]) -> String {
         let _ = write!(out, ", {:.1} litres of hair", volume.region * 1e3);
     }
     out.push('\n');
+    if let Some(Simulated { hairs, stable, .. }) = &numbers.simulated {
+        let _ = writeln!(out, "simulated: {stable} of {hairs} hairs at rest");
+    }
     if let Some(groom) = &numbers.groom {
         let _ = writeln!(out, "groom: {groom}");
     }

@@ -1,0 +1,242 @@
+//! Drawn hairs that are rods themselves: each with its own fibre and its own rest, on the skin and among the
+//! hairs around it.
+//!
+//! Hundreds of them rest side by side in the lanes of vectors ([`frisure_rod::batch`]). They start from the shape
+//! of the guide that they follow.
+
+mod envelope;
+mod fibre;
+
+use frisure_rod::batch::{Batch, Batched, Settled};
+use frisure_rod::{Chain, ElementKind, Rod, Stability};
+use glam::{DMat3, DQuat, DVec3};
+use rayon::prelude::*;
+
+use super::course::Course;
+use super::population::{Hair, Population};
+use super::skin::{Free, LAID};
+use crate::hairstyle::Hairstyle;
+use crate::monitor::{Cancelled, Stage};
+use crate::roots::Root;
+use envelope::Envelope;
+
+/// How many hairs were simulated, and how they came to rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Simulation {
+    /// Hairs that are rods.
+    pub hairs: usize,
+    /// Those that rest in a minimum of their energy.
+    pub at_rest: usize,
+    /// Elements of all of them.
+    pub elements: usize,
+    /// Iterations of all of them.
+    pub iterations: usize,
+}
+
+impl Simulation {
+    /// What two parts of a head are together.
+    fn and(self, other: Self) -> Self {
+        Self {
+            hairs: self.hairs + other.hairs,
+            at_rest: self.at_rest + other.at_rest,
+            elements: self.elements + other.elements,
+            iterations: self.iterations + other.iterations,
+        }
+    }
+}
+
+/// How many elements hairs have: the least of these that resolves the curl.
+const ELEMENTS: [usize; 11] = [12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256];
+
+/// Elements per turn of the natural curl: the tip is then within a per cent of the length (docs/validation.md).
+const PER_TURN: f64 = 6.0;
+
+/// Longest element (m): skin is felt at joints.
+const LONGEST: f64 = 0.012;
+
+/// Hairs that are looked after together: enough to keep vectors filled.
+const CHUNK: usize = 1024;
+
+/// Gradient at rest, relative to the moment of the hair's weight: a hundredth of a hair's breadth.
+const TOLERANCE: f64 = 1e-5;
+
+/// Most iterations of a hair: contact comes and goes.
+const MAX_ITERATIONS: usize = 400;
+
+/// How hard skin and neighbours are, as fractions of what they are, for a hair that did not come to rest: harder and
+/// harder.
+const HARDNESS: [f64; 3] = [0.001, 0.03, 1.0];
+
+/// Most iterations at each of them.
+const MOST_ITERATIONS: usize = 4000;
+
+/// Frames per element of a guide.
+const FRAMES: usize = 2;
+
+/// A hair before it has come to rest.
+struct Planned<'a> {
+    /// Its place in the chunk.
+    place: usize,
+    course: Course<'a>,
+    rod: Rod,
+}
+
+/// Hairs as rods.
+pub(super) struct Simulated<'a> {
+    population: &'a Population<'a>,
+    hairstyle: &'a Hairstyle,
+    /// Material frames of each guide at rest, evenly from root to tip.
+    frames: Vec<Vec<DQuat>>,
+}
+
+impl<'a> Simulated<'a> {
+    pub(super) fn new(population: &'a Population<'a>, hairstyle: &'a Hairstyle) -> Self {
+        let frames = (hairstyle.rest.guides.par_iter())
+            .map(|rest| {
+                let samples = rest.sample(FRAMES * rest.elements + 1);
+                samples.iter().map(|(_, frame)| DQuat::from_mat3(frame).normalize()).collect()
+            })
+            .collect();
+        Self { population, hairstyle, frames }
+    }
+
+    /// The hairs rooted at some places, in their order.
+    ///
+    /// # Errors
+    /// [`Cancelled`], if the monitor says so.
+    pub(super) fn hairs(
+        &self,
+        roots: &[(usize, Root)],
+        stage: &Stage<'_>,
+    ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
+        let chunks: Vec<(Vec<Hair>, Simulation)> = roots
+            .par_chunks(CHUNK)
+            .map(|roots| self.chunk(roots, stage))
+            .collect::<Result<_, Cancelled>>()?;
+        let mut hairs = Vec::with_capacity(roots.len());
+        let mut simulation = Simulation::default();
+        for (some, of) in chunks {
+            hairs.extend(some);
+            simulation = simulation.and(of);
+        }
+        Ok((hairs, simulation))
+    }
+
+    fn chunk(
+        &self,
+        roots: &[(usize, Root)],
+        stage: &Stage<'_>,
+    ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
+        let mut drawn: Vec<Option<Hair>> = Vec::new();
+        drawn.resize_with(roots.len(), || None);
+        let mut groups: Vec<Vec<Planned<'_>>> = ELEMENTS.iter().map(|_| Vec::new()).collect();
+        for (place, (index, root)) in roots.iter().enumerate() {
+            let course = self.population.still(self.population.course(root, *index));
+            match self.rod(&course, *index) {
+                Some(rod) => groups[division(&rod)].push(Planned { place, course, rod }),
+                None => drawn[place] = Some(self.population.hair(root, *index)),
+            }
+        }
+        let mut simulation = Simulation::default();
+        for (planned, elements) in groups.into_iter().zip(ELEMENTS) {
+            stage.check()?;
+            let found = self.settle(&planned, elements);
+            let at_rest = |hair: &&Settled| hair.stability == Stability::Stable;
+            simulation = simulation.and(Simulation {
+                hairs: planned.len(),
+                at_rest: found.hairs.iter().filter(at_rest).count(),
+                elements: elements * planned.len(),
+                iterations: found.hairs.iter().map(|hair| hair.iterations).sum(),
+            });
+            for (hair, planned) in planned.into_iter().enumerate() {
+                let points = self.points(&planned, &found, hair);
+                let Planned { place, course, .. } = planned;
+                drawn[place] = Some(Hair {
+                    guide: course.main() as u32,
+                    thickness: course.thickness,
+                    cut: course.cut,
+                    points,
+                });
+                stage.advance();
+            }
+        }
+        Ok((drawn.into_iter().flatten().collect(), simulation))
+    }
+
+    /// Brings hairs of so many elements to rest.
+    fn settle(&self, planned: &[Planned<'_>], elements: usize) -> Batched {
+        let mut rods = Vec::with_capacity(planned.len());
+        let mut controls = Vec::with_capacity(planned.len() * elements);
+        let mut envelope = Envelope::new(self.population, elements, planned.len());
+        for Planned { course, rod, .. } in planned {
+            controls.extend(self.start(course, rod, elements));
+            envelope.add(course, rod.length());
+            rods.push(rod.clone());
+        }
+        let batch = Batch {
+            elements,
+            tolerance: TOLERANCE,
+            max_iterations: MAX_ITERATIONS,
+            ..Batch::default()
+        };
+        let mut found = batch.settle_among(&rods, controls, Some(&envelope), 0);
+        for (hair, Planned { course, rod, .. }) in planned.iter().enumerate() {
+            if found.hairs[hair].stability == Stability::Stable {
+                continue;
+            }
+            let mut controls = self.start(course, rod, elements);
+            for hardness in HARDNESS {
+                envelope.hardness = hardness;
+                let patient = Batch { max_iterations: MOST_ITERATIONS, ..batch };
+                let rod = std::slice::from_ref(rod);
+                let again = patient.settle_among(rod, controls, Some(&envelope), hair);
+                let iterations = found.hairs[hair].iterations + again.hairs[0].iterations;
+                found.hairs[hair] = Settled { iterations, ..again.hairs[0] };
+                controls = again.controls;
+            }
+            found.controls[hair * elements..(hair + 1) * elements].copy_from_slice(&controls);
+        }
+        found
+    }
+
+    /// The turns of joints (rad) that give a hair the shape of its guide.
+    fn start(&self, course: &Course<'_>, rod: &Rod, elements: usize) -> Vec<DVec3> {
+        let guide = course.main();
+        let frames = &self.frames[guide];
+        let length = self.hairstyle.guides[guide].rod.length();
+        let turned = DQuat::from_mat3(&rod.root().frame()) * frames[0].inverse();
+        let at = |s: f64| {
+            let last = frames.len() - 1;
+            let x = (s / length).min(1.0) * last as f64;
+            let i = (x as usize).min(last - 1);
+            DMat3::from_quat(turned * frames[i].slerp(frames[i + 1], x - i as f64))
+        };
+        let chain = Chain::uniform(rod, ElementKind::Jointed, elements);
+        let frames: Vec<DMat3> = chain.arc().iter().map(|s| at(*s)).collect();
+        chain.shape_through(&frames).controls
+    }
+
+    /// The line of a hair at rest, out of the skin.
+    fn points(&self, planned: &Planned<'_>, found: &Batched, hair: usize) -> Vec<glam::Vec3> {
+        let Planned { course, rod, .. } = planned;
+        let chain = Chain::uniform(rod, ElementKind::Jointed, found.elements);
+        let shape = found.shape(rod, hair);
+        let last = self.population.spec.wisps.points - 1;
+        let mut free = Free::NOWHERE;
+        (0..=last)
+            .map(|k| {
+                let s = k as f64 / last as f64 * rod.length();
+                let (p, _) = chain.point(&shape, s);
+                self.population.laid_on_body(&course.root, p, s, LAID, &mut free).as_vec3()
+            })
+            .collect()
+    }
+}
+
+/// Which of [`ELEMENTS`] a hair has.
+fn division(rod: &Rod) -> usize {
+    let length = rod.length();
+    let turns = rod.natural().mean(0.0, length).length() * length / std::f64::consts::TAU;
+    let needed = (PER_TURN * turns).max(length / LONGEST);
+    ELEMENTS.iter().position(|n| *n as f64 >= needed).unwrap_or(ELEMENTS.len() - 1)
+}

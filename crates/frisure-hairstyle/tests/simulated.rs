@@ -1,0 +1,120 @@
+//! Drawn hairs that are rods themselves.
+
+use frisure_hairstyle::head::Head;
+use frisure_hairstyle::{
+    Body, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, penetration, predict, preset,
+};
+use frisure_rod::Resolution;
+use frisure_strands::Strands;
+use glam::Vec3;
+
+fn spec(name: &str) -> HairstyleSpec {
+    let mut spec = preset(name).unwrap().spec();
+    spec.wisps.count = 40;
+    spec.wisps.hairs = Hairs::Count(600);
+    spec.contact.hair = HairContact::Layers;
+    spec.wisps.strands = HairModel::Simulated;
+    spec
+}
+
+fn length(points: &[Vec3]) -> f64 {
+    points.windows(2).map(|pair| f64::from(pair[0].distance(pair[1]))).sum()
+}
+
+fn strands(hairstyle: &Hairstyle, head: &Head) -> Strands {
+    hairstyle.strands(head, &()).unwrap()
+}
+
+/// All of them rest, none in the head, and each is as long as it grew.
+#[test]
+fn every_hair_rests_on_the_skin() {
+    let head = Head::mannequin();
+    for name in ["straight", "wavy", "curly", "frizzy"] {
+        let hairstyle = predict(&spec(name), &head, &()).unwrap();
+        let (hairs, simulation) = hairstyle.strands_and_simulation(&head, &()).unwrap();
+        assert_eq!((simulation.hairs, hairs.len()), (600, 600));
+        assert_eq!(simulation.at_rest, 600, "{name}: {simulation:?}");
+        assert!(penetration(&hairs, &head) < 1e-5, "{name}");
+    }
+}
+
+/// A hair that is what its guide is falls as its guide does, which was solved by itself, to another accuracy.
+#[test]
+fn a_hair_like_its_guide_falls_as_it_does() {
+    let head = Head::mannequin();
+    let mut spec = spec("wavy");
+    spec.wisps.fuzziness = 0.0;
+    spec.wisps.flyaways = 0.0;
+    spec.wisps.blending = 0.0;
+    spec.wisps.clumping = 0.0;
+    spec.wisps.splits = 1;
+    spec.wisps.length_variation = 0.0;
+    spec.length.variation_between = 0.0;
+    spec.fibre.variation = 0.0;
+    spec.fibre.axis_ratio_variation = 0.0;
+    spec.implantation.baby_hairs = 0.0;
+    // Next to nothing holds a hair in its place, and that is not far away.
+    spec.wisps.count = 400;
+    spec.contact.hair_stiffness = 1e-6;
+    spec.contact.hair = HairContact::None;
+    spec.contact.body = Body::None;
+    spec.equilibrium.resolution = Resolution::Accuracy(1e-4);
+    let hairstyle = predict(&spec, &head, &()).unwrap();
+    let hairs = strands(&hairstyle, &head);
+    let guides = hairstyle.guide_strands(spec.wisps.points);
+    let Some(frisure_strands::AttributeValues::U32(of)) =
+        hairs.attribute("guide").map(|a| &a.values)
+    else {
+        panic!("hairs have guides")
+    };
+    let mut apart: Vec<f32> = (hairs.iter().zip(of))
+        .map(|(hair, guide)| {
+            let (hair, guide) = (hair.points, guides.strand(*guide as usize).points);
+            let moved = hair[0] - guide[0];
+            hair.iter().zip(guide).map(|(a, b)| (*a - moved).distance(*b)).fold(0.0, f32::max)
+        })
+        .collect();
+    apart.sort_by(f32::total_cmp);
+    // A per cent of their length, for which they have elements enough, and what still holds them.
+    let (median, most) = (apart[300], apart[599]);
+    let length = spec.length.mean as f32;
+    assert!(median < 0.01 * length && most < 0.03 * length, "{median} {most} of {length}");
+}
+
+#[test]
+fn hairs_differ_by_their_fibres() {
+    let head = Head::mannequin();
+    let of = |fuzziness: f64| {
+        let mut spec = spec("curly");
+        spec.wisps.fuzziness = fuzziness;
+        spec.wisps.flyaways = 0.0;
+        strands(&predict(&spec, &head, &()).unwrap(), &head)
+    };
+    let (alike, unlike) = (of(0.0), of(1.0));
+    let apart = |a: &Strands, b: &Strands| -> f64 {
+        let tip = |s: &Strands, k: usize| *s.strand(k).points.last().unwrap();
+        (0..600).map(|k| f64::from(tip(a, k).distance(tip(b, k)))).sum::<f64>() / 600.0
+    };
+    assert!(apart(&alike, &unlike) > 1e-3);
+    for hair in unlike.iter() {
+        assert!(length(hair.points) > 1e-3);
+    }
+}
+
+#[test]
+fn the_same_bytes_whatever_the_number_of_threads_and_whichever_are_drawn() {
+    let head = Head::mannequin();
+    let mut spec = spec("curly");
+    spec.wisps.hairs = Hairs::Count(1500);
+    let hairstyle = predict(&spec, &head, &()).unwrap();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| strands(&hairstyle, &head))
+    };
+    let (one, three) = (on(1), on(3));
+    assert_eq!(one.points(), three.points());
+    let some = hairstyle.some_strands(&head, 7, &()).unwrap();
+    for (k, hair) in some.iter().enumerate() {
+        assert_eq!(hair.points, one.strand(7 * k).points);
+    }
+}
