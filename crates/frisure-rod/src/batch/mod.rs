@@ -24,7 +24,7 @@ use glam::DVec3;
 
 use crate::minimise::Stability;
 use crate::{Chain, ElementKind, Options, Resolution, Rod, Shape, equilibrium};
-use settle::{End, Rest, Task};
+use settle::{Around, End, Rest};
 pub use touching::{Surroundings, Touch};
 
 /// Which numbers the way to rest is computed with; the end is double precision always.
@@ -102,12 +102,34 @@ impl Batch {
     /// # Panics
     /// If there are no elements, or not as many turns as joints.
     #[must_use]
-    pub fn settle_from(&self, rods: &[Rod], controls: Vec<DVec3>) -> Batched {
-        self.settle_among(rods, controls, None, 0)
+    pub fn settle_from(&self, rods: &[Rod], mut controls: Vec<DVec3>) -> Batched {
+        let n = self.elements;
+        self.check(rods, &controls);
+        let mut ends = vec![End::default(); rods.len()];
+        let mut before = vec![0; rods.len()];
+        if self.precision == Precision::Single {
+            let tolerance = self.tolerance.max(SINGLE_TOLERANCE);
+            let rest = Rest { tolerance, max_iterations: SINGLE_ITERATIONS, ..self.rest() };
+            settle::single(rods, rest, &mut controls, &mut ends);
+            before = ends.iter().map(|end| end.iterations).collect();
+        }
+        settle::double(rods, self.rest(), &mut controls, &mut ends);
+        let hairs = (ends.iter().zip(&before).enumerate())
+            .map(|(hair, (end, before))| {
+                let mut found = match end.settled {
+                    true => end.as_told(),
+                    false => self.alone(&rods[hair], &mut controls[hair * n..(hair + 1) * n]),
+                };
+                let so_far = if end.settled { 0 } else { end.iterations };
+                found.iterations += so_far + before;
+                found
+            })
+            .collect();
+        Batched { elements: n, controls, hairs }
     }
 
-    /// The same, of hairs that can touch something, to which the first of them is hair `first`. What then does not come to
-    /// rest is told as it is.
+    /// The same, of hairs that can touch something, to which the first of them is hair `first`; in double precision
+    /// always. What then does not come to rest is told as it is.
     ///
     /// # Panics
     /// As [`Self::settle_from`].
@@ -116,44 +138,25 @@ impl Batch {
         &self,
         rods: &[Rod],
         mut controls: Vec<DVec3>,
-        surroundings: Option<&dyn Surroundings>,
+        surroundings: &dyn Surroundings,
         first: usize,
     ) -> Batched {
-        let n = self.elements;
-        assert!(n > 0, "a hair has at least one element");
-        assert_eq!(controls.len(), rods.len() * n, "one turn for each joint");
+        self.check(rods, &controls);
         let mut ends = vec![End::default(); rods.len()];
-        let mut before = vec![0; rods.len()];
-        if self.precision == Precision::Single {
-            let tolerance = self.tolerance.max(SINGLE_TOLERANCE);
-            let rest = Rest { elements: n, tolerance, max_iterations: SINGLE_ITERATIONS };
-            let task = Task { rods, rest, surroundings, first };
-            settle::single(task, &mut controls, &mut ends);
-            before = ends.iter().map(|end| end.iterations).collect();
-        }
-        let (tolerance, max_iterations) = (self.tolerance, self.max_iterations);
-        let rest = Rest { elements: n, tolerance, max_iterations };
-        let task = Task { rods, rest, surroundings, first };
-        settle::double(task, &mut controls, &mut ends);
-        let hairs = (ends.iter().zip(&before).enumerate())
-            .map(|(hair, (end, before))| {
-                let mut settled = Settled {
-                    stability: Stability::Stable,
-                    gradient_norm: end.gradient,
-                    iterations: end.iterations + before,
-                    energy: end.energy,
-                };
-                if !end.settled && surroundings.is_some() {
-                    settled.stability = Stability::NotConverged;
-                } else if !end.settled {
-                    let alone = self.alone(&rods[hair], &mut controls[hair * n..(hair + 1) * n]);
-                    settled =
-                        Settled { iterations: settled.iterations + alone.iterations, ..alone };
-                }
-                settled
-            })
-            .collect();
-        Batched { elements: n, controls, hairs }
+        let around = Around { surroundings, first };
+        settle::among(rods, self.rest(), around, &mut controls, &mut ends);
+        let hairs = ends.iter().map(End::as_told).collect();
+        Batched { elements: self.elements, controls, hairs }
+    }
+
+    fn check(&self, rods: &[Rod], controls: &[DVec3]) {
+        assert!(self.elements > 0, "a hair has at least one element");
+        assert_eq!(controls.len(), rods.len() * self.elements, "one turn for each joint");
+    }
+
+    fn rest(&self) -> Rest {
+        let Self { elements, tolerance, max_iterations, .. } = *self;
+        Rest { elements, tolerance, max_iterations }
     }
 
     /// A hair by itself, along gravity's branch.

@@ -3,6 +3,7 @@
 use fearless_simd::{Level, Simd, SimdFrom, dispatch};
 use glam::DVec3;
 
+use super::Settled;
 use super::hanging::Hanging;
 use super::joints::Joints;
 use super::lanes::{Lanes, Wide};
@@ -10,6 +11,7 @@ use super::sweep::Backward;
 use super::touching::{Surroundings, Touching};
 use super::turn::LARGEST_SQUARE;
 use crate::Rod;
+use crate::minimise::Stability;
 
 /// Damping after a first failed pivot or a step that went up, as a fraction of the stiffness; as in
 /// [`crate::minimise::Riccati`].
@@ -42,38 +44,67 @@ pub(super) struct End {
     pub(super) energy: f64,
 }
 
-/// What hairs are brought to rest in.
+impl End {
+    pub(super) fn as_told(&self) -> Settled {
+        Settled {
+            stability: if self.settled { Stability::Stable } else { Stability::NotConverged },
+            gradient_norm: self.gradient,
+            iterations: self.iterations,
+            energy: self.energy,
+        }
+    }
+}
+
+/// What hairs can touch; the first of them is hair `first` there.
 #[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
-    pub(super) rods: &'a [Rod],
-    pub(super) rest: Rest,
-    /// What they can touch; the first of them is hair `first` there.
-    pub(super) surroundings: Option<&'a dyn Surroundings>,
+pub(super) struct Around<'a> {
+    pub(super) surroundings: &'a dyn Surroundings,
     pub(super) first: usize,
 }
 
 /// Brings hairs to rest in double precision, from the controls that are given; these become theirs at rest.
-pub(super) fn double(task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
-    dispatch!(Level::new(), simd => any(f64s(simd), task, controls, ends));
+pub(super) fn double(rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
+    dispatch!(Level::new(), simd => hanging(f64s(simd), rods, rest, controls, ends));
 }
 
 /// The same in single precision.
-pub(super) fn single(task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
-    dispatch!(Level::new(), simd => any(f32s(simd), task, controls, ends));
+pub(super) fn single(rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
+    dispatch!(Level::new(), simd => hanging(f32s(simd), rods, rest, controls, ends));
+}
+
+/// The same in double precision, of hairs that can touch something.
+pub(super) fn among(
+    rods: &[Rod],
+    rest: Rest,
+    around: Around<'_>,
+    controls: &mut [DVec3],
+    ends: &mut [End],
+) {
+    dispatch!(Level::new(), simd => touching(f64s(simd), rods, rest, around, controls, ends));
 }
 
 #[inline(always)]
-fn any<F: Lanes>(zero: F, task: Task<'_>, controls: &mut [DVec3], ends: &mut [End]) {
-    let uniform = |rod: &Rod| matches!(rod.natural(), crate::NaturalStrain::Uniform(_));
-    let n = task.rest.elements;
-    let alike = task.rods.iter().all(uniform);
-    match task.surroundings {
-        None => run(zero, &mut Hanging::new(zero, n, alike), task, controls, ends),
-        Some(around) => {
-            let touching = &mut Touching::new(zero, n, alike, around);
-            run(zero, touching, task, controls, ends);
-        }
-    }
+fn hanging<F: Lanes>(zero: F, rods: &[Rod], rest: Rest, controls: &mut [DVec3], ends: &mut [End]) {
+    let mut sweeps = Hanging::new(zero, rest.elements, alike(rods));
+    run(zero, &mut sweeps, (rods, rest), controls, ends);
+}
+
+#[inline(always)]
+fn touching<F: Lanes>(
+    zero: F,
+    rods: &[Rod],
+    rest: Rest,
+    around: Around<'_>,
+    controls: &mut [DVec3],
+    ends: &mut [End],
+) {
+    let mut sweeps = Touching::new(zero, rest.elements, alike(rods), around);
+    run(zero, &mut sweeps, (rods, rest), controls, ends);
+}
+
+/// Whether the joints of each hair turn alike.
+fn alike(rods: &[Rod]) -> bool {
+    rods.iter().all(|rod| matches!(rod.natural(), crate::NaturalStrain::Uniform(_)))
 }
 
 /// Hairs in lanes, of one kind.
@@ -136,11 +167,10 @@ const MOST_LANES: usize = 16;
 fn run<F: Lanes>(
     zero: F,
     sweeps: &mut impl Sweeps<F>,
-    task: Task<'_>,
+    (rods, rest): (&[Rod], Rest),
     controls: &mut [DVec3],
     ends: &mut [End],
 ) {
-    let Task { rods, rest, first, .. } = task;
     let n = rest.elements;
     let mut lanes = [EMPTY; MOST_LANES];
     let mut joints = Joints::default();
@@ -151,7 +181,7 @@ fn run<F: Lanes>(
             if lane.hair.is_none() && next < rods.len() {
                 let start = &controls[next * n..(next + 1) * n];
                 joints.divide(&rods[next], n);
-                let known = sweeps.load(index, first + next, &joints, start);
+                let known = sweeps.load(index, next, &joints, start);
                 let (fresh, energy) = (known.is_none(), known.unwrap_or_default());
                 let scale = rods[next].moment_scale();
                 let constant = joints.constant;

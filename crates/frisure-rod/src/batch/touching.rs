@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::joints::Joints;
 use super::lanes::{Lanes, Mat3, Vec3};
-use super::settle::Sweeps;
+use super::settle::{Around, Sweeps};
 use super::sweep::Backward;
 use super::touch::{Bundle, Felt, Joint};
 use super::turns::Turns;
@@ -51,7 +51,7 @@ struct Place {
 /// Hairs in their own weight, and what they touch.
 pub(super) struct Touching<'a, F> {
     bundle: Bundle<F>,
-    surroundings: &'a dyn Surroundings,
+    around: Around<'a>,
     /// Of each lane; none if it is empty.
     places: Vec<Option<Place>>,
     /// By joint, then by lane.
@@ -62,7 +62,7 @@ pub(super) struct Touching<'a, F> {
 impl<'a, F: Lanes> Touching<'a, F> {
     /// Lanes for hairs of `n` joints, between which those of each hair turn alike or not.
     #[inline(always)]
-    pub(super) fn new(zero: F, n: usize, alike: bool, surroundings: &'a dyn Surroundings) -> Self {
+    pub(super) fn new(zero: F, n: usize, alike: bool, around: Around<'a>) -> Self {
         Self {
             bundle: Bundle {
                 joints: vec![Joint::nothing(zero); n],
@@ -71,7 +71,7 @@ impl<'a, F: Lanes> Touching<'a, F> {
                 start: Vec3::all(zero),
                 stiffness: Vec3::all(zero.all(1.0)),
             },
-            surroundings,
+            around,
             places: vec![None; F::COUNT],
             free: vec![NOWHERE; n * F::COUNT],
             nothing: Felt::nothing(zero),
@@ -94,7 +94,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
             joint.begin(lane, *control);
             self.free[i * F::COUNT + lane] = NOWHERE;
         }
-        self.places[lane] = Some(Place { hair, h: joints.h });
+        self.places[lane] = Some(Place { hair: self.around.first + hair, h: joints.h });
         None
     }
 
@@ -113,7 +113,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
 
     #[inline(always)]
     fn forward(&mut self) -> F {
-        let Self { bundle, surroundings, places, free, nothing } = self;
+        let Self { bundle, around, places, free, nothing } = self;
         let last = bundle.joints.len() - 1;
         bundle.forward(|joint, ends| {
             let mut felt = *nothing;
@@ -129,7 +129,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
                     true => ((joint + 1) as f64 * h, 0.5 * h),
                     false => ((joint as f64 + 1.5) * h, *h),
                 };
-                match surroundings.felt(*hair, s, end) {
+                match around.surroundings.felt(*hair, s, end) {
                     Touch::Free(radius) => *known = Free { centre: end, radius },
                     Touch::Felt { energy, gradient, hessian } => {
                         felt.set(lane, energy * share, gradient * share, &(hessian * share));
@@ -148,18 +148,18 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Batch, Precision};
+    use super::super::Batch;
     use super::*;
     use crate::{Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant};
 
     /// Springs to a point, different for each hair; or a soft ball that hair lies on.
-    enum Around {
+    enum Near {
         Springs(f64),
         Ball(DVec3, f64),
         Nothing,
     }
 
-    impl Surroundings for Around {
+    impl Surroundings for Near {
         fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch {
             let (away, stiffness) = match *self {
                 Self::Nothing => return Touch::Free(f64::INFINITY),
@@ -212,7 +212,7 @@ mod tests {
     }
 
     /// The energy (J) of a hair whose joints are turned as given, by nothing but the definition.
-    fn energy(rod: &Rod, hair: usize, controls: &[DVec3], around: &Around) -> f64 {
+    fn energy(rod: &Rod, hair: usize, controls: &[DVec3], around: &Near) -> f64 {
         let n = controls.len();
         let mut joints = Joints::default();
         joints.divide(rod, n);
@@ -243,7 +243,7 @@ mod tests {
         let batch = Batch { elements: 12, tolerance: 1e-10, ..Batch::default() };
         let start = || vec![DVec3::ZERO; rods.len() * 12];
         let free = batch.settle(&rods);
-        let around = batch.settle_among(&rods, start(), Some(&Around::Nothing), 0);
+        let around = batch.settle_among(&rods, start(), &Near::Nothing, 0);
         for (a, b) in free.controls.iter().zip(&around.controls) {
             assert!(a.distance(*b) < 1e-7, "{a} {b}");
         }
@@ -256,34 +256,31 @@ mod tests {
     #[test]
     fn rest_is_a_minimum_of_the_energy() {
         let rods = rods();
-        let ball = Around::Ball(DVec3::new(0.0, 0.0, -0.03), 0.035);
-        for around in [Around::Springs(1e-4), Around::Springs(1.0), ball] {
-            for precision in [Precision::Double, Precision::Single] {
-                let batch =
-                    Batch { elements: 12, precision, max_iterations: 5000, ..Batch::default() };
-                let start = vec![DVec3::ZERO; rods.len() * 12];
-                let found = batch.settle_among(&rods, start, Some(&around), 3);
-                for (i, rod) in rods.iter().enumerate() {
-                    let settled = &found.hairs[i];
-                    assert_eq!(settled.stability, Stability::Stable, "{i}: {settled:?}");
-                    let controls = &found.controls[i * 12..(i + 1) * 12];
-                    let at = |controls: &[DVec3]| energy(rod, i + 3, controls, &around);
-                    let least = at(controls);
-                    let scale = rod.moment_scale();
-                    assert!((settled.energy - least).abs() < 1e-9 * scale.max(least.abs()), "{i}");
-                    for joint in 0..12 {
-                        for axis in 0..3 {
-                            let moved = |by: f64| {
-                                let mut moved = controls.to_vec();
-                                moved[joint][axis] += by;
-                                at(&moved)
-                            };
-                            // Small against the kink where skin begins.
-                            let h = 1e-8;
-                            let slope = (moved(h) - moved(-h)) / (2.0 * h);
-                            assert!(slope.abs() < 1e-4 * scale, "{i} {joint}: {}", slope / scale);
-                            assert!(moved(1e-4) + moved(-1e-4) > 2.0 * least, "{i} {joint}");
-                        }
+        let ball = Near::Ball(DVec3::new(0.0, 0.0, -0.03), 0.035);
+        for around in [Near::Springs(1e-4), Near::Springs(1.0), ball] {
+            let batch = Batch { elements: 12, max_iterations: 5000, ..Batch::default() };
+            let start = vec![DVec3::ZERO; rods.len() * 12];
+            let found = batch.settle_among(&rods, start, &around, 3);
+            for (i, rod) in rods.iter().enumerate() {
+                let settled = &found.hairs[i];
+                assert_eq!(settled.stability, Stability::Stable, "{i}: {settled:?}");
+                let controls = &found.controls[i * 12..(i + 1) * 12];
+                let at = |controls: &[DVec3]| energy(rod, i + 3, controls, &around);
+                let least = at(controls);
+                let scale = rod.moment_scale();
+                assert!((settled.energy - least).abs() < 1e-9 * scale.max(least.abs()), "{i}");
+                for joint in 0..12 {
+                    for axis in 0..3 {
+                        let moved = |by: f64| {
+                            let mut moved = controls.to_vec();
+                            moved[joint][axis] += by;
+                            at(&moved)
+                        };
+                        // Small against the kink where skin begins.
+                        let h = 1e-8;
+                        let slope = (moved(h) - moved(-h)) / (2.0 * h);
+                        assert!(slope.abs() < 1e-4 * scale, "{i} {joint}: {}", slope / scale);
+                        assert!(moved(1e-4) + moved(-1e-4) > 2.0 * least, "{i} {joint}");
                     }
                 }
             }

@@ -179,7 +179,7 @@ impl<'a> Simulated<'a> {
             max_iterations: MAX_ITERATIONS,
             ..Batch::default()
         };
-        let mut found = batch.settle_among(&rods, controls, Some(&envelope), 0);
+        let mut found = batch.settle_among(&rods, controls, &envelope, 0);
         for (hair, Planned { course, rod, .. }) in planned.iter().enumerate() {
             if found.hairs[hair].stability == Stability::Stable {
                 continue;
@@ -189,7 +189,7 @@ impl<'a> Simulated<'a> {
                 envelope.hardness = hardness;
                 let patient = Batch { max_iterations: MOST_ITERATIONS, ..batch };
                 let rod = std::slice::from_ref(rod);
-                let again = patient.settle_among(rod, controls, Some(&envelope), hair);
+                let again = patient.settle_among(rod, controls, &envelope, hair);
                 let iterations = found.hairs[hair].iterations + again.hairs[0].iterations;
                 found.hairs[hair] = Settled { iterations, ..again.hairs[0] };
                 controls = again.controls;
