@@ -24,9 +24,22 @@ pub(super) struct Envelope<'a> {
     /// Factor on all stiffnesses.
     pub(super) hardness: f64,
     hairs: Vec<Tube>,
-    /// Places (m) of the ends of links, and ρ (m) there, those of a hair one after the other.
-    places: Vec<(DVec3, f64)>,
+    /// Of the ends of links, those of a hair one after the other.
+    places: Vec<Place>,
 }
+
+/// Where the end of a link would be between its guides.
+struct Place {
+    /// There (m).
+    at: DVec3,
+    /// ρ (m).
+    wide: f64,
+    /// Distance (m) from the skin.
+    clear: f64,
+}
+
+/// Steepest slope of the distance from the skin: it is 1 but for the smoothing.
+const STEEPEST: f64 = 1.25;
 
 /// What a hair is for its surroundings.
 struct Tube {
@@ -50,8 +63,12 @@ impl<'a> Envelope<'a> {
         let wide = if course.stray() { STRAY } else { 1.0 };
         for joint in 0..self.elements {
             let s = (h * (joint as f64 + 1.5)).min(length);
-            let place = self.population.followed_point(course, s / course.length);
-            self.places.push((place, wide * thickness.tube(s)));
+            let at = self.population.followed_point(course, s / course.length);
+            let clear = match self.population.spec.contact.body {
+                Body::None => f64::INFINITY,
+                _ => self.population.head.signed_distance().value(at),
+            };
+            self.places.push(Place { at, wide: wide * thickness.tube(s), clear });
         }
         self.hairs.push(Tube { h });
     }
@@ -76,7 +93,7 @@ impl Surroundings for Envelope<'_> {
     fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch {
         let Tube { h } = self.hairs[hair];
         let joint = ((s / h - 1.0) as usize).min(self.elements - 1);
-        let (place, wide) = self.places[hair * self.elements + joint];
+        let Place { at, wide, clear } = self.places[hair * self.elements + joint];
         let contact = &self.population.spec.contact;
         let mut free = f64::INFINITY;
         let mut felt: Option<(f64, DVec3, DMat3)> = None;
@@ -84,7 +101,7 @@ impl Surroundings for Envelope<'_> {
             let sum = felt.get_or_insert((0.0, DVec3::ZERO, DMat3::ZERO));
             *sum = (sum.0 + energy, sum.1 + gradient, sum.2 + hessian);
         };
-        let away = position - place;
+        let away = position - at;
         let distance = away.length();
         if distance < wide {
             free = wide - distance;
@@ -93,8 +110,11 @@ impl Surroundings for Envelope<'_> {
             let round = (DMat3::IDENTITY - outer(n, n)) * (1.0 / distance);
             add(self.pushed(contact.hair_stiffness, wide, distance - wide, n, round));
         }
-        if contact.body != Body::None {
-            let margin = LEAST_DISTANCE * (s / 0.003).min(1.0);
+        let margin = LEAST_DISTANCE * (s / 0.003).min(1.0);
+        let clear = clear - STEEPEST * distance - margin;
+        if clear > 0.0 {
+            free = free.min(clear / STEEPEST);
+        } else {
             let skin = self.population.head.signed_distance();
             let out = skin.value(position) - margin;
             if out > 0.0 {

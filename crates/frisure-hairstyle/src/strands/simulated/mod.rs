@@ -220,7 +220,8 @@ impl<'a> Simulated<'a> {
     fn points(&self, planned: &Planned<'_>, found: &Batched, hair: usize) -> Vec<glam::Vec3> {
         let Planned { course, rod, .. } = planned;
         let chain = Chain::uniform(rod, ElementKind::Jointed, found.elements);
-        let shape = found.shape(rod, hair);
+        let n = found.elements;
+        let shape = chain.shape(found.controls[hair * n..(hair + 1) * n].to_vec());
         let last = self.population.spec.wisps.points - 1;
         let mut free = Free::NOWHERE;
         (0..=last)
