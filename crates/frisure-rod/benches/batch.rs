@@ -1,0 +1,188 @@
+//! Hairs a second, as the tables of docs/performance.md: `cargo bench -p frisure-rod --bench batch`.
+//!
+//! Each figure is the best of some runs; those that are compared take turns, so that what else the machine does hits
+//! them alike. Hairs are 15 cm long, of 70 µm, with roots all over a sphere, from their natural shapes.
+
+#![expect(clippy::print_stdout, reason = "the tables are what it is for")]
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use frisure_rod::batch::{Batch, Batched, Precision};
+use frisure_rod::{
+    ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+    TorsionConstant, equilibrium,
+};
+use glam::{DQuat, DVec3};
+use rayon::prelude::*;
+
+/// Hairs of a batch, and how many of them the scalar solver gets.
+const HAIRS: usize = 8192;
+const ALONE: usize = 128;
+
+/// Runs of each.
+const RUNS: usize = 5;
+
+/// Hairs that one thread looks after at a time.
+const CHUNK: usize = 512;
+
+/// Name and turns of the natural curl in 15 cm.
+const CURLS: [(&str, f64); 4] =
+    [("straight", 0.0), ("a wave of one turn", 1.0), ("four turns", 4.0), ("ten turns", 10.0)];
+
+fn main() {
+    // `cargo test --benches` wants to know that it runs, not how fast.
+    let quick = !std::env::args().any(|a| a == "--bench");
+    let hairs = if quick { 64 } else { HAIRS };
+    against_elements(hairs);
+    against_threads(hairs);
+    warm(hairs);
+}
+
+/// Roots in a spiral on the sphere.
+fn heads(turns: f64, hairs: usize) -> Vec<Rod> {
+    let natural = match turns {
+        0.0 => NaturalStrain::STRAIGHT,
+        // A third of the curl's turn is torsion.
+        _ => {
+            let strain = std::f64::consts::TAU * turns / 0.15;
+            NaturalStrain::Uniform(DVec3::new(strain, 0.0, strain / 3.0))
+        }
+    };
+    (0..hairs)
+        .map(|k| {
+            let height = 1.0 - 2.0 * (k as f64 + 0.5) / hairs as f64;
+            let around = DQuat::from_rotation_z(2.399_963_229_728_653 * k as f64);
+            let tangent = around * DVec3::new((1.0 - height * height).sqrt(), 0.0, height);
+            rod(natural.clone(), tangent)
+        })
+        .collect()
+}
+
+fn rod(natural: NaturalStrain, tangent: DVec3) -> Rod {
+    Rod::new(RodSpec {
+        length: 0.15,
+        section: Section::from_diameter(70e-6, 1.2).unwrap(),
+        material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
+        torsion: TorsionConstant::SaintVenant,
+        natural,
+        root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.1, 0.9, -0.2)).unwrap(),
+        gravity: 9.81,
+    })
+    .unwrap()
+}
+
+/// Shortest time (s) of each, taking turns.
+fn best<const N: usize>(mut tried: [&mut dyn FnMut(); N]) -> [f64; N] {
+    let mut best = [f64::INFINITY; N];
+    for _ in 0..RUNS {
+        for (run, best) in tried.iter_mut().zip(&mut best) {
+            let start = Instant::now();
+            run();
+            *best = best.min(start.elapsed().as_secs_f64());
+        }
+    }
+    best
+}
+
+fn iterations(found: &Batched) -> f64 {
+    let sum: usize = found.hairs.iter().map(|hair| hair.iterations).sum();
+    sum as f64 / found.hairs.len() as f64
+}
+
+/// Thousands a second.
+fn rate(hairs: usize, seconds: f64) -> f64 {
+    hairs as f64 / seconds / 1e3
+}
+
+fn against_elements(hairs: usize) {
+    println!("Thousand hairs a second on one thread\n");
+    println!(
+        "| curl | elements | one by one | double | single | double over one by one | iterations |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- | --- |");
+    for (name, turns) in CURLS {
+        let rods = heads(turns, hairs);
+        for elements in [5, 15, 30, 60, 120, 240] {
+            let rods = &rods[..rods.len() * 15 / elements.max(15)];
+            let double = Batch { elements, ..Batch::default() };
+            let single = Batch { precision: Precision::Single, ..double };
+            let few = &rods[..ALONE.min(rods.len())];
+            let options = Options {
+                resolution: Resolution::Elements(elements),
+                element: ElementKind::Jointed,
+                estimate_error: false,
+                eigenvalue: false,
+                ..Options::default()
+            };
+            let seconds = best([
+                &mut || few.iter().for_each(|rod| drop(black_box(equilibrium(rod, &[], &options)))),
+                &mut || drop(black_box(double.settle(rods))),
+                &mut || drop(black_box(single.settle(rods))),
+            ]);
+            let alone = rate(few.len(), seconds[0]);
+            let [double_rate, single_rate] = [seconds[1], seconds[2]].map(|s| rate(rods.len(), s));
+            println!(
+                "| {name} | {elements} | {alone:.2} | {double_rate:.1} | {single_rate:.1} | {:.0} | {:.1} |",
+                double_rate / alone,
+                iterations(&double.settle(rods)),
+            );
+        }
+    }
+}
+
+/// In chunks of fixed size, which do not depend on how many threads there are.
+fn in_chunks(rods: &[Rod], batch: Batch) {
+    rods.par_chunks(CHUNK).for_each(|rods| drop(black_box(batch.settle(rods))));
+}
+
+fn against_threads(hairs: usize) {
+    println!("\nThousand hairs a second, four turns, 15 elements\n");
+    println!("| threads | double | single |");
+    println!("| --- | --- | --- |");
+    let rods = heads(4.0, 4 * hairs);
+    let double = Batch::default();
+    let single = Batch { precision: Precision::Single, ..double };
+    let most = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut threads = 1;
+    while threads <= most {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let seconds = best([&mut || pool.install(|| in_chunks(&rods, double)), &mut || {
+            pool.install(|| in_chunks(&rods, single));
+        }]);
+        let [double, single] = seconds.map(|s| rate(rods.len(), s));
+        println!("| {threads} | {double:.1} | {single:.1} |");
+        threads *= 2;
+    }
+}
+
+/// From the natural shape, and from where a hair rests that is rooted a degree away with a curl of 2 % less.
+fn warm(hairs: usize) {
+    println!("\nThousand hairs a second on one thread, 15 elements (iterations)\n");
+    println!("| curl | natural shape | a neighbour's rest | ratio |");
+    println!("| --- | --- | --- | --- |");
+    let batch = Batch::default();
+    for (name, turns) in CURLS {
+        let (rods, near) = (heads(turns, hairs), neighbours(turns, hairs));
+        let before = batch.settle(&near).controls;
+        let seconds = best([&mut || drop(black_box(batch.settle(&rods))), &mut || {
+            drop(black_box(batch.settle_from(&rods, before.clone())));
+        }]);
+        let [cold, warm] = seconds.map(|s| rate(rods.len(), s));
+        let (few, fewer) = (
+            iterations(&batch.settle(&rods)),
+            iterations(&batch.settle_from(&rods, before.clone())),
+        );
+        println!("| {name} | {cold:.1} ({few:.1}) | {warm:.1} ({fewer:.1}) | {:.2} |", warm / cold);
+    }
+}
+
+fn neighbours(turns: f64, hairs: usize) -> Vec<Rod> {
+    let near = |rod: &Rod| {
+        let tangent = rod.root().frame().z_axis;
+        let turned = DQuat::from_axis_angle(tangent.any_orthonormal_vector(), 1_f64.to_radians());
+        let natural = NaturalStrain::Uniform(rod.natural().at(0.0) * 0.98);
+        self::rod(natural, turned * tangent)
+    };
+    heads(turns, hairs).iter().map(near).collect()
+}
