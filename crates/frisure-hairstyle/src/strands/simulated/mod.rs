@@ -63,9 +63,10 @@ const TOLERANCE: f64 = 1e-5;
 /// Most iterations of a hair: contact comes and goes.
 const MAX_ITERATIONS: usize = 400;
 
-/// How hard skin and neighbours are, as fractions of what they are, for a hair that did not come to rest: harder and
-/// harder.
-const HARDNESS: [f64; 3] = [0.001, 0.03, 1.0];
+/// For a hair that did not come to rest: how hard skin and neighbours are, as fractions of what they are, and by how
+/// much (rad) each joint is turned before. They become harder and harder; then a hair on a saddle is pushed off it.
+const PATIENCE: [(f64, f64); 7] =
+    [(1e-3, 0.0), (0.03, 0.0), (1.0, 0.0), (1.0, 1e-3), (1.0, -3e-3), (1.0, 0.01), (1.0, -0.03)];
 
 /// Most iterations at each of them.
 const MOST_ITERATIONS: usize = 4000;
@@ -185,15 +186,24 @@ impl<'a> Simulated<'a> {
                 continue;
             }
             let mut controls = self.start(course, rod, elements);
-            for hardness in HARDNESS {
+            for (hardness, kick) in PATIENCE {
+                if hardness == 1.0 && found.hairs[hair].stability == Stability::Stable {
+                    break;
+                }
                 envelope.hardness = hardness;
+                controls.iter_mut().for_each(|control| control.x += kick);
                 let patient = Batch { max_iterations: MOST_ITERATIONS, ..batch };
                 let rod = std::slice::from_ref(rod);
                 let again = patient.settle_among(rod, controls, &envelope, hair);
+                let stability = match hardness {
+                    1.0 => again.hairs[0].stability,
+                    _ => Stability::NotConverged,
+                };
                 let iterations = found.hairs[hair].iterations + again.hairs[0].iterations;
-                found.hairs[hair] = Settled { iterations, ..again.hairs[0] };
+                found.hairs[hair] = Settled { stability, iterations, ..again.hairs[0] };
                 controls = again.controls;
             }
+            envelope.hardness = 1.0;
             found.controls[hair * elements..(hair + 1) * elements].copy_from_slice(&controls);
         }
         found
