@@ -38,6 +38,7 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
     let quiet = arguments.quiet;
     match arguments.command {
         Command::Predict(predict) => commands::predict::run(predict, quiet),
+        Command::Batch(batch) => commands::batch::run(&batch, quiet),
         Command::Style(style) => commands::style::run(&style, quiet),
         Command::Render(render) => commands::render::run(render, quiet),
         Command::Convert(convert) => commands::convert::run(convert, quiet),

@@ -36,6 +36,11 @@ impl Progress {
         self.0.set_position((fraction.clamp(0.0, 1.0) * 1000.0) as u64);
     }
 
+    /// Does something that prints, with the bar out of its way.
+    pub(crate) fn aside<T>(&self, print: impl FnOnce() -> T) -> T {
+        self.0.suspend(print)
+    }
+
     /// Takes the bar away.
     pub(crate) fn finish(&self) {
         self.0.finish_and_clear();

@@ -41,6 +41,7 @@ pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};
 pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset, Wetting, preset};
 pub use pull::Pull;
+pub use random::Draws;
 pub use roots::{Root, scalp_area};
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec,

@@ -17,6 +17,7 @@ pub(crate) enum Purpose {
     Split,
     GrownCurl,
     HairFibre,
+    Batch,
 }
 
 /// A stream of random numbers.
@@ -43,10 +44,15 @@ impl Stream {
         low + (high - low) * self.unit()
     }
 
-    /// Standard normal, cut at three deviations: no hair is a freak. (Box & Muller 1958)
-    pub(crate) fn normal(&mut self) -> f64 {
+    /// Standard normal. (Box & Muller 1958)
+    pub(crate) fn gaussian(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        (radius * (std::f64::consts::TAU * self.unit()).cos()).clamp(-3.0, 3.0)
+        radius * (std::f64::consts::TAU * self.unit()).cos()
+    }
+
+    /// Standard normal, cut at three deviations: no hair is a freak.
+    pub(crate) fn normal(&mut self) -> f64 {
+        self.gaussian().clamp(-3.0, 3.0)
     }
 
     /// A factor with mean 1 and this relative standard deviation: log-normal, never negative.
@@ -58,5 +64,48 @@ impl Stream {
     /// A factor with median 1 and this relative standard deviation: log-normal, never negative.
     pub(crate) fn factor(&mut self, deviation: f64) -> f64 {
         (self.normal() * deviation).exp()
+    }
+}
+
+/// What a batch of heads draws by chance: one stream for each thing that is drawn, by its name, and each head,
+/// by its number, so that a draw depends on nothing else.
+pub struct Draws(Stream);
+
+impl Draws {
+    /// The stream of a thing, such as `hair.length`, of the head with a number.
+    #[must_use]
+    pub fn new(seed: u64, name: &str, head: usize) -> Self {
+        // FNV-1a: names need no more than to differ.
+        let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let name = name.bytes().fold(0xcbf2_9ce4_8422_2325, step);
+        Self(Stream::new(seed ^ name, Purpose::Batch, head))
+    }
+
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0.unit()
+    }
+
+    /// Uniform between two numbers.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0.between(low, high)
+    }
+
+    /// Standard normal.
+    pub fn gaussian(&mut self) -> f64 {
+        self.0.gaussian()
+    }
+
+    /// One of so many things, counted from 0; all are as likely.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "less than count")]
+    #[expect(clippy::cast_precision_loss, reason = "nobody has so many things")]
+    pub fn one_of(&mut self, count: usize) -> usize {
+        ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
+    }
+
+    /// A seed: any whole number below 2⁵³, which every program can hold.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "less than 2⁵³")]
+    pub fn seed(&mut self) -> u64 {
+        (self.unit() * 9_007_199_254_740_992.0) as u64
     }
 }

@@ -4,6 +4,7 @@
 //! | module | reads | writes |
 //! | --- | --- | --- |
 //! | [`scene`] | a TOML scene into a [`scene::Scene`] | a commented scene to start from, and steps |
+//! | [`scene::batch`] | a TOML description of many scenes | the text of each |
 //! | [`history`] | a scene with what was done and undone | the same |
 //! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
 //! | [`groom`] | `.hair`, `.obj`, `.ply`, `.usdc`, `.usda`, `.abc`, `.data`, `.npz` | the same, `.txt` and `.pbrt` for renderers, `.glb` |
@@ -18,6 +19,7 @@
 //! ([`files::write_atomically`]). The same input gives the same bytes.
 
 pub mod contents;
+mod digest;
 pub mod environment;
 pub mod files;
 pub mod frame;

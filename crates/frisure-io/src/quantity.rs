@@ -163,7 +163,7 @@ pub const SPEED: Dimension = Dimension {
 pub const RATIO: Dimension =
     Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
 
-const ALL: [&Dimension; 11] = [
+static ALL: [&Dimension; 11] = [
     &LENGTH,
     &AREA,
     &ANGLE,
@@ -258,6 +258,11 @@ impl Dimension {
         let in_unit = |unit: &str| format!("{number} {unit}");
         let fits = |text: &String| self.parse(text).is_ok_and(|x| (least..=most).contains(&x));
         Some(usual).into_iter().filter(|u| !u.is_empty()).chain(others).map(in_unit).find(fits)
+    }
+
+    /// Every dimension.
+    pub(crate) fn all() -> &'static [&'static Self] {
+        &ALL
     }
 
     /// The dimension that a unit is SI's own unit of; the empty one is that of pure numbers.

@@ -1,5 +1,6 @@
 //! The commands, one per file.
 
+pub(crate) mod batch;
 pub(crate) mod convert;
 pub(crate) mod hair;
 pub(crate) mod measured;

@@ -12,6 +12,7 @@ fn help(arguments: &[&str]) -> String {
 fn help_of_everything() {
     insta::assert_snapshot!("frisure", help(&["--help"]));
     insta::assert_snapshot!("predict", help(&["predict", "--help"]));
+    insta::assert_snapshot!("batch", help(&["batch", "--help"]));
     insta::assert_snapshot!("render", help(&["render", "--help"]));
     insta::assert_snapshot!("convert", help(&["convert", "--help"]));
     insta::assert_snapshot!("style", help(&["style", "--help"]));

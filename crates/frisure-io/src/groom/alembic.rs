@@ -9,7 +9,6 @@
 
 mod archive;
 mod curves;
-mod digest;
 mod ogawa;
 mod part;
 mod read;

@@ -8,7 +8,7 @@ mod estimate;
 mod heading;
 mod readings;
 mod sample;
-mod table;
+pub(crate) mod table;
 mod text;
 
 use std::collections::BTreeSet;

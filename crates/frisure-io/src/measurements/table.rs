@@ -12,27 +12,29 @@ const LIMIT: u64 = 64 << 20;
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
 /// A table, nothing understood yet.
-pub(super) struct Table {
-    pub(super) path: PathBuf,
-    pub(super) headings: Vec<String>,
-    pub(super) rows: Vec<Row>,
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    pub(crate) path: PathBuf,
+    pub(crate) headings: Vec<String>,
+    pub(crate) rows: Vec<Row>,
     /// Whether a comma may be a decimal point.
-    pub(super) decimal_comma: bool,
+    pub(crate) decimal_comma: bool,
 }
 
 /// A row with as many cells as there are headings.
-pub(super) struct Row {
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
     /// Line of the file on which it starts, from 1.
-    pub(super) line: u64,
-    pub(super) cells: Vec<String>,
+    pub(crate) line: u64,
+    pub(crate) cells: Vec<String>,
 }
 
 impl Table {
-    pub(super) fn read(path: &Path) -> Result<Self, MeasurementError> {
+    pub(crate) fn read(path: &Path) -> Result<Self, MeasurementError> {
         Self::parse(&read_text(path, LIMIT, "a table of measurements")?, path)
     }
 
-    pub(super) fn parse(text: &str, path: &Path) -> Result<Self, MeasurementError> {
+    pub(crate) fn parse(text: &str, path: &Path) -> Result<Self, MeasurementError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refuse = |problem: &str| MeasurementError::NoTable {
             path: path.into(),
@@ -61,7 +63,7 @@ impl Table {
     }
 
     /// The number in a cell; none where nothing was measured.
-    pub(super) fn number(&self, row: &Row, column: usize) -> Result<Option<f64>, MeasurementError> {
+    pub(crate) fn number(&self, row: &Row, column: usize) -> Result<Option<f64>, MeasurementError> {
         let cell = row.cells[column].as_str();
         if matches!(cell.to_ascii_lowercase().as_str(), "" | "-" | "na" | "n/a" | "nan" | "none") {
             return Ok(None);
@@ -80,12 +82,12 @@ impl Table {
         })
     }
 
-    pub(super) fn place(&self, row: &Row, column: usize) -> Place {
+    pub(crate) fn place(&self, row: &Row, column: usize) -> Place {
         Place { path: self.path.clone(), line: row.line, column: self.headings[column].clone() }
     }
 
     /// The name of the file without its folder.
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 }

@@ -26,13 +26,13 @@ pub(super) fn hint(key: &str, written: &str) -> Option<String> {
 }
 
 /// What the schema says about a key that takes a quantity.
-struct Quantity {
-    dimension: &'static Dimension,
+pub(super) struct Quantity {
+    pub(super) dimension: &'static Dimension,
     least: Option<f64>,
     most: Option<f64>,
 }
 
-fn quantity(root: &'static Value, path: &str) -> Option<Quantity> {
+pub(super) fn quantity(root: &'static Value, path: &str) -> Option<Quantity> {
     let key = path.split('.').try_fold(root, inside)?;
     // A list of quantities has their unit.
     let single = |way: &&&Value| way["type"] != "array";
@@ -53,7 +53,7 @@ fn inside(schema: &'static Value, part: &str) -> Option<&'static Value> {
 }
 
 /// A schema, or each of those that it is any of.
-fn ways(schema: &'static Value) -> Vec<&'static Value> {
+pub(super) fn ways(schema: &'static Value) -> Vec<&'static Value> {
     if let Some(name) = schema["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/")) {
         return ways(&self::schema()["$defs"][name]);
     }

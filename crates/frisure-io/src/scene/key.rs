@@ -97,7 +97,7 @@ impl Refusal {
     }
 
     /// The refusal of a value that stands at a place of a scene.
-    fn at(self, span: Range<usize>, source: &Source) -> SceneError {
+    pub(super) fn at(self, span: Range<usize>, source: &Source) -> SceneError {
         let Self { allowed, hint, problem, value, inside, in_key } = self;
         let key = source.path_at(&span) + &inside;
         let span = match inside.is_empty() {
@@ -264,7 +264,7 @@ pub(super) fn two_words<C: Choice>(word: &str) -> Option<[&'static str; 2]> {
 }
 
 /// A number in SI units or a text with a unit.
-fn read_quantity(value: &Value, dimension: &'static Dimension) -> Result<f64, Refusal> {
+pub(super) fn read_quantity(value: &Value, dimension: &'static Dimension) -> Result<f64, Refusal> {
     let example = format!("{}, such as \"{}\"", dimension.name, dimension.example);
     let text = match value {
         #[expect(

@@ -6,6 +6,7 @@
 //! it.
 
 mod bare;
+pub mod batch;
 mod blame;
 pub mod edit;
 mod error;

@@ -6,8 +6,8 @@
 
 use std::io::{self, Write};
 
-use super::digest::digest;
 use super::ogawa::{self, Block, Node};
+use crate::digest::digest;
 
 /// Kinds of values, as they are numbered in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! `MurmurHash3` (x64, 128 bits, seed 0), by which Alembic knows equal samples.
+//! `MurmurHash3` (x64, 128 bits, seed 0), by which Alembic knows equal samples, and a batch its parts.
 //!
 //! Source: Austin Appleby, `MurmurHash3.cpp`, in the public domain.
 
@@ -6,7 +6,7 @@ const C1: u64 = 0x87c3_7b91_1142_53d5;
 const C2: u64 = 0x4cf5_ad43_2745_937f;
 
 /// The digest of some bytes.
-pub(super) fn digest(bytes: &[u8]) -> [u8; 16] {
+pub(crate) fn digest(bytes: &[u8]) -> [u8; 16] {
     let (mut h1, mut h2) = (0_u64, 0_u64);
     let (blocks, tail) = bytes.as_chunks::<16>();
     for block in blocks {

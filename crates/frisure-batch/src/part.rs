@@ -1,0 +1,59 @@
+//! Parts: the files of a batch.
+
+use std::ops::Range;
+
+/// Neighbouring heads in one file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Its number, from 0.
+    pub number: usize,
+    /// The first head.
+    pub first: usize,
+    /// How many heads.
+    pub heads: usize,
+}
+
+impl Part {
+    /// All parts of so many heads, `rows` in each but the last.
+    pub(crate) fn all(heads: usize, rows: usize) -> impl Iterator<Item = Self> {
+        (0..heads.div_ceil(rows)).map(move |number| {
+            let first = number * rows;
+            Self { number, first, heads: rows.min(heads - first) }
+        })
+    }
+
+    /// Its heads.
+    #[must_use]
+    pub fn range(self) -> Range<usize> {
+        self.first..self.first + self.heads
+    }
+
+    /// The name of its file: `part-000000120.parquet` begins with head 120.
+    #[must_use]
+    pub fn name(self) -> String {
+        format!("part-{:09}.parquet", self.first)
+    }
+
+    /// The first head of the part that a file's name is of.
+    pub(crate) fn first_of(name: &str) -> Option<usize> {
+        let digits = name.strip_prefix("part-")?.strip_suffix(".parquet")?;
+        digits.bytes().all(|b| b.is_ascii_digit()).then(|| digits.parse().ok())?
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_cover_a_batch() {
+        let parts: Vec<Part> = Part::all(37, 16).collect();
+        assert_eq!(parts.iter().map(|part| part.heads).collect::<Vec<_>>(), [16, 16, 5]);
+        let heads: Vec<usize> = parts.iter().flat_map(|part| part.range()).collect();
+        assert_eq!(heads, (0..37).collect::<Vec<_>>());
+        assert_eq!(parts[2].name(), "part-000000032.parquet");
+        assert_eq!(Part::first_of(&parts[2].name()), Some(32));
+        assert_eq!(Part::first_of("part-x.parquet"), None);
+        assert_eq!(Part::all(0, 4).count(), 0);
+    }
+}

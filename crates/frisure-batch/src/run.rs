@@ -1,0 +1,237 @@
+//! The work on a shard.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use frisure::hairstyle::{Cancelled, Monitor};
+use frisure::io::files::{WriteError, check_destination, write_atomically};
+use frisure::io::scene::batch::Batch;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::head::{self, Row};
+use crate::heads::Heads;
+use crate::parquet::{self, Found};
+use crate::{Part, Shard};
+
+/// Why a run cannot be, or did not end.
+#[derive(Debug, Error)]
+pub enum BatchError {
+    /// The monitor said to stop; parts that were written stay.
+    #[error("cancelled")]
+    Cancelled,
+    /// The folder has parts of something else.
+    #[error("`{}` belongs to another batch", path.display())]
+    Other {
+        /// The part.
+        path: PathBuf,
+    },
+    /// A file has the name of a part and is none.
+    #[error("`{}` is no part of a batch: {problem}", path.display())]
+    NoPart {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The folder has heads that the batch has not.
+    #[error("`{}` begins with head {first}; the batch has {heads}", path.display())]
+    Beyond {
+        /// The part.
+        path: PathBuf,
+        /// Its first head.
+        first: usize,
+        /// How many heads there are.
+        heads: usize,
+    },
+    /// The folder cannot be read or made.
+    #[error("cannot use the folder `{}`", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A part cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A part cannot be made.
+    #[error("heads cannot be encoded: {0}")]
+    Encode(String),
+}
+
+impl BatchError {
+    /// What a person may try; empty if the message says it.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Other { .. } => {
+                "the batch, its scene, a file that it reads or the version of frisure is not the one that it was \
+                 made with: write to another folder, or take the old parts away"
+            }
+            Self::NoPart { .. } => "take it away; it is then made again",
+            Self::Beyond { .. } => {
+                "the folder is of a longer batch: write to another folder, or take the part away"
+            }
+            _ => "",
+        }
+    }
+}
+
+/// What a run has done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Done {
+    /// Heads of the shard.
+    pub heads: usize,
+    /// Those that were there already.
+    pub before: usize,
+    /// Of those that were computed now, how many could not be.
+    pub failed: usize,
+}
+
+/// One shard of a batch, on its way into a folder.
+#[derive(Debug)]
+pub struct Run {
+    batch: Batch,
+    folder: PathBuf,
+    shard: Shard,
+    heads: Heads,
+}
+
+impl Run {
+    /// A run into a folder, which is made if it is not there. Nothing in it is touched.
+    ///
+    /// # Errors
+    /// [`BatchError`], if the folder cannot be used, or holds something else.
+    pub fn new(batch: Batch, folder: &Path, shard: Shard) -> Result<Self, BatchError> {
+        let fail = |source| BatchError::Folder { path: folder.into(), source };
+        fs::create_dir_all(folder).map_err(fail)?;
+        let run = Self { batch, folder: folder.into(), shard, heads: Heads::default() };
+        let mut known: Option<(usize, PathBuf)> = None;
+        for entry in fs::read_dir(folder).map_err(fail)? {
+            let entry = entry.map_err(fail)?;
+            let first = entry.file_name().to_str().and_then(Part::first_of);
+            let Some(first) = first else { continue };
+            if first >= run.batch.heads() {
+                let heads = run.batch.heads();
+                return Err(BatchError::Beyond { path: entry.path(), first, heads });
+            }
+            // The order of a folder is no order.
+            if known.as_ref().is_none_or(|(least, _)| first < *least) {
+                known = Some((first, entry.path()));
+            }
+        }
+        if let Some((_, path)) = known {
+            run.check(&path)?;
+        }
+        if let Some(part) = run.parts().next() {
+            check_destination(&run.path(part))?;
+        }
+        Ok(run)
+    }
+
+    /// The batch.
+    #[must_use]
+    pub fn batch(&self) -> &Batch {
+        &self.batch
+    }
+
+    /// The parts of the shard.
+    pub fn parts(&self) -> impl Iterator<Item = Part> {
+        let shard = self.shard;
+        let all = Part::all(self.batch.heads(), self.batch.rows());
+        all.filter(move |part| shard.has(part.number))
+    }
+
+    /// Where a part is, or will be.
+    #[must_use]
+    pub fn path(&self, part: Part) -> PathBuf {
+        self.folder.join(part.name())
+    }
+
+    /// The parts of the shard that are not there yet.
+    ///
+    /// # Errors
+    /// [`BatchError`], if one that is there is of something else.
+    pub fn missing(&self) -> Result<Vec<Part>, BatchError> {
+        let mut missing = Vec::new();
+        for part in self.parts() {
+            let path = self.path(part);
+            // The last part of a batch that was shorter once has too few.
+            if !path.exists() || self.check(&path)? != part.heads {
+                missing.push(part);
+            }
+        }
+        Ok(missing)
+    }
+
+    /// How many heads are in a part that is there; it must be of this batch.
+    fn check(&self, path: &Path) -> Result<usize, BatchError> {
+        let found = parquet::find(path);
+        let no_part = |problem: String| BatchError::NoPart { path: path.into(), problem };
+        let Found { digest, heads } = found.map_err(no_part)?;
+        if digest == self.batch.digest() {
+            Ok(heads)
+        } else {
+            Err(BatchError::Other { path: path.into() })
+        }
+    }
+
+    /// Computes the heads of a part, on all threads. `each` is called after each of them.
+    ///
+    /// # Errors
+    /// [`Cancelled`], if the monitor says to stop.
+    pub fn compute(
+        &self,
+        part: Part,
+        monitor: &dyn Monitor,
+        each: &(dyn Fn() + Sync),
+    ) -> Result<Vec<Row>, Cancelled> {
+        head::prepare(&self.batch, &self.heads, part.first);
+        let one = |index: usize| {
+            if monitor.cancelled() {
+                return Err(Cancelled);
+            }
+            let row = head::row(&self.batch, &self.heads, index, monitor);
+            each();
+            row
+        };
+        // By number, one at a time: heads differ in what they cost.
+        part.range().into_par_iter().with_max_len(1).map(one).collect()
+    }
+
+    /// Writes a part, all of it or nothing.
+    ///
+    /// # Errors
+    /// [`BatchError`].
+    pub fn write(&self, part: Part, rows: &[Row]) -> Result<PathBuf, BatchError> {
+        let path = self.path(part);
+        let bytes = parquet::encode(&self.batch, rows).map_err(BatchError::Encode)?;
+        write_atomically(&path, |out| out.write_all(&bytes))?;
+        Ok(path)
+    }
+
+    /// Computes and writes all that is not there yet.
+    ///
+    /// # Errors
+    /// [`BatchError`].
+    pub fn all(&self, monitor: &dyn Monitor) -> Result<Done, BatchError> {
+        let missing = self.missing()?;
+        let heads: usize = self.parts().map(|part| part.heads).sum();
+        let to_do: usize = missing.iter().map(|part| part.heads).sum();
+        let done = AtomicUsize::new(0);
+        let each = || {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            monitor.progress("heads", done as f64 / to_do as f64);
+        };
+        let mut failed = 0;
+        for part in missing {
+            let rows = self.compute(part, monitor, &each).map_err(|_| BatchError::Cancelled)?;
+            failed += rows.iter().filter(|row| row.outcome.is_err()).count();
+            self.write(part, &rows)?;
+        }
+        Ok(Done { heads, before: heads - to_do, failed })
+    }
+}

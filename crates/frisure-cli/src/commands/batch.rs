@@ -1,0 +1,242 @@
+//! `frisure batch`: many heads of one scene, as data.
+
+use std::fmt::Write;
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use frisure::hairstyle::Monitor;
+use frisure::io::files;
+use frisure::io::scene::SceneError;
+use frisure::io::scene::edit::EditError;
+use frisure_batch::{Batch as Heads, BatchError, Part, Row, Run, Sample, Shard, Value};
+
+use crate::args::Batch;
+use crate::failure::{Done, Failure};
+use crate::progress::Progress;
+use crate::{console, interrupt, outputs};
+
+/// Heads that are listed before they are printed.
+const LISTED: usize = 256;
+
+/// Computes a shard of a batch, or tells what is in it.
+pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<Done, Failure> {
+    let path = arguments.spec.clone();
+    let heads = interrupt::computing(move || Ok(Heads::read(&path)?))?;
+    if let Some(index) = arguments.scene {
+        return one_scene(arguments, &heads, index);
+    }
+    if arguments.list {
+        return list(&heads, arguments.shard);
+    }
+    let Some(folder) = &arguments.output else {
+        let hint = "`-o DIR` says where the heads go; `--list` tells what they would be";
+        return Err(Failure::wrong_because("there is no folder to write to", hint));
+    };
+    compute(heads, folder, arguments.shard, quiet)
+}
+
+impl From<BatchError> for Failure {
+    fn from(error: BatchError) -> Self {
+        match &error {
+            BatchError::Cancelled => Self::Interrupted,
+            BatchError::Other { .. } | BatchError::NoPart { .. } | BatchError::Beyond { .. } => {
+                Self::wrong(&error, error.hint())
+            }
+            BatchError::Write(error) => Self::failed(error),
+            error => Self::failed(error),
+        }
+    }
+}
+
+/// Tells how far the work is, and to stop after Ctrl-C.
+struct Watch<'a>(&'a Progress);
+
+impl Monitor for Watch<'_> {
+    fn progress(&self, stage: &'static str, fraction: f64) {
+        self.0.show(stage, fraction);
+    }
+
+    fn cancelled(&self) -> bool {
+        interrupt::interrupted()
+    }
+}
+
+/// Computes what is not there yet. Files are written by this thread, which always ends the one it is at.
+fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Done, Failure> {
+    let all = heads.heads();
+    let work = Arc::new(Run::new(heads, folder, shard)?);
+    let missing = work.missing()?;
+    let count = |parts: &[Part]| parts.iter().map(|part| part.heads).sum::<usize>();
+    let own = work.parts().map(|part| part.heads).sum::<usize>();
+    let to_do = count(&missing);
+    if !quiet {
+        console::print(&beginning(shard, own, all, own - to_do))?;
+    }
+    let progress = Progress::new(quiet);
+    let done = Arc::new(AtomicUsize::new(0));
+    let mut ended = Ended::default();
+    let result = missing.iter().enumerate().try_for_each(|(place, part)| {
+        let rows = part_of(&work, *part, &progress, &done, to_do)?;
+        let path = work.write(*part, &rows)?;
+        ended.add(&rows);
+        let (parts, failed) = (missing.len(), failures(&rows));
+        let line = format!("{} of {parts}: {}{failed}\n", place + 1, path.display());
+        progress.aside(|| if quiet { Ok(()) } else { console::print(&line) })
+    });
+    progress.finish();
+    result.map_err(|failure| match failure {
+        Failure::Interrupted => Failure::Paused(format!(
+            "{} of {own} heads are in `{}`; the same command goes on",
+            own - to_do + ended.heads,
+            folder.display()
+        )),
+        failure => failure,
+    })?;
+    if !quiet {
+        console::print(&ended.told(own))?;
+    }
+    Ok(Done::Well)
+}
+
+/// The heads of a part, on a thread that can be left.
+fn part_of(
+    work: &Arc<Run>,
+    part: Part,
+    progress: &Progress,
+    done: &Arc<AtomicUsize>,
+    all: usize,
+) -> Result<Vec<Row>, Failure> {
+    let (work, progress, done) = (work.clone(), progress.clone(), done.clone());
+    progress.show("heads", done.load(Ordering::Relaxed) as f64 / all as f64);
+    interrupt::computing(move || {
+        let watch = Watch(&progress);
+        let each = || {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            watch.progress("heads", done as f64 / all as f64);
+        };
+        work.compute(part, &watch, &each).map_err(|_| Failure::Interrupted)
+    })
+}
+
+fn beginning(shard: Shard, own: usize, all: usize, before: usize) -> String {
+    let mut out = match shard {
+        Shard::WHOLE => format!("{all} heads"),
+        shard => format!("shard {shard}: {own} of {all} heads"),
+    };
+    if before > 0 {
+        let _ = write!(out, ", {before} of which are there already");
+    }
+    out.push('\n');
+    out
+}
+
+/// What came of it.
+#[derive(Default)]
+struct Ended {
+    heads: usize,
+    failed: usize,
+    moving: usize,
+    /// Why the first failed that did.
+    first: Option<String>,
+}
+
+impl Ended {
+    fn add(&mut self, rows: &[Row]) {
+        self.heads += rows.len();
+        for row in rows {
+            match &row.outcome {
+                Ok(measured) => self.moving += usize::from(measured.guides[3] > 0),
+                Err(why) => {
+                    self.failed += 1;
+                    self.first.get_or_insert_with(|| format!("head {}: {why}", row.index));
+                }
+            }
+        }
+    }
+
+    fn told(&self, own: usize) -> String {
+        let Self { heads, failed, moving, first } = self;
+        let mut out = format!("{own} heads are there, {heads} of them new");
+        if *moving > 0 {
+            let _ = write!(out, "; {moving} have guides that did not converge");
+        }
+        if let Some(first) = first {
+            let _ = write!(out, "; {failed} failed, the first as {first}");
+        }
+        out.push('\n');
+        out
+    }
+}
+
+fn failures(rows: &[Row]) -> String {
+    match rows.iter().filter(|row| row.outcome.is_err()).count() {
+        0 => String::new(),
+        failed => format!(" ({failed} of {} failed)", rows.len()),
+    }
+}
+
+/// What the heads of a shard would be, as a table with commas.
+fn list(heads: &Heads, shard: Shard) -> Result<Done, Failure> {
+    let mut out = String::from("index,seed");
+    let seeds: Vec<bool> = heads.parameters().map(|(key, _)| key == "seed").collect();
+    for (key, _) in heads.parameters().filter(|(key, _)| *key != "seed") {
+        let _ = write!(out, ",{}", cell(key));
+    }
+    out.push('\n');
+    let rows = heads.rows();
+    let own = (0..heads.heads()).filter(|index| shard.has(index / rows));
+    for (place, index) in own.enumerate() {
+        let Sample { seed, values, .. } = heads.sample(index);
+        let _ = write!(out, "{index},{seed}");
+        for (value, _) in values.iter().zip(&seeds).filter(|(_, is_seed)| !**is_seed) {
+            let _ = match value {
+                Value::Number(x) => write!(out, ",{x}"),
+                Value::Whole(i) => write!(out, ",{i}"),
+                Value::Flag(flag) => write!(out, ",{flag}"),
+                Value::Text(text) => write!(out, ",{}", cell(text)),
+            };
+        }
+        out.push('\n');
+        if place % LISTED == LISTED - 1 {
+            interrupt::check()?;
+            console::print(&out)?;
+            out.clear();
+        }
+    }
+    console::print(&out)?;
+    Ok(Done::Well)
+}
+
+/// A text as a cell of such a table.
+fn cell(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// The scene of one head.
+fn one_scene(arguments: &Batch, heads: &Heads, index: usize) -> Result<Done, Failure> {
+    if index >= heads.heads() {
+        let message = format!("there is no head {index}; the batch has {}", heads.heads());
+        let hint = format!("heads are numbered from 0 to {}", heads.heads() - 1);
+        return Err(Failure::wrong_because(message, &hint));
+    }
+    let text = heads.scene_elsewhere(index).map_err(|error| match error {
+        EditError::Scene(SceneError::Fault(fault)) => SceneError::Fault(fault).into(),
+        error => Failure::wrong(&error, ""),
+    })?;
+    let Some(path) = arguments.output.as_deref().filter(|path| *path != Path::new("-")) else {
+        console::print(&text)?;
+        return Ok(Done::Well);
+    };
+    let mut inputs = heads.inputs();
+    inputs.push(&arguments.spec);
+    outputs::prepare(&[path], &inputs)?;
+    let write = |out: &mut dyn io::Write| out.write_all(text.as_bytes());
+    files::write_atomically(path, write).map_err(|e| Failure::failed(&e))?;
+    Ok(Done::Well)
+}
