@@ -1,5 +1,6 @@
 //! Tests of the real program: one binary, so that it is linked once.
 
+mod batch;
 mod hair;
 mod help;
 mod predict;

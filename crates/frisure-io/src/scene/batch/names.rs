@@ -43,7 +43,10 @@ pub(super) fn nature(path: &str) -> Result<Nature, NoKey> {
             bare::ways(here).into_iter().filter_map(|way| way["properties"].as_object()).collect();
         let found = tables.iter().find_map(|keys| keys.get(name));
         let known = tables.iter().flat_map(|keys| keys.keys()).map(String::as_str);
-        here = found.ok_or_else(|| unknown(name, &so_far, known.collect()))?;
+        here = found.ok_or_else(|| match is_list(here) {
+            true => a_list(&so_far),
+            false => unknown(name, &so_far, known.collect()),
+        })?;
         so_far = if so_far.is_empty() { part.to_owned() } else { format!("{so_far}.{part}") };
         for _ in indices.matches(']') {
             let item = bare::ways(here).into_iter().find_map(|way| way.get("items"));
@@ -55,7 +58,7 @@ pub(super) fn nature(path: &str) -> Result<Nature, NoKey> {
     if ways.len() == 1 && keys().is_some() {
         return Err(no_value(path, here));
     }
-    if ways.iter().any(|way| way["items"].get("properties").is_some()) {
+    if is_list(here) {
         return Err(a_list(path));
     }
     if let Some(quantity) = bare::quantity(schema(), path) {
@@ -88,6 +91,11 @@ fn elsewhere(name: &str, schema: &'static Value, path: &str) -> Option<String> {
         return Some(join(name));
     }
     keys.iter().find_map(|(key, inner)| elsewhere(name, inner, &join(key)))
+}
+
+/// Whether something is a list of tables.
+fn is_list(schema: &'static Value) -> bool {
+    bare::ways(schema).iter().any(|way| way["items"].get("properties").is_some())
 }
 
 fn no_list(path: &str) -> NoKey {

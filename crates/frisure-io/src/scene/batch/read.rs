@@ -216,7 +216,7 @@ impl<'a> Reader<'a> {
         &self,
         fields: &Fields<'b>,
         name: &str,
-        is_whole: fn(&DeTable<'_>) -> bool,
+        is_whole: fn(&str, &DeTable<'_>) -> bool,
     ) -> Result<Vec<Entry<'b>>> {
         let Some(field) = fields.get(name) else { return Ok(Vec::new()) };
         let Some(table) = field.value.get_ref().as_table() else {
@@ -232,14 +232,14 @@ impl<'a> Reader<'a> {
         &self,
         table: &'b DeTable<'b>,
         path: &str,
-        is_whole: fn(&DeTable<'_>) -> bool,
+        is_whole: fn(&str, &DeTable<'_>) -> bool,
         found: &mut Vec<Entry<'b>>,
     ) {
         for (key, value) in table {
             let name = key.get_ref();
             let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
             match value.get_ref() {
-                DeValue::Table(inner) if !is_whole(inner) => {
+                DeValue::Table(inner) if !is_whole(&path, inner) => {
                     self.flatten(inner, &path, is_whole, found);
                 }
                 _ => {
@@ -258,7 +258,7 @@ impl<'a> Reader<'a> {
     }
 
     fn fixed<'b>(&self, fields: &Fields<'b>) -> Result<Vec<Entry<'b>>> {
-        let entries = self.entries(fields, "set", |_| false)?;
+        let entries = self.entries(fields, "set", |_, _| false)?;
         entries.iter().try_for_each(|entry| self.nature(entry).map(drop))?;
         Ok(entries)
     }
@@ -625,12 +625,10 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether a table says how a key varies.
-fn is_way(table: &DeTable<'_>) -> bool {
+/// Whether a table at a path says how a key varies, and does not hold keys itself.
+fn is_way(path: &str, table: &DeTable<'_>) -> bool {
     let says = |name: &str| table.get(name).is_some_and(|value| !value.get_ref().is_table());
-    WAYS.iter().any(|name| says(name))
-        || table.is_empty()
-        || table.iter().all(|(_, value)| !value.get_ref().is_table() && !value.get_ref().is_array())
+    names::nature(path).is_ok() || WAYS.iter().any(|name| says(name))
 }
 
 fn varied(entry: &Entry<'_>, kind: Kind, way: Way) -> Varied {

@@ -129,7 +129,7 @@ impl Sheet {
                     Err(QuantityError::NoUnit) => {
                         let hint = format!(
                             "say it with `unit`, such as `unit = \"{}\"`, or in the heading: `{} ({0})`",
-                            dimension.units().next().unwrap_or(""),
+                            dimension.example.split_once(' ').map_or("", |(_, unit)| unit),
                             column.heading
                         );
                         Err(refuse(format!("{} needs a unit", dimension.name), hint))

@@ -18,8 +18,9 @@ const LARGEST: u64 = 1 << 32;
 
 /// Tries the ends of each range; gives what is in the files that the scenes read.
 pub(super) fn all(batch: &Batch) -> Result<Vec<Vec<u8>>, SceneError> {
-    let (index, mut literals, scene) = possible(batch)?;
-    let mut files = files_of(&scene);
+    let Start { index, drawn, scene } = start(batch);
+    let mut literals: Vec<String> = drawn.iter().map(|written| written.literal.clone()).collect();
+    let mut files = scene.as_ref().map(files_of).unwrap_or_default();
     for (place, parameter) in batch.parameters.iter().enumerate() {
         for end in parameter.way.ends() {
             let kept = std::mem::replace(&mut literals[place], end.literal.clone());
@@ -34,29 +35,40 @@ pub(super) fn all(batch: &Batch) -> Result<Vec<Vec<u8>>, SceneError> {
             literals[place] = kept;
         }
     }
+    if let Err(error) = scene {
+        return Err(impossible(batch, &drawn, &error));
+    }
     let what = "a file that a scene reads";
     let read = |path: &PathBuf| crate::files::read_bytes(path, LARGEST, what);
     // What is not there is told where it is used.
     Ok(files.iter().filter_map(|path| read(path).ok()).collect())
 }
 
-/// One of the first heads that can be, with its literals and its scene.
-fn possible(batch: &Batch) -> Result<(usize, Vec<String>, Scene), SceneError> {
-    let mut first = None;
-    for index in 0..batch.heads().min(TRIED) {
+/// A head to try others from.
+struct Start {
+    index: usize,
+    drawn: Vec<Written>,
+    scene: Result<Scene, EditError>,
+}
+
+/// The first head that can be, of the first few; the very first if none can.
+fn start(batch: &Batch) -> Start {
+    let head = |index: usize| {
         let drawn = batch.drawn(index);
         let literals: Vec<String> = drawn.iter().map(|written| written.literal.clone()).collect();
-        match scene_of(batch, index, &literals) {
-            Ok(scene) => return Ok((index, literals, scene)),
-            Err(error) => first = first.or(Some((error, drawn))),
-        }
-    }
-    let (error, drawn) = first.expect("a batch has a head");
+        Start { index, scene: scene_of(batch, index, &literals), drawn }
+    };
+    let mut heads = (0..batch.heads().min(TRIED)).map(head);
+    heads.find(|start| start.scene.is_ok()).unwrap_or_else(|| head(0))
+}
+
+/// Why no head can be, at the key that says it.
+fn impossible(batch: &Batch, drawn: &[Written], error: &EditError) -> SceneError {
     let keys = batch.fixed.iter().map(|(key, _)| (key.as_str(), None));
-    let varied = batch.parameters.iter().zip(&drawn).map(|(p, w)| (p.key.as_str(), Some(w)));
-    let blamed = keys.chain(varied).find(|(key, _)| own(&error, key));
+    let varied = batch.parameters.iter().zip(drawn).map(|(p, w)| (p.key.as_str(), Some(w)));
+    let blamed = keys.chain(varied).find(|(key, _)| own(error, key));
     let (key, written) = blamed.unwrap_or(("", None));
-    Err(told(batch, key, written, &error))
+    told(batch, key, written, error)
 }
 
 fn scene_of(batch: &Batch, index: usize, literals: &[String]) -> Result<Scene, EditError> {
@@ -89,7 +101,10 @@ fn told(batch: &Batch, key: &str, written: Option<&Written>, error: &EditError) 
                 if here.contains(['{', '[']) || here.is_empty() { &inner.value } else { &here };
             let fault = Fault { allowed: inner.allowed.clone(), ..Fault::default() };
             let fault = Fault { problem: inner.problem.clone(), ..fault };
-            fault.key(inner.key.as_str()).value(value.as_str()).hint(inner.hint.as_str())
+            let fault = fault.key(inner.key.as_str()).value(value.as_str());
+            // What is said of bare numbers is not of what is written here.
+            let bare = inner.problem.is_empty() && written.is_some_and(Written::is_number);
+            if bare { fault } else { fault.hint(inner.hint.as_str()) }
         }
         error => Fault::new(error.to_string()).key(key),
     };

@@ -115,6 +115,10 @@ impl Written {
         Self { value, literal: text.to_owned() }
     }
 
+    pub(super) fn is_number(&self) -> bool {
+        matches!(self.value, Value::Number(_) | Value::Whole(_))
+    }
+
     /// The value as one of a kind that all values of its key have.
     #[expect(clippy::cast_precision_loss, reason = "as for any number with more than 15 digits")]
     pub(super) fn value_as(&self, kind: Kind) -> Value {
