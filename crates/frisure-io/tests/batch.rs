@@ -127,7 +127,8 @@ fn a_grid_is_every_pair() {
 #[test]
 fn rows_of_a_table_stay_together() {
     let folder = tempfile::tempdir().unwrap();
-    let table = "id;length (cm);d;type\n1;10,5;70;straight\n2;20;;wavy\n3;30;90;curly\n";
+    let table =
+        "id;length (cm);d;mean_um;type\n1;10,5;70;70;straight\n2;20;;5;wavy\n3;30;90;90;curly\n";
     std::fs::write(folder.path().join("people.csv"), table).unwrap();
     let text = r#"samples = 40
         [vary]
@@ -149,6 +150,12 @@ fn rows_of_a_table_stay_together() {
         seen.insert(word.clone());
     }
     assert_eq!(seen.into_iter().collect::<Vec<_>>(), ["curly", "straight"]);
+
+    // A heading may say the unit.
+    let said = text.replace("\"d\", unit = \"um\"", "\"mean_um\"");
+    let said = Batch::parse("batch", said, folder.path()).unwrap();
+    let smallest = numbers(&said, 1).into_iter().fold(f64::INFINITY, f64::min);
+    near(smallest, 5e-6, 1e-12);
 
     for (from, to, part) in [
         ("\"d\", unit = \"um\"", "\"d\"", "people.csv:2: `d` is 70: a length needs a unit"),
@@ -228,6 +235,20 @@ fn faults_name_place_value_range_and_hint() {
     assert!(many.unwrap_err().to_string().contains("more than 1000000000 heads"));
     let none = Batch::parse("batch", "[vary]\nhair.length = [1]", Path::new(""));
     assert!(none.unwrap_err().to_string().contains("`samples` is missing"));
+}
+
+#[test]
+fn a_scene_can_go_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("scenes")).unwrap();
+    std::fs::write(folder.path().join("scenes/a.toml"), "[head]\nmesh = 'b.obj'").unwrap();
+    let batch =
+        Batch::parse("batch", "scene = 'scenes/a.toml'\nsamples = 1", folder.path()).unwrap();
+    assert!(batch.sample(0).text.unwrap().contains("mesh = 'b.obj'"));
+    let text = batch.scene_elsewhere(0).unwrap();
+    let scene = Scene::parse("scene", text, Path::new("/elsewhere")).unwrap();
+    let frisure_io::scene::HeadSource::Mesh(file) = scene.head else { panic!() };
+    assert_eq!(file.path, folder.path().join("scenes/b.obj"));
 }
 
 #[test]

@@ -215,8 +215,17 @@ impl Meaning {
     }
 }
 
+/// The unit that a heading says, in brackets or at its end.
+pub(crate) fn unit_of(heading: &str) -> Option<String> {
+    let (text, bracketed) = brackets(heading);
+    let words = words(text);
+    let mut words: Vec<&str> = words.iter().map(String::as_str).collect();
+    strip_aggregates(&mut words);
+    bracketed.or_else(|| strip_unit(&mut words))
+}
+
 /// The heading without what it has in brackets at its end, and that.
-fn brackets(heading: &str) -> (&str, Option<String>) {
+pub(crate) fn brackets(heading: &str) -> (&str, Option<String>) {
     let heading = heading.trim();
     let open = match heading.chars().last() {
         Some(')') => heading.rfind('('),

@@ -5,7 +5,7 @@
 //! of one head differ. What nothing tells is the hair type's, and [`Estimate::notes`] says so.
 
 mod estimate;
-mod heading;
+pub(crate) mod heading;
 mod readings;
 mod sample;
 pub(crate) mod table;

@@ -9,6 +9,7 @@ use frisure_hairstyle::Draws;
 use super::names::Nature;
 use super::way::Written;
 use crate::measurements::MeasurementError;
+use crate::measurements::heading::{brackets, unit_of};
 use crate::measurements::table::{Row, Table};
 use crate::quantity::{Dimension, QuantityError};
 use crate::scene::SceneError;
@@ -50,7 +51,7 @@ impl Sheet {
     /// Takes a column, if the table has it.
     pub(super) fn take(&mut self, column: Column, source: &Source) -> Result<(), SceneError> {
         let headings = &self.table.headings;
-        let bare = |heading: &str| parted(heading).0.to_owned();
+        let bare = |heading: &str| brackets(heading).0.trim().to_owned();
         let place = headings.iter().position(|heading| *heading == column.heading);
         let place = place.or_else(|| headings.iter().position(|h| bare(h) == column.heading));
         let Some(place) = place else {
@@ -117,9 +118,9 @@ impl Sheet {
             (Nature::Whole, _) => Err(refuse("it must be a whole number".into(), String::new())),
             (Nature::Quantity(dimension), number) => {
                 let heading = &self.table.headings[place];
-                let unit = column.unit.as_deref().or(parted(heading).1);
+                let unit = column.unit.clone().or_else(|| unit_of(heading));
                 let read = match number {
-                    Some(x) => in_unit(dimension, x, unit),
+                    Some(x) => in_unit(dimension, x, unit.as_deref()),
                     None => dimension.parse(text),
                 };
                 match read {
@@ -154,14 +155,4 @@ impl Sheet {
 /// A number of a cell in a unit, SI units.
 fn in_unit(dimension: &Dimension, x: f64, unit: Option<&str>) -> Result<f64, QuantityError> {
     dimension.parse(&format!("{x} {}", unit.unwrap_or("")))
-}
-
-/// A heading's name and its unit in brackets: `length (cm)`.
-fn parted(heading: &str) -> (&str, Option<&str>) {
-    let brackets = [('(', ')'), ('[', ']')];
-    let inside = |(open, close): (char, char)| {
-        let (name, unit) = heading.strip_suffix(close)?.rsplit_once(open)?;
-        Some((name.trim(), Some(unit.trim())))
-    };
-    brackets.into_iter().find_map(inside).unwrap_or((heading, None))
 }
