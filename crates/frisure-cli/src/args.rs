@@ -134,13 +134,13 @@ Examples:
   frisure batch people.toml --scene 4711 -o head.toml && frisure predict head.toml -o head.abc
 
 The batch (TOML) names a scene, keys of it, and how they differ from head to head: over a [grid], or
-drawn from ranges, distributions and tables of measured people in [vary]. docs/batch.md tells how, and
-what the columns are.
+drawn from ranges, distributions and tables of measured people in [vary]. docs/batch.md tells how,
+and what the columns are.
 
 Heads are written in parts of some rows, each whole or not there. The same command leaves those that
-are there and computes the others; it may be killed at any time. What a head is follows from the batch
-and its number alone, whatever the shards and threads. A head that cannot be is a row that says why,
-and no error.";
+are there and computes the others; it may be killed at any time. What a head is follows from the
+batch and its number alone, whatever the shards and threads. A head that cannot be is a row that says
+why, and no error.";
 
 /// Arguments of `frisure batch`.
 #[derive(Args, Debug)]
