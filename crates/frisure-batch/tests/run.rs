@@ -17,7 +17,7 @@ const TEXT: &str = r#"
     wisps = { count = 3, hairs = 20, points = 8 }
     [vary]
     hair.length = { normal = ["1 cm", "2 cm"] }
-    wisps.hairs_per_wisp = [5, 6]
+    wisps.clumping = [0.5, 0.6]
     head.mesh = ["none.obj"]
 "#;
 

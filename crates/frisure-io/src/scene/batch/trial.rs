@@ -100,7 +100,9 @@ fn told(batch: &Batch, key: &str, written: Option<&Written>, error: &EditError) 
             let value =
                 if here.contains(['{', '[']) || here.is_empty() { &inner.value } else { &here };
             let fault = Fault { allowed: inner.allowed.clone(), ..Fault::default() };
-            let fault = Fault { problem: inner.problem.clone(), ..fault };
+            // Lines that it names are those of the scene with all its keys set, which nobody sees.
+            let problem = inner.problem.split(" on line ").next().unwrap_or_default();
+            let fault = Fault { problem: problem.to_owned(), ..fault };
             let fault = fault.key(inner.key.as_str()).value(value.as_str());
             // What is said of bare numbers is not of what is written here.
             let bare = inner.problem.is_empty() && written.is_some_and(Written::is_number);
