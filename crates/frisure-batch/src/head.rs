@@ -191,7 +191,7 @@ fn numbers(
         mass: hairstyle.mass(),
         volume: batch.volume().then(|| space(hairstyle, head, monitor)).transpose()?,
         points: points.max(2),
-        lines: lines.points().iter().flat_map(|p| p.to_array()).collect(),
+        lines: lines.points().iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
     })
 }
 
