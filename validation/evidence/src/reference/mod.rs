@@ -1,6 +1,7 @@
 //! The other way to the same truth: Kirchhoff's equations as a boundary-value problem.
 //!
-//! Nothing here uses frisure's solver. A hanging rod obeys, in its material frame,
+//! Nothing here uses frisure's solver. Of ours it has the numbers of a rod as frisure converts them: a helix of a radius and
+//! a pitch to strains, a diameter and an axis ratio to semi-axes, directors to a frame. A hanging rod obeys, in its material frame,
 //!
 //! ```text
 //! ζ' = ζ × u        M' = M × u + w(L − s) e₃ × ζ        u = u⁰ + K⁻¹ M
@@ -25,6 +26,8 @@ use std::f64::consts::PI;
 use frisure::rod::{NaturalStrain, RodSpec, TorsionConstant};
 use glam::{DMat3, DVec3};
 use thiserror::Error;
+
+use crate::extremes::largest;
 
 pub use linear::{anjyo, greenhill, prandtl_michell};
 use shooting::Nodes;
@@ -99,6 +102,16 @@ impl Hanging {
         shooting::curl(self).map(|nodes| Solution { rod: *self, nodes })
     }
 
+    /// The solution next to a line that somebody else found, given as a function of arc length over length to the
+    /// frame there: Newton's method on the equations, which keeps nothing of where it started from.
+    ///
+    /// # Errors
+    /// [`NoSolution`], where Newton's method finds none from there.
+    pub fn solve_near(&self, frame: impl Fn(f64) -> DMat3) -> Result<Solution, NoSolution> {
+        let start = shooting::of_frames(self, frame);
+        shooting::near(self, start).map(|nodes| Solution { rod: *self, nodes })
+    }
+
     /// The same rod with another weight.
     #[must_use]
     pub fn with_weight(self, weight: f64) -> Self {
@@ -116,6 +129,9 @@ impl Hanging {
     }
 }
 
+/// Least number of intervals between the points at which lines are compared.
+pub const POINTS: usize = 96;
+
 /// A solution of the boundary-value problem.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -124,11 +140,12 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Position over the length, relative to the root, and frame at evenly spaced arc lengths: one per piece
-    /// and the root.
+    /// Position over the length, relative to the root, and frame at evenly spaced arc lengths, the root's first:
+    /// at more than [`POINTS`].
     #[must_use]
     pub fn line(&self) -> Vec<(DVec3, DMat3)> {
-        shooting::line(&self.rod, &self.nodes)
+        let pieces = self.nodes.len() - 1;
+        shooting::line(&self.rod, &self.nodes, POINTS.div_ceil(pieces))
     }
 
     /// Position of the tip relative to the root (m).
@@ -144,7 +161,7 @@ impl Solution {
         let points = self.line();
         let last = (points.len() - 1) as f64;
         let gap = |(i, p): (usize, &(DVec3, DMat3))| p.0.distance(line(i as f64 / last));
-        points.iter().enumerate().map(gap).fold(0.0, f64::max)
+        largest(points.iter().enumerate().map(gap))
     }
 
     /// How many independent small changes lower the energy: 0 for a minimum.

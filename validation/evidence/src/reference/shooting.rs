@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use glam::{DMat2, DMat3, DVec2, DVec3};
+use glam::{DMat2, DMat3, DQuat, DVec2, DVec3};
 
 use super::banded::Banded;
 use super::gauss::integrate;
@@ -137,19 +137,22 @@ fn newton(rod: &Hanging, mut nodes: Nodes) -> Option<Nodes> {
 pub(super) fn follow(rod: &Hanging, stable: bool) -> Result<Nodes, NoSolution> {
     let nodes = natural(rod, rod.division().0);
     let first = (0.5 / rod.weight).min(1.0);
-    advance(nodes, first, stable, |part| rod.with_weight(rod.weight * part))
+    // A branch in a plane may end where the rod has long left it: its end need not be known to a digit.
+    let least = if stable { 1.000_1 } else { 1.005 };
+    advance(nodes, (first, least), stable, |part| rod.with_weight(rod.weight * part))
 }
 
 /// Gives a straight rod that hangs straight down its natural strain, in steps.
 pub(super) fn curl(rod: &Hanging) -> Result<Nodes, NoSolution> {
     let straight = vec![joined(rod.root_zeta(), DVec3::ZERO); rod.division().0 + 1];
-    advance(straight, 0.1, false, |part| Hanging { natural: rod.natural * part, ..*rod })
+    advance(straight, (0.1, 1.000_1), false, |part| Hanging { natural: rod.natural * part, ..*rod })
 }
 
-/// Goes from part 0 to part 1 of something.
+/// Goes from part 0 to part 1 of something: first to the part `first`, then in steps of a factor, which is never
+/// less than `least`.
 fn advance(
     mut nodes: Nodes,
-    first: f64,
+    (first, least): (f64, f64),
     stable: bool,
     at: impl Fn(f64) -> Hanging,
 ) -> Result<Nodes, NoSolution> {
@@ -165,7 +168,7 @@ fn advance(
                 (nodes, known) = (found, next);
                 factor = factor.powf(1.4).min(2.5);
             }
-            _ if known == 0.0 || factor < 1.000_1 => return Err(NoSolution { fraction: known }),
+            _ if known == 0.0 || factor < least => return Err(NoSolution { fraction: known }),
             _ => factor = factor.powf(0.4),
         }
     }
@@ -178,11 +181,33 @@ fn jumped(from: &Nodes, to: &Nodes) -> bool {
     from.iter().zip(to).map(cosine).fold(1.0, f64::min) < 0.3
 }
 
-/// Positions and frames at the ends of pieces.
-pub(super) fn line(rod: &Hanging, nodes: &Nodes) -> Vec<(DVec3, DMat3)> {
+/// ζ and M of a line, given as a function of arc length to a frame, as nearly as its frames tell them: a start for
+/// Newton's method.
+pub(super) fn of_frames(rod: &Hanging, frame: impl Fn(f64) -> DMat3) -> Nodes {
+    let pieces = rod.division().0;
+    // A small part of a piece to either side, but where there is no hair.
+    let around = 0.1 / pieces as f64;
+    let node = |i: usize| {
+        let s = i as f64 / pieces as f64;
+        let (from, to) = ((s - around).max(0.0), (s + around).min(1.0));
+        let turn = DQuat::from_mat3(&(frame(from).transpose() * frame(to)));
+        let strain = turn.to_scaled_axis() / (to - from);
+        let moment = (strain - rod.natural) * rod.stiffness;
+        joined(frame(s).transpose() * DVec3::Z, moment)
+    };
+    (0..=pieces).map(node).collect()
+}
+
+/// Newton's method from those.
+pub(super) fn near(rod: &Hanging, start: Nodes) -> Result<Nodes, NoSolution> {
+    newton(rod, start).ok_or(NoSolution { fraction: 0.0 })
+}
+
+/// Positions and frames, so many in each piece, the last at its end.
+pub(super) fn line(rod: &Hanging, nodes: &Nodes, each: usize) -> Vec<(DVec3, DMat3)> {
     let pieces = nodes.len() - 1;
-    let steps = rod.division().1;
-    let h = 1.0 / pieces as f64;
+    let steps = rod.division().1.div_ceil(each);
+    let h = 1.0 / (pieces * each) as f64;
     let mut at = (DVec3::ZERO, rod.root);
     let mut points = vec![at];
     let f = |s: f64, y: &[f64; 18]| {
@@ -202,10 +227,12 @@ pub(super) fn line(rod: &Hanging, nodes: &Nodes) -> Vec<(DVec3, DMat3)> {
         y[..6].copy_from_slice(node);
         y[6..15].copy_from_slice(&at.1.to_cols_array());
         y[15..].copy_from_slice(&at.0.to_array());
-        let y = integrate(&f, i as f64 * h, (i + 1) as f64 * h, steps, y);
-        let frame: [f64; 9] = std::array::from_fn(|k| y[6 + k]);
-        at = (DVec3::new(y[15], y[16], y[17]), DMat3::from_cols_array(&frame));
-        points.push(at);
+        for k in i * each..(i + 1) * each {
+            y = integrate(&f, k as f64 * h, (k + 1) as f64 * h, steps, y);
+            let frame: [f64; 9] = std::array::from_fn(|k| y[6 + k]);
+            at = (DVec3::new(y[15], y[16], y[17]), DMat3::from_cols_array(&frame));
+            points.push(at);
+        }
     }
     points
 }
