@@ -19,6 +19,7 @@
 mod banded;
 mod gauss;
 mod linear;
+mod morse;
 mod shooting;
 
 use std::f64::consts::PI;
@@ -125,7 +126,9 @@ impl Hanging {
         let heavy = self.weight / self.stiffness.min_element().min(1.0);
         let pieces = (0.5 * heavy.sqrt()).max(0.5 * turn).ceil().clamp(16.0, 400.0);
         let steps = (6.0 * (turn + heavy.sqrt() + 6.0) / pieces).ceil().max(6.0);
-        (pieces as usize, steps as usize)
+        // Points of the line within a piece are ends of steps, so that it is the same solution.
+        let (pieces, each) = (pieces as usize, POINTS.div_ceil(pieces as usize));
+        (pieces, (steps as usize).next_multiple_of(each))
     }
 }
 
@@ -167,7 +170,7 @@ impl Solution {
     /// How many independent small changes lower the energy: 0 for a minimum.
     #[must_use]
     pub fn index(&self) -> usize {
-        shooting::index(&self.rod, &self.nodes)
+        morse::index(&self.rod, &self.nodes)
     }
 
     /// Whether the solution is a minimum of the energy.

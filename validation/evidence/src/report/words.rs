@@ -101,7 +101,7 @@ mod tests {
         ] {
             assert_eq!(number(x), text);
         }
-        assert_eq!([small(0.0), small(1.25e-9)], ["0", "1.2e-9"]);
+        assert_eq!([small(0.0), small(1.26e-9)], ["0", "1.3e-9"]);
         assert_eq!([rounded(-1e-9, 4), rounded(-1e-3, 3)], ["0.0000", "-0.001"]);
     }
 }
