@@ -643,7 +643,8 @@ Examples:
   frisure validate --full
 
 Writes index.html, which opens offline with everything inside, and report.md with its pictures
-beside it. What each experiment asks, and what came out, is told in docs/validation.md.";
+beside it. An earlier report in the folder is replaced. What each experiment asks, and what came
+out, is told in docs/validation.md.";
 
 /// Arguments of `frisure validate`.
 #[derive(Args, Debug)]

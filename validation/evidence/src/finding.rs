@@ -1,5 +1,7 @@
 //! What an experiment found, as plain data.
 
+use std::error::Error;
+
 use crate::plot::Plot;
 
 /// What an experiment found.
@@ -11,6 +13,8 @@ pub struct Finding {
     pub criteria: Vec<Criterion>,
     /// How long things took; decides nothing.
     pub timings: Vec<Timing>,
+    /// Why the experiment could not be run, if so.
+    pub failure: Option<String>,
 }
 
 /// A part of a finding.
@@ -110,6 +114,12 @@ impl Criterion {
 }
 
 impl Finding {
+    /// Of an experiment that could not be run.
+    #[must_use]
+    pub fn failed(why: &dyn Error) -> Self {
+        Self { failure: Some(why.to_string()), ..Self::default() }
+    }
+
     /// Adds a paragraph.
     pub fn text(&mut self, text: impl Into<String>) {
         self.items.push(Item::Text(text.into()));
@@ -135,10 +145,25 @@ impl Finding {
         self.criteria.push(Criterion { what: what.into(), measured, limit });
     }
 
-    /// Whether every criterion holds.
+    /// Whether the experiment was run, and every criterion holds.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.criteria.iter().all(Criterion::holds)
+        self.failure.is_none() && self.criteria.iter().all(Criterion::holds)
+    }
+
+    /// The same in words.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        if let Some(why) = &self.failure {
+            return format!("COULD NOT BE RUN: {why}");
+        }
+        let count = self.criteria.len();
+        let failed = self.criteria.iter().filter(|c| !c.holds()).count();
+        let criteria = if count == 1 { "criterion" } else { "criteria" };
+        match failed {
+            0 => format!("{count} of {count} {criteria} hold"),
+            _ => format!("{failed} of {count} {criteria} FAIL"),
+        }
     }
 }
 

@@ -3,13 +3,15 @@
 //!
 //! An [`Experiment`] has a question, a method and a program. The program gives a [`Finding`]: tables,
 //! plots, pictures, and criteria, each with what was measured, what is allowed, and the verdict that
-//! follows. [`report`] makes a page of findings. What is compared with is never computed by the code that
-//! is judged: it is a closed form, a published number, or what [`mod@reference`] solves, by another method
-//! from other equations.
+//! follows. [`report`] makes a page of findings. What is compared with is a closed form, a published number,
+//! or what [`mod@reference`] solves, by another method from other equations. Where there is none of these, the
+//! experiment says so: `invariance` holds frisure against itself, `robustness` also tells frisure's own
+//! certificates, `heads` has the paper's sentences, and `speed` has a clock.
 //!
 //! Everything but times is the same at every run.
 
 mod experiments;
+mod extremes;
 mod finding;
 pub mod plot;
 mod random;

@@ -4,7 +4,7 @@ use frisure::rod::{
     ElementKind, Equilibrium, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod,
     RodSpec, Root, Section, TorsionConstant,
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// A rod by the numbers without units that its shape depends on. It is 10 cm of hair; gravity is whatever
 /// gives it its heaviness.
@@ -24,6 +24,12 @@ pub(crate) struct Bar {
     pub(crate) shear: f64,
 }
 
+/// G/E of an incompressible isotropic material: GJ/EI is 2/3 of a round hair.
+pub(crate) const INCOMPRESSIBLE: f64 = 1.0 / 3.0;
+
+/// G/E of the hair types, 0.9 over 3.9 GPa: GJ/EI is 0.462 of a round hair.
+pub(crate) const HAIR_SHEAR: f64 = 0.9 / 3.9;
+
 /// Length of a [`Bar`] (m).
 pub(crate) const LENGTH: f64 = 0.1;
 
@@ -35,7 +41,7 @@ impl Bar {
         natural: DVec3::ZERO,
         tangent: DVec3::X,
         d1: DVec3::Y,
-        shear: 1.0 / 3.0,
+        shear: INCOMPRESSIBLE,
     };
 
     pub(crate) fn spec(&self) -> Result<RodSpec, InvalidQuantity> {
@@ -74,6 +80,12 @@ pub(crate) fn elements(count: usize, element: ElementKind) -> Options {
         eigenvalue: false,
         ..Options::default()
     }
+}
+
+/// Material frame at a part of the arc length.
+pub(crate) fn frame(found: &Equilibrium) -> impl Fn(f64) -> DMat3 + '_ {
+    let chain = found.chain();
+    move |x| found.at(&chain, x).1
 }
 
 /// Position over length at a part of the arc length, relative to the root.

@@ -1,8 +1,12 @@
 //! `frisure validate`: experiments, and the report of what they found.
 
 use std::fmt::Write;
+use std::fs;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use frisure_evidence::report::Book;
+use frisure_evidence::report::{Book, in_the_way};
 use frisure_evidence::{EXPERIMENTS, Effort, Experiment, Finding, Monitor, Stopped};
 
 use crate::args::Validate;
@@ -17,32 +21,87 @@ pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<Done, Failure> {
         return Ok(Done::Well);
     }
     let Validate { experiments: names, full, output, .. } = arguments;
-    let files = ["index.html", "report.md"].map(|name| output.join(name));
-    outputs::prepare(&[&files[0], &files[1]], &[])?;
     let effort = if full { Effort::Full } else { Effort::Quick };
     let chosen: Vec<&'static Experiment> = EXPERIMENTS
         .iter()
         .copied()
         .filter(|e| names.is_empty() || names.iter().any(|name| name == e.name))
         .collect();
-    let progress = Progress::new(quiet);
-    let watch = Watch(progress.clone());
-    let found = interrupt::computing(move || all(&chosen, effort, &watch));
-    progress.finish();
-    let book = Book { effort, chapters: found? };
-    let written = book.write(&output).map_err(|e| Failure::failed(&e))?;
+    let made = missing(&output);
+    let book = prepare(&output, &chosen).and_then(|()| compute(chosen, effort, quiet));
+    if book.is_err() {
+        // Only what is empty goes.
+        made.iter().for_each(|folder| drop(fs::remove_dir(folder)));
+    }
+    let book = book?;
+    let written = book.write(&output);
     if !quiet {
-        console::print(&summary(&book, &written[0].display().to_string()))?;
+        // Minutes of work are not lost with the disk: the verdicts are told in any case.
+        console::print(&summary(&book))?;
+    }
+    let page = written.map_err(|e| Failure::failed(&e))?;
+    if !quiet {
+        console::print(&format!("wrote {}\n", page.display()))?;
     }
     Ok(if book.holds() { Done::Well } else { Done::NotHeld })
 }
 
-/// Shows progress, and stops at Ctrl-C.
-struct Watch(Progress);
+/// The folders on the way to a folder that are not there, the deepest first.
+fn missing(folder: &Path) -> Vec<PathBuf> {
+    let named = folder.ancestors().filter(|f| !f.as_os_str().is_empty());
+    named.take_while(|f| !f.exists()).map(Path::to_path_buf).collect()
+}
 
-impl Monitor for Watch {
+/// Checks that the report can be written: the two files, and what already has the name of a picture.
+fn prepare(folder: &Path, chosen: &[&Experiment]) -> Result<(), Failure> {
+    if folder.exists() && !folder.is_dir() {
+        let message = format!("`{}` is not a folder", folder.display());
+        return Err(Failure::wrong_because(message, "name a folder"));
+    }
+    let mut files = vec![folder.join("index.html"), folder.join("report.md")];
+    files.extend(in_the_way(folder, chosen));
+    let files: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
+    outputs::prepare(&files, &[])
+}
+
+fn compute(
+    chosen: Vec<&'static Experiment>,
+    effort: Effort,
+    quiet: bool,
+) -> Result<Book<'static>, Failure> {
+    let progress = Progress::new(quiet);
+    let teller = Teller {
+        progress: progress.clone(),
+        lines: !quiet && !std::io::stderr().is_terminal(),
+        count: chosen.len(),
+    };
+    let found = interrupt::computing(move || teller.all(&chosen, effort));
+    progress.finish();
+    Ok(Book { effort, chapters: found? })
+}
+
+/// Tells how far the experiments are.
+struct Teller {
+    progress: Progress,
+    /// A line for each that is finished, where nobody sees a bar.
+    lines: bool,
+    count: usize,
+}
+
+/// Shows the progress of an experiment, and stops at Ctrl-C.
+struct Watch<'a> {
+    progress: &'a Progress,
+    name: &'static str,
+    /// `2 of 11 buckling`.
+    shown: String,
+}
+
+impl Monitor for Watch<'_> {
     fn progress(&self, stage: &'static str, fraction: f64) {
-        self.0.show(stage, fraction);
+        // What an experiment calls has stages of its own, each from nothing to all.
+        if stage == self.name {
+            self.progress.show(&self.shown, fraction);
+        }
     }
 
     fn cancelled(&self) -> bool {
@@ -50,23 +109,37 @@ impl Monitor for Watch {
     }
 }
 
-type Chapters = Vec<(&'static Experiment, Finding)>;
+type Chapter = (&'static Experiment, Finding);
 
-fn all(
-    chosen: &[&'static Experiment],
-    effort: Effort,
-    monitor: &dyn Monitor,
-) -> Result<Chapters, Failure> {
-    let one = |&experiment: &&'static Experiment| {
+impl Teller {
+    fn all(&self, chosen: &[&'static Experiment], effort: Effort) -> Result<Vec<Chapter>, Failure> {
+        chosen.iter().enumerate().map(|(i, &e)| Ok((e, self.one(i + 1, e, effort)?))).collect()
+    }
+
+    /// What an experiment found, or that it could not be run.
+    fn one(
+        &self,
+        number: usize,
+        experiment: &'static Experiment,
+        effort: Effort,
+    ) -> Result<Finding, Failure> {
         interrupt::check()?;
-        monitor.progress(experiment.name, 0.0);
-        let finding = (experiment.run)(effort, monitor).map_err(|error| match error {
-            Stopped::Cancelled(_) => Failure::Interrupted,
-            error => Failure::failed(&error),
-        })?;
-        Ok((experiment, finding))
-    };
-    chosen.iter().map(one).collect()
+        let name = experiment.name;
+        let shown = format!("{number} of {} {name}", self.count);
+        let watch = Watch { progress: &self.progress, name, shown };
+        watch.progress(name, 0.0);
+        let start = Instant::now();
+        let finding = match (experiment.run)(effort, &watch) {
+            Err(Stopped::Cancelled(_)) => return Err(Failure::Interrupted),
+            Err(error) => Finding::failed(&error),
+            Ok(finding) => finding,
+        };
+        if self.lines {
+            let seconds = start.elapsed().as_secs_f64();
+            console::tell(&format!("{}: {} ({seconds:.1} s)", watch.shown, finding.verdict()));
+        }
+        Ok(finding)
+    }
 }
 
 fn list() -> String {
@@ -79,20 +152,13 @@ fn list() -> String {
 }
 
 /// A line for each experiment, and one for each verdict that fails.
-fn summary(book: &Book<'_>, page: &str) -> String {
+fn summary(book: &Book<'_>) -> String {
     let mut out = String::new();
     for (experiment, finding) in &book.chapters {
-        let held = finding.criteria.iter().filter(|c| c.holds()).count();
-        let _ = writeln!(
-            out,
-            "{:<14} {held} of {} criteria hold",
-            experiment.name,
-            finding.criteria.len()
-        );
+        let _ = writeln!(out, "{:<14} {}", experiment.name, finding.verdict());
         for failed in finding.criteria.iter().filter(|c| !c.holds()) {
             let _ = writeln!(out, "  FAILS: {}: {:.4e}", failed.what, failed.measured);
         }
     }
-    let _ = writeln!(out, "wrote {page}");
     out
 }

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::sphere::Sphere;
+use crate::extremes::{larger, largest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::{Hanging, anjyo, greenhill};
 use crate::rods::{line, to_accuracy};
@@ -18,7 +19,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     title: "Figure 6: hair that grows, and the linear beam of Anjyo et al.",
     question: "Does hair that grows stand straight at first, bend under its own weight beyond a threshold length, \
         and then fall, where a linear beam stays out?",
-    method: "Straight hair of 80 µm (E = 3.9 GPa, 1.3 g/cm³) grows from 1 to 25 cm, from roots at 0 to 89.9° over \
+    method: "Straight hair of 80 µm (E = 3.9 GPa, ν = 0.3, so that G/E = 0.385 and GJ/EI = 0.77; 1.3 g/cm³) grows from 1 to 25 cm, from roots at 0 to 89.9° over \
         the horizontal. The threshold of an upright hair is Greenhill's length (7.8373 EI/ρSg)^⅓; shapes are \
         compared with the boundary-value problem. The linear beam after Anjyo, Usami and Kurihara (1992), as the \
         paper describes it: a chain of rigid segments, each turned, along the direction across the root, by what the \
@@ -164,17 +165,17 @@ fn tips(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         table.row([format!("{rise}°"), format!("{rod:.3}"), format!("{beam:.3}")]);
     }
     finding.table(table);
-    let highest = ends.iter().map(|e| e.0).fold(f64::NEG_INFINITY, f64::max);
+    let highest = largest(ends.iter().map(|e| e.0));
     finding.judge(
         "height of the tip of the highest rod over its length, 25 cm of hair from any root",
         highest,
         Limit::AtMost(-0.6),
     );
-    finding.judge(
-        "height of the linear beam's tip over its length, 25 cm of hair from the steepest root",
-        ends[3].1,
-        Limit::AtLeast(0.5),
-    );
+    finding.text(format!(
+        "The linear beam's tip is {:.3} of its length above the steepest root, 25 cm of hair: what the paper says of Anjyo's \
+         model. It is our reconstruction of that model, from memory, that says so, and nothing is judged by it.",
+        ends[3].1
+    ));
     Ok(())
 }
 
@@ -203,7 +204,7 @@ fn exact(finding: &mut Finding) -> Result<(), Stopped> {
         for length in [0.03, 0.06, 0.12, 0.25] {
             let spec = spec(length, rise.to_radians())?;
             let reference = Hanging::new(&spec).solve()?;
-            worst = worst.max(reference.distance(line(&rest(&spec)?)));
+            worst = larger(worst, reference.distance(line(&rest(&spec)?)));
         }
     }
     finding.judge(

@@ -6,8 +6,10 @@ use frisure::rod::{
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use crate::extremes::{larger, largest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::random::Random;
+use crate::report::words::small;
 use crate::rods::{line, to_accuracy};
 use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
 
@@ -62,14 +64,14 @@ fn told(gaps: &[[f64; 5]]) -> Finding {
         let same: Vec<f64> = these.iter().copied().filter(|g| *g <= OTHER).collect();
         let jumped = these.len() - same.len();
         let at = |share: f64| these[((these.len() - 1) as f64 * share) as usize];
-        let largest = same.last().copied().unwrap_or(f64::NAN);
-        worst = worst.max(largest);
+        let most = same.last().copied().unwrap_or(f64::NAN);
+        worst = larger(worst, most);
         others += jumped;
         table.row([
             change.to_owned(),
-            format!("{:.1e}", at(0.5)),
-            format!("{:.1e}", at(0.99)),
-            format!("{largest:.1e}"),
+            small(at(0.5)),
+            small(at(0.99)),
+            small(most),
             jumped.to_string(),
         ]);
         let count = these.len() as f64;
@@ -109,7 +111,7 @@ fn gaps_of(item: usize) -> Result<[f64; 5], Stopped> {
         let two = rest(&spec)?;
         let (a, b) = (line(&one), line(&two));
         let gap = |k: i32| a(f64::from(k) / 40.0).distance(back * b(f64::from(k) / 40.0));
-        Ok((0..=40).map(gap).fold(0.0, f64::max))
+        Ok(largest((0..=40).map(gap)))
     };
     let moved = Root::new(random.cube() * 3.0, x(&spec), y(&spec), z(&spec))?;
     Ok([

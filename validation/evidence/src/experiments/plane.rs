@@ -4,6 +4,7 @@ use frisure::rod::{ElementKind, equilibrium};
 use glam::DVec3;
 
 use crate::Stopped;
+use crate::extremes::largest;
 use crate::reference::Hanging;
 use crate::rods::{Bar, LENGTH, elements};
 
@@ -21,8 +22,11 @@ pub(super) fn hook_leaves(bar: &Bar) -> Result<bool, Stopped> {
 /// Whether frisure finds it out of the plane with that normal.
 pub(super) fn frisure_leaves(bar: &Bar, normal: DVec3, count: usize) -> Result<bool, Stopped> {
     let found = equilibrium(&bar.rod()?, &[], &elements(count, ElementKind::Helix));
-    let away = found.shape.positions.iter().map(|p| p.dot(normal).abs()).fold(0.0, f64::max);
-    Ok(away > 1e-4 * LENGTH)
+    let away = largest(found.shape.positions.iter().map(|p| p.dot(normal).abs()));
+    match away.is_nan() {
+        true => Err(Stopped::Other(format!("no shape of {bar:?}"))),
+        false => Ok(away > 1e-4 * LENGTH),
+    }
 }
 
 /// Where a question's answer turns from no, at `low`, to yes, at `high`.

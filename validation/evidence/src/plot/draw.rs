@@ -3,24 +3,23 @@
 use std::fmt::{Display, Formatter, Result};
 
 use super::axis::Axis;
+use super::legend::Legend;
 use super::{Mark, Plot, Series};
 
 /// Colours that are told apart by those who see few (Okabe & Ito 2008).
-const COLOURS: [&str; 7] =
+pub(super) const COLOURS: [&str; 7] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#555555"];
 
 /// Space for what is written at the left, right, top and bottom (pixels).
-const LEFT: f64 = 74.0;
-const RIGHT: f64 = 16.0;
-const TOP: f64 = 34.0;
-const BOTTOM: f64 = 52.0;
+pub(super) const LEFT: f64 = 74.0;
+pub(super) const RIGHT: f64 = 16.0;
+pub(super) const TOP: f64 = 34.0;
+pub(super) const BOTTOM: f64 = 52.0;
 
-/// Height of a line of the legend (pixels).
-const LINE: f64 = 17.0;
-
-struct Frame {
+/// Where numbers are on the paper.
+pub(super) struct Frame {
     axes: [Axis; 2],
-    size: [f64; 2],
+    pub(super) size: [f64; 2],
 }
 
 impl Frame {
@@ -55,7 +54,8 @@ impl Frame {
         self.size[1] - BOTTOM - up * (self.size[1] - TOP - BOTTOM)
     }
 
-    fn at(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
+    /// Pixels of a point; none where a number cannot be drawn.
+    pub(super) fn at(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         Some((self.x(self.axes[0].scale.place(x)?), self.y(self.axes[1].scale.place(y)?)))
     }
 }
@@ -65,6 +65,8 @@ impl Display for Plot {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let [width, height] = self.size;
         let frame = Frame::of(self);
+        let legend = Legend::of(self, &frame);
+        let height = height + legend.below();
         write!(
             f,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
@@ -77,7 +79,7 @@ impl Display for Plot {
         for (i, series) in self.series.iter().enumerate() {
             draw(f, series, COLOURS[series.colour.unwrap_or(i) % COLOURS.len()], &frame)?;
         }
-        legend(f, self, &frame)?;
+        legend.draw(f)?;
         write!(f, "</svg>")
     }
 }
@@ -158,66 +160,6 @@ fn path(points: &[(f64, f64)], frame: &Frame) -> String {
     path
 }
 
-/// The legend, in the corner with the fewest points.
-fn legend(f: &mut Formatter<'_>, plot: &Plot, frame: &Frame) -> Result {
-    let named: Vec<(usize, &Series)> =
-        plot.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()).collect();
-    let Some(longest) = named.iter().map(|(_, s)| s.name.chars().count()).max() else {
-        return Ok(());
-    };
-    let (w, h) = (36.0 + 6.6 * longest as f64, LINE * named.len() as f64 + 8.0);
-    let [width, height] = frame.size;
-    let (right, bottom) = (width - RIGHT - w - 8.0, height - BOTTOM - h - 8.0);
-    let corners =
-        [(right, TOP + 8.0), (LEFT + 8.0, TOP + 8.0), (right, bottom), (LEFT + 8.0, bottom)];
-    let covered = |&(x, y): &(f64, f64)| {
-        let inside = |p: &(f64, f64)| p.0 > x && p.0 < x + w && p.1 > y && p.1 < y + h;
-        let points = plot.series.iter().flat_map(|s| dense(s, frame));
-        points.filter(inside).count()
-    };
-    let (x, y) = corners.into_iter().min_by_key(covered).unwrap_or(corners[0]);
-    write!(
-        f,
-        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"#fff\" \
-         fill-opacity=\"0.85\" stroke=\"#ccc\"/>"
-    )?;
-    for (row, (i, series)) in named.into_iter().enumerate() {
-        let colour = COLOURS[series.colour.unwrap_or(i) % COLOURS.len()];
-        let middle = y + 4.0 + LINE * (row as f64 + 0.5);
-        let x = x + 7.0;
-        let text = middle + 4.0;
-        if series.mark != Mark::Points {
-            let dash = if series.mark == Mark::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
-            write!(
-                f,
-                "<path d=\"M{x:.1} {middle:.1}h18\" stroke=\"{colour}\" stroke-width=\"1.6\"{dash}/>"
-            )?;
-        }
-        if matches!(series.mark, Mark::Points | Mark::Both) {
-            let c = x + 9.0;
-            write!(f, "<circle cx=\"{c:.1}\" cy=\"{middle:.1}\" r=\"3\" fill=\"{colour}\"/>")?;
-        }
-        let x = x + 24.0;
-        write!(f, "<text x=\"{x:.1}\" y=\"{text:.1}\">{}</text>", escaped(&series.name))?;
-    }
-    Ok(())
-}
-
-/// Points of a series as drawn, lines as points along them.
-fn dense(series: &Series, frame: &Frame) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> = series.points.iter().filter_map(|p| frame.at(*p)).collect();
-    if series.mark == Mark::Points {
-        return points;
-    }
-    let between = |pair: &[(f64, f64)]| {
-        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
-        (0..8)
-            .map(move |k| f64::from(k) / 8.0)
-            .map(move |t| (x0 + t * (x1 - x0), y0 + t * (y1 - y0)))
-    };
-    points.windows(2).flat_map(between).collect()
-}
-
 /// Text inside of XML.
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
@@ -238,6 +180,16 @@ mod tests {
         assert!(text.contains("a &lt; b") && text.ends_with("</svg>"));
         assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
         assert_eq!(text.matches("<circle").count(), 8 + 1);
+    }
+
+    #[test]
+    fn a_legend_covers_no_point() {
+        let mut plot = Plot::new("", "x", "y", [Scale::Linear; 2]);
+        plot.add("a few", Mark::Points, [(0.0, 0.0), (1.0, 1.0)]);
+        assert!(plot.to_string().contains("viewBox=\"0 0 640 400\""));
+        plot.add("all", Mark::Points, (0..900).map(|i| (f64::from(i % 30), f64::from(i / 30))));
+        // It stands below the axes then.
+        assert!(plot.to_string().contains("viewBox=\"0 0 640 425\""), "{plot}");
     }
 
     #[test]

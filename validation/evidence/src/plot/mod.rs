@@ -6,6 +6,7 @@
 
 mod axis;
 mod draw;
+mod legend;
 
 pub(crate) use draw::escaped;
 

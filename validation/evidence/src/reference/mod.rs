@@ -1,6 +1,7 @@
 //! The other way to the same truth: Kirchhoff's equations as a boundary-value problem.
 //!
-//! Nothing here uses frisure's solver. A hanging rod obeys, in its material frame,
+//! Nothing here uses frisure's solver. Of ours it has the numbers of a rod as frisure converts them: a helix of a radius and
+//! a pitch to strains, a diameter and an axis ratio to semi-axes, directors to a frame. A hanging rod obeys, in its material frame,
 //!
 //! ```text
 //! ζ' = ζ × u        M' = M × u + w(L − s) e₃ × ζ        u = u⁰ + K⁻¹ M
@@ -18,6 +19,7 @@
 mod banded;
 mod gauss;
 mod linear;
+mod morse;
 mod shooting;
 
 use std::f64::consts::PI;
@@ -25,6 +27,8 @@ use std::f64::consts::PI;
 use frisure::rod::{NaturalStrain, RodSpec, TorsionConstant};
 use glam::{DMat3, DVec3};
 use thiserror::Error;
+
+use crate::extremes::largest;
 
 pub use linear::{anjyo, greenhill, prandtl_michell};
 use shooting::Nodes;
@@ -99,6 +103,16 @@ impl Hanging {
         shooting::curl(self).map(|nodes| Solution { rod: *self, nodes })
     }
 
+    /// The solution next to a line that somebody else found, given as a function of arc length over length to the
+    /// frame there: Newton's method on the equations, which keeps nothing of where it started from.
+    ///
+    /// # Errors
+    /// [`NoSolution`], where Newton's method finds none from there.
+    pub fn solve_near(&self, frame: impl Fn(f64) -> DMat3) -> Result<Solution, NoSolution> {
+        let start = shooting::of_frames(self, frame);
+        shooting::near(self, start).map(|nodes| Solution { rod: *self, nodes })
+    }
+
     /// The same rod with another weight.
     #[must_use]
     pub fn with_weight(self, weight: f64) -> Self {
@@ -112,9 +126,14 @@ impl Hanging {
         let heavy = self.weight / self.stiffness.min_element().min(1.0);
         let pieces = (0.5 * heavy.sqrt()).max(0.5 * turn).ceil().clamp(16.0, 400.0);
         let steps = (6.0 * (turn + heavy.sqrt() + 6.0) / pieces).ceil().max(6.0);
-        (pieces as usize, steps as usize)
+        // Points of the line within a piece are ends of steps, so that it is the same solution.
+        let (pieces, each) = (pieces as usize, POINTS.div_ceil(pieces as usize));
+        (pieces, (steps as usize).next_multiple_of(each))
     }
 }
+
+/// Least number of intervals between the points at which lines are compared.
+pub const POINTS: usize = 96;
 
 /// A solution of the boundary-value problem.
 #[derive(Clone, Debug)]
@@ -124,11 +143,12 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Position over the length, relative to the root, and frame at evenly spaced arc lengths: one per piece
-    /// and the root.
+    /// Position over the length, relative to the root, and frame at evenly spaced arc lengths, the root's first:
+    /// at more than [`POINTS`].
     #[must_use]
     pub fn line(&self) -> Vec<(DVec3, DMat3)> {
-        shooting::line(&self.rod, &self.nodes)
+        let pieces = self.nodes.len() - 1;
+        shooting::line(&self.rod, &self.nodes, POINTS.div_ceil(pieces))
     }
 
     /// Position of the tip relative to the root (m).
@@ -144,13 +164,13 @@ impl Solution {
         let points = self.line();
         let last = (points.len() - 1) as f64;
         let gap = |(i, p): (usize, &(DVec3, DMat3))| p.0.distance(line(i as f64 / last));
-        points.iter().enumerate().map(gap).fold(0.0, f64::max)
+        largest(points.iter().enumerate().map(gap))
     }
 
     /// How many independent small changes lower the energy: 0 for a minimum.
     #[must_use]
     pub fn index(&self) -> usize {
-        shooting::index(&self.rod, &self.nodes)
+        morse::index(&self.rod, &self.nodes)
     }
 
     /// Whether the solution is a minimum of the energy.

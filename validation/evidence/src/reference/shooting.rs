@@ -1,11 +1,10 @@
 //! Multiple shooting for the hanging rod.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
-use glam::{DMat2, DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::banded::Banded;
 use super::gauss::integrate;
+use super::morse::index;
 use super::{Hanging, NoSolution};
 
 /// ζ and M at the ends of all pieces.
@@ -14,11 +13,11 @@ pub(super) type Nodes = Vec<[f64; 6]>;
 /// Residual at which the equations hold.
 const EXACT: f64 = 1e-13;
 
-fn halves(y: &[f64]) -> (DVec3, DVec3) {
+pub(super) fn halves(y: &[f64]) -> (DVec3, DVec3) {
     (DVec3::new(y[0], y[1], y[2]), DVec3::new(y[3], y[4], y[5]))
 }
 
-fn joined(zeta: DVec3, moment: DVec3) -> [f64; 6] {
+pub(super) fn joined(zeta: DVec3, moment: DVec3) -> [f64; 6] {
     [zeta.x, zeta.y, zeta.z, moment.x, moment.y, moment.z]
 }
 
@@ -28,7 +27,7 @@ impl Hanging {
     }
 
     /// ζ' and M'.
-    fn slope(&self, s: f64, y: &[f64]) -> [f64; 6] {
+    pub(super) fn slope(&self, s: f64, y: &[f64]) -> [f64; 6] {
         let (zeta, moment) = halves(y);
         let u = self.strain(moment);
         let load = DVec3::Z.cross(zeta) * (self.weight * (1.0 - s));
@@ -36,7 +35,7 @@ impl Hanging {
     }
 
     /// The same for a small change of the solution.
-    fn change(&self, s: f64, y: &[f64], by: &[f64]) -> [f64; 6] {
+    pub(super) fn change(&self, s: f64, y: &[f64], by: &[f64]) -> [f64; 6] {
         let (zeta, moment) = halves(y);
         let (d_zeta, d_moment) = halves(by);
         let (u, du) = (self.strain(moment), d_moment / self.stiffness);
@@ -83,14 +82,19 @@ fn natural(rod: &Hanging, pieces: usize) -> Nodes {
     nodes
 }
 
-/// Newton's method from a start; none if it does not come to rest in a few steps.
-fn newton(rod: &Hanging, mut nodes: Nodes) -> Option<Nodes> {
+/// Newton's method from a start; none if it does not come to rest in a few steps, of which none may be long.
+fn newton(rod: &Hanging, nodes: Nodes) -> Option<Nodes> {
+    newton_in(rod, nodes, 14, false)
+}
+
+/// The same in so many steps; long ones are made shorter, if that is asked for.
+fn newton_in(rod: &Hanging, mut nodes: Nodes, most: usize, shorten: bool) -> Option<Nodes> {
     let pieces = nodes.len() - 1;
     let steps = rod.division().1;
     let h = 1.0 / pieces as f64;
     let scale = 1.0 + rod.weight;
     let mut before = f64::INFINITY;
-    for _ in 0..14 {
+    for _ in 0..most {
         let mut matrix = Banded::new(6 * nodes.len());
         let mut right = vec![0.0; 6 * nodes.len()];
         let wanted = rod.root_zeta();
@@ -115,12 +119,14 @@ fn newton(rod: &Hanging, mut nodes: Nodes) -> Option<Nodes> {
         let residual = right.iter().fold(0.0_f64, |m, r| m.max(r.abs())) / scale;
         let step = matrix.solve(right)?;
         let size = step.iter().fold(0.0_f64, |m, r| m.max(r.abs())) / scale;
-        if !size.is_finite() || size > 1.0 {
+        if !size.is_finite() || (size > 1.0 && !shorten) {
             return None;
         }
+        let part = (0.5 / size).min(1.0);
+        let part = if shorten { part } else { 1.0 };
         for (node, step) in nodes.iter_mut().zip(step.chunks(6)) {
             for (y, d) in node.iter_mut().zip(step) {
-                *y += d;
+                *y += part * d;
             }
         }
         // Rounding is reached where a step brings nothing any more.
@@ -137,19 +143,22 @@ fn newton(rod: &Hanging, mut nodes: Nodes) -> Option<Nodes> {
 pub(super) fn follow(rod: &Hanging, stable: bool) -> Result<Nodes, NoSolution> {
     let nodes = natural(rod, rod.division().0);
     let first = (0.5 / rod.weight).min(1.0);
-    advance(nodes, first, stable, |part| rod.with_weight(rod.weight * part))
+    // A branch in a plane may end where the rod has long left it: its end need not be known to a digit.
+    let least = if stable { 1.000_1 } else { 1.005 };
+    advance(nodes, (first, least), stable, |part| rod.with_weight(rod.weight * part))
 }
 
 /// Gives a straight rod that hangs straight down its natural strain, in steps.
 pub(super) fn curl(rod: &Hanging) -> Result<Nodes, NoSolution> {
     let straight = vec![joined(rod.root_zeta(), DVec3::ZERO); rod.division().0 + 1];
-    advance(straight, 0.1, false, |part| Hanging { natural: rod.natural * part, ..*rod })
+    advance(straight, (0.1, 1.000_1), false, |part| Hanging { natural: rod.natural * part, ..*rod })
 }
 
-/// Goes from part 0 to part 1 of something.
+/// Goes from part 0 to part 1 of something: first to the part `first`, then in steps of a factor, which is never
+/// less than `least`.
 fn advance(
     mut nodes: Nodes,
-    first: f64,
+    (first, least): (f64, f64),
     stable: bool,
     at: impl Fn(f64) -> Hanging,
 ) -> Result<Nodes, NoSolution> {
@@ -165,7 +174,7 @@ fn advance(
                 (nodes, known) = (found, next);
                 factor = factor.powf(1.4).min(2.5);
             }
-            _ if known == 0.0 || factor < 1.000_1 => return Err(NoSolution { fraction: known }),
+            _ if known == 0.0 || factor < least => return Err(NoSolution { fraction: known }),
             _ => factor = factor.powf(0.4),
         }
     }
@@ -178,11 +187,42 @@ fn jumped(from: &Nodes, to: &Nodes) -> bool {
     from.iter().zip(to).map(cosine).fold(1.0, f64::min) < 0.3
 }
 
-/// Positions and frames at the ends of pieces.
-pub(super) fn line(rod: &Hanging, nodes: &Nodes) -> Vec<(DVec3, DMat3)> {
+/// ζ and M of a line, given as a function of arc length to a frame: a start for Newton's method. M is that of the
+/// weight beyond, M' = w(1 − s) t × e_z in the room, which asks for directions only: curvatures of a line that is
+/// divided are known less well.
+pub(super) fn of_frames(rod: &Hanging, frame: impl Fn(f64) -> DMat3) -> Nodes {
+    const PARTS: usize = 4;
+    let pieces = rod.division().0;
+    let h = 1.0 / (pieces * PARTS) as f64;
+    let load = |s: f64| frame(s).z_axis.cross(DVec3::Z) * (rod.weight * (1.0 - s));
+    let mut moment = DVec3::ZERO;
+    let mut nodes = Vec::with_capacity(pieces + 1);
+    for i in (0..=pieces * PARTS).rev() {
+        let s = i as f64 * h;
+        if i % PARTS == 0 {
+            let turned = frame(s).transpose();
+            nodes.push(joined(turned * DVec3::Z, turned * moment));
+        }
+        if i > 0 {
+            // Simpson's rule.
+            let sum = load(s) + load(s - 0.5 * h) * 4.0 + load(s - h);
+            moment -= sum * (h / 6.0);
+        }
+    }
+    nodes.reverse();
+    nodes
+}
+
+/// Newton's method from those.
+pub(super) fn near(rod: &Hanging, start: Nodes) -> Result<Nodes, NoSolution> {
+    newton_in(rod, start, 60, true).ok_or(NoSolution { fraction: 0.0 })
+}
+
+/// Positions and frames, so many in each piece, the last at its end.
+pub(super) fn line(rod: &Hanging, nodes: &Nodes, each: usize) -> Vec<(DVec3, DMat3)> {
     let pieces = nodes.len() - 1;
-    let steps = rod.division().1;
-    let h = 1.0 / pieces as f64;
+    let steps = rod.division().1.div_ceil(each);
+    let h = 1.0 / (pieces * each) as f64;
     let mut at = (DVec3::ZERO, rod.root);
     let mut points = vec![at];
     let f = |s: f64, y: &[f64; 18]| {
@@ -202,110 +242,12 @@ pub(super) fn line(rod: &Hanging, nodes: &Nodes) -> Vec<(DVec3, DMat3)> {
         y[..6].copy_from_slice(node);
         y[6..15].copy_from_slice(&at.1.to_cols_array());
         y[15..].copy_from_slice(&at.0.to_array());
-        let y = integrate(&f, i as f64 * h, (i + 1) as f64 * h, steps, y);
-        let frame: [f64; 9] = std::array::from_fn(|k| y[6 + k]);
-        at = (DVec3::new(y[15], y[16], y[17]), DMat3::from_cols_array(&frame));
-        points.push(at);
+        for k in i * each..(i + 1) * each {
+            y = integrate(&f, k as f64 * h, (k + 1) as f64 * h, steps, y);
+            let frame: [f64; 9] = std::array::from_fn(|k| y[6 + k]);
+            at = (DVec3::new(y[15], y[16], y[17]), DMat3::from_cols_array(&frame));
+            points.push(at);
+        }
     }
     points
-}
-
-/// Morse's index: how many independent small changes lower the energy. It is the number of points on the way
-/// from tip to root where a neighbouring solution that leaves the tip free meets this one.
-pub(super) fn index(rod: &Hanging, nodes: &Nodes) -> usize {
-    const LOOKS: usize = 16;
-    let pieces = nodes.len() - 1;
-    let steps = rod.division().1.div_ceil(6);
-    let h = 1.0 / pieces as f64;
-    let across = halves(&nodes[pieces]).0.any_orthonormal_pair();
-    let mut fields = [joined(across.0, DVec3::ZERO), joined(across.1, DVec3::ZERO)];
-    let f = |s: f64, y: &[f64; 18]| {
-        let mut slope = [0.0; 18];
-        slope[..6].copy_from_slice(&rod.slope(s, y));
-        for k in 1..3 {
-            slope[6 * k..6 * k + 6].copy_from_slice(&rod.change(s, y, &y[6 * k..]));
-        }
-        slope
-    };
-    let mut before = phases(&nodes[pieces], &fields);
-    let mut met = 0;
-    for i in (0..pieces).rev() {
-        let mut y = [0.0; 18];
-        y[..6].copy_from_slice(&nodes[i + 1]);
-        y[6..12].copy_from_slice(&fields[0]);
-        y[12..].copy_from_slice(&fields[1]);
-        for look in 0..LOOKS {
-            let from = (i + 1) as f64 * h - look as f64 * h / LOOKS as f64;
-            y = integrate(&f, from, from - h / LOOKS as f64, steps, y);
-            let part = |k: usize| std::array::from_fn(|c| y[6 * k + c]);
-            fields = [part(1), part(2)];
-            let now = phases(&part(0), &fields);
-            met += passed(before, now);
-            before = now;
-        }
-        orthonormalise(&mut fields);
-    }
-    met
-}
-
-/// Phases of the plane of fields: the arctangents of the eigenvalues of `P X⁻¹`, X the fields' rotations across
-/// the vertical and P their moments, in order. Where X is singular one of them leaves at π/2 and comes back
-/// at −π/2.
-fn phases(at: &[f64; 6], fields: &[[f64; 6]; 2]) -> [f64; 2] {
-    let (zeta, moment) = halves(at);
-    let (e, g) = zeta.normalize().any_orthonormal_pair();
-    let part = |field: &[f64; 6]| {
-        let (d_zeta, d_moment) = halves(field);
-        let turn = d_zeta.cross(zeta);
-        // Half of η × M makes the pair canonical in coordinates that turn with the section.
-        let p = d_moment + turn.cross(moment) * 0.5;
-        (DVec2::new(turn.dot(e), turn.dot(g)), DVec2::new(p.dot(e), p.dot(g)))
-    };
-    let [(x0, p0), (x1, p1)] = [part(&fields[0]), part(&fields[1])];
-    let (x, p) = (DMat2::from_cols(x0, x1), DMat2::from_cols(p0, p1));
-    let det = x.determinant();
-    let adjugate = DMat2::from_cols_array(&[x.y_axis.y, -x.x_axis.y, -x.y_axis.x, x.x_axis.x]);
-    // P adj(X) is det(X) times the symmetric matrix; this way nothing is divided by zero.
-    let q = p * adjugate;
-    let middle = 0.5 * (q.x_axis.x + q.y_axis.y);
-    let half = (0.5 * (q.x_axis.x - q.y_axis.y)).hypot(0.5 * (q.x_axis.y + q.y_axis.x));
-    let mut angles = [middle - half, middle + half].map(|m| {
-        let angle = m.atan2(det);
-        if angle > FRAC_PI_2 {
-            angle - PI
-        } else if angle < -FRAC_PI_2 {
-            angle + PI
-        } else {
-            angle
-        }
-    });
-    angles.sort_by(f64::total_cmp);
-    angles
-}
-
-/// How many phases have gone round, by the least that they can have moved.
-fn passed(before: [f64; 2], now: [f64; 2]) -> usize {
-    let moved = |count: usize| {
-        let after = match count {
-            0 => now,
-            1 => [now[1], now[0] + PI],
-            _ => [now[0] + PI, now[1] + PI],
-        };
-        (after[0] - before[0]).abs() + (after[1] - before[1]).abs()
-    };
-    (0..3).min_by(|&a, &b| moved(a).total_cmp(&moved(b))).unwrap_or(0)
-}
-
-/// The same fields, of size 1 and at right angles to each other: only their plane matters.
-fn orthonormalise(fields: &mut [[f64; 6]; 2]) {
-    let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let size = dot(&fields[0], &fields[0]).sqrt();
-    fields[0] = fields[0].map(|x| x / size);
-    let along = dot(&fields[0], &fields[1]);
-    let first = fields[0];
-    for (x, y) in fields[1].iter_mut().zip(first) {
-        *x -= along * y;
-    }
-    let size = dot(&fields[1], &fields[1]).sqrt();
-    fields[1] = fields[1].map(|x| x / size);
 }

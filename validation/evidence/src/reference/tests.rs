@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use serde_json::Value;
 
 use super::{Hanging, greenhill, prandtl_michell};
@@ -39,6 +39,25 @@ fn without_weight_a_helix_is_one() {
 fn a_light_cantilever_is_the_linear_beam() {
     let tip = straight(1e-3, 1.0, DVec3::X, DVec3::Y).solve().unwrap().tip();
     assert!((tip.z / (-1e-3 / 8.0) - 1.0).abs() < 1e-6, "{tip}");
+}
+
+#[test]
+fn a_solution_is_found_again_from_its_frames() {
+    let natural = DVec3::new(20.0, 0.0, 9.0);
+    let rod = Hanging { natural, ..straight(30.0, 1.3, DVec3::X, DVec3::Y) };
+    let solution = rod.solve().unwrap();
+    let points = solution.line();
+    let last = points.len() - 1;
+    // Between two points a frame turns as on a helix.
+    let frame = |x: f64| {
+        let i = ((x * last as f64) as usize).min(last - 1);
+        let [a, b] = [points[i].1, points[i + 1].1];
+        let turn = DQuat::from_mat3(&(a.transpose() * b)).to_scaled_axis();
+        a * DMat3::from_quat(DQuat::from_scaled_axis(turn * (x * last as f64 - i as f64)))
+    };
+    let again = rod.solve_near(frame).unwrap();
+    assert!(again.tip().distance(solution.tip()) < 1e-10);
+    assert_eq!(again.index(), 0);
 }
 
 #[test]

@@ -25,7 +25,10 @@ pub(super) fn page(book: &Book<'_>) -> String {
         escaped(words::TITLE)
     );
     paragraph(&mut out, words::INTRODUCTION);
-    paragraph(&mut out, words::effort(book.effort));
+    paragraph(&mut out, &words::written(book));
+    if let Some(names) = words::left_out(book) {
+        paragraph(&mut out, &names);
+    }
     contents(&mut out, book);
     for (experiment, finding) in &book.chapters {
         let _ = writeln!(
@@ -73,7 +76,7 @@ fn contents(out: &mut String, book: &Book<'_>) {
             "<li><a href=\"#{}\">{}</a>: <span class=\"{class}\">{}</span></li>",
             experiment.name,
             escaped(experiment.title),
-            words::verdict_of(finding)
+            escaped(&finding.verdict())
         );
     }
     out.push_str("</ul>\n");
@@ -115,6 +118,10 @@ fn table(out: &mut String, table: &Table, class: impl Fn(usize, usize) -> &'stat
 }
 
 fn criteria(out: &mut String, finding: &Finding) {
+    if finding.failure.is_some() {
+        let _ = writeln!(out, "<p class=\"fails\">{}</p>", escaped(&finding.verdict()));
+        return;
+    }
     let class = |row: usize, column: usize| match (column, finding.criteria[row].holds()) {
         (3, true) => "holds",
         (3, false) => "fails",
@@ -150,7 +157,7 @@ pub(super) fn timed(book: &Book<'_>) -> Option<Table> {
 fn times(out: &mut String, book: &Book<'_>) {
     let Some(shown) = timed(book) else { return };
     out.push_str("<section id=\"times\"><h2>Times</h2>\n");
-    paragraph(out, words::TIMES);
+    paragraph(out, &words::times());
     table(out, &shown, |_, _| "");
     out.push_str("</section>\n");
 }

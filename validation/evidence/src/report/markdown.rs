@@ -7,14 +7,13 @@ use super::{Book, plot_name, words};
 use crate::{Item, Table};
 
 pub(super) fn page(book: &Book<'_>) -> String {
-    let mut out = format!(
-        "# {}\n\n{}\n\n{}\n\n",
-        words::TITLE,
-        words::INTRODUCTION,
-        words::effort(book.effort)
-    );
+    let mut out =
+        format!("# {}\n\n{}\n\n{}\n\n", words::TITLE, words::INTRODUCTION, words::written(book));
+    if let Some(names) = words::left_out(book) {
+        let _ = write!(out, "{names}\n\n");
+    }
     for (experiment, finding) in &book.chapters {
-        let _ = writeln!(out, "- {}: {}", experiment.title, words::verdict_of(finding));
+        let _ = writeln!(out, "- {}: {}", experiment.title, finding.verdict());
     }
     for (experiment, finding) in &book.chapters {
         let (title, question, method) = (experiment.title, experiment.question, experiment.method);
@@ -34,10 +33,15 @@ pub(super) fn page(book: &Book<'_>) -> String {
                 }
             }
         }
-        table(&mut out, &judged(finding));
+        match &finding.failure {
+            Some(_) => {
+                let _ = write!(out, "**{}**\n\n", finding.verdict());
+            }
+            None => table(&mut out, &judged(finding)),
+        }
     }
     if let Some(times) = timed(book) {
-        let _ = write!(out, "\n## Times\n\n{}\n\n", words::TIMES);
+        let _ = write!(out, "\n## Times\n\n{}\n\n", words::times());
         table(&mut out, &times);
     }
     out

@@ -1,13 +1,11 @@
 //! Findings as documents: one page that opens offline, and Markdown with its pictures beside it.
 
+mod folder;
 mod html;
 mod markdown;
 pub(crate) mod words;
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use frisure::io::files::{WriteError, write_atomically};
+pub use folder::in_the_way;
 
 use crate::{Effort, Experiment, Finding, Item};
 
@@ -57,27 +55,6 @@ impl Book<'_> {
         }
         files
     }
-
-    /// Writes `index.html`, `report.md` and the pictures into a folder, which is made; gives the paths
-    /// of the two.
-    ///
-    /// # Errors
-    /// [`WriteError`], if a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<[PathBuf; 2], WriteError> {
-        let io = |source| WriteError::Io { path: folder.to_path_buf(), source };
-        fs::create_dir_all(folder).map_err(io)?;
-        let write = |name: &str, bytes: &[u8]| {
-            let path = folder.join(name);
-            write_atomically(&path, |out| out.write_all(bytes)).map(|()| path)
-        };
-        for (name, bytes) in self.pictures() {
-            write(&name, &bytes)?;
-        }
-        Ok([
-            write("index.html", self.html().as_bytes())?,
-            write("report.md", self.markdown().as_bytes())?,
-        ])
-    }
 }
 
 /// The file of the plot that is the `number`th item of a finding.
@@ -87,6 +64,8 @@ fn plot_name(experiment: &Experiment, number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::plot::{Mark, Plot, Scale};
     use crate::{Limit, Picture, Table};
@@ -117,7 +96,7 @@ mod tests {
     #[test]
     fn a_failed_verdict_is_told() {
         let mut book = book();
-        assert!(book.holds() && book.html().contains("all 1 criteria hold"));
+        assert!(book.holds() && book.html().contains("1 of 1 criterion hold"));
         book.chapters[0].1.judge("two", 3.0, Limit::AtMost(2.0));
         assert!(!book.holds());
         for text in [book.html(), book.markdown()] {
@@ -137,6 +116,18 @@ mod tests {
     }
 
     #[test]
+    fn an_experiment_that_could_not_be_run_is_told() {
+        let mut book = book();
+        book.chapters[0].1 = Finding::failed(&std::fmt::Error);
+        assert!(!book.holds());
+        for text in [book.html(), book.markdown()] {
+            assert_eq!(text.matches("COULD NOT BE RUN: an error occurred").count(), 2, "{text}");
+            assert!(text.contains("Not run, and not told of here: elastica, "), "{text}");
+            assert!(text.contains(env!("CARGO_PKG_VERSION")), "{text}");
+        }
+    }
+
+    #[test]
     fn the_markdown_names_files_that_are_written() {
         let folder = std::env::temp_dir().join(format!("frisure-book-{}", std::process::id()));
         book().write(&folder).unwrap();
@@ -145,6 +136,14 @@ mod tests {
             text.split("](").skip(1).filter_map(|link| link.split(')').next()).collect();
         assert_eq!(names, ["test-2.svg", "dot.png"]);
         assert!(names.iter().all(|name| folder.join(name).is_file()));
+
+        // A later report takes the pictures away that only the earlier one showed, and nothing else.
+        fs::write(folder.join("mine.png"), "mine").unwrap();
+        let mut later = book();
+        later.chapters[0].1.items.pop();
+        later.write(&folder).unwrap();
+        let is = |name: &str| folder.join(name).is_file();
+        assert!(is("test-2.svg") && !is("dot.png") && is("mine.png") && is("index.html"));
         fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -1,6 +1,7 @@
 //! What both documents say.
 
-use crate::{Criterion, Effort, Finding, Limit};
+use super::Book;
+use crate::{Criterion, EXPERIMENTS, Effort, Limit};
 
 /// A measured number with as many digits as one reads.
 pub(crate) fn number(x: f64) -> String {
@@ -19,6 +20,20 @@ pub(crate) fn number(x: f64) -> String {
     }
 }
 
+/// A small number with two digits, and none of its minus where nothing is left.
+pub(crate) fn small(x: f64) -> String {
+    if x == 0.0 { "0".into() } else { format!("{x:.1e}") }
+}
+
+/// So many decimals, without the minus of a number that is rounded to nothing.
+pub(crate) fn rounded(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|c| c == '0' || c == '.') => rest.into(),
+        _ => text,
+    }
+}
+
 pub(super) fn limit(limit: Limit) -> String {
     match limit {
         Limit::AtMost(x) => format!("at most {}", number(x)),
@@ -31,37 +46,44 @@ pub(super) fn verdict(criterion: &Criterion) -> &'static str {
     if criterion.holds() { "holds" } else { "FAILS" }
 }
 
-pub(super) fn verdict_of(finding: &Finding) -> String {
-    let (count, held) = counts(finding);
-    match count - held {
-        0 => format!("all {count} criteria hold"),
-        failed => format!("{failed} of {count} criteria FAIL"),
-    }
-}
-
-/// How many criteria there are, and how many of them hold.
-pub(super) fn counts(finding: &Finding) -> (usize, usize) {
-    (finding.criteria.len(), finding.criteria.iter().filter(|c| c.holds()).count())
-}
-
-pub(super) fn effort(effort: Effort) -> &'static str {
-    match effort {
+/// Who wrote the report, and how.
+pub(super) fn written(book: &Book<'_>) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let run = match book.effort {
         Effort::Quick => {
-            "This is the quick run: fewer hairs and coarser scans than `frisure validate --full`, \
-             under the same criteria."
+            "It is the quick run: fewer hairs and coarser scans than `frisure validate --full`, under the same criteria."
         }
-        Effort::Full => "This is the full run.",
-    }
+        Effort::Full => "It is the full run.",
+    };
+    format!(
+        "Written by frisure {version}. {run} Random hair is drawn from seeds that are fixed in the code, the same at \
+         every run and on any number of threads."
+    )
+}
+
+/// Which experiments the report is not of.
+pub(super) fn left_out(book: &Book<'_>) -> Option<String> {
+    let run = |name: &str| book.chapters.iter().any(|(e, _)| e.name == name);
+    let names: Vec<&str> = EXPERIMENTS.iter().map(|e| e.name).filter(|name| !run(name)).collect();
+    (!names.is_empty()).then(|| format!("Not run, and not told of here: {}.", names.join(", ")))
 }
 
 pub(super) const TITLE: &str = "frisure: the book of evidence";
 
 pub(super) const INTRODUCTION: &str = "Each experiment asks a question, says how it is answered and \
-    where the truth is from, shows what came out, and judges it by criteria. What is compared with \
-    is never computed by the code that is judged.";
+    where the truth is from, shows what came out, and judges it by criteria. The truth is a closed form, a \
+    published number, or Kirchhoff's equations solved as a boundary-value problem. Where there is none, an \
+    experiment says so: what must not matter is frisure against itself, how often it fails is also told by its own \
+    certificates, heads are held against sentences of the paper, and speed is of one machine.";
 
-pub(super) const TIMES: &str = "Of the machine that wrote this, and of nothing else; they decide \
-    nothing, and are the only numbers here that change from run to run.";
+/// Above the times.
+pub(super) fn times() -> String {
+    format!(
+        "Of the machine that wrote this, with {} threads, and of nothing else; they decide nothing, and are the \
+         only numbers here that change from run to run.",
+        rayon::current_num_threads()
+    )
+}
 
 #[cfg(test)]
 mod tests {
@@ -79,5 +101,7 @@ mod tests {
         ] {
             assert_eq!(number(x), text);
         }
+        assert_eq!([small(0.0), small(1.26e-9)], ["0", "1.3e-9"]);
+        assert_eq!([rounded(-1e-9, 4), rounded(-1e-3, 3)], ["0.0000", "-0.001"]);
     }
 }

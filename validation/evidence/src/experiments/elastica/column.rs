@@ -6,6 +6,7 @@ use frisure::rod::potential::{Derivatives, ElementState, Potential};
 use frisure::rod::{Stability, equilibrium};
 use glam::{DVec2, DVec3};
 
+use crate::extremes::larger;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::{Bar, LENGTH, to_accuracy};
 use crate::{Finding, Limit, Stopped, Table};
@@ -65,7 +66,7 @@ pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
         let line = bent(whole * whole)?;
         let tip = line[line.len() - 1];
         let error = tip.distance(exact);
-        worst = worst.max(error);
+        worst = larger(worst, error);
         table.row([
             format!("{angle:.0}°"),
             format!("{:.4}", 4.0 * whole * whole / (PI * PI)),

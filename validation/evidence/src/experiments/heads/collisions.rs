@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use super::scenes::{Hair, strip};
 use crate::experiments::sphere::Sphere;
+use crate::extremes::largest;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::to_accuracy;
 use crate::{Effort, Finding, Limit, Monitor, Stopped, Table};
@@ -50,7 +51,8 @@ pub(super) fn on_a_sphere(finding: &mut Finding) -> Result<(), Stopped> {
         };
         stable &= found.certificate.stability == Stability::Stable;
         let line = found.centre_line(2000);
-        depths[k] = line.iter().map(|p| sphere.radius - p.length()).fold(0.0, f64::max);
+        depths[k] =
+            largest(line.iter().map(|p| sphere.radius - p.length())).clamp(0.0, f64::INFINITY);
         plot.add(name, Mark::Line, line.iter().map(|p| (100.0 * p.x, 100.0 * p.z))).colour =
             Some(1 - k);
     }

@@ -1,0 +1,138 @@
+//! Random hairs against the boundary-value problem.
+
+use frisure::rod::{Equilibrium, Options, Resolution, Rod, RodSpec, equilibrium};
+use rayon::prelude::*;
+
+use crate::extremes::largest;
+use crate::random::Random;
+use crate::reference::{Hanging, Solution};
+use crate::report::words::small;
+use crate::rods::{frame, line};
+use crate::{Effort, Finding, Limit, Stopped, Table};
+
+/// Beyond this (m) two lines of realistic hair are two equilibria.
+const OTHER: f64 = 1e-3;
+
+/// What the boundary-value problem says of a hair that frisure solved.
+struct Judged {
+    /// Distance to the solution beside frisure's line, over what was asked for, and that solution's index.
+    beside: Option<(f64, usize)>,
+    /// Distance (m) to the solution that it follows by itself.
+    followed: Option<f64>,
+}
+
+impl Judged {
+    fn of(spec: &RodSpec, accuracy: f64, follow: bool) -> Result<Self, Stopped> {
+        let (resolution, max_elements) = (Resolution::Accuracy(accuracy), 4000);
+        let options = Options { resolution, max_elements, ..Options::default() };
+        let found = equilibrium(&Rod::new(spec.clone())?, &[], &options);
+        let rod = Hanging::new(spec);
+        let beside = rod.solve_near(frame(&found)).ok();
+        let followed = if follow { rod.solve().ok() } else { None };
+        let gap = |solution: &Solution| distance(&found, solution);
+        Ok(Self {
+            beside: beside.map(|s| (gap(&s) / accuracy, s.index())),
+            followed: followed.map(|s| gap(&s)),
+        })
+    }
+}
+
+/// Largest distance (m) of a line from a solution.
+fn distance(found: &Equilibrium, solution: &Solution) -> f64 {
+    solution.distance(line(found)) * found.rod.length()
+}
+
+pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
+    let realistic = |i: usize| Judged::of(&Random::new(71, i).realistic()?, 1e-4, true);
+    let absurd = |i: usize| {
+        let spec = Random::new(72, i).absurd()?;
+        Judged::of(&spec, 1e-3 * spec.length, false)
+    };
+    let some = |count: usize| (0..count).into_par_iter();
+    let realistic: Vec<Judged> =
+        some(effort.pick(60, 1000)).map(realistic).collect::<Result<_, Stopped>>()?;
+    let absurd: Vec<Judged> =
+        some(effort.pick(30, 1000)).map(absurd).collect::<Result<_, Stopped>>()?;
+    told(finding, &realistic, &absurd);
+    for (kind, judged) in [("realistic", &realistic), ("absurd", &absurd)] {
+        beside(finding, kind, judged);
+    }
+    followed(finding, &realistic);
+    Ok(())
+}
+
+fn told(finding: &mut Finding, realistic: &[Judged], absurd: &[Judged]) {
+    let mut table = Table::new(
+        "frisure's lines, judged by the boundary-value problem that starts from them",
+        &["", "realistic", "absurd"],
+    );
+    let mut row = |name: &str, of: &dyn Fn(&[Judged]) -> String| {
+        table.row([name.to_owned(), of(realistic), of(absurd)]);
+    };
+    let index = |judged: &[Judged], yes: fn(usize) -> bool| {
+        judged.iter().filter_map(|j| j.beside).filter(|b| yes(b.1)).count().to_string()
+    };
+    row("hairs", &|j| j.len().to_string());
+    row("a solution beside the line", &|j| index(j, |_| true));
+    row("Morse's index 0: a minimum", &|j| index(j, |index| index == 0));
+    row("Morse's index 1 or more: a saddle", &|j| index(j, |index| index > 0));
+    row("largest error over what was asked for", &|j| {
+        small(largest(j.iter().filter_map(|j| j.beside).map(|b| b.0)))
+    });
+    finding.table(table);
+}
+
+/// Whether every line is one of the boundary-value problem, and a minimum there too.
+fn beside(finding: &mut Finding, kind: &str, judged: &[Judged]) {
+    let solved: Vec<(f64, usize)> = judged.iter().filter_map(|j| j.beside).collect();
+    let part = |count: usize| count as f64 / judged.len() as f64;
+    finding.judge(
+        format!(
+            "share of {} {kind} hairs beside whose line the boundary-value problem has a solution",
+            judged.len()
+        ),
+        part(solved.len()),
+        Limit::AtLeast(1.0),
+    );
+    finding.judge(
+        format!("share of {} {kind} hairs whose solution has Morse's index 0", judged.len()),
+        part(solved.iter().filter(|s| s.1 == 0).count()),
+        Limit::AtLeast(1.0),
+    );
+    finding.judge(
+        format!(
+            "largest distance of it from frisure's line, over the accuracy asked for, {kind} hairs"
+        ),
+        largest(solved.iter().map(|s| s.0)),
+        Limit::AtMost(1.0),
+    );
+}
+
+/// Whether the boundary-value problem comes to the same by itself.
+fn followed(finding: &mut Finding, realistic: &[Judged]) {
+    let known: Vec<f64> = realistic.iter().filter_map(|j| j.followed).collect();
+    let same: Vec<f64> = known.iter().copied().filter(|g| *g <= OTHER).collect();
+    let other = known.len() - same.len();
+    let worst = 1e3 * largest(same);
+    finding.text(format!(
+        "Of {} realistic hairs the boundary-value problem followed {} by itself; in {other} of them frisure ends in another \
+         stable equilibrium (more than a millimetre away). The others are within {worst:.4} mm, where 0.1 mm was asked for.",
+        realistic.len(),
+        known.len(),
+    ));
+    finding.judge(
+        "largest distance from the line that the boundary-value problem follows (mm), same equilibrium, 0.1 mm asked for",
+        worst,
+        Limit::AtMost(0.1),
+    );
+    finding.judge(
+        "share of those followed that end in another equilibrium",
+        other as f64 / known.len() as f64,
+        Limit::AtMost(0.005),
+    );
+    finding.judge(
+        "share that the boundary-value problem could follow",
+        known.len() as f64 / realistic.len() as f64,
+        Limit::AtLeast(0.95),
+    );
+}

@@ -1,0 +1,154 @@
+//! How often it fails.
+
+mod batches;
+mod exact;
+mod minima;
+
+use frisure::rod::{Equilibrium, Options, Resolution, Rod, RodSpec, Stability, equilibrium};
+use rayon::prelude::*;
+
+use crate::plot::{Mark, Plot, Scale};
+use crate::random::Random;
+use crate::report::words::small;
+use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "robustness",
+    title: "Robustness: random hair as it is, and as no one has it",
+    question: "How many random hairs come to rest, in how many iterations, with what certificate; and how many \
+        equilibria does a curly hair have?",
+    method: "Realistic hairs: 1 to 60 cm, 45 to 110 µm, axis ratio 1 to 2, E 1 to 5 GPa, straight, curled in a plane, or \
+        helices of 1.5 to 60 mm, roots anywhere; solved to 0.1 mm. Absurd ones: a millimetre to ten metres, axis \
+        ratios up to 10, moduli of rubber to diamond, Γ from 0 to 30 000, natural turns up to forty; solved to a thousandth of the \
+        length with at most 4000 elements. The certificate of each is its relative gradient and whether its second \
+        variation is positive: numbers of frisure's own, which say what it makes of its work. So some hairs of both \
+        kinds are judged from outside. The boundary-value problem starts Newton's method at frisure's line, on equations \
+        that do not know where it started: how far its solution is from the line is the error, and Morse's index of the \
+        solution says whether it is a minimum. The realistic ones are solved by the boundary-value problem alone as well, \
+        as the weight is turned on; it gives up where it cannot follow a stable branch. G/E is random: E 1 to 5 GPa and G \
+        0.4 to 1.4 GPa for realistic hair, 0.02 to 2 for absurd.\n\n\
+        Equilibria are counted by minimising from random shapes: every element of a division into 30 to 120 is \
+        turned at random about its natural turn. Minima whose lines differ by more than a hundredth of the length are \
+        two.",
+    run,
+};
+
+fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+    let mut finding = Finding::default();
+    let realistic = solved(effort.pick(400, 10_000), monitor, 0.0, |i| {
+        let spec = Random::new(71, i).realistic()?;
+        Ok((spec, Resolution::Accuracy(1e-4)))
+    })?;
+    let absurd = solved(effort.pick(60, 1000), monitor, 0.4, |i| {
+        let spec = Random::new(72, i).absurd()?;
+        let accuracy = 1e-3 * spec.length;
+        Ok((spec, Resolution::Accuracy(accuracy)))
+    })?;
+    told(&mut finding, &realistic, &absurd);
+    exact::add(&mut finding, effort)?;
+    super::check(monitor, "robustness", 0.8)?;
+    batches::add(&mut finding, effort)?;
+    super::check(monitor, "robustness", 0.85)?;
+    minima::add(&mut finding, effort)?;
+    Ok(finding)
+}
+
+/// What is known of a hair that was solved.
+struct Solved {
+    stability: Stability,
+    gradient: f64,
+    iterations: usize,
+    elements: usize,
+    /// Estimate of the error over what was asked for.
+    estimate: f64,
+}
+
+impl Solved {
+    fn new(found: &Equilibrium, asked: Resolution) -> Self {
+        let asked = if let Resolution::Accuracy(a) = asked { a } else { f64::NAN };
+        Self {
+            stability: found.certificate.stability,
+            gradient: found.certificate.gradient_norm,
+            iterations: found.certificate.iterations,
+            elements: found.elements,
+            estimate: found.error_estimate.unwrap_or(f64::NAN) / asked,
+        }
+    }
+}
+
+fn solved(
+    count: usize,
+    monitor: &dyn Monitor,
+    from: f64,
+    hair: impl Fn(usize) -> Result<(RodSpec, Resolution), Stopped> + Sync,
+) -> Result<Vec<Solved>, Stopped> {
+    let one = |&i: &usize| {
+        let (spec, resolution) = hair(i)?;
+        let options = Options { resolution, max_elements: 4000, ..Options::default() };
+        Ok(Solved::new(&equilibrium(&Rod::new(spec)?, &[], &options), resolution))
+    };
+    let mut all = Vec::new();
+    for (part, items) in (0..count).collect::<Vec<_>>().chunks(count.div_ceil(20)).enumerate() {
+        super::check(monitor, "robustness", from + 0.02 * part as f64)?;
+        all.extend(items.par_iter().map(one).collect::<Result<Vec<_>, Stopped>>()?);
+    }
+    Ok(all)
+}
+
+fn told(finding: &mut Finding, realistic: &[Solved], absurd: &[Solved]) {
+    let mut table = Table::new("What became of them", &["", "realistic", "absurd"]);
+    let both = [realistic, absurd];
+    let mut row = |name: &str, of: &dyn Fn(&[Solved]) -> String| {
+        table.row([name.to_owned(), of(both[0]), of(both[1])]);
+    };
+    let count = |s: &[Solved], yes: &dyn Fn(&Solved) -> bool| s.iter().filter(|s| yes(s)).count();
+    let sorted = |s: &[Solved], of: &dyn Fn(&Solved) -> f64| {
+        let mut values: Vec<f64> = s.iter().map(of).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let at = |values: &[f64], share: f64| values[((values.len() - 1) as f64 * share) as usize];
+    row("hairs", &|s| s.len().to_string());
+    row("stable", &|s| count(s, &|s| s.stability == Stability::Stable).to_string());
+    row("saddles", &|s| count(s, &|s| s.stability == Stability::Saddle).to_string());
+    row("not converged", &|s| count(s, &|s| s.stability == Stability::NotConverged).to_string());
+    row("stable, with an estimated error above what was asked", &|s| {
+        count(s, &|s| s.stability == Stability::Stable && !(s.estimate <= 1.0)).to_string()
+    });
+    for (name, share) in [("iterations: median", 0.5), ("99 of 100", 0.99), ("most", 1.0)] {
+        row(name, &|s| format!("{:.0}", at(&sorted(s, &|s| s.iterations as f64), share)));
+    }
+    for (name, share) in [("elements: median", 0.5), ("99 of 100", 0.99)] {
+        row(name, &|s| format!("{:.0}", at(&sorted(s, &|s| s.elements as f64), share)));
+    }
+    for (name, share) in [("relative gradient: median", 0.5), ("largest", 1.0)] {
+        row(name, &|s| small(at(&sorted(s, &|s| s.gradient), share)));
+    }
+    finding.table(table);
+    let mut plot = Plot::new(
+        "Iterations, all divisions and steps of gravity together",
+        "iterations",
+        "share of hairs that need more",
+        [Scale::Log, Scale::Log],
+    );
+    for (name, these) in [("realistic", realistic), ("absurd", absurd)] {
+        let values = sorted(these, &|s| s.iterations as f64);
+        let n = values.len() as f64;
+        let shares = values.iter().enumerate().map(|(i, v)| (*v, 1.0 - i as f64 / n));
+        plot.add(name, Mark::Line, shares);
+    }
+    finding.plot(plot);
+    let share = |s: &[Solved]| {
+        count(s, &|s| s.stability == Stability::Stable && s.estimate <= 1.0) as f64 / s.len() as f64
+    };
+    let stable =
+        |s: &[Solved]| count(s, &|s| s.stability == Stability::Stable) as f64 / s.len() as f64;
+    let most = sorted(realistic, &|s| s.iterations as f64);
+    finding.judge(
+        "share of realistic hairs that are stable and within the accuracy by their estimate",
+        share(realistic),
+        Limit::AtLeast(1.0),
+    );
+    finding.judge("iterations of 99 of 100 realistic hairs", at(&most, 0.99), Limit::AtMost(200.0));
+    finding.judge("share of absurd hairs that are stable", stable(absurd), Limit::AtLeast(1.0));
+}

@@ -1,0 +1,122 @@
+//! The shapes of a suspended curly hair.
+
+mod diagram;
+mod helix;
+
+use frisure::rod::{Stability, equilibrium};
+use glam::DVec3;
+
+use super::buckling::hanging_curl;
+use crate::plot::{Mark, Plot, Scale};
+use crate::rods::{LENGTH, to_accuracy};
+use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped};
+
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "suspended",
+    title: "The shapes of a suspended curly hair (Miller et al. 2014)",
+    question: "Does a naturally curved hair that hangs from a vertical clamp take the three shapes that Miller, \
+        Lazarus, Audoly and Reis found (planar curl, helix near the tip, helix all along), each where it must?",
+    method: "A round rod (GJ/EI = 2/3), its natural shape a circle of curvature κ, hangs from a clamp that \
+        points down. Two numbers remain: κL and Γ = ρSgL³/EI. We have the abstract of the paper, not its \
+        diagram, and so compute the borders ourselves: the plane is left where Morse's index of the planar \
+        solution of the boundary-value problem turns from 0 to 1. Every hair of the diagram is judged by that index of \
+        its own planar shapes, both the one that natural curls come to as the weight is turned on and the one that \
+        straight hair comes to as it is given its curl: it must be in the plane if either is stable, and out of it if none \
+        is.\n\n\
+        Out of the plane and far from the clamp, each piece hangs under the tension T = ρSg(L − s) of what is \
+        below it. A helix that winds about the vertical at the angle θ has the least energy of bending, twist \
+        and tension for T/EIκ² = b cos θ/(b − (b − 1) cos²θ)², b = EI/GJ (from ½EI(Ω sin θ − κ)² + ½GJ(Ω cos θ)² − \
+        T cos θ, first by Ω). It is straight for T ≥ bEIκ²: the helix reaches up to bκ²EI/ρSg from the tip, and \
+        through the whole hair where Γ < b(κL)². The height of the hair is the integral of cos θ. These \
+        closed forms know nothing of clamp and tip, which spoil about a turn each. Where a helix is all along is told by the \
+        upper part of the hair: between 5 and 25 % of the length it descends by less than 0.95 of its arc length. That \
+        0.95 is ours, as is the factor of 2 by which a hair must be off Γ = b(κL)² to be judged by it.",
+    run,
+};
+
+/// EI/GJ of the rods.
+const B: f64 = 1.5;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    Planar,
+    Local,
+    Global,
+}
+
+/// A hair of the diagram.
+struct Hung {
+    gamma: f64,
+    kappa: f64,
+    line: Vec<DVec3>,
+    stable: bool,
+}
+
+impl Hung {
+    fn new(gamma: f64, kappa: f64) -> Result<Self, Stopped> {
+        let rod = hanging_curl(gamma, kappa).rod()?;
+        let found = equilibrium(&rod, &[], &to_accuracy(&rod, 1e-4));
+        let line = found.centre_line(2001).iter().map(|p| *p / LENGTH).collect();
+        let stable = found.certificate.stability == Stability::Stable;
+        Ok(Self { gamma, kappa, line, stable })
+    }
+
+    fn leaves(&self) -> bool {
+        self.line.iter().any(|p| !(p.y.abs() <= 1e-3))
+    }
+
+    /// The helix is global if the tangents of the upper tenth of the hair still wind.
+    fn phase(&self) -> Phase {
+        let upper = &self.line[100..500];
+        let descent = (upper[0].z - upper[upper.len() - 1].z) * 2000.0 / (upper.len() - 1) as f64;
+        match self.leaves() {
+            false => Phase::Planar,
+            true if descent < 0.95 => Phase::Global,
+            true => Phase::Local,
+        }
+    }
+}
+
+fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+    let mut finding = Finding::default();
+    shapes(&mut finding)?;
+    super::check(monitor, "suspended", 0.1)?;
+    helix::add(&mut finding)?;
+    super::check(monitor, "suspended", 0.2)?;
+    diagram::add(&mut finding, effort, monitor)?;
+    Ok(finding)
+}
+
+/// One hair of each kind.
+fn shapes(finding: &mut Finding) -> Result<(), Stopped> {
+    let kinds = [
+        ("planar curl", 30.0, 4.0),
+        ("helix near the tip", 3000.0, 32.0),
+        ("helix all along", 1000.0, 45.0),
+    ];
+    let wanted = [Phase::Planar, Phase::Local, Phase::Global];
+    let mut plot = Plot::new(
+        "Three hairs, seen from the front and from the side",
+        "over the length",
+        "height over the length",
+        [Scale::Linear; 2],
+    );
+    plot.equal = true;
+    plot.size = [640.0, 460.0];
+    let mut right = 0;
+    for (i, (name, gamma, kappa)) in kinds.into_iter().enumerate() {
+        let hung = Hung::new(gamma, kappa)?;
+        right += usize::from(hung.phase() == wanted[i]);
+        let at = 0.55 * i as f64;
+        let name = format!("{name}: Γ = {gamma}, κL = {kappa}");
+        plot.add(&name, Mark::Line, hung.line.iter().map(|p| (at + p.x, p.z))).colour = Some(i);
+        plot.add("", Mark::Line, hung.line.iter().map(|p| (at + 0.25 + p.y, p.z))).colour = Some(i);
+    }
+    finding.plot(plot);
+    finding.judge(
+        "of three hairs, those with the shape expected",
+        right as f64,
+        Limit::AtLeast(3.0),
+    );
+    Ok(())
+}

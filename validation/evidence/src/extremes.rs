@@ -1,0 +1,30 @@
+//! The largest and the smallest of what was measured. `f64::max` forgets a number that is none, and a criterion
+//! would hold because of it; here one such number makes the whole none, and so does measuring nothing.
+
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().reduce(larger).unwrap_or(f64::NAN)
+}
+
+pub(crate) fn smallest(values: impl IntoIterator<Item = f64>) -> f64 {
+    -largest(values.into_iter().map(|x| -x))
+}
+
+/// The larger of two; none if either is none.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_that_is_none_is_not_lost() {
+        assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
+        assert_eq!(smallest([1.0, -3.0, 2.0]), -3.0);
+        for values in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(largest(values).is_nan() && smallest(values).is_nan());
+        }
+        assert!(largest([]).is_nan() && smallest([]).is_nan());
+    }
+}
