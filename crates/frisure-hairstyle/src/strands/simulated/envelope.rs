@@ -23,7 +23,8 @@ pub(super) struct Envelope<'a> {
     elements: usize,
     /// Factor on all stiffnesses.
     pub(super) hardness: f64,
-    hairs: Vec<Tube>,
+    /// Length of an element of each hair (m).
+    lengths: Vec<f64>,
     /// Of the ends of links, those of a hair one after the other.
     places: Vec<Place>,
 }
@@ -41,19 +42,13 @@ struct Place {
 /// Steepest slope of the distance from the skin: it is 1 but for the smoothing.
 const STEEPEST: f64 = 1.25;
 
-/// What a hair is for its surroundings.
-struct Tube {
-    /// Length of an element (m).
-    h: f64,
-}
-
 /// How much wider the tube of a hair is that leaves its wisp.
 const STRAY: f64 = 12.0;
 
 impl<'a> Envelope<'a> {
     pub(super) fn new(population: &'a Population<'a>, elements: usize, hairs: usize) -> Self {
         let places = Vec::with_capacity(elements * hairs);
-        Self { population, elements, hardness: 1.0, hairs: Vec::with_capacity(hairs), places }
+        Self { population, elements, hardness: 1.0, lengths: Vec::with_capacity(hairs), places }
     }
 
     /// The next hair, of a length (m).
@@ -70,7 +65,7 @@ impl<'a> Envelope<'a> {
             };
             self.places.push(Place { at, wide: wide * thickness.tube(s), clear });
         }
-        self.hairs.push(Tube { h });
+        self.lengths.push(h);
     }
 
     /// Energy, gradient and Hessian per length of what begins at `e = 0` with the stiffness `k e/m`, for a distance
@@ -91,8 +86,7 @@ impl<'a> Envelope<'a> {
 
 impl Surroundings for Envelope<'_> {
     fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch {
-        let Tube { h } = self.hairs[hair];
-        let joint = ((s / h - 1.0) as usize).min(self.elements - 1);
+        let joint = ((s / self.lengths[hair] - 1.0) as usize).min(self.elements - 1);
         let Place { at, wide, clear } = self.places[hair * self.elements + joint];
         let contact = &self.population.spec.contact;
         let mut free = f64::INFINITY;
