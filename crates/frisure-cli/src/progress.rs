@@ -3,7 +3,10 @@
 use std::io::IsTerminal;
 use std::time::Duration;
 
+use frisure::hairstyle::Monitor;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::interrupt;
 
 /// Progress of a long computation on standard error, if a person is looking.
 #[derive(Clone)]
@@ -44,5 +47,16 @@ impl Progress {
     /// Takes the bar away.
     pub(crate) fn finish(&self) {
         self.0.finish_and_clear();
+    }
+}
+
+/// Work that is watched stops after Ctrl-C.
+impl Monitor for Progress {
+    fn progress(&self, stage: &'static str, fraction: f64) {
+        self.show(stage, fraction);
+    }
+
+    fn cancelled(&self) -> bool {
+        interrupt::interrupted()
     }
 }

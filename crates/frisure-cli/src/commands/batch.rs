@@ -6,7 +6,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frisure::hairstyle::Monitor;
 use frisure::io::files;
 use frisure::io::scene::SceneError;
 use frisure::io::scene::edit::EditError;
@@ -47,19 +46,6 @@ impl From<BatchError> for Failure {
             BatchError::Write(error) => Self::failed(error),
             error => Self::failed(error),
         }
-    }
-}
-
-/// Tells how far the work is, and to stop after Ctrl-C.
-struct Watch<'a>(&'a Progress);
-
-impl Monitor for Watch<'_> {
-    fn progress(&self, stage: &'static str, fraction: f64) {
-        self.0.show(stage, fraction);
-    }
-
-    fn cancelled(&self) -> bool {
-        interrupt::interrupted()
     }
 }
 
@@ -111,12 +97,11 @@ fn part_of(
     let (work, progress, done) = (work.clone(), progress.clone(), done.clone());
     progress.show("heads", done.load(Ordering::Relaxed) as f64 / all as f64);
     interrupt::computing(move || {
-        let watch = Watch(&progress);
         let each = || {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            watch.progress("heads", done as f64 / all as f64);
+            progress.show("heads", done as f64 / all as f64);
         };
-        work.compute(part, &watch, &each).map_err(|_| Failure::Interrupted)
+        work.compute(part, &progress, &each).map_err(|_| Failure::Interrupted)
     })
 }
 

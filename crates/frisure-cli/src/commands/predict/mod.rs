@@ -9,9 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{
-    Adoption, Hairstyle, HairstyleSpec, Monitor, Simulation, penetration, volume,
-};
+use frisure::hairstyle::{Adoption, Hairstyle, HairstyleSpec, Simulation, penetration, volume};
 use frisure::io::files::Files;
 use frisure::io::groom::Groom;
 use frisure::io::scene::{self, HeadSource, Scene};
@@ -169,19 +167,6 @@ fn name_of<'a>(arguments: &Predict, path: &'a Path, frame: usize, frames: usize)
     }
 }
 
-/// Tells how far the work is, and to stop after Ctrl-C.
-struct Watch<'a>(&'a Progress);
-
-impl Monitor for Watch<'_> {
-    fn progress(&self, stage: &'static str, fraction: f64) {
-        self.0.show(stage, fraction);
-    }
-
-    fn cancelled(&self) -> bool {
-        interrupt::interrupted()
-    }
-}
-
 /// The work that is asked for.
 struct Work {
     arguments: Predict,
@@ -221,12 +206,12 @@ enum Picture {
 impl Work {
     fn hair(&self, spec: &HairstyleSpec) -> Result<Hair, Failure> {
         self.progress.show("head", 0.0);
-        let watch = Watch(&self.progress);
+        let watch = &self.progress;
         let (head, note) = carry::head(&self.scene, &Files::default())?;
         let (start, adoption) =
-            carry::beginning(&self.scene, spec, &head, &Files::default(), &watch)
+            carry::beginning(&self.scene, spec, &head, &Files::default(), watch)
                 .map_err(|e| e.map_or(Failure::Interrupted, Failure::from))?;
-        let styled = steps::all(&self.scene, &head, start, self.arguments.each_step, &watch)?;
+        let styled = steps::all(&self.scene, &head, start, self.arguments.each_step, watch)?;
         let several = self.arguments.image.is_some() && styled.hairstyles.len() > 1;
         let shown = several.then(|| swept(&styled.hairstyles));
         Ok(Hair { head, note, styled, shown, adoption })
@@ -236,8 +221,8 @@ impl Work {
         let (hairstyle, head) = (&hair.styled.hairstyles[frame], &hair.head);
         let (mut strands, simulation) = match self.draws() {
             true => {
-                let watch = Watch(&self.progress);
-                let drawn = hairstyle.strands_and_simulation(head, &watch);
+                let watch = &self.progress;
+                let drawn = hairstyle.strands_and_simulation(head, watch);
                 drawn.map_err(|_| Failure::Interrupted)?
             }
             false => Default::default(),

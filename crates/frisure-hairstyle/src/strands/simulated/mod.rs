@@ -185,25 +185,10 @@ impl<'a> Simulated<'a> {
             if found.hairs[hair].stability == Stability::Stable {
                 continue;
             }
-            let mut controls = self.start(course, rod, elements);
-            for (hardness, kick) in PATIENCE {
-                if hardness == 1.0 && found.hairs[hair].stability == Stability::Stable {
-                    break;
-                }
-                envelope.hardness = hardness;
-                controls.iter_mut().for_each(|control| control.x += kick);
-                let patient = Batch { max_iterations: MOST_ITERATIONS, ..batch };
-                let rod = std::slice::from_ref(rod);
-                let again = patient.settle_among(rod, controls, &envelope, hair);
-                let stability = match hardness {
-                    1.0 => again.hairs[0].stability,
-                    _ => Stability::NotConverged,
-                };
-                let iterations = found.hairs[hair].iterations + again.hairs[0].iterations;
-                found.hairs[hair] = Settled { stability, iterations, ..again.hairs[0] };
-                controls = again.controls;
-            }
-            envelope.hardness = 1.0;
+            let start = self.start(course, rod, elements);
+            let (again, controls) = patiently(&batch, rod, start, (&mut envelope, hair));
+            let iterations = found.hairs[hair].iterations + again.iterations;
+            found.hairs[hair] = Settled { iterations, ..again };
             found.controls[hair * elements..(hair + 1) * elements].copy_from_slice(&controls);
         }
         found
@@ -242,6 +227,32 @@ impl<'a> Simulated<'a> {
             })
             .collect()
     }
+}
+
+/// Brings a hair to rest step by step, by [`PATIENCE`], from turns of its joints (rad); those at the end, too.
+fn patiently(
+    batch: &Batch,
+    rod: &Rod,
+    mut controls: Vec<DVec3>,
+    (envelope, hair): (&mut Envelope<'_>, usize),
+) -> (Settled, Vec<DVec3>) {
+    let batch = Batch { max_iterations: MOST_ITERATIONS, ..*batch };
+    let mut iterations = 0;
+    let mut at_rest = None;
+    for (hardness, kick) in PATIENCE {
+        envelope.hardness = hardness;
+        controls.iter_mut().for_each(|control| control.x += kick);
+        let found = batch.settle_among(std::slice::from_ref(rod), controls, envelope, hair);
+        iterations += found.hairs[0].iterations;
+        at_rest = Some(found.hairs[0]);
+        controls = found.controls;
+        if hardness == 1.0 && found.hairs[0].stability == Stability::Stable {
+            break;
+        }
+    }
+    envelope.hardness = 1.0;
+    let found = at_rest.expect("there are steps");
+    (Settled { iterations, ..found }, controls)
 }
 
 /// Which of [`ELEMENTS`] a hair has.
