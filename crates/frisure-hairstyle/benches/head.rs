@@ -8,6 +8,7 @@ use frisure_hairstyle::{
     Effort, HairContact, HairModel, Hairs, HairstyleSpec, predict, predict_from, preset,
 };
 use frisure_rod::Resolution;
+use glam::DVec3;
 
 fn main() {
     divan::main();
@@ -75,6 +76,27 @@ fn simulated_hairs(bencher: Bencher<'_, '_>, name: &str) {
     spec.contact.hair = HairContact::Layers;
     let style = predict(&spec, &head, &()).expect("a valid description");
     bencher.bench(|| style.strands(&head, &()));
+}
+
+/// The signed distance to the skin at a thousand places around a head: itself, with gradient, with Hessian.
+#[divan::bench(args = [0, 1, 2])]
+fn distance(bencher: Bencher<'_, '_>, derivatives: usize) {
+    let head = Head::mannequin();
+    let field = head.signed_distance();
+    let (low, high) = field.bounds();
+    let place = |k: u32| {
+        let at = DVec3::new(0.618, 0.414, 0.732) * f64::from(k);
+        low + (high - low) * (at - at.floor())
+    };
+    let places: Vec<DVec3> = (0..1000).map(place).collect();
+    bencher.bench(|| -> f64 {
+        let at = |p: &DVec3| match derivatives {
+            0 => field.value(*p),
+            1 => field.value_gradient(*p).1.x,
+            _ => field.value_gradient_hessian(*p).2.x_axis.x,
+        };
+        places.iter().map(at).sum()
+    });
 }
 
 /// A hundred thousand hairs of 48 points around 100 guides.

@@ -81,7 +81,8 @@ impl StrainProfile {
             return (s - self.knots[0].0) * self.knots[0].1;
         };
         let (s0, u0) = self.knots[i];
-        self.integrals[i] + 0.5 * (s - s0) * (u0 + self.at(s))
+        let u = self.knots.get(after).map_or(u0, |&(s1, u1)| u0.lerp(u1, (s - s0) / (s1 - s0)));
+        self.integrals[i] + 0.5 * (s - s0) * (u0 + u)
     }
 }
 

@@ -67,7 +67,9 @@ impl<F: Lanes> Sweeps<F> for Hanging<F> {
     }
 
     #[inline(always)]
-    fn control(&self, joint: usize, lane: usize) -> DVec3 {
-        self.0.joints[joint].control.get(lane)
+    fn save(&mut self, lane: usize, _: usize, controls: &mut [DVec3]) {
+        for (control, joint) in controls.iter_mut().zip(&self.0.joints) {
+            *control = joint.control.get(lane);
+        }
     }
 }

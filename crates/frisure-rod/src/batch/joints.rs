@@ -8,8 +8,8 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::Rod;
 use crate::element::helix_piece;
+use crate::{NaturalStrain, Rod};
 
 /// A hair divided into joints.
 #[derive(Clone, Debug, Default)]
@@ -20,6 +20,10 @@ pub(super) struct Joints {
     pub(super) arms: Vec<DVec3>,
     /// From each joint to the next, the last to the tip (m), in the frame after the joint.
     pub(super) links: Vec<DVec3>,
+    /// The halves of each element, before and after its joint; those of one for all if they are alike.
+    halves: Vec<[Piece; 2]>,
+    /// Where (m) it is rooted, and the clamp's frame.
+    pub(super) root: (DVec3, DMat3),
     /// The frame before the first joint, and where that is (m).
     pub(super) frame: DMat3,
     pub(super) start: DVec3,
@@ -34,11 +38,11 @@ pub(super) struct Joints {
 }
 
 /// Half of an element.
-#[derive(Clone, Copy)]
-struct Piece {
-    turn: DMat3,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) turn: DMat3,
     /// What it adds to the arm of the joint: how far (m) it goes, and the first moment (m²).
-    advance: DVec3,
+    pub(super) advance: DVec3,
     moment: DVec3,
 }
 
@@ -54,31 +58,38 @@ impl Joints {
     pub(super) fn divide(&mut self, rod: &Rod, n: usize) {
         let h = rod.length() / n as f64;
         let half = 0.5 * h;
-        let (natural, weight) = (rod.natural(), rod.weight());
-        let uniform = matches!(natural, crate::NaturalStrain::Uniform(_));
-        let piece = |k: usize| {
-            let from = k as f64 * half;
-            let strain = if uniform { natural.at(0.0) } else { natural.mean(from, from + half) };
-            Piece::of(strain, half)
-        };
-        let alike = uniform.then(|| piece(0));
+        let weight = rod.weight();
         self.h = h;
+        self.root = (rod.root().position(), rod.root().frame());
         self.turns.clear();
         self.arms.clear();
         self.links.clear();
+        self.halves.clear();
+        let uniform = match rod.natural() {
+            NaturalStrain::Uniform(strain) => {
+                self.halves.push([Piece::of(*strain, half); 2]);
+                true
+            }
+            NaturalStrain::Varying(_) => {
+                let strain = |k: usize| rod.natural().mean(k as f64 * half, (k + 1) as f64 * half);
+                let piece = |k: usize| Piece::of(strain(k), half);
+                self.halves.extend((0..n).map(|i| [piece(2 * i), piece(2 * i + 1)]));
+                false
+            }
+        };
         self.stiffness = rod.stiffness() / h;
         let mut before: Option<Piece> = None;
         for i in 0..n {
-            let [first, second] = [2 * i, 2 * i + 1].map(|k| alike.unwrap_or_else(|| piece(k)));
+            let [first, second] = *self.halves(i);
             // The weight (N) of all that hangs beyond the element.
             let hanging = weight * h * (n - 1 - i) as f64;
             let bears = first.advance * (hanging + weight * half) + first.moment * weight;
             match before {
                 None => {
-                    let clamp = rod.root().frame();
+                    let (position, clamp) = self.root;
                     self.constant = (clamp * bears).z;
                     self.frame = clamp * first.turn;
-                    self.start = rod.root().position() + clamp * first.advance;
+                    self.start = position + clamp * first.advance;
                     self.up = self.frame.transpose() * DVec3::Z;
                 }
                 Some(before) => {
@@ -93,6 +104,16 @@ impl Joints {
             self.links.push(second.advance);
             before = Some(second);
         }
+    }
+
+    /// The halves of an element, before and after its joint.
+    pub(super) fn halves(&self, element: usize) -> &[Piece; 2] {
+        if self.halves.len() == 1 { &self.halves[0] } else { &self.halves[element] }
+    }
+
+    /// The half of each element after its joint; one for all if they are alike.
+    pub(super) fn seconds(&self) -> impl Iterator<Item = &Piece> {
+        self.halves.iter().map(|[_, second]| second)
     }
 
     /// C after a joint.

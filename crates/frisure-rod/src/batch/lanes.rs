@@ -396,6 +396,11 @@ impl<F: Lanes> Mat3<F> {
         self.y.set(lane, m.y_axis);
         self.z.set(lane, m.z_axis);
     }
+
+    #[inline(always)]
+    pub(super) fn get(&self, lane: usize) -> glam::DMat3 {
+        glam::DMat3::from_cols(self.x.get(lane), self.y.get(lane), self.z.get(lane))
+    }
 }
 
 impl<F: Lanes> Sym3<F> {
@@ -465,14 +470,19 @@ impl<F: Lanes> Sym3<F> {
         }
     }
 
+    /// Adds to one hair's.
     #[inline(always)]
-    pub(super) fn set(&mut self, lane: usize, m: &glam::DMat3) {
-        self.xx.set(lane, m.x_axis.x);
-        self.xy.set(lane, m.x_axis.y);
-        self.xz.set(lane, m.x_axis.z);
-        self.yy.set(lane, m.y_axis.y);
-        self.yz.set(lane, m.y_axis.z);
-        self.zz.set(lane, m.z_axis.z);
+    pub(super) fn add(&mut self, lane: usize, m: &glam::DMat3) {
+        for (sum, more) in [
+            (&mut self.xx, m.x_axis.x),
+            (&mut self.xy, m.x_axis.y),
+            (&mut self.xz, m.x_axis.z),
+            (&mut self.yy, m.y_axis.y),
+            (&mut self.yz, m.y_axis.z),
+            (&mut self.zz, m.z_axis.z),
+        ] {
+            sum.set(lane, sum.get(lane) + more);
+        }
     }
 
     #[inline(always)]

@@ -17,15 +17,17 @@ mod settle;
 mod sweep;
 mod touch;
 mod touching;
+mod tube;
 mod turn;
 mod turns;
 
 use glam::DVec3;
 
 use crate::minimise::Stability;
-use crate::{Chain, ElementKind, Options, Resolution, Rod, Shape, equilibrium};
+use crate::{Chain, ElementKind, Node, Options, Resolution, Rod, Shape, equilibrium};
 use settle::{Around, End, Rest};
-pub use touching::{Surroundings, Touch};
+pub use touching::{Frames, Surroundings, Touch};
+pub use tube::Tube;
 
 /// Which numbers the way to rest is computed with; the end is double precision always.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,6 +69,14 @@ pub struct Settled {
     pub iterations: usize,
     /// Elastic energy and that of the weight (J), as [`crate::Energy::total`].
     pub energy: f64,
+}
+
+/// What hairs start from that can touch something.
+pub enum Start<'a> {
+    /// The turn of each joint (rad), those of a hair one after the other.
+    Turns(Vec<DVec3>),
+    /// The material frame that each has at an arc length.
+    Frames(Frames<'a>),
 }
 
 /// Hairs at rest.
@@ -128,8 +138,11 @@ impl Batch {
         Batched { elements: n, controls, hairs }
     }
 
-    /// The same, of hairs that can touch something, to which the first of them is hair `first`; in double precision
-    /// always. What then does not come to rest is told as it is.
+    /// Brings hairs to rest that can touch something, to which the first of them is hair `first`; in double precision
+    /// always. They start from other turns of joints (rad), as in [`Self::settle_from`], or from the shape that has
+    /// `frames` at its nodes. What then does not come to rest is told as it is.
+    ///
+    /// Also tells the nodes of hairs, one more for each than elements, those of a hair one after the other.
     ///
     /// # Panics
     /// As [`Self::settle_from`].
@@ -137,16 +150,21 @@ impl Batch {
     pub fn settle_among(
         &self,
         rods: &[Rod],
-        mut controls: Vec<DVec3>,
+        start: Start<'_>,
         surroundings: &dyn Surroundings,
         first: usize,
-    ) -> Batched {
+    ) -> (Batched, Vec<Node>) {
+        let (mut controls, frames) = match start {
+            Start::Turns(controls) => (controls, None),
+            Start::Frames(frames) => (vec![DVec3::ZERO; rods.len() * self.elements], Some(frames)),
+        };
         self.check(rods, &controls);
         let mut ends = vec![End::default(); rods.len()];
-        let around = Around { surroundings, first };
-        settle::among(rods, self.rest(), around, &mut controls, &mut ends);
+        let mut nodes = vec![Node::default(); rods.len() * (self.elements + 1)];
+        let around = Around { surroundings, first, frames };
+        settle::among(rods, self.rest(), around, &mut controls, (&mut nodes, &mut ends));
         let hairs = ends.iter().map(End::as_told).collect();
-        Batched { elements: self.elements, controls, hairs }
+        (Batched { elements: self.elements, controls, hairs }, nodes)
     }
 
     fn check(&self, rods: &[Rod], controls: &[DVec3]) {

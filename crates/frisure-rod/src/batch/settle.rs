@@ -8,10 +8,10 @@ use super::hanging::Hanging;
 use super::joints::Joints;
 use super::lanes::{Lanes, Wide};
 use super::sweep::Backward;
-use super::touching::{Surroundings, Touching};
+use super::touching::{Frames, Surroundings, Touching};
 use super::turn::LARGEST_SQUARE;
-use crate::Rod;
 use crate::minimise::Stability;
+use crate::{Node, Rod};
 
 /// Damping after a first failed pivot or a step that went up, as a fraction of the stiffness; as in
 /// [`crate::minimise::Riccati`].
@@ -55,11 +55,13 @@ impl End {
     }
 }
 
-/// What hairs can touch; the first of them is hair `first` there.
+/// What hairs can touch, and what they start with; the first of them is hair `first` there.
 #[derive(Clone, Copy)]
 pub(super) struct Around<'a> {
     pub(super) surroundings: &'a dyn Surroundings,
     pub(super) first: usize,
+    /// The frames that hairs start with; else their joints are turned as given.
+    pub(super) frames: Option<Frames<'a>>,
 }
 
 /// Brings hairs to rest in double precision, from the controls that are given; these become theirs at rest.
@@ -78,9 +80,12 @@ pub(super) fn among(
     rest: Rest,
     around: Around<'_>,
     controls: &mut [DVec3],
-    ends: &mut [End],
+    (nodes, ends): (&mut [Node], &mut [End]),
 ) {
-    dispatch!(Level::new(), simd => touching(f64s(simd), rods, rest, around, controls, ends));
+    dispatch!(
+        Level::new(),
+        simd => touching(f64s(simd), rods, rest, around, controls, (nodes, ends))
+    );
 }
 
 #[inline(always)]
@@ -96,9 +101,9 @@ fn touching<F: Lanes>(
     rest: Rest,
     around: Around<'_>,
     controls: &mut [DVec3],
-    ends: &mut [End],
+    (nodes, ends): (&mut [Node], &mut [End]),
 ) {
-    let mut sweeps = Touching::new(zero, rest.elements, alike(rods), around);
+    let mut sweeps = Touching::new(zero, rest.elements, alike(rods), around, nodes);
     run(zero, &mut sweeps, (rods, rest), controls, ends);
 }
 
@@ -118,8 +123,8 @@ pub(super) trait Sweeps<F: Lanes> {
     fn backward(&mut self, accepted: F::Truth, damping: F) -> Backward<F>;
     /// As [`super::sweep::Bundle::forward`].
     fn forward(&mut self) -> F;
-    /// The turn of a joint (rad) of the hair in a lane.
-    fn control(&self, joint: usize, lane: usize) -> DVec3;
+    /// Takes a hair out of a lane: the turns of its joints (rad).
+    fn save(&mut self, lane: usize, hair: usize, controls: &mut [DVec3]);
 }
 
 #[inline(always)]
@@ -213,9 +218,7 @@ fn run<F: Lanes>(
                 || lane.iterations >= rest.max_iterations
                 || (at_rest && lane.damping == 0.0 && !positive);
             if settled || lost {
-                for i in 0..n {
-                    controls[hair * n + i] = sweeps.control(i, index);
-                }
+                sweeps.save(index, hair, &mut controls[hair * n..(hair + 1) * n]);
                 let energy = lane.energy + lane.constant;
                 ends[hair] = End { settled, gradient, iterations: lane.iterations, energy };
                 lane.hair = None;

@@ -63,18 +63,18 @@ impl<F: Lanes> Felt<F> {
         Self { energy: zero, gradient: Vec3::all(zero), hessian: Sym3::all(zero) }
     }
 
-    /// What one hair feels.
+    /// Adds what one hair feels.
     #[inline(always)]
-    pub(super) fn set(
+    pub(super) fn add(
         &mut self,
         lane: usize,
         energy: f64,
         gradient: glam::DVec3,
         hessian: &glam::DMat3,
     ) {
-        self.energy.set(lane, energy);
-        self.gradient.set(lane, gradient);
-        self.hessian.set(lane, hessian);
+        self.energy.set(lane, self.energy.get(lane) + energy);
+        self.gradient.set(lane, self.gradient.get(lane) + gradient);
+        self.hessian.add(lane, hessian);
     }
 }
 
@@ -118,6 +118,12 @@ impl<F: Lanes> Joint<F> {
     /// The joint's turn (rad) in one hair.
     pub(super) fn control(&self, lane: usize) -> glam::DVec3 {
         self.now.control.get(lane)
+    }
+
+    /// The frame after the joint of one hair, and where its link ends (m).
+    #[inline(always)]
+    pub(super) fn link(&self, lane: usize) -> (glam::DMat3, glam::DVec3) {
+        (self.now.frame.get(lane), self.now.end.get(lane))
     }
 
     /// Lets the next trial of one hair be a shape that is given.

@@ -1,17 +1,25 @@
 //! Hairs that can touch something, into and out of the lanes.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::joints::Joints;
 use super::lanes::{Lanes, Mat3, Vec3};
 use super::settle::{Around, Sweeps};
 use super::sweep::Backward;
 use super::touch::{Bundle, Felt, Joint};
+use super::tube::{Tube, Tubes};
 use super::turns::Turns;
+use crate::Node;
 
 /// What hairs can touch.
 pub trait Surroundings: Sync {
-    /// What the hair of an index feels at arc length `s` (m) where it is at `position` (m, world).
+    /// The room that neighbours leave the hair of an index at arc length `s` (m).
+    fn tube(&self, hair: usize, s: f64) -> Tube {
+        let _ = (hair, s);
+        Tube::NONE
+    }
+
+    /// What else it feels at arc length `s` (m) where it is at `position` (m, world).
     fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch;
 }
 
@@ -31,6 +39,9 @@ pub enum Touch {
     },
 }
 
+/// The material frames that hairs start with, by their index and arc length (m).
+pub type Frames<'a> = &'a (dyn Fn(usize, f64) -> DMat3 + Sync);
+
 /// A ball (m) in which a hair feels nothing.
 #[derive(Clone, Copy)]
 struct Free {
@@ -41,19 +52,48 @@ struct Free {
 const NOWHERE: Free = Free { centre: DVec3::ZERO, radius: -1.0 };
 
 /// What a lane's hair is, for those around it.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Place {
     hair: usize,
     /// Length of an element (m).
     h: f64,
+    /// Where it is rooted.
+    root: Node,
+    /// From each joint to the end of its element (m) and the tangent there, in the frame after the joint; one for
+    /// all if they are alike.
+    halves: Vec<(DVec3, DVec3)>,
+}
+
+impl Place {
+    const EMPTY: Self = Self {
+        hair: 0,
+        h: 0.0,
+        root: Node { position: DVec3::ZERO, tangent: DVec3::Z },
+        halves: Vec::new(),
+    };
+
+    /// Arc length (m) of the end of a joint's link, of `n`, and the length (m) of hair that it stands for.
+    ///
+    /// The next joint is half an element into the next element; the tip has half a share.
+    fn end(h: f64, joint: usize, n: usize) -> (f64, f64) {
+        match joint + 1 == n {
+            true => (n as f64 * h, 0.5 * h),
+            false => ((joint as f64 + 1.5) * h, h),
+        }
+    }
 }
 
 /// Hairs in their own weight, and what they touch.
 pub(super) struct Touching<'a, F> {
     bundle: Bundle<F>,
     around: Around<'a>,
-    /// Of each lane; none if it is empty.
-    places: Vec<Option<Place>>,
+    /// Of all hairs, those of a hair one after the other.
+    nodes: &'a mut [Node],
+    /// By joint.
+    tubes: Vec<Tubes<F>>,
+    /// Of each lane, and whether there is a hair in it.
+    places: Vec<Place>,
+    taken: Vec<bool>,
     /// By joint, then by lane.
     free: Vec<Free>,
     nothing: Felt<F>,
@@ -62,7 +102,13 @@ pub(super) struct Touching<'a, F> {
 impl<'a, F: Lanes> Touching<'a, F> {
     /// Lanes for hairs of `n` joints, between which those of each hair turn alike or not.
     #[inline(always)]
-    pub(super) fn new(zero: F, n: usize, alike: bool, around: Around<'a>) -> Self {
+    pub(super) fn new(
+        zero: F,
+        n: usize,
+        alike: bool,
+        around: Around<'a>,
+        nodes: &'a mut [Node],
+    ) -> Self {
         Self {
             bundle: Bundle {
                 joints: vec![Joint::nothing(zero); n],
@@ -72,7 +118,10 @@ impl<'a, F: Lanes> Touching<'a, F> {
                 stiffness: Vec3::all(zero.all(1.0)),
             },
             around,
-            places: vec![None; F::COUNT],
+            nodes,
+            tubes: vec![Tubes::none(zero); n],
+            places: vec![Place::EMPTY; F::COUNT],
+            taken: vec![false; F::COUNT],
             free: vec![NOWHERE; n * F::COUNT],
             nothing: Felt::nothing(zero),
         }
@@ -82,19 +131,42 @@ impl<'a, F: Lanes> Touching<'a, F> {
 impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
     #[inline(always)]
     fn load(&mut self, lane: usize, hair: usize, joints: &Joints, start: &[DVec3]) -> Option<f64> {
-        let bundle = &mut self.bundle;
+        let Self { bundle, around, .. } = self;
+        let Around { surroundings, first, frames } = *around;
+        let hair = first + hair;
+        let n = start.len();
         bundle.frame.set(lane, &joints.frame);
         bundle.start.set(lane, joints.start);
         bundle.stiffness.set(lane, joints.stiffness);
         bundle.turns.set(lane, joints);
+        let mut before = frames.map(|_| joints.root.1);
         for (i, control) in start.iter().enumerate() {
+            let control = match (frames, &mut before) {
+                (Some(frames), Some(before)) => {
+                    let after = frames(hair, (i + 1) as f64 * joints.h);
+                    let [first, second] = joints.halves(i);
+                    let turn = (*before * first.turn).transpose() * after * second.turn.transpose();
+                    *before = after;
+                    DQuat::from_mat3(&turn).normalize().to_scaled_axis()
+                }
+                _ => *control,
+            };
             let joint = &mut bundle.joints[i];
             joint.arm.set(lane, joints.arms[i]);
             joint.link.set(lane, joints.links[i]);
-            joint.begin(lane, *control);
-            self.free[i * F::COUNT + lane] = NOWHERE;
+            joint.begin(lane, control);
+            let (s, share) = Place::end(joints.h, i, n);
+            let tube = surroundings.tube(hair, s);
+            self.tubes[i].set(lane, &tube, share);
+            self.free[i * F::COUNT + lane] = Free { centre: tube.centre, radius: tube.clear };
         }
-        self.places[lane] = Some(Place { hair: self.around.first + hair, h: joints.h });
+        let place = &mut self.places[lane];
+        (place.hair, place.h) = (hair, joints.h);
+        let (position, frame) = joints.root;
+        place.root = Node { position, tangent: frame.z_axis };
+        place.halves.clear();
+        place.halves.extend(joints.seconds().map(|half| (half.advance, half.turn.z_axis)));
+        self.taken[lane] = true;
         None
     }
 
@@ -113,26 +185,25 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
 
     #[inline(always)]
     fn forward(&mut self) -> F {
-        let Self { bundle, around, places, free, nothing } = self;
-        let last = bundle.joints.len() - 1;
+        let Self { bundle, around, tubes, places, taken, free, nothing, .. } = self;
+        let n = bundle.joints.len();
         bundle.forward(|joint, ends| {
-            let mut felt = *nothing;
-            for (lane, place) in places.iter().enumerate() {
-                let Some(Place { hair, h }) = place else { continue };
+            let mut felt = tubes[joint].felt(ends, nothing);
+            for lane in 0..F::COUNT {
+                if !taken[lane] {
+                    continue;
+                }
                 let end = ends.get(lane);
                 let known = &mut free[joint * F::COUNT + lane];
                 if end.distance_squared(known.centre) < known.radius * known.radius.abs() {
                     continue;
                 }
-                // The next joint is half an element into the next element; the tip has half a share.
-                let (s, share) = match joint == last {
-                    true => ((joint + 1) as f64 * h, 0.5 * h),
-                    false => ((joint as f64 + 1.5) * h, *h),
-                };
-                match around.surroundings.felt(*hair, s, end) {
+                let Place { hair, h, .. } = places[lane];
+                let (s, share) = Place::end(h, joint, n);
+                match around.surroundings.felt(hair, s, end) {
                     Touch::Free(radius) => *known = Free { centre: end, radius },
                     Touch::Felt { energy, gradient, hessian } => {
-                        felt.set(lane, energy * share, gradient * share, &(hessian * share));
+                        felt.add(lane, energy * share, gradient * share, &(hessian * share));
                     }
                 }
             }
@@ -141,14 +212,27 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
     }
 
     #[inline(always)]
-    fn control(&self, joint: usize, lane: usize) -> DVec3 {
-        self.bundle.joints[joint].control(lane)
+    fn save(&mut self, lane: usize, hair: usize, controls: &mut [DVec3]) {
+        let n = controls.len();
+        let place = &self.places[lane];
+        let nodes = &mut self.nodes[hair * (n + 1)..(hair + 1) * (n + 1)];
+        nodes[0] = place.root;
+        let mut at = self.bundle.start.get(lane);
+        for (i, control) in controls.iter_mut().enumerate() {
+            let joint = &self.bundle.joints[i];
+            *control = joint.control(lane);
+            let (frame, end) = joint.link(lane);
+            let (advance, tangent) = place.halves[i.min(place.halves.len() - 1)];
+            nodes[i + 1] = Node { position: at + frame * advance, tangent: frame * tangent };
+            at = end;
+        }
+        self.taken[lane] = false;
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Batch;
+    use super::super::{Batch, Start};
     use super::*;
     use crate::{Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant};
 
@@ -241,9 +325,9 @@ mod tests {
     fn what_touches_nothing_hangs() {
         let rods = rods();
         let batch = Batch { elements: 12, tolerance: 1e-10, ..Batch::default() };
-        let start = || vec![DVec3::ZERO; rods.len() * 12];
+        let start = Start::Turns(vec![DVec3::ZERO; rods.len() * 12]);
         let free = batch.settle(&rods);
-        let around = batch.settle_among(&rods, start(), &Near::Nothing, 0);
+        let (around, _) = batch.settle_among(&rods, start, &Near::Nothing, 0);
         for (a, b) in free.controls.iter().zip(&around.controls) {
             assert!(a.distance(*b) < 1e-7, "{a} {b}");
         }
@@ -259,8 +343,8 @@ mod tests {
         let ball = Near::Ball(DVec3::new(0.0, 0.0, -0.03), 0.035);
         for around in [Near::Springs(1e-4), Near::Springs(1.0), ball] {
             let batch = Batch { elements: 12, max_iterations: 5000, ..Batch::default() };
-            let start = vec![DVec3::ZERO; rods.len() * 12];
-            let found = batch.settle_among(&rods, start, &around, 3);
+            let start = Start::Turns(vec![DVec3::ZERO; rods.len() * 12]);
+            let (found, _) = batch.settle_among(&rods, start, &around, 3);
             for (i, rod) in rods.iter().enumerate() {
                 let settled = &found.hairs[i];
                 assert_eq!(settled.stability, Stability::Stable, "{i}: {settled:?}");

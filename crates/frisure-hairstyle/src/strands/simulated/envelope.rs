@@ -1,9 +1,10 @@
 //! What a hair feels: the skin, and the hairs around it.
 
-use frisure_rod::batch::{Surroundings, Touch};
-use glam::{DMat3, DVec3};
+use frisure_rod::batch::{Surroundings, Touch, Tube};
+use glam::DVec3;
 
 use crate::contact::outer;
+use crate::head::Head;
 use crate::spec::Body;
 use crate::strands::course::Course;
 use crate::strands::population::Population;
@@ -13,8 +14,7 @@ use crate::strands::skin::LEAST_DISTANCE;
 ///
 /// Hairs of a wisp lie side by side: each has the tube of the radius ρ for itself in which hairs of one wisp wander
 /// (see [`crate::contact::Thickness`]), about the place that it is carried to by its guides. Beyond it neighbours push
-/// back, softly at first (van Wyk 1946): `k e³/6ρ` for the distance e beyond, k the stiffness of hair. That is a mean
-/// field: neighbours do not answer.
+/// back with the stiffness of hair, as [`Tube`] says. That is a mean field: neighbours do not answer.
 ///
 /// Skin begins a little outside, where the line of a hair has to be: `k e³/6m` for the depth e below that margin m, k
 /// the stiffness of skin. It begins as softly as hair, since what begins at once takes Newton's steps to and fro.
@@ -26,17 +26,7 @@ pub(super) struct Envelope<'a> {
     /// Length of an element of each hair (m).
     lengths: Vec<f64>,
     /// Of the ends of links, those of a hair one after the other.
-    places: Vec<Place>,
-}
-
-/// Where the end of a link would be between its guides.
-struct Place {
-    /// There (m).
-    at: DVec3,
-    /// ρ (m).
-    wide: f64,
-    /// Distance (m) from the skin.
-    clear: f64,
+    tubes: Vec<Tube>,
 }
 
 /// Steepest slope of the distance from the skin: it is 1 but for the smoothing.
@@ -45,83 +35,75 @@ const STEEPEST: f64 = 1.25;
 /// How much wider the tube of a hair is that leaves its wisp.
 const STRAY: f64 = 12.0;
 
+/// From which distance (m) on it is enough to know that skin is as far.
+const FAR: f64 = 0.02;
+
 impl<'a> Envelope<'a> {
     pub(super) fn new(population: &'a Population<'a>, elements: usize, hairs: usize) -> Self {
-        let places = Vec::with_capacity(elements * hairs);
-        Self { population, elements, hardness: 1.0, lengths: Vec::with_capacity(hairs), places }
+        let tubes = Vec::with_capacity(elements * hairs);
+        Self { population, elements, hardness: 1.0, lengths: Vec::with_capacity(hairs), tubes }
     }
 
     /// The next hair, of a length (m).
     pub(super) fn add(&mut self, course: &Course<'_>, length: f64) {
+        let Population { spec, head, guides, .. } = self.population;
         let h = length / self.elements as f64;
-        let thickness = &self.population.guides[course.main()].thickness;
+        let thickness = &guides[course.main()].thickness;
         let wide = if course.stray() { STRAY } else { 1.0 };
+        let mut before = (DVec3::ZERO, -1.0);
         for joint in 0..self.elements {
             let s = (h * (joint as f64 + 1.5)).min(length);
-            let at = self.population.followed_point(course, s / course.length);
-            let clear = match self.population.spec.contact.body {
+            let centre = self.population.followed_point(course, s / course.length);
+            let clear = match spec.contact.body {
                 Body::None => f64::INFINITY,
-                _ => self.population.head.signed_distance().value(at),
+                _ => {
+                    let at_least = before.1 - centre.distance(before.0);
+                    if at_least > FAR { at_least } else { self.clear(head, centre, s) }
+                }
             };
-            self.places.push(Place { at, wide: wide * thickness.tube(s), clear });
+            before = (centre, clear);
+            let (radius, stiffness) = (wide * thickness.tube(s), spec.contact.hair_stiffness);
+            self.tubes.push(Tube { centre, radius, stiffness, clear });
         }
         self.lengths.push(h);
     }
 
-    /// Energy, gradient and Hessian per length of what begins at `e = 0` with the stiffness `k e/m`, for a distance
-    /// that has these derivatives.
-    fn pushed(
-        &self,
-        k: f64,
-        m: f64,
-        e: f64,
-        gradient: DVec3,
-        hessian: DMat3,
-    ) -> (f64, DVec3, DMat3) {
-        let stiffness = self.hardness * k * e / m;
-        let force = 0.5 * stiffness * e;
-        (force * e / 3.0, gradient * force, outer(gradient, gradient) * stiffness + hessian * force)
+    /// How far (m) from a place at arc length `s` (m) it is to the skin at least.
+    fn clear(&self, head: &Head, place: DVec3, s: f64) -> f64 {
+        (head.signed_distance().value(place) - margin(s)) / STEEPEST
+    }
+
+    fn joint(&self, hair: usize, s: f64) -> usize {
+        hair * self.elements + ((s / self.lengths[hair] - 1.0) as usize).min(self.elements - 1)
     }
 }
 
+/// How far (m) outside the skin it begins.
+fn margin(s: f64) -> f64 {
+    LEAST_DISTANCE * (s / 0.003).min(1.0)
+}
+
 impl Surroundings for Envelope<'_> {
-    fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch {
-        let joint = ((s / self.lengths[hair] - 1.0) as usize).min(self.elements - 1);
-        let Place { at, wide, clear } = self.places[hair * self.elements + joint];
-        let contact = &self.population.spec.contact;
-        let mut free = f64::INFINITY;
-        let mut felt: Option<(f64, DVec3, DMat3)> = None;
-        let mut add = |(energy, gradient, hessian): (f64, DVec3, DMat3)| {
-            let sum = felt.get_or_insert((0.0, DVec3::ZERO, DMat3::ZERO));
-            *sum = (sum.0 + energy, sum.1 + gradient, sum.2 + hessian);
-        };
-        let away = position - at;
-        let distance = away.length();
-        if distance < wide {
-            free = wide - distance;
-        } else {
-            let n = away / distance;
-            let round = (DMat3::IDENTITY - outer(n, n)) * (1.0 / distance);
-            add(self.pushed(contact.hair_stiffness, wide, distance - wide, n, round));
+    fn tube(&self, hair: usize, s: f64) -> Tube {
+        let tube = self.tubes[self.joint(hair, s)];
+        Tube { stiffness: self.hardness * tube.stiffness, ..tube }
+    }
+
+    fn felt(&self, _: usize, s: f64, position: DVec3) -> Touch {
+        let margin = margin(s);
+        let skin = self.population.head.signed_distance();
+        let out = skin.value(position) - margin;
+        if out > 0.0 {
+            return Touch::Free(out / STEEPEST);
         }
-        let margin = LEAST_DISTANCE * (s / 0.003).min(1.0);
-        let clear = clear - STEEPEST * distance - margin;
-        if clear > 0.0 {
-            free = free.min(clear / STEEPEST);
-        } else {
-            let skin = self.population.head.signed_distance();
-            let out = skin.value(position) - margin;
-            if out > 0.0 {
-                free = free.min(out);
-            } else {
-                let (distance, gradient, hessian) = skin.value_gradient_hessian(position);
-                let (gradient, hessian) = (-gradient, -hessian);
-                add(self.pushed(contact.stiffness, margin, margin - distance, gradient, hessian));
-            }
-        }
-        match felt {
-            None => Touch::Free(free),
-            Some((energy, gradient, hessian)) => Touch::Felt { energy, gradient, hessian },
+        let (distance, gradient, hessian) = skin.value_gradient_hessian(position);
+        let depth = margin - distance;
+        let stiffness = self.hardness * self.population.spec.contact.stiffness * depth / margin;
+        let force = 0.5 * stiffness * depth;
+        Touch::Felt {
+            energy: force * depth / 3.0,
+            gradient: gradient * -force,
+            hessian: outer(gradient, gradient) * stiffness - hessian * force,
         }
     }
 }

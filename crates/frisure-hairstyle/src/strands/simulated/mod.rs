@@ -7,9 +7,9 @@
 mod envelope;
 mod fibre;
 
-use frisure_rod::batch::{Batch, Batched, Settled};
-use frisure_rod::{Chain, ElementKind, Rod, Stability};
-use glam::{DMat3, DQuat, DVec3};
+use frisure_rod::batch::{Batch, Batched, Frames, Settled, Start};
+use frisure_rod::{Node, Rod, Stability, line};
+use glam::{DMat3, DQuat};
 use rayon::prelude::*;
 
 use super::course::Course;
@@ -141,7 +141,7 @@ impl<'a> Simulated<'a> {
         let mut simulation = Simulation::default();
         for (planned, elements) in groups.into_iter().zip(ELEMENTS) {
             stage.check()?;
-            let found = self.settle(&planned, elements);
+            let (found, nodes) = self.settle(&planned, elements);
             let at_rest = |hair: &&Settled| hair.stability == Stability::Stable;
             simulation = simulation.and(Simulation {
                 hairs: planned.len(),
@@ -149,8 +149,8 @@ impl<'a> Simulated<'a> {
                 elements: elements * planned.len(),
                 iterations: found.hairs.iter().map(|hair| hair.iterations).sum(),
             });
-            for (hair, planned) in planned.into_iter().enumerate() {
-                let points = self.points(&planned, &found, hair);
+            for (planned, nodes) in planned.into_iter().zip(nodes.chunks(elements + 1)) {
+                let points = self.points(&planned, nodes);
                 let Planned { place, course, .. } = planned;
                 drawn[place] = Some(Hair {
                     guide: course.main() as u32,
@@ -164,95 +164,91 @@ impl<'a> Simulated<'a> {
         Ok((drawn.into_iter().flatten().collect(), simulation))
     }
 
-    /// Brings hairs of so many elements to rest.
-    fn settle(&self, planned: &[Planned<'_>], elements: usize) -> Batched {
-        let mut rods = Vec::with_capacity(planned.len());
-        let mut controls = Vec::with_capacity(planned.len() * elements);
+    /// Brings hairs of so many elements to rest; tells the nodes of each, too.
+    fn settle(&self, planned: &[Planned<'_>], elements: usize) -> (Batched, Vec<Node>) {
         let mut envelope = Envelope::new(self.population, elements, planned.len());
+        let mut turned = Vec::with_capacity(planned.len());
         for Planned { course, rod, .. } in planned {
-            controls.extend(self.start(course, rod, elements));
             envelope.add(course, rod.length());
-            rods.push(rod.clone());
+            let root = DQuat::from_mat3(&rod.root().frame());
+            turned.push(root * self.frames[course.main()][0].inverse());
         }
+        let rods: Vec<Rod> = planned.iter().map(|planned| planned.rod.clone()).collect();
+        let frames = |hair: usize, s: f64| self.frame(&planned[hair].course, turned[hair], s);
         let batch = Batch {
             elements,
             tolerance: TOLERANCE,
             max_iterations: MAX_ITERATIONS,
             ..Batch::default()
         };
-        let mut found = batch.settle_among(&rods, controls, &envelope, 0);
-        for (hair, Planned { course, rod, .. }) in planned.iter().enumerate() {
+        let (mut found, mut nodes) =
+            batch.settle_among(&rods, Start::Frames(&frames), &envelope, 0);
+        for (hair, rod) in rods.iter().enumerate() {
             if found.hairs[hair].stability == Stability::Stable {
                 continue;
             }
-            let start = self.start(course, rod, elements);
-            let (again, controls) = patiently(&batch, rod, start, (&mut envelope, hair));
+            let (again, line) = patiently(&batch, rod, &frames, (&mut envelope, hair));
             let iterations = found.hairs[hair].iterations + again.iterations;
             found.hairs[hair] = Settled { iterations, ..again };
-            found.controls[hair * elements..(hair + 1) * elements].copy_from_slice(&controls);
+            nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)].copy_from_slice(&line);
         }
-        found
+        (found, nodes)
     }
 
-    /// The turns of joints (rad) that give a hair the shape of its guide.
-    fn start(&self, course: &Course<'_>, rod: &Rod, elements: usize) -> Vec<DVec3> {
+    /// The frame that a hair has at arc length `s` (m) if it goes as its guide does, but for having been turned at the
+    /// root.
+    fn frame(&self, course: &Course<'_>, turned: DQuat, s: f64) -> DMat3 {
         let guide = course.main();
         let frames = &self.frames[guide];
-        let length = self.hairstyle.guides[guide].rod.length();
-        let turned = DQuat::from_mat3(&rod.root().frame()) * frames[0].inverse();
-        let at = |s: f64| {
-            let last = frames.len() - 1;
-            let x = (s / length).min(1.0) * last as f64;
-            let i = (x as usize).min(last - 1);
-            DMat3::from_quat(turned * frames[i].slerp(frames[i + 1], x - i as f64))
-        };
-        let chain = Chain::uniform(rod, ElementKind::Jointed, elements);
-        let frames: Vec<DMat3> = chain.arc().iter().map(|s| at(*s)).collect();
-        chain.shape_through(&frames).controls
+        let last = frames.len() - 1;
+        let x = (s / self.hairstyle.guides[guide].rod.length()).min(1.0) * last as f64;
+        let i = (x as usize).min(last - 1);
+        DMat3::from_quat(turned * frames[i].lerp(frames[i + 1], x - i as f64).normalize())
     }
 
     /// The line of a hair at rest, out of the skin.
-    fn points(&self, planned: &Planned<'_>, found: &Batched, hair: usize) -> Vec<glam::Vec3> {
+    fn points(&self, planned: &Planned<'_>, nodes: &[Node]) -> Vec<glam::Vec3> {
         let Planned { course, rod, .. } = planned;
-        let chain = Chain::uniform(rod, ElementKind::Jointed, found.elements);
-        let n = found.elements;
-        let shape = chain.shape(found.controls[hair * n..(hair + 1) * n].to_vec());
-        let last = self.population.spec.wisps.points - 1;
+        let (count, length) = (self.population.spec.wisps.points, rod.length());
+        let step = length / (count - 1) as f64;
         let mut free = Free::NOWHERE;
-        (0..=last)
-            .map(|k| {
-                let s = k as f64 / last as f64 * rod.length();
-                let (p, _) = chain.point(&shape, s);
+        (line(nodes, length, count).enumerate())
+            .map(|(k, p)| {
+                let s = k as f64 * step;
                 self.population.laid_on_body(&course.root, p, s, LAID, &mut free).as_vec3()
             })
             .collect()
     }
 }
 
-/// Brings a hair to rest step by step, by [`PATIENCE`], from turns of its joints (rad); those at the end, too.
+/// Brings a hair to rest step by step, by [`PATIENCE`], from given frames; tells its nodes, too.
 fn patiently(
     batch: &Batch,
     rod: &Rod,
-    mut controls: Vec<DVec3>,
+    frames: Frames<'_>,
     (envelope, hair): (&mut Envelope<'_>, usize),
-) -> (Settled, Vec<DVec3>) {
+) -> (Settled, Vec<Node>) {
     let batch = Batch { max_iterations: MOST_ITERATIONS, ..*batch };
     let mut iterations = 0;
+    let mut start = Start::Frames(frames);
     let mut at_rest = None;
     for (hardness, kick) in PATIENCE {
         envelope.hardness = hardness;
-        controls.iter_mut().for_each(|control| control.x += kick);
-        let found = batch.settle_among(std::slice::from_ref(rod), controls, envelope, hair);
+        if let Start::Turns(controls) = &mut start {
+            controls.iter_mut().for_each(|control| control.x += kick);
+        }
+        let (found, nodes) =
+            batch.settle_among(std::slice::from_ref(rod), start, envelope, hair);
         iterations += found.hairs[0].iterations;
-        at_rest = Some(found.hairs[0]);
-        controls = found.controls;
+        at_rest = Some((found.hairs[0], nodes));
+        start = Start::Turns(found.controls);
         if hardness == 1.0 && found.hairs[0].stability == Stability::Stable {
             break;
         }
     }
     envelope.hardness = 1.0;
-    let found = at_rest.expect("there are steps");
-    (Settled { iterations, ..found }, controls)
+    let (found, nodes) = at_rest.expect("there are steps");
+    (Settled { iterations, ..found }, nodes)
 }
 
 /// Which of [`ELEMENTS`] a hair has.
