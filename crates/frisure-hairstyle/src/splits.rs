@@ -13,26 +13,40 @@ const STRAY: f64 = 0.5;
 
 /// A coherent deviation along a hair: amplitude (m), wave number (rad per length) and phase.
 #[derive(Clone, Copy)]
-pub(crate) struct Waves([(DVec3, f64, f64); 3]);
+pub(crate) struct Waves([Wave; 3]);
+
+/// One of them.
+#[derive(Clone, Copy)]
+struct Wave {
+    /// Amplitude (m); zero: there is none.
+    amplitude: DVec3,
+    /// Angle from root to tip, at the root, and the sine of the latter.
+    number: f64,
+    phase: f64,
+    root: f64,
+}
 
 impl Waves {
     /// No deviation.
-    pub(crate) const NONE: Self = Self([(DVec3::ZERO, 0.0, 0.0); 3]);
+    pub(crate) const NONE: Self =
+        Self([Wave { amplitude: DVec3::ZERO, number: 0.0, phase: 0.0, root: 0.0 }; 3]);
 
     /// Of about `amplitude` (m) on hair of `length` (m).
     pub(crate) fn new(amplitude: f64, length: f64, random: &mut Stream) -> Self {
         let mut wave = |wavelength: f64, share: f64| {
-            let wave_number = TAU * length / (wavelength * random.factor(0.3));
+            let number = TAU * length / (wavelength * random.factor(0.3));
             let direction = DVec3::new(random.normal(), random.normal(), random.normal());
-            (direction * (amplitude * share), wave_number, TAU * random.unit())
+            let phase = TAU * random.unit();
+            Wave { amplitude: direction * (amplitude * share), number, phase, root: phase.sin() }
         };
         Self([wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)])
     }
 
     /// Deviation (m) at `x` from 0 (root) to 1 (tip); none at the root.
     pub(crate) fn at(&self, x: f64) -> DVec3 {
-        let wave = |(amplitude, number, phase): &(DVec3, f64, f64)| {
-            *amplitude * ((number * x + phase).sin() - phase.sin())
+        let wave = |w: &Wave| match w.amplitude == DVec3::ZERO {
+            true => DVec3::ZERO,
+            false => w.amplitude * ((w.number * x + w.phase).sin() - w.root),
         };
         self.0.iter().map(wave).sum()
     }

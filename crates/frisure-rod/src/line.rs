@@ -78,7 +78,10 @@ mod tests {
             let points: Vec<DVec3> = line(&nodes, length, 541).collect();
             for (k, point) in points.iter().enumerate() {
                 let around = point.truncate().length();
-                assert!((around - 1.0).abs() < if p == 0.0 { 5e-5 } else { 3e-3 }, "{p} {k}: {around}");
+                assert!(
+                    (around - 1.0).abs() < if p == 0.0 { 5e-5 } else { 3e-3 },
+                    "{p} {k}: {around}"
+                );
                 let there = on(length * k as f64 / 540.0).position;
                 assert!(there.distance(*point) < 5e-3, "{p} {k}");
             }

@@ -59,6 +59,8 @@ pub(crate) struct Population<'a> {
     /// Length (m) at which each hair has been cut.
     limits: Option<&'a [f32]>,
     pub(super) wisps: Vec<Wisp>,
+    /// Where (m) each wisp is at [`MARKS`].
+    marks: Vec<[DVec3; 4]>,
     grid: Grid,
     pub(super) roots: Vec<DVec3>,
     /// Mean distance of neighbouring guides (m).
@@ -70,6 +72,9 @@ pub(crate) struct Population<'a> {
     /// Largest width (m) over which hairs of any wisp are moved out of the body.
     pub(super) widest: f64,
 }
+
+/// Where along two guides it shows whether they go the same way, from root to tip.
+const MARKS: [f64; 4] = [0.0, 0.3, 0.65, 1.0];
 
 /// Distance (m) between the points at which a hair is looked at for where it is cut …
 const CUT_STEP: f64 = 5e-3;
@@ -118,6 +123,7 @@ impl<'a> Population<'a> {
         let patch = spacing / std::f64::consts::PI.sqrt();
         let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
         let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, beyond);
+        let wisps: Vec<Wisp> = rest.guides.par_iter().map(wisp).collect();
         Self {
             spec,
             head,
@@ -128,7 +134,8 @@ impl<'a> Population<'a> {
             guides,
             states: styling.wisps(),
             limits,
-            wisps: rest.guides.par_iter().map(wisp).collect(),
+            marks: wisps.iter().map(|wisp| MARKS.map(|x| wisp.at(x).0)).collect(),
+            wisps,
             grid: Grid::new(&roots, spacing),
             roots,
             spacing,
@@ -253,13 +260,11 @@ impl<'a> Population<'a> {
     /// Guides near a root that its hair, which leaves in the direction `own`, can go with; the one most
     /// like it first.
     fn sorted(&self, root: &Root, own: DVec3) -> Vec<usize> {
-        let mut near = self.near(root.position);
+        let near = self.near(root.position);
         // Beside a parting the nearest guide may go to the other side.
-        near.sort_by(|&a, &b| {
-            let farness = |g: usize| self.farness(root, own, g);
-            farness(a).total_cmp(&farness(b)).then(a.cmp(&b))
-        });
-        near
+        let mut ranked: Vec<_> = near.iter().map(|&g| (self.farness(root, own, g), g)).collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        ranked.into_iter().map(|(_, g)| g).collect()
     }
 
     /// How far (m²) a guide is from a root whose hair leaves in the direction `own`.
@@ -323,10 +328,10 @@ impl<'a> Population<'a> {
     /// Whether two guides go the same way, from 1 to 0: hair beside a parting or around an ear falls
     /// on one side or the other, not in the middle.
     fn agreement(&self, a: usize, b: usize) -> f64 {
-        let apart = |x: f64| self.wisps[a].at(x).0.distance(self.wisps[b].at(x).0);
-        let least = apart(0.0) + self.spacing;
-        let most = [0.3, 0.65, 1.0].into_iter().map(apart).fold(0.0, f64::max);
-        1.0 - smooth(0.8, 1.6, most / least)
+        let (a, b) = (&self.marks[a], &self.marks[b]);
+        let apart = |mark: usize| a[mark].distance(b[mark]);
+        let most = apart(1).max(apart(2)).max(apart(3));
+        1.0 - smooth(0.8, 1.6, most / (apart(0) + self.spacing))
     }
 
     /// The split of a wisp that a hair belongs to: the nearest in the skin.

@@ -17,6 +17,9 @@ use crate::{Node, Rod};
 /// [`crate::minimise::Riccati`].
 const FIRST_DAMPING: f64 = 0.3;
 
+/// Largest factor by which damping grows at once.
+const MOST_GROWTH: f64 = 16.0;
+
 /// Damping from which on a hair is given up.
 const LARGEST_DAMPING: f64 = 1e9;
 
@@ -148,8 +151,12 @@ struct Lane {
     /// The moment (N m) that gradients are measured against.
     scale: f64,
     iterations: usize,
-    /// Whether a step is being tried.
+    /// The least stiffness of a joint (N m).
+    stiffness: f64,
+    /// Whether a step is being tried, and whether the one before was taken.
     trying: bool,
+    good: f64,
+    bad: f64,
     /// Whether the given shape is.
     fresh: bool,
 }
@@ -161,9 +168,34 @@ const EMPTY: Lane = Lane {
     damping: 0.0,
     scale: 1.0,
     iterations: 0,
+    stiffness: 1.0,
     trying: false,
+    good: 0.0,
+    bad: 0.0,
     fresh: false,
 };
+
+impl Lane {
+    /// After a step that failed, or a pivot (N m) that is negative by `lacking`: it takes that much stiffness at least.
+    fn stiffen(&mut self, lacking: f64) {
+        self.bad = self.damping;
+        let least = FIRST_DAMPING.max(4.0 * self.damping);
+        self.damping = if self.good > 2.0 * self.damping {
+            (self.good * self.damping.max(0.05)).sqrt().max(FIRST_DAMPING)
+        } else {
+            let most = MOST_GROWTH * FIRST_DAMPING.max(self.damping);
+            (lacking / self.stiffness).min(most).max(least)
+        };
+    }
+
+    /// After a step that was taken. What was not stiff enough a step ago is not tried again at once.
+    fn soften(&mut self) {
+        self.good = self.damping;
+        self.bad *= 0.25;
+        let softer = (0.2 * self.damping).max(if self.bad < 0.05 { 0.0 } else { 1.5 * self.bad });
+        self.damping = if softer < 0.01 { 0.0 } else { softer.min(self.damping) };
+    }
+}
 
 /// Most lanes that any processor has.
 const MOST_LANES: usize = 16;
@@ -189,8 +221,9 @@ fn run<F: Lanes>(
                 let known = sweeps.load(index, next, &joints, start);
                 let (fresh, energy) = (known.is_none(), known.unwrap_or_default());
                 let scale = rods[next].moment_scale();
-                let constant = joints.constant;
-                *lane = Lane { hair: Some(next), fresh, energy, constant, scale, ..EMPTY };
+                let (constant, stiffness) = (joints.constant, joints.stiffness.min_element());
+                let hair = Some(next);
+                *lane = Lane { hair, fresh, energy, constant, scale, stiffness, ..EMPTY };
                 next += 1;
             }
         }
@@ -228,7 +261,7 @@ fn run<F: Lanes>(
             } else if positive {
                 lane.trying = true;
             } else {
-                lane.damping = FIRST_DAMPING.max(4.0 * lane.damping);
+                lane.stiffen(-found.pivot.get(index));
             }
         }
         let energy = sweeps.forward();
@@ -249,9 +282,9 @@ fn run<F: Lanes>(
             if lower {
                 bits |= 1 << index;
                 lane.energy = tried;
-                lane.damping = if lane.damping < 0.05 { 0.0 } else { 0.2 * lane.damping };
+                lane.soften();
             } else {
-                lane.damping = FIRST_DAMPING.max(4.0 * lane.damping);
+                lane.stiffen(0.0);
             }
         }
         accepted = zero.truth(bits);

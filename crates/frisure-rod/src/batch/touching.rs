@@ -83,6 +83,54 @@ impl Place {
     }
 }
 
+/// The way from root to tip of a hair that starts in the middle of its tubes.
+struct Way<'a> {
+    joints: &'a Joints,
+    frames: Frames<'a>,
+    /// The frame before the next joint.
+    before: DMat3,
+    /// Where (m) that joint is, and where it would be in the middle of its tube.
+    at: DVec3,
+    wanted: DVec3,
+}
+
+/// Part of the way that a hair is off the middles of its tubes by which it comes nearer with each link.
+const NEARER: f64 = 0.2;
+
+/// Most that a joint is turned at the start (rad).
+const LARGEST_START: f64 = 1.0;
+
+impl<'a> Way<'a> {
+    fn new(joints: &'a Joints, frames: Frames<'a>) -> Self {
+        Self { joints, frames, before: joints.frame, at: joints.start, wanted: joints.start }
+    }
+
+    /// The turn (rad) of the next joint, after which its link goes along the tube, about which it is turned as the
+    /// given frames.
+    fn turn(&mut self, joint: usize, hair: usize, tube: &Tube) -> DVec3 {
+        let Self { joints, frames, before, at, wanted } = self;
+        let link = joints.links[joint];
+        let node = frames(hair, (joint + 1) as f64 * joints.h);
+        let mut frame = node * joints.halves(joint)[1].turn.transpose();
+        if tube.radius.is_finite() {
+            let along = tube.centre - *wanted + (*wanted - *at) * NEARER;
+            let (from, to) = (frame * link.normalize_or(DVec3::Z), along.normalize_or_zero());
+            if to != DVec3::ZERO {
+                frame = DMat3::from_quat(DQuat::from_rotation_arc(from, to)) * frame;
+            }
+            *wanted = tube.centre;
+        }
+        let turn = DQuat::from_mat3(&(before.transpose() * frame)).normalize().to_scaled_axis();
+        let turn = turn.clamp_length_max(LARGEST_START);
+        frame = *before * DMat3::from_quat(DQuat::from_scaled_axis(turn));
+        *at += frame * link;
+        if joint + 1 < joints.links.len() {
+            *before = frame * *joints.turn(joint);
+        }
+        turn
+    }
+}
+
 /// Hairs in their own weight, and what they touch.
 pub(super) struct Touching<'a, F> {
     bundle: Bundle<F>,
@@ -139,24 +187,18 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
         bundle.start.set(lane, joints.start);
         bundle.stiffness.set(lane, joints.stiffness);
         bundle.turns.set(lane, joints);
-        let mut before = frames.map(|_| joints.root.1);
+        let mut way = frames.map(|frames| Way::new(joints, frames));
         for (i, control) in start.iter().enumerate() {
-            let control = match (frames, &mut before) {
-                (Some(frames), Some(before)) => {
-                    let after = frames(hair, (i + 1) as f64 * joints.h);
-                    let [first, second] = joints.halves(i);
-                    let turn = (*before * first.turn).transpose() * after * second.turn.transpose();
-                    *before = after;
-                    DQuat::from_mat3(&turn).normalize().to_scaled_axis()
-                }
-                _ => *control,
+            let (s, share) = Place::end(joints.h, i, n);
+            let tube = surroundings.tube(hair, s);
+            let control = match &mut way {
+                Some(way) => way.turn(i, hair, &tube),
+                None => *control,
             };
             let joint = &mut bundle.joints[i];
             joint.arm.set(lane, joints.arms[i]);
             joint.link.set(lane, joints.links[i]);
             joint.begin(lane, control);
-            let (s, share) = Place::end(joints.h, i, n);
-            let tube = surroundings.tube(hair, s);
             self.tubes[i].set(lane, &tube, share);
             self.free[i * F::COUNT + lane] = Free { centre: tube.centre, radius: tube.clear };
         }
@@ -240,13 +282,21 @@ mod tests {
     enum Near {
         Springs(f64),
         Ball(DVec3, f64),
+        Tubes(f64),
         Nothing,
     }
 
     impl Surroundings for Near {
+        fn tube(&self, hair: usize, s: f64) -> Tube {
+            let Self::Tubes(stiffness) = *self else { return Tube::NONE };
+            // Along a line that sinks and turns away.
+            let centre = DVec3::new(s, 0.1 * s * hair as f64, 0.01 - 4.0 * s * s);
+            Tube { centre, radius: 0.01 + 0.1 * s, stiffness, clear: f64::INFINITY }
+        }
+
         fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch {
             let (away, stiffness) = match *self {
-                Self::Nothing => return Touch::Free(f64::INFINITY),
+                Self::Nothing | Self::Tubes(_) => return Touch::Free(f64::INFINITY),
                 Self::Springs(k) => {
                     let anchor = DVec3::new(0.02, 0.01 * hair as f64, -0.03);
                     (position - anchor, k * (1.0 + 10.0 * s))
@@ -303,7 +353,7 @@ mod tests {
         let (mut frame, mut at) = (joints.frame, joints.start);
         let mut energy = joints.constant;
         for (i, c) in controls.iter().enumerate() {
-            frame *= DMat3::from_quat(glam::DQuat::from_scaled_axis(*c));
+            frame *= DMat3::from_quat(DQuat::from_scaled_axis(*c));
             at += frame * joints.links[i];
             energy += 0.5 * c.dot(joints.stiffness * *c)
                 + joints.arms[i].dot(frame.transpose() * DVec3::Z);
@@ -313,6 +363,11 @@ mod tests {
             };
             if let Touch::Felt { energy: felt, .. } = around.felt(hair, s, at) {
                 energy += felt * share;
+            }
+            let Tube { centre, radius, stiffness, .. } = around.tube(hair, s);
+            let beyond = (at.distance(centre) - radius).max(0.0);
+            if beyond > 0.0 {
+                energy += stiffness * beyond.powi(3) / (6.0 * radius) * share;
             }
             if i + 1 < n {
                 frame *= *joints.turn(i);
@@ -337,17 +392,38 @@ mod tests {
         }
     }
 
+    /// From the middle of its tubes, or from not far of where that ends: to the same rest.
+    #[test]
+    fn hairs_start_along_their_tubes() {
+        let rods = rods();
+        let batch = Batch { elements: 12, tolerance: 1e-10, ..Batch::default() };
+        let around = Near::Tubes(0.01);
+        let frames = |hair: usize, _: f64| rods[hair].root().frame();
+        let (along, _) = batch.settle_among(&rods, Start::Frames(&frames), &around, 0);
+        let start = Start::Turns(along.controls.iter().map(|c| *c * 0.9).collect());
+        let (again, _) = batch.settle_among(&rods, start, &around, 0);
+        for (a, b) in along.hairs.iter().zip(&again.hairs) {
+            assert_eq!((a.stability, b.stability), (Stability::Stable, Stability::Stable));
+            assert!((a.energy - b.energy).abs() < 1e-9 * a.energy.abs());
+        }
+    }
+
     #[test]
     fn rest_is_a_minimum_of_the_energy() {
         let rods = rods();
         let ball = Near::Ball(DVec3::new(0.0, 0.0, -0.03), 0.035);
-        for around in [Near::Springs(1e-4), Near::Springs(1.0), ball] {
+        for around in [Near::Springs(1e-4), Near::Springs(1.0), ball, Near::Tubes(0.01)] {
             let batch = Batch { elements: 12, max_iterations: 5000, ..Batch::default() };
             let start = Start::Turns(vec![DVec3::ZERO; rods.len() * 12]);
-            let (found, _) = batch.settle_among(&rods, start, &around, 3);
+            let (found, nodes) = batch.settle_among(&rods, start, &around, 3);
             for (i, rod) in rods.iter().enumerate() {
                 let settled = &found.hairs[i];
                 assert_eq!(settled.stability, Stability::Stable, "{i}: {settled:?}");
+                let shape = found.shape(rod, i);
+                for (k, node) in nodes[i * 13..(i + 1) * 13].iter().enumerate() {
+                    assert!(node.position.distance(shape.positions[k]) < 1e-12, "{i} {k}");
+                    assert!(node.tangent.distance(shape.frames[k].z_axis) < 1e-10, "{i} {k}");
+                }
                 let controls = &found.controls[i * 12..(i + 1) * 12];
                 let at = |controls: &[DVec3]| energy(rod, i + 3, controls, &around);
                 let least = at(controls);

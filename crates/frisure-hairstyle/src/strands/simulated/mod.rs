@@ -1,8 +1,8 @@
 //! Drawn hairs that are rods themselves: each with its own fibre and its own rest, on the skin and among the
 //! hairs around it.
 //!
-//! Hundreds of them rest side by side in the lanes of vectors ([`frisure_rod::batch`]). They start from the shape
-//! of the guide that they follow.
+//! Hundreds of them rest side by side in the lanes of vectors ([`frisure_rod::batch`]). They start where their guides
+//! carry them to, turned as the guide that they follow.
 
 mod envelope;
 mod fibre;
@@ -79,7 +79,16 @@ struct Planned<'a> {
     /// Its place in the chunk.
     place: usize,
     course: Course<'a>,
-    rod: Rod,
+    /// How its root is turned from its guide's.
+    turned: DQuat,
+}
+
+/// Hairs of as many elements.
+#[derive(Default)]
+struct Group<'a> {
+    planned: Vec<Planned<'a>>,
+    /// One for each.
+    rods: Vec<Rod>,
 }
 
 /// Hairs as rods.
@@ -130,18 +139,24 @@ impl<'a> Simulated<'a> {
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
         let mut drawn: Vec<Option<Hair>> = Vec::new();
         drawn.resize_with(roots.len(), || None);
-        let mut groups: Vec<Vec<Planned<'_>>> = ELEMENTS.iter().map(|_| Vec::new()).collect();
+        let mut groups: Vec<Group<'_>> = ELEMENTS.iter().map(|_| Group::default()).collect();
         for (place, (index, root)) in roots.iter().enumerate() {
             let course = self.population.still(self.population.course(root, *index));
-            match self.rod(&course, *index) {
-                Some(rod) => groups[division(&rod)].push(Planned { place, course, rod }),
-                None => drawn[place] = Some(self.population.hair(root, *index)),
-            }
+            let Some(rod) = self.rod(&course, *index) else {
+                drawn[place] = Some(self.population.hair(root, *index));
+                continue;
+            };
+            let frame = DQuat::from_mat3(&rod.root().frame());
+            let turned = frame * self.frames[course.main()][0].inverse();
+            let group = &mut groups[division(&rod)];
+            group.planned.push(Planned { place, course, turned });
+            group.rods.push(rod);
         }
         let mut simulation = Simulation::default();
-        for (planned, elements) in groups.into_iter().zip(ELEMENTS) {
+        for (group, elements) in groups.into_iter().zip(ELEMENTS) {
             stage.check()?;
-            let (found, nodes) = self.settle(&planned, elements);
+            let (found, nodes) = self.settle(&group, elements);
+            let Group { planned, rods } = group;
             let at_rest = |hair: &&Settled| hair.stability == Stability::Stable;
             simulation = simulation.and(Simulation {
                 hairs: planned.len(),
@@ -149,9 +164,11 @@ impl<'a> Simulated<'a> {
                 elements: elements * planned.len(),
                 iterations: found.hairs.iter().map(|hair| hair.iterations).sum(),
             });
-            for (planned, nodes) in planned.into_iter().zip(nodes.chunks(elements + 1)) {
-                let points = self.points(&planned, nodes);
-                let Planned { place, course, .. } = planned;
+            let lines = nodes.chunks(elements + 1);
+            for ((Planned { place, course, .. }, rod), nodes) in
+                planned.into_iter().zip(&rods).zip(lines)
+            {
+                let points = self.points(&course.root, rod.length(), nodes);
                 drawn[place] = Some(Hair {
                     guide: course.main() as u32,
                     thickness: course.thickness,
@@ -165,24 +182,20 @@ impl<'a> Simulated<'a> {
     }
 
     /// Brings hairs of so many elements to rest; tells the nodes of each, too.
-    fn settle(&self, planned: &[Planned<'_>], elements: usize) -> (Batched, Vec<Node>) {
+    fn settle(&self, group: &Group<'_>, elements: usize) -> (Batched, Vec<Node>) {
+        let Group { planned, rods } = group;
         let mut envelope = Envelope::new(self.population, elements, planned.len());
-        let mut turned = Vec::with_capacity(planned.len());
-        for Planned { course, rod, .. } in planned {
+        for (Planned { course, .. }, rod) in planned.iter().zip(rods) {
             envelope.add(course, rod.length());
-            let root = DQuat::from_mat3(&rod.root().frame());
-            turned.push(root * self.frames[course.main()][0].inverse());
         }
-        let rods: Vec<Rod> = planned.iter().map(|planned| planned.rod.clone()).collect();
-        let frames = |hair: usize, s: f64| self.frame(&planned[hair].course, turned[hair], s);
+        let frames = |hair: usize, s: f64| self.frame(&planned[hair], s);
         let batch = Batch {
             elements,
             tolerance: TOLERANCE,
             max_iterations: MAX_ITERATIONS,
             ..Batch::default()
         };
-        let (mut found, mut nodes) =
-            batch.settle_among(&rods, Start::Frames(&frames), &envelope, 0);
+        let (mut found, mut nodes) = batch.settle_among(rods, Start::Frames(&frames), &envelope, 0);
         for (hair, rod) in rods.iter().enumerate() {
             if found.hairs[hair].stability == Stability::Stable {
                 continue;
@@ -197,25 +210,24 @@ impl<'a> Simulated<'a> {
 
     /// The frame that a hair has at arc length `s` (m) if it goes as its guide does, but for having been turned at the
     /// root.
-    fn frame(&self, course: &Course<'_>, turned: DQuat, s: f64) -> DMat3 {
+    fn frame(&self, Planned { course, turned, .. }: &Planned<'_>, s: f64) -> DMat3 {
         let guide = course.main();
         let frames = &self.frames[guide];
         let last = frames.len() - 1;
         let x = (s / self.hairstyle.guides[guide].rod.length()).min(1.0) * last as f64;
         let i = (x as usize).min(last - 1);
-        DMat3::from_quat(turned * frames[i].lerp(frames[i + 1], x - i as f64).normalize())
+        DMat3::from_quat(*turned * frames[i].lerp(frames[i + 1], x - i as f64).normalize())
     }
 
     /// The line of a hair at rest, out of the skin.
-    fn points(&self, planned: &Planned<'_>, nodes: &[Node]) -> Vec<glam::Vec3> {
-        let Planned { course, rod, .. } = planned;
-        let (count, length) = (self.population.spec.wisps.points, rod.length());
+    fn points(&self, root: &Root, length: f64, nodes: &[Node]) -> Vec<glam::Vec3> {
+        let count = self.population.spec.wisps.points;
         let step = length / (count - 1) as f64;
         let mut free = Free::NOWHERE;
         (line(nodes, length, count).enumerate())
             .map(|(k, p)| {
                 let s = k as f64 * step;
-                self.population.laid_on_body(&course.root, p, s, LAID, &mut free).as_vec3()
+                self.population.laid_on_body(root, p, s, LAID, &mut free).as_vec3()
             })
             .collect()
     }
@@ -237,8 +249,7 @@ fn patiently(
         if let Start::Turns(controls) = &mut start {
             controls.iter_mut().for_each(|control| control.x += kick);
         }
-        let (found, nodes) =
-            batch.settle_among(std::slice::from_ref(rod), start, envelope, hair);
+        let (found, nodes) = batch.settle_among(std::slice::from_ref(rod), start, envelope, hair);
         iterations += found.hairs[0].iterations;
         at_rest = Some((found.hairs[0], nodes));
         start = Start::Turns(found.controls);
