@@ -25,7 +25,7 @@ use envelope::Envelope;
 pub struct Simulation {
     /// Hairs that are rods.
     pub hairs: usize,
-    /// Those that rest in a minimum of their energy.
+    /// Those that rest in a minimum of their energy; the others are drawn between their guides.
     pub at_rest: usize,
     /// Elements of all of them.
     pub elements: usize,
@@ -164,16 +164,18 @@ impl<'a> Simulated<'a> {
                 elements: elements * planned.len(),
                 iterations: found.hairs.iter().map(|hair| hair.iterations).sum(),
             });
-            let lines = nodes.chunks(elements + 1);
-            for ((Planned { place, course, .. }, rod), nodes) in
-                planned.into_iter().zip(&rods).zip(lines)
-            {
-                let points = self.points(&course.root, rod.length(), nodes);
-                drawn[place] = Some(Hair {
-                    guide: course.main() as u32,
-                    thickness: course.thickness,
-                    cut: course.cut,
-                    points,
+            for (hair, (planned, rod)) in planned.into_iter().zip(&rods).enumerate() {
+                let Planned { place, course, .. } = planned;
+                let nodes = &nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)];
+                drawn[place] = Some(match found.hairs[hair].stability {
+                    Stability::Stable => Hair {
+                        guide: course.main() as u32,
+                        thickness: course.thickness,
+                        cut: course.cut,
+                        points: self.points(&course.root, rod.length(), nodes),
+                    },
+                    // On its way a hair can be anywhere: it is drawn where others carry it.
+                    _ => self.population.hair(&roots[place].1, roots[place].0),
                 });
                 stage.advance();
             }
