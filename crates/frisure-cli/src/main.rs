@@ -6,6 +6,7 @@ mod console;
 mod exposing;
 mod failure;
 mod interrupt;
+mod keeping;
 mod outputs;
 mod progress;
 mod written;

@@ -15,7 +15,7 @@ use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
 use crate::monitor::{Cancelled, Monitor};
 use crate::spec::{HairstyleSpec, Implantation, InvalidSpec, Wisps};
-use crate::strands::{self, Simulation};
+use crate::strands::{self, Keep, Simulation};
 use crate::styling::{Styling, WispState};
 
 /// Guides at rest on a head, and the description that they were predicted from.
@@ -281,10 +281,13 @@ impl Hairstyle {
     /// # Errors
     /// [`Cancelled`], if the monitor says to stop.
     pub fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Cancelled> {
-        Ok(strands::draw(self, head, 1, monitor)?.0)
+        Ok(strands::draw(self, head, 1, monitor, None)?.0)
     }
 
     /// As [`Self::strands`], with how simulated hairs came to rest ([`crate::HairModel::Simulated`]; nothing for others).
+    ///
+    /// Simulated hairs are found and kept part by part where `keep` says, if it does; what is there has to be of the same
+    /// [`Self::simulation_key`].
     ///
     /// # Errors
     /// [`Cancelled`], if the monitor says to stop.
@@ -292,8 +295,15 @@ impl Hairstyle {
         &self,
         head: &Head,
         monitor: &dyn Monitor,
+        keep: Option<&dyn Keep>,
     ) -> Result<(Strands, Simulation), Cancelled> {
-        strands::draw(self, head, 1, monitor)
+        strands::draw(self, head, 1, monitor, keep)
+    }
+
+    /// A digest of all that the simulated hairs depend on, for the same build; none if hairs are not simulated.
+    #[must_use]
+    pub fn simulation_key(&self, head: &Head) -> Option<u64> {
+        strands::simulation_key(self, head)
     }
 
     /// Of the hairs of [`Self::strands`] the first and every so manyth after it, the same to the last
@@ -307,7 +317,7 @@ impl Hairstyle {
         every: usize,
         monitor: &dyn Monitor,
     ) -> Result<Strands, Cancelled> {
-        Ok(strands::draw(self, head, every, monitor)?.0)
+        Ok(strands::draw(self, head, every, monitor, None)?.0)
     }
 
     /// The hairstyle of another description as [`predict`] would give it, if the two differ in nothing but

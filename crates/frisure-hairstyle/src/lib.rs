@@ -48,5 +48,5 @@ pub use spec::{
     Implantation, InvalidSpec, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle,
     Settling, Turn, Whorls, Wisps,
 };
-pub use strands::{Simulation, penetration};
+pub use strands::{Keep, Simulation, penetration};
 pub use volume::{Volume, volume};

@@ -2,11 +2,14 @@
 
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::{
-    Body, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, penetration, predict, preset,
+    Body, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, Keep, Monitor, penetration,
+    predict, preset,
 };
 use frisure_rod::Resolution;
 use frisure_strands::Strands;
 use glam::Vec3;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 fn spec(name: &str) -> HairstyleSpec {
     let mut spec = preset(name).unwrap().spec();
@@ -31,7 +34,7 @@ fn every_hair_rests_on_the_skin() {
     let head = Head::mannequin();
     for name in ["straight", "wavy", "curly", "frizzy"] {
         let hairstyle = predict(&spec(name), &head, &()).unwrap();
-        let (hairs, simulation) = hairstyle.strands_and_simulation(&head, &()).unwrap();
+        let (hairs, simulation) = hairstyle.strands_and_simulation(&head, &(), None).unwrap();
         assert_eq!((simulation.hairs, hairs.len()), (600, 600));
         assert_eq!(simulation.at_rest, 600, "{name}: {simulation:?}");
         assert!(penetration(&hairs, &head) < 1e-5, "{name}");
@@ -117,4 +120,54 @@ fn the_same_bytes_whatever_the_number_of_threads_and_whichever_are_drawn() {
     for (k, hair) in some.iter().enumerate() {
         assert_eq!(hair.points, one.strand(7 * k).points);
     }
+}
+
+/// Keeps parts until there are enough of them, and then asks to stop.
+#[derive(Default)]
+struct Kept {
+    before: BTreeMap<usize, Vec<u8>>,
+    now: Mutex<BTreeMap<usize, Vec<u8>>>,
+    enough: usize,
+}
+
+impl Keep for Kept {
+    fn find(&self, part: usize) -> Option<&[u8]> {
+        self.before.get(&part).map(Vec::as_slice)
+    }
+
+    fn keep(&self, part: usize, bytes: &[u8]) {
+        self.now.lock().unwrap().insert(part, bytes.to_vec());
+    }
+}
+
+impl Monitor for Kept {
+    fn progress(&self, _: &'static str, _: f64) {}
+
+    fn cancelled(&self) -> bool {
+        self.now.lock().unwrap().len() >= self.enough
+    }
+}
+
+#[test]
+fn work_that_was_cut_off_goes_on_to_the_same_bytes() {
+    let head = Head::mannequin();
+    let mut spec = spec("wavy");
+    spec.wisps.hairs = Hairs::Count(5000);
+    let hairstyle = predict(&spec, &head, &()).unwrap();
+    let (whole, all) = hairstyle.strands_and_simulation(&head, &(), None).unwrap();
+    let cut = Kept { enough: 2, ..Kept::default() };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let stopped = pool.install(|| hairstyle.strands_and_simulation(&head, &cut, Some(&cut)));
+    assert!(stopped.is_err());
+    let before = cut.now.into_inner().unwrap();
+    assert_eq!(before.len(), 2);
+    let mut on = Kept { before, enough: usize::MAX, ..Kept::default() };
+    // What is spoilt is done again.
+    on.before.values_mut().next().unwrap().pop();
+    let (again, told) = hairstyle.strands_and_simulation(&head, &(), Some(&on)).unwrap();
+    assert_eq!(on.now.lock().unwrap().len(), 4);
+    assert_eq!((again.points(), told), (whole.points(), all));
+    let key = hairstyle.simulation_key(&head);
+    spec.wisps.fuzziness += 0.01;
+    assert!(key.is_some() && key != predict(&spec, &head, &()).unwrap().simulation_key(&head));
 }

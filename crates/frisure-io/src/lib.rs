@@ -13,6 +13,7 @@
 //! | [`environment`] | `.hdr` and `.exr` pictures of surroundings | |
 //! | [`picture`] | | PNG |
 //! | [`report`] | | JSON |
+//! | [`kept`] | parts of long work, kept so that it can go on | the same |
 //!
 //! Every file is written beside its destination and renamed over it when it is complete, so that
 //! an interrupted program leaves the old file or the new one and never a half of it
@@ -26,6 +27,7 @@ pub mod frame;
 pub mod groom;
 pub mod head;
 pub mod history;
+pub mod kept;
 pub mod measurements;
 pub mod picture;
 mod ply;

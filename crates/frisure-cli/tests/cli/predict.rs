@@ -302,6 +302,19 @@ fn an_interrupted_picture_is_kept_and_goes_on_to_the_same_bytes() {
 }
 
 #[test]
+fn somebody_elses_file_is_not_taken_for_hairs_that_were_kept() {
+    let text = QUICK.replace("[wisps]", "[wisps]\nstrands = \"simulated\"");
+    let room = Room::new().with("quick.toml", text).with("a.hair.hairs.part", "letters");
+    let ran = room.run(&["predict", "quick.toml", "-o", "a.hair"]);
+    assert!(ran.code == Some(2) && ran.err.contains("a.hair.hairs.part"), "{}", ran.err);
+    assert_eq!(fs::read(room.path("a.hair.hairs.part")).unwrap(), b"letters");
+    fs::remove_file(room.path("a.hair.hairs.part")).unwrap();
+    let ran = room.run(&["predict", "quick.toml", "-o", "a.hair"]);
+    assert_eq!((ran.code, ran.err), (Some(0), String::new()));
+    assert!(!room.path("a.hair.hairs.part").exists());
+}
+
+#[test]
 fn the_seed_changes_the_head() {
     let groom = |seed: u32| {
         let text = format!("seed = {seed}\n{QUICK}");

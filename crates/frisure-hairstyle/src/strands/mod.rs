@@ -29,12 +29,12 @@ pub(crate) use described::{add_natural_strains, describe_hairs, described_guides
 use population::Hair;
 pub(crate) use population::{Population, roots};
 use simulated::Simulated;
-pub use simulated::Simulation;
+pub use simulated::{Keep, Simulation};
 
 /// Radius at the tip, as a fraction of the fibre's.
 const TIP: f64 = 0.35;
 
-/// Draws every so manyth hair of a head, the first among them.
+/// Draws every so manyth hair of a head, the first among them; parts of simulated hairs can be kept.
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
@@ -43,13 +43,14 @@ pub(crate) fn draw(
     head: &Head,
     every: usize,
     monitor: &dyn Monitor,
+    keep: Option<&dyn Keep>,
 ) -> Result<(Strands, Simulation), Cancelled> {
     let population = Population::new(hairstyle, head);
     let roots = roots(hairstyle, head, every);
     let (hairs, simulation) = match hairstyle.spec.wisps.strands {
         HairModel::Simulated if population.carried.is_none() => {
             let stage = Stage::new(monitor, "simulating hairs", roots.len());
-            Simulated::new(&population, hairstyle).hairs(&roots, &stage)?
+            Simulated::new(&population, hairstyle).hairs(&roots, &stage, keep)?
         }
         _ => {
             let stage = Stage::new(monitor, "drawing hairs", roots.len());
@@ -65,6 +66,12 @@ pub(crate) fn draw(
     let mut strands = assemble(&hairstyle.spec, &hairstyle.guides, &hairs);
     wet(&mut strands, hairstyle, &hairs);
     Ok((strands, simulation))
+}
+
+/// What the simulated hairs of a hairstyle depend on; none if there are none.
+pub(crate) fn simulation_key(hairstyle: &Hairstyle, head: &Head) -> Option<u64> {
+    let simulated = hairstyle.spec.wisps.strands == HairModel::Simulated;
+    simulated.then(|| simulated::key(hairstyle, head, &roots(hairstyle, head, 1)))
 }
 
 /// Adds the sections of the drawn hairs: the director d1 at each point, and the axis ratio of each

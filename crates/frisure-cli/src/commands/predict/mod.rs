@@ -9,9 +9,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Adoption, Hairstyle, HairstyleSpec, Simulation, penetration, volume};
+use frisure::hairstyle::{
+    Adoption, Hairstyle, HairstyleSpec, Keep, Simulation, penetration, volume,
+};
 use frisure::io::files::Files;
 use frisure::io::groom::Groom;
+use frisure::io::kept::Kept;
 use frisure::io::scene::{self, HeadSource, Scene};
 use frisure::io::{picture, report};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
@@ -28,7 +31,7 @@ use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
 use crate::progress::Progress;
 use crate::written::Grooms;
-use crate::{console, interrupt, outputs};
+use crate::{console, interrupt, keeping, outputs};
 
 use numbers::{Numbers, litres, numbers, summary};
 use steps::Styled;
@@ -56,7 +59,7 @@ pub(crate) fn run_scene(
     quiet: bool,
 ) -> Result<Done, Failure> {
     let spec = scene.hairstyle_spec()?;
-    check_outputs(&arguments, &scene, turntable)?;
+    check_outputs(&arguments, &scene, &spec, turntable)?;
 
     let environment = match arguments.image {
         Some(_) => seen::environment(&scene, &Files::default())?,
@@ -85,8 +88,13 @@ fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), 
     let mut last = None;
     for frame in 0..frames {
         let (mine, all) = (work.clone(), hair.clone());
-        let drawn = interrupt::computing(move || mine.draw(&all, frame))?;
+        let drawn = interrupt::computing(move || mine.draw(&all, frame)).map_err(|failure| {
+            keeping::interrupted(failure, kept(&work.arguments, frame, frames).as_deref())
+        });
+        let mut drawn = drawn?;
+        let kept = drawn.kept.take();
         last = work.write(drawn, frame, frames, &mut written)?;
+        keeping::done(kept);
     }
     let mut numbers = last.expect("the last hairstyle has its numbers");
     numbers.groom = hair.adoption.as_ref().map(Held::of);
@@ -104,6 +112,7 @@ fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), 
 fn check_outputs(
     arguments: &Predict,
     scene: &Scene,
+    spec: &HairstyleSpec,
     turntable: Option<Turntable>,
 ) -> Result<(), Failure> {
     Grooms::new(&arguments.outputs, arguments.writing)?;
@@ -139,7 +148,17 @@ fn check_outputs(
     inputs.push(&arguments.scene);
     let all: Vec<&Path> = all.iter().chain(&parts).map(AsRef::as_ref).collect();
     outputs::prepare(&all, &inputs)?;
-    exposing::check_parts(&parts)
+    exposing::check_parts(&parts)?;
+    let kept: Vec<PathBuf> =
+        (0..frames).filter_map(|frame| kept(arguments, frame, frames)).collect();
+    keeping::check(spec, &kept)
+}
+
+/// Where the simulated hairs of a frame are kept until it is written.
+fn kept(arguments: &Predict, frame: usize, frames: usize) -> Option<PathBuf> {
+    let Predict { outputs, image, report, .. } = arguments;
+    let output = outputs.first().or(image.as_ref()).or(report.as_ref())?;
+    keeping::part(&name_of(arguments, output, frame, frames))
 }
 
 /// The files that a scene reads, beside itself.
@@ -195,6 +214,8 @@ struct Drawn {
     picture: Option<Picture>,
     /// Of the last.
     numbers: Option<Numbers>,
+    /// Its hairs so far, until it is written.
+    kept: Option<Kept>,
 }
 
 /// A picture, or what it is made with.
@@ -219,10 +240,14 @@ impl Work {
 
     fn draw(&self, hair: &Hair, frame: usize) -> Result<Drawn, Failure> {
         let (hairstyle, head) = (&hair.styled.hairstyles[frame], &hair.head);
+        let mut keep = None;
         let (mut strands, simulation) = match self.draws() {
             true => {
                 let watch = &self.progress;
-                let drawn = hairstyle.strands_and_simulation(head, watch);
+                let part = kept(&self.arguments, frame, hair.styled.hairstyles.len());
+                keep = keeping::open(part, hairstyle, head, watch)?;
+                let keep = keep.as_ref().map(|keep| keep as &dyn Keep);
+                let drawn = hairstyle.strands_and_simulation(head, watch, keep);
                 drawn.map_err(|_| Failure::Interrupted)?
             }
             false => Default::default(),
@@ -239,7 +264,7 @@ impl Work {
             true => Groom::of(strands),
             false => groom::groom(&self.scene, hairstyle, head, strands, self.arguments.fibres),
         };
-        Ok(Drawn { groom, picture, numbers })
+        Ok(Drawn { groom, picture, numbers, kept: keep })
     }
 
     /// Whether hairs have to be drawn.
@@ -307,7 +332,7 @@ impl Work {
         frames: usize,
         written: &mut Vec<String>,
     ) -> Result<Option<Numbers>, Failure> {
-        let Drawn { groom, picture, numbers } = drawn;
+        let Drawn { groom, picture, numbers, kept: _ } = drawn;
         let name = |path: &PathBuf| name_of(&self.arguments, path, frame, frames).into_owned();
         let paths: Vec<PathBuf> = self.arguments.outputs.iter().map(name).collect();
         let grooms = Grooms::new(&paths, self.arguments.writing)?;

@@ -6,6 +6,7 @@
 
 mod envelope;
 mod fibre;
+mod part;
 
 use frisure_rod::batch::{Batch, Batched, Frames, Settled, Start};
 use frisure_rod::{Node, Rod, Stability, line};
@@ -19,6 +20,8 @@ use crate::hairstyle::Hairstyle;
 use crate::monitor::{Cancelled, Stage};
 use crate::roots::Root;
 use envelope::Envelope;
+pub use part::Keep;
+pub(crate) use part::key;
 
 /// How many hairs were simulated, and how they came to rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -110,7 +113,7 @@ impl<'a> Simulated<'a> {
         Self { population, hairstyle, frames }
     }
 
-    /// The hairs rooted at some places, in their order.
+    /// The hairs rooted at some places, in their order; those that are kept are not simulated again.
     ///
     /// # Errors
     /// [`Cancelled`], if the monitor says so.
@@ -118,11 +121,22 @@ impl<'a> Simulated<'a> {
         &self,
         roots: &[(usize, Root)],
         stage: &Stage<'_>,
+        keep: Option<&dyn Keep>,
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
-        let chunks: Vec<(Vec<Hair>, Simulation)> = roots
-            .par_chunks(CHUNK)
-            .map(|roots| self.chunk(roots, stage))
-            .collect::<Result<_, Cancelled>>()?;
+        let chunk = |(part, roots): (usize, &[(usize, Root)])| {
+            let kept = keep.and_then(|keep| keep.find(part));
+            if let Some(known) = kept.and_then(|bytes| part::from_bytes(bytes, roots.len())) {
+                roots.iter().for_each(|_| stage.advance());
+                return Ok(known);
+            }
+            let (hairs, simulation) = self.chunk(roots, stage)?;
+            if let Some(keep) = keep {
+                keep.keep(part, &part::to_bytes(&hairs, simulation));
+            }
+            Ok((hairs, simulation))
+        };
+        let chunks: Vec<(Vec<Hair>, Simulation)> =
+            roots.par_chunks(CHUNK).enumerate().map(chunk).collect::<Result<_, Cancelled>>()?;
         let mut hairs = Vec::with_capacity(roots.len());
         let mut simulation = Simulation::default();
         for (some, of) in chunks {

@@ -1,0 +1,109 @@
+//! Simulated hairs that were kept, so that long work that was cut off can go on.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use glam::{DVec3, Vec3};
+
+use super::{Hair, Root, Simulation};
+use crate::hairstyle::Hairstyle;
+use crate::head::Head;
+
+/// Keeps simulated hairs part by part; called from any thread.
+pub trait Keep: Sync {
+    /// What was kept of a part; none if nothing was.
+    fn find(&self, part: usize) -> Option<&[u8]>;
+
+    /// Keeps what a part came to. If it cannot, the work goes on.
+    fn keep(&self, part: usize, bytes: &[u8]);
+}
+
+/// What the hairs of this hairstyle depend on, for the same build: if it is the same, so are the hairs.
+pub(crate) fn key(hairstyle: &Hairstyle, head: &Head, roots: &[(usize, Root)]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let mut place = |p: DVec3| p.to_array().map(f64::to_bits).hash(&mut hasher);
+    for (_, root) in roots {
+        place(root.position);
+        place(root.normal);
+    }
+    for rest in &hairstyle.rest.guides {
+        rest.shape.positions.iter().for_each(|p| place(*p));
+        rest.shape.frames.iter().for_each(|frame| place(frame.x_axis));
+    }
+    for p in head.surface().positions() {
+        place(*p);
+    }
+    env!("CARGO_PKG_VERSION").hash(&mut hasher);
+    // Every number of it, as it would be written.
+    format!("{:?} {:?}", hairstyle.spec, hairstyle.guides).hash(&mut hasher);
+    roots.iter().for_each(|(index, _)| index.hash(&mut hasher));
+    hasher.finish()
+}
+
+/// The bytes of a part: how its hairs came to rest, then for each guide, thickness, whether it was cut, and points.
+pub(super) fn to_bytes(hairs: &[Hair], simulation: Simulation) -> Vec<u8> {
+    let Simulation { hairs: of, at_rest, elements, iterations } = simulation;
+    let mut bytes = Vec::new();
+    for number in [of, at_rest, elements, iterations] {
+        bytes.extend((number as u64).to_le_bytes());
+    }
+    for Hair { guide, thickness, cut, points } in hairs {
+        bytes.extend(guide.to_le_bytes());
+        bytes.extend(thickness.to_le_bytes());
+        bytes.push(u8::from(*cut));
+        bytes.extend((points.len() as u32).to_le_bytes());
+        points.iter().for_each(|p| bytes.extend(p.to_array().map(f32::to_le_bytes).as_flattened()));
+    }
+    bytes
+}
+
+/// The part of `count` hairs that these are the bytes of; none if they are not.
+pub(super) fn from_bytes(mut bytes: &[u8], count: usize) -> Option<(Vec<Hair>, Simulation)> {
+    let bytes = &mut bytes;
+    let mut number = || Some(u64::from_le_bytes(*bytes.split_off(..8)?.first_chunk()?) as usize);
+    let simulation = Simulation {
+        hairs: number()?,
+        at_rest: number()?,
+        elements: number()?,
+        iterations: number()?,
+    };
+    let hairs = (0..count).map(|_| hair(bytes)).collect::<Option<_>>()?;
+    bytes.is_empty().then_some((hairs, simulation))
+}
+
+fn hair(bytes: &mut &[u8]) -> Option<Hair> {
+    let guide = u32::from_le_bytes(*bytes.split_off(..4)?.first_chunk()?);
+    let thickness = f64::from_le_bytes(*bytes.split_off(..8)?.first_chunk()?);
+    let cut = bytes.split_off_first()? == &1;
+    let count = u32::from_le_bytes(*bytes.split_off(..4)?.first_chunk()?) as usize;
+    let (points, _) = bytes.split_off(..12 * count)?.as_chunks::<12>();
+    let coordinate = |p: &[u8; 12], i: usize| {
+        f32::from_le_bytes([p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]])
+    };
+    let point = |p: &[u8; 12]| Vec3::from_array([0, 1, 2].map(|i| coordinate(p, i)));
+    Some(Hair { guide, thickness, cut, points: points.iter().map(point).collect() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_comes_back_whole_or_not_at_all() {
+        let hair = |n: usize| Hair {
+            guide: n as u32,
+            thickness: 0.5 * n as f64,
+            cut: n == 1,
+            points: (0..n).map(|k| Vec3::new(k as f32, -1.5, 0.1)).collect(),
+        };
+        let simulation = Simulation { hairs: 3, at_rest: 2, elements: 50, iterations: 17 };
+        let hairs = [hair(2), hair(0), hair(1)];
+        let bytes = to_bytes(&hairs, simulation);
+        let (again, told) = from_bytes(&bytes, 3).unwrap();
+        assert_eq!(told, simulation);
+        assert_eq!(to_bytes(&again, told), bytes);
+        assert!(from_bytes(&bytes, 2).is_none() && from_bytes(&bytes, 4).is_none());
+        for cut in 0..bytes.len() {
+            assert!(from_bytes(&bytes[..cut], 3).is_none());
+        }
+    }
+}
