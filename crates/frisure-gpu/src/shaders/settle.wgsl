@@ -1,0 +1,61 @@
+// A hair on its way to rest, one in each invocation: frisure-rod's `batch/settle.rs`. What is given up here is no answer; the
+// judge begins it anew.
+
+// Damping after a first failed pivot or a step that went up, as a fraction of the stiffness.
+const FIRST_DAMPING: f32 = 0.3;
+// Damping from which on a hair is given up.
+const LARGEST_DAMPING: f32 = 1e9;
+// Part of the expected decrease that a step has to reach.
+const ENOUGH: f32 = 1e-4;
+// Relative error of an energy.
+const NOISE: f32 = 1e-6;
+
+@compute @workgroup_size(64)
+fn settle(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= rest.hairs {
+        return;
+    }
+    hair = order[id.x];
+    var now = progress[hair];
+    if now.state == FRESH {
+        now = Progress(begin(), 0.0, 0u, STAYED);
+    }
+    for (var k = 0u; k < rest.sweeps; k++) {
+        let found = backward(now.state == MOVED, now.damping);
+        now.state = STAYED;
+        let positive = found.pivot > 0.0;
+        let at_rest = found.gradient <= rest.tolerance * rest.tolerance;
+        let undamped = now.damping == 0.0;
+        if at_rest && undamped && positive {
+            now.state = SETTLED;
+            break;
+        }
+        if !(found.turned < LARGEST_SQUARE)
+            || now.damping > LARGEST_DAMPING
+            || now.sweeps >= rest.most
+            || (at_rest && undamped) {
+            now.state = LOST;
+            break;
+        }
+        now.sweeps += 1u;
+        if at_rest {
+            // Only the undamped sweep tells what kind of rest it is.
+            now.damping = 0.0;
+        } else if !positive {
+            now.damping = max(FIRST_DAMPING, 4.0 * now.damping);
+        } else {
+            let tried = forward();
+            let noise = NOISE * max(abs(now.energy), abs(constant_energy()));
+            let down = tried <= now.energy - ENOUGH * found.decrease
+                || (found.decrease < noise && tried <= now.energy + noise);
+            if down {
+                now.state = MOVED;
+                now.energy = tried;
+                now.damping = select(0.2 * now.damping, 0.0, now.damping < 0.05);
+            } else {
+                now.damping = max(FIRST_DAMPING, 4.0 * now.damping);
+            }
+        }
+    }
+    progress[hair] = now;
+}
