@@ -222,22 +222,50 @@ mod tests {
         validator.validate(&module).unwrap();
     }
 
+    /// The device, if there is one; there must be if `FRISURE_NEEDS_GPU` says so.
+    fn device() -> Option<Device> {
+        let needed = std::env::var_os("FRISURE_NEEDS_GPU").is_some();
+        match Device::new() {
+            Ok(device) => Some(device),
+            Err(error) => {
+                assert!(!needed, "FRISURE_NEEDS_GPU is set: {error}");
+                None
+            }
+        }
+    }
+
     /// A device that is gone is an error, and stays one.
     #[test]
     fn a_lost_device_is_told() {
-        let device = match Device::new() {
-            Ok(device) => device,
-            Err(error) => {
-                let needed = std::env::var_os("FRISURE_NEEDS_GPU").is_some();
-                assert!(!needed, "FRISURE_NEEDS_GPU is set: {error}");
-                return;
-            }
-        };
+        let Some(device) = device() else { return };
         device.device.destroy();
-        let rod = crate::tests::rod();
         for _ in 0..2 {
-            let found = device.with(Batch::default()).settle(std::slice::from_ref(&rod));
+            let found = device.with(Batch::default()).settle(&[crate::tests::rod()]);
             assert!(matches!(found, Err(Error::Lost(_))), "{found:?}");
+        }
+    }
+
+    /// What the device refuses is an error, and says what it was; the next batch is none the worse.
+    #[test]
+    fn what_is_refused_is_told() {
+        let Some(device) = device() else { return };
+        let refused = device.watched(|| {
+            Ok(device.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("more than there is"),
+                size: u64::MAX / 8 * 4,
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            }))
+        });
+        let Err(Error::Refused(why)) = refused else { panic!("{refused:?}") };
+        assert!(why.contains("more than there is"), "{why}");
+        assert!(device.with(Batch::default()).settle(&[crate::tests::rod()]).is_ok());
+    }
+
+    #[test]
+    fn a_program_says_that_it_is_one() {
+        if let Ok(device) = Device::software() {
+            assert!(device.is_software() && !device.name().is_empty());
         }
     }
 }
