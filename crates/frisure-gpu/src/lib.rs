@@ -32,7 +32,8 @@
 //!
 //! - The same device with the same driver gives the same bytes, on any number of threads. Other devices round otherwise: their
 //!   answers agree within the tolerance of the batch.
-//! - Memory: 150 bytes a joint on the device, at most about two million joints at once; larger batches go in parts.
+//! - Memory: 150 bytes a joint on the device, at most about two million joints at once; larger batches go in parts. The room that the last
+//!   batch took is kept for the next.
 //! - Nothing is printed, and no environment variable read. [`OnDevice::settle`] reports where the time went.
 //! - A device that is lost, out of memory or missing is an [`Error`]; nothing is tried again.
 //!
@@ -40,7 +41,7 @@
 //!
 //! - Hairs that touch something: [`Batch::settle_among`].
 //! - Pages in a browser: it waits for the device, which they must not.
-//! - `docs/performance.md`, "On a graphics processor", tells when it is worth it.
+//! - Much, where the judge is needed: `docs/performance.md`, "On a graphics processor", tells what can be gained.
 //!
 //! [`Batch`]: frisure_rod::batch::Batch
 //! [`Batch::settle_among`]: frisure_rod::batch::Batch::settle_among
