@@ -73,26 +73,24 @@ fn main() {
     }
 }
 
-/// One row of the first table; where the time of its best run on one thread went.
+/// One row of the first table; the shortest time of each stage on one thread.
 fn row(name: &str, rods: &[Rod], batch: Batch, device: &Device) -> Seconds {
     let there = device.with(batch);
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let mut spent: Option<Seconds> = None;
+    let ever = f64::INFINITY;
+    let mut spent =
+        Seconds { divide: ever, upload: ever, device: ever, download: ever, judge: ever };
     let seconds = best([
         &mut || drop(black_box(batch.settle(rods))),
         &mut || drop(black_box(there.unjudged(rods).unwrap())),
         &mut || {
             let (_, report) = one.install(|| there.settle(rods)).unwrap();
-            let total = |s: &Seconds| s.before_the_judge() + s.judge;
-            if spent.is_none_or(|best| total(&report.seconds) < total(&best)) {
-                spent = Some(report.seconds);
-            }
+            spent = shortest(spent, report.seconds);
         },
         &mut || drop(black_box(there.settle(rods).unwrap())),
     ]);
     let [here, alone, judged, all] = seconds.map(|s| rods.len() as f64 / s / 1e3);
     let (_, report) = there.settle(rods).unwrap();
-    let spent = spent.unwrap_or_default();
     let processor = spent.divide + spent.upload + spent.download + spent.judge;
     println!(
         "| {name} | {} | {here:.1} | {alone:.1} | {judged:.1} | {all:.1} | {:.2} | {:.2} | {:.1} | {} | {:.4} |",
@@ -104,6 +102,17 @@ fn row(name: &str, rods: &[Rod], batch: Batch, device: &Device) -> Seconds {
         1e3 * error(&there, rods, batch.elements),
     );
     spent
+}
+
+/// Of each stage.
+fn shortest(a: Seconds, b: Seconds) -> Seconds {
+    Seconds {
+        divide: a.divide.min(b.divide),
+        upload: a.upload.min(b.upload),
+        device: a.device.min(b.device),
+        download: a.download.min(b.download),
+        judge: a.judge.min(b.judge),
+    }
 }
 
 /// Farthest that a tip is (m) before the judge from where it is after; of hairs that the device did not give up.

@@ -28,6 +28,8 @@ struct Rest {
 pub(crate) struct Progress {
     energy: f32,
     damping: f32,
+    good: f32,
+    bad: f32,
     pub(crate) sweeps: u32,
     state: u32,
 }

@@ -20,7 +20,10 @@ struct Rest {
 // How far a hair has come.
 struct Progress {
     energy: f32,
+    // Of the stiffness; and with how much the last step that was taken was, and the last that was not.
     damping: f32,
+    good: f32,
+    bad: f32,
     sweeps: u32,
     state: u32,
 }
