@@ -69,9 +69,19 @@ fn warm(bencher: Bencher<'_, '_>, case: usize) {
 /// Twenty thousand hairs of 48 points around 200 guides, each a rod of its own on the skin and between its neighbours.
 #[divan::bench(args = ["straight", "wavy", "curly", "frizzy"], sample_count = 3)]
 fn simulated_hairs(bencher: Bencher<'_, '_>, name: &str) {
+    simulated(bencher, name, 20_000);
+}
+
+/// The same of more and more curly hairs.
+#[divan::bench(args = [100, 1000, 10_000, 100_000], sample_count = 3)]
+fn simulated_heads(bencher: Bencher<'_, '_>, hairs: usize) {
+    simulated(bencher, "curly", hairs);
+}
+
+fn simulated(bencher: Bencher<'_, '_>, name: &str, hairs: usize) {
     let (head, mut spec) = (Head::mannequin(), preset(name).expect("a preset").spec());
     spec.wisps.count = 200;
-    spec.wisps.hairs = Hairs::Count(20_000);
+    spec.wisps.hairs = Hairs::Count(hairs);
     spec.wisps.strands = HairModel::Simulated;
     spec.contact.hair = HairContact::Layers;
     let style = predict(&spec, &head, &()).expect("a valid description");

@@ -122,6 +122,19 @@ impl NaturalStrain {
         }
     }
 
+    /// The mean strains (rad/m) of pieces of the length `step` (m), from the root on.
+    pub(crate) fn means(&self, step: f64) -> impl Iterator<Item = DVec3> {
+        let total = |s: f64| match self {
+            Self::Uniform(u) => *u * s,
+            Self::Varying(profile) => profile.integral(s),
+        };
+        let mut before = total(0.0);
+        (1..).map(move |k: u32| {
+            let after = total(step * f64::from(k));
+            (after - std::mem::replace(&mut before, after)) / step
+        })
+    }
+
     /// Largest magnitude of the strain on `[0, length]` (rad/m).
     #[must_use]
     pub fn max_magnitude(&self, length: f64) -> f64 {
@@ -163,6 +176,10 @@ mod tests {
         assert!((u.mean(0.25, 0.75).x - 0.5).abs() < 1e-15);
         assert!((u.mean(-1.0, 0.0).x).abs() < 1e-15);
         assert_eq!(u.max_magnitude(0.5), 0.5);
+        for (k, mean) in u.means(0.3).take(12).enumerate() {
+            let from = 0.3 * k as f64;
+            assert!(mean.distance(u.mean(from, from + 0.3)) < 1e-15 / 0.3);
+        }
     }
 
     #[test]

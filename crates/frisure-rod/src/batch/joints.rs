@@ -78,9 +78,9 @@ impl Joints {
                 true
             }
             NaturalStrain::Varying(_) => {
-                let strain = |k: usize| rod.natural().mean(k as f64 * half, (k + 1) as f64 * half);
-                let piece = |k: usize| Piece::of(strain(k), half);
-                self.halves.extend((0..n).map(|i| [piece(2 * i), piece(2 * i + 1)]));
+                let mut pieces = rod.natural().means(half).map(|strain| Piece::of(strain, half));
+                let mut piece = || pieces.next().expect("they do not end");
+                self.halves.extend((0..n).map(|_| [piece(), piece()]));
                 false
             }
         };
