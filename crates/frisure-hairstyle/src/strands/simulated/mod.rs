@@ -74,9 +74,6 @@ const PATIENCE: [(f64, f64); 7] =
 /// Most iterations at each of them.
 const MOST_ITERATIONS: usize = 4000;
 
-/// Frames per element of a guide.
-const FRAMES: usize = 2;
-
 /// A hair before it has come to rest.
 struct Planned<'a> {
     /// Its place in the chunk.
@@ -98,17 +95,15 @@ struct Group<'a> {
 pub(super) struct Simulated<'a> {
     population: &'a Population<'a>,
     hairstyle: &'a Hairstyle,
-    /// Material frames of each guide at rest, evenly from root to tip.
+    /// Material frames of each guide at rest, at its nodes.
     frames: Vec<Vec<DQuat>>,
 }
 
 impl<'a> Simulated<'a> {
     pub(super) fn new(population: &'a Population<'a>, hairstyle: &'a Hairstyle) -> Self {
-        let frames = (hairstyle.rest.guides.par_iter())
-            .map(|rest| {
-                let samples = rest.sample(FRAMES * rest.elements + 1);
-                samples.iter().map(|(_, frame)| DQuat::from_mat3(frame).normalize()).collect()
-            })
+        let quaternion = |frame: &DMat3| DQuat::from_mat3(frame).normalize();
+        let frames = (hairstyle.rest.guides.iter())
+            .map(|rest| rest.shape.frames.iter().map(quaternion).collect())
             .collect();
         Self { population, hairstyle, frames }
     }
