@@ -11,10 +11,13 @@ use std::time::Instant;
 
 use frisure_gpu::{Device, OnDevice, Seconds};
 use frisure_rod::batch::Batch;
-use frisure_rod::{
-    Chain, ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant,
-};
-use glam::{DQuat, DVec3};
+use frisure_rod::{Chain, ElementKind, Rod};
+use glam::DVec3;
+
+#[path = "../../frisure-rod/benches/hairs/mod.rs"]
+mod hairs;
+
+use hairs::{CURLS, heads};
 
 /// Hairs of a batch, on a graphics processor and on a program that stands for one.
 const HAIRS: usize = 65_536;
@@ -22,10 +25,6 @@ const FEWER: usize = 8192;
 
 /// Runs of each.
 const RUNS: usize = 5;
-
-/// Name and turns of the natural curl in 15 cm.
-const CURLS: [(&str, f64); 4] =
-    [("straight", 0.0), ("a wave of one turn", 1.0), ("four turns", 4.0), ("ten turns", 10.0)];
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
@@ -139,37 +138,4 @@ fn best<const N: usize>(mut tried: [&mut dyn FnMut(); N]) -> [f64; N] {
         }
     }
     best
-}
-
-/// Roots in a spiral on the sphere.
-fn heads(turns: f64, hairs: usize) -> Vec<Rod> {
-    let natural = match turns {
-        0.0 => NaturalStrain::STRAIGHT,
-        // A third of the curl's turn is torsion.
-        _ => {
-            let strain = std::f64::consts::TAU * turns / 0.15;
-            NaturalStrain::Uniform(DVec3::new(strain, 0.0, strain / 3.0))
-        }
-    };
-    (0..hairs)
-        .map(|k| {
-            let height = 1.0 - 2.0 * (k as f64 + 0.5) / hairs as f64;
-            let around = DQuat::from_rotation_z(2.399_963_229_728_653 * k as f64);
-            let tangent = around * DVec3::new((1.0 - height * height).sqrt(), 0.0, height);
-            rod(natural.clone(), tangent)
-        })
-        .collect()
-}
-
-fn rod(natural: NaturalStrain, tangent: DVec3) -> Rod {
-    Rod::new(RodSpec {
-        length: 0.15,
-        section: Section::from_diameter(70e-6, 1.2).unwrap(),
-        material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
-        torsion: TorsionConstant::SaintVenant,
-        natural,
-        root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.1, 0.9, -0.2)).unwrap(),
-        gravity: 9.81,
-    })
-    .unwrap()
 }

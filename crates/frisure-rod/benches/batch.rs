@@ -10,11 +10,14 @@ use std::time::Instant;
 
 use frisure_rod::batch::{Batch, Batched, Precision};
 use frisure_rod::{
-    ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    TorsionConstant, equilibrium,
+    ElementKind, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, equilibrium,
 };
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
+
+mod hairs;
+
+use hairs::{CURLS, heads};
 
 /// Hairs of a batch, and how many of them the scalar solver gets.
 const HAIRS: usize = 8192;
@@ -26,10 +29,6 @@ const RUNS: usize = 5;
 /// Hairs that one thread looks after at a time.
 const CHUNK: usize = 512;
 
-/// Name and turns of the natural curl in 15 cm.
-const CURLS: [(&str, f64); 4] =
-    [("straight", 0.0), ("a wave of one turn", 1.0), ("four turns", 4.0), ("ten turns", 10.0)];
-
 fn main() {
     // `cargo test --benches` wants to know that it runs, not how fast.
     let quick = !std::env::args().any(|a| a == "--bench");
@@ -37,39 +36,6 @@ fn main() {
     against_elements(hairs);
     against_threads(hairs);
     warm(hairs);
-}
-
-/// Roots in a spiral on the sphere.
-fn heads(turns: f64, hairs: usize) -> Vec<Rod> {
-    let natural = match turns {
-        0.0 => NaturalStrain::STRAIGHT,
-        // A third of the curl's turn is torsion.
-        _ => {
-            let strain = std::f64::consts::TAU * turns / 0.15;
-            NaturalStrain::Uniform(DVec3::new(strain, 0.0, strain / 3.0))
-        }
-    };
-    (0..hairs)
-        .map(|k| {
-            let height = 1.0 - 2.0 * (k as f64 + 0.5) / hairs as f64;
-            let around = DQuat::from_rotation_z(2.399_963_229_728_653 * k as f64);
-            let tangent = around * DVec3::new((1.0 - height * height).sqrt(), 0.0, height);
-            rod(natural.clone(), tangent)
-        })
-        .collect()
-}
-
-fn rod(natural: NaturalStrain, tangent: DVec3) -> Rod {
-    Rod::new(RodSpec {
-        length: 0.15,
-        section: Section::from_diameter(70e-6, 1.2).unwrap(),
-        material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
-        torsion: TorsionConstant::SaintVenant,
-        natural,
-        root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.1, 0.9, -0.2)).unwrap(),
-        gravity: 9.81,
-    })
-    .unwrap()
 }
 
 /// Shortest time (s) of each, taking turns.
@@ -177,12 +143,15 @@ fn warm(hairs: usize) {
     }
 }
 
+/// Hairs rooted a degree away, with a curl of 2 % less.
 fn neighbours(turns: f64, hairs: usize) -> Vec<Rod> {
     let near = |rod: &Rod| {
         let tangent = rod.root().frame().z_axis;
         let turned = DQuat::from_axis_angle(tangent.any_orthonormal_vector(), 1_f64.to_radians());
         let natural = NaturalStrain::Uniform(rod.natural().at(0.0) * 0.98);
-        self::rod(natural, turned * tangent)
+        let side = DVec3::new(0.1, 0.9, -0.2);
+        let root = Root::from_tangent(DVec3::ZERO, turned * tangent, side).unwrap();
+        Rod::new(RodSpec { natural, root, ..rod.spec().clone() }).unwrap()
     };
     heads(turns, hairs).iter().map(near).collect()
 }
