@@ -81,7 +81,11 @@ Examples:
   frisure predict scenes/growth.toml --each-step --image out/growth.png
 
 Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder
-if it comes from standard input.";
+if it comes from standard input.
+
+Of 50 000 and more simulated hairs ([wisps] strands = \"simulated\") those that have come to rest are
+kept in OUTPUT.hairs.part until the output is written: after Ctrl-C or a crash the same command goes
+on from there.";
 
 /// Arguments of `frisure predict`.
 #[derive(Args, Debug)]
@@ -137,10 +141,10 @@ The batch (TOML) names a scene, keys of it, and how they differ from head to hea
 drawn from ranges, distributions and tables of measured people in [vary]. docs/batch.md tells how,
 and what the columns are.
 
-Heads are written in parts of some rows, each whole or not there. The same command leaves those that
-are there and computes the others; it may be killed at any time. What a head is follows from the
-batch and its number alone, whatever the shards and threads. A head that cannot be is a row that says
-why, and no error.";
+Heads are written in parts of some rows, each whole or not there. The same command leaves those
+that are there and computes the others; it may be killed at any time. What a head is follows from
+the batch and its number alone, whatever the shards and threads. A head that cannot be is a row
+that says why, and no error.";
 
 /// Arguments of `frisure batch`.
 #[derive(Args, Debug)]
