@@ -5,7 +5,7 @@
 //! the last can be, the file ends.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -70,17 +70,14 @@ impl Kept {
         file.map(drop)
     }
 
-    /// Whether a file is of this kind, so that it may be written to.
+    /// Whether a file is of this kind, or as little of one as a crash leaves, so that it may be written to.
     ///
     /// # Errors
     /// What the system said.
     pub fn is_one(path: &Path) -> io::Result<bool> {
-        let mut mark = [0; 8];
-        let read = File::open(path).and_then(|mut file| io::Read::read_exact(&mut file, &mut mark));
-        match read {
-            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(false),
-            read => read.map(|()| &mark == MARK),
-        }
+        let mut mark = Vec::new();
+        File::open(path)?.take(MARK.len() as u64).read_to_end(&mut mark)?;
+        Ok(MARK.starts_with(&mark))
     }
 }
 
@@ -175,6 +172,13 @@ mod tests {
             drop(kept);
             assert_eq!(std::fs::read(&path).unwrap(), whole);
         }
+        for left in [0, 5, HEADER - 1] {
+            std::fs::write(&path, &whole[..left]).unwrap();
+            assert!(Kept::is_one(&path).unwrap());
+            assert_eq!(Kept::open(&path, 7).unwrap().found(), 0);
+        }
+        std::fs::write(&path, b"letters").unwrap();
+        assert!(!Kept::is_one(&path).unwrap());
         // Another work begins anew.
         let other = Kept::open(&path, 8).unwrap();
         assert_eq!(other.found(), 0);
