@@ -34,7 +34,8 @@ pub(crate) fn check() -> Result<(), Failure> {
 /// Computes on a thread of its own and waits for it, or for Ctrl-C.
 ///
 /// Work that does not look at the flag is left behind when the process ends. It must not write
-/// files: those are written by the main thread, which always finishes or cleans up the one it is at.
+/// files: those are written by the main thread, which always finishes or cleans up the one it is at. Only what may end
+/// anywhere is written here ([`frisure::io::kept`]).
 pub(crate) fn computing<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, Failure> + Send + 'static,
 ) -> Result<T, Failure> {

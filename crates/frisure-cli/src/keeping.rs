@@ -14,8 +14,11 @@ use crate::progress::Progress;
 /// Fewer hairs than this are not worth a file: they take seconds.
 const MANY: usize = 50_000;
 
-/// The file that keeps the hairs of an output, `curls.hair.hairs.part`; none for devices.
-pub(crate) fn part(output: &Path) -> Option<PathBuf> {
+/// The file that keeps the simulated hairs of an output, `curls.hair.hairs.part`; none for other hairs, and for devices.
+pub(crate) fn part(spec: &HairstyleSpec, output: &Path) -> Option<PathBuf> {
+    if spec.wisps.strands != HairModel::Simulated {
+        return None;
+    }
     if std::fs::metadata(output).is_ok_and(|found| !found.is_file()) {
         return None;
     }
@@ -25,10 +28,7 @@ pub(crate) fn part(output: &Path) -> Option<PathBuf> {
 }
 
 /// Refuses to begin where a file of somebody else's would be overwritten.
-pub(crate) fn check(spec: &HairstyleSpec, parts: &[PathBuf]) -> Result<(), Failure> {
-    if spec.wisps.strands != HairModel::Simulated {
-        return Ok(());
-    }
+pub(crate) fn check(parts: &[PathBuf]) -> Result<(), Failure> {
     for path in parts {
         let ours = match Kept::is_one(path) {
             Ok(ours) => ours,

@@ -3,6 +3,15 @@
 
 // Damping after a first failed pivot or a step that went up, as a fraction of the stiffness.
 const FIRST_DAMPING: f32 = 0.3;
+// Least factor by which damping grows, and what it shrinks to after a step that was taken; below the least it is none.
+const GROWTH: f32 = 4.0;
+const SHRINKING: f32 = 0.2;
+const LEAST_DAMPING: f32 = 0.01;
+// How much more than what failed lately damping stays, what of that is left after each step that was taken, and below which
+// it is forgotten.
+const ABOVE_BAD: f32 = 1.5;
+const FADING: f32 = 0.25;
+const FORGOTTEN: f32 = 0.05;
 // Largest factor by which damping grows at once.
 const MOST_GROWTH: f32 = 16.0;
 // Damping from which on a hair is given up.
@@ -16,9 +25,9 @@ const NOISE: f32 = 1e-6;
 fn stiffen(given: Progress, lacking: f32) -> Progress {
     var now = given;
     now.bad = now.damping;
-    let least = max(FIRST_DAMPING, 4.0 * now.damping);
+    let least = max(FIRST_DAMPING, GROWTH * now.damping);
     if now.good > 2.0 * now.damping {
-        now.damping = max(sqrt(now.good * max(now.damping, 0.05)), FIRST_DAMPING);
+        now.damping = max(sqrt(now.good * max(now.damping, FORGOTTEN)), FIRST_DAMPING);
     } else {
         let stiffness = stiffness_of_joints();
         let weakest = min(stiffness.x, min(stiffness.y, stiffness.z));
@@ -32,9 +41,9 @@ fn stiffen(given: Progress, lacking: f32) -> Progress {
 fn soften(given: Progress) -> Progress {
     var now = given;
     now.good = now.damping;
-    now.bad *= 0.25;
-    let softer = max(0.2 * now.damping, select(1.5 * now.bad, 0.0, now.bad < 0.05));
-    now.damping = select(min(softer, now.damping), 0.0, softer < 0.01);
+    now.bad *= FADING;
+    let softer = max(SHRINKING * now.damping, select(ABOVE_BAD * now.bad, 0.0, now.bad < FORGOTTEN));
+    now.damping = select(min(softer, now.damping), 0.0, softer < LEAST_DAMPING);
     return now;
 }
 

@@ -17,6 +17,18 @@ use crate::{Node, Rod};
 /// [`crate::minimise::Riccati`].
 const FIRST_DAMPING: f64 = 0.3;
 
+/// Least factor by which damping grows, and what it shrinks to after a step that was taken; below [`LEAST_DAMPING`] it
+/// is none.
+const GROWTH: f64 = 4.0;
+const SHRINKING: f64 = 0.2;
+const LEAST_DAMPING: f64 = 0.01;
+
+/// How much more than what failed lately damping stays, what of that is left after each step that was taken, and below
+/// which it is forgotten.
+const ABOVE_BAD: f64 = 1.5;
+const FADING: f64 = 0.25;
+const FORGOTTEN: f64 = 0.05;
+
 /// Largest factor by which damping grows at once.
 const MOST_GROWTH: f64 = 16.0;
 
@@ -153,9 +165,11 @@ struct Lane {
     iterations: usize,
     /// The least stiffness of a joint (N m).
     stiffness: f64,
-    /// Whether a step is being tried, and whether the one before was taken.
+    /// Whether a step is being tried.
     trying: bool,
+    /// Damping of the last step that was taken …
     good: f64,
+    /// … and of the last that was not; what that tells fades with each step that is.
     bad: f64,
     /// Whether the given shape is.
     fresh: bool,
@@ -176,12 +190,13 @@ const EMPTY: Lane = Lane {
 };
 
 impl Lane {
-    /// After a step that failed, or a pivot (N m) that is negative by `lacking`: it takes that much stiffness at least.
+    /// After a step that failed, or a pivot (N m) that is negative by `lacking`: it takes that much stiffness at least,
+    /// as far as damping may grow at once. Where stiffer was good before, it is enough to go half the way there.
     fn stiffen(&mut self, lacking: f64) {
         self.bad = self.damping;
-        let least = FIRST_DAMPING.max(4.0 * self.damping);
+        let least = FIRST_DAMPING.max(GROWTH * self.damping);
         self.damping = if self.good > 2.0 * self.damping {
-            (self.good * self.damping.max(0.05)).sqrt().max(FIRST_DAMPING)
+            (self.good * self.damping.max(FORGOTTEN)).sqrt().max(FIRST_DAMPING)
         } else {
             let most = MOST_GROWTH * FIRST_DAMPING.max(self.damping);
             (lacking / self.stiffness).min(most).max(least)
@@ -191,9 +206,10 @@ impl Lane {
     /// After a step that was taken. What was not stiff enough a step ago is not tried again at once.
     fn soften(&mut self) {
         self.good = self.damping;
-        self.bad *= 0.25;
-        let softer = (0.2 * self.damping).max(if self.bad < 0.05 { 0.0 } else { 1.5 * self.bad });
-        self.damping = if softer < 0.01 { 0.0 } else { softer.min(self.damping) };
+        self.bad *= FADING;
+        let above = if self.bad < FORGOTTEN { 0.0 } else { ABOVE_BAD * self.bad };
+        let softer = (SHRINKING * self.damping).max(above);
+        self.damping = if softer < LEAST_DAMPING { 0.0 } else { softer.min(self.damping) };
     }
 }
 

@@ -89,7 +89,8 @@ fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), 
     for frame in 0..frames {
         let (mine, all) = (work.clone(), hair.clone());
         let drawn = interrupt::computing(move || mine.draw(&all, frame)).map_err(|failure| {
-            keeping::interrupted(failure, kept(&work.arguments, frame, frames).as_deref())
+            let spec = hair.styled.hairstyles[frame].spec();
+            keeping::interrupted(failure, kept(&work.arguments, spec, frame, frames).as_deref())
         });
         let mut drawn = drawn?;
         let kept = drawn.kept.take();
@@ -150,15 +151,15 @@ fn check_outputs(
     outputs::prepare(&all, &inputs)?;
     exposing::check_parts(&parts)?;
     let kept: Vec<PathBuf> =
-        (0..frames).filter_map(|frame| kept(arguments, frame, frames)).collect();
-    keeping::check(spec, &kept)
+        (0..frames).filter_map(|frame| kept(arguments, spec, frame, frames)).collect();
+    keeping::check(&kept)
 }
 
 /// Where the simulated hairs of a frame are kept until it is written.
-fn kept(arguments: &Predict, frame: usize, frames: usize) -> Option<PathBuf> {
+fn kept(arguments: &Predict, spec: &HairstyleSpec, frame: usize, frames: usize) -> Option<PathBuf> {
     let Predict { outputs, image, report, .. } = arguments;
     let output = outputs.first().or(image.as_ref()).or(report.as_ref())?;
-    keeping::part(&name_of(arguments, output, frame, frames))
+    keeping::part(spec, &name_of(arguments, output, frame, frames))
 }
 
 /// The files that a scene reads, beside itself.
@@ -244,7 +245,8 @@ impl Work {
         let (mut strands, simulation) = match self.draws() {
             true => {
                 let watch = &self.progress;
-                let part = kept(&self.arguments, frame, hair.styled.hairstyles.len());
+                let frames = hair.styled.hairstyles.len();
+                let part = kept(&self.arguments, hairstyle.spec(), frame, frames);
                 keep = keeping::open(part, hairstyle, head, watch)?;
                 let keep = keep.as_ref().map(|keep| keep as &dyn Keep);
                 let drawn = hairstyle.strands_and_simulation(head, watch, keep);
