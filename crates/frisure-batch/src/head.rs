@@ -3,12 +3,12 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use frisure::files::Files;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{Cancelled, Hairstyle, Monitor, volume};
-use frisure::io::files::Files;
-use frisure::io::scene::batch::{Batch, Sample, Value};
-use frisure::io::scene::edit::EditError;
-use frisure::io::scene::{Scene, SceneError};
+use frisure::scene::batch::{Batch, Sample, Value};
+use frisure::scene::edit::EditError;
+use frisure::scene::{Scene, SceneError};
 use frisure_stylist::carry;
 
 use crate::heads::Heads;

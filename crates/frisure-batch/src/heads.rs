@@ -2,9 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use frisure::files::Files;
 use frisure::hairstyle::head::Head;
-use frisure::io::files::Files;
-use frisure::io::scene::{HeadSource, Scene, SceneError};
+use frisure::scene::{HeadSource, Scene, SceneError};
 use frisure_stylist::carry;
 
 /// How many are remembered, some megabytes each.

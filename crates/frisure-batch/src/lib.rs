@@ -31,7 +31,7 @@ mod part;
 mod run;
 mod shard;
 
-pub use frisure::io::scene::batch::{Batch, Kind, Sample, Value};
+pub use frisure::scene::batch::{Batch, Kind, Sample, Value};
 pub use head::{Measured, Row};
 pub use part::Part;
 pub use run::{BatchError, Done, Run};

@@ -5,9 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use frisure::files::{WriteError, check_destination, write_atomically};
 use frisure::hairstyle::{Cancelled, Monitor};
-use frisure::io::files::{WriteError, check_destination, write_atomically};
-use frisure::io::scene::batch::Batch;
+use frisure::scene::batch::Batch;
 use rayon::prelude::*;
 use thiserror::Error;
 

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
+use frisure::files::frame::{Frame, FrameChoice, UpAxis};
+use frisure::formats::groom::Format;
 use frisure::hairstyle::PRESETS;
-use frisure::io::frame::{Frame, FrameChoice, UpAxis};
-use frisure::io::groom::Format;
-use frisure::io::quantity::{Dimension, LENGTH, RATIO, STRAIN};
-use frisure::io::scene::Scene;
 use frisure::render::trace::TraceOptions;
+use frisure::scene::Scene;
+use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
 use frisure_batch::Shard;
 use frisure_evidence::EXPERIMENTS;
 

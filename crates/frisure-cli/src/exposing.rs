@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use frisure::denoise::{Denoiser, Noisy, VARIABLE};
-use frisure::io::files::{self, ReadError, WriteError, write_atomically};
-use frisure::io::picture::exr::{self, Channel, Values};
-use frisure::io::picture::{Format, PictureError, png};
-use frisure::io::scene;
+use frisure::files::{self, ReadError, WriteError, write_atomically};
+use frisure::formats::picture::exr::{self, Channel, Values};
+use frisure::formats::picture::{Format, PictureError, png};
 use frisure::render::trace::{EXPOSURE_MARK, Exposure, Layers, Tracer};
 use frisure::render::{Camera, Image, Lights};
+use frisure::scene;
 
 use frisure_stylist::picture;
 

@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::process::ExitCode;
 
-use frisure::io::files::ReadError;
-use frisure::io::scene::{Fault, SceneError};
+use frisure::files::ReadError;
+use frisure::scene::{Fault, SceneError};
 use miette::{Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, Report};
 use thiserror::Error;
 

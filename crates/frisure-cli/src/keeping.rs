@@ -3,9 +3,9 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use frisure::formats::kept::Kept;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{HairModel, Hairstyle, HairstyleSpec};
-use frisure::io::kept::Kept;
 
 use crate::console;
 use crate::failure::Failure;

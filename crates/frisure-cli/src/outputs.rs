@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frisure::io::files::{self, WriteError};
+use frisure::files::{self, WriteError};
 
 use crate::failure::Failure;
 

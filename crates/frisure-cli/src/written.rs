@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use frisure::io::groom::{Format, Groom, GroomError, write_groom};
+use frisure::formats::groom::{Format, Groom, GroomError, write_groom};
 use frisure::strands::Strands;
 
 use crate::args::{Content, Writing};

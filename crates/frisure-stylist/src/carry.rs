@@ -1,12 +1,12 @@
 //! The parts of carrying a scene out: its head, and what is refused on the way, at the key it comes from.
 
+use frisure::files::Files;
 use frisure::hairstyle::head::{Head, ScalpSource};
 use frisure::hairstyle::styling::StyleError;
 use frisure::hairstyle::{
     Adoption, Hairstyle, HairstyleSpec, HistoryError, Monitor, PredictError, adopt, predict,
 };
-use frisure::io::files::Files;
-use frisure::io::scene::{Scene, SceneError};
+use frisure::scene::{Scene, SceneError};
 use frisure::strands::Strands;
 use glam::DVec3;
 

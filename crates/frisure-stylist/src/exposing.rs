@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
+use frisure::formats::picture::{PictureError, png};
 use frisure::hairstyle::head::Head;
-use frisure::io::picture::{PictureError, png};
-use frisure::io::scene::{Output, Scene};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::{Exposure, MAX_PIXELS, TraceError, TraceOptions, Tracer};
 use frisure::render::{Camera, EnvironmentMap};
+use frisure::scene::{Output, Scene};
 use frisure::strands::Strands;
 use glam::DVec3;
 use web_time::Instant;

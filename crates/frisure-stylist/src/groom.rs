@@ -1,10 +1,10 @@
 //! A hairstyle as a groom for other programs.
 
+use frisure::formats::groom::{Groom, HairColour};
 use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
-use frisure::io::groom::{Groom, HairColour};
-use frisure::io::scene::Scene;
 use frisure::optics::apparent_colour;
+use frisure::scene::Scene;
 use frisure::strands::Strands;
 
 use crate::picture::hair_look;

@@ -7,13 +7,13 @@
 use std::mem::discriminant;
 use std::sync::Arc;
 
+use frisure::files::{Files, Stamp};
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::Operation;
 use frisure::hairstyle::{
     Effort, Hairstyle, HairstyleSpec, History, Monitor, predict_again, predict_roughly,
 };
-use frisure::io::files::{Files, Stamp};
-use frisure::io::scene::{GroomFile, Scene};
+use frisure::scene::{GroomFile, Scene};
 
 use crate::held::Held;
 use crate::refusal::Stop;
@@ -255,6 +255,6 @@ impl Draft {
 }
 
 /// Why it was stopped: cancelled, if nothing is wrong.
-fn stopped(error: Option<frisure::io::scene::SceneError>) -> Stop {
+fn stopped(error: Option<frisure::scene::SceneError>) -> Stop {
     error.map_or(Stop::Cancelled, Stop::from)
 }

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
+use frisure::files::{Files, Stamp};
 use frisure::hairstyle::head::Head;
-use frisure::io::files::{Files, Stamp};
-use frisure::io::scene::{HeadSource, ScalpSource, Scene, SceneError};
+use frisure::scene::{HeadSource, ScalpSource, Scene, SceneError};
 
 use crate::carry;
 

@@ -1,7 +1,7 @@
 //! What can be asked of a [`crate::Stylist`], and what it answers: plain data, so that they can pass
 //! between threads and between a page and its workers.
 
-use frisure::io::contents::Contents;
+use frisure::formats::contents::Contents;
 use serde::{Deserialize, Serialize};
 
 use crate::held::Held;

@@ -3,17 +3,17 @@
 //! Lengths are metres, angles radians; the frame is the head's: x to its left, the face towards −y, z
 //! up. Light is scene-linear sRGB.
 
-use frisure::io::environment::Environment;
-use frisure::io::files::Files;
-use frisure::io::scene::{
-    self, Face, LampColour, LampFace, LampPlace, NaturalColour, Scene, SceneError,
-};
+use frisure::files::Files;
+use frisure::formats::environment::Environment;
 use frisure::optics::{Melanin, absorption_of_colour};
 use frisure::render::preview;
 use frisure::render::{
     Aperture, AreaLight, Background, Camera, CameraError, Daylight, DistantLight, Dye,
     EnvironmentMap, Fade, Ground, HairLook, HairSurface, Image, InvalidLight, Lamp, Lights, Look,
     PointLight, Room, SOFTBOX, Setup, SkinLook, ToneCurve, beside_camera, colour_of_temperature,
+};
+use frisure::scene::{
+    self, Face, LampColour, LampFace, LampPlace, NaturalColour, Scene, SceneError,
 };
 use frisure::strands::{Strands, Surface};
 use glam::{DVec3, Vec3};

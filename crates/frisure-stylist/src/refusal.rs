@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use frisure::hairstyle::Cancelled;
-use frisure::io::scene::SceneError;
+use frisure::scene::SceneError;
 
 use crate::order::{Answer, Refusal};
 

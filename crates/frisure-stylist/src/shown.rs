@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{Cancelled, Hairstyle, Monitor};
-use frisure::io::scene::Scene;
 use frisure::rod::Stability;
+use frisure::scene::Scene;
 use frisure::strands::{AttributeValues, Strands};
 use glam::{DVec3, Vec3};
 

@@ -5,13 +5,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
+use frisure::files::Files;
+use frisure::files::frame::FrameChoice;
+use frisure::formats::contents;
+use frisure::formats::groom::{self, Format};
 use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
-use frisure::io::contents;
-use frisure::io::files::Files;
-use frisure::io::frame::FrameChoice;
-use frisure::io::groom::{self, Format};
-use frisure::io::scene::{Scene, parse_step};
+use frisure::scene::{Scene, parse_step};
 use frisure::strands::Strands;
 use web_time::Instant;
 

@@ -76,13 +76,13 @@ fn a_groom_is_what_the_command_line_writes() {
         let (name, bytes) = file(order(&mut stylist, &groom(format)));
         assert_eq!(name, format!("small.{format}"));
         let path = folder.path().join(&name);
-        let scene = frisure::io::scene::Scene::parse("s", CURLY, "".as_ref()).unwrap();
+        let scene = frisure::scene::Scene::parse("s", CURLY, "".as_ref()).unwrap();
         let head = frisure::hairstyle::head::Head::mannequin();
         let hair =
             frisure::hairstyle::predict(&scene.hairstyle_spec().unwrap(), &head, &()).unwrap();
         let strands = hair.strands(&head, &()).unwrap();
         let groom = frisure_stylist::groom::groom(&scene, &hair, &head, strands, false);
-        frisure::io::groom::write_groom(&path, &groom, Default::default()).unwrap();
+        frisure::formats::groom::write_groom(&path, &groom, Default::default()).unwrap();
         assert_eq!(std::fs::read(path).unwrap(), bytes);
     }
     assert!(refused(order(&mut stylist, &groom("png"))).problem.contains(".ply"));

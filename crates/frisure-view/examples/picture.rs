@@ -23,7 +23,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let get = |i: usize, default: &str| arguments.get(i).map_or(default.to_owned(), Clone::clone);
     let mut strands =
-        frisure_io::groom::read_groom(Path::new(&get(0, "groom.hair")), Default::default())?.hairs;
+        frisure_formats::groom::read_groom(Path::new(&get(0, "groom.hair")), Default::default())?
+            .hairs;
     let shade = Shade::named(&get(2, "brown")).ok_or("no such colour")?;
     let azimuth = get(3, "30").parse::<f64>()?.to_radians();
     let size = get(4, "640x640");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use frisure::io::scene::batch::{Batch, Kind, Value};
+use frisure::scene::batch::{Batch, Kind, Value};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{
     BoolType, ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type,

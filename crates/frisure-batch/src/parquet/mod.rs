@@ -6,7 +6,7 @@ use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
-use frisure::io::scene::batch::Batch;
+use frisure::scene::batch::Batch;
 use parquet::basic::Compression;
 use parquet::errors::Result;
 use parquet::file::metadata::KeyValue;

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frisure::io::files;
-use frisure::io::scene::SceneError;
-use frisure::io::scene::edit::EditError;
+use frisure::files;
+use frisure::scene::SceneError;
+use frisure::scene::edit::EditError;
 use frisure_batch::{Batch as Heads, BatchError, Part, Row, Run, Sample, Shard, Value};
 
 use crate::args::Batch;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use frisure::io::groom::Groom;
+use frisure::formats::groom::Groom;
 
 use super::read_groom;
 use crate::args::{Axes, Convert};

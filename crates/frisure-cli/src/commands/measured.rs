@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use frisure::files;
 use frisure::hairstyle::preset;
-use frisure::io::files;
-use frisure::io::measurements::{Choices, Steepness, measured};
+use frisure::scene::measurements::{Choices, Steepness, measured};
 
 use super::parse_scene;
 use crate::args::Measured;

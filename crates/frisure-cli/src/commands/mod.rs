@@ -15,9 +15,9 @@ pub(crate) mod validate;
 use std::io::Read;
 use std::path::Path;
 
-use frisure::io::files;
-use frisure::io::groom::{self, Groom, GroomError};
-use frisure::io::scene::{MAX_SIZE, Scene};
+use frisure::files;
+use frisure::formats::groom::{self, Groom, GroomError};
+use frisure::scene::{MAX_SIZE, Scene};
 
 use crate::args::Axes;
 use crate::failure::Failure;

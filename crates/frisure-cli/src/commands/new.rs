@@ -1,7 +1,7 @@
 //! `frisure new`: a scene to start from.
 
 use frisure::hairstyle::preset;
-use frisure::io::scene::template;
+use frisure::scene::template;
 
 use crate::args::New;
 use crate::console;

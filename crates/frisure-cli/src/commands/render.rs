@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use frisure::files::Files;
+use frisure::formats::picture::Format;
 use frisure::hairstyle::head::Head;
-use frisure::io::files::Files;
-use frisure::io::picture::Format;
-use frisure::io::scene::Scene;
 use frisure::render::InvalidLight;
 use frisure::render::trace::Tracer;
+use frisure::scene::Scene;
 use frisure::strands::Strands;
 
 use super::predict::{self, Turntable};
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
 }
 
 fn is_groom(path: &Path) -> bool {
-    frisure::io::groom::Format::of(path).is_ok()
+    frisure::formats::groom::Format::of(path).is_ok()
 }
 
 fn turntable(arguments: &Render) -> Result<Option<Turntable>, Failure> {

@@ -1,6 +1,6 @@
 //! `frisure schema`: what a scene can say.
 
-use frisure::io::scene::schema;
+use frisure::scene::schema;
 
 use crate::console;
 use crate::failure::{Done, Failure};

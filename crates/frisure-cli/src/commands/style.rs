@@ -5,10 +5,10 @@ use std::fs::{File, TryLockError};
 use std::path::Path;
 use std::time::Duration;
 
+use frisure::files::{self, WriteError};
 use frisure::hairstyle::styling::Operation;
-use frisure::io::files::{self, WriteError};
-use frisure::io::scene::edit::{self, EditError};
-use frisure::io::scene::{parse_step, write_step};
+use frisure::scene::edit::{self, EditError};
+use frisure::scene::{parse_step, write_step};
 
 use super::{parse_scene, read_text};
 use crate::args::Style;

@@ -14,7 +14,7 @@ use crate::state::Command;
 use crate::window::{App, Parts, wake};
 use crate::work::web::WebWorker;
 use eframe::{CreationContext, WebOptions, WebRunner};
-use frisure::io::scene::edit;
+use frisure::scene::edit;
 use frisure_stylist::order::Order;
 use std::cell::RefCell;
 use wasm_bindgen::prelude::*;

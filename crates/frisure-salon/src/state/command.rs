@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use frisure::formats::contents::Contents;
 use frisure::hairstyle::styling::{
     Comb, Direction, Dry, Grow, Growth, Hold as HoldStep, Holder, Lasso, Operation, Release,
     Selection, Spot, View, Wet,
 };
 use frisure::hairstyle::{Comb as Named, Place};
-use frisure::io::contents::Contents;
-use frisure::io::scene::{Scene, SceneError, edit};
+use frisure::scene::{Scene, SceneError, edit};
 use frisure_stylist::order::Refusal;
 use glam::DVec3;
 

@@ -3,8 +3,8 @@
 //! One table for the window, its tests and its help; a new slider is a new row.
 
 use frisure::hairstyle::HairstyleSpec;
-use frisure::io::scene::{NaturalColour, Scene};
 use frisure::optics::SHADES;
+use frisure::scene::{NaturalColour, Scene};
 
 /// The panels, in the order in which a person meets them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

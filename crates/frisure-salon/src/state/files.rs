@@ -2,8 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use frisure::io::contents::{self, Contents};
-use frisure::io::scene::{HeadSource, edit};
+use frisure::formats::contents::{self, Contents};
+use frisure::scene::{HeadSource, edit};
 use frisure_stylist::order::{Answer, Asked, Order, Refusal};
 use toml_edit::{DocumentMut, Value};
 

@@ -102,7 +102,7 @@ impl Card {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use frisure::io::scene::Scene;
+    use frisure::scene::Scene;
     use std::path::Path;
 
     #[test]

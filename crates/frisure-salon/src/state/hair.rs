@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use frisure::hairstyle::HairstyleSpec;
 use frisure::hairstyle::styling::{Operation, Release};
-use frisure::io::scene::{GroomFile, HeadSource, write_step};
+use frisure::scene::{GroomFile, HeadSource, write_step};
 use frisure_stylist::order::{Answer, Effort, Order, Refusal, Shown};
 
 use super::desk::{Job, Purpose};

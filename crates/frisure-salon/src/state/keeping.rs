@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use frisure::io::groom::Format;
+use frisure::formats::groom::Format;
 use frisure_stylist::order::Order;
 
 use super::command::understand;

@@ -25,7 +25,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use frisure::hairstyle::HairstyleSpec;
-use frisure::io::scene::Scene;
+use frisure::scene::Scene;
 use frisure_stylist::held::Held;
 use frisure_stylist::order::{Answer, Asked, OneHair, Refusal, Shown};
 

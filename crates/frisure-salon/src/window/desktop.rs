@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use frisure::io::contents::{self, Contents};
-use frisure::io::files::{read_bytes, write_atomically};
+use frisure::files::{read_bytes, write_atomically};
+use frisure::formats::contents::{self, Contents};
 
 use super::outside::{Dropped, Given, Outside, extensions};
 use crate::state::{Destination, Save};

@@ -22,7 +22,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use eframe::egui::{self, CentralPanel, Panel as Edge, Ui};
-use frisure::io::contents::{self, Contents};
+use frisure::formats::contents::{self, Contents};
 use frisure_stylist::order::Order;
 use web_time::{Duration, Instant};
 

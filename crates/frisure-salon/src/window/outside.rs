@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use eframe::egui::DroppedFile;
-use frisure::io::contents;
+use frisure::formats::contents;
 
 use crate::state::{Destination, Save};
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use eframe::egui::{CollapsingHeader, ComboBox, RichText, ScrollArea, Ui};
-use frisure::io::contents::Contents;
-use frisure::io::scene::HeadSource;
+use frisure::formats::contents::Contents;
+use frisure::scene::HeadSource;
 
 use super::widgets;
 use crate::state::{CONTROLS, Choice, Command, Control, Panel, Salon};

@@ -8,9 +8,9 @@ use eframe::egui::{
     Shape, Stroke, Ui, vec2,
 };
 use eframe::egui_wgpu::Callback;
-use frisure::io::files::Files;
-use frisure::io::scene::Scene;
+use frisure::files::Files;
 use frisure::render::{Camera, EnvironmentMap, Lights, Look, ToneCurve};
+use frisure::scene::Scene;
 use frisure_stylist::order::OneHair;
 use frisure_stylist::picture;
 use frisure_view::{Line, Mark, Plane, Shadows};
@@ -278,9 +278,9 @@ impl Viewport {
             planes.push(cutting_plane(salon.plane()));
         }
         let tone = match understood.scene.output.tone {
-            frisure::io::scene::Tone::Plain => ToneCurve::Plain,
-            frisure::io::scene::Tone::Shoulder => ToneCurve::Shoulder,
-            frisure::io::scene::Tone::Filmic => ToneCurve::Filmic,
+            frisure::scene::Tone::Plain => ToneCurve::Plain,
+            frisure::scene::Tone::Shoulder => ToneCurve::Shoulder,
+            frisure::scene::Tone::Filmic => ToneCurve::Filmic,
         };
         let head = salon.head().map(|head| (head.clone(), Arc::as_ptr(head) as usize as u64));
         Some(Picture {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use frisure::io::files::{WriteError, write_atomically};
+use frisure::files::{WriteError, write_atomically};
 
 use super::{Book, words};
 use crate::Experiment;

@@ -8,18 +8,18 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use frisure::files::Files;
+use frisure::formats::groom::Groom;
+use frisure::formats::kept::Kept;
+use frisure::formats::{picture, report};
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
     Adoption, Hairstyle, HairstyleSpec, Keep, Simulation, penetration, volume,
 };
-use frisure::io::files::Files;
-use frisure::io::groom::Groom;
-use frisure::io::kept::Kept;
-use frisure::io::scene::{self, HeadSource, Scene};
-use frisure::io::{picture, report};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::Tracer;
 use frisure::render::{EnvironmentMap, Image};
+use frisure::scene::{self, HeadSource, Scene};
 use frisure::strands::Strands;
 use frisure_stylist::held::Held;
 use frisure_stylist::picture as seen;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{Body, HairContact, Hairstyle, Simulation, Volume};
-use frisure::io::scene::Scene;
+use frisure::scene::Scene;
 use frisure::strands::Strands;
 use frisure_stylist::held::Held;
 use serde::Serialize;

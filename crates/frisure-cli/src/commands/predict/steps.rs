@@ -5,8 +5,8 @@ use std::fmt::Write;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::{Cut, CutLine, Hold, Holder, Operation, StyleError};
 use frisure::hairstyle::{Hairstyle, Monitor};
-use frisure::io::scene::Scene;
 use frisure::rod::Equilibrium;
+use frisure::scene::Scene;
 use frisure_stylist::carry;
 use serde::Serialize;
 

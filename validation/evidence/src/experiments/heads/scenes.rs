@@ -4,11 +4,11 @@ use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use frisure::formats::picture::png;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{Hairstyle, Volume, predict, volume};
-use frisure::io::picture::png;
-use frisure::io::scene::{Scene, edit};
 use frisure::render::preview::{self, PreviewOptions};
+use frisure::scene::{Scene, edit};
 use frisure::strands::{AttributeValues, Strands};
 use frisure_stylist::picture as seen;
 

@@ -1,0 +1,136 @@
+//! Pictures of surroundings with all of their light: Radiance `.hdr` and OpenEXR `.exr`.
+
+mod openexr;
+mod radiance;
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use frisure_files::{Files, ReadError};
+
+/// Most pixels across and down.
+const MOST: [usize; 2] = [16_384, 8192];
+
+/// Largest file that is read (bytes).
+const MAX_SIZE: u64 = 1 << 30;
+
+/// Negative light that is no more than the rounding of whoever wrote it.
+const ROUNDING: f32 = 0.01;
+
+/// Brightest light that is understood.
+const BRIGHTEST: f32 = 1e12;
+
+/// An equirectangular picture of everything around, its upper edge straight above.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Radiance of each pixel, linear sRGB, row by row from the top; finite and not negative.
+    pub pixels: Vec<[f32; 3]>,
+}
+
+/// Why there is no environment.
+#[derive(Debug, Error)]
+pub enum EnvironmentError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Its name has another ending.
+    #[error("environments are read from `.hdr` and `.exr`; `{}` is neither", path.display())]
+    Extension {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// It is not what its name says, or not an environment.
+    #[error("`{}` {problem}", path.display())]
+    Broken {
+        /// The path asked for.
+        path: PathBuf,
+        /// What is wrong with it, to follow its name.
+        problem: String,
+    },
+}
+
+impl EnvironmentError {
+    /// What to try; may be empty.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Extension { path } if is_of_screens(path) => {
+                "a picture for screens cuts off all lamps at white; environments keep them"
+            }
+            Self::Broken { problem, .. } if problem.contains("twice as wide") => {
+                "convert it to an equirectangular (latitude-longitude) picture"
+            }
+            _ => "",
+        }
+    }
+}
+
+/// Whether a file's name is that of a picture of a few bits.
+fn is_of_screens(path: &Path) -> bool {
+    let endings = ["png", "jpg", "jpeg", "webp", "avif", "gif", "bmp", "tga", "tif", "tiff"];
+    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+    endings.contains(&ending.as_str())
+}
+
+/// Reads an environment; its name says which format.
+///
+/// # Errors
+/// [`EnvironmentError`], also for a picture that is not twice as wide as it is high, larger than 16 384 ×
+/// 8192, or that has light below zero, above 1e12 or not finite. Negative light down to −0.01 becomes 0.
+pub fn read(path: &Path, files: &Files) -> Result<Environment, EnvironmentError> {
+    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+    let decode = match ending.as_str() {
+        "hdr" => radiance::decode,
+        "exr" => openexr::decode,
+        _ => return Err(EnvironmentError::Extension { path: path.into() }),
+    };
+    let bytes = files.read_bytes(path, MAX_SIZE, "an environment")?;
+    let broken = |problem| EnvironmentError::Broken { path: path.into(), problem };
+    let mut environment = decode(&bytes).map_err(broken)?;
+    clean(&mut environment).map_err(broken)?;
+    Ok(environment)
+}
+
+/// Refuses sizes that no environment has.
+fn check_size(width: usize, height: usize) -> Result<(), String> {
+    let [across, down] = MOST;
+    if width > across || height > down {
+        return Err(format!(
+            "has {width} x {height} pixels; an environment has at most {across} x {down}"
+        ));
+    }
+    // A pixel more or less is a matter of taste.
+    let ratio = width as f64 / height.max(1) as f64;
+    if height == 0 || (width.abs_diff(2 * height) > 2 && !(1.9..=2.1).contains(&ratio)) {
+        return Err(format!(
+            "has {width} x {height} pixels; an environment is twice as wide as it is high"
+        ));
+    }
+    Ok(())
+}
+
+/// Takes rounding below zero away, and refuses what is no light.
+fn clean(environment: &mut Environment) -> Result<(), String> {
+    let width = environment.width;
+    for (i, pixel) in environment.pixels.iter_mut().enumerate() {
+        if pixel.iter().all(|x| (-ROUNDING..=BRIGHTEST).contains(x)) {
+            *pixel = pixel.map(|x| x.max(0.0));
+            continue;
+        }
+        let what = match pixel.iter().any(|x| *x < 0.0 && x.is_finite()) {
+            true => "light is not negative",
+            false => "light is finite, at most 1e12",
+        };
+        let (x, y) = (i % width, i / width);
+        return Err(format!("has {pixel:?} in column {x} of row {y}; {what}"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,357 @@
+//! `.npz`: arrays of `NumPy` in a zip, for programs that learn.
+//!
+//! `positions` of N × P × 3 where all strands have the same number of points, else `points` of all and
+//! `offsets`; `radii`, and an array for each attribute; those of guides with `guide_` in front. `metres` and
+//! `up` say unit and axes. Metres, z up, unless told otherwise.
+//!
+//! The zip is of the crate `zip`, without its other methods of compression; the headers of arrays are a line
+//! of text each.
+
+mod array;
+
+use std::collections::BTreeMap;
+use std::io::{self, Cursor, Read, Write};
+
+use frisure_optics::Melanin;
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
+use glam::Vec3;
+use zip::write::{SimpleFileOptions, ZipWriter};
+use zip::{CompressionMethod, ZipArchive};
+
+use self::array::{Array, header};
+use super::attributes as names;
+use super::checked::{Curves, MAX_STRANDS};
+use super::{Format, Groom, HairColour};
+use frisure_files::frame::{Frame, FrameChoice, UpAxis};
+
+/// In front of the names of arrays of guides.
+const GUIDE: &str = "guide_";
+
+/// How much larger arrays can be than the file that they are packed in, and what they can have in any case.
+const MOST_PACKED: u64 = 16;
+const FREE: u64 = 64 << 20;
+
+/// Arrays of a file beside those of strands.
+const METRES: &str = "metres";
+const UP: &str = "up";
+const NAME: &str = "name";
+const HAIR_COLOUR: &str = "hair_color";
+const MELANIN: &str = "melanin";
+
+/// Writes hairs and guides.
+pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+    let mut zip = ZipWriter::new_stream(out);
+    strands(&mut zip, "", &groom.hairs, frame)?;
+    if !groom.guides.is_empty() {
+        strands(&mut zip, GUIDE, &groom.guides, frame)?;
+    }
+    array(&mut zip, METRES, "<f8", &[], 8, |out| out.extend(frame.metres.to_le_bytes()))?;
+    text(&mut zip, UP, if frame.up == UpAxis::Y { "y" } else { "z" })?;
+    text(&mut zip, NAME, &groom.name)?;
+    if let Some(HairColour { colour, melanin }) = groom.colour {
+        array(&mut zip, HAIR_COLOUR, "<f4", &[3], 12, |out| push(out, colour))?;
+        if let Some(Melanin { eumelanin, pheomelanin }) = melanin {
+            array(&mut zip, MELANIN, "<f4", &[2], 8, |out| push(out, [eumelanin, pheomelanin]))?;
+        }
+    }
+    zip.finish()?;
+    Ok(())
+}
+
+type Zip<'a> = ZipWriter<zip::write::StreamWriter<&'a mut dyn Write>>;
+
+fn strands(zip: &mut Zip<'_>, prefix: &str, strands: &Strands, frame: Frame) -> io::Result<()> {
+    let points = strands.points();
+    let alike = alike(strands);
+    // Each row is a strand, where all have as many points.
+    let shape: Vec<usize> = match alike {
+        Some(count) => vec![strands.len(), count],
+        None => vec![points.len()],
+    };
+    let with = |extent: &[usize]| [&shape[..], extent].concat();
+    let name = if alike.is_some() { "positions" } else { "points" };
+    array(zip, &format!("{prefix}{name}"), "<f4", &with(&[3]), 12 * points.len(), |out| {
+        points.iter().for_each(|p| push(out, frame.position_to_file(*p).to_array()));
+    })?;
+    if alike.is_none() {
+        let offsets = strands.offsets();
+        let name = format!("{prefix}offsets");
+        array(zip, &name, "<i8", &[offsets.len()], 8 * offsets.len(), |out| {
+            offsets.iter().for_each(|o| out.extend(i64::from(*o).to_le_bytes()));
+        })?;
+    }
+    array(zip, &format!("{prefix}radii"), "<f4", &shape, 4 * points.len(), |out| {
+        strands.radii().iter().for_each(|r| push(out, [frame.length_to_file(*r)]));
+    })?;
+    for attribute in strands.attributes() {
+        let each = match attribute.domain {
+            Domain::Strand => vec![strands.len()],
+            Domain::Point => shape.clone(),
+        };
+        values(zip, &format!("{prefix}{}", attribute.name), attribute, &each, frame)?;
+    }
+    Ok(())
+}
+
+/// The number of points that every strand has.
+fn alike(strands: &Strands) -> Option<usize> {
+    let first = strands.iter().next().map_or(0, |s| s.points.len());
+    strands.iter().all(|s| s.points.len() == first).then_some(first)
+}
+
+fn values(
+    zip: &mut Zip<'_>,
+    name: &str,
+    attribute: &Attribute,
+    each: &[usize],
+    frame: Frame,
+) -> io::Result<()> {
+    let count = attribute.values.len();
+    let with = |extent: &[usize]| [each, extent].concat();
+    match &attribute.values {
+        AttributeValues::U32(v) => array(zip, name, "<u4", each, 4 * count, |out| {
+            v.iter().for_each(|x| out.extend(x.to_le_bytes()));
+        }),
+        AttributeValues::U32x3(v) => array(zip, name, "<u4", &with(&[3]), 12 * count, |out| {
+            v.as_flattened().iter().for_each(|x| out.extend(x.to_le_bytes()));
+        }),
+        AttributeValues::F32(v) => array(zip, name, "<f4", each, 4 * count, |out| {
+            v.iter().for_each(|x| push(out, [*x]));
+        }),
+        AttributeValues::F32x2(v) => array(zip, name, "<f4", &with(&[2]), 8 * count, |out| {
+            v.iter().for_each(|x| push(out, *x));
+        }),
+        AttributeValues::F32x3(v) => array(zip, name, "<f4", &with(&[3]), 12 * count, |out| {
+            let turn = |d: [f32; 3]| frame.direction_to_file(Vec3::from_array(d)).to_array();
+            let is_direction = attribute.name == names::DIRECTOR;
+            v.iter().for_each(|&x| push(out, if is_direction { turn(x) } else { x }));
+        }),
+    }
+}
+
+fn push<const N: usize>(out: &mut Vec<u8>, values: [f32; N]) {
+    out.extend_from_slice(values.map(f32::to_le_bytes).as_flattened());
+}
+
+fn text(zip: &mut Zip<'_>, name: &str, text: &str) -> io::Result<()> {
+    let letters: Vec<u32> = text.chars().map(u32::from).collect();
+    if letters.is_empty() {
+        return Ok(());
+    }
+    array(zip, name, &format!("<U{}", letters.len()), &[], 4 * letters.len(), |out| {
+        letters.iter().for_each(|c| out.extend(c.to_le_bytes()));
+    })
+}
+
+/// Adds an array of `size` bytes. They are not packed: numbers of hair gain little, and take long.
+fn array(
+    zip: &mut Zip<'_>,
+    name: &str,
+    kind: &str,
+    shape: &[usize],
+    size: usize,
+    fill: impl FnOnce(&mut Vec<u8>),
+) -> io::Result<()> {
+    let mut bytes = header(kind, shape);
+    bytes.reserve_exact(size);
+    fill(&mut bytes);
+    // Without a date: the same groom gives the same bytes.
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Stored)
+        .last_modified_time(zip::DateTime::default())
+        .large_file(bytes.len() > 1 << 31);
+    zip.start_file(format!("{name}.npy"), options)?;
+    zip.write_all(&bytes)
+}
+
+/// Bytes of a file into a groom, or what is wrong with them.
+pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+    let mut arrays = arrays(bytes)?;
+    let metres = arrays.remove(METRES).and_then(|a| a.number());
+    let up = arrays.remove(UP).and_then(|a| a.text());
+    let up = up.map(|t| if t == "y" { UpAxis::Y } else { UpAxis::Z });
+    let frame = choice.or(FrameChoice { metres, up }.or(Format::Npz.frame()));
+    let name = arrays.remove(NAME).and_then(|a| a.text()).unwrap_or_default();
+    let colour = colour(&mut arrays);
+    let keys: Vec<String> = arrays.keys().cloned().collect();
+    let is_of_guides = |k: &String| k.starts_with(GUIDE) && k != names::GUIDE_WEIGHTS;
+    let mut guides = BTreeMap::new();
+    for key in keys.iter().filter(|k| is_of_guides(k)) {
+        if let Some(array) = arrays.remove(key) {
+            guides.insert(key[GUIDE.len()..].to_owned(), array);
+        }
+    }
+    if !["positions", "strands", "points"].iter().any(|k| arrays.contains_key(*k)) {
+        return Err(format!("it has no `positions` and no `points`, but {}", keys.join(", ")));
+    }
+    let hairs = curves(arrays, frame)?.strands(frame)?;
+    let guides = if guides.is_empty() {
+        Strands::new()
+    } else {
+        let of_guides = |e: String| format!("of its guides: {e}");
+        curves(guides, frame).and_then(|c| c.strands(frame)).map_err(of_guides)?
+    };
+    Ok(Groom { name, hairs, guides, head: None, colour })
+}
+
+fn colour(arrays: &mut BTreeMap<String, Array>) -> Option<HairColour> {
+    let mut pair = |name: &str, count: usize| {
+        let values = arrays.remove(name)?.real()?;
+        (values.len() == count).then_some(values)
+    };
+    let (colour, melanin) = (pair(HAIR_COLOUR, 3), pair(MELANIN, 2));
+    let melanin = melanin.map(|m| Melanin { eumelanin: m[0], pheomelanin: m[1] });
+    colour.map(|c| HairColour { colour: [c[0], c[1], c[2]], melanin })
+}
+
+/// All arrays that a groom can have, by their names.
+fn arrays(bytes: &[u8]) -> Result<BTreeMap<String, Array>, String> {
+    let told = |e: zip::result::ZipError| format!("its zip is damaged: {e}");
+    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(told)?;
+    // What is unpacked is counted: a small file can hold a lot of zeros.
+    let mut left = MOST_PACKED * bytes.len() as u64 + FREE;
+    let mut arrays = BTreeMap::new();
+    for i in 0..zip.len() {
+        let file = zip.by_index(i).map_err(told)?;
+        let name = file.name().map_err(told)?;
+        let Some(name) = name.strip_suffix(".npy").map(str::to_owned) else { continue };
+        let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_';
+        if name.is_empty() || name.len() > 64 || !name.bytes().all(plain) {
+            continue;
+        }
+        if file.size() > left {
+            return Err(format!("`{name}` is {} bytes, far more than the file", file.size()));
+        }
+        let mut inner = Vec::new();
+        let mut limited = file.take(left + 1);
+        let size = limited.read_to_end(&mut inner).map_err(|e| format!("`{name}`: {e}"))?;
+        let size = size as u64;
+        left =
+            left.checked_sub(size).ok_or_else(|| format!("`{name}` is far more than the file"))?;
+        if let Some(array) = Array::read(inner).map_err(|e| format!("`{name}`: {e}"))? {
+            arrays.insert(name, array);
+        }
+    }
+    Ok(arrays)
+}
+
+/// Strands of arrays.
+fn curves(mut arrays: BTreeMap<String, Array>, frame: Frame) -> Result<Curves, String> {
+    let rows = arrays.remove("positions").or_else(|| arrays.remove("strands"));
+    let (counts, points) = match rows {
+        Some(array) => even(array)?,
+        None => uneven(&mut arrays)?,
+    };
+    let mut curves = Curves { counts, points, ..Curves::default() };
+    let total = curves.points.len();
+    if let Some(radii) = arrays.remove("radii") {
+        let radii = radii.real().ok_or("`radii` are no real numbers")?;
+        if radii.len() != total {
+            return Err(format!("`radii` are {}, and there are {total} points", radii.len()));
+        }
+        curves.diameters = radii.into_iter().map(|r| 2.0 * r).collect();
+    }
+    for (name, array) in arrays {
+        curves.attributes.extend(attribute(name, array, curves.counts.len(), total, frame));
+    }
+    Ok(curves)
+}
+
+type Rows = (Vec<usize>, Vec<[f32; 3]>);
+
+fn triples(array: &Array) -> Option<Vec<[f32; 3]>> {
+    Some(array.real()?.as_chunks().0.to_vec())
+}
+
+fn even(array: Array) -> Result<Rows, String> {
+    let shape = &array.shape;
+    let (&[strands, count, 3], Some(points)) = (&shape[..], triples(&array)) else {
+        return Err(format!("`positions` are {shape:?}, and should be real numbers, N × P × 3"));
+    };
+    // Rows without points would be as many as anyone likes.
+    if count == 0 && strands > 0 || strands > MAX_STRANDS {
+        return Err(format!("`positions` are {strands} strands of {count} points"));
+    }
+    Ok((vec![count; strands], points))
+}
+
+fn uneven(arrays: &mut BTreeMap<String, Array>) -> Result<Rows, String> {
+    let points = arrays.remove("points").ok_or("it has neither `positions` nor `points`")?;
+    let (&[total, 3], Some(points)) = (&points.shape[..], triples(&points)) else {
+        return Err(format!("`points` are {:?}, and should be real numbers, N × 3", points.shape));
+    };
+    let offsets = arrays.remove("offsets").and_then(|a| a.whole(|x| x));
+    let offsets = offsets.ok_or("it has `points`, but no whole `offsets`")?;
+    if offsets.first() != Some(&0) || offsets.last() != Some(&(total as i64)) {
+        return Err(format!("`offsets` do not go from 0 to {total}"));
+    }
+    let counts = offsets.windows(2).enumerate().map(|(i, w)| {
+        let count = w[1].checked_sub(w[0]).and_then(|n| usize::try_from(n).ok());
+        count.ok_or_else(|| format!("`offsets` decrease at strand {i}"))
+    });
+    Ok((counts.collect::<Result<_, _>>()?, points))
+}
+
+/// An attribute, if an array is one: for strands or points, of one to three numbers.
+fn attribute(
+    name: String,
+    array: Array,
+    strands: usize,
+    points: usize,
+    frame: Frame,
+) -> Option<Attribute> {
+    let (domain, extent) = meaning(&name, &array.shape, strands, points)?;
+    // Numbers below 0 wrap round, as -1 is written for nothing.
+    let values = if let Some(whole) = array.whole(|x| x as u32) {
+        match extent {
+            1 => AttributeValues::U32(whole),
+            3 => AttributeValues::U32x3(whole.as_chunks().0.to_vec()),
+            _ => return None,
+        }
+    } else {
+        let real = array.real()?;
+        match extent {
+            1 => AttributeValues::F32(real),
+            2 => AttributeValues::F32x2(real.as_chunks().0.to_vec()),
+            _ => {
+                let mut rows = real.as_chunks().0.to_vec();
+                if name == names::DIRECTOR {
+                    for d in &mut rows {
+                        *d = frame.direction_from_file(Vec3::from_array(*d)).to_array();
+                    }
+                }
+                AttributeValues::F32x3(rows)
+            }
+        }
+    };
+    Some(Attribute { name, domain, values })
+}
+
+/// What an array has values for, and how many make one.
+fn meaning(name: &str, shape: &[usize], strands: usize, points: usize) -> Option<(Domain, usize)> {
+    let small = |extent: usize| (1..=3).contains(&extent).then_some(extent);
+    let of_strands = || match *shape {
+        [n] if n == strands => Some((Domain::Strand, 1)),
+        [n, extent] if n == strands => Some((Domain::Strand, small(extent)?)),
+        _ => None,
+    };
+    // Of points, with a row for each strand or without.
+    let of_points = || match *shape {
+        [n] if n == points => Some((Domain::Point, 1)),
+        [n, extent] if n == points => Some((Domain::Point, small(extent)?)),
+        [n, count] if n == strands && n.checked_mul(count) == Some(points) => {
+            Some((Domain::Point, 1))
+        }
+        [n, count, extent] if n == strands && n.checked_mul(count) == Some(points) => {
+            Some((Domain::Point, small(extent)?))
+        }
+        _ => None,
+    };
+    // Strands of two or three points are told from pairs and triples by what has these.
+    let several = [names::CLOSEST_GUIDES, names::GUIDE_WEIGHTS, names::ROOT_UV, names::COLOUR];
+    if several.contains(&name) || shape.len() == 1 {
+        of_strands().or_else(of_points)
+    } else {
+        of_points().or_else(of_strands)
+    }
+}

@@ -1,0 +1,285 @@
+//! Values on curves: constant, for each curve, for each vertex, and between.
+
+use frisure_strands::{Attribute, AttributeValues, Domain};
+use glam::{DMat4, DVec3};
+
+use super::super::attributes::{COLOUR, DIRECTOR};
+use super::basis::{Tap, Taps};
+use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
+use frisure_files::frame::Frame;
+use frisure_usd::{self as usd, Data, Kind, Place, Value};
+
+/// Attributes that have no name inside, at most: a constant is a small thing in a file, and one value for each strand
+/// here.
+const MOST_OWN: usize = 32;
+
+/// What there is one value for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Per {
+    Prim,
+    Curve,
+    Vertex,
+    Varying,
+}
+
+impl Per {
+    fn of(attribute: &usd::Attribute, usual: Self) -> Self {
+        match attribute.meta("interpolation").and_then(Value::word) {
+            Some("constant") => Self::Prim,
+            Some("uniform") => Self::Curve,
+            Some("vertex") => Self::Vertex,
+            Some("varying" | "faceVarying") => Self::Varying,
+            _ => usual,
+        }
+    }
+
+    fn domain(self) -> Domain {
+        match self {
+            Self::Prim | Self::Curve => Domain::Strand,
+            Self::Vertex | Self::Varying => Domain::Point,
+        }
+    }
+}
+
+/// An attribute of a prim, without indices, of the right number.
+pub(super) struct Given {
+    pub(super) per: Per,
+    /// How many numbers make one value.
+    width: usize,
+    data: Data,
+}
+
+/// Reads an attribute of curves; none where it is not there or has no value.
+pub(super) fn given(
+    place: &Place,
+    name: &str,
+    usual: Per,
+    taps: &Taps,
+) -> Result<Option<Given>, String> {
+    let Some(attribute) = place.prim.attribute(name) else { return Ok(None) };
+    let Some(value) = &attribute.value else { return Ok(None) };
+    let several = attribute.meta("elementSize").and_then(Value::number).unwrap_or(1.0);
+    let several = [1, 2, 3].into_iter().find(|&n| f64::from(n) == several);
+    let Some(several) = several else { return Ok(None) };
+    let width = value.kind.width() * several as usize;
+    let mut data = value.data.clone();
+    if let Some(indices) = place.prim.value(&format!("{name}:indices")) {
+        data = picked(&data, width, indices).map_err(|e| format!("`{name}` {e}"))?;
+    }
+    let found = data.len() / width;
+    let mut per = Per::of(attribute, usual);
+    // Single widths are often given without a word.
+    if found == 1 && attribute.meta("interpolation").is_none() {
+        per = Per::Prim;
+    }
+    let expected = match per {
+        Per::Prim => 1,
+        Per::Curve => taps.counts.len(),
+        Per::Vertex => taps.vertices,
+        Per::Varying => taps.varying,
+    };
+    if found == expected && data.len() == expected * width {
+        return Ok(Some(Given { per, width, data }));
+    }
+    Err(format!("`{name}` has {found} values where {expected} are needed"))
+}
+
+/// The values that indices name.
+fn picked(data: &Data, width: usize, indices: &Value) -> Result<Data, String> {
+    let count = data.len() / width;
+    let mut places = Vec::new();
+    for i in indices.to_integers().ok_or("has indices that are none")? {
+        let i = usize::try_from(i).ok().filter(|&i| i < count);
+        places.push(i.ok_or("has an index of no value")?);
+    }
+    Ok(match data {
+        Data::I32(v) => Data::I32(pick(v, width, &places)),
+        Data::I64(v) => Data::I64(pick(v, width, &places)),
+        Data::F32(v) => Data::F32(pick(v, width, &places)),
+        Data::F64(v) => Data::F64(pick(v, width, &places)),
+        Data::Words(v) => Data::Words(pick(v, width, &places)),
+    })
+}
+
+fn pick<T: Clone>(values: &[T], width: usize, places: &[usize]) -> Vec<T> {
+    places.iter().flat_map(|&i| values[i * width..(i + 1) * width].iter().cloned()).collect()
+}
+
+impl Given {
+    /// The only value, of a constant.
+    pub(super) fn constant(&self) -> Option<Vec<f32>> {
+        if self.per == Per::Prim { floats(&self.data) } else { None }
+    }
+
+    /// Numbers at the points of all curves.
+    pub(super) fn at_points(&self, taps: &Taps) -> Option<Vec<f32>> {
+        let values = floats(&self.data)?;
+        if self.per.domain() == Domain::Point {
+            return Some(self.spread(&values, taps));
+        }
+        let of_curves = self.spread(&values, taps);
+        let each = taps.counts.iter().zip(of_curves.chunks_exact(self.width));
+        Some(each.flat_map(|(&n, value)| value.repeat(n)).collect())
+    }
+
+    /// Floats for each curve or for each point.
+    fn spread(&self, values: &[f32], taps: &Taps) -> Vec<f32> {
+        let width = self.width;
+        let component = |of: &dyn Fn(usize) -> f32| (0..width).map(of).collect::<Vec<_>>();
+        match self.per {
+            Per::Prim => values.repeat(taps.counts.len()),
+            Per::Curve => values.to_vec(),
+            Per::Vertex => {
+                let mut all = Vec::with_capacity(taps.taps.len() * width);
+                for tap in &taps.taps {
+                    for c in 0..width {
+                        all.push(mixed(tap, |i| values[i as usize * width + c]));
+                    }
+                }
+                all
+            }
+            Per::Varying => {
+                let at = |tap: &Tap| {
+                    let [a, b] = tap.varying.map(|i| i as usize * width);
+                    component(&|c| values[a + c] + (values[b + c] - values[a + c]) * tap.part)
+                };
+                taps.taps.iter().flat_map(at).collect()
+            }
+        }
+    }
+
+    /// Whole numbers for each curve or for each point, from the nearest.
+    fn integers(&self, taps: &Taps) -> Option<Vec<u32>> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the same bits"
+        )]
+        let values: Vec<u32> = match &self.data {
+            Data::I32(v) => v.iter().map(|x| x.cast_unsigned()).collect(),
+            Data::I64(v) => v.iter().map(|&x| x as u32).collect(),
+            _ => return None,
+        };
+        let of = |i: u32| &values[i as usize * self.width..(i as usize + 1) * self.width];
+        Some(match self.per {
+            Per::Prim => values.repeat(taps.counts.len()),
+            Per::Curve => values,
+            Per::Vertex => taps.taps.iter().flat_map(|t| of(t.nearest())).copied().collect(),
+            Per::Varying => {
+                let nearest = |t: &Tap| t.varying[usize::from(t.part >= 0.5)];
+                taps.taps.iter().flat_map(|t| of(nearest(t))).copied().collect()
+            }
+        })
+    }
+
+    /// As an attribute of strands; none of what is none of theirs.
+    fn attribute(&self, name: &str, taps: &Taps) -> Option<Attribute> {
+        let values = if let Some(whole) = self.integers(taps) {
+            match self.width {
+                1 => AttributeValues::U32(whole),
+                3 => AttributeValues::U32x3(whole.as_chunks().0.to_vec()),
+                _ => return None,
+            }
+        } else {
+            let all = self.spread(&floats(&self.data)?, taps);
+            match self.width {
+                1 => AttributeValues::F32(all),
+                2 => AttributeValues::F32x2(all.as_chunks().0.to_vec()),
+                3 => AttributeValues::F32x3(all.as_chunks().0.to_vec()),
+                _ => return None,
+            }
+        };
+        Some(Attribute { name: name.into(), domain: self.per.domain(), values })
+    }
+}
+
+/// What a point takes of the vertices; the very value of one, if it is that one.
+pub(super) fn mixed(tap: &Tap, value: impl Fn(u32) -> f32) -> f32 {
+    if tap.weights[0] == 1.0 {
+        return value(tap.vertices[0]);
+    }
+    (0..4).map(|k| tap.weights[k] * value(tap.vertices[k])).sum()
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "bulk data are of single precision")]
+fn floats(data: &Data) -> Option<Vec<f32>> {
+    match data {
+        Data::F32(v) => Some(v.clone()),
+        Data::F64(v) => Some(v.iter().map(|&x| x as f32).collect()),
+        _ => None,
+    }
+}
+
+/// All attributes of curves that have a name inside.
+pub(super) fn attributes(
+    place: &Place,
+    taps: &Taps,
+    frame: Frame,
+) -> Result<Vec<Attribute>, String> {
+    let mut found: Vec<Attribute> = Vec::new();
+    let mut add = |name: &str, primvar: &str, kind: Option<Kind>| -> Result<(), String> {
+        if found.iter().any(|a| a.name == name) {
+            return Ok(());
+        }
+        let Some(given) = given(place, primvar, Per::Prim, taps)? else { return Ok(()) };
+        // One colour for all is the hair's, not a hair's.
+        if given.per == Per::Prim && name == COLOUR {
+            return Ok(());
+        }
+        let fits = kind.is_none_or(|k| {
+            let whole = matches!(Data::empty(k.base), Data::I32(_));
+            k.width() == given.width && whole == floats(&given.data).is_none()
+        });
+        found.extend(given.attribute(name, taps).filter(|_| fits));
+        Ok(())
+    };
+    let mut own = 0;
+    // In the order of the file, so that a groom goes round unchanged.
+    for attribute in &place.prim.attributes {
+        let primvar = attribute.name.as_str();
+        if let Some((name, _, kind)) = PRIMVARS.iter().find(|(_, p, _)| *p == primvar) {
+            // Of several of one name the first of the table.
+            let others = PRIMVARS.iter().filter(|(n, ..)| n == name);
+            let first = others.map(|(_, p, _)| *p).find(|p| place.prim.value(p).is_some());
+            if first == Some(primvar) {
+                add(name, primvar, Kind::of(kind).map(|(kind, _)| kind))?;
+            }
+        } else if let Some(name) = primvar.strip_prefix(OURS).filter(|name| !name.contains(':'))
+            && !PIGMENTS.contains(&primvar)
+        {
+            own += 1;
+            if own > MOST_OWN {
+                return Err(format!("it has more than {MOST_OWN} attributes `{OURS}…`"));
+            }
+            add(name, primvar, None)?;
+        }
+    }
+    for attribute in found.iter_mut().filter(|a| a.name == DIRECTOR) {
+        turn(attribute, &place.world, frame);
+    }
+    Ok(found)
+}
+
+/// Turns directions of a prim into our axes.
+fn turn(attribute: &mut Attribute, world: &DMat4, frame: Frame) {
+    let AttributeValues::F32x3(all) = &mut attribute.values else { return };
+    if *world == DMat4::IDENTITY {
+        all.iter_mut().for_each(|d| *d = frame.direction_from_file((*d).into()).to_array());
+        return;
+    }
+    for d in all {
+        let turned = world.transform_vector3(DVec3::from_array(d.map(f64::from)));
+        let turned = turned.try_normalize().unwrap_or(DVec3::ZERO).as_vec3();
+        *d = frame.direction_from_file(turned).to_array();
+    }
+}
+
+/// Whether each curve is a guide; none where nothing is said.
+pub(super) fn guides(place: &Place, taps: &Taps) -> Result<Option<Vec<bool>>, String> {
+    let Some(given) = given(place, IS_GUIDE, Per::Prim, taps)? else { return Ok(None) };
+    if given.per.domain() != Domain::Strand {
+        return Ok(None);
+    }
+    let all = given.integers(taps);
+    Ok(all.map(|all| all.iter().map(|&x| x != 0).collect()))
+}

@@ -1,0 +1,260 @@
+//! A stage as a groom.
+
+use frisure_optics::Melanin;
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
+use glam::{DMat4, Vec3};
+
+use super::super::checked::Curves;
+use super::super::{Groom, HairColour};
+use super::basis::{self, Taps};
+use super::names::PIGMENTS;
+use super::primvars::{self, Per, given, mixed};
+use frisure_files::frame::Frame;
+use frisure_usd::{Place, Stage, Value};
+
+/// Diameter of fibres of a prim without widths, where others have some (m).
+const USUAL_DIAMETER: f64 = 70e-6;
+
+/// The groom of a stage.
+pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
+    let (mut hairs, mut guides) = (Vec::new(), Vec::new());
+    let mut found = false;
+    let (mut colour, mut coloured) = (None, false);
+    for place in &stage.places {
+        let told = |e: String| stage.fault(place, &e);
+        let Some(taps) = taps(place).map_err(told)? else { continue };
+        found = true;
+        let part = Part::of(place, &taps, frame).map_err(told)?;
+        let (own_hairs, own_guides) = part.divided(place, &taps).map_err(told)?;
+        // That of the first prim with hairs.
+        if !coloured && !own_hairs.counts.is_empty() {
+            (colour, coloured) = (self::colour(place, &taps, stage), true);
+        }
+        hairs.push(own_hairs);
+        guides.push(own_guides);
+    }
+    if !found {
+        return Err(format!("it has no curves{}", stage.hint()));
+    }
+    Ok(Groom {
+        name: name(stage).unwrap_or_default(),
+        hairs: joined(hairs, frame)?,
+        guides: joined(guides, frame)?,
+        head: head(stage, frame)?,
+        colour,
+    })
+}
+
+/// What people call it.
+fn name(stage: &Stage) -> Option<String> {
+    let named = stage.places.iter().find_map(|p| p.prim.meta("displayName"));
+    named?.word().map(str::to_owned)
+}
+
+/// Points on a prim's curves; none of what has no curves.
+fn taps(place: &Place) -> Result<Option<Taps>, String> {
+    let is_basis = match place.prim.type_name.as_str() {
+        "BasisCurves" => true,
+        "NurbsCurves" => false,
+        _ => return Ok(None),
+    };
+    let points = place.prim.value("points").map_or(0, Value::len);
+    let counts = place.prim.value("curveVertexCounts").and_then(Value::to_integers);
+    let mut vertices = Vec::new();
+    // Before anything is made of them.
+    let mut left = points;
+    for (i, count) in counts.unwrap_or_default().into_iter().enumerate() {
+        let count = usize::try_from(count).ok().filter(|&n| n > 0 && n <= left);
+        let count =
+            count.ok_or_else(|| format!("curve {i} has more vertices than there are, or none"))?;
+        left -= count;
+        vertices.push(count);
+    }
+    if left > 0 {
+        return Err(format!("{left} of {points} points are of no curve"));
+    }
+    if u32::try_from(points).is_err() {
+        return Err(format!("it has {points} points"));
+    }
+    let taps = if is_basis {
+        basis::basis_curves(place.prim, &vertices)
+    } else {
+        basis::nurbs_curves(place.prim, &vertices)
+    };
+    taps.map(Some)
+}
+
+/// The curves of one prim.
+#[derive(Default)]
+struct Part {
+    counts: Vec<usize>,
+    points: Vec<[f32; 3]>,
+    /// Empty where the file has none.
+    diameters: Vec<f32>,
+    attributes: Vec<Attribute>,
+}
+
+impl Part {
+    fn of(place: &Place, taps: &Taps, frame: Frame) -> Result<Self, String> {
+        let positions = place.prim.value("points").and_then(Value::to_floats).unwrap_or_default();
+        if positions.len() != 3 * taps.vertices {
+            return Err("its points have not three coordinates each".into());
+        }
+        let positions: &[[f32; 3]] = positions.as_chunks().0;
+        let widths = given(place, "widths", Per::Vertex, taps)?;
+        let mut diameters = widths.and_then(|w| w.at_points(taps)).unwrap_or_default();
+        let size = scale(&place.world);
+        if size != 1.0 {
+            diameters.iter_mut().for_each(|d| *d *= size);
+        }
+        let points = taps
+            .taps
+            .iter()
+            .map(|tap| std::array::from_fn(|axis| mixed(tap, |i| positions[i as usize][axis])));
+        Ok(Self {
+            counts: taps.counts.clone(),
+            points: placed(points.collect(), &place.world),
+            diameters,
+            attributes: primvars::attributes(place, taps, frame)?,
+        })
+    }
+
+    /// Hairs and guides.
+    fn divided(self, place: &Place, taps: &Taps) -> Result<(Self, Self), String> {
+        let is_guide = match primvars::guides(place, taps)? {
+            Some(all) if all.iter().any(|&g| g != all[0]) => {
+                let no_guide: Vec<bool> = all.iter().map(|g| !g).collect();
+                return Ok((self.of_those(&no_guide), self.of_those(&all)));
+            }
+            Some(all) => all.first() == Some(&true),
+            None => place.is_guide || place.prim.name.to_lowercase().contains("guide"),
+        };
+        let none = Self::default();
+        Ok(if is_guide { (none, self) } else { (self, none) })
+    }
+
+    /// Those curves that are taken.
+    fn of_those(&self, taken: &[bool]) -> Self {
+        let of_points: Vec<bool> =
+            self.counts.iter().zip(taken).flat_map(|(&n, &t)| std::iter::repeat_n(t, n)).collect();
+        let attributes = self.attributes.iter().map(|attribute| {
+            let which = if attribute.domain == Domain::Strand { taken } else { &of_points };
+            Attribute { values: sieved(&attribute.values, which), ..attribute.clone() }
+        });
+        Self {
+            counts: those(&self.counts, taken),
+            points: those(&self.points, &of_points),
+            diameters: if self.diameters.is_empty() {
+                vec![]
+            } else {
+                those(&self.diameters, &of_points)
+            },
+            attributes: attributes.collect(),
+        }
+    }
+}
+
+fn those<T: Copy>(values: &[T], taken: &[bool]) -> Vec<T> {
+    values.iter().zip(taken).filter(|(_, taken)| **taken).map(|(value, _)| *value).collect()
+}
+
+fn sieved(values: &AttributeValues, taken: &[bool]) -> AttributeValues {
+    match values {
+        AttributeValues::U32(v) => AttributeValues::U32(those(v, taken)),
+        AttributeValues::U32x3(v) => AttributeValues::U32x3(those(v, taken)),
+        AttributeValues::F32(v) => AttributeValues::F32(those(v, taken)),
+        AttributeValues::F32x2(v) => AttributeValues::F32x2(those(v, taken)),
+        AttributeValues::F32x3(v) => AttributeValues::F32x3(those(v, taken)),
+    }
+}
+
+/// Points in the space of the stage.
+fn placed(mut points: Vec<[f32; 3]>, world: &DMat4) -> Vec<[f32; 3]> {
+    if *world != DMat4::IDENTITY {
+        for p in &mut points {
+            let moved = world.transform_point3(Vec3::from_array(*p).as_dvec3());
+            *p = moved.as_vec3().to_array();
+        }
+    }
+    points
+}
+
+/// How much larger things become, in the mean of all directions.
+#[expect(clippy::cast_possible_truncation, reason = "of a thickness")]
+fn scale(world: &DMat4) -> f32 {
+    let size = world.determinant().abs().cbrt();
+    // Turns leave a trace of rounding.
+    if (size - 1.0).abs() < 1e-6 { 1.0 } else { size as f32 }
+}
+
+/// Strands of several prims; attributes that not all have are left out.
+fn joined(parts: Vec<Part>, frame: Frame) -> Result<Strands, String> {
+    let mut parts = parts.into_iter().filter(|part| !part.counts.is_empty());
+    let Some(first) = parts.next() else { return Ok(Strands::new()) };
+    let mut all = first;
+    for part in parts {
+        if all.diameters.is_empty() != part.diameters.is_empty() {
+            fill(&mut all, frame);
+        }
+        let mut part = part;
+        if all.diameters.is_empty() != part.diameters.is_empty() {
+            fill(&mut part, frame);
+        }
+        all.diameters.extend(part.diameters);
+        all.counts.extend(part.counts);
+        all.points.extend(part.points);
+        all.attributes.retain_mut(|attribute| {
+            let other = part.attributes.iter().find(|other| other.name == attribute.name);
+            other.is_some_and(|other| {
+                other.domain == attribute.domain && attribute.values.append(&other.values)
+            })
+        });
+    }
+    let Part { counts, points, diameters, attributes } = all;
+    Curves { counts, points, diameters, attributes }.strands(frame)
+}
+
+/// Gives a part without widths the usual ones.
+#[expect(clippy::cast_possible_truncation, reason = "a thickness")]
+fn fill(part: &mut Part, frame: Frame) {
+    if part.diameters.is_empty() {
+        part.diameters = vec![(USUAL_DIAMETER / frame.metres) as f32; part.points.len()];
+    }
+}
+
+/// The colour of a prim's hair: that of its material, or one for all its curves.
+fn colour(place: &Place, taps: &Taps, stage: &Stage) -> Option<HairColour> {
+    let constant = |name: &str| given(place, name, Per::Prim, taps).ok()??.constant();
+    let three = |v: Vec<f32>| <[f32; 3]>::try_from(v).ok();
+    let shown = || three(constant("primvars:displayColor")?);
+    let colour = diffuse(place, stage).and_then(three).or_else(shown)?;
+    let [eumelanin, pheomelanin] = PIGMENTS.map(|name| Some(constant(name)?[0]));
+    let melanin = match (eumelanin, pheomelanin) {
+        (Some(eumelanin), Some(pheomelanin)) => Some(Melanin { eumelanin, pheomelanin }),
+        _ => None,
+    };
+    Some(HairColour { melanin, colour })
+}
+
+/// The colour of the preview material that a prim has.
+fn diffuse(place: &Place, stage: &Stage) -> Option<Vec<f32>> {
+    let bound = place.prim.relationships.iter().find(|r| r.name == "material:binding")?;
+    let path = bound.targets.first()?;
+    let mut shaders = stage.prim(path)?.children.iter();
+    let shader = shaders.find(|s| s.word("info:id") == Some("UsdPreviewSurface"))?;
+    let colour = shader.attribute("inputs:diffuseColor")?;
+    // From a texture or so: no single colour.
+    if colour.connections.is_empty() { colour.value.as_ref()?.to_floats() } else { None }
+}
+
+/// The head, where the stage has exactly one mesh.
+fn head(stage: &Stage, frame: Frame) -> Result<Option<Surface>, String> {
+    let mut meshes = stage.places.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
+    let (Some(place), None) = (meshes.next(), meshes.next()) else { return Ok(None) };
+    let mesh = place.mesh().map_err(|e| stage.fault(place, &e))?;
+    let metres = |p: &[f64; 3]| frame.position_from_file((*p).into());
+    let positions = mesh.positions.iter().map(metres).collect();
+    Surface::new(positions, mesh.triangles)
+        .map(Some)
+        .map_err(|e| stage.fault(place, &e.to_string()))
+}

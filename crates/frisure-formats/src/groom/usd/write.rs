@@ -1,0 +1,221 @@
+//! A groom as a stage.
+
+use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
+use glam::Vec3;
+
+use super::super::attributes::{COLOUR, DIRECTOR};
+use super::super::{Groom, HairColour};
+use super::look;
+use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
+use frisure_files::frame::{Frame, UpAxis};
+use frisure_usd::{Data, Layer, Prim, Value};
+
+/// Checks that a stage has room for a groom: curves have at least two points.
+pub(in crate::groom) fn check(groom: &Groom) -> Result<(), String> {
+    for (kind, strands) in [("hair", &groom.hairs), ("guide", &groom.guides)] {
+        if let Some(i) = strands.iter().position(|strand| strand.points.len() < 2) {
+            let points = strands.strand(i).points.len();
+            return Err(format!("{kind} {i} of {points} points: a curve has at least 2"));
+        }
+        if i32::try_from(strands.points().len()).is_err() {
+            return Err(format!("{} points of {kind}s", strands.points().len()));
+        }
+    }
+    Ok(())
+}
+
+/// The stage of a groom that [`check`] has passed.
+pub(super) fn layer(groom: &Groom, frame: Frame) -> Layer {
+    let mut root = Prim::new("Xform", "groom");
+    root.metadata.push(("kind".into(), Value::token("component")));
+    if !groom.name.is_empty() {
+        root.metadata.push(("displayName".into(), Value::string(&groom.name.replace('\0', ""))));
+    }
+    let mut colours = Vec::new();
+    let colour = colour(groom);
+    if let Some(colour) = colour {
+        colours.push(("hair", colour));
+    }
+    if !groom.hairs.is_empty() || groom.guides.is_empty() {
+        let mut hairs = curves("hairs", &groom.hairs, frame);
+        dress(&mut hairs, groom.colour.as_ref(), colour);
+        root.children.push(hairs);
+    }
+    if !groom.guides.is_empty() {
+        let mut guides = curves("guides", &groom.guides, frame);
+        // Beside hairs they are not to be seen; alone they are all there is.
+        if groom.hairs.is_empty() {
+            dress(&mut guides, groom.colour.as_ref(), colour);
+        } else {
+            guides.uniform("token", "purpose", Value::token("guide"));
+        }
+        root.children.push(guides);
+    }
+    if let Some(head) = &groom.head {
+        root.children.push(mesh("head", head, frame));
+        colours.push(("skin", look::SKIN));
+    }
+    if !colours.is_empty() {
+        root.children.push(look::materials(&colours));
+    }
+    Layer { metadata: metadata(frame), prims: vec![root] }
+}
+
+fn metadata(frame: Frame) -> Vec<(String, Value)> {
+    let up = match frame.up {
+        UpAxis::Y => "Y",
+        UpAxis::Z => "Z",
+    };
+    let all = [
+        ("defaultPrim", Value::token("groom")),
+        ("documentation", Value::string("A groom by frisure")),
+        ("metersPerUnit", Value::double(frame.metres)),
+        ("upAxis", Value::token(up)),
+    ];
+    all.into_iter().map(|(key, value)| (key.into(), value)).collect()
+}
+
+/// The colour that all hair has in a preview: as told, or the mean of what the strands have.
+fn colour(groom: &Groom) -> Option<[f32; 3]> {
+    let mean = || match &groom.strands().attribute(COLOUR)?.values {
+        AttributeValues::F32x3(all) if !all.is_empty() => {
+            let sum: glam::DVec3 = all.iter().map(|c| Vec3::from_array(*c).as_dvec3()).sum();
+            Some((sum / all.len() as f64).as_vec3().to_array())
+        }
+        _ => None,
+    };
+    groom.colour.map(|c| c.colour).or_else(mean)
+}
+
+/// Curves through the points of strands.
+fn curves(name: &str, strands: &Strands, frame: Frame) -> Prim {
+    let mut prim = Prim::new("BasisCurves", name);
+    prim.uniform("token", "type", Value::token("cubic"));
+    prim.uniform("token", "basis", Value::token("catmullRom"));
+    prim.uniform("token", "wrap", Value::token("pinned"));
+    let points: Vec<Vec3> = strands.points().iter().map(|p| frame.position_to_file(*p)).collect();
+    let widths: Vec<f32> = strands.radii().iter().map(|r| frame.length_to_file(2.0 * r)).collect();
+    let thickest = widths.iter().copied().fold(0.0, f32::max);
+    prim.varying("float3[]", "extent", extent(&points, 0.5 * thickest));
+    let counts = strands.offsets().windows(2).map(|o| signed(o[1] - o[0])).collect();
+    prim.varying("int[]", "curveVertexCounts", Value::ints(counts));
+    prim.varying("point3f[]", "points", triples(&points));
+    prim.primvar("float[]", "widths", Value::floats(widths), "vertex");
+    let is_guide = i32::from(name == "guides");
+    prim.primvar("int", IS_GUIDE, Value::int(is_guide), "constant");
+    for attribute in strands.attributes() {
+        put(&mut prim, attribute, frame);
+    }
+    prim
+}
+
+/// Writes an attribute under each of its names.
+fn put(prim: &mut Prim, attribute: &Attribute, frame: Frame) {
+    let per = match attribute.domain {
+        Domain::Strand => "uniform",
+        Domain::Point => "vertex",
+    };
+    let (value, usual) = values(attribute, frame);
+    let mut known = false;
+    for (_, primvar, kind) in PRIMVARS.iter().filter(|(name, ..)| *name == attribute.name) {
+        known = true;
+        if *kind == "int3" {
+            threes(prim, primvar, &value, per);
+        } else {
+            prim.primvar(&format!("{kind}[]"), primvar, value.clone(), per);
+        }
+    }
+    let own = format!("{OURS}{}", identifier(&attribute.name));
+    if !known && prim.attribute(&own).is_none() {
+        prim.primvar(usual, &own, value, per);
+    }
+}
+
+/// A name that stages can have.
+fn identifier(name: &str) -> String {
+    let fit = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let name: String = name.chars().map(fit).collect();
+    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
+}
+
+/// Writes three integers for each as three values: Blender knows no other.
+fn threes(prim: &mut Prim, primvar: &str, value: &Value, per: &str) {
+    let Data::I32(all) = &value.data else { return };
+    prim.primvar("int[]", primvar, Value::ints(all.clone()), per);
+    let attribute = prim.attributes.last_mut().expect("it was just added");
+    attribute.metadata.push(("elementSize".into(), Value::int(3)));
+}
+
+/// The values in the axes of the file, and the type of those without a role.
+fn values(attribute: &Attribute, frame: Frame) -> (Value, &'static str) {
+    match &attribute.values {
+        AttributeValues::U32(v) => (Value::ints(v.iter().map(|&x| signed(x)).collect()), "int[]"),
+        AttributeValues::U32x3(v) => {
+            let v: Vec<_> = v.iter().map(|t| t.map(signed)).collect();
+            (Value::int_tuples(&v), "int3[]")
+        }
+        AttributeValues::F32(v) => (Value::floats(v.clone()), "float[]"),
+        AttributeValues::F32x2(v) => (Value::float_tuples(v), "float2[]"),
+        AttributeValues::F32x3(v) if attribute.name == DIRECTOR => {
+            let turn = |d: &[f32; 3]| frame.direction_to_file(Vec3::from_array(*d));
+            (triples(&v.iter().map(turn).collect::<Vec<_>>()), "vector3f[]")
+        }
+        AttributeValues::F32x3(v) => (Value::float_tuples(v), "float3[]"),
+    }
+}
+
+/// Integers of stages have a sign; those beyond come back as they were.
+fn signed(x: u32) -> i32 {
+    x.cast_signed()
+}
+
+/// Colour, pigments and material.
+fn dress(prim: &mut Prim, told: Option<&HairColour>, colour: Option<[f32; 3]>) {
+    let Some(colour) = colour else { return };
+    if prim.attribute("primvars:displayColor").is_none() {
+        let value = Value::float_tuples(&[colour]);
+        prim.primvar("color3f[]", "primvars:displayColor", value, "constant");
+    }
+    if let Some(melanin) = told.and_then(|c| c.melanin) {
+        let pigments = [melanin.eumelanin, melanin.pheomelanin];
+        for (name, amount) in PIGMENTS.into_iter().zip(pigments) {
+            prim.primvar("float", name, Value::float(amount), "constant");
+        }
+    }
+    look::bind(prim, "hair");
+}
+
+fn mesh(name: &str, surface: &Surface, frame: Frame) -> Prim {
+    let mut prim = Prim::new("Mesh", name);
+    prim.uniform("token", "subdivisionScheme", Value::token("none"));
+    let points: Vec<Vec3> =
+        surface.positions().iter().map(|p| frame.position_to_file(p.as_vec3())).collect();
+    let normals: Vec<Vec3> =
+        surface.vertex_normals().iter().map(|n| frame.direction_to_file(n.as_vec3())).collect();
+    prim.varying("float3[]", "extent", extent(&points, 0.0));
+    let corners = surface.triangles().as_flattened().iter().map(|&v| signed(v)).collect();
+    let counts = vec![3; surface.triangles().len()];
+    prim.varying("int[]", "faceVertexCounts", Value::ints(counts));
+    prim.varying("int[]", "faceVertexIndices", Value::ints(corners));
+    prim.varying("point3f[]", "points", triples(&points));
+    prim.primvar("normal3f[]", "normals", triples(&normals), "vertex");
+    let colour = Value::float_tuples(&[look::SKIN]);
+    prim.primvar("color3f[]", "primvars:displayColor", colour, "constant");
+    look::bind(&mut prim, "skin");
+    prim
+}
+
+fn triples(points: &[Vec3]) -> Value {
+    let points: Vec<[f32; 3]> = points.iter().map(Vec3::to_array).collect();
+    Value::float_tuples(&points)
+}
+
+/// The corners of the box around points, with so much room to all sides.
+fn extent(points: &[Vec3], room: f32) -> Value {
+    let nothing = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(nothing, |(l, h), p| (l.min(*p), h.max(*p)));
+    if points.is_empty() {
+        return Value::float_tuples(&[[0.0; 3]; 2]);
+    }
+    Value::float_tuples(&[(low - room).to_array(), (high + room).to_array()])
+}

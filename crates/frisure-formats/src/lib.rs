@@ -1,0 +1,27 @@
+//! Heads, grooms, environment maps and pictures to and from files: one module per format, nothing
+//! solved, nothing printed.
+//!
+//! | module | reads | writes |
+//! | --- | --- | --- |
+//! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
+//! | [`groom`] | `.hair`, `.obj`, `.ply`, `.usdc`, `.usda`, `.abc`, `.data`, `.npz` | the same, `.txt` and `.pbrt` for renderers, `.glb` |
+//! | [`contents`] | what a file holds: head, groom, or both | |
+//! | [`environment`] | environment maps, `.hdr` and `.exr` | |
+//! | [`picture`] | | PNG, OpenEXR |
+//! | [`report`] | | JSON |
+//! | [`kept`] | parts of long work, kept so that it can go on | the same |
+//!
+//! Every file is written beside its destination and renamed over it when it is complete, so that
+//! an interrupted program leaves the old file or the new one and never a half of it
+//! ([`frisure_files::write_atomically`]). The same input gives the same bytes.
+
+pub mod contents;
+pub mod digest;
+pub mod environment;
+pub mod groom;
+pub mod head;
+pub mod kept;
+pub mod picture;
+mod ply;
+pub mod report;
+mod stage_frame;

@@ -1,8 +1,0 @@
-//! Layers as text, `.usda`.
-
-mod lexer;
-mod read;
-mod write;
-
-pub(crate) use read::read;
-pub(crate) use write::write;

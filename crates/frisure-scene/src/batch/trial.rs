@@ -1,0 +1,185 @@
+//! The ends of each range, tried on the scene before the work, and the files that scenes read.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use super::way::Written;
+use super::{Batch, SEED};
+use crate::edit::EditError;
+use crate::error::Fault;
+use crate::{HeadSource, ScalpSource, Scene, SceneError};
+
+/// How many heads are tried to find one that can be.
+const TRIED: usize = 16;
+
+/// Largest file whose content tells one batch from another (bytes).
+const LARGEST: u64 = 1 << 32;
+
+/// Tries the ends of each range; gives what is in the files that the scenes read.
+pub(super) fn all(batch: &Batch) -> Result<Vec<Vec<u8>>, SceneError> {
+    let Start { index, drawn, scene } = start(batch);
+    let mut literals: Vec<String> = drawn.iter().map(|written| written.literal.clone()).collect();
+    let mut files = scene.as_ref().map(files_of).unwrap_or_default();
+    for (place, parameter) in batch.parameters.iter().enumerate() {
+        for end in parameter.way.ends() {
+            let kept = std::mem::replace(&mut literals[place], end.literal.clone());
+            match scene_of(batch, index, &literals) {
+                Ok(scene) => files.extend(files_of(&scene)),
+                Err(error) if own(&error, &parameter.key) => {
+                    return Err(told(batch, &parameter.key, Some(&end), &error));
+                }
+                // It does not go with something else that this head has: some heads will fail.
+                Err(_) => {}
+            }
+            literals[place] = kept;
+        }
+    }
+    if let Err(error) = scene {
+        return Err(impossible(batch, &drawn, &error));
+    }
+    let what = "a file that a scene reads";
+    let read = |path: &PathBuf| frisure_files::read_bytes(path, LARGEST, what);
+    // What is not there is told where it is used.
+    Ok(files.iter().filter_map(|path| read(path).ok()).collect())
+}
+
+/// A head to try others from.
+struct Start {
+    index: usize,
+    drawn: Vec<Written>,
+    scene: Result<Scene, EditError>,
+}
+
+/// The first head that can be, of the first few; the very first if none can.
+fn start(batch: &Batch) -> Start {
+    let head = |index: usize| {
+        let drawn = batch.drawn(index);
+        let literals: Vec<String> = drawn.iter().map(|written| written.literal.clone()).collect();
+        Start { index, scene: scene_of(batch, index, &literals), drawn }
+    };
+    let mut heads = (0..batch.heads().min(TRIED)).map(head);
+    heads.find(|start| start.scene.is_ok()).unwrap_or_else(|| head(0))
+}
+
+/// Why no head can be, at the key that says it.
+fn impossible(batch: &Batch, drawn: &[Written], error: &EditError) -> SceneError {
+    let keys = batch.fixed.iter().map(|(key, _)| (key.as_str(), None));
+    let varied = batch.parameters.iter().zip(drawn).map(|(p, w)| (p.key.as_str(), Some(w)));
+    let blamed = keys.chain(varied).find(|(key, _)| own(error, key));
+    let (key, written) = blamed.unwrap_or(("", None));
+    told(batch, key, written, error)
+}
+
+fn scene_of(batch: &Batch, index: usize, literals: &[String]) -> Result<Scene, EditError> {
+    let text = batch.text(index, literals)?;
+    let scene = Scene::parse(SEED, text, &batch.folder)?;
+    scene.hairstyle_spec()?;
+    Ok(scene)
+}
+
+/// Whether an error is about a key.
+fn own(error: &EditError, key: &str) -> bool {
+    match error {
+        EditError::Scene(error) => error.fault().is_some_and(|fault| {
+            fault.key == key
+                || fault.key.strip_prefix(key).is_some_and(|rest| rest.starts_with(['.', '[']))
+        }),
+        EditError::Value { key: other, .. } | EditError::NoPlace { key: other } => other == key,
+        _ => false,
+    }
+}
+
+/// What is wrong with a value, where the batch says it.
+fn told(batch: &Batch, key: &str, written: Option<&Written>, error: &EditError) -> SceneError {
+    let span = place(batch, key, written);
+    let here = batch.source.slice(span.clone()).to_owned();
+    let fault = match error {
+        EditError::Scene(SceneError::Fault(inner)) => {
+            // The value as it is written here, if it is, or else as it would be in the scene.
+            let value =
+                if here.contains(['{', '[']) || here.is_empty() { &inner.value } else { &here };
+            let fault = Fault { allowed: inner.allowed.clone(), ..Fault::default() };
+            // Lines that it names are those of the scene with all its keys set, which nobody sees.
+            let problem = inner.problem.split(" on line ").next().unwrap_or_default();
+            let fault = Fault { problem: problem.to_owned(), ..fault };
+            let fault = fault.key(inner.key.as_str()).value(value.as_str());
+            // What is said of bare numbers is not of what is written here.
+            let bare = inner.problem.is_empty() && written.is_some_and(Written::is_number);
+            if bare { fault } else { fault.hint(inner.hint.as_str()) }
+        }
+        error => Fault::new(error.to_string()).key(key),
+    };
+    fault.at(&batch.source, span)
+}
+
+/// Where a value of a key is said in the batch, or at least the key.
+fn place(batch: &Batch, key: &str, written: Option<&Written>) -> Range<usize> {
+    let Ok(document) = batch.source.document() else { return 0..0 };
+    let mut found = 0..0;
+    for name in ["set", "grid", "vary"] {
+        let Some(table) = document.get_ref().get(name) else { continue };
+        search(table, "", key, &mut |span, value| {
+            found = span;
+            if let Some(written) = written {
+                narrow(batch, value, written, &mut found);
+            }
+        });
+    }
+    if found.is_empty() { batch.source.locate("scene") } else { found }
+}
+
+type Tree<'a> = toml::Spanned<toml::de::DeValue<'a>>;
+
+/// Finds a key, dotted in any way.
+fn search(tree: &Tree<'_>, path: &str, key: &str, found: &mut dyn FnMut(Range<usize>, &Tree<'_>)) {
+    let Some(table) = tree.get_ref().as_table() else { return };
+    for (name, value) in table {
+        let name = name.get_ref();
+        let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
+        match path == key {
+            true => found(value.span(), value),
+            false => search(value, &path, key, found),
+        }
+    }
+}
+
+/// Goes to the part that says just this value.
+fn narrow(batch: &Batch, tree: &Tree<'_>, written: &Written, found: &mut Range<usize>) {
+    let values: Vec<&Tree<'_>> = match tree.get_ref() {
+        toml::de::DeValue::Table(table) => table.iter().map(|(_, value)| value).collect(),
+        toml::de::DeValue::Array(items) => items.iter().collect(),
+        _ => return,
+    };
+    for value in values {
+        let text = batch.source.slice(value.span());
+        let same = text == written.literal || same_number(text, written);
+        if same {
+            *found = value.span();
+        } else {
+            narrow(batch, value, written, found);
+        }
+    }
+}
+
+/// Whether a text is the number, in whatever unit.
+fn same_number(text: &str, written: &Written) -> bool {
+    let super::Value::Number(x) = written.value else { return false };
+    let units = crate::quantity::Dimension::all();
+    let word = super::way::word(text);
+    word.is_some_and(|word| units.iter().any(|unit| unit.parse(&word) == Ok(x)))
+        || text.parse() == Ok(x)
+}
+
+/// The files that shape the hair of a scene.
+fn files_of(scene: &Scene) -> BTreeSet<PathBuf> {
+    let mut found = BTreeSet::new();
+    if let HeadSource::Mesh(file) = &scene.head {
+        found.insert(file.path.clone());
+        if let ScalpSource::Mask(path) | ScalpSource::Weights(path) = &file.scalp {
+            found.insert(path.clone());
+        }
+    }
+    found.extend(scene.groom.iter().map(|file| file.path.clone()));
+    found
+}

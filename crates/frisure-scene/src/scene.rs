@@ -1,0 +1,371 @@
+//! A scene whose every value was understood.
+
+use std::path::{Path, PathBuf};
+
+use frisure_hairstyle::styling::{Operation, StyleError};
+use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
+use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
+
+use frisure_files::frame::FrameChoice;
+use frisure_files::{self as files, Files};
+use frisure_formats::environment::{self, Environment};
+use frisure_formats::groom::{self, Groom, GroomError};
+use frisure_formats::head::{self, HeadFile, HeadFileError, HeadMesh};
+
+use crate::error::{Fault, SceneError};
+use crate::light::Light;
+use crate::source::Source;
+use crate::words::Tone;
+use crate::{blame, resolve, step};
+
+/// Largest scene that is read (bytes).
+pub const MAX_SIZE: u64 = 16 << 20;
+
+/// A scene whose every value was understood; numbers are SI.
+///
+/// What a number may be depends on what it is for: [`Self::hairstyle_spec`] and
+/// [`Self::single_hair`] check the ranges.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// A name for people; empty if none is given.
+    pub name: String,
+    /// Name of the hair type that the scene starts from.
+    pub hair_type: &'static str,
+    /// The head, with paths made relative to the scene's folder.
+    pub head: HeadSource,
+    /// Hair of another program, with paths made relative to the scene's folder.
+    pub groom: Option<GroomFile>,
+    /// Colours.
+    pub look: Look,
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// What lights it, with paths made relative to the scene's folder.
+    pub light: Light,
+    /// The picture's size.
+    pub output: Output,
+    pub(crate) spec: HairstyleSpec,
+    pub(crate) steps: Vec<Operation>,
+    pub(crate) along: Option<StrainProfile>,
+    pub(crate) frame: [glam::DVec3; 3],
+    pub(crate) branch: Branch,
+    pub(crate) source: Source,
+}
+
+/// One hair of a scene, and how to compute it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SingleHair {
+    /// The rod; its root is at the origin.
+    pub rod: Rod,
+    /// Resolution, element and branch.
+    pub options: Options,
+}
+
+/// The head of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HeadSource {
+    /// The built-in mannequin.
+    Mannequin,
+    /// A mesh.
+    Mesh(HeadFile),
+}
+
+/// Hair of another program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroomFile {
+    /// The groom.
+    pub path: PathBuf,
+    /// Unit and axes, where the scene says them.
+    pub frame: FrameChoice,
+    /// How many strands become guides at most.
+    pub guides: usize,
+}
+
+/// Colours of a scene; those not given are the renderer's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Natural colour of the hair.
+    pub natural: NaturalColour,
+    /// Share of the hairs without pigment.
+    pub white_share: f64,
+    /// Relative variation of the pigment from hair to hair.
+    pub variation: Option<f64>,
+    /// Pigment at the roots.
+    pub roots: Option<Fade>,
+    /// Pigment at the tips.
+    pub tips: Option<Fade>,
+    /// What is on top of the natural colour.
+    pub dye: Option<Dye>,
+    /// Roughness along the fibre.
+    pub roughness: Option<f64>,
+    /// Roughness around the fibre.
+    pub roughness_around: Option<f64>,
+    /// Tilt of the cuticle's scales (rad).
+    pub tilt: Option<f64>,
+    /// Refractive index of the fibre.
+    pub index: Option<f64>,
+    /// Seed of what differs from hair to hair: the scene's.
+    pub seed: u64,
+    /// Skin, sRGB from 0 to 1.
+    pub skin: Option<[f64; 3]>,
+    /// What is behind the head.
+    pub background: Behind,
+    /// A floor under the head, sRGB from 0 to 1.
+    pub floor: Option<[f64; 3]>,
+}
+
+/// What is behind the head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Behind {
+    /// The studio's wall, as the lights fall on it.
+    Wall,
+    /// Nothing.
+    Transparent,
+    /// What lights the scene.
+    Surroundings,
+    /// A colour, sRGB from 0 to 1.
+    Colour([f64; 3]),
+}
+
+/// One of the ways to say what colour hair has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NaturalColour {
+    /// By its pigments.
+    Pigments {
+        /// Concentration of the brown pigment.
+        eumelanin: f64,
+        /// Concentration of the red pigment.
+        pheomelanin: f64,
+    },
+    /// By the colour of much hair, sRGB from 0 to 1.
+    Reflectance([f64; 3]),
+    /// By the absorption of red, green and blue per radius.
+    Absorption([f64; 3]),
+}
+
+/// Pigment that differs at one end of the hairs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fade {
+    /// Factor on the pigment at the end.
+    pub pigment: f64,
+    /// Distance over which it fades away (m).
+    pub length: f64,
+}
+
+/// Dye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dye {
+    /// Colour of much dyed hair, sRGB from 0 to 1.
+    pub colour: [f64; 3],
+    /// How much of the natural colour it takes the place of, 0 to 1.
+    pub strength: f64,
+    /// Length at the roots without it (m).
+    pub regrowth: f64,
+}
+
+/// Where the picture is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Around the head (rad): 0 faces it, π/2 sees its left side.
+    pub azimuth: f64,
+    /// Above the horizon (rad).
+    pub elevation: f64,
+    /// From the picture's bottom to its top (rad).
+    pub field_of_view: f64,
+    /// Focal length over the diameter of the opening; none for a pinhole.
+    pub f_number: Option<f64>,
+    /// Distance that is sharp (m).
+    pub focus: Option<f64>,
+}
+
+/// The picture's size, and how its light is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Output {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Samples per pixel of a preview, across and down.
+    pub samples: usize,
+    /// Stops by which it is lighter than the light.
+    pub exposure: f64,
+    /// How light becomes colours.
+    pub tone: Tone,
+}
+
+impl Scene {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = files::read_text(path, MAX_SIZE, "a scene")?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), text, folder)
+    }
+
+    /// Understands the text of a scene; `name` is what errors call it, and paths in it are relative
+    /// to `folder`.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn parse(name: &str, text: impl Into<String>, folder: &Path) -> Result<Self, SceneError> {
+        let text = without_mark(text.into());
+        resolve::scene(Source { name: name.to_owned(), text }, folder)
+    }
+
+    /// The whole head of hair that the scene describes, with every number in range.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range, and for natural strains along a hair: a head's
+    /// wisps vary by chance, not as given.
+    pub fn hairstyle_spec(&self) -> Result<HairstyleSpec, SceneError> {
+        resolve::hairstyle(self)
+    }
+
+    /// What is done to the hair, in this order.
+    #[must_use]
+    pub fn steps(&self) -> &[Operation] {
+        &self.steps
+    }
+
+    /// The text that the scene was read from.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// Why a step, counted from 0, cannot be done, at the step or at the key in it that says what
+    /// cannot be.
+    #[must_use]
+    pub fn step_fault(&self, index: usize, error: &StyleError) -> SceneError {
+        let operation = self.steps.get(index).map_or("", Operation::name);
+        step::fault(index, operation, error, &self.source)
+    }
+
+    /// The single hair that the scene describes, without variation.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range.
+    pub fn single_hair(&self) -> Result<SingleHair, SceneError> {
+        resolve::single_hair(self)
+    }
+
+    /// The head in files that the scene names, or `None` for the built-in mannequin.
+    ///
+    /// # Errors
+    /// [`SceneError`] at the key that names what cannot be used.
+    pub fn head_mesh(&self) -> Result<Option<HeadMesh>, SceneError> {
+        self.head_mesh_in(&Files::default())
+    }
+
+    /// The same, with files from somewhere.
+    ///
+    /// # Errors
+    /// As [`Self::head_mesh`].
+    pub fn head_mesh_in(&self, files: &Files) -> Result<Option<HeadMesh>, SceneError> {
+        let HeadSource::Mesh(file) = &self.head else { return Ok(None) };
+        head::read(file, files).map(Some).map_err(|e| {
+            // A cause, such as what the system said, belongs to the same sentence.
+            let message = match std::error::Error::source(&e) {
+                Some(cause) => format!("{e}: {cause}"),
+                None => e.to_string(),
+            };
+            let hint = match e {
+                HeadFileError::Size { .. } => "`unit` and `up` of `[head]` say what it is in",
+                _ => "",
+            };
+            self.fault(e.key(file), message, hint)
+        })
+    }
+
+    /// The groom that the scene names, if it names one.
+    ///
+    /// # Errors
+    /// [`SceneError`] at the key that names what cannot be used.
+    pub fn groom_in(&self, files: &Files) -> Result<Option<Groom>, SceneError> {
+        let Some(GroomFile { path, frame, .. }) = &self.groom else { return Ok(None) };
+        let wrong = |e: GroomError| {
+            let message = match std::error::Error::source(&e) {
+                Some(cause) => format!("{e}: {cause}"),
+                None => e.to_string(),
+            };
+            let hint = match e {
+                GroomError::Malformed { .. } => "`unit` and `up` of `[groom]` say what it is in",
+                _ => "",
+            };
+            self.fault("groom.file", message, hint)
+        };
+        let format = groom::Format::of(path).map_err(wrong)?;
+        let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
+        let bytes = bytes.map_err(|e| wrong(e.into()))?;
+        let groom = groom::decode(format, &bytes, path, *frame).map_err(wrong)?;
+        if groom.strands().is_empty() {
+            let message = format!("`{}` has no strands", path.display());
+            return Err(self.fault("groom.file", message, ""));
+        }
+        Ok(Some(groom))
+    }
+
+    /// The picture of surroundings that the scene names, if it names one.
+    ///
+    /// # Errors
+    /// [`SceneError`] at the key that names what cannot be used.
+    pub fn environment(&self) -> Result<Option<Environment>, SceneError> {
+        self.environment_in(&Files::default())
+    }
+
+    /// The same, with files from somewhere.
+    ///
+    /// # Errors
+    /// As [`Self::environment`].
+    pub fn environment_in(&self, files: &Files) -> Result<Option<Environment>, SceneError> {
+        let Some(file) = &self.light.environment else { return Ok(None) };
+        environment::read(&file.path, files).map(Some).map_err(|e| {
+            let message = match std::error::Error::source(&e) {
+                Some(cause) => format!("{e}: {cause}"),
+                None => e.to_string(),
+            };
+            self.fault("light.environment", message, e.hint())
+        })
+    }
+
+    /// What had to be guessed of the head's mesh, for people.
+    #[must_use]
+    pub fn head_note(&self, mesh: &HeadMesh) -> Option<String> {
+        let HeadSource::Mesh(file) = &self.head else { return None };
+        let (path, unit) = (file.path.display(), mesh.guessed_unit?);
+        Some(format!("{path} says no unit and is taken to be in {unit}: `head.unit` says another"))
+    }
+
+    /// An error found later in what `key` says, such as a mesh at `head.mesh` that is no head;
+    /// `hint` may be empty.
+    #[must_use]
+    pub fn fault(
+        &self,
+        key: &str,
+        problem: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> SceneError {
+        let span = self.source.locate(key);
+        let value = self.source.slice(span.clone()).to_owned();
+        Fault::new(problem).key(key).value(value).hint(hint).at(&self.source, span)
+    }
+
+    /// A quantity that was refused later, at the key that it comes from.
+    #[must_use]
+    pub fn blame(&self, error: &InvalidQuantity) -> SceneError {
+        blame::blame(error, &self.source)
+    }
+
+    /// A number that was refused later, such as one that only a head shows to be too large, at the
+    /// key that it comes from.
+    #[must_use]
+    pub fn out_of_range(&self, error: &InvalidSpec) -> SceneError {
+        blame::out_of_range(error, &self.source)
+    }
+}
+
+/// A text without the byte order mark that editors on some systems begin it with; TOML has none.
+pub(crate) fn without_mark(text: String) -> String {
+    text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)
+}

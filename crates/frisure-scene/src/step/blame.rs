@@ -1,0 +1,127 @@
+//! Steps that cannot be done, brought back to what is written.
+
+use frisure_hairstyle::InvalidSpec;
+use frisure_hairstyle::styling::StyleError;
+
+use crate::error::{Fault, SceneError};
+use crate::source::Source;
+
+/// A path and a key in it.
+pub(super) fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+/// The keys of a step that a field of an operation is written in, the likeliest first.
+fn keys_of(field: &'static str) -> &'static [&'static str] {
+    match field {
+        "humidity.relative" => &["humidity"],
+        "comb.towards" => &["comb.to"],
+        "grow.time" => &["grow.months", "grow.time"],
+        "implantation.partings.offset" => &["part.at"],
+        "implantation.partings.line" => &["part.line"],
+        _ => &[],
+    }
+}
+
+/// A number that an operation refuses, at the key of the step at `here` that it is written in.
+pub(super) fn out_of_range(
+    error: &InvalidSpec,
+    here: &str,
+    operation: &str,
+    source: &Source,
+) -> SceneError {
+    let own = [error.field];
+    let keys = Some(keys_of(error.field)).filter(|keys| !keys.is_empty()).unwrap_or(&own);
+    let written = |key: &&str| {
+        let path = join(here, key);
+        source.find(&path).map(|(span, single)| (path, span, single))
+    };
+    // A part of a selection does not say in which of several it is.
+    let inside = keys.iter().find_map(written).unwrap_or_else(|| {
+        let path = match error.field.starts_with("where") {
+            true => join(&join(here, operation), "where"),
+            false => join(here, operation),
+        };
+        (path.clone(), source.locate(&path), false)
+    });
+    let (key, span, single) = inside;
+    let value = if single { source.slice(span.clone()) } else { &error.value };
+    Fault::outside(error.allowed).key(key).value(value).at(source, span)
+}
+
+/// Why the step with a number cannot be done, at the step or at the key in it that says what cannot
+/// be.
+pub(crate) fn fault(
+    index: usize,
+    operation: &str,
+    error: &StyleError,
+    source: &Source,
+) -> SceneError {
+    let here = format!("step[{index}]");
+    if let StyleError::Invalid(error) = error {
+        return out_of_range(error, &here, operation, source);
+    }
+    let step = join(&here, operation);
+    let place = join(&step, "where");
+    let chosen = source.find(&place).map(|(span, _)| source.slice(span));
+    let written = |place: &str| source.find(place).map(|(span, _)| source.slice(span));
+    // A level that is raised cannot be said in one word.
+    let raised = written(&join(&step, "raise")).is_some();
+    let below = written(&join(&step, "below")).filter(|_| !raised);
+    let hint = hint(error, chosen, below);
+    let key = match error {
+        StyleError::NothingSelected | StyleError::NoSuchWisp { .. } => place,
+        _ => step,
+    };
+    let span = source.locate(&key);
+    // The key is only named if it is written.
+    let key = if source.find(&key).is_some() { key } else { here };
+    Fault::new(error.to_string()).key(key).hint(hint).at(source, span)
+}
+
+/// What to try; `chosen` is what the step says about which wisps, `below` about a height that it cuts
+/// at.
+fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String {
+    match error {
+        StyleError::NothingSelected => {
+            "choose a larger part with `where`, or leave `where` out for all hair".into()
+        }
+        StyleError::NoSuchWisp { .. } => {
+            "wisps are numbered from 0; `wisps.count` says how many there are".into()
+        }
+        StyleError::AboveRoot { .. } if below.is_some() => {
+            let above = format!("{{ above = {} }}", below.unwrap_or(""));
+            let rest = match chosen {
+                None => above,
+                Some(list) if list.starts_with('[') => {
+                    format!("{{ all = [{{ any = {list} }}, {above}] }}")
+                }
+                Some(one) => format!("{{ all = [{one}, {above}] }}"),
+            };
+            format!("cut lower, or leave out what is rooted lower: `where = {rest}`")
+        }
+        StyleError::AboveRoot { wisps, .. } => match without(wisps, chosen) {
+            Some(rest) => format!("cut lower, or leave them out: `where = {rest}`"),
+            None => "cut lower, or choose fewer wisps with `where`".into(),
+        },
+        StyleError::TooLong { .. } => "let it grow less, or cut it first".into(),
+        StyleError::Parting(_) => "move the parting so that it lies on the scalp".into(),
+        _ => String::new(),
+    }
+}
+
+/// A choice without some wisps, if it is short enough to be shown.
+fn without(wisps: &[usize], chosen: Option<&str>) -> Option<String> {
+    const SHOWN: usize = 12;
+    let chosen = chosen.unwrap_or("");
+    if wisps.len() > SHOWN || chosen.len() > 40 || chosen.contains('\n') {
+        return None;
+    }
+    let wisps: Vec<_> = wisps.iter().map(ToString::to_string).collect();
+    let others = format!("{{ not = {{ wisps = [{}] }} }}", wisps.join(", "));
+    Some(match chosen {
+        "" => others,
+        list if list.starts_with('[') => format!("{{ all = [{{ any = {list} }}, {others}] }}"),
+        one => format!("{{ all = [{one}, {others}] }}"),
+    })
+}

@@ -1,0 +1,333 @@
+//! `where`: which wisps a step is about.
+
+use std::f64::consts::PI;
+
+use frisure_hairstyle::Place;
+use frisure_hairstyle::styling::{Lasso, Selection, Spot, View};
+use glam::DVec3;
+use schemars::{Schema, json_schema};
+use toml::Value;
+
+use super::shapes::{Below, Fields, Plane, bounded, described};
+use crate::key::{
+    Angle, Choice, Count, Flag, Kind, Length, OneOf, Pair, Point, Ratio, Refusal, two_words,
+};
+
+/// Name of the schema of `where`, which refers to itself.
+pub(crate) const WHERE: &str = "where";
+
+/// How deep a choice may be made of others; TOML itself ends at 80 lists and tables.
+const DEEPEST: usize = 32;
+
+/// What a table can say, one of these.
+const WAYS: [&str; 8] = ["above", "wisps", "plane", "brush", "lasso", "any", "all", "not"];
+
+/// A choice of wisps: a word, a list of words, or a table.
+pub(super) struct Where;
+
+/// A word for a choice.
+#[derive(Clone, Copy)]
+enum Word {
+    Everything,
+    Of(Place),
+}
+
+impl Choice for Word {
+    fn words() -> Vec<(&'static str, &'static str, Self)> {
+        let places = Place::words().into_iter().map(|(word, what, p)| (word, what, Self::Of(p)));
+        let everything = ("everything", "all wisps, as without `where`", Self::Everything);
+        places.chain([everything]).collect()
+    }
+
+    fn synonyms() -> &'static [(&'static str, &'static str)] {
+        Place::synonyms()
+    }
+}
+
+impl Kind for Where {
+    type Value = Selection;
+
+    fn read(value: &Value) -> Result<Selection, Refusal> {
+        selection(value, 0)
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "$ref": format!("#/$defs/{WHERE}") })
+    }
+}
+
+fn selection(value: &Value, depth: usize) -> Result<Selection, Refusal> {
+    if depth > DEEPEST {
+        return Err(Refusal::because(format!(
+            "this is a choice of choices more than {DEEPEST} deep"
+        )));
+    }
+    match value {
+        Value::Array(words) if words.is_empty() => Err(Refusal::new("one place or more")),
+        Value::Array(words) => union_of_words(words),
+        Value::Table(_) => table(value, depth),
+        Value::String(_) => word(value),
+        _ => Err(Refusal::new(
+            "a part of the scalp such as \"fringe\", a list of parts, or a table such as \
+             { not = \"fringe\" }",
+        )),
+    }
+}
+
+/// A word by itself, where a table might stand as well.
+fn word(value: &Value) -> Result<Selection, Refusal> {
+    let both = |[one, other]: [&str; 2]| format!("{{ all = [\"{one}\", \"{other}\"] }}");
+    one_word(value, |words| format!("for wisps in both write {}", both(words)))
+}
+
+/// A word; `of_two` is what to try where it is two of them together.
+fn one_word(value: &Value, of_two: impl Fn([&str; 2]) -> String) -> Result<Selection, Refusal> {
+    let place = OneOf::<Word>::read(value).map_err(|refusal| {
+        match value.as_str().and_then(two_words::<Word>) {
+            Some(words) if !refusal.has_hint() => refusal.hint(of_two(words)),
+            _ => refusal,
+        }
+    })?;
+    Ok(match place {
+        Word::Everything => Selection::Everything,
+        Word::Of(place) => Selection::Place(place),
+    })
+}
+
+fn union_of_words(words: &[Value]) -> Result<Selection, Refusal> {
+    let both = |[one, other]: [&str; 2]| {
+        let both = format!("{{ all = [\"{one}\", \"{other}\"] }}");
+        format!(
+            "a list has single words; for wisps in both among others write {{ any = [{both}, …] }}"
+        )
+    };
+    each(words, |value| one_word(value, both)).map(Selection::Any)
+}
+
+/// Every value of a list, understood.
+fn each<T>(list: &[Value], read: impl Fn(&Value) -> Result<T, Refusal>) -> Result<Vec<T>, Refusal> {
+    let item = |(i, value)| read(value).map_err(|e: Refusal| e.inside(&format!("[{i}]")));
+    list.iter().enumerate().map(item).collect()
+}
+
+fn table(value: &Value, depth: usize) -> Result<Selection, Refusal> {
+    let allowed = "a table with one of its keys";
+    Fields::new(value, &WAYS, allowed)?;
+    let entries: Vec<_> = value.as_table().into_iter().flatten().collect();
+    let (way, value) = match entries.as_slice() {
+        [] => return Err(Refusal::because(format!("this says nothing: {}", one_of_the_ways()))),
+        [(way, value)] => (way.as_str(), *value),
+        [(one, _), (other, _), ..] => {
+            let problem = format!("`{one}` and `{other}` are two choices of wisps in one table");
+            let hint =
+                "for wisps in both write { all = [{ … }, { … }] }, in either { any = [ … ] }";
+            return Err(Refusal::because(problem).hint(hint));
+        }
+    };
+    let inside = |e: Refusal| e.inside(&format!(".{way}"));
+    let chosen = one_way(way, value, depth + 1).map_err(inside)?;
+    // What is joined was checked when it was read.
+    if !matches!(chosen, Selection::Any(_) | Selection::All(_) | Selection::Not(_)) {
+        chosen.check().map_err(|error| {
+            let place = error.field.strip_prefix(WHERE).unwrap_or("");
+            Refusal::out_of_range(&error, place)
+        })?;
+    }
+    Ok(chosen)
+}
+
+fn one_of_the_ways() -> String {
+    format!("it needs one of {}", WAYS.join(", "))
+}
+
+fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, Refusal> {
+    let joined = || {
+        let list = value.as_array().ok_or_else(|| Refusal::new("a list of choices of wisps"))?;
+        each(list, |item| selection(item, depth))
+    };
+    Ok(match way {
+        "above" => Selection::Above(Below::read(value)?),
+        "wisps" => Selection::Wisps(wisps(value)?),
+        "plane" => {
+            let (point, normal) = Plane::read(value)?;
+            Selection::Beyond { point, normal }
+        }
+        "brush" => brush(value)?,
+        "lasso" => Selection::Lasso(lasso(value)?),
+        "any" => Selection::Any(joined()?),
+        "all" => Selection::All(joined()?),
+        _ => Selection::Not(Box::new(selection(value, depth)?)),
+    })
+}
+
+fn wisps(value: &Value) -> Result<Vec<usize>, Refusal> {
+    let allowed = "a list of numbers of wisps, such as [0, 12]";
+    each(value.as_array().ok_or_else(|| Refusal::new(allowed))?, Count::read)
+}
+
+fn brush(value: &Value) -> Result<Selection, Refusal> {
+    let allowed = "a brush, such as { at = [[\"2 cm\", \"5 cm\"]], radius = \"2 cm\" }";
+    let fields = Fields::new(value, &["at", "radius"], allowed)?;
+    let (spots, radius) = (fields.need::<Spots>("at")?, fields.need::<Length>("radius")?);
+    Ok(Selection::Brush { spots, radius })
+}
+
+fn lasso(value: &Value) -> Result<Lasso, Refusal> {
+    let allowed = "a lasso, which has a `camera` and a `polygon`";
+    let fields = Fields::new(value, &["camera", "polygon", "through"], allowed)?;
+    let (view, polygon) = (fields.need::<Camera>("camera")?, fields.need::<Polygon>("polygon")?);
+    Ok(Lasso { view, polygon, through: fields.get::<Flag>("through")?.unwrap_or(false) })
+}
+
+/// Places of a brush: points, or places measured on the skin.
+struct Spots;
+
+impl Kind for Spots {
+    type Value = Vec<Spot>;
+
+    fn read(value: &Value) -> Result<Vec<Spot>, Refusal> {
+        let allowed = "a list of points [[x, y, z], …] or of places on the skin \
+                       [[\"2 cm\", \"5 cm\"], …]";
+        let list = value.as_array().ok_or_else(|| Refusal::new(allowed))?;
+        // One place is a list of one.
+        if list.first().is_some_and(|first| !first.is_array()) {
+            return spot(value).map(|spot| vec![spot]);
+        }
+        each(list, spot)
+    }
+
+    fn schema() -> Schema {
+        let spot = json_schema!({ "anyOf": [Pair::schema(), Point::schema()] });
+        json_schema!({
+            "anyOf": [{ "type": "array", "items": spot }, Pair::schema(), Point::schema()],
+            "examples": [[["2 cm", "5 cm"], [0, "-4 cm", "9 cm"]]],
+        })
+    }
+}
+
+fn spot(value: &Value) -> Result<Spot, Refusal> {
+    match value.as_array().map(Vec::len) {
+        Some(2) => Pair::read(value).map(Spot::Tape),
+        Some(3) => Point::read(value).map(Spot::At),
+        _ => Err(Refusal::new("a point [x, y, z], or a place on the skin [across, back]")),
+    }
+}
+
+/// A pinhole camera.
+struct Camera;
+
+impl Kind for Camera {
+    type Value = View;
+
+    fn read(value: &Value) -> Result<View, Refusal> {
+        let allowed = "a camera, which has `eye`, `target`, `field_of_view` and `aspect`";
+        let known = ["eye", "target", "field_of_view", "aspect"];
+        let fields = Fields::new(value, &known, allowed)?;
+        let point = |key| -> Result<DVec3, Refusal> { fields.need::<Point>(key) };
+        Ok(View {
+            eye: point("eye")?,
+            target: point("target")?,
+            field_of_view: fields.need::<Angle>("field_of_view")?,
+            aspect: fields.need::<Ratio>("aspect")?,
+        })
+    }
+
+    fn schema() -> Schema {
+        let field = "From the picture's bottom to its top, 0.1 to 179 deg.";
+        json_schema!({
+            "type": "object", "additionalProperties": false,
+            "properties": {
+                "eye": described(&Point::schema(), "Its place: a point in the head's frame (m), within 100 m of the origin."),
+                "target": described(&Point::schema(), "The point it looks at, in the same frame; apart from the eye."),
+                "field_of_view": bounded(&Angle::schema(), 0.1 * PI / 180.0, 179.0 * PI / 180.0, field),
+                "aspect": described(&Ratio::schema(), "Width over height; 0.001 to 1000."),
+            },
+            "required": ["eye", "target", "field_of_view", "aspect"],
+        })
+    }
+}
+
+/// Corners in a picture.
+struct Polygon;
+
+impl Kind for Polygon {
+    type Value = Vec<[f64; 2]>;
+
+    fn read(value: &Value) -> Result<Vec<[f64; 2]>, Refusal> {
+        let allowed = "a list of corners [[u, v], …], from -1 to 1 across the picture and up";
+        let list = value.as_array().ok_or_else(|| Refusal::new(allowed))?;
+        each(list, |corner| match corner.as_array().map(Vec::as_slice) {
+            Some([u, v]) => Ok([Ratio::read(u)?, Ratio::read(v)?]),
+            _ => Err(Refusal::new("a corner of two numbers, such as [0.5, -0.5]")),
+        })
+    }
+
+    fn schema() -> Schema {
+        let corner = json_schema!({
+            "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2,
+        });
+        json_schema!({ "type": "array", "items": corner, "minItems": 3 })
+    }
+}
+
+/// The JSON Schema of `where`.
+pub(crate) fn where_schema() -> Schema {
+    let one = Where::schema();
+    let list = json_schema!({ "type": "array", "items": one });
+    let word = OneOf::<Word>::schema();
+    let wisps = json_schema!({ "type": "array", "items": Count::schema() });
+    let brush = json_schema!({
+        "type": "object", "additionalProperties": false, "required": ["at", "radius"],
+        "properties": {
+            "at": described(
+                &Spots::schema(),
+                "Where it was: points [x, y, z] in the head's frame, or places [across, back] on the \
+                 skin as in a parting's `line`; one, or a list.",
+            ),
+            "radius": bounded(&Length::schema(), 1e-4, 1.0, "0.1 mm to 1 m."),
+        },
+    });
+    let lasso = json_schema!({
+        "type": "object", "additionalProperties": false, "required": ["camera", "polygon"],
+        "properties": {
+            "camera": described(
+                &Camera::schema(),
+                "The camera of the picture. `eye` and `target` are points in metres in the head's \
+                 frame (x to its left, the face towards -y, z up, the middle of the head near 0), such \
+                 as { eye = [0, -1, 0.1], target = [0, 0, 0], field_of_view = \"30 deg\", aspect = 0.8 } \
+                 from the front.",
+            ),
+            "polygon": described(
+                &Polygon::schema(),
+                "Corners, from -1 to 1 from left to right and from bottom to top.",
+            ),
+            "through": described(
+                &Flag::schema(),
+                "Whether it also takes hair that the head hides. Default false.",
+            ),
+        },
+    });
+    let of = described;
+    let ways = json_schema!({
+        "type": "object", "additionalProperties": false, "minProperties": 1, "maxProperties": 1,
+        "properties": {
+            "above": of(&Below::schema(), "Rooted above a level of the head, or a height (m)."),
+            "wisps": of(&wisps, "By number."),
+            "plane": of(&Plane::schema(), "Rooted on the side of a plane that its normal points to."),
+            "brush": of(
+                &brush,
+                "Rooted under a brush drawn over the scalp, such as { at = [[0, \"-4 cm\", \"9 cm\"]], \
+                 radius = \"2 cm\" }.",
+            ),
+            "lasso": of(&lasso, "Mostly seen inside a polygon drawn on a picture."),
+            "any": of(&list, "In any of these."),
+            "all": of(&list, "In all of these."),
+            "not": of(&one, "Not in this one."),
+        },
+    });
+    json_schema!({
+        "description": "Which wisps: a part of the scalp as in `[[region]]`, or \"everything\"; a list \
+                        of parts; or a table with one key. Without it: everything.",
+        "anyOf": [word, { "type": "array", "items": word, "minItems": 1 }, ways],
+    })
+}

@@ -1,0 +1,468 @@
+//! Scenes: what is said about what is wrong.
+
+mod common;
+
+use common::fault;
+use frisure_scene::Scene;
+
+/// Text, line, column, key, value, and parts of the sentence with its hint.
+type Case = (&'static str, usize, usize, &'static str, &'static str, &'static [&'static str]);
+
+#[test]
+fn faults_name_place_value_range_and_hint() {
+    let cases: &[Case] = &[
+        // Keys.
+        (
+            "[hair]\nlenght = 1",
+            2,
+            1,
+            "hair.lenght",
+            "",
+            &["unknown key `lenght`", "did you mean `length`?"],
+        ),
+        ("[hare]", 1, 2, "hare", "", &["did you mean `hair`?"]),
+        ("length = 1", 1, 1, "length", "", &["there is a `hair.length`"]),
+        (
+            "[hair.fibre]\nyoung = 1",
+            2,
+            1,
+            "hair.fibre.young",
+            "",
+            &["known keys", "youngs_modulus"],
+        ),
+        (
+            "[hair]\n curl.along = [{x = 1}]",
+            2,
+            17,
+            "hair.curl.along[0].x",
+            "",
+            &["unknown key `x`"],
+        ),
+        ("[[stepp]]\nwet = {}", 1, 3, "stepp", "", &["did you mean `step`?"]),
+        (
+            "[wisps]\nstrands = \"simulated\"\n[groom]\nfile = \"a.hair\"",
+            2,
+            11,
+            "wisps.strands",
+            "",
+            &["shapes of their own", "leave out `strands`"],
+        ),
+        // Kinds.
+        ("hair = 3", 1, 8, "hair", "3", &["it must be a table"]),
+        ("[hair.curl]\nalong = 3", 2, 9, "hair.curl.along", "3", &["a list of tables"]),
+        ("[[hair]]", 1, 1, "hair", "", &["it must be a table"]),
+        ("[hair]\nlength = true", 2, 10, "hair.length", "true", &["a length, such as \"25 cm\""]),
+        (
+            "[hair]\nlength = \"25\"",
+            2,
+            10,
+            "hair.length",
+            "\"25\"",
+            &["a length", "add a unit", "in m"],
+        ),
+        (
+            "[hair]\nlength = \"25 GPa\"",
+            2,
+            10,
+            "hair.length",
+            "\"25 GPa\"",
+            &["unit of a modulus", "cm"],
+        ),
+        ("[hair]\nlength = \"long\"", 2, 10, "hair.length", "\"long\"", &["a length, such as"]),
+        ("[hair]\nlength = nan", 2, 10, "hair.length", "nan", &["a finite number"]),
+        ("[hair]\nlength = inf", 2, 10, "hair.length", "inf", &["a finite number"]),
+        ("[hair]\nlength = \"1e999 m\"", 2, 10, "hair.length", "\"1e999 m\"", &["a finite number"]),
+        ("[wisps]\ncount = 1.5", 2, 9, "wisps.count", "1.5", &["a whole number"]),
+        ("[wisps]\ncount = -1", 2, 9, "wisps.count", "-1", &["a whole number"]),
+        ("seed = -1", 1, 8, "seed", "-1", &["a whole number"]),
+        (
+            "[hair]\ntype = \"nordic\"",
+            2,
+            8,
+            "hair.type",
+            "\"nordic\"",
+            &["one of", "\"caucasian-curly\""],
+        ),
+        ("[hair]\ntype = \"frizy\"", 2, 8, "hair.type", "\"frizy\"", &["did you mean \"frizzy\"?"]),
+        ("[look]\nskin = \"#12345g\"", 2, 8, "look.skin", "\"#12345g\"", &["a colour"]),
+        ("[look]\nbackground = \"wal\"", 2, 14, "look.background", "\"wal\"", &["\"wall\""]),
+        ("[camera]\nf_number = 0.1", 2, 12, "camera.f_number", "0.1", &["0.5 and 64"]),
+        ("[output]\ntone = \"film\"", 2, 8, "output.tone", "\"film\"", &["\"filmic\""]),
+        ("[output]\nexposure = 30", 2, 12, "output.exposure", "30", &["-20 and 20"]),
+        ("[look]\nskin = [0, 0, 2]", 2, 8, "look.skin", "[0, 0, 2]", &["from 0 to 1"]),
+        ("[hair]\nroot.t = [0, 1]", 2, 10, "hair.root.t", "[0, 1]", &["three finite numbers"]),
+        // Ranges.
+        ("[hair]\nlength = 0", 2, 10, "hair.length", "0", &["between 1 mm and 3 m"]),
+        ("[hair]\nlength = \"5 km\"", 2, 10, "hair.length", "\"5 km\"", &["cm"]),
+        ("[hair]\nlength = \"5 m\"", 2, 10, "hair.length", "\"5 m\"", &["between 1 mm and 3 m"]),
+        ("[hair.fibre]\ndiameter = 0", 2, 12, "hair.fibre.diameter", "0", &["greater than zero"]),
+        (
+            "[hair.fibre]\nmean_radius = -1",
+            2,
+            15,
+            "hair.fibre.mean_radius",
+            "-1",
+            &["greater than zero"],
+        ),
+        ("[hair.fibre]\neccentricity = 1", 2, 16, "hair.fibre.eccentricity", "1", &["less than 1"]),
+        ("[hair.fibre]\naxis_ratio = 0.5", 2, 14, "hair.fibre.axis_ratio", "0.5", &["at least 1"]),
+        (
+            "[hair.fibre]\npoisson_ratio = 0.6",
+            2,
+            17,
+            "hair.fibre.poisson_ratio",
+            "0.6",
+            &["at most 0.5"],
+        ),
+        (
+            "[hair.fibre]\nyoungs_modulus = \"0 GPa\"",
+            2,
+            18,
+            "hair.fibre.youngs_modulus",
+            "\"0 GPa\"",
+            &["greater"],
+        ),
+        ("[hair.curl]\nradius = 0", 2, 10, "hair.curl.radius", "0", &["greater than zero"]),
+        ("[hair.curl]\nkappa1 = 1e6", 2, 10, "hair.curl.kappa1", "1e6", &["at most 20000 rad/m"]),
+        ("[wisps]\ncount = 0", 2, 9, "wisps.count", "0", &["between 1 and 20000"]),
+        (
+            "[wisps]\nhairs = 10_000_000",
+            2,
+            9,
+            "wisps.hairs",
+            "10_000_000",
+            &["between 1 and 1000000"],
+        ),
+        (
+            "[equilibrium]\nelements = 10_000_000",
+            2,
+            12,
+            "equilibrium.elements",
+            "10_000_000",
+            &["between 1 and 10000"],
+        ),
+        (
+            "[equilibrium]\nelements = 0",
+            2,
+            12,
+            "equilibrium.elements",
+            "0",
+            &["between 1 and 10000"],
+        ),
+        ("[equilibrium]\naccuracy = 0", 2, 12, "equilibrium.accuracy", "0", &["greater than zero"]),
+        (
+            "[equilibrium]\nstarts = 3",
+            2,
+            10,
+            "equilibrium.starts",
+            "",
+            &["add `branch = \"lowest\"`"],
+        ),
+        ("gravity = -1", 1, 11, "gravity", "-1", &["between 0 and 1000"]),
+        (
+            "[implantation]\nlift = \"100 deg\"",
+            2,
+            8,
+            "implantation.lift",
+            "\"100 deg\"",
+            &["90 deg"],
+        ),
+        (
+            "[camera]\nelevation = \"90 deg\"",
+            2,
+            13,
+            "camera.elevation",
+            "\"90 deg\"",
+            &["-85 and 85 deg"],
+        ),
+        ("[output]\nwidth = 0", 2, 9, "output.width", "0", &["between 1 and 16384"]),
+        ("[head]\nmesh = \"a\"\nscale = 0", 3, 9, "head.scale", "0", &["greater than zero"]),
+        (
+            "[hair.root]\nt = [0, 0, 2]\nd1 = [1, 0, 0]",
+            1,
+            1,
+            "hair.root",
+            "",
+            &["right-handed orthonormal"],
+        ),
+        (
+            "[wisps]\nhairs = 1_000_000\npoints = 1000",
+            3,
+            10,
+            "wisps.points",
+            "1000",
+            &["at most 200000000 points"],
+        ),
+        (
+            "[hair.fibre]\nyoungs_modulus = \"1e-9 Pa\"",
+            1,
+            1,
+            "hair.fibre",
+            "",
+            &["too limp", "check the units"],
+        ),
+        (
+            "[wisps]\nhairs_per_wisp = 50_000",
+            2,
+            18,
+            "wisps.hairs_per_wisp",
+            "50_000",
+            &["so few that a head has at most 1000000 hairs"],
+        ),
+        (
+            "[wisps]\ndensity = \"0 1/cm^2\"",
+            2,
+            11,
+            "wisps.density",
+            "\"0 1/cm^2\"",
+            &["between 1 and 1000 1/cm^2"],
+        ),
+        (
+            "[wisps]\ndensity = \"190 cm\"",
+            2,
+            11,
+            "wisps.density",
+            "\"190 cm\"",
+            &["a number per area", "`cm` is a unit of a length"],
+        ),
+        (
+            "[look]\ncolour = \"blonde\"",
+            2,
+            10,
+            "look.colour",
+            "\"blonde\"",
+            &["one of \"white\", ", "did you mean \"blond\"?"],
+        ),
+        (
+            "[look]\ncolour = \"red\"\nreflectance = \"#aa3300\"",
+            3,
+            15,
+            "look.reflectance",
+            "\"#aa3300\"",
+            &["`look.colour` says on line 2"],
+        ),
+        (
+            "[look]\nabsorption = [1, -1, 0]",
+            2,
+            14,
+            "look.absorption",
+            "[1, -1, 0]",
+            &["0 and 1000"],
+        ),
+        (
+            "hair.fibre.variation = 0.6",
+            1,
+            24,
+            "hair.fibre.variation",
+            "0.6",
+            &["between 0 and 0.5"],
+        ),
+        (
+            "hair.ellipticity = \"round\"",
+            1,
+            20,
+            "hair.ellipticity",
+            "\"round\"",
+            &["one of \"measured\", \"paper\""],
+        ),
+        // Contradictions.
+        (
+            "[wisps]\nhairs = 1000\ndensity = \"190 1/cm^2\"",
+            3,
+            11,
+            "wisps.density",
+            "\"190 1/cm^2\"",
+            &["`wisps.hairs` says on line 2", "keep one of the two"],
+        ),
+        (
+            "[wisps]\nhairs = 1000\nhairs_per_wisp = 10",
+            3,
+            18,
+            "wisps.hairs_per_wisp",
+            "10",
+            &["`wisps.hairs` says on line 2"],
+        ),
+        (
+            "[hair]\nellipticity = \"paper\"\nfibre.axis_ratio = 1.5",
+            3,
+            20,
+            "hair.fibre.axis_ratio",
+            "1.5",
+            &["`hair.ellipticity` says on line 2"],
+        ),
+        (
+            "[hair.fibre]\ndiameter = 1e-4\n\nmean_radius = 1e-4",
+            4,
+            15,
+            "hair.fibre.mean_radius",
+            "1e-4",
+            &["`hair.fibre.diameter` says on line 2", "keep one of the two"],
+        ),
+        (
+            "[hair.curl]\nradius = 1\ntau = 2",
+            3,
+            7,
+            "hair.curl.tau",
+            "2",
+            &["`hair.curl.radius` says on line 2"],
+        ),
+        (
+            "[hair.fibre]\nshear_modulus = 1\npoisson_ratio = 0",
+            3,
+            17,
+            "hair.fibre.poisson_ratio",
+            "0",
+            &["on line 2"],
+        ),
+        (
+            "[hair.fibre]\nsemi_axis_a = 1\nsemi_axis_b = 1\ndiameter = 1",
+            4,
+            12,
+            "hair.fibre.diameter",
+            "1",
+            &["line 2"],
+        ),
+        (
+            "[implantation]\nlift = 1\nlift_scale = 1",
+            3,
+            14,
+            "implantation.lift_scale",
+            "1",
+            &["line 2"],
+        ),
+        (
+            "[equilibrium]\nelements = 9\naccuracy = 1",
+            3,
+            12,
+            "equilibrium.accuracy",
+            "1",
+            &["line 2"],
+        ),
+        ("[head]\nmesh = \"a\"\nunit = \"m\"\nscale = 1", 4, 9, "head.scale", "1", &["line 3"]),
+        (
+            "[hair.fibre]\nsemi_axis_a = 1",
+            2,
+            15,
+            "hair.fibre.semi_axis_a",
+            "",
+            &["needs `semi_axis_b`"],
+        ),
+        ("[hair.root]\nt = [1, 0, 0]", 2, 5, "hair.root.t", "", &["needs `d1`"]),
+        ("[head]\nup = \"z\"", 2, 6, "head.up", "", &["the scene has none", "add `mesh"]),
+        (
+            "[implantation]\nflow = \"whorl\"\nparting = 0.01",
+            3,
+            11,
+            "implantation.parting",
+            "",
+            &["only parted hair"],
+        ),
+        // Not TOML.
+        ("[hair", 1, 6, "", "", &[]),
+        ("a = 1\na = 2", 2, 1, "", "", &["duplicate key"]),
+        ("seed = 99999999999999999999", 1, 8, "", "", &[]),
+        ("\n\n  x", 3, 4, "", "", &[]),
+        ("name = \"a\u{0}\"", 1, 10, "", "", &[]),
+    ];
+    for &(text, line, column, key, value, parts) in cases {
+        let fault = fault(text);
+        let whole = fault.to_string();
+        let facts = (fault.line, fault.column, fault.key.as_str());
+        assert_eq!(facts, (line, column, key), "{whole}\n{text}");
+        assert!(value.is_empty() || fault.value == value, "{value}: {fault:?}");
+        for part in parts {
+            assert!(whole.contains(part), "{part}: {whole}");
+        }
+        assert!(whole.starts_with(&format!("scene.toml:{line}:{column}: ")), "{whole}");
+        assert!(fault.span.end <= text.len());
+    }
+}
+
+#[test]
+fn a_bare_number_out_of_range_is_told_its_unit() {
+    for (text, meant) in [
+        ("hair.length = 25", "a number without quotes is in m; did you mean \"25 cm\"?"),
+        ("implantation.lift = 45", "a number without quotes is in rad; did you mean \"45 deg\"?"),
+        ("camera.elevation = -30", "a number without quotes is in rad; did you mean \"-30 deg\"?"),
+        (
+            "hair.growth_rate = 1.2",
+            "a number without quotes is in m/s; did you mean \"1.2 cm/month\"?",
+        ),
+        ("wisps.flyaways = 5", "did you mean \"5 %\"?"),
+        // Neither is a unit.
+        ("hair.length = '25 m'", ""),
+        ("wisps.count = 0", ""),
+    ] {
+        assert_eq!(fault(text).hint, meant, "{text}");
+    }
+}
+
+#[test]
+fn a_key_of_another_table_is_told_where_it_belongs() {
+    for (text, place) in [
+        ("lenght = '20 cm'", "did you mean `hair.length`?"),
+        ("length = '20 cm'", "there is a `hair.length`"),
+        ("[head]\nflayaways = 0.1", "did you mean `wisps.flyaways`?"),
+        ("ligth = {}", "did you mean `light`?"),
+    ] {
+        assert_eq!(fault(text).hint, place, "{text}");
+    }
+}
+
+#[test]
+fn columns_count_characters() {
+    let fault = fault("name = \"é\"\n[hair]\ntype = \"é\" # é");
+    assert_eq!((fault.line, fault.column, fault.value.as_str()), (3, 8, "\"é\""));
+}
+
+#[test]
+fn files_that_are_no_scenes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let message = |bytes: Option<&[u8]>| {
+        if let Some(bytes) = bytes {
+            std::fs::write(&path, bytes).unwrap();
+        }
+        Scene::read(&path).unwrap_err().to_string().replace(path.to_str().unwrap(), "P")
+    };
+    assert_eq!(message(None), "there is no file `P`");
+    assert_eq!(message(Some(b"seed = 1\n# \xff")), "`P` is not UTF-8 text (byte 3 of line 2)");
+    assert_eq!(
+        message(Some(&vec![b'#'; (16 << 20) + 1])),
+        "`P` is larger than 16777216 bytes, too large for a scene"
+    );
+    let error = Scene::read(folder.path()).unwrap_err().to_string();
+    assert!(error.ends_with("is a directory, not a file"), "{error}");
+}
+
+#[test]
+fn faults_of_partings_and_regions_name_their_place() {
+    let parting = "[[implantation.partings]]\n";
+    let cases = [
+        ("line = [[\"1 cm\", 0]]", "implantation.partings[0].line", "2 to 100 points"),
+        ("line = [[0, 0], [0, 0.1], [0.03, 0.05], [-0.03, 0.04]]", "", "piece 1 crosses piece 3"),
+        ("line = [[0, 0], [0, 9]]", "implantation.partings[0].line", "[0, 9] m"),
+        ("line = [[0, 0], [0]]", "implantation.partings[0].line", "a list of places"),
+        ("at = \"midle\"", "implantation.partings[0].at", "did you mean \"middle\"?"),
+        ("at = \"9 cm\"", "implantation.partings[0].at", "within 6 cm"),
+    ];
+    for (text, key, words) in cases {
+        let f = fault(&format!("{parting}{text}"));
+        assert_eq!((f.line, f.key.contains(key)), (2, true), "{f}");
+        assert!(f.to_string().contains(words), "{f}");
+    }
+    assert!(fault(parting).to_string().contains("`at` or `line`"));
+    for (text, line, words) in [
+        ("where = \"frige\"", 2, "did you mean \"fringe\"?"),
+        ("where = [\"top\", \"knape\"]", 2, "did you mean \"nape\"?"),
+        ("where = []", 2, "one place or more"),
+        ("comb = \"back\"", 1, "is nowhere"),
+        ("where = \"top\"\nlength = 0", 3, "1 mm and 3 m"),
+        ("where = \"top\"\nlift = \"91 deg\"", 3, "90 deg"),
+        ("where = \"top\"\nlength = 1\ndown_to = \"ears\"", 4, "says again"),
+    ] {
+        let f = fault(&format!("[[region]]\n{text}"));
+        assert_eq!(f.line, line, "{f}");
+        assert!(f.to_string().contains(words), "{f}");
+    }
+}

@@ -1,0 +1,456 @@
+//! Scenes: what can be said, and what it means.
+
+mod common;
+
+use std::path::Path;
+
+use common::{fault, good};
+use frisure_files::frame::{FrameChoice, UpAxis};
+use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
+use frisure_optics::{Melanin, SHADES};
+use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
+use frisure_scene::{
+    Behind, Dye, Fade, HeadSource, NaturalColour, ScalpSource, Scene, schema, template,
+};
+use glam::DVec3;
+use serde_json::Value;
+
+#[test]
+fn an_empty_file_is_a_scene() {
+    for text in ["", "\u{feff}", "# nothing\n", "[hair]\n[wisps]\n"] {
+        let scene = good(text);
+        assert_eq!(scene.hair_type, "caucasian-straight");
+        assert_eq!(scene.head, HeadSource::Mannequin);
+        assert!(scene.hairstyle_spec().is_ok() && scene.single_hair().is_ok());
+    }
+}
+
+#[test]
+fn a_type_gives_its_preset_unchanged() {
+    for preset in PRESETS {
+        let scene = good(&format!("[hair]\ntype = \"{}\"", preset.name));
+        assert_eq!(scene.hairstyle_spec().unwrap(), preset.spec());
+    }
+}
+
+#[test]
+fn every_template_is_its_preset_and_so_it_is_uncommented() {
+    for preset in PRESETS {
+        let text = template(preset);
+        assert_eq!(good(&text).hairstyle_spec().unwrap(), preset.spec(), "{text}");
+        // With the numbers in its comments, which are rounded.
+        let loud = text.replace("\n# ", "\n").replacen("A scene for", "# A scene for", 1);
+        let loud = loud.replacen("Quantities are", "# Quantities are", 1);
+        let spec = good(&loud).hairstyle_spec().unwrap();
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.05;
+        assert!(near(spec.length.mean, preset.spec().length.mean));
+        assert!(near(spec.curl.strain.length(), preset.spec().curl.strain.length()), "{loud}");
+        assert_eq!(spec.wisps.count, preset.spec().wisps.count);
+    }
+}
+
+#[test]
+fn every_key_arrives() {
+    let scene = good(
+        r##"
+        name = "All"
+        seed = 9223372036854775807
+        gravity = "1.62 m/s^2"
+        [hair]
+        type = "frizzy"
+        length = "25 cm"
+        length_variation = "10 %"
+        fibre = { diameter = "80 um", axis_ratio = 1.5, youngs_modulus = "4 GPa", poisson_ratio = 0.25, density = "1.2 g/cm^3", torsion = "polar", variation = 0.07, axis_ratio_variation = 0.08 }
+        curl = { kappa1 = "1 1/mm", tau = 20, handedness = "as-given", variation_between = 0.1, variation_along = 0.2, variation_scale = "4 cm" }
+        root = { d1 = [0, 1, 0], t = [0, 0, 1] }
+        [head]
+        mesh = "a/head.obj"
+        up = "z"
+        unit = "cm"
+        scalp_mask = "mask.png"
+        [implantation]
+        flow = "parted"
+        parting = "-1 cm"
+        lift = "45 deg"
+        jitter = "5 deg"
+        [wisps]
+        count = 11
+        hairs_per_wisp = 12
+        clumping = 0.13
+        fuzziness = 0.14
+        length_variation = 0.15
+        flyaways = 0.16
+        blending = 0.17
+        points = 18
+        [contact]
+        body = "spheres"
+        stiffness = "0.2 kPa"
+        volume = 0.3
+        [equilibrium]
+        elements = 21
+        element = "helix"
+        branch = "lowest"
+        starts = 22
+        [look]
+        eumelanin = 0.3
+        pheomelanin = 0.4
+        variation = 0.5
+        white_share = 0.25
+        roots = { pigment = 1.5, fade = "3 cm" }
+        tips.pigment = 0.6
+        dye = { colour = "#0000ff", strength = 0.8, regrowth = "4 cm" }
+        roughness = 0.25
+        roughness_around = 0.35
+        tilt = "2 deg"
+        index = 1.5
+        skin = "#ff8000"
+        background = [0, 0.5, 1]
+        [camera]
+        azimuth = "90 deg"
+        elevation = "-10 deg"
+        field_of_view = "30 deg"
+        [light]
+        azimuth = "10 deg"
+        strength = 2
+        [output]
+        width = 31
+        height = 32
+        samples = 3
+        "##,
+    );
+    let spec = scene.hairstyle_spec().unwrap();
+    assert_eq!((scene.name.as_str(), spec.seed), ("All", u64::MAX >> 1));
+    assert_eq!((spec.gravity, spec.length.mean, spec.length.variation_between), (1.62, 0.25, 0.1));
+    assert!((spec.fibre.section.mean_radius() - 40e-6).abs() < 1e-18);
+    assert!((spec.fibre.section.axis_ratio() - 1.5).abs() < 1e-12);
+    assert_eq!(spec.fibre.material.youngs_modulus(), 4e9);
+    assert_eq!(spec.fibre.material.shear_modulus(), 1.6e9);
+    assert_eq!(spec.fibre.material.density(), 1200.0);
+    assert_eq!(spec.fibre.torsion, TorsionConstant::Polar);
+    assert_eq!(spec.curl.strain, DVec3::new(1000.0, 0.0, 20.0));
+    assert_eq!(spec.curl.handedness, Handedness::AsGiven);
+    assert_eq!((spec.curl.variation_between, spec.curl.variation_along), (0.1, 0.2));
+    assert_eq!(spec.curl.variation_scale, 0.04);
+    assert_eq!(spec.implantation.flow, Flow::Parted { offset: -0.01 });
+    assert_eq!(spec.implantation.lift, Lift::Uniform(45_f64.to_radians()));
+    assert!((spec.implantation.jitter - 5_f64.to_radians()).abs() < 1e-15);
+    let w = spec.wisps;
+    assert_eq!((w.count, w.hairs, w.points), (11, Hairs::PerWisp(12), 18));
+    assert_eq!((spec.fibre.variation, spec.fibre.axis_ratio_variation), (0.07, 0.08));
+    assert_eq!((w.clumping, w.fuzziness, w.length_variation), (0.13, 0.14, 0.15));
+    assert_eq!((w.flyaways, w.blending), (0.16, 0.17));
+    assert_eq!(spec.contact.body, Body::Spheres);
+    assert_eq!((spec.contact.stiffness, spec.contact.volume), (200.0, 0.3));
+    assert_eq!(spec.equilibrium.resolution, Resolution::Elements(21));
+    assert_eq!(spec.equilibrium.element, ElementKind::Helix);
+
+    let hair = scene.single_hair().unwrap();
+    assert_eq!(hair.options.branch, Branch::Lowest { starts: 22, seed: u64::MAX >> 1 });
+    assert_eq!(hair.rod.root().frame().z_axis, DVec3::Z);
+    assert_eq!(hair.rod.root().frame().x_axis, DVec3::Y);
+    assert_eq!(*hair.rod.natural(), NaturalStrain::Uniform(spec.curl.strain));
+
+    let HeadSource::Mesh(head) = &scene.head else { panic!("a mesh was given") };
+    assert_eq!(head.path, Path::new("scenes/a/head.obj"));
+    assert_eq!(head.frame, FrameChoice { metres: Some(0.01), up: Some(UpAxis::Z) });
+    assert_eq!(head.scalp, ScalpSource::Mask("scenes/mask.png".into()));
+    assert_eq!(scene.look.skin, Some([1.0, 128.0 / 255.0, 0.0]));
+    assert_eq!(scene.look.background, Behind::Colour([0.0, 0.5, 1.0]));
+    let look = scene.look;
+    let pigments = NaturalColour::Pigments { eumelanin: 0.3, pheomelanin: 0.4 };
+    assert_eq!((look.natural, look.variation, look.white_share), (pigments, Some(0.5), 0.25));
+    assert_eq!(look.roots, Some(Fade { pigment: 1.5, length: 0.03 }));
+    assert_eq!(look.tips, Some(Fade { pigment: 0.6, length: 0.05 }));
+    assert_eq!(look.dye, Some(Dye { colour: [0.0, 0.0, 1.0], strength: 0.8, regrowth: 0.04 }));
+    assert_eq!((look.roughness, look.roughness_around), (Some(0.25), Some(0.35)));
+    assert!((look.tilt.unwrap().to_degrees() - 2.0).abs() < 1e-12);
+    assert_eq!((look.index, look.seed), (Some(1.5), spec.seed));
+    assert!((scene.camera.azimuth.to_degrees() - 90.0).abs() < 1e-12);
+    assert!((scene.light.direction.unwrap().0.to_degrees() - 10.0).abs() < 1e-12);
+    assert_eq!((scene.output.width, scene.output.height, scene.output.samples), (31, 32, 3));
+}
+
+#[test]
+fn a_colour_of_hair_is_said_by_name_by_pigments_or_as_measured() {
+    let of = |keys: &str| good(&format!("[look]\n{keys}")).look;
+    let pigments = |eumelanin: f32, pheomelanin: f32| NaturalColour::Pigments {
+        eumelanin: f64::from(eumelanin),
+        pheomelanin: f64::from(pheomelanin),
+    };
+    for shade in &SHADES {
+        let look = of(&format!("colour = \"{}\"", shade.name));
+        let Melanin { eumelanin, pheomelanin } = shade.melanin;
+        assert_eq!(look.natural, pigments(eumelanin, pheomelanin));
+        assert_eq!(look.white_share, f64::from(shade.white_share));
+    }
+    assert_eq!(of("").natural, of("colour = \"brown\"").natural);
+    let NaturalColour::Pigments { eumelanin, .. } =
+        of("colour = \"auburn\"\neumelanin = 0.5").natural
+    else {
+        panic!("pigments were given")
+    };
+    assert_eq!(eumelanin, 0.5);
+    assert_eq!(
+        of("reflectance = \"#ff0000\"").natural,
+        NaturalColour::Reflectance([1.0, 0.0, 0.0])
+    );
+    assert_eq!(
+        of("absorption = [0.1, 0.2, 3]").natural,
+        NaturalColour::Absorption([0.1, 0.2, 3.0])
+    );
+}
+
+#[test]
+fn the_number_of_hairs_is_said_in_one_of_three_ways() {
+    let hairs = |keys: &str| good(keys).hairstyle_spec().unwrap().wisps.hairs;
+    assert_eq!(hairs("hair.type = \"african-coily\""), Hairs::Density(161e4));
+    assert_eq!(hairs("wisps.density = \"190 1/cm^2\""), Hairs::Density(190e4));
+    assert_eq!(hairs("wisps.hairs = 5000"), Hairs::Count(5000));
+    assert_eq!(hairs("wisps.hairs_per_wisp = 50"), Hairs::PerWisp(50));
+}
+
+#[test]
+fn the_paper_s_section_is_nearly_round_and_the_measured_one_is_the_default() {
+    let fibre = |more: &str| {
+        let text = format!("hair.type = \"african-coily\"\n{more}");
+        good(&text).hairstyle_spec().unwrap().fibre
+    };
+    assert_eq!(fibre(""), fibre("hair.ellipticity = \"measured\""));
+    assert!((fibre("").section.axis_ratio() - 1.75).abs() < 1e-12);
+    let paper = fibre("hair.ellipticity = \"paper\"");
+    assert!((paper.section.eccentricity() - 0.2).abs() < 1e-12);
+    assert_eq!(paper.axis_ratio_variation, 0.0);
+    let preset = PRESETS.iter().find(|p| p.name == "african-coily").unwrap();
+    assert_eq!(paper, preset.hair_type().fibre(Ellipticity::Paper).unwrap());
+    // A diameter of one's own goes with either shape.
+    let thick = fibre("hair.ellipticity = \"paper\"\nhair.fibre.diameter = \"90 um\"");
+    assert!((thick.section.eccentricity() - 0.2).abs() < 1e-7);
+    assert!((thick.section.mean_radius() - 45e-6).abs() < 1e-15);
+}
+
+#[test]
+fn part_of_a_curl_or_section_keeps_the_rest_of_the_type() {
+    let base = "[hair]\ntype = \"caucasian-curly\"\n";
+    let preset = good(base).hairstyle_spec().unwrap();
+    let (_, pitch) = preset.curl.radius_pitch().unwrap();
+    let spec = good(&format!("{base}curl.radius = \"2 cm\"")).hairstyle_spec().unwrap();
+    let (r, p) = spec.curl.radius_pitch().unwrap();
+    assert!((r - 0.02).abs() < 1e-12 && (p - pitch).abs() < 1e-12);
+    let spec = good(&format!("{base}fibre.diameter = \"90 um\"")).hairstyle_spec().unwrap();
+    assert!((spec.fibre.section.mean_radius() - 45e-6).abs() < 1e-15);
+    assert!((spec.fibre.section.axis_ratio() - 1.5).abs() < 1e-12);
+    let spec = good(&format!("{base}fibre.eccentricity = 0.5")).hairstyle_spec().unwrap();
+    assert!((spec.fibre.section.mean_radius() - 36e-6).abs() < 1e-15);
+    assert!((spec.fibre.section.eccentricity() - 0.5).abs() < 1e-12);
+    // Strains are not mixed with the type's: the missing ones are 0.
+    let spec = good(&format!("{base}curl.tau = 5")).hairstyle_spec().unwrap();
+    assert_eq!(spec.curl.strain, DVec3::new(0.0, 0.0, 5.0));
+}
+
+#[test]
+fn strains_along_one_hair() {
+    let text = r#"
+        [[hair.curl.along]]
+        kappa1 = 10
+        [[hair.curl.along]]
+        s = "10 cm"
+        kappa1 = "30 1/m"
+    "#;
+    let scene = good(text);
+    let hair = scene.single_hair().unwrap();
+    assert!((hair.rod.natural().at(0.05).x - 20.0).abs() < 1e-12);
+    let refused = fault(text);
+    assert_eq!(refused.key, "hair.curl.along");
+    assert!(refused.problem.contains("one hair"), "{refused}");
+    let back = fault("hair.curl.along = [{ s = 0.1 }, { s = 0.05, kappa1 = 3 }]");
+    assert_eq!((back.key.as_str(), back.value.as_str()), ("hair.curl.along[1].s", "0.05"));
+}
+
+#[test]
+fn a_mesh_may_be_in_another_folder() {
+    let HeadSource::Mesh(head) = good("head.mesh = '/data/head.obj'").head else {
+        panic!("a mesh was given")
+    };
+    assert_eq!(head.path, Path::new("/data/head.obj"));
+    assert_eq!((head.frame, head.scalp), (FrameChoice::default(), ScalpSource::Guess));
+}
+
+/// Every leaf of the schema: path and schema.
+fn leaves<'a>(schema: &'a Value, path: &str, out: &mut Vec<(String, &'a Value)>) {
+    for (key, inner) in schema["properties"].as_object().into_iter().flatten() {
+        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        if inner.get("properties").is_some() {
+            leaves(inner, &path, out);
+        } else {
+            out.push((path, inner));
+        }
+    }
+}
+
+#[test]
+fn the_schema_describes_every_key() {
+    let mut all = Vec::new();
+    leaves(schema(), "", &mut all);
+    assert!(all.len() > 60, "{}", all.len());
+    for (path, key) in all {
+        assert!(key["description"].is_string(), "{path}");
+        assert!(!key.to_string().contains("null"), "{path}: {key}");
+    }
+    assert_eq!(schema()["additionalProperties"], false);
+    assert_eq!(schema()["properties"]["hair"]["properties"]["length"]["x-unit"], "m");
+}
+
+#[test]
+fn ranges_of_the_schema_are_those_that_are_checked() {
+    let mut all = Vec::new();
+    leaves(schema(), "", &mut all);
+    for (path, key) in all {
+        for (bound, outwards) in [("minimum", -1.0), ("maximum", 1.0)] {
+            let Some(limit) = key[bound].as_f64() else { continue };
+            let text = |x: f64| {
+                let count = key["type"] == "integer";
+                let x = if count { format!("{x:.0}") } else { format!("{x:?}") };
+                let rest = match path.as_str() {
+                    "head.scale" => "head.mesh = \"a\"\n",
+                    "groom.guides" => "groom.file = \"a.usd\"\n",
+                    // As many as fit on a head depends on how many wisps there are.
+                    "wisps.hairs_per_wisp" => "wisps.count = 5\n",
+                    "equilibrium.starts" => "equilibrium.branch = \"lowest\"\n",
+                    "camera.focus" => "camera.f_number = 4\n",
+                    "look.dye.strength" | "look.dye.regrowth" => "look.dye.colour = \"#a03020\"\n",
+                    _ => "",
+                };
+                format!("{rest}{path} = {x}")
+            };
+            let step = (limit.abs() * 0.01).max(if key["type"] == "integer" { 1.0 } else { 1e-9 });
+            let fault = fault(&text(limit + outwards * step));
+            assert_eq!(fault.key, path, "{fault}");
+            // Inside; a limit that is itself excluded has the inside right beside it.
+            let inside = text(limit - outwards * step);
+            // Lengths and moduli above zero are bounded again by what can be computed.
+            if limit != 0.0 {
+                let scene = good(&inside);
+                // One hair may have more elements than those of a head.
+                if path == "equilibrium.elements" && bound == "maximum" {
+                    assert!(scene.single_hair().is_ok(), "{inside}");
+                } else {
+                    assert!(scene.hairstyle_spec().is_ok(), "{inside}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn partings_and_regions_arrive() {
+    use frisure_hairstyle::head::Region;
+    use frisure_hairstyle::{Comb, Hairline, Level, Parting, Place, RegionLength, Turn};
+    let spec = good(
+        r#"
+        [implantation]
+        flow = "whorl"
+        whorls = 2
+        whorl_offset = ["1 cm", "-5 mm"]
+        whorl_turn = "anticlockwise"
+        baby_hairs = "20 %"
+        hairline = { irregularity = "1 mm", height = "1 cm", recession = "2 cm", widows_peak = "5 mm" }
+        [[implantation.partings]]
+        line = [["2 cm", "0 cm"], [0.03, 0.08]]
+        [[implantation.partings]]
+        at = "zigzag"
+        [[region]]
+        where = ["fringe", "left-side"]
+        down_to = "brows"
+        comb = "forward"
+        [[region]]
+        where = "nape"
+        length = "4 cm"
+        lift = 0.1
+        curl = 0.5
+        "#,
+    )
+    .hairstyle_spec()
+    .unwrap();
+    let i = &spec.implantation;
+    assert_eq!(i.flow, Flow::Whorl);
+    let line = Parting::Through(vec![[0.02, 0.0], [0.03, 0.08]]);
+    assert_eq!(i.partings, [line, Parting::Zigzag { offset: 0.0 }]);
+    assert_eq!((i.whorls.count, i.whorls.offset), (2, [0.01, -0.005]));
+    assert_eq!((i.whorls.turn, i.baby_hairs), (Turn::Anticlockwise, 0.2));
+    let hairline =
+        Hairline { irregularity: 0.001, height: 0.01, recession: 0.02, widows_peak: 0.005 };
+    assert_eq!(i.hairline, hairline);
+    let [fringe, nape] = spec.regions.as_slice() else { panic!("two regions") };
+    assert_eq!(fringe.places, [Place::Region(Region::Fringe), Place::LeftOf(Region::Sides)]);
+    assert_eq!(fringe.length, Some(RegionLength::DownTo(Level::Brows)));
+    assert_eq!((fringe.comb, fringe.lift), (Some(Comb::Forward), None));
+    assert_eq!(nape.length, Some(RegionLength::Mean(0.04)));
+    assert_eq!((nape.lift, nape.curl), (Some(0.1), Some(0.5)));
+    for (text, flow) in [("\"right\"", -0.04), ("\"1 cm\"", 0.01), ("\"zigzag\"", 0.0)] {
+        let scene = good(&format!("[implantation]\nparting = {text}")).hairstyle_spec().unwrap();
+        assert_eq!(scene.implantation.flow, Flow::Parted { offset: flow });
+        assert_eq!(scene.implantation.partings.len(), usize::from(text.contains("zig")));
+    }
+}
+
+#[test]
+fn lights_are_understood_or_refused_at_their_key() {
+    use frisure_scene::{Face, LampColour, LampPlace, Setup};
+    let read = |text: &str| Scene::parse("a", format!("[light]\n{text}"), Path::new("folder"));
+    let light = |text: &str| read(text).unwrap().light;
+    assert_eq!(light("").setup, Setup::Studio);
+    assert_eq!(light("setup = 'rim'\nsize = '40 deg'").size, Some(40_f64.to_radians()));
+    let map = light("environment = 'a.hdr'\nrotation = '30 deg'\nsky_strength = 2");
+    let file = map.environment.unwrap();
+    assert_eq!((map.setup, map.sky_strength), (Setup::Dark, 2.0));
+    assert_eq!(file.path, Path::new("folder").join("a.hdr"));
+    let day = light("setup = 'daylight'\nsun_elevation = '10 deg'\nturbidity = 5").sun;
+    assert!((day.elevation.to_degrees() - 10.0).abs() < 1e-12 && day.turbidity == 5.0);
+    assert_eq!(light("turbidity = 5").setup, Setup::Daylight);
+    let behind = |text: &str| read(text).unwrap().look.background;
+    for sky in ["setup = 'overcast'", "turbidity = 5", "environment = 'a.hdr'"] {
+        assert_eq!(behind(sky), Behind::Surroundings);
+        assert_eq!(behind(&format!("{sky}\n[look]\nbackground = 'wall'")), Behind::Wall);
+    }
+    assert_eq!(behind("setup = 'rim'"), Behind::Wall);
+    let lamps = light(
+        "[[light.lamp]]\nazimuth = '-30 deg'\ndistance = '1.5 m'\nsize = ['60 cm', '90 cm']\n\
+         temperature = 3200\nshown = true\n\
+         [[light.lamp]]\nposition = [0, '-1 m', '2 m']\ncolour = '#ff8000'\nstrength = 0.5\n\
+         [[light.lamp]]\nelevation = '80 deg'\nangle = '0 deg'",
+    )
+    .lamps;
+    let LampPlace::Beside { distance, face: Some(face), .. } = lamps[0].place else {
+        panic!("{lamps:?}")
+    };
+    assert_eq!((distance, face.size, face.shown), (1.5, Face::Rectangle([0.6, 0.9]), true));
+    assert_eq!(lamps[0].colour, LampColour::Temperature(3200.0));
+    assert!(matches!(lamps[1].place, LampPlace::At { face: None, .. }));
+    assert!(matches!(lamps[2].place, LampPlace::Far { angle: Some(0.0), .. }));
+
+    let wrong = [
+        ("setup = 'sun'", "did you mean \"daylight\"?"),
+        ("setup = 'soft'\nturbidity = 3", "`light.turbidity` is about a sun that is not there"),
+        ("setup = 'daylight'\nturbidity = 20", "between 1.9 and 10"),
+        ("setup = 'daylight'\nazimuth = 0", "there is the sun"),
+        ("setup = 'dark'\nsize = 0.1", "there is none"),
+        ("setup = 'overcast'\nenvironment = 'a.exr'", "second sky"),
+        ("rotation = 1", "there is none"),
+        ("size = '180 deg'", "between 0 and 170 deg"),
+        ("[[light.lamp]]\nstrength = 1", "`light.lamp[0]` is nowhere"),
+        ("[[light.lamp]]\nazimuth = 0\nsize = '1 m'", "needs `distance` beside it"),
+        ("[[light.lamp]]\nposition = [0, 0, 1]\nazimuth = 0", "says again"),
+        ("[[light.lamp]]\nposition = [0, 0, 1]\nangle = 0.1", "very far away"),
+        ("[[light.lamp]]\nposition = [0, 0, 1]\nshown = true", "needs `size` beside it"),
+        ("[[light.lamp]]\nazimuth = 0\ntemperature = 100", "between 1667 and 25000 K"),
+        ("[[light.lamp]]\nazimuth = 0\ndistance = '1 cm'\nsize = 0", "between 1 mm and 100 m"),
+    ];
+    for (text, part) in wrong {
+        let error = read(text).unwrap_err().to_string();
+        assert!(error.contains(part), "{text}: {error}");
+    }
+    let none = read("environment = 'nowhere.hdr'").unwrap().environment().unwrap_err().to_string();
+    assert!(none.contains("there is no file") && none.contains("a:2:15"), "{none}");
+    let screen = read("environment = 'a.png'").unwrap().environment().unwrap_err().to_string();
+    assert!(screen.contains("`.hdr` and `.exr`") && screen.contains("cuts off"), "{screen}");
+}

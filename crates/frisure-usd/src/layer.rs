@@ -1,0 +1,199 @@
+//! A layer: prims in a tree, each with attributes and relationships.
+
+use super::value::{Base, Kind, Value};
+
+/// Properties that a prim may have: they are looked for one by one.
+const MOST_PROPERTIES: usize = 10_000;
+
+/// What one file holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layer {
+    /// Of those that [`metadata_kind`] knows.
+    pub metadata: Vec<(String, Value)>,
+    /// Its root prims.
+    pub prims: Vec<Prim>,
+}
+
+/// A prim.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Prim {
+    /// Its name.
+    pub name: String,
+    /// Such as `BasisCurves`; empty where it is left open.
+    pub type_name: String,
+    /// Whether it is defined here.
+    pub specifier: Specifier,
+    /// Names of the schemas that are applied to it.
+    pub schemas: Vec<String>,
+    /// Of those that [`metadata_kind`] knows.
+    pub metadata: Vec<(String, Value)>,
+    /// What it would take from elsewhere (`references`, `payload`, `variantSets`, …), which is not followed.
+    pub elsewhere: Vec<String>,
+    /// Its attributes, in their order.
+    pub attributes: Vec<Attribute>,
+    /// Its relationships, in their order.
+    pub relationships: Vec<Relationship>,
+    /// The prims in it.
+    pub children: Vec<Prim>,
+}
+
+/// Whether a prim is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Specifier {
+    /// Defines a prim.
+    #[default]
+    Def,
+    /// Says something of a prim that is defined elsewhere.
+    Over,
+    /// To be inherited from.
+    Class,
+}
+
+impl Specifier {
+    /// All of them, as numbered in binary layers.
+    pub const ALL: [Self; 3] = [Self::Def, Self::Over, Self::Class];
+
+    /// The word of the text format.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Def => "def",
+            Self::Over => "over",
+            Self::Class => "class",
+        }
+    }
+}
+
+/// An attribute.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attribute {
+    /// Its name.
+    pub name: String,
+    /// With its role, such as `point3f[]`.
+    pub type_name: String,
+    /// Whether it never changes in time.
+    pub uniform: bool,
+    /// Whether no schema declares it.
+    pub custom: bool,
+    /// Its default, or else the first of its samples in time.
+    pub value: Option<Value>,
+    /// Paths of the attributes that it is connected to.
+    pub connections: Vec<String>,
+    /// Of those that [`metadata_kind`] knows.
+    pub metadata: Vec<(String, Value)>,
+}
+
+/// A relationship.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Relationship {
+    /// Its name.
+    pub name: String,
+    /// The paths that it points to.
+    pub targets: Vec<String>,
+}
+
+/// The kinds of the metadata that are kept. Text does not tell them.
+pub(crate) fn metadata_kind(key: &str) -> Option<Kind> {
+    let base = match key {
+        "metersPerUnit" => Base::Double,
+        "elementSize" => Base::Int,
+        "active" => Base::Bool,
+        "defaultPrim" | "interpolation" | "kind" | "upAxis" => Base::Token,
+        "displayName" | "documentation" => Base::String,
+        _ => return None,
+    };
+    Some(Kind::one(base))
+}
+
+/// The metadata of prims that bring something from elsewhere.
+pub(crate) fn is_from_elsewhere(key: &str) -> bool {
+    let all = ["references", "payload", "inherits", "specializes", "variantSets", "clips"];
+    all.contains(&key)
+}
+
+fn get<'a>(metadata: &'a [(String, Value)], key: &str) -> Option<&'a Value> {
+    metadata.iter().find(|(k, _)| k == key).map(|(_, value)| value)
+}
+
+impl Layer {
+    /// The value of a metadata key.
+    pub fn meta(&self, key: &str) -> Option<&Value> {
+        get(&self.metadata, key)
+    }
+}
+
+impl Prim {
+    /// A prim of a type, with nothing in it.
+    pub fn new(type_name: &str, name: &str) -> Self {
+        Self { name: name.into(), type_name: type_name.into(), ..Self::default() }
+    }
+
+    /// The value of a metadata key.
+    pub fn meta(&self, key: &str) -> Option<&Value> {
+        get(&self.metadata, key)
+    }
+
+    /// The attribute of a name.
+    pub fn attribute(&self, name: &str) -> Option<&Attribute> {
+        self.attributes.iter().find(|a| a.name == name)
+    }
+
+    /// Refuses more properties than any prim has.
+    pub fn check_properties(&self) -> Result<(), String> {
+        if self.attributes.len() + self.relationships.len() <= MOST_PROPERTIES {
+            return Ok(());
+        }
+        Err(format!("prim `{}` has more than {MOST_PROPERTIES} properties", self.name))
+    }
+
+    /// The value of an attribute, if it has one.
+    pub fn value(&self, name: &str) -> Option<&Value> {
+        self.attribute(name)?.value.as_ref()
+    }
+
+    /// The word that an attribute has.
+    pub fn word(&self, name: &str) -> Option<&str> {
+        self.value(name)?.word()
+    }
+
+    /// Adds an attribute that may change in time.
+    pub fn varying(&mut self, type_name: &str, name: &str, value: Value) -> &mut Attribute {
+        self.attributes.push(Attribute {
+            name: name.into(),
+            type_name: type_name.into(),
+            value: Some(value),
+            ..Attribute::default()
+        });
+        self.attributes.last_mut().expect("it was just added")
+    }
+
+    /// Adds an attribute that is always the same.
+    pub fn uniform(&mut self, type_name: &str, name: &str, value: Value) {
+        self.varying(type_name, name, value).uniform = true;
+    }
+
+    /// Adds an attribute, with what it has one value for.
+    pub fn primvar(&mut self, type_name: &str, name: &str, value: Value, per: &str) {
+        let attribute = self.varying(type_name, name, value);
+        attribute.metadata.push(("interpolation".into(), Value::token(per)));
+    }
+
+    /// Adds an output of a shader or material.
+    pub fn output(&mut self, name: &str) -> &mut Attribute {
+        let (name, type_name) = (name.into(), "token".into());
+        self.attributes.push(Attribute { name, type_name, ..Attribute::default() });
+        self.attributes.last_mut().expect("it was just added")
+    }
+
+    /// Adds a relationship with one target.
+    pub fn relate(&mut self, name: &str, target: &str) {
+        let targets = vec![target.into()];
+        self.relationships.push(Relationship { name: name.into(), targets });
+    }
+}
+
+impl Attribute {
+    /// The value of a metadata key.
+    pub fn meta(&self, key: &str) -> Option<&Value> {
+        get(&self.metadata, key)
+    }
+}

@@ -1,0 +1,47 @@
+//! Layers of Universal Scene Description, as text (`.usda`), in binary (`.usdc`) and in a package
+//! (`.usdz`): what hair and heads need of it.
+//!
+//! An implementation of our own: of the libraries at hand, `openusd` 0.8 needs a newer compiler than the
+//! workspace and brings a composition engine, and the binary files of 0.6 open elsewhere with no prims.
+//! Layers are read as they stand in one file; what joins several (references, payloads, variants, inherits) is noted at
+//! its prim ([`Prim::elsewhere`]) and not followed.
+//!
+//! Whatever is read, no memory is taken for a number that the file's size does not back up, and nesting ends at
+//! [`MAX_DEPTH`].
+
+mod binary;
+mod layer;
+mod mesh;
+mod package;
+mod stage;
+mod text;
+mod value;
+
+pub use layer::{Attribute, Layer, Prim, Relationship, Specifier};
+pub use mesh::Mesh;
+pub use stage::{Place, Stage};
+pub use value::{Base, Data, Kind, Shape, Value};
+
+/// Whether a file begins as one of the three kinds does.
+pub fn is_one(bytes: &[u8]) -> bool {
+    [binary::MAGIC, package::MAGIC, b"#usda"].iter().any(|magic| bytes.starts_with(magic))
+}
+
+/// Prims within prims, at most.
+pub const MAX_DEPTH: usize = 200;
+
+/// A layer from a file of any of the three kinds, told by its first bytes; the error says what is wrong where.
+pub fn read(bytes: &[u8]) -> Result<Layer, String> {
+    let bytes = if bytes.starts_with(package::MAGIC) { package::first(bytes)? } else { bytes };
+    if bytes.starts_with(binary::MAGIC) {
+        return binary::read(bytes);
+    }
+    let text = std::str::from_utf8(bytes).ok().map(|t| t.trim_start_matches('\u{feff}'));
+    match text {
+        Some(text) if text.starts_with("#usda") => text::read(text),
+        _ => Err("it begins neither with `#usda` nor with `PXR-USDC`".into()),
+    }
+}
+
+pub use binary::write as write_binary;
+pub use text::write as write_text;
