@@ -1,10 +1,14 @@
-//! Builds and serves the page of the salon: `cargo run --release -p xtask -- page --serve`.
+//! Jobs around the workspace: `cargo xtask measure`, `cargo xtask page --serve`.
 
+#[cfg(feature = "page")]
 mod page;
+#[cfg(feature = "page")]
 mod serve;
 
 use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
 use std::process::ExitCode;
+use xtask::workspace::{root, say};
 
 /// Jobs around the workspace that cargo does not do.
 #[derive(Parser)]
@@ -16,10 +20,25 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Job {
+    /// Print the size of the code, the lengths of its functions, its comments and its circles
+    Measure(Measure),
+
+    /// Check the rules about the tree that no compiler checks: words, lengths, circles, links
+    Tidy,
+
     /// Build the page of the salon into `out/page`, ready for any static host
+    #[cfg(feature = "page")]
     Page(Page),
 }
 
+#[derive(Args)]
+struct Measure {
+    /// Another copy of the workspace
+    #[arg(long, value_name = "DIR")]
+    root: Option<PathBuf>,
+}
+
+#[cfg(feature = "page")]
 #[derive(Args)]
 struct Page {
     /// Serve it on this computer, at this port
@@ -44,8 +63,7 @@ struct Page {
 }
 
 fn main() -> ExitCode {
-    let Job::Page(asked) = Arguments::parse().job;
-    match run(&asked) {
+    match run(&Arguments::parse().job) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             complain(&failure);
@@ -54,7 +72,26 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(asked: &Page) -> anyhow::Result<()> {
+fn run(job: &Job) -> anyhow::Result<()> {
+    match job {
+        Job::Measure(asked) => {
+            let here = root();
+            say(xtask::measure::report(asked.root.as_deref().unwrap_or(&here))?.trim_end());
+            Ok(())
+        }
+        Job::Tidy => {
+            let broken = xtask::tidy::broken(&root())?;
+            broken.iter().for_each(|place| say(place));
+            anyhow::ensure!(broken.is_empty(), "{} places break a rule", broken.len());
+            Ok(())
+        }
+        #[cfg(feature = "page")]
+        Job::Page(asked) => build_page(asked),
+    }
+}
+
+#[cfg(feature = "page")]
+fn build_page(asked: &Page) -> anyhow::Result<()> {
     if !asked.built {
         page::build(asked.dev)?;
     }
@@ -68,11 +105,4 @@ fn complain(failure: &anyhow::Error) {
     use std::io::Write;
     // With a closed stderr there is nobody to tell.
     let _ = writeln!(std::io::stderr().lock(), "xtask: {failure:#}");
-}
-
-/// A line for whoever started this; a closed pipe is no reason to stop.
-pub(crate) fn say(line: &str) {
-    use std::io::Write;
-    let mut out = std::io::stdout().lock();
-    let _ = writeln!(out, "{line}").and_then(|()| out.flush());
 }

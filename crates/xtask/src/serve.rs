@@ -26,7 +26,7 @@ pub(crate) fn serve(folder: &Path, port: u16, under: &str, plain: bool) -> Resul
     let under = under.trim_matches('/').to_owned();
     let path = if under.is_empty() { String::new() } else { format!("{under}/") };
     let port = server.server_addr().to_ip().map_or(port, |address| address.port());
-    crate::say(&format!("open http://127.0.0.1:{port}/{path} (Ctrl+C stops it)"));
+    xtask::workspace::say(&format!("open http://127.0.0.1:{port}/{path} (Ctrl+C stops it)"));
     let site = Arc::new(Site { folder: folder.to_owned(), under, plain });
     let threads: Vec<_> = (0..THREADS)
         .map(|_| {

@@ -19,7 +19,7 @@ pub(crate) fn salon(dev: bool) -> Result<PathBuf> {
         // What cargo tells the programs that it runs is not about the page.
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
         .env_remove("RUSTFLAGS")
-        .current_dir(super::root())
+        .current_dir(xtask::workspace::root())
         .status()
         .context("cannot run cargo")?;
     if !done.success() {
@@ -51,7 +51,7 @@ fn cargo() -> Command {
 
 fn target_folder() -> PathBuf {
     let asked = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
-    super::root().join(asked.unwrap_or_else(|| "target".into()))
+    xtask::workspace::root().join(asked.unwrap_or_else(|| "target".into()))
 }
 
 /// Adds the target with rustup where it is missing.
@@ -59,7 +59,7 @@ fn have_target() -> Result<()> {
     if library_exists()? {
         return Ok(());
     }
-    crate::say(&format!("adding the target {TARGET}"));
+    xtask::workspace::say(&format!("adding the target {TARGET}"));
     let added = Command::new("rustup").args(["target", "add", TARGET]).status();
     match added {
         Ok(status) if status.success() => Ok(()),
@@ -83,7 +83,8 @@ fn library_exists() -> Result<bool> {
 mod tests {
     /// The version of a crate in Cargo.lock.
     fn locked(name: &str) -> String {
-        let lock = std::fs::read_to_string(crate::page::root().join("Cargo.lock")).expect("lock");
+        let lock =
+            std::fs::read_to_string(xtask::workspace::root().join("Cargo.lock")).expect("lock");
         let start = lock.find(&format!("name = \"{name}\"\n")).expect("a locked crate");
         let line = lock[start..].lines().nth(1).expect("its version");
         line.trim_start_matches("version = ").trim_matches('"').to_owned()

@@ -17,7 +17,7 @@ pub(crate) fn empty(folder: &Path) -> Result<()> {
 pub(crate) fn write_by_hand(folder: &Path) -> Result<()> {
     let wasm = fs::read(folder.join("salon_bg.wasm"))?;
     let build = build_name(&wasm, &fs::read(folder.join("salon.js"))?);
-    let source = super::root().join("crates/frisure-salon/page");
+    let source = xtask::workspace::root().join("crates/frisure-salon/page");
     for entry in fs::read_dir(&source).with_context(|| format!("no {}", source.display()))? {
         let from = entry?.path();
         let Some(name) = from.file_name() else { continue };

@@ -7,13 +7,8 @@ mod sizes;
 pub(crate) use sizes::beside;
 
 use anyhow::{Context, Result};
-use std::path::{Path, PathBuf};
-
-/// The workspace.
-pub(crate) fn root() -> PathBuf {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    here.ancestors().nth(2).unwrap_or(here).to_owned()
-}
+use std::path::PathBuf;
+use xtask::workspace::{root, say};
 
 /// Where the page is built.
 pub(crate) fn folder() -> PathBuf {
@@ -28,8 +23,8 @@ pub(crate) fn build(dev: bool) -> Result<()> {
     compile::bind(&wasm, &folder)?;
     files::write_by_hand(&folder)?;
     let sizes = sizes::compress(&folder, dev).context("cannot compress the page")?;
-    crate::say(&sizes.table());
-    crate::say(&format!("the page is in {}", folder.display()));
+    say(&sizes.table());
+    say(&format!("the page is in {}", folder.display()));
     match dev {
         true => Ok(()),
         false => sizes.check(),

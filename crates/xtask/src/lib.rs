@@ -1,0 +1,7 @@
+//! What the workspace's own checks share: its Rust files as syntax, their modules, and figures about them.
+
+pub mod circles;
+pub mod measure;
+pub mod source;
+pub mod tidy;
+pub mod workspace;

@@ -1,0 +1,173 @@
+//! Rules about the tree that no compiler checks. Each returns what breaks it, one line per place.
+
+use crate::circles::{circles, folder_circles};
+use crate::measure::Measures;
+use crate::source;
+use anyhow::{Context, Result, ensure};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// A rule: its name, and the places that break it.
+type Rule = (&'static str, fn(&Path) -> Result<Vec<String>>);
+
+/// All rules.
+const RULES: [Rule; 5] = [
+    ("no retired words", retired_words),
+    ("no long functions", long_functions),
+    ("no circles between modules", module_circles),
+    ("links lead to files", links),
+    ("crates have the workspace's lints", lints),
+];
+
+/// What breaks the rules, a line per place.
+pub fn broken(root: &Path) -> Result<Vec<String>> {
+    let mut broken = Vec::new();
+    for (name, rule) in RULES {
+        broken.extend(rule(root)?.into_iter().map(|place| format!("{name}: {place}")));
+    }
+    Ok(broken)
+}
+
+/// Crates whose modules may still use each other in circles.
+const CIRCULAR: [&str; 10] = [
+    "frisure-evidence",
+    "frisure-gpu",
+    "frisure-hairstyle",
+    "frisure-io",
+    "frisure-optics",
+    "frisure-render",
+    "frisure-rod",
+    "frisure-salon",
+    "frisure-view",
+    "xtask",
+];
+
+/// Functions that may still be too long.
+const LONG: [&str; 5] = ["kinds ", "curves ", "run ", "backward ", "choices "];
+
+/// Words that were replaced, one a line: the word, what to say, and after `in` the files where it may stand.
+const RETIRED: &str = "crates/xtask/retired-words.txt";
+
+/// The tracked text files, with their paths from the root.
+fn texts(root: &Path) -> Result<Vec<(String, String)>> {
+    let output = Command::new("git").args(["ls-files", "-z"]).current_dir(root).output()?;
+    ensure!(
+        output.status.success(),
+        "git ls-files fails: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let names = String::from_utf8(output.stdout)?;
+    let kinds = [".rs", ".md", ".toml", ".py", ".wgsl", ".js", ".html", ".css", ".snap", "run"];
+    let kept = names.split('\0').filter(|name| kinds.iter().any(|kind| name.ends_with(kind)));
+    Ok(kept
+        .filter_map(|name| Some((name.to_owned(), fs::read_to_string(root.join(name)).ok()?)))
+        .collect())
+}
+
+fn retired_words(root: &Path) -> Result<Vec<String>> {
+    let list = fs::read_to_string(root.join(RETIRED)).context(RETIRED)?;
+    let mut broken = Vec::new();
+    let texts = texts(root)?;
+    for entry in list.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        let (word, rest) =
+            entry.split_once(" -> ").with_context(|| format!("no ` -> ` in {entry}"))?;
+        let (instead, allowed) = rest.split_once(" in ").unwrap_or((rest, ""));
+        let allowed: Vec<_> = allowed.split_whitespace().collect();
+        for (file, text) in &texts {
+            if allowed.iter().any(|start| file.starts_with(start)) {
+                continue;
+            }
+            for (number, line) in (1..).zip(text.lines()) {
+                if has_word(line, word) {
+                    broken.push(format!("{file}:{number}: {word:?} is retired; say {instead:?}"));
+                }
+            }
+        }
+    }
+    Ok(broken)
+}
+
+/// Whether a line has a word with no letter, digit or `_` on either side.
+fn has_word(line: &str, word: &str) -> bool {
+    let joins = |c: char| c.is_alphanumeric() || c == '_';
+    line.match_indices(word).any(|(at, _)| {
+        !line[..at].chars().next_back().is_some_and(joins)
+            && !line[at + word.len()..].chars().next().is_some_and(joins)
+    })
+}
+
+fn long_functions(root: &Path) -> Result<Vec<String>> {
+    let mut broken = Vec::new();
+    for package in source::packages(root)? {
+        let measures = Measures::of(&package)?;
+        let long = measures
+            .long_functions()
+            .filter(|(_, at)| !LONG.iter().any(|name| at.starts_with(name)));
+        broken.extend(long.map(|(lines, place)| format!("{lines} lines: {place}")));
+    }
+    Ok(broken)
+}
+
+fn module_circles(root: &Path) -> Result<Vec<String>> {
+    let mut broken = Vec::new();
+    for package in source::packages(root)? {
+        if CIRCULAR.contains(&package.name.as_str()) {
+            continue;
+        }
+        for target in &package.targets {
+            for group in circles(target).into_iter().chain(folder_circles(target)) {
+                broken.push(format!("{}: {}", package.name, group.join(", ")));
+            }
+        }
+    }
+    Ok(broken)
+}
+
+/// Links in Markdown, and paths of the tree between backquotes, to files that are not there.
+fn links(root: &Path) -> Result<Vec<String>> {
+    const FOLDERS: [&str; 6] = [".ci/", ".github/", "crates/", "docs/", "scenes/", "validation/"];
+    let mut broken = Vec::new();
+    for (file, text) in texts(root)?.iter().filter(|(name, _)| name.ends_with(".md")) {
+        let folder = root.join(file).parent().map(Path::to_owned).unwrap_or_default();
+        for (number, line) in (1..).zip(text.lines()) {
+            let links = line.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+            let local = links.filter(|link| !link.contains(':') && !link.starts_with('#'));
+            let local = local.map(|link| folder.join(link.split('#').next().unwrap_or(link)));
+            let quoted = line.split('`').skip(1).step_by(2).filter(|text| {
+                FOLDERS.iter().any(|folder| text.starts_with(folder))
+                    && !text.contains([' ', '*', '{', '<', '…'])
+            });
+            for path in local.chain(quoted.map(|path| root.join(path))) {
+                if !path.exists() && file != "CHANGELOG.md" {
+                    broken.push(format!("{file}:{number}: there is no {}", path.display()));
+                }
+            }
+        }
+    }
+    Ok(broken)
+}
+
+fn lints(root: &Path) -> Result<Vec<String>> {
+    let mut broken = Vec::new();
+    for package in source::packages(root)? {
+        let manifest = fs::read_to_string(package.folder.join("Cargo.toml"))?;
+        if !manifest.contains("[lints]\nworkspace = true") {
+            broken.push(format!("{}: no `[lints] workspace = true`", package.name));
+        }
+    }
+    Ok(broken)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::has_word;
+
+    #[test]
+    fn a_word_is_found_only_whole() {
+        assert!(has_word("a Desk, and", "Desk"));
+        assert!(has_word("so many", "so many"));
+        assert!(!has_word("Desktop", "Desk") && !has_word("my_Desk", "Desk"));
+        assert!(has_word("Desktop Desk", "Desk"));
+    }
+}
