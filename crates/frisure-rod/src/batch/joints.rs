@@ -11,12 +11,9 @@ use glam::{DMat3, DVec3};
 use crate::element::helix_piece;
 use crate::{NaturalStrain, Rod};
 
-/// A hair divided into joints: all that its way to rest depends on.
-///
-/// For those who go that way elsewhere than [`super::Batch`], such as on a graphics processor. With its joints turned by c,
-/// the energy (J) of a hair in its own weight is `constant + Σ (½ cᵀ K c + y·a)`, where y is which way up is after each joint.
+/// A hair divided into joints.
 #[derive(Clone, Debug, Default)]
-pub struct Joints {
+pub(super) struct Joints {
     /// C after each joint but the last; one for all if they are alike.
     pub(super) turns: Vec<DMat3>,
     /// a (N m).
@@ -61,7 +58,7 @@ impl Joints {
     ///
     /// # Panics
     /// If there are no elements.
-    pub fn divide(&mut self, rod: &Rod, n: usize) {
+    pub(super) fn divide(&mut self, rod: &Rod, n: usize) {
         assert!(n > 0, "a hair has at least one element");
         let h = rod.length() / n as f64;
         let half = 0.5 * h;
@@ -111,37 +108,6 @@ impl Joints {
             self.links.push(second.advance);
             before = Some(second);
         }
-    }
-
-    /// a: the arm (N m) from which hangs what each joint bears, in the frame after it.
-    #[must_use]
-    pub fn arms(&self) -> &[DVec3] {
-        &self.arms
-    }
-
-    /// C, how the frame turns after each joint but the last: `ζ⁺ = Cᵀ y`. One stands for all where they are alike; a hair
-    /// of one joint has none.
-    #[must_use]
-    pub fn turns(&self) -> &[DMat3] {
-        &self.turns
-    }
-
-    /// ζ, which way up is before the first joint, in its frame.
-    #[must_use]
-    pub fn up(&self) -> DVec3 {
-        self.up
-    }
-
-    /// K: stiffness of each joint (N m).
-    #[must_use]
-    pub fn stiffness(&self) -> DVec3 {
-        self.stiffness
-    }
-
-    /// What no joint can change (J).
-    #[must_use]
-    pub fn constant(&self) -> f64 {
-        self.constant
     }
 
     /// The halves of an element, before and after its joint.

@@ -8,11 +8,8 @@
 //! Which hairs share a vector changes nothing: lanes do not see each other. Vectors are as wide as the processor
 //! has them, with fused multiplication and addition where it has that; between processors with and without,
 //! the last digits differ.
-//!
-//! [`Settle`] is the same behind an interface that other machines have too.
 
 mod hanging;
-mod interface;
 mod joints;
 mod lanes;
 mod pivot;
@@ -28,8 +25,6 @@ use glam::DVec3;
 
 use crate::minimise::Stability;
 use crate::{Chain, ElementKind, Node, Options, Resolution, Rod, Shape, equilibrium};
-pub use interface::{Settle, Unsettled};
-pub use joints::Joints;
 use settle::{Around, End, Rest};
 pub use touching::{Frames, Surroundings, Touch};
 pub use tube::Tube;
