@@ -4,8 +4,8 @@
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 
-use frisure_rod::inverse::{Fitted, Held};
-use frisure_rod::potential::InField;
+use frisure_rod::inverse::{FittedCurve, InverseSolution};
+use frisure_rod::potential::FieldPotential;
 use frisure_rod::{InvalidQuantity, NaturalStrain, RodSpec, Root as Clamp};
 use frisure_strands::{Strand, Strands};
 use glam::DVec3;
@@ -45,7 +45,7 @@ pub struct Adoption {
 /// shape as long as its guides are in theirs; otherwise as many as `spec` says, where the guides are.
 ///
 /// A groom says nothing of the hair that each strand lies on. Within 4 cm of the skin something may lie beneath it; it
-/// bears so much that the strand needs the least bending ([`Fitted::least_support`]), and stays as high as the groom
+/// bears so much that the strand needs the least bending ([`FittedCurve::least_support`]), and stays as high as the groom
 /// has it ([`Bed`]), however the hair is styled. Between each other strands do not push. What was modelled into the
 /// head is held as if it were not there, and comes out of it. Strands without length are left out.
 ///
@@ -73,7 +73,7 @@ pub fn adopt(
     let lines: Vec<Vec<DVec3>> =
         guides.iter().map(|s| s.points.iter().map(|p| p.as_dvec3()).collect()).collect();
     let stage = Stage::new(monitor, "finding fibres", lines.len());
-    let held: Vec<(Held, Bed)> = lines
+    let held: Vec<(InverseSolution, Bed)> = lines
         .par_iter()
         .enumerate()
         .map(|(index, line)| {
@@ -88,7 +88,7 @@ pub fn adopt(
     spec.wisps.check_size(planting.area())?;
     let layout = Layout::new(&spec, head)?;
     let guides = plan(&spec, head, &planting, &held);
-    let before: Vec<_> = held.iter().map(|(held, _)| held.rest.clone()).collect();
+    let before: Vec<_> = held.iter().map(|(held, _)| held.equilibrium.clone()).collect();
     let rest = settle_from(&spec, head, &guides, &before, Effort::FULL, monitor)?;
     let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
     let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();
@@ -145,11 +145,11 @@ fn held(
     head: &Head,
     line: &[DVec3],
     fibre: RodSpec,
-) -> Result<(Held, Bed), InvalidQuantity> {
-    let fitted = Fitted::new(line, &fibre)?;
+) -> Result<(InverseSolution, Bed), InvalidQuantity> {
+    let fitted = FittedCurve::new(line, &fibre)?;
     if is_inside(spec, head, line) {
         let none = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2], 0.0);
-        return Ok((fitted.hold(&[], &holding(spec))?, none));
+        return Ok((fitted.solve(&[], &holding(spec))?, none));
     }
     let skin: Vec<(f64, DVec3)> =
         fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
@@ -164,7 +164,7 @@ fn held(
     let bed = Bed::new(spacing, borne, spec.contact.hair_stiffness);
     let samples = (spacing / FELT).ceil().max(1.0) as u32;
     let under = held_up(spec, head, fitted.rod(), &bed);
-    let held = fitted.hold(&[&InField::new(&under, samples)], &holding(spec))?;
+    let held = fitted.solve(&[&FieldPotential::new(&under, samples)], &holding(spec))?;
     Ok((held, bed))
 }
 
@@ -200,7 +200,7 @@ fn planting(
     head: &Head,
     lines: &[Vec<DVec3>],
     hairs: &Strands,
-    held: &[(Held, Bed)],
+    held: &[(InverseSolution, Bed)],
 ) -> Planting {
     let root = |p: DVec3| Root {
         position: p,
@@ -224,7 +224,7 @@ fn planting(
     spec.wisps.hairs = Hairs::Count(drawn.len());
     let carried = (!hairs.is_empty()).then(|| {
         spec.wisps.points = spec.wisps.points.max(usual_points(hairs));
-        let wisp = |(held, _): &(Held, Bed)| Wisp::new(&held.given, WISP_SAMPLES, 0.0);
+        let wisp = |(held, _): &(InverseSolution, Bed)| Wisp::new(&held.target, WISP_SAMPLES, 0.0);
         Arc::new(Carried::new(hairs, held.par_iter().map(wisp).collect()))
     });
     let hairs = Arc::new(Mutex::new(Some(drawn.into())));
@@ -282,12 +282,12 @@ fn plan(
     spec: &HairstyleSpec,
     head: &Head,
     planting: &Planting,
-    held: &[(Held, Bed)],
+    held: &[(InverseSolution, Bed)],
 ) -> Vec<Guide> {
     let heights = || planting.roots().iter().map(|root| root.position.z);
     let (low, high) =
         (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
-    let guide = |(root, (held, bed)): (&Root, &(Held, Bed))| {
+    let guide = |(root, (held, bed)): (&Root, &(InverseSolution, Bed))| {
         let altitude = (root.position.z - low) / (high - low).max(1e-9);
         let curl = held.rod.natural().mean(0.0, held.rod.length());
         let fibre = (held.rod.clone(), curl, 1.0);

@@ -8,7 +8,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use frisure_rod::batch::{Batch, Batched, Precision};
+use frisure_rod::batch::{Batch, BatchSolution, Precision};
 use frisure_rod::{
     ElementKind, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, equilibrium,
 };
@@ -51,9 +51,9 @@ fn best<const N: usize>(mut tried: [&mut dyn FnMut(); N]) -> [f64; N] {
     best
 }
 
-fn iterations(found: &Batched) -> f64 {
-    let sum: usize = found.hairs.iter().map(|hair| hair.iterations).sum();
-    sum as f64 / found.hairs.len() as f64
+fn iterations(found: &BatchSolution) -> f64 {
+    let sum: usize = found.rods.iter().map(|hair| hair.iterations).sum();
+    sum as f64 / found.rods.len() as f64
 }
 
 /// Thousands a second.
@@ -83,15 +83,15 @@ fn against_elements(hairs: usize) {
             };
             let seconds = best([
                 &mut || few.iter().for_each(|rod| drop(black_box(equilibrium(rod, &[], &options)))),
-                &mut || drop(black_box(double.settle(rods))),
-                &mut || drop(black_box(single.settle(rods))),
+                &mut || drop(black_box(double.solve(rods))),
+                &mut || drop(black_box(single.solve(rods))),
             ]);
             let alone = rate(few.len(), seconds[0]);
             let [double_rate, single_rate] = [seconds[1], seconds[2]].map(|s| rate(rods.len(), s));
             println!(
                 "| {name} | {elements} | {alone:.2} | {double_rate:.1} | {single_rate:.1} | {:.0} | {:.1} |",
                 double_rate / alone,
-                iterations(&double.settle(rods)),
+                iterations(&double.solve(rods)),
             );
         }
     }
@@ -99,7 +99,7 @@ fn against_elements(hairs: usize) {
 
 /// In chunks of fixed size, which do not depend on how many threads there are.
 fn in_chunks(rods: &[Rod], batch: Batch) {
-    rods.par_chunks(CHUNK).for_each(|rods| drop(black_box(batch.settle(rods))));
+    rods.par_chunks(CHUNK).for_each(|rods| drop(black_box(batch.solve(rods))));
 }
 
 fn against_threads(hairs: usize) {
@@ -130,15 +130,13 @@ fn warm(hairs: usize) {
     let batch = Batch::default();
     for (name, turns) in CURLS {
         let (rods, near) = (heads(turns, hairs), neighbours(turns, hairs));
-        let before = batch.settle(&near).controls;
-        let seconds = best([&mut || drop(black_box(batch.settle(&rods))), &mut || {
-            drop(black_box(batch.settle_from(&rods, before.clone())));
+        let before = batch.solve(&near).controls;
+        let seconds = best([&mut || drop(black_box(batch.solve(&rods))), &mut || {
+            drop(black_box(batch.solve_from(&rods, before.clone())));
         }]);
         let [cold, warm] = seconds.map(|s| rate(rods.len(), s));
-        let (few, fewer) = (
-            iterations(&batch.settle(&rods)),
-            iterations(&batch.settle_from(&rods, before.clone())),
-        );
+        let (few, fewer) =
+            (iterations(&batch.solve(&rods)), iterations(&batch.solve_from(&rods, before.clone())));
         println!("| {name} | {cold:.1} ({few:.1}) | {warm:.1} ({fewer:.1}) | {:.2} |", warm / cold);
     }
 }

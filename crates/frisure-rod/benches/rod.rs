@@ -106,7 +106,7 @@ fn a_thousand_hairs_within_a_tenth_of_a_millimetre(bencher: Bencher<'_, '_>) {
 fn a_batch(bencher: Bencher<'_, '_>, elements: usize) {
     let (rods, batch) = (many(4096), Batch { elements, ..Batch::default() });
     let count = ItemsCount::new(rods.len());
-    bencher.counter(count).bench_local(|| batch.settle(divan::black_box(&rods)));
+    bencher.counter(count).bench_local(|| batch.solve(divan::black_box(&rods)));
 }
 
 #[divan::bench(args = [5, 15, 30, 60, 120, 240], sample_count = 10)]
@@ -114,5 +114,5 @@ fn a_batch_in_single_precision(bencher: Bencher<'_, '_>, elements: usize) {
     let rods = many(4096);
     let batch = Batch { elements, precision: Precision::Single, ..Batch::default() };
     let count = ItemsCount::new(rods.len());
-    bencher.counter(count).bench_local(|| batch.settle(divan::black_box(&rods)));
+    bencher.counter(count).bench_local(|| batch.solve(divan::black_box(&rods)));
 }

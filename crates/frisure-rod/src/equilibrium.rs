@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use crate::chain::{Chain, Shape};
 use crate::minimise::{
-    Energy, Minimiser, Minimum, Problem, Riccati, Stability, Stopping, second_variation,
+    Energy, Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria, second_variation,
 };
 use crate::potential::Potential;
 use crate::rotation::deviation;
@@ -256,8 +256,8 @@ impl Search<'_> {
         Chain::uniform(self.rod, self.kind, elements)
     }
 
-    fn stopping(&self, tolerance: f64) -> Stopping {
-        Stopping { tolerance, max_iterations: self.options.max_iterations }
+    fn stopping(&self, tolerance: f64) -> StoppingCriteria {
+        StoppingCriteria { tolerance, max_iterations: self.options.max_iterations }
     }
 
     fn most_elements(&self) -> usize {
@@ -292,7 +292,7 @@ impl Search<'_> {
 
     fn settle(&self, chain: &Chain<'_>, start: Shape, tolerance: f64) -> Level {
         let problem = Problem::new(chain, self.external);
-        let minimum = Riccati::default().minimise(&problem, start, self.stopping(tolerance));
+        let minimum = Newton::default().minimise(&problem, start, self.stopping(tolerance));
         let energy = problem.energy(&minimum.shape);
         Level { elements: chain.len(), minimum, energy }
     }
@@ -333,13 +333,13 @@ impl Search<'_> {
             let problem = Problem::with_load(chain, self.external, load);
             // What is only on the way need not be exact.
             let stopping = match load {
-                l if l < 1.0 => Stopping {
+                l if l < 1.0 => StoppingCriteria {
                     tolerance: last.max(1e-3),
                     max_iterations: self.options.max_iterations.div_ceil(4),
                 },
                 _ => self.stopping(last),
             };
-            Riccati::default().minimise(&problem, start, stopping)
+            Newton::default().minimise(&problem, start, stopping)
         };
         let most_halvings = if self.external.is_empty() { HALVINGS } else { HALVINGS_IN_CONTACT };
         let mut iterations = 0;

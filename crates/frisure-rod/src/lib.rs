@@ -47,7 +47,7 @@
 //!   met. [`equilibrium_from`] starts from the shape of another rod instead: hair that was cut, or
 //!   grew, or got wet.
 //! - The energy is a sum of [`potential`]s: bending and twist, weight, and whatever the caller
-//!   adds, such as contact. They are minimised by [`minimise::Riccati`], a Newton method in time
+//!   adds, such as contact. They are minimised by [`minimise::Newton`], a Newton method in time
 //!   proportional to the number of elements.
 //! - [`Equilibrium`] is the shape, its energies, and a [`Certificate`].
 //! - [`batch`] brings thousands of rods to rest at once, side by side in the lanes of vectors.

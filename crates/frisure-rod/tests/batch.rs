@@ -40,10 +40,10 @@ fn a_batch_finds_what_each_hair_finds_alone() {
     let options = elements(24, ElementKind::Jointed);
     for precision in [Precision::Double, Precision::Single] {
         let batch = Batch { elements: 24, precision, ..Batch::default() };
-        let batched = batch.settle(&rods);
+        let batched = batch.solve(&rods);
         let mut elsewhere = 0;
         for (i, rod) in rods.iter().enumerate() {
-            let (hair, alone) = (&batched.hairs[i], equilibrium(rod, &[], &options));
+            let (hair, alone) = (&batched.rods[i], equilibrium(rod, &[], &options));
             assert_eq!(hair.stability, Stability::Stable, "{i}");
             assert!(hair.gradient_norm <= batch.tolerance);
             let shape = batched.shape(rod, i);
@@ -74,16 +74,16 @@ fn rest_is_rest() {
     }
     for precision in [Precision::Double, Precision::Single] {
         let batch = Batch { elements: 20, precision, ..Batch::default() };
-        let batched = batch.settle(&rods);
+        let batched = batch.solve(&rods);
         for (i, rod) in rods.iter().enumerate() {
             let chain = Chain::uniform(rod, ElementKind::Jointed, 20);
             let (problem, shape) = (Problem::new(&chain, &[]), batched.shape(rod, i));
-            assert_eq!(batched.hairs[i].stability, Stability::Stable, "{i}");
+            assert_eq!(batched.rods[i].stability, Stability::Stable, "{i}");
             let gradient = problem.gradient_norm(&shape);
             assert!(gradient < 2e-8, "{i}: {gradient}");
             assert!(problem.min_eigenvalue(&shape) > -1e-9, "{i}");
             let energy = problem.energy(&shape).total();
-            let told = batched.hairs[i].energy;
+            let told = batched.rods[i].energy;
             assert!((told - energy).abs() < 1e-9 * rod.moment_scale(), "{i}: {told} {energy}");
         }
     }
@@ -93,7 +93,7 @@ fn rest_is_rest() {
 fn reference_equilibria() {
     for case in reference_cases() {
         let batch = Batch { elements: 240, tolerance: 1e-11, ..Batch::default() };
-        let batched = batch.settle(std::slice::from_ref(&case.rod));
+        let batched = batch.solve(std::slice::from_ref(&case.rod));
         let tip = batched.shape(&case.rod, 0).positions[240];
         let alone = equilibrium(&case.rod, &[], &elements(240, ElementKind::Jointed)).tip();
         let (error, gap) = (tip.distance(case.tip), tip.distance(alone));
@@ -109,10 +109,10 @@ fn neighbours_change_nothing() {
     let rods = head(50);
     for precision in [Precision::Double, Precision::Single] {
         let batch = Batch { elements: 10, precision, ..Batch::default() };
-        let together = batch.settle(&rods);
+        let together = batch.solve(&rods);
         for (i, rod) in rods.iter().enumerate() {
-            let alone = batch.settle(std::slice::from_ref(rod));
-            assert_eq!(alone.hairs[0], together.hairs[i]);
+            let alone = batch.solve(std::slice::from_ref(rod));
+            assert_eq!(alone.rods[0], together.rods[i]);
             assert_eq!(alone.controls, together.controls[i * 10..(i + 1) * 10]);
         }
     }
@@ -132,11 +132,11 @@ fn saddles_and_limits() {
     };
     rods.push(Rod::new(planar.clone()).unwrap());
     rods.push(Rod::new(RodSpec { gravity: 0.0, ..planar }).unwrap());
-    let batched = Batch { elements: 30, ..Batch::default() }.settle(&rods);
-    for (i, hair) in batched.hairs.iter().enumerate() {
+    let batched = Batch { elements: 30, ..Batch::default() }.solve(&rods);
+    for (i, hair) in batched.rods.iter().enumerate() {
         assert_eq!(hair.stability, Stability::Stable, "{i}: {hair:?}");
     }
-    assert!(Batch::default().settle(&[]).hairs.is_empty());
-    let one = Batch { elements: 1, ..Batch::default() }.settle(&rods);
-    assert!(one.hairs.iter().all(|hair| hair.stability == Stability::Stable));
+    assert!(Batch::default().solve(&[]).hairs.is_empty());
+    let one = Batch { elements: 1, ..Batch::default() }.solve(&rods);
+    assert!(one.rods.iter().all(|hair| hair.stability == Stability::Stable));
 }

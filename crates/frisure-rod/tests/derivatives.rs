@@ -4,8 +4,8 @@
 mod common;
 
 use common::{Hold, Random, Spring, TipWrench, Well, curl, dense_hessian, smallest_eigenvalue};
-use frisure_rod::minimise::{Minimiser, Problem, Riccati, Stopping};
-use frisure_rod::potential::{InField, Potential};
+use frisure_rod::minimise::{Minimiser, Newton, Problem, StoppingCriteria};
+use frisure_rod::potential::{FieldPotential, Potential};
 use frisure_rod::{Chain, ElementKind, Rod};
 use glam::{DMat3, DVec3};
 
@@ -44,7 +44,7 @@ fn for_each_problem(n: usize, check: impl Fn(&str, &Chain<'_>, &[&dyn Potential]
     let wrench = wrench(&rod, n);
     for kind in KINDS {
         let chain = Chain::uniform(&rod, kind, n);
-        let (coarse, fine) = (InField::new(&WELL, 1), InField::new(&WELL, 5));
+        let (coarse, fine) = (FieldPotential::new(&WELL, 1), FieldPotential::new(&WELL, 5));
         let cases: [&[&dyn Potential]; 6] =
             [&[], &[&SPRING], &[&wrench], &[&SPRING, &wrench], &[&coarse], &[&fine, &wrench]];
         for external in cases {
@@ -133,16 +133,16 @@ fn convergence_is_quadratic() {
     for_each_problem(12, |name, chain, external| {
         let problem = &Problem::new(chain, external);
         // From beside the minimum: the gradient after each iteration, to rounding.
-        let tight = Stopping { tolerance: 1e-13, max_iterations: 200 };
-        let minimum = Riccati::default().minimise(problem, chain.natural_shape(), tight);
+        let tight = StoppingCriteria { tolerance: 1e-13, max_iterations: 200 };
+        let minimum = Newton::default().minimise(problem, chain.natural_shape(), tight);
         let beside: Vec<DVec3> = (minimum.shape.controls.iter().enumerate())
             .map(|(i, c)| *c + DVec3::new(1.0, -1.0, 0.5) * 0.01 * (i as f64).cos())
             .collect();
         let norms: Vec<f64> = (0..6)
             .map(|max_iterations| {
-                let stopping = Stopping { tolerance: 1e-15, max_iterations };
+                let stopping = StoppingCriteria { tolerance: 1e-15, max_iterations };
                 let start = chain.shape(beside.clone());
-                Riccati::default().minimise(problem, start, stopping).gradient_norm
+                Newton::default().minimise(problem, start, stopping).gradient_norm
             })
             .collect();
         for pair in norms.windows(2) {

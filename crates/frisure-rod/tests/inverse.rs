@@ -1,6 +1,6 @@
 //! A rod made to rest in a shape rests in it.
 
-use frisure_rod::inverse::{Fitted, hold};
+use frisure_rod::inverse::{FittedCurve, solve};
 use frisure_rod::{
     Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, Stability,
     TorsionConstant, equilibrium, equilibrium_from,
@@ -41,9 +41,9 @@ fn hair_at_rest_is_held_where_it_is() {
     for (length, ratio, natural, tangent, points) in cases {
         let spec = spec(length, ratio, natural, tangent);
         let line = hanging(&spec, points);
-        let held = hold(&line, &spec, &[], &options()).unwrap();
+        let held = solve(&line, &spec, &[], &options()).unwrap();
         assert_eq!(held.stiffness_needed, 1.0);
-        assert_eq!(held.rest.certificate.stability, Stability::Stable);
+        assert_eq!(held.equilibrium.certificate.stability, Stability::Stable);
         assert!(held.error < 2e-4, "{length}: {} mm", 1e3 * held.error);
     }
 }
@@ -53,7 +53,7 @@ fn hair_at_rest_is_held_where_it_is() {
 fn the_natural_shape_is_found() {
     let spec =
         spec(0.12, 1.0, NaturalStrain::helix(0.01, 0.02).unwrap(), DVec3::new(1.0, 0.0, 0.3));
-    let held = hold(&hanging(&spec, 128), &spec, &[], &options()).unwrap();
+    let held = solve(&hanging(&spec, 128), &spec, &[], &options()).unwrap();
     let curvature = |s: f64| {
         let u = held.rod.natural().at(s);
         u.x.hypot(u.y)
@@ -68,11 +68,11 @@ fn the_natural_shape_is_found() {
 #[test]
 fn held_hair_that_is_cut_springs_up() {
     let original = spec(0.2, 1.0, NaturalStrain::helix(0.015, 0.03).unwrap(), DVec3::X);
-    let held = hold(&hanging(&original, 160), &original, &[], &options()).unwrap();
+    let held = solve(&hanging(&original, 160), &original, &[], &options()).unwrap();
     let half = |spec: &RodSpec| RodSpec { length: 0.5 * spec.length, ..spec.clone() };
     let wanted = equilibrium(&Rod::new(half(&original)).unwrap(), &[], &options());
     let rod = Rod::new(half(held.rod.spec())).unwrap();
-    let got = equilibrium_from(&rod, &[], &options(), &held.rest);
+    let got = equilibrium_from(&rod, &[], &options(), &held.equilibrium);
     let apart = got.tip().distance(wanted.tip());
     assert!(apart < 1e-3, "{} mm", 1e3 * apart);
 }
@@ -86,7 +86,7 @@ fn a_drawn_shape_is_held() {
         DVec3::new(0.08 * x, 0.02 * (3.0 * x).sin(), 0.04 * x - 0.06 * x * x)
     };
     let line: Vec<DVec3> = (0..=40).map(point).collect();
-    let held = hold(&line, &spec, &[], &options()).unwrap();
+    let held = solve(&line, &spec, &[], &options()).unwrap();
     assert_eq!(held.stiffness_needed, 1.0);
     assert!(held.error < 1e-4, "{} mm", 1e3 * held.error);
 }
@@ -96,7 +96,7 @@ fn a_drawn_shape_is_held() {
 fn what_cannot_stand_is_told() {
     let spec = spec(0.1, 1.0, NaturalStrain::STRAIGHT, DVec3::Z);
     let line: Vec<DVec3> = (0..=20).map(|k| DVec3::Z * (0.01 * f64::from(k))).collect();
-    let held = hold(&line, &spec, &[], &options()).unwrap();
+    let held = solve(&line, &spec, &[], &options()).unwrap();
     // ρ g A L³ = 7.837 E I at the threshold.
     let rod = &held.rod;
     let needed = rod.weight() * 0.2_f64.powi(3) / (7.837 * rod.stiffness().x);
@@ -108,7 +108,7 @@ fn what_cannot_stand_is_told() {
 fn lines_that_are_none_are_refused() {
     let spec = spec(0.1, 1.0, NaturalStrain::STRAIGHT, DVec3::Z);
     for line in [vec![], vec![DVec3::X], vec![DVec3::X; 5], vec![DVec3::X, DVec3::NAN]] {
-        assert!(hold(&line, &spec, &[], &options()).is_err());
+        assert!(solve(&line, &spec, &[], &options()).is_err());
     }
 }
 
@@ -117,7 +117,7 @@ fn lines_that_are_none_are_refused() {
 fn a_table_bears_what_lies_on_it() {
     let spec = spec(0.1, 1.0, NaturalStrain::STRAIGHT, DVec3::X);
     let line: Vec<DVec3> = (0..=40).map(|k| DVec3::X * (0.005 * f64::from(k))).collect();
-    let fitted = Fitted::new(&line, &spec).unwrap();
+    let fitted = FittedCurve::new(&line, &spec).unwrap();
     let weight = fitted.rod().weight() * fitted.rod().length();
     let on_table = vec![Some(DVec3::Z); fitted.nodes().len()];
     let borne: f64 = fitted.least_support(&on_table).iter().sum();

@@ -3,8 +3,8 @@
 mod common;
 
 use common::{Random, Spring, TipWrench, accuracy, curl, elements, straight};
-use frisure_rod::minimise::{Minimiser, Problem, Riccati, Stopping};
-use frisure_rod::potential::{Field, InField, Potential};
+use frisure_rod::minimise::{Minimiser, Newton, Problem, StoppingCriteria};
+use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{
     Chain, ElementKind, Equilibrium, NaturalStrain, Options, Rod, RodSpec, Root, Section,
     Stability, StrainProfile, equilibrium,
@@ -361,8 +361,8 @@ fn energy_never_rises_along_the_iterations() {
         let problem = Problem::new(&chain, external);
         let mut before = f64::INFINITY;
         for max_iterations in 0..25 {
-            let stopping = Stopping { tolerance: 1e-12, max_iterations };
-            let end = Riccati::default().minimise(&problem, chain.natural_shape(), stopping);
+            let stopping = StoppingCriteria { tolerance: 1e-12, max_iterations };
+            let end = Newton::default().minimise(&problem, chain.natural_shape(), stopping);
             let energy = problem.energy(&end.shape).total();
             assert!(energy <= before + 1e-13 * before.abs(), "rod {i}: {before} {energy}");
             assert!(end.iterations <= max_iterations + 1);
@@ -386,7 +386,7 @@ fn a_field_is_felt_the_same_however_finely_it_is_sampled() {
             // The root, which is clamped and left out, is the first point of the sum.
             let spacing = 0.15 / (elements as f64 * f64::from(samples));
             let root = well.energy(0.0, rod.root().position()) * 0.5 * spacing;
-            chain.energy(&chain.natural_shape(), &InField::new(&well, samples)) + root
+            chain.energy(&chain.natural_shape(), &FieldPotential::new(&well, samples)) + root
         };
         // The natural curl is the same curve at any division, so 8 elements of 30 points are 240 of
         // one; and the sum is of second order.

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use frisure::rod::batch::{Batch, Batched};
+use frisure::rod::batch::{Batch, BatchSolution};
 use frisure::rod::{ElementKind, Options, Resolution, Rod, Stability, equilibrium};
 use glam::DVec3;
 use serde::Serialize;
@@ -104,21 +104,21 @@ impl Sample {
 }
 
 fn ends(batch: &Batch, rods: &[Rod]) -> Vec<End> {
-    let rest = batch.settle(rods);
+    let rest = batch.solve(rods);
     let end = |(hair, rod): (usize, &Rod)| end(&rest, rod, hair);
     rods.iter().enumerate().map(end).collect()
 }
 
-fn end(rest: &Batched, rod: &Rod, hair: usize) -> End {
+fn end(rest: &BatchSolution, rod: &Rod, hair: usize) -> End {
     let tip = rest.shape(rod, hair).positions[rest.elements];
-    (tip, rest.hairs[hair].stability == Stability::Stable)
+    (tip, rest.rods[hair].stability == Stability::Stable)
 }
 
 /// Richardson's extrapolation of the tip from so many elements and twice as many, which start where those rest.
 fn extrapolated(batch: &Batch, rods: &[Rod]) -> Vec<End> {
-    let coarse = batch.settle(rods);
+    let coarse = batch.solve(rods);
     let halves = coarse.controls.iter().flat_map(|turn| [*turn * 0.5; 2]).collect();
-    let fine = Batch { elements: 2 * batch.elements, ..*batch }.settle_from(rods, halves);
+    let fine = Batch { elements: 2 * batch.elements, ..*batch }.solve_from(rods, halves);
     let both = |(hair, rod): (usize, &Rod)| {
         let ((a, first), (b, second)) = (end(&coarse, rod, hair), end(&fine, rod, hair));
         ((b * 4.0 - a) / 3.0, first && second)

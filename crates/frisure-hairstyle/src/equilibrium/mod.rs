@@ -7,7 +7,7 @@ mod wisp;
 
 pub use report::SettlingReport;
 
-use frisure_rod::potential::{Field, InField};
+use frisure_rod::potential::{Field, FieldPotential};
 use frisure_rod::{Equilibrium, Options, Resolution, Rod};
 use glam::DVec3;
 
@@ -226,9 +226,12 @@ fn body<'a>(
 }
 
 /// The body, or what pulls, along a guide of so many elements.
-fn along<'a, F: Field>(field: &'a F, guide: &Guide, elements: usize) -> InField<'a, F> {
+fn along<'a, F: Field>(field: &'a F, guide: &Guide, elements: usize) -> FieldPotential<'a, F> {
     let strain = guide.rod.natural().mean(0.0, guide.rod.length()).length();
-    InField::new(field, samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))))
+    FieldPotential::new(
+        field,
+        samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))),
+    )
 }
 
 /// Points per element so that they are at most `spacing` (m) apart.

@@ -241,7 +241,7 @@ impl Throng<'_> {
     /// Which guides are not at rest.
     fn restless(&self, newton: &[Option<NewtonStep>]) -> Vec<bool> {
         let still = |(w, n): (&Wisp<'_>, &Option<NewtonStep>)| {
-            n.as_ref().is_some_and(|n| slope(w, n) <= self.tolerance && n.positive)
+            n.as_ref().is_some_and(|n| slope(w, n) <= self.tolerance && n.positive_definite)
         };
         self.wisps.iter().zip(newton).map(|wn| !still(wn)).collect()
     }

@@ -1,7 +1,7 @@
 //! One guide among others that hold still.
 
-use frisure_rod::minimise::{Minimiser, Minimum, NewtonStep, Problem, Riccati, Stopping};
-use frisure_rod::potential::{Field, InField, Potential};
+use frisure_rod::minimise::{Minimiser, Minimum, Newton, NewtonStep, Problem, StoppingCriteria};
+use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{Chain, Equilibrium, Rod, Shape};
 use glam::{DMat3, DVec3};
 
@@ -73,14 +73,14 @@ impl<'a> Wisp<'a> {
 
     /// Some steps downhill while all others hold still, by at most `reach` (m).
     pub(super) fn downhill(&self, crowd: &Crowd, index: usize, reach: f64) -> Settled {
-        let stopping = Stopping { tolerance: 0.0, max_iterations: ITERATIONS };
+        let stopping = StoppingCriteria { tolerance: 0.0, max_iterations: ITERATIONS };
         let from = &self.settled.shape;
         let mut stiffness = self.settled.tether;
         for _ in 0..MOST_TETHERS {
             let tether = Tether { stiffness, spacing: self.chain.arc()[1], from };
-            let tether = InField::new(&tether, 1);
+            let tether = FieldPotential::new(&tether, 1);
             let found = self.among(crowd, index, Some(&tether), |problem| {
-                Riccati::default().minimise(problem, from.clone(), stopping)
+                Newton::default().minimise(problem, from.clone(), stopping)
             });
             let moved = farthest(&found.shape, from);
             if moved <= reach {
@@ -108,7 +108,7 @@ impl<'a> Wisp<'a> {
     pub(super) fn newton_step(&self, crowd: &Crowd, index: usize, reach: f64) -> NewtonStep {
         let from = &self.settled.shape;
         let mut newton =
-            self.among(crowd, index, None, |problem| Riccati::default().newton_step(problem, from));
+            self.among(crowd, index, None, |problem| Newton::default().newton_step(problem, from));
         let moved = self.length_of(&newton.step);
         if moved > reach {
             for x in &mut newton.step {
@@ -151,7 +151,7 @@ impl<'a> Wisp<'a> {
         act: impl FnOnce(&Problem<'_>) -> T,
     ) -> T {
         let around = crowd.around(index);
-        let around = InField::new(&around, self.resolution);
+        let around = FieldPotential::new(&around, self.resolution);
         self.feeling(&around, tether, act)
     }
 
@@ -173,21 +173,21 @@ impl<'a> Wisp<'a> {
     /// Energy of overlapping others (J).
     pub(super) fn crowding(&self, crowd: &Crowd, index: usize) -> f64 {
         let around = crowd.around(index);
-        self.chain.energy(&self.settled.shape, &InField::new(&around, self.resolution))
+        self.chain.energy(&self.settled.shape, &FieldPotential::new(&around, self.resolution))
     }
 
     /// What the guide adds to the energy of the head (J): half of what it shares with others.
     pub(super) fn share(&self, crowd: &Crowd, index: usize) -> f64 {
         let around = crowd.shared(index);
-        let around = InField::new(&around, self.resolution);
+        let around = FieldPotential::new(&around, self.resolution);
         self.feeling(&around, None, |problem| problem.energy(&self.settled.shape).total())
     }
 
     /// The guide as an equilibrium.
     pub(super) fn equilibrium(&self, crowd: &Crowd, index: usize, tolerance: f64) -> Equilibrium {
-        let stopping = Stopping { tolerance, max_iterations: 0 };
+        let stopping = StoppingCriteria { tolerance, max_iterations: 0 };
         self.among(crowd, index, None, |problem| {
-            let riccati = Riccati { leave_saddles: false, ..Riccati::default() };
+            let riccati = Newton { escape_saddles: false, ..Newton::default() };
             let found = riccati.minimise(problem, self.settled.shape.clone(), stopping);
             let minimum = Minimum { iterations: self.settled.iterations, ..found };
             Equilibrium::from_minimum(problem, minimum)

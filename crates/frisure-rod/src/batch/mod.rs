@@ -26,8 +26,8 @@ use glam::DVec3;
 use crate::minimise::Stability;
 use crate::{Chain, ElementKind, Node, Options, Resolution, Rod, Shape, equilibrium};
 use settle::{Around, End, Rest};
-pub use touching::{Frames, Surroundings, Touch};
-pub use tube::Tube;
+pub use touching::{Contact, ContactField, Frames};
+pub use tube::ConfinementTube;
 
 /// Which numbers the way to rest is computed with; the end is double precision always.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +60,7 @@ impl Default for Batch {
 
 /// One hair of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settled {
+pub struct RodSolution {
     /// What the shape is.
     pub stability: Stability,
     /// Relative gradient, in double precision.
@@ -72,22 +72,22 @@ pub struct Settled {
 }
 
 /// What hairs start from that can touch something.
-pub enum Start<'a> {
+pub enum InitialShape<'a> {
     /// The turn of each joint (rad), those of a hair one after the other.
-    Turns(Vec<DVec3>),
+    Controls(Vec<DVec3>),
     /// The material frame that each has at an arc length.
     Frames(Frames<'a>),
 }
 
 /// Hairs at rest.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Batched {
+pub struct BatchSolution {
     /// Elements of each hair.
     pub elements: usize,
     /// Turns of the joints (rad), those of a hair one after the other.
     pub controls: Vec<DVec3>,
     /// One for each hair.
-    pub hairs: Vec<Settled>,
+    pub rods: Vec<RodSolution>,
 }
 
 /// Gradient at which single precision may stop.
@@ -102,8 +102,8 @@ impl Batch {
     /// # Panics
     /// If there are no elements.
     #[must_use]
-    pub fn settle(&self, rods: &[Rod]) -> Batched {
-        self.settle_from(rods, vec![DVec3::ZERO; rods.len() * self.elements])
+    pub fn solve(&self, rods: &[Rod]) -> BatchSolution {
+        self.solve_from(rods, vec![DVec3::ZERO; rods.len() * self.elements])
     }
 
     /// The same, from other shapes: the turn of each joint (rad), those of a hair one after the other. Zero is the
@@ -112,7 +112,7 @@ impl Batch {
     /// # Panics
     /// If there are no elements, or not as many turns as joints.
     #[must_use]
-    pub fn settle_from(&self, rods: &[Rod], mut controls: Vec<DVec3>) -> Batched {
+    pub fn solve_from(&self, rods: &[Rod], mut controls: Vec<DVec3>) -> BatchSolution {
         let n = self.elements;
         self.check(rods, &controls);
         let mut ends = vec![End::default(); rods.len()];
@@ -124,7 +124,7 @@ impl Batch {
             before = ends.iter().map(|end| end.iterations).collect();
         }
         settle::double(rods, self.rest(), &mut controls, &mut ends);
-        let hairs = (ends.iter().zip(&before).enumerate())
+        let solutions = (ends.iter().zip(&before).enumerate())
             .map(|(hair, (end, before))| {
                 let mut found = match end.settled {
                     true => end.as_told(),
@@ -135,36 +135,38 @@ impl Batch {
                 found
             })
             .collect();
-        Batched { elements: n, controls, hairs }
+        BatchSolution { elements: n, controls, rods: solutions }
     }
 
     /// Brings hairs to rest that can touch something, to which the first of them is hair `first`; in double precision
-    /// always. They start from other turns of joints (rad), as in [`Self::settle_from`], or from the shape that has
+    /// always. They start from other turns of joints (rad), as in [`Self::solve_from`], or from the shape that has
     /// `frames` at its nodes. What then does not come to rest is told as it is.
     ///
     /// Also tells the nodes of hairs, one more for each than elements, those of a hair one after the other.
     ///
     /// # Panics
-    /// As [`Self::settle_from`].
+    /// As [`Self::solve_from`].
     #[must_use]
-    pub fn settle_among(
+    pub fn solve_in_contact(
         &self,
         rods: &[Rod],
-        start: Start<'_>,
-        surroundings: &dyn Surroundings,
+        start: InitialShape<'_>,
+        contacts: &dyn ContactField,
         first: usize,
-    ) -> (Batched, Vec<Node>) {
+    ) -> (BatchSolution, Vec<Node>) {
         let (mut controls, frames) = match start {
-            Start::Turns(controls) => (controls, None),
-            Start::Frames(frames) => (vec![DVec3::ZERO; rods.len() * self.elements], Some(frames)),
+            InitialShape::Controls(controls) => (controls, None),
+            InitialShape::Frames(frames) => {
+                (vec![DVec3::ZERO; rods.len() * self.elements], Some(frames))
+            }
         };
         self.check(rods, &controls);
         let mut ends = vec![End::default(); rods.len()];
         let mut nodes = vec![Node::default(); rods.len() * (self.elements + 1)];
-        let around = Around { surroundings, first, frames };
+        let around = Around { contacts, first, frames };
         settle::among(rods, self.rest(), around, &mut controls, (&mut nodes, &mut ends));
-        let hairs = ends.iter().map(End::as_told).collect();
-        (Batched { elements: self.elements, controls, hairs }, nodes)
+        let solutions = ends.iter().map(End::as_told).collect();
+        (BatchSolution { elements: self.elements, controls, rods: solutions }, nodes)
     }
 
     fn check(&self, rods: &[Rod], controls: &[DVec3]) {
@@ -178,7 +180,7 @@ impl Batch {
     }
 
     /// A hair by itself, along gravity's branch.
-    fn alone(&self, rod: &Rod, controls: &mut [DVec3]) -> Settled {
+    fn alone(&self, rod: &Rod, controls: &mut [DVec3]) -> RodSolution {
         let options = Options {
             resolution: Resolution::Elements(self.elements),
             element: ElementKind::Jointed,
@@ -189,7 +191,7 @@ impl Batch {
         };
         let rest = equilibrium(rod, &[], &options);
         controls.copy_from_slice(&rest.shape.controls);
-        Settled {
+        RodSolution {
             stability: rest.certificate.stability,
             gradient_norm: rest.certificate.gradient_norm,
             iterations: rest.certificate.iterations,
@@ -198,7 +200,7 @@ impl Batch {
     }
 }
 
-impl Batched {
+impl BatchSolution {
     /// The shape of a hair; `rod` is the one that it was computed of.
     #[must_use]
     pub fn shape(&self, rod: &Rod, hair: usize) -> Shape {

@@ -3,18 +3,18 @@
 use fearless_simd::{Level, Simd, SimdFrom, dispatch};
 use glam::DVec3;
 
-use super::Settled;
+use super::RodSolution;
 use super::hanging::Hanging;
 use super::joints::Joints;
 use super::lanes::{Lanes, Wide};
 use super::sweep::Backward;
-use super::touching::{Frames, Surroundings, Touching};
+use super::touching::{ContactField, Frames, Touching};
 use super::turn::LARGEST_SQUARE;
 use crate::minimise::Stability;
 use crate::{Node, Rod};
 
 /// Damping after a first failed pivot or a step that went up, as a fraction of the stiffness; as in
-/// [`crate::minimise::Riccati`].
+/// [`crate::minimise::Newton`].
 const FIRST_DAMPING: f64 = 0.3;
 
 /// Least factor by which damping grows, and what it shrinks to after a step that was taken; below [`LEAST_DAMPING`] it
@@ -60,8 +60,8 @@ pub(super) struct End {
 }
 
 impl End {
-    pub(super) fn as_told(&self) -> Settled {
-        Settled {
+    pub(super) fn as_told(&self) -> RodSolution {
+        RodSolution {
             stability: if self.settled { Stability::Stable } else { Stability::NotConverged },
             gradient_norm: self.gradient,
             iterations: self.iterations,
@@ -73,7 +73,7 @@ impl End {
 /// What hairs can touch, and what they start with; the first of them is hair `first` there.
 #[derive(Clone, Copy)]
 pub(super) struct Around<'a> {
-    pub(super) surroundings: &'a dyn Surroundings,
+    pub(super) contacts: &'a dyn ContactField,
     pub(super) first: usize,
     /// The frames that hairs start with; else their joints are turned as given.
     pub(super) frames: Option<Frames<'a>>,

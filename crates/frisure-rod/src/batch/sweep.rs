@@ -2,7 +2,7 @@
 //!
 //! The exact second-order model of the energy of all that hangs from a joint, as a function of which way up
 //! is there, is carried from tip to root with the turns of the joints eliminated (differential dynamic
-//! programming, as in [`crate::minimise::Riccati`]). A turn ε of up, `y → exp(−[ε]) y`, changes the energy by
+//! programming, as in [`crate::minimise::Newton`]). A turn ε of up, `y → exp(−[ε]) y`, changes the energy by
 //! `g·ε + ½ εᵀ P ε`. With a joint's turn `c + x` and up turned by θ after it,
 //!
 //! ```text

@@ -7,29 +7,29 @@ use super::lanes::{Lanes, Mat3, Vec3};
 use super::settle::{Around, Sweeps};
 use super::sweep::Backward;
 use super::touch::{Bundle, Felt, Joint};
-use super::tube::{Tube, Tubes};
+use super::tube::{ConfinementTube, Tubes};
 use super::turns::Turns;
 use crate::Node;
 
 /// What hairs can touch.
-pub trait Surroundings: Sync {
+pub trait ContactField: Sync {
     /// The room that neighbours leave the hair of an index at arc length `s` (m).
-    fn tube(&self, hair: usize, s: f64) -> Tube {
+    fn confinement(&self, hair: usize, s: f64) -> ConfinementTube {
         let _ = (hair, s);
-        Tube::NONE
+        ConfinementTube::UNBOUNDED
     }
 
     /// What else it feels at arc length `s` (m) where it is at `position` (m, world).
-    fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch;
+    fn contact(&self, hair: usize, s: f64, position: DVec3) -> Contact;
 }
 
 /// What is felt at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Touch {
+pub enum Contact {
     /// Nothing, nor anywhere nearer than this distance (m).
-    Free(f64),
+    Clear(f64),
     /// Something.
-    Felt {
+    Active {
         /// Energy per length of hair (J/m).
         energy: f64,
         /// Its gradient by the position (J/m²).
@@ -107,7 +107,7 @@ impl<'a> Way<'a> {
 
     /// The turn (rad) of the next joint, after which its link goes along the tube, about which it is turned as the
     /// given frames.
-    fn turn(&mut self, joint: usize, hair: usize, tube: &Tube) -> DVec3 {
+    fn turn(&mut self, joint: usize, hair: usize, tube: &ConfinementTube) -> DVec3 {
         let Self { joints, frames, before, at, wanted } = self;
         let link = joints.links[joint];
         let node = frames(hair, (joint + 1) as f64 * joints.h);
@@ -180,7 +180,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
     #[inline(always)]
     fn load(&mut self, lane: usize, hair: usize, joints: &Joints, start: &[DVec3]) -> Option<f64> {
         let Self { bundle, around, .. } = self;
-        let Around { surroundings, first, frames } = *around;
+        let Around { contacts, first, frames } = *around;
         let hair = first + hair;
         let n = start.len();
         bundle.frame.set(lane, &joints.frame);
@@ -190,7 +190,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
         let mut way = frames.map(|frames| Way::new(joints, frames));
         for (i, control) in start.iter().enumerate() {
             let (s, share) = Place::end(joints.h, i, n);
-            let tube = surroundings.tube(hair, s);
+            let tube = contacts.confinement(hair, s);
             let control = match &mut way {
                 Some(way) => way.turn(i, hair, &tube),
                 None => *control,
@@ -200,7 +200,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
             joint.link.set(lane, joints.links[i]);
             joint.begin(lane, control);
             self.tubes[i].set(lane, &tube, share);
-            self.free[i * F::COUNT + lane] = Free { centre: tube.centre, radius: tube.clear };
+            self.free[i * F::COUNT + lane] = Free { centre: tube.centre, radius: tube.clearance };
         }
         let place = &mut self.places[lane];
         (place.hair, place.h) = (hair, joints.h);
@@ -242,9 +242,9 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
                 }
                 let Place { hair, h, .. } = places[lane];
                 let (s, share) = Place::end(h, joint, n);
-                match around.surroundings.felt(hair, s, end) {
-                    Touch::Free(radius) => *known = Free { centre: end, radius },
-                    Touch::Felt { energy, gradient, hessian } => {
+                match around.contacts.contact(hair, s, end) {
+                    Contact::Clear(radius) => *known = Free { centre: end, radius },
+                    Contact::Active { energy, gradient, hessian } => {
                         felt.add(lane, energy * share, gradient * share, &(hessian * share));
                     }
                 }
@@ -274,7 +274,7 @@ impl<F: Lanes> Sweeps<F> for Touching<'_, F> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Batch, Start};
+    use super::super::{Batch, InitialShape};
     use super::*;
     use crate::{Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant};
 
@@ -286,17 +286,17 @@ mod tests {
         Nothing,
     }
 
-    impl Surroundings for Near {
-        fn tube(&self, hair: usize, s: f64) -> Tube {
-            let Self::Tubes(stiffness) = *self else { return Tube::NONE };
+    impl ContactField for Near {
+        fn confinement(&self, hair: usize, s: f64) -> ConfinementTube {
+            let Self::Tubes(stiffness) = *self else { return ConfinementTube::UNBOUNDED };
             // Along a line that sinks and turns away.
             let centre = DVec3::new(s, 0.1 * s * hair as f64, 0.01 - 4.0 * s * s);
-            Tube { centre, radius: 0.01 + 0.1 * s, stiffness, clear: f64::INFINITY }
+            ConfinementTube { centre, radius: 0.01 + 0.1 * s, stiffness, clearance: f64::INFINITY }
         }
 
-        fn felt(&self, hair: usize, s: f64, position: DVec3) -> Touch {
+        fn contact(&self, hair: usize, s: f64, position: DVec3) -> Contact {
             let (away, stiffness) = match *self {
-                Self::Nothing | Self::Tubes(_) => return Touch::Free(f64::INFINITY),
+                Self::Nothing | Self::Tubes(_) => return Contact::Clear(f64::INFINITY),
                 Self::Springs(k) => {
                     let anchor = DVec3::new(0.02, 0.01 * hair as f64, -0.03);
                     (position - anchor, k * (1.0 + 10.0 * s))
@@ -305,20 +305,20 @@ mod tests {
                     let away = position - centre;
                     let distance = away.length() - radius;
                     if distance > 0.0 {
-                        return Touch::Free(distance);
+                        return Contact::Clear(distance);
                     }
                     let (normal, bend) = (away.normalize(), 2000.0);
                     let square =
                         DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
                     let round = (DMat3::IDENTITY - square) * (bend * distance / away.length());
-                    return Touch::Felt {
+                    return Contact::Active {
                         energy: 0.5 * bend * distance * distance,
                         gradient: normal * (bend * distance),
                         hessian: square * bend + round,
                     };
                 }
             };
-            Touch::Felt {
+            Contact::Active {
                 energy: 0.5 * stiffness * away.length_squared(),
                 gradient: away * stiffness,
                 hessian: DMat3::IDENTITY * stiffness,
@@ -361,10 +361,10 @@ mod tests {
                 true => (rod.length(), 0.5 * joints.h),
                 false => ((i as f64 + 1.5) * joints.h, joints.h),
             };
-            if let Touch::Felt { energy: felt, .. } = around.felt(hair, s, at) {
+            if let Contact::Active { energy: felt, .. } = around.contact(hair, s, at) {
                 energy += felt * share;
             }
-            let Tube { centre, radius, stiffness, .. } = around.tube(hair, s);
+            let ConfinementTube { centre, radius, stiffness, .. } = around.confinement(hair, s);
             let beyond = (at.distance(centre) - radius).max(0.0);
             if beyond > 0.0 {
                 energy += stiffness * beyond.powi(3) / (6.0 * radius) * share;
@@ -380,13 +380,13 @@ mod tests {
     fn what_touches_nothing_hangs() {
         let rods = rods();
         let batch = Batch { elements: 12, tolerance: 1e-10, ..Batch::default() };
-        let start = Start::Turns(vec![DVec3::ZERO; rods.len() * 12]);
-        let free = batch.settle(&rods);
-        let (around, _) = batch.settle_among(&rods, start, &Near::Nothing, 0);
+        let start = InitialShape::Controls(vec![DVec3::ZERO; rods.len() * 12]);
+        let free = batch.solve(&rods);
+        let (around, _) = batch.solve_in_contact(&rods, start, &Near::Nothing, 0);
         for (a, b) in free.controls.iter().zip(&around.controls) {
             assert!(a.distance(*b) < 1e-7, "{a} {b}");
         }
-        for (a, b) in free.hairs.iter().zip(&around.hairs) {
+        for (a, b) in free.rods.iter().zip(&around.rods) {
             assert_eq!(b.stability, Stability::Stable);
             assert!((a.energy - b.energy).abs() < 1e-12 * a.energy.abs());
         }
@@ -399,10 +399,10 @@ mod tests {
         let batch = Batch { elements: 12, tolerance: 1e-10, ..Batch::default() };
         let around = Near::Tubes(0.01);
         let frames = |hair: usize, _: f64| rods[hair].root().frame();
-        let (along, _) = batch.settle_among(&rods, Start::Frames(&frames), &around, 0);
-        let start = Start::Turns(along.controls.iter().map(|c| *c * 0.9).collect());
-        let (again, _) = batch.settle_among(&rods, start, &around, 0);
-        for (a, b) in along.hairs.iter().zip(&again.hairs) {
+        let (along, _) = batch.solve_in_contact(&rods, InitialShape::Frames(&frames), &around, 0);
+        let start = InitialShape::Controls(along.controls.iter().map(|c| *c * 0.9).collect());
+        let (again, _) = batch.solve_in_contact(&rods, start, &around, 0);
+        for (a, b) in along.rods.iter().zip(&again.rods) {
             assert_eq!((a.stability, b.stability), (Stability::Stable, Stability::Stable));
             assert!((a.energy - b.energy).abs() < 1e-9 * a.energy.abs());
         }
@@ -414,10 +414,10 @@ mod tests {
         let ball = Near::Ball(DVec3::new(0.0, 0.0, -0.03), 0.035);
         for around in [Near::Springs(1e-4), Near::Springs(1.0), ball, Near::Tubes(0.01)] {
             let batch = Batch { elements: 12, max_iterations: 5000, ..Batch::default() };
-            let start = Start::Turns(vec![DVec3::ZERO; rods.len() * 12]);
-            let (found, nodes) = batch.settle_among(&rods, start, &around, 3);
+            let start = InitialShape::Controls(vec![DVec3::ZERO; rods.len() * 12]);
+            let (found, nodes) = batch.solve_in_contact(&rods, start, &around, 3);
             for (i, rod) in rods.iter().enumerate() {
-                let settled = &found.hairs[i];
+                let settled = &found.rods[i];
                 assert_eq!(settled.stability, Stability::Stable, "{i}: {settled:?}");
                 let shape = found.shape(rod, i);
                 for (k, node) in nodes[i * 13..(i + 1) * 13].iter().enumerate() {

@@ -10,7 +10,7 @@ use super::touch::Felt;
 /// At the distance e beyond it they push back with the energy `k e³/6ρ` per length of hair: softly at first, as
 /// fibres do (van Wyk 1946), and with the stiffness k one radius ρ beyond.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube {
+pub struct ConfinementTube {
     /// Its middle (m, world).
     pub centre: DVec3,
     /// ρ (m).
@@ -18,13 +18,13 @@ pub struct Tube {
     /// k (N/m²): force per length of hair and per distance.
     pub stiffness: f64,
     /// A distance (m) from the middle within which nothing else is felt; negative: none is known.
-    pub clear: f64,
+    pub clearance: f64,
 }
 
-impl Tube {
+impl ConfinementTube {
     /// All the room there is.
-    pub const NONE: Self =
-        Self { centre: DVec3::ZERO, radius: f64::INFINITY, stiffness: 0.0, clear: -1.0 };
+    pub const UNBOUNDED: Self =
+        Self { centre: DVec3::ZERO, radius: f64::INFINITY, stiffness: 0.0, clearance: -1.0 };
 }
 
 /// Those of the same joint of all hairs.
@@ -44,7 +44,7 @@ impl<F: Lanes> Tubes<F> {
 
     /// Takes over one hair's, for `share` (m) of its length.
     #[inline(always)]
-    pub(super) fn set(&mut self, lane: usize, tube: &Tube, share: f64) {
+    pub(super) fn set(&mut self, lane: usize, tube: &ConfinementTube, share: f64) {
         self.centre.set(lane, tube.centre);
         self.radius.set(lane, tube.radius);
         self.stiffness.set(lane, tube.stiffness / tube.radius * share);

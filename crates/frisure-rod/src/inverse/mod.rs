@@ -18,8 +18,8 @@ mod support;
 use glam::{DMat3, DVec3};
 
 use crate::chain::{Chain, Shape};
-use crate::minimise::{Minimiser, Minimum, Problem, Riccati, Stability, Stopping};
-use crate::potential::{Field, InField, Potential};
+use crate::minimise::{Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria};
+use crate::potential::{Field, FieldPotential, Potential};
 use crate::{
     ElementKind, Equilibrium, InvalidQuantity, NaturalStrain, Options, Rod, RodSpec, Root,
     StrainProfile, equilibrium_from,
@@ -29,13 +29,13 @@ use line::Line;
 
 /// A rod that was made to rest in a given shape.
 #[derive(Clone, Debug)]
-pub struct Held {
+pub struct InverseSolution {
     /// The rod: its natural strain, its root and its length are the shape's.
     pub rod: Rod,
     /// Where it rests.
-    pub rest: Equilibrium,
+    pub equilibrium: Equilibrium,
     /// The given shape as one of the rod, at rest there or not.
-    pub given: Equilibrium,
+    pub target: Equilibrium,
     /// Largest distance (m) of a given point from where the rod rests, at the same part of its length.
     pub error: f64,
     /// Factor on the fibre's stiffness from which on the given shape would be stable; 1 where it is.
@@ -60,30 +60,30 @@ const MENDINGS: usize = 2;
 /// Error (m) that needs no mending.
 const GOOD: f64 = 1e-5;
 
-/// The rod that rests in the shape of a line in its own weight and in other potentials: [`Fitted::new`] and
-/// [`Fitted::hold`].
+/// The rod that rests in the shape of a line in its own weight and in other potentials: [`FittedCurve::new`] and
+/// [`FittedCurve::solve`].
 ///
 /// # Errors
 /// As they.
-pub fn hold(
+pub fn solve(
     given: &[DVec3],
     spec: &RodSpec,
     external: &[&dyn Potential],
     options: &Options,
-) -> Result<Held, InvalidQuantity> {
-    Fitted::new(given, spec)?.hold(external, options)
+) -> Result<InverseSolution, InvalidQuantity> {
+    FittedCurve::new(given, spec)?.solve(external, options)
 }
 
 /// A line as the shape of a rod.
 #[derive(Debug)]
-pub struct Fitted {
+pub struct FittedCurve {
     line: Line,
     /// The rod that would have this shape without weight.
     rod: Rod,
     target: Shape,
 }
 
-impl Fitted {
+impl FittedCurve {
     /// The rod in the shape of a line of points (m).
     ///
     /// Of `spec` the section, the material, the kind of torsion and gravity count; length, natural strain and
@@ -127,11 +127,11 @@ impl Fitted {
     ///
     /// # Errors
     /// [`InvalidQuantity`], if the natural strain that it would need is not finite.
-    pub fn hold(
+    pub fn solve(
         &self,
         external: &[&dyn Potential],
         options: &Options,
-    ) -> Result<Held, InvalidQuantity> {
+    ) -> Result<InverseSolution, InvalidQuantity> {
         let chain = Chain::uniform(&self.rod, ElementKind::Helix, self.target.controls.len());
         let mut strains = balanced(&Problem::new(&chain, external), &self.target);
         let mut best = self.held(&strains, external, options)?;
@@ -139,7 +139,7 @@ impl Fitted {
             if best.error < GOOD || best.stiffness_needed > 1.0 {
                 break;
             }
-            strains = mended(&strains, &best.rest, &self.target);
+            strains = mended(&strains, &best.equilibrium, &self.target);
             let better = self.held(&strains, external, options)?;
             if better.error >= best.error {
                 break;
@@ -155,7 +155,7 @@ impl Fitted {
         strains: &[DVec3],
         external: &[&dyn Potential],
         options: &Options,
-    ) -> Result<Held, InvalidQuantity> {
+    ) -> Result<InverseSolution, InvalidQuantity> {
         let (elements, length) = (strains.len(), self.line.length());
         let natural = profile(length / elements as f64, strains)?;
         let rod = Rod::new(RodSpec { natural, ..self.rod.spec().clone() })?;
@@ -167,12 +167,12 @@ impl Fitted {
         let minimum =
             Minimum { shape: self.target.clone(), gradient_norm, iterations: 0, stability };
         let start = Equilibrium::from_minimum(&problem, minimum);
-        let rest = equilibrium_from(&rod, external, options, &start);
-        let error = apart(&self.line, &rest);
+        let equilibrium = equilibrium_from(&rod, external, options, &start);
+        let error = apart(&self.line, &equilibrium);
         // Stiffness makes the elastic part of the second variation greater, weight and contact stay: with
         // H x = λ M x, λ becomes 1 − (1 − λ) / factor.
         let stiffness_needed = if least > 0.0 { 1.0 } else { 1.0 - least };
-        Ok(Held { rod, rest, given: start, error, stiffness_needed })
+        Ok(InverseSolution { rod, equilibrium, target: start, error, stiffness_needed })
     }
 }
 
@@ -209,11 +209,11 @@ fn fitted(line: &Line, spec: &RodSpec) -> Result<(Rod, Shape), InvalidQuantity> 
         // Bending gives way to the line within an element.
         let stiffness = 16.0 * rod.stiffness().max_element() / h.powi(4);
         let towards = Towards { line, stiffness };
-        let drawn = InField::new(&towards, 2);
+        let drawn = FieldPotential::new(&towards, 2);
         let external: [&dyn Potential; 1] = [&drawn];
         let problem = Problem::with_load(&chain, &external, 0.0);
-        let stopping = Stopping { tolerance: 1e-9, max_iterations: 60 };
-        shape = Riccati::default().minimise(&problem, shape, stopping).shape;
+        let stopping = StoppingCriteria { tolerance: 1e-9, max_iterations: 60 };
+        shape = Newton::default().minimise(&problem, shape, stopping).shape;
     }
     Ok((rod, shape))
 }

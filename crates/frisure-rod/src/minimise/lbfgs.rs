@@ -1,10 +1,10 @@
-//! A plain quasi-Newton descent with no second derivatives: the judge.
+//! L-BFGS, a quasi-Newton descent without second derivatives: the reference solver of the tests.
 
 use std::collections::VecDeque;
 
 use glam::DVec3;
 
-use super::{Minimiser, Minimum, Problem, Stability, Stopping, second_variation};
+use super::{Minimiser, Minimum, Problem, Stability, StoppingCriteria, second_variation};
 use crate::chain::Shape;
 
 /// Limited-memory BFGS, preconditioned by the elastic stiffness. Nocedal & Wright, *Numerical
@@ -40,7 +40,7 @@ fn add_scaled(a: &mut [DVec3], factor: f64, b: &[DVec3]) {
 }
 
 impl Minimiser for Lbfgs {
-    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: Stopping) -> Minimum {
+    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: StoppingCriteria) -> Minimum {
         let mut shape = start;
         let mut energy = problem.energy(&shape).total();
         let mut gradient = problem.gradient(&shape);

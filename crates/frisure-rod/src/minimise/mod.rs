@@ -1,7 +1,7 @@
 //! Minimisers of a rod's energy, behind one interface.
 //!
-//! [`Riccati`] is the one to use; [`Lbfgs`] is plain, slow and knows no second derivative: it is
-//! the judge of the first in tests.
+//! [`Newton`] is the one to use; [`Lbfgs`] is slow and uses no second derivative: it is
+//! the reference solver of the tests.
 
 mod adjoint;
 mod lbfgs;
@@ -9,7 +9,7 @@ mod pivot;
 mod riccati;
 
 pub use lbfgs::Lbfgs;
-pub use riccati::{NewtonStep, Riccati};
+pub use riccati::{Newton, NewtonStep};
 
 pub(crate) use riccati::second_variation;
 
@@ -122,7 +122,7 @@ impl Energy {
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stopping {
+pub struct StoppingCriteria {
     /// Relative gradient ([`Problem::gradient_norm`]) to reach.
     pub tolerance: f64,
     /// Most iterations.
@@ -157,5 +157,5 @@ pub struct Minimum {
 /// Finds a minimum of an energy from a given shape. Every accepted step lowers the energy.
 pub trait Minimiser {
     /// Goes downhill from `start` to a minimum.
-    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: Stopping) -> Minimum;
+    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: StoppingCriteria) -> Minimum;
 }

@@ -12,24 +12,24 @@
 use glam::{DMat3, DVec3};
 
 use super::pivot::{Pivot, lowest_eigenpair};
-use super::{Minimiser, Minimum, Problem, Stability, Stopping};
+use super::{Minimiser, Minimum, Problem, Stability, StoppingCriteria};
 use crate::chain::Shape;
 use crate::potential::{Derivatives, ElementState};
 use crate::rotation::{cross_matrix, deviation, scaled_identity, symmetric_outer};
 
 /// Differential dynamic programming with Levenberg damping.
 #[derive(Clone, Copy, Debug)]
-pub struct Riccati {
+pub struct Newton {
     /// Damping after a first failed pivot, as a fraction of the elastic stiffness. Starting high
     /// saves sweeps: PHYSICS_NOTES, "The minimiser".
     pub first_damping: f64,
     /// Whether to leave a saddle along negative curvature; without it the saddle is the answer.
-    pub leave_saddles: bool,
+    pub escape_saddles: bool,
 }
 
-impl Default for Riccati {
+impl Default for Newton {
     fn default() -> Self {
-        Self { first_damping: 0.3, leave_saddles: true }
+        Self { first_damping: 0.3, escape_saddles: true }
     }
 }
 
@@ -45,8 +45,8 @@ const LARGEST_ESCAPES: usize = 40;
 /// Damping above which a step is shorter than rounding.
 const LARGEST_DAMPING: f64 = 1e12;
 
-impl Minimiser for Riccati {
-    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: Stopping) -> Minimum {
+impl Minimiser for Newton {
+    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: StoppingCriteria) -> Minimum {
         if problem.with_position {
             self.descend::<true>(problem, start, stopping)
         } else {
@@ -64,10 +64,10 @@ pub struct NewtonStep {
     pub step: Vec<DVec3>,
     /// Whether the second variation is positive, or zero but for rounding, so that the step is
     /// Newton's own. Otherwise it is damped until it goes downhill.
-    pub positive: bool,
+    pub positive_definite: bool,
 }
 
-impl Riccati {
+impl Newton {
     /// One step of Newton's method, for those who minimise the energy of several rods together.
     #[must_use]
     pub fn newton_step(&self, problem: &Problem<'_>, shape: &Shape) -> NewtonStep {
@@ -94,15 +94,15 @@ impl Riccati {
             }
         };
         let step = unrolled::<POSITION>(problem, shape, &laws);
-        let positive = damping == 0.0 || stages.negative_pivot().is_none();
-        NewtonStep { gradient: stages.gradient, step, positive }
+        let positive_definite = damping == 0.0 || stages.negative_pivot().is_none();
+        NewtonStep { gradient: stages.gradient, step, positive_definite }
     }
 
     fn descend<const POSITION: bool>(
         &self,
         problem: &Problem<'_>,
         start: Shape,
-        stopping: Stopping,
+        stopping: StoppingCriteria,
     ) -> Minimum {
         let scale = problem.chain.rod().moment_scale();
         let mut damping = 0.0;
@@ -145,7 +145,7 @@ impl Riccati {
                     return end(shape, iterations, Stability::Stable);
                 };
                 escapes += 1;
-                let left = (self.leave_saddles && escapes <= LARGEST_ESCAPES)
+                let left = (self.escape_saddles && escapes <= LARGEST_ESCAPES)
                     .then(|| leave_saddle(problem, &shape, energy, &failed));
                 match left.flatten() {
                     Some(left) => (shape, energy) = left,

@@ -21,12 +21,12 @@ pub trait Field: Sync {
 /// The points are the nodes and `samples − 1` more inside each element, so that a field with
 /// details finer than an element is seen; the root, which is clamped, is left out.
 #[derive(Clone, Copy, Debug)]
-pub struct InField<'a, F: ?Sized> {
+pub struct FieldPotential<'a, F: ?Sized> {
     field: &'a F,
     samples: u32,
 }
 
-impl<'a, F: Field + ?Sized> InField<'a, F> {
+impl<'a, F: Field + ?Sized> FieldPotential<'a, F> {
     /// The integral with `samples` points per element; at least one.
     #[must_use]
     pub fn new(field: &'a F, samples: u32) -> Self {
@@ -43,7 +43,7 @@ impl<'a, F: Field + ?Sized> InField<'a, F> {
     }
 }
 
-impl<F: Field + ?Sized> Potential for InField<'_, F> {
+impl<F: Field + ?Sized> Potential for FieldPotential<'_, F> {
     fn depends_on_position(&self) -> bool {
         true
     }
@@ -77,7 +77,7 @@ impl<F: Field + ?Sized> Potential for InField<'_, F> {
 }
 
 impl Chain<'_> {
-    /// The points (m) of a shape at which [`InField`] with `samples` points per element feels its
+    /// The points (m) of a shape at which [`FieldPotential`] with `samples` points per element feels its
     /// field, from the first after the root to the tip.
     #[must_use]
     pub fn sample_points(&self, shape: &Shape, samples: u32) -> Vec<DVec3> {

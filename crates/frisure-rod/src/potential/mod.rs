@@ -15,7 +15,7 @@ mod field;
 mod gravity;
 
 pub use elastic::Elastic;
-pub use field::{Field, InField};
+pub use field::{Field, FieldPotential};
 pub use gravity::Gravity;
 
 use glam::{DMat3, DVec3};

@@ -1,6 +1,6 @@
 //! Figure 6 of the paper: hair that grows, and the linear beam.
 
-use frisure::rod::potential::InField;
+use frisure::rod::potential::FieldPotential;
 use frisure::rod::{
     Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant, equilibrium,
 };
@@ -116,7 +116,7 @@ fn on_the_head(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
     let rod = Rod::new(spec(length, rise)?)?;
     let root = DVec3::new(rise.cos(), 0.0, rise.sin()) * (HEAD + 1e-4);
     let head = Sphere { middle: -root, radius: HEAD, stiffness: 2000.0 };
-    let found = equilibrium(&rod, &[&InField::new(&head, 4)], &to_accuracy(&rod, 1e-3));
+    let found = equilibrium(&rod, &[&FieldPotential::new(&head, 4)], &to_accuracy(&rod, 1e-3));
     Ok(found.centre_line(161).iter().map(|p| DVec2::new(p.truncate().length(), p.z)).collect())
 }
 

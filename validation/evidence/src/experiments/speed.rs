@@ -47,9 +47,9 @@ fn batched(rods: &[Rod]) -> (f64, usize) {
     let mut stable = 0;
     for _ in 0..3 {
         let start = Instant::now();
-        let found = Batch::default().settle(rods);
+        let found = Batch::default().solve(rods);
         best = best.min(start.elapsed().as_secs_f64());
-        stable = found.hairs.iter().filter(|h| h.stability == Stability::Stable).count();
+        stable = found.rods.iter().filter(|h| h.stability == Stability::Stable).count();
     }
     (best, stable)
 }

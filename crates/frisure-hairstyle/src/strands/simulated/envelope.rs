@@ -1,6 +1,6 @@
 //! What a hair feels: the skin, and the hairs around it.
 
-use frisure_rod::batch::{Surroundings, Touch, Tube};
+use frisure_rod::batch::{ConfinementTube, Contact, ContactField};
 use glam::DVec3;
 
 use crate::contact::outer;
@@ -14,7 +14,7 @@ use crate::strands::skin::LEAST_DISTANCE;
 ///
 /// Hairs of a wisp lie side by side: each has the tube of the radius ρ for itself in which hairs of one wisp wander
 /// (see [`crate::contact::Thickness`]), about the place that it is carried to by its guides. Beyond it neighbours push
-/// back with the stiffness of hair, as [`Tube`] says. That is a mean field: neighbours do not answer.
+/// back with the stiffness of hair, as [`ConfinementTube`] says. That is a mean field: neighbours do not answer.
 ///
 /// Skin begins a little outside, where the line of a hair has to be: `k e³/6m` for the depth e below that margin m, k
 /// the stiffness of skin. It begins as softly as hair, since what begins at once takes Newton's steps to and fro.
@@ -26,7 +26,7 @@ pub(super) struct Envelope<'a> {
     /// Length of an element of each hair (m).
     lengths: Vec<f64>,
     /// Of the ends of links, those of a hair one after the other.
-    tubes: Vec<Tube>,
+    tubes: Vec<ConfinementTube>,
 }
 
 /// Steepest slope of the distance from the skin: it is 1 but for the smoothing.
@@ -63,7 +63,7 @@ impl<'a> Envelope<'a> {
             };
             before = (centre, clear);
             let (radius, stiffness) = (wide * thickness.tube(s), spec.contact.hair_stiffness);
-            self.tubes.push(Tube { centre, radius, stiffness, clear });
+            self.tubes.push(ConfinementTube { centre, radius, stiffness, clearance: clear });
         }
         self.lengths.push(h);
     }
@@ -83,24 +83,24 @@ fn margin(s: f64) -> f64 {
     LEAST_DISTANCE * (s / 0.003).min(1.0)
 }
 
-impl Surroundings for Envelope<'_> {
-    fn tube(&self, hair: usize, s: f64) -> Tube {
+impl ContactField for Envelope<'_> {
+    fn confinement(&self, hair: usize, s: f64) -> ConfinementTube {
         let tube = self.tubes[self.joint(hair, s)];
-        Tube { stiffness: self.hardness * tube.stiffness, ..tube }
+        ConfinementTube { stiffness: self.hardness * tube.stiffness, ..tube }
     }
 
-    fn felt(&self, _: usize, s: f64, position: DVec3) -> Touch {
+    fn contact(&self, _: usize, s: f64, position: DVec3) -> Contact {
         let margin = margin(s);
         let skin = self.population.head.signed_distance();
         let out = skin.value(position) - margin;
         if out > 0.0 {
-            return Touch::Free(out / STEEPEST);
+            return Contact::Clear(out / STEEPEST);
         }
         let (distance, gradient, hessian) = skin.value_gradient_hessian(position);
         let depth = margin - distance;
         let stiffness = self.hardness * self.population.spec.contact.stiffness * depth / margin;
         let force = 0.5 * stiffness * depth;
-        Touch::Felt {
+        Contact::Active {
             energy: force * depth / 3.0,
             gradient: gradient * -force,
             hessian: outer(gradient, gradient) * stiffness - hessian * force,

@@ -8,7 +8,7 @@ mod envelope;
 mod fibre;
 mod part;
 
-use frisure_rod::batch::{Batch, Batched, Frames, Settled, Start};
+use frisure_rod::batch::{Batch, BatchSolution, Frames, InitialShape, RodSolution};
 use frisure_rod::{Node, Rod, Stability, line};
 use glam::{DMat3, DQuat};
 use rayon::prelude::*;
@@ -166,17 +166,17 @@ impl<'a> Simulated<'a> {
             stage.check()?;
             let (found, nodes) = self.settle(&group, elements);
             let Group { planned, rods } = group;
-            let at_rest = |hair: &&Settled| hair.stability == Stability::Stable;
+            let at_rest = |hair: &&RodSolution| hair.stability == Stability::Stable;
             simulation = simulation.and(Simulation {
                 hairs: planned.len(),
-                at_rest: found.hairs.iter().filter(at_rest).count(),
+                at_rest: found.rods.iter().filter(at_rest).count(),
                 elements: elements * planned.len(),
-                iterations: found.hairs.iter().map(|hair| hair.iterations).sum(),
+                iterations: found.rods.iter().map(|hair| hair.iterations).sum(),
             });
             for (hair, (planned, rod)) in planned.into_iter().zip(&rods).enumerate() {
                 let Planned { place, course, .. } = planned;
                 let nodes = &nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)];
-                drawn[place] = Some(match found.hairs[hair].stability {
+                drawn[place] = Some(match found.rods[hair].stability {
                     Stability::Stable => Hair {
                         guide: course.main() as u32,
                         thickness: course.thickness,
@@ -193,7 +193,7 @@ impl<'a> Simulated<'a> {
     }
 
     /// Brings hairs of so many elements to rest; tells the nodes of each, too.
-    fn settle(&self, group: &Group<'_>, elements: usize) -> (Batched, Vec<Node>) {
+    fn settle(&self, group: &Group<'_>, elements: usize) -> (BatchSolution, Vec<Node>) {
         let Group { planned, rods } = group;
         let mut envelope = Envelope::new(self.population, elements, planned.len());
         for (Planned { course, .. }, rod) in planned.iter().zip(rods) {
@@ -206,14 +206,15 @@ impl<'a> Simulated<'a> {
             max_iterations: MAX_ITERATIONS,
             ..Batch::default()
         };
-        let (mut found, mut nodes) = batch.settle_among(rods, Start::Frames(&frames), &envelope, 0);
+        let (mut found, mut nodes) =
+            batch.solve_in_contact(rods, InitialShape::Frames(&frames), &envelope, 0);
         for (hair, rod) in rods.iter().enumerate() {
-            if found.hairs[hair].stability == Stability::Stable {
+            if found.rods[hair].stability == Stability::Stable {
                 continue;
             }
             let (again, line) = patiently(&batch, rod, &frames, (&mut envelope, hair));
-            let iterations = found.hairs[hair].iterations + again.iterations;
-            found.hairs[hair] = Settled { iterations, ..again };
+            let iterations = found.rods[hair].iterations + again.iterations;
+            found.rods[hair] = RodSolution { iterations, ..again };
             nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)].copy_from_slice(&line);
         }
         (found, nodes)
@@ -250,27 +251,28 @@ fn patiently(
     rod: &Rod,
     frames: Frames<'_>,
     (envelope, hair): (&mut Envelope<'_>, usize),
-) -> (Settled, Vec<Node>) {
+) -> (RodSolution, Vec<Node>) {
     let batch = Batch { max_iterations: MOST_ITERATIONS, ..*batch };
     let mut iterations = 0;
-    let mut start = Start::Frames(frames);
+    let mut start = InitialShape::Frames(frames);
     let mut at_rest = None;
     for (hardness, kick) in PATIENCE {
         envelope.hardness = hardness;
-        if let Start::Turns(controls) = &mut start {
+        if let InitialShape::Controls(controls) = &mut start {
             controls.iter_mut().for_each(|control| control.x += kick);
         }
-        let (found, nodes) = batch.settle_among(std::slice::from_ref(rod), start, envelope, hair);
-        iterations += found.hairs[0].iterations;
-        at_rest = Some((found.hairs[0], nodes));
-        start = Start::Turns(found.controls);
-        if hardness == 1.0 && found.hairs[0].stability == Stability::Stable {
+        let (found, nodes) =
+            batch.solve_in_contact(std::slice::from_ref(rod), start, envelope, hair);
+        iterations += found.rods[0].iterations;
+        at_rest = Some((found.rods[0], nodes));
+        start = InitialShape::Controls(found.controls);
+        if hardness == 1.0 && found.rods[0].stability == Stability::Stable {
             break;
         }
     }
     envelope.hardness = 1.0;
     let (found, nodes) = at_rest.expect("there are steps");
-    (Settled { iterations, ..found }, nodes)
+    (RodSolution { iterations, ..found }, nodes)
 }
 
 /// Which of [`ELEMENTS`] a hair has.

@@ -2,7 +2,7 @@
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::penetration;
-use frisure::rod::potential::InField;
+use frisure::rod::potential::FieldPotential;
 use frisure::rod::{
     Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant, equilibrium,
 };
@@ -40,7 +40,7 @@ pub(super) fn on_a_sphere(finding: &mut Finding) -> Result<(), Stopped> {
         (100.0 * sphere.radius * angle.cos(), 100.0 * sphere.radius * angle.sin())
     });
     plot.add("", Mark::Line, round).colour = Some(6);
-    let field = InField::new(&sphere, 4);
+    let field = FieldPotential::new(&sphere, 4);
     let mut depths = [0.0; 2];
     let mut stable = true;
     for (k, (name, contact)) in [("through it", false), ("on it", true)].into_iter().enumerate() {

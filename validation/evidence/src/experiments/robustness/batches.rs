@@ -16,12 +16,12 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     let spec = |i| Random::new(75, i).realistic().and_then(Rod::new);
     let rods: Vec<Rod> = (0..count).map(spec).collect::<Result<_, _>>()?;
     let batch = Batch { elements: 60, ..Batch::default() };
-    let batches = rods.par_chunks(200).map(|rods| (rods, batch.settle(rods)));
+    let batches = rods.par_chunks(200).map(|rods| (rods, batch.solve(rods)));
     let gaps = batches.flat_map_iter(|(rods, rest)| {
         let each = move |(k, rod): (usize, &Rod)| {
             let alone = equilibrium(rod, &[], &elements(60, ElementKind::Jointed));
             let tip = rest.shape(rod, k).positions[60];
-            let stable = rest.hairs[k].stability == Stability::Stable;
+            let stable = rest.rods[k].stability == Stability::Stable;
             (stable, tip.distance(alone.shape.positions[60]) / rod.length())
         };
         rods.iter().enumerate().map(each).collect::<Vec<_>>()

@@ -1,6 +1,6 @@
 //! How many equilibria a hair has.
 
-use frisure::rod::minimise::{Minimiser, Problem, Riccati, Stopping};
+use frisure::rod::minimise::{Minimiser, Newton, Problem, StoppingCriteria};
 use frisure::rod::{
     Chain, ElementKind, NaturalStrain, Options, Resolution, Rod, RodSpec, Stability, equilibrium,
 };
@@ -17,7 +17,7 @@ fn minima(spec: &RodSpec, starts: usize, seed: usize) -> Result<(usize, bool), S
     let count = ElementKind::Jointed.resolving_elements(&rod).clamp(30, 120);
     let chain = Chain::uniform(&rod, ElementKind::Jointed, count);
     let problem = Problem::new(&chain, &[]);
-    let stopping = Stopping { tolerance: 1e-9, max_iterations: 400 };
+    let stopping = StoppingCriteria { tolerance: 1e-9, max_iterations: 400 };
     let options = Options {
         resolution: Resolution::Elements(count),
         element: ElementKind::Jointed,
@@ -32,7 +32,7 @@ fn minima(spec: &RodSpec, starts: usize, seed: usize) -> Result<(usize, bool), S
         let size = random.between(0.1, 1.2);
         let natural = chain.natural_shape().controls;
         let controls = natural.iter().map(|c| *c + random.cube() * size).collect();
-        let minimum = Riccati::default().minimise(&problem, chain.shape(controls), stopping);
+        let minimum = Newton::default().minimise(&problem, chain.shape(controls), stopping);
         if minimum.stability != Stability::Stable {
             continue;
         }

@@ -1,14 +1,14 @@
-//! One suite for both minimisers: the second-order one must agree with the plain descent.
+//! The Newton minimiser and the reference solver (L-BFGS) find the same minima on random rods.
 
 mod common;
 
 use common::{Random, Spring};
-use frisure_rod::minimise::{Lbfgs, Minimiser, Minimum, Problem, Riccati, Stopping};
+use frisure_rod::minimise::{Lbfgs, Minimiser, Minimum, Newton, Problem, StoppingCriteria};
 use frisure_rod::potential::Potential;
 use frisure_rod::{Chain, ElementKind, Rod, Stability};
 use glam::DVec3;
 
-const STOPPING: Stopping = Stopping { tolerance: 1e-9, max_iterations: 5000 };
+const STOPPING: StoppingCriteria = StoppingCriteria { tolerance: 1e-9, max_iterations: 5000 };
 
 fn from_natural(minimiser: &dyn Minimiser, problem: &Problem<'_>) -> Minimum {
     minimiser.minimise(problem, problem.chain().natural_shape(), STOPPING)
@@ -26,22 +26,22 @@ fn compare(seed: u64, rods: usize, spring: Option<Spring>) {
         let problem = Problem::new(&chain, &external);
         let scale = rod.moment_scale();
 
-        let ours = from_natural(&Riccati::default(), &problem);
+        let ours = from_natural(&Newton::default(), &problem);
         let energy = problem.energy(&ours.shape).total();
         assert_eq!(ours.stability, Stability::Stable, "rod {i}: {:?}", rod.spec());
         assert!(problem.min_eigenvalue(&ours.shape) > 0.0, "rod {i}");
         assert!(problem.gradient_norm(&ours.shape) < 1e-8, "rod {i}");
         assert!(ours.iterations < 100, "rod {i}: {} iterations", ours.iterations);
 
-        let judge = from_natural(&Lbfgs::default(), &problem);
-        if judge.stability == Stability::NotConverged {
+        let reference = from_natural(&Lbfgs::default(), &problem);
+        if reference.stability == Stability::NotConverged {
             unfinished += 1;
             continue;
         }
-        let verdict = problem.energy(&judge.shape).total();
-        if (energy - verdict).abs() < 1e-8 * scale {
+        let reference_energy = problem.energy(&reference.shape).total();
+        if (energy - reference_energy).abs() < 1e-8 * scale {
             same += 1;
-            let tips = [&ours, &judge].map(|m| m.shape.positions[chain.len()]);
+            let tips = [&ours, &reference].map(|m| m.shape.positions[chain.len()]);
             assert!(tips[0].distance(tips[1]) < 1e-3 * rod.length(), "rod {i}: {tips:?}");
         } else {
             others += 1;
