@@ -136,7 +136,7 @@ fn saddles_and_limits() {
     for (i, hair) in batched.rods.iter().enumerate() {
         assert_eq!(hair.stability, Stability::Stable, "{i}: {hair:?}");
     }
-    assert!(Batch::default().solve(&[]).hairs.is_empty());
+    assert!(Batch::default().solve(&[]).rods.is_empty());
     let one = Batch { elements: 1, ..Batch::default() }.solve(&rods);
     assert!(one.rods.iter().all(|hair| hair.stability == Stability::Stable));
 }
