@@ -10,7 +10,7 @@ use frisure::denoise::{Denoiser, Noisy, VARIABLE};
 use frisure::files::{self, ReadError, WriteError, write_atomically};
 use frisure::formats::picture::exr::{self, Channel, Values};
 use frisure::formats::picture::{Format, PictureError, png};
-use frisure::render::trace::{EXPOSURE_MARK, Exposure, Layers, Tracer};
+use frisure::render::trace::{ACCUMULATOR_MAGIC, Accumulator, Layers, Tracer};
 use frisure::render::{Camera, Image, Lights};
 use frisure::scene;
 
@@ -119,7 +119,7 @@ pub(crate) fn check_parts(parts: &[PathBuf]) -> Result<(), Failure> {
         let mut mark = [0; 8];
         let read = std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut mark));
         match read {
-            Ok(()) => mark != EXPOSURE_MARK,
+            Ok(()) => mark != ACCUMULATOR_MAGIC,
             // What is not there is nobody's; what is too short or cannot be read is not ours.
             Err(error) => error.kind() != ErrorKind::NotFound,
         }
@@ -178,8 +178,8 @@ struct Writer<'a> {
 impl Writer<'_> {
     fn expose(&self, tracer: &Tracer, progress: &Progress, name: &str) -> Result<Exposed, Failure> {
         let unfinished = self.unfinished(tracer)?;
-        let mut exposure = unfinished.unwrap_or_else(|| tracer.exposure());
-        let before = exposure.mean_samples();
+        let mut accumulator = unfinished.unwrap_or_else(|| tracer.accumulator());
+        let before = accumulator.mean_samples();
         let mut pause = SAVED_EVERY;
         loop {
             let since = Instant::now();
@@ -190,36 +190,38 @@ impl Writer<'_> {
                     false => ControlFlow::Continue(()),
                 }
             };
-            let finished = tracer.expose(&mut exposure, &watch).is_continue();
+            let finished = tracer.accumulate(&mut accumulator, &watch).is_continue();
             let saving = Instant::now();
-            self.write(&exposure)?;
+            self.write(&accumulator)?;
             if finished {
                 // A part that cannot be removed is one that nobody needs.
                 let _ = std::fs::remove_file(part(&self.path));
                 break;
             }
             // If it cannot be kept now, it may be at the next time; the picture goes on.
-            let kept = self.put_away(&exposure);
+            let kept = self.put_away(&accumulator);
             if interrupt::interrupted() {
-                return Err(Failure::Paused(self.so_far(&exposure, kept.err())));
+                return Err(Failure::Paused(self.so_far(&accumulator, kept.err())));
             }
             // Large pictures take long to write: most of the time is for tracing.
             pause = SAVED_EVERY.max(20 * saving.elapsed());
         }
-        let (paths, noise) = (exposure.mean_samples(), exposure.noise());
+        let (paths, noise) = (accumulator.mean_samples(), accumulator.noise());
         Ok(Exposed { path: self.path.clone(), paths, noise, before })
     }
 
-    /// The exposure that was put away, if it is one of this picture. One of another is hours of work,
+    /// The accumulator that was put away, if it is one of this picture. One of another is hours of work,
     /// too: it is kept under another name.
-    fn unfinished(&self, tracer: &Tracer) -> Result<Option<Exposure>, Failure> {
+    fn unfinished(&self, tracer: &Tracer) -> Result<Option<Accumulator>, Failure> {
         let path = part(&self.path);
         let bytes = match files::read_bytes(&path, MAX_PART, "an unfinished picture") {
             Ok(bytes) => bytes,
             Err(ReadError::Missing { .. }) => return Ok(None),
             Err(error) => return Err(error.into()),
         };
-        let found = Exposure::from_bytes(&bytes).ok().filter(|exposure| tracer.knows(exposure));
+        let found = Accumulator::from_bytes(&bytes)
+            .ok()
+            .filter(|accumulator| tracer.can_resume(accumulator));
         if found.is_none() {
             let mut name = path.clone().into_os_string();
             name.push(".old");
@@ -232,12 +234,12 @@ impl Writer<'_> {
         Ok(found)
     }
 
-    fn put_away(&self, exposure: &Exposure) -> Result<(), WriteError> {
-        write_atomically(&part(&self.path), |out| out.write_all(&exposure.to_bytes()))
+    fn put_away(&self, accumulator: &Accumulator) -> Result<(), WriteError> {
+        write_atomically(&part(&self.path), |out| out.write_all(&accumulator.to_bytes()))
     }
 
-    fn so_far(&self, exposure: &Exposure, lost: Option<WriteError>) -> String {
-        let (path, paths) = (self.path.display(), exposure.mean_samples());
+    fn so_far(&self, accumulator: &Accumulator, lost: Option<WriteError>) -> String {
+        let (path, paths) = (self.path.display(), accumulator.mean_samples());
         let so_far = format!("`{path}` is what there is so far, {paths:.0} paths per pixel;");
         match lost {
             None => format!("{so_far} the same command goes on from there."),
@@ -245,8 +247,8 @@ impl Writer<'_> {
         }
     }
 
-    fn write(&self, exposure: &Exposure) -> Result<(), Failure> {
-        let (image, layers) = (exposure.image(), exposure.layers());
+    fn write(&self, accumulator: &Accumulator) -> Result<(), Failure> {
+        let (image, layers) = (accumulator.image(), accumulator.layers());
         let clean = self.denoiser.map(|denoiser| clean(denoiser, &image, &layers)).transpose()?;
         let shown = clean.as_ref().unwrap_or(&image);
         let format = Format::of(&self.path).map_err(|e| Failure::failed(&e))?;
@@ -260,7 +262,7 @@ impl Writer<'_> {
                 }
                 let comment = format!(
                     "{:.0} paths per pixel; lengths in metres, z up, the face towards -y; wisps from 1",
-                    exposure.mean_samples()
+                    accumulator.mean_samples()
                 );
                 exr::write(&self.path, image.width(), image.height(), channels, &comment)
             }

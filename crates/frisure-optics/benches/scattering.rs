@@ -2,7 +2,7 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use frisure_optics::scattering::{Fibre, FibreSpec, Scattering};
+use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
 use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 
@@ -39,7 +39,7 @@ fn prepare(bencher: Bencher<'_, '_>, name: &str) {
     let (fibre, hits) = (fibre(name), hits());
     bencher.counter(ItemsCount::new(hits.len())).bench_local(|| {
         for &(w, h, _) in &hits {
-            black_box(Scattering::new(&fibre, w, h));
+            black_box(HairBsdf::new(&fibre, w, h));
         }
     });
 }
@@ -50,7 +50,7 @@ fn prepare_evaluate_sample(bencher: Bencher<'_, '_>, name: &str) {
     let light = Vec3::new(0.48, -0.6, 0.64);
     bencher.counter(ItemsCount::new(hits.len())).bench_local(|| {
         for &(w, h, u) in &hits {
-            let hit = Scattering::new(&fibre, w, h);
+            let hit = HairBsdf::new(&fibre, w, h);
             black_box((hit.evaluate(black_box(light)), hit.sample(u)));
         }
     });

@@ -7,7 +7,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use frisure_optics::scattering::{Fibre, FibreSpec, Scattering};
+use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
 use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 
@@ -134,7 +134,7 @@ fn values_and_densities_of_a_round_fibre() {
     for row in rows() {
         let spec = row.spec();
         let fibre = Fibre::new(spec).unwrap();
-        let hit = Scattering::new(&fibre, local(row.wi()), row.offset() as f32);
+        let hit = HairBsdf::new(&fibre, local(row.wi()), row.offset() as f32);
         let ours = hit.evaluate(local(row.wo()));
         for channel in 0..3 {
             let (ours, theirs) = (f64::from(ours.f_cos[channel]), row.0[12 + channel]);

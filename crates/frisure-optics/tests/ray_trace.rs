@@ -4,7 +4,7 @@ mod support;
 
 use std::f64::consts::{PI, TAU};
 
-use frisure_optics::scattering::{Fibre, FibreSpec, Scattering};
+use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
 use glam::DVec3;
 use support::{Random, direction, follow, meet, white};
 
@@ -58,7 +58,7 @@ fn modelled(spec: &FibreSpec, (theta, phi): (f64, f64)) -> Shares {
     let (offsets, steps, fine) = (200_u16, 20_u16, 2_u16);
     for i in 0..offsets {
         let h = 2.0 * (f32::from(i) + 0.5) / f32::from(offsets) - 1.0;
-        let hit = Scattering::new(&fibre, direction(theta as f32, phi as f32), h);
+        let hit = HairBsdf::new(&fibre, direction(theta as f32, phi as f32), h);
         let rest = f64::from(hit.energies()[3].x) / f64::from(offsets);
         shares.rest += rest;
         for j in 0..BINS as u16 * fine {
@@ -137,7 +137,7 @@ fn a_ray_at_a_known_place_leaves_where_the_model_says() {
         let at = meet((ratio, 1.0 / ratio), eye, h);
         let wo = eye.as_vec3();
         assert!((f64::from(fibre.offset(wo, at.truncate().as_vec2())) - h).abs() < 1e-5);
-        let hit = Scattering::new(&fibre, wo, h as f32);
+        let hit = HairBsdf::new(&fibre, wo, h as f32);
         let mut seen = [false; 3];
         for _ in 0..2000 {
             let axes = (ratio, 1.0 / ratio);

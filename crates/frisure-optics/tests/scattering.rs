@@ -4,7 +4,7 @@ mod support;
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
-use frisure_optics::scattering::{Fibre, FibreSpec, Scattering};
+use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
 use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 use support::{Random, direction, integrals, white};
@@ -62,7 +62,7 @@ fn samples_without_absorption_weigh_one() {
     let mut random = Random(1);
     let mut worst = 0.0_f32;
     each_hit(&[&ROUGHNESSES[..], &[GLOSSY]].concat(), |fibre, wo, h| {
-        let hit = Scattering::new(fibre, wo, h);
+        let hit = HairBsdf::new(fibre, wo, h);
         for _ in 0..200 {
             let s = hit.sample(random.four());
             worst = worst.max((s.weight - Vec3::ONE).abs().max_element());
@@ -78,7 +78,7 @@ fn a_sample_has_the_value_and_density_of_its_direction() {
     let pigment = absorption(Melanin::BROWN);
     each_hit(&ROUGHNESSES, |fibre, wo, h| {
         let fibre = fibre.with_absorption(pigment).unwrap();
-        let hit = Scattering::new(&fibre, wo, h);
+        let hit = HairBsdf::new(&fibre, wo, h);
         for _ in 0..20 {
             let s = hit.sample(random.four());
             let again = hit.evaluate(s.wi);
@@ -89,7 +89,7 @@ fn a_sample_has_the_value_and_density_of_its_direction() {
 }
 
 /// χ² per degree of freedom of samples on a grid of equal steps in sin θ and φ.
-fn chi_squared(hit: &Scattering<'_>, random: &mut Random) -> f64 {
+fn chi_squared(hit: &HairBsdf<'_>, random: &mut Random) -> f64 {
     const ROWS: usize = 16;
     const COLUMNS: usize = 24;
     const SAMPLES: usize = 60_000;
@@ -133,7 +133,7 @@ fn samples_are_distributed_as_their_density() {
         for (theta, phi, h) in [(0.2, 0.5, 0.4), (-1.0, 2.2, -0.9)] {
             let fibre = fibre(spec);
             let deviations =
-                chi_squared(&Scattering::new(&fibre, direction(theta, phi), h), &mut random);
+                chi_squared(&HairBsdf::new(&fibre, direction(theta, phi), h), &mut random);
             // In standard deviations of χ².
             assert!(deviations < 4.0, "{axis_ratio} {theta}: {deviations}");
         }
@@ -149,7 +149,7 @@ fn absorption_only_takes_and_more_takes_more() {
                 let spec =
                     FibreSpec { absorption: Vec3::splat(sigma), ..white(axis_ratio, 0.3, 0.3) };
                 let all: Vec3 =
-                    Scattering::new(&fibre(spec), direction(theta, phi), h).energies().iter().sum();
+                    HairBsdf::new(&fibre(spec), direction(theta, phi), h).energies().iter().sum();
                 assert!(all.x <= before, "{axis_ratio} {theta} {sigma}: {all} {before}");
                 before = all.x;
             }
@@ -166,7 +166,7 @@ fn mean_energies(axis_ratio: f32, turns: u16) -> [f64; 3] {
         let wo = direction(0.0, PI * f32::from(i) / f32::from(turns));
         for j in 0..offsets {
             let h = 2.0 * (f32::from(j) + 0.5) / f32::from(offsets) - 1.0;
-            for (sum, e) in sum.iter_mut().zip(Scattering::new(&fibre, wo, h).energies()) {
+            for (sum, e) in sum.iter_mut().zip(HairBsdf::new(&fibre, wo, h).energies()) {
                 *sum += f64::from(e.x);
             }
         }
@@ -198,11 +198,11 @@ fn energies_of_ellipses_are_those_of_an_exact_ray_trace() {
 fn half_a_turn_and_a_mirror_change_nothing() {
     let fibre = fibre(FibreSpec { absorption: Vec3::splat(0.3), ..white(1.5, 0.3, 0.3) });
     let (wo, wi) = (direction(0.3, 0.7), direction(-0.1, 2.9));
-    let plain = Scattering::new(&fibre, wo, 0.4).evaluate(wi).f_cos;
+    let plain = HairBsdf::new(&fibre, wo, 0.4).evaluate(wi).f_cos;
     let turn = Vec3::new(-1.0, -1.0, 1.0);
     let mirror = Vec3::new(-1.0, 1.0, 1.0);
-    let turned = Scattering::new(&fibre, wo * turn, 0.4).evaluate(wi * turn).f_cos;
-    let mirrored = Scattering::new(&fibre, wo * mirror, -0.4).evaluate(wi * mirror).f_cos;
+    let turned = HairBsdf::new(&fibre, wo * turn, 0.4).evaluate(wi * turn).f_cos;
+    let mirrored = HairBsdf::new(&fibre, wo * mirror, -0.4).evaluate(wi * mirror).f_cos;
     assert!((turned / plain - Vec3::ONE).abs().max_element() < 1e-3);
     assert!((mirrored / plain - Vec3::ONE).abs().max_element() < 1e-3);
 }
@@ -214,7 +214,7 @@ fn turning_the_ellipse_turns_the_glint() {
     let mean = |turn: f32| -> f32 {
         let (wo, wi) = (direction(0.0, turn), direction(0.0, turn + 0.6));
         let hs = (0..200_u8).map(|i| (f32::from(i) + 0.5) / 100.0 - 1.0);
-        hs.map(|h| Scattering::new(&fibre, wo, h).evaluate(wi).f_cos.x).sum()
+        hs.map(|h| HairBsdf::new(&fibre, wo, h).evaluate(wi).f_cos.x).sum()
     };
     assert!(mean(0.0) / mean(FRAC_PI_2) > 1.5 || mean(FRAC_PI_2) / mean(0.0) > 1.5);
 }
@@ -233,7 +233,7 @@ fn is_finite_for_grazing_and_degenerate_hits() {
             });
             for theta in thetas {
                 for h in [-1.0, 1.0, 0.0, -0.999_999_9, 2.0, f32::NAN] {
-                    let hit = Scattering::new(&fibre, direction(theta, 0.3), h);
+                    let hit = HairBsdf::new(&fibre, direction(theta, 0.3), h);
                     let mut wis: Vec<_> = thetas.iter().map(|t| direction(*t, 1.0)).collect();
                     for _ in 0..8 {
                         let s = hit.sample(random.four());
@@ -255,7 +255,7 @@ fn is_finite_for_grazing_and_degenerate_hits() {
 /// Width times mean of f over the offset: what reciprocity would have symmetric.
 fn far_field(fibre: &Fibre, wo: Vec3, wi: Vec3) -> f64 {
     let hs = (0..100_u8).map(|i| (f32::from(i) + 0.5) / 50.0 - 1.0);
-    let sum: f32 = hs.map(|h| Scattering::new(fibre, wo, h).evaluate(wi).f_cos.x).sum();
+    let sum: f32 = hs.map(|h| HairBsdf::new(fibre, wo, h).evaluate(wi).f_cos.x).sum();
     f64::from(sum / 100.0 * fibre.half_width(wo) / wi.truncate().length())
 }
 

@@ -2,7 +2,7 @@
 
 mod support;
 
-use frisure_optics::scattering::{Fibre, FibreFrame, FibreSpec, Scattering};
+use frisure_optics::scattering::{Fibre, FibreFrame, FibreSpec, HairBsdf};
 use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 use support::Random;
@@ -26,7 +26,7 @@ fn colour(spec: FibreSpec, thickness: f32) -> Vec3 {
                 break;
             }
             let h = (2.0 * random.next() - 1.0) as f32;
-            let s = Scattering::new(&fibre, frame.to_local(-way), h).sample(random.four());
+            let s = HairBsdf::new(&fibre, frame.to_local(-way), h).sample(random.four());
             (weight, way) = (weight * s.weight, frame.to_world(s.wi));
             if weight.max_element() < 1e-4 {
                 break;

@@ -13,14 +13,14 @@ use std::sync::LazyLock;
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use frisure_render::accel::{CurveOptions, Ray, Scene};
+use frisure_render::accel::{CurveOptions, Ray, SceneBvh};
 use frisure_strands::{Strands, Surface};
 use rays::Rays;
 
 struct World {
     strands: Strands,
     head: Surface,
-    scene: Scene,
+    scene: SceneBvh,
     rays: Rays,
 }
 
@@ -35,8 +35,8 @@ impl World {
     }
 }
 
-fn cut(strands: &Strands, head: &Surface, options: CurveOptions) -> Scene {
-    Scene::new(strands, Some(head), &options).expect("a wig can be traced")
+fn cut(strands: &Strands, head: &Surface, options: CurveOptions) -> SceneBvh {
+    SceneBvh::new(strands, Some(head), &options).expect("a wig can be traced")
 }
 
 fn main() {
@@ -55,13 +55,13 @@ fn main() {
     divan::main();
 }
 
-fn closest(bencher: Bencher<'_, '_>, scene: &Scene, rays: &[Ray]) {
+fn closest(bencher: Bencher<'_, '_>, scene: &SceneBvh, rays: &[Ray]) {
     bencher.counter(ItemsCount::new(rays.len())).bench_local(|| {
         rays.iter().filter(|r| black_box(scene.closest_hit(r, f32::INFINITY)).is_some()).count()
     });
 }
 
-fn occluded(bencher: Bencher<'_, '_>, scene: &Scene, rays: &[Ray]) {
+fn occluded(bencher: Bencher<'_, '_>, scene: &SceneBvh, rays: &[Ray]) {
     bencher
         .counter(ItemsCount::new(rays.len()))
         .bench_local(|| rays.iter().filter(|r| scene.occluded(r, f32::INFINITY)).count());
@@ -93,9 +93,9 @@ fn shadow_rays(bencher: Bencher<'_, '_>) {
 
 /// Without AVX2.
 mod portable {
-    use super::{Bencher, LazyLock, Scene, WORLD, closest, occluded};
+    use super::{Bencher, LazyLock, SceneBvh, WORLD, closest, occluded};
 
-    static SCENE: LazyLock<Scene> = LazyLock::new(|| WORLD.scene.clone().portable());
+    static SCENE: LazyLock<SceneBvh> = LazyLock::new(|| WORLD.scene.clone().portable());
 
     #[divan::bench(sample_count = 5, sample_size = 1)]
     fn primary_rays(bencher: Bencher<'_, '_>) {
@@ -115,11 +115,11 @@ mod portable {
 
 /// Longest pieces of other lengths (mm).
 mod cut_to {
-    use super::{Bencher, CurveOptions, Scene, WORLD, closest, cut, occluded};
+    use super::{Bencher, CurveOptions, SceneBvh, WORLD, closest, cut, occluded};
 
     const MILLIMETRES: [u8; 3] = [3, 5, 8];
 
-    fn scene(millimetres: u8) -> Scene {
+    fn scene(millimetres: u8) -> SceneBvh {
         let longest_piece = 1e-3 * f32::from(millimetres);
         // The tolerance must not cut what the length does not.
         let options = CurveOptions { longest_piece, tolerance: 1.0 };

@@ -15,7 +15,7 @@ use std::fs;
 use std::io::Write as _;
 use std::time::Instant;
 
-use frisure_render::accel::{CurveOptions, Ray, Scene};
+use frisure_render::accel::{CurveOptions, Ray, SceneBvh};
 use rays::Rays;
 use wig::Style;
 
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         arguments.get(3).map_or(Ok(default.tolerance), |t| t.parse().map(|t: f32| 1e-6 * t))?;
     let turns: usize = get(4, "5").parse()?;
     let clock = Clock::start();
-    let scene = Scene::new(&strands, Some(&head), &CurveOptions { tolerance, ..default })?;
+    let scene = SceneBvh::new(&strands, Some(&head), &CurveOptions { tolerance, ..default })?;
     let build = clock.all_threads();
 
     let rays = Rays::new(&scene);

@@ -20,7 +20,9 @@ use std::time::Instant;
 
 use frisure_optics::Melanin;
 use frisure_render::trace::{TraceOptions, render};
-use frisure_render::{Background, Camera, DistantLight, Lamp, Lights, Room, SOFTBOX, preview};
+use frisure_render::{
+    Background, Camera, DistantLight, EnvironmentLight, Lamp, Lights, SOFTBOX, preview,
+};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
 use wig::Style;
@@ -87,7 +89,7 @@ struct Job {
     /// Degrees.
     field_of_view: f64,
     /// Radiance from everywhere.
-    room: f32,
+    environment: f32,
     /// Irradiance from one lamp, and the direction to it.
     lamp: f32,
     towards: DVec3,
@@ -107,7 +109,7 @@ impl Job {
             eye: DVec3::new(0.5, 0.87, 0.15),
             target: DVec3::new(0.0, 0.0, -0.03),
             field_of_view: 20.0,
-            room: 1.0,
+            environment: 1.0,
             lamp: 0.0,
             towards: DVec3::Z,
             eumelanin: 0.0,
@@ -130,7 +132,7 @@ impl Job {
             "eye" => self.eye = vector(value)?,
             "target" => self.target = vector(value)?,
             "field_of_view" => self.field_of_view = value.parse()?,
-            "room" => self.room = value.parse()?,
+            "room" => self.environment = value.parse()?,
             "lamp" => self.lamp = value.parse()?,
             "towards" => self.towards = vector(value)?,
             "eumelanin" => self.eumelanin = value.parse()?,
@@ -144,8 +146,8 @@ impl Job {
     fn lights(&self) -> Outcome<Lights> {
         let lamp = DistantLight::new(self.towards, Vec3::splat(self.lamp), SOFTBOX)?;
         let lamps = if self.lamp > 0.0 { vec![Lamp::Distant(lamp)] } else { Vec::new() };
-        let (sky, ground) = (Vec3::splat(self.room), Vec3::splat(self.room));
-        Ok(Lights { lamps, room: Room::Gradient { sky, ground } })
+        let (sky, ground) = (Vec3::splat(self.environment), Vec3::splat(self.environment));
+        Ok(Lights { lamps, environment: EnvironmentLight::Gradient { sky, ground } })
     }
 }
 

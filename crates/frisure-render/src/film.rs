@@ -2,7 +2,7 @@
 
 /// A picture of linear sRGB light with coverage, rows from the top.
 ///
-/// Colours are scene-linear and premultiplied: a pixel half covered by a white thing is
+/// Colours are scene-linear and premultiplied: a pixel half covered by a white object is
 /// (0.5, 0.5, 0.5, 0.5).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {

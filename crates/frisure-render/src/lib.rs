@@ -21,8 +21,8 @@ pub mod trace;
 pub use camera::{Aperture, Camera, CameraError};
 pub use film::{Image, ToneCurve};
 pub use light::{
-    AreaLight, AreaShape, Daylight, DistantLight, EnvironmentMap, InvalidLight, Lamp, Lights,
-    MAX_ENVIRONMENT_WIDTH, PointLight, Room, SOFTBOX, SUN_RADIUS, Setup, beside_camera,
+    AreaLight, AreaShape, Daylight, DistantLight, EnvironmentLight, EnvironmentMap, InvalidLight,
+    Lamp, Lights, MAX_ENVIRONMENT_WIDTH, PointLight, SOFTBOX, SUN_RADIUS, Setup, beside_camera,
     colour_of_temperature,
 };
-pub use look::{Background, Dye, Fade, Ground, HairLook, HairSurface, Look, SkinLook};
+pub use look::{Background, Dye, Fade, Floor, HairLook, HairSurface, Look, SkinLook};

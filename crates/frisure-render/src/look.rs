@@ -13,7 +13,7 @@ pub struct Look {
     /// What is behind.
     pub background: Background,
     /// A floor under the head; drawn by the path tracer alone.
-    pub ground: Option<Ground>,
+    pub floor: Option<Floor>,
 }
 
 /// Appearance of hair.
@@ -138,11 +138,11 @@ impl Default for SkinLook {
 /// A level floor, lit and shaded like everything else, that is lost in the background far from its
 /// middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ground {
+pub struct Floor {
     /// Its middle (m): the place under the head.
-    pub middle: DVec3,
+    pub centre: DVec3,
     /// Distance from the middle (m) at which only the background is seen.
-    pub reach: f64,
+    pub radius: f64,
     /// Diffuse reflectance, linear sRGB.
     pub colour: Vec3,
 }
@@ -160,7 +160,7 @@ pub enum Background {
         corner: Vec3,
     },
     /// What is around the scene and lights it, as the direction has it.
-    Surroundings,
+    Environment,
 }
 
 impl Default for Background {
@@ -174,7 +174,7 @@ impl Background {
     /// the direction decides.
     pub(crate) fn at(&self, u: f32, v: f32) -> (Vec3, f32) {
         match *self {
-            Self::Transparent | Self::Surroundings => (Vec3::ZERO, 0.0),
+            Self::Transparent | Self::Environment => (Vec3::ZERO, 0.0),
             Self::Gradient { centre, corner } => {
                 let r = (0.5 * (u * u + v * v)).min(1.0);
                 (centre.lerp(corner, r * (2.0 - r)), 1.0)

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use frisure_render::preview::{PreviewError, PreviewOptions, Scene, bounds, render};
 use frisure_render::{
-    AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentMap, Image, Lights,
-    PointLight, Room, Setup,
+    AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentLight, EnvironmentMap, Image,
+    Lights, PointLight, Setup,
 };
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DVec3, Vec3};
@@ -97,7 +97,7 @@ fn without_anything_the_picture_is_the_background() {
 fn surroundings_are_seen_where_they_are() {
     let strands = Strands::new();
     let mut scene = scene(&strands, None);
-    scene.look.background = Background::Surroundings;
+    scene.look.background = Background::Environment;
     scene.lights = Lights::overcast();
     let image = draw(&scene);
     assert!(image.pixels().iter().all(|p| p[3] == 1.0));
@@ -108,7 +108,7 @@ fn surroundings_are_seen_where_they_are() {
         let across = slope(x, width) * tan * width as f64 / height as f64 * scene.camera.right();
         let towards = scene.camera.forward() + across - slope(y, height) * tan * scene.camera.up();
         let seen = Vec3::from_slice(&image.pixel(x, y)[..3]);
-        let there = scene.lights.room.radiance(towards.normalize().as_vec3());
+        let there = scene.lights.environment.radiance(towards.normalize().as_vec3());
         assert!((seen - there).abs().max_element() < 0.02 * there.y, "{seen} {there}");
     }
 }
@@ -278,7 +278,7 @@ fn every_kind_of_light_is_seen_in_the_preview() {
         assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
     }
     let map = EnvironmentMap::new(8, 4, vec![[1.0; 3]; 32]).unwrap();
-    let map = lit(Lights { lamps: Vec::new(), room: Room::Environment(map) });
+    let map = lit(Lights { lamps: Vec::new(), environment: EnvironmentLight::Map(map) });
     let even = lit(Lights::even(Vec3::ONE));
     assert!((map / even - 1.0).abs() < 0.02, "{map} {even}");
     for setup in [Setup::Soft, Setup::Overcast, Setup::Daylight(Daylight::default())] {

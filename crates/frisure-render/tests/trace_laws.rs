@@ -6,7 +6,8 @@ use frisure_optics::Melanin;
 use frisure_render::preview::Scene;
 use frisure_render::trace::{TraceError, TraceOptions, render};
 use frisure_render::{
-    AreaLight, Background, DistantLight, EnvironmentMap, Image, Lights, Look, PointLight, Room,
+    AreaLight, Background, DistantLight, EnvironmentLight, EnvironmentMap, Image, Lights, Look,
+    PointLight,
 };
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
@@ -61,8 +62,8 @@ fn mean(image: &Image) -> Vec3 {
 #[test]
 fn white_hair_in_a_white_room_cannot_be_seen() {
     // White furnace: without absorption all light comes back, and is 1 everywhere.
-    let room = Lights::even(Vec3::ONE);
-    let image = drawn(&tuft(), look(Melanin::WHITE), Some(room), SMALL);
+    let environment = Lights::even(Vec3::ONE);
+    let image = drawn(&tuft(), look(Melanin::WHITE), Some(environment), SMALL);
     let light = mean(&image);
     assert!((light - Vec3::ONE).abs().max_element() < 0.01, "{light}");
 }
@@ -107,7 +108,7 @@ fn impossible_pictures_are_refused_before_the_work() {
 
 #[test]
 fn flat_white_hair_cannot_be_seen_either_and_round_hair_needs_no_frame() {
-    let room = || Some(Lights::even(Vec3::ONE));
+    let environment = || Some(Lights::even(Vec3::ONE));
     let with = |ratio: f32| {
         let mut strands = tuft();
         let directors = strands.points().iter().map(|p| p.any_orthonormal_vector().to_array());
@@ -121,7 +122,7 @@ fn flat_white_hair_cannot_be_seen_either_and_round_hair_needs_no_frame() {
     };
     for ratio in [0.6, 1.7] {
         let options = TraceOptions { samples: 128, ..SMALL };
-        let light = mean(&drawn(&with(ratio), look(Melanin::WHITE), room(), options));
+        let light = mean(&drawn(&with(ratio), look(Melanin::WHITE), environment(), options));
         assert!((light - Vec3::ONE).abs().max_element() < 0.01, "{ratio}: {light}");
     }
     // Narrow highlights of small lamps need many paths.
@@ -158,7 +159,7 @@ fn small_bright_lights_leave_no_fireflies() {
     let mut pixels = vec![[0.0; 3]; width * height];
     pixels[row as usize * width + x as usize] = [(1.0 / solid) as f32; 3];
     let map = EnvironmentMap::new(width, height, pixels).unwrap();
-    let map = Lights { lamps: Vec::new(), room: Room::Environment(map) };
+    let map = Lights { lamps: Vec::new(), environment: EnvironmentLight::Map(map) };
     let one = |lamp| Lights { lamps: vec![lamp], ..Lights::dark() };
 
     let reference = lit(one(sun.into()));
@@ -179,7 +180,7 @@ fn a_bright_room_in_a_picture_is_the_room() {
     let options = TraceOptions { bounces: 40, samples: 128, ..SMALL };
     let lit = |lights| mean(&drawn(&strands, look(Melanin::BROWN), Some(lights), options));
     let map = EnvironmentMap::new(64, 32, vec![[0.5, 1.0, 2.0]; 64 * 32]).unwrap();
-    let map = Lights { lamps: Vec::new(), room: Room::Environment(map) };
+    let map = Lights { lamps: Vec::new(), environment: EnvironmentLight::Map(map) };
     let ratio = lit(map) / lit(Lights::even(Vec3::new(0.5, 1.0, 2.0)));
     assert!((ratio - Vec3::ONE).abs().max_element() < 0.015, "{ratio}");
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use frisure::formats::picture::{PictureError, png};
 use frisure::hairstyle::head::Head;
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
-use frisure::render::trace::{Exposure, MAX_PIXELS, TraceError, TraceOptions, Tracer};
+use frisure::render::trace::{Accumulator, MAX_PIXELS, TraceError, TraceOptions, Tracer};
 use frisure::render::{Camera, EnvironmentMap};
 use frisure::scene::{Output, Scene};
 use frisure::strands::Strands;
@@ -93,7 +93,7 @@ impl Subject<'_> {
             TraceError::Cancelled => Stop::Cancelled,
             e => Refusal::of(&e, "").into(),
         })?;
-        let mut exposure = tracer.exposure();
+        let mut accumulator = tracer.accumulator();
         let mut pause = TOLD_EVERY;
         let done = AtomicU32::new(0);
         loop {
@@ -105,27 +105,27 @@ impl Subject<'_> {
                     false => going(watch),
                 }
             };
-            if tracer.expose(&mut exposure, &look).is_continue() {
+            if tracer.accumulate(&mut accumulator, &look).is_continue() {
                 break;
             }
             if watch.cancelled() {
                 return Err(Stop::Cancelled);
             }
             let telling = Instant::now();
-            watch.tell(self.exposed(&exposure, f32::from_bits(done.load(Ordering::Relaxed))));
+            watch.tell(self.exposed(&accumulator, f32::from_bits(done.load(Ordering::Relaxed))));
             // Large pictures take long to develop: most of the time is for light.
             pause = TOLD_EVERY.max(10 * telling.elapsed());
         }
-        let rgba = picture::developed(&exposure.image(), &self.scene.output);
+        let rgba = picture::developed(&accumulator.image(), &self.scene.output);
         Ok(encoded(size, |w, h| png::encode(w, h, &rgba))?)
     }
 
-    fn exposed(&self, exposure: &Exposure, fraction: f32) -> Answer {
+    fn exposed(&self, accumulator: &Accumulator, fraction: f32) -> Answer {
         Answer::Exposed {
-            size: [exposure.width(), exposure.height()],
-            rgba: picture::developed(&exposure.image(), &self.scene.output),
+            size: [accumulator.width(), accumulator.height()],
+            rgba: picture::developed(&accumulator.image(), &self.scene.output),
             fraction,
-            noise: exposure.noise(),
+            noise: accumulator.noise(),
         }
     }
 

@@ -9,8 +9,9 @@ use frisure::optics::{Melanin, absorption_of_colour};
 use frisure::render::preview;
 use frisure::render::{
     Aperture, AreaLight, Background, Camera, CameraError, Daylight, DistantLight, Dye,
-    EnvironmentMap, Fade, Ground, HairLook, HairSurface, Image, InvalidLight, Lamp, Lights, Look,
-    PointLight, Room, SOFTBOX, Setup, SkinLook, ToneCurve, beside_camera, colour_of_temperature,
+    EnvironmentLight, EnvironmentMap, Fade, Floor, HairLook, HairSurface, Image, InvalidLight,
+    Lamp, Lights, Look, PointLight, SOFTBOX, Setup, SkinLook, ToneCurve, beside_camera,
+    colour_of_temperature,
 };
 use frisure::scene::{
     self, Face, LampColour, LampFace, LampPlace, NaturalColour, Scene, SceneError,
@@ -52,7 +53,7 @@ pub fn seen_from<'a>(
     let middle = preview::middle(strands, surface);
     let (mut look, lights) = look_and_lights(scene, &camera, middle, environment)?;
     if let Some(colour) = scene.look.floor {
-        look.ground = Some(floor(colour, framed, surface));
+        look.floor = Some(floor(colour, framed, surface));
     }
     Ok(preview::Scene { strands, surface, camera, lights, look })
 }
@@ -169,7 +170,7 @@ pub fn developed(image: &Image, output: &scene::Output) -> Vec<u8> {
 }
 
 /// A floor under all there is.
-fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Ground {
+fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Floor {
     /// How far a bust, whose foot is round at its edge, sinks in (m), or it would seem to float.
     const FOOT: f64 = 0.02;
     /// Distance at which the floor is lost in the wall (m).
@@ -181,7 +182,7 @@ fn floor(colour: [f64; 3], strands: &Strands, surface: Option<&Surface>) -> Grou
     };
     let stands = if surface.is_some_and(|s| s.bounds().0.z <= low.z) { FOOT } else { 0.0 };
     let middle = (0.5 * (low + high)).with_z(low.z + stands);
-    Ground { middle, reach: REACH, colour: linear(colour) }
+    Floor { centre: middle, radius: REACH, colour: linear(colour) }
 }
 
 /// The surroundings that a scene names, read and ready.
@@ -287,9 +288,9 @@ fn lights(
         *lamp = lamp.scaled(strength)?;
     }
     if let (Some(map), Some(file)) = (environment, &asked.environment) {
-        lights.room = Room::Environment(map.clone().turned(file.rotation));
+        lights.environment = EnvironmentLight::Map(map.clone().turned(file.rotation));
     }
-    lights.room = lights.room.scaled(asked.sky_strength as f32);
+    lights.environment = lights.environment.scaled(asked.sky_strength as f32);
     Ok(lights)
 }
 
@@ -352,7 +353,7 @@ fn behind(asked: scene::Behind, lights: &Lights, camera: &Camera, middle: DVec3)
     match asked {
         scene::Behind::Wall => wall(lights, camera, middle),
         scene::Behind::Transparent => Background::Transparent,
-        scene::Behind::Surroundings => Background::Surroundings,
+        scene::Behind::Surroundings => Background::Environment,
         scene::Behind::Colour(colour) => {
             let colour = linear(colour);
             Background::Gradient { centre: colour, corner: colour }
@@ -378,7 +379,7 @@ fn on_wall(lights: &Lights, camera: &Camera, middle: DVec3) -> Vec3 {
     let lamps = lights.lamps.iter().filter_map(|lamp| lamp.arriving(middle));
     let faced = |towards: DVec3| (-towards.dot(camera.forward())).max(0.0) as f32;
     let lamps: Vec3 = lamps.map(|(towards, light)| 0.25 * faced(towards) * light).sum();
-    lamps + std::f32::consts::PI * lights.room.mean()
+    lamps + std::f32::consts::PI * lights.environment.mean()
 }
 
 fn look(asked: &scene::Look, background: Background) -> Look {
@@ -388,7 +389,7 @@ fn look(asked: &scene::Look, background: Background) -> Look {
         hair: hair_look(asked),
         skin: SkinLook { colour, ..default.skin },
         background,
-        ground: None,
+        floor: None,
     }
 }
 

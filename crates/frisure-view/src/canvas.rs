@@ -6,7 +6,7 @@ use wgpu::{Device, Queue, Texture, TextureFormat, TextureUsages};
 
 use crate::error::ViewError;
 use crate::gpu::{self, DEPTH, LIGHT};
-use crate::paint::Known;
+use crate::paint::FrameCache;
 
 /// Targets of one size, the finished picture among them, and what was computed for the last one.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ pub struct Canvas {
     pub(crate) targets: Targets,
     /// For the head, with several samples per pixel, made when first needed.
     pub(crate) fine: Option<Fine>,
-    pub(crate) known: Known,
+    pub(crate) cache: FrameCache,
 }
 
 /// What is drawn on.
@@ -41,7 +41,12 @@ impl Canvas {
     /// [`ViewError::Size`], if the device has no such pictures.
     pub fn new(device: &Device, size: [u32; 2]) -> Result<Self, ViewError> {
         check(device, size)?;
-        Ok(Self { size, targets: Targets::new(device, size), fine: None, known: Known::default() })
+        Ok(Self {
+            size,
+            targets: Targets::new(device, size),
+            fine: None,
+            cache: FrameCache::default(),
+        })
     }
 
     /// Gives it another size; what it showed is lost.
@@ -77,7 +82,7 @@ impl Canvas {
         if needed > most {
             return Err(ViewError::TooLarge { what: "the picture", needed, most });
         }
-        let bytes = watched(device, || self.bytes(device, queue, needed, stride))?;
+        let bytes = with_error_scope(device, || self.bytes(device, queue, needed, stride))?;
         let rows = bytes.chunks_exact(stride as usize);
         Ok(rows.flat_map(|all| &all[..row as usize]).copied().collect())
     }
@@ -132,7 +137,7 @@ fn mapped(device: &Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ViewError> 
 }
 
 /// Does something whose errors would otherwise end the program.
-fn watched<T>(
+fn with_error_scope<T>(
     device: &Device,
     task: impl FnOnce() -> Result<T, ViewError>,
 ) -> Result<T, ViewError> {

@@ -178,7 +178,7 @@ pub(crate) fn buffer(
 }
 
 /// What a pipeline is made of.
-pub(crate) struct Recipe<'a> {
+pub(crate) struct PipelineSpec<'a> {
     pub(crate) label: &'a str,
     pub(crate) shader: &'a ShaderModule,
     pub(crate) vertex: &'a str,
@@ -193,7 +193,7 @@ pub(crate) struct Recipe<'a> {
     pub(crate) strip: bool,
 }
 
-impl Recipe<'_> {
+impl PipelineSpec<'_> {
     pub(crate) fn pipeline(&self, device: &Device) -> RenderPipeline {
         let groups: Vec<_> = self.groups.iter().map(|group| Some(*group)).collect();
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

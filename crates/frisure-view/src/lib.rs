@@ -1,18 +1,18 @@
 //! Interactive pictures of hair on a GPU, for a window or a page. No GUI toolkit is in it: a [`Renderer`] draws a
 //! [`Frame`] into a [`Canvas`], and shows that in somebody else's pass.
 //!
-//! The picture is that of [`frisure_render::preview`], drawn again for each camera: materials, the room's light,
+//! The picture is that of [`frisure_render::preview`], drawn again for each camera: materials, the environment's light,
 //! widths, lobes and numbers are the same code or the same formulas, and tests compare the two.
 //!
 //! In the order in which a picture is drawn:
 //!
-//! 1. **Maps of each lamp.** `shaders/density.wgsl` adds pieces of hair up in layers behind one another: the
+//! 1. **ShadowMaps of each lamp.** `shaders/density.wgsl` adds pieces of hair up in layers behind one another: the
 //!    light-oriented density map of Bertails, Ménier & Cani 2005, "A practical self-shadowing algorithm for
 //!    interactive hair animation". Their slices are planes across the light, evenly spaced; ours begin at the
 //!    first hair of each texel, as in Yuksel & Keyser 2008, "Deep opacity maps", and are the farther apart the
-//!    deeper they are, since hair is dark after a few millimetres. The head has a map of depths. Maps are drawn
+//!    deeper they are, since hair is dark after a few millimetres. The head has a map of depths. ShadowMaps are drawn
 //!    again when a lamp has moved (a studio turns with the camera), hair or head are others.
-//! 2. **The room's light.** The preview's grid, computed here where hair, head or room are others.
+//! 2. **The environment's light.** The preview's grid, computed here where hair, head or environment are others.
 //! 3. **Light along the hairs** (`shaders/shade.wgsl`): one texel for each vertex. Diffuse light of Kajiya &
 //!    Kay 1989, highlights of Marschner et al. 2003 as [`frisure_optics::lobes`] has them, wet hair, marks.
 //! 4. **How far away the head is**, so that it hides hair.
@@ -33,8 +33,9 @@
 //! What it does not do: light that bounces between hairs is a colour, not a computation, as in the preview; four
 //! lamps at most cast shadows, and the light of others is added to the nearest of these; strands are not cut into
 //! finer pieces as the eye comes near; pieces that cross may be seen in the wrong order; what lies behind the
-//! head's edge is guessed from the pixels beside it; a floor ([`frisure_render::Ground`]) is left out.
+//! head's edge is guessed from the pixels beside it; a floor ([`frisure_render::Floor`]) is left out.
 
+mod ambient;
 mod canvas;
 mod error;
 mod frame;
@@ -42,10 +43,9 @@ mod gpu;
 mod hair;
 mod half;
 mod lamps;
-mod maps;
 mod paint;
 mod renderer;
-mod room;
+mod shadow_maps;
 mod skin;
 mod uniforms;
 

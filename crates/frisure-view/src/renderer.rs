@@ -6,7 +6,7 @@ use wgpu::{
     VertexStepMode,
 };
 
-use crate::gpu::{self, LIGHT, Recipe, Slot};
+use crate::gpu::{self, LIGHT, PipelineSpec, Slot};
 
 /// All that is made once for a device and the format of what the picture is shown on.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ pub(crate) struct Layouts {
     pub(crate) picture: BindGroupLayout,
     pub(crate) shadows: BindGroupLayout,
     pub(crate) hair: BindGroupLayout,
-    pub(crate) room: BindGroupLayout,
+    pub(crate) environment: BindGroupLayout,
     pub(crate) ribbons: BindGroupLayout,
     pub(crate) density: BindGroupLayout,
     pub(crate) current: BindGroupLayout,
@@ -78,7 +78,7 @@ impl Layouts {
             picture: of("picture", &[Slot::Uniform]),
             shadows: of("shadows", &[layers, layers, Slot::Layers { smooth: false }, sampler]),
             hair: of("hair", &[sharp, Slot::Whole, sharp, sharp, sharp, sharp]),
-            room: of("room", &[Slot::Volume]),
+            environment: of("environment", &[Slot::Volume]),
             ribbons: of("ribbons", &[sharp, sharp]),
             density: of("density", &[sharp, layers, sampler]),
             current: of("current lamp", &[Slot::Dynamic]),
@@ -168,8 +168,8 @@ impl Pipelines {
 }
 
 /// A recipe with everything left out.
-fn plain<'a>(label: &'a str, shader: &'a ShaderModule, vertex: &'a str) -> Recipe<'a> {
-    Recipe {
+fn plain<'a>(label: &'a str, shader: &'a ShaderModule, vertex: &'a str) -> PipelineSpec<'a> {
+    PipelineSpec {
         label,
         shader,
         vertex,
@@ -190,7 +190,7 @@ fn density_module(device: &Device) -> ShaderModule {
 
 fn first(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline {
     let least = blend(BlendFactor::One, BlendFactor::One, BlendOperation::Min);
-    Recipe {
+    PipelineSpec {
         fragment: Some("nearest"),
         groups: &[&l.picture, &l.ribbons, &l.current],
         buffers: &[PIECE],
@@ -203,7 +203,7 @@ fn first(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline 
 
 fn density(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline {
     let sum = blend(BlendFactor::One, BlendFactor::One, BlendOperation::Add);
-    Recipe {
+    PipelineSpec {
         fragment: Some("lay"),
         groups: &[&l.picture, &l.density, &l.current],
         buffers: &[PIECE],
@@ -215,7 +215,7 @@ fn density(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipelin
 }
 
 fn head_depth(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline {
-    Recipe {
+    PipelineSpec {
         fragment: Some("depth"),
         groups: &[&l.picture, &l.current],
         buffers: &[POSITION],
@@ -229,9 +229,9 @@ fn head_depth(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipe
 fn shade(device: &Device, l: &Layouts) -> RenderPipeline {
     let own = include_str!("shaders/shade.wgsl");
     let shader = module(device, "shade", &[COMMON, LAYERS, SHADOWS, own]);
-    Recipe {
+    PipelineSpec {
         fragment: Some("shade"),
-        groups: &[&l.picture, &l.shadows, &l.hair, &l.room],
+        groups: &[&l.picture, &l.shadows, &l.hair, &l.environment],
         targets: &[(LIGHT, None)],
         ..plain("shade", &shader, "every_vertex")
     }
@@ -241,7 +241,7 @@ fn shade(device: &Device, l: &Layouts) -> RenderPipeline {
 fn skin(device: &Device, l: &Layouts, samples: u32) -> RenderPipeline {
     let own = include_str!("shaders/skin.wgsl");
     let shader = module(device, "skin", &[COMMON, LAYERS, SHADOWS, own]);
-    Recipe {
+    PipelineSpec {
         fragment: Some("skin"),
         groups: &[&l.picture, &l.shadows, &l.finish],
         buffers: &[SKIN, ROOM],
@@ -254,7 +254,7 @@ fn skin(device: &Device, l: &Layouts, samples: u32) -> RenderPipeline {
 }
 
 fn skin_depth(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline {
-    Recipe {
+    PipelineSpec {
         groups: &[&l.picture],
         buffers: &[POSITION],
         depth: Some((CompareFunction::Less, true)),
@@ -267,7 +267,7 @@ fn hair(device: &Device, l: &Layouts) -> RenderPipeline {
     let shader = module(device, "hair", &[COMMON, RIBBON, include_str!("shaders/hair.wgsl")]);
     // What comes later lies behind what is there.
     let under = blend(BlendFactor::OneMinusDstAlpha, BlendFactor::One, BlendOperation::Add);
-    Recipe {
+    PipelineSpec {
         fragment: Some("paint"),
         groups: &[&l.picture, &l.ribbons],
         buffers: &[PIECE],
@@ -281,7 +281,7 @@ fn hair(device: &Device, l: &Layouts) -> RenderPipeline {
 
 fn finish(device: &Device, l: &Layouts) -> RenderPipeline {
     let shader = module(device, "finish", &[COMMON, include_str!("shaders/finish.wgsl")]);
-    Recipe {
+    PipelineSpec {
         fragment: Some("close"),
         groups: &[&l.picture, &l.finish],
         buffers: &[LEVEL],
@@ -293,7 +293,7 @@ fn finish(device: &Device, l: &Layouts) -> RenderPipeline {
 
 fn compose(device: &Device, l: &Layouts) -> RenderPipeline {
     let shader = module(device, "compose", &[COMMON, include_str!("shaders/compose.wgsl")]);
-    Recipe {
+    PipelineSpec {
         fragment: Some("compose"),
         groups: &[&l.picture, &l.compose],
         targets: &[(TextureFormat::Rgba8Unorm, None)],
@@ -309,7 +309,7 @@ fn stroke(
     label: &str,
     compare: CompareFunction,
 ) -> RenderPipeline {
-    Recipe {
+    PipelineSpec {
         fragment: Some("ink"),
         groups: &[&l.picture],
         buffers: &[STROKE],
@@ -324,7 +324,7 @@ fn stroke(
 fn show(device: &Device, l: &Layouts, output: TextureFormat) -> RenderPipeline {
     let shader = module(device, "show", &[include_str!("shaders/show.wgsl")]);
     let fragment = if output.is_srgb() { "show_linear" } else { "show_encoded" };
-    Recipe {
+    PipelineSpec {
         fragment: Some(fragment),
         groups: &[&l.show],
         targets: &[(output, Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING))],

@@ -1,13 +1,13 @@
 //! The numbers of a picture as the shaders have them (`shaders/common.wgsl`).
 
 use frisure_optics::LobeShape;
-use frisure_render::preview::numbers;
+use frisure_render::preview::constants;
 use frisure_render::{Background, Camera, ToneCurve};
 use glam::{DVec3, Vec3};
 
+use crate::ambient::AmbientVolume;
 use crate::frame::{Frame, MAX_PLANES, Plane, Shadows, linear};
 use crate::lamps::{LAMPS, Lamp};
-use crate::room::RoomOnDevice;
 
 /// How much nearer to a lamp hair looks up how much hair is before it (m): hair must not shade itself.
 const LIFT: f32 = 2.3e-3;
@@ -26,17 +26,17 @@ fn four(v: Vec3, w: f32) -> [f32; 4] {
 pub(crate) fn packed(
     frame: &Frame<'_>,
     [width, height]: [u32; 2],
-    room: &RoomOnDevice,
+    environment: &AmbientVolume,
     lamps: &[Lamp],
     width_factor: f32,
     vertices: usize,
 ) -> Vec<[f32; 4]> {
     let mut all = Vec::with_capacity(BYTES / 16);
     all.extend(view(&frame.camera, width, height, width_factor));
-    all.extend(matter(frame, vertices));
-    all.push(four(room.low, room.per_metre));
-    all.push(four(room.size, numbers::HAIR_BIAS));
-    all.extend(behind(frame.look.background));
+    all.extend(materials(frame, vertices));
+    all.push(four(environment.low, environment.per_metre));
+    all.push(four(environment.size, constants::HAIR_BIAS));
+    all.extend(background(frame.look.background));
     let planes: Vec<_> = frame.planes.iter().filter_map(plane).take(MAX_PLANES).collect();
     all.push([frame.stops.exp2(), tone(frame.tone), lamps.len() as f32, planes.len() as f32]);
     all.extend(marks(frame));
@@ -63,7 +63,7 @@ fn view(camera: &Camera, width: u32, height: u32, width_factor: f32) -> [[f32; 4
     ]
 }
 
-fn matter(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 6] {
+fn materials(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 6] {
     let surface = frame.look.hair.surface;
     let shape =
         LobeShape::of(surface.longitudinal_roughness, surface.azimuthal_roughness, surface.tilt);
@@ -72,19 +72,29 @@ fn matter(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 6] {
     let skin = frame.look.skin;
     [
         four(taken, vertices as f32),
-        four(reflected, numbers::ROOM_GLOSS),
-        [shape.width, shape.tilt, shape.azimuthal_width, numbers::OVERLAP],
-        [numbers::WET_DIFFUSE, numbers::WET_RETURNED, numbers::WET_REFLECTED, numbers::WET_WIDTH],
+        four(reflected, constants::ENVIRONMENT_GLOSS),
+        [shape.width, shape.tilt, shape.azimuthal_width, constants::OVERLAP],
+        [
+            constants::WET_DIFFUSE,
+            constants::WET_RETURNED,
+            constants::WET_REFLECTED,
+            constants::WET_WIDTH,
+        ],
         four(skin.colour, skin.gloss),
-        [numbers::WRAP, numbers::SKIN_BIAS, numbers::SKIN_PENUMBRA, numbers::SKIN_GLOSS as f32],
+        [
+            constants::WRAP,
+            constants::SKIN_BIAS,
+            constants::SKIN_PENUMBRA,
+            constants::SKIN_GLOSS as f32,
+        ],
     ]
 }
 
-fn behind(background: Background) -> [[f32; 4]; 2] {
+fn background(background: Background) -> [[f32; 4]; 2] {
     match background {
         Background::Transparent => [[0.0; 4]; 2],
         Background::Gradient { centre, corner } => [four(centre, 1.0), four(corner, 0.0)],
-        Background::Surroundings => [[0.0, 0.0, 0.0, 2.0], [0.0; 4]],
+        Background::Environment => [[0.0, 0.0, 0.0, 2.0], [0.0; 4]],
     }
 }
 

@@ -1,6 +1,6 @@
 //! The model of Marschner et al. 2003, *Light scattering from human hair fibers*, as it is printed.
 //!
-//! For fidelity to what was published; for pictures take [`super::Scattering`]. It is far-field (the
+//! For fidelity to what was published; for pictures take [`super::HairBsdf`]. It is far-field (the
 //! mean over the fibre's width), stops at TRT and does not conserve energy: its Gaussians are
 //! normalised in the half angle θh, which by itself counts light twice, 1/cos²θd rises without bound
 //! at grazing angles, and the transmittance exp(−2σ(1 + cos 2γt)) is of a way cos γt times 2 too long.

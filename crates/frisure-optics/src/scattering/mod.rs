@@ -17,7 +17,7 @@
 //! by 8 % for a circle and 13 % for an axis ratio of 1.5 (root mean square, weighed by f²; with a tilt
 //! of 2° 9 and 13 %).
 //!
-//! [`Fibre`] is prepared once per hair, [`Scattering`] once per hit. [`Marschner2003`] is the older model
+//! [`Fibre`] is prepared once per hair, [`HairBsdf`] once per hit. [`Marschner2003`] is the older model
 //! as it was printed.
 
 mod azimuthal;
@@ -45,9 +45,9 @@ use fibre::towards;
 use longitudinal::Inclinations;
 use section::{Incident, circle, ellipse};
 
-/// Scattering for one direction to the eye and one offset.
+/// HairBsdf for one direction to the eye and one offset.
 #[derive(Clone, Copy, Debug)]
-pub struct Scattering<'a> {
+pub struct HairBsdf<'a> {
     fibre: &'a Fibre,
     from: Inclinations,
     azimuth: Vec4,
@@ -60,13 +60,13 @@ pub struct Scattering<'a> {
 pub struct Evaluation {
     /// Scattering function times the cosine (1/sr), by colour.
     pub f_cos: Vec3,
-    /// Density with which [`Scattering::sample`] gives this direction (1/sr).
+    /// Density with which [`HairBsdf::sample`] gives this direction (1/sr).
     pub pdf: f32,
 }
 
 /// A direction drawn from the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScatteringSample {
+pub struct BsdfSample {
     /// Local unit direction to the light.
     pub wi: Vec3,
     /// f cos over pdf; 1 without absorption.
@@ -75,7 +75,7 @@ pub struct ScatteringSample {
     pub pdf: f32,
 }
 
-impl<'a> Scattering<'a> {
+impl<'a> HairBsdf<'a> {
     /// For the unit local direction `wo` to the eye and the offset `h` in [−1, 1] of the ray across
     /// the fibre's projected width, counted along wo × t ([`Fibre::offset`]).
     #[must_use]
@@ -124,7 +124,7 @@ impl<'a> Scattering<'a> {
 
     /// Draws a direction to the light from numbers in [0, 1).
     #[must_use]
-    pub fn sample(&self, u: [f32; 4]) -> ScatteringSample {
+    pub fn sample(&self, u: [f32; 4]) -> BsdfSample {
         let p = self.pick(u[0]);
         let sine = self.fibre.longitudinal.sample(p, &self.from, [u[1], u[2]]);
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
@@ -133,7 +133,7 @@ impl<'a> Scattering<'a> {
         let (y, x) = sin_cos(phi);
         let Evaluation { f_cos, pdf } = self.at(sine, cosine, phi);
         let weight = if pdf > 0.0 { f_cos / pdf } else { Vec3::ZERO };
-        ScatteringSample { wi: Vec3::new(cosine * x, cosine * y, sine), weight, pdf }
+        BsdfSample { wi: Vec3::new(cosine * x, cosine * y, sine), weight, pdf }
     }
 
     /// The model for light from inclination (sin θ, cos θ) and azimuth φ.

@@ -3,7 +3,7 @@
 
 use std::f32::consts::{PI, TAU};
 
-use frisure_optics::scattering::{Fibre, FibreSpec, Scattering};
+use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
 use glam::{DVec3, Vec3};
 
 /// A small generator of random numbers (Steele et al. 2014, SplitMix64): the same ones every time.
@@ -48,7 +48,7 @@ pub(crate) fn white(axis_ratio: f32, beta_m: f32, beta_n: f32) -> FibreSpec {
 
 /// ∫ f cos dω (green) and ∫ pdf dω of one hit, by the midpoint rule.
 pub(crate) fn integrals(fibre: &Fibre, wo: Vec3, h: f32, (n, m): (u16, u16)) -> (f64, f64) {
-    let hit = Scattering::new(fibre, wo, h);
+    let hit = HairBsdf::new(fibre, wo, h);
     let (mut energy, mut density) = (0.0, 0.0);
     for i in 0..n {
         let theta = PI * ((f32::from(i) + 0.5) / f32::from(n) - 0.5);

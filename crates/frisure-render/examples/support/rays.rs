@@ -6,7 +6,7 @@
 use std::f32::consts::TAU;
 
 use frisure_render::Camera;
-use frisure_render::accel::{Hit, Ray, Scene};
+use frisure_render::accel::{Hit, Ray, SceneBvh};
 use glam::{DVec3, Vec3};
 
 const SIDE: u32 = 512;
@@ -22,20 +22,20 @@ pub struct Rays {
 }
 
 impl Rays {
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &SceneBvh) -> Self {
         let primary = primary(scene);
         let hits: Vec<Hit> =
             primary.iter().filter_map(|r| scene.closest_hit(r, f32::INFINITY)).collect();
-        let from = |(i, hit): (usize, &Hit)| Ray::new(hit.start(direction(i)), direction(i));
+        let from = |(i, hit): (usize, &Hit)| Ray::new(hit.ray_origin(direction(i)), direction(i));
         let bounce = hits.iter().enumerate().map(from).collect();
         let lamp = Vec3::new(-0.5, -0.6, 0.7).normalize();
-        let shadow = hits.iter().map(|hit| Ray::new(hit.start(lamp), lamp)).collect();
+        let shadow = hits.iter().map(|hit| Ray::new(hit.ray_origin(lamp), lamp)).collect();
         Self { primary, bounce, shadow }
     }
 }
 
 /// The picture that a portrait camera takes.
-fn primary(scene: &Scene) -> Vec<Ray> {
+fn primary(scene: &SceneBvh) -> Vec<Ray> {
     let Some((low, high)) = scene.bounds() else { return Vec::new() };
     let camera = Camera::framing((low.as_dvec3(), high.as_dvec3()), 0.5, 0.08, 1.0);
     let tan = (0.5 * camera.vertical_fov()).tan();

@@ -1,18 +1,18 @@
-//! Building a hierarchy: binned surface-area heuristic, eight children at a time.
+//! Building the BVH: binned surface-area heuristic (SAH; Wald 2007, *On fast construction of SAH-based bounding
+//! volume hierarchies*), eight children at a time.
 //!
-//! A range of things is split in two where (area × number of leaves) is least, the larger part again,
-//! until there are eight: a node. Sorting is in place and its order depends on nothing but the input;
-//! large nodes build their children in parallel and line them up in order, so that the tree is the
-//! same on any number of threads.
+//! A range of primitives is split in two where (area × number of leaves) is least, the larger part again, until
+//! there are eight: a node. Sorting is in place and its order depends on nothing but the input; large nodes build
+//! their children in parallel and append them in order, so that the BVH is the same on any number of threads.
 
 use glam::Vec3A;
 use rayon::prelude::*;
 
-use super::bounds::Bounds;
-use super::hierarchy::{Child, Leaf, Node};
+use super::aabb::Aabb;
+use super::bvh::{Child, Leaf, Node};
 use super::simd::{LANES, Lanes};
 
-/// A thing to be sorted in: its box, its index and a number that the thing's kind may use.
+/// A primitive: its AABB, its index and a number of its own.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
 pub(super) struct Primitive {
@@ -23,13 +23,13 @@ pub(super) struct Primitive {
 }
 
 impl Primitive {
-    pub(super) fn new(bounds: Bounds, index: u32, number: u32) -> Self {
+    pub(super) fn new(bounds: Aabb, index: u32, number: u32) -> Self {
         Self { low: bounds.low.to_array(), index, high: bounds.high.to_array(), number }
     }
 
     #[inline]
-    pub(super) fn bounds(&self) -> Bounds {
-        Bounds { low: Vec3A::from(self.low), high: Vec3A::from(self.high) }
+    pub(super) fn bounds(&self) -> Aabb {
+        Aabb { low: Vec3A::from(self.low), high: Vec3A::from(self.high) }
     }
 
     pub(super) fn index(&self) -> usize {
@@ -40,9 +40,9 @@ impl Primitive {
         self.number
     }
 
-    /// Twice the middle of the box.
+    /// Twice the centroid of the AABB.
     #[inline]
-    fn middle(&self) -> Vec3A {
+    fn centroid(&self) -> Vec3A {
         Vec3A::from(self.low) + Vec3A::from(self.high)
     }
 }
@@ -57,25 +57,29 @@ pub(super) struct Tree<L> {
 /// whatever the input.
 const FREE_LEVELS: usize = 18;
 
-/// Levels of nodes at most: 2³¹ things, eight to a leaf, are halved 28 times, thrice a level.
+/// Levels of nodes at most: 2³¹ primitives, eight to a leaf, are halved 28 times, thrice a level.
 pub(super) const DEEPEST: usize = FREE_LEVELS + 10;
 
-/// Things in a node from which its children are built in parallel.
+/// Primitives in a node from which its children are built in parallel.
 const PARALLEL: usize = 1 << 17;
 
-/// Things that are put in bins at once, in parallel with others.
+/// Primitives per parallel job of binning.
 const CHUNK: usize = 1 << 14;
 
 struct Builder<'a, L: Leaf> {
-    things: &'a L::Things,
+    all: &'a L::Primitives,
     pad: f32,
 }
 
-/// Sorts things into a tree, boxes grown by `pad`.
-pub(super) fn tree<L: Leaf>(things: &L::Things, primitives: &mut [Primitive], pad: f32) -> Tree<L> {
+/// Builds the nodes and leaves over primitives, AABBs grown by `pad` (m).
+pub(super) fn tree<L: Leaf>(
+    all: &L::Primitives,
+    primitives: &mut [Primitive],
+    pad: f32,
+) -> Tree<L> {
     let mut tree = Tree { nodes: Vec::new(), leaves: Vec::new() };
     if !primitives.is_empty() {
-        Builder { things, pad }.node(Part::new(primitives), 0, &mut tree);
+        Builder { all, pad }.node(Part::new(primitives), 0, &mut tree);
     }
     tree
 }
@@ -83,7 +87,7 @@ pub(super) fn tree<L: Leaf>(things: &L::Things, primitives: &mut [Primitive], pa
 impl<L: Leaf> Builder<'_, L> {
     /// Appends the node over a part and everything below it.
     fn node(&self, part: Part<'_>, level: usize, tree: &mut Tree<L>) {
-        let wide = part.things.len() > PARALLEL;
+        let wide = part.primitives.len() > PARALLEL;
         let parts = eight(part, level >= FREE_LEVELS);
         let index = tree.nodes.len();
         let mut node = Node {
@@ -109,8 +113,8 @@ impl<L: Leaf> Builder<'_, L> {
     }
 
     fn child(&self, part: Part<'_>, level: usize, tree: &mut Tree<L>) -> Child {
-        if part.things.len() <= LANES {
-            tree.leaves.push(L::new(self.things, part.things));
+        if part.primitives.len() <= LANES {
+            tree.leaves.push(L::new(self.all, part.primitives));
             return Child::leaf(tree.leaves.len() - 1);
         }
         let index = tree.nodes.len();
@@ -144,74 +148,74 @@ impl<L: Leaf> Builder<'_, L> {
     }
 }
 
-/// The box around things, and the box around (twice) their middles.
+/// The AABB of primitives, and the AABB of (twice) their centroids.
 #[derive(Clone, Copy)]
 struct Extent {
-    bounds: Bounds,
-    middles: Bounds,
+    bounds: Aabb,
+    centroids: Aabb,
 }
 
 impl Extent {
-    const EMPTY: Self = Self { bounds: Bounds::EMPTY, middles: Bounds::EMPTY };
+    const EMPTY: Self = Self { bounds: Aabb::EMPTY, centroids: Aabb::EMPTY };
 
-    fn of(things: &[Primitive]) -> Self {
+    fn of(primitives: &[Primitive]) -> Self {
         let mut extent = Self::EMPTY;
-        for thing in things {
-            extent.add(thing);
+        for primitive in primitives {
+            extent.add(primitive);
         }
         extent
     }
 
     #[inline]
-    fn add(&mut self, thing: &Primitive) {
-        self.bounds = self.bounds.union(thing.bounds());
-        let middle = thing.middle();
-        self.middles = self.middles.union(Bounds { low: middle, high: middle });
+    fn add(&mut self, primitive: &Primitive) {
+        self.bounds = self.bounds.union(primitive.bounds());
+        let centroid = primitive.centroid();
+        self.centroids = self.centroids.union(Aabb { low: centroid, high: centroid });
     }
 
     fn and(self, other: Self) -> Self {
         let bounds = self.bounds.union(other.bounds);
-        Self { bounds, middles: self.middles.union(other.middles) }
+        Self { bounds, centroids: self.centroids.union(other.centroids) }
     }
 }
 
-/// A range of things, and how far they extend.
+/// A range of primitives, and their extent.
 struct Part<'a> {
-    things: &'a mut [Primitive],
+    primitives: &'a mut [Primitive],
     extent: Extent,
 }
 
 impl<'a> Part<'a> {
-    fn new(things: &'a mut [Primitive]) -> Self {
-        let chunks = things.par_chunks(CHUNK).map(Extent::of);
-        Self { extent: chunks.reduce(|| Extent::EMPTY, Extent::and), things }
+    fn new(primitives: &'a mut [Primitive]) -> Self {
+        let chunks = primitives.par_chunks(CHUNK).map(Extent::of);
+        Self { extent: chunks.reduce(|| Extent::EMPTY, Extent::and), primitives }
     }
 
-    /// How much there is to win by splitting it.
+    /// Priority for splitting: its area, or its count.
     fn size(&self, halve: bool) -> f32 {
-        if self.things.len() <= LANES {
+        if self.primitives.len() <= LANES {
             return f32::NEG_INFINITY;
         }
-        if halve { self.things.len() as f32 } else { self.extent.bounds.half_area() }
+        if halve { self.primitives.len() as f32 } else { self.extent.bounds.half_area() }
     }
 
-    /// Two parts of it: where it costs least, or in the middle.
+    /// Splits it in two: at the least SAH cost, or in the middle.
     fn split(self, halve: bool) -> [Self; 2] {
-        let Self { things, extent } = self;
-        let best = if halve { None } else { best_split(things, &extent.middles) };
+        let Self { primitives, extent } = self;
+        let best = if halve { None } else { best_split(primitives, &extent.centroids) };
         let (at, first, second) = match best {
-            Some((grid, axis, bin)) => partition(things, |p| grid.bins_of(p)[axis] < bin),
+            Some((grid, axis, bin)) => partition(primitives, |p| grid.bins_of(p)[axis] < bin),
             None => {
-                let at = things.len() / 2;
-                (at, Extent::of(&things[..at]), Extent::of(&things[at..]))
+                let at = primitives.len() / 2;
+                (at, Extent::of(&primitives[..at]), Extent::of(&primitives[at..]))
             }
         };
-        let (left, right) = things.split_at_mut(at);
-        [Self { things: left, extent: first }, Self { things: right, extent: second }]
+        let (left, right) = primitives.split_at_mut(at);
+        [Self { primitives: left, extent: first }, Self { primitives: right, extent: second }]
     }
 }
 
-/// Splits things into at most eight parts.
+/// Splits a part into at most eight.
 fn eight(part: Part<'_>, halve: bool) -> Vec<Part<'_>> {
     let mut parts = Vec::with_capacity(LANES);
     parts.push(part);
@@ -227,31 +231,31 @@ fn eight(part: Part<'_>, halve: bool) -> Vec<Part<'_>> {
     parts
 }
 
-/// Things whose middles lie in the same slice of the box of all middles.
+/// The primitives whose centroids lie in one slice of the AABB of all centroids.
 #[derive(Clone, Copy)]
 struct Bin {
     count: usize,
-    bounds: Bounds,
+    bounds: Aabb,
 }
 
 type Bins<const N: usize> = [[Bin; N]; 3];
 
 impl Bin {
-    const EMPTY: Self = Self { count: 0, bounds: Bounds::EMPTY };
+    const EMPTY: Self = Self { count: 0, bounds: Aabb::EMPTY };
 
     #[inline]
     fn and(self, other: Self) -> Self {
         Self { count: self.count + other.count, bounds: self.bounds.union(other.bounds) }
     }
 
-    /// Expected work in it: a leaf's things are tested at once.
+    /// SAH cost: area times number of leaves, since the primitives of a leaf are intersected at once.
     #[inline]
     fn cost(&self) -> f32 {
         self.bounds.half_area() * self.count.div_ceil(LANES) as f32
     }
 }
 
-/// How middles fall into bins.
+/// The map from centroids to bins.
 #[derive(Clone, Copy)]
 struct Grid {
     low: Vec3A,
@@ -260,51 +264,54 @@ struct Grid {
 }
 
 impl Grid {
-    /// `None` if all middles coincide.
-    fn new(middles: &Bounds, bins: usize) -> Option<Self> {
-        let extent = middles.high - middles.low;
+    /// `None` if all centroids coincide.
+    fn new(centroids: &Aabb, bins: usize) -> Option<Self> {
+        let extent = centroids.high - centroids.low;
         // An axis without extent has one bin.
         let scale = extent.to_array().map(|e| if e > 0.0 { 0.9999 * bins as f32 / e } else { 0.0 });
         let scale = Vec3A::from(scale);
-        let grid = Self { low: middles.low, scale, last: bins - 1 };
+        let grid = Self { low: centroids.low, scale, last: bins - 1 };
         (extent.max_element() > 0.0 && scale.is_finite()).then_some(grid)
     }
 
     #[inline]
     fn bins_of(&self, primitive: &Primitive) -> [usize; 3] {
-        let x = (primitive.middle() - self.low) * self.scale;
+        let x = (primitive.centroid() - self.low) * self.scale;
         // The cast saturates at 0.
         x.to_array().map(|x| (x as usize).min(self.last))
     }
 }
 
-/// The best split found: axis and first bin of the second side; `None` if all middles coincide.
+/// The split of least SAH cost: axis and first bin of the second side; `None` if all centroids coincide.
 ///
-/// Many things get 32 bins (rays are 7 % faster than with 16), few things fewer: looking through
-/// the bins would cost more than filling them.
-fn best_split(things: &[Primitive], middles: &Bounds) -> Option<(Grid, usize, usize)> {
-    match things.len() {
-        ..=64 => binned::<16>(things, middles),
-        _ => binned::<32>(things, middles),
+/// Many primitives get 32 bins (measured: rays are 7 % faster than with 16), up to 64 primitives 16: evaluating the
+/// bins would cost more than filling them.
+fn best_split(primitives: &[Primitive], centroids: &Aabb) -> Option<(Grid, usize, usize)> {
+    match primitives.len() {
+        ..=64 => binned::<16>(primitives, centroids),
+        _ => binned::<32>(primitives, centroids),
     }
 }
 
-fn binned<const N: usize>(things: &[Primitive], middles: &Bounds) -> Option<(Grid, usize, usize)> {
-    let grid = Grid::new(middles, N)?;
-    let bins: Bins<N> = if things.len() > 2 * CHUNK {
-        let chunks = things.par_chunks(CHUNK).map(|chunk| fill(chunk, &grid));
+fn binned<const N: usize>(
+    primitives: &[Primitive],
+    centroids: &Aabb,
+) -> Option<(Grid, usize, usize)> {
+    let grid = Grid::new(centroids, N)?;
+    let bins: Bins<N> = if primitives.len() > 2 * CHUNK {
+        let chunks = primitives.par_chunks(CHUNK).map(|chunk| fill(chunk, &grid));
         chunks.reduce(|| [[Bin::EMPTY; N]; 3], merge)
     } else {
-        fill(things, &grid)
+        fill(primitives, &grid)
     };
     cheapest(&bins).map(|(axis, bin)| (grid, axis, bin))
 }
 
-fn fill<const N: usize>(things: &[Primitive], grid: &Grid) -> Bins<N> {
+fn fill<const N: usize>(primitives: &[Primitive], grid: &Grid) -> Bins<N> {
     let mut bins = [[Bin::EMPTY; N]; 3];
-    for thing in things {
-        let bounds = thing.bounds();
-        for (axis, bin) in grid.bins_of(thing).into_iter().enumerate() {
+    for primitive in primitives {
+        let bounds = primitive.bounds();
+        for (axis, bin) in grid.bins_of(primitive).into_iter().enumerate() {
             let bin = &mut bins[axis][bin];
             bin.count += 1;
             bin.bounds = bin.bounds.union(bounds);
@@ -344,21 +351,21 @@ fn cheapest<const N: usize>(bins: &Bins<N>) -> Option<(usize, usize)> {
     best
 }
 
-/// Moves things that are `first` before the others: how many they are, and how far both extend.
+/// Moves the primitives that are `first` before the others: their number, and the extent of both sides.
 fn partition(
-    things: &mut [Primitive],
+    primitives: &mut [Primitive],
     first: impl Fn(&Primitive) -> bool,
 ) -> (usize, Extent, Extent) {
-    let (mut begin, mut end) = (0, things.len());
+    let (mut begin, mut end) = (0, primitives.len());
     let (mut before, mut behind) = (Extent::EMPTY, Extent::EMPTY);
     while begin < end {
-        if first(&things[begin]) {
-            before.add(&things[begin]);
+        if first(&primitives[begin]) {
+            before.add(&primitives[begin]);
             begin += 1;
         } else {
             end -= 1;
-            behind.add(&things[begin]);
-            things.swap(begin, end);
+            behind.add(&primitives[begin]);
+            primitives.swap(begin, end);
         }
     }
     (begin, before, behind)

@@ -7,7 +7,7 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::AccelError;
-use super::bounds::Bounds;
+use super::aabb::Aabb;
 use super::build::Primitive;
 use super::error::FARTHEST;
 
@@ -37,7 +37,7 @@ const BEND: f32 = 12.0;
 /// By how much of the longest piece a piece may be longer, before it is cut in two for it.
 const LONGER: f32 = 0.3;
 
-/// Of so many points, the strand of one is kept.
+/// Stride in points at which the strand of a point is stored.
 const STRIDE: usize = 32;
 
 /// Shortest piece worth a box, in tenths, and smallest radius (m).
@@ -61,7 +61,7 @@ pub(super) const REACH: f32 = 0.25;
 pub(super) struct Curves {
     /// Points and radii, one strand after another.
     points: Vec<Vec4>,
-    /// Strand of every so many points.
+    /// Strand of every [`STRIDE`]th point.
     strand: Vec<u32>,
     /// First point of each strand, and the number of points at the end.
     offsets: Vec<u32>,
@@ -228,7 +228,7 @@ impl Curves {
             before = Some(end);
             let long = start.truncate().distance(end.truncate()) > 0.1 * TINY;
             let (low, high) = (start.min(end).truncate(), start.max(end).truncate());
-            let bounds = Bounds { low: low.into(), high: high.into() };
+            let bounds = Aabb { low: low.into(), high: high.into() };
             let bounds = bounds.grown(BESIDE * start.w.max(end.w));
             long.then(|| Primitive::new(bounds, name.point, u32::from(name.number)))
         })

@@ -1,10 +1,10 @@
-//! Eight pieces of hair against a ray.
+//! Intersection of a ray with eight pieces of hair at once.
 
 use glam::{DVec3, Vec3, Vec4};
 
 use super::build::Primitive;
+use super::bvh::{Leaf, WideRay};
 use super::curves::{Curves, Piece, PieceName, REACH};
-use super::hierarchy::{Leaf, WideRay};
 use super::simd::{LANES, Simd, Vectors, Wide3};
 
 /// Up to eight pieces, side by side, on a grid of their own; unused lanes have no radius.
@@ -29,7 +29,7 @@ pub(super) struct HairLeaf {
 }
 
 impl Leaf for HairLeaf {
-    type Things = Curves;
+    type Primitives = Curves;
 
     fn new(curves: &Curves, primitives: &[Primitive]) -> Self {
         let mut leaf = Self {
@@ -64,7 +64,7 @@ impl Leaf for HairLeaf {
     /// Most rays pass by all pieces: their distance from the axes made endless, (x·n)²/n² with n square to
     /// both, says so without a division and whatever the length of the axes.
     #[inline(always)]
-    fn test<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
+    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
         let d = ray.direction;
         let x0 = simd.sub3(ray.origin, simd.splat3(self.low.into()));
         let middle = simd.sub(simd.splat(0.0), simd.dot(x0, d));
@@ -162,7 +162,7 @@ impl HairLeaf {
     }
 }
 
-/// Where on a piece a ray enters it.
+/// The intersection of a ray with a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Entry {
     /// Distance (m).
@@ -175,8 +175,8 @@ pub(super) struct Entry {
     pub(super) out: DVec3,
 }
 
-/// Where a ray enters a piece that it is known to meet, in double precision: what eight lanes at
-/// once find is good to a few hundredths of a radius, which is enough to choose.
+/// Intersects a ray with a piece that it is known to hit, in double precision: the eight lanes are accurate to a few
+/// hundredths of a radius, which is enough to choose the closest.
 pub(super) fn entry(piece: &Piece, origin: DVec3, direction: DVec3) -> Entry {
     let (axis, r0) = (piece.axis.as_dvec3(), f64::from(piece.radius));
     let widening = f64::from(piece.widening);

@@ -1,8 +1,8 @@
-//! What a ray meets.
+//! Hits: where a ray intersects hair or head.
 
 use glam::Vec3;
 
-/// What a ray meets first.
+/// The closest intersection of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hit {
     /// A strand.
@@ -15,7 +15,7 @@ pub enum Hit {
 ///
 /// A fibre is met where a ray enters it, never where it leaves it: what a fibre does to the light
 /// inside is its scattering's business. A ray that starts inside a fibre does not meet that fibre;
-/// the flat ends of roots and tips are open. Light that goes on starts outside, at [`Self::start`].
+/// the flat ends of roots and tips are open. Light that goes on starts outside, at [`Self::ray_origin`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HairHit {
     /// Distance (m).
@@ -62,11 +62,11 @@ pub struct SkinHit {
     pub smooth_normal: Vec3,
 }
 
-/// How far outside a fibre light starts again, in radii: single precision is a thousandth of a
+/// Distance of the origin of a secondary ray from the fibre, in radii; chosen: single precision is a thousandth of a
 /// hair's radius at arm's length from the origin.
 const CLEARANCE: f32 = 0.01;
 
-/// How far off the skin light starts again (m).
+/// Distance of the origin of a secondary ray from the skin (m); chosen.
 const SKIN_CLEARANCE: f32 = 1e-6;
 
 impl Hit {
@@ -79,22 +79,22 @@ impl Hit {
         }
     }
 
-    /// Where light that goes on in the direction `towards` starts (m).
+    /// Origin (m) of a ray that leaves in the direction `towards`.
     #[must_use]
-    pub fn start(&self, towards: Vec3) -> Vec3 {
+    pub fn ray_origin(&self, towards: Vec3) -> Vec3 {
         match self {
-            Self::Hair(hit) => hit.start(towards),
-            Self::Skin(hit) => hit.start(towards),
+            Self::Hair(hit) => hit.ray_origin(towards),
+            Self::Skin(hit) => hit.ray_origin(towards),
         }
     }
 }
 
 impl HairHit {
-    /// Where light that goes on in the direction `towards` starts (m): at the height of the hit, just
+    /// Origin (m) of a ray that leaves in the direction `towards`: at the height of the hit, just
     /// outside the fibre on the side it goes to. From there a ray only gets farther from the axis of
     /// the piece, so that it cannot meet this piece again; it may meet other windings of a curl.
     #[must_use]
-    pub fn start(&self, towards: Vec3) -> Vec3 {
+    pub fn ray_origin(&self, towards: Vec3) -> Vec3 {
         let across = |v: Vec3| (v - v.dot(self.axis) * self.axis).try_normalize();
         let out = across(towards).or_else(|| across(self.normal)).unwrap_or(self.normal);
         self.centre + (1.0 + CLEARANCE) * self.radius * out
@@ -102,10 +102,9 @@ impl HairHit {
 }
 
 impl SkinHit {
-    /// Where light that goes on in the direction `towards` starts (m): just off the face, on the side
-    /// it goes to.
+    /// Origin (m) of a ray that leaves in the direction `towards`: just off the face, on the side it goes to.
     #[must_use]
-    pub fn start(&self, towards: Vec3) -> Vec3 {
+    pub fn ray_origin(&self, towards: Vec3) -> Vec3 {
         self.position + SKIN_CLEARANCE.copysign(towards.dot(self.normal)) * self.normal
     }
 }

@@ -1,13 +1,13 @@
-//! Where rays meet hair and head.
+//! Ray intersection with hair and head: bounding volume hierarchies (BVH) over curves and triangles.
 //!
-//! A [`Scene`] is made once from strands and the surface they grow on; [`Scene::closest_hit`] and
-//! [`Scene::occluded`] then answer for any [`Ray`], from any thread.
+//! A [`SceneBvh`] is built once from strands and the surface they grow on; [`SceneBvh::closest_hit`] and
+//! [`SceneBvh::occluded`] then answer for any [`Ray`], from any thread.
 //!
 //! Strands are smooth: Catmull–Rom splines through their points (`curves`), cut into straight pieces
 //! of a few millimetres with the true radius of the hair, a few tens of micrometres: nothing is made
-//! wider than it is. The pieces, and the triangles of the head, each lie in a `hierarchy` of boxes
-//! with eight children to a node and up to eight things to a leaf (`build`), which are tested eight
-//! at a time (`simd`, `hair`, `skin`).
+//! wider than it is. The pieces, and the triangles of the head, each lie in an 8-wide `bvh`: nodes of eight
+//! axis-aligned bounding boxes (`aabb`) and leaves of up to eight primitives, built by the surface-area heuristic
+//! (`build`) and intersected eight at a time (`simd`, `hair`, `skin`).
 //!
 //! # What was measured
 //!
@@ -19,7 +19,7 @@
 //! - Leaves on a 16-bit grid are 208 instead of 320 bytes. Decoded for every test they cost a tenth of
 //!   the rate; that is won back by a first test without divisions, which is all that most leaves
 //!   need.
-//! - Splits from 32 bins, against 16: 1.06 / 1.07 / 1.07. With at most 64 things, 16 bins do.
+//! - Splits from 32 bins, against 16: 1.06 / 1.07 / 1.07. With at most 64 primitives, 16 bins do.
 //! - An area heuristic that counts pieces instead of leaves: 0.92 / 0.79 / 0.89. Leaves of 4 pieces:
 //!   0.80 / 0.72 / 0.76. Leaves of 4 strips of two pieces, which share their joints and take a
 //!   third less memory: 0.72 / 0.67 / 0.84.
@@ -27,12 +27,12 @@
 //!
 //! Untried: nodes on a grid, oriented boxes, sorted bounces.
 
-mod bounds;
+mod aabb;
 mod build;
+mod bvh;
 mod curves;
 mod error;
 mod hair;
-mod hierarchy;
 mod hit;
 mod ray;
 mod scene;
@@ -45,4 +45,4 @@ pub use curves::CurveOptions;
 pub use error::AccelError;
 pub use hit::{HairHit, Hit, SkinHit};
 pub use ray::Ray;
-pub use scene::Scene;
+pub use scene::SceneBvh;

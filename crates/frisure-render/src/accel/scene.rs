@@ -1,34 +1,34 @@
-//! Hair and head, ready for rays.
+//! The BVHs of a scene: hair and head, ready for rays.
 
 use frisure_strands::{Strands, Surface};
 use glam::Vec3;
 
-use super::bounds::Bounds;
+use super::aabb::Aabb;
 use super::build::Primitive;
+use super::bvh::{Bvh, LeafHit, SimdLevel};
 use super::curves::Curves;
 use super::error::FARTHEST;
 use super::hair::{HairLeaf, entry};
-use super::hierarchy::{Found, Hierarchy, Level};
 use super::skin::{SkinLeaf, Triangle};
 use super::{AccelError, CurveOptions, HairHit, Hit, Ray, SkinHit};
 
-/// Hair and head, ready for rays.
+/// Hair and head in two BVHs, ready for rays.
 ///
 /// Tracing uses AVX2 and FMA where the machine has them; without them, the same hits are found to
 /// rounding, at about half the speed.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub struct SceneBvh {
     curves: Curves,
-    hair: Hierarchy<HairLeaf>,
-    skin: Hierarchy<SkinLeaf>,
+    hair: Bvh<HairLeaf>,
+    skin: Bvh<SkinLeaf>,
     faces: Vec<[u32; 3]>,
     corners: Vec<Vec3>,
     normals: Vec<Vec3>,
-    level: Level,
+    level: SimdLevel,
 }
 
-impl Scene {
-    /// Sorts strands, and the head if there is one, for rays. Strands with fewer than two points are
+impl SceneBvh {
+    /// Builds the BVHs of strands and, if there is one, of the head. Strands with fewer than two points are
     /// nowhere; the result is the same on any number of threads.
     ///
     /// # Errors
@@ -42,11 +42,11 @@ impl Scene {
         let mut scene = Self {
             hair: hair(&curves),
             curves,
-            skin: Hierarchy::new(&[][..], &mut []),
+            skin: Bvh::new(&[][..], &mut []),
             faces: Vec::new(),
             corners: Vec::new(),
             normals: Vec::new(),
-            level: Level::best(),
+            level: SimdLevel::best(),
         };
         if let Some(head) = head {
             scene.put_head(head)?;
@@ -57,23 +57,23 @@ impl Scene {
     /// The same scene without the instructions that only some machines have: to compare.
     #[must_use]
     pub fn portable(mut self) -> Self {
-        self.level = Level::Portable;
+        self.level = SimdLevel::Portable;
         self
     }
 
-    /// What the ray meets first before `t_max` (m).
+    /// The closest hit of a ray before `t_max` (m).
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
-        let skin = self.skin.closest(self.level, ray, t_max);
+        let skin = self.skin.closest_hit(self.level, ray, t_max);
         let t_max = skin.map_or(t_max, |found| found.t);
-        match (self.hair.closest(self.level, ray, t_max), skin) {
+        match (self.hair.closest_hit(self.level, ray, t_max), skin) {
             (Some(hair), _) => Some(Hit::Hair(self.hair_hit(ray, &hair))),
             (None, Some(skin)) => Some(Hit::Skin(self.skin_hit(ray, &skin))),
             (None, None) => None,
         }
     }
 
-    /// Whether the ray meets anything before `t_max` (m). Faster than the closest hit.
+    /// Whether the ray hits anything before `t_max` (m): for shadow rays, faster than the closest hit.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
         self.skin.occluded(self.level, ray, t_max) || self.hair.occluded(self.level, ray, t_max)
@@ -86,7 +86,7 @@ impl Scene {
             |i: u8| Vec3::from_array([1, 2, 4].map(|bit| if i & bit == 0 { -1.0 } else { 0.9 }));
         let leaves = |direction: Vec3| {
             let ray = Ray::new(point, direction);
-            let found = self.skin.closest(self.level, &ray, f32::INFINITY);
+            let found = self.skin.closest_hit(self.level, &ray, f32::INFINITY);
             found.is_some_and(|found| self.skin_hit(&ray, &found).normal.dot(direction) > 0.0)
         };
         (0..8).filter(|i| leaves(corner(*i))).count() > 4
@@ -95,7 +95,7 @@ impl Scene {
     /// Smallest and largest corner of a box around everything (m); `None` if there is nothing.
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        let Bounds { low, high } = self.hair.bounds().union(self.skin.bounds());
+        let Aabb { low, high } = self.hair.bounds().union(self.skin.bounds());
         low.cmple(high).all().then(|| (low.into(), high.into()))
     }
 
@@ -129,14 +129,14 @@ impl Scene {
         let triangles = Triangle::of(head);
         let boxes = triangles.iter().map(Triangle::bounds).zip(0..);
         let mut primitives: Vec<_> = boxes.map(|(b, i)| Primitive::new(b, i, 0)).collect();
-        self.skin = Hierarchy::new(&triangles[..], &mut primitives);
+        self.skin = Bvh::new(&triangles[..], &mut primitives);
         self.faces = head.triangles().to_vec();
         self.corners = head.positions().iter().map(|p| p.as_vec3()).collect();
         self.normals = head.vertex_normals().iter().map(|n| n.as_vec3()).collect();
         Ok(())
     }
 
-    fn hair_hit(&self, ray: &Ray, found: &Found<'_, HairLeaf>) -> HairHit {
+    fn hair_hit(&self, ray: &Ray, found: &LeafHit<'_, HairLeaf>) -> HairHit {
         let piece = found.leaf.piece(found.lane);
         let (origin, direction) = (ray.origin().as_dvec3(), ray.direction().as_dvec3());
         let at = entry(&piece, origin, direction);
@@ -163,7 +163,7 @@ impl Scene {
         }
     }
 
-    fn skin_hit(&self, ray: &Ray, found: &Found<'_, SkinLeaf>) -> SkinHit {
+    fn skin_hit(&self, ray: &Ray, found: &LeafHit<'_, SkinLeaf>) -> SkinHit {
         let face = found.leaf.face(found.lane);
         let corners = self.faces[face as usize];
         let [a, b, c] = corners.map(|v| self.corners[v as usize].as_dvec3());
@@ -190,6 +190,6 @@ impl Scene {
     }
 }
 
-fn hair(curves: &Curves) -> Hierarchy<HairLeaf> {
-    Hierarchy::new(curves, &mut curves.boxes())
+fn hair(curves: &Curves) -> Bvh<HairLeaf> {
+    Bvh::new(curves, &mut curves.boxes())
 }

@@ -1,11 +1,11 @@
-//! Eight triangles of the head against a ray.
+//! Intersection of a ray with eight triangles of the head at once.
 
 use frisure_strands::Surface;
 use glam::{DVec3, Vec3};
 
-use super::bounds::Bounds;
+use super::aabb::Aabb;
 use super::build::Primitive;
-use super::hierarchy::{Leaf, WideRay};
+use super::bvh::{Leaf, WideRay};
 use super::simd::{LANES, Lanes, Simd, Vectors};
 
 /// A triangle: a corner, and the ways to the two others (m).
@@ -27,10 +27,10 @@ impl Triangle {
         faces.map(triangle).filter(|t| t.edges[0].cross(t.edges[1]) != Vec3::ZERO).collect()
     }
 
-    pub(super) fn bounds(&self) -> Bounds {
+    pub(super) fn bounds(&self) -> Aabb {
         let [b, c] = self.edges.map(|edge| self.corner + edge);
         let (low, high) = (self.corner.min(b).min(c), self.corner.max(b).max(c));
-        Bounds { low: low.into(), high: high.into() }
+        Aabb { low: low.into(), high: high.into() }
     }
 }
 
@@ -47,7 +47,7 @@ pub(super) struct SkinLeaf {
 }
 
 impl Leaf for SkinLeaf {
-    type Things = [Triangle];
+    type Primitives = [Triangle];
 
     fn new(triangles: &[Triangle], primitives: &[Primitive]) -> Self {
         let zero = [Lanes([0.0; LANES]); 3];
@@ -61,7 +61,7 @@ impl Leaf for SkinLeaf {
     /// Möller & Trumbore 1997, both sides. Without area the determinant is 0 and its inverse
     /// infinite: no comparison then holds.
     #[inline(always)]
-    fn test<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
+    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
         let [e1, e2] = [simd.load3(&self.edges[0]), simd.load3(&self.edges[1])];
         let p = simd.cross(ray.direction, e2);
         let inverse = simd.div(simd.splat(1.0), simd.dot(e1, p));

@@ -6,9 +6,9 @@ use frisure_optics::scattering::{Fibre, FibreFrame, FibreSpec};
 use frisure_strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
 
+use super::bvh::Leaf as _;
 use super::curves::{Curves, Piece, REACH};
 use super::hair::HairLeaf;
-use super::hierarchy::Leaf as _;
 use super::*;
 
 /// A small generator of random numbers.
@@ -67,8 +67,8 @@ fn ball(radius: f64) -> Surface {
     Surface::new(positions, triangles.collect()).unwrap()
 }
 
-fn scene(strands: &Strands, head: Option<&Surface>) -> Scene {
-    Scene::new(strands, head, &CurveOptions::default()).unwrap()
+fn scene(strands: &Strands, head: Option<&Surface>) -> SceneBvh {
+    SceneBvh::new(strands, head, &CurveOptions::default()).unwrap()
 }
 
 fn pieces(strands: &Strands) -> Vec<Piece> {
@@ -266,7 +266,7 @@ fn light_that_goes_on_leaves_the_fibre() {
         let ray = Ray::new(from, at - from);
         let Some(hit) = scene.closest_hit(&ray, f32::INFINITY) else { continue };
         let towards = dice.direction();
-        let on = Ray::new(hit.start(towards), towards);
+        let on = Ray::new(hit.ray_origin(towards), towards);
         assert_eq!(scene.closest_hit(&on, f32::INFINITY), None);
     }
 }
@@ -284,7 +284,7 @@ fn meets_itself_again(tolerance: f32) -> (f32, f32) {
     let mut strands = Strands::new();
     strands.push(&curl, &[radius; 90]);
     let options = CurveOptions { tolerance, ..CurveOptions::default() };
-    let scene = Scene::new(&strands, None, &options).unwrap();
+    let scene = SceneBvh::new(&strands, None, &options).unwrap();
     let mut dice = Dice(11);
     let (mut all, mut again, mut near) = (0.0_f32, 0.0, 0.0);
     for i in 0..40_000 {
@@ -293,7 +293,7 @@ fn meets_itself_again(tolerance: f32) -> (f32, f32) {
         let from = at + 0.1 * dice.direction();
         let Some(hit) = scene.closest_hit(&Ray::new(from, at - from), 1.0) else { continue };
         let towards = dice.direction();
-        let next = scene.closest_hit(&Ray::new(hit.start(towards), towards), 1.0);
+        let next = scene.closest_hit(&Ray::new(hit.ray_origin(towards), towards), 1.0);
         all += 1.0;
         again += f32::from(u8::from(next.is_some()));
         near += f32::from(u8::from(next.is_some_and(|next| next.t() < 20.0 * radius)));
@@ -378,7 +378,7 @@ fn the_head_is_met_where_it_is_and_has_no_holes() {
         let at = corners.into_iter().zip(weights).map(|(c, w)| w * c).sum::<DVec3>();
         assert!(at.distance(ray.at(hit.t).as_dvec3()) < 2e-6, "{at}");
         assert!(hit.smooth_normal.dot(hit.position.normalize()) > 0.98);
-        let on = Ray::new(hit.start(hit.normal), hit.normal);
+        let on = Ray::new(hit.ray_origin(hit.normal), hit.normal);
         assert_eq!(scene.closest_hit(&on, f32::INFINITY), None);
     }
 }
@@ -430,7 +430,7 @@ fn what_cannot_be_traced_is_refused_by_strand_and_point() {
         let mut strands = Strands::new();
         strands.push(&good, &[1e-4; 3]);
         strands.push(points, radii);
-        Scene::new(&strands, None, &CurveOptions::default()).map(|_| ()).unwrap_err()
+        SceneBvh::new(&strands, None, &CurveOptions::default()).map(|_| ()).unwrap_err()
     };
     for bad in [f32::NAN, f32::INFINITY, 1e4] {
         let error = with(&[Vec3::ZERO, Vec3::X * bad, Vec3::Y], &[1e-4; 3]);
@@ -444,7 +444,7 @@ fn what_cannot_be_traced_is_refused_by_strand_and_point() {
     assert!(error.to_string().contains("point 2 of strand 1"));
     for bad in [0.0, f32::NAN, -1.0] {
         let options = CurveOptions { tolerance: bad, ..CurveOptions::default() };
-        let error = Scene::new(&Strands::new(), None, &options).unwrap_err();
+        let error = SceneBvh::new(&Strands::new(), None, &options).unwrap_err();
         assert!(matches!(error, AccelError::Option { option: "tolerance", .. }));
     }
 }
@@ -466,7 +466,7 @@ fn points_that_coincide_change_next_to_nothing() {
         let mut strands = Strands::new();
         let points: Vec<Vec3> = xs.iter().map(|x| 0.01 * x * Vec3::X).collect();
         strands.push(&points, &vec![1e-4; xs.len()]);
-        Scene::new(&strands, None, &CurveOptions::default()).unwrap()
+        SceneBvh::new(&strands, None, &CurveOptions::default()).unwrap()
     };
     let plain = along(&[0.0, 1.0, 2.0, 3.0]);
     for twice in [
@@ -478,7 +478,7 @@ fn points_that_coincide_change_next_to_nothing() {
         for i in 0..100_u8 {
             let x = 0.03 * (f32::from(i) + 0.5) / 100.0;
             let ray = Ray::new(Vec3::new(x, 3e-5, 0.1), -Vec3::Z);
-            let t = |scene: &Scene| scene.closest_hit(&ray, 1.0).map(|hit| hit.t());
+            let t = |scene: &SceneBvh| scene.closest_hit(&ray, 1.0).map(|hit| hit.t());
             let (a, b) = (t(&plain).unwrap(), t(&scene).unwrap());
             assert!((a - b).abs() < 1e-6, "{x}: {a} {b}");
         }

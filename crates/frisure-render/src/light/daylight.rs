@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec3, Vec3};
 
 use super::error::{InvalidLight, amount, within};
-use super::{DistantLight, EnvironmentMap, Lights, Room};
+use super::{DistantLight, EnvironmentLight, EnvironmentMap, Lights};
 
 /// A clear day.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl Lights {
         let exposed = Exposed::new(sky, sun * elevation.sin(), luminance(sun))?;
         let sun = amount("the sun's light", (sun * exposed.factor).as_vec3())?;
         let lamp = DistantLight::new(towards, sun, SUN_RADIUS)?;
-        Ok(Self { lamps: vec![lamp.into()], room: exposed.room })
+        Ok(Self { lamps: vec![lamp.into()], environment: exposed.environment })
     }
 
     /// A sky full of clouds over pale ground, as bright as a camera would be set for.
@@ -83,8 +83,9 @@ impl Lights {
     pub fn overcast() -> Self {
         let cloud = DVec3::new(0.985, 1.0, 1.04);
         let sky = |d: DVec3| cloud * ((1.0 + 2.0 * d.z) / 3.0);
-        let room = Exposed::new(sky, DVec3::ZERO, 0.0).map_or(Room::DARK, |e| e.room);
-        Self { lamps: Vec::new(), room: room.scaled(UNDER_CLOUDS) }
+        let environment =
+            Exposed::new(sky, DVec3::ZERO, 0.0).map_or(EnvironmentLight::DARK, |e| e.environment);
+        Self { lamps: Vec::new(), environment: environment.scaled(UNDER_CLOUDS) }
     }
 }
 
@@ -97,7 +98,7 @@ fn towards(azimuth: f64, elevation: f64) -> DVec3 {
 
 /// A sky with its ground, and the factor by which a camera's exposure makes it brighter.
 struct Exposed {
-    room: Room,
+    environment: EnvironmentLight,
     factor: f64,
 }
 
@@ -128,7 +129,10 @@ impl Exposed {
         let factor = EXPOSED / all;
         let pixels = above.iter().chain(std::iter::repeat_n(&ground, WIDTH * HEIGHT / 2));
         let pixels = pixels.map(|c| (*c * factor).as_vec3().to_array()).collect();
-        Ok(Self { room: Room::Environment(EnvironmentMap::new(WIDTH, HEIGHT, pixels)?), factor })
+        Ok(Self {
+            environment: EnvironmentLight::Map(EnvironmentMap::new(WIDTH, HEIGHT, pixels)?),
+            factor,
+        })
     }
 }
 
@@ -293,11 +297,11 @@ mod tests {
     fn the_clear_sky_is_blue_and_brightest_about_the_sun() {
         let lights = day(40.0, 2.5);
         let towards_sun = towards(50_f64.to_radians(), 40_f64.to_radians());
-        let blue = lights.room.radiance(Vec3::new(-0.3, 0.3, 0.9).normalize());
+        let blue = lights.environment.radiance(Vec3::new(-0.3, 0.3, 0.9).normalize());
         assert!(blue.z > 1.3 * blue.x, "{blue}");
-        let near = lights.room.radiance(towards_sun.as_vec3());
+        let near = lights.environment.radiance(towards_sun.as_vec3());
         assert!(near.y > 2.0 * blue.y, "{near} {blue}");
-        let haze = day(40.0, 9.0).room.radiance(Vec3::new(-0.3, 0.3, 0.9).normalize());
+        let haze = day(40.0, 9.0).environment.radiance(Vec3::new(-0.3, 0.3, 0.9).normalize());
         assert!(haze.z / haze.x < 0.8 * blue.z / blue.x);
     }
 
@@ -306,12 +310,12 @@ mod tests {
         for elevation in [0.0, 2.0, 30.0, 90.0] {
             for turbidity in [1.9, 3.0, 10.0] {
                 let lights = day(elevation, turbidity);
-                let all = sun(&lights) + (PI * PI) as f32 * lights.room.mean();
+                let all = sun(&lights) + (PI * PI) as f32 * lights.environment.mean();
                 let all = luminance(all.as_dvec3());
                 assert!((all / EXPOSED - 1.0).abs() < 0.02, "{elevation} {turbidity}: {all}");
             }
         }
-        let grey = Lights::overcast().room;
+        let grey = Lights::overcast().environment;
         let all = PI * PI * luminance(grey.mean().as_dvec3());
         assert!((all / EXPOSED / f64::from(UNDER_CLOUDS) - 1.0).abs() < 0.02);
         // Three times brighter above than at the horizon.

@@ -1,11 +1,11 @@
 //! What lights the scene.
 
 mod daylight;
-mod environment;
+mod directional;
+mod environment_light;
+mod environment_map;
 mod error;
 mod lamp;
-mod plain;
-mod room;
 mod setup;
 
 use glam::Vec3;
@@ -13,11 +13,11 @@ use glam::Vec3;
 use crate::Camera;
 
 pub use daylight::{Daylight, SUN_RADIUS, colour_of_temperature};
-pub use environment::{EnvironmentMap, MAX_ENVIRONMENT_WIDTH};
+pub(crate) use directional::DirectionalLights;
+pub use environment_light::EnvironmentLight;
+pub use environment_map::{EnvironmentMap, MAX_ENVIRONMENT_WIDTH};
 pub use error::InvalidLight;
 pub use lamp::{AreaLight, AreaShape, DistantLight, Lamp, PointLight, SOFTBOX};
-pub(crate) use plain::PlainLights;
-pub use room::Room;
 pub use setup::{Setup, beside_camera};
 
 /// All the lights of a scene.
@@ -26,20 +26,23 @@ pub struct Lights {
     /// Lamps.
     pub lamps: Vec<Lamp>,
     /// What is around.
-    pub room: Room,
+    pub environment: EnvironmentLight,
 }
 
 impl Lights {
     /// No light.
     #[must_use]
     pub fn dark() -> Self {
-        Self { lamps: Vec::new(), room: Room::DARK }
+        Self { lamps: Vec::new(), environment: EnvironmentLight::DARK }
     }
 
     /// The same light from everywhere, linear sRGB.
     #[must_use]
     pub fn even(radiance: Vec3) -> Self {
-        Self { lamps: Vec::new(), room: Room::Gradient { sky: radiance, ground: radiance } }
+        Self {
+            lamps: Vec::new(),
+            environment: EnvironmentLight::Gradient { sky: radiance, ground: radiance },
+        }
     }
 }
 

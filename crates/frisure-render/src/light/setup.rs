@@ -2,20 +2,20 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Daylight, DistantLight, Lights, Room, lamp::SOFTBOX};
+use super::{Daylight, DistantLight, EnvironmentLight, Lights, lamp::SOFTBOX};
 use crate::Camera;
 
 /// A way to set the lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Setup {
-    /// A main light high at the left, a weak fill at the right, a rim light behind, a soft room.
+    /// A main light high at the left, a weak fill at the right, a rim light behind, a soft ambient light.
     #[default]
     Studio,
-    /// Large soft lights from the front in a bright room: colour more than form.
+    /// Large soft lights from the front with a bright environment: colour more than form.
     Soft,
     /// One light before the face and above it, and a weak one below: symmetrical, glossy.
     Butterfly,
-    /// One light at the side and above in a dark room: half of the hair in shadow.
+    /// One light at the side and above with a dark environment: half of the hair in shadow.
     Rembrandt,
     /// Two lights behind: a bright edge, and light that comes through the hair.
     Rim,
@@ -63,7 +63,7 @@ impl Lights {
     }
 
     /// A portrait studio that turns with the camera: a key light high at the left, a weak fill at
-    /// the right, a rim light behind, and a soft room.
+    /// the right, a rim light behind, and a soft ambient light.
     #[must_use]
     pub fn studio(camera: &Camera) -> Self {
         let lamp = |right: f64, up: f64, back: f64, irradiance: Vec3| {
@@ -75,11 +75,11 @@ impl Lights {
             lamp(0.9, 0.15, 0.75, Vec3::new(0.9, 0.95, 1.05)),
             lamp(0.55, 0.8, -0.8, Vec3::new(3.2, 3.25, 3.4)),
         ];
-        let room = Room::Gradient {
+        let environment = EnvironmentLight::Gradient {
             sky: Vec3::new(0.46, 0.49, 0.54),
             ground: Vec3::new(0.13, 0.12, 0.115),
         };
-        Self { lamps: lamps.map(Into::into).to_vec(), room }
+        Self { lamps: lamps.map(Into::into).to_vec(), environment }
     }
 }
 
@@ -112,8 +112,8 @@ fn standing(camera: &Camera, stands: &[Stand], sky: [f32; 3], ground: [f32; 3]) 
         let direction = beside_camera(camera, azimuth.to_radians(), elevation.to_radians());
         softbox(direction, irradiance.into(), radius).into()
     };
-    let room = Room::Gradient { sky: sky.into(), ground: ground.into() };
-    Lights { lamps: stands.iter().map(lamp).collect(), room }
+    let environment = EnvironmentLight::Gradient { sky: sky.into(), ground: ground.into() };
+    Lights { lamps: stands.iter().map(lamp).collect(), environment }
 }
 
 fn softbox(direction: DVec3, irradiance: Vec3, radius: f64) -> DistantLight {
@@ -140,7 +140,7 @@ mod tests {
         for setup in setups {
             let lights = Lights::setup(&setup, &camera).unwrap();
             let lamps = lights.lamps.iter().filter_map(|l| l.arriving(DVec3::ZERO)).map(|l| l.1);
-            let all = lamps.sum::<Vec3>() + 9.87 * lights.room.mean();
+            let all = lamps.sum::<Vec3>() + 9.87 * lights.environment.mean();
             assert!((6.0..18.0).contains(&all.y), "{setup:?} {all}");
         }
         assert_eq!(Lights::setup(&Setup::Dark, &camera).unwrap(), Lights::dark());

@@ -9,10 +9,10 @@ use glam::Vec3;
 
 use super::curves::{Curves, Vertex};
 use super::head::{Head, HeadPixel};
+use super::projection::Projection;
 use super::shading::Shader;
 use super::tiles::{Area, TILE, TileGrid};
-use super::view::View;
-use crate::{Background, Room};
+use crate::{Background, EnvironmentLight};
 
 /// How far across a hair its softened edge can reach (pixels): half a pixel and half of the rise of
 /// a line within a column.
@@ -24,12 +24,12 @@ const FINISHED: f32 = 1.0 / 512.0;
 
 /// Paints tiles.
 pub(super) struct TilePainter<'a> {
-    pub(super) view: &'a View,
+    pub(super) view: &'a Projection,
     pub(super) curves: &'a Curves,
     pub(super) head: Option<&'a Head>,
     pub(super) shader: &'a Shader,
     pub(super) background: Background,
-    pub(super) room: &'a Room,
+    pub(super) environment: &'a EnvironmentLight,
     pub(super) samples: usize,
 }
 
@@ -210,7 +210,9 @@ impl TilePainter<'_> {
         let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
         let (width, height) = (self.view.width as f32, self.view.height as f32);
         match self.background {
-            Background::Surroundings => (self.room.seen(self.view.towards(x, y)), 1.0),
+            Background::Environment => {
+                (self.environment.radiance_interpolated(self.view.towards(x, y)), 1.0)
+            }
             other => other.at(2.0 * x / width - 1.0, 2.0 * y / height - 1.0),
         }
     }

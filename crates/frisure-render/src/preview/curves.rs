@@ -4,7 +4,7 @@ use frisure_strands::{AttributeValues, Domain, Strand, Strands};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::view::{NEAR, View};
+use super::projection::{NEAR, Projection};
 
 /// Greatest distance between a drawn chord and its curve (pixels).
 const FLATNESS: f32 = 0.15;
@@ -50,7 +50,7 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    pub(super) fn new(strands: &Strands, view: &View, width_scale: f32) -> Self {
+    pub(super) fn new(strands: &Strands, view: &Projection, width_scale: f32) -> Self {
         let chunks = strands.len().div_ceil(CHUNK);
         let range = |c: usize| c * CHUNK..((c + 1) * CHUNK).min(strands.len());
         let counts: Vec<usize> = (0..chunks)
@@ -163,7 +163,7 @@ fn drawable(strand: Strand<'_>) -> bool {
 }
 
 /// Number of vertices that [`fill`] writes.
-fn count(strand: Strand<'_>, view: &View) -> usize {
+fn count(strand: Strand<'_>, view: &Projection) -> usize {
     if !drawable(strand) {
         return 0;
     }
@@ -250,7 +250,7 @@ fn reach(chord: f32, ends: [Vec3; 2]) -> f32 {
 }
 
 /// How many straight pieces stand for the curve from `a` to `b` with slopes `ends`.
-fn pieces(a: Vec3, b: Vec3, ends: [Vec3; 2], view: &View) -> u32 {
+fn pieces(a: Vec3, b: Vec3, ends: [Vec3; 2], view: &Projection) -> u32 {
     let length = a.distance(b);
     let turn = turn(ends);
     let depth = (a.midpoint(b) - view.eye).dot(view.forward);
@@ -267,7 +267,7 @@ fn fill<'a>(
     wetness: Option<&[f32]>,
     index: u32,
     width_scale: f32,
-    view: &View,
+    view: &Projection,
     out: &mut impl Iterator<Item = &'a mut Vertex>,
 ) {
     if !drawable(strand) {
@@ -319,7 +319,7 @@ mod tests {
             .collect();
         let mut strands = Strands::new();
         strands.push(&points, &[4e-5; 9]);
-        let view = View::new(&crate::Camera::default(), 1024, 1024);
+        let view = Projection::new(&crate::Camera::default(), 1024, 1024);
         let curves = Curves::new(&strands, &view, 1.0);
         assert!(curves.vertices.len() > 50);
         for v in &curves.vertices {
@@ -336,7 +336,7 @@ mod tests {
         strands.push(&[Vec3::ZERO, Vec3::NAN], &[1e-5; 2]);
         strands.push(&[Vec3::ZERO, Vec3::X * 1e-3], &[1e-5, f32::INFINITY]);
         strands.push(&[Vec3::ZERO, Vec3::ZERO], &[1e-5; 2]);
-        let view = View::new(&crate::Camera::default(), 64, 64);
+        let view = Projection::new(&crate::Camera::default(), 64, 64);
         let curves = Curves::new(&strands, &view, 1.0);
         assert_eq!(curves.vertices.len(), 2);
         assert!(curves.vertices.iter().all(|v| v.strand == 4 && v.tangent.is_finite()));

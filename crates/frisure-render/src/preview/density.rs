@@ -152,7 +152,7 @@ impl DensityMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::preview::view::View;
+    use crate::preview::projection::Projection;
     use frisure_strands::Strands;
 
     #[test]
@@ -163,7 +163,7 @@ mod tests {
             let y = i as f32 * 1e-3;
             strands.push(&[Vec3::new(0.0, y, 0.0), Vec3::new(0.1, y, 0.0)], &[5e-5; 2]);
         }
-        let view = View::new(&crate::Camera::default(), 256, 256);
+        let view = Projection::new(&crate::Camera::default(), 256, 256);
         let curves = Curves::new(&strands, &view, 1.0);
         let map = DensityMap::new(&curves, Vec3::Z).unwrap();
         let at = |z: f32| map.hairs_before(Vec3::new(0.05, 0.05, z));
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn no_hair_has_no_map() {
-        let view = View::new(&crate::Camera::default(), 8, 8);
+        let view = Projection::new(&crate::Camera::default(), 8, 8);
         assert!(DensityMap::new(&Curves::new(&Strands::new(), &view, 1.0), Vec3::Z).is_none());
     }
 }

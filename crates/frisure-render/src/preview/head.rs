@@ -1,20 +1,20 @@
-//! The head: its triangles, what of the room reaches them, and which pixels of a tile it covers.
+//! The head: its triangles, what of the environment reaches them, and which pixels of a tile it covers.
 
 use frisure_strands::Surface;
 use glam::Vec3;
 
+use super::ambient::AmbientLight;
+use super::projection::{NEAR, Projection};
 use super::raster;
-use super::sky::Sky;
 use super::tiles::{Area, TILE};
-use super::view::{NEAR, View};
 
 /// The surface that hair grows on, ready to be drawn.
 pub(super) struct Head {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
-    /// Irradiance / π of the room at each vertex.
-    room: Vec<Vec3>,
+    /// Irradiance / π of the environment at each vertex.
+    environment: Vec<Vec3>,
 }
 
 /// What a pixel sees of the head, averaged over its samples.
@@ -28,22 +28,22 @@ pub(super) struct HeadPixel {
     pub(super) position: Vec3,
     /// Mean normal towards the eye; not of unit length.
     pub(super) normal: Vec3,
-    /// Mean irradiance / π of the room.
-    pub(super) room: Vec3,
+    /// Mean irradiance / π of the environment.
+    pub(super) environment: Vec3,
 }
 
 impl Head {
     pub(super) fn new(surface: &Surface) -> Self {
         let positions: Vec<Vec3> = surface.positions().iter().map(|p| p.as_vec3()).collect();
         let normals = surface.vertex_normals().iter().map(|n| n.as_vec3()).collect();
-        let room = vec![Vec3::ONE; positions.len()];
-        Self { positions, normals, triangles: surface.triangles().to_vec(), room }
+        let environment = vec![Vec3::ONE; positions.len()];
+        Self { positions, normals, triangles: surface.triangles().to_vec(), environment }
     }
 
-    /// Measures the room's light at each vertex.
-    pub(super) fn light_by(&mut self, sky: &Sky) {
+    /// Measures the environment's light at each vertex.
+    pub(super) fn light_by(&mut self, ambient: &AmbientLight) {
         let places = self.positions.iter().zip(&self.normals);
-        self.room = places.map(|(&p, &n)| sky.on_surface(p, n)).collect();
+        self.environment = places.map(|(&p, &n)| ambient.on_surface(p, n)).collect();
     }
 
     pub(super) fn positions(&self) -> &[Vec3] {
@@ -70,7 +70,7 @@ impl Head {
     pub(super) fn cover(
         &self,
         faces: &[u32],
-        view: &View,
+        view: &Projection,
         area: &Area,
         samples: usize,
     ) -> Vec<HeadPixel> {
@@ -105,14 +105,14 @@ impl Head {
             let mean = 1.0 / pixel.coverage;
             pixel.depth *= mean;
             pixel.position *= mean;
-            pixel.room *= mean;
+            pixel.environment *= mean;
             pixel.coverage *= part;
         }
         pixels
     }
 
     /// Adds one sample to a pixel.
-    fn add(&self, pixel: &mut HeadPixel, face: u32, depth: f32, weights: Vec3, view: &View) {
+    fn add(&self, pixel: &mut HeadPixel, face: u32, depth: f32, weights: Vec3, view: &Projection) {
         let [a, b, c] = self.triangles[face as usize].map(|v| v as usize);
         let mix = |of: &[Vec3]| of[a] * weights.x + of[b] * weights.y + of[c] * weights.z;
         let (position, normal) = (mix(&self.positions), mix(&self.normals));
@@ -122,6 +122,6 @@ impl Head {
         pixel.depth += depth;
         pixel.position += position;
         pixel.normal += if towards { normal } else { -normal };
-        pixel.room += mix(&self.room);
+        pixel.environment += mix(&self.environment);
     }
 }

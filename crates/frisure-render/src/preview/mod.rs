@@ -2,7 +2,7 @@
 //! traced picture.
 //!
 //! In the order of the computation: `curves` makes each strand smooth on the screen; `density` and
-//! `sky` measure how much hair lies between any point and each lamp or the room, and `shadow` whether
+//! `ambient` measure how much hair lies between any point and each lamp or the environment, and `shadow` whether
 //! the head does; `tiles` sorts the pieces of hair into small squares of the picture, and `composite`
 //! lays them over the rasterised `head` from front to back, asking `shading` only for hair that is
 //! seen. Lamps at a place are taken as far away in the direction in which the middle of the head sees
@@ -12,19 +12,19 @@
 //! What it does not do: light that bounces between hairs is a colour, not a computation; a hair's
 //! section is round; and hairs that cross within one short piece may be seen in the wrong order.
 
+mod ambient;
 mod composite;
+pub mod constants;
 mod curves;
 mod density;
 mod head;
 mod material;
-pub mod numbers;
 pub mod parts;
+mod projection;
 mod raster;
 mod shading;
 mod shadow;
-mod sky;
 mod tiles;
-mod view;
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -40,9 +40,9 @@ use composite::TilePainter;
 use curves::Curves;
 use head::Head;
 use material::Materials;
+use projection::Projection;
 use shading::Shader;
 use tiles::{TILE, TileGrid};
-use view::View;
 
 /// Largest width or height of a picture (pixels).
 pub const MAX_SIZE: usize = 16_384;
@@ -139,7 +139,7 @@ pub fn render(
     };
     go_on(0.0)?;
 
-    let view = View::new(&scene.camera, width, height);
+    let view = Projection::new(&scene.camera, width, height);
     let scale = width_scale(scene.strands, options);
     let curves = Curves::new(scene.strands, &view, scale);
     go_on(0.1)?;
@@ -156,7 +156,7 @@ pub fn render(
         head: head.as_ref(),
         shader: &shader,
         background: scene.look.background,
-        room: &scene.lights.room,
+        environment: &scene.lights.environment,
         samples: options.samples.clamp(1, 8),
     };
     let done = AtomicUsize::new(0);

@@ -6,30 +6,31 @@ use glam::{DVec3, UVec3, Vec3};
 pub use super::curves::smooth;
 pub use super::material::{Material, Materials, glitter};
 
+use super::ambient::{self, AmbientLight};
 use super::curves::{Curves, NOWHERE, Vertex, along, point_wetness, portion};
 use super::head::Head;
-use super::sky::{self, Sky};
 use crate::Lights;
-use crate::light::PlainLights;
+use crate::light::DirectionalLights;
 
-/// Directions from which the room's light is known.
-pub const AROUND: usize = 14;
+/// Directions from which the environment's light is known.
+pub const DIRECTION_COUNT: usize = 14;
 
 /// Lights in few numbers, as they are at one place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FewLights {
+pub struct LightsAtPoint {
     /// Unit direction to each lamp, and irradiance on a surface that faces it.
     pub lamps: Vec<(Vec3, Vec3)>,
-    /// Radiance of the room about each direction.
-    pub room: [Vec3; AROUND],
+    /// Radiance of the environment about each direction.
+    pub environment: [Vec3; DIRECTION_COUNT],
 }
 
-impl FewLights {
+impl LightsAtPoint {
     /// The lights as `place` (m) has them.
     #[must_use]
     pub fn new(lights: &Lights, place: DVec3) -> Self {
-        let PlainLights { lamps, room } = PlainLights::new(lights, place, &sky::around());
-        Self { lamps, room }
+        let DirectionalLights { lamps, environment } =
+            DirectionalLights::new(lights, place, &ambient::directions());
+        Self { lamps, environment }
     }
 }
 
@@ -44,19 +45,19 @@ pub struct Occluder {
     pub strand: u32,
 }
 
-/// The room's light inside and around the hair, on a grid.
-pub struct RoomLight {
-    sky: Sky,
+/// The environment's light inside and around the hair, on a grid.
+pub struct AmbientGrid {
+    ambient: AmbientLight,
 }
 
-impl RoomLight {
-    /// Measures the light of a `room` ([`FewLights::room`]) around hair and head; each hair on the way takes
+impl AmbientGrid {
+    /// Measures the light of a `environment` ([`LightsAtPoint::environment`]) around hair and head; each hair on the way takes
     /// the part `taken` of it. There are at most `cells` along a side.
     #[must_use]
     pub fn new(
         hair: impl Iterator<Item = Occluder>,
         head: Option<&Surface>,
-        room: [Vec3; AROUND],
+        environment: [Vec3; DIRECTION_COUNT],
         taken: Vec3,
         cells: f32,
     ) -> Self {
@@ -68,25 +69,25 @@ impl RoomLight {
         };
         let curves = Curves { vertices: hair.map(vertex).collect() };
         let head = head.map(Head::new);
-        Self { sky: Sky::new(&curves, head.as_ref(), room, taken, cells) }
+        Self { ambient: AmbientLight::new(&curves, head.as_ref(), environment, taken, cells) }
     }
 
     /// Lowest corner of the grid (m), distance between its nodes (m), and nodes along each side.
     #[must_use]
     pub fn grid(&self) -> (Vec3, f32, UVec3) {
-        (self.sky.low, self.sky.cell, self.sky.size)
+        (self.ambient.low, self.ambient.cell, self.ambient.size)
     }
 
     /// Radiance that white hair at each node would have, x fastest and z slowest.
     #[must_use]
     pub fn nodes(&self) -> &[Vec3] {
-        &self.sky.mean
+        &self.ambient.mean
     }
 
     /// Irradiance / π on a surface at `point` (m) with a unit normal.
     #[must_use]
     pub fn on_surface(&self, point: Vec3, normal: Vec3) -> Vec3 {
-        self.sky.on_surface(point, normal)
+        self.ambient.on_surface(point, normal)
     }
 }
 

@@ -4,19 +4,19 @@ use frisure_optics::{Angles, LobeShape, kajiya_kay, lobes};
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::ambient::{self, AmbientLight};
+use super::constants::{
+    ENVIRONMENT_GLOSS, HAIR_BIAS, OVERLAP, SKIN_BIAS, SKIN_GLOSS, SKIN_PENUMBRA, WET_DIFFUSE,
+    WET_REFLECTED, WET_RETURNED, WET_WIDTH, WRAP,
+};
 use super::curves::{Curves, Vertex};
 use super::density::DensityMap;
 use super::head::{Head, HeadPixel};
 use super::material::{Materials, glitter};
-use super::numbers::{
-    HAIR_BIAS, OVERLAP, ROOM_GLOSS, SKIN_BIAS, SKIN_GLOSS, SKIN_PENUMBRA, WET_DIFFUSE,
-    WET_REFLECTED, WET_RETURNED, WET_WIDTH, WRAP,
-};
 use super::shadow::ShadowMap;
-use super::sky::{self, Sky};
 use super::{Scene, middle};
 use crate::SkinLook;
-use crate::light::PlainLights;
+use crate::light::DirectionalLights;
 
 /// Optical depth from which a lamp counts for nothing: it leaves less than half a thousandth.
 const DARK: f32 = 7.6;
@@ -33,7 +33,7 @@ struct Lamp {
 pub(super) struct Shader {
     eye: Vec3,
     lamps: Vec<Lamp>,
-    sky: Sky,
+    ambient: AmbientLight,
     materials: Materials,
     /// Part of the light that a hair takes away from what goes on past it.
     taken: Vec3,
@@ -51,8 +51,8 @@ impl Shader {
         let shared = head.as_deref();
         let taken = materials.taken(curves.vertices.len(), curves.places());
         let place = middle(scene.strands, scene.surface);
-        let PlainLights { lamps: lit, room } =
-            PlainLights::new(&scene.lights, place, &sky::around());
+        let DirectionalLights { lamps: lit, environment } =
+            DirectionalLights::new(&scene.lights, place, &ambient::directions());
         let lamps = || -> Vec<Lamp> {
             lit.par_iter()
                 .map(|&(to_light, irradiance)| Lamp {
@@ -63,16 +63,16 @@ impl Shader {
                 })
                 .collect()
         };
-        let sky = || Sky::new(curves, shared, room, taken, sky::MAX_CELLS);
-        let (lamps, sky) = rayon::join(lamps, sky);
+        let ambient = || AmbientLight::new(curves, shared, environment, taken, ambient::MAX_CELLS);
+        let (lamps, ambient) = rayon::join(lamps, ambient);
         if let Some(head) = head {
-            head.light_by(&sky);
+            head.light_by(&ambient);
         }
         let surface = scene.look.hair.surface;
         Self {
             eye: scene.camera.eye().as_vec3(),
             lamps,
-            sky,
+            ambient,
             materials,
             taken,
             shape: LobeShape::of(
@@ -101,8 +101,8 @@ impl Shader {
         let (strength, shift) = glitter(vertex.strand);
         let reflected = strength * (1.0 - WET_REFLECTED * wet) * material.reflected;
 
-        let room = self.sky.mean(vertex.position);
-        let mut radiance = room * (diffuse + ROOM_GLOSS * reflected + returned);
+        let environment = self.ambient.mean(vertex.position);
+        let mut radiance = environment * (diffuse + ENVIRONMENT_GLOSS * reflected + returned);
         for lamp in &self.lamps {
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
             if hairs * self.taken.min_element() > DARK {
@@ -137,7 +137,7 @@ impl Shader {
     pub(super) fn skin(&self, pixel: &HeadPixel) -> Vec3 {
         let normal = pixel.normal.normalize_or_zero();
         let eye = (self.eye - pixel.position).normalize_or_zero();
-        let mut radiance = pixel.room * self.skin.colour;
+        let mut radiance = pixel.environment * self.skin.colour;
         for lamp in &self.lamps {
             let facing = (normal.dot(lamp.to_light) + WRAP) / (1.0 + WRAP);
             if facing <= 0.0 {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::composite::REACH;
 use super::curves::Curves;
 use super::head::Head;
-use super::view::{NEAR, View};
+use super::projection::{NEAR, Projection};
 
 /// Side of a tile (pixels).
 pub(super) const TILE: usize = 32;
@@ -62,7 +62,7 @@ impl Lists {
 }
 
 impl TileGrid {
-    pub(super) fn new(view: &View, curves: &Curves, head: Option<&Head>) -> Self {
+    pub(super) fn new(view: &Projection, curves: &Curves, head: Option<&Head>) -> Self {
         let (columns, rows) = (view.width.div_ceil(TILE), view.height.div_ceil(TILE));
         let none = Lists { offsets: vec![0; columns * rows + 1], items: Vec::new() };
         let (width, height) = (view.width, view.height);
@@ -109,7 +109,7 @@ impl TileGrid {
 
     fn hair_pairs(
         &self,
-        view: &View,
+        view: &Projection,
         curves: &Curves,
         range: std::ops::Range<usize>,
     ) -> Vec<(u32, u32)> {
@@ -128,7 +128,7 @@ impl TileGrid {
         pairs
     }
 
-    fn head_pairs(&self, view: &View, head: &Head) -> Vec<(u32, u32)> {
+    fn head_pairs(&self, view: &Projection, head: &Head) -> Vec<(u32, u32)> {
         let mut pairs = Vec::new();
         for (i, corners) in head.faces().enumerate() {
             let [a, b, c] = corners.map(|p| view.project(p));

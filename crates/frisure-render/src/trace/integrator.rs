@@ -1,83 +1,88 @@
-//! The light along a ray.
+//! The path integrator: the radiance along a ray.
 //!
-//! Path tracing with next-event estimation; light sampling and scattering share each path of light by
-//! multiple importance sampling with the power heuristic (Veach 1997).
+//! Path tracing with next-event estimation. Light sampling and BSDF sampling are combined by multiple
+//! importance sampling with the power heuristic (Veach 1997, *Robust Monte Carlo methods for light transport
+//! simulation*, §9.2; pbrt-v4, §13.4). Paths end by Russian roulette.
 
-use frisure_optics::scattering::{FibreFrame, Scattering};
+use frisure_optics::scattering::{FibreFrame, HairBsdf};
 use glam::Vec3;
 
-use super::ground::Ground;
-use super::hair::Fibres;
-use super::lights::{Outside, power};
-use super::matter::Matter;
+use super::bsdf::Bsdf;
+use super::fibres::Fibres;
+use super::floor::Floor;
+use super::light_sampler::{LightSampler, power_heuristic};
+use super::rough_plastic::RoughPlastic;
 use super::sampler::Sampler;
-use super::surface::Plastic;
 use crate::SkinLook;
-use crate::accel::{HairHit, Hit, Ray, Scene, SkinHit};
+use crate::accel::{HairHit, Hit, Ray, SceneBvh, SkinHit};
 
-/// Everything that light meets.
-pub(super) struct World {
-    pub(super) scene: Scene,
+/// The scene that paths are traced through.
+pub(super) struct Integrator {
+    pub(super) bvh: SceneBvh,
     pub(super) fibres: Fibres,
-    pub(super) outside: Outside,
+    pub(super) lights: LightSampler,
     pub(super) skin: SkinLook,
-    pub(super) ground: Option<Ground>,
-    pub(super) bounces: u32,
+    pub(super) floor: Option<Floor>,
+    pub(super) max_bounces: u32,
 }
 
-/// Bounces after which a path may end by chance. Brown hair has the same noise in two thirds of the time
-/// as with six; for blond it is all one.
-const SURE_BOUNCES: u32 = 2;
+/// Bounces after which Russian roulette may end a path. Measured: brown hair has the same noise in two thirds
+/// of the time that six take; blond hair shows no difference.
+const ROULETTE_START: u32 = 2;
 
-/// Farthest that light is followed (m).
-const FAR: f32 = 1e4;
+/// Greatest probability with which Russian roulette continues a path (pbrt-v4, §13.2.2, uses 0.95; chosen by
+/// trial).
+const MAX_SURVIVAL: f32 = 0.98;
 
-/// Part of the way to a lamp in which something can stand.
-const BEFORE: f32 = 0.9999;
+/// Farthest distance that a ray is traced (m).
+const MAX_DISTANCE: f32 = 1e4;
 
-/// Light along a ray, and what it met first.
-pub(super) struct Seen {
+/// Part of the distance to a light that a shadow ray tests, so that it does not hit the light itself.
+const SHADOW_RAY_PART: f32 = 0.9999;
+
+/// Radiance along a camera ray, and its primary hit.
+pub(super) struct PathSample {
     pub(super) radiance: Vec3,
-    pub(super) first: Option<First>,
+    pub(super) primary_hit: Option<PrimaryHit>,
 }
 
-/// What a ray from the eye met first.
-pub(super) struct First {
+/// What a camera ray hits first.
+pub(super) struct PrimaryHit {
     /// Distance (m).
     pub(super) t: f32,
-    pub(super) thing: Thing,
-    /// Share of the light from everywhere that is given back, by colour.
+    pub(super) object: Object,
+    /// Share of uniform light that is reflected, by colour.
     pub(super) albedo: Vec3,
     /// Unit normal, towards the eye.
     pub(super) normal: Vec3,
 }
 
-/// What is seen.
-pub(super) enum Thing {
+/// The kind of object that a camera ray hits.
+pub(super) enum Object {
     Hair {
         strand: u32,
         tangent: Vec3,
     },
     Skin,
     Lamp,
-    /// With the share of the background that is seen instead.
-    Ground {
+    /// The floor, with the share of the background that shows through.
+    Floor {
         faded: f32,
     },
 }
 
-/// What a ray meets.
-enum Met {
+/// The closest intersection of a ray with hair, head or floor.
+enum Intersection {
     Hit(Hit),
-    Ground { t: f32, point: Vec3 },
+    Floor { t: f32, point: Vec3 },
 }
 
-impl Met {
-    /// Where light that goes on in the direction `towards` starts (m).
-    fn start(&self, towards: Vec3) -> Vec3 {
+impl Intersection {
+    /// Origin (m) of a ray that leaves in the direction `towards`.
+    fn ray_origin(&self, towards: Vec3) -> Vec3 {
         match self {
-            Self::Hit(hit) => hit.start(towards),
-            Self::Ground { point, .. } => *point,
+            Self::Hit(hit) => hit.ray_origin(towards),
+            Self::Floor { point, .. } => *point,
         }
     }
 
@@ -85,170 +90,181 @@ impl Met {
     fn t(&self) -> f32 {
         match self {
             Self::Hit(hit) => hit.t(),
-            Self::Ground { t, .. } => *t,
+            Self::Floor { t, .. } => *t,
         }
     }
 
-    /// Where it is, as lamps at a place see it (m).
-    fn place(&self) -> Vec3 {
+    /// Point from which lights are sampled (m).
+    fn shading_point(&self) -> Vec3 {
         match self {
             Self::Hit(Hit::Hair(hit)) => hit.centre,
             Self::Hit(Hit::Skin(hit)) => hit.position,
-            Self::Ground { point, .. } => *point,
+            Self::Floor { point, .. } => *point,
         }
     }
 }
 
-impl First {
-    /// The face of a lamp.
+impl PrimaryHit {
+    /// The face of a visible area light.
     fn lamp(t: f32, direction: Vec3) -> Self {
-        Self { t, thing: Thing::Lamp, albedo: Vec3::ZERO, normal: -direction }
+        Self { t, object: Object::Lamp, albedo: Vec3::ZERO, normal: -direction }
     }
 }
 
-impl World {
-    /// Light that arrives along a ray from its start.
-    pub(super) fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Seen {
-        let mut seen = Seen { radiance: Vec3::ZERO, first: None };
+impl Integrator {
+    /// Radiance that arrives along a ray at its origin (pbrt's `Li`).
+    pub(super) fn radiance(&self, ray: Ray, sampler: &mut Sampler) -> PathSample {
+        let mut path = PathSample { radiance: Vec3::ZERO, primary_hit: None };
         let (mut ray, mut throughput) = (ray, Vec3::ONE);
-        // Where the light was scattered that led here, and the density of its direction; the eye's own is
-        // beyond choice.
+        // The last scattering: its point, and the pdf of the ray's direction; none for a camera ray.
         let mut scattered: Option<(Vec3, f32)> = None;
-        for bounce in 0..=self.bounces {
-            let met = self.meets(&ray);
-            let blocked = met.as_ref().map(Met::t);
+        for bounce in 0..=self.max_bounces {
+            // 1. The closest intersection.
+            let intersection = self.intersect(&ray);
+            let blocked = intersection.as_ref().map(Intersection::t);
+
+            // 2. Light emitted along the ray. After a bounce it is the BSDF-sampled half of multiple importance
+            //    sampling; a camera ray shows the faces of visible area lights.
             if let Some((from, pdf)) = scattered {
-                self.outside.met(from, ray.direction(), blocked, |light, other| {
-                    seen.radiance += throughput * light * power(pdf, other);
+                self.lights.emitted(from, ray.direction(), blocked, |light, light_pdf| {
+                    path.radiance += throughput * light * power_heuristic(pdf, light_pdf);
                 });
-            } else if let Some((t, light)) =
-                self.outside.shown(ray.origin(), ray.direction(), blocked)
+            } else if let Some((t, radiance)) =
+                self.lights.visible_area_light(ray.origin(), ray.direction(), blocked)
             {
-                return Seen { radiance: light, first: Some(First::lamp(t, ray.direction())) };
+                let primary_hit = Some(PrimaryHit::lamp(t, ray.direction()));
+                return PathSample { radiance, primary_hit };
             }
-            let Some(met) = met else { return seen };
+            let Some(intersection) = intersection else { return path };
             if bounce == 0 {
-                seen.first = Some(self.first(&met, ray.direction()));
+                path.primary_hit = Some(self.primary_hit(&intersection, ray.direction()));
             }
-            if bounce == self.bounces {
-                return seen;
+            if bounce == self.max_bounces {
+                return path;
             }
-            let matter = self.matter(&met, ray.direction());
-            seen.radiance += throughput * self.direct(&met, &matter, sampler);
-            let Some(onward) = matter.sample(sampler) else { return seen };
-            throughput *= onward.weight;
-            if bounce >= SURE_BOUNCES {
-                // Roulette: what goes on stands for what does not.
-                let survives = throughput.max_element().min(0.98);
-                if sampler.one() >= survives {
-                    return seen;
+
+            // 3. Next-event estimation: the light-sampled half.
+            let bsdf = self.bsdf(&intersection, ray.direction());
+            path.radiance += throughput * self.direct_light(&intersection, &bsdf, sampler);
+
+            // 4. Importance sampling of the BSDF.
+            let Some(sample) = bsdf.sample(sampler) else { return path };
+            throughput *= sample.weight;
+
+            // 5. Russian roulette.
+            if bounce >= ROULETTE_START {
+                let survival = throughput.max_element().min(MAX_SURVIVAL);
+                if sampler.one() >= survival {
+                    return path;
                 }
-                throughput /= survives;
+                throughput /= survival;
             }
-            ray = Ray::new(met.start(onward.towards), onward.towards);
-            scattered = Some((met.place(), onward.pdf));
+            ray = Ray::new(intersection.ray_origin(sample.wi), sample.wi);
+            scattered = Some((intersection.shading_point(), sample.pdf));
         }
-        seen
+        path
     }
 
-    /// Distance (m) at which a ray meets anything.
+    /// Distance (m) at which a ray hits anything.
     pub(super) fn distance(&self, ray: &Ray) -> Option<f32> {
-        self.meets(ray).map(|met| met.t())
+        self.intersect(ray).map(|intersection| intersection.t())
     }
 
-    fn meets(&self, ray: &Ray) -> Option<Met> {
-        let ground = self.ground.as_ref().and_then(|ground| ground.meets(ray));
-        let hit = self.scene.closest_hit(ray, ground.map_or(FAR, |(t, _)| t));
-        hit.map(Met::Hit).or_else(|| ground.map(|(t, point)| Met::Ground { t, point }))
+    fn intersect(&self, ray: &Ray) -> Option<Intersection> {
+        let floor = self.floor.as_ref().and_then(|floor| floor.intersect(ray));
+        let hit = self.bvh.closest_hit(ray, floor.map_or(MAX_DISTANCE, |(t, _)| t));
+        hit.map(Intersection::Hit)
+            .or_else(|| floor.map(|(t, point)| Intersection::Floor { t, point }))
     }
 
-    /// Whether anything stands in the way before a distance (m).
-    fn hidden(&self, ray: &Ray, distance: f32) -> bool {
+    /// Whether anything blocks a shadow ray before a distance (m).
+    fn occluded(&self, ray: &Ray, distance: f32) -> bool {
         let before = |(t, _): (f32, Vec3)| t < distance;
-        self.ground.as_ref().and_then(|ground| ground.meets(ray)).is_some_and(before)
-            || self.scene.occluded(ray, distance.min(FAR))
+        self.floor.as_ref().and_then(|floor| floor.intersect(ray)).is_some_and(before)
+            || self.bvh.occluded(ray, distance.min(MAX_DISTANCE))
     }
 
-    fn first(&self, met: &Met, direction: Vec3) -> First {
-        match met {
-            Met::Hit(Hit::Hair(hit)) => First {
+    fn primary_hit(&self, intersection: &Intersection, direction: Vec3) -> PrimaryHit {
+        match intersection {
+            Intersection::Hit(Hit::Hair(hit)) => PrimaryHit {
                 t: hit.t,
-                thing: Thing::Hair { strand: hit.strand, tangent: hit.tangent },
+                object: Object::Hair { strand: hit.strand, tangent: hit.tangent },
                 albedo: self.fibres.albedo(hit.strand, hit.segment, hit.u),
                 normal: hit.normal,
             },
-            Met::Hit(Hit::Skin(hit)) => First {
+            Intersection::Hit(Hit::Skin(hit)) => PrimaryHit {
                 t: hit.t,
-                thing: Thing::Skin,
+                object: Object::Skin,
                 albedo: self.skin.colour,
                 normal: facing(hit.smooth_normal, -direction),
             },
-            Met::Ground { t, point } => {
-                let ground = self.ground.as_ref().expect("it was met");
-                let (albedo, normal) = (ground.colour(), Vec3::Z);
-                First {
-                    t: *t,
-                    thing: Thing::Ground { faded: ground.faded(*point) },
-                    albedo,
-                    normal,
-                }
+            Intersection::Floor { t, point } => {
+                let floor = self.floor.as_ref().expect("the ray hits it");
+                let object = Object::Floor { faded: floor.background_share(*point) };
+                PrimaryHit { t: *t, object, albedo: floor.colour(), normal: Vec3::Z }
             }
         }
     }
 
-    fn matter(&self, met: &Met, direction: Vec3) -> Matter<'_> {
-        match met {
-            Met::Hit(Hit::Hair(hit)) => self.hair(hit, direction),
-            Met::Hit(Hit::Skin(hit)) => Matter::Surface(self.skin(hit, -direction)),
-            Met::Ground { .. } => {
-                let colour = self.ground.as_ref().map_or(Vec3::ZERO, Ground::colour);
-                Matter::Surface(Plastic::new(Vec3::Z, -direction, colour, 0.0, 1.0))
+    fn bsdf(&self, intersection: &Intersection, direction: Vec3) -> Bsdf<'_> {
+        match intersection {
+            Intersection::Hit(Hit::Hair(hit)) => self.hair_bsdf(hit, direction),
+            Intersection::Hit(Hit::Skin(hit)) => Bsdf::Surface(self.skin_bsdf(hit, -direction)),
+            Intersection::Floor { .. } => {
+                let colour = self.floor.as_ref().map_or(Vec3::ZERO, Floor::colour);
+                Bsdf::Surface(RoughPlastic::new(Vec3::Z, -direction, colour, 0.0, 1.0))
             }
         }
     }
 
-    fn skin(&self, hit: &SkinHit, eye: Vec3) -> Plastic {
+    fn skin_bsdf(&self, hit: &SkinHit, eye: Vec3) -> RoughPlastic {
         let SkinLook { colour, gloss } = self.skin;
         let normal = facing(hit.smooth_normal, eye);
-        Plastic::new(normal, eye, colour, (REFLECTED * gloss).clamp(0.0, 0.2), SKIN_ROUGHNESS)
+        let f0 = (F0_PER_GLOSS * gloss).clamp(0.0, 0.2);
+        RoughPlastic::new(normal, eye, colour, f0, SKIN_ROUGHNESS)
     }
 
-    fn hair(&self, hit: &HairHit, direction: Vec3) -> Matter<'_> {
+    fn hair_bsdf(&self, hit: &HairHit, direction: Vec3) -> Bsdf<'_> {
         let d1 = self.fibres.director(hit.strand, hit.segment, hit.u);
         let d1 = d1.unwrap_or_else(|| hit.tangent.any_orthonormal_vector());
         let frame = FibreFrame::new(hit.tangent, d1);
         let eye = frame.to_local(-direction);
-        // A hit counts its offset along direction × tangent, a scattering along eye × tangent.
+        // A hit measures its offset h along direction × tangent, the BSDF along eye × tangent.
         let (fibre, absorption) = self.fibres.at(hit.strand, hit.segment, hit.u);
-        let scattering = Scattering::coloured(fibre, absorption, eye, -hit.h);
-        Matter::Hair { frame, scattering }
+        Bsdf::Hair { frame, bsdf: HairBsdf::coloured(fibre, absorption, eye, -hit.h) }
     }
 
-    /// Light that comes straight from a lamp or from outside and is scattered towards the eye.
-    fn direct(&self, met: &Met, matter: &Matter<'_>, sampler: &mut Sampler) -> Vec3 {
+    /// Next-event estimation: radiance from one sampled light that is scattered towards the eye.
+    fn direct_light(
+        &self,
+        intersection: &Intersection,
+        bsdf: &Bsdf<'_>,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
         let which = sampler.one();
-        let light = self.outside.sample(met.place(), which, sampler.pair());
-        let (value, pdf) = matter.evaluate(light.towards);
+        let light = self.lights.sample(intersection.shading_point(), which, sampler.pair());
+        let (value, pdf) = bsdf.evaluate(light.towards);
         if light.pdf <= 0.0 || value.max_element() <= 0.0 {
             return Vec3::ZERO;
         }
-        let ray = Ray::new(met.start(light.towards), light.towards);
-        if self.hidden(&ray, light.distance * BEFORE) {
+        let ray = Ray::new(intersection.ray_origin(light.towards), light.towards);
+        if self.occluded(&ray, light.distance * SHADOW_RAY_PART) {
             return Vec3::ZERO;
         }
-        let share = if light.sharp { 1.0 } else { power(light.pdf, pdf) };
-        value * light.radiance * (share / light.pdf)
+        // A delta light cannot be hit by BSDF sampling: its weight is 1.
+        let weight = if light.is_delta { 1.0 } else { power_heuristic(light.pdf, pdf) };
+        value * light.radiance * (weight / light.pdf)
     }
 }
 
-/// What skin's coat reflects head-on, per unit of [`SkinLook::gloss`]: about 0.03 by default, an index
-/// of 1.4.
-const REFLECTED: f32 = 0.24;
+/// Reflectance F0 of skin's coat at normal incidence per unit of [`SkinLook::gloss`]: about 0.03 by default,
+/// which is that of a refractive index of 1.4.
+const F0_PER_GLOSS: f32 = 0.24;
 
-/// Roughness of the slopes of skin.
+/// Roughness of the coat of skin (slope, α of GGX); chosen by eye.
 const SKIN_ROUGHNESS: f32 = 0.3;
 
-/// The normal on the side of the eye.
+/// The normal, flipped to the side of the eye.
 fn facing(normal: Vec3, eye: Vec3) -> Vec3 {
     if normal.dot(eye) < 0.0 { -normal } else { normal }
 }

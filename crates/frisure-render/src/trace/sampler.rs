@@ -1,9 +1,9 @@
-//! Numbers to sample with: the same for a pixel and a sample, whatever the threads.
+//! The sampler: the random numbers of one sample of one pixel, independent of threads.
 //!
-//! The first two dimensions of Sobol's sequence, in pairs that are shuffled and scrambled after Owen
-//! for each pixel and each pair, by hashing (Burley 2020, *Practical hash-based Owen scrambling*).
+//! The first two dimensions of the Sobol' sequence, in pairs that are shuffled and Owen-scrambled for each pixel
+//! and each pair by hashing (Burley 2020, *Practical hash-based Owen scrambling*, §3 and listing 1).
 
-/// The numbers of one sample of one pixel.
+/// The random numbers of one sample of one pixel.
 #[derive(Clone, Debug)]
 pub(super) struct Sampler {
     pixel: u32,
@@ -32,7 +32,7 @@ impl Sampler {
     }
 }
 
-/// Nested uniform scrambling of a fraction of 32 bits (Laine & Karras 2011, with Burley's constants).
+/// Nested uniform scrambling of a fraction of 32 bits (Laine & Karras 2011, with the constants of Burley 2020).
 fn scrambled(x: u32, key: u32) -> u32 {
     let mut x = x.reverse_bits();
     x = x.wrapping_add(key);
@@ -56,7 +56,7 @@ fn second(index: u32) -> u32 {
     x
 }
 
-/// A mixing of 32 bits (the finaliser of MurmurHash3).
+/// Mixes 32 bits (the finaliser of MurmurHash3).
 fn mix(mut x: u32) -> u32 {
     x ^= x >> 16;
     x = x.wrapping_mul(0x85eb_ca6b);

@@ -184,7 +184,7 @@ impl Hair {
         Nearest::new(places, firsts, strands, eye, forward)
     }
 
-    /// The first strands, `factor` wider, as what keeps the room's light out.
+    /// The first strands, `factor` wider, as what keeps the environment's light out.
     pub(crate) fn occluders(&self, strands: usize, factor: f32) -> impl Iterator<Item = Occluder> {
         let end = self.vertices_of(strands);
         (0..end).map(move |i| Occluder {

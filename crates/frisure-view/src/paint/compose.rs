@@ -3,16 +3,16 @@
 use bytemuck::cast_slice;
 use wgpu::{BindingResource, BufferUsages, CommandEncoder};
 
-use super::Job;
+use super::FrameContext;
 use crate::canvas::Canvas;
 use crate::frame::Line;
 use crate::gpu;
 
-impl Job<'_> {
+impl FrameContext<'_> {
     /// Hair over head over background, and lines.
     pub(super) fn compose(&self, encoder: &mut CommandEncoder, canvas: &Canvas) {
         let (targets, sampler) = (&canvas.targets, &self.renderer.sampler);
-        let Some((_, around)) = &canvas.known.surroundings else { return };
+        let Some((_, around)) = &canvas.cache.environment_map else { return };
         let (hair, head) = (gpu::whole(&targets.hair), gpu::whole(&targets.head));
         let [hair, head, around] = [&hair, &head, around].map(BindingResource::TextureView);
         let sampler = BindingResource::Sampler(sampler);

@@ -5,7 +5,7 @@ use frisure_render::Camera;
 use glam::Vec3;
 use wgpu::{Buffer, BufferUsages, CommandEncoder, Device, Queue};
 
-use super::{Job, Known};
+use super::{FrameCache, FrameContext};
 use crate::canvas::Canvas;
 use crate::gpu;
 use crate::hair::{Hair, ROW};
@@ -51,7 +51,7 @@ impl Shaded {
 
 impl Sorted {
     /// Sorts anew, if hair, camera or share are others.
-    fn update(known: &mut Option<Self>, job: &Job<'_>, hair: &Hair) {
+    fn update(known: &mut Option<Self>, job: &FrameContext<'_>, hair: &Hair) {
         let camera: &Camera = &job.frame.camera;
         let (eye, forward) = (camera.eye().as_vec3(), camera.forward().as_vec3());
         let key = (hair.shape(), job.strands, eye, forward);
@@ -85,11 +85,11 @@ fn rewrite(queue: &Queue, buffer: &Buffer, bytes: &[u8]) {
     }
 }
 
-impl Known {
+impl FrameCache {
     /// The light that each vertex sends to the eye.
-    pub(super) fn shade(&self, job: &Job<'_>, encoder: &mut CommandEncoder) {
-        let (Some(shaded), Some(maps), Some(room), Some(hair)) =
-            (&self.shaded, &self.maps, self.room(), job.frame.hair)
+    pub(super) fn shade(&self, job: &FrameContext<'_>, encoder: &mut CommandEncoder) {
+        let (Some(shaded), Some(maps), Some(environment), Some(hair)) =
+            (&self.shaded, &self.maps, self.environment(), job.frame.hair)
         else {
             return;
         };
@@ -102,18 +102,18 @@ impl Known {
         pass.set_bind_group(0, &job.picture, &[]);
         pass.set_bind_group(1, maps.group(), &[]);
         pass.set_bind_group(2, hair.group(), &[]);
-        pass.set_bind_group(3, &room.group, &[]);
+        pass.set_bind_group(3, &environment.group, &[]);
         pass.draw(0..3, 0..1);
     }
 }
 
-impl Job<'_> {
+impl FrameContext<'_> {
     /// The hair, nearest first.
     pub(super) fn draw_hair(&self, encoder: &mut CommandEncoder, canvas: &mut Canvas) {
         let view = gpu::whole(&canvas.targets.hair);
         let depth = gpu::whole(&canvas.targets.depth);
         drop(gpu::pass(encoder, "no hair yet", &[gpu::target(&view, Some([0.0; 4]))], None));
-        let known = &mut canvas.known;
+        let known = &mut canvas.cache;
         let Some(hair) = self.frame.hair else { return };
         Sorted::update(&mut known.sorted, self, hair);
         let (Some(sorted), Some(shaded)) = (&known.sorted, &known.shaded) else { return };

@@ -2,11 +2,11 @@
 
 use wgpu::CommandEncoder;
 
-use super::Job;
+use super::FrameContext;
 use crate::canvas::{Canvas, Fine};
 use crate::gpu;
 
-impl Job<'_> {
+impl FrameContext<'_> {
     /// How far away the head is, for hair that is behind it.
     pub(super) fn draw_head_depth(&self, encoder: &mut CommandEncoder, canvas: &Canvas) {
         let depth = gpu::whole(&canvas.targets.depth);
@@ -22,7 +22,10 @@ impl Job<'_> {
     /// The head, where hair does not hide it.
     pub(super) fn draw_head(&self, encoder: &mut CommandEncoder, canvas: &mut Canvas) {
         let (size, count) = (canvas.size, self.renderer.samples);
-        let (Some(maps), Some(room)) = (&canvas.known.maps, canvas.known.room()) else { return };
+        let (Some(maps), Some(environment)) = (&canvas.cache.maps, canvas.cache.environment())
+        else {
+            return;
+        };
         let fine = canvas.fine.get_or_insert_with(|| Fine::new(self.device, size, count));
         let head = gpu::whole(&canvas.targets.head);
         let (light, depth) = (gpu::whole(&fine.light), gpu::whole(&fine.depth));
@@ -42,7 +45,7 @@ impl Job<'_> {
             pass.set_bind_group(0, &self.picture, &[]);
             pass.set_bind_group(1, maps.group(), &[]);
             pass.set_bind_group(2, &covered, &[]);
-            pass.set_vertex_buffer(1, room.on_skin.slice(..));
+            pass.set_vertex_buffer(1, environment.on_skin.slice(..));
             skin.draw(&mut pass);
         }
     }

@@ -1,9 +1,9 @@
 //! One picture, in the order in which it is drawn.
 
+mod cache;
 mod compose;
 mod hair;
 mod head;
-mod known;
 
 use bytemuck::cast_slice;
 use wgpu::{BindGroup, BindingResource, CommandEncoder, Device, Queue, RenderPass};
@@ -16,10 +16,10 @@ use crate::lamps::{Lamp, strongest};
 use crate::renderer::Renderer;
 use crate::uniforms;
 
-pub(crate) use known::Known;
+pub(crate) use cache::FrameCache;
 
 /// A picture in the making.
-pub(crate) struct Job<'a> {
+pub(crate) struct FrameContext<'a> {
     pub(crate) renderer: &'a Renderer,
     pub(crate) device: &'a Device,
     pub(crate) queue: &'a Queue,
@@ -45,11 +45,11 @@ impl Renderer {
     ) {
         let hair = frame.hair.filter(|hair| hair.strands() > 0);
         let frame = &Frame { hair, ..frame.clone() };
-        canvas.known.prepare(self, device, queue, frame);
+        canvas.cache.prepare(self, device, queue, frame);
         let size = canvas.size;
-        let Some(job) = canvas.known.job(self, (device, queue), frame, size) else { return };
-        canvas.known.draw_maps(&job, encoder);
-        canvas.known.shade(&job, encoder);
+        let Some(job) = canvas.cache.job(self, (device, queue), frame, size) else { return };
+        canvas.cache.draw_maps(&job, encoder);
+        canvas.cache.shade(&job, encoder);
         job.draw_head_depth(encoder, canvas);
         job.draw_hair(encoder, canvas);
         job.draw_head(encoder, canvas);
@@ -68,7 +68,7 @@ impl Renderer {
     }
 }
 
-impl Known {
+impl FrameCache {
     /// What is to be drawn, its numbers on the device.
     fn job<'a>(
         &self,
@@ -76,18 +76,18 @@ impl Known {
         (device, queue): (&'a Device, &'a Queue),
         frame: &'a Frame<'a>,
         size: [u32; 2],
-    ) -> Option<Job<'a>> {
+    ) -> Option<FrameContext<'a>> {
         let (buffer, group) = self.numbers.as_ref()?;
-        let (lights, room) = (self.lights()?, self.room()?);
+        let (lights, environment) = (self.lights()?, self.environment()?);
         let (hair, head) = (frame.hair.map(Hair::bounds), frame.skin.map(crate::Skin::bounds));
         let shadowed = frame.shadows != Shadows::None;
         let of = |lamp| Lamp::new(lamp, hair, head, shadowed);
         let lamps: Vec<Lamp> = strongest(lights).into_iter().map(of).collect();
         let (strands, factor) = frame.hair.map_or((0, 1.0), |hair| hair.shared(frame.share));
         let vertices = frame.hair.map_or(0, |hair| hair.vertices_of(strands));
-        let numbers = uniforms::packed(frame, size, room, &lamps, factor, vertices);
+        let numbers = uniforms::packed(frame, size, environment, &lamps, factor, vertices);
         queue.write_buffer(buffer, 0, cast_slice(&numbers));
         let picture = group.clone();
-        Some(Job { renderer, device, queue, frame, picture, lamps, strands, vertices })
+        Some(FrameContext { renderer, device, queue, frame, picture, lamps, strands, vertices })
     }
 }

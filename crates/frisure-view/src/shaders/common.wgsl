@@ -43,7 +43,7 @@ struct Picture {
     forward: vec4<f32>,
     // Part of light that a hair takes; w: vertices of hair.
     taken: vec4<f32>,
-    // Energy reflected at a hair's surface; w: share of the room mirrored.
+    // Energy reflected at a hair's surface; w: share of the environment mirrored.
     reflected: vec4<f32>,
     // Deviation along the fibre, tilt, deviation around the fibre; w: share lost to other hair that is seen.
     lobes: vec4<f32>,
@@ -53,9 +53,9 @@ struct Picture {
     skin: vec4<f32>,
     // Skin: wrap, bias (m), penumbra (m), exponent.
     skin_shape: vec4<f32>,
-    // Room's grid: low corner (m), 1 / distance of nodes (1/m).
+    // Ambient grid: low corner (m), 1 / distance of nodes (1/m).
     room_low: vec4<f32>,
-    // Room's grid: nodes along each side; w: how far hair is lifted to a lamp (m).
+    // Ambient grid: nodes along each side; w: how far hair is lifted to a lamp (m).
     room_size: vec4<f32>,
     // Background: radiance at the centre and at the corners; w: its kind.
     centre: vec4<f32>,

@@ -7,7 +7,7 @@
 @group(2) @binding(3) var transmissions: texture_2d<f32>;
 @group(2) @binding(4) var returns: texture_2d<f32>;
 @group(2) @binding(5) var marks: texture_2d<f32>;
-@group(3) @binding(0) var room: texture_3d<f32>;
+@group(3) @binding(0) var ambient_volume: texture_3d<f32>;
 
 struct Rows {
     @builtin(position) at: vec4<f32>,
@@ -37,7 +37,7 @@ fn gaussian(x: f32, width: f32) -> f32 {
 fn room_light(p: vec3<f32>) -> vec3<f32> {
     let size = picture.room_size.xyz;
     let g = clamp((p - picture.room_low.xyz) * picture.room_low.w, vec3<f32>(0.0), size - 1.0);
-    return textureSampleLevel(room, smooth_sampler, (g + 0.5) / size, 0.0).rgb;
+    return textureSampleLevel(ambient_volume, smooth_sampler, (g + 0.5) / size, 0.0).rgb;
 }
 
 // What is known of a vertex before any lamp is looked at.

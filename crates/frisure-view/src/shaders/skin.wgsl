@@ -8,14 +8,14 @@ const HIDDEN: f32 = 0.998;
 struct Vertex {
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    @location(2) room: vec3<f32>,
+    @location(2) ambient: vec3<f32>,
 }
 
 struct Skin {
     @builtin(position) at: vec4<f32>,
     @location(0) place: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    @location(2) room: vec3<f32>,
+    @location(2) ambient: vec3<f32>,
     // Lamps, and whether the head's shadows are soft.
     @location(3) @interpolate(flat) kinds: vec2<i32>,
 }
@@ -30,7 +30,7 @@ fn projected(p: vec3<f32>) -> vec4<f32> {
 
 @vertex
 fn skin_vertex(in: Vertex) -> Skin {
-    return Skin(projected(in.position), in.position, in.normal, in.room, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)));
+    return Skin(projected(in.position), in.position, in.normal, in.ambient, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)));
 }
 
 // Places on a lamp as wide as a soft box: the middle, a ring of eight of which four come first, and a ring of four
@@ -76,7 +76,7 @@ fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, pl
     return passed * lamp.light.rgb / PI * (facing * picture.skin.rgb + min(facing, 1.0) * gloss);
 }
 
-// The room's light and the lamps', as the preview has it.
+// The ambient light and the lamps', as the preview has it.
 @fragment
 fn skin(in: Skin) -> @location(0) vec4<f32> {
     if textureLoad(hair, vec2<i32>(in.at.xy), 0).a > HIDDEN {
@@ -85,7 +85,7 @@ fn skin(in: Skin) -> @location(0) vec4<f32> {
     let eye = normalize(picture.eye.xyz - in.place);
     var normal = normalize(in.normal);
     normal = select(normal, -normal, dot(normal, eye) < 0.0);
-    var light = in.room * picture.skin.rgb;
+    var light = in.ambient * picture.skin.rgb;
     for (var i = 0; i < in.kinds.x; i += 1) {
         light += skin_from(picture.lamps[i], in.place, normal, eye, select(1, ALL, in.kinds.y > 0));
     }

@@ -112,8 +112,8 @@ impl EnvironmentMap {
     /// Radiance as an eye should see it from a unit direction: even between the middles of pixels, where
     /// [`Self::radiance`] is even in each.
     #[must_use]
-    pub fn seen(&self, towards: Vec3) -> Vec3 {
-        self.strength * self.table.between(self.unturned(towards))
+    pub fn radiance_interpolated(&self, towards: Vec3) -> Vec3 {
+        self.strength * self.table.interpolated(self.unturned(towards))
     }
 
     /// Mean radiance over all directions.
@@ -123,7 +123,7 @@ impl EnvironmentMap {
     }
 
     /// Radiance from a unit direction, and the density (1/sr) with which [`Self::sample`] gives it.
-    pub(crate) fn look(&self, towards: Vec3) -> (Vec3, f32) {
+    pub(crate) fn radiance_and_pdf(&self, towards: Vec3) -> (Vec3, f32) {
         let [x, y] = self.table.pixel(self.unturned(towards));
         (self.strength * self.table.at(x, y), self.table.density(x, y))
     }
@@ -131,8 +131,8 @@ impl EnvironmentMap {
     /// A direction, as likely as its light, from numbers in [0, 1).
     pub(crate) fn sample(&self, [u, v]: [f32; 2]) -> Vec3 {
         let table = &self.table;
-        let (y, v) = chosen(&table.rows, v);
-        let (x, u) = chosen(table.row(y), u);
+        let (y, v) = sample_interval(&table.rows, v);
+        let (x, u) = sample_interval(table.row(y), u);
         let z = table.heights[y] + v * (table.heights[y + 1] - table.heights[y]);
         self.turned_by(direction((x as f32 + u) / table.width as f32, z))
     }
@@ -181,7 +181,7 @@ fn direction(u: f32, z: f32) -> Vec3 {
 
 /// The interval that a number in [0, 1) falls in, of those between rising values from 0 to 1, and where in
 /// it.
-fn chosen(rising: &[f32], u: f32) -> (usize, f32) {
+fn sample_interval(rising: &[f32], u: f32) -> (usize, f32) {
     let i = rising.partition_point(|x| *x <= u).clamp(1, rising.len() - 1) - 1;
     let width = rising[i + 1] - rising[i];
     (i, if width > 0.0 { ((u - rising[i]) / width).clamp(0.0, 1.0) } else { 0.5 })
@@ -249,7 +249,7 @@ impl Table {
     }
 
     /// Linear between the middles of the four pixels around a direction.
-    fn between(&self, towards: Vec3) -> Vec3 {
+    fn interpolated(&self, towards: Vec3) -> Vec3 {
         let [u, v] = place(towards);
         let (x, y) = (u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
         let y = y.clamp(0.0, (self.height - 1) as f32);

@@ -1,8 +1,8 @@
-//! Light of the room on the device: a grid around hair and head.
+//! Light of the environment on the device: a grid around hair and head.
 
 use bytemuck::cast_slice;
-use frisure_render::Room;
-use frisure_render::preview::parts::{AROUND, RoomLight};
+use frisure_render::EnvironmentLight;
+use frisure_render::preview::parts::{AmbientGrid, DIRECTION_COUNT};
 use glam::Vec3;
 use wgpu::{BufferUsages, Device, Queue, TextureDimension, TextureFormat, TextureUsages};
 
@@ -15,9 +15,9 @@ const CELLS: f32 = 48.0;
 /// Pieces of hair that are enough to know how much hair is where.
 const PIECES: usize = 150_000;
 
-/// The grid, and what of the room each vertex of the head has.
+/// The grid, and what of the environment each vertex of the head has.
 #[derive(Debug)]
-pub(crate) struct RoomOnDevice {
+pub(crate) struct AmbientVolume {
     pub(crate) low: Vec3,
     pub(crate) per_metre: f32,
     pub(crate) size: Vec3,
@@ -25,24 +25,24 @@ pub(crate) struct RoomOnDevice {
     pub(crate) on_skin: wgpu::Buffer,
 }
 
-impl RoomOnDevice {
+impl AmbientVolume {
     pub(crate) fn new(
         layout: &wgpu::BindGroupLayout,
         device: &Device,
         queue: &Queue,
         (hair, skin): (Option<&Hair>, Option<&Skin>),
-        room: [Vec3; AROUND],
+        environment: [Vec3; DIRECTION_COUNT],
     ) -> Self {
         let (strands, factor) = hair.map_or((0, 1.0), |hair| hair.some(PIECES));
         let occluders = hair.into_iter().flat_map(|hair| hair.occluders(strands, factor));
         let taken = hair.map_or(Vec3::ONE, Hair::taken);
-        let light = RoomLight::new(occluders, skin.map(Skin::surface), room, taken, CELLS);
+        let light = AmbientGrid::new(occluders, skin.map(Skin::surface), environment, taken, CELLS);
         let (low, cell, size) = light.grid();
         let nodes: Vec<[u16; 4]> =
             light.nodes().iter().map(|n| halves([n.x, n.y, n.z, 0.0])).collect();
         let texture = gpu::texture_of(
             device,
-            "room",
+            "environment",
             size.to_array(),
             TextureDimension::D3,
             TextureFormat::Rgba16Float,
@@ -63,7 +63,7 @@ impl RoomOnDevice {
             on_skin: gpu::buffer(
                 device,
                 queue,
-                "room on the head",
+                "environment on the head",
                 cast_slice(&on_skin),
                 BufferUsages::VERTEX,
             ),
@@ -71,23 +71,28 @@ impl RoomOnDevice {
     }
 }
 
-/// Texels across and down of a picture of the surroundings.
+/// Texels across and down of a picture of the environment_map.
 const AROUND_SIZE: [u32; 2] = [512, 256];
 
-/// The surroundings as a picture: a turn about the vertical across, from above to below down. One texel
+/// The environment_map as a picture: a turn about the vertical across, from above to below down. One texel
 /// without them.
-pub(crate) fn surroundings(device: &Device, queue: &Queue, room: Option<&Room>) -> wgpu::Texture {
-    let [width, height] = if room.is_some() { AROUND_SIZE } else { [1, 1] };
+pub(crate) fn environment_texture(
+    device: &Device,
+    queue: &Queue,
+    environment: Option<&EnvironmentLight>,
+) -> wgpu::Texture {
+    let [width, height] = if environment.is_some() { AROUND_SIZE } else { [1, 1] };
     let format = TextureFormat::Rgba16Float;
     let usage = TextureUsages::COPY_DST;
-    let texture = gpu::texture(device, "surroundings", [width, height, 1], format, usage);
-    let Some(room) = room else { return texture };
+    let texture = gpu::texture(device, "environment_map", [width, height, 1], format, usage);
+    let Some(environment) = environment else { return texture };
     let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let light = texels.map(|(x, y)| {
         let turn = ((x as f32 + 0.5) / width as f32 - 0.5) * std::f32::consts::TAU;
         let (sine, cosine) = ((y as f32 + 0.5) / height as f32 * std::f32::consts::PI).sin_cos();
-        let [r, g, b] =
-            room.seen(Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)).to_array();
+        let [r, g, b] = environment
+            .radiance_interpolated(Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine))
+            .to_array();
         halves([r, g, b, 1.0])
     });
     let light: Vec<[u16; 4]> = light.collect();

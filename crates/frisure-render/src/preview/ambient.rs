@@ -1,4 +1,4 @@
-//! Light from the room: how much of it reaches each place through the hair and past the head.
+//! Light from the environment: how much of it reaches each place through the hair and past the head.
 //!
 //! A coarse grid holds how much hair each cell has; hairs met along fourteen directions (those of
 //! Lebedev's 14-point rule, exact to degree 5) are sums along rows and diagonals of the grid, so the
@@ -44,28 +44,28 @@ const DIRECTIONS: [([i32; 3], f32); 14] = {
     ]
 };
 
-/// Light of the room inside and around the hair.
-pub(super) struct Sky {
+/// Light of the environment inside and around the hair.
+pub(super) struct AmbientLight {
     pub(super) low: Vec3,
     pub(super) cell: f32,
     pub(super) size: UVec3,
-    /// Per direction and node, hairs met between the node and the room.
+    /// Per direction and node, hairs met between the node and the environment.
     met: Vec<Vec<f32>>,
-    /// Radiance that white hair at each node would have in the room.
+    /// Radiance that white hair at each node would have in the environment.
     pub(super) mean: Vec<Vec3>,
-    /// Radiance of the room in each direction.
-    room: [Vec3; 14],
+    /// Radiance of the environment in each direction.
+    environment: [Vec3; 14],
     /// Part of the light that each hair takes.
     taken: Vec3,
 }
 
-impl Sky {
-    /// Measures the room's light, known from [`around`], around `curves` and `head`; each hair on the way
+impl AmbientLight {
+    /// Measures the environment's light, known from [`directions`], around `curves` and `head`; each hair on the way
     /// takes the part `taken` of it. There are at most `cells` along a side.
     pub(super) fn new(
         curves: &Curves,
         head: Option<&Head>,
-        room: [Vec3; 14],
+        environment: [Vec3; 14],
         taken: Vec3,
         cells: f32,
     ) -> Self {
@@ -80,31 +80,35 @@ impl Sky {
         let cell = ((high - low).max_element() / cells).max(MIN_CELL);
         let low = low - Vec3::splat(1.5 * cell);
         let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(2);
-        let mut sky = Self { low, cell, size, met: Vec::new(), mean: Vec::new(), room, taken };
-        let hair = sky.hair_density(curves);
-        let shell = sky.shell(head);
-        sky.met =
-            DIRECTIONS.par_iter().map(|&(step, _)| sky.hairs_met(&hair, &shell, step)).collect();
-        let whole: Vec3 = (0..14).map(|d| DIRECTIONS[d].1 * room[d]).sum();
-        sky.mean = (0..hair.len())
+        let mut ambient =
+            Self { low, cell, size, met: Vec::new(), mean: Vec::new(), environment, taken };
+        let hair = ambient.hair_density(curves);
+        let shell = ambient.shell(head);
+        ambient.met = DIRECTIONS
+            .par_iter()
+            .map(|&(step, _)| ambient.hairs_met(&hair, &shell, step))
+            .collect();
+        let whole: Vec3 = (0..14).map(|d| DIRECTIONS[d].1 * environment[d]).sum();
+        ambient.mean = (0..hair.len())
             .into_par_iter()
             .map(|i| {
-                let light: Vec3 =
-                    (0..14).map(|d| DIRECTIONS[d].1 * room[d] * sky.passed(sky.met[d][i])).sum();
+                let light: Vec3 = (0..14)
+                    .map(|d| DIRECTIONS[d].1 * environment[d] * ambient.passed(ambient.met[d][i]))
+                    .sum();
                 whole * gathered(light / whole.max(Vec3::splat(1e-9)))
             })
             .collect();
-        sky
+        ambient
     }
 
-    /// Radiance that white hair at a point would have in the room.
+    /// Radiance that white hair at a point would have in the environment.
     pub(super) fn mean(&self, point: Vec3) -> Vec3 {
         let mut sum = Vec3::ZERO;
         self.around(point, |i, weight| sum += weight * self.mean[i]);
         sum
     }
 
-    /// Irradiance / π from the room on a surface at `point` with unit normal `normal`.
+    /// Irradiance / π from the environment on a surface at `point` with unit normal `normal`.
     pub(super) fn on_surface(&self, point: Vec3, normal: Vec3) -> Vec3 {
         // The surface's own shell must not shade it.
         let point = point + 1.7 * self.cell * normal;
@@ -117,7 +121,7 @@ impl Sky {
         let (mut light, mut whole) = (Vec3::ZERO, 0.0);
         for (d, &(step, weight)) in DIRECTIONS.iter().enumerate() {
             let weight = weight * normal.dot(direction(step)).max(0.0);
-            light += weight * self.room[d] * self.passed(met[d]);
+            light += weight * self.environment[d] * self.passed(met[d]);
             whole += weight;
         }
         light / f32::max(whole, 1e-6)
@@ -201,12 +205,12 @@ impl Sky {
     }
 }
 
-/// The directions from which the room's light is known, and their weights.
-pub(super) fn around() -> [(Vec3, f32); 14] {
+/// The directions from which the environment's light is known, and their weights.
+pub(super) fn directions() -> [(Vec3, f32); 14] {
     DIRECTIONS.map(|(step, weight)| (direction(step), weight))
 }
 
-/// Radiance of white hair in a room of radiance 1, of whose directions it sees the part `seen`.
+/// Radiance of white hair in a environment of radiance 1, of whose directions it sees the part `seen`.
 ///
 /// A fibre alone sends back what it meets, and has 1. Hair among hair scatters as a matt surface does (the
 /// diffuse light of lamps, E sin(t, l)/π): over all directions that is π times, and with the light that
@@ -224,19 +228,19 @@ fn direction(step: [i32; 3]) -> Vec3 {
 mod tests {
     use super::*;
     use crate::Camera;
-    use crate::preview::view::View;
+    use crate::preview::projection::Projection;
     use frisure_strands::Strands;
 
-    fn room(radiance: f32) -> [Vec3; 14] {
+    fn environment(radiance: f32) -> [Vec3; 14] {
         [Vec3::splat(radiance); 14]
     }
 
     #[test]
     fn open_air_has_all_the_room() {
-        let curves = Curves::new(&Strands::new(), &View::new(&Camera::default(), 8, 8), 1.0);
-        let sky = Sky::new(&curves, None, room(2.0), Vec3::ONE, MAX_CELLS);
-        assert!((sky.mean(Vec3::ONE) - Vec3::splat(2.0)).length() < 1e-5);
-        let on = sky.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
+        let curves = Curves::new(&Strands::new(), &Projection::new(&Camera::default(), 8, 8), 1.0);
+        let ambient = AmbientLight::new(&curves, None, environment(2.0), Vec3::ONE, MAX_CELLS);
+        assert!((ambient.mean(Vec3::ONE) - Vec3::splat(2.0)).length() < 1e-5);
+        let on = ambient.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
         assert!((on - Vec3::splat(2.0)).length() < 1e-5);
     }
 
@@ -249,9 +253,9 @@ mod tests {
                 strands.push(&[at(-20.0), at(20.0)], &[1e-4; 2]);
             }
         }
-        let curves = Curves::new(&strands, &View::new(&Camera::default(), 64, 64), 1.0);
-        let sky = Sky::new(&curves, None, room(1.0), Vec3::ONE, MAX_CELLS);
-        let (middle, edge) = (sky.mean(Vec3::ZERO).x, sky.mean(Vec3::Z * 0.038).x);
+        let curves = Curves::new(&strands, &Projection::new(&Camera::default(), 64, 64), 1.0);
+        let ambient = AmbientLight::new(&curves, None, environment(1.0), Vec3::ONE, MAX_CELLS);
+        let (middle, edge) = (ambient.mean(Vec3::ZERO).x, ambient.mean(Vec3::Z * 0.038).x);
         assert!(middle < 0.5 * edge && edge < 0.95, "{middle} {edge}");
     }
 }

@@ -9,8 +9,8 @@ pub const SKIN_PENUMBRA: f32 = 5e-3;
 /// How far skin is lit past the terminator, as light seeps through it.
 pub const WRAP: f32 = 0.2;
 
-/// Part of the room that hair mirrors: its neighbours hide the rest.
-pub const ROOM_GLOSS: f32 = 0.45;
+/// Part of the environment that hair mirrors: its neighbours hide the rest.
+pub const ENVIRONMENT_GLOSS: f32 = 0.45;
 
 /// How much less diffuse light comes back from wet hair: this and the next two make a wet head of brown hair
 /// have the traced 0.84, 0.79 and 0.72 of its dry colour, a fifth less light, as in the paper (§3.2.1).

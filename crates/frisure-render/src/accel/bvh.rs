@@ -1,32 +1,32 @@
-//! A hierarchy of boxes, eight to a node, and the ways of rays through it.
+//! The bounding volume hierarchy (BVH), eight children to a node, and its traversal.
 
 use glam::{DVec3, Vec3};
 
 use super::Ray;
-use super::bounds::Bounds;
+use super::aabb::Aabb;
 use super::build::{self, Primitive};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::simd::{LANES, Lanes, Portable, Simd, Vectors, Wide3};
 
-/// Up to eight things that are tested at once.
+/// Up to eight primitives that are intersected at once.
 pub(super) trait Leaf: Copy + Send + Sync {
-    /// What there is in all.
-    type Things: Sync + ?Sized;
-    /// Up to eight of the things.
-    fn new(things: &Self::Things, indices: &[Primitive]) -> Self;
-    /// Distances along the ray (m) at which things are hit, and bits of those that are, before
-    /// `t_max`. The ray starts at or before the box of the things.
-    fn test<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32);
+    /// All primitives.
+    type Primitives: Sync + ?Sized;
+    /// The leaf of up to eight primitives.
+    fn new(all: &Self::Primitives, primitives: &[Primitive]) -> Self;
+    /// Intersects the ray: distances along it (m), and a bit mask of the primitives that are hit before `t_max`. The
+    /// ray starts at or before the leaf's AABB.
+    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32);
 }
 
-/// A ray, eight times.
+/// A ray in all eight lanes.
 pub(super) struct WideRay<F> {
     pub(super) origin: Wide3<F>,
     pub(super) direction: Wide3<F>,
 }
 
-/// Eight boxes, and what is in them.
+/// A node: the AABBs of eight children.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub(super) struct Node {
@@ -35,7 +35,7 @@ pub(super) struct Node {
     pub(super) child: [Child; LANES],
 }
 
-/// A node or a leaf, by its index.
+/// Index of a node or of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Child(u32);
 
@@ -44,7 +44,7 @@ const LEAF: u32 = 1 << 31;
 impl Child {
     pub(super) const NONE: Self = Self(u32::MAX);
 
-    // Fewer than 2³¹ things are let in, so that indices fit.
+    // There are fewer than 2³¹ primitives, so that indices fit.
     pub(super) fn node(index: usize) -> Self {
         Self(index as u32)
     }
@@ -53,7 +53,7 @@ impl Child {
         Self(index as u32 | LEAF)
     }
 
-    /// The same child after `nodes` and `leaves` others were put before its own.
+    /// The child, moved behind `nodes` nodes and `leaves` leaves.
     pub(super) fn behind(self, nodes: usize, leaves: usize) -> Self {
         match self {
             Self::NONE => self,
@@ -63,24 +63,24 @@ impl Child {
     }
 }
 
-/// Boxes in boxes, and leaves of type `L`.
+/// An 8-wide BVH with leaves of type `L`.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Hierarchy<L> {
-    bounds: Bounds,
+pub(super) struct Bvh<L> {
+    bounds: Aabb,
     nodes: Vec<Node>,
     leaves: Vec<L>,
 }
 
-/// The instructions to trace with.
+/// The instruction set for traversal.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Level {
+pub(super) enum SimdLevel {
     Portable,
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
 }
 
-impl Level {
-    /// The best that this machine has.
+impl SimdLevel {
+    /// The best that this processor supports.
     pub(super) fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = Avx2::detect() {
@@ -90,27 +90,27 @@ impl Level {
     }
 }
 
-/// What a ray meets first.
+/// The closest hit: a lane of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Found<'a, L> {
+pub(super) struct LeafHit<'a, L> {
     /// Distance (m).
     pub(super) t: f32,
     pub(super) leaf: &'a L,
     pub(super) lane: usize,
 }
 
-impl<L: Leaf> Hierarchy<L> {
-    /// The hierarchy over things with these boxes.
-    pub(super) fn new(things: &L::Things, primitives: &mut [Primitive]) -> Self {
-        let bounds = primitives.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+impl<L: Leaf> Bvh<L> {
+    /// Builds the BVH over primitives.
+    pub(super) fn new(all: &L::Primitives, primitives: &mut [Primitive]) -> Self {
+        let bounds = primitives.iter().fold(Aabb::EMPTY, |b, p| b.union(p.bounds()));
         // What single precision makes of a ray and a box may differ by a few parts in 10⁷.
         let pad = 5e-7 * bounds.reach();
-        let tree = build::tree(things, primitives, pad);
+        let tree = build::tree(all, primitives, pad);
         Self { bounds: bounds.grown(2.0 * pad), nodes: tree.nodes, leaves: tree.leaves }
     }
 
-    /// Box around everything.
-    pub(super) fn bounds(&self) -> Bounds {
+    /// AABB around everything.
+    pub(super) fn bounds(&self) -> Aabb {
         self.bounds
     }
 
@@ -119,37 +119,44 @@ impl<L: Leaf> Hierarchy<L> {
         size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..])
     }
 
-    /// What the ray meets first before `t_max` (m).
-    pub(super) fn closest(&self, level: Level, ray: &Ray, t_max: f32) -> Option<Found<'_, L>> {
+    /// The closest hit before `t_max` (m).
+    pub(super) fn closest_hit(
+        &self,
+        level: SimdLevel,
+        ray: &Ray,
+        t_max: f32,
+    ) -> Option<LeafHit<'_, L>> {
         let (ray, skipped) = self.enter(ray, t_max)?;
         let found = match level {
-            Level::Portable => trace::<_, L, false>(Portable, self, &ray, t_max - skipped),
+            SimdLevel::Portable => traverse::<_, L, false>(Portable, self, &ray, t_max - skipped),
             // SAFETY: an `Avx2` exists only where the machine has AVX2 and FMA.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(simd) => unsafe {
-                trace_avx2::<L, false>(simd, self, &ray, t_max - skipped)
+            SimdLevel::Avx2(simd) => unsafe {
+                traverse_avx2::<L, false>(simd, self, &ray, t_max - skipped)
             },
         };
-        found.map(|found| Found { t: found.t + skipped, ..found })
+        found.map(|found| LeafHit { t: found.t + skipped, ..found })
     }
 
-    /// Whether the ray meets anything before `t_max` (m).
-    pub(super) fn occluded(&self, level: Level, ray: &Ray, t_max: f32) -> bool {
+    /// Whether the ray hits anything before `t_max` (m): a shadow ray.
+    pub(super) fn occluded(&self, level: SimdLevel, ray: &Ray, t_max: f32) -> bool {
         let Some((ray, skipped)) = self.enter(ray, t_max) else { return false };
         match level {
-            Level::Portable => trace::<_, L, true>(Portable, self, &ray, t_max - skipped).is_some(),
+            SimdLevel::Portable => {
+                traverse::<_, L, true>(Portable, self, &ray, t_max - skipped).is_some()
+            }
             // SAFETY: an `Avx2` exists only where the machine has AVX2 and FMA.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(simd) => unsafe {
-                trace_avx2::<L, true>(simd, self, &ray, t_max - skipped).is_some()
+            SimdLevel::Avx2(simd) => unsafe {
+                traverse_avx2::<L, true>(simd, self, &ray, t_max - skipped).is_some()
             },
         }
     }
 
-    /// The ray from where it is about to enter the box around everything, and how far that is (m);
-    /// `None` if it passes by, is no ray, or gets there after `t_max`. From there coordinates are of
-    /// the size of the box, however far away the eye: precision that thin fibres need.
-    fn enter(&self, ray: &Ray, t_max: f32) -> Option<(ShortRay, f32)> {
+    /// The ray, moved to just before it enters the AABB of everything, and the distance moved (m); `None` if it misses,
+    /// is not finite, or enters after `t_max`. From there coordinates are of the size of the AABB, however far away the
+    /// eye is: precision that thin fibres need.
+    fn enter(&self, ray: &Ray, t_max: f32) -> Option<(ClippedRay, f32)> {
         if !ray.is_finite() {
             return None;
         }
@@ -164,18 +171,21 @@ impl<L: Leaf> Hierarchy<L> {
         }
         let skipped = (near - slack).max(0.0);
         let origin = ray.origin().as_dvec3() + f64::from(skipped) * DVec3::from(ray.direction());
-        Some((ShortRay { origin: origin.as_vec3(), direction: ray.direction(), inverse }, skipped))
+        Some((
+            ClippedRay { origin: origin.as_vec3(), direction: ray.direction(), inverse },
+            skipped,
+        ))
     }
 }
 
-/// A ray that starts near the scene, with the inverse of its direction.
-struct ShortRay {
+/// A ray that starts near the scene, with the reciprocal of its direction.
+struct ClippedRay {
     origin: Vec3,
     direction: Vec3,
     inverse: Vec3,
 }
 
-/// One over each coordinate, and large instead of infinite, so that nothing becomes not-a-number.
+/// Reciprocal of each coordinate, large instead of infinite, so that nothing becomes NaN.
 fn inverse(direction: Vec3) -> Vec3 {
     direction
         .to_array()
@@ -183,40 +193,40 @@ fn inverse(direction: Vec3) -> Vec3 {
         .into()
 }
 
-/// Wide levels at most: see `build`.
+/// Entries of the traversal stack: see `build`.
 const STACK: usize = build::DEEPEST * (LANES - 1) + 1;
 
-/// A box still to be visited, and where the ray enters it.
+/// A child still to be visited, and the distance at which the ray enters it (m).
 #[derive(Clone, Copy)]
-struct Visit {
+struct StackEntry {
     near: f32,
     child: u32,
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn trace_avx2<'a, L: Leaf, const ANY: bool>(
+fn traverse_avx2<'a, L: Leaf, const ANY: bool>(
     simd: Avx2,
-    hierarchy: &'a Hierarchy<L>,
-    ray: &ShortRay,
+    bvh: &'a Bvh<L>,
+    ray: &ClippedRay,
     t_max: f32,
-) -> Option<Found<'a, L>> {
-    trace::<Avx2, L, ANY>(simd, hierarchy, ray, t_max)
+) -> Option<LeafHit<'a, L>> {
+    traverse::<Avx2, L, ANY>(simd, bvh, ray, t_max)
 }
 
-/// Visits boxes, the nearest first. With `ANY`, the first thing found will do.
+/// Traverses the BVH, nearest child first. With `ANY` it returns the first hit found (shadow rays).
 #[inline(always)]
-fn trace<'a, S: Simd, L: Leaf, const ANY: bool>(
+fn traverse<'a, S: Simd, L: Leaf, const ANY: bool>(
     simd: S,
-    hierarchy: &'a Hierarchy<L>,
-    ray: &ShortRay,
+    bvh: &'a Bvh<L>,
+    ray: &ClippedRay,
     mut t_max: f32,
-) -> Option<Found<'a, L>> {
+) -> Option<LeafHit<'a, L>> {
     let slabs = Slabs::new(simd, ray);
     let wide = WideRay { origin: simd.splat3(ray.origin), direction: simd.splat3(ray.direction) };
     let mut found = None;
-    let mut stack = [Visit { near: 0.0, child: 0 }; STACK];
-    let mut height = usize::from(!hierarchy.nodes.is_empty());
+    let mut stack = [StackEntry { near: 0.0, child: 0 }; STACK];
+    let mut height = usize::from(!bvh.nodes.is_empty());
     while height > 0 {
         height -= 1;
         let visit = stack[height];
@@ -225,7 +235,7 @@ fn trace<'a, S: Simd, L: Leaf, const ANY: bool>(
         }
         let mut child = visit.child;
         while child & LEAF == 0 {
-            let node = &hierarchy.nodes[child as usize];
+            let node = &bvh.nodes[child as usize];
             let (near, bits) = slabs.enter(simd, node, t_max);
             match nearest(node, &near, bits, &mut stack, &mut height) {
                 Some(next) => child = next,
@@ -235,12 +245,12 @@ fn trace<'a, S: Simd, L: Leaf, const ANY: bool>(
         if child & LEAF == 0 {
             continue;
         }
-        let leaf = &hierarchy.leaves[(child & !LEAF) as usize];
-        let (t, bits) = leaf.test(simd, &wide, t_max);
+        let leaf = &bvh.leaves[(child & !LEAF) as usize];
+        let (t, bits) = leaf.intersect(simd, &wide, t_max);
         if bits != 0 {
             let (lane, t) = first(&simd.store(t), bits);
             t_max = t;
-            found = Some(Found { t, leaf, lane });
+            found = Some(LeafHit { t, leaf, lane });
             if ANY {
                 return found;
             }
@@ -249,7 +259,7 @@ fn trace<'a, S: Simd, L: Leaf, const ANY: bool>(
     found
 }
 
-/// The lane of the smallest of the distances that count, and that distance.
+/// The lane of the smallest distance among those in the bit mask, and that distance.
 #[inline(always)]
 fn first(t: &Lanes, mut bits: u32) -> (usize, f32) {
     let mut best = (0, f32::INFINITY);
@@ -263,13 +273,13 @@ fn first(t: &Lanes, mut bits: u32) -> (usize, f32) {
     best
 }
 
-/// Of the boxes that the ray enters: the nearest, the others put on the stack, the farthest first.
+/// The nearest child that the ray enters; pushes the others on the stack, the farthest first.
 #[inline(always)]
 fn nearest(
     node: &Node,
     near: &Lanes,
     mut bits: u32,
-    stack: &mut [Visit; STACK],
+    stack: &mut [StackEntry; STACK],
     height: &mut usize,
 ) -> Option<u32> {
     if bits == 0 {
@@ -278,7 +288,7 @@ fn nearest(
     let mut take = || {
         let lane = bits.trailing_zeros() as usize & (LANES - 1);
         bits &= bits - 1;
-        (Visit { near: near.0[lane], child: node.child[lane].0 }, bits != 0)
+        (StackEntry { near: near.0[lane], child: node.child[lane].0 }, bits != 0)
     };
     let (mut best, mut more) = take();
     let floor = *height;
@@ -297,7 +307,7 @@ fn nearest(
     Some(best.child)
 }
 
-/// A ray prepared for boxes.
+/// A ray prepared for the slab test (Kay & Kajiya 1986).
 struct Slabs<F> {
     inverse: Wide3<F>,
     /// −origin × inverse
@@ -307,7 +317,7 @@ struct Slabs<F> {
 
 impl<F: Copy> Slabs<F> {
     #[inline(always)]
-    fn new<S: Simd<F = F>>(simd: S, ray: &ShortRay) -> Self {
+    fn new<S: Simd<F = F>>(simd: S, ray: &ClippedRay) -> Self {
         Self {
             inverse: simd.splat3(ray.inverse),
             offset: simd.splat3(-ray.origin * ray.inverse),
@@ -315,7 +325,7 @@ impl<F: Copy> Slabs<F> {
         }
     }
 
-    /// Where the ray enters each box, and bits of those that it does enter before `t_max`.
+    /// Distance at which the ray enters each AABB, and a bit mask of those that it enters before `t_max`.
     #[inline(always)]
     fn enter<S: Simd<F = F>>(&self, simd: S, node: &Node, t_max: f32) -> (Lanes, u32) {
         let at = |axis: usize, inverse: F, offset: F| {

@@ -1,63 +1,63 @@
-//! Skin and ground: a coloured, diffuse body under a rough, clear coat.
+//! The BSDF of skin and floor: a diffuse body under a rough dielectric coat ("rough plastic").
 //!
-//! The coat is a microfacet surface of Trowbridge and Reitz with Smith's shadowing (Walter et al. 2007),
-//! sampled by its visible normals (Heitz 2018, *Sampling the GGX distribution of visible normals*), with
-//! Schlick's Fresnel term. The body scatters what the coat lets in and out again, after Kelemen and
-//! Szirmay-Kalos 2001, *A microfacet based coupled specular-matte BRDF model with importance sampling*,
-//! which is reciprocal and never more than all.
+//! The coat is a GGX (Trowbridge–Reitz) microfacet surface with Smith's masking and shadowing (Walter et al. 2007),
+//! sampled by its visible normals (Heitz 2018, *Sampling the GGX distribution of visible normals*), with Schlick's
+//! approximation of the Fresnel term. The body scatters what the coat transmits twice, after Kelemen and
+//! Szirmay-Kalos 2001, *A microfacet based coupled specular-matte BRDF model with importance sampling*: reciprocal
+//! and energy-conserving.
 
 use std::f32::consts::{PI, TAU};
 
 use glam::Vec3;
 
-/// A surface, seen from a direction.
+/// The BSDF for one direction to the eye.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plastic {
+pub(super) struct RoughPlastic {
     frame: [Vec3; 3],
     /// To the eye, in the frame.
     eye: Vec3,
     body: Vec3,
-    /// What the coat reflects head-on.
-    reflected: f32,
+    /// F0: reflectance of the coat at normal incidence.
+    f0: f32,
     roughness: f32,
-    /// Share of the samples that go to the coat.
-    share: f32,
+    /// Probability with which the coat is sampled.
+    coat_probability: f32,
 }
 
-impl Plastic {
-    /// A surface with a unit `normal` seen from the unit direction `eye`, on the same side: of diffuse
-    /// reflectance `body`, with a coat that reflects `reflected` of what comes head-on, with the slopes'
-    /// `roughness`, 0.05 to 1.
-    pub(super) fn new(normal: Vec3, eye: Vec3, body: Vec3, reflected: f32, roughness: f32) -> Self {
+impl RoughPlastic {
+    /// The BSDF of a surface with a unit `normal`, for the unit direction `eye` on the same side: diffuse
+    /// reflectance `body`, reflectance `f0` of the coat at normal incidence, `roughness` of the coat (GGX α), 0.05
+    /// to 1.
+    pub(super) fn new(normal: Vec3, eye: Vec3, body: Vec3, f0: f32, roughness: f32) -> Self {
         let x = normal.any_orthonormal_vector();
         let frame = [x, normal.cross(x), normal];
         let local = Vec3::from_array(frame.map(|axis| axis.dot(eye)));
         // A smooth normal may turn away from an eye that sees the face.
         let eye = local.with_z(local.z.max(1e-3)).normalize();
-        let coat = fresnel(reflected, eye.z);
+        let coat = fresnel(f0, eye.z);
         let through = (1.0 - coat) * body.max_element();
-        let share = if reflected > 0.0 { coat / (coat + through).max(1e-6) } else { 0.0 };
-        Self { frame, eye, body, reflected, roughness, share }
+        let coat_probability = if f0 > 0.0 { coat / (coat + through).max(1e-6) } else { 0.0 };
+        Self { frame, eye, body, f0, roughness, coat_probability }
     }
 
-    /// Scattering function times the cosine, and the density of [`Self::sample`] (1/sr).
+    /// BSDF times the cosine, and the pdf of [`Self::sample`] (1/sr).
     pub(super) fn evaluate(&self, towards: Vec3) -> (Vec3, f32) {
         let towards = Vec3::from_array(self.frame.map(|axis| axis.dot(towards)));
         if towards.z <= 0.0 {
             return (Vec3::ZERO, 0.0);
         }
-        let diffuse = (1.0 - self.share) * towards.z / PI;
-        if self.reflected <= 0.0 {
+        let diffuse = (1.0 - self.coat_probability) * towards.z / PI;
+        if self.f0 <= 0.0 {
             return (self.body * (towards.z / PI), diffuse);
         }
         let body = self.body * (self.diffuse(towards.z) * towards.z);
         let (coat, density) = self.coat(towards);
-        (body + Vec3::splat(coat), diffuse + self.share * density)
+        (body + Vec3::splat(coat), diffuse + self.coat_probability * density)
     }
 
-    /// A unit direction from numbers in [0, 1).
+    /// Samples a unit direction from numbers in [0, 1).
     pub(super) fn sample(&self, which: f32, [u, v]: [f32; 2]) -> Vec3 {
-        let local = if which < self.share {
+        let local = if which < self.coat_probability {
             let half = self.visible_normal(u, v);
             2.0 * self.eye.dot(half) * half - self.eye
         } else {
@@ -68,13 +68,13 @@ impl Plastic {
     }
 
     fn diffuse(&self, cosine: f32) -> f32 {
-        let passed = |c: f32| 1.0 - fresnel(self.reflected, c);
+        let passed = |c: f32| 1.0 - fresnel(self.f0, c);
         // The mean of what passes, weighted by the cosine: of (1 − c)⁵ it is 1/21.
-        let mean = (1.0 - self.reflected) * 20.0 / 21.0;
+        let mean = (1.0 - self.f0) * 20.0 / 21.0;
         passed(cosine) * passed(self.eye.z) / (PI * mean)
     }
 
-    /// The coat's scattering function times the cosine, and the density of its samples.
+    /// The coat's BSDF times the cosine, and the pdf of its samples (1/sr).
     fn coat(&self, towards: Vec3) -> (f32, f32) {
         let half = (towards + self.eye).normalize();
         let a2 = self.roughness * self.roughness;
@@ -82,12 +82,12 @@ impl Plastic {
         let density = a2 / (PI * slope * slope);
         let hidden = |c: f32| ((1.0 + a2 * (1.0 / (c * c) - 1.0)).sqrt() - 1.0) * 0.5;
         let (to_eye, to_light) = (hidden(self.eye.z), hidden(towards.z));
-        let seen = density / (4.0 * self.eye.z * (1.0 + to_eye));
+        let pdf = density / (4.0 * self.eye.z * (1.0 + to_eye));
         let both = density / (4.0 * self.eye.z * (1.0 + to_eye + to_light));
-        (fresnel(self.reflected, half.dot(self.eye)) * both, seen)
+        (fresnel(self.f0, half.dot(self.eye)) * both, pdf)
     }
 
-    /// A normal of the coat, as often as it is seen from the eye.
+    /// Samples a visible normal of the coat (Heitz 2018, listing 1).
     fn visible_normal(&self, u: f32, v: f32) -> Vec3 {
         let a = self.roughness;
         let stretched = Vec3::new(a * self.eye.x, a * self.eye.y, self.eye.z).normalize();
@@ -106,9 +106,9 @@ impl Plastic {
     }
 }
 
-/// Reflection at the cosine of incidence (Schlick 1994).
-fn fresnel(head_on: f32, cosine: f32) -> f32 {
-    head_on + (1.0 - head_on) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5)
+/// Schlick's approximation of the Fresnel reflectance (Schlick 1994, (24)).
+fn fresnel(f0: f32, cosine: f32) -> f32 {
+    f0 + (1.0 - f0) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5)
 }
 
 #[cfg(test)]
@@ -130,13 +130,13 @@ mod tests {
         (sum * 2.0 * f64::from(TAU) / (N * N) as f64) as f32
     }
 
-    fn seen_at(angle: f32) -> Plastic {
+    fn seen_at(angle: f32) -> RoughPlastic {
         let (s, c) = angle.sin_cos();
-        Plastic::new(Vec3::Z, Vec3::new(s, 0.0, c), Vec3::splat(0.9), 0.04, 0.3)
+        RoughPlastic::new(Vec3::Z, Vec3::new(s, 0.0, c), Vec3::splat(0.9), 0.04, 0.3)
     }
 
     #[test]
-    fn the_density_is_one_in_all_and_no_light_is_made() {
+    fn the_pdf_integrates_to_one_and_no_light_is_gained() {
         for angle in [0.0, 0.7, 1.3, 1.5] {
             let plastic = seen_at(angle);
             let whole = over_the_sphere(|towards| plastic.evaluate(towards).1);
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_give_the_light_that_the_sum_over_directions_gives() {
+    fn importance_sampling_gives_the_integral_over_directions() {
         for angle in [0.2, 1.2] {
             let plastic = seen_at(angle);
             let mut sum = 0.0;
@@ -168,9 +168,9 @@ mod tests {
     }
 
     #[test]
-    fn light_and_eye_can_be_exchanged() {
+    fn the_bsdf_is_reciprocal() {
         let (a, b) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.3, 0.5, 0.7).normalize());
-        let from = |eye| Plastic::new(Vec3::Z, eye, Vec3::splat(0.5), 0.04, 0.3);
+        let from = |eye| RoughPlastic::new(Vec3::Z, eye, Vec3::splat(0.5), 0.04, 0.3);
         let (there, back) = (from(a).evaluate(b).0.x / b.z, from(b).evaluate(a).0.x / a.z);
         assert!((there / back - 1.0).abs() < 1e-3, "{there} {back}");
     }

@@ -1,21 +1,21 @@
-//! An exposure as bytes, to be put away.
+//! Checkpoints: an accumulator as bytes.
 //!
-//! Little-endian: a mark of eight bytes that holds the version, the fingerprint, width and height, then
-//! for each tile its number of samples and its pixels' sums, and a checksum of all before it.
+//! Little-endian: a magic number of eight bytes that holds the version, the digest, width and height, then for
+//! each tile its number of samples and its pixels' sums, and a checksum of all before it.
 
 use glam::Vec3;
 use thiserror::Error;
 
-use super::{Exposure, Pixel, Tile};
+use super::{Accumulator, Pixel, Tile};
 use crate::preview::MAX_SIZE;
-use crate::trace::fingerprint::Fingerprint;
-use crate::trace::{MAX_PIXELS, MAX_SAMPLES};
+use crate::trace::digest::Digest;
+use crate::trace::options::{MAX_PIXELS, MAX_SAMPLES};
 
 /// The version of the bytes written, and the only one that is read.
 pub const VERSION: u8 = 1;
 
-/// Begins the bytes of an exposure.
-pub const MARK: [u8; 8] = [b'f', b'r', b'i', b'x', b'p', b'o', b's', VERSION];
+/// First bytes of a checkpoint.
+pub const MAGIC: [u8; 8] = [b'f', b'r', b'i', b'x', b'p', b'o', b's', VERSION];
 
 /// Bytes before the tiles.
 const HEAD: usize = 24;
@@ -23,58 +23,59 @@ const HEAD: usize = 24;
 /// Bytes of a pixel.
 const PIXEL: usize = 21 * 4;
 
-/// Why bytes are no exposure.
+/// Why bytes are no checkpoint.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-pub enum ExposureError {
+pub enum AccumulatorError {
     /// They are something else, or of another version.
     #[error("it is not an unfinished picture of version {VERSION}")]
-    Mark,
+    Magic,
     /// Cut off, or changed.
     #[error("it was cut off or changed")]
     Damaged,
 }
 
-impl Exposure {
+impl Accumulator {
     /// The bytes from which [`Self::from_bytes`] makes it again.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(HEAD + self.width * self.height * (PIXEL + 1) + 8);
-        bytes.extend(MARK);
-        bytes.extend(self.fingerprint.to_le_bytes());
+        bytes.extend(MAGIC);
+        bytes.extend(self.digest.to_le_bytes());
         bytes.extend((self.width as u32).to_le_bytes());
         bytes.extend((self.height as u32).to_le_bytes());
         for tile in &self.tiles {
             bytes.extend(tile.samples.to_le_bytes());
             tile.pixels.iter().for_each(|pixel| write(&mut bytes, pixel));
         }
-        let sum = Fingerprint::of(&bytes);
+        let sum = Digest::of(&bytes);
         bytes.extend(sum.to_le_bytes());
         bytes
     }
 
-    /// The exposure whose bytes these are.
+    /// The accumulator whose bytes these are.
     ///
     /// # Errors
-    /// [`ExposureError`], if they are not.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, ExposureError> {
-        if !bytes.starts_with(&MARK) {
-            return Err(ExposureError::Mark);
+    /// [`AccumulatorError`], if they are not.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, AccumulatorError> {
+        if !bytes.starts_with(&MAGIC) {
+            return Err(AccumulatorError::Magic);
         }
-        let (content, sum) = bytes.split_last_chunk::<8>().ok_or(ExposureError::Damaged)?;
-        if Fingerprint::of(content) != u64::from_le_bytes(*sum) {
-            return Err(ExposureError::Damaged);
+        let (content, sum) = bytes.split_last_chunk::<8>().ok_or(AccumulatorError::Damaged)?;
+        if Digest::of(content) != u64::from_le_bytes(*sum) {
+            return Err(AccumulatorError::Damaged);
         }
-        let mut reader = Reader(&content[MARK.len()..]);
-        reader.exposure().ok_or(ExposureError::Damaged)
+        let mut reader = Reader(&content[MAGIC.len()..]);
+        reader.accumulator().ok_or(AccumulatorError::Damaged)
     }
 }
 
 fn write(bytes: &mut Vec<u8>, pixel: &Pixel) {
-    let Pixel { light, half, alpha, albedo, normal, tangent, depth, met, hair, wisp, lead } = pixel;
+    let Pixel { light, half, alpha, albedo, normal, tangent, depth, hits, hair, wisp, lead } =
+        pixel;
     for v in [light, half, albedo, normal, tangent] {
         v.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));
     }
-    [alpha, depth, met, hair].into_iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    [alpha, depth, hits, hair].into_iter().for_each(|x| bytes.extend(x.to_le_bytes()));
     bytes.extend(wisp.to_le_bytes());
     bytes.extend(lead.to_le_bytes());
 }
@@ -83,16 +84,16 @@ fn write(bytes: &mut Vec<u8>, pixel: &Pixel) {
 struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {
-    fn exposure(&mut self) -> Option<Exposure> {
-        let fingerprint = u64::from_le_bytes(self.take()?);
+    fn accumulator(&mut self) -> Option<Accumulator> {
+        let digest = u64::from_le_bytes(self.take()?);
         let (width, height) = (self.count()? as usize, self.count()? as usize);
         let sides = [width, height];
         if sides.iter().any(|n| !(1..=MAX_SIZE).contains(n)) || width * height > MAX_PIXELS {
             return None;
         }
-        let mut exposure = Exposure::new(width, height, fingerprint);
-        exposure.tiles.iter_mut().try_for_each(|tile| self.tile(tile))?;
-        self.0.is_empty().then_some(exposure)
+        let mut accumulator = Accumulator::new(width, height, digest);
+        accumulator.tiles.iter_mut().try_for_each(|tile| self.tile(tile))?;
+        self.0.is_empty().then_some(accumulator)
     }
 
     fn tile(&mut self, tile: &mut Tile) -> Option<()> {
@@ -108,9 +109,9 @@ impl Reader<'_> {
         let [light, half] = [vector()?, vector()?];
         let [albedo, normal, tangent] = [vector()?, vector()?, vector()?];
         let [alpha, depth] = [self.number()?, self.number()?];
-        let [met, hair] = [self.number()?, self.number()?];
+        let [hits, hair] = [self.number()?, self.number()?];
         let [wisp, lead] = [self.count()?, self.count()?];
-        Some(Pixel { light, half, alpha, albedo, normal, tangent, depth, met, hair, wisp, lead })
+        Some(Pixel { light, half, alpha, albedo, normal, tangent, depth, hits, hair, wisp, lead })
     }
 
     fn number(&mut self) -> Option<f32> {

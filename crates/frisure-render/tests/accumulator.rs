@@ -4,8 +4,10 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_render::preview::Scene;
-use frisure_render::trace::{Exposure, ExposureError, Layers, TraceError, TraceOptions, Tracer};
-use frisure_render::{Aperture, Background, Camera, CameraError, Ground};
+use frisure_render::trace::{
+    Accumulator, AccumulatorError, Layers, TraceError, TraceOptions, Tracer,
+};
+use frisure_render::{Aperture, Background, Camera, CameraError, Floor};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DVec3, Vec3};
 
@@ -52,10 +54,10 @@ fn scene<'a>(strands: &'a Strands, surface: Option<&'a Surface>) -> Scene<'a> {
     scene
 }
 
-fn expose(tracer: &Tracer) -> Exposure {
-    let mut exposure = tracer.exposure();
-    assert!(tracer.expose(&mut exposure, &|_| ControlFlow::Continue(())).is_continue());
-    exposure
+fn expose(tracer: &Tracer) -> Accumulator {
+    let mut accumulator = tracer.accumulator();
+    assert!(tracer.accumulate(&mut accumulator, &|_| ControlFlow::Continue(())).is_continue());
+    accumulator
 }
 
 #[test]
@@ -63,7 +65,7 @@ fn a_picture_put_away_anywhere_goes_on_to_the_same_bytes() {
     let strands = curtain(0.0);
     let tracer = Tracer::new(&scene(&strands, None), &SMALL).unwrap();
     let whole = expose(&tracer);
-    let mut exposure = tracer.exposure();
+    let mut accumulator = tracer.accumulator();
     let mut stops = 0;
     loop {
         let tiles = AtomicUsize::new(0);
@@ -71,17 +73,17 @@ fn a_picture_put_away_anywhere_goes_on_to_the_same_bytes() {
             0..7 => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),
         };
-        let end = tracer.expose(&mut exposure, &some);
-        exposure = Exposure::from_bytes(&exposure.to_bytes()).unwrap();
-        assert!(tracer.knows(&exposure));
-        assert!(exposure.image().pixels().iter().flatten().all(|x| x.is_finite()));
+        let end = tracer.accumulate(&mut accumulator, &some);
+        accumulator = Accumulator::from_bytes(&accumulator.to_bytes()).unwrap();
+        assert!(tracer.can_resume(&accumulator));
+        assert!(accumulator.image().pixels().iter().flatten().all(|x| x.is_finite()));
         if end.is_continue() {
             break;
         }
         stops += 1;
     }
     assert!(stops > 4, "{stops}");
-    assert!(exposure == whole);
+    assert!(accumulator == whole);
 }
 
 #[test]
@@ -90,12 +92,12 @@ fn progress_ends_at_the_whole_and_never_goes_back() {
     let tracer = Tracer::new(&scene(&strands, None), &SMALL).unwrap();
     let seen = std::sync::Mutex::new(Vec::new());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let mut exposure = tracer.exposure();
+    let mut accumulator = tracer.accumulator();
     let watch = |done| {
         seen.lock().unwrap().push(done);
         ControlFlow::Continue(())
     };
-    assert!(pool.install(|| tracer.expose(&mut exposure, &watch)).is_continue());
+    assert!(pool.install(|| tracer.accumulate(&mut accumulator, &watch)).is_continue());
     let seen = seen.into_inner().unwrap();
     assert!(seen.windows(2).all(|pair| pair[0] <= pair[1]));
     assert_eq!((seen.first(), seen.last()), (Some(&0.0), Some(&1.0)));
@@ -107,16 +109,16 @@ fn bytes_that_were_cut_off_or_changed_are_no_exposure() {
     let options = TraceOptions { width: 5, height: 3, samples: 1, ..SMALL };
     let tracer = Tracer::new(&scene(&strands, None), &options).unwrap();
     let bytes = expose(&tracer).to_bytes();
-    assert!(Exposure::from_bytes(&bytes).is_ok());
+    assert!(Accumulator::from_bytes(&bytes).is_ok());
     for length in 0..bytes.len() {
-        assert!(Exposure::from_bytes(&bytes[..length]).is_err(), "{length}");
+        assert!(Accumulator::from_bytes(&bytes[..length]).is_err(), "{length}");
     }
     for place in (0..bytes.len()).step_by(7) {
         let mut changed = bytes.clone();
         changed[place] ^= 0x10;
-        assert!(Exposure::from_bytes(&changed).is_err(), "{place}");
+        assert!(Accumulator::from_bytes(&changed).is_err(), "{place}");
     }
-    assert_eq!(Exposure::from_bytes(b"a picture"), Err(ExposureError::Mark));
+    assert_eq!(Accumulator::from_bytes(b"a picture"), Err(AccumulatorError::Magic));
 }
 
 #[test]
@@ -124,16 +126,19 @@ fn another_picture_is_not_exposed_further() {
     let (strands, other) = (curtain(0.0), curtain(1e-4));
     let tracer =
         |strands: &'_ Strands, options| Tracer::new(&scene(strands, None), &options).unwrap();
-    let exposure = tracer(&strands, SMALL).exposure();
+    let accumulator = tracer(&strands, SMALL).accumulator();
     assert!(
-        tracer(&strands, TraceOptions { samples: 4, noise: Some(0.1), ..SMALL }).knows(&exposure)
+        tracer(&strands, TraceOptions { samples: 4, noise: Some(0.1), ..SMALL })
+            .can_resume(&accumulator)
     );
-    assert!(!tracer(&other, SMALL).knows(&exposure));
-    assert!(!tracer(&strands, TraceOptions { seed: 2, ..SMALL }).knows(&exposure));
-    assert!(!tracer(&strands, TraceOptions { width: 33, height: 40, ..SMALL }).knows(&exposure));
+    assert!(!tracer(&other, SMALL).can_resume(&accumulator));
+    assert!(!tracer(&strands, TraceOptions { seed: 2, ..SMALL }).can_resume(&accumulator));
+    assert!(
+        !tracer(&strands, TraceOptions { width: 33, height: 40, ..SMALL }).can_resume(&accumulator)
+    );
     let mut scene = scene(&strands, None);
     scene.look.hair.melanin.eumelanin += 0.1;
-    assert!(!Tracer::new(&scene, &SMALL).unwrap().knows(&exposure));
+    assert!(!Tracer::new(&scene, &SMALL).unwrap().can_resume(&accumulator));
 }
 
 #[test]
@@ -147,7 +152,7 @@ fn noise_falls_with_the_root_of_the_paths_and_is_what_two_pictures_differ_by() {
     assert!(many < 0.4 * few && many > 0.1 * few, "{few} {many}");
     // Two pictures differ by √2 standard errors, on the display's scale: the root.
     let (a, b) = (with(64, 1), with(64, 2));
-    let root = |e: &Exposure| -> Vec<f32> {
+    let root = |e: &Accumulator| -> Vec<f32> {
         e.image().pixels().iter().flat_map(|p| [p[0], p[1], p[2]]).map(f32::sqrt).collect()
     };
     let (x, y) = (root(&a), root(&b));
@@ -161,11 +166,11 @@ fn noise_falls_with_the_root_of_the_paths_and_is_what_two_pictures_differ_by() {
 fn tiles_that_are_good_enough_get_no_more_paths() {
     let strands = curtain(0.0);
     let options = TraceOptions { samples: 400, noise: Some(0.02), ..SMALL };
-    let exposure = expose(&Tracer::new(&scene(&strands, None), &options).unwrap());
-    assert!(exposure.noise() <= 0.02, "{}", exposure.noise());
-    assert!(exposure.mean_samples() < 390.0, "{}", exposure.mean_samples());
+    let accumulator = expose(&Tracer::new(&scene(&strands, None), &options).unwrap());
+    assert!(accumulator.noise() <= 0.02, "{}", accumulator.noise());
+    assert!(accumulator.mean_samples() < 390.0, "{}", accumulator.mean_samples());
     // Nothing but wall in the corner: there is no noise to wait for.
-    let samples = exposure.layers().samples;
+    let samples = accumulator.layers().samples;
     assert_eq!(samples[0], 32);
 }
 
@@ -174,8 +179,8 @@ fn layers_tell_what_is_seen() {
     let strands = curtain(0.0);
     let mut scene = scene(&strands, None);
     scene.look.background = Background::Transparent;
-    let exposure = expose(&Tracer::new(&scene, &SMALL).unwrap());
-    let Layers { albedo, normal, tangent, depth, hair, wisp, samples } = exposure.layers();
+    let accumulator = expose(&Tracer::new(&scene, &SMALL).unwrap());
+    let Layers { albedo, normal, tangent, depth, hair, wisp, samples } = accumulator.layers();
     let at = |x: usize, y: usize| y * SMALL.width + x;
     // The picture is 6 cm high and 7.3 cm wide: the curtain covers its middle.
     for (x, name) in [(17, 4), (22, 8)] {
@@ -191,7 +196,7 @@ fn layers_tell_what_is_seen() {
     assert_eq!((wisp[corner], hair[corner], depth[corner]), (0, 0.0, Layers::NOWHERE));
     assert_eq!((albedo[corner], tangent[corner], normal[corner]), ([0.0; 3], [0.0; 3], [0.0; 3]));
     assert!(samples.iter().all(|n| *n == 48));
-    let image = exposure.image();
+    let image = accumulator.image();
     assert_eq!((image.pixel(0, 0)[3], image.pixel(17, 16)[3]), (0.0, 1.0));
 }
 
@@ -236,7 +241,7 @@ fn a_floor_under_the_hair_catches_its_shadow() {
             far
         };
         let mut scene = Scene { strands: if hair { &strands } else { &nothing }, ..scene.clone() };
-        scene.look.ground = Some(Ground { middle, reach, colour });
+        scene.look.floor = Some(Floor { centre: middle, radius: reach, colour });
         let options = TraceOptions { samples: 64, ..SMALL };
         expose(&Tracer::new(&scene, &options).unwrap()).image()
     };

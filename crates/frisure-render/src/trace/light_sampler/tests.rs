@@ -17,18 +17,19 @@ fn kinds() -> Vec<(&'static str, Lights)> {
     let square = AreaLight::rectangle(DVec3::new(-0.6, 0.1, 0.0), x, DVec3::Z, side, Vec3::ONE);
     let point = PointLight::new(DVec3::new(0.0, 1.0, 1.0), Vec3::splat(2.0));
     let wide = DistantLight::new(DVec3::Y, Vec3::new(1.0, 2.0, 3.0), 0.8).unwrap();
-    let room = Room::Gradient { sky: Vec3::new(0.5, 0.6, 0.9), ground: Vec3::splat(0.1) };
-    let near = vec![disc.unwrap().into(), square.unwrap().into()];
-    let mut all = near.clone();
+    let environment =
+        EnvironmentLight::Gradient { sky: Vec3::new(0.5, 0.6, 0.9), ground: Vec3::splat(0.1) };
+    let local = vec![disc.unwrap().into(), square.unwrap().into()];
+    let mut all = local.clone();
     all.extend([Lamp::from(point.unwrap()), wide.into()]);
-    let map = Room::Environment(map);
+    let map = EnvironmentLight::Map(map);
     vec![
         ("studio", Lights::studio(&Camera::default())),
-        ("room", Lights { lamps: Vec::new(), room: room.clone() }),
-        ("map", Lights { lamps: Vec::new(), room: map.clone() }),
-        ("near", Lights { lamps: near, ..Lights::dark() }),
-        ("all", Lights { lamps: all.clone(), room }),
-        ("all and map", Lights { lamps: all, room: map }),
+        ("environment", Lights { lamps: Vec::new(), environment: environment.clone() }),
+        ("map", Lights { lamps: Vec::new(), environment: map.clone() }),
+        ("local", Lights { lamps: local, ..Lights::dark() }),
+        ("all", Lights { lamps: all.clone(), environment }),
+        ("all and map", Lights { lamps: all, environment: map }),
     ]
 }
 
@@ -46,18 +47,18 @@ fn direction(i: u32, j: u32) -> Vec3 {
 }
 const SOLID: f32 = 2.0 * TAU / (2 * FINE * FINE) as f32;
 
-/// Density of all lights together that chance can meet.
-fn density(outside: &Outside, towards: Vec3) -> f32 {
+/// Density of all lights together that BSDF sampling can hit.
+fn density(light_sampler: &LightSampler, towards: Vec3) -> f32 {
     let mut all = 0.0;
-    outside.met(PLACE, towards, None, |_, pdf| all += pdf);
+    light_sampler.emitted(PLACE, towards, None, |_, pdf| all += pdf);
     all
 }
 
 /// Mean over samples of light times a function of its direction.
-fn mean(outside: &Outside, from: Vec3, n: u32, f: impl Fn(Vec3) -> f32) -> Vec3 {
+fn mean(light_sampler: &LightSampler, from: Vec3, n: u32, f: impl Fn(Vec3) -> f32) -> Vec3 {
     let sum = (0..n).map(|i| {
         let (which, place) = numbers(i);
-        let light = outside.sample(from, which, place);
+        let light = light_sampler.sample(from, which, place);
         if light.pdf > 0.0 { light.radiance * (f(light.towards) / light.pdf) } else { Vec3::ZERO }
     });
     sum.sum::<Vec3>() / n as f32
@@ -69,30 +70,30 @@ fn close(found: Vec3, expected: Vec3, tolerance: f32, what: &str) {
 }
 
 #[test]
-fn densities_sum_to_one_and_samples_fall_as_they_say() {
+fn pdfs_integrate_to_one_and_samples_follow_them() {
     // Cells of 32 × 32 directions.
     const CELL: u32 = 32;
     const CELLS: u32 = FINE / CELL;
     for (name, lights) in kinds() {
-        let outside = Outside::new(&lights);
+        let light_sampler = LightSampler::new(&lights);
         let mut expected = vec![0.0_f32; (CELLS * CELLS * 2) as usize];
         for i in 0..FINE {
             for j in 0..2 * FINE {
                 let cell = i / CELL * 2 * CELLS + j / CELL;
-                expected[cell as usize] += density(&outside, direction(i, j)) * SOLID;
+                expected[cell as usize] += density(&light_sampler, direction(i, j)) * SOLID;
             }
         }
         let whole: f32 = expected.iter().sum();
         let n = 40_000;
         let mut found = vec![0_u32; expected.len()];
-        let mut chance = 0_u32;
+        let mut hit_by_bsdf = 0_u32;
         for index in 0..n {
             let mut sampler = Sampler::new(5, index, 0);
-            let light = outside.sample(PLACE, sampler.one(), sampler.pair());
-            if light.sharp {
+            let light = light_sampler.sample(PLACE, sampler.one(), sampler.pair());
+            if light.is_delta {
                 continue;
             }
-            chance += 1;
+            hit_by_bsdf += 1;
             let i = ((1.0 - light.towards.z) * 0.5 * CELLS as f32) as u32;
             // As `about` counts its turns.
             let (x, y) = Vec3::Z.any_orthonormal_pair();
@@ -100,12 +101,12 @@ fn densities_sum_to_one_and_samples_fall_as_they_say() {
             let j = (turn.rem_euclid(1.0) * (2 * CELLS) as f32) as u32;
             found[(i.min(CELLS - 1) * 2 * CELLS + j.min(2 * CELLS - 1)) as usize] += 1;
         }
-        let share = chance as f32 / n as f32;
+        let share = hit_by_bsdf as f32 / n as f32;
         assert!((whole - share).abs() < 0.01, "{name}: {whole} {share}");
         // χ² over cells that expect at least ten; the grid itself errs by a percent at edges of lamps.
         let (mut chi, mut cells) = (0.0, 0.0);
         for (expected, found) in expected.iter().zip(&found) {
-            let expected = expected / whole * chance as f32;
+            let expected = expected / whole * hit_by_bsdf as f32;
             if expected >= 10.0 {
                 let error = 0.02 * expected;
                 chi += (*found as f32 - expected).powi(2) / (expected + error * error);
@@ -117,17 +118,17 @@ fn densities_sum_to_one_and_samples_fall_as_they_say() {
 }
 
 #[test]
-fn light_met_by_chance_is_the_light_that_is_chosen() {
+fn the_emitted_radiance_and_pdf_are_those_of_the_sample() {
     for (name, lights) in kinds() {
-        let outside = Outside::new(&lights);
+        let light_sampler = LightSampler::new(&lights);
         for index in 0..2000 {
             let (which, place) = numbers(index);
-            let light = outside.sample(PLACE, which, place);
-            if light.sharp {
+            let light = light_sampler.sample(PLACE, which, place);
+            if light.is_delta {
                 continue;
             }
             let mut found = false;
-            outside.met(PLACE, light.towards, None, |radiance, pdf| {
+            light_sampler.emitted(PLACE, light.towards, None, |radiance, pdf| {
                 found |= (radiance - light.radiance).abs().max_element() < 1e-3 * light.radiance.x
                     && (pdf / light.pdf - 1.0).abs() < 2e-3;
             });
@@ -137,28 +138,29 @@ fn light_met_by_chance_is_the_light_that_is_chosen() {
 }
 
 #[test]
-fn chosen_light_and_light_met_by_chance_have_the_same_energy() {
+fn light_sampling_and_bsdf_sampling_integrate_to_the_same_energy() {
     // Two ways to integrate light times a smooth function over all directions. The hot pixel is forty
     // directions of the grid wide.
     let f = |towards: Vec3| (1.2 + towards.dot(Vec3::new(0.5, 0.3, -0.4))).max(0.0);
     for (name, mut lights) in kinds() {
         lights.lamps.retain(|lamp| !matches!(lamp, Lamp::Point(_)));
-        let outside = Outside::new(&lights);
+        let light_sampler = LightSampler::new(&lights);
         let mut met = Vec3::ZERO;
         for i in 0..FINE {
             for j in 0..2 * FINE {
                 let towards = direction(i, j);
-                outside.met(PLACE, towards, None, |light, _| met += light * (f(towards) * SOLID));
+                light_sampler
+                    .emitted(PLACE, towards, None, |light, _| met += light * (f(towards) * SOLID));
             }
         }
-        close(mean(&outside, PLACE, 1 << 15, f), met, 0.025, name);
+        close(mean(&light_sampler, PLACE, 1 << 15, f), met, 0.025, name);
     }
 }
 
 #[test]
 fn irradiance_is_that_of_closed_forms() {
     let up = |towards: Vec3| towards.z.max(0.0);
-    let irradiance = |lights: &Lights, n| mean(&Outside::new(lights), Vec3::ZERO, n, up);
+    let irradiance = |lights: &Lights, n| mean(&LightSampler::new(lights), Vec3::ZERO, n, up);
     let colour = Vec3::new(1.0, 2.0, 0.5);
     let one = |lamp: Lamp| Lights { lamps: vec![lamp], ..Lights::dark() };
 
@@ -184,30 +186,31 @@ fn irradiance_is_that_of_closed_forms() {
 
     let even = Lights::even(colour);
     let map = EnvironmentMap::new(7, 3, vec![colour.to_array(); 21]).unwrap();
-    let map = Lights { lamps: Vec::new(), room: Room::Environment(map) };
+    let map = Lights { lamps: Vec::new(), environment: EnvironmentLight::Map(map) };
     for sky in [even, map] {
         close(irradiance(&sky, 4096), colour * PI, 3e-3, "sky");
     }
 }
 
 #[test]
-fn one_hot_pixel_is_found_and_costs_no_noise() {
+fn one_hot_pixel_is_sampled_without_noise() {
     let (width, height) = (1024, 512);
     let mut pixels = vec![[0.2; 3]; width * height];
     pixels[width * 100 + 333] = [3e6; 3];
     let map = EnvironmentMap::new(width, height, pixels).unwrap();
     let expected = map.mean() * (2.0 * TAU);
-    let outside = Outside::new(&Lights { lamps: Vec::new(), room: Room::Environment(map) });
+    let light_sampler =
+        LightSampler::new(&Lights { lamps: Vec::new(), environment: EnvironmentLight::Map(map) });
     for index in 0..512 {
         let (which, place) = numbers(index);
-        let light = outside.sample(PLACE, which, place);
+        let light = light_sampler.sample(PLACE, which, place);
         // Each sample alone tells all of the light.
         close(light.radiance / light.pdf, expected, 2e-3, "hot");
     }
 }
 
 #[test]
-fn wide_pictures_keep_their_light() {
+fn wide_environment_maps_keep_their_mean_radiance() {
     let (width, height) = (5000, 3);
     let pixels = (0..width * height).map(|i| [(i % 7) as f32, 1.0, (i % 11) as f32]).collect();
     let map = EnvironmentMap::new(width, height, pixels).unwrap();
@@ -221,7 +224,7 @@ fn wide_pictures_keep_their_light() {
 }
 
 #[test]
-fn a_picture_hangs_the_right_way_round() {
+fn an_environment_map_has_the_documented_orientation() {
     // Four columns: behind to the left, in front at the left, in front at the right, behind to the right;
     // two rows.
     let pixels = (0..8).map(|i| [i as f32; 3]).collect();
@@ -238,35 +241,35 @@ fn a_picture_hangs_the_right_way_round() {
 #[test]
 fn days_are_lit_by_sun_and_sky_alike() {
     let lights = Lights::daylight(&Daylight::default()).unwrap();
-    let outside = Outside::new(&lights);
+    let light_sampler = LightSampler::new(&lights);
     let up = |towards: Vec3| towards.z.max(0.0);
     let Lamp::Distant(sun) = lights.lamps[0] else { panic!("the sun is far away") };
     let mut sky = Vec3::ZERO;
     for i in 0..FINE / 2 {
         for j in 0..2 * FINE {
             let towards = direction(i, j);
-            sky += lights.room.radiance(towards) * (towards.z * SOLID);
+            sky += lights.environment.radiance(towards) * (towards.z * SOLID);
         }
     }
     let expected = sky + sun.irradiance() * sun.direction().z as f32;
-    close(mean(&outside, Vec3::ZERO, 1 << 14, up), expected, 0.01, "day");
+    close(mean(&light_sampler, Vec3::ZERO, 1 << 14, up), expected, 0.01, "day");
 }
 
 #[test]
 fn no_light_is_no_light() {
-    let outside = Outside::new(&Lights::dark());
-    assert_eq!(outside.sample(PLACE, 0.5, [0.5; 2]).pdf, 0.0);
-    outside.met(PLACE, Vec3::Z, None, |light, _| assert_eq!(light, Vec3::ZERO));
+    let light_sampler = LightSampler::new(&Lights::dark());
+    assert_eq!(light_sampler.sample(PLACE, 0.5, [0.5; 2]).pdf, 0.0);
+    light_sampler.emitted(PLACE, Vec3::Z, None, |light, _| assert_eq!(light, Vec3::ZERO));
 }
 
 #[test]
-fn only_lamps_that_are_to_be_seen_are_seen() {
+fn only_visible_area_lights_are_seen() {
     let disc = AreaLight::disc(DVec3::Y, -DVec3::Y, 0.2, Vec3::splat(3.0)).unwrap();
     for shown in [false, true] {
         let lamp = disc.shown(shown).into();
-        let outside = Outside::new(&Lights { lamps: vec![lamp], ..Lights::dark() });
-        let seen = |blocked| outside.shown(PLACE, Vec3::Y, blocked).is_some();
+        let light_sampler = LightSampler::new(&Lights { lamps: vec![lamp], ..Lights::dark() });
+        let seen = |blocked| light_sampler.visible_area_light(PLACE, Vec3::Y, blocked).is_some();
         assert_eq!((seen(None), seen(Some(0.5))), (shown, false));
-        assert!(outside.shown(PLACE, Vec3::X, None).is_none());
+        assert!(light_sampler.visible_area_light(PLACE, Vec3::X, None).is_none());
     }
 }

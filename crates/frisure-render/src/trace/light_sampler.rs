@@ -1,65 +1,67 @@
-//! Where light comes from: lamps far and near, and what is around.
+//! The light sampler: delta lights, area lights and the environment light, sampled by importance.
 //!
-//! One light is chosen for each scattering, as likely as the light that it is thought to give there. Light
-//! that is met by chance counts, too: [`Outside::met`] gives the density with which [`Outside::sample`]
-//! would have chosen that direction at the same place, so that both can share each path.
+//! [`LightSampler::sample`] chooses one light with a probability in proportion to an estimate of its irradiance
+//! at the shading point, and a direction to it. [`LightSampler::emitted`] gives, for a direction that BSDF
+//! sampling chose, the radiance and the pdf with which `sample` would have chosen it at the same point: the
+//! weights of multiple importance sampling (pbrt-v4, §12.6 and §13.4).
 
 use std::f32::consts::{PI, TAU};
 
 use glam::Vec3;
 
 use crate::light::EnvironmentMap;
-use crate::{AreaLight, AreaShape, Lamp, Lights, Room};
+use crate::{AreaLight, AreaShape, EnvironmentLight, Lamp, Lights};
 
-/// Smallest angular radius of a lamp that is no true direction (rad).
-const SHARP: f64 = 1e-4;
+/// Angular radius below which a distant light is a delta light (rad).
+const MIN_RADIUS: f64 = 1e-4;
 
-/// Most and least of the samples that go to the room where there are lamps, too: light by chance finds
-/// the room but not a lamp.
-const TO_ROOM: (f32, f32) = (0.05, 0.6);
+/// Least and greatest share of the samples of [`InfiniteLights`] that the environment gets where there are lamps,
+/// too: BSDF sampling finds the environment but rarely a lamp. Chosen by trial; not measured further.
+const ENVIRONMENT_SHARE: (f32, f32) = (0.05, 0.6);
 
-/// How much wider a lamp is met than it is, against rounding (relative, of its area).
+/// Relative margin on the area of a disc in [`Disc::contains`], against rounding.
 const ROUNDING: f32 = 3e-5;
 
-/// All light.
-pub(super) struct Outside {
-    far: Far,
-    sharp: Vec<Sharp>,
-    near: Vec<Near>,
-    /// Sum of the weights of `sharp`.
-    sharp_weight: f32,
+/// All lights of a scene, ready to be sampled.
+pub(super) struct LightSampler {
+    infinite: InfiniteLights,
+    delta: Vec<DeltaLight>,
+    local: Vec<LocalLight>,
+    /// Sum of the weights of `delta`.
+    delta_weight: f32,
 }
 
-/// Light from infinitely far away that can be met by chance.
-struct Far {
+/// Lights at infinity that BSDF sampling can hit.
+struct InfiniteLights {
     lamps: Vec<Disc>,
-    room: Around,
-    /// Share of its samples that goes to the room.
-    to_room: f32,
+    environment: Environment,
+    /// Share of the samples that the environment gets.
+    environment_share: f32,
     weight: f32,
 }
 
+/// A distant light: a disc of uniform radiance.
 struct Disc {
     towards: Vec3,
     radiance: Vec3,
-    /// Greatest square of the chord to a direction on the disc.
+    /// Square of the chord from the centre to the edge, on the unit sphere.
     chord: f32,
-    /// Density on it (1/sr).
+    /// Pdf of a uniform direction on it (1/sr).
     density: f32,
-    /// Share of the samples that it gets, and that of all before it.
+    /// Share of the samples that it gets, and the sum of the shares before it.
     share: f32,
     before: f32,
 }
 
 impl Disc {
     /// Whether a unit direction is on it.
-    fn has(&self, towards: Vec3) -> bool {
+    fn contains(&self, towards: Vec3) -> bool {
         (towards - self.towards).length_squared() <= self.chord * (1.0 + ROUNDING)
     }
 }
 
-enum Around {
-    /// Radiance `middle` + z · `slope`, and how much of its light's strength changes with z.
+enum Environment {
+    /// Radiance `middle` + z · `slope`; the pdf is (1 + `tilt` z)/4π.
     Gradient {
         middle: Vec3,
         slope: Vec3,
@@ -68,15 +70,15 @@ enum Around {
     Environment(EnvironmentMap),
 }
 
-/// A lamp of no angle.
-struct Sharp {
+/// A delta light at infinity: one direction.
+struct DeltaLight {
     towards: Vec3,
     irradiance: Vec3,
     weight: f32,
 }
 
-/// A lamp at a place.
-enum Near {
+/// A light at a finite distance.
+enum LocalLight {
     Point { position: Vec3, intensity: Vec3 },
     Area(Area),
 }
@@ -92,18 +94,18 @@ struct Area {
     shown: bool,
 }
 
-/// A direction to light.
+/// A sampled direction to a light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LightSample {
     pub(super) towards: Vec3,
-    /// How far its lamp is (m).
+    /// Distance to the light (m).
     pub(super) distance: f32,
-    /// Radiance; of a lamp of no size, irradiance.
+    /// Radiance; irradiance for a delta light.
     pub(super) radiance: Vec3,
-    /// Density (1/sr); of a lamp of no size, the probability of its choice.
+    /// Pdf (1/sr); the probability of the choice for a delta light.
     pub(super) pdf: f32,
-    /// Whether no ray meets it by chance.
-    pub(super) sharp: bool,
+    /// Whether it is a delta light: BSDF sampling never hits it.
+    pub(super) is_delta: bool,
 }
 
 impl LightSample {
@@ -112,16 +114,16 @@ impl LightSample {
         distance: f32::INFINITY,
         radiance: Vec3::ZERO,
         pdf: 0.0,
-        sharp: true,
+        is_delta: true,
     };
 }
 
-impl Outside {
+impl LightSampler {
     pub(super) fn new(lights: &Lights) -> Self {
-        let (mut discs, mut sharp, mut near) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut discs, mut delta, mut local) = (Vec::new(), Vec::new(), Vec::new());
         for lamp in &lights.lamps {
             match lamp {
-                Lamp::Distant(lamp) if lamp.radius() < SHARP => sharp.push(Sharp {
+                Lamp::Distant(lamp) if lamp.radius() < MIN_RADIUS => delta.push(DeltaLight {
                     towards: lamp.direction().as_vec3(),
                     irradiance: lamp.irradiance(),
                     weight: lamp.irradiance().element_sum(),
@@ -129,81 +131,85 @@ impl Outside {
                 Lamp::Distant(lamp) => {
                     discs.push((lamp.direction().as_vec3(), lamp.irradiance(), lamp.radius()));
                 }
-                Lamp::Point(lamp) => near.push(Near::Point {
+                Lamp::Point(lamp) => local.push(LocalLight::Point {
                     position: lamp.position().as_vec3(),
                     intensity: lamp.intensity(),
                 }),
-                Lamp::Area(lamp) => near.push(Near::Area(Area::new(lamp))),
+                Lamp::Area(lamp) => local.push(LocalLight::Area(Area::new(lamp))),
             }
         }
-        let sharp_weight = sharp.iter().map(|lamp| lamp.weight).sum();
-        Self { far: Far::new(&discs, &lights.room), sharp, near, sharp_weight }
+        let delta_weight = delta.iter().map(|lamp| lamp.weight).sum();
+        Self {
+            infinite: InfiniteLights::new(&discs, &lights.environment),
+            delta,
+            local,
+            delta_weight,
+        }
     }
 
-    /// Light that a ray which was scattered at `from` meets before `blocked` (m), or all that there is
-    /// without it: radiance, and the density (1/sr) with which [`Self::sample`] gives its direction
-    /// there.
-    pub(super) fn met(
+    /// Visits the light that is emitted along a BSDF-sampled ray from `from`, in front of the hit at `blocked`
+    /// (m): radiance, and the pdf (1/sr) with which [`Self::sample`] chooses the direction there.
+    pub(super) fn emitted(
         &self,
         from: Vec3,
         towards: Vec3,
         blocked: Option<f32>,
         mut visit: impl FnMut(Vec3, f32),
     ) {
-        if blocked.is_some() && self.near.is_empty() {
+        if blocked.is_some() && self.local.is_empty() {
             return;
         }
         let whole = self.weight(from);
         if blocked.is_none() {
-            let (radiance, pdf) = self.far.look(towards);
-            visit(radiance, pdf * (self.far.weight / whole.max(f32::MIN_POSITIVE)));
+            let (radiance, pdf) = self.infinite.radiance_and_pdf(towards);
+            visit(radiance, pdf * (self.infinite.weight / whole.max(f32::MIN_POSITIVE)));
         }
-        for near in &self.near {
-            let Near::Area(area) = near else { continue };
-            let Some((distance, density)) = area.met(from, towards) else { continue };
+        for local in &self.local {
+            let LocalLight::Area(area) = local else { continue };
+            let Some((distance, density)) = area.intersect(from, towards) else { continue };
             if blocked.is_none_or(|blocked| distance < blocked) {
-                visit(area.radiance, density * near.weight(from) / whole);
+                visit(area.radiance, density * local.weight(from) / whole);
             }
         }
     }
 
-    /// Distance (m) and radiance of the face of a lamp that is in the picture, if a ray meets one before
-    /// `blocked` (m).
-    pub(super) fn shown(
+    /// Distance (m) and radiance of the nearest visible area light that a camera ray hits before `blocked` (m).
+    pub(super) fn visible_area_light(
         &self,
         from: Vec3,
         towards: Vec3,
         blocked: Option<f32>,
     ) -> Option<(f32, Vec3)> {
         let limit = blocked.unwrap_or(f32::INFINITY);
-        let areas = self.near.iter().filter_map(|near| match near {
-            Near::Area(area) if area.shown => Some(area),
+        let areas = self.local.iter().filter_map(|local| match local {
+            LocalLight::Area(area) if area.shown => Some(area),
             _ => None,
         });
-        let met = areas.filter_map(|area| Some((area.met(from, towards)?.0, area.radiance)));
+        let met = areas.filter_map(|area| Some((area.intersect(from, towards)?.0, area.radiance)));
         let before = met.filter(|(distance, _)| *distance < limit);
         before.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Radiance of what is far away in a unit direction, as an eye sees it.
-    pub(super) fn seen(&self, towards: Vec3) -> Vec3 {
-        let shown = self.far.lamps.iter().filter(|lamp| lamp.has(towards));
-        self.far.room.seen(towards) + shown.map(|lamp| lamp.radiance).sum::<Vec3>()
+    /// Radiance of the lights at infinity in a unit direction, for the background of a picture.
+    pub(super) fn background(&self, towards: Vec3) -> Vec3 {
+        let shown = self.infinite.lamps.iter().filter(|lamp| lamp.contains(towards));
+        self.infinite.environment.radiance_interpolated(towards)
+            + shown.map(|lamp| lamp.radiance).sum::<Vec3>()
     }
 
-    /// A direction from a place (m) to light, from numbers in [0, 1).
+    /// Samples a direction from a point (m) to a light, from numbers in [0, 1).
     pub(super) fn sample(&self, from: Vec3, which: f32, place: [f32; 2]) -> LightSample {
         let whole = self.weight(from);
         if !(whole > 0.0) {
             return LightSample::NONE;
         }
         let mut left = which * whole;
-        if left < self.far.weight {
-            let found = self.far.sample(left / self.far.weight, place);
-            return LightSample { pdf: found.pdf * (self.far.weight / whole), ..found };
+        if left < self.infinite.weight {
+            let found = self.infinite.sample(left / self.infinite.weight, place);
+            return LightSample { pdf: found.pdf * (self.infinite.weight / whole), ..found };
         }
-        left -= self.far.weight;
-        for lamp in &self.sharp {
+        left -= self.infinite.weight;
+        for lamp in &self.delta {
             if left < lamp.weight {
                 return lamp.sample(lamp.weight / whole);
             }
@@ -211,10 +217,10 @@ impl Outside {
         }
         // Rounding may leave a little after the last.
         let mut last = LightSample::NONE;
-        for near in &self.near {
-            let weight = near.weight(from);
+        for local in &self.local {
+            let weight = local.weight(from);
             if weight > 0.0 && (left < weight || last.pdf == 0.0) {
-                last = near.sample(from, place, weight / whole);
+                last = local.sample(from, place, weight / whole);
             }
             if left < weight {
                 break;
@@ -224,51 +230,56 @@ impl Outside {
         last
     }
 
-    /// All light that is thought to reach a place.
+    /// Sum of the weights of all lights at a point (m).
     fn weight(&self, from: Vec3) -> f32 {
-        let near: f32 = self.near.iter().map(|near| near.weight(from)).sum();
-        self.far.weight + self.sharp_weight + near
+        let local: f32 = self.local.iter().map(|local| local.weight(from)).sum();
+        self.infinite.weight + self.delta_weight + local
     }
 }
 
-impl Sharp {
+impl DeltaLight {
     fn sample(&self, share: f32) -> LightSample {
         let (towards, radiance) = (self.towards, self.irradiance);
         LightSample { towards, radiance, pdf: share, ..LightSample::NONE }
     }
 }
 
-impl Far {
-    fn new(discs: &[(Vec3, Vec3, f64)], room: &Room) -> Self {
+impl InfiniteLights {
+    fn new(discs: &[(Vec3, Vec3, f64)], environment: &EnvironmentLight) -> Self {
         let lit = || discs.iter().filter(|lamp| lamp.1.max_element() > 0.0);
         let lamps: f32 = lit().map(|lamp| lamp.1.element_sum()).sum();
-        // A fibre across light from everywhere gets π/4 of it.
-        let around = PI * PI * room.mean().element_sum();
+        // The irradiance that a fibre's width gets from uniform radiance L is π² L, π/4 of the sphere's 4π L.
+        let around = PI * PI * environment.mean().element_sum();
         let weight = lamps + around;
-        let to_room = match (lamps > 0.0, around > 0.0) {
-            (true, true) => (around / weight).clamp(TO_ROOM.0, TO_ROOM.1),
+        let environment_share = match (lamps > 0.0, around > 0.0) {
+            (true, true) => (around / weight).clamp(ENVIRONMENT_SHARE.0, ENVIRONMENT_SHARE.1),
             (true, false) => 0.0,
             (false, _) => 1.0,
         };
         let mut before = 0.0;
         let disc = |&(towards, irradiance, radius): &(Vec3, Vec3, f64)| {
-            let share = (1.0 - to_room) * irradiance.element_sum() / lamps;
+            let share = (1.0 - environment_share) * irradiance.element_sum() / lamps;
             let chord = (2.0 * (0.5 * radius).sin()).powi(2) as f32;
-            // The irradiance of a disc that faces the surface is its radiance times π sin².
+            // A disc of angular radius r that faces the surface gives the irradiance π sin² r times its radiance.
             let radiance = irradiance / (PI * radius.sin().powi(2) as f32);
             before += share;
             let (density, before) = (1.0 / (PI * chord), before - share);
             Disc { towards, radiance, chord, density, share, before }
         };
-        Self { lamps: lit().map(disc).collect(), room: Around::new(room), to_room, weight }
+        Self {
+            lamps: lit().map(disc).collect(),
+            environment: Environment::new(environment),
+            environment_share,
+            weight,
+        }
     }
 
-    /// Radiance and density of the samples (1/sr) in a unit direction.
-    fn look(&self, towards: Vec3) -> (Vec3, f32) {
-        let (mut radiance, pdf) = self.room.look(towards);
-        let mut pdf = self.to_room * pdf;
+    /// Radiance and pdf (1/sr) in a unit direction.
+    fn radiance_and_pdf(&self, towards: Vec3) -> (Vec3, f32) {
+        let (mut radiance, pdf) = self.environment.radiance_and_pdf(towards);
+        let mut pdf = self.environment_share * pdf;
         for lamp in &self.lamps {
-            if lamp.has(towards) {
+            if lamp.contains(towards) {
                 radiance += lamp.radiance;
                 pdf += lamp.share * lamp.density;
             }
@@ -280,48 +291,48 @@ impl Far {
         let chosen = |lamp: &&Disc| which >= lamp.before && which < lamp.before + lamp.share;
         let lamp = self.lamps.iter().rev().find(chosen);
         // Rounding may leave a little after the last.
-        let lamp = lamp.or_else(|| self.lamps.last().filter(|_| self.to_room == 0.0));
+        let lamp = lamp.or_else(|| self.lamps.last().filter(|_| self.environment_share == 0.0));
         let towards = match lamp {
             Some(lamp) => {
-                // The square of the chord from a disc's middle is even on it.
+                // The squared chord from the disc's centre is uniform on it.
                 let chord = u * lamp.chord;
                 tilted(lamp.towards, (chord * (1.0 - 0.25 * chord)).max(0.0).sqrt(), TAU * v)
             }
-            None if self.to_room > 0.0 => self.room.sample([u, v]),
+            None if self.environment_share > 0.0 => self.environment.sample([u, v]),
             None => return LightSample::NONE,
         };
-        let (radiance, pdf) = self.look(towards);
-        LightSample { towards, radiance, pdf, sharp: false, ..LightSample::NONE }
+        let (radiance, pdf) = self.radiance_and_pdf(towards);
+        LightSample { towards, radiance, pdf, is_delta: false, ..LightSample::NONE }
     }
 }
 
-impl Around {
-    fn new(room: &Room) -> Self {
-        match room {
-            Room::Gradient { sky, ground } => {
+impl Environment {
+    fn new(environment: &EnvironmentLight) -> Self {
+        match environment {
+            EnvironmentLight::Gradient { sky, ground } => {
                 let (middle, slope) = (0.5 * (*sky + *ground), 0.5 * (*sky - *ground));
                 let tilt = slope.element_sum() / middle.element_sum().max(f32::MIN_POSITIVE);
-                // Some light from everywhere, or what is dark in sum and not in a colour is never found.
+                // The pdf is positive everywhere: a gradient that is dark in sum may have light in one colour.
                 Self::Gradient { middle, slope, tilt: tilt.clamp(-0.98, 0.98) }
             }
-            Room::Environment(map) => Self::Environment(map.clone()),
+            EnvironmentLight::Map(map) => Self::Environment(map.clone()),
         }
     }
 
-    fn look(&self, towards: Vec3) -> (Vec3, f32) {
+    fn radiance_and_pdf(&self, towards: Vec3) -> (Vec3, f32) {
         match self {
             Self::Gradient { middle, slope, tilt } => {
                 let pdf = (1.0 + tilt * towards.z) / (2.0 * TAU);
                 (*middle + *slope * towards.z, pdf)
             }
-            Self::Environment(map) => map.look(towards),
+            Self::Environment(map) => map.radiance_and_pdf(towards),
         }
     }
 
-    fn seen(&self, towards: Vec3) -> Vec3 {
+    fn radiance_interpolated(&self, towards: Vec3) -> Vec3 {
         match self {
-            Self::Gradient { .. } => self.look(towards).0,
-            Self::Environment(map) => map.seen(towards),
+            Self::Gradient { .. } => self.radiance_and_pdf(towards).0,
+            Self::Environment(map) => map.radiance_interpolated(towards),
         }
     }
 
@@ -337,8 +348,8 @@ impl Around {
     }
 }
 
-impl Near {
-    /// Irradiance that it is thought to give at a place, facing it.
+impl LocalLight {
+    /// Estimate of the irradiance on a surface at a point (m) that faces the light.
     fn weight(&self, from: Vec3) -> f32 {
         match self {
             Self::Point { position, intensity } => {
@@ -355,7 +366,7 @@ impl Near {
                 let square = way.length_squared().max(1e-12);
                 let distance = square.sqrt();
                 let (towards, radiance) = (way / distance, *intensity / square);
-                LightSample { towards, distance, radiance, pdf: share, sharp: true }
+                LightSample { towards, distance, radiance, pdf: share, is_delta: true }
             }
             Self::Area(area) => area.sample(from, place, share),
         }
@@ -382,14 +393,14 @@ impl Area {
             return 0.0;
         }
         let (square, size) = (way.length_squared(), self.area / PI);
-        // Near the face its nearest part is what counts, not its middle.
+        // Close to the face its nearest part counts, not its centre.
         let cosine = (height * height + 0.1 * size) / (square + 0.1 * size);
         let irradiance = self.area / (square + size) * cosine.min(1.0).sqrt();
         self.radiance.element_sum() * irradiance
     }
 
-    /// Distance (m) and density (1/sr) of what an even choice on the face would give in a direction.
-    fn met(&self, from: Vec3, towards: Vec3) -> Option<(f32, f32)> {
+    /// Intersects a ray with the face: distance (m), and the pdf (1/sr) of uniform sampling of the face.
+    fn intersect(&self, from: Vec3, towards: Vec3) -> Option<(f32, f32)> {
         let cosine = -towards.dot(self.facing);
         let height = (from - self.centre).dot(self.facing);
         if !(cosine > 1e-6 && height > 0.0) {
@@ -418,7 +429,7 @@ impl Area {
             return LightSample::NONE;
         }
         let pdf = share * distance * distance / (cosine * self.area);
-        LightSample { towards, distance, radiance: self.radiance, pdf, sharp: false }
+        LightSample { towards, distance, radiance: self.radiance, pdf, is_delta: false }
     }
 }
 
@@ -436,9 +447,9 @@ fn tilted(axis: Vec3, r: f32, phi: f32) -> Vec3 {
     (x * (r * phi.cos()) + y * (r * phi.sin()) + axis * z).normalize()
 }
 
-/// Share of a path that is sampled with the density `mine`, and could have been with `other` (the power
-/// heuristic, Veach 1997).
-pub(super) fn power(mine: f32, other: f32) -> f32 {
+/// Weight in multiple importance sampling of a sample of pdf `mine` that the other strategy would have drawn with
+/// pdf `other`: the power heuristic with exponent 2 (Veach 1997, (9.14)).
+pub(super) fn power_heuristic(mine: f32, other: f32) -> f32 {
     let ratio = other / mine;
     1.0 / (1.0 + ratio * ratio)
 }

@@ -1,14 +1,13 @@
-//! What was seen first in each pixel: for compositors and denoisers.
+//! Layers (AOVs): what each pixel sees first, for compositors and denoisers.
 
 use glam::Vec3;
 
-use super::{Exposure, Pixel};
+use super::{Accumulator, Pixel};
 
-/// What was seen first in each pixel, row by row from the top left, means over what was met.
+/// Layers (AOVs): means over the primary hits of each pixel, row by row from the top left.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers {
-    /// Share of the light that hair in quantity, or skin, gives back: linear sRGB, premultiplied with
-    /// what is covered.
+    /// Albedo of much hair, or of skin: linear sRGB, premultiplied with coverage.
     pub albedo: Vec<[f32; 3]>,
     /// Normal in the frame of the head, premultiplied; not of unit length where several hairs meet.
     pub normal: Vec<[f32; 3]>,
@@ -21,12 +20,12 @@ pub struct Layers {
     /// The wisp, or the strand where strands know no wisps, that covers most, counted from 1; 0 where
     /// there is no hair.
     pub wisp: Vec<u32>,
-    /// Paths of light.
+    /// Number of samples (paths).
     pub samples: Vec<u32>,
 }
 
 impl Layers {
-    /// The depth of nothing (m).
+    /// The depth where nothing is hit (m).
     pub const NOWHERE: f32 = 1e10;
 
     fn new(count: usize) -> Self {
@@ -46,8 +45,8 @@ impl Layers {
         self.albedo[i] = mean(pixel.albedo);
         self.normal[i] = mean(pixel.normal);
         self.tangent[i] = mean(pixel.tangent);
-        if pixel.met > 0.0 {
-            self.depth[i] = pixel.depth / pixel.met;
+        if pixel.hits > 0.0 {
+            self.depth[i] = pixel.depth / pixel.hits;
         }
         self.hair[i] = pixel.hair * share;
         self.wisp[i] = if pixel.hair > 0.0 { pixel.wisp } else { 0 };
@@ -55,8 +54,8 @@ impl Layers {
     }
 }
 
-impl Exposure {
-    /// What was seen first in each pixel.
+impl Accumulator {
+    /// The layers (AOVs) of the picture so far.
     #[must_use]
     pub fn layers(&self) -> Layers {
         let mut layers = Layers::new(self.width * self.height);

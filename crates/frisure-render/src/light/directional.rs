@@ -4,14 +4,14 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{DVec3, Vec3};
 
-use super::{EnvironmentMap, Lights, Room};
+use super::{EnvironmentLight, EnvironmentMap, Lights};
 
 /// Lamps as seen from one place, and light from a few directions that stand for all.
-pub(crate) struct PlainLights<const N: usize> {
+pub(crate) struct DirectionalLights<const N: usize> {
     /// Unit direction to each, and irradiance on a surface that faces it.
     pub(crate) lamps: Vec<(Vec3, Vec3)>,
     /// Radiance about each of the directions asked for.
-    pub(crate) room: [Vec3; N],
+    pub(crate) environment: [Vec3; N],
 }
 
 /// Most lamps that an environment becomes.
@@ -23,22 +23,24 @@ const BRIGHT: f32 = 12.0;
 /// Cosine of half the angle that a lamp takes of an environment: 15°.
 const APART: f32 = 0.966;
 
-impl<const N: usize> PlainLights<N> {
-    /// The lights as they are at `place` (m); the room about each of the unit directions `around`, whose
+impl<const N: usize> DirectionalLights<N> {
+    /// The lights as they are at `place` (m); the environment about each of the unit directions `around`, whose
     /// weights sum to 1.
     pub(crate) fn new(lights: &Lights, place: DVec3, around: &[(Vec3, f32); N]) -> Self {
         let arriving = lights.lamps.iter().filter_map(|lamp| lamp.arriving(place));
         let lit = arriving.filter(|(_, irradiance)| irradiance.max_element() > 0.0);
         let mut lamps: Vec<_> = lit.map(|(towards, e)| (towards.as_vec3(), e)).collect();
-        let room = match &lights.room {
-            room @ Room::Gradient { .. } => around.map(|(towards, _)| room.radiance(towards)),
-            Room::Environment(map) => {
+        let environment = match &lights.environment {
+            environment @ EnvironmentLight::Gradient { .. } => {
+                around.map(|(towards, _)| environment.radiance(towards))
+            }
+            EnvironmentLight::Map(map) => {
                 let (bright, rest) = split(map);
                 lamps.extend(bright);
                 spread(&rest, around)
             }
         };
-        Self { lamps, room }
+        Self { lamps, environment }
     }
 }
 
@@ -118,9 +120,9 @@ mod tests {
         (Vec3::NEG_Z, 1.0 / 6.0),
     ];
 
-    fn fluence(plain: &PlainLights<6>) -> Vec3 {
-        let room: Vec3 = plain.room.iter().sum::<Vec3>() / 6.0;
-        plain.lamps.iter().map(|l| l.1).sum::<Vec3>() + 4.0 * PI * room
+    fn fluence(plain: &DirectionalLights<6>) -> Vec3 {
+        let environment: Vec3 = plain.environment.iter().sum::<Vec3>() / 6.0;
+        plain.lamps.iter().map(|l| l.1).sum::<Vec3>() + 4.0 * PI * environment
     }
 
     #[test]
@@ -130,8 +132,8 @@ mod tests {
             pixels[sun] = [900.0, 800.0, 600.0];
             let map = EnvironmentMap::new(width, height, pixels).unwrap();
             let mean = map.mean();
-            let lights = Lights { lamps: Vec::new(), room: Room::Environment(map) };
-            let plain = PlainLights::new(&lights, DVec3::ZERO, &AXES);
+            let lights = Lights { lamps: Vec::new(), environment: EnvironmentLight::Map(map) };
+            let plain = DirectionalLights::new(&lights, DVec3::ZERO, &AXES);
             let ratio = fluence(&plain) / (4.0 * PI * mean);
             assert!((ratio - Vec3::ONE).abs().max_element() < 0.02, "{width}: {ratio}");
             assert_eq!(plain.lamps.is_empty(), width == 1);
@@ -144,8 +146,8 @@ mod tests {
     fn a_lamp_at_a_place_is_seen_from_there() {
         let lamp: Lamp = PointLight::new(DVec3::X * 2.0, Vec3::splat(8.0)).unwrap().into();
         let lights = Lights { lamps: vec![lamp], ..Lights::dark() };
-        let plain = PlainLights::new(&lights, DVec3::ZERO, &AXES);
+        let plain = DirectionalLights::new(&lights, DVec3::ZERO, &AXES);
         assert_eq!(plain.lamps, [(Vec3::X, Vec3::splat(2.0))]);
-        assert_eq!(plain.room, [Vec3::ZERO; 6]);
+        assert_eq!(plain.environment, [Vec3::ZERO; 6]);
     }
 }

@@ -1,15 +1,15 @@
-//! Axis-parallel boxes.
+//! Axis-aligned bounding boxes (AABB).
 
 use glam::Vec3A;
 
-/// Smallest and largest corner; the empty box is the wrong way round.
+/// An axis-aligned bounding box: smallest and largest corner (m); inverted where it is empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bounds {
+pub(super) struct Aabb {
     pub(super) low: Vec3A,
     pub(super) high: Vec3A,
 }
 
-impl Bounds {
+impl Aabb {
     pub(super) const EMPTY: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
 
     #[inline]

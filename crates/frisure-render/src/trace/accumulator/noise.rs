@@ -1,4 +1,4 @@
-//! How noisy a picture still is.
+//! The noise estimate that stops a tile.
 //!
 //! A tile's noise is the standard error of its pixels as a screen would show it: light is taken to the
 //! root, about the transfer curve of displays, so that 0.01 is one part in a hundred from black to white.
@@ -7,12 +7,12 @@
 //! block is evenly spread by itself, so that much of what even spreading gains is seen; that all blocks
 //! together are spread evenly, too, is not: the figure is on the safe side.
 
-use super::{Exposure, Pixel, Tile};
+use super::{Accumulator, Pixel, Tile};
 
-/// Light below which the root is taken to be a line: the toe of a display's curve.
+/// Light below which the square root is linear, as the toe of a display's curve; chosen, not measured.
 const TOE: f32 = 0.01;
 
-/// Samples of a block.
+/// Samples per block (a power of two, so that a block is stratified).
 const BLOCK: u32 = 8;
 
 /// Whether a sample belongs to the first of the two halves.
@@ -20,7 +20,7 @@ pub(in super::super) fn in_first_half(index: u32) -> bool {
     (index / BLOCK).is_multiple_of(2)
 }
 
-/// Samples of the first half among so many.
+/// Number of samples in the first half among `samples`.
 fn first_half(samples: u32) -> u32 {
     samples / (2 * BLOCK) * BLOCK + (samples % (2 * BLOCK)).min(BLOCK)
 }
@@ -47,7 +47,7 @@ impl Tile {
     }
 }
 
-impl Exposure {
+impl Accumulator {
     /// How noisy it is: the root mean square of the pixels' standard error, where 1 is all that a
     /// display has from black to white. Infinite before every pixel has sixteen samples.
     #[must_use]

@@ -1,24 +1,24 @@
-//! Light from everywhere around.
+//! The environment light: light from infinitely far away, in every direction.
 
 use glam::Vec3;
 
 use super::EnvironmentMap;
 
-/// What surrounds the scene, infinitely far away.
+/// The environment light: radiance from infinitely far away, by direction.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Room {
-    /// A soft room: even light from each height.
+pub enum EnvironmentLight {
+    /// A gradient from above to below, the same all around.
     Gradient {
         /// Radiance from straight above, linear sRGB; it fades into `ground` below.
         sky: Vec3,
         /// Radiance from straight below, linear sRGB.
         ground: Vec3,
     },
-    /// A picture of everything around.
-    Environment(EnvironmentMap),
+    /// An image of the environment.
+    Map(EnvironmentMap),
 }
 
-impl Room {
+impl EnvironmentLight {
     /// No light.
     pub const DARK: Self = Self::Gradient { sky: Vec3::ZERO, ground: Vec3::ZERO };
 
@@ -29,17 +29,17 @@ impl Room {
             Self::Gradient { sky, ground } => {
                 ground.lerp(*sky, (0.5 + 0.5 * towards.z).clamp(0.0, 1.0))
             }
-            Self::Environment(map) => map.radiance(towards),
+            Self::Map(map) => map.radiance(towards),
         }
     }
 
     /// Radiance (linear sRGB) as an eye should see it from the unit direction `towards`: without the edges of
     /// a picture's pixels.
     #[must_use]
-    pub fn seen(&self, towards: Vec3) -> Vec3 {
+    pub fn radiance_interpolated(&self, towards: Vec3) -> Vec3 {
         match self {
             Self::Gradient { .. } => self.radiance(towards),
-            Self::Environment(map) => map.seen(towards),
+            Self::Map(map) => map.radiance_interpolated(towards),
         }
     }
 
@@ -48,7 +48,7 @@ impl Room {
     pub fn mean(&self) -> Vec3 {
         match self {
             Self::Gradient { sky, ground } => 0.5 * (*sky + *ground),
-            Self::Environment(map) => map.mean(),
+            Self::Map(map) => map.mean(),
         }
     }
 
@@ -59,7 +59,7 @@ impl Room {
             Self::Gradient { sky, ground } => {
                 Self::Gradient { sky: sky * factor, ground: ground * factor }
             }
-            Self::Environment(map) => Self::Environment(map.scaled(factor)),
+            Self::Map(map) => Self::Map(map.scaled(factor)),
         }
     }
 }

@@ -1,13 +1,11 @@
-//! What is asked for, and whether it is possible: known before the work.
+//! Options of the path tracer, and its errors.
 
 use frisure_optics::scattering::FibreError;
-use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::DVec3;
 use thiserror::Error;
 
-use super::fingerprint::Fingerprint;
 use crate::accel::AccelError;
-use crate::preview::{MAX_SIZE, Scene};
+use crate::preview::MAX_SIZE;
 
 /// Most samples per pixel.
 pub const MAX_SAMPLES: usize = 65_536;
@@ -24,12 +22,12 @@ pub struct TraceOptions {
     pub height: usize,
     /// Paths per pixel, at most; 1 to [`MAX_SAMPLES`]. Powers of two are spread best.
     pub samples: usize,
-    /// Noise at which a tile of the picture is good enough ([`super::Exposure::noise`]), above 0; `None`
-    /// gives all its paths to each.
+    /// Noise at which a tile of the picture stops ([`super::Accumulator::noise`]), above 0; `None` gives each
+    /// tile all its paths.
     pub noise: Option<f32>,
-    /// Most bounces of a path; light hair needs 50 and more.
+    /// Most bounces of a path (maximum depth); light hair needs 50 and more.
     pub bounces: u32,
-    /// Another seed, other noise.
+    /// Seed of the sampler.
     pub seed: u32,
 }
 
@@ -39,7 +37,7 @@ impl Default for TraceOptions {
     }
 }
 
-/// Why there is no picture.
+/// Why a picture cannot be traced.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TraceError {
     /// The caller asked to stop.
@@ -85,7 +83,7 @@ pub enum TraceError {
         /// Where it is (m).
         eye: DVec3,
     },
-    /// Strands or head cannot be met by rays.
+    /// Strands or head cannot be put into a BVH.
     #[error(transparent)]
     Accel(#[from] AccelError),
     /// The look makes no fibre.
@@ -94,10 +92,10 @@ pub enum TraceError {
 }
 
 impl TraceOptions {
-    /// Whether they are possible: to be known before the strands are computed.
+    /// Checks the options; worth calling before the strands are computed.
     ///
     /// # Errors
-    /// [`TraceError`], for the first that is not.
+    /// [`TraceError`], for the first option out of range.
     pub fn check(&self) -> Result<(), TraceError> {
         let Self { width, height, samples, noise, .. } = *self;
         if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
@@ -114,52 +112,4 @@ impl TraceOptions {
             _ => Ok(()),
         }
     }
-}
-
-pub(super) fn strands(strands: &Strands) -> Result<(), TraceError> {
-    let any = strands.iter().any(|strand| strand.points.len() >= 2);
-    if any { Ok(()) } else { Err(TraceError::NoHair) }
-}
-
-/// The wisp of each strand, if strands know theirs.
-pub(super) fn wisps(strands: &Strands) -> Option<Vec<u32>> {
-    let guide = strands.attribute("guide").filter(|a| a.domain == Domain::Strand)?;
-    match &guide.values {
-        AttributeValues::U32(wisps) => Some(wisps.clone()),
-        _ => None,
-    }
-}
-
-/// Of all that makes a picture but its camera and lights.
-pub(super) fn fingerprint(scene: &Scene<'_>, options: &TraceOptions) -> Fingerprint {
-    let mut all = Fingerprint::new();
-    all.put(env!("CARGO_PKG_VERSION").as_bytes());
-    let Scene { strands, surface, look, .. } = scene;
-    for strand in strands.iter() {
-        strand.points.iter().for_each(|p| put(&mut all, &p.to_array()));
-        put(&mut all, strand.radii);
-    }
-    for attribute in strands.attributes() {
-        all.put(attribute.name.as_bytes());
-        match &attribute.values {
-            AttributeValues::F32(values) => put(&mut all, values),
-            AttributeValues::F32x2(values) => put(&mut all, values.as_flattened()),
-            AttributeValues::F32x3(values) => put(&mut all, values.as_flattened()),
-            AttributeValues::U32(values) => values.iter().for_each(|x| all.put(&x.to_le_bytes())),
-            AttributeValues::U32x3(values) => {
-                values.as_flattened().iter().for_each(|x| all.put(&x.to_le_bytes()));
-            }
-        }
-    }
-    if let Some(surface) = surface {
-        let corners = surface.positions().iter().flat_map(DVec3::to_array);
-        corners.for_each(|x| all.put(&x.to_le_bytes()));
-    }
-    let TraceOptions { width, height, bounces, seed, .. } = options;
-    all.put(format!("{look:?} {width} {height} {bounces} {seed}").as_bytes());
-    all
-}
-
-fn put(all: &mut Fingerprint, values: &[f32]) {
-    values.iter().for_each(|x| all.put(&x.to_le_bytes()));
 }

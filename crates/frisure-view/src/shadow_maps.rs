@@ -1,4 +1,4 @@
-//! Maps of what keeps the lamps' light out: hair by density, the head by depth.
+//! ShadowMaps of what keeps the lamps' light out: hair by density, the head by depth.
 
 use bytemuck::cast_slice;
 use wgpu::{
@@ -9,7 +9,7 @@ use wgpu::{
 use crate::frame::Shadows;
 use crate::gpu::{self, DEPTH, LIGHT};
 use crate::lamps::{FIRST_MAP, HAIR_MAP, HEAD_MAP, LAMPS, Lamp};
-use crate::paint::Job;
+use crate::paint::FrameContext;
 use crate::renderer::Renderer;
 use crate::{Hair, Skin};
 
@@ -22,7 +22,7 @@ const FAR: f64 = 60_000.0;
 
 /// The maps of all lamps.
 #[derive(Debug)]
-pub(crate) struct Maps {
+pub(crate) struct ShadowMaps {
     first: Texture,
     met: Texture,
     head: Texture,
@@ -36,7 +36,7 @@ pub(crate) struct Maps {
     head_key: Option<(u64, Vec<Lamp>)>,
 }
 
-impl Maps {
+impl ShadowMaps {
     pub(crate) fn new(renderer: &Renderer, device: &Device, queue: &Queue) -> Self {
         let drawn = TextureUsages::RENDER_ATTACHMENT;
         let of = |label, side, layers, format| {
@@ -79,7 +79,7 @@ impl Maps {
     /// Draws what has changed.
     pub(crate) fn draw(
         &mut self,
-        job: &Job<'_>,
+        job: &FrameContext<'_>,
         encoder: &mut CommandEncoder,
         ribbons: Option<&BindGroup>,
     ) {
@@ -113,7 +113,7 @@ impl Maps {
     /// The density maps of some strands from all lamps.
     fn draw_hair(
         &mut self,
-        job: &Job<'_>,
+        job: &FrameContext<'_>,
         encoder: &mut CommandEncoder,
         ribbons: &BindGroup,
         hair: &Hair,
@@ -141,7 +141,7 @@ impl Maps {
     /// Where hair begins.
     fn draw_first(
         &self,
-        job: &Job<'_>,
+        job: &FrameContext<'_>,
         encoder: &mut CommandEncoder,
         ribbons: &BindGroup,
         lamp: u32,
@@ -157,7 +157,7 @@ impl Maps {
     /// How much hair is met up to each layer.
     fn draw_density(
         &self,
-        job: &Job<'_>,
+        job: &FrameContext<'_>,
         encoder: &mut CommandEncoder,
         density: &BindGroup,
         lamp: u32,
@@ -171,7 +171,7 @@ impl Maps {
     }
 
     /// The pieces, with the pipeline and the group 1 that are set.
-    fn draw_pieces(&self, job: &Job<'_>, pass: &mut wgpu::RenderPass<'_>, lamp: u32) {
+    fn draw_pieces(&self, job: &FrameContext<'_>, pass: &mut wgpu::RenderPass<'_>, lamp: u32) {
         let Some((_, _, count, pieces)) = &self.pieces else { return };
         pass.set_bind_group(0, &job.picture, &[]);
         pass.set_bind_group(2, &self.current.1, &[STRIDE as u32 * lamp]);
@@ -180,7 +180,7 @@ impl Maps {
     }
 
     /// Depth of the head from each lamp.
-    fn draw_head(&self, job: &Job<'_>, encoder: &mut CommandEncoder, skin: &Skin) {
+    fn draw_head(&self, job: &FrameContext<'_>, encoder: &mut CommandEncoder, skin: &Skin) {
         for i in 0..job.lamps.len() as u32 {
             let view = gpu::one_layer(&self.head, i);
             let targets = [gpu::target(&view, Some([FAR; 4]))];

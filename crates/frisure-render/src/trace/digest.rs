@@ -1,15 +1,15 @@
-//! A number that tells pictures apart.
+//! The checkpoint digest: a number that identifies a picture.
 
-/// Fowler, Noll and Vo's hash of 64 bits (FNV-1a), over words of eight bytes.
+/// The 64-bit FNV-1a hash (Fowler, Noll and Vo) over words of eight bytes.
 #[derive(Clone, Debug)]
-pub(super) struct Fingerprint(u64);
+pub(super) struct Digest(u64);
 
-impl Fingerprint {
+impl Digest {
     pub(super) fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
 
-    /// That of some bytes.
+    /// The digest of some bytes.
     pub(super) fn of(bytes: &[u8]) -> u64 {
         let mut all = Self::new();
         all.put(bytes);

@@ -1,14 +1,13 @@
-//! Light gathered so far: a picture that can be looked at, put away and exposed further.
+//! The accumulator (film): sums of samples per pixel, which are a picture at any time and can be resumed.
 //!
-//! The picture is cut into tiles, the unit of work and of stopping. All pixels of a tile have the same
-//! number of samples, so that a picture that was interrupted anywhere is a picture, and goes on from
-//! there to the same bytes as one that was not.
+//! The film is cut into tiles, the unit of work and of stopping. All pixels of a tile have the same number of
+//! samples, so that a render that was interrupted anywhere resumes to the same bytes as one that was not.
 
-mod bytes;
+mod checkpoint;
 mod layers;
 mod noise;
 
-pub use bytes::{ExposureError, MARK, VERSION};
+pub use checkpoint::{AccumulatorError, MAGIC, VERSION};
 pub use layers::Layers;
 pub(super) use noise::in_first_half;
 
@@ -19,13 +18,13 @@ use crate::Image;
 /// Side of a tile (pixels).
 pub(super) const TILE: usize = 16;
 
-/// Light gathered so far.
+/// The film: sums of samples per pixel. It can be shown, written to a checkpoint and resumed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Exposure {
+pub struct Accumulator {
     pub(super) width: usize,
     pub(super) height: usize,
-    /// What the light belongs to ([`super::Tracer::fingerprint`]).
-    pub(super) fingerprint: u64,
+    /// Checkpoint digest of the picture ([`super::Tracer::digest`]).
+    pub(super) digest: u64,
     pub(super) tiles: Vec<Tile>,
 }
 
@@ -47,10 +46,10 @@ pub(super) struct Tile {
 pub(super) struct Pixel {
     /// Scene-linear light, premultiplied.
     pub(super) light: Vec3,
-    /// Of it, that of half the samples: what both halves differ by is noise.
+    /// The light of half the samples: the difference of the halves estimates the noise.
     pub(super) half: Vec3,
     pub(super) alpha: f32,
-    /// Of what is seen first: reflectance,
+    /// Sums over primary hits: reflectance,
     pub(super) albedo: Vec3,
     /// unit normal,
     pub(super) normal: Vec3,
@@ -58,9 +57,9 @@ pub(super) struct Pixel {
     pub(super) tangent: Vec3,
     /// distance along the view (m),
     pub(super) depth: f32,
-    /// samples that met anything,
-    pub(super) met: f32,
-    /// and samples that met hair.
+    /// number of samples with a hit,
+    pub(super) hits: f32,
+    /// and number of samples that hit hair.
     pub(super) hair: f32,
     /// A wisp, counted from 1, and by how much it leads (Boyer and Moore's majority vote).
     pub(super) wisp: u32,
@@ -68,7 +67,7 @@ pub(super) struct Pixel {
 }
 
 impl Pixel {
-    /// Counts a sample that met a wisp, numbered from 1.
+    /// Counts a sample that hits a wisp, numbered from 1.
     pub(super) fn vote(&mut self, wisp: u32) {
         if self.lead == 0 {
             (self.wisp, self.lead) = (wisp, 1);
@@ -80,8 +79,8 @@ impl Pixel {
     }
 }
 
-impl Exposure {
-    pub(super) fn new(width: usize, height: usize, fingerprint: u64) -> Self {
+impl Accumulator {
+    pub(super) fn new(width: usize, height: usize, digest: u64) -> Self {
         let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
         let tile = |i: usize| {
             let (x, y) = (i % across * TILE, i / across * TILE);
@@ -90,7 +89,7 @@ impl Exposure {
             Tile { x, y, width: columns, samples: 0, pixels }
         };
         let tiles = (0..across * down).map(tile).collect();
-        Self { width, height, fingerprint, tiles }
+        Self { width, height, digest, tiles }
     }
 
     /// Pixels across.
@@ -105,14 +104,14 @@ impl Exposure {
         self.height
     }
 
-    /// Paths of light per pixel, in the mean.
+    /// Mean number of samples (paths) per pixel.
     #[must_use]
     pub fn mean_samples(&self) -> f64 {
         let of = |tile: &Tile| tile.pixels.len() as f64 * f64::from(tile.samples);
         self.tiles.iter().map(of).sum::<f64>() / (self.width * self.height) as f64
     }
 
-    /// The picture as it is now. Where there is no sample yet, it is transparent.
+    /// The picture so far; transparent where there is no sample yet.
     #[must_use]
     pub fn image(&self) -> Image {
         let mut image = Image::new(self.width, self.height);
@@ -124,7 +123,7 @@ impl Exposure {
         image
     }
 
-    /// Visits every pixel that has samples: its place, one over their number, and it.
+    /// Visits every pixel that has samples: its column and row, one over its number of samples, and its sums.
     fn each(&self, mut visit: impl FnMut((usize, usize), f32, &Pixel)) {
         for tile in self.tiles.iter().filter(|tile| tile.samples > 0) {
             let share = 1.0 / tile.samples as f32;

@@ -8,7 +8,7 @@ use crate::Camera;
 pub(super) const NEAR: f32 = 0.01;
 
 /// A camera with a picture in front of it.
-pub(super) struct View {
+pub(super) struct Projection {
     pub(super) eye: Vec3,
     pub(super) right: Vec3,
     pub(super) up: Vec3,
@@ -19,7 +19,7 @@ pub(super) struct View {
     pub(super) height: usize,
 }
 
-impl View {
+impl Projection {
     pub(super) fn new(camera: &Camera, width: usize, height: usize) -> Self {
         let focal = 0.5 * height as f64 / (0.5 * camera.vertical_fov()).tan();
         Self {

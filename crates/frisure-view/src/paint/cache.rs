@@ -1,0 +1,118 @@
+//! What was computed for the last picture and may be right for the next.
+
+use frisure_render::preview::parts::LightsAtPoint;
+use frisure_render::{Background, EnvironmentLight, Lights, preview};
+use frisure_strands::Strands;
+use glam::{DVec3, Vec3};
+use wgpu::{BindGroup, Buffer, BufferUsages, CommandEncoder, Device, Queue, TextureView};
+
+use super::FrameContext;
+use super::hair::{Shaded, Sorted};
+use crate::ambient::{AmbientVolume, environment_texture};
+use crate::frame::Frame;
+use crate::gpu;
+use crate::renderer::Renderer;
+use crate::shadow_maps::ShadowMaps;
+use crate::uniforms;
+
+/// All of it.
+#[derive(Debug, Default)]
+pub(crate) struct FrameCache {
+    pub(super) numbers: Option<(Buffer, BindGroup)>,
+    lights: Option<(Lights, DVec3, LightsAtPoint)>,
+    environment: Option<(AmbientKey, AmbientVolume)>,
+    pub(super) environment_map: Option<(Option<EnvironmentLight>, TextureView)>,
+    pub(super) maps: Option<ShadowMaps>,
+    pub(super) shaded: Option<Shaded>,
+    pub(super) sorted: Option<Sorted>,
+}
+
+/// What the environment's light depends on.
+type AmbientKey = (Option<(u64, Vec3)>, Option<u64>, [Vec3; preview::parts::DIRECTION_COUNT]);
+
+impl FrameCache {
+    pub(super) fn lights(&self) -> Option<&LightsAtPoint> {
+        self.lights.as_ref().map(|(_, _, at_point)| at_point)
+    }
+
+    pub(super) fn environment(&self) -> Option<&AmbientVolume> {
+        self.environment.as_ref().map(|(_, environment)| environment)
+    }
+
+    /// Makes what the picture needs and is not there.
+    pub(super) fn prepare(
+        &mut self,
+        renderer: &Renderer,
+        device: &Device,
+        queue: &Queue,
+        frame: &Frame<'_>,
+    ) {
+        self.numbers.get_or_insert_with(|| {
+            let bytes = [0; uniforms::BYTES];
+            let buffer = gpu::buffer(device, queue, "numbers", &bytes, BufferUsages::UNIFORM);
+            let entire = [buffer.as_entire_binding()];
+            let group = gpu::group(device, &renderer.layouts.picture, &entire);
+            (buffer, group)
+        });
+        let at_point = self.at_point(frame);
+        let of_hair = frame.hair.map(|hair| (hair.shape(), hair.taken()));
+        let key = (of_hair, frame.skin.map(crate::Skin::version), at_point.environment);
+        if self.environment.as_ref().is_none_or(|(known, _)| *known != key) {
+            let things = (frame.hair, frame.skin);
+            let environment = AmbientVolume::new(
+                &renderer.layouts.environment,
+                device,
+                queue,
+                things,
+                at_point.environment,
+            );
+            self.environment = Some((key, environment));
+        }
+        self.maps.get_or_insert_with(|| ShadowMaps::new(renderer, device, queue));
+        if let Some(hair) = frame.hair
+            && self.shaded.as_ref().is_none_or(|shaded| shaded.shape != hair.shape())
+        {
+            self.shaded = Some(Shaded::new(renderer, device, hair));
+        }
+        let seen = matches!(frame.look.background, Background::Environment);
+        let around = seen.then_some(&frame.lights.environment);
+        if self.environment_map.as_ref().is_none_or(|(of, _)| of.as_ref() != around) {
+            let view = gpu::whole(&environment_texture(device, queue, around));
+            self.environment_map = Some((around.cloned(), view));
+        }
+    }
+
+    /// The lights in at_point numbers.
+    fn at_point(&mut self, frame: &Frame<'_>) -> LightsAtPoint {
+        let place = middle(frame);
+        if let Some((lights, of, at_point)) = &self.lights
+            && lights == frame.lights
+            && *of == place
+        {
+            return at_point.clone();
+        }
+        let at_point = LightsAtPoint::new(frame.lights, place);
+        self.lights = Some((frame.lights.clone(), place, at_point.clone()));
+        at_point
+    }
+
+    /// Shadows, where lamps, hair or head have moved.
+    pub(super) fn draw_maps(&mut self, job: &FrameContext<'_>, encoder: &mut CommandEncoder) {
+        let ribbons = self.shaded.as_ref().map(|shaded| &shaded.group);
+        if let Some(maps) = &mut self.maps {
+            maps.draw(job, encoder, ribbons);
+        }
+    }
+}
+
+/// What lamps are aimed at.
+fn middle(frame: &Frame<'_>) -> DVec3 {
+    match (frame.skin, frame.hair) {
+        (Some(skin), _) => skin.middle(),
+        (None, Some(hair)) => {
+            let (low, high) = hair.bounds();
+            0.5 * (low + high).as_dvec3()
+        }
+        _ => preview::middle(&Strands::new(), None),
+    }
+}
