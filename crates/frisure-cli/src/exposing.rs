@@ -10,8 +10,9 @@ use frisure::denoise::{Denoiser, Noisy, VARIABLE};
 use frisure::files::{self, ReadError, WriteError, write_atomically};
 use frisure::formats::picture::exr::{self, Channel, Values};
 use frisure::formats::picture::{Format, PictureError, png};
+use frisure::look::{Camera, Lights};
+use frisure::render::Image;
 use frisure::render::trace::{ACCUMULATOR_MAGIC, Accumulator, Layers, Tracer};
-use frisure::render::{Camera, Image, Lights};
 use frisure::scene;
 
 use frisure_stylist::picture;

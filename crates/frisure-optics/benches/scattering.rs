@@ -2,8 +2,8 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
+use frisure_look::{Melanin, absorption};
 use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
-use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 
 fn main() {

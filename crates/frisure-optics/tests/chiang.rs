@@ -7,8 +7,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use frisure_look::{Melanin, absorption};
 use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
-use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 
 /// Values of Mitsuba 3.9.1; columns in the file's head.

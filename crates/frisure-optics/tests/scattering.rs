@@ -4,8 +4,8 @@ mod support;
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
+use frisure_look::{Melanin, absorption};
 use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
-use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 use support::{Random, direction, integrals, white};
 

@@ -2,8 +2,8 @@
 
 mod support;
 
+use frisure_look::{Melanin, absorption};
 use frisure_optics::scattering::{Fibre, FibreFrame, FibreSpec, HairBsdf};
-use frisure_optics::{Melanin, absorption};
 use glam::Vec3;
 use support::Random;
 

@@ -7,7 +7,8 @@ mod wig;
 use std::ops::ControlFlow;
 
 use divan::Bencher;
-use frisure_render::preview::{PreviewOptions, Scene, render};
+use frisure_render::Scene;
+use frisure_render::preview::{PreviewOptions, render};
 
 fn main() {
     divan::main();

@@ -7,8 +7,8 @@ mod wig;
 use std::ops::ControlFlow;
 
 use divan::Bencher;
-use frisure_optics::Melanin;
-use frisure_render::preview::Scene;
+use frisure_look::Melanin;
+use frisure_render::Scene;
 use frisure_render::trace::{TraceOptions, render};
 
 fn main() {

@@ -9,10 +9,10 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::ops::ControlFlow;
 
-use frisure_optics::Melanin;
-use frisure_render::preview::Scene;
+use frisure_look::Melanin;
+use frisure_look::{Background, Camera, Lights};
+use frisure_render::Scene;
 use frisure_render::trace::{TraceOptions, render};
-use frisure_render::{Background, Camera, Lights};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
 

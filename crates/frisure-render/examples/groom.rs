@@ -10,8 +10,9 @@ use std::io::{BufWriter, Write as _};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use frisure_optics::Melanin;
-use frisure_render::{Camera, Lights, preview};
+use frisure_look::Melanin;
+use frisure_look::{Camera, Lights};
+use frisure_render::preview;
 use wig::Style;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -37,8 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => wig::ball(),
     };
 
-    let mut scene = preview::Scene::portrait(&strands, Some(&head));
-    let bounds = preview::bounds(&strands, Some(&head));
+    let mut scene = frisure_render::Scene::portrait(&strands, Some(&head));
+    let bounds = frisure_render::framed_bounds(&strands, Some(&head));
     scene.camera = Camera::framing(bounds, azimuth, 0.1, 1.0);
     scene.lights = Lights::studio(&scene.camera);
     scene.look.hair.melanin = melanin;

@@ -18,11 +18,9 @@ use std::io::Write as _;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
+use frisure_look::{Background, Camera, DistantLight, EnvironmentLight, Lamp, Lights, SOFTBOX};
 use frisure_render::trace::{TraceOptions, render};
-use frisure_render::{
-    Background, Camera, DistantLight, EnvironmentLight, Lamp, Lights, SOFTBOX, preview,
-};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
 use wig::Style;
@@ -184,7 +182,7 @@ fn picture(path: &str, out: &str, keys: &[&str]) -> Outcome<()> {
         flatten(&mut strands, job.axis_ratio)?;
     }
     let ball = job.ball.map(|_| wig::ball());
-    let mut scene = preview::Scene::portrait(&strands, ball.as_ref());
+    let mut scene = frisure_render::Scene::portrait(&strands, ball.as_ref());
     let fov = job.field_of_view.to_radians();
     scene.camera = Camera::look_at(job.eye, job.target, DVec3::Z, fov)?;
     scene.lights = job.lights()?;

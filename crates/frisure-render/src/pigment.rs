@@ -3,7 +3,7 @@
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
-use crate::{Dye, Fade, HairLook};
+use frisure_look::{Dye, Fade, HairLook};
 
 /// Relative deviation of the pigment from wisp to wisp, as part of that from strand to strand.
 const WISP_PART: f32 = 0.6;

@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frisure_render::preview::Scene;
+use frisure_look::{Aperture, Background, Camera, CameraError, Floor};
+use frisure_render::Scene;
 use frisure_render::trace::{
     Accumulator, AccumulatorError, Layers, TraceError, TraceOptions, Tracer,
 };
-use frisure_render::{Aperture, Background, Camera, CameraError, Floor};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DVec3, Vec3};
 

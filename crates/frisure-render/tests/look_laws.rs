@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use frisure_optics::{SHADES, Shade, absorption_of_colour};
-use frisure_render::preview::{self, PreviewOptions, Scene};
+use frisure_look::{Background, Camera, Dye, Fade, HairLook, Lights, Look};
+use frisure_look::{SHADES, Shade, absorption_of_colour};
+use frisure_render::Scene;
+use frisure_render::preview::{self, PreviewOptions};
 use frisure_render::trace::{self, TraceOptions};
-use frisure_render::{Background, Camera, Dye, Fade, HairLook, Lights, Look};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
 

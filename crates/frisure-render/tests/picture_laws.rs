@@ -2,11 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use frisure_render::preview::{PreviewError, PreviewOptions, Scene, bounds, render};
-use frisure_render::{
-    AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentLight, EnvironmentMap, Image,
+use frisure_look::{
+    AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentLight, EnvironmentMap,
     Lights, PointLight, Setup,
 };
+use frisure_render::Image;
+use frisure_render::preview::{PreviewError, PreviewOptions, render};
+use frisure_render::{Scene, framed_bounds};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DVec3, Vec3};
 
@@ -123,7 +125,7 @@ fn strands_that_are_no_curves_change_nothing() {
     strands.push(&[Vec3::ZERO, Vec3::X], &[f32::NAN; 2]);
     strands.push(&[Vec3::ZERO, Vec3::INFINITY], &[1e-3; 2]);
     assert_eq!(draw(&scene(&strands, None)), draw(&scene(&clean, None)));
-    let (low, high) = bounds(&strands, None);
+    let (low, high) = framed_bounds(&strands, None);
     assert!(low.is_finite() && high.is_finite());
 }
 

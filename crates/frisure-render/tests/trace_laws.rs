@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use frisure_optics::Melanin;
-use frisure_render::preview::Scene;
-use frisure_render::trace::{TraceError, TraceOptions, render};
-use frisure_render::{
-    AreaLight, Background, DistantLight, EnvironmentLight, EnvironmentMap, Image, Lights, Look,
-    PointLight,
+use frisure_look::Melanin;
+use frisure_look::{
+    AreaLight, Background, DistantLight, EnvironmentLight, EnvironmentMap, Lights, Look, PointLight,
 };
+use frisure_render::Image;
+use frisure_render::Scene;
+use frisure_render::trace::{TraceError, TraceOptions, render};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::{DVec3, Vec3};
 

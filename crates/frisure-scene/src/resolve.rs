@@ -7,7 +7,7 @@ use frisure_hairstyle::{
     Curl, Fibre, Flow, HairModel, Hairs, HairstyleSpec, InvalidSpec, Lift, Parting, Preset,
     RegionLength, RegionStyle, preset,
 };
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
 use frisure_rod::{
     Branch, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
     Section, StrainProfile,

@@ -4,7 +4,7 @@ use frisure_hairstyle::head::Region;
 use frisure_hairstyle::{
     Comb, Ellipticity, HairModel, Handedness, Level, PRESETS, Parting, Place, Preset, Turn, Wetting,
 };
-use frisure_optics::{SHADES, Shade};
+use frisure_look::{SHADES, Shade};
 use frisure_rod::{ElementKind, TorsionConstant};
 use schemars::{Schema, json_schema};
 use toml::Value;

@@ -7,7 +7,7 @@ use std::path::Path;
 use common::{fault, good};
 use frisure_files::frame::{FrameChoice, UpAxis};
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
-use frisure_optics::{Melanin, SHADES};
+use frisure_look::{Melanin, SHADES};
 use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
 use frisure_scene::{
     Behind, Dye, Fade, HeadSource, NaturalColour, ScalpSource, Scene, schema, template,

@@ -6,9 +6,10 @@ use std::time::Duration;
 
 use frisure::formats::picture::{PictureError, png};
 use frisure::hairstyle::head::Head;
+use frisure::look::{Camera, EnvironmentMap};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::{Accumulator, MAX_PIXELS, TraceError, TraceOptions, Tracer};
-use frisure::render::{Camera, EnvironmentMap};
+use frisure::render::{self, MAX_SIZE};
 use frisure::scene::{Output, Scene};
 use frisure::strands::Strands;
 use glam::DVec3;
@@ -73,7 +74,7 @@ impl Subject<'_> {
             .map_err(|e| Refusal::of(&e, "look from somewhere else"))
     }
 
-    fn drawn(&self, camera: Camera) -> Result<preview::Scene<'_>, Refusal> {
+    fn drawn(&self, camera: Camera) -> Result<render::Scene<'_>, Refusal> {
         let strands = (self.strands, self.strands);
         picture::seen_from(self.scene, camera, strands, Some(self.head.surface()), self.environment)
             .map_err(|e| Refusal::of(&e, ""))
@@ -176,7 +177,7 @@ impl Subject<'_> {
 
 /// Whether a turntable is possible: to be known before the work.
 pub(crate) fn check_turntable([width, height]: [usize; 2], frames: usize) -> Result<(), Refusal> {
-    let sides = 1..=preview::MAX_SIZE;
+    let sides = 1..=MAX_SIZE;
     if !sides.contains(&width) || !sides.contains(&height) || width * height > MAX_PIXELS {
         let error = PreviewError::Size { width, height };
         return Err(Refusal::of(&error, "choose a smaller picture"));

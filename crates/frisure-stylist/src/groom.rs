@@ -3,7 +3,7 @@
 use frisure::formats::groom::{Groom, HairColour};
 use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
-use frisure::optics::apparent_colour;
+use frisure::look::apparent_colour;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
 

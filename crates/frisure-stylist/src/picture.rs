@@ -5,14 +5,13 @@
 
 use frisure::files::Files;
 use frisure::formats::environment::Environment;
-use frisure::optics::{Melanin, absorption_of_colour};
-use frisure::render::preview;
-use frisure::render::{
+use frisure::look::{
     Aperture, AreaLight, Background, Camera, CameraError, Daylight, DistantLight, Dye,
-    EnvironmentLight, EnvironmentMap, Fade, Floor, HairLook, HairSurface, Image, InvalidLight,
-    Lamp, Lights, Look, PointLight, SOFTBOX, Setup, SkinLook, ToneCurve, beside_camera,
-    colour_of_temperature,
+    EnvironmentLight, EnvironmentMap, Fade, Floor, HairLook, HairSurface, InvalidLight, Lamp,
+    Lights, Look, Melanin, PointLight, SOFTBOX, Setup, SkinLook, ToneCurve, absorption_of_colour,
+    beside_camera, colour_of_temperature,
 };
+use frisure::render::{self, Image};
 use frisure::scene::{
     self, Face, LampColour, LampFace, LampPlace, NaturalColour, Scene, SceneError,
 };
@@ -34,7 +33,7 @@ pub fn scene<'a>(
     framed: &Strands,
     surface: Option<&'a Surface>,
     environment: Option<&EnvironmentMap>,
-) -> Result<preview::Scene<'a>, InvalidLight> {
+) -> Result<render::Scene<'a>, InvalidLight> {
     let camera = framing(scene, framed, surface, aspect(scene));
     seen_from(scene, camera, (strands, framed), surface, environment)
 }
@@ -49,17 +48,17 @@ pub fn seen_from<'a>(
     (strands, framed): (&'a Strands, &Strands),
     surface: Option<&'a Surface>,
     environment: Option<&EnvironmentMap>,
-) -> Result<preview::Scene<'a>, InvalidLight> {
-    let middle = preview::middle(strands, surface);
+) -> Result<render::Scene<'a>, InvalidLight> {
+    let middle = render::head_centre(strands, surface);
     let (mut look, lights) = look_and_lights(scene, &camera, middle, environment)?;
     if let Some(colour) = scene.look.floor {
         look.floor = Some(floor(colour, framed, surface));
     }
-    Ok(preview::Scene { strands, surface, camera, lights, look })
+    Ok(render::Scene { strands, surface, camera, lights, look })
 }
 
 /// What hair, skin and background look like, and what lights them, for a head with its middle
-/// ([`preview::middle`], m) somewhere. Studio lamps turn with the camera; sky and environment stay. There
+/// ([`render::head_centre`], m) somewhere. Studio lamps turn with the camera; sky and environment stay. There
 /// is no floor in it.
 ///
 /// # Errors
@@ -116,7 +115,7 @@ pub fn turntable(
     frames: usize,
     environment: Option<&EnvironmentMap>,
 ) -> Result<Vec<(Camera, Lights)>, InvalidLight> {
-    let (low, high) = preview::bounds(strands, surface);
+    let (low, high) = render::framed_bounds(strands, surface);
     let axis = 0.5 * (low + high);
     let points: Vec<DVec3> = shown(strands, surface).collect();
     let around = points.iter().step_by(AROUND).flat_map(|p| {
@@ -141,8 +140,8 @@ pub fn turned(
     frames: usize,
     environment: Option<&EnvironmentMap>,
 ) -> Result<Vec<(Camera, Lights)>, InvalidLight> {
-    let (low, high) = preview::bounds(strands, surface);
-    let (axis, middle) = (0.5 * (low + high), preview::middle(strands, surface));
+    let (low, high) = render::framed_bounds(strands, surface);
+    let (axis, middle) = (0.5 * (low + high), render::head_centre(strands, surface));
     let frame = |i: usize| {
         let camera = first.turned(axis, i as f64 / frames as f64 * TAU);
         Ok((camera, lights(&scene.light, &camera, middle, environment)?))
@@ -205,7 +204,7 @@ fn shown<'a>(
     strands: &'a Strands,
     surface: Option<&'a Surface>,
 ) -> impl Iterator<Item = DVec3> + Clone {
-    let (low, high) = preview::bounds(strands, surface);
+    let (low, high) = render::framed_bounds(strands, surface);
     // Whole hairs, or points at one distance from the root may all be left out; and every tip.
     let step = strands.points().len() / FRAMED_POINTS + 1;
     let points = |ends: &'a [u32]| &strands.points()[ends[0] as usize..ends[1] as usize];

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::io::Write as _;
 use std::time::Instant;
 
-use frisure_render::{Camera, Lights, Look, preview};
+use frisure_look::{Camera, Lights, Look};
 use frisure_view::{Canvas, Frame, Hair, Shadows, Skin};
 use glam::DVec3;
 use support::Gpu;
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => Shadows::Fine,
     };
     let (strands, ball) = (wig::strands(&wig::Style::STRAIGHT, count, POINTS), wig::ball());
-    let bounds = preview::bounds(&strands, Some(&ball));
+    let bounds = frisure_render::framed_bounds(&strands, Some(&ball));
     let first = Camera::framing(bounds, 0.0, 0.1, f64::from(size[0]) / f64::from(size[1]));
     let look = Look::default();
 

@@ -11,8 +11,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use frisure_hairstyle::head::Head;
-use frisure_optics::Shade;
-use frisure_render::{Camera, Lights, preview};
+use frisure_look::Shade;
+use frisure_look::{Camera, Lights};
+use frisure_render::preview;
 use frisure_strands::{Attribute, AttributeValues, Domain};
 use frisure_view::{Frame, Hair, Skin};
 use glam::DVec3;
@@ -42,8 +43,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let head = Head::mannequin();
 
-    let mut scene = preview::Scene::portrait(&strands, Some(head.surface()));
-    let (low, high) = preview::bounds(&strands, Some(head.surface()));
+    let mut scene = frisure_render::Scene::portrait(&strands, Some(head.surface()));
+    let (low, high) = frisure_render::framed_bounds(&strands, Some(head.surface()));
     let (centre, half) = (0.5 * (low + high), 0.5 * (high - low) / zoom);
     let lift = DVec3::Z * if zoom > 1.0 { 0.25 * (high.z - low.z) } else { 0.0 };
     let aspect = f64::from(size[0]) / f64::from(size[1]);

@@ -1,8 +1,8 @@
 //! Light of the environment on the device: a grid around hair and head.
 
 use bytemuck::cast_slice;
-use frisure_render::EnvironmentLight;
-use frisure_render::preview::parts::{AmbientGrid, DIRECTION_COUNT};
+use frisure_look::EnvironmentLight;
+use frisure_render::preview::{AmbientLight, DIRECTION_COUNT};
 use glam::Vec3;
 use wgpu::{BufferUsages, Device, Queue, TextureDimension, TextureFormat, TextureUsages};
 
@@ -36,7 +36,8 @@ impl AmbientVolume {
         let (strands, factor) = hair.map_or((0, 1.0), |hair| hair.some(PIECES));
         let occluders = hair.into_iter().flat_map(|hair| hair.occluders(strands, factor));
         let taken = hair.map_or(Vec3::ONE, Hair::taken);
-        let light = AmbientGrid::new(occluders, skin.map(Skin::surface), environment, taken, CELLS);
+        let light =
+            AmbientLight::new(occluders, skin.map(Skin::surface), environment, taken, CELLS);
         let (low, cell, size) = light.grid();
         let nodes: Vec<[u16; 4]> =
             light.nodes().iter().map(|n| halves([n.x, n.y, n.z, 0.0])).collect();

@@ -1,6 +1,6 @@
 //! What is drawn, and how.
 
-use frisure_render::{Camera, Lights, Look, ToneCurve};
+use frisure_look::{Camera, Lights, Look, ToneCurve};
 use glam::Vec3;
 
 use crate::{Hair, Skin};

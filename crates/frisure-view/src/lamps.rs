@@ -1,6 +1,6 @@
 //! Lamps and the maps that are made as seen from each.
 
-use frisure_render::preview::parts::LightsAtPoint;
+use frisure_render::preview::DirectionalLights;
 use glam::{Vec2, Vec3};
 
 /// Lamps that cast shadows.
@@ -32,7 +32,7 @@ struct Square {
 }
 
 /// The strongest lamps; what the others give is added to the one whose direction is nearest.
-pub(crate) fn strongest(lights: &LightsAtPoint) -> Vec<(Vec3, Vec3)> {
+pub(crate) fn strongest(lights: &DirectionalLights) -> Vec<(Vec3, Vec3)> {
     let mut all = lights.lamps.clone();
     all.sort_by(|a, b| b.1.element_sum().total_cmp(&a.1.element_sum()));
     let rest = all.split_off(all.len().min(LAMPS));
@@ -109,7 +109,7 @@ mod tests {
         let lamp = |x: f32, light: f32| (Vec3::new(x, 1.0, 0.0).normalize(), Vec3::splat(light));
         let lamps =
             vec![lamp(0.0, 1.0), lamp(1.0, 5.0), lamp(-1.0, 4.0), lamp(2.0, 3.0), lamp(-2.0, 2.0)];
-        let lights = LightsAtPoint { lamps, environment: [Vec3::ZERO; 14] };
+        let lights = DirectionalLights { lamps, environment: [Vec3::ZERO; 14] };
         let strong = strongest(&lights);
         assert_eq!(strong.len(), LAMPS);
         let all: f32 = strong.iter().map(|lamp| lamp.1.x).sum();

@@ -21,7 +21,7 @@
 //!    another, nearest first, in a few parts; between parts, pixels that let nothing through any more are closed
 //!    by the depth buffer, and most of the hair is never painted.
 //! 6. **The head** in the same light, with several samples per pixel, where hair leaves it free.
-//! 7. **Hair over head over background**, developed as [`frisure_render::ToneCurve`] says; then lines.
+//! 7. **Hair over head over background**, developed as [`frisure_look::ToneCurve`] says; then lines.
 //!
 //! A [`Plane`] is no surface among others: it tints whatever lies behind it, which for straight lines of sight is
 //! the same, and needs no sorting.
@@ -33,7 +33,7 @@
 //! What it does not do: light that bounces between hairs is a colour, not a computation, as in the preview; four
 //! lamps at most cast shadows, and the light of others is added to the nearest of these; strands are not cut into
 //! finer pieces as the eye comes near; pieces that cross may be seen in the wrong order; what lies behind the
-//! head's edge is guessed from the pixels beside it; a floor ([`frisure_render::Floor`]) is left out.
+//! head's edge is guessed from the pixels beside it; a floor ([`frisure_look::Floor`]) is left out.
 
 mod ambient;
 mod canvas;

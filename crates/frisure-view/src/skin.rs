@@ -1,7 +1,6 @@
 //! The head on the device.
 
 use bytemuck::cast_slice;
-use frisure_render::preview;
 use frisure_strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
 use wgpu::{Buffer, BufferUsages, Device, Queue};
@@ -38,7 +37,7 @@ impl Skin {
         let faces = surface.triangles().iter().filter(|t| t.iter().all(|&v| (v as usize) < kept));
         let indices: Vec<u32> = faces.flatten().copied().take(most as usize / 3 * 3).collect();
         Self {
-            middle: preview::middle(&Strands::new(), Some(surface)),
+            middle: frisure_render::head_centre(&Strands::new(), Some(surface)),
             vertices: gpu::buffer(
                 device,
                 queue,

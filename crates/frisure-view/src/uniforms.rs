@@ -1,8 +1,8 @@
 //! The numbers of a picture as the shaders have them (`shaders/common.wgsl`).
 
+use frisure_look::{Background, Camera, ToneCurve};
 use frisure_optics::LobeShape;
 use frisure_render::preview::constants;
-use frisure_render::{Background, Camera, ToneCurve};
 use glam::{DVec3, Vec3};
 
 use crate::ambient::AmbientVolume;

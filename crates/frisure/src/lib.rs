@@ -28,6 +28,7 @@ pub use frisure_denoise as denoise;
 pub use frisure_files as files;
 pub use frisure_formats as formats;
 pub use frisure_hairstyle as hairstyle;
+pub use frisure_look as look;
 pub use frisure_optics as optics;
 pub use frisure_render as render;
 pub use frisure_rod as rod;

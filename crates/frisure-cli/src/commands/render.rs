@@ -5,7 +5,7 @@ use std::path::Path;
 use frisure::files::Files;
 use frisure::formats::picture::Format;
 use frisure::hairstyle::head::Head;
-use frisure::render::InvalidLight;
+use frisure::look::InvalidLight;
 use frisure::render::trace::Tracer;
 use frisure::scene::Scene;
 use frisure::strands::Strands;

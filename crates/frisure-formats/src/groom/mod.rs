@@ -20,7 +20,7 @@ mod usd;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
 use frisure_strands::{Strands, Surface};
 use thiserror::Error;
 

@@ -12,7 +12,7 @@ mod array;
 use std::collections::BTreeMap;
 use std::io::{self, Cursor, Read, Write};
 
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::Vec3;
 use zip::write::{SimpleFileOptions, ZipWriter};

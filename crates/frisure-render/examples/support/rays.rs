@@ -5,7 +5,7 @@
 
 use std::f32::consts::TAU;
 
-use frisure_render::Camera;
+use frisure_look::Camera;
 use frisure_render::accel::{Hit, Ray, SceneBvh};
 use glam::{DVec3, Vec3};
 

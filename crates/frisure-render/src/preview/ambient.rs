@@ -1,15 +1,18 @@
-//! Light from the environment: how much of it reaches each place through the hair and past the head.
+//! Ambient light: how much of the environment light reaches each point through the hair and past the head
+//! (ambient occlusion).
 //!
 //! A coarse grid holds how much hair each cell has; hairs met along fourteen directions (those of
 //! Lebedev's 14-point rule, exact to degree 5) are sums along rows and diagonals of the grid, so the
 //! whole costs a few operations per cell.
 
+use frisure_strands::Surface;
 use glam::{IVec3, UVec3, Vec3};
 use rayon::prelude::*;
 
-use super::curves::Curves;
+use super::curves::{Curves, NOWHERE, Vertex};
+use super::directions::{DIRECTION_COUNT, DIRECTIONS, direction};
+use super::geometry::split;
 use super::head::Head;
-use super::split;
 
 /// Finest cell (m).
 const MIN_CELL: f32 = 4.5e-3;
@@ -22,50 +25,70 @@ const SHELL: f32 = 40.0;
 /// cell: half of it would be too much. Fitted to traced heads.
 const OWN: f32 = 0.1;
 
-/// Steps of the fourteen directions and the weight of each.
-const DIRECTIONS: [([i32; 3], f32); 14] = {
-    const FACE: f32 = 1.0 / 15.0;
-    const CORNER: f32 = 3.0 / 40.0;
-    [
-        ([1, 0, 0], FACE),
-        ([-1, 0, 0], FACE),
-        ([0, 1, 0], FACE),
-        ([0, -1, 0], FACE),
-        ([0, 0, 1], FACE),
-        ([0, 0, -1], FACE),
-        ([1, 1, 1], CORNER),
-        ([-1, 1, 1], CORNER),
-        ([1, -1, 1], CORNER),
-        ([-1, -1, 1], CORNER),
-        ([1, 1, -1], CORNER),
-        ([-1, 1, -1], CORNER),
-        ([1, -1, -1], CORNER),
-        ([-1, -1, -1], CORNER),
-    ]
-};
+/// A point of hair that occludes light.
+#[derive(Clone, Copy, Debug)]
+pub struct Occluder {
+    /// Position (m).
+    pub position: Vec3,
+    /// Half the width of the hair that it stands for (m).
+    pub half_width: f32,
+    /// Index of the strand; points of one strand follow each other.
+    pub strand: u32,
+}
 
-/// Light of the environment inside and around the hair.
-pub(super) struct AmbientLight {
-    pub(super) low: Vec3,
-    pub(super) cell: f32,
-    pub(super) size: UVec3,
+/// The environment light inside and around the hair, on a grid.
+pub struct AmbientLight {
+    low: Vec3,
+    cell: f32,
+    size: UVec3,
     /// Per direction and node, hairs met between the node and the environment.
     met: Vec<Vec<f32>>,
     /// Radiance that white hair at each node would have in the environment.
-    pub(super) mean: Vec<Vec3>,
+    mean: Vec<Vec3>,
     /// Radiance of the environment in each direction.
-    environment: [Vec3; 14],
+    environment: [Vec3; DIRECTION_COUNT],
     /// Part of the light that each hair takes.
     taken: Vec3,
 }
 
 impl AmbientLight {
-    /// Measures the environment's light, known from [`directions`], around `curves` and `head`; each hair on the way
-    /// takes the part `taken` of it. There are at most `cells` along a side.
-    pub(super) fn new(
+    /// Measures an environment light ([`super::DirectionalLights::environment`]) around occluders and head; each hair on
+    /// the way absorbs the part `taken` of it. The grid has at most `cells` cells along a side.
+    #[must_use]
+    pub fn new(
+        hair: impl Iterator<Item = Occluder>,
+        head: Option<&Surface>,
+        environment: [Vec3; DIRECTION_COUNT],
+        taken: Vec3,
+        cells: f32,
+    ) -> Self {
+        let vertex = |Occluder { position, half_width, strand }| Vertex {
+            position,
+            half_width,
+            strand,
+            ..NOWHERE
+        };
+        let curves = Curves { vertices: hair.map(vertex).collect() };
+        Self::around(&curves, head.map(Head::new).as_ref(), environment, taken, cells)
+    }
+
+    /// Lowest corner of the grid (m), distance between its nodes (m), and nodes along each side.
+    #[must_use]
+    pub fn grid(&self) -> (Vec3, f32, UVec3) {
+        (self.low, self.cell, self.size)
+    }
+
+    /// Radiance that white hair at each node would have, x fastest and z slowest.
+    #[must_use]
+    pub fn nodes(&self) -> &[Vec3] {
+        &self.mean
+    }
+
+    /// As [`Self::new`], around `curves`.
+    pub(super) fn around(
         curves: &Curves,
         head: Option<&Head>,
-        environment: [Vec3; 14],
+        environment: [Vec3; DIRECTION_COUNT],
         taken: Vec3,
         cells: f32,
     ) -> Self {
@@ -88,11 +111,11 @@ impl AmbientLight {
             .par_iter()
             .map(|&(step, _)| ambient.hairs_met(&hair, &shell, step))
             .collect();
-        let whole: Vec3 = (0..14).map(|d| DIRECTIONS[d].1 * environment[d]).sum();
+        let whole: Vec3 = (0..DIRECTION_COUNT).map(|d| DIRECTIONS[d].1 * environment[d]).sum();
         ambient.mean = (0..hair.len())
             .into_par_iter()
             .map(|i| {
-                let light: Vec3 = (0..14)
+                let light: Vec3 = (0..DIRECTION_COUNT)
                     .map(|d| DIRECTIONS[d].1 * environment[d] * ambient.passed(ambient.met[d][i]))
                     .sum();
                 whole * gathered(light / whole.max(Vec3::splat(1e-9)))
@@ -104,16 +127,17 @@ impl AmbientLight {
     /// Radiance that white hair at a point would have in the environment.
     pub(super) fn mean(&self, point: Vec3) -> Vec3 {
         let mut sum = Vec3::ZERO;
-        self.around(point, |i, weight| sum += weight * self.mean[i]);
+        self.visit_nodes(point, |i, weight| sum += weight * self.mean[i]);
         sum
     }
 
-    /// Irradiance / π from the environment on a surface at `point` with unit normal `normal`.
-    pub(super) fn on_surface(&self, point: Vec3, normal: Vec3) -> Vec3 {
+    /// Irradiance / π from the environment on a surface at `point` (m) with unit normal `normal`.
+    #[must_use]
+    pub fn on_surface(&self, point: Vec3, normal: Vec3) -> Vec3 {
         // The surface's own shell must not shade it.
         let point = point + 1.7 * self.cell * normal;
-        let mut met = [0.0; 14];
-        self.around(point, |i, weight| {
+        let mut met = [0.0; DIRECTION_COUNT];
+        self.visit_nodes(point, |i, weight| {
             for (sum, field) in met.iter_mut().zip(&self.met) {
                 *sum += weight * field[i];
             }
@@ -137,7 +161,7 @@ impl AmbientLight {
     }
 
     /// The eight nodes around a point, with their trilinear weights.
-    fn around(&self, point: Vec3, mut visit: impl FnMut(usize, f32)) {
+    fn visit_nodes(&self, point: Vec3, mut visit: impl FnMut(usize, f32)) {
         let g = (point - self.low) / self.cell;
         let g = g.clamp(Vec3::ZERO, self.size.as_vec3() - Vec3::splat(1.001));
         let (base, f) = split(g);
@@ -155,7 +179,7 @@ impl AmbientLight {
         let scale = std::f32::consts::FRAC_PI_4 / self.cell.powi(3);
         let area = |d: Vec3, width: f32| width * d.length() * scale;
         curves.lumps(self.cell, area, |point, value| {
-            self.around(point, |i, weight| density[i] += weight * value);
+            self.visit_nodes(point, |i, weight| density[i] += weight * value);
         });
         density
     }
@@ -205,12 +229,7 @@ impl AmbientLight {
     }
 }
 
-/// The directions from which the environment's light is known, and their weights.
-pub(super) fn directions() -> [(Vec3, f32); 14] {
-    DIRECTIONS.map(|(step, weight)| (direction(step), weight))
-}
-
-/// Radiance of white hair in a environment of radiance 1, of whose directions it sees the part `seen`.
+/// Radiance of white hair in an environment of radiance 1, of whose directions it sees the part `seen`.
 ///
 /// A fibre alone sends back what it meets, and has 1. Hair among hair scatters as a matt surface does (the
 /// diffuse light of lamps, E sin(t, l)/π): over all directions that is π times, and with the light that
@@ -220,25 +239,21 @@ fn gathered(seen: Vec3) -> Vec3 {
     Vec3::ONE - hidden * hidden * hidden * hidden
 }
 
-fn direction(step: [i32; 3]) -> Vec3 {
-    IVec3::from_array(step).as_vec3().normalize()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Camera;
     use crate::preview::projection::Projection;
+    use frisure_look::Camera;
     use frisure_strands::Strands;
 
-    fn environment(radiance: f32) -> [Vec3; 14] {
-        [Vec3::splat(radiance); 14]
+    fn environment(radiance: f32) -> [Vec3; DIRECTION_COUNT] {
+        [Vec3::splat(radiance); DIRECTION_COUNT]
     }
 
     #[test]
     fn open_air_has_all_the_room() {
         let curves = Curves::new(&Strands::new(), &Projection::new(&Camera::default(), 8, 8), 1.0);
-        let ambient = AmbientLight::new(&curves, None, environment(2.0), Vec3::ONE, MAX_CELLS);
+        let ambient = AmbientLight::around(&curves, None, environment(2.0), Vec3::ONE, MAX_CELLS);
         assert!((ambient.mean(Vec3::ONE) - Vec3::splat(2.0)).length() < 1e-5);
         let on = ambient.on_surface(Vec3::ZERO, Vec3::new(0.6, 0.0, 0.8));
         assert!((on - Vec3::splat(2.0)).length() < 1e-5);
@@ -254,7 +269,7 @@ mod tests {
             }
         }
         let curves = Curves::new(&strands, &Projection::new(&Camera::default(), 64, 64), 1.0);
-        let ambient = AmbientLight::new(&curves, None, environment(1.0), Vec3::ONE, MAX_CELLS);
+        let ambient = AmbientLight::around(&curves, None, environment(1.0), Vec3::ONE, MAX_CELLS);
         let (middle, edge) = (ambient.mean(Vec3::ZERO).x, ambient.mean(Vec3::Z * 0.038).x);
         assert!(middle < 0.5 * edge && edge < 0.95, "{middle} {edge}");
     }

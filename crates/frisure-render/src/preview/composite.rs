@@ -12,11 +12,8 @@ use super::head::{Head, HeadPixel};
 use super::projection::Projection;
 use super::shading::Shader;
 use super::tiles::{Area, TILE, TileGrid};
-use crate::{Background, EnvironmentLight};
+use frisure_look::{Background, EnvironmentLight};
 
-/// How far across a hair its softened edge can reach (pixels): half a pixel and half of the rise of
-/// a line within a column.
-pub(super) const REACH: f32 = 1.0;
 /// Least softening (pixels): a line that is nearly level would show where it changes row.
 const SOFTNESS: f32 = 0.35;
 /// What a pixel lets through when it counts as finished: half a step of an 8-bit picture.

@@ -319,7 +319,7 @@ mod tests {
             .collect();
         let mut strands = Strands::new();
         strands.push(&points, &[4e-5; 9]);
-        let view = Projection::new(&crate::Camera::default(), 1024, 1024);
+        let view = Projection::new(&frisure_look::Camera::default(), 1024, 1024);
         let curves = Curves::new(&strands, &view, 1.0);
         assert!(curves.vertices.len() > 50);
         for v in &curves.vertices {
@@ -336,7 +336,7 @@ mod tests {
         strands.push(&[Vec3::ZERO, Vec3::NAN], &[1e-5; 2]);
         strands.push(&[Vec3::ZERO, Vec3::X * 1e-3], &[1e-5, f32::INFINITY]);
         strands.push(&[Vec3::ZERO, Vec3::ZERO], &[1e-5; 2]);
-        let view = Projection::new(&crate::Camera::default(), 64, 64);
+        let view = Projection::new(&frisure_look::Camera::default(), 64, 64);
         let curves = Curves::new(&strands, &view, 1.0);
         assert_eq!(curves.vertices.len(), 2);
         assert!(curves.vertices.iter().all(|v| v.strand == 4 && v.tangent.is_finite()));

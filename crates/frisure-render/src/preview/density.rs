@@ -9,7 +9,7 @@
 use glam::{UVec3, Vec3};
 
 use super::curves::Curves;
-use super::{frame, split};
+use super::geometry::{frame, split};
 
 /// Finest cell (m): a lock is several cells wide, and a cell has several hairs in it.
 const MIN_CELL: f32 = 2.2e-3;
@@ -163,7 +163,7 @@ mod tests {
             let y = i as f32 * 1e-3;
             strands.push(&[Vec3::new(0.0, y, 0.0), Vec3::new(0.1, y, 0.0)], &[5e-5; 2]);
         }
-        let view = Projection::new(&crate::Camera::default(), 256, 256);
+        let view = Projection::new(&frisure_look::Camera::default(), 256, 256);
         let curves = Curves::new(&strands, &view, 1.0);
         let map = DensityMap::new(&curves, Vec3::Z).unwrap();
         let at = |z: f32| map.hairs_before(Vec3::new(0.05, 0.05, z));
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn no_hair_has_no_map() {
-        let view = Projection::new(&crate::Camera::default(), 8, 8);
+        let view = Projection::new(&frisure_look::Camera::default(), 8, 8);
         assert!(DensityMap::new(&Curves::new(&Strands::new(), &view, 1.0), Vec3::Z).is_none());
     }
 }

@@ -3,7 +3,6 @@
 use frisure_strands::Surface;
 use glam::Vec3;
 
-use super::ambient::AmbientLight;
 use super::projection::{NEAR, Projection};
 use super::raster;
 use super::tiles::{Area, TILE};
@@ -40,10 +39,10 @@ impl Head {
         Self { positions, normals, triangles: surface.triangles().to_vec(), environment }
     }
 
-    /// Measures the environment's light at each vertex.
-    pub(super) fn light_by(&mut self, ambient: &AmbientLight) {
+    /// Sets the ambient irradiance / π at each vertex.
+    pub(super) fn set_ambient(&mut self, ambient: impl Fn(Vec3, Vec3) -> Vec3) {
         let places = self.positions.iter().zip(&self.normals);
-        self.environment = places.map(|(&p, &n)| ambient.on_surface(p, n)).collect();
+        self.environment = places.map(|(&p, &n)| ambient(p, n)).collect();
     }
 
     pub(super) fn positions(&self) -> &[Vec3] {

@@ -1,11 +1,12 @@
 //! What light makes of the hair at each place.
 
-use frisure_optics::{FibreEnergy, apparent_colour, fibre_energy};
+use frisure_look::apparent_colour;
+use frisure_optics::{FibreEnergy, fibre_energy};
 use frisure_strands::Strands;
 use glam::Vec3;
 
-use crate::HairLook;
 use crate::pigment::{Pigments, deviate};
+use frisure_look::HairLook;
 
 /// Entries of the table for each factor of e in absorption, and the logarithms of the least and the
 /// greatest absorption in it.

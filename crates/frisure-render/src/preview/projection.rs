@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::Camera;
+use frisure_look::Camera;
 
 /// Nearest depth that is drawn (m).
 pub(super) const NEAR: f32 = 0.01;

@@ -11,12 +11,12 @@ use super::constants::{
 };
 use super::curves::{Curves, Vertex};
 use super::density::DensityMap;
+use super::directional::DirectionalLights;
 use super::head::{Head, HeadPixel};
 use super::material::{Materials, glitter};
 use super::shadow::ShadowMap;
-use super::{Scene, middle};
-use crate::SkinLook;
-use crate::light::DirectionalLights;
+use crate::scene::{Scene, head_centre};
+use frisure_look::SkinLook;
 
 /// Optical depth from which a lamp counts for nothing: it leaves less than half a thousandth.
 const DARK: f32 = 7.6;
@@ -50,9 +50,9 @@ impl Shader {
     ) -> Self {
         let shared = head.as_deref();
         let taken = materials.taken(curves.vertices.len(), curves.places());
-        let place = middle(scene.strands, scene.surface);
+        let place = head_centre(scene.strands, scene.surface);
         let DirectionalLights { lamps: lit, environment } =
-            DirectionalLights::new(&scene.lights, place, &ambient::directions());
+            DirectionalLights::new(&scene.lights, place);
         let lamps = || -> Vec<Lamp> {
             lit.par_iter()
                 .map(|&(to_light, irradiance)| Lamp {
@@ -63,10 +63,11 @@ impl Shader {
                 })
                 .collect()
         };
-        let ambient = || AmbientLight::new(curves, shared, environment, taken, ambient::MAX_CELLS);
+        let ambient =
+            || AmbientLight::around(curves, shared, environment, taken, ambient::MAX_CELLS);
         let (lamps, ambient) = rayon::join(lamps, ambient);
         if let Some(head) = head {
-            head.light_by(&ambient);
+            head.set_ambient(|point, normal| ambient.on_surface(point, normal));
         }
         let surface = scene.look.hair.surface;
         Self {

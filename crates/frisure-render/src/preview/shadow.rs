@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::frame;
+use super::geometry::frame;
 use super::head::Head;
 use super::raster;
 

@@ -2,13 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::composite::REACH;
 use super::curves::Curves;
 use super::head::Head;
 use super::projection::{NEAR, Projection};
 
 /// Side of a tile (pixels).
 pub(super) const TILE: usize = 32;
+/// How far across a hair its softened edge can reach (pixels): half a pixel and half of the rise of
+/// a line within a column.
+const REACH: f32 = 1.0;
 /// Vertices per parallel job.
 const CHUNK: usize = 1 << 16;
 

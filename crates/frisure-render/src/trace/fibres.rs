@@ -1,12 +1,12 @@
 //! The fibre that each place of each strand is, for light.
 
-use frisure_optics::apparent_colour;
+use frisure_look::apparent_colour;
 use frisure_optics::scattering::{Fibre, FibreError, FibreSpec};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
-use crate::HairLook;
 use crate::pigment::Pigments;
+use frisure_look::HairLook;
 
 /// Steps of wetness between dry and wet.
 const WET_LEVELS: usize = 16;

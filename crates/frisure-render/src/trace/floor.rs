@@ -3,7 +3,6 @@
 use glam::Vec3;
 
 use crate::accel::Ray;
-use crate::look;
 
 /// A level plane without end that fades into the background far from its centre.
 pub(super) struct Floor {
@@ -13,7 +12,7 @@ pub(super) struct Floor {
 }
 
 impl Floor {
-    pub(super) fn new(look: &look::Floor) -> Self {
+    pub(super) fn new(look: &frisure_look::Floor) -> Self {
         Self { centre: look.centre.as_vec3(), radius: look.radius as f32, colour: look.colour }
     }
 

@@ -13,8 +13,8 @@ use super::floor::Floor;
 use super::light_sampler::{LightSampler, power_heuristic};
 use super::rough_plastic::RoughPlastic;
 use super::sampler::Sampler;
-use crate::SkinLook;
 use crate::accel::{HairHit, Hit, Ray, SceneBvh, SkinHit};
+use frisure_look::SkinLook;
 
 /// The scene that paths are traced through.
 pub(super) struct Integrator {

@@ -8,8 +8,8 @@ use glam::Vec3;
 use super::integrator::Integrator;
 use super::options::TraceOptions;
 use super::sampler::Sampler;
-use crate::Camera;
 use crate::accel::Ray;
+use frisure_look::Camera;
 
 /// Radius of the pixel filter (pixels).
 const FILTER: f32 = 1.5;

@@ -9,8 +9,7 @@ use std::f32::consts::{PI, TAU};
 
 use glam::Vec3;
 
-use crate::light::EnvironmentMap;
-use crate::{AreaLight, AreaShape, EnvironmentLight, Lamp, Lights};
+use frisure_look::{AreaLight, AreaShape, EnvironmentLight, EnvironmentMap, Lamp, Lights};
 
 /// Angular radius below which a distant light is a delta light (rad).
 const MIN_RADIUS: f64 = 1e-4;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::accel::AccelError;
-use crate::preview::MAX_SIZE;
+use crate::film::MAX_SIZE;
 
 /// Most samples per pixel.
 pub const MAX_SAMPLES: usize = 65_536;

@@ -5,8 +5,8 @@ use glam::DVec3;
 
 use super::digest::Digest;
 use super::options::TraceOptions;
-use crate::preview::Scene;
-use crate::{Camera, Lights};
+use crate::scene::Scene;
+use frisure_look::{Camera, Lights};
 
 /// The digest of all that makes a picture but its camera and lights.
 pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest {

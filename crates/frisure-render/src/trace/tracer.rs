@@ -17,9 +17,10 @@ use super::light_sampler::LightSampler;
 use super::options::{TraceError, TraceOptions};
 use super::sampler::Sampler;
 use super::scene_digest::{add_view, scene_digest};
+use crate::Image;
 use crate::accel::{CurveOptions, SceneBvh};
-use crate::preview::Scene;
-use crate::{Background, Camera, Image, Lights};
+use crate::scene::Scene;
+use frisure_look::{Background, Camera, Lights};
 
 /// Samples per pixel after which the noise of a tile is measured.
 const MIN_SAMPLES: u32 = 32;

@@ -3,7 +3,7 @@
 //! One table for the window, its tests and its help; a new slider is a new row.
 
 use frisure::hairstyle::HairstyleSpec;
-use frisure::optics::SHADES;
+use frisure::look::SHADES;
 use frisure::scene::{NaturalColour, Scene};
 
 /// The panels, in the order in which a person meets them.

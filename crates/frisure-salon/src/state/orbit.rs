@@ -1,6 +1,6 @@
 //! The camera that a hand moves around the head.
 
-use frisure::render::Camera;
+use frisure::look::Camera;
 use frisure_stylist::order::Viewpoint;
 use glam::DVec3;
 

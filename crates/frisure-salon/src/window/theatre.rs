@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use eframe::egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui, wgpu};
-use frisure::render::{Camera, Lights, Look, ToneCurve};
+use frisure::look::{Camera, Lights, Look, ToneCurve};
 use frisure::strands::{Attribute, AttributeValues, Domain, Strands};
 use frisure_stylist::order::StrandsData;
 use frisure_view::{Canvas, Frame, Hair, Line, Mark, Plane, Renderer, Shadows, Skin, ViewError};
@@ -96,7 +96,7 @@ struct Stage {
 struct Dressed {
     hair: Hair,
     version: u64,
-    look: frisure::render::HairLook,
+    look: frisure::look::HairLook,
     marks: u64,
 }
 

@@ -9,7 +9,7 @@ use eframe::egui::{
 };
 use eframe::egui_wgpu::Callback;
 use frisure::files::Files;
-use frisure::render::{Camera, EnvironmentMap, Lights, Look, ToneCurve};
+use frisure::look::{Camera, EnvironmentMap, Lights, Look, ToneCurve};
 use frisure::scene::Scene;
 use frisure_stylist::order::OneHair;
 use frisure_stylist::picture;

@@ -1,6 +1,6 @@
 //! Strands as chains of vertices, smooth enough for a screen.
 
-use frisure_render::preview::parts::{Wetness, smooth};
+use frisure_render::preview::{Wetness, smooth};
 use frisure_strands::Strands;
 use glam::{Vec2, Vec2Swizzles as _, Vec3};
 use rayon::prelude::*;

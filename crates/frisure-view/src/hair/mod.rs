@@ -7,9 +7,9 @@ mod ranks;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use bytemuck::cast_slice;
-use frisure_render::HairLook;
+use frisure_look::HairLook;
 use frisure_render::preview::chosen_width;
-use frisure_render::preview::parts::{Material, Materials, Occluder, glitter};
+use frisure_render::preview::{Material, Materials, Occluder, glitter};
 use frisure_strands::Strands;
 use glam::{Vec3, Vec4};
 use wgpu::{Device, Queue, Texture, TextureFormat, TextureUsages};

@@ -1,7 +1,8 @@
 //! What was computed for the last picture and may be right for the next.
 
-use frisure_render::preview::parts::LightsAtPoint;
-use frisure_render::{Background, EnvironmentLight, Lights, preview};
+use frisure_look::{Background, EnvironmentLight, Lights};
+use frisure_render::preview;
+use frisure_render::preview::DirectionalLights;
 use frisure_strands::Strands;
 use glam::{DVec3, Vec3};
 use wgpu::{BindGroup, Buffer, BufferUsages, CommandEncoder, Device, Queue, TextureView};
@@ -19,7 +20,7 @@ use crate::uniforms;
 #[derive(Debug, Default)]
 pub(crate) struct FrameCache {
     pub(super) numbers: Option<(Buffer, BindGroup)>,
-    lights: Option<(Lights, DVec3, LightsAtPoint)>,
+    lights: Option<(Lights, DVec3, DirectionalLights)>,
     environment: Option<(AmbientKey, AmbientVolume)>,
     pub(super) environment_map: Option<(Option<EnvironmentLight>, TextureView)>,
     pub(super) maps: Option<ShadowMaps>,
@@ -28,10 +29,10 @@ pub(crate) struct FrameCache {
 }
 
 /// What the environment's light depends on.
-type AmbientKey = (Option<(u64, Vec3)>, Option<u64>, [Vec3; preview::parts::DIRECTION_COUNT]);
+type AmbientKey = (Option<(u64, Vec3)>, Option<u64>, [Vec3; preview::DIRECTION_COUNT]);
 
 impl FrameCache {
-    pub(super) fn lights(&self) -> Option<&LightsAtPoint> {
+    pub(super) fn lights(&self) -> Option<&DirectionalLights> {
         self.lights.as_ref().map(|(_, _, at_point)| at_point)
     }
 
@@ -83,7 +84,7 @@ impl FrameCache {
     }
 
     /// The lights in at_point numbers.
-    fn at_point(&mut self, frame: &Frame<'_>) -> LightsAtPoint {
+    fn at_point(&mut self, frame: &Frame<'_>) -> DirectionalLights {
         let place = middle(frame);
         if let Some((lights, of, at_point)) = &self.lights
             && lights == frame.lights
@@ -91,7 +92,7 @@ impl FrameCache {
         {
             return at_point.clone();
         }
-        let at_point = LightsAtPoint::new(frame.lights, place);
+        let at_point = DirectionalLights::new(frame.lights, place);
         self.lights = Some((frame.lights.clone(), place, at_point.clone()));
         at_point
     }
@@ -113,6 +114,6 @@ fn middle(frame: &Frame<'_>) -> DVec3 {
             let (low, high) = hair.bounds();
             0.5 * (low + high).as_dvec3()
         }
-        _ => preview::middle(&Strands::new(), None),
+        _ => frisure_render::head_centre(&Strands::new(), None),
     }
 }

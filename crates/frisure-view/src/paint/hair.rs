@@ -1,7 +1,7 @@
 //! Hair: light at each vertex, then ribbons from near to far.
 
 use bytemuck::cast_slice;
-use frisure_render::Camera;
+use frisure_look::Camera;
 use glam::Vec3;
 use wgpu::{Buffer, BufferUsages, CommandEncoder, Device, Queue};
 

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use frisure_optics::Melanin;
-use frisure_render::{Camera, Lights, preview};
+use frisure_look::Melanin;
+use frisure_look::{Camera, Lights};
+use frisure_render::preview;
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use frisure_view::{Frame, Hair, Skin};
 
@@ -16,8 +17,9 @@ const SIZE: [u32; 2] = [256, 256];
 fn difference(strands: &Strands, melanin: Melanin, azimuth: f64) -> Option<Difference> {
     let gpu = crate::gpu()?;
     let ball = wig::ball();
-    let mut scene = preview::Scene::portrait(strands, Some(&ball));
-    scene.camera = Camera::framing(preview::bounds(strands, Some(&ball)), azimuth, 0.1, 1.0);
+    let mut scene = frisure_render::Scene::portrait(strands, Some(&ball));
+    scene.camera =
+        Camera::framing(frisure_render::framed_bounds(strands, Some(&ball)), azimuth, 0.1, 1.0);
     scene.lights = Lights::studio(&scene.camera);
     scene.look.hair.melanin = melanin;
     let hair = Hair::new(&gpu.renderer, &gpu.device, &gpu.queue, strands, &scene.look.hair);

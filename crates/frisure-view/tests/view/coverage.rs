@@ -1,6 +1,6 @@
 //! A hair covers as much as it is wide.
 
-use frisure_render::{Background, Camera, HairLook, Lights, Look};
+use frisure_look::{Background, Camera, HairLook, Lights, Look};
 use frisure_strands::Strands;
 use frisure_view::{Frame, Hair};
 use glam::{DVec3, Vec3};

@@ -1,6 +1,6 @@
 //! Shares, marks, lines and planes.
 
-use frisure_render::{Camera, Lights, Look, preview};
+use frisure_look::{Camera, Lights, Look};
 use frisure_strands::{Strands, Surface};
 use frisure_view::{Frame, Hair, Line, Mark, Plane, Skin};
 use glam::Vec3;
@@ -24,7 +24,8 @@ impl Scene {
     fn new(strands: &Strands, ball: &Surface) -> Option<Self> {
         let gpu = crate::gpu()?;
         let (device, queue, look) = (&gpu.device, &gpu.queue, Look::default());
-        let camera = Camera::framing(preview::bounds(strands, Some(ball)), 0.4, 0.1, 1.0);
+        let camera =
+            Camera::framing(frisure_render::framed_bounds(strands, Some(ball)), 0.4, 0.1, 1.0);
         let hair = Hair::new(&gpu.renderer, device, queue, strands, &look.hair);
         let skin = Skin::new(&gpu.renderer, device, queue, ball);
         Some(Self { gpu, hair, skin, camera, lights: Lights::studio(&camera), look })

@@ -1,6 +1,6 @@
 //! What makes no sense is refused or left out; nothing panics.
 
-use frisure_render::{Camera, HairLook, Lights, Look};
+use frisure_look::{Camera, HairLook, Lights, Look};
 use frisure_strands::Strands;
 use frisure_view::{Canvas, Frame, Hair, Line, Mark, Plane, ViewError};
 use glam::{DVec3, Vec3};

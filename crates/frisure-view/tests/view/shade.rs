@@ -1,8 +1,8 @@
 //! Hair takes light from hair, as the law of Beer and Lambert has it.
 
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
+use frisure_look::{Background, Camera, DistantLight, HairLook, Lights, Look, ToneCurve};
 use frisure_render::preview::chosen_width;
-use frisure_render::{Background, Camera, DistantLight, HairLook, Lights, Look, ToneCurve};
 use frisure_strands::Strands;
 use frisure_view::{Frame, Hair};
 use glam::{DVec3, Vec3};

@@ -16,9 +16,10 @@ use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
     Adoption, Hairstyle, HairstyleSpec, Keep, Simulation, penetration, volume,
 };
+use frisure::look::EnvironmentMap;
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::Tracer;
-use frisure::render::{EnvironmentMap, Image};
+use frisure::render::{self, Image};
 use frisure::scene::{self, HeadSource, Scene};
 use frisure::strands::Strands;
 use frisure_stylist::held::Held;
@@ -309,7 +310,7 @@ impl Work {
         Ok(Picture::Final(Box::new(Shot { tracer, views, from, denoiser })))
     }
 
-    fn preview(&self, drawn: &preview::Scene<'_>) -> Result<Image, Failure> {
+    fn preview(&self, drawn: &render::Scene<'_>) -> Result<Image, Failure> {
         let scene::Output { width, height, samples, .. } = self.scene.output;
         let options = PreviewOptions { width, height, samples, ..Default::default() };
         let watch = |done: f64| {

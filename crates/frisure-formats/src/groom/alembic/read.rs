@@ -1,6 +1,6 @@
 //! A groom from the curves of an Alembic file: the first sample of all that move.
 
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
 use frisure_strands::{Attribute, AttributeValues, Domain};
 use glam::{DMat4, DVec3, Vec3};
 

@@ -1,6 +1,6 @@
 //! A stage as a groom.
 
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DMat4, Vec3};
 

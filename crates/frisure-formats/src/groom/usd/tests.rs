@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use super::super::attributes::{self, of_points, of_strands};
 use super::*;
 use frisure_files::frame::UpAxis;
-use frisure_optics::Melanin;
+use frisure_look::Melanin;
 use frisure_strands::{AttributeValues as Values, Strands};
 
 use super::super::HairColour;

@@ -7,7 +7,7 @@ use glam::Vec3;
 use thiserror::Error;
 
 use super::{Accumulator, Pixel, Tile};
-use crate::preview::MAX_SIZE;
+use crate::film::MAX_SIZE;
 use crate::trace::digest::Digest;
 use crate::trace::options::{MAX_PIXELS, MAX_SAMPLES};
 

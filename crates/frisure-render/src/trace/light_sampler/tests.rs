@@ -2,7 +2,7 @@ use glam::DVec3;
 
 use super::*;
 use crate::trace::sampler::Sampler;
-use crate::{Camera, Daylight, DistantLight, PointLight};
+use frisure_look::{Camera, Daylight, DistantLight, PointLight};
 
 const PLACE: Vec3 = Vec3::new(0.03, -0.05, 0.02);
 
@@ -176,7 +176,7 @@ fn irradiance_is_that_of_closed_forms() {
     let point = PointLight::new(DVec3::new(3.0, 0.0, 4.0), colour).unwrap();
     close(irradiance(&one(point.into()), 1), colour * (0.8 / 25.0), 1e-5, "point");
     // The sun, as a disc and as a direction.
-    for radius in [0.0, crate::SUN_RADIUS, 0.09, 1.0] {
+    for radius in [0.0, frisure_look::SUN_RADIUS, 0.09, 1.0] {
         let sun = DistantLight::new(DVec3::Z, colour, radius).unwrap();
         close(irradiance(&one(sun.into()), 4096), colour, 2e-3, "sun");
     }

@@ -123,13 +123,15 @@ impl EnvironmentMap {
     }
 
     /// Radiance from a unit direction, and the density (1/sr) with which [`Self::sample`] gives it.
-    pub(crate) fn radiance_and_pdf(&self, towards: Vec3) -> (Vec3, f32) {
+    #[must_use]
+    pub fn radiance_and_pdf(&self, towards: Vec3) -> (Vec3, f32) {
         let [x, y] = self.table.pixel(self.unturned(towards));
         (self.strength * self.table.at(x, y), self.table.density(x, y))
     }
 
     /// A direction, as likely as its light, from numbers in [0, 1).
-    pub(crate) fn sample(&self, [u, v]: [f32; 2]) -> Vec3 {
+    #[must_use]
+    pub fn sample(&self, [u, v]: [f32; 2]) -> Vec3 {
         let table = &self.table;
         let (y, v) = sample_interval(&table.rows, v);
         let (x, u) = sample_interval(table.row(y), u);
@@ -138,12 +140,13 @@ impl EnvironmentMap {
     }
 
     /// Number of pixels.
-    pub(crate) fn len(&self) -> usize {
+    #[must_use]
+    pub fn pixel_count(&self) -> usize {
         self.table.pixels.len()
     }
 
     /// The middle of each pixel, its radiance and its solid angle (sr).
-    pub(crate) fn pixels(&self) -> impl Iterator<Item = (Vec3, Vec3, f32)> {
+    pub fn pixels(&self) -> impl Iterator<Item = (Vec3, Vec3, f32)> {
         let table = &self.table;
         (0..table.pixels.len()).map(move |i| {
             let (x, y) = (i % table.width, i / table.width);

@@ -2,8 +2,12 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Daylight, DistantLight, EnvironmentLight, Lights, lamp::SOFTBOX};
-use crate::Camera;
+use super::daylight::Daylight;
+use super::environment_light::EnvironmentLight;
+use super::error::InvalidLight;
+use super::lamp::{DistantLight, SOFTBOX};
+use super::lights::Lights;
+use crate::camera::Camera;
 
 /// A way to set the lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,8 +50,8 @@ impl Lights {
     /// there is any, is the main one.
     ///
     /// # Errors
-    /// [`super::InvalidLight`], of a day that cannot be.
-    pub fn setup(setup: &Setup, camera: &Camera) -> Result<Self, super::InvalidLight> {
+    /// [`InvalidLight`], of a day that cannot be.
+    pub fn setup(setup: &Setup, camera: &Camera) -> Result<Self, InvalidLight> {
         Ok(match setup {
             Setup::Studio => Self::studio(camera),
             Setup::Soft => standing(camera, &SOFT, [0.80, 0.80, 0.80], [0.42, 0.41, 0.40]),
@@ -80,6 +84,13 @@ impl Lights {
             ground: Vec3::new(0.13, 0.12, 0.115),
         };
         Self { lamps: lamps.map(Into::into).to_vec(), environment }
+    }
+}
+
+impl Default for Lights {
+    /// The studio for the default camera, in front of the face.
+    fn default() -> Self {
+        Self::studio(&Camera::default())
     }
 }
 

@@ -6,10 +6,14 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
+use super::environment_light::EnvironmentLight;
+use super::environment_map::EnvironmentMap;
 use super::error::{InvalidLight, amount, within};
-use super::{DistantLight, EnvironmentLight, EnvironmentMap, Lights};
+use super::lamp::DistantLight;
+use super::lights::Lights;
+use crate::colour::{luminance, srgb_from_xyz};
 
 /// A clear day.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -214,7 +218,7 @@ impl Sky {
         let at = |i: usize| self.zenith[i] * distribution(&self.perez[i], elevation, from_sun);
         let (x, y, luminance) = (at(0), at(1), at(2));
         let over = luminance / y;
-        srgb(DVec3::new(x * over, luminance, (1.0 - x - y) * over)).max(DVec3::ZERO)
+        srgb_from_xyz(DVec3::new(x * over, luminance, (1.0 - x - y) * over)).max(DVec3::ZERO)
     }
 }
 
@@ -223,44 +227,10 @@ fn distribution([a, b, c, d, e]: &[f64; 5], elevation: f64, from_sun: f64) -> f6
     (1.0 + a * (b / up).exp()) * (1.0 + c * (d * from_sun).exp() + e * from_sun.cos().powi(2))
 }
 
-/// Linear sRGB of CIE XYZ (IEC 61966-2-1).
-pub(super) fn srgb(xyz: DVec3) -> DVec3 {
-    DVec3::new(
-        xyz.dot(DVec3::new(3.240_97, -1.537_383, -0.498_611)),
-        xyz.dot(DVec3::new(-0.969_244, 1.875_968, 0.041_555)),
-        xyz.dot(DVec3::new(0.055_63, -0.203_977, 1.056_972)),
-    )
-}
-
-pub(super) fn luminance(rgb: DVec3) -> f64 {
-    rgb.dot(DVec3::new(0.2126, 0.7152, 0.0722))
-}
-
-/// The colour of a glowing body at a temperature (K, kept between 1667 and 25 000), linear sRGB of
-/// luminance 1: 2900 a lamp, 5500 noon, 6500 white, 10 000 blue sky. After Kim et al. 2002, US patent
-/// 7 024 034, cubic in 1/T.
-#[must_use]
-pub fn colour_of_temperature(kelvin: f64) -> Vec3 {
-    let t = if kelvin.is_finite() { kelvin.clamp(1667.0, 25_000.0) } else { 6500.0 };
-    let k = 1e3 / t;
-    let cubic = |[a, b, c, d]: [f64; 4], x: f64| ((a * x + b) * x + c) * x + d;
-    let x = match t <= 4000.0 {
-        true => cubic([-0.266_123_9, -0.234_358_9, 0.877_695_6, 0.179_91], k),
-        false => cubic([-3.025_846_9, 2.107_037_9, 0.222_634_7, 0.240_39], k),
-    };
-    let y = cubic(
-        match t {
-            ..=2222.0 => [-1.106_381_4, -1.348_110_2, 2.185_558_32, -0.202_196_83],
-            ..=4000.0 => [-0.954_947_6, -1.374_185_93, 2.091_370_15, -0.167_488_67],
-            _ => [3.081_758, -5.873_386_7, 3.751_129_97, -0.370_014_83],
-        },
-        x,
-    );
-    srgb(DVec3::new(x / y, 1.0, (1.0 - x - y) / y)).max(DVec3::ZERO).as_vec3()
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
     fn day(elevation: f64, turbidity: f64) -> Lights {
@@ -331,16 +301,5 @@ mod tests {
         assert!(with(-0.1, 3.0).unwrap_err().to_string().contains("elevation is -0.1"));
         assert!(with(0.5, 1.0).unwrap_err().to_string().contains("turbidity is 1"));
         assert!(with(f64::NAN, 3.0).is_err());
-    }
-
-    #[test]
-    fn temperatures_go_from_red_to_blue_through_white() {
-        let white = colour_of_temperature(6504.0);
-        assert!((white - Vec3::ONE).abs().max_element() < 0.06, "{white}");
-        let colours = [1800.0, 2900.0, 5000.0, 9000.0, 20_000.0].map(colour_of_temperature);
-        assert!(colours.windows(2).all(|c| c[1].x < c[0].x && c[1].z > c[0].z), "{colours:?}");
-        for colour in colours {
-            assert!((luminance(colour.as_dvec3()) - 1.0).abs() < 0.03);
-        }
     }
 }

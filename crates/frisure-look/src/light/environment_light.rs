@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::EnvironmentMap;
+use super::environment_map::EnvironmentMap;
 
 /// The environment light: radiance from infinitely far away, by direction.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,32 +1,35 @@
-//! The same lights in few numbers, for a picture in seconds: directions, and the mean of what is around.
+//! Lights approximated by directions: each lamp as a delta light, the environment by a few radiances.
 
 use std::f32::consts::{PI, TAU};
 
+use frisure_look::{EnvironmentLight, EnvironmentMap, Lights};
 use glam::{DVec3, Vec3};
 
-use super::{EnvironmentLight, EnvironmentMap, Lights};
+use super::directions::{DIRECTION_COUNT, directions};
 
-/// Lamps as seen from one place, and light from a few directions that stand for all.
-pub(crate) struct DirectionalLights<const N: usize> {
-    /// Unit direction to each, and irradiance on a surface that faces it.
-    pub(crate) lamps: Vec<(Vec3, Vec3)>,
-    /// Radiance about each of the directions asked for.
-    pub(crate) environment: [Vec3; N],
+/// The lights of a scene as one point has them: lamps by direction, the environment by a few radiances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectionalLights {
+    /// Unit direction to each lamp, and irradiance on a surface that faces it.
+    pub lamps: Vec<(Vec3, Vec3)>,
+    /// Mean radiance of the environment about each of fourteen directions (Lebedev's rule).
+    pub environment: [Vec3; DIRECTION_COUNT],
 }
 
-/// Most lamps that an environment becomes.
+/// Most lamps that an environment map becomes.
 const FOUND: usize = 3;
 
-/// How much brighter than the mean of all directions what makes a lamp is.
+/// Radiance of a spot that becomes a lamp, over the mean; chosen by trial.
 const BRIGHT: f32 = 12.0;
 
-/// Cosine of half the angle that a lamp takes of an environment: 15°.
+/// Cosine of the angular radius of a spot that becomes one lamp: 15°; chosen.
 const APART: f32 = 0.966;
 
-impl<const N: usize> DirectionalLights<N> {
-    /// The lights as they are at `place` (m); the environment about each of the unit directions `around`, whose
-    /// weights sum to 1.
-    pub(crate) fn new(lights: &Lights, place: DVec3, around: &[(Vec3, f32); N]) -> Self {
+impl DirectionalLights {
+    /// Approximates lights as `place` (m) has them: the brightest spots of an environment map become lamps.
+    #[must_use]
+    pub fn new(lights: &Lights, place: DVec3) -> Self {
+        let around = directions();
         let arriving = lights.lamps.iter().filter_map(|lamp| lamp.arriving(place));
         let lit = arriving.filter(|(_, irradiance)| irradiance.max_element() > 0.0);
         let mut lamps: Vec<_> = lit.map(|(towards, e)| (towards.as_vec3(), e)).collect();
@@ -37,7 +40,7 @@ impl<const N: usize> DirectionalLights<N> {
             EnvironmentLight::Map(map) => {
                 let (bright, rest) = split(map);
                 lamps.extend(bright);
-                spread(&rest, around)
+                spread(&rest, &around)
             }
         };
         Self { lamps, environment }
@@ -47,15 +50,15 @@ impl<const N: usize> DirectionalLights<N> {
 /// A part of an environment: direction, radiance, solid angle (sr).
 type Part = (Vec3, Vec3, f32);
 
-/// Parts of a picture of few pixels.
+/// Number of parts of an environment map of few pixels.
 const FEW: usize = 8192;
 
-/// Small parts of an environment: its pixels, or less.
+/// Small parts of an environment map: its pixels, or finer.
 fn parts(map: &EnvironmentMap) -> Box<dyn Iterator<Item = Part> + '_> {
-    if map.len() >= FEW {
+    if map.pixel_count() >= FEW {
         return Box::new(map.pixels());
     }
-    // A spiral of even steps in z, turned by the golden angle each.
+    // A Fibonacci spiral: uniform steps in z, turned by the golden angle each.
     let solid = 4.0 * PI / FEW as f32;
     Box::new((0..FEW).map(move |i| {
         let z = 1.0 - (2.0 * i as f32 + 1.0) / FEW as f32;
@@ -66,7 +69,7 @@ fn parts(map: &EnvironmentMap) -> Box<dyn Iterator<Item = Part> + '_> {
     }))
 }
 
-/// The lamps that are in an environment, and what is left.
+/// Splits an environment map into its brightest spots, as lamps, and the rest.
 fn split(map: &EnvironmentMap) -> (Vec<(Vec3, Vec3)>, Vec<Part>) {
     let threshold = BRIGHT * map.mean().element_sum();
     let (mut bright, mut rest): (Vec<Part>, Vec<Part>) =
@@ -86,8 +89,9 @@ fn split(map: &EnvironmentMap) -> (Vec<(Vec3, Vec3)>, Vec<Part>) {
     (lamps, rest)
 }
 
-/// Mean radiance about each direction: of what is nearest to it. All together have all of the light.
-fn spread<const N: usize>(parts: &[Part], around: &[(Vec3, f32); N]) -> [Vec3; N] {
+/// Mean radiance about each direction: of the parts nearest to it, scaled so that the total light is kept.
+fn spread(parts: &[Part], around: &[(Vec3, f32); DIRECTION_COUNT]) -> [Vec3; DIRECTION_COUNT] {
+    const N: usize = DIRECTION_COUNT;
     let (mut light, mut solid) = ([Vec3::ZERO; N], [0.0_f32; N]);
     for (towards, radiance, of) in parts {
         let nearness = |(d, _): &(Vec3, f32)| d.dot(*towards);
@@ -109,20 +113,11 @@ fn spread<const N: usize>(parts: &[Part], around: &[(Vec3, f32); N]) -> [Vec3; N
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Lamp, PointLight};
+    use frisure_look::{Lamp, PointLight};
 
-    const AXES: [(Vec3, f32); 6] = [
-        (Vec3::X, 1.0 / 6.0),
-        (Vec3::NEG_X, 1.0 / 6.0),
-        (Vec3::Y, 1.0 / 6.0),
-        (Vec3::NEG_Y, 1.0 / 6.0),
-        (Vec3::Z, 1.0 / 6.0),
-        (Vec3::NEG_Z, 1.0 / 6.0),
-    ];
-
-    fn fluence(plain: &DirectionalLights<6>) -> Vec3 {
-        let environment: Vec3 = plain.environment.iter().sum::<Vec3>() / 6.0;
-        plain.lamps.iter().map(|l| l.1).sum::<Vec3>() + 4.0 * PI * environment
+    fn fluence(lights: &DirectionalLights) -> Vec3 {
+        let weighted = lights.environment.iter().zip(directions()).map(|(l, (_, w))| *l * w);
+        lights.lamps.iter().map(|l| l.1).sum::<Vec3>() + 4.0 * PI * weighted.sum::<Vec3>()
     }
 
     #[test]
@@ -133,7 +128,7 @@ mod tests {
             let map = EnvironmentMap::new(width, height, pixels).unwrap();
             let mean = map.mean();
             let lights = Lights { lamps: Vec::new(), environment: EnvironmentLight::Map(map) };
-            let plain = DirectionalLights::new(&lights, DVec3::ZERO, &AXES);
+            let plain = DirectionalLights::new(&lights, DVec3::ZERO);
             let ratio = fluence(&plain) / (4.0 * PI * mean);
             assert!((ratio - Vec3::ONE).abs().max_element() < 0.02, "{width}: {ratio}");
             assert_eq!(plain.lamps.is_empty(), width == 1);
@@ -146,8 +141,8 @@ mod tests {
     fn a_lamp_at_a_place_is_seen_from_there() {
         let lamp: Lamp = PointLight::new(DVec3::X * 2.0, Vec3::splat(8.0)).unwrap().into();
         let lights = Lights { lamps: vec![lamp], ..Lights::dark() };
-        let plain = DirectionalLights::new(&lights, DVec3::ZERO, &AXES);
+        let plain = DirectionalLights::new(&lights, DVec3::ZERO);
         assert_eq!(plain.lamps, [(Vec3::X, Vec3::splat(2.0))]);
-        assert_eq!(plain.environment, [Vec3::ZERO; 6]);
+        assert_eq!(plain.environment, [Vec3::ZERO; DIRECTION_COUNT]);
     }
 }

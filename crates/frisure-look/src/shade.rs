@@ -1,4 +1,4 @@
-//! Colours of natural hair by their names.
+//! Named colours of natural hair.
 //!
 //! The scale of eumelanin is that of d'Eon et al. 2011, for which `pbrt-v3` prints 0.3 blond, 1.3
 //! brown and 8 black. The numbers here were chosen by eye, as a colourist would name them, on a head of
@@ -7,7 +7,7 @@
 //! same reason pheomelanin of 1.7 is auburn rather than red. Hair of every colour but red has little
 //! pheomelanin, or blond would be orange; it is left out where eumelanin hides it.
 
-use crate::Melanin;
+use crate::pigment::Melanin;
 
 /// A colour that natural hair has.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,76 @@
+//! The scene that both renderers draw: strands, head, camera, lights, materials.
+
+use frisure_look::{Camera, Lights, Look};
+use frisure_strands::{Strands, Surface};
+use glam::DVec3;
+
+/// Everything that a picture shows.
+///
+/// Three attributes of the strands are used where they are present: `guide` (u32 per strand), whose
+/// wisps then differ slightly in pigment; `tint` (f32 per strand), a factor on the pigment that
+/// replaces all variation of our own; `wetness` (f32 per point, 0 to 1), which darkens the hair and
+/// sharpens its highlights.
+#[derive(Clone, Debug)]
+pub struct Scene<'a> {
+    /// The hair. Strands with fewer than two points or with a coordinate or radius that is not
+    /// finite are left out.
+    pub strands: &'a Strands,
+    /// The head, which hides hair and is hidden by it; none draws hair alone.
+    pub surface: Option<&'a Surface>,
+    /// Where it is seen from.
+    pub camera: Camera,
+    /// What lights it.
+    pub lights: Lights,
+    /// What it looks like.
+    pub look: Look,
+}
+
+impl<'a> Scene<'a> {
+    /// The scene in the default look, framed from the three-quarter front view of a portrait for a
+    /// square picture, in a studio that turns with that camera.
+    #[must_use]
+    pub fn portrait(strands: &'a Strands, surface: Option<&'a Surface>) -> Self {
+        let camera = Camera::framing(framed_bounds(strands, surface), 0.5, 0.08, 1.0);
+        let lights = Lights::studio(&camera);
+        Self { strands, surface, camera, lights, look: Look::default() }
+    }
+}
+
+/// The box (smallest and largest corner, m) that a picture of this hair should show, for
+/// [`Camera::framing`]: all finite points of the strands, and of the surface its upper 0.27 m, the
+/// head without the shoulders. Without strands it is the whole surface; without either, a box around
+/// a head at the origin.
+#[must_use]
+pub fn framed_bounds(strands: &Strands, surface: Option<&Surface>) -> (DVec3, DVec3) {
+    let hair = enclose(strands.points().iter().map(|p| p.as_dvec3()).filter(|p| p.is_finite()));
+    let head = surface.and_then(|surface| {
+        let top = surface.bounds().1.z;
+        let shown = |p: &DVec3| hair.is_none() || p.z > top - HEAD;
+        enclose(surface.positions().iter().copied().filter(shown))
+    });
+    match (hair, head) {
+        (Some(a), Some(b)) => (a.0.min(b.0), a.1.max(b.1)),
+        (Some(all), None) | (None, Some(all)) => all,
+        (None, None) => (DVec3::splat(-0.15), DVec3::splat(0.15)),
+    }
+}
+
+/// The middle of the head (m), or of the hair where there is no head: what lamps are aimed at.
+#[must_use]
+pub fn head_centre(strands: &Strands, surface: Option<&Surface>) -> DVec3 {
+    let head = surface.and_then(|surface| {
+        let top = surface.bounds().1.z;
+        enclose(surface.positions().iter().copied().filter(|p| p.z > top - HEAD))
+    });
+    let (low, high) = head.unwrap_or_else(|| framed_bounds(strands, None));
+    0.5 * (low + high)
+}
+
+/// From the crown to below the chin (m).
+const HEAD: f64 = 0.27;
+
+/// The box around some points; `None` without points.
+fn enclose(mut points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
+    let first = points.next()?;
+    Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
+}
