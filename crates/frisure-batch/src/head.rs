@@ -5,7 +5,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use frisure::files::Files;
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Cancelled, Hairstyle, Monitor, volume};
+use frisure::hairstyle::{
+    Cancelled, Hairstyle, Monitor, StrandOptions, StyleOptions, guide_strands, settling_report,
+    strands, style, volume,
+};
 use frisure::scene::batch::{Batch, Sample, Value};
 use frisure::scene::edit::EditError;
 use frisure::scene::{Scene, SceneError};
@@ -159,7 +162,7 @@ fn styled(
     monitor: &dyn Monitor,
 ) -> Result<Hairstyle, Stop> {
     scene.steps().iter().enumerate().try_fold(start, |hair, (index, operation)| {
-        let after = hair.styled(head, operation, monitor);
+        let after = style(&hair, head, operation, StyleOptions::default(), monitor);
         after.map_err(|error| carry::not_done(index, &error, scene).into())
     })
 }
@@ -170,7 +173,7 @@ fn numbers(
     head: &Head,
     monitor: &dyn Monitor,
 ) -> Result<Measured, Stop> {
-    let report = hairstyle.report(head);
+    let report = settling_report(hairstyle, head);
     let mean = |of: &dyn Fn(usize) -> f64| {
         let count = hairstyle.guides().len();
         (0..count).map(of).sum::<f64>() / count.max(1) as f64
@@ -181,7 +184,7 @@ fn numbers(
         (rest.rod.root().position().z - rest.tip().z) / length(i)
     };
     let points = batch.points().unwrap_or(hairstyle.spec().wisps.points);
-    let lines = hairstyle.guide_strands(points);
+    let lines = guide_strands(hairstyle, points);
     Ok(Measured {
         guides: [report.guides, report.stable, report.saddles, report.not_converged],
         length: mean(&length),
@@ -197,8 +200,9 @@ fn numbers(
 
 /// The space that the hair takes, by some of its hairs.
 fn space(hairstyle: &Hairstyle, head: &Head, monitor: &dyn Monitor) -> Result<[f64; 2], Cancelled> {
-    let every = hairstyle.drawn().div_ceil(HAIRS).max(1);
-    let some = hairstyle.some_strands(head, every, monitor)?;
+    let stride = hairstyle.drawn().div_ceil(HAIRS).max(1);
+    let options = StrandOptions { stride, ..StrandOptions::default() };
+    let some = strands(hairstyle, head, options, monitor)?.strands;
     let found = volume(&some, head, hairstyle.grown());
     Ok([found.region, found.hair])
 }

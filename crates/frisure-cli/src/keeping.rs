@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use frisure::formats::kept::Kept;
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{HairModel, Hairstyle, HairstyleSpec};
+use frisure::hairstyle::{HairModel, Hairstyle, HairstyleSpec, simulation_key};
 
 use crate::console;
 use crate::failure::Failure;
@@ -51,7 +51,7 @@ pub(crate) fn open(
     progress: &Progress,
 ) -> Result<Option<Kept>, Failure> {
     let Some(path) = part.filter(|_| hairstyle.drawn() >= MANY) else { return Ok(None) };
-    let Some(key) = hairstyle.simulation_key(head) else { return Ok(None) };
+    let Some(key) = simulation_key(hairstyle, head) else { return Ok(None) };
     let kept = Kept::open(&path, key).map_err(|e| Failure::failed(&e))?;
     if kept.found() > 0 {
         let text = format!("hairs that came to rest before are taken from `{}`", path.display());

@@ -9,7 +9,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use frisure_hairstyle::Keep;
+use frisure_hairstyle::Checkpoint;
 
 use crate::digest::digest;
 use frisure_files::{ReadError, read_bytes};
@@ -81,13 +81,13 @@ impl Kept {
     }
 }
 
-impl Keep for Kept {
+impl Checkpoint for Kept {
     fn find(&self, part: usize) -> Option<&[u8]> {
         let (from, to) = (*self.found.get(part)?)?;
         self.bytes.get(from..to)
     }
 
-    fn keep(&self, part: usize, bytes: &[u8]) {
+    fn save(&self, part: usize, bytes: &[u8]) {
         let mut record = Vec::with_capacity(RECORD + bytes.len());
         record.extend((part as u32).to_le_bytes());
         record.extend((bytes.len() as u32).to_le_bytes());
@@ -153,8 +153,8 @@ mod tests {
         let path = folder.path().join("curls.hair.hairs.part");
         let kept = Kept::open(&path, 7).unwrap();
         assert_eq!(kept.found(), 0);
-        kept.keep(3, b"three");
-        kept.keep(0, b"");
+        kept.save(3, b"three");
+        kept.save(0, b"");
         drop(kept);
         let whole = std::fs::read(&path).unwrap();
         assert!(Kept::is_one(&path).unwrap());

@@ -5,7 +5,8 @@
 use divan::Bencher;
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::{
-    Effort, HairContact, HairModel, Hairs, HairstyleSpec, predict, predict_from, preset,
+    Effort, HairContact, HairModel, Hairs, HairstyleSpec, PredictOptions, Start, StrandOptions,
+    predict, preset, strands,
 };
 use frisure_rod::Resolution;
 use glam::DVec3;
@@ -46,7 +47,7 @@ const SIZES: [(usize, usize); 5] = [(100, 15), (100, 30), (200, 15), (400, 15), 
 fn cold(bencher: Bencher<'_, '_>, (guides, elements): (usize, usize), hair: HairContact) {
     let (head, mut spec) = (Head::mannequin(), spec(guides, elements));
     spec.contact.hair = hair;
-    bencher.bench(|| predict(&spec, &head, &()));
+    bencher.bench(|| predict(&spec, &head, PredictOptions::default(), &()));
 }
 
 /// Contact, and most sweeps.
@@ -60,10 +61,12 @@ fn warm(bencher: Bencher<'_, '_>, case: usize) {
     let (hair, sweeps) = WARM[case];
     let (head, mut spec) = (Head::mannequin(), spec(100, 15));
     spec.contact.hair = hair;
-    let before = predict(&spec, &head, &()).expect("a valid description");
+    let before =
+        predict(&spec, &head, PredictOptions::default(), &()).expect("a valid description");
     spec.curl.strain /= 1.02;
     let effort = Effort { sweeps, ..Effort::FULL };
-    bencher.bench(|| predict_from(&spec, &head, &before, effort, &()));
+    let options = PredictOptions { previous: Some(&before), start: Start::Previous, effort };
+    bencher.bench(|| predict(&spec, &head, options, &()));
 }
 
 /// Twenty thousand hairs of 48 points around 200 guides, each a rod of its own on the skin and between its neighbours.
@@ -84,8 +87,8 @@ fn simulated(bencher: Bencher<'_, '_>, name: &str, hairs: usize) {
     spec.wisps.hairs = Hairs::Count(hairs);
     spec.wisps.strands = HairModel::Simulated;
     spec.contact.hair = HairContact::Layers;
-    let style = predict(&spec, &head, &()).expect("a valid description");
-    bencher.bench(|| style.strands(&head, &()));
+    let style = predict(&spec, &head, PredictOptions::default(), &()).expect("a valid description");
+    bencher.bench(|| strands(&style, &head, StrandOptions::default(), &()));
 }
 
 /// The signed distance to the skin at a thousand places around a head: itself, with gradient, with Hessian.
@@ -113,6 +116,6 @@ fn distance(bencher: Bencher<'_, '_>, derivatives: usize) {
 #[divan::bench(sample_count = 5)]
 fn hairs(bencher: Bencher<'_, '_>) {
     let (head, spec) = (Head::mannequin(), spec(100, 15));
-    let style = predict(&spec, &head, &()).expect("a valid description");
-    bencher.bench(|| style.strands(&head, &()));
+    let style = predict(&spec, &head, PredictOptions::default(), &()).expect("a valid description");
+    bencher.bench(|| strands(&style, &head, StrandOptions::default(), &()));
 }

@@ -7,7 +7,9 @@ use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::styling::{
     Cut, CutLine, Grow, Growth, Height, Held, Operation, Selection, Wet,
 };
-use frisure_hairstyle::{HairContact, Hairs, Hairstyle, Place, predict, preset};
+use frisure_hairstyle::{
+    HairContact, Hairs, Hairstyle, Place, PredictOptions, StyleOptions, predict, preset, style,
+};
 use frisure_rod::Resolution;
 
 fn main() {
@@ -23,16 +25,17 @@ fn hairstyle(head: &Head, contact: HairContact) -> Hairstyle {
     spec.wisps.hairs = Hairs::Count(20_000);
     spec.contact.hair = contact;
     spec.equilibrium.resolution = Resolution::Elements(15);
-    predict(&spec, head, &()).expect("a valid description")
+    predict(&spec, head, PredictOptions::default(), &()).expect("a valid description")
 }
 
 fn styled(bencher: Bencher<'_, '_>, contact: usize, before: &[Operation], operation: &Operation) {
     let head = Head::mannequin();
     let start = hairstyle(&head, CONTACTS[contact]);
     let hair = before.iter().fold(start, |hair, operation| {
-        hair.styled(&head, operation, &()).expect("an operation that can be done")
+        style(&hair, &head, operation, StyleOptions::default(), &())
+            .expect("an operation that can be done")
     });
-    bencher.bench(|| hair.styled(&head, operation, &()));
+    bencher.bench(|| style(&hair, &head, operation, StyleOptions::default(), &()));
 }
 
 fn wetting() -> Operation {

@@ -1,6 +1,6 @@
 //! The guide of each wisp: where it is rooted, and the rod that it is.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
@@ -8,14 +8,13 @@ use rayon::prelude::*;
 
 use crate::contact::{Bed, Layer, Thickness};
 use crate::fibre::{Curl, Handedness};
-use crate::hairstyle::PredictError;
 use crate::head::{Head, Region};
 use crate::implantation::{self, Layout};
+use crate::placement::RootPlacement;
 use crate::pull::Pull;
 use crate::random::{Purpose, Stream};
-use crate::roots::{Root, Scalp};
-use crate::spec::{Hairline, HairstyleSpec};
-use crate::strands::Carried;
+use crate::roots::Root;
+use crate::spec::HairstyleSpec;
 
 /// A guide before it has come to rest.
 #[derive(Clone, Debug)]
@@ -46,113 +45,17 @@ pub struct Guide {
 /// Standard deviation (rad) of the direction about the root tangent in which curls lean.
 const ROLL: f64 = 0.4;
 
-/// Most guides on a skin (1/m²): 0.3 mm apart, some five times as many as there are hairs.
-const DENSEST: f64 = 1e7;
-
-/// More guides than the scalp has room for.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{count} wisps are too many for a scalp of {} cm²; at most {most} have room", short(*area))]
-pub struct Crowded {
-    /// How many were asked for.
-    pub count: usize,
-    /// Weighted area of the scalp (m²).
-    pub area: f64,
-    /// How many there can be.
-    pub most: usize,
-}
-
-fn short(area: f64) -> f64 {
-    (area * 1e7).round() / 1e3
-}
-
-/// Where the guides of a head are rooted.
-#[derive(Clone, Debug)]
-pub(crate) struct Planting {
-    /// What it depends on: head, seed, hairline.
-    pub(crate) of: (u64, u64, Hairline),
-    /// Weighted area of the scalp (m²).
-    pub(crate) area: f64,
-    pub(crate) roots: Vec<Root>,
-    /// Where drawn hairs are rooted, once that has been asked for; shared by all clones.
-    pub(crate) hairs: Arc<Mutex<Option<Arc<[Root]>>>>,
-    /// Hairs that have shapes of their own.
-    pub(crate) carried: Option<Arc<Carried>>,
-}
-
-impl Planting {
-    /// # Errors
-    /// [`PredictError`], if the scalp is too small.
-    pub(crate) fn new(spec: &HairstyleSpec, head: &Head) -> Result<Self, PredictError> {
-        let scalp = Scalp::grown(head, spec);
-        let (count, area) = (spec.wisps.count, scalp.area());
-        let most = (area * DENSEST) as usize;
-        if count > most {
-            return Err(Crowded { count, area, most }.into());
-        }
-        let roots = scalp.even(count, spec.seed, Purpose::GuideRoots);
-        Ok(Self { of: Self::key(spec, head), area, roots, hairs: Arc::default(), carried: None })
-    }
-
-    /// Weighted area of the scalp (m²).
-    pub(crate) fn area(&self) -> f64 {
-        self.area
-    }
-
-    /// This one, if it is that of the description, too.
-    pub(crate) fn fitting(&self, spec: &HairstyleSpec, head: &Head) -> Option<Self> {
-        let same = self.of == Self::key(spec, head) && self.roots.len() == spec.wisps.count;
-        same.then(|| self.clone())
-    }
-
-    /// Where the drawn hairs of the description are rooted, before they gather along partings.
-    pub(crate) fn hairs(&self, spec: &HairstyleSpec, head: &Head) -> Arc<[Root]> {
-        let compute = || -> Arc<[Root]> {
-            let scalp = Scalp::grown(head, spec);
-            let count = spec.wisps.hair_count(scalp.area());
-            scalp.stratified(count, spec.seed, Purpose::HairRoots).into()
-        };
-        if self.of != Self::key(spec, head) {
-            return compute();
-        }
-        let count = spec.wisps.hair_count(self.area);
-        // A poisoned lock guards a whole list all the same: it is only ever replaced.
-        let mut known = self.hairs.lock().unwrap_or_else(PoisonError::into_inner);
-        match &*known {
-            Some(roots) if roots.len() == count => roots.clone(),
-            _ => known.insert(compute()).clone(),
-        }
-    }
-
-    /// Hairs that have shapes of their own, as long as the description is that which they were made for.
-    pub(crate) fn carried(&self, spec: &HairstyleSpec, head: &Head) -> Option<&Carried> {
-        let carried = self.carried.as_deref();
-        let fits = |c: &&Carried| c.len() == spec.wisps.hair_count(self.area);
-        carried.filter(fits).filter(|_| self.of == Self::key(spec, head))
-    }
-
-    /// Where guides are rooted.
-    pub(crate) fn roots(&self) -> &[Root] {
-        &self.roots
-    }
-
-    pub(crate) fn key(spec: &HairstyleSpec, head: &Head) -> (u64, u64, Hairline) {
-        (head.fingerprint(), spec.seed, spec.implantation.hairline)
-    }
-}
-
 /// Plans the guides of a head.
 ///
 /// # Errors
-/// [`PredictError`], if length, curl or fibre cannot make a rod, or too much is drawn.
+/// [`InvalidQuantity`], if length, curl or fibre cannot make a rod.
 pub(crate) fn plan(
     spec: &HairstyleSpec,
     head: &Head,
     layout: &Layout,
-    planting: &Planting,
-) -> Result<Vec<Guide>, PredictError> {
-    let Planting { area, roots, .. } = planting;
-    let area = *area;
-    spec.wisps.check_size(area)?;
+    placement: &RootPlacement,
+) -> Result<Vec<Guide>, InvalidQuantity> {
+    let (area, roots) = (placement.area(), placement.roots());
     let heights = roots.iter().map(|r| r.position.z);
     let (low, high) =
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));

@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::monitor::Monitor;
-use crate::styling::{Operation, StyleError};
+use crate::styling::{Operation, StyleError, StyleOptions, style};
 
 /// A hairstyle and the list of what was done to it, which can be undone, done again and edited.
 ///
@@ -139,7 +139,8 @@ impl History {
         let done = done.min(self.operations.len());
         let (mut at, mut current) = self.nearest(done);
         while at < done {
-            let styled = current.styled(head, &self.operations[at], monitor);
+            let options = StyleOptions::default();
+            let styled = style(&current, head, &self.operations[at], options, monitor);
             current = Arc::new(styled.map_err(|error| HistoryError { step: at, error })?);
             self.known[at] = Some(current.clone());
             at += 1;

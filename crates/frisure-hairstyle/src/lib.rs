@@ -11,14 +11,21 @@ mod roots;
 pub mod contact;
 mod pull;
 
-mod adopted;
-mod equilibrium;
+mod bound_strands;
 mod guides;
-mod hairstyle;
+mod placement;
 mod splits;
+mod wisps;
+
+mod hairstyle;
+mod rest;
+mod wisp_state;
+
+mod adopt;
+mod equilibrium;
+mod predict;
 mod strands;
 mod volume;
-mod wisps;
 
 pub mod styling;
 
@@ -29,16 +36,16 @@ mod grid;
 mod monitor;
 mod random;
 
-pub use adopted::{Adoption, adopt};
-pub use equilibrium::{Effort, SettlingReport};
+pub use adopt::{Adoption, adopt};
+pub use equilibrium::{Effort, SettlingReport, settling_report};
 pub use fibre::{Curl, Fibre, Handedness};
-pub use guides::{Crowded, Guide};
-pub use hairstyle::{
-    Hairstyle, PredictError, predict, predict_again, predict_from, predict_roughly,
-};
+pub use guides::Guide;
+pub use hairstyle::Hairstyle;
 pub use history::{History, HistoryError};
 pub use implantation::PartingError;
 pub use monitor::{Cancelled, Monitor};
+pub use placement::Crowded;
+pub use predict::{PredictError, PredictOptions, Start, predict, redrawn};
 pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset, Wetting, preset};
 pub use pull::Pull;
 pub use random::Draws;
@@ -48,5 +55,9 @@ pub use spec::{
     Implantation, InvalidSpec, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle,
     Settling, Turn, Whorls, Wisps,
 };
-pub use strands::{Keep, Simulation, penetration};
+pub use strands::{
+    Checkpoint, DrawnHair, Simulation, StrandOptions, add_natural_strains, add_sections, describe,
+    described_guides, guide_strands, penetration, simulation_key, strands,
+};
+pub use styling::{Draft, StyleOptions, selected, style};
 pub use volume::{Volume, volume};

@@ -2,7 +2,10 @@
 
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::styling::{Dry, Operation, Wet};
-use frisure_hairstyle::{Hairs, Hairstyle, HairstyleSpec, adopt, predict, preset};
+use frisure_hairstyle::{
+    Hairs, Hairstyle, HairstyleSpec, PredictOptions, StrandOptions, StyleOptions, adopt,
+    guide_strands, predict, preset, strands, style,
+};
 use frisure_strands::Strands;
 
 /// Guides of a groom.
@@ -18,7 +21,10 @@ fn spec(name: &str) -> HairstyleSpec {
 fn modelled(name: &str, head: &Head) -> (HairstyleSpec, Strands) {
     let spec = spec(name);
     let points = 120;
-    (spec.clone(), predict(&spec, head, &()).unwrap().guide_strands(points))
+    (
+        spec.clone(),
+        guide_strands(&predict(&spec, head, PredictOptions::default(), &()).unwrap(), points),
+    )
 }
 
 fn tips(hairstyle: &Hairstyle) -> f64 {
@@ -46,11 +52,14 @@ fn an_adopted_groom_is_wetted_cut_and_dried() {
     let head = Head::mannequin();
     let (spec, groom) = modelled("caucasian-curly", &head);
     let (hairstyle, _) = adopt(&spec, &head, &groom, &Strands::new(), &()).unwrap();
-    let wet = hairstyle.styled(&head, &Operation::Wet(Wet::default()), &()).unwrap();
+    let wet =
+        style(&hairstyle, &head, &Operation::Wet(Wet::default()), StyleOptions::default(), &())
+            .unwrap();
     assert!(tips(&wet) < tips(&hairstyle) - 5e-3, "wet hair hangs lower");
-    let dry = wet.styled(&head, &Operation::Dry(Dry::default()), &()).unwrap();
+    let dry =
+        style(&wet, &head, &Operation::Dry(Dry::default()), StyleOptions::default(), &()).unwrap();
     assert!((tips(&dry) - tips(&hairstyle)).abs() < 1e-3);
-    let strands = hairstyle.strands(&head, &()).unwrap();
+    let strands = strands(&hairstyle, &head, StrandOptions::default(), &()).unwrap().strands;
     assert_eq!(strands.len(), hairstyle.drawn());
     assert!(strands.len() > 300);
 }
@@ -66,7 +75,7 @@ fn a_fringe_alone_is_a_fringe() {
     }
     assert!((2..30).contains(&fringe.len()), "{}", fringe.len());
     let (hairstyle, _) = adopt(&spec, &head, &fringe, &Strands::new(), &()).unwrap();
-    let strands = hairstyle.strands(&head, &()).unwrap();
+    let strands = strands(&hairstyle, &head, StrandOptions::default(), &()).unwrap().strands;
     assert!(strands.iter().all(|hair| hair.points[0].y < 0.03));
 }
 
@@ -99,11 +108,13 @@ fn hairs_keep_their_own_shapes() {
     let head = Head::mannequin();
     for name in ["caucasian-straight", "caucasian-curly"] {
         let spec = spec(name);
-        let predicted = predict(&spec, &head, &()).unwrap();
-        let (guides, hairs) =
-            (predicted.guide_strands(120), predicted.strands(&head, &()).unwrap());
+        let predicted = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
+        let (guides, hairs) = (
+            guide_strands(&predicted, 120),
+            strands(&predicted, &head, StrandOptions::default(), &()).unwrap().strands,
+        );
         let (hairstyle, adoption) = adopt(&spec, &head, &guides, &hairs, &()).unwrap();
-        let drawn = hairstyle.strands(&head, &()).unwrap();
+        let drawn = strands(&hairstyle, &head, StrandOptions::default(), &()).unwrap().strands;
         assert_eq!(drawn.len(), hairs.len());
         let mut apart: Vec<f32> = (0..hairs.len())
             .map(|i| off(&drawn.strand(i).points[1..], hairs.strand(i).points))
@@ -114,8 +125,10 @@ fn hairs_keep_their_own_shapes() {
         assert!(apart[held * 8 / 10] < 1e-3, "{name}: {:?}", &apart[held * 7 / 10..]);
         assert!(apart[apart.len() / 2] < 4e-4, "{name}: {}", apart[apart.len() / 2]);
 
-        let wet = hairstyle.styled(&head, &Operation::Wet(Wet::default()), &()).unwrap();
-        let wet = wet.strands(&head, &()).unwrap();
+        let wet =
+            style(&hairstyle, &head, &Operation::Wet(Wet::default()), StyleOptions::default(), &())
+                .unwrap();
+        let wet = strands(&wet, &head, StrandOptions::default(), &()).unwrap().strands;
         let low =
             |strands: &Strands| strands.iter().map(|s| s.points[s.points.len() - 1].z).sum::<f32>();
         assert!(low(&wet) < low(&drawn), "{name}: wet hair hangs lower");

@@ -3,7 +3,9 @@
 use std::sync::OnceLock;
 
 use frisure_hairstyle::head::{Head, ScalpSource};
-use frisure_hairstyle::{Body, HairContact, Hairstyle, HairstyleSpec, predict, preset};
+use frisure_hairstyle::{
+    Body, HairContact, Hairstyle, HairstyleSpec, PredictOptions, predict, preset, settling_report,
+};
 use frisure_strands::Surface;
 use glam::{DQuat, DVec3};
 
@@ -21,7 +23,7 @@ fn spec(hair: HairContact) -> HairstyleSpec {
 }
 
 fn style(hair: HairContact) -> Hairstyle {
-    predict(&spec(hair), head(), &()).unwrap()
+    predict(&spec(hair), head(), PredictOptions::default(), &()).unwrap()
 }
 
 /// Points every 2 mm along a guide, with their arc length.
@@ -52,7 +54,7 @@ fn overlap(style: &Hairstyle, share: f64) -> f64 {
 #[test]
 fn wisps_that_repel_each_other_do_not_share_a_place() {
     let (none, wisps) = (style(HairContact::None), style(HairContact::Wisps));
-    let report = wisps.report(head());
+    let report = settling_report(&wisps, head());
     assert_eq!(report.stable, 60, "{report:?}");
     assert!(report.gradient_norm <= spec(HairContact::Wisps).equilibrium.tolerance);
     assert!(report.sweeps > 0);
@@ -80,7 +82,10 @@ fn a_lower_tolerance_finds_a_lower_energy() {
     let energy = |tolerance| {
         let mut spec = spec(HairContact::Wisps);
         spec.equilibrium.tolerance = tolerance;
-        let report = predict(&spec, head(), &()).unwrap().report(head());
+        let report = settling_report(
+            &predict(&spec, head(), PredictOptions::default(), &()).unwrap(),
+            head(),
+        );
         assert!(report.gradient_norm <= tolerance, "{report:?}");
         report.energy.total()
     };
@@ -102,8 +107,8 @@ fn a_head_on_its_side_still_has_its_volume() {
     spec.wisps.count = 40;
     // A long first element would reach into the skin of this head, stiff as its natural curl.
     spec.equilibrium.resolution = frisure_rod::Resolution::Elements(60);
-    let style = predict(&spec, &tilted, &()).unwrap();
-    let report = style.report(&tilted);
+    let style = predict(&spec, &tilted, PredictOptions::default(), &()).unwrap();
+    let report = settling_report(&style, &tilted);
     assert_eq!(report.stable, 40, "{report:?}");
     assert!(report.penetration < 5e-4, "{report:?}");
     assert!(overlap(&style, 0.5) < 0.2, "{}", overlap(&style, 0.5));
@@ -115,7 +120,10 @@ fn wisps_keep_apart_without_a_body_and_on_spheres() {
         let mut spec = spec(HairContact::Wisps);
         spec.wisps.count = 30;
         spec.contact.body = body;
-        let report = predict(&spec, head(), &()).unwrap().report(head());
+        let report = settling_report(
+            &predict(&spec, head(), PredictOptions::default(), &()).unwrap(),
+            head(),
+        );
         // A crease between spheres can hold a guide that does not come to rest.
         assert!(report.stable >= 29, "{body:?}: {report:?}");
     }

@@ -7,7 +7,8 @@ use frisure_hairstyle::styling::{
     Cut, CutLine, Dry, Grow, Growth, Height, Held, Operation, Selection, StyleError, Wet,
 };
 use frisure_hairstyle::{
-    Cancelled, HairContact, Hairs, Hairstyle, History, Monitor, predict, preset,
+    Cancelled, HairContact, Hairs, Hairstyle, History, Monitor, PredictOptions, StrandOptions,
+    StyleOptions, predict, preset, strands, style,
 };
 
 static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
@@ -17,7 +18,7 @@ fn start() -> Hairstyle {
     spec.wisps.count = 20;
     spec.wisps.hairs = Hairs::Count(200);
     spec.contact.hair = HairContact::Layers;
-    predict(&spec, &HEAD, &()).unwrap()
+    predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap()
 }
 
 fn wet() -> Operation {
@@ -40,7 +41,7 @@ fn grow(by: f64) -> Operation {
 
 fn same(a: &Hairstyle, b: &Hairstyle) -> bool {
     let shapes = a.equilibria().iter().zip(b.equilibria());
-    let drawn = |h: &Hairstyle| h.strands(&HEAD, &()).unwrap();
+    let drawn = |h: &Hairstyle| strands(h, &HEAD, StrandOptions::default(), &()).unwrap().strands;
     a.wisps() == b.wisps()
         && shapes.clone().all(|(a, b)| a.shape == b.shape)
         && drawn(a) == drawn(b)
@@ -136,7 +137,7 @@ fn another_list_is_taken_over_with_what_is_known() {
     assert!(std::sync::Arc::ptr_eq(&cut_hair, history.known(2).unwrap()));
     assert_eq!((history.done(), history.operations()), (2, list.as_slice()));
     history.follow(list, 3, &HEAD, &()).unwrap();
-    let grown = cut_hair.styled(&HEAD, &grow(0.01), &()).unwrap();
+    let grown = style(&cut_hair, &HEAD, &grow(0.01), StyleOptions::default(), &()).unwrap();
     assert!(same(history.current(), &grown));
     // Of a list that cannot be done it does what it can.
     let error = history.follow(vec![wet(), grow(9.0), dry()], 3, &HEAD, &()).unwrap_err();

@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_hairstyle::head::{Head, HeadError, Region, ScalpSource};
 use frisure_hairstyle::{
-    Body, Effort, HairContact, Hairs, HairstyleSpec, Monitor, PRESETS, Parting, Place,
-    PredictError, RegionLength, RegionStyle, predict, predict_from, preset,
+    Body, Effort, HairContact, Hairs, Hairstyle, HairstyleSpec, Monitor, PRESETS, Parting, Place,
+    PredictError, PredictOptions, RegionLength, RegionStyle, Start, StrandOptions, predict, preset,
+    settling_report, strands as draw,
 };
 use frisure_strands::{AttributeValues, Strands, Surface};
 
@@ -24,7 +25,14 @@ fn small(name: &str) -> HairstyleSpec {
 }
 
 fn strands(spec: &HairstyleSpec) -> Strands {
-    predict(spec, head(), &()).unwrap().strands(head(), &()).unwrap()
+    draw(
+        &predict(spec, head(), PredictOptions::default(), &()).unwrap(),
+        head(),
+        StrandOptions::default(),
+        &(),
+    )
+    .unwrap()
+    .strands
 }
 
 #[test]
@@ -32,11 +40,11 @@ fn every_preset_comes_to_rest_and_is_drawn() {
     for p in PRESETS {
         let mut spec = small(p.name);
         (spec.wisps.count, spec.wisps.hairs) = (8, Hairs::Count(300));
-        let style = predict(&spec, head(), &()).unwrap();
-        let report = style.report(head());
+        let style = predict(&spec, head(), PredictOptions::default(), &()).unwrap();
+        let report = settling_report(&style, head());
         assert_eq!(report.stable, 8, "{}: {report:?}", p.name);
         assert!(report.penetration < 5e-4, "{}: {report:?}", p.name);
-        let strands = style.strands(head(), &()).unwrap();
+        let strands = draw(&style, head(), StrandOptions::default(), &()).unwrap().strands;
         assert_eq!(strands.len(), 300);
         assert!(strands.points().iter().all(|p| p.is_finite()));
     }
@@ -101,7 +109,10 @@ fn all_three_bodies_work() {
     for body in [Body::None, Body::Spheres, Body::SignedDistance] {
         let mut spec = small("caucasian-wavy");
         (spec.wisps.count, spec.contact.body) = (20, body);
-        let report = predict(&spec, head(), &()).unwrap().report(head());
+        let report = settling_report(
+            &predict(&spec, head(), PredictOptions::default(), &()).unwrap(),
+            head(),
+        );
         // Where two spheres meet the body has a crease, on which a guide may not come to rest.
         let least = if body == Body::Spheres { 19 } else { 20 };
         assert!(report.stable >= least, "{body:?}: {report:?}");
@@ -173,7 +184,7 @@ fn regions_have_hair_of_their_own_length() {
         length: Some(RegionLength::Mean(0.03)),
         ..RegionStyle::default()
     }];
-    let style = predict(&spec, head(), &()).unwrap();
+    let style = predict(&spec, head(), PredictOptions::default(), &()).unwrap();
     for (guide, rest) in style.guides().iter().zip(style.equilibria()) {
         let shares = head().landmarks().shares(guide.root.position);
         let back = shares[Region::Back as usize] + shares[Region::Nape as usize];
@@ -181,7 +192,7 @@ fn regions_have_hair_of_their_own_length() {
         assert_eq!(short, back > 0.5, "{:?}", guide.region);
     }
     // Drawn hairs keep to it, too: none in between.
-    for hair in style.strands(head(), &()).unwrap().iter() {
+    for hair in draw(&style, head(), StrandOptions::default(), &()).unwrap().strands.iter() {
         let shares = head().landmarks().shares(hair.points[0].as_dvec3());
         let back = shares[Region::Back as usize] + shares[Region::Nape as usize];
         let length: f32 = hair.points.windows(2).map(|p| p[0].distance(p[1])).sum();
@@ -206,10 +217,10 @@ fn unusual_scalps_have_hair_where_they_say_and_nowhere_else() {
     let places: [&dyn Fn(glam::DVec3) -> bool; 2] = [&islands, &below];
     for place in places {
         let head = bald_but(place).unwrap();
-        let style = predict(&spec, &head, &()).unwrap();
+        let style = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
         assert_eq!(style.guides().len(), 10);
         assert!(style.guides().iter().all(|g| g.root.position.is_finite()));
-        let strands = style.strands(&head, &()).unwrap();
+        let strands = draw(&style, &head, StrandOptions::default(), &()).unwrap().strands;
         let near = |root: glam::DVec3| {
             let skin = head.surface().positions().iter().zip(head.scalp());
             skin.into_iter().any(|(p, &w)| w > 0.0 && p.distance(root) < 8e-3)
@@ -224,7 +235,7 @@ fn more_wisps_than_a_scalp_has_room_for_are_refused() {
     let spot = bald_but(|p| p.z > 0.108 && p.x.abs() < 4e-3 && p.y.abs() < 4e-3).unwrap();
     let mut spec = small("caucasian-straight");
     spec.wisps.count = 20_000;
-    let refused = predict(&spec, &spot, &());
+    let refused = predict(&spec, &spot, PredictOptions::default(), &());
     assert!(matches!(refused, Err(PredictError::Crowded(_))), "{refused:?}");
 }
 
@@ -251,9 +262,14 @@ impl Monitor for StopAfter {
 fn the_work_can_be_given_up() {
     let spec = small("caucasian-straight");
     let monitor = StopAfter(AtomicUsize::new(5));
-    assert!(matches!(predict(&spec, head(), &monitor), Err(PredictError::Cancelled(_))));
-    let style = predict(&spec, head(), &()).unwrap();
-    assert!(style.strands(head(), &StopAfter(AtomicUsize::new(50))).is_err());
+    assert!(matches!(
+        predict(&spec, head(), PredictOptions::default(), &monitor),
+        Err(PredictError::Cancelled(_))
+    ));
+    let style = predict(&spec, head(), PredictOptions::default(), &()).unwrap();
+    assert!(
+        draw(&style, head(), StrandOptions::default(), &StopAfter(AtomicUsize::new(50))).is_err()
+    );
 }
 
 #[test]
@@ -269,11 +285,14 @@ fn a_head_far_from_the_origin_is_refused() {
 fn numbers_out_of_range_are_refused_by_name() {
     let mut spec = small("caucasian-straight");
     spec.wisps.count = 0;
-    let Err(PredictError::Spec(error)) = predict(&spec, head(), &()) else { panic!("zero wisps") };
+    let Err(PredictError::Spec(error)) = predict(&spec, head(), PredictOptions::default(), &())
+    else {
+        panic!("zero wisps")
+    };
     assert_eq!(error.field, "wisps.count");
     let mut spec = small("caucasian-straight");
     spec.length.mean = f64::NAN;
-    assert!(predict(&spec, head(), &()).is_err());
+    assert!(predict(&spec, head(), PredictOptions::default(), &()).is_err());
 }
 
 #[test]
@@ -282,7 +301,7 @@ fn guides_vary_in_diameter_and_axis_ratio_as_measured() {
     spec.wisps.count = 600;
     spec.length.mean = 0.005;
     let sections = |spec: &HairstyleSpec| -> Vec<(f64, f64)> {
-        let style = predict(spec, head(), &()).unwrap();
+        let style = predict(spec, head(), PredictOptions::default(), &()).unwrap();
         let section = |g: &frisure_hairstyle::Guide| g.rod.spec().section;
         style.guides().iter().map(section).map(|s| (s.mean_radius(), s.axis_ratio())).collect()
     };
@@ -313,7 +332,8 @@ fn varying_the_section_changes_neither_roots_nor_curls() {
     (spec.wisps.count, spec.implantation.baby_hairs) = (10, 0.0);
     let mut even = spec.clone();
     even.fibre.variation = 0.0;
-    let plan = |spec: &HairstyleSpec| predict(spec, head(), &()).unwrap();
+    let plan =
+        |spec: &HairstyleSpec| predict(spec, head(), PredictOptions::default(), &()).unwrap();
     let (varied, even) = (plan(&spec), plan(&even));
     for (a, b) in varied.guides().iter().zip(even.guides()) {
         assert_eq!(a.rod.root(), b.rod.root());
@@ -321,7 +341,7 @@ fn varying_the_section_changes_neither_roots_nor_curls() {
         assert_eq!(a.rod.length(), b.rod.length());
     }
     // Drawn hairs are as thick as the guide that they follow.
-    let strands = varied.strands(head(), &()).unwrap();
+    let strands = draw(&varied, head(), StrandOptions::default(), &()).unwrap().strands;
     let AttributeValues::U32(guides) = &strands.attribute("guide").unwrap().values else {
         panic!("guide is an index");
     };
@@ -342,7 +362,8 @@ fn more_hairs_than_can_be_drawn_are_refused() {
     ] {
         let mut spec = small("caucasian-straight");
         (spec.wisps.hairs, spec.wisps.points) = (hairs, points);
-        let Err(PredictError::Spec(error)) = predict(&spec, head(), &()) else {
+        let Err(PredictError::Spec(error)) = predict(&spec, head(), PredictOptions::default(), &())
+        else {
             panic!("{hairs:?}")
         };
         assert_eq!(error.field, field);
@@ -357,13 +378,18 @@ fn few(hair: HairContact) -> HairstyleSpec {
     spec
 }
 
+/// From where the guides of a hairstyle rest.
+fn warm_from(previous: &Hairstyle, effort: Effort) -> PredictOptions<'_> {
+    PredictOptions { previous: Some(previous), start: Start::Previous, effort }
+}
+
 #[test]
 fn a_warm_start_from_itself_changes_nothing() {
     for hair in [HairContact::Layers, HairContact::Wisps] {
         let spec = few(hair);
-        let style = predict(&spec, head(), &()).unwrap();
-        let again = predict_from(&spec, head(), &style, Effort::FULL, &()).unwrap();
-        let report = again.report(head());
+        let style = predict(&spec, head(), PredictOptions::default(), &()).unwrap();
+        let again = predict(&spec, head(), warm_from(&style, Effort::FULL), &()).unwrap();
+        let report = settling_report(&again, head());
         assert!(report.stable == 40 && report.iterations <= 40, "{report:?}");
         for (a, b) in style.equilibria().iter().zip(again.equilibria()) {
             for (p, q) in a.shape.positions.iter().zip(&b.shape.positions) {
@@ -376,21 +402,24 @@ fn a_warm_start_from_itself_changes_nothing() {
 #[test]
 fn a_warm_start_finds_as_low_an_energy_in_as_many_calls_as_it_takes() {
     let spec = few(HairContact::Layers);
-    let style = predict(&spec, head(), &()).unwrap();
+    let style = predict(&spec, head(), PredictOptions::default(), &()).unwrap();
     let mut changed = spec;
     changed.curl.strain *= 1.02;
-    let cold = predict(&changed, head(), &()).unwrap().report(head());
+    let cold = settling_report(
+        &predict(&changed, head(), PredictOptions::default(), &()).unwrap(),
+        head(),
+    );
     let scale = cold.energy.elastic + cold.energy.gravity.abs();
     let little = Effort { iterations: 2, sweeps: 1 };
-    let mut warm = predict_from(&changed, head(), &style, little, &()).unwrap();
-    assert!(warm.report(head()).not_converged > 0);
+    let mut warm = predict(&changed, head(), warm_from(&style, little), &()).unwrap();
+    assert!(settling_report(&warm, head()).not_converged > 0);
     for _ in 0..200 {
-        warm = predict_from(&changed, head(), &warm, little, &()).unwrap();
-        if warm.report(head()).not_converged == 0 {
+        warm = predict(&changed, head(), warm_from(&warm, little), &()).unwrap();
+        if settling_report(&warm, head()).not_converged == 0 {
             break;
         }
     }
-    let report = warm.report(head());
+    let report = settling_report(&warm, head());
     assert_eq!(report.stable, 40, "{report:?}");
     let above = (report.energy.total() - cold.energy.total()) / scale;
     assert!(above < 0.01, "{above}: {report:?} {cold:?}");

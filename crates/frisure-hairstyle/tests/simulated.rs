@@ -2,8 +2,9 @@
 
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::{
-    Body, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, Keep, Monitor, penetration,
-    predict, preset,
+    Body, Checkpoint, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, Monitor,
+    PredictOptions, StrandOptions, guide_strands, penetration, predict, preset, simulation_key,
+    strands as draw,
 };
 use frisure_rod::Resolution;
 use frisure_strands::Strands;
@@ -25,7 +26,7 @@ fn length(points: &[Vec3]) -> f64 {
 }
 
 fn strands(hairstyle: &Hairstyle, head: &Head) -> Strands {
-    hairstyle.strands(head, &()).unwrap()
+    draw(hairstyle, head, StrandOptions::default(), &()).unwrap().strands
 }
 
 /// All of them rest, none in the head, and each is as long as it grew.
@@ -33,8 +34,9 @@ fn strands(hairstyle: &Hairstyle, head: &Head) -> Strands {
 fn every_hair_rests_on_the_skin() {
     let head = Head::mannequin();
     for name in ["straight", "wavy", "curly", "frizzy"] {
-        let hairstyle = predict(&spec(name), &head, &()).unwrap();
-        let (hairs, simulation) = hairstyle.strands_and_simulation(&head, &(), None).unwrap();
+        let hairstyle = predict(&spec(name), &head, PredictOptions::default(), &()).unwrap();
+        let drawn = draw(&hairstyle, &head, StrandOptions::default(), &()).unwrap();
+        let (hairs, simulation) = (drawn.strands, drawn.simulation);
         assert_eq!((simulation.hairs, hairs.len()), (600, 600));
         assert_eq!(simulation.at_rest, 600, "{name}: {simulation:?}");
         assert!(penetration(&hairs, &head) < 1e-5, "{name}");
@@ -62,9 +64,9 @@ fn a_hair_like_its_guide_falls_as_it_does() {
     spec.contact.hair = HairContact::None;
     spec.contact.body = Body::None;
     spec.equilibrium.resolution = Resolution::Accuracy(1e-4);
-    let hairstyle = predict(&spec, &head, &()).unwrap();
+    let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
     let hairs = strands(&hairstyle, &head);
-    let guides = hairstyle.guide_strands(spec.wisps.points);
+    let guides = guide_strands(&hairstyle, spec.wisps.points);
     let Some(frisure_strands::AttributeValues::U32(of)) =
         hairs.attribute("guide").map(|a| &a.values)
     else {
@@ -91,7 +93,7 @@ fn hairs_differ_by_their_fibres() {
         let mut spec = spec("curly");
         spec.wisps.fuzziness = fuzziness;
         spec.wisps.flyaways = 0.0;
-        strands(&predict(&spec, &head, &()).unwrap(), &head)
+        strands(&predict(&spec, &head, PredictOptions::default(), &()).unwrap(), &head)
     };
     let (alike, unlike) = (of(0.0), of(1.0));
     let apart = |a: &Strands, b: &Strands| -> f64 {
@@ -109,14 +111,17 @@ fn the_same_bytes_whatever_the_number_of_threads_and_whichever_are_drawn() {
     let head = Head::mannequin();
     let mut spec = spec("curly");
     spec.wisps.hairs = Hairs::Count(1500);
-    let hairstyle = predict(&spec, &head, &()).unwrap();
+    let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| strands(&hairstyle, &head))
     };
     let (one, three) = (on(1), on(3));
     assert_eq!(one.points(), three.points());
-    let some = hairstyle.some_strands(&head, 7, &()).unwrap();
+    let some =
+        draw(&hairstyle, &head, StrandOptions { stride: 7, ..StrandOptions::default() }, &())
+            .unwrap()
+            .strands;
     for (k, hair) in some.iter().enumerate() {
         assert_eq!(hair.points, one.strand(7 * k).points);
     }
@@ -130,12 +135,12 @@ struct Kept {
     enough: usize,
 }
 
-impl Keep for Kept {
+impl Checkpoint for Kept {
     fn find(&self, part: usize) -> Option<&[u8]> {
         self.before.get(&part).map(Vec::as_slice)
     }
 
-    fn keep(&self, part: usize, bytes: &[u8]) {
+    fn save(&self, part: usize, bytes: &[u8]) {
         self.now.lock().unwrap().insert(part, bytes.to_vec());
     }
 }
@@ -148,26 +153,37 @@ impl Monitor for Kept {
     }
 }
 
+fn saved_in(checkpoint: &Kept) -> StrandOptions<'_> {
+    StrandOptions { checkpoint: Some(checkpoint), ..StrandOptions::default() }
+}
+
 #[test]
 fn work_that_was_cut_off_goes_on_to_the_same_bytes() {
     let head = Head::mannequin();
     let mut spec = spec("wavy");
     spec.wisps.hairs = Hairs::Count(5000);
-    let hairstyle = predict(&spec, &head, &()).unwrap();
-    let (whole, all) = hairstyle.strands_and_simulation(&head, &(), None).unwrap();
+    let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
+    let whole = draw(&hairstyle, &head, StrandOptions::default(), &()).unwrap();
     let cut = Kept { enough: 2, ..Kept::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let stopped = pool.install(|| hairstyle.strands_and_simulation(&head, &cut, Some(&cut)));
+    let stopped = pool.install(|| draw(&hairstyle, &head, saved_in(&cut), &cut));
     assert!(stopped.is_err());
     let before = cut.now.into_inner().unwrap();
     assert_eq!(before.len(), 2);
     let mut on = Kept { before, enough: usize::MAX, ..Kept::default() };
     // What is spoilt is done again.
     on.before.values_mut().next().unwrap().pop();
-    let (again, told) = hairstyle.strands_and_simulation(&head, &(), Some(&on)).unwrap();
+    let again = draw(&hairstyle, &head, saved_in(&on), &()).unwrap();
     assert_eq!(on.now.lock().unwrap().len(), 4);
-    assert_eq!((again.points(), told), (whole.points(), all));
-    let key = hairstyle.simulation_key(&head);
+    assert_eq!(again, whole);
+    let key = simulation_key(&hairstyle, &head);
     spec.wisps.fuzziness += 0.01;
-    assert!(key.is_some() && key != predict(&spec, &head, &()).unwrap().simulation_key(&head));
+    assert!(
+        key.is_some()
+            && key
+                != simulation_key(
+                    &predict(&spec, &head, PredictOptions::default(), &()).unwrap(),
+                    &head
+                )
+    );
 }

@@ -8,7 +8,8 @@ use frisure_hairstyle::styling::{
     Operation, Part, Release, Selection, Spot, StyleError, View, Wet,
 };
 use frisure_hairstyle::{
-    Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place, predict, preset,
+    Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place, PredictOptions,
+    StrandOptions, StyleOptions, predict, preset, selected, settling_report, strands, style,
 };
 use frisure_strands::AttributeValues;
 
@@ -23,11 +24,11 @@ fn spec(name: &str, wisps: usize, contact: HairContact) -> HairstyleSpec {
 }
 
 fn hairstyle(name: &str, wisps: usize) -> Hairstyle {
-    predict(&spec(name, wisps, HairContact::Layers), &HEAD, &()).unwrap()
+    predict(&spec(name, wisps, HairContact::Layers), &HEAD, PredictOptions::default(), &()).unwrap()
 }
 
 fn done(before: &Hairstyle, operation: &Operation) -> Hairstyle {
-    before.styled(&HEAD, operation, &()).unwrap()
+    style(&before, &HEAD, operation, StyleOptions::default(), &()).unwrap()
 }
 
 fn wet() -> Operation {
@@ -50,7 +51,7 @@ fn grow(amount: Growth) -> Operation {
 /// Whether two hairstyles are the same to the last bit.
 fn same(a: &Hairstyle, b: &Hairstyle) -> bool {
     let shapes = a.equilibria().iter().zip(b.equilibria());
-    let drawn = |h: &Hairstyle| h.strands(&HEAD, &()).unwrap();
+    let drawn = |h: &Hairstyle| strands(h, &HEAD, StrandOptions::default(), &()).unwrap().strands;
     shapes.clone().all(|(a, b)| a.shape == b.shape && a.rod == b.rod) && drawn(a) == drawn(b)
 }
 
@@ -63,7 +64,9 @@ fn farthest_tip(a: &Hairstyle, b: &Hairstyle) -> f64 {
 #[test]
 fn drying_is_the_inverse_of_wetting_to_the_last_bit() {
     for contact in [HairContact::Layers, HairContact::Wisps] {
-        let before = predict(&spec("caucasian-curly", 40, contact), &HEAD, &()).unwrap();
+        let before =
+            predict(&spec("caucasian-curly", 40, contact), &HEAD, PredictOptions::default(), &())
+                .unwrap();
         let wetted = done(&before, &wet());
         assert!(!same(&before, &wetted));
         assert!(same(&before, &done(&wetted, &dry())));
@@ -116,7 +119,13 @@ fn fully_wet_hair_has_the_numbers_of_the_paper() {
     }
     let soaked = done(&before, &Operation::Wet(Wet { water: 0.3, ..Wet::default() }));
     assert!((soaked.mass() / before.mass() - 1.3).abs() < 1e-12);
-    let wetness = |h: &Hairstyle| h.strands(&HEAD, &()).unwrap().attribute("wetness").cloned();
+    let wetness = |h: &Hairstyle| {
+        strands(h, &HEAD, StrandOptions::default(), &())
+            .unwrap()
+            .strands
+            .attribute("wetness")
+            .cloned()
+    };
     assert!(wetness(&before).is_none());
     let all_wet = AttributeValues::F32(vec![1.0; 300 * before.spec().wisps.points]);
     assert_eq!(wetness(&after).unwrap().values, all_wet);
@@ -129,9 +138,9 @@ fn the_fringe_cut_wet_springs_up_when_it_dries() {
     let places = vec![Place::Region(Region::Fringe)];
     let comb = Some(frisure_hairstyle::Comb::Forward);
     spec.regions = vec![frisure_hairstyle::RegionStyle { places, comb, ..Default::default() }];
-    let before = predict(&spec, &HEAD, &()).unwrap();
+    let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let fringe = Selection::Place(Place::Region(Region::Fringe));
-    let chosen = before.selected(&HEAD, &fringe).unwrap();
+    let chosen = selected(&before, &HEAD, &fringe).unwrap();
     let tips = |h: &Hairstyle| {
         let tips = h.equilibria().iter().zip(&chosen).filter(|(_, chosen)| **chosen);
         let (sum, count) = tips.fold((0.0, 0.0), |(s, n), (rest, _)| (s + rest.tip().z, n + 1.0));
@@ -162,7 +171,7 @@ fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
         };
         let polygon = vec![[0.0, -9.0], [9.0 * left, -9.0], [9.0 * left, 9.0], [0.0, 9.0]];
         let lasso = Selection::Lasso(Lasso { view, polygon, through });
-        hair.selected(&HEAD, &lasso).unwrap()
+        selected(&hair, &HEAD, &lasso).unwrap()
     };
     let (left, right, through) = (side(1.0, false), side(-1.0, false), side(1.0, true));
     let count = |chosen: &[bool]| chosen.iter().filter(|c| **c).count();
@@ -176,7 +185,7 @@ fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
     assert!(count(&through) > count(&left), "the head hides some");
     let brush = |spot: Spot| {
         let brush = Selection::Brush { spots: vec![spot], radius: 0.03 };
-        hair.selected(&HEAD, &brush).unwrap()
+        selected(&hair, &HEAD, &brush).unwrap()
     };
     let near = brush(Spot::At(marks.whorl + glam::DVec3::Z * 0.05));
     for (near, guide) in near.iter().zip(hair.guides()) {
@@ -185,12 +194,12 @@ fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
     }
     assert!(count(&near) > 0 && count(&brush(Spot::Tape([0.0, 0.05]))) > 0);
     let both = Selection::All(vec![Selection::Place(Place::Left), Selection::Place(Place::Right)]);
-    assert_eq!(hair.selected(&HEAD, &both), Err(StyleError::NothingSelected));
+    assert_eq!(selected(&hair, &HEAD, &both), Err(StyleError::NothingSelected));
     let all = Selection::Any(vec![
         Selection::Wisps(vec![3]),
         Selection::Not(Box::new(Selection::Wisps(vec![3]))),
     ]);
-    assert_eq!(count(&hair.selected(&HEAD, &all).unwrap()), 150);
+    assert_eq!(count(&selected(&hair, &HEAD, &all).unwrap()), 150);
 }
 
 #[test]
@@ -228,7 +237,7 @@ fn a_cut_takes_what_is_below_and_cutting_again_takes_nothing() {
     let above = Selection::Beyond { point: glam::DVec3::Z * (line + 0.01), normal: glam::DVec3::Z };
     let cut = cut_below(line, above.clone());
     let after = done(&before, &cut);
-    let chosen = before.selected(&HEAD, &above).unwrap();
+    let chosen = selected(&before, &HEAD, &above).unwrap();
     let each = before.grown() / 60.0;
     let mut removed = 0.0;
     for (i, chosen) in chosen.iter().enumerate() {
@@ -248,7 +257,14 @@ fn a_cut_takes_what_is_below_and_cutting_again_takes_nothing() {
 #[test]
 fn a_cut_above_roots_names_the_wisps() {
     let before = hairstyle("caucasian-wavy", 30);
-    let error = before.styled(&HEAD, &cut_below(0.05, Selection::Everything), &()).unwrap_err();
+    let error = style(
+        &before,
+        &HEAD,
+        &cut_below(0.05, Selection::Everything),
+        StyleOptions::default(),
+        &(),
+    )
+    .unwrap_err();
     let StyleError::AboveRoot { wisps, selected } = &error else { panic!("{error}") };
     assert_eq!(*selected, 30);
     for (i, guide) in before.guides().iter().enumerate() {
@@ -261,7 +277,7 @@ fn a_cut_above_roots_names_the_wisps() {
 fn every_hair_cut_as_it_hangs_ends_at_the_line() {
     let mut spec = spec("caucasian-straight", 120, HairContact::Layers);
     spec.curl = Curl::STRAIGHT;
-    let before = predict(&spec, &HEAD, &()).unwrap();
+    let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let line = CutLine::Plane {
         point: glam::DVec3::new(0.0, 0.0, -0.10),
         normal: glam::DVec3::new(0.3, 0.0, -1.0),
@@ -272,7 +288,10 @@ fn every_hair_cut_as_it_hangs_ends_at_the_line() {
         (p - glam::DVec3::Z * -0.1).dot(glam::DVec3::new(0.3, 0.0, -1.0).normalize())
     };
     let (mut cut, mut at_line) = (0, 0);
-    let (old, new) = (before.strands(&HEAD, &()).unwrap(), after.strands(&HEAD, &()).unwrap());
+    let (old, new) = (
+        strands(&before, &HEAD, StrandOptions::default(), &()).unwrap().strands,
+        strands(&after, &HEAD, StrandOptions::default(), &()).unwrap().strands,
+    );
     for (old, new) in old.iter().zip(new.iter()) {
         let end = |points: &[glam::Vec3]| beyond(points.last().unwrap().as_dvec3());
         if end(old.points) > 0.005 {
@@ -289,7 +308,7 @@ fn hair_that_grew_and_is_cut_back_lies_as_before() {
     let mut spec = spec("caucasian-wavy", 40, HairContact::Layers);
     spec.length.variation_between = 0.0;
     spec.length.mean = 0.12;
-    let before = predict(&spec, &HEAD, &()).unwrap();
+    let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let grown = done(&before, &grow(Growth::By(0.04)));
     assert!(farthest_tip(&before, &grown) > 0.02);
     let line = CutLine::Length(0.12);
@@ -312,7 +331,9 @@ fn hair_that_grew_and_is_cut_back_lies_as_before() {
 #[test]
 fn bad_operations_are_refused() {
     let before = hairstyle("straight", 10);
-    let refused = |operation: &Operation| before.styled(&HEAD, operation, &()).unwrap_err();
+    let refused = |operation: &Operation| {
+        style(&before, &HEAD, operation, StyleOptions::default(), &()).unwrap_err()
+    };
     let nobody = Selection::Not(Box::new(Selection::Everything));
     assert_eq!(
         refused(&Operation::Wet(Wet { selection: nobody, ..Wet::default() })),
@@ -375,13 +396,13 @@ fn combed_hair_falls_to_an_equilibrium_that_need_not_be_the_old_one() {
     };
     let held = done(&before, &comb(true));
     let free = done(&before, &comb(false));
-    let chosen = before.selected(&HEAD, &sides).unwrap();
+    let chosen = selected(&before, &HEAD, &sides).unwrap();
     let back = |h: &Hairstyle| {
         let tips = h.equilibria().iter().zip(&chosen).filter(|(_, chosen)| **chosen);
         tips.map(|(r, _)| r.tip().y).sum::<f64>()
     };
     assert!(back(&held) > back(&free) && back(&free) > back(&before));
-    let (report, fallen) = (free.report(&HEAD), farthest_tip(&before, &free));
+    let (report, fallen) = (settling_report(&free, &HEAD), farthest_tip(&before, &free));
     assert!(report.not_converged == 0 && fallen > 0.03, "{report:?} {fallen}");
     // Let go later, it falls to the same.
     let released = done(&held, &Operation::Release(Release { selection: sides.clone() }));
@@ -400,7 +421,7 @@ fn a_clip_holds_hair_where_it_is_put() {
     let clipped = done(&before, &Operation::Hold(clip));
     let distance = clipped.equilibria()[wisp].tip().distance(to);
     assert!(distance < 0.01, "{distance}");
-    assert_eq!(clipped.report(&HEAD).not_converged, 0);
+    assert_eq!(settling_report(&clipped, &HEAD).not_converged, 0);
 }
 
 #[test]
@@ -456,11 +477,13 @@ fn hair_grows_at_its_own_rate_and_the_same_in_any_number_of_stages() {
         assert!((b.length - a.length - by).abs() < 1e-12);
     }
     let (selection, amount) = (Selection::Everything, Growth::For(month));
-    let film =
-        before.stages(&HEAD, &Operation::Grow(Grow { selection, amount, stages: 4 }), &()).unwrap();
-    assert_eq!(film.len(), 4);
+    let mut film = Vec::new();
+    let options = StyleOptions { stages: Some(&mut film), ..StyleOptions::default() };
+    let in_stages = Operation::Grow(Grow { selection, amount, stages: 4 });
+    let last = style(&before, &HEAD, &in_stages, options, &()).unwrap();
+    assert_eq!(film.len(), 3);
     // But for a hair that slips from one resting place to another on its way.
-    let tips = film[3].equilibria().iter().zip(grown.equilibria());
+    let tips = last.equilibria().iter().zip(grown.equilibria());
     let differ = tips.filter(|(a, b)| a.tip().distance(b.tip()) > 1e-6).count();
     assert!(differ <= 1, "{differ}");
 }
@@ -476,7 +499,7 @@ fn hair_standing_up_grows_straight_then_buckles_at_its_own_threshold() {
     spec.implantation.jitter = 0.0;
     spec.fibre.section = frisure_rod::Section::from_diameter(80e-6, 1.0).unwrap();
     spec.fibre.variation = 0.0;
-    let mut hair = predict(&spec, &HEAD, &()).unwrap();
+    let mut hair = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let up = |i: usize| hair.guides()[i].rod.root().frame().z_axis.z;
     let top = (0..12).max_by(|&a, &b| up(a).total_cmp(&up(b))).unwrap();
     let rod = &hair.guides()[top].rod;

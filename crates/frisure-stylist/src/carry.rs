@@ -4,7 +4,8 @@ use frisure::files::Files;
 use frisure::hairstyle::head::{Head, ScalpSource};
 use frisure::hairstyle::styling::StyleError;
 use frisure::hairstyle::{
-    Adoption, Hairstyle, HairstyleSpec, HistoryError, Monitor, PredictError, adopt, predict,
+    Adoption, Hairstyle, HairstyleSpec, HistoryError, Monitor, PredictError, PredictOptions, adopt,
+    predict,
 };
 use frisure::scene::{Scene, SceneError};
 use frisure::strands::Strands;
@@ -35,7 +36,8 @@ pub fn beginning(
     monitor: &dyn Monitor,
 ) -> Result<(Hairstyle, Option<Adoption>), Option<SceneError>> {
     let Some(groom) = scene.groom_in(files)? else {
-        let predicted = predict(spec, head, monitor).map_err(|e| not_predicted(&e, scene))?;
+        let predicted = predict(spec, head, PredictOptions::default(), monitor)
+            .map_err(|e| not_predicted(&e, scene))?;
         return Ok((predicted, None));
     };
     let most = scene.groom.as_ref().map_or(usize::MAX, |file| file.guides);
@@ -146,7 +148,7 @@ pub fn not_predicted(error: &PredictError, scene: &Scene) -> Option<SceneError> 
 #[must_use]
 pub fn not_done(step: usize, error: &StyleError, scene: &Scene) -> Option<SceneError> {
     match error {
-        StyleError::Cancelled(_) | StyleError::Predict(PredictError::Cancelled(_)) => None,
+        StyleError::Cancelled(_) => None,
         error => Some(scene.step_fault(step, error)),
     }
 }

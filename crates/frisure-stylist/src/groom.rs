@@ -1,8 +1,8 @@
 //! A hairstyle as a groom for other programs.
 
 use frisure::formats::groom::{Groom, HairColour};
-use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
+use frisure::hairstyle::{self, Hairstyle};
 use frisure::look::apparent_colour;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
@@ -20,15 +20,15 @@ pub fn groom(
     fibres: bool,
 ) -> Groom {
     if !hairs.is_empty() {
-        hairstyle.describe(&mut hairs, head);
+        hairstyle::describe(&mut hairs, hairstyle, head);
     }
     if fibres {
         if hairs.attribute("d1").is_none() {
-            hairstyle.add_sections(&mut hairs, head);
+            hairstyle::add_sections(&mut hairs, hairstyle, head);
         }
-        hairstyle.add_natural_strains(&mut hairs);
+        hairstyle::add_natural_strains(&mut hairs, hairstyle);
     }
-    let guides = hairstyle.described_guides(head, hairstyle.spec().wisps.points);
+    let guides = hairstyle::described_guides(hairstyle, head, hairstyle.spec().wisps.points);
     let head = Some(head.surface().clone());
     let (name, colour) = (name(scene), Some(colour(scene)));
     Groom { name, hairs, guides, head, colour }

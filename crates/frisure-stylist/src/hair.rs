@@ -11,7 +11,8 @@ use frisure::files::{Files, Stamp};
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::Operation;
 use frisure::hairstyle::{
-    Effort, Hairstyle, HairstyleSpec, History, Monitor, predict_again, predict_roughly,
+    self, Effort, Hairstyle, HairstyleSpec, History, Monitor, PredictOptions, Start, StyleOptions,
+    predict, style,
 };
 use frisure::scene::{GroomFile, Scene};
 
@@ -131,7 +132,8 @@ impl Hair {
             }
             None => {
                 let before = self.draft.as_ref().map(|draft| &*draft.start);
-                predict_again(&wanted.spec, wanted.head, before, monitor)
+                let options = PredictOptions { previous: before, ..PredictOptions::default() };
+                predict(&wanted.spec, wanted.head, options, monitor)
                     .map_err(|e| stopped(carry::not_predicted(&e, wanted.scene)))?
             }
         };
@@ -150,7 +152,7 @@ impl Hair {
         }
         let same_head = |known: &&Exact| Arc::ptr_eq(&known.head, wanted.head);
         let mut known = self.exact.iter().rev().filter(same_head);
-        known.find_map(|known| known.history.start().redrawn(&wanted.spec))
+        known.find_map(|known| hairstyle::redrawn(known.history.start(), &wanted.spec))
     }
 
     /// The hairstyle for the eye, in little time; at rest if it is known so.
@@ -188,7 +190,8 @@ impl Hair {
             None => {
                 let before = self.draft.as_ref().map(|draft| &*draft.start);
                 let effort = effort(steps, 0, wanted);
-                predict_roughly(&wanted.spec, wanted.head, before, effort, monitor)
+                let options = PredictOptions { previous: before, start: Start::Previous, effort };
+                predict(&wanted.spec, wanted.head, options, monitor)
                     .map_err(|e| stopped(carry::not_predicted(&e, wanted.scene)))?
             }
         };
@@ -207,9 +210,12 @@ impl Hair {
         let like = self.draft.as_ref().and_then(|before| before.after(index, &steps[index]));
         let done = if like.is_some() { index + 1 } else { steps.len() };
         let effort = effort(steps, done, wanted);
-        let every = shown::every(draft.last(), order::Effort::Coarse);
-        let styled =
-            draft.last().styled_roughly(wanted.head, &steps[index], like, (effort, every), monitor);
+        let stride = shown::every(draft.last(), order::Effort::Coarse);
+        let options = StyleOptions {
+            draft: Some(hairstyle::Draft { effort, stride, like }),
+            ..StyleOptions::default()
+        };
+        let styled = style(draft.last(), wanted.head, &steps[index], options, monitor);
         styled.map(Arc::new).map_err(|e| stopped(carry::not_done(index, &e, wanted.scene)))
     }
 }

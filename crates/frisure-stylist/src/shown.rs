@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Cancelled, Hairstyle, Monitor};
+use frisure::hairstyle::{Cancelled, Hairstyle, Monitor, StrandOptions, settling_report, strands};
 use frisure::rod::Stability;
 use frisure::scene::Scene;
 use frisure::strands::{AttributeValues, Strands};
@@ -48,7 +48,8 @@ impl Drawn {
         {
             return Ok(strands.clone());
         }
-        let strands = Arc::new(hairstyle.some_strands(head, every, monitor)?);
+        let options = StrandOptions { stride: every, ..StrandOptions::default() };
+        let strands = Arc::new(strands(hairstyle, head, options, monitor)?.strands);
         self.last = Some((hairstyle.clone(), every, strands.clone()));
         Ok(strands)
     }
@@ -103,7 +104,7 @@ pub(crate) fn head_data(head: &Head, note: Option<&String>) -> HeadData {
 }
 
 fn numbers(hairstyle: &Hairstyle, head: &Head, drawn: usize) -> Numbers {
-    let settling = hairstyle.report(head);
+    let settling = settling_report(hairstyle, head);
     let count = settling.guides.max(1) as f64;
     let mean = |sum: f64| sum / count;
     Numbers {
@@ -167,7 +168,7 @@ pub(crate) fn file_name(scene: &Scene, extension: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use frisure::hairstyle::predict;
+    use frisure::hairstyle::{PredictOptions, predict};
 
     use super::*;
 
@@ -175,7 +176,13 @@ mod tests {
     fn a_million_hairs_are_not_more_than_can_be_shown() {
         let text = "[hair]\nlength = '5 cm'\n[wisps]\ncount = 4\nhairs = 1_000_000\npoints = 32";
         let scene = Scene::parse("a", text, "".as_ref()).unwrap();
-        let hair = predict(&scene.hairstyle_spec().unwrap(), &Head::mannequin(), &()).unwrap();
+        let hair = predict(
+            &scene.hairstyle_spec().unwrap(),
+            &Head::mannequin(),
+            PredictOptions::default(),
+            &(),
+        )
+        .unwrap();
         assert_eq!(hair.drawn(), 1_000_000);
         assert_eq!(every(&hair, Effort::Exact), 2);
         assert!(every(&hair, Effort::Coarse) > 2);

@@ -9,8 +9,8 @@ use frisure::files::Files;
 use frisure::files::frame::FrameChoice;
 use frisure::formats::contents;
 use frisure::formats::groom::{self, Format};
-use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
+use frisure::hairstyle::{Hairstyle, add_sections, selected};
 use frisure::scene::{Scene, parse_step};
 use frisure::strands::Strands;
 use web_time::Instant;
@@ -124,7 +124,7 @@ impl Stylist {
         let chosen = match operation.selection() {
             None => vec![true; hairstyle.guides().len()],
             Some(selection) => {
-                hairstyle.selected(&head, selection).map_err(|e| Refusal::of(&e, ""))?
+                selected(&hairstyle, &head, selection).map_err(|e| Refusal::of(&e, ""))?
             }
         };
         Ok(Answer::Chosen(chosen))
@@ -169,7 +169,7 @@ impl Stylist {
         let options = quality.options(&read.scene)?;
         let environment = picture::environment(&read.scene, &self.files)?;
         let mut strands = Strands::clone(&*self.all_strands(&read, watch)?);
-        read.hairstyle.add_sections(&mut strands, &read.head);
+        add_sections(&mut strands, &read.hairstyle, &read.head);
         let bytes = Subject {
             scene: &read.scene,
             strands: &strands,

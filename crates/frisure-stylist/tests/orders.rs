@@ -78,9 +78,10 @@ fn a_groom_is_what_the_command_line_writes() {
         let path = folder.path().join(&name);
         let scene = frisure::scene::Scene::parse("s", CURLY, "".as_ref()).unwrap();
         let head = frisure::hairstyle::head::Head::mannequin();
-        let hair =
-            frisure::hairstyle::predict(&scene.hairstyle_spec().unwrap(), &head, &()).unwrap();
-        let strands = hair.strands(&head, &()).unwrap();
+        use frisure::hairstyle::{PredictOptions, StrandOptions, predict, strands};
+        let hair = predict(&scene.hairstyle_spec().unwrap(), &head, PredictOptions::default(), &())
+            .unwrap();
+        let strands = strands(&hair, &head, StrandOptions::default(), &()).unwrap().strands;
         let groom = frisure_stylist::groom::groom(&scene, &hair, &head, strands, false);
         frisure::formats::groom::write_groom(&path, &groom, Default::default()).unwrap();
         assert_eq!(std::fs::read(path).unwrap(), bytes);

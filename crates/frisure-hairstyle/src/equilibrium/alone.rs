@@ -200,7 +200,7 @@ fn settle_one_from(
 }
 
 /// Guides in the shapes of those before them.
-pub(super) fn carried(
+pub(super) fn in_shapes_of(
     spec: &HairstyleSpec,
     guides: &[Guide],
     before: &[Equilibrium],

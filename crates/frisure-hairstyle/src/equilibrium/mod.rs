@@ -5,7 +5,7 @@ mod report;
 mod together;
 mod wisp;
 
-pub use report::SettlingReport;
+pub use report::{SettlingReport, settling_report};
 
 use frisure_rod::potential::{Field, FieldPotential};
 use frisure_rod::{Equilibrium, Options, Resolution, Rod};
@@ -16,36 +16,10 @@ use crate::guides::Guide;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor};
 use crate::pull::Pull;
+use crate::rest::Rest;
 use crate::spec::{HairContact, HairstyleSpec};
 
-/// Guides at rest.
-#[derive(Clone, Debug)]
-pub(crate) struct Rest {
-    pub(crate) guides: Vec<Equilibrium>,
-    /// Energy of wisps that overlap (J), each pair counted once.
-    pub(crate) crowding: f64,
-    /// Sweeps over the guides.
-    pub(crate) sweeps: usize,
-}
-
-/// Brings every guide to rest.
-///
-/// # Errors
-/// [`Cancelled`], if the monitor says so.
-pub(crate) fn settle(
-    spec: &HairstyleSpec,
-    head: &Head,
-    guides: &[Guide],
-    monitor: &dyn Monitor,
-) -> Result<Rest, Cancelled> {
-    let alone = alone::settle(spec, head, guides, monitor)?;
-    if spec.contact.hair == HairContact::Wisps {
-        return together::settle(spec, head, guides, &alone, monitor);
-    }
-    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
-}
-
-/// How much work a warm start may do: what does not fit is left for the next one.
+/// How much work is done at most; what does not fit is left for the next call, which starts warm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     /// Most iterations of each guide on its own.
@@ -55,10 +29,10 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// As much as [`crate::predict`] would do.
+    /// Until everything is at rest.
     pub const FULL: Self = Self { iterations: alone::MAX_ITERATIONS, sweeps: together::MOST_STEPS };
 
-    /// Nothing at all: guides are in the shapes that they start from.
+    /// Guides stay in the shapes that they start from; without any they come to rest alone.
     pub const NONE: Self = Self { iterations: 0, sweeps: 0 };
 }
 
@@ -68,54 +42,62 @@ impl Default for Effort {
     }
 }
 
-/// Brings every guide to rest from where the guide of the same index rested before.
+/// How [`settle`] works.
+pub(crate) struct SettleOptions<'a> {
+    /// Where guides start from.
+    pub(crate) start: GuideStart<'a>,
+    /// How much work is done at most.
+    pub(crate) effort: Effort,
+}
+
+/// Where each guide starts from.
+pub(crate) enum GuideStart<'a> {
+    /// From its natural shape, while gravity is turned on.
+    Natural,
+    /// From where the guide of the same index rested before.
+    At(&'a [Equilibrium]),
+    /// From where it rested before, by what was done to it since.
+    Changed {
+        /// How guides rested before.
+        before: &'a [Equilibrium],
+        /// What was done to each.
+        changes: &'a [Change],
+    },
+}
+
+/// Brings every guide to rest: first each alone on the body, then, if wisps repel each other, all together.
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
-pub(crate) fn settle_from(
+pub(crate) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    before: &[Equilibrium],
-    effort: Effort,
+    SettleOptions { start, effort }: SettleOptions<'_>,
     monitor: &dyn Monitor,
 ) -> Result<Rest, Cancelled> {
-    if effort == Effort::NONE || spec.contact.hair == HairContact::Wisps {
-        let start = alone::carried(spec, guides, before);
-        return among(spec, head, guides, start, effort, monitor);
+    let wisps_repel = spec.contact.hair == HairContact::Wisps;
+    let warm = matches!(start, GuideStart::At(_));
+    let alone = match start {
+        GuideStart::Natural => alone::settle(spec, head, guides, monitor)?,
+        // Among wisps the guides go on from where the other wisps left them.
+        GuideStart::At(before) if effort == Effort::NONE || wisps_repel => {
+            alone::in_shapes_of(spec, guides, before)
+        }
+        GuideStart::At(before) => {
+            alone::settle_from(spec, head, guides, before, effort.iterations, monitor)?
+        }
+        GuideStart::Changed { before, changes } => {
+            alone::resettle(spec, head, guides, (before, changes), effort.iterations, monitor)?
+        }
+    };
+    if !wisps_repel || effort.sweeps == 0 {
+        return Ok(Rest::apart(alone));
     }
-    let alone = alone::settle_from(spec, head, guides, before, effort.iterations, monitor)?;
-    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
-}
-
-/// Brings every guide to rest alone, and then does no more than `effort`.
-///
-/// # Errors
-/// [`Cancelled`], if the monitor says so.
-pub(crate) fn settle_roughly(
-    spec: &HairstyleSpec,
-    head: &Head,
-    guides: &[Guide],
-    effort: Effort,
-    monitor: &dyn Monitor,
-) -> Result<Rest, Cancelled> {
-    let alone = alone::settle(spec, head, guides, monitor)?;
-    among(spec, head, guides, alone, effort, monitor)
-}
-
-/// Wisps make way for each other, where they do, in no more than `effort`.
-fn among(
-    spec: &HairstyleSpec,
-    head: &Head,
-    guides: &[Guide],
-    alone: Vec<Equilibrium>,
-    effort: Effort,
-    monitor: &dyn Monitor,
-) -> Result<Rest, Cancelled> {
-    if spec.contact.hair == HairContact::Wisps && effort.sweeps > 0 {
-        return together::go_on(spec, head, guides, &alone, effort.sweeps, monitor);
+    if effort == Effort::FULL && !warm {
+        return together::settle(spec, head, guides, &alone, monitor);
     }
-    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
+    together::go_on(spec, head, guides, &alone, effort.sweeps, monitor)
 }
 
 /// Accuracy (m) with which the fibre of a groom is sought.
@@ -163,42 +145,6 @@ pub(crate) enum Change {
     Moulded,
     /// What pulled at it lets go, gently.
     LetGo(Pull),
-}
-
-/// Brings guides to rest again after something was done to some of them.
-///
-/// # Errors
-/// [`Cancelled`], if the monitor says so.
-pub(crate) fn resettle(
-    spec: &HairstyleSpec,
-    head: &Head,
-    guides: &[Guide],
-    (before, changes): (&[Equilibrium], &[Change]),
-    monitor: &dyn Monitor,
-) -> Result<Rest, Cancelled> {
-    let most = Effort::FULL.iterations;
-    let alone = alone::resettle(spec, head, guides, (before, changes), most, monitor)?;
-    if spec.contact.hair == HairContact::Wisps {
-        return together::settle(spec, head, guides, &alone, monitor);
-    }
-    Ok(Rest { guides: alone, crowding: 0.0, sweeps: 0 })
-}
-
-/// As [`resettle`], doing no more than `effort`.
-///
-/// # Errors
-/// [`Cancelled`], if the monitor says so.
-pub(crate) fn resettle_roughly(
-    spec: &HairstyleSpec,
-    head: &Head,
-    guides: &[Guide],
-    (before, changes): (&[Equilibrium], &[Change]),
-    effort: Effort,
-    monitor: &dyn Monitor,
-) -> Result<Rest, Cancelled> {
-    let most = effort.iterations;
-    let alone = alone::resettle(spec, head, guides, (before, changes), most, monitor)?;
-    among(spec, head, guides, alone, effort, monitor)
 }
 
 /// Largest distance (m) between the points at which a guide feels the body …

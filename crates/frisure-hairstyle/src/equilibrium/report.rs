@@ -3,9 +3,10 @@
 use frisure_rod::Stability;
 use rayon::prelude::*;
 
-use super::Rest;
 use super::alone::depth;
+use crate::hairstyle::Hairstyle;
 use crate::head::Head;
+use crate::rest::Rest;
 
 /// How a set of guides came to rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,28 +33,28 @@ pub struct SettlingReport {
     pub energy: frisure_rod::Energy,
 }
 
-impl SettlingReport {
-    pub(crate) fn new(head: &Head, rest: &Rest) -> Self {
-        let guides = &rest.guides;
-        let mut report = Self { guides: guides.len(), sweeps: rest.sweeps, ..Self::default() };
-        for guide in guides {
-            let c = &guide.certificate;
-            match c.stability {
-                Stability::Stable => report.stable += 1,
-                Stability::Saddle => report.saddles += 1,
-                Stability::NotConverged => report.not_converged += 1,
-            }
-            report.iterations += c.iterations;
-            report.elements += guide.elements;
-            report.gradient_norm = report.gradient_norm.max(c.gradient_norm);
-            report.energy.elastic += guide.energy.elastic;
-            report.energy.gravity += guide.energy.gravity;
-            report.energy.external += guide.energy.external;
+/// Reports how the guides of a hairstyle came to rest on its head.
+#[must_use]
+pub fn settling_report(hairstyle: &Hairstyle, head: &Head) -> SettlingReport {
+    let Rest { guides, overlap_energy, sweeps } = &hairstyle.rest;
+    let mut report =
+        SettlingReport { guides: guides.len(), sweeps: *sweeps, ..SettlingReport::default() };
+    for guide in guides {
+        let c = &guide.certificate;
+        match c.stability {
+            Stability::Stable => report.stable += 1,
+            Stability::Saddle => report.saddles += 1,
+            Stability::NotConverged => report.not_converged += 1,
         }
-        // Each guide counts what it shares with the others in full.
-        report.energy.external -= rest.crowding;
-        report.penetration =
-            guides.par_iter().map(|guide| depth(head, guide)).reduce(|| 0.0, f64::max);
-        report
+        report.iterations += c.iterations;
+        report.elements += guide.elements;
+        report.gradient_norm = report.gradient_norm.max(c.gradient_norm);
+        report.energy.elastic += guide.energy.elastic;
+        report.energy.gravity += guide.energy.gravity;
+        report.energy.external += guide.energy.external;
     }
+    // Each guide counts the energy that it shares with other wisps in full.
+    report.energy.external -= overlap_energy;
+    report.penetration = guides.par_iter().map(|guide| depth(head, guide)).reduce(|| 0.0, f64::max);
+    report
 }

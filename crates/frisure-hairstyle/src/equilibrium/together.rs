@@ -13,12 +13,13 @@ use frisure_rod::minimise::NewtonStep;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::body;
 use super::wisp::{Settled, Wisp};
-use super::{Rest, body};
 use crate::contact::{Crowd, Layer};
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor, Stage};
+use crate::rest::Rest;
 use crate::spec::HairstyleSpec;
 
 /// Most sweeps of one guide after the other; they end when half of the guides move less than …
@@ -319,15 +320,16 @@ impl Throng<'_> {
         let count = self.wisps.len();
         self.crowd.look_around(&vec![0.0; count], &vec![true; count]);
         let crowd = &self.crowd;
-        let crowding =
-            self.wisps.iter().enumerate().map(|(i, w)| w.crowding(crowd, i)).sum::<f64>() * 0.5;
+        let overlap_energy =
+            self.wisps.iter().enumerate().map(|(i, w)| w.overlap_energy(crowd, i)).sum::<f64>()
+                * 0.5;
         let guides = self
             .wisps
             .par_iter()
             .enumerate()
             .map(|(i, w)| w.equilibrium(crowd, i, self.tolerance))
             .collect();
-        Rest { guides, crowding, sweeps }
+        Rest { guides, overlap_energy, sweeps }
     }
 }
 

@@ -171,7 +171,7 @@ impl<'a> Wisp<'a> {
     }
 
     /// Energy of overlapping others (J).
-    pub(super) fn crowding(&self, crowd: &Crowd, index: usize) -> f64 {
+    pub(super) fn overlap_energy(&self, crowd: &Crowd, index: usize) -> f64 {
         let around = crowd.around(index);
         self.chain.energy(&self.settled.shape, &FieldPotential::new(&around, self.resolution))
     }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::carried::{Carried, Own};
 use super::population::Population;
+use crate::bound_strands::{BoundStrand, BoundStrands};
 use crate::implantation::smooth;
 use crate::random::Stream;
 use crate::roots::Root;
@@ -74,7 +74,7 @@ pub(super) struct Course<'a> {
     /// that far out.
     pub(super) narrow: f64,
     /// Its own shape, if it is a groom's.
-    pub(super) own: Option<Own>,
+    pub(super) own: Option<BoundStrand>,
 }
 
 impl Course<'_> {
@@ -92,7 +92,7 @@ impl Course<'_> {
 impl Population<'_> {
     /// Point of a hair at `x` of its guides' length.
     pub(super) fn followed_point(&self, course: &Course<'_>, x: f64) -> DVec3 {
-        if let (Some(own), Some(carried)) = (&course.own, self.carried) {
+        if let (Some(own), Some(carried)) = (&course.own, self.bound) {
             return self.carried_point(course, own, carried, x);
         }
         let Course { root, followed, character, split, length, planned, uncut, narrow, .. } =
@@ -123,7 +123,13 @@ impl Population<'_> {
     ///
     /// What a hair is away from a guide is known as far as the guide was and still is; from there on it goes
     /// straight on. What has grown since stays as far away as the tip is.
-    fn carried_point(&self, course: &Course<'_>, own: &Own, carried: &Carried, x: f64) -> DVec3 {
+    fn carried_point(
+        &self,
+        course: &Course<'_>,
+        own: &BoundStrand,
+        carried: &BoundStrands,
+        x: f64,
+    ) -> DVec3 {
         let dry = x / course.end.max(1e-12) * course.dry;
         let (s, grown) = (dry.min(own.length()), (dry - own.length()).max(0.0));
         let at = own.at(s);

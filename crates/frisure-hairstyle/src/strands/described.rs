@@ -2,18 +2,27 @@
 //! fibre it is.
 
 use frisure_rod::Equilibrium;
-use frisure_strands::{Attribute, AttributeValues, Domain, Strands, names};
+use frisure_strands::{AttributeValues, Domain, Strands, names};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
+use super::attributes::put;
 use super::population::{Population, roots};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::{Head, Landmarks, Region};
 
-/// Adds to all drawn hairs of a hairstyle which guides they follow and where they are rooted.
-pub(crate) fn describe_hairs(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
+/// Adds to all drawn hairs of a hairstyle what programs that groom want to know: `closest_guides`,
+/// `guide_weights`, `id`, `group` and `root_uv`, as [`names`] has them.
+///
+/// The texture coordinates of roots are a map of the head from above (azimuthal equidistant): (½, ½) is above
+/// the middle of the cranium, u grows to the head's left, v to the back, and the distance from the middle is
+/// the angle from the vertical over 2π.
+///
+/// # Panics
+/// If they have been added before, or these are not all drawn hairs.
+pub fn describe(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
     let population = Population::new(hairstyle, head);
     let marks = head.landmarks();
     let roots = roots(hairstyle, head, 1);
@@ -31,9 +40,12 @@ pub(crate) fn describe_hairs(strands: &mut Strands, hairstyle: &Hairstyle, head:
     put(strands, Domain::Strand, names::ROOT_UV, AttributeValues::F32x2(uvs));
 }
 
-/// Adds the natural strains of the hairs: those of the guide that each follows, at the same distance
-/// from the root.
-pub(crate) fn add_natural_strains(strands: &mut Strands, hairstyle: &Hairstyle) {
+/// Adds to drawn hairs the natural strains (rad/m) of the guides that they follow, `natural_strain`, each at
+/// the same distance from the root.
+///
+/// # Panics
+/// If they have been added before.
+pub fn add_natural_strains(strands: &mut Strands, hairstyle: &Hairstyle) {
     let Some(AttributeValues::U32(guides)) = strands.attribute(names::GUIDE).map(|a| &a.values)
     else {
         return;
@@ -51,9 +63,26 @@ pub(crate) fn add_natural_strains(strands: &mut Strands, hairstyle: &Hairstyle) 
     put(strands, Domain::Point, names::NATURAL_STRAIN, values);
 }
 
-/// The guides at rest as strands of `points` points, with all that is known of them.
-pub(crate) fn described_guides(hairstyle: &Hairstyle, head: &Head, points: usize) -> Strands {
-    let mut strands = hairstyle.guide_strands(points);
+/// The guides as strands of `points` points, at least 2, with the attribute `guide`.
+#[must_use]
+pub fn guide_strands(hairstyle: &Hairstyle, points: usize) -> Strands {
+    let guides = &hairstyle.rest.guides;
+    let mut strands = Strands::new();
+    for guide in guides {
+        let radii = vec![guide.rod.spec().section.mean_radius() as f32; points.max(2)];
+        let line: Vec<_> = guide.centre_line(points).iter().map(|p| p.as_vec3()).collect();
+        strands.push(&line, &radii);
+    }
+    let values = AttributeValues::U32((0..guides.len() as u32).collect());
+    put(&mut strands, Domain::Strand, names::GUIDE, values);
+    strands
+}
+
+/// The guides as strands of `points` points, at least 2, with `id`, `group`, `root_uv`, `axis_ratio`, `d1`,
+/// `natural_strain`, and `wetness` if any is wet.
+#[must_use]
+pub fn described_guides(hairstyle: &Hairstyle, head: &Head, points: usize) -> Strands {
+    let mut strands = guide_strands(hairstyle, points);
     let Hairstyle { guides, rest, .. } = hairstyle;
     let marks = head.landmarks();
     let of = |f: &dyn Fn(&Guide) -> u32| AttributeValues::U32(guides.iter().map(f).collect());
@@ -119,29 +148,25 @@ fn root_uv(marks: &Landmarks, p: DVec3) -> [f32; 2] {
     [(0.5 + radius * x) as f32, (0.5 + radius * y) as f32]
 }
 
-fn put(strands: &mut Strands, domain: Domain, name: &str, values: AttributeValues) {
-    let attribute = Attribute { name: name.into(), domain, values };
-    strands.set_attribute(attribute).expect("one value each, set once");
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Hairs, PRESETS, predict};
+    use crate::{Hairs, PRESETS, PredictOptions, StrandOptions, predict, strands};
 
     fn small() -> (Hairstyle, Head) {
         let mut spec = PRESETS[0].spec();
         spec.wisps.count = 24;
         spec.wisps.hairs = Hairs::Count(300);
         let head = Head::mannequin();
-        (predict(&spec, &head, &()).unwrap(), head)
+        (predict(&spec, &head, PredictOptions::default(), &()).unwrap(), head)
     }
 
     #[test]
     fn weights_are_shares() {
         let (hairstyle, head) = small();
-        let mut strands = hairstyle.strands(&head, &()).unwrap();
-        hairstyle.describe(&mut strands, &head);
+        let drawn = strands(&hairstyle, &head, StrandOptions::default(), &());
+        let mut strands = drawn.unwrap().strands;
+        describe(&mut strands, &hairstyle, &head);
         let values = |name: &str| &strands.attribute(name).unwrap().values;
         let AttributeValues::F32x3(weights) = values(names::GUIDE_WEIGHTS) else { panic!() };
         let AttributeValues::U32x3(closest) = values(names::CLOSEST_GUIDES) else { panic!() };
@@ -166,7 +191,7 @@ mod tests {
     #[test]
     fn guides_know_their_fibre() {
         let (hairstyle, head) = small();
-        let guides = hairstyle.described_guides(&head, 257);
+        let guides = described_guides(&hairstyle, &head, 257);
         let d1 = guides.attribute(names::DIRECTOR).unwrap();
         let AttributeValues::F32x3(d1) = &d1.values else { panic!() };
         for (i, strand) in guides.iter().enumerate() {

@@ -6,14 +6,14 @@
 //! ones, neighbouring wisps blend where hair is a smooth mass, every hair is rooted in the skin where
 //! its root is, and hairs that would lie in the body are laid on it, in the order in which they lay.
 
-mod carried;
+mod attributes;
 mod course;
 mod described;
 mod population;
 mod simulated;
 mod skin;
 
-use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
+use frisure_strands::{AttributeValues, Domain, Strands, names};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -24,33 +24,58 @@ use crate::implantation::smooth;
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::{HairModel, HairstyleSpec};
 
-pub(crate) use carried::Carried;
-pub(crate) use described::{add_natural_strains, describe_hairs, described_guides};
+use attributes::put;
+pub use described::{add_natural_strains, describe, described_guides, guide_strands};
 use population::Hair;
 pub(crate) use population::{Population, roots};
 use simulated::Simulated;
-pub use simulated::{Keep, Simulation};
+pub use simulated::{Checkpoint, Simulation};
 
 /// Radius at the tip, as a fraction of the fibre's.
 const TIP: f64 = 0.35;
 
-/// Draws every so manyth hair of a head, the first among them; parts of simulated hairs can be kept.
+/// How [`strands`] draws. The default draws every hair.
+#[derive(Clone, Copy)]
+pub struct StrandOptions<'a> {
+    /// Draws the first hair and every `stride`-th after it, each the same to the last bit as among all: for
+    /// a view that has to be quick. 0 counts as 1.
+    pub stride: usize,
+    /// Where simulated hairs are saved part by part as they come to rest, and found again; it has to be of
+    /// the same [`simulation_key`] and the same stride.
+    pub checkpoint: Option<&'a dyn Checkpoint>,
+}
+
+impl Default for StrandOptions<'_> {
+    fn default() -> Self {
+        Self { stride: 1, checkpoint: None }
+    }
+}
+
+/// The drawn hairs of a head.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnHair {
+    /// The hairs, with the attribute `guide`, the nearest guide of each, and `wetness` if any is wet.
+    pub strands: Strands,
+    /// How hairs that are rods came to rest ([`HairModel::Simulated`]; zeros for others).
+    pub simulation: Simulation,
+}
+
+/// Draws the hairs around the guides of a hairstyle.
 ///
 /// # Errors
-/// [`Cancelled`], if the monitor says so.
-pub(crate) fn draw(
+/// [`Cancelled`], if the work is cancelled.
+pub fn strands(
     hairstyle: &Hairstyle,
     head: &Head,
-    every: usize,
+    options: StrandOptions<'_>,
     monitor: &dyn Monitor,
-    keep: Option<&dyn Keep>,
-) -> Result<(Strands, Simulation), Cancelled> {
+) -> Result<DrawnHair, Cancelled> {
     let population = Population::new(hairstyle, head);
-    let roots = roots(hairstyle, head, every);
+    let roots = roots(hairstyle, head, options.stride);
     let (hairs, simulation) = match hairstyle.spec.wisps.strands {
-        HairModel::Simulated if population.carried.is_none() => {
+        HairModel::Simulated if population.bound.is_none() => {
             let stage = Stage::new(monitor, "simulating hairs", roots.len());
-            Simulated::new(&population, hairstyle).hairs(&roots, &stage, keep)?
+            Simulated::new(&population, hairstyle).hairs(&roots, &stage, options.checkpoint)?
         }
         _ => {
             let stage = Stage::new(monitor, "drawing hairs", roots.len());
@@ -65,19 +90,25 @@ pub(crate) fn draw(
     };
     let mut strands = assemble(&hairstyle.spec, &hairstyle.guides, &hairs);
     wet(&mut strands, hairstyle, &hairs);
-    Ok((strands, simulation))
+    Ok(DrawnHair { strands, simulation })
 }
 
-/// What the simulated hairs of a hairstyle depend on; none if there are none.
-pub(crate) fn simulation_key(hairstyle: &Hairstyle, head: &Head) -> Option<u64> {
+/// A digest of everything that the simulated hairs of a hairstyle depend on, for the same build; none if its
+/// hairs are not simulated.
+#[must_use]
+pub fn simulation_key(hairstyle: &Hairstyle, head: &Head) -> Option<u64> {
     let simulated = hairstyle.spec.wisps.strands == HairModel::Simulated;
     simulated.then(|| simulated::key(hairstyle, head, &roots(hairstyle, head, 1)))
 }
 
-/// Adds the sections of the drawn hairs: the director d1 at each point, and the axis ratio of each
-/// strand.
-pub(crate) fn add_sections(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
-    let Some(AttributeValues::U32(guides)) = strands.attribute("guide").map(|a| &a.values) else {
+/// Adds to drawn hairs what light needs to know of their sections: `d1` (three numbers per point), the
+/// director along the semi-axis a, and `axis_ratio` (a/b, a number per strand). Twelve bytes per point.
+///
+/// # Panics
+/// If they have been added before.
+pub fn add_sections(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
+    let Some(AttributeValues::U32(guides)) = strands.attribute(names::GUIDE).map(|a| &a.values)
+    else {
         return;
     };
     let population = Population::new(hairstyle, head);
@@ -97,12 +128,8 @@ pub(crate) fn add_sections(strands: &mut Strands, hairstyle: &Hairstyle, head: &
         (section.a() / section.b()) as f32
     };
     let ratios = AttributeValues::F32(guides.iter().map(ratio).collect());
-    let d1 = AttributeValues::F32x3(directors);
-    let d1 = Attribute { name: "d1".into(), domain: Domain::Point, values: d1 };
-    let ratios = Attribute { name: "axis_ratio".into(), domain: Domain::Strand, values: ratios };
-    for attribute in [d1, ratios] {
-        strands.set_attribute(attribute).expect("one value each, set once");
-    }
+    put(strands, Domain::Point, names::DIRECTOR, AttributeValues::F32x3(directors));
+    put(strands, Domain::Strand, names::AXIS_RATIO, ratios);
 }
 
 /// Deepest that a point of the strands, other than a root, is inside the body of a head (m); 0 if
@@ -135,8 +162,7 @@ fn assemble(spec: &HairstyleSpec, guides: &[Guide], hairs: &[Hair]) -> Strands {
         strands.push(&hair.points, &radii);
     }
     let values = AttributeValues::U32(hairs.iter().map(|h| h.guide).collect());
-    let guide = Attribute { name: "guide".into(), domain: Domain::Strand, values };
-    strands.set_attribute(guide).expect("one guide per strand, set once");
+    put(&mut strands, Domain::Strand, names::GUIDE, values);
     strands
 }
 
@@ -151,6 +177,5 @@ fn wet(strands: &mut Strands, hairstyle: &Hairstyle, hairs: &[Hair]) {
         std::iter::repeat_n(wetness, hair.points.len())
     };
     let values = AttributeValues::F32(hairs.iter().flat_map(wetness).collect());
-    let wetness = Attribute { name: "wetness".into(), domain: Domain::Point, values };
-    strands.set_attribute(wetness).expect("one number per point, set once");
+    put(strands, Domain::Point, names::WETNESS, values);
 }

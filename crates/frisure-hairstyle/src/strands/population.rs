@@ -4,9 +4,9 @@ use frisure_rod::Equilibrium;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::carried::Carried;
 use super::course::{Character, Course};
 use super::skin::{Free, LAID, PRESSED};
+use crate::bound_strands::BoundStrands;
 use crate::crossing::first_positive;
 use crate::grid::Grid;
 use crate::guides::Guide;
@@ -18,7 +18,7 @@ use crate::random::{Purpose, Stream};
 use crate::roots::Root;
 use crate::spec::HairstyleSpec;
 use crate::splits::{Split, splits};
-use crate::styling::WispState;
+use crate::wisp_state::WispState;
 use crate::wisps::Wisp;
 
 /// How many neighbouring guides a hair can follow.
@@ -50,8 +50,8 @@ pub(crate) struct Population<'a> {
     pub(super) spec: &'a HairstyleSpec,
     pub(super) head: &'a Head,
     layout: &'a Layout,
-    /// Hairs that have shapes of their own.
-    pub(super) carried: Option<&'a Carried>,
+    /// Strands of a groom, which keep their own shapes.
+    pub(super) bound: Option<&'a BoundStrands>,
     rim: Rim,
     pub(super) planned: &'a [Guide],
     pub(super) guides: &'a [Guide],
@@ -103,10 +103,10 @@ fn length(points: &[Vec3]) -> f64 {
 
 /// Where every so manyth drawn hair of a head is rooted, with the index of the hair.
 pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, every: usize) -> Vec<(usize, Root)> {
-    let Hairstyle { spec, layout, planting, .. } = hairstyle;
-    let roots = planting.hairs(spec, head);
+    let Hairstyle { spec, layout, placement, .. } = hairstyle;
+    let roots = placement.hairs(spec, head);
     // Hair of a groom is rooted where the groom has it.
-    let own = planting.carried(spec, head).is_some();
+    let own = placement.bound(spec, head).is_some();
     let place = |root: &Root| if own { *root } else { layout.gathered(head, *root) };
     let gathered = |(index, root): (usize, &Root)| (index, place(root));
     roots.par_iter().enumerate().step_by(every.max(1)).map(gathered).collect()
@@ -115,7 +115,7 @@ pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, every: usize) -> Vec<(us
 impl<'a> Population<'a> {
     pub(crate) fn new(hairstyle: &'a Hairstyle, head: &'a Head) -> Self {
         let Hairstyle { spec, layout, guides, rest, styling, .. } = hairstyle;
-        let spacing = (hairstyle.planting.area() / guides.len() as f64).sqrt();
+        let spacing = (hairstyle.placement.area() / guides.len() as f64).sqrt();
         let samples = (2 * spec.wisps.points).max(64);
         let limits = styling.limits();
         let beyond = if limits.is_some() { BEYOND } else { 0.0 };
@@ -128,11 +128,11 @@ impl<'a> Population<'a> {
             spec,
             head,
             layout,
-            carried: hairstyle.planting.carried(spec, head),
+            bound: hairstyle.placement.bound(spec, head),
             rim: Rim::new(head, head.edge(&spec.implantation.hairline, spec.seed), BABY_RIM),
-            planned: styling.planned(),
+            planned: &styling.planned,
             guides,
-            states: styling.wisps(),
+            states: &styling.wisps,
             limits,
             marks: wisps.iter().map(|wisp| MARKS.map(|x| wisp.at(x).0)).collect(),
             wisps,
@@ -140,7 +140,7 @@ impl<'a> Population<'a> {
             roots,
             spacing,
             patch,
-            splits: splits(spec, styling.planned(), patch),
+            splits: splits(spec, &styling.planned, patch),
             widest: PRESSED * guides.iter().map(thickest).fold(0.0, f64::max),
         }
     }
@@ -187,7 +187,7 @@ impl<'a> Population<'a> {
     pub(super) fn course(&self, root: &Root, index: usize) -> Course<'_> {
         let mut random = Stream::new(self.spec.seed, Purpose::Hair, index);
         let followed = self.followed(root, index);
-        let own = self.carried.map(|carried| carried.own(index));
+        let own = self.bound.map(|bound| bound.strand(index));
         let main = followed[0].0;
         let mean = |of: &dyn Fn(usize) -> f64| followed.iter().map(|&(g, w)| w * of(g)).sum();
         let length: f64 = mean(&|g| self.wisps[g].length);
@@ -236,8 +236,8 @@ impl<'a> Population<'a> {
 
     /// The guide of the hair of this index that is rooted somewhere.
     pub(crate) fn main(&self, root: &Root, index: usize) -> usize {
-        match self.carried {
-            Some(carried) => carried.carriers(index)[0].0,
+        match self.bound {
+            Some(bound) => bound.carriers(index)[0].0,
             None => self.sorted(root, self.layout.direction(root))[0],
         }
     }
@@ -275,8 +275,8 @@ impl<'a> Population<'a> {
 
     /// Guides that a hair follows, with weights that sum to one; the nearest first.
     pub(super) fn followed(&self, root: &Root, index: usize) -> Vec<(usize, f64)> {
-        if let Some(carried) = self.carried {
-            return carried.carriers(index).to_vec();
+        if let Some(bound) = self.bound {
+            return bound.carriers(index).to_vec();
         }
         let own = self.layout.direction(root);
         let near = self.sorted(root, own);

@@ -4,19 +4,22 @@ use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain};
 use rayon::prelude::*;
 
 use super::cut::{Scissors, enough};
-use super::ends::Ends;
+use super::error::StyleError;
 use super::operation::{
     Comb, Cut, Dry, Grow, Growth, Hold, Humidity, Operation, Part, Release, Wet,
 };
-use super::wisp_state::{Grip, WispState, strain_of};
-use super::{Selection, StyleError, Styling};
+use super::selection::Selection;
+use super::settle::{Act, DraftRest};
 use crate::equilibrium::{Change, Effort};
 use crate::guides::{Guide, plan};
-use crate::hairstyle::{Hairstyle, Rough};
+use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::implantation::Layout;
 use crate::monitor::Monitor;
+use crate::roots::Root;
 use crate::spec::{Flow, Parting};
+use crate::strands::Population;
+use crate::wisp_state::{Ends, Grip, Styling, WispState, strain_of};
 
 /// Longest guide (m): that of a description.
 const LONGEST: f64 = 3.0;
@@ -25,164 +28,156 @@ const LONGEST: f64 = 3.0;
 /// and as a length (m), whichever is more: it buckles and falls on its way, not at its end.
 const GROWN_AT_ONCE: (f64, f64) = (1.25, 5e-3);
 
-impl Hairstyle {
-    /// The hairstyle after something was done to it, at rest again. Each wisp that changed comes to
-    /// rest from where it lay; one that is dried without having been touched lies exactly as before
-    /// it was wetted.
-    ///
-    /// # Errors
-    /// [`StyleError`]; this hairstyle is as it was.
-    pub fn styled(
-        &self,
-        head: &Head,
-        operation: &Operation,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, StyleError> {
-        let mut stages = self.stages(head, operation, monitor)?;
-        Ok(stages.pop().expect("at least one stage"))
-    }
-
-    /// As [`Self::styled`], for the eye, doing no more than `effort` each time that hair comes to rest.
-    /// Guides start from where those of `like` rest, which is the answer of a call that was nearly the
-    /// same; without it, from where they lay. Of the drawn hairs, scissors cut those that
-    /// [`Self::some_strands`] draws for the same `every`.
-    ///
-    /// # Errors
-    /// As [`Self::styled`].
-    pub fn styled_roughly(
-        &self,
-        head: &Head,
-        operation: &Operation,
-        like: Option<&Self>,
-        (effort, every): (Effort, usize),
-        monitor: &dyn Monitor,
-    ) -> Result<Self, StyleError> {
-        let like = like.filter(|like| like.guides.len() == self.guides.len());
-        let like = like.map(|like| like.rest.guides.as_slice().into());
-        let rough =
-            Self { rough: Some(Rough { effort, every: every.max(1), like }), ..self.clone() };
-        Ok(Self { rough: None, ..rough.styled(head, operation, monitor)? })
-    }
-
-    /// As [`Self::styled`], with every stage on the way, the result last. Only growth has more than
+/// How [`style`] works. The default gives the exact result.
+#[derive(Debug, Default)]
+pub struct StyleOptions<'a> {
+    /// Does the operation roughly, for the eye; none for the exact result.
+    pub draft: Option<Draft<'a>>,
+    /// Receives the hairstyle after each stage but the last, which is the result. Only growth has more than
     /// one, as many as it asks for.
-    ///
-    /// # Errors
-    /// [`StyleError`]; this hairstyle is as it was.
-    pub fn stages(
-        &self,
-        head: &Head,
-        operation: &Operation,
-        monitor: &dyn Monitor,
-    ) -> Result<Vec<Self>, StyleError> {
-        operation.check()?;
-        match operation {
-            Operation::Wet(wet) => self.wet(head, wet, monitor),
-            Operation::Dry(dry) => self.dry(head, dry, monitor),
-            Operation::Humidity(air) => self.left_in(head, *air, monitor),
-            Operation::Cut(cut) => self.cut(head, cut, monitor),
-            Operation::Grow(grow) => return self.grow(head, grow, monitor),
-            Operation::Comb(comb) => self.comb(head, comb, monitor),
-            Operation::Part(part) => self.part(head, part, monitor),
-            Operation::Hold(hold) => self.hold(head, hold, monitor),
-            Operation::Release(release) => self.release(head, release, monitor),
-        }
-        .map(|styled| vec![styled])
-    }
+    pub stages: Option<&'a mut Vec<Hairstyle>>,
+}
 
-    /// Which wisps a selection has, by their order in [`Self::guides`].
-    ///
-    /// # Errors
-    /// [`StyleError`], if there is none, or one is named that does not exist.
-    pub fn selected(&self, head: &Head, selection: &Selection) -> Result<Vec<bool>, StyleError> {
-        selection.check()?;
-        selection.wisps(head, &self.guides, &self.rest.guides)
-    }
+/// How roughly an operation is done.
+#[derive(Clone, Copy, Debug)]
+pub struct Draft<'a> {
+    /// How much work is done at most each time that hair comes to rest.
+    pub effort: Effort,
+    /// Of the drawn hairs, scissors cut those that [`crate::strands()`] draws for the same stride.
+    pub stride: usize,
+    /// A hairstyle whose guides lie where these are likely to end, such as the result of a call that was
+    /// nearly the same: guides start from there. Without it, or if it has another number of guides, they
+    /// start from where they lay.
+    pub like: Option<&'a Hairstyle>,
+}
 
-    fn wet(&self, head: &Head, wet: &Wet, monitor: &dyn Monitor) -> Result<Self, StyleError> {
-        let chosen = self.selected(head, &wet.selection)?;
-        let mut styling = self.styling.changed(&chosen, |_, wisp| {
+/// The hairstyle after something was done to it, at rest again. Each wisp that changed comes to
+/// rest from where it lay; one that is dried without having been touched lies exactly as before
+/// it was wetted.
+///
+/// # Errors
+/// [`StyleError`], if the operation is out of range or cannot be done to this hair, or the work is cancelled.
+pub fn style(
+    hairstyle: &Hairstyle,
+    head: &Head,
+    operation: &Operation,
+    options: StyleOptions<'_>,
+    monitor: &dyn Monitor,
+) -> Result<Hairstyle, StyleError> {
+    operation.check()?;
+    let draft = options.draft.map(|Draft { effort, stride, like }| {
+        let like = like.filter(|like| like.guides.len() == hairstyle.guides.len());
+        DraftRest { effort, stride, like: like.map(|like| like.rest.guides.as_slice()) }
+    });
+    let act = Act { before: hairstyle, head, draft, monitor };
+    match operation {
+        Operation::Wet(wet) => act.wet(wet),
+        Operation::Dry(dry) => act.dry(dry),
+        Operation::Humidity(air) => act.left_in(*air),
+        Operation::Cut(cut) => act.cut(cut),
+        Operation::Grow(grow) => act.grow(grow, options.stages),
+        Operation::Comb(comb) => act.comb(comb),
+        Operation::Part(part) => act.part(part),
+        Operation::Hold(hold) => act.hold(hold),
+        Operation::Release(release) => act.release(release),
+    }
+}
+
+/// Which wisps of a hairstyle a selection has, in the order of [`Hairstyle::guides`].
+///
+/// # Errors
+/// [`StyleError`], if there is none, or one is named that does not exist.
+pub fn selected(
+    hairstyle: &Hairstyle,
+    head: &Head,
+    selection: &Selection,
+) -> Result<Vec<bool>, StyleError> {
+    selection.check()?;
+    selection.wisps(head, &hairstyle.guides, &hairstyle.rest.guides)
+}
+
+impl Act<'_> {
+    fn wet(&self, wet: &Wet) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(&wet.selection)?;
+        let mut styling = self.before.styling.changed(&chosen, |_, wisp| {
             wisp.wet(wet.to);
             wisp.water = if wet.to > 0.0 { wet.water } else { 0.0 };
         });
         styling.lay = Some(self.lay());
-        self.with(head, styling, monitor)
+        self.with(styling)
     }
 
-    fn dry(&self, head: &Head, dry: &Dry, monitor: &dyn Monitor) -> Result<Self, StyleError> {
-        let chosen = self.selected(head, &dry.selection)?;
+    fn dry(&self, dry: &Dry) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(&dry.selection)?;
         let kept = self.shapes_kept(&chosen)?;
-        let styling = self.styling.changed(&chosen, |index, wisp| {
+        let styling = self.before.styling.changed(&chosen, |index, wisp| {
             let closed = wisp.wetness;
             wisp.wet(0.0);
             if let Some(held) = &kept[index] {
                 wisp.keep(held.clone(), dry.keep * closed);
             }
         });
-        self.with(head, styling, monitor)
+        self.with(styling)
     }
 
     /// The strain of each chosen wisp that is wet and held.
     fn shapes_kept(&self, chosen: &[bool]) -> Result<Vec<Option<NaturalStrain>>, InvalidQuantity> {
         let kept = |(index, wisp): (usize, &WispState)| {
             let setting = chosen[index] && wisp.wetness > 0.0 && wisp.is_held();
-            let stretch = self.guides[index].rod.length() / wisp.length;
-            setting.then(|| strain_of(&self.rest.guides[index], stretch)).transpose()
+            let stretch = self.before.guides[index].rod.length() / wisp.length;
+            setting.then(|| strain_of(&self.before.rest.guides[index], stretch)).transpose()
         };
-        self.styling.wisps.par_iter().enumerate().map(kept).collect()
+        self.before.styling.wisps.par_iter().enumerate().map(kept).collect()
     }
 
-    fn left_in(
-        &self,
-        head: &Head,
-        air: Humidity,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, StyleError> {
-        let styling = Styling { humidity: air.relative, ..self.styling.clone() };
-        self.with(head, styling, monitor)
+    fn left_in(&self, air: Humidity) -> Result<Hairstyle, StyleError> {
+        let styling = Styling { humidity: air.relative, ..self.before.styling.clone() };
+        self.with(styling)
     }
 
-    fn cut(&self, head: &Head, cut: &Cut, monitor: &dyn Monitor) -> Result<Self, StyleError> {
-        let chosen = self.selected(head, &cut.selection)?;
-        let scissors = Scissors::new(cut, head);
+    fn cut(&self, cut: &Cut) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(&cut.selection)?;
+        let scissors = Scissors::new(cut, self.head);
         let left = |(guide, rest): (&Guide, &Equilibrium)| match scissors.hanging() {
             true => scissors.left_hanging(rest),
             false => scissors.left_straight(&guide.root),
         };
-        let left: Vec<f64> = self.guides.par_iter().zip(&self.rest.guides).map(left).collect();
+        let Hairstyle { guides, rest, styling, .. } = self.before;
+        let left: Vec<f64> = guides.par_iter().zip(&rest.guides).map(left).collect();
         let none = |i: &usize| chosen[*i] && !enough(left[*i]);
         let wisps: Vec<usize> = (0..left.len()).filter(none).collect();
         if !wisps.is_empty() {
             let selected = chosen.iter().filter(|chosen| **chosen).count();
             return Err(StyleError::AboveRoot { wisps, selected });
         }
-        let stretch = |i: usize| self.guides[i].rod.length() / self.styling.wisps[i].length;
-        let mut styling = self.styling.changed(&chosen, |index, wisp| {
+        let stretch = |i: usize| guides[i].rod.length() / styling.wisps[i].length;
+        let mut styling = styling.changed(&chosen, |index, wisp| {
             wisp.length = wisp.length.min(left[index] / stretch(index));
         });
-        styling.ends = Some(Ends::cut(self, head, &chosen, |population, root, index, wisp| {
+        let stride = self.draft.map_or(1, |draft| draft.stride);
+        let left = |population: &Population<'_>, root: &Root, index: usize, wisp: usize| {
             if scissors.hanging() {
                 let left = population.cut_where(root, index, |p| scissors.beyond(p));
                 left.unwrap_or(f64::INFINITY)
             } else {
                 scissors.left_straight(root) / stretch(wisp)
             }
-        }));
+        };
+        styling.ends = Some(Ends::cut(self.before, self.head, stride, &chosen, left));
         if scissors.hanging() {
-            return self.with(head, styling, monitor);
+            return self.with(styling);
         }
-        self.at_rest(head, styling, Change::Handled, monitor)
+        self.at_rest(styling, Change::Handled)
     }
 
     fn grow(
         &self,
-        head: &Head,
         grow: &Grow,
-        monitor: &dyn Monitor,
-    ) -> Result<Vec<Self>, StyleError> {
-        let chosen = self.selected(head, &grow.selection)?;
-        let spec = &self.spec.length;
-        let by: Vec<f64> = (self.styling.wisps.iter().zip(&self.guides).zip(&chosen))
+        mut stages: Option<&mut Vec<Hairstyle>>,
+    ) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(&grow.selection)?;
+        let spec = &self.before.spec.length;
+        let by: Vec<f64> = (self.before.styling.wisps.iter().zip(&self.before.guides).zip(&chosen))
             .map(|((wisp, guide), &chosen)| match grow.amount {
                 _ if !chosen => 0.0,
                 Growth::By(length) => length,
@@ -191,28 +186,31 @@ impl Hairstyle {
             })
             .collect();
         let too_long = |(wisp, by): (&WispState, &f64)| wisp.length + by > LONGEST;
-        if let Some(wisp) = self.styling.wisps.iter().zip(&by).position(too_long) {
-            let length = self.styling.wisps[wisp].length + by[wisp];
+        if let Some(wisp) = self.before.styling.wisps.iter().zip(&by).position(too_long) {
+            let length = self.before.styling.wisps[wisp].length + by[wisp];
             return Err(StyleError::TooLong { wisp, length, most: LONGEST });
         }
-        let mut stages: Vec<Self> = Vec::with_capacity(grow.stages);
-        for _ in 0..grow.stages {
-            let before = stages.last().unwrap_or(self);
-            let share: Vec<f64> = by.iter().map(|by| by / grow.stages as f64).collect();
-            stages.push(before.grown_by(head, &share, monitor)?);
+        let share: Vec<f64> = by.iter().map(|by| by / grow.stages as f64).collect();
+        let mut grown = self.grown_by(&share)?;
+        for _ in 1..grow.stages {
+            let next = self.on(&grown).grown_by(&share)?;
+            let before = std::mem::replace(&mut grown, next);
+            if let Some(stages) = &mut stages {
+                stages.push(before);
+            }
         }
-        Ok(stages)
+        Ok(grown)
     }
 
     /// Every wisp longer by so much (m), in as many steps as that takes.
-    fn grown_by(&self, head: &Head, by: &[f64], monitor: &dyn Monitor) -> Result<Self, StyleError> {
+    fn grown_by(&self, by: &[f64]) -> Result<Hairstyle, StyleError> {
         let (factor, least) = GROWN_AT_ONCE;
         let steps = |(wisp, by): (&WispState, &f64)| {
             let steps = ((wisp.length + by) / wisp.length).ln() / factor.ln();
             steps.min(by / least).ceil().max(1.0) as usize
         };
-        let steps = self.styling.wisps.iter().zip(by).map(steps).max().unwrap_or(1);
-        let mut grown = self.clone();
+        let steps = self.before.styling.wisps.iter().zip(by).map(steps).max().unwrap_or(1);
+        let mut grown = self.before.clone();
         for step in 1..=steps {
             // In equal ratios: what is short buckles soon.
             let share = |length: f64, by: f64| {
@@ -223,7 +221,7 @@ impl Hairstyle {
                     length * (ratio.powf(step as f64 / steps as f64) - 1.0)
                 }
             };
-            let mut styling = self.styling.clone();
+            let mut styling = self.before.styling.clone();
             let now: Vec<f64> = (styling.wisps.iter().zip(by))
                 .map(|(wisp, &by)| if by > 0.0 { share(wisp.length, by) } else { 0.0 })
                 .collect();
@@ -231,64 +229,60 @@ impl Hairstyle {
                 wisp.grow(by);
             }
             styling.ends = styling.ends.as_ref().map(|ends| ends.grown(&now));
-            grown = grown.with(head, styling, monitor)?;
+            grown = self.on(&grown).with(styling)?;
         }
         Ok(grown)
     }
 
-    fn comb(&self, head: &Head, comb: &Comb, monitor: &dyn Monitor) -> Result<Self, StyleError> {
-        let chosen = self.selected(head, &comb.selection)?;
+    fn comb(&self, comb: &Comb) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(&comb.selection)?;
         let direction = comb.towards.vector();
-        let combing = self.styling.changed(&chosen, |_, wisp| {
+        let combing = self.before.styling.changed(&chosen, |_, wisp| {
             wisp.moved += 1;
             wisp.grip = Some(Grip::Comb { direction, strength: comb.strength });
         });
-        let combed = self.with(head, combing, monitor)?;
+        let combed = self.with(combing)?;
         if comb.hold {
             return Ok(combed);
         }
         let free = combed.styling.changed(&chosen, |_, wisp| wisp.grip = None);
-        combed.with(head, free, monitor)
+        self.on(&combed).with(free)
     }
 
     /// Roots turn as if the hair had been planted with this parting; fibres stay what they are.
-    fn part(&self, head: &Head, part: &Part, monitor: &dyn Monitor) -> Result<Self, StyleError> {
-        let mut spec = self.spec.clone();
+    fn part(&self, part: &Part) -> Result<Hairstyle, StyleError> {
+        let mut spec = self.before.spec.clone();
         let offset = match part.line {
             Parting::Straight { offset } | Parting::Zigzag { offset } => offset,
             Parting::Through(_) => 0.0,
         };
         spec.implantation.flow = Flow::Parted { offset };
         spec.implantation.partings = vec![part.line.clone()];
-        let layout = Layout::new(&spec, head)?;
-        let planned = plan(&spec, head, &layout, &self.planting)?;
+        let layout = Layout::new(&spec, self.head)?;
+        let planned = plan(&spec, self.head, &layout, &self.before.placement)?;
         let everyone = vec![true; planned.len()];
-        let mut styling = self.styling.changed(&everyone, |_, wisp| wisp.moved += 1);
+        let mut styling = self.before.styling.changed(&everyone, |_, wisp| wisp.moved += 1);
         styling.planned = planned.into();
-        let mut parted = Self { spec, layout, ..self.clone() }.with(head, styling, monitor)?;
+        let before = Hairstyle { spec, layout, ..self.before.clone() };
+        let mut parted = self.on(&before).with(styling)?;
         let ends = parted.styling.ends.take();
-        parted.styling.ends = ends.map(|ends| ends.replanted(&parted, head));
+        parted.styling.ends = ends.map(|ends| ends.replanted(&parted, self.head));
         Ok(parted)
     }
 
-    fn hold(&self, head: &Head, hold: &Hold, monitor: &dyn Monitor) -> Result<Self, StyleError> {
-        let chosen = self.selected(head, &hold.selection)?;
-        let styling = self.styling.changed(&chosen, |_, wisp| {
+    fn hold(&self, hold: &Hold) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(&hold.selection)?;
+        let styling = self.before.styling.changed(&chosen, |_, wisp| {
             wisp.moved += 1;
             wisp.grip = Some(Grip::Holder(hold.by));
         });
-        self.with(head, styling, monitor)
+        self.with(styling)
     }
 
-    fn release(
-        &self,
-        head: &Head,
-        release: &Release,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, StyleError> {
-        let chosen = self.selected(head, &release.selection)?;
-        let styling = self.styling.changed(&chosen, |_, wisp| wisp.grip = None);
-        self.with(head, styling, monitor)
+    fn release(&self, release: &Release) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(&release.selection)?;
+        let styling = self.before.styling.changed(&chosen, |_, wisp| wisp.grip = None);
+        self.with(styling)
     }
 }
 

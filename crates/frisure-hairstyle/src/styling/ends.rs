@@ -1,38 +1,25 @@
 //! Where drawn hairs have been cut.
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::roots::Root;
 use crate::strands::{Population, roots};
-
-/// The length at which each drawn hair has been cut.
-#[derive(Clone, Debug)]
-pub(super) struct Ends {
-    /// Length (m) of the dry hair, infinite where it has never been cut.
-    limits: Arc<[f32]>,
-    /// The wisp of each hair.
-    wisps: Arc<[u32]>,
-}
+use crate::wisp_state::Ends;
 
 impl Ends {
-    pub(super) fn limits(&self) -> &[f32] {
-        &self.limits
-    }
-
-    /// Cuts hairs of the chosen wisps: `left` gives how much (m, dry) is left of a hair at least, by
-    /// its root, its index and its wisp.
+    /// Cuts hairs of the chosen wisps, of all hairs every `stride`-th: `left` gives how much (m, dry) is left
+    /// of a hair at least, by its root, its index and its wisp.
     pub(super) fn cut(
         hairstyle: &Hairstyle,
         head: &Head,
+        stride: usize,
         chosen: &[bool],
         left: impl Fn(&Population<'_>, &Root, usize, usize) -> f64 + Sync,
     ) -> Self {
         let population = Population::new(hairstyle, head);
-        let roots = roots(hairstyle, head, hairstyle.rough.as_ref().map_or(1, |r| r.every));
+        let roots = roots(hairstyle, head, stride);
         let before = hairstyle.styling.ends.as_ref();
         let cut: Vec<(usize, u32, f32)> = (roots.par_iter())
             .map(|&(index, ref root)| {

@@ -5,7 +5,6 @@ use std::fmt;
 use frisure_rod::InvalidQuantity;
 use thiserror::Error;
 
-use crate::hairstyle::PredictError;
 use crate::implantation::PartingError;
 use crate::monitor::Cancelled;
 use crate::spec::InvalidSpec;
@@ -51,12 +50,9 @@ pub enum StyleError {
     /// A parting is not on the scalp.
     #[error(transparent)]
     Parting(#[from] PartingError),
-    /// The monitor said to stop.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The hairstyle to begin with cannot be predicted.
-    #[error(transparent)]
-    Predict(#[from] PredictError),
 }
 
 /// The first of some numbers.

@@ -6,6 +6,7 @@ use super::Selection;
 use crate::head::Head;
 use crate::implantation::regions::height;
 use crate::spec::{self, InvalidSpec, Level, Parting, range};
+use crate::wisp_state::Holder;
 
 /// One thing that is done to a hairstyle.
 #[derive(Clone, Debug, PartialEq)]
@@ -226,34 +227,6 @@ pub struct Hold {
     pub selection: Selection,
     /// How.
     pub by: Holder,
-}
-
-/// What holds hair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Holder {
-    /// Wound on a roller.
-    Roller {
-        /// Radius of the roller (m).
-        radius: f64,
-        /// Advance per turn along the roller (m).
-        pitch: f64,
-    },
-    /// In a braid of three.
-    Braid {
-        /// Width of the braid (m).
-        width: f64,
-        /// Length in which a part comes back to its place (m).
-        pitch: f64,
-    },
-    /// Drawn straight, as between hot plates or under a brush.
-    Straight,
-    /// With a clip that brings a place of each wisp to a point.
-    Clip {
-        /// Which place: 0 (root) to 1 (tip).
-        at: f64,
-        /// The point (m).
-        to: DVec3,
-    },
 }
 
 /// Lets go of what is held.

@@ -2,29 +2,70 @@
 
 use std::sync::Arc;
 
-use frisure_rod::InvalidQuantity;
+use frisure_rod::{Equilibrium, InvalidQuantity};
 use rayon::prelude::*;
 
-use super::fibre_now;
-use super::wisp_state::{Grip, WispState};
-use super::{Lay, StyleError, Styling};
-use crate::equilibrium::{Change, Rest, resettle, resettle_roughly, settle_from};
+use super::apply_state;
+use super::error::StyleError;
+use super::selection::Selection;
+use crate::equilibrium::{Change, Effort, GuideStart, SettleOptions, settle};
 use crate::guides::Guide;
-use crate::hairstyle::{Hairstyle, Rough};
+use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::monitor::Monitor;
+use crate::rest::Rest;
+use crate::wisp_state::{Grip, Lay, Styling, WispState};
 
-impl Hairstyle {
+/// What an operation acts on: a hairstyle, its head, and how the result is brought to rest.
+#[derive(Clone, Copy)]
+pub(super) struct Act<'a> {
+    /// The hairstyle before the operation.
+    pub(super) before: &'a Hairstyle,
+    pub(super) head: &'a Head,
+    /// How roughly it is done; none for the exact result.
+    pub(super) draft: Option<DraftRest<'a>>,
+    pub(super) monitor: &'a dyn Monitor,
+}
+
+/// How roughly a hairstyle is brought to rest.
+#[derive(Clone, Copy)]
+pub(super) struct DraftRest<'a> {
+    /// How much work is done at most each time that hair comes to rest.
+    pub(super) effort: Effort,
+    /// Only every so many-th drawn hair is cut.
+    pub(super) stride: usize,
+    /// Where guides start from.
+    pub(super) like: Option<&'a [Equilibrium]>,
+}
+
+impl<'a> Act<'a> {
+    /// The same on another hairstyle.
+    pub(super) fn on<'b>(&self, before: &'b Hairstyle) -> Act<'b>
+    where
+        'a: 'b,
+    {
+        Act { before, ..*self }
+    }
+
+    /// Which wisps a selection has.
+    ///
+    /// # Errors
+    /// [`StyleError`], if there is none, or one is named that does not exist.
+    pub(super) fn selected(&self, selection: &Selection) -> Result<Vec<bool>, StyleError> {
+        selection.wisps(self.head, &self.before.guides, &self.before.rest.guides)
+    }
+
     /// How dry wisps lie now, and those that are wet lay before they were wetted.
     pub(super) fn lay(&self) -> Arc<Lay> {
-        let Styling { wisps, humidity, lay: before, .. } = &self.styling;
+        let Styling { wisps, humidity, lay: before, .. } = &self.before.styling;
+        let rest = &self.before.rest;
         let before = before.as_ref().filter(|before| before.humidity == *humidity);
         let all_dry = wisps.iter().all(|wisp| wisp.wetness == 0.0);
         let now = |(index, wisp): (usize, &WispState)| match (wisp.wetness, before) {
-            (0.0, _) => Some((wisp.clone(), self.rest.guides[index].clone())),
+            (0.0, _) => Some((wisp.clone(), rest.guides[index].clone())),
             (_, before) => before.and_then(|before| before.wisps[index].clone()),
         };
-        let whole = all_dry.then(|| (wisps.clone(), self.rest.clone()));
+        let whole = all_dry.then(|| (wisps.clone(), rest.clone()));
         let whole = whole.or_else(|| before.and_then(|before| before.whole.clone()));
         Arc::new(Lay {
             humidity: *humidity,
@@ -34,69 +75,49 @@ impl Hairstyle {
     }
 
     /// The hairstyle that styling makes of this one, at rest from where it lay.
-    pub(super) fn with(
-        &self,
-        head: &Head,
-        styling: Styling,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, StyleError> {
-        self.at_rest(head, styling, Change::Changed, monitor)
+    pub(super) fn with(&self, styling: Styling) -> Result<Hairstyle, StyleError> {
+        self.at_rest(styling, Change::Changed)
     }
 
     /// The hairstyle that styling makes of this one, at rest; `change` is what was done to wisps that
-    /// are another thing now and have not been put into another shape.
+    /// changed and have not been put into another shape.
     pub(super) fn at_rest(
         &self,
-        head: &Head,
         styling: Styling,
         change: Change,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, StyleError> {
-        let old = &self.styling;
+    ) -> Result<Hairstyle, StyleError> {
+        let before = self.before;
+        let old = &before.styling;
         let air = styling.humidity != old.humidity;
         let changed: Vec<bool> =
             styling.wisps.iter().zip(&old.wisps).map(|(new, old)| air || new != old).collect();
         if !changed.contains(&true) {
-            return Ok(Self { styling, ..self.clone() });
+            return Ok(Hairstyle { styling, ..before.clone() });
         }
-        let area = self.planting.area();
-        let guides: Vec<Guide> = (0..self.guides.len())
+        let guides: Vec<Guide> = (0..before.guides.len())
             .into_par_iter()
             .map(|i| match changed[i] {
-                false => Ok(self.guides[i].clone()),
-                true => fibre_now::guide(
-                    &self.spec,
-                    area,
-                    (i, &styling.planned[i]),
-                    &styling.wisps[i],
-                    styling.humidity,
-                ),
+                false => Ok(before.guides[i].clone()),
+                true => apply_state::guide(&before.spec, before.placement.area(), i, &styling),
             })
             .collect::<Result<_, InvalidQuantity>>()?;
-        let rest = match &self.rough {
-            None => self.rest_of(head, &styling, &guides, (changed, change), monitor)?,
-            Some(rough) => {
-                self.rough_rest_of(head, &styling, &guides, (&changed, change, rough), monitor)?
-            }
+        let changes = self.changes(&styling, &changed, change);
+        let rest = match self.draft {
+            None => self.exact_rest(&styling, &guides, &changed, changes)?,
+            Some(draft) => self.draft_rest(&guides, &changes, draft)?,
         };
-        Ok(Self { guides, rest, styling, ..self.clone() })
+        Ok(Hairstyle { guides, rest, styling, ..before.clone() })
     }
 
     /// Brings changed guides to rest; those that lie as they lay before they were wetted are known.
-    fn rest_of(
+    fn exact_rest(
         &self,
-        head: &Head,
         styling: &Styling,
         guides: &[Guide],
-        (changed, otherwise): (Vec<bool>, Change),
-        monitor: &dyn Monitor,
+        changed: &[bool],
+        mut changes: Vec<Change>,
     ) -> Result<Rest, StyleError> {
-        let mut before = self.rest.guides.clone();
-        let change = |(wisp, &changed): (usize, &bool)| match changed {
-            true => self.change(styling, wisp, otherwise),
-            false => Change::None,
-        };
-        let mut changes: Vec<Change> = changed.iter().enumerate().map(change).collect();
+        let mut before = self.before.rest.guides.clone();
         let lay = styling.lay.as_ref().filter(|lay| lay.humidity == styling.humidity);
         if let Some(lay) = lay {
             if let Some((states, rest)) = &lay.whole
@@ -114,39 +135,42 @@ impl Hairstyle {
                 }
             }
         }
-        Ok(resettle(&self.spec, head, guides, (&before, &changes), monitor)?)
+        let start = GuideStart::Changed { before: &before, changes: &changes };
+        self.settle(guides, SettleOptions { start, effort: Effort::FULL })
     }
 
     /// Brings changed guides nearer to rest, from where they are likely to end.
-    fn rough_rest_of(
+    fn draft_rest(
         &self,
-        head: &Head,
-        styling: &Styling,
         guides: &[Guide],
-        (changed, otherwise, rough): (&[bool], Change, &Rough),
-        monitor: &dyn Monitor,
+        changes: &[Change],
+        draft: DraftRest<'_>,
     ) -> Result<Rest, StyleError> {
-        if let Some(like) = &rough.like {
-            return Ok(settle_from(&self.spec, head, guides, like, rough.effort, monitor)?);
-        }
-        let change = |(wisp, &changed): (usize, &bool)| match changed {
-            true => self.change(styling, wisp, otherwise),
-            false => Change::None,
+        let start = match draft.like {
+            Some(like) => GuideStart::At(like),
+            None => GuideStart::Changed { before: &self.before.rest.guides, changes },
         };
-        let changes: Vec<Change> = changed.iter().enumerate().map(change).collect();
-        let from = (self.rest.guides.as_slice(), changes.as_slice());
-        Ok(resettle_roughly(&self.spec, head, guides, from, rough.effort, monitor)?)
+        self.settle(guides, SettleOptions { start, effort: draft.effort })
     }
 
-    /// What was done to a wisp that changed.
-    fn change(&self, styling: &Styling, wisp: usize, otherwise: Change) -> Change {
-        let (old, new) = (self.styling.wisps[wisp].grip, styling.wisps[wisp].grip);
-        let replanted = !Arc::ptr_eq(&styling.planned, &self.styling.planned);
-        let moulded = new != old && new.is_some_and(Grip::moulds);
-        match self.guides[wisp].pull {
-            _ if replanted || moulded => Change::Moulded,
-            Some(pull) if new.is_none() => Change::LetGo(pull),
-            _ => otherwise,
-        }
+    fn settle(&self, guides: &[Guide], options: SettleOptions<'_>) -> Result<Rest, StyleError> {
+        Ok(settle(&self.before.spec, self.head, guides, options, self.monitor)?)
+    }
+
+    /// What was done to each wisp; `otherwise` to those that changed but were not put into another shape.
+    fn changes(&self, styling: &Styling, changed: &[bool], otherwise: Change) -> Vec<Change> {
+        let old = &self.before.styling;
+        let replanted = !Arc::ptr_eq(&styling.planned, &old.planned);
+        let change = |(wisp, &changed): (usize, &bool)| {
+            let (old, new) = (old.wisps[wisp].grip, styling.wisps[wisp].grip);
+            let moulded = new != old && new.is_some_and(Grip::moulds);
+            match self.before.guides[wisp].pull {
+                _ if !changed => Change::None,
+                _ if replanted || moulded => Change::Moulded,
+                Some(pull) if new.is_none() => Change::LetGo(pull),
+                _ => otherwise,
+            }
+        };
+        changed.iter().enumerate().map(change).collect()
     }
 }

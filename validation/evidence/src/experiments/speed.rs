@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use frisure::hairstyle::{predict, preset};
+use frisure::hairstyle::{PredictOptions, predict, preset, settling_report};
 use frisure::rod::batch::Batch;
 use frisure::rod::{ElementKind, Rod, RodSpec, Stability, equilibrium};
 use rayon::prelude::*;
@@ -126,9 +126,9 @@ fn head(finding: &mut Finding, effort: Effort, monitor: &dyn Monitor) -> Result<
     spec.wisps.count = effort.pick(40, 100);
     spec.length.mean = 0.28;
     let start = Instant::now();
-    let hairstyle = predict(&spec, head, monitor)?;
+    let hairstyle = predict(&spec, head, PredictOptions::default(), monitor)?;
     let seconds = start.elapsed().as_secs_f64();
-    let report = hairstyle.report(head);
+    let report = settling_report(&hairstyle, head);
     let what = format!("a head of {} curly guides, all contacts", report.guides);
     finding.timings.push(Timing {
         what,

@@ -14,7 +14,8 @@ use frisure::formats::kept::Kept;
 use frisure::formats::{picture, report};
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
-    Adoption, Hairstyle, HairstyleSpec, Keep, Simulation, penetration, volume,
+    Adoption, Checkpoint, Hairstyle, HairstyleSpec, Simulation, StrandOptions, add_sections,
+    guide_strands, penetration, strands, volume,
 };
 use frisure::look::EnvironmentMap;
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
@@ -249,14 +250,16 @@ impl Work {
                 let frames = hair.styled.hairstyles.len();
                 let part = kept(&self.arguments, hairstyle.spec(), frame, frames);
                 keep = keeping::open(part, hairstyle, head, watch)?;
-                let keep = keep.as_ref().map(|keep| keep as &dyn Keep);
-                let drawn = hairstyle.strands_and_simulation(head, watch, keep);
-                drawn.map_err(|_| Failure::Interrupted)?
+                let checkpoint = keep.as_ref().map(|keep| keep as &dyn Checkpoint);
+                let options = StrandOptions { checkpoint, ..StrandOptions::default() };
+                let drawn = strands(hairstyle, head, options, watch);
+                let drawn = drawn.map_err(|_| Failure::Interrupted)?;
+                (drawn.strands, drawn.simulation)
             }
             false => Default::default(),
         };
         if self.arguments.image.is_some() && self.arguments.quality == Quality::Final {
-            hairstyle.add_sections(&mut strands, head);
+            add_sections(&mut strands, hairstyle, head);
         }
         let shown = hair.shown.as_ref().unwrap_or(&strands);
         let picture = self.arguments.image.as_ref().map(|_| self.picture(&strands, shown, head));
@@ -366,7 +369,7 @@ const FRAMED: usize = 24;
 fn swept(hairstyles: &[Hairstyle]) -> Strands {
     let mut all = Strands::new();
     for hairstyle in hairstyles {
-        for guide in hairstyle.guide_strands(FRAMED).iter() {
+        for guide in guide_strands(hairstyle, FRAMED).iter() {
             all.push(guide.points, guide.radii);
         }
     }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Body, HairContact, Hairstyle, Simulation, Volume};
+use frisure::hairstyle::{Body, HairContact, Hairstyle, Simulation, Volume, settling_report};
 use frisure::scene::Scene;
 use frisure::strands::Strands;
 use frisure_stylist::held::Held;
@@ -116,7 +116,7 @@ pub(super) fn numbers(
     head: &Head,
     (strands, simulation): (&Strands, Simulation),
 ) -> Numbers {
-    let (spec, settling) = (hairstyle.spec(), hairstyle.report(head));
+    let (spec, settling) = (hairstyle.spec(), settling_report(hairstyle, head));
     let energy = &settling.energy;
     Numbers {
         scene: scene.name.clone(),

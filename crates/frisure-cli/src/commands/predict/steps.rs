@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::{Cut, CutLine, Hold, Holder, Operation, StyleError};
-use frisure::hairstyle::{Hairstyle, Monitor};
+use frisure::hairstyle::{Hairstyle, Monitor, StyleOptions, selected, style};
 use frisure::rod::Equilibrium;
 use frisure::scene::Scene;
 use frisure_stylist::carry;
@@ -65,19 +65,21 @@ pub(super) fn all(
             carry::not_done(index, &e, scene).map_or(Failure::Interrupted, Failure::from)
         };
         let chosen = match operation.selection() {
-            Some(selection) => before.selected(head, selection).map_err(refused)?,
+            Some(selection) => selected(before, head, selection).map_err(refused)?,
             None => vec![true; before.guides().len()],
         };
-        let stages = before.stages(head, operation, monitor).map_err(refused)?;
-        let after = stages.last().expect("a step has a stage");
+        let mut stages = Vec::new();
+        let options =
+            StyleOptions { stages: each.then_some(&mut stages), ..StyleOptions::default() };
+        let after = style(before, head, operation, options, monitor).map_err(refused)?;
         styled.steps.push(StepNumbers {
             operation: operation.name(),
             wisps: chosen.iter().filter(|chosen| **chosen).count(),
-            changed: changed(before, after),
-            short: short_of(operation, after, &chosen),
+            changed: changed(before, &after),
+            short: short_of(operation, &after, &chosen),
             mass: after.mass(),
             mass_change: after.mass() - before.mass(),
-            tips: [mean_tip(before, &chosen), mean_tip(after, &chosen)],
+            tips: [mean_tip(before, &chosen), mean_tip(&after, &chosen)],
             cut: None,
         });
         if let Operation::Cut(Cut { line: CutLine::Below(height), .. }) = operation {
@@ -86,9 +88,8 @@ pub(super) fn all(
         if !each {
             styled.hairstyles.clear();
         }
-        styled
-            .hairstyles
-            .extend(stages.into_iter().rev().take(if each { usize::MAX } else { 1 }).rev());
+        styled.hairstyles.extend(stages);
+        styled.hairstyles.push(after);
     }
     let end = styled.hairstyles.last().expect("there is one to begin with");
     for (index, chosen, line) in cuts {

@@ -4,9 +4,9 @@
 //! Hundreds of them rest side by side in the lanes of vectors ([`frisure_rod::batch`]). They start where their guides
 //! carry them to, turned as the guide that they follow.
 
+mod checkpoint;
 mod envelope;
 mod fibre;
-mod part;
 
 use frisure_rod::batch::{Batch, BatchSolution, Frames, InitialShape, RodSolution};
 use frisure_rod::{Node, Rod, Stability, line};
@@ -19,9 +19,10 @@ use super::skin::{Free, LAID};
 use crate::hairstyle::Hairstyle;
 use crate::monitor::{Cancelled, Stage};
 use crate::roots::Root;
+pub use checkpoint::Checkpoint;
+pub(crate) use checkpoint::key;
+use checkpoint::{part_from_bytes, part_to_bytes};
 use envelope::Envelope;
-pub use part::Keep;
-pub(crate) use part::key;
 
 /// How many hairs were simulated, and how they came to rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -108,7 +109,7 @@ impl<'a> Simulated<'a> {
         Self { population, hairstyle, frames }
     }
 
-    /// The hairs rooted at some places, in their order; those that are kept are not simulated again.
+    /// The hairs rooted at some places, in their order; those that a checkpoint has are not simulated again.
     ///
     /// # Errors
     /// [`Cancelled`], if the monitor says so.
@@ -116,17 +117,17 @@ impl<'a> Simulated<'a> {
         &self,
         roots: &[(usize, Root)],
         stage: &Stage<'_>,
-        keep: Option<&dyn Keep>,
+        checkpoint: Option<&dyn Checkpoint>,
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
         let chunk = |(part, roots): (usize, &[(usize, Root)])| {
-            let kept = keep.and_then(|keep| keep.find(part));
-            if let Some(known) = kept.and_then(|bytes| part::from_bytes(bytes, roots.len())) {
+            let saved = checkpoint.and_then(|checkpoint| checkpoint.find(part));
+            if let Some(known) = saved.and_then(|bytes| part_from_bytes(bytes, roots.len())) {
                 roots.iter().for_each(|_| stage.advance());
                 return Ok(known);
             }
             let (hairs, simulation) = self.chunk(roots, stage)?;
-            if let Some(keep) = keep {
-                keep.keep(part, &part::to_bytes(&hairs, simulation));
+            if let Some(checkpoint) = checkpoint {
+                checkpoint.save(part, &part_to_bytes(&hairs, simulation));
             }
             Ok((hairs, simulation))
         };

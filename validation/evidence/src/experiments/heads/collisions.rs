@@ -1,7 +1,7 @@
 //! Figure 4: a hair on a sphere, and heads with and without collisions.
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::penetration;
+use frisure::hairstyle::{penetration, settling_report};
 use frisure::rod::potential::FieldPotential;
 use frisure::rod::{
     Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant, equilibrium,
@@ -101,7 +101,7 @@ pub(super) fn on_heads(
         let hair = Hair::of(text, changes, head, effort, monitor)?;
         let strands = hair.strands(head, monitor)?;
         let litres = 1e3 * hair.volume(&strands, head).region;
-        let report = hair.hairstyle.report(head);
+        let report = settling_report(&hair.hairstyle, head);
         let depth = 1e3 * penetration(&strands, head);
         table.row([
             name.to_owned(),

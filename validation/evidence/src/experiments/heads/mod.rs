@@ -8,6 +8,7 @@ mod styled;
 use std::sync::OnceLock;
 
 use frisure::hairstyle::head::Head;
+use frisure::hairstyle::{guide_strands, settling_report};
 use frisure::strands::Strands;
 
 use crate::extremes::{larger, smallest};
@@ -64,7 +65,7 @@ fn first(
     let lowest = (0..rest.len()).min_by(|&a, &b| rest[a].tip().z.total_cmp(&rest[b].tip().z));
     let chosen = lowest.unwrap_or(0);
     let mut one = Strands::new();
-    let guides = hair.hairstyle.guide_strands(200);
+    let guides = guide_strands(&hair.hairstyle, 200);
     one.push(guides.strand(chosen).points, guides.strand(chosen).radii);
     let wisp = scenes::wisp(&strands, chosen as u32);
     let pictures = [
@@ -77,7 +78,7 @@ fn first(
         "Figure 1: a hair, the wisp around it, and a head of such wisps.",
         &pictures,
     )?);
-    let report = hair.hairstyle.report(head);
+    let report = settling_report(&hair.hairstyle, head);
     finding.text(format!(
         "The head has {} wisps and {} drawn hairs; its guides have {} elements in all.",
         report.guides,
@@ -124,7 +125,7 @@ fn kinds(
         let hair = Hair::of(text, &[], head, effort, monitor)?;
         let strands = hair.strands(head, monitor)?;
         let volume = hair.volume(&strands, head);
-        let report = hair.hairstyle.report(head);
+        let report = settling_report(&hair.hairstyle, head);
         let rest = hair.hairstyle.equilibria();
         let n = rest.len() as f64;
         let drop = rest

@@ -6,7 +6,9 @@ use std::path::Path;
 
 use frisure::formats::picture::png;
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Hairstyle, Volume, predict, volume};
+use frisure::hairstyle::{
+    Hairstyle, PredictOptions, StrandOptions, Volume, predict, strands, volume,
+};
 use frisure::render::preview::{self, PreviewOptions};
 use frisure::scene::{Scene, edit};
 use frisure::strands::{AttributeValues, Strands};
@@ -54,12 +56,12 @@ impl Hair {
         let text = edit::set_keys(text, &all).map_err(|e| failed(monitor, e))?;
         let scene = Scene::parse("scene", text, Path::new("")).map_err(|e| failed(monitor, e))?;
         let spec = scene.hairstyle_spec().map_err(|e| failed(monitor, e))?;
-        let hairstyle = predict(&spec, head, monitor)?;
+        let hairstyle = predict(&spec, head, PredictOptions::default(), monitor)?;
         Ok(Self { scene, hairstyle })
     }
 
     pub(super) fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Stopped> {
-        Ok(self.hairstyle.strands(head, monitor)?)
+        Ok(strands(&self.hairstyle, head, StrandOptions::default(), monitor)?.strands)
     }
 
     pub(super) fn volume(&self, strands: &Strands, head: &Head) -> Volume {

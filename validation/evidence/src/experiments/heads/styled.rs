@@ -2,7 +2,9 @@
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::{Dry, Operation};
-use frisure::hairstyle::{Hairstyle, volume};
+use frisure::hairstyle::{
+    Hairstyle, StrandOptions, StyleOptions, selected, settling_report, strands, style, volume,
+};
 use frisure::strands::Strands;
 
 use super::scenes::{Hair, failed, strip};
@@ -36,9 +38,10 @@ pub(super) fn cut_wet(
         super::super::check(monitor, "heads", 0.55 + 0.05 * k as f64)?;
         let before = &states[states.len() - 1];
         if let (Operation::Cut(_), Some(selection)) = (operation, operation.selection()) {
-            fringe = before.selected(head, selection).map_err(|e| failed(monitor, e))?;
+            fringe = selected(before, head, selection).map_err(|e| failed(monitor, e))?;
         }
-        let after = before.styled(head, operation, monitor).map_err(|e| failed(monitor, e))?;
+        let after = style(before, head, operation, StyleOptions::default(), monitor)
+            .map_err(|e| failed(monitor, e))?;
         states.push(after);
     }
     let names = ["dry", "wet", "cut", "dry again"];
@@ -48,11 +51,13 @@ pub(super) fn cut_wet(
     );
     let start = tips(&states[0], &fringe);
     let (mut pictures, mut heights, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
-    let drawn = states.iter().map(|state| Ok(state.strands(head, monitor)?));
+    let drawn = states
+        .iter()
+        .map(|state| Ok(strands(state, head, StrandOptions::default(), monitor)?.strands));
     let drawn: Vec<Strands> = drawn.collect::<Result<_, Stopped>>()?;
     for (name, (state, strands)) in names.into_iter().zip(states.iter().zip(&drawn)) {
         let litres = 1e3 * volume(strands, head, state.grown()).region;
-        let report = state.report(head);
+        let report = settling_report(state, head);
         let height = 1e3 * (tips(state, &fringe) - start);
         table.row([
             name.to_owned(),
@@ -73,7 +78,8 @@ pub(super) fn cut_wet(
     )?);
     finding.table(table);
     let dried = Operation::Dry(Dry::default());
-    let back = states[1].styled(head, &dried, monitor).map_err(|e| failed(monitor, e))?;
+    let back = style(&states[1], head, &dried, StyleOptions::default(), monitor)
+        .map_err(|e| failed(monitor, e))?;
     finding.judge(
         "how far the fringe hangs lower when it is wetted (mm)",
         heights[0] - heights[1],

@@ -1,9 +1,71 @@
-//! What styling has made of one wisp.
+//! What styling has made of a hairstyle, wisp by wisp, as data.
+
+use std::sync::Arc;
 
 use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain, StrainProfile};
 use glam::{DMat3, DQuat, DVec3};
 
-use super::operation::Holder;
+use crate::guides::Guide;
+use crate::rest::Rest;
+
+/// Relative humidity of the air that every hairstyle begins in.
+const ROOM: f64 = 0.6;
+
+/// What styling has made of a hairstyle.
+#[derive(Clone, Debug)]
+pub(crate) struct Styling {
+    /// The guides as they were planned.
+    pub(crate) planned: Arc<[Guide]>,
+    pub(crate) wisps: Vec<WispState>,
+    /// Relative humidity of the air.
+    pub(crate) humidity: f64,
+    /// Where drawn hairs have been cut, if they have.
+    pub(crate) ends: Option<Ends>,
+    /// How the hair lay before it was wetted.
+    pub(crate) lay: Option<Arc<Lay>>,
+}
+
+/// How dry hair lay before it was wetted: hair that dries lies so again, if nothing else was done to
+/// it. \[paper\] §3.2.1 has drying as the inverse of wetting.
+#[derive(Debug)]
+pub(crate) struct Lay {
+    pub(crate) humidity: f64,
+    /// State and equilibrium of each wisp that was dry.
+    pub(crate) wisps: Vec<Option<(WispState, Equilibrium)>>,
+    /// All of the head when all of it was dry.
+    pub(crate) whole: Option<(Vec<WispState>, Rest)>,
+}
+
+impl Styling {
+    /// Nothing has been done.
+    pub(crate) fn none(planned: &[Guide]) -> Self {
+        let wisps = planned.iter().map(|g| WispState::new(g.rod.length())).collect();
+        Self { planned: planned.into(), wisps, humidity: ROOM, ends: None, lay: None }
+    }
+
+    /// Whether nothing has been done to guides.
+    pub(crate) fn is_none(&self, guides: &[Guide]) -> bool {
+        let untouched = guides.iter().map(|g| WispState::new(g.rod.length()));
+        self.humidity == ROOM
+            && self.ends.is_none()
+            && self.lay.is_none()
+            && self.wisps.iter().cloned().eq(untouched)
+    }
+
+    /// Length (m, dry) at which each drawn hair has been cut, if any has.
+    pub(crate) fn limits(&self) -> Option<&[f32]> {
+        self.ends.as_ref().map(|ends| &*ends.limits)
+    }
+}
+
+/// The length at which each drawn hair has been cut.
+#[derive(Clone, Debug)]
+pub(crate) struct Ends {
+    /// Length (m) of the dry hair, infinite where it has never been cut.
+    pub(crate) limits: Arc<[f32]>,
+    /// The wisp of each hair.
+    pub(crate) wisps: Arc<[u32]>,
+}
 
 /// What styling has made of one wisp. Lengths are those of dry hair, in air of 60 %.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,30 +79,58 @@ pub struct WispState {
     /// Mass of the water in the wisp when it is fully wet, over that of the dry hair.
     pub water: f64,
     /// Shapes that it was dried in and keeps part of, the oldest first.
-    pub(super) sets: Vec<Set>,
+    pub(crate) sets: Vec<Set>,
     /// What holds it.
-    pub(super) grip: Option<Grip>,
+    pub(crate) grip: Option<Grip>,
     /// How often it was moved by hand: where it lay before means nothing then.
-    pub(super) moved: u32,
+    pub(crate) moved: u32,
+}
+
+/// What holds hair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Holder {
+    /// Wound on a roller.
+    Roller {
+        /// Radius of the roller (m).
+        radius: f64,
+        /// Advance per turn along the roller (m).
+        pitch: f64,
+    },
+    /// In a braid of three.
+    Braid {
+        /// Width of the braid (m).
+        width: f64,
+        /// Length in which a part comes back to its place (m).
+        pitch: f64,
+    },
+    /// Drawn straight, as between hot plates or under a brush.
+    Straight,
+    /// With a clip that brings a place of each wisp to a point.
+    Clip {
+        /// Which place: 0 (root) to 1 (tip).
+        at: f64,
+        /// The point (m).
+        to: DVec3,
+    },
 }
 
 /// What holds a wisp.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Grip {
+pub(crate) enum Grip {
     /// Rollers, braids, plates and clips.
     Holder(Holder),
     /// A comb that is not taken away.
     Comb {
         /// A unit vector.
         direction: DVec3,
-        /// As [`super::Comb::strength`].
+        /// As [`crate::styling::Comb::strength`].
         strength: f64,
     },
 }
 
 impl Grip {
     /// Whether it gives hair another shape, rather than another place.
-    pub(super) fn moulds(self) -> bool {
+    pub(crate) fn moulds(self) -> bool {
         match self {
             Self::Holder(Holder::Clip { .. }) | Self::Comb { .. } => false,
             Self::Holder(_) => true,
@@ -51,7 +141,7 @@ impl Grip {
 /// A shape that hair was dried in: hydrogen bonds that water had opened close again, and keep part
 /// of it until water opens them again.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Set {
+pub(crate) struct Set {
     /// Strain (rad/m) of the shape along the dry hair, from where it begins.
     held: NaturalStrain,
     /// Where it begins (m): hair that has grown since does not have it.
@@ -69,7 +159,7 @@ const KNOTS: f64 = 2e-3;
 const MOST_KNOTS: f64 = 1000.0;
 
 impl WispState {
-    pub(super) fn new(length: f64) -> Self {
+    pub(crate) fn new(length: f64) -> Self {
         let (sets, grip) = (Vec::new(), None);
         Self { length, uncut: length, wetness: 0.0, water: 0.0, sets, grip, moved: 0 }
     }
@@ -81,7 +171,7 @@ impl WispState {
     }
 
     /// Wets the wisp, or lets it dry to some wetness; what water opens loses its set.
-    pub(super) fn wet(&mut self, to: f64) {
+    pub(crate) fn wet(&mut self, to: f64) {
         if to > self.wetness {
             let closed = (1.0 - to) / (1.0 - self.wetness);
             for set in &mut self.sets {
@@ -96,14 +186,14 @@ impl WispState {
     }
 
     /// Lets the wisp keep a share of a shape, given as strain along the dry hair.
-    pub(super) fn keep(&mut self, held: NaturalStrain, share: f64) {
+    pub(crate) fn keep(&mut self, held: NaturalStrain, share: f64) {
         if share > LEAST_SHARE {
             self.sets.push(Set { held, from: 0.0, share });
         }
     }
 
     /// Lets the wisp grow by a length (m) at its root.
-    pub(super) fn grow(&mut self, by: f64) {
+    pub(crate) fn grow(&mut self, by: f64) {
         self.length += by;
         self.uncut += by;
         for set in &mut self.sets {
@@ -112,7 +202,7 @@ impl WispState {
     }
 
     /// The natural strain (rad/m, along the dry hair) with what is kept of shapes it was dried in.
-    pub(super) fn with_sets(&self, grown: NaturalStrain) -> Result<NaturalStrain, InvalidQuantity> {
+    pub(crate) fn with_sets(&self, grown: NaturalStrain) -> Result<NaturalStrain, InvalidQuantity> {
         if self.sets.is_empty() {
             return Ok(grown);
         }
@@ -133,7 +223,7 @@ impl WispState {
 const FRAMES: f64 = 1e-3;
 
 /// The strain (rad/m) of a guide as it lies, along the dry hair, which is `stretch` times shorter.
-pub(super) fn strain_of(
+pub(crate) fn strain_of(
     guide: &Equilibrium,
     stretch: f64,
 ) -> Result<NaturalStrain, InvalidQuantity> {

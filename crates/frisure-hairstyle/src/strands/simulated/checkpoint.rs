@@ -1,4 +1,4 @@
-//! Simulated hairs that were kept, so that long work that was cut off can go on.
+//! Checkpoints of simulated hairs: long work that was interrupted goes on from there.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -8,13 +8,13 @@ use super::{Hair, Root, Simulation};
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 
-/// Keeps simulated hairs part by part; called from any thread.
-pub trait Keep: Sync {
-    /// What was kept of a part; none if nothing was.
+/// Saves simulated hairs part by part, and finds them again; called from any thread.
+pub trait Checkpoint: Sync {
+    /// What was saved of a part; none if nothing was.
     fn find(&self, part: usize) -> Option<&[u8]>;
 
-    /// Keeps what a part came to. If it cannot, the work goes on.
-    fn keep(&self, part: usize, bytes: &[u8]);
+    /// Saves the result of a part. If it cannot, the work goes on.
+    fn save(&self, part: usize, bytes: &[u8]);
 }
 
 /// What the hairs of this hairstyle depend on, for the same build: if it is the same, so are the hairs.
@@ -40,7 +40,7 @@ pub(crate) fn key(hairstyle: &Hairstyle, head: &Head, roots: &[(usize, Root)]) -
 }
 
 /// The bytes of a part: how its hairs came to rest, then for each guide, thickness, whether it was cut, and points.
-pub(super) fn to_bytes(hairs: &[Hair], simulation: Simulation) -> Vec<u8> {
+pub(super) fn part_to_bytes(hairs: &[Hair], simulation: Simulation) -> Vec<u8> {
     let Simulation { hairs: of, at_rest, elements, iterations } = simulation;
     let mut bytes = Vec::new();
     for number in [of, at_rest, elements, iterations] {
@@ -57,7 +57,7 @@ pub(super) fn to_bytes(hairs: &[Hair], simulation: Simulation) -> Vec<u8> {
 }
 
 /// The part of `count` hairs that these are the bytes of; none if they are not.
-pub(super) fn from_bytes(mut bytes: &[u8], count: usize) -> Option<(Vec<Hair>, Simulation)> {
+pub(super) fn part_from_bytes(mut bytes: &[u8], count: usize) -> Option<(Vec<Hair>, Simulation)> {
     let bytes = &mut bytes;
     let mut number = || Some(u64::from_le_bytes(*bytes.split_off(..8)?.first_chunk()?) as usize);
     let simulation = Simulation {
@@ -97,13 +97,13 @@ mod tests {
         };
         let simulation = Simulation { hairs: 3, at_rest: 2, elements: 50, iterations: 17 };
         let hairs = [hair(2), hair(0), hair(1)];
-        let bytes = to_bytes(&hairs, simulation);
-        let (again, told) = from_bytes(&bytes, 3).unwrap();
+        let bytes = part_to_bytes(&hairs, simulation);
+        let (again, told) = part_from_bytes(&bytes, 3).unwrap();
         assert_eq!(told, simulation);
-        assert_eq!(to_bytes(&again, told), bytes);
-        assert!(from_bytes(&bytes, 2).is_none() && from_bytes(&bytes, 4).is_none());
+        assert_eq!(part_to_bytes(&again, told), bytes);
+        assert!(part_from_bytes(&bytes, 2).is_none() && part_from_bytes(&bytes, 4).is_none());
         for cut in 0..bytes.len() {
-            assert!(from_bytes(&bytes[..cut], 3).is_none());
+            assert!(part_from_bytes(&bytes[..cut], 3).is_none());
         }
     }
 }

@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 use frisure_rod::{InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::DVec3;
 
-use super::operation::Holder;
-use super::wisp_state::{Grip, WispState};
 use crate::guides::{Guide, grown_strain};
 use crate::presets::{Moisture, Wetting};
 use crate::pull::Pull;
 use crate::spec::HairstyleSpec;
+use crate::wisp_state::{Grip, Holder, Styling, WispState};
 
 /// How much stiffer hair is for being held in a shape.
 const MOULD: f64 = 10.0;
@@ -65,15 +64,15 @@ impl Factors {
     }
 }
 
-/// The guide of a wisp as styling has made it; `area` is that of the scalp (m²).
+/// The guide of the wisp `index` as styling has made it; `area` is that of the scalp (m²).
 pub(super) fn guide(
     spec: &HairstyleSpec,
     area: f64,
-    (index, planned): (usize, &Guide),
-    state: &WispState,
-    humidity: f64,
+    index: usize,
+    styling: &Styling,
 ) -> Result<Guide, InvalidQuantity> {
-    let factors = Factors::new(&spec.wetting, state, humidity);
+    let (planned, state) = (&styling.planned[index], &styling.wisps[index]);
+    let factors = Factors::new(&spec.wetting, state, styling.humidity);
     let grown = grown_strain(spec, planned, index, state.length)?;
     let base = planned.rod.spec();
     let dry = Rod::new(RodSpec { length: state.length, natural: grown.clone(), ..base.clone() })?;

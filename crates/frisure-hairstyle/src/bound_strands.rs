@@ -22,22 +22,22 @@ const ALIKE: f64 = 5e-4;
 
 /// The hairs of a groom, with what is needed to carry them.
 #[derive(Debug)]
-pub(crate) struct Carried {
+pub(crate) struct BoundStrands {
     hairs: Strands,
     /// Guides with weights that sum to one, the most alike first.
     carriers: Vec<Vec<(usize, f64)>>,
     /// The guides as the groom has them.
-    pub(super) wisps: Vec<Wisp>,
+    pub(crate) wisps: Vec<Wisp>,
 }
 
 /// One hair of a groom, by arc length.
-pub(super) struct Own {
+pub(crate) struct BoundStrand {
     points: Vec<DVec3>,
     /// Distance (m) from the root along the hair.
     arcs: Vec<f64>,
 }
 
-impl Own {
+impl BoundStrand {
     fn new(points: impl Iterator<Item = DVec3>) -> Self {
         let points: Vec<DVec3> = points.collect();
         let mut s = 0.0;
@@ -50,12 +50,12 @@ impl Own {
     }
 
     /// Length along the hair (m).
-    pub(super) fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.arcs.last().copied().unwrap_or(0.0)
     }
 
     /// The point at a distance from the root (m), straight between those of the groom.
-    pub(super) fn at(&self, s: f64) -> DVec3 {
+    pub(crate) fn at(&self, s: f64) -> DVec3 {
         let next = self.arcs.partition_point(|arc| *arc < s);
         if next == 0 {
             return self.points[0];
@@ -66,7 +66,7 @@ impl Own {
     }
 }
 
-impl Carried {
+impl BoundStrands {
     /// The hairs of a groom, and its guides as it has them.
     pub(crate) fn new(hairs: &Strands, wisps: Vec<Wisp>) -> Self {
         let roots: Vec<DVec3> = wisps.iter().map(|wisp| wisp.at(0.0).0).collect();
@@ -77,7 +77,7 @@ impl Carried {
         let carriers = (0..hairs.len())
             .into_par_iter()
             .map(|hair| {
-                let own = Own::new(hairs.strand(hair).points.iter().map(|p| p.as_dvec3()));
+                let own = BoundStrand::new(hairs.strand(hair).points.iter().map(|p| p.as_dvec3()));
                 carriers(&own, &grid.nearest(own.points[0], SOUGHT, &roots), &wisps)
             })
             .collect();
@@ -88,17 +88,17 @@ impl Carried {
         self.hairs.len()
     }
 
-    pub(super) fn own(&self, hair: usize) -> Own {
-        Own::new(self.hairs.strand(hair).points.iter().map(|p| p.as_dvec3()))
+    pub(crate) fn strand(&self, hair: usize) -> BoundStrand {
+        BoundStrand::new(self.hairs.strand(hair).points.iter().map(|p| p.as_dvec3()))
     }
 
-    pub(super) fn carriers(&self, hair: usize) -> &[(usize, f64)] {
+    pub(crate) fn carriers(&self, hair: usize) -> &[(usize, f64)] {
         &self.carriers[hair]
     }
 }
 
 /// Those of some guides that go most as a hair goes.
-fn carriers(own: &Own, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f64)> {
+fn carriers(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f64)> {
     let apart = |guide: usize| {
         let wisp = &wisps[guide];
         let square = |k: usize| {
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn a_hair_by_arc_length() {
         let points = [DVec3::ZERO, DVec3::X, DVec3::X, DVec3::new(1.0, 2.0, 0.0)];
-        let own = Own::new(points.into_iter());
+        let own = BoundStrand::new(points.into_iter());
         assert_eq!(own.length(), 3.0);
         assert_eq!(own.at(0.5), DVec3::new(0.5, 0.0, 0.0));
         assert_eq!(own.at(1.0), DVec3::X);

@@ -11,19 +11,21 @@ use frisure_strands::{Strand, Strands};
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::bound_strands::BoundStrands;
 use crate::contact::Bed;
-use crate::equilibrium::{Effort, held_up, holding, settle_from};
+use crate::equilibrium::{Effort, GuideStart, SettleOptions, held_up, holding, settle};
 use crate::grid::Grid;
-use crate::guides::{Guide, Planting, covered};
-use crate::hairstyle::{Hairstyle, PredictError};
+use crate::guides::{Guide, covered};
+use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::implantation::Layout;
 use crate::monitor::{Monitor, Stage};
+use crate::placement::RootPlacement;
+use crate::predict::PredictError;
 use crate::random::{Purpose, Stream};
 use crate::roots::{Root, Scalp};
 use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
-use crate::strands::Carried;
-use crate::styling::Styling;
+use crate::wisp_state::Styling;
 use crate::wisps::Wisp;
 
 /// How well a groom was adopted; one entry for each of its guides, in their order.
@@ -84,18 +86,19 @@ pub fn adopt(
         })
         .collect::<Result<_, PredictError>>()?;
 
-    let planting = planting(&mut spec, head, &lines, hairs, &held);
-    spec.wisps.check_size(planting.area())?;
+    let placement = placement(&mut spec, head, &lines, hairs, &held);
+    spec.wisps.check_size(placement.area())?;
     let layout = Layout::new(&spec, head)?;
-    let guides = plan(&spec, head, &planting, &held);
+    let guides = plan(&spec, head, &placement, &held);
     let before: Vec<_> = held.iter().map(|(held, _)| held.equilibrium.clone()).collect();
-    let rest = settle_from(&spec, head, &guides, &before, Effort::FULL, monitor)?;
+    let options = SettleOptions { start: GuideStart::At(&before), effort: Effort::FULL };
+    let rest = settle(&spec, head, &guides, options, monitor)?;
     let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
     let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();
     let stiffness_needed = held.iter().map(|(held, _)| held.stiffness_needed).collect();
     let inside = lines.iter().filter(|line| is_inside(&spec, head, line)).count();
     let styling = Styling::none(&guides);
-    let hairstyle = Hairstyle { spec, planting, layout, guides, rest, styling, rough: None };
+    let hairstyle = Hairstyle { spec, placement, layout, guides, rest, styling };
     Ok((hairstyle, Adoption { distances, stiffness_needed, left_out, inside }))
 }
 
@@ -195,13 +198,13 @@ fn fibre(spec: &HairstyleSpec, index: usize) -> Result<RodSpec, InvalidQuantity>
 }
 
 /// Where guides and hairs are rooted.
-fn planting(
+fn placement(
     spec: &mut HairstyleSpec,
     head: &Head,
     lines: &[Vec<DVec3>],
     hairs: &Strands,
     held: &[(InverseSolution, Bed)],
-) -> Planting {
+) -> RootPlacement {
     let root = |p: DVec3| Root {
         position: p,
         normal: head.signed_distance().value_gradient(p).1.normalize_or(DVec3::Z),
@@ -222,13 +225,13 @@ fn planting(
     };
     let drawn = if drawn.is_empty() { roots.clone() } else { drawn };
     spec.wisps.hairs = Hairs::Count(drawn.len());
-    let carried = (!hairs.is_empty()).then(|| {
+    let bound = (!hairs.is_empty()).then(|| {
         spec.wisps.points = spec.wisps.points.max(usual_points(hairs));
         let wisp = |(held, _): &(InverseSolution, Bed)| Wisp::new(&held.target, WISP_SAMPLES, 0.0);
-        Arc::new(Carried::new(hairs, held.par_iter().map(wisp).collect()))
+        Arc::new(BoundStrands::new(hairs, held.par_iter().map(wisp).collect()))
     });
     let hairs = Arc::new(Mutex::new(Some(drawn.into())));
-    Planting { of: Planting::key(spec, head), area, roots, hairs, carried }
+    RootPlacement { of: RootPlacement::key(spec, head), area, roots, hairs, bound }
 }
 
 /// Samples along guides as the groom has them.
@@ -281,20 +284,20 @@ const LONELY: f64 = 0.01;
 fn plan(
     spec: &HairstyleSpec,
     head: &Head,
-    planting: &Planting,
+    placement: &RootPlacement,
     held: &[(InverseSolution, Bed)],
 ) -> Vec<Guide> {
-    let heights = || planting.roots().iter().map(|root| root.position.z);
+    let heights = || placement.roots().iter().map(|root| root.position.z);
     let (low, high) =
         (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
     let guide = |(root, (held, bed)): (&Root, &(InverseSolution, Bed))| {
         let altitude = (root.position.z - low) / (high - low).max(1e-9);
         let curl = held.rod.natural().mean(0.0, held.rod.length());
         let fibre = (held.rod.clone(), curl, 1.0);
-        let guide = covered(spec, head, planting.area(), (*root, altitude), fibre);
+        let guide = covered(spec, head, placement.area(), (*root, altitude), fibre);
         Guide { bed: Some(Arc::new(bed.clone())), ..guide }
     };
-    planting.roots().iter().zip(held).map(guide).collect()
+    placement.roots().iter().zip(held).map(guide).collect()
 }
 
 /// Largest distance (m) of a line's points from a guide at rest, each at its part of the length.
