@@ -266,7 +266,7 @@ impl Tracing {
             noise: Some(0.01 * self.noise.unwrap_or(2.0)).filter(|noise| *noise > 0.0),
             bounces: self.bounces.unwrap_or(100),
             // The cast takes the low bits, which is as good a seed.
-            seed: scene.look.seed as u32,
+            seed: scene.look.hair.seed,
         }
     }
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Vertical field of view of [`Camera::framing`] (rad): that of a portrait lens, 24°.
 const PORTRAIT_FOV: f64 = 24.0 * std::f64::consts::PI / 180.0;
 
-/// Part of the picture's width or height that [`Camera::framing`] leaves free on each side.
+/// Part of the picture's width or height that framing leaves free on each side; chosen by eye.
 const MARGIN: f64 = 0.05;
 
 /// Points on each rim of the cylinder that [`Camera::framing`] fits into the picture.
@@ -204,6 +204,87 @@ fn usable_bounds((low, high): (DVec3, DVec3)) -> (DVec3, DVec3) {
     if good && size > 0.0 { (low, high) } else { (DVec3::splat(-0.15), DVec3::splat(0.15)) }
 }
 
+/// A camera by its direction from the subject; its distance follows from what it must show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraSpec {
+    /// Around the head (rad): 0 faces it, π/2 sees its left side.
+    pub azimuth: f64,
+    /// Above the horizon (rad).
+    pub elevation: f64,
+    /// Field of view from the picture's bottom to its top (rad).
+    pub field_of_view: f64,
+    /// Focal length over the diameter of the aperture; none for a pinhole.
+    pub f_number: Option<f64>,
+    /// Focus distance (m).
+    pub focus: Option<f64>,
+}
+
+impl CameraSpec {
+    /// The camera that is as near as it can be with all points (m) in a picture of `aspect` width/height.
+    #[must_use]
+    pub fn frame(&self, points: impl Iterator<Item = DVec3> + Clone, aspect: f64) -> Camera {
+        let extent = |axis: DVec3| {
+            points
+                .clone()
+                .map(|p| p.dot(axis))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
+        };
+        let unit = (DVec3::splat(-1.0), DVec3::ONE);
+        let framed = Camera::framing(unit, self.azimuth, self.elevation, aspect);
+        let (right, up, forward) = (framed.right, framed.up, framed.forward);
+        let centre: DVec3 = [right, up, forward]
+            .map(|axis| {
+                let (low, high) = extent(axis);
+                axis * (0.5 * (low + high))
+            })
+            .iter()
+            .sum();
+        let tan_v = (0.5 * self.field_of_view).tan() * (1.0 - 2.0 * MARGIN);
+        let tan_h = tan_v * aspect;
+        let distance = points
+            .map(|p| {
+                let d = p - centre;
+                (d.dot(right).abs() / tan_h).max(d.dot(up).abs() / tan_v) - d.dot(forward)
+            })
+            .fold(0.0, f64::max);
+        let eye = centre - distance * forward;
+        // Points without extent give no direction of view; the framing has one.
+        let camera = Camera::look_at(eye, centre, DVec3::Z, self.field_of_view).unwrap_or(framed);
+        match self.aperture(aspect) {
+            // An impossible lens is a pinhole.
+            Some(aperture) => camera.with_aperture(aperture).unwrap_or(camera),
+            None => camera,
+        }
+    }
+
+    /// The camera with this lens at another place: `eye` and `target` in m, `field_of_view` from the picture's bottom
+    /// to its top (rad).
+    ///
+    /// # Errors
+    /// [`CameraError`], for an eye at the target, or an impossible field of view.
+    pub fn at(
+        &self,
+        eye: DVec3,
+        target: DVec3,
+        field_of_view: f64,
+        aspect: f64,
+    ) -> Result<Camera, CameraError> {
+        let camera = Camera::look_at(eye, target, DVec3::Z, field_of_view)?;
+        match (Self { field_of_view, ..*self }).aperture(aspect) {
+            Some(aperture) => camera.with_aperture(aperture),
+            None => Ok(camera),
+        }
+    }
+
+    /// The aperture of a lens of this field of view on film of 24 × 36 mm; none for a pinhole.
+    fn aperture(&self, aspect: f64) -> Option<Aperture> {
+        let f_number = self.f_number?;
+        let height = if aspect > 1.0 { 0.024 } else { 0.036 };
+        let focal_length = 0.5 * height / (0.5 * self.field_of_view).tan();
+        Some(Aperture { radius: 0.5 * focal_length / f_number, focus: self.focus })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -254,5 +335,46 @@ mod tests {
         assert!(look(DVec3::Y, DVec3::Z, f64::NAN).is_err());
         let camera = Camera::framing((DVec3::NAN, DVec3::ONE), f64::NAN, 9.0, 0.0);
         assert!(camera.eye().is_finite());
+    }
+
+    const BOX: (DVec3, DVec3) = (DVec3::new(-0.1, -0.12, -0.3), DVec3::new(0.1, 0.09, 0.15));
+
+    fn corners() -> impl Iterator<Item = DVec3> + Clone {
+        (0..8_u8).map(|corner| {
+            let pick = |bit: u8| f64::from(corner >> bit & 1);
+            BOX.0 + DVec3::new(pick(0), pick(1), pick(2)) * (BOX.1 - BOX.0)
+        })
+    }
+
+    #[test]
+    fn a_framed_box_is_in_every_picture() {
+        for degrees in [1.0, 24.0, 120.0] {
+            for (azimuth, elevation, aspect) in
+                [(0.0, 0.0, 1.0), (2.0, 1.4, 0.3), (-9.0, -1.4, 4.0)]
+            {
+                let field_of_view = f64::to_radians(degrees);
+                let spec =
+                    CameraSpec { azimuth, elevation, field_of_view, f_number: None, focus: None };
+                let camera = spec.frame(corners(), aspect);
+                let tan = (0.5 * field_of_view).tan();
+                assert!((camera.vertical_fov() - field_of_view).abs() < 1e-12);
+                for corner in corners() {
+                    let d = corner - camera.eye();
+                    let depth = d.dot(camera.forward());
+                    assert!(depth > 0.0);
+                    assert!(d.dot(camera.up()).abs() < depth * tan);
+                    assert!(d.dot(camera.right()).abs() < depth * tan * aspect);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_portrait_lens_at_2_8_opens_by_15_mm() {
+        let (azimuth, elevation, field_of_view) = (0.0, 0.0, f64::to_radians(23.9));
+        let f_number = Some(2.8);
+        let spec = CameraSpec { azimuth, elevation, field_of_view, f_number, focus: None };
+        let camera = spec.frame(corners(), 0.8);
+        assert!((camera.aperture().unwrap().radius - 0.0152).abs() < 2e-4);
     }
 }

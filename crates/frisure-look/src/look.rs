@@ -2,7 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::camera::Camera;
 use crate::hair::HairLook;
+use crate::light::Lights;
 
 /// Appearance of everything in a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,5 +81,137 @@ impl Background {
                 (centre.lerp(corner, r * (2.0 - r)), 1.0)
             }
         }
+    }
+}
+
+/// The materials of a scene; what depends on lights and geometry is still open.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LookSpec {
+    /// The hair.
+    pub hair: HairLook,
+    /// The head.
+    pub skin: SkinLook,
+    /// What is behind the head.
+    pub backdrop: Backdrop,
+    /// Diffuse reflectance of a floor under the head, linear sRGB.
+    pub floor: Option<Vec3>,
+}
+
+/// What is behind the head.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Backdrop {
+    /// The studio's wall, as bright as the lights make it.
+    #[default]
+    Wall,
+    /// Nothing: the picture's alpha is the coverage.
+    Transparent,
+    /// The environment light.
+    Environment,
+    /// A colour, linear sRGB.
+    Colour(Vec3),
+}
+
+impl LookSpec {
+    /// The look in these lights, for a head with its middle at `centre` (m). It has no floor yet:
+    /// [`Floor::under`] makes one.
+    #[must_use]
+    pub fn look(&self, lights: &Lights, camera: &Camera, centre: DVec3) -> Look {
+        let background = self.backdrop.background(lights, camera, centre);
+        Look { hair: self.hair, skin: self.skin, background, floor: None }
+    }
+}
+
+impl Backdrop {
+    /// The background in these lights, behind a head with its middle at `centre` (m).
+    #[must_use]
+    pub fn background(self, lights: &Lights, camera: &Camera, centre: DVec3) -> Background {
+        match self {
+            Self::Wall => wall(lights, camera, centre),
+            Self::Transparent => Background::Transparent,
+            Self::Environment => Background::Environment,
+            Self::Colour(colour) => Background::Gradient { centre: colour, corner: colour },
+        }
+    }
+}
+
+/// The studio's wall in these lights: [`Background::default`] is how it looks in the studio's own.
+fn wall(lights: &Lights, camera: &Camera, middle: DVec3) -> Background {
+    let studio = irradiance_on_wall(&Lights::studio(camera), camera, middle);
+    let factor = irradiance_on_wall(lights, camera, middle) / studio;
+    match Background::default() {
+        Background::Gradient { centre, corner } => {
+            Background::Gradient { centre: centre * factor, corner: corner * factor }
+        }
+        other => other,
+    }
+}
+
+/// Irradiance on a wall that faces the camera, as far behind the head as the lamps are in front of it, so that a
+/// quarter of their light arrives.
+fn irradiance_on_wall(lights: &Lights, camera: &Camera, middle: DVec3) -> Vec3 {
+    let lamps = lights.lamps.iter().filter_map(|lamp| lamp.arriving(middle));
+    let cosine = |towards: DVec3| (-towards.dot(camera.forward())).max(0.0) as f32;
+    let lamps: Vec3 = lamps.map(|(towards, light)| 0.25 * cosine(towards) * light).sum();
+    lamps + std::f32::consts::PI * lights.environment.mean()
+}
+
+impl Floor {
+    /// Depth to which the foot of a bust, which is round at its edge, sinks into the floor (m): it would seem to float
+    /// otherwise. Chosen by eye.
+    const FOOT: f64 = 0.02;
+
+    /// Radius at which the floor has faded into the background (m); chosen by eye.
+    const RADIUS: f64 = 1.6;
+
+    /// A floor under everything from `low` to `high` (m), of which a bust stands on it (`on_foot`), of diffuse
+    /// reflectance `colour`.
+    #[must_use]
+    pub fn under((low, high): (DVec3, DVec3), on_foot: bool, colour: Vec3) -> Self {
+        let sunk = if on_foot { Self::FOOT } else { 0.0 };
+        let centre = (0.5 * (low + high)).with_z(low.z + sunk);
+        Self { centre, radius: Self::RADIUS, colour }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::{LampPlace, LampSpec, LightSpec, Setup};
+
+    fn wall_of(setup: Setup, strength: f64, lamps: Vec<LampSpec>) -> Vec3 {
+        let camera = Camera::default();
+        let spec = LightSpec {
+            setup,
+            direction: None,
+            size: None,
+            strength,
+            sky_strength: strength,
+            environment_rotation: 0.0,
+            lamps,
+        };
+        let lights = spec.lights(&camera, DVec3::ZERO, None).unwrap();
+        match Backdrop::Wall.background(&lights, &camera, DVec3::ZERO) {
+            Background::Gradient { centre, .. } => centre,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_wall_has_the_light_of_the_setup() {
+        let Background::Gradient { centre: studio, .. } = Background::default() else {
+            unreachable!()
+        };
+        assert_eq!(wall_of(Setup::Studio, 1.0, Vec::new()), studio);
+        assert_eq!(wall_of(Setup::Dark, 1.0, Vec::new()), Vec3::ZERO);
+        let of = |setup| wall_of(setup, 1.0, Vec::new()).y / studio.y;
+        let setups = [Setup::Soft, Setup::Studio, Setup::Butterfly, Setup::Rembrandt, Setup::Rim];
+        let scale = setups.map(of);
+        assert!(scale.is_sorted_by(|a, b| a > b), "{scale:?}");
+        // Lamps behind the head do not reach the wall's face.
+        let place = LampPlace::Far { direction: (std::f64::consts::PI, 0.0), angle: None };
+        let behind = LampSpec { place, strength: 1.0, colour: Vec3::ONE };
+        assert_eq!(wall_of(Setup::Dark, 1.0, vec![behind]), Vec3::ZERO);
+        let twice = wall_of(Setup::Studio, 2.0, Vec::new());
+        assert!((twice / studio - Vec3::splat(2.0)).abs().max_element() < 1e-5);
     }
 }

@@ -10,10 +10,12 @@
 
 pub mod accel;
 mod film;
+mod picture;
 mod pigment;
 pub mod preview;
 mod scene;
 pub mod trace;
 
 pub use film::{Image, MAX_SIZE};
+pub use picture::PictureSpec;
 pub use scene::{Scene, framed_bounds, head_centre};

@@ -6,18 +6,18 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use frisure_look::{Setup, ToneCurve};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::key::{
-    Acceleration, Angle, BehindKind, Colour, Count, Density, FaceSize, Flag, Key, Length, Modulus,
-    NumberDensity, OneOf, Pair, Point, Points, Ratio, Speed, Strain, Text, Vector,
+    Acceleration, Angle, BackdropKind, Colour, Count, Density, FaceSize, Flag, Key, Length,
+    Modulus, NumberDensity, OneOf, Pair, Point, Points, Ratio, Speed, Strain, Text, Vector,
 };
-use super::light::Setup;
 use super::step::Step;
 use super::words::{
     BodyWord, BranchKind, FlowWord, HairContactWord, HairType, Handed, PartingPlace, Places,
-    ShadeWord, Tone, UnitWord, WettingWord, Which,
+    ShadeWord, UnitWord, WettingWord, Which,
 };
 use frisure_files::frame::UpAxis;
 
@@ -465,7 +465,7 @@ pub(super) struct Look {
     /// Colour of the skin (sRGB).
     pub(super) skin: Key<Colour>,
     /// What is behind the head. Default "surroundings" where sky or an environment light it, else "wall".
-    pub(super) background: Key<BehindKind>,
+    pub(super) background: Key<BackdropKind>,
     /// Colour of a floor under the head (sRGB), which catches its shadow in a final picture. Left out,
     /// there is none.
     pub(super) floor: Key<Colour>,
@@ -613,5 +613,5 @@ pub(super) struct Output {
     #[schemars(range(min = -20.0, max = 20.0))]
     pub(super) exposure: Key<Ratio>,
     /// How light becomes a PNG's colours. Default "shoulder".
-    pub(super) tone: Key<OneOf<Tone>>,
+    pub(super) tone: Key<OneOf<ToneCurve>>,
 }

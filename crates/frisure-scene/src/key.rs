@@ -6,13 +6,13 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use frisure_hairstyle::InvalidSpec;
+use frisure_look::{Backdrop, Face, linear_from_srgb};
 use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer};
 use serde_spanned::Spanned;
 use toml::Value;
 
-use super::Behind;
 use super::error::{Fault, SceneError};
 use super::source::Source;
 use crate::quantity::{self, Dimension, QuantityError};
@@ -464,15 +464,6 @@ impl Kind for Pair {
     }
 }
 
-/// The outline of a lamp.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Face {
-    /// A disc, by its diameter (m).
-    Disc(f64),
-    /// A rectangle, by its width and height (m).
-    Rectangle([f64; 2]),
-}
-
 /// A diameter, or a width and a height (m).
 pub(super) struct FaceSize;
 
@@ -542,33 +533,38 @@ impl Kind for Colour {
 }
 
 /// What is behind the head: a word, or a colour.
-pub(super) struct BehindKind;
+pub(super) struct BackdropKind;
 
-impl BehindKind {
-    const WORDS: [(&str, &str, Behind); 3] = [
-        ("wall", "a grey wall that the lights fall on", Behind::Wall),
-        ("transparent", "nothing: the picture can be laid over another", Behind::Transparent),
+impl BackdropKind {
+    const WORDS: [(&str, &str, Backdrop); 3] = [
+        ("wall", "a grey wall that the lights fall on", Backdrop::Wall),
+        ("transparent", "nothing: the picture can be laid over another", Backdrop::Transparent),
         (
             "surroundings",
             "the room, the sky or the environment that light it",
-            Behind::Surroundings,
+            Backdrop::Environment,
         ),
     ];
 }
 
-impl Kind for BehindKind {
-    type Value = Behind;
+impl Kind for BackdropKind {
+    type Value = Backdrop;
 
-    fn read(value: &Value) -> Result<Behind, Refusal> {
+    fn read(value: &Value) -> Result<Backdrop, Refusal> {
         let word = Self::WORDS.iter().find(|word| value.as_str() == Some(word.0));
         match word {
             Some(word) => Ok(word.2),
-            None => Colour::read(value).map(Behind::Colour).map_err(|_| {
-                let words = Self::WORDS.map(|word| format!("\"{}\"", word.0)).join(", ");
-                let refusal = Refusal::new(format!("{words}, or a colour such as \"#d8b49c\""));
-                let near = value.as_str().and_then(|s| nearest(s, Self::WORDS.map(|word| word.0)));
-                refusal.hint(near.map_or(String::new(), |near| format!("did you mean \"{near}\"?")))
-            }),
+            None => {
+                Colour::read(value).map(|c| Backdrop::Colour(linear_from_srgb(c))).map_err(|_| {
+                    let words = Self::WORDS.map(|word| format!("\"{}\"", word.0)).join(", ");
+                    let refusal = Refusal::new(format!("{words}, or a colour such as \"#d8b49c\""));
+                    let near =
+                        value.as_str().and_then(|s| nearest(s, Self::WORDS.map(|word| word.0)));
+                    refusal.hint(
+                        near.map_or(String::new(), |near| format!("did you mean \"{near}\"?")),
+                    )
+                })
+            }
         }
     }
 

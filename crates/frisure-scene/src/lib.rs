@@ -36,12 +36,9 @@ mod words;
 
 pub use error::{Fault, SceneError};
 pub use frisure_formats::head::{HeadFile, ScalpSource};
-pub use key::Face;
-pub use light::{EnvironmentFile, Lamp, LampColour, LampFace, LampPlace, Light, Setup, Sun};
 use scene::without_mark;
 pub use scene::*;
 pub use schema::schema;
 pub(crate) use step::{Record, parse_record};
 pub use step::{WriteStepError, parse_step, write_step};
 pub use template::template;
-pub use words::Tone;

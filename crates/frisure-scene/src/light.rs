@@ -1,149 +1,36 @@
-//! What lights a scene.
+//! Resolving the keys of `[light]`.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use glam::DVec3;
+use frisure_look::{
+    Backdrop, Daylight, Face, LampFace, LampPlace, LampSpec, LightSpec, Setup,
+    colour_of_temperature, linear_from_srgb,
+};
 
-use super::Behind;
 use super::error::Fault;
 use super::file;
-use super::key::{Face, Key, Kind};
+use super::key::{Key, Kind};
 use super::resolve::{Result, missing, one_way, outside, within};
 use super::source::Source;
 use super::words::Which;
 
-/// What lights a scene; colours are sRGB from 0 to 1, angles rad, lengths m.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Light {
-    /// How the lamps are set.
-    pub setup: Setup,
-    /// Direction of the main lamp from the camera's, to the right and upwards, if it is not the setup's
-    /// own.
-    pub direction: Option<(f64, f64)>,
-    /// Angle from edge to edge of the main lamp, if it is not the setup's own.
-    pub size: Option<f64>,
-    /// Factor on all lamps.
-    pub strength: f64,
-    /// Factor on the light from all around.
-    pub sky_strength: f64,
-    /// Surroundings instead of the setup's.
-    pub environment: Option<EnvironmentFile>,
-    /// The sun of [`Setup::Daylight`].
-    pub sun: Sun,
-    /// Further lamps.
-    pub lamps: Vec<Lamp>,
+/// The lights of a scene, with the file of its environment map.
+pub(super) struct Lit {
+    pub(super) light: LightSpec,
+    pub(super) environment: Option<PathBuf>,
 }
 
-impl Light {
+impl Lit {
     /// What is behind the head, if the scene does not say it.
-    pub(super) fn behind(&self) -> Behind {
-        match self.setup {
-            Setup::Daylight | Setup::Overcast => Behind::Surroundings,
-            _ if self.environment.is_some() => Behind::Surroundings,
-            _ => Behind::Wall,
+    pub(super) fn backdrop(&self) -> Backdrop {
+        match self.light.setup {
+            Setup::Daylight(_) | Setup::Overcast => Backdrop::Environment,
+            _ if self.environment.is_some() => Backdrop::Environment,
+            _ => Backdrop::Wall,
         }
     }
-}
-
-/// How photographers set lights.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Setup {
-    /// A portrait studio.
-    #[default]
-    Studio,
-    /// Large soft lights.
-    Soft,
-    /// One light in front, high.
-    Butterfly,
-    /// One light at the side.
-    Rembrandt,
-    /// Lights behind.
-    Rim,
-    /// Sun and sky.
-    Daylight,
-    /// Clouds.
-    Overcast,
-    /// None.
-    Dark,
-}
-
-/// A picture of surroundings in a file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EnvironmentFile {
-    /// The file, relative to the scene's folder made so.
-    pub path: PathBuf,
-    /// Turn towards the head's left.
-    pub rotation: f64,
-}
-
-/// Where the sun is, and how hazy the air.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sun {
-    /// Around the head: 0 before the face, π/2 at its left.
-    pub azimuth: f64,
-    /// Above the horizon.
-    pub elevation: f64,
-    /// Haze.
-    pub turbidity: f64,
-}
-
-/// A lamp.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lamp {
-    /// Where it is.
-    pub place: LampPlace,
-    /// Brightness in the middle of the head, against the studio's main lamp.
-    pub strength: f64,
-    /// Its colour.
-    pub colour: LampColour,
-}
-
-/// Where a lamp is, and how large.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LampPlace {
-    /// Very far away.
-    Far {
-        /// From the camera's direction to the right, and upwards.
-        direction: (f64, f64),
-        /// Angle from edge to edge; `None` is a softbox's.
-        angle: Option<f64>,
-    },
-    /// At a distance from the middle of the head.
-    Beside {
-        /// From the camera's direction to the right, and upwards.
-        direction: (f64, f64),
-        /// Distance.
-        distance: f64,
-        /// Its face, if it has one.
-        face: Option<LampFace>,
-    },
-    /// At a place.
-    At {
-        /// The place.
-        position: DVec3,
-        /// Its face, if it has one.
-        face: Option<LampFace>,
-    },
-}
-
-/// The face of a lamp, which looks at the head.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LampFace {
-    /// Diameter of a disc, or width and height.
-    pub size: Face,
-    /// Whether it is seen in the traced picture.
-    pub shown: bool,
-}
-
-/// The colour of a lamp.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LampColour {
-    /// As sRGB.
-    Srgb([f64; 3]),
-    /// That of a glowing body (K).
-    Temperature(f64),
 }
 
 const ROUND: &str = "between -180 and 180 deg";
@@ -154,13 +41,14 @@ const STRENGTH: &str = "between 0 and 100";
 const WIDEST: f64 = 170.0 * PI / 180.0;
 
 /// Understands the keys; paths are relative to `folder`.
-pub(super) fn light(file: &file::Light, folder: &Path, source: &Source) -> Result<Light> {
-    let environment = environment(file, folder, source)?;
+pub(super) fn light(file: &file::Light, folder: &Path, source: &Source) -> Result<Lit> {
+    let environment_rotation = file.rotation.or(0.0, source)?;
+    let environment = file.environment.get(source)?.map(|name| folder.join(name));
     let sun_keys = [file.sun_azimuth.span(), file.sun_elevation.span(), file.turbidity.span()];
     let default = match (&environment, sun_keys.iter().any(Option::is_some)) {
         (Some(_), _) => Setup::Dark,
         // A sun by itself asks for the day.
-        (None, true) => Setup::Daylight,
+        (None, true) => Setup::Daylight(Daylight::default()),
         (None, false) => Setup::Studio,
     };
     let Which(setup) = file.setup.or(Which(default), source)?;
@@ -172,16 +60,20 @@ pub(super) fn light(file: &file::Light, folder: &Path, source: &Source) -> Resul
     );
     let is_aimed = file.azimuth.is_given() || file.elevation.is_given();
     let lamps = file.lamp.iter().enumerate().map(|(i, file)| lamp(i, file, source));
-    Ok(Light {
-        setup,
+    let size = angle(&file.size, source)?;
+    let strength = within(&file.strength, 1.0, 0.0, 100.0, STRENGTH, source)?;
+    let sky_strength = within(&file.sky_strength, 1.0, 0.0, 1e3, "between 0 and 1000", source)?;
+    let sun = sun(file, source)?;
+    let light = LightSpec {
+        setup: if matches!(setup, Setup::Daylight(_)) { Setup::Daylight(sun) } else { setup },
         direction: is_aimed.then_some(direction),
-        size: angle(&file.size, source)?,
-        strength: within(&file.strength, 1.0, 0.0, 100.0, STRENGTH, source)?,
-        sky_strength: within(&file.sky_strength, 1.0, 0.0, 1e3, "between 0 and 1000", source)?,
-        environment,
-        sun: sun(file, source)?,
+        size,
+        strength,
+        sky_strength,
+        environment_rotation,
         lamps: lamps.collect::<Result<_>>()?,
-    })
+    };
+    Ok(Lit { light, environment })
 }
 
 /// Refuses keys of lamps that a setup does not have.
@@ -196,14 +88,14 @@ fn check_setup(file: &file::Light, setup: Setup, source: &Source) -> Result<()> 
     let first = |spans: &[Option<Range<usize>>]| {
         spans.iter().flatten().min_by_key(|span| span.start).cloned()
     };
-    if setup != Setup::Daylight {
+    if !matches!(setup, Setup::Daylight(_)) {
         let sun = [file.sun_azimuth.span(), file.sun_elevation.span(), file.turbidity.span()];
         refuse(first(&sun), "is about a sun that is not there", "add `setup = \"daylight\"`")?;
     }
     let main = [file.azimuth.span(), file.elevation.span()];
     let sized = [main[0].clone(), main[1].clone(), file.size.span()];
     match setup {
-        Setup::Daylight => {
+        Setup::Daylight(_) => {
             let hint = "the sun has `sun_azimuth` and `sun_elevation`";
             refuse(first(&main), "is about a studio's lamp; there is the sun", hint)?;
         }
@@ -213,7 +105,7 @@ fn check_setup(file: &file::Light, setup: Setup, source: &Source) -> Result<()> 
         }
         _ => {}
     }
-    if matches!(setup, Setup::Daylight | Setup::Overcast) {
+    if matches!(setup, Setup::Daylight(_) | Setup::Overcast) {
         let hint = "keep `setup` or `environment`";
         refuse(file.environment.span(), "is a second sky", hint)?;
     }
@@ -224,21 +116,11 @@ fn check_setup(file: &file::Light, setup: Setup, source: &Source) -> Result<()> 
     Ok(())
 }
 
-fn environment(
-    file: &file::Light,
-    folder: &Path,
-    source: &Source,
-) -> Result<Option<EnvironmentFile>> {
-    let rotation = file.rotation.or(0.0, source)?;
-    let name = file.environment.get(source)?;
-    Ok(name.map(|name| EnvironmentFile { path: folder.join(name), rotation }))
-}
-
-fn sun(file: &file::Light, source: &Source) -> Result<Sun> {
+fn sun(file: &file::Light, source: &Source) -> Result<Daylight> {
     let deg = f64::to_radians;
     let (elevation, up) = (&file.sun_elevation, "between 0 and 90 deg");
-    Ok(Sun {
-        azimuth: within(
+    Ok(Daylight {
+        sun_azimuth: within(
             &file.sun_azimuth,
             deg(50.0),
             -2.0 * PI,
@@ -246,12 +128,12 @@ fn sun(file: &file::Light, source: &Source) -> Result<Sun> {
             "a turn at most",
             source,
         )?,
-        elevation: within(elevation, deg(40.0), 0.0, FRAC_PI_2, up, source)?,
+        sun_elevation: within(elevation, deg(40.0), 0.0, FRAC_PI_2, up, source)?,
         turbidity: within(&file.turbidity, 3.0, 1.9, 10.0, "between 1.9 and 10", source)?,
     })
 }
 
-fn lamp(index: usize, file: &file::Lamp, source: &Source) -> Result<Lamp> {
+fn lamp(index: usize, file: &file::Lamp, source: &Source) -> Result<LampSpec> {
     let beside = [file.azimuth.span(), file.elevation.span(), file.distance.span()];
     one_way(source, &[&beside, &[file.position.span()]])?;
     one_way(source, &[&[file.colour.span()], &[file.temperature.span()]])?;
@@ -281,12 +163,12 @@ fn lamp(index: usize, file: &file::Lamp, source: &Source) -> Result<Lamp> {
     let temperature = match file.temperature.is_given() {
         true => {
             let kelvin = within(&file.temperature, 6500.0, 1667.0, 25_000.0, temperature, source)?;
-            Some(LampColour::Temperature(kelvin))
+            Some(colour_of_temperature(kelvin))
         }
         false => None,
     };
-    let colour = LampColour::Srgb(file.colour.or([1.0; 3], source)?);
-    Ok(Lamp {
+    let colour = linear_from_srgb(file.colour.or([1.0; 3], source)?);
+    Ok(LampSpec {
         place: place(file, source)?,
         strength: within(&file.strength, 1.0, 0.0, 100.0, STRENGTH, source)?,
         colour: temperature.unwrap_or(colour),

@@ -7,12 +7,15 @@ use frisure_hairstyle::{
     Curl, Fibre, Flow, HairModel, Hairs, HairstyleSpec, InvalidSpec, Lift, Parting, Preset,
     RegionLength, RegionStyle, preset,
 };
-use frisure_look::Melanin;
+use frisure_look::{
+    Backdrop, CameraSpec, Dye, Fade, HairLook, HairSurface, LookSpec, Melanin, SkinLook, ToneCurve,
+    absorption_of_colour, linear_from_srgb,
+};
 use frisure_rod::{
     Branch, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
     Section, StrainProfile,
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
 use super::blame::{blame, out_of_range, place};
@@ -21,10 +24,9 @@ use super::file::{self, File};
 use super::key::{Key, Kind};
 use super::light::light;
 use super::source::Source;
-use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Tone, Which};
+use super::words::{BranchKind, FlowWord, HairType, ShadeWord, Which};
 use super::{
-    Behind, Camera, Dye, Fade, GroomFile, HeadFile, HeadSource, Look, NaturalColour, Output,
-    ScalpSource, Scene, SingleHair, schema, shape, step,
+    GroomFile, HeadFile, HeadSource, Output, ScalpSource, Scene, SingleHair, schema, shape, step,
 };
 use frisure_files::frame::FrameChoice;
 
@@ -61,7 +63,7 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
     set(&mut spec.contact.hair_stiffness, &c.hair_stiffness, &source)?;
     set(&mut spec.contact.volume, &c.volume, &source)?;
     let branch = equilibrium(&file.equilibrium, &mut spec, &source)?;
-    let light = light(&file.light, folder, &source)?;
+    let lit = light(&file.light, folder, &source)?;
     let groom = groom(&file.groom, folder, &source)?;
     if groom.is_some() && spec.wisps.strands == HairModel::Simulated {
         let problem =
@@ -76,9 +78,10 @@ pub(super) fn scene(source: Source, folder: &Path) -> Result<Scene> {
         hair_type: preset.name,
         head: head(&file.head, folder, &source)?,
         groom,
-        look: look(&file.look, spec.seed, light.behind(), &source)?,
+        look: look(&file.look, spec.seed, lit.backdrop(), &source)?,
         camera: camera(&file.camera, &source)?,
-        light,
+        light: lit.light,
+        environment: lit.environment,
         output: output(&file.output, &source)?,
         along: along(&file.hair.curl, &source)?,
         frame: frame(&file.hair.root, &source)?,
@@ -543,64 +546,111 @@ fn equilibrium(
     }
 }
 
-fn look(file: &file::Look, seed: u64, behind: Behind, source: &Source) -> Result<Look> {
-    let given = |key: &Key<super::key::Ratio>, min, max, allowed: &str| {
-        within(key, min, min, max, allowed, source).map(|value| key.is_given().then_some(value))
-    };
+fn look(file: &file::Look, seed: u64, behind: Backdrop, source: &Source) -> Result<LookSpec> {
     let shade = file.colour.get(source)?;
     let white = shade.map_or(0.0, |ShadeWord(shade)| f64::from(shade.white_share));
     let (unit, rough) = ("between 0 and 1", "between 0.05 and 1");
     let most = 20_f64.to_radians();
     let tilt = within(&file.tilt, 0.0, -most, most, "between -20 and 20 deg", source)?;
-    Ok(Look {
-        natural: natural_colour(file, source)?,
-        white_share: within(&file.white_share, white, 0.0, 1.0, unit, source)?,
-        variation: given(&file.variation, 0.0, 1.0, unit)?,
-        roots: look_end(&file.roots, source)?,
-        tips: look_end(&file.tips, source)?,
-        dye: dye(&file.dye, source)?,
-        roughness: given(&file.roughness, 0.05, 1.0, rough)?,
-        roughness_around: given(&file.roughness_around, 0.05, 1.0, rough)?,
-        tilt: file.tilt.is_given().then_some(tilt),
-        index: given(&file.index, 1.05, 3.0, "between 1.05 and 3")?,
-        seed,
-        skin: file.skin.get(source)?,
-        background: file.background.get(source)?.unwrap_or(behind),
-        floor: file.floor.get(source)?,
+    let natural = natural_colour(file, source)?;
+    let usual = HairLook::default();
+    let given = |key: &Key<super::key::Ratio>, default: f32, min, max, allowed: &str| {
+        within(key, f64::from(default), min, max, allowed, source).map(|value| value as f32)
+    };
+    let white_share = within(&file.white_share, white, 0.0, 1.0, unit, source)? as f32;
+    let variation = given(&file.variation, usual.variation, 0.0, 1.0, unit)?;
+    let (roots, tips) = (look_end(&file.roots, source)?, look_end(&file.tips, source)?);
+    let dye = dye(&file.dye, source)?;
+    let plain = usual.surface;
+    let surface = HairSurface {
+        longitudinal_roughness: given(
+            &file.roughness,
+            plain.longitudinal_roughness,
+            0.05,
+            1.0,
+            rough,
+        )?,
+        azimuthal_roughness: given(
+            &file.roughness_around,
+            plain.azimuthal_roughness,
+            0.05,
+            1.0,
+            rough,
+        )?,
+        tilt: if file.tilt.is_given() { tilt as f32 } else { plain.tilt },
+        index: given(&file.index, plain.index, 1.05, 3.0, "between 1.05 and 3")?,
+    };
+    let absorption_of = |colour| absorption_of_colour(colour, surface.azimuthal_roughness);
+    let (melanin, absorption) = match natural {
+        NaturalColour::Pigments(melanin) => (melanin, None),
+        NaturalColour::Reflectance(colour) => (usual.melanin, Some(absorption_of(colour))),
+        NaturalColour::Absorption(absorption) => (usual.melanin, Some(absorption)),
+    };
+    let dye = dye.map(|(colour, dye)| Dye { absorption: absorption_of(colour), ..dye });
+    // The low bits of the seed are as good a seed.
+    let seed = seed as u32;
+    let skin = SkinLook::default();
+    Ok(LookSpec {
+        hair: HairLook {
+            melanin,
+            absorption,
+            white_share,
+            variation,
+            roots,
+            tips,
+            dye,
+            surface,
+            seed,
+        },
+        skin: SkinLook {
+            colour: file.skin.get(source)?.map_or(skin.colour, linear_from_srgb),
+            ..skin
+        },
+        backdrop: file.background.get(source)?.unwrap_or(behind),
+        floor: file.floor.get(source)?.map(linear_from_srgb),
     })
+}
+
+/// One of the ways to give the colour of hair.
+enum NaturalColour {
+    Pigments(Melanin),
+    /// The colour of much hair, linear sRGB.
+    Reflectance(Vec3),
+    /// Absorption of red, green and blue per mean radius.
+    Absorption(Vec3),
 }
 
 fn natural_colour(file: &file::Look, source: &Source) -> Result<NaturalColour> {
     let pigments = [file.colour.span(), file.eumelanin.span(), file.pheomelanin.span()];
     one_way(source, &[&pigments, &[file.reflectance.span()], &[file.absorption.span()]])?;
     if let Some(colour) = file.reflectance.get(source)? {
-        return Ok(NaturalColour::Reflectance(colour));
+        return Ok(NaturalColour::Reflectance(linear_from_srgb(colour)));
     }
     if let Some(absorption) = file.absorption.get(source)? {
-        let absorption = absorption.to_array();
-        return match absorption.iter().all(|a| (0.0..=1000.0).contains(a)) {
-            true => Ok(NaturalColour::Absorption(absorption)),
+        return match absorption.to_array().iter().all(|a| (0.0..=1000.0).contains(a)) {
+            true => Ok(NaturalColour::Absorption(absorption.as_vec3())),
             false => Err(outside(&file.absorption, "each between 0 and 1000", source)),
         };
     }
     let shade = file.colour.get(source)?.map_or_else(Melanin::default, |word| word.0.melanin);
     let of = |key, default: f32| {
-        within(key, f64::from(default), 0.0, 100.0, "between 0 and 100", source)
+        within(key, f64::from(default), 0.0, 100.0, "between 0 and 100", source).map(|x| x as f32)
     };
     let eumelanin = of(&file.eumelanin, shade.eumelanin)?;
     let pheomelanin = of(&file.pheomelanin, shade.pheomelanin)?;
-    Ok(NaturalColour::Pigments { eumelanin, pheomelanin })
+    Ok(NaturalColour::Pigments(Melanin { eumelanin, pheomelanin }))
 }
 
-fn look_end(file: &file::LookEnd, source: &Source) -> Result<Option<Fade>> {
-    let pigment = within(&file.pigment, 1.0, 0.0, 10.0, "between 0 and 10", source)?;
-    let length = within(&file.fade, 0.05, 0.0, 3.0, "between 0 and 3 m", source)?;
-    Ok(file.pigment.is_given().then_some(Fade { pigment, length }))
+fn look_end(file: &file::LookEnd, source: &Source) -> Result<Fade> {
+    let factor = within(&file.pigment, 1.0, 0.0, 10.0, "between 0 and 10", source)? as f32;
+    let length = within(&file.fade, 0.05, 0.0, 3.0, "between 0 and 3 m", source)? as f32;
+    Ok(if file.pigment.is_given() { Fade { factor, length } } else { Fade::default() })
 }
 
-fn dye(file: &file::LookDye, source: &Source) -> Result<Option<Dye>> {
-    let strength = within(&file.strength, 1.0, 0.0, 1.0, "between 0 and 1", source)?;
-    let regrowth = within(&file.regrowth, 0.0, 0.0, 3.0, "between 0 and 3 m", source)?;
+/// A dye whose absorption is still to be found from its colour (linear sRGB).
+fn dye(file: &file::LookDye, source: &Source) -> Result<Option<(Vec3, Dye)>> {
+    let strength = within(&file.strength, 1.0, 0.0, 1.0, "between 0 and 1", source)? as f32;
+    let regrowth = within(&file.regrowth, 0.0, 0.0, 3.0, "between 0 and 3 m", source)? as f32;
     let colour = file.colour.get(source)?;
     if colour.is_none() && file.strength.is_given() {
         return Err(missing(&file.strength, "colour", source));
@@ -608,14 +658,15 @@ fn dye(file: &file::LookDye, source: &Source) -> Result<Option<Dye>> {
     if colour.is_none() && file.regrowth.is_given() {
         return Err(missing(&file.regrowth, "colour", source));
     }
-    Ok(colour.map(|colour| Dye { colour, strength, regrowth }))
+    let dye = Dye { absorption: Vec3::ZERO, strength, regrowth };
+    Ok(colour.map(|colour| (linear_from_srgb(colour), dye)))
 }
 
-fn camera(file: &file::Camera, source: &Source) -> Result<Camera> {
+fn camera(file: &file::Camera, source: &Source) -> Result<CameraSpec> {
     let deg = f64::to_radians;
     let (azimuth, elevation, field) = (&file.azimuth, &file.elevation, &file.field_of_view);
     let up = "between -85 and 85 deg";
-    Ok(Camera {
+    Ok(CameraSpec {
         azimuth: azimuth.or(deg(30.0), source)?,
         elevation: within(elevation, deg(5.0), deg(-85.0), deg(85.0), up, source)?,
         field_of_view: within(
@@ -653,7 +704,7 @@ fn output(file: &file::Output, source: &Source) -> Result<Output> {
         height: size(&file.height, 1100, 16_384, "between 1 and 16384")?,
         samples: size(&file.samples, 4, 8, "between 1 and 8")?,
         exposure: within(&file.exposure, 0.0, -20.0, 20.0, "between -20 and 20", source)?,
-        tone: file.tone.or(Tone::default(), source)?,
+        tone: file.tone.or(ToneCurve::default(), source)?,
     })
 }
 

@@ -4,18 +4,17 @@ use std::path::{Path, PathBuf};
 
 use frisure_hairstyle::styling::{Operation, StyleError};
 use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
+use frisure_look::{CameraSpec, EnvironmentMap, LightSpec, LookSpec, ToneCurve};
 use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
 
 use frisure_files::frame::FrameChoice;
 use frisure_files::{self as files, Files};
-use frisure_formats::environment::{self, Environment};
+use frisure_formats::environment;
 use frisure_formats::groom::{self, Groom, GroomError};
 use frisure_formats::head::{self, HeadFile, HeadFileError, HeadMesh};
 
 use crate::error::{Fault, SceneError};
-use crate::light::Light;
 use crate::source::Source;
-use crate::words::Tone;
 use crate::{blame, resolve, step};
 
 /// Largest scene that is read (bytes).
@@ -35,12 +34,14 @@ pub struct Scene {
     pub head: HeadSource,
     /// Hair of another program, with paths made relative to the scene's folder.
     pub groom: Option<GroomFile>,
-    /// Colours.
-    pub look: Look,
-    /// Where the picture is taken from.
-    pub camera: Camera,
-    /// What lights it, with paths made relative to the scene's folder.
-    pub light: Light,
+    /// Materials; those not given are the renderer's own.
+    pub look: LookSpec,
+    /// Direction and lens of the camera.
+    pub camera: CameraSpec,
+    /// Lights.
+    pub light: LightSpec,
+    /// The file of an environment map, made relative to the scene's folder.
+    pub environment: Option<PathBuf>,
     /// The picture's size.
     pub output: Output,
     pub(crate) spec: HairstyleSpec,
@@ -80,103 +81,6 @@ pub struct GroomFile {
     pub guides: usize,
 }
 
-/// Colours of a scene; those not given are the renderer's own.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
-    /// Natural colour of the hair.
-    pub natural: NaturalColour,
-    /// Share of the hairs without pigment.
-    pub white_share: f64,
-    /// Relative variation of the pigment from hair to hair.
-    pub variation: Option<f64>,
-    /// Pigment at the roots.
-    pub roots: Option<Fade>,
-    /// Pigment at the tips.
-    pub tips: Option<Fade>,
-    /// What is on top of the natural colour.
-    pub dye: Option<Dye>,
-    /// Roughness along the fibre.
-    pub roughness: Option<f64>,
-    /// Roughness around the fibre.
-    pub roughness_around: Option<f64>,
-    /// Tilt of the cuticle's scales (rad).
-    pub tilt: Option<f64>,
-    /// Refractive index of the fibre.
-    pub index: Option<f64>,
-    /// Seed of what differs from hair to hair: the scene's.
-    pub seed: u64,
-    /// Skin, sRGB from 0 to 1.
-    pub skin: Option<[f64; 3]>,
-    /// What is behind the head.
-    pub background: Behind,
-    /// A floor under the head, sRGB from 0 to 1.
-    pub floor: Option<[f64; 3]>,
-}
-
-/// What is behind the head.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Behind {
-    /// The studio's wall, as the lights fall on it.
-    Wall,
-    /// Nothing.
-    Transparent,
-    /// What lights the scene.
-    Surroundings,
-    /// A colour, sRGB from 0 to 1.
-    Colour([f64; 3]),
-}
-
-/// One of the ways to say what colour hair has.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NaturalColour {
-    /// By its pigments.
-    Pigments {
-        /// Concentration of the brown pigment.
-        eumelanin: f64,
-        /// Concentration of the red pigment.
-        pheomelanin: f64,
-    },
-    /// By the colour of much hair, sRGB from 0 to 1.
-    Reflectance([f64; 3]),
-    /// By the absorption of red, green and blue per radius.
-    Absorption([f64; 3]),
-}
-
-/// Pigment that differs at one end of the hairs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fade {
-    /// Factor on the pigment at the end.
-    pub pigment: f64,
-    /// Distance over which it fades away (m).
-    pub length: f64,
-}
-
-/// Dye.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dye {
-    /// Colour of much dyed hair, sRGB from 0 to 1.
-    pub colour: [f64; 3],
-    /// How much of the natural colour it takes the place of, 0 to 1.
-    pub strength: f64,
-    /// Length at the roots without it (m).
-    pub regrowth: f64,
-}
-
-/// Where the picture is taken from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Camera {
-    /// Around the head (rad): 0 faces it, π/2 sees its left side.
-    pub azimuth: f64,
-    /// Above the horizon (rad).
-    pub elevation: f64,
-    /// From the picture's bottom to its top (rad).
-    pub field_of_view: f64,
-    /// Focal length over the diameter of the opening; none for a pinhole.
-    pub f_number: Option<f64>,
-    /// Distance that is sharp (m).
-    pub focus: Option<f64>,
-}
-
 /// The picture's size, and how its light is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output {
@@ -188,8 +92,8 @@ pub struct Output {
     pub samples: usize,
     /// Stops by which it is lighter than the light.
     pub exposure: f64,
-    /// How light becomes colours.
-    pub tone: Tone,
+    /// Tone curve.
+    pub tone: ToneCurve,
 }
 
 impl Scene {
@@ -306,27 +210,21 @@ impl Scene {
         Ok(Some(groom))
     }
 
-    /// The picture of surroundings that the scene names, if it names one.
+    /// The environment map that the scene names, if it names one.
     ///
     /// # Errors
     /// [`SceneError`] at the key that names what cannot be used.
-    pub fn environment(&self) -> Result<Option<Environment>, SceneError> {
-        self.environment_in(&Files::default())
-    }
-
-    /// The same, with files from somewhere.
-    ///
-    /// # Errors
-    /// As [`Self::environment`].
-    pub fn environment_in(&self, files: &Files) -> Result<Option<Environment>, SceneError> {
-        let Some(file) = &self.light.environment else { return Ok(None) };
-        environment::read(&file.path, files).map(Some).map_err(|e| {
+    pub fn environment_in(&self, files: &Files) -> Result<Option<EnvironmentMap>, SceneError> {
+        let Some(path) = &self.environment else { return Ok(None) };
+        let read = environment::read(path, files).map_err(|e| {
             let message = match std::error::Error::source(&e) {
                 Some(cause) => format!("{e}: {cause}"),
                 None => e.to_string(),
             };
             self.fault("light.environment", message, e.hint())
-        })
+        })?;
+        let map = EnvironmentMap::new(read.width, read.height, read.pixels);
+        map.map(Some).map_err(|e| self.fault("light.environment", e.to_string(), ""))
     }
 
     /// What had to be guessed of the head's mesh, for people.

@@ -4,13 +4,12 @@ use frisure_hairstyle::head::Region;
 use frisure_hairstyle::{
     Comb, Ellipticity, HairModel, Handedness, Level, PRESETS, Parting, Place, Preset, Turn, Wetting,
 };
-use frisure_look::{SHADES, Shade};
+use frisure_look::{Daylight, SHADES, Setup, Shade, ToneCurve};
 use frisure_rod::{ElementKind, TorsionConstant};
 use schemars::{Schema, json_schema};
 use toml::Value;
 
 use super::key::{Choice, Kind, Length, OneOf, Refusal};
-use super::light::Setup;
 use frisure_files::frame::UpAxis;
 
 /// A hair type, by its name.
@@ -63,19 +62,7 @@ impl Choice for Which<UpAxis> {
     }
 }
 
-/// How scene-linear light becomes the colours of a screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Tone {
-    /// As it is, and cut off at white.
-    Plain,
-    /// As it is, and bent towards white above the middle.
-    #[default]
-    Shoulder,
-    /// The curve of a film, with a toe and a shoulder.
-    Filmic,
-}
-
-impl Choice for Tone {
+impl Choice for ToneCurve {
     fn words() -> Vec<(&'static str, &'static str, Self)> {
         vec![
             ("plain", "as it is, cut off at white", Self::Plain),
@@ -417,7 +404,11 @@ impl Choice for Which<Setup> {
                 Self(Setup::Rembrandt),
             ),
             ("rim", "two lamps behind: a bright edge, light through the hair", Self(Setup::Rim)),
-            ("daylight", "sun and clear sky over pale ground", Self(Setup::Daylight)),
+            (
+                "daylight",
+                "sun and clear sky over pale ground",
+                Self(Setup::Daylight(Daylight::default())),
+            ),
             ("overcast", "a sky full of clouds", Self(Setup::Overcast)),
             ("dark", "no light but what else is given", Self(Setup::Dark)),
         ]

@@ -5,14 +5,16 @@ mod common;
 use std::path::Path;
 
 use common::{fault, good};
+use frisure_files::Files;
 use frisure_files::frame::{FrameChoice, UpAxis};
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
-use frisure_look::{Melanin, SHADES};
-use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
-use frisure_scene::{
-    Behind, Dye, Fade, HeadSource, NaturalColour, ScalpSource, Scene, schema, template,
+use frisure_look::{
+    Backdrop, Dye, Fade, Melanin, SHADES, absorption_of_colour, colour_of_temperature,
+    linear_from_srgb,
 };
-use glam::DVec3;
+use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
+use frisure_scene::{HeadSource, ScalpSource, Scene, schema, template};
+use glam::{DVec3, Vec3};
 use serde_json::Value;
 
 #[test]
@@ -154,17 +156,20 @@ fn every_key_arrives() {
     assert_eq!(head.path, Path::new("scenes/a/head.obj"));
     assert_eq!(head.frame, FrameChoice { metres: Some(0.01), up: Some(UpAxis::Z) });
     assert_eq!(head.scalp, ScalpSource::Mask("scenes/mask.png".into()));
-    assert_eq!(scene.look.skin, Some([1.0, 128.0 / 255.0, 0.0]));
-    assert_eq!(scene.look.background, Behind::Colour([0.0, 0.5, 1.0]));
-    let look = scene.look;
-    let pigments = NaturalColour::Pigments { eumelanin: 0.3, pheomelanin: 0.4 };
-    assert_eq!((look.natural, look.variation, look.white_share), (pigments, Some(0.5), 0.25));
-    assert_eq!(look.roots, Some(Fade { pigment: 1.5, length: 0.03 }));
-    assert_eq!(look.tips, Some(Fade { pigment: 0.6, length: 0.05 }));
-    assert_eq!(look.dye, Some(Dye { colour: [0.0, 0.0, 1.0], strength: 0.8, regrowth: 0.04 }));
-    assert_eq!((look.roughness, look.roughness_around), (Some(0.25), Some(0.35)));
-    assert!((look.tilt.unwrap().to_degrees() - 2.0).abs() < 1e-12);
-    assert_eq!((look.index, look.seed), (Some(1.5), spec.seed));
+    assert_eq!(scene.look.skin.colour, linear_from_srgb([1.0, 128.0 / 255.0, 0.0]));
+    assert_eq!(scene.look.backdrop, Backdrop::Colour(linear_from_srgb([0.0, 0.5, 1.0])));
+    let hair = scene.look.hair;
+    let pigments = Melanin { eumelanin: 0.3, pheomelanin: 0.4 };
+    assert_eq!((hair.melanin, hair.absorption), (pigments, None));
+    assert_eq!((hair.variation, hair.white_share), (0.5, 0.25));
+    assert_eq!(hair.roots, Fade { factor: 1.5, length: 0.03 });
+    assert_eq!(hair.tips, Fade { factor: 0.6, length: 0.05 });
+    let blue = absorption_of_colour(linear_from_srgb([0.0, 0.0, 1.0]), 0.35);
+    assert_eq!(hair.dye, Some(Dye { absorption: blue, strength: 0.8, regrowth: 0.04 }));
+    let surface = hair.surface;
+    assert_eq!((surface.longitudinal_roughness, surface.azimuthal_roughness), (0.25, 0.35));
+    assert!((surface.tilt.to_degrees() - 2.0).abs() < 1e-5);
+    assert_eq!((surface.index, hair.seed), (1.5, spec.seed as u32));
     assert!((scene.camera.azimuth.to_degrees() - 90.0).abs() < 1e-12);
     assert!((scene.light.direction.unwrap().0.to_degrees() - 10.0).abs() < 1e-12);
     assert_eq!((scene.output.width, scene.output.height, scene.output.samples), (31, 32, 3));
@@ -172,32 +177,19 @@ fn every_key_arrives() {
 
 #[test]
 fn a_colour_of_hair_is_said_by_name_by_pigments_or_as_measured() {
-    let of = |keys: &str| good(&format!("[look]\n{keys}")).look;
-    let pigments = |eumelanin: f32, pheomelanin: f32| NaturalColour::Pigments {
-        eumelanin: f64::from(eumelanin),
-        pheomelanin: f64::from(pheomelanin),
-    };
+    let of = |keys: &str| good(&format!("[look]\n{keys}")).look.hair;
     for shade in &SHADES {
-        let look = of(&format!("colour = \"{}\"", shade.name));
-        let Melanin { eumelanin, pheomelanin } = shade.melanin;
-        assert_eq!(look.natural, pigments(eumelanin, pheomelanin));
-        assert_eq!(look.white_share, f64::from(shade.white_share));
+        let hair = of(&format!("colour = \"{}\"", shade.name));
+        assert_eq!((hair.melanin, hair.absorption), (shade.melanin, None));
+        assert_eq!(hair.white_share, shade.white_share);
     }
-    assert_eq!(of("").natural, of("colour = \"brown\"").natural);
-    let NaturalColour::Pigments { eumelanin, .. } =
-        of("colour = \"auburn\"\neumelanin = 0.5").natural
-    else {
-        panic!("pigments were given")
-    };
-    assert_eq!(eumelanin, 0.5);
-    assert_eq!(
-        of("reflectance = \"#ff0000\"").natural,
-        NaturalColour::Reflectance([1.0, 0.0, 0.0])
-    );
-    assert_eq!(
-        of("absorption = [0.1, 0.2, 3]").natural,
-        NaturalColour::Absorption([0.1, 0.2, 3.0])
-    );
+    assert_eq!(of("").melanin, of("colour = \"brown\"").melanin);
+    assert_eq!(of("colour = \"auburn\"\neumelanin = 0.5").melanin.eumelanin, 0.5);
+    let red = of("reflectance = \"#ff0000\"");
+    let roughness = red.surface.azimuthal_roughness;
+    let absorption = absorption_of_colour(linear_from_srgb([1.0, 0.0, 0.0]), roughness);
+    assert_eq!(red.absorption, Some(absorption));
+    assert_eq!(of("absorption = [0.1, 0.2, 3]").absorption, Some(Vec3::new(0.1, 0.2, 3.0)));
 }
 
 #[test]
@@ -395,24 +387,25 @@ fn partings_and_regions_arrive() {
 
 #[test]
 fn lights_are_understood_or_refused_at_their_key() {
-    use frisure_scene::{Face, LampColour, LampPlace, Setup};
+    use frisure_look::{Face, LampPlace, Setup};
     let read = |text: &str| Scene::parse("a", format!("[light]\n{text}"), Path::new("folder"));
     let light = |text: &str| read(text).unwrap().light;
     assert_eq!(light("").setup, Setup::Studio);
     assert_eq!(light("setup = 'rim'\nsize = '40 deg'").size, Some(40_f64.to_radians()));
-    let map = light("environment = 'a.hdr'\nrotation = '30 deg'\nsky_strength = 2");
-    let file = map.environment.unwrap();
-    assert_eq!((map.setup, map.sky_strength), (Setup::Dark, 2.0));
-    assert_eq!(file.path, Path::new("folder").join("a.hdr"));
-    let day = light("setup = 'daylight'\nsun_elevation = '10 deg'\nturbidity = 5").sun;
-    assert!((day.elevation.to_degrees() - 10.0).abs() < 1e-12 && day.turbidity == 5.0);
-    assert_eq!(light("turbidity = 5").setup, Setup::Daylight);
-    let behind = |text: &str| read(text).unwrap().look.background;
+    let map = read("environment = 'a.hdr'\nrotation = '30 deg'\nsky_strength = 2").unwrap();
+    assert_eq!((map.light.setup, map.light.sky_strength), (Setup::Dark, 2.0));
+    assert!((map.light.environment_rotation.to_degrees() - 30.0).abs() < 1e-12);
+    assert_eq!(map.environment.unwrap(), Path::new("folder").join("a.hdr"));
+    let day = light("setup = 'daylight'\nsun_elevation = '10 deg'\nturbidity = 5").setup;
+    let Setup::Daylight(day) = day else { panic!("{day:?}") };
+    assert!((day.sun_elevation.to_degrees() - 10.0).abs() < 1e-12 && day.turbidity == 5.0);
+    assert!(matches!(light("turbidity = 5").setup, Setup::Daylight(_)));
+    let behind = |text: &str| read(text).unwrap().look.backdrop;
     for sky in ["setup = 'overcast'", "turbidity = 5", "environment = 'a.hdr'"] {
-        assert_eq!(behind(sky), Behind::Surroundings);
-        assert_eq!(behind(&format!("{sky}\n[look]\nbackground = 'wall'")), Behind::Wall);
+        assert_eq!(behind(sky), Backdrop::Environment);
+        assert_eq!(behind(&format!("{sky}\n[look]\nbackground = 'wall'")), Backdrop::Wall);
     }
-    assert_eq!(behind("setup = 'rim'"), Behind::Wall);
+    assert_eq!(behind("setup = 'rim'"), Backdrop::Wall);
     let lamps = light(
         "[[light.lamp]]\nazimuth = '-30 deg'\ndistance = '1.5 m'\nsize = ['60 cm', '90 cm']\n\
          temperature = 3200\nshown = true\n\
@@ -424,7 +417,7 @@ fn lights_are_understood_or_refused_at_their_key() {
         panic!("{lamps:?}")
     };
     assert_eq!((distance, face.size, face.shown), (1.5, Face::Rectangle([0.6, 0.9]), true));
-    assert_eq!(lamps[0].colour, LampColour::Temperature(3200.0));
+    assert_eq!(lamps[0].colour, colour_of_temperature(3200.0));
     assert!(matches!(lamps[1].place, LampPlace::At { face: None, .. }));
     assert!(matches!(lamps[2].place, LampPlace::Far { angle: Some(0.0), .. }));
 
@@ -449,8 +442,16 @@ fn lights_are_understood_or_refused_at_their_key() {
         let error = read(text).unwrap_err().to_string();
         assert!(error.contains(part), "{text}: {error}");
     }
-    let none = read("environment = 'nowhere.hdr'").unwrap().environment().unwrap_err().to_string();
+    let none = read("environment = 'nowhere.hdr'")
+        .unwrap()
+        .environment_in(&Files::default())
+        .unwrap_err()
+        .to_string();
     assert!(none.contains("there is no file") && none.contains("a:2:15"), "{none}");
-    let screen = read("environment = 'a.png'").unwrap().environment().unwrap_err().to_string();
+    let screen = read("environment = 'a.png'")
+        .unwrap()
+        .environment_in(&Files::default())
+        .unwrap_err()
+        .to_string();
     assert!(screen.contains("`.hdr` and `.exr`") && screen.contains("cuts off"), "{screen}");
 }

@@ -9,8 +9,8 @@ use frisure::hairstyle::head::Head;
 use frisure::look::{Camera, EnvironmentMap};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::{Accumulator, MAX_PIXELS, TraceError, TraceOptions, Tracer};
-use frisure::render::{self, MAX_SIZE};
-use frisure::scene::{Output, Scene};
+use frisure::render::{self, MAX_SIZE, PictureSpec};
+use frisure::scene::Scene;
 use frisure::strands::Strands;
 use glam::DVec3;
 use web_time::Instant;
@@ -54,7 +54,7 @@ impl Quality {
             samples: self.paths,
             noise: Some(self.noise as f32).filter(|noise| *noise != 0.0),
             // The cast takes the low bits, which is as good a seed.
-            seed: scene.look.seed as u32,
+            seed: scene.look.hair.seed,
             ..TraceOptions::default()
         };
         options.check().map_err(|e| Refusal::of(&e, ""))?;
@@ -63,21 +63,25 @@ impl Quality {
 }
 
 impl Subject<'_> {
+    fn picture(&self) -> PictureSpec<'_> {
+        picture::spec(self.scene, self.environment)
+    }
+
     fn camera(&self, viewpoint: Option<Viewpoint>, [w, h]: [usize; 2]) -> Result<Camera, Refusal> {
         let aspect = w as f64 / h as f64;
         let Some(Viewpoint { eye, target, field_of_view }) = viewpoint else {
             let surface = Some(self.head.surface());
-            return Ok(picture::framing(self.scene, self.strands, surface, aspect));
+            return Ok(self.picture().frame(self.strands, surface, aspect));
         };
         let [eye, target] = [eye, target].map(DVec3::from_array);
-        picture::camera_at(self.scene, eye, target, field_of_view, aspect)
-            .map_err(|e| Refusal::of(&e, "look from somewhere else"))
+        let camera = self.scene.camera.at(eye, target, field_of_view, aspect);
+        camera.map_err(|e| Refusal::of(&e, "look from somewhere else"))
     }
 
     fn drawn(&self, camera: Camera) -> Result<render::Scene<'_>, Refusal> {
-        let strands = (self.strands, self.strands);
-        picture::seen_from(self.scene, camera, strands, Some(self.head.surface()), self.environment)
-            .map_err(|e| Refusal::of(&e, ""))
+        let drawn =
+            self.picture().scene(camera, self.strands, self.strands, Some(self.head.surface()));
+        drawn.map_err(|e| Refusal::of(&e, ""))
     }
 
     /// The traced picture as a PNG.
@@ -142,13 +146,11 @@ impl Subject<'_> {
         let views = match viewpoint {
             Some(_) => {
                 let first = self.camera(viewpoint, size)?;
-                let things = (self.strands, surface);
-                picture::turned(scene, first, things, frames, self.environment)
+                self.picture().turntable_from(first, self.strands, surface, frames)
             }
             None => {
-                let mut sized = scene.clone();
-                sized.output = Output { width: size[0], height: size[1], ..scene.output };
-                picture::turntable(&sized, self.strands, surface, frames, self.environment)
+                let aspect = size[0] as f64 / size[1] as f64;
+                self.picture().turntable(self.strands, surface, frames, aspect)
             }
         };
         let views = views.map_err(|e| Refusal::of(&e, ""))?;

@@ -7,8 +7,6 @@ use frisure::look::apparent_colour;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
 
-use crate::picture::hair_look;
-
 /// The groom of a hairstyle: `hairs`, which are all its drawn hairs, its guides, its head and its colour.
 /// With `fibres`, each hair has the directors and natural strains of its fibre too, as guides always have.
 #[must_use]
@@ -42,7 +40,7 @@ fn name(scene: &Scene) -> String {
 
 /// What much of the hair looks like between its ends.
 fn colour(scene: &Scene) -> HairColour {
-    let hair = hair_look(&scene.look);
+    let hair = scene.look.hair;
     let natural = hair.natural();
     let absorption = hair.dye.map_or(natural, |dye| natural.lerp(dye.absorption, dye.strength));
     let seen = apparent_colour(absorption, hair.surface.azimuthal_roughness);

@@ -20,7 +20,6 @@ use crate::hair::{Hair, Wanted};
 use crate::heads::Heads;
 use crate::held::Held;
 use crate::order::{Answer, Asked, Effort, Order, Refusal, Viewpoint};
-use crate::picture;
 use crate::refusal::Stop;
 use crate::shown::{self, Drawn};
 use crate::watch::{Watch, Watched};
@@ -167,7 +166,7 @@ impl Stylist {
     ) -> Result<Answer, Stop> {
         let read = self.hair_of(self.read(asked)?, Effort::Exact, asked.done, watch)?;
         let options = quality.options(&read.scene)?;
-        let environment = picture::environment(&read.scene, &self.files)?;
+        let environment = read.scene.environment_in(&self.files)?;
         let mut strands = Strands::clone(&*self.all_strands(&read, watch)?);
         add_sections(&mut strands, &read.hairstyle, &read.head);
         let bytes = Subject {
@@ -189,7 +188,7 @@ impl Stylist {
     ) -> Result<Answer, Stop> {
         check_turntable(size, frames)?;
         let read = self.hair(asked, Effort::Exact, watch)?;
-        let environment = picture::environment(&read.scene, &self.files)?;
+        let environment = read.scene.environment_in(&self.files)?;
         let strands = self.all_strands(&read, watch)?;
         let bytes = Subject {
             scene: &read.scene,

@@ -103,7 +103,7 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     );
     outputs::prepare(&names, &inputs)?;
     exposing::check_parts(&parts)?;
-    let environment = picture::environment(&scene, &Files::default())?;
+    let environment = scene.environment_in(&Files::default())?;
 
     let denoiser = exposing::denoiser(arguments.tracing.denoise)?;
     let progress = Progress::new(quiet);
@@ -116,13 +116,13 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
         let head = if has_head { Some(predict::head(&scene)?) } else { None };
         let surface = head.as_ref().map(Head::surface);
         let wrong = |e: InvalidLight| Failure::wrong(&e, "");
-        let around = environment.as_ref();
-        let drawn = picture::scene(&scene, &strands, &strands, surface, around).map_err(wrong)?;
+        let (spec, aspect) = (picture::spec(&scene, environment.as_ref()), picture::aspect(&scene));
+        let drawn = spec.framed_scene(&strands, &strands, surface, aspect).map_err(wrong)?;
         let named = |e| Failure::wrong_because(format!("`{}`: {e}", path.display()), "");
         let tracer = Tracer::new(&drawn, &options).map_err(named)?;
         let (views, from) = match turntable {
             Some(Turntable { frames, from }) => {
-                let views = picture::turntable(&scene, &strands, surface, frames, around);
+                let views = spec.turntable(&strands, surface, frames, aspect);
                 (views.map_err(wrong)?, from)
             }
             None => (Vec::new(), 0),

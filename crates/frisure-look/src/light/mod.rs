@@ -7,6 +7,7 @@ mod error;
 mod lamp;
 mod lights;
 mod setup;
+mod spec;
 
 pub use daylight::{Daylight, SUN_RADIUS};
 pub use environment_light::EnvironmentLight;
@@ -15,3 +16,4 @@ pub use error::InvalidLight;
 pub use lamp::{AreaLight, AreaShape, DistantLight, Lamp, PointLight, SOFTBOX};
 pub use lights::Lights;
 pub use setup::{Setup, beside_camera};
+pub use spec::{Face, LampFace, LampPlace, LampSpec, LightSpec};

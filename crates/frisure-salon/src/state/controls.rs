@@ -3,8 +3,8 @@
 //! One table for the window, its tests and its help; a new slider is a new row.
 
 use frisure::hairstyle::HairstyleSpec;
-use frisure::look::SHADES;
-use frisure::scene::{NaturalColour, Scene};
+use frisure::look::{Melanin, SHADES};
+use frisure::scene::Scene;
 
 /// The panels, in the order in which a person meets them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -525,7 +525,7 @@ pub const CONTROLS: &[Control] = &[
         PERCENT,
         (0.0, 100.0),
         0,
-        |scene, _| scene.look.white_share,
+        |scene, _| rounded(scene.look.hair.white_share),
         "Share of the hairs that have no pigment.",
     ),
     control(
@@ -535,7 +535,7 @@ pub const CONTROLS: &[Control] = &[
         NUMBER,
         (0.05, 1.0),
         2,
-        |scene, _| scene.look.roughness.unwrap_or(0.2),
+        |scene, _| rounded(scene.look.hair.surface.longitudinal_roughness),
         "How wide the highlights are: 0.1 is glossy, 0.5 is matt.",
     ),
     control(
@@ -584,10 +584,13 @@ fn helix(spec: &HairstyleSpec) -> [f64; 2] {
 
 /// Eumelanin and pheomelanin; of colours that are said otherwise, those of brown hair.
 fn pigments(scene: &Scene) -> [f64; 2] {
-    match scene.look.natural {
-        NaturalColour::Pigments { eumelanin, pheomelanin } => [eumelanin, pheomelanin],
-        _ => [0.8, 0.0],
-    }
+    let Melanin { eumelanin, pheomelanin } = scene.look.hair.melanin;
+    [rounded(eumelanin), rounded(pheomelanin)]
+}
+
+/// The decimal number that a single-precision number was read from.
+fn rounded(value: f32) -> f64 {
+    (f64::from(value) * 1e6).round() / 1e6
 }
 
 fn words(options: &[(&str, &str)]) -> Vec<(String, String)> {

@@ -9,7 +9,7 @@ use eframe::egui::{
 };
 use eframe::egui_wgpu::Callback;
 use frisure::files::Files;
-use frisure::look::{Camera, EnvironmentMap, Lights, Look, ToneCurve};
+use frisure::look::{Camera, EnvironmentMap, Lights, Look};
 use frisure::scene::Scene;
 use frisure_stylist::order::OneHair;
 use frisure_stylist::picture;
@@ -277,11 +277,7 @@ impl Viewport {
         if salon.tool() == Tool::Cut && side == Side::Now {
             planes.push(cutting_plane(salon.plane()));
         }
-        let tone = match understood.scene.output.tone {
-            frisure::scene::Tone::Plain => ToneCurve::Plain,
-            frisure::scene::Tone::Shoulder => ToneCurve::Shoulder,
-            frisure::scene::Tone::Filmic => ToneCurve::Filmic,
-        };
+        let tone = understood.scene.output.tone;
         let head = salon.head().map(|head| (head.clone(), Arc::as_ptr(head) as usize as u64));
         Some(Picture {
             side,
@@ -306,7 +302,7 @@ impl Viewport {
     fn lit(&mut self, scene: &Scene, camera: &Camera, middle: DVec3) -> (Look, Lights) {
         self.look_around(scene);
         let around = self.surroundings.as_ref().and_then(|(_, map)| map.as_ref());
-        picture::look_and_lights(scene, camera, middle, around).unwrap_or_else(|error| {
+        picture::spec(scene, around).look_and_lights(camera, middle).unwrap_or_else(|error| {
             self.complain(error.to_string());
             (Look::default(), Lights::studio(camera))
         })
@@ -314,18 +310,18 @@ impl Viewport {
 
     /// Reads the picture of surroundings that a scene names, once.
     fn look_around(&mut self, scene: &Scene) {
-        let Some(file) = &scene.light.environment else {
+        let Some(named) = &scene.environment else {
             self.surroundings = None;
             return;
         };
-        if self.surroundings.as_ref().is_some_and(|(path, _)| *path == file.path) {
+        if self.surroundings.as_ref().is_some_and(|(path, _)| path == named) {
             return;
         }
-        let map = picture::environment(scene, &Files::default()).unwrap_or_else(|error| {
+        let map = scene.environment_in(&Files::default()).unwrap_or_else(|error| {
             self.complain(error.to_string());
             None
         });
-        self.surroundings = Some((file.path.clone(), map));
+        self.surroundings = Some((named.clone(), map));
     }
 
     fn complain(&self, problem: String) {

@@ -230,7 +230,7 @@ impl Batch {
         let fixed = self.fixed.iter().find(|(key, _)| key == SEED).map(|(_, text)| text.as_str());
         let literal = varied.map(|(_, written)| written.literal.as_str()).or(fixed);
         let said = literal.and_then(|text| text.replace('_', "").parse().ok());
-        self.own_seed(index).or(said).unwrap_or(self.base.look.seed)
+        self.own_seed(index).or(said).unwrap_or(self.base.spec.seed)
     }
 
     /// Places of the grid.

@@ -64,7 +64,7 @@ pub(crate) fn run_scene(
     check_outputs(&arguments, &scene, &spec, turntable)?;
 
     let environment = match arguments.image {
-        Some(_) => seen::environment(&scene, &Files::default())?,
+        Some(_) => scene.environment_in(&Files::default())?,
         None => None,
     };
     let progress = Progress::new(quiet);
@@ -177,7 +177,7 @@ pub(crate) fn read_by(scene: &Scene) -> Vec<&Path> {
         }
     }
     inputs.extend(scene.groom.iter().map(|file| file.path.as_path()));
-    inputs.extend(scene.light.environment.iter().map(|file| file.path.as_path()));
+    inputs.extend(scene.environment.iter().map(PathBuf::as_path));
     inputs
 }
 
@@ -294,8 +294,10 @@ impl Work {
 
     /// A picture of strands, framed so that others would be in it, too.
     fn picture(&self, strands: &Strands, shown: &Strands, head: &Head) -> Result<Picture, Failure> {
-        let (surface, around) = (Some(head.surface()), self.environment.as_ref());
-        let drawn = seen::scene(&self.scene, strands, shown, surface, around)
+        let (surface, aspect) = (Some(head.surface()), seen::aspect(&self.scene));
+        let spec = seen::spec(&self.scene, self.environment.as_ref());
+        let drawn = spec
+            .framed_scene(strands, shown, surface, aspect)
             .map_err(|e| Failure::wrong(&e, ""))?;
         if self.arguments.quality == Quality::Preview {
             return self.preview(&drawn).map(Picture::Preview);
@@ -305,7 +307,8 @@ impl Work {
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
         let views = match self.turntable {
-            Some(_) => seen::turntable(&self.scene, strands, surface, frames, around)
+            Some(_) => spec
+                .turntable(strands, surface, frames, aspect)
                 .map_err(|e| Failure::wrong(&e, ""))?,
             None => Vec::new(),
         };

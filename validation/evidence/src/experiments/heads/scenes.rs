@@ -78,7 +78,9 @@ impl Hair {
         monitor: &dyn Monitor,
     ) -> Result<Pixels, Stopped> {
         let surface = head.map(Head::surface);
-        let drawn = seen::scene(&self.scene, strands, framed, surface, None)
+        let aspect = seen::aspect(&self.scene);
+        let drawn = seen::spec(&self.scene, None)
+            .framed_scene(strands, framed, surface, aspect)
             .map_err(|e| failed(monitor, e))?;
         let output = &self.scene.output;
         let (width, height) = (output.width, output.height);
