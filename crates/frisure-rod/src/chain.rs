@@ -3,7 +3,9 @@
 use glam::{DMat3, DVec3};
 
 use crate::element::Geometry;
-use crate::{ElementKind, Rod};
+use crate::resolution::ElementKind;
+use crate::rod::Rod;
+use crate::strain::NaturalStrain;
 
 /// A rod divided into elements.
 #[derive(Clone, Debug)]
@@ -36,10 +38,8 @@ impl<'a> Chain<'a> {
             Geometry::new(kind, h, halves, rod.stiffness())
         };
         let geometry = match natural {
-            crate::NaturalStrain::Uniform(_) => vec![element(0.0, h)],
-            crate::NaturalStrain::Varying(_) => {
-                arc.windows(2).map(|s| element(s[0], s[1])).collect()
-            }
+            NaturalStrain::Uniform(_) => vec![element(0.0, h)],
+            NaturalStrain::Varying(_) => arc.windows(2).map(|s| element(s[0], s[1])).collect(),
         };
         Self { rod, kind, arc, geometry }
     }

@@ -10,13 +10,13 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::ElementKind;
+use crate::resolution::ElementKind;
 use crate::rotation::{
     RotationSeries, exponential, nearest_turn, right_jacobian, right_jacobian_derivative,
 };
 use crate::stumpff::{ORDERS, stumpff};
 
-/// What an element has before it is bent.
+/// The geometry and stiffness of an element, without its control.
 #[derive(Clone, Debug)]
 pub(crate) struct Geometry {
     /// Length h (m).

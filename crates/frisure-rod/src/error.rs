@@ -1,4 +1,4 @@
-//! The one way in which numbers are refused.
+//! The error for a physical quantity out of its range.
 
 use thiserror::Error;
 
@@ -16,7 +16,7 @@ pub struct InvalidQuantity {
     pub allowed: &'static str,
 }
 
-/// Passes a finite number greater than zero.
+/// The value, if it is finite and greater than zero.
 ///
 /// # Errors
 /// [`InvalidQuantity`] for anything else, NaN included.
@@ -33,7 +33,7 @@ pub(crate) fn positive(
     }
 }
 
-/// Passes a finite number.
+/// The value, if it is finite.
 ///
 /// # Errors
 /// [`InvalidQuantity`] for infinities and NaN.

@@ -46,21 +46,31 @@
 //!   of equilibria while gravity is turned on ([`Branch`]), and refines until the [`Resolution`] is
 //!   met. [`equilibrium_from`] starts from the shape of another rod instead: hair that was cut, or
 //!   grew, or got wet.
-//! - The energy is a sum of [`potential`]s: bending and twist, weight, and whatever the caller
-//!   adds, such as contact. They are minimised by [`minimise::Newton`], a Newton method in time
-//!   proportional to the number of elements.
+//! - The energy is a sum of [`potential`]s: elastic energy, weight, and those of the caller, such as
+//!   contact, each with its gradient and Hessian. [`minimise::Newton`] minimises it: Newton's method
+//!   with damping and a line search, in time proportional to the number of elements.
 //! - [`Equilibrium`] is the shape, its energies, and a [`Certificate`].
-//! - [`batch`] brings thousands of rods to rest at once, side by side in the lanes of vectors.
-//! - [`inverse`] is the other way round: the fibre that rests in a given shape.
+//! - [`batch`] solves thousands of rods at once, side by side in the lanes of SIMD vectors.
+//! - [`inverse`] solves the inverse problem: the natural strain of a fibre that hangs in a given shape.
+//!
+//! | to find | look in |
+//! | --- | --- |
+//! | elastic energy, its gradient and Hessian | `potential/elastic.rs`; in lanes `batch/elimination.rs` |
+//! | gradient of the whole energy (adjoint sweep) | `minimise/linearise.rs` |
+//! | Hessian, its factorisation (Riccati sweep, LDLᵀ) | `minimise/riccati.rs`, `minimise/block.rs` |
+//! | damping (Levenberg–Marquardt), line search, saddle points | `minimise/newton.rs`; in lanes `batch/newton.rs` |
+//! | stability, smallest eigenvalue | `minimise/certificate.rs` |
+//! | gravity's branch, refinement, Richardson extrapolation | `equilibrium/` |
+//! | contact of rods in a batch | `batch/contact.rs`, `batch/contact_sweep.rs` |
 //!
 //! SI units, z up, right-handed; frames are `[d1 d2 t]` in columns. Everything is deterministic: no
 //! clocks, no threads, no hidden randomness. docs/theory.md has the equations and their sources.
 //!
 //! # What it does not do
 //!
-//! - No motion: shapes at rest only. No friction, plasticity or humidity with a memory.
-//! - A rod does not touch itself or other rods; contact with anything is a potential that the caller
-//!   brings, and must be twice differentiable but for kinks.
+//! - No motion: shapes at rest only. No friction, plasticity or hysteresis of humidity.
+//! - A rod has no contact with itself or other rods; any contact is a potential of the caller, twice
+//!   differentiable except at kinks.
 //! - The root is clamped and the tip is free; no other ends.
 //! - The section is the same all along. The natural strain may vary, linearly between knots.
 //! - Where several equilibria exist it follows gravity's branch, or searches from random starts; it
@@ -69,12 +79,12 @@
 //!   take seconds instead of a millisecond. They still say what they are.
 
 pub mod batch;
+mod centre_line;
 mod chain;
 mod element;
 mod equilibrium;
 mod error;
 pub mod inverse;
-mod line;
 mod material;
 pub mod minimise;
 pub mod potential;
@@ -85,10 +95,10 @@ mod section;
 mod strain;
 mod stumpff;
 
+pub use centre_line::{Node, centre_line};
 pub use chain::{Chain, Shape};
 pub use equilibrium::{Branch, Certificate, Equilibrium, Options, equilibrium, equilibrium_from};
 pub use error::InvalidQuantity;
-pub use line::{Node, line};
 pub use material::Material;
 pub use minimise::{Energy, Stability};
 pub use resolution::{ElementKind, MAX_ELEMENTS, Resolution};

@@ -1,4 +1,4 @@
-//! The isotropic or transversely isotropic elastic material of a fibre.
+//! The elastic material of a fibre: Young's modulus, shear modulus and density.
 
 use crate::error::{InvalidQuantity, positive};
 

@@ -1,6 +1,7 @@
 //! How finely a rod is divided, and into what.
 
 use crate::error::InvalidQuantity;
+use crate::rod::Rod;
 
 /// How finely a rod is divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +34,7 @@ impl ElementKind {
     /// weight bends within one, over lengths L/√Γ. Measured on the reference cases, the two break
     /// even where the natural turn of the whole hair is about 1.3 √Γ radians.
     #[must_use]
-    pub fn chosen_for(self, rod: &crate::Rod) -> Self {
+    pub fn chosen_for(self, rod: &Rod) -> Self {
         let turn = rod.natural().max_magnitude(rod.length()) * rod.length();
         match self {
             Self::Auto if turn > 1.5 * rod.heaviness().sqrt() => Self::Jointed,
@@ -45,7 +46,7 @@ impl ElementKind {
     /// Number of elements that resolve the turns of the curl and the bend under the weight: the
     /// least with which shapes and errors behave. Between 12 and 1 250.
     #[must_use]
-    pub fn resolving_elements(self, rod: &crate::Rod) -> usize {
+    pub fn resolving_elements(self, rod: &Rod) -> usize {
         let length = rod.length();
         let turns = rod.natural().max_magnitude(length) * length / std::f64::consts::TAU;
         let per_turn = if self.chosen_for(rod) == Self::Helix { 6.0 } else { 3.5 };

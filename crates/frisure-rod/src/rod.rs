@@ -1,9 +1,11 @@
-//! A rod, checked when made.
+//! The rod: length, section, material, natural strain, clamp and gravity, checked when made.
 
 use glam::{DMat3, DVec3};
 
 use crate::error::{InvalidQuantity, finite, positive};
-use crate::{Material, NaturalStrain, Section, TorsionConstant};
+use crate::material::Material;
+use crate::section::{Section, TorsionConstant};
+use crate::strain::NaturalStrain;
 
 /// Where and how a rod is clamped.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +94,27 @@ pub struct RodSpec {
 }
 
 /// An inextensible, unshearable rod, clamped at its root and free at its tip.
+///
+/// ```
+/// use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
+/// use glam::DVec3;
+///
+/// let spec = RodSpec {
+///     length: 0.15,
+///     section: Section::circular(35e-6)?,
+///     material: Material::new(3.9e9, 0.9e9, 1300.0)?, // E and μ (Pa), density (kg/m³)
+///     torsion: TorsionConstant::SaintVenant,
+///     natural: NaturalStrain::STRAIGHT,
+///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
+///     gravity: 9.81,
+/// };
+/// let rod = Rod::new(spec.clone())?;
+/// assert!((rod.heaviness() - 36.0).abs() < 1.0); // Γ: weight against elasticity
+///
+/// let error = Rod::new(RodSpec { length: -0.15, ..spec }).unwrap_err();
+/// assert_eq!(error.to_string(), "length is -0.15 m; it must be a finite number greater than zero");
+/// # Ok::<(), frisure_rod::InvalidQuantity>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rod {
     spec: RodSpec,
@@ -100,7 +123,7 @@ pub struct Rod {
 }
 
 impl Rod {
-    /// Checks what is not checked yet.
+    /// The rod of a specification.
     ///
     /// # Errors
     /// [`InvalidQuantity`] unless the length is positive, gravity finite and not negative, the

@@ -1,7 +1,7 @@
 //! Rotation vectors, and the family of vector functions that helices are made of.
 //!
 //! With `φ_0(c) = exp([c]×)`, `φ_1 = ∫₀¹ exp(σ[c]×) dσ` and `φ_2 = ∫₀¹ φ_1(σc) σ dσ`, a helix turns by
-//! `φ_0`, advances by `φ_1` and has the first moment `φ_2` (SYSTEM §1, the matrices V and W). On a
+//! `φ_0`, advances by `φ_1` and has the first moment `φ_2` (docs/theory.md, "Elements"). On a
 //! fixed vector each is `a + c×B(y) + c×(c×C(y))` with y = |c|², so that one set of formulas serves
 //! all, and sums of them.
 

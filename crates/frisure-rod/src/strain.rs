@@ -1,4 +1,4 @@
-//! Natural strains: the shape a fibre has when nothing pulls on it.
+//! Natural strain: the curvatures and the torsion of a fibre without loads.
 
 use std::sync::Arc;
 
@@ -7,6 +7,19 @@ use glam::DVec3;
 use crate::error::{InvalidQuantity, finite, positive};
 
 /// The natural material strain u⁰ = (κ1⁰, κ2⁰, τ⁰) (rad/m) as a function of arc length.
+///
+/// ```
+/// use frisure_rod::NaturalStrain;
+///
+/// // A curl with a radius of 5 mm that advances 1 cm per turn.
+/// let curl = NaturalStrain::helix(0.005, 0.010)?;
+/// let strain = curl.at(0.0);
+/// // Radius κ/(κ² + τ²) and pitch 2π τ/(κ² + τ²) of the helix.
+/// let square = strain.length_squared();
+/// assert!((strain.x / square - 0.005).abs() < 1e-12);
+/// assert!((std::f64::consts::TAU * strain.z / square - 0.010).abs() < 1e-12);
+/// # Ok::<(), frisure_rod::InvalidQuantity>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum NaturalStrain {
     /// The same all along: the natural shape is a helix. \[paper\] §2.2
@@ -92,7 +105,7 @@ impl NaturalStrain {
 
     /// The helix of radius `radius` (m) and pitch `pitch` (m of advance per turn); a negative
     /// pitch turns it left-handed. With p = P/2π, κ1 = R/(R² + p²) and τ = p/(R² + p²), bending
-    /// about d1, the axis of least inertia. SYSTEM §1
+    /// about d1, the axis of least inertia. docs/theory.md, "Strain and energy"
     ///
     /// # Errors
     /// [`InvalidQuantity`] unless the radius is finite and positive and the pitch finite.

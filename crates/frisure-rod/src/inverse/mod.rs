@@ -1,279 +1,46 @@
-//! Inverse statics: the fibre that hangs in a given shape.
+//! Inverse statics: the natural strain with which a fibre hangs in a given shape.
 //!
-//! A groom is modelled as it hangs. Simulated from there, it falls a second time, unless its natural
-//! shape is the one that gravity bends into it. For a given shape that natural shape follows at once from the
-//! balance of moments,
+//! A groom is modelled as it hangs. Simulated from there it falls a second time, unless its natural shape is the one
+//! that gravity bends into it. For a given shape that natural shape follows from the balance of moments,
 //!
 //! ```text
 //! u⁰ = u − K⁻¹ Rᵀ M,
 //! ```
 //!
-//! with u the strain of the shape, R its material frames, M the moment of all that hangs beyond (Derouet-Jourdan,
-//! Bertails-Descoubes & Thollot 2010, *Stable inverse dynamic curves*, §5, for the super-helix). Whether the
-//! equilibrium so made is a minimum is another matter: a soft hair cannot stand on its head, whatever its curl.
+//! with u the strain of the shape, R its material frames, M the moment of everything beyond (Derouet-Jourdan,
+//! Bertails-Descoubes & Thollot 2010, *Stable inverse dynamic curves*, §5, for the super-helix; docs/theory.md, "Inverse
+//! statics"). Whether that equilibrium is a minimum is a separate question: a soft hair cannot stand upright, whatever
+//! its curl.
+//!
+//! ```
+//! use frisure_rod::{
+//!     Material, NaturalStrain, Options, Resolution, RodSpec, Root, Section, TorsionConstant, inverse,
+//! };
+//! use glam::DVec3;
+//!
+//! // A quarter of a circle with a radius of 5 cm, bent downwards.
+//! let line: Vec<DVec3> = (0..=20)
+//!     .map(|i| (f64::from(i) / 20.0 * std::f64::consts::FRAC_PI_2).sin_cos())
+//!     .map(|(sin, cos)| DVec3::new(sin, 0.0, cos - 1.0) * 0.05)
+//!     .collect();
+//! let fibre = RodSpec {
+//!     length: 1.0, // length, natural strain and root are those of the line
+//!     section: Section::from_diameter(70e-6, 1.4)?,
+//!     material: Material::new(3.9e9, 0.9e9, 1300.0)?,
+//!     torsion: TorsionConstant::SaintVenant,
+//!     natural: NaturalStrain::STRAIGHT,
+//!     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
+//!     gravity: 9.81,
+//! };
+//! let options = Options { resolution: Resolution::Elements(32), ..Options::default() };
+//! let found = inverse::solve(&line, &fibre, &[], &options)?;
+//! assert!(found.error < 1e-4, "it hangs within a tenth of a millimetre of the line");
+//! assert_eq!(found.stiffness_needed, 1.0); // and is stable there
+//! # Ok::<(), frisure_rod::InvalidQuantity>(())
+//! ```
 
-mod line;
+mod curve;
+mod solve;
 mod support;
 
-use glam::{DMat3, DVec3};
-
-use crate::chain::{Chain, Shape};
-use crate::minimise::{Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria};
-use crate::potential::{Field, FieldPotential, Potential};
-use crate::{
-    ElementKind, Equilibrium, InvalidQuantity, NaturalStrain, Options, Rod, RodSpec, Root,
-    StrainProfile, equilibrium_from,
-};
-
-use line::Line;
-
-/// A rod that was made to rest in a given shape.
-#[derive(Clone, Debug)]
-pub struct InverseSolution {
-    /// The rod: its natural strain, its root and its length are the shape's.
-    pub rod: Rod,
-    /// Where it rests.
-    pub equilibrium: Equilibrium,
-    /// The given shape as one of the rod, at rest there or not.
-    pub target: Equilibrium,
-    /// Largest distance (m) of a given point from where the rod rests, at the same part of its length.
-    pub error: f64,
-    /// Factor on the fibre's stiffness from which on the given shape would be stable; 1 where it is.
-    pub stiffness_needed: f64,
-}
-
-/// Turn (rad) within an element that elements can well follow.
-const TURN: f64 = 0.12;
-
-/// Longest element (m).
-const LONGEST: f64 = 2.5e-3;
-
-/// Fewest and most elements of a shape.
-const ELEMENTS: (f64, f64) = (12.0, 400.0);
-
-/// Times that the shape is drawn to the line, each from where it has come.
-const ROUNDS: usize = 3;
-
-/// Times that the natural strain is mended by what is left.
-const MENDINGS: usize = 2;
-
-/// Error (m) that needs no mending.
-const GOOD: f64 = 1e-5;
-
-/// The rod that rests in the shape of a line in its own weight and in other potentials: [`FittedCurve::new`] and
-/// [`FittedCurve::solve`].
-///
-/// # Errors
-/// As they.
-pub fn solve(
-    given: &[DVec3],
-    spec: &RodSpec,
-    external: &[&dyn Potential],
-    options: &Options,
-) -> Result<InverseSolution, InvalidQuantity> {
-    FittedCurve::new(given, spec)?.solve(external, options)
-}
-
-/// A line as the shape of a rod.
-#[derive(Debug)]
-pub struct FittedCurve {
-    line: Line,
-    /// The rod that would have this shape without weight.
-    rod: Rod,
-    target: Shape,
-}
-
-impl FittedCurve {
-    /// The rod in the shape of a line of points (m).
-    ///
-    /// Of `spec` the section, the material, the kind of torsion and gravity count; length, natural strain and
-    /// root are those of the line, whose first point is the root. The material frame bends about d1 as far as
-    /// an even twist allows: a polyline says nothing of the turn of its sections.
-    ///
-    /// # Errors
-    /// [`InvalidQuantity`], if the line has no length, a coordinate is not finite, or no rod can be made of
-    /// `spec`.
-    pub fn new(given: &[DVec3], spec: &RodSpec) -> Result<Self, InvalidQuantity> {
-        let line = checked(given)?;
-        let (rod, target) = fitted(&line, spec)?;
-        Ok(Self { line, rod, target })
-    }
-
-    /// The rod that would have this shape without weight.
-    #[must_use]
-    pub fn rod(&self) -> &Rod {
-        &self.rod
-    }
-
-    /// Positions of its nodes (m), evenly spaced from root to tip.
-    #[must_use]
-    pub fn nodes(&self) -> &[DVec3] {
-        &self.target.positions
-    }
-
-    /// The force (N) that something beneath the rod has to bear at each node, so that the rod needs the least
-    /// elastic energy to be in balance: `beneath` is the unit direction in which it can push there, if there
-    /// is something.
-    ///
-    /// # Panics
-    /// If there is not one direction per node.
-    #[must_use]
-    pub fn least_support(&self, beneath: &[Option<DVec3>]) -> Vec<f64> {
-        support::least(&self.rod, &self.target, beneath)
-    }
-
-    /// The rod that rests in this shape. `external` are the potentials that act on it besides its weight, and
-    /// `options` how its rest is sought.
-    ///
-    /// # Errors
-    /// [`InvalidQuantity`], if the natural strain that it would need is not finite.
-    pub fn solve(
-        &self,
-        external: &[&dyn Potential],
-        options: &Options,
-    ) -> Result<InverseSolution, InvalidQuantity> {
-        let chain = Chain::uniform(&self.rod, ElementKind::Helix, self.target.controls.len());
-        let mut strains = balanced(&Problem::new(&chain, external), &self.target);
-        let mut best = self.held(&strains, external, options)?;
-        for _ in 0..MENDINGS {
-            if best.error < GOOD || best.stiffness_needed > 1.0 {
-                break;
-            }
-            strains = mended(&strains, &best.equilibrium, &self.target);
-            let better = self.held(&strains, external, options)?;
-            if better.error >= best.error {
-                break;
-            }
-            best = better;
-        }
-        Ok(best)
-    }
-
-    /// The rod with these natural strains, and where it rests.
-    fn held(
-        &self,
-        strains: &[DVec3],
-        external: &[&dyn Potential],
-        options: &Options,
-    ) -> Result<InverseSolution, InvalidQuantity> {
-        let (elements, length) = (strains.len(), self.line.length());
-        let natural = profile(length / elements as f64, strains)?;
-        let rod = Rod::new(RodSpec { natural, ..self.rod.spec().clone() })?;
-        let chain = Chain::uniform(&rod, ElementKind::Helix, elements);
-        let problem = Problem::new(&chain, external);
-        let gradient_norm = problem.gradient_norm(&self.target);
-        let least = problem.min_eigenvalue(&self.target);
-        let stability = if least > 0.0 { Stability::Stable } else { Stability::Saddle };
-        let minimum =
-            Minimum { shape: self.target.clone(), gradient_norm, iterations: 0, stability };
-        let start = Equilibrium::from_minimum(&problem, minimum);
-        let equilibrium = equilibrium_from(&rod, external, options, &start);
-        let error = apart(&self.line, &equilibrium);
-        // Stiffness makes the elastic part of the second variation greater, weight and contact stay: with
-        // H x = λ M x, λ becomes 1 − (1 − λ) / factor.
-        let stiffness_needed = if least > 0.0 { 1.0 } else { 1.0 - least };
-        Ok(InverseSolution { rod, equilibrium, target: start, error, stiffness_needed })
-    }
-}
-
-fn checked(given: &[DVec3]) -> Result<Line, InvalidQuantity> {
-    for x in given.iter().flat_map(DVec3::to_array) {
-        crate::error::finite("coordinate of a line", x, "m")?;
-    }
-    Line::through(given).ok_or(InvalidQuantity {
-        quantity: "length of a line",
-        value: 0.0,
-        unit: "m",
-        allowed: "more than 0: two points apart from each other",
-    })
-}
-
-/// A rod without weight that rests on the line, and its shape.
-fn fitted(line: &Line, spec: &RodSpec) -> Result<(Rod, Shape), InvalidQuantity> {
-    let length = line.length();
-    let wanted = (line.turning() / TURN).max(length / LONGEST).ceil();
-    let elements = wanted.clamp(ELEMENTS.0, ELEMENTS.1) as usize;
-    let frames = line.frames(elements);
-    let root = Root::new(line.at(0.0), frames[0].x_axis, frames[0].y_axis, frames[0].z_axis)?;
-    let of = |natural| {
-        let spec = RodSpec { length, natural, root, ..spec.clone() };
-        Rod::new(spec)
-    };
-    let mut rod = of(NaturalStrain::STRAIGHT)?;
-    let mut shape = Chain::uniform(&rod, ElementKind::Helix, elements).shape_through(&frames);
-    let h = length / elements as f64;
-    for _ in 0..ROUNDS {
-        let strains: Vec<DVec3> = shape.controls.iter().map(|c| *c / h).collect();
-        rod = of(profile(h, &strains)?)?;
-        let chain = Chain::uniform(&rod, ElementKind::Helix, elements);
-        // Bending gives way to the line within an element.
-        let stiffness = 16.0 * rod.stiffness().max_element() / h.powi(4);
-        let towards = Towards { line, stiffness };
-        let drawn = FieldPotential::new(&towards, 2);
-        let external: [&dyn Potential; 1] = [&drawn];
-        let problem = Problem::with_load(&chain, &external, 0.0);
-        let stopping = StoppingCriteria { tolerance: 1e-9, max_iterations: 60 };
-        shape = Newton::default().minimise(&problem, shape, stopping).shape;
-    }
-    Ok((rod, shape))
-}
-
-/// Strains (rad/m) given for the middles of elements of length `h` (m).
-fn profile(h: f64, strains: &[DVec3]) -> Result<NaturalStrain, InvalidQuantity> {
-    let knot = |(i, u): (usize, &DVec3)| (h * (i as f64 + 0.5), *u);
-    StrainProfile::new(strains.iter().enumerate().map(knot).collect()).map(NaturalStrain::Varying)
-}
-
-/// The mean natural strain (rad/m) of each element with which a shape is in balance.
-fn balanced(problem: &Problem<'_>, shape: &Shape) -> Vec<DVec3> {
-    let chain = problem.chain();
-    let h = chain.rod().length() / chain.len() as f64;
-    let natural = |(i, gradient): (usize, DVec3)| {
-        let element = chain.geometry(i);
-        // What is left of the gradient without the elastic part has to be borne by it.
-        (element.rest() + gradient / element.stiffness()) / h
-    };
-    problem.gradient(shape).into_iter().enumerate().map(natural).collect()
-}
-
-/// Natural strains mended by how the rest differs from the target.
-fn mended(strains: &[DVec3], rest: &Equilibrium, target: &Shape) -> Vec<DVec3> {
-    let elements = strains.len();
-    let h = rest.rod.length() / elements as f64;
-    let frames: Vec<DMat3> =
-        rest.sample(elements + 1).into_iter().map(|(_, frame)| frame).collect();
-    let chain = Chain::uniform(&rest.rod, ElementKind::Helix, elements);
-    let now = chain.shape_through(&frames);
-    let step = target.controls.iter().zip(&now.controls).map(|(wanted, got)| (*wanted - *got) / h);
-    strains.iter().zip(step).map(|(strain, step)| *strain + step).collect()
-}
-
-/// Most points of a line, evenly chosen, at which it is compared with a rod.
-const COMPARED: usize = 512;
-
-/// Largest distance (m) of a line's points from a rod at rest, each at its arc length.
-fn apart(line: &Line, rest: &Equilibrium) -> f64 {
-    let chain = rest.chain();
-    let distance = |(s, p): &(f64, DVec3)| rest.at(&chain, s / line.length()).0.distance(*p);
-    // From the tip, which moves most.
-    let nodes = line.nodes().iter().rev().step_by(line.nodes().len().div_ceil(COMPARED));
-    nodes.map(distance).fold(0.0, f64::max)
-}
-
-/// Springs from each point of a rod to the point of a line at the same arc length.
-struct Towards<'a> {
-    line: &'a Line,
-    /// Of the springs, per length (N/m²).
-    stiffness: f64,
-}
-
-impl Field for Towards<'_> {
-    fn energy(&self, s: f64, position: DVec3) -> f64 {
-        0.5 * self.stiffness * position.distance_squared(self.line.at(s))
-    }
-
-    fn derivatives(&self, s: f64, position: DVec3) -> Option<(DVec3, DMat3)> {
-        let pull = (position - self.line.at(s)) * self.stiffness;
-        Some((pull, DMat3::from_diagonal(DVec3::splat(self.stiffness))))
-    }
-}
+pub use solve::{FittedCurve, InverseSolution, solve};

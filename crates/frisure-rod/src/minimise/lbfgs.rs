@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 
 use glam::DVec3;
 
-use super::{Minimiser, Minimum, Problem, Stability, StoppingCriteria, second_variation};
+use super::minimiser::{Minimiser, Minimum, Stability, StoppingCriteria};
+use super::problem::Problem;
 use crate::chain::Shape;
 
 /// Limited-memory BFGS, preconditioned by the elastic stiffness. Nocedal & Wright, *Numerical
@@ -77,7 +78,7 @@ impl Minimiser for Lbfgs {
         let gradient_norm = norm(&gradient);
         let stability = if gradient_norm > stopping.tolerance.max(1e-6) {
             Stability::NotConverged
-        } else if second_variation(problem, &shape) > -problem.neutral() {
+        } else if problem.min_eigenvalue(&shape) > -problem.neutral_eigenvalue() {
             Stability::Stable
         } else {
             Stability::Saddle

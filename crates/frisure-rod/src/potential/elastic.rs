@@ -1,8 +1,8 @@
-//! Bending and twist.
+//! The elastic energy: bending and twist.
 
 use glam::DMat3;
 
-use super::{Derivatives, ElementState, Potential};
+use super::term::{Derivatives, ElementState, Potential};
 
 /// `Σ ½ (c − c⁰)ᵀ (K/h) (c − c⁰)`: Hooke's law in each element. \[paper\] (2.3)
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,6 +21,7 @@ impl Potential for Elastic {
 
     #[inline]
     fn add_element_derivatives(&self, e: &ElementState<'_>, sum: &mut Derivatives) {
+        // Gradient K/h (c − c⁰), Hessian K/h.
         sum.control += e.stiffness * (e.control - e.rest);
         sum.control_control += DMat3::from_diagonal(e.stiffness);
     }

@@ -1,8 +1,8 @@
-//! A field in space that acts along the whole rod.
+//! The energy of a rod in a field in space, such as contact with a body.
 
 use glam::{DMat3, DVec3};
 
-use super::{Derivatives, ElementState, NodeState, Potential};
+use super::term::{Derivatives, ElementState, NodeState, Potential};
 use crate::chain::{Chain, Shape};
 use crate::rotation::{cross_matrix, scaled_identity, symmetric_outer};
 

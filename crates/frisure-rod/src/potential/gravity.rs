@@ -1,8 +1,8 @@
-//! The weight.
+//! The energy of the weight.
 
 use glam::DVec3;
 
-use super::{Derivatives, ElementState, Potential};
+use super::term::{Derivatives, ElementState, Potential};
 
 /// `ρSg ∫ (L − s) t·e_z ds`: the potential of the weight with the root at height zero. Each
 /// element lifts all that hangs below it. \[paper\] (2.4)

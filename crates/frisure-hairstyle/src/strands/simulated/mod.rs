@@ -9,7 +9,7 @@ mod envelope;
 mod fibre;
 
 use frisure_rod::batch::{Batch, BatchSolution, Frames, InitialShape, RodSolution};
-use frisure_rod::{Node, Rod, Stability, line};
+use frisure_rod::{Node, Rod, Stability, centre_line};
 use glam::{DMat3, DQuat};
 use rayon::prelude::*;
 
@@ -237,7 +237,7 @@ impl<'a> Simulated<'a> {
         let count = self.population.spec.wisps.points;
         let step = length / (count - 1) as f64;
         let mut free = Free::NOWHERE;
-        (line(nodes, length, count).enumerate())
+        (centre_line(nodes, length, count).enumerate())
             .map(|(k, p)| {
                 let s = k as f64 * step;
                 self.population.laid_on_body(root, p, s, LAID, &mut free).as_vec3()

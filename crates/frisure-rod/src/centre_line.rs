@@ -1,4 +1,4 @@
-//! A smooth line through the nodes of a rod, for drawing.
+//! A smooth centre line through the nodes of a rod, for drawing.
 
 use glam::DVec3;
 
@@ -23,7 +23,7 @@ const SHARPEST: f64 = 1.5;
 ///
 /// # Panics
 /// If there are fewer than two nodes, or fewer than two points.
-pub fn line(nodes: &[Node], length: f64, count: usize) -> impl Iterator<Item = DVec3> {
+pub fn centre_line(nodes: &[Node], length: f64, count: usize) -> impl Iterator<Item = DVec3> {
     assert!(nodes.len() > 1 && count > 1, "a line has two ends");
     let elements = nodes.len() - 1;
     let h = length / elements as f64;
@@ -75,7 +75,7 @@ mod tests {
         for p in [0.0, 0.3, 1.0, 4.0] {
             let (on, length) = helix(3.0, p);
             let nodes: Vec<Node> = (0..=18).map(|i| on(length * f64::from(i) / 18.0)).collect();
-            let points: Vec<DVec3> = line(&nodes, length, 541).collect();
+            let points: Vec<DVec3> = centre_line(&nodes, length, 541).collect();
             for (k, point) in points.iter().enumerate() {
                 let around = point.truncate().length();
                 assert!(
@@ -94,7 +94,7 @@ mod tests {
     fn a_straight_line_is_straight_and_even() {
         let at = |i: usize| Node { position: DVec3::Z * (0.1 * i as f64), tangent: DVec3::Z };
         let nodes: Vec<Node> = (0..4).map(at).collect();
-        for (k, point) in line(&nodes, 0.3, 7).enumerate() {
+        for (k, point) in centre_line(&nodes, 0.3, 7).enumerate() {
             assert!(point.distance(DVec3::Z * (0.05 * k as f64)) < 1e-15);
         }
     }

@@ -1,31 +1,33 @@
-//! Hairs that touch nothing, into and out of the lanes.
+//! Rods in their own weight, into and out of the lanes.
 
 use glam::DVec3;
 
-use super::joints::Joints;
-use super::lanes::{Lanes, Vec3};
-use super::settle::Sweeps;
-use super::sweep::{Backward, Bundle, Joint};
-use super::turns::Turns;
+use super::division::Joints;
+use super::elimination::SweepResult;
+use super::lanes::Lanes;
+use super::linear::Vec3;
+use super::newton::LaneSweeps;
+use super::transport::Transport;
+use super::weight_sweep::{Bundle, Joint};
 use crate::stumpff::stumpff;
 
-/// Hairs in their own weight alone.
-pub(super) struct Hanging<F>(Bundle<F>);
+/// Lanes of rods without contact.
+pub(super) struct WeightLanes<F>(pub(super) Bundle<F>);
 
-impl<F: Lanes> Hanging<F> {
-    /// Lanes for hairs of `n` joints, between which those of each hair turn alike or not.
+impl<F: Lanes> WeightLanes<F> {
+    /// Lanes for rods of `n` joints. `uniform`: every rod has the same rotation between all of its joints.
     #[inline(always)]
-    pub(super) fn new(zero: F, n: usize, alike: bool) -> Self {
+    pub(super) fn new(zero: F, n: usize, uniform: bool) -> Self {
         Self(Bundle {
-            joints: vec![Joint::nothing(zero); n],
-            turns: Turns::new(zero, n, alike),
-            root: Vec3::all(zero),
-            stiffness: Vec3::all(zero.all(1.0)),
+            joints: vec![Joint::zero(zero); n],
+            transport: Transport::new(zero, n, uniform),
+            root: Vec3::splat(zero),
+            stiffness: Vec3::splat(zero.splat(1.0)),
         })
     }
 }
 
-impl<F: Lanes> Sweeps<F> for Hanging<F> {
+impl<F: Lanes> LaneSweeps<F> for WeightLanes<F> {
     #[inline(always)]
     fn load(&mut self, lane: usize, _: usize, joints: &Joints, start: &[DVec3]) -> Option<f64> {
         let Self(bundle) = self;
@@ -34,8 +36,9 @@ impl<F: Lanes> Sweeps<F> for Hanging<F> {
         let mut up = joints.up;
         let mut energy = 0.0;
         let last = start.len() - 1;
-        bundle.turns.set(lane, joints);
+        bundle.transport.set(lane, joints);
         for (i, control) in start.iter().enumerate() {
+            // The vertical after the joint, y = exp(−[c]×) ζ. (L1), (L2)
             if *control != DVec3::ZERO {
                 let table = stumpff(control.length_squared());
                 let once = control.cross(up);
@@ -57,7 +60,7 @@ impl<F: Lanes> Sweeps<F> for Hanging<F> {
     fn begin(&mut self, _: usize) {}
 
     #[inline(always)]
-    fn backward(&mut self, accepted: F::Truth, damping: F) -> Backward<F> {
+    fn backward(&mut self, accepted: F::Mask, damping: F) -> SweepResult<F> {
         self.0.backward(accepted, damping)
     }
 

@@ -1,178 +1,20 @@
-//! The shape in which a rod comes to rest, with a certificate.
+//! The search for an equilibrium: gravity's branch with few elements, then refinement, docs/theory.md, "Which
+//! equilibrium".
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::DVec3;
 
-use crate::chain::{Chain, Shape};
-use crate::minimise::{
-    Energy, Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria, second_variation,
+use super::options::{Branch, Options};
+use super::random::SplitMix;
+use super::richardson::{
+    Correction, corrections, every, extrapolate, extrapolate_energy, largest_gap,
 };
+use super::solution::{Certificate, Equilibrium};
+use super::warm_start::warm_start;
+use crate::chain::{Chain, Shape};
+use crate::minimise::{Energy, Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria};
 use crate::potential::Potential;
-use crate::rotation::deviation;
-use crate::{ElementKind, MAX_ELEMENTS, Resolution, Rod};
-
-/// Which equilibrium is meant, where there are several.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Branch {
-    /// The one reached from the natural shape as gravity is turned on slowly. Where that branch
-    /// loses stability the rod falls off it, as a hair would.
-    #[default]
-    Gravity,
-    /// The lowest of that one and of those found from random shapes.
-    Lowest {
-        /// Number of random starts.
-        starts: u32,
-        /// Seed of the random starts.
-        seed: u64,
-    },
-}
-
-/// How an equilibrium is sought.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// Number of elements, or accuracy.
-    pub resolution: Resolution,
-    /// Most elements to meet an accuracy with, at least 1 and at most [`MAX_ELEMENTS`].
-    pub max_elements: usize,
-    /// Curve of the elements.
-    pub element: ElementKind,
-    /// Which equilibrium.
-    pub branch: Branch,
-    /// Relative gradient at which a shape is an equilibrium, see [`Problem::gradient_norm`].
-    pub tolerance: f64,
-    /// Most iterations at each division of the rod; a quarter of it at each step of gravity.
-    pub max_iterations: usize,
-    /// Whether to estimate the error for a given number of elements, by doubling them.
-    pub estimate_error: bool,
-    /// Whether to compute the smallest eigenvalue of the second variation. Stability is known
-    /// without it.
-    pub eigenvalue: bool,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            resolution: Resolution::Accuracy(1e-4),
-            max_elements: MAX_ELEMENTS,
-            element: ElementKind::Auto,
-            branch: Branch::Gravity,
-            tolerance: 1e-10,
-            max_iterations: 500,
-            estimate_error: true,
-            eigenvalue: true,
-        }
-    }
-}
-
-/// What vouches for an equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Certificate {
-    /// Relative gradient, see [`Problem::gradient_norm`].
-    pub gradient_norm: f64,
-    /// Smallest λ in `H x = λ M x`, H the second variation of the energy and M that of the elastic
-    /// energy: 1 without loads, 0 where stability is lost. `None` if it was not asked for.
-    pub min_eigenvalue: Option<f64>,
-    /// Minimum, saddle or neither.
-    pub stability: Stability,
-    /// Iterations of the minimiser in all.
-    pub iterations: usize,
-}
-
-/// A rod at rest.
-#[derive(Clone, Debug)]
-pub struct Equilibrium {
-    /// The rod.
-    pub rod: Rod,
-    /// Curve of the elements, never [`ElementKind::Auto`].
-    pub element: ElementKind,
-    /// Number of elements of the finest division.
-    pub elements: usize,
-    /// Shape of the finest division.
-    pub shape: Shape,
-    /// Energies, extrapolated where the shape is.
-    pub energy: Energy,
-    /// What vouches for it.
-    pub certificate: Certificate,
-    /// Estimate of the largest distance (m) of the centre line from the exact equilibrium.
-    pub error_estimate: Option<f64>,
-    /// What extrapolation adds to every second node.
-    correction: Option<Vec<Correction>>,
-}
-
-impl Equilibrium {
-    /// What a minimiser found, as it is: not extrapolated, its error not estimated.
-    #[must_use]
-    pub fn from_minimum(problem: &Problem<'_>, minimum: Minimum) -> Self {
-        let chain = problem.chain();
-        let energy = problem.energy(&minimum.shape);
-        let Minimum { shape, gradient_norm, iterations, stability } = minimum;
-        Self {
-            rod: chain.rod().clone(),
-            element: chain.kind(),
-            elements: chain.len(),
-            shape,
-            energy,
-            certificate: Certificate { gradient_norm, min_eigenvalue: None, stability, iterations },
-            error_estimate: None,
-            correction: None,
-        }
-    }
-
-    /// The divided rod whose shape [`Self::shape`] is.
-    #[must_use]
-    pub fn chain(&self) -> Chain<'_> {
-        Chain::uniform(&self.rod, self.element, self.elements)
-    }
-
-    /// Position of the tip (m).
-    #[must_use]
-    pub fn tip(&self) -> DVec3 {
-        self.node(self.elements)
-    }
-
-    fn node(&self, i: usize) -> DVec3 {
-        self.shape.positions[i] + self.correction_at(i as f64).0
-    }
-
-    /// What extrapolation adds to the position (m), and the rotation vector (rad, world) by which
-    /// it turns the frame.
-    fn correction_at(&self, node: f64) -> (DVec3, DVec3) {
-        let Some(table) = &self.correction else { return (DVec3::ZERO, DVec3::ZERO) };
-        let last = table.len() - 1;
-        let x = (0.5 * node).clamp(0.0, last as f64);
-        let i = (x as usize).min(last.saturating_sub(1));
-        let (from, to) = (&table[i], &table[(i + 1).min(last)]);
-        let x = x - i as f64;
-        let step = self.rod.length() / last as f64;
-        // Hermite: cubic, with the slopes at both ends.
-        let (rise, y) = (x * x * (3.0 - 2.0 * x), 1.0 - x);
-        let bends = (from.slope * y - to.slope * x) * (x * y * step);
-        (from.shift.lerp(to.shift, rise) + bends, from.turn.lerp(to.turn, x))
-    }
-
-    /// `points` positions (m) and material frames, evenly spaced in arc length from root to tip;
-    /// at least two.
-    #[must_use]
-    pub fn sample(&self, points: usize) -> Vec<(DVec3, DMat3)> {
-        let n = points.max(2);
-        let chain = self.chain();
-        (0..n).map(|k| self.at(&chain, k as f64 / (n - 1) as f64)).collect()
-    }
-
-    /// Position (m) and material frame at a part of the arc length, 0 (root) to 1 (tip), of the
-    /// [`Self::chain`].
-    #[must_use]
-    pub fn at(&self, chain: &Chain<'_>, x: f64) -> (DVec3, DMat3) {
-        let (position, frame) = chain.point(&self.shape, x * self.rod.length());
-        let (shift, turn) = self.correction_at(x * self.elements as f64);
-        (position + shift, DMat3::from_quat(DQuat::from_scaled_axis(turn)) * frame)
-    }
-
-    /// The centre line as `points` positions (m), evenly spaced in arc length; at least two.
-    #[must_use]
-    pub fn centre_line(&self, points: usize) -> Vec<DVec3> {
-        self.sample(points).into_iter().map(|(position, _)| position).collect()
-    }
-}
+use crate::resolution::{ElementKind, MAX_ELEMENTS, Resolution};
+use crate::rod::Rod;
 
 /// The equilibrium of a rod in its own weight and in other potentials.
 ///
@@ -194,17 +36,6 @@ pub fn equilibrium_from(
     previous: &Equilibrium,
 ) -> Equilibrium {
     Search { rod, external, options, kind: options.element.chosen_for(rod) }.run(Some(previous))
-}
-
-/// What Richardson extrapolation adds to a node.
-#[derive(Clone, Copy, Debug)]
-struct Correction {
-    /// To the position (m).
-    shift: DVec3,
-    /// To the tangent, which is the derivative of the shift by arc length.
-    slope: DVec3,
-    /// To the frame: a rotation vector (rad) in the world.
-    turn: DVec3,
 }
 
 struct Search<'a> {
@@ -466,7 +297,7 @@ impl Search<'_> {
         let Minimum { shape, gradient_norm, iterations, stability } = level.minimum;
         let min_eigenvalue = self.options.eigenvalue.then(|| {
             let chain = self.chain(level.elements);
-            let least = second_variation(&Problem::new(&chain, self.external), &shape);
+            let least = Problem::new(&chain, self.external).min_eigenvalue(&shape);
             // A direction that costs nothing, as round the vertical for a round straight hair, is
             // zero only to rounding.
             if stability == Stability::Stable { least.max(0.0) } else { least }
@@ -481,83 +312,5 @@ impl Search<'_> {
             error_estimate,
             correction,
         }
-    }
-}
-
-fn every(points: &[DVec3], step: usize) -> Vec<DVec3> {
-    points.iter().step_by(step).copied().collect()
-}
-
-fn largest_gap(a: &[DVec3], b: &[DVec3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
-}
-
-/// Richardson extrapolation of second order at the nodes of the coarse shape:
-/// `(4 r_2N − r_N) / 3`.
-fn extrapolate(coarse: &Shape, fine: &Shape) -> Vec<DVec3> {
-    let fine = fine.positions.iter().step_by(2);
-    coarse.positions.iter().zip(fine).map(|(c, f)| (*f * 4.0 - *c) / 3.0).collect()
-}
-
-/// What extrapolation adds to the fine shape at the nodes of the coarse one.
-fn corrections(coarse: &Shape, fine: &Shape) -> Vec<Correction> {
-    (0..coarse.positions.len())
-        .map(|i| {
-            let (position, frame) = (fine.positions[2 * i], fine.frames[2 * i]);
-            let turn = deviation(&(frame * coarse.frames[i].transpose())) / 3.0;
-            Correction {
-                shift: (position - coarse.positions[i]) / 3.0,
-                slope: DQuat::from_scaled_axis(turn) * frame.z_axis - frame.z_axis,
-                turn,
-            }
-        })
-        .collect()
-}
-
-fn extrapolate_energy(coarse: &Energy, fine: &Energy) -> Energy {
-    let mix = |c: f64, f: f64| (4.0 * f - c) / 3.0;
-    Energy {
-        elastic: mix(coarse.elastic, fine.elastic),
-        gravity: mix(coarse.gravity, fine.gravity),
-        external: mix(coarse.external, fine.external),
-    }
-}
-
-/// The shape of another rod at rest, taken over at equal arc length; what is longer goes on as it
-/// would naturally.
-fn warm_start(chain: &Chain<'_>, previous: &Equilibrium) -> Shape {
-    let old = previous.chain();
-    let covered = previous.rod.length() * (1.0 + 1e-12);
-    let known = chain.arc().iter().take_while(|&&s| s <= covered).count();
-    let mut frames: Vec<DMat3> =
-        chain.arc()[..known].iter().map(|&s| old.point(&previous.shape, s).1).collect();
-    for i in known..=chain.len() {
-        let g = chain.geometry(i - 1);
-        let last = frames[i - 1];
-        frames.push(last * g.motion(g.rest()).rotation());
-    }
-    // A root that was turned turns the whole shape with it.
-    let turn = chain.rod().root().frame() * previous.rod.root().frame().transpose();
-    for frame in &mut frames {
-        *frame = turn * *frame;
-    }
-    chain.shape_through(&frames)
-}
-
-/// Steele, Lea & Flood's `SplitMix64`: a start for a minimiser needs no better.
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Uniform in the cube [−1, 1]³.
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - DVec3::ONE
     }
 }

@@ -1,39 +1,39 @@
-//! A hair as a chain of joints, for one hair; what the sweeps then do is the same for all.
+//! A rod divided into joints and rigid pieces, docs/theory.md, "Rods in lanes", (L2).
 //!
-//! An element is two pieces of the natural helix, A and B, and a joint between them (see
-//! [`crate::element`]). Weight alone sees nothing of a frame but ζ, which way up is in it. Between joints
-//! ζ turns by constant matrices C = B A⁺ (⁺: of the next element), so that the hair is ζ⁺ = Cᵀ y,
-//! y = exp(−\[c\]) ζ, and its energy Σ ½ cᵀ K c + y·a: all that hangs from a joint hangs in its frame from an
-//! arm a, to which what the next element's first piece bears belongs too.
+//! An element is two pieces of the natural helix, A and B, and a joint between them (see [`crate::element`]). Under
+//! weight alone the energy depends on a frame only through ζ, the vertical seen in it. Between joints ζ turns by the
+//! constant C = B A⁺ (⁺: of the next element): `y = exp(−[c]) ζ`, `ζ⁺ = Cᵀ y`, and the energy is `Σ ½ cᵀ K c + y·a`.
+//! The arm a collects the weight of everything beyond the joint that moves rigidly with it, up to the next joint.
 
 use glam::{DMat3, DVec3};
 
 use crate::element::helix_piece;
-use crate::{NaturalStrain, Rod};
+use crate::rod::Rod;
+use crate::strain::NaturalStrain;
 
-/// A hair divided into joints.
+/// A rod divided into joints.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Joints {
-    /// C after each joint but the last; one for all if they are alike.
+    /// C after each joint but the last; one for all if they are equal.
     pub(super) turns: Vec<DMat3>,
-    /// a (N m).
+    /// a: arm (N m) of the weight that each joint bears, in the frame after it.
     pub(super) arms: Vec<DVec3>,
     /// From each joint to the next, the last to the tip (m), in the frame after the joint.
     pub(super) links: Vec<DVec3>,
-    /// The halves of each element, before and after its joint; those of one for all if they are alike.
+    /// The halves of each element, before and after its joint; those of one for all if they are equal.
     halves: Vec<[Piece; 2]>,
-    /// Where (m) it is rooted, and the clamp's frame.
+    /// Position (m) and frame of the clamp.
     pub(super) root: (DVec3, DMat3),
-    /// The frame before the first joint, and where that is (m).
+    /// Frame and position (m) before the first joint.
     pub(super) frame: DMat3,
     pub(super) start: DVec3,
     /// Length of an element (m).
     pub(super) h: f64,
-    /// ζ before the first joint.
+    /// ζ: the vertical in the frame before the first joint.
     pub(super) up: DVec3,
-    /// K (N m).
+    /// K: stiffness of each joint (N m).
     pub(super) stiffness: DVec3,
-    /// What no joint can change (J).
+    /// The part of the energy that no joint changes (J).
     pub(super) constant: f64,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Joints {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) turn: DMat3,
-    /// What it adds to the arm of the joint: how far (m) it goes, and the first moment (m²).
+    /// Advance (m) and first moment (m²): its share of the arm of a joint.
     pub(super) advance: DVec3,
     moment: DVec3,
 }
@@ -54,12 +54,12 @@ impl Piece {
 }
 
 impl Joints {
-    /// Divides a hair into `n` elements, in place of what was divided before.
+    /// Divides a rod into `n` elements, reusing the memory.
     ///
     /// # Panics
     /// If there are no elements.
     pub(super) fn divide(&mut self, rod: &Rod, n: usize) {
-        assert!(n > 0, "a hair has at least one element");
+        assert!(n > 0, "a rod has at least one element");
         let h = rod.length() / n as f64;
         let half = 0.5 * h;
         let weight = rod.weight();
@@ -76,7 +76,7 @@ impl Joints {
             }
             NaturalStrain::Varying(_) => {
                 let mut pieces = rod.natural().means(half).map(|strain| Piece::of(strain, half));
-                let mut piece = || pieces.next().expect("they do not end");
+                let mut piece = || pieces.next().expect("an endless iterator");
                 self.halves.extend((0..n).map(|_| [piece(), piece()]));
                 false
             }
@@ -85,7 +85,7 @@ impl Joints {
         let mut before: Option<Piece> = None;
         for i in 0..n {
             let [first, second] = *self.halves(i);
-            // The weight (N) of all that hangs beyond the element.
+            // Weight (N) of the rod beyond the element, and the moment arm (N m) of the first piece under it.
             let hanging = weight * h * (n - 1 - i) as f64;
             let bears = first.advance * (hanging + weight * half) + first.moment * weight;
             match before {
@@ -115,7 +115,7 @@ impl Joints {
         if self.halves.len() == 1 { &self.halves[0] } else { &self.halves[element] }
     }
 
-    /// The half of each element after its joint; one for all if they are alike.
+    /// The half of each element after its joint; one for all if they are equal.
     pub(super) fn seconds(&self) -> impl Iterator<Item = &Piece> {
         self.halves.iter().map(|[_, second]| second)
     }

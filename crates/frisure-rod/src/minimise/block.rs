@@ -1,17 +1,17 @@
-//! The 3×3 blocks that the Riccati sweep divides by.
+//! The 3×3 pivots of the Hessian: `L D Lᵀ` factors and the lowest eigenvector.
 
 use glam::{DMat3, DVec3};
 
 /// `L D Lᵀ` of a symmetric positive definite matrix.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pivot {
+pub(crate) struct BlockFactor {
     d: DVec3,
     l21: f64,
     l31: f64,
     l32: f64,
 }
 
-impl Pivot {
+impl BlockFactor {
     /// `None` unless the matrix is positive definite beyond rounding.
     #[inline]
     pub(crate) fn new(m: &DMat3) -> Option<Self> {
@@ -80,19 +80,19 @@ mod tests {
     }
 
     #[test]
-    fn solves() {
+    fn factors_solve_linear_systems() {
         let (m, b) = (spd(), DVec3::new(1.0, -2.0, 0.5));
-        let p = Pivot::new(&m).unwrap();
+        let p = BlockFactor::new(&m).unwrap();
         assert!((m * p.solve(b)).abs_diff_eq(b, 1e-14));
         let n = DMat3::from_cols(b, b.yzx(), b.zxy());
         assert!((m * p.solve_transposed(&n)).abs_diff_eq(n.transpose(), 1e-13));
     }
 
     #[test]
-    fn refuses_what_is_not_positive() {
+    fn a_block_that_is_not_positive_definite_has_no_factor() {
         let m = spd() - DMat3::from_diagonal(DVec3::splat(2.5));
-        assert!(Pivot::new(&m).is_none());
-        assert!(Pivot::new(&DMat3::from_diagonal(DVec3::new(f64::NAN, 1.0, 1.0))).is_none());
+        assert!(BlockFactor::new(&m).is_none());
+        assert!(BlockFactor::new(&DMat3::from_diagonal(DVec3::new(f64::NAN, 1.0, 1.0))).is_none());
     }
 
     #[test]

@@ -1,31 +1,31 @@
-//! A line through points, smooth, and frames along it.
+//! A smooth curve through points, and material frames along it.
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Pieces of the smooth line for each piece of the given one.
+/// Pieces of the smooth curve per piece of the given polyline. Chosen by trial.
 const PIECES: usize = 8;
 
-/// Points nearer to each other than this (m) are one.
-const APART: f64 = 1e-9;
+/// Points nearer to each other than this (m) count as one point.
+const LEAST_DISTANCE: f64 = 1e-9;
 
-/// Twists that are tried, for each element.
+/// Twists tried per element, either way. Chosen by trial.
 const TWISTS: usize = 4;
 
-/// A smooth line through points, by arc length.
+/// A smooth curve through points, by arc length.
 #[derive(Debug)]
-pub(super) struct Line {
+pub(super) struct Curve {
     arc: Vec<f64>,
     points: Vec<DVec3>,
     /// Its own points, and the arc lengths at which they are.
     nodes: Vec<(f64, DVec3)>,
 }
 
-impl Line {
+impl Curve {
     /// Through points (m), by centripetal Catmull–Rom splines; none through fewer than two.
     pub(super) fn through(given: &[DVec3]) -> Option<Self> {
         let mut nodes: Vec<DVec3> = Vec::with_capacity(given.len());
         for &p in given {
-            if nodes.last().is_none_or(|last| last.distance(p) > APART) {
+            if nodes.last().is_none_or(|last| last.distance(p) > LEAST_DISTANCE) {
                 nodes.push(p);
             }
         }
@@ -72,7 +72,7 @@ impl Line {
         self.points.windows(3).map(turn).sum()
     }
 
-    /// Frames at the ends of so many equal elements, columns d1, d2, t: t along the line, and d1 about
+    /// Frames at the ends of `elements` equal elements, columns d1, d2, t: t along the line, and d1 about
     /// which it bends, as nearly as an even twist along the whole line allows. So the soft axis of an
     /// elliptical section follows the curl, and a helix has a constant strain.
     pub(super) fn frames(&self, elements: usize) -> Vec<DMat3> {
@@ -82,26 +82,26 @@ impl Line {
             (self.at(s + 0.5 * h) - self.at(s - 0.5 * h)).normalize_or(DVec3::Z)
         };
         let tangents: Vec<DVec3> = (0..=elements).map(tangent).collect();
-        let untwisted = untwisted(&tangents);
+        let frames = twist_free_frames(&tangents);
         // Bending about d1 and d2 of frames without twist, as complex numbers.
-        let bends: Vec<(f64, f64)> = untwisted
+        let bends: Vec<(f64, f64)> = frames
             .windows(2)
             .map(|pair| {
                 let turn = DQuat::from_mat3(&(pair[0].transpose() * pair[1])).to_scaled_axis();
                 (turn.x, turn.y)
             })
             .collect();
-        let (twist, start) = evenest(&bends);
+        let (twist, start) = best_twist(&bends);
         let turned = |(i, frame): (usize, DMat3)| {
             frame * DMat3::from_rotation_z(start + twist * (i as f64 - 0.5))
         };
-        untwisted.into_iter().enumerate().map(turned).collect()
+        frames.into_iter().enumerate().map(turned).collect()
     }
 }
 
 /// Point at the part `x` of the way from the second to the third of four points.
 fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
-    let step = |a: DVec3, b: DVec3| a.distance(b).sqrt().max(APART);
+    let step = |a: DVec3, b: DVec3| a.distance(b).sqrt().max(LEAST_DISTANCE);
     let t1 = step(p[0], p[1]);
     let t2 = t1 + step(p[1], p[2]);
     let t3 = t2 + step(p[2], p[3]);
@@ -112,8 +112,8 @@ fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
     mix(d, e, t1, t2)
 }
 
-/// Frames with these tangents that turn about them nowhere.
-fn untwisted(tangents: &[DVec3]) -> Vec<DMat3> {
+/// Twist-free frames (Bishop frames) with these tangents.
+fn twist_free_frames(tangents: &[DVec3]) -> Vec<DMat3> {
     let first = tangents[0];
     let d1 = first.any_orthonormal_vector();
     let mut frame = DMat3::from_cols(d1, first.cross(d1), first);
@@ -130,7 +130,7 @@ fn untwisted(tangents: &[DVec3]) -> Vec<DMat3> {
 
 /// The twist (rad per element) and the angle at the start (rad) of frames in which bending is most about d1:
 /// the peak of the spectrum of the bending.
-fn evenest(bends: &[(f64, f64)]) -> (f64, f64) {
+fn best_twist(bends: &[(f64, f64)]) -> (f64, f64) {
     let sum = |twist: f64| {
         bends.iter().enumerate().fold((0.0, 0.0), |(x, y), (i, b)| {
             let (sin, cos) = (twist * i as f64).sin_cos();
@@ -143,7 +143,7 @@ fn evenest(bends: &[(f64, f64)]) -> (f64, f64) {
         .map(|k| std::f64::consts::FRAC_PI_4 * f64::from(k) / f64::from(tries.max(1)));
     let strength = |twist: f64| {
         let (x, y) = sum(twist);
-        // Of twists that serve alike, the least.
+        // Of equal strengths, the least twist.
         x.hypot(y) - 1e-9 * twist.abs()
     };
     let best = twists.max_by(|a, b| strength(*a).total_cmp(&strength(*b))).unwrap_or(0.0);

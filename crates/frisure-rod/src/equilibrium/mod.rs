@@ -1,0 +1,15 @@
+//! The equilibrium of a rod: a minimum of its energy, with a certificate.
+//!
+//! The files in the order of the computation: `options`, `search` (gravity's branch, refinement), `warm_start` (from the
+//! shape of another rod), `richardson` (extrapolation and the estimate of the error), `solution`.
+
+mod options;
+mod random;
+mod richardson;
+mod search;
+mod solution;
+mod warm_start;
+
+pub use options::{Branch, Options};
+pub use search::{equilibrium, equilibrium_from};
+pub use solution::{Certificate, Equilibrium};

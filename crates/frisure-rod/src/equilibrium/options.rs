@@ -1,0 +1,56 @@
+//! How an equilibrium is searched for.
+
+use crate::resolution::{ElementKind, MAX_ELEMENTS, Resolution};
+
+/// Which equilibrium is meant, where there are several.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Branch {
+    /// The one reached from the natural shape as gravity is turned on slowly. Where that branch
+    /// loses stability the rod falls off it, as a hair would.
+    #[default]
+    Gravity,
+    /// The lowest of that one and of those found from random shapes.
+    Lowest {
+        /// Number of random starts.
+        starts: u32,
+        /// Seed of the random starts.
+        seed: u64,
+    },
+}
+
+/// How an equilibrium is sought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Number of elements, or accuracy.
+    pub resolution: Resolution,
+    /// Most elements to meet an accuracy with, at least 1 and at most [`MAX_ELEMENTS`].
+    pub max_elements: usize,
+    /// Curve of the elements.
+    pub element: ElementKind,
+    /// Which equilibrium.
+    pub branch: Branch,
+    /// Relative gradient at which a shape is an equilibrium, see [`crate::minimise::Problem::gradient_norm`].
+    pub tolerance: f64,
+    /// Most iterations at each division of the rod; a quarter of it at each step of gravity.
+    pub max_iterations: usize,
+    /// Whether to estimate the error for a given number of elements, by doubling them.
+    pub estimate_error: bool,
+    /// Whether to compute the smallest eigenvalue of the second variation. Stability is known
+    /// without it.
+    pub eigenvalue: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            resolution: Resolution::Accuracy(1e-4),
+            max_elements: MAX_ELEMENTS,
+            element: ElementKind::Auto,
+            branch: Branch::Gravity,
+            tolerance: 1e-10,
+            max_iterations: 500,
+            estimate_error: true,
+            eigenvalue: true,
+        }
+    }
+}

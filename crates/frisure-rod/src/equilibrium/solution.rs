@@ -1,0 +1,120 @@
+//! A rod at rest: its shape, energies and certificate.
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::richardson::Correction;
+use crate::chain::{Chain, Shape};
+use crate::minimise::{Energy, Minimum, Problem, Stability};
+use crate::resolution::ElementKind;
+use crate::rod::Rod;
+
+/// What certifies an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate {
+    /// Relative gradient, see [`Problem::gradient_norm`].
+    pub gradient_norm: f64,
+    /// Smallest λ in `H x = λ M x`, H the second variation of the energy and M that of the elastic
+    /// energy: 1 without loads, 0 where stability is lost. `None` if it was not asked for.
+    pub min_eigenvalue: Option<f64>,
+    /// Minimum, saddle or neither.
+    pub stability: Stability,
+    /// Iterations of the minimiser in all.
+    pub iterations: usize,
+}
+
+/// A rod at rest.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// The rod.
+    pub rod: Rod,
+    /// Curve of the elements, never [`ElementKind::Auto`].
+    pub element: ElementKind,
+    /// Number of elements of the finest division.
+    pub elements: usize,
+    /// Shape of the finest division.
+    pub shape: Shape,
+    /// Energies, extrapolated where the shape is.
+    pub energy: Energy,
+    /// What certifies it.
+    pub certificate: Certificate,
+    /// Estimate of the largest distance (m) of the centre line from the exact equilibrium.
+    pub error_estimate: Option<f64>,
+    /// What extrapolation adds to every second node.
+    pub(super) correction: Option<Vec<Correction>>,
+}
+
+impl Equilibrium {
+    /// What a minimiser found, as it is: not extrapolated, its error not estimated.
+    #[must_use]
+    pub fn from_minimum(problem: &Problem<'_>, minimum: Minimum) -> Self {
+        let chain = problem.chain();
+        let energy = problem.energy(&minimum.shape);
+        let Minimum { shape, gradient_norm, iterations, stability } = minimum;
+        Self {
+            rod: chain.rod().clone(),
+            element: chain.kind(),
+            elements: chain.len(),
+            shape,
+            energy,
+            certificate: Certificate { gradient_norm, min_eigenvalue: None, stability, iterations },
+            error_estimate: None,
+            correction: None,
+        }
+    }
+
+    /// The divided rod whose shape [`Self::shape`] is.
+    #[must_use]
+    pub fn chain(&self) -> Chain<'_> {
+        Chain::uniform(&self.rod, self.element, self.elements)
+    }
+
+    /// Position of the tip (m).
+    #[must_use]
+    pub fn tip(&self) -> DVec3 {
+        self.node(self.elements)
+    }
+
+    fn node(&self, i: usize) -> DVec3 {
+        self.shape.positions[i] + self.correction_at(i as f64).0
+    }
+
+    /// What extrapolation adds to the position (m), and the rotation vector (rad, world) by which
+    /// it turns the frame.
+    fn correction_at(&self, node: f64) -> (DVec3, DVec3) {
+        let Some(table) = &self.correction else { return (DVec3::ZERO, DVec3::ZERO) };
+        let last = table.len() - 1;
+        let x = (0.5 * node).clamp(0.0, last as f64);
+        let i = (x as usize).min(last.saturating_sub(1));
+        let (from, to) = (&table[i], &table[(i + 1).min(last)]);
+        let x = x - i as f64;
+        let step = self.rod.length() / last as f64;
+        // Hermite: cubic, with the slopes at both ends.
+        let (rise, y) = (x * x * (3.0 - 2.0 * x), 1.0 - x);
+        let bends = (from.slope * y - to.slope * x) * (x * y * step);
+        (from.shift.lerp(to.shift, rise) + bends, from.turn.lerp(to.turn, x))
+    }
+
+    /// `points` positions (m) and material frames, evenly spaced in arc length from root to tip;
+    /// at least two.
+    #[must_use]
+    pub fn sample(&self, points: usize) -> Vec<(DVec3, DMat3)> {
+        let n = points.max(2);
+        let chain = self.chain();
+        (0..n).map(|k| self.at(&chain, k as f64 / (n - 1) as f64)).collect()
+    }
+
+    /// Position (m) and material frame at a part of the arc length, 0 (root) to 1 (tip), of the
+    /// [`Self::chain`].
+    #[must_use]
+    pub fn at(&self, chain: &Chain<'_>, x: f64) -> (DVec3, DMat3) {
+        let (position, frame) = chain.point(&self.shape, x * self.rod.length());
+        let (shift, turn) = self.correction_at(x * self.elements as f64);
+        (position + shift, DMat3::from_quat(DQuat::from_scaled_axis(turn)) * frame)
+    }
+
+    /// The centre line as `points` positions (m), evenly spaced in arc length; at least two.
+    #[must_use]
+    pub fn centre_line(&self, points: usize) -> Vec<DVec3> {
+        self.sample(points).into_iter().map(|(position, _)| position).collect()
+    }
+}

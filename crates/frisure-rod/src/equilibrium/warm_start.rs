@@ -1,0 +1,27 @@
+//! The start from the shape of another rod at rest.
+
+use glam::DMat3;
+
+use super::solution::Equilibrium;
+use crate::chain::{Chain, Shape};
+
+/// The shape of another rod at rest, taken over at equal arc length; what is longer goes on as it
+/// would naturally.
+pub(super) fn warm_start(chain: &Chain<'_>, previous: &Equilibrium) -> Shape {
+    let old = previous.chain();
+    let covered = previous.rod.length() * (1.0 + 1e-12);
+    let known = chain.arc().iter().take_while(|&&s| s <= covered).count();
+    let mut frames: Vec<DMat3> =
+        chain.arc()[..known].iter().map(|&s| old.point(&previous.shape, s).1).collect();
+    for i in known..=chain.len() {
+        let g = chain.geometry(i - 1);
+        let last = frames[i - 1];
+        frames.push(last * g.motion(g.rest()).rotation());
+    }
+    // A root that was turned turns the whole shape with it.
+    let turn = chain.rod().root().frame() * previous.rod.root().frame().transpose();
+    for frame in &mut frames {
+        *frame = turn * *frame;
+    }
+    chain.shape_through(&frames)
+}

@@ -1,0 +1,75 @@
+//! What certifies a minimum: the norm of the gradient and the smallest eigenvalue of the Hessian.
+
+use glam::DVec3;
+
+use super::linearise::Linearisation;
+use super::problem::Problem;
+use crate::chain::Shape;
+
+impl Problem<'_> {
+    /// Derivatives of the energy by each element's control (N m).
+    #[must_use]
+    pub fn gradient(&self, shape: &Shape) -> Vec<DVec3> {
+        if self.with_position {
+            Linearisation::<true>::new(self, shape).gradient
+        } else {
+            Linearisation::<false>::new(self, shape).gradient
+        }
+    }
+
+    /// Largest derivative of the energy by any element's control, relative to
+    /// [`crate::Rod::moment_scale`].
+    #[must_use]
+    pub fn gradient_norm(&self, shape: &Shape) -> f64 {
+        self.gradient(shape).iter().map(|g| g.length()).fold(0.0, f64::max)
+            / self.chain.rod().moment_scale()
+    }
+
+    /// Smallest λ in `H x = λ M x`, H the second variation of the energy by the controls and M
+    /// that of the elastic energy: 1 without loads, 0 where stability is lost. The shape must be
+    /// an equilibrium; elsewhere the second variation depends on coordinates and means little.
+    #[must_use]
+    pub fn min_eigenvalue(&self, shape: &Shape) -> f64 {
+        if self.with_position {
+            smallest_eigenvalue(&Linearisation::<true>::new(self, shape))
+        } else {
+            smallest_eigenvalue(&Linearisation::<false>::new(self, shape))
+        }
+    }
+}
+
+/// Bisection on the inertia (Sylvester): `H + σ M` has only positive pivots exactly when σ > −λ_min.
+fn smallest_eigenvalue<const POSITION: bool>(at: &Linearisation<'_, POSITION>) -> f64 {
+    let stable_at = |sigma: f64| at.sweep(sigma).is_ok();
+    // 1. Bracket −λ_min by doubling.
+    let (mut low, mut high) = (-1.0, 0.0);
+    if stable_at(0.0) {
+        while stable_at(low) {
+            (low, high) = (2.0 * low, low);
+            if low < -1e12 {
+                return -low;
+            }
+        }
+    } else {
+        (low, high) = (0.0, 1.0);
+        while !stable_at(high) {
+            (low, high) = (high, 2.0 * high);
+            if high > 1e12 {
+                return -high;
+            }
+        }
+    }
+    // 2. Halve the bracket to ten digits.
+    for _ in 0..44 {
+        let middle = 0.5 * (low + high);
+        if stable_at(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+        if high - low < 1e-10 * low.abs().max(high.abs()) {
+            break;
+        }
+    }
+    -0.5 * (low + high)
+}

@@ -1,0 +1,44 @@
+//! The interface of a minimiser: when it stops and what it returns.
+
+use super::problem::Problem;
+use crate::chain::Shape;
+
+/// When a minimiser stops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StoppingCriteria {
+    /// Relative gradient ([`Problem::gradient_norm`]) to reach.
+    pub tolerance: f64,
+    /// Most iterations.
+    pub max_iterations: usize,
+}
+
+/// Whether a shape is a minimum of the energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stability {
+    /// A minimum: the gradient vanishes and the second variation is positive, or zero but for rounding where the rod
+    /// may turn freely.
+    Stable,
+    /// A saddle point: the gradient vanishes, but the Hessian has a negative eigenvalue.
+    Saddle,
+    /// The gradient does not vanish.
+    NotConverged,
+}
+
+/// The result of a minimiser.
+#[derive(Clone, Debug)]
+pub struct Minimum {
+    /// The shape.
+    pub shape: Shape,
+    /// Relative gradient there.
+    pub gradient_norm: f64,
+    /// Iterations taken.
+    pub iterations: usize,
+    /// Whether the shape is a minimum.
+    pub stability: Stability,
+}
+
+/// Finds a minimum of an energy from a given shape. Every accepted step lowers the energy.
+pub trait Minimiser {
+    /// Minimises the energy from `start`.
+    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: StoppingCriteria) -> Minimum;
+}

@@ -1,0 +1,272 @@
+//! Newton's method with damping and a line search, in linear time: differential dynamic programming.
+//!
+//! One backward sweep (`riccati`) gives the quadratic model of the energy and a feedback law per element; one forward
+//! rollout (`rollout`) applies it to the nonlinear chain. Where the Hessian is not positive definite, damping
+//! (Levenberg–Marquardt) makes it so; a backtracking line search with Armijo's condition makes every accepted step lower
+//! the energy. Jacobson & Mayne, *Differential Dynamic Programming* (1970); docs/theory.md, "Damping and line search",
+//! "Saddles".
+
+use glam::DVec3;
+
+use super::block::lowest_eigenpair;
+use super::linearise::Linearisation;
+use super::minimiser::{Minimiser, Minimum, Stability, StoppingCriteria};
+use super::problem::Problem;
+use super::riccati::{FailedPivot, FeedbackLaw};
+use super::rollout::{rollout, rollout_steps};
+use crate::chain::Shape;
+
+/// Newton's method: differential dynamic programming with Levenberg–Marquardt damping and a line search.
+#[derive(Clone, Copy, Debug)]
+pub struct Newton {
+    /// Damping after a first failed pivot, as a fraction of the elastic stiffness. Chosen by trial: starting high saves
+    /// sweeps.
+    pub first_damping: f64,
+    /// Whether to leave a saddle point along negative curvature; without it the saddle point is the answer.
+    pub escape_saddles: bool,
+}
+
+impl Default for Newton {
+    fn default() -> Self {
+        Self { first_damping: 0.3, escape_saddles: true }
+    }
+}
+
+/// A relative gradient that may be the smallest that rounding allows. Chosen by trial.
+const ROUNDED_GRADIENT: f64 = 1e-6;
+
+/// Steps whose decrease is below rounding and that do not halve the gradient, after which the descent ends.
+const MOST_STALLED: usize = 3;
+
+/// Most saddle points left in one descent. Chosen by trial; not measured further.
+const MOST_ESCAPES: usize = 40;
+
+/// Damping, as a fraction of the elastic stiffness, above which a step is shorter than rounding.
+const LARGEST_DAMPING: f64 = 1e12;
+
+/// Factor by which damping grows after a failed pivot or line search, and by which it shrinks after a full step;
+/// below `LEAST_DAMPING` it is switched off. Chosen by trial.
+const DAMPING_GROWTH: f64 = 4.0;
+const DAMPING_SHRINKAGE: f64 = 0.2;
+const LEAST_DAMPING: f64 = 0.05;
+
+/// Armijo's constant: the part of the expected decrease that a step has to reach. [Nocedal & Wright] §3.1.
+const ARMIJO: f64 = 1e-4;
+
+/// Relative rounding error of an energy.
+const ENERGY_ROUNDING: f64 = 1e-14;
+
+impl Minimiser for Newton {
+    fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: StoppingCriteria) -> Minimum {
+        if problem.with_position {
+            self.descend::<true>(problem, start, stopping)
+        } else {
+            self.descend::<false>(problem, start, stopping)
+        }
+    }
+}
+
+/// Newton's step at a shape: where the quadratic model of the energy has its minimum.
+#[derive(Clone, Debug)]
+pub struct NewtonStep {
+    /// Derivative of the energy by each element's control (N m).
+    pub gradient: Vec<DVec3>,
+    /// Change of each element's control (rad).
+    pub step: Vec<DVec3>,
+    /// Whether the second variation is positive, or zero but for rounding, so that the step is
+    /// Newton's own. Otherwise it is damped until it goes downhill.
+    pub positive_definite: bool,
+}
+
+impl Newton {
+    /// One step of Newton's method, for callers that minimise the energy of several rods together.
+    #[must_use]
+    pub fn newton_step(&self, problem: &Problem<'_>, shape: &Shape) -> NewtonStep {
+        if problem.with_position {
+            self.newton_step_of::<true>(problem, shape)
+        } else {
+            self.newton_step_of::<false>(problem, shape)
+        }
+    }
+
+    fn newton_step_of<const POSITION: bool>(
+        &self,
+        problem: &Problem<'_>,
+        shape: &Shape,
+    ) -> NewtonStep {
+        let at = Linearisation::<POSITION>::new(problem, shape);
+        let mut damping = 0.0;
+        let laws = loop {
+            match at.sweep(damping) {
+                Ok(sweep) => break sweep.laws,
+                // A shape with numbers so large that nothing is positive has no step.
+                Err(_) if damping > LARGEST_DAMPING => {
+                    break vec![FeedbackLaw::NONE; at.stages.len()];
+                }
+                Err(_) => damping = self.stronger(damping),
+            }
+        };
+        let step = rollout_steps::<POSITION>(problem, shape, &laws);
+        let positive_definite = damping == 0.0 || at.negative_pivot().is_none();
+        NewtonStep { gradient: at.gradient, step, positive_definite }
+    }
+
+    /// Damping after one that was too weak.
+    fn stronger(&self, damping: f64) -> f64 {
+        self.first_damping.max(DAMPING_GROWTH * damping)
+    }
+
+    fn descend<const POSITION: bool>(
+        &self,
+        problem: &Problem<'_>,
+        start: Shape,
+        stopping: StoppingCriteria,
+    ) -> Minimum {
+        let scale = problem.chain.rod().moment_scale();
+        let mut damping = 0.0;
+        let mut shape = start;
+        let mut energy = problem.energy(&shape).total();
+        let mut iterations = 0;
+        let mut escapes = 0;
+        let mut stalled = 0;
+        let mut last_gradient = f64::INFINITY;
+        loop {
+            let at = Linearisation::<POSITION>::new(problem, &shape);
+            let gradient_norm = at.largest_gradient() / scale;
+            let end = |shape, iterations, stability| Minimum {
+                shape,
+                gradient_norm,
+                iterations,
+                stability,
+            };
+            let mut at_rest = gradient_norm <= stopping.tolerance;
+            // 1. Not stationary: one Newton step.
+            if !at_rest {
+                if iterations >= stopping.max_iterations {
+                    return end(shape, iterations, Stability::NotConverged);
+                }
+                iterations += 1;
+                let step = self.step(&at, &shape, energy, &mut damping);
+                let rounded = step.as_ref().is_none_or(|s| s.below_rounding);
+                stalled =
+                    if rounded && gradient_norm > 0.5 * last_gradient { stalled + 1 } else { 0 };
+                last_gradient = gradient_norm;
+                match step {
+                    Some(step) if stalled < MOST_STALLED => {
+                        (shape, energy) = (step.shape, step.energy);
+                    }
+                    // The gradient is as small as rounding allows.
+                    _ if gradient_norm <= ROUNDED_GRADIENT => at_rest = true,
+                    Some(step) => (shape, energy) = (step.shape, step.energy),
+                    None => return end(shape, iterations, Stability::NotConverged),
+                }
+            }
+            // 2. Stationary: a minimum, or a saddle point to leave.
+            if at_rest {
+                let Some(failed) = at.negative_pivot() else {
+                    return end(shape, iterations, Stability::Stable);
+                };
+                escapes += 1;
+                let escaped = (self.escape_saddles && escapes <= MOST_ESCAPES)
+                    .then(|| escape_saddle(problem, &shape, energy, &failed));
+                match escaped.flatten() {
+                    Some(escaped) => (shape, energy) = escaped,
+                    None => return end(shape, iterations, Stability::Saddle),
+                }
+                iterations += 1;
+                (stalled, last_gradient) = (0, f64::INFINITY);
+            }
+        }
+    }
+
+    /// One sweep and rollout that lowers the energy (J), at whatever damping that takes.
+    fn step<const POSITION: bool>(
+        &self,
+        at: &Linearisation<'_, POSITION>,
+        shape: &Shape,
+        energy: f64,
+        damping: &mut f64,
+    ) -> Option<Step> {
+        while *damping < LARGEST_DAMPING {
+            // 1. Damping: until every pivot is positive definite.
+            let Ok(sweep) = at.sweep(*damping) else {
+                *damping = self.stronger(*damping);
+                continue;
+            };
+            // Near the minimum the decrease is below rounding; there the gradient decides.
+            let noise = ENERGY_ROUNDING * energy.abs();
+            if sweep.decrease < noise && *damping > 1.0 {
+                return None;
+            }
+            // 2. Line search: backtracking by halves until Armijo's condition holds. Damping shortens a step better than
+            // halving does (it keeps the soft directions), so a damped step is halved only once.
+            let trials = if *damping == 0.0 { 4 } else { 2 };
+            let mut fraction = 1.0;
+            for trial in 0..trials {
+                let (next, lowered) = rollout::<POSITION>(at.problem, shape, &sweep.laws, fraction);
+                // The model's decrease along the step: Δ(α) = α (2 − α) Δ(1).
+                let expected = sweep.decrease * fraction * (2.0 - fraction);
+                if lowered <= energy - ARMIJO * expected
+                    || (expected < noise && lowered <= energy + noise)
+                {
+                    // 3. The shorter the accepted step, the more damping for the next.
+                    *damping = match trial {
+                        0 if *damping < LEAST_DAMPING => 0.0,
+                        0 => *damping * DAMPING_SHRINKAGE,
+                        1 => *damping,
+                        _ => (2.0 * *damping).max(0.01),
+                    };
+                    let below_rounding = expected < noise;
+                    return Some(Step { shape: next, energy: lowered, below_rounding });
+                }
+                fraction *= 0.5;
+            }
+            *damping = self.stronger(*damping);
+        }
+        None
+    }
+}
+
+/// An accepted step.
+struct Step {
+    shape: Shape,
+    energy: f64,
+    /// Whether the expected decrease of the energy is below its rounding error.
+    below_rounding: bool,
+}
+
+/// First turn (rad) along negative curvature, and how often it is halved. Chosen by trial.
+const ESCAPE_TURN: f64 = 0.8;
+const ESCAPE_HALVINGS: usize = 40;
+
+/// A shape below a saddle point and its energy (J), along the failed pivot's direction of negative curvature with all
+/// later elements following their laws. The energy is exactly quadratic that way to second order.
+fn escape_saddle(
+    problem: &Problem<'_>,
+    shape: &Shape,
+    energy: f64,
+    failed: &FailedPivot,
+) -> Option<(Shape, f64)> {
+    let (_, direction) = lowest_eigenpair(&failed.pivot);
+    let mut laws = failed.laws.clone();
+    for law in &mut laws {
+        law.step = DVec3::ZERO;
+    }
+    let mut turn = ESCAPE_TURN;
+    for _ in 0..ESCAPE_HALVINGS {
+        // Mirror images have the same energy; a fixed order of signs makes the answer unique.
+        for sign in [1.0, -1.0] {
+            laws[failed.element].step = direction * (sign * turn);
+            let (next, lowered) = if problem.with_position {
+                rollout::<true>(problem, shape, &laws, 1.0)
+            } else {
+                rollout::<false>(problem, shape, &laws, 1.0)
+            };
+            if lowered < energy - 1e-15 * energy.abs() {
+                return Some((next, lowered));
+            }
+        }
+        turn *= 0.5;
+    }
+    None
+}
