@@ -24,7 +24,7 @@
 //!             material: Material::new(3.9e9, 0.9e9, 1300.0)?,
 //!             torsion: TorsionConstant::SaintVenant,
 //!             natural: NaturalStrain::helix(0.005, 0.010)?,
-//!             root: Root::from_tangent(DVec3::ZERO, DVec3::new(cos, sin, 0.0), DVec3::Z)?,
+//!             root: Root::from_tangent(DVec3::ZERO, DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0))?,
 //!             gravity: 9.81,
 //!         })
 //!     })
