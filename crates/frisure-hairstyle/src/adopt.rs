@@ -11,21 +11,21 @@ use frisure_strands::{Strand, Strands};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::bound_strands::BoundStrands;
 use crate::contact::Bed;
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, held_up, holding, settle};
-use crate::grid::Grid;
 use crate::guides::{Guide, covered};
 use crate::hairstyle::Hairstyle;
+use crate::hairstyle::RootPlacement;
+use crate::hairstyle::Styling;
 use crate::head::Head;
 use crate::implantation::Layout;
+use crate::implantation::{Root, Scalp};
+use crate::math::Grid;
 use crate::monitor::{Monitor, Stage};
-use crate::placement::RootPlacement;
 use crate::predict::PredictError;
 use crate::random::{Purpose, Stream};
-use crate::roots::{Root, Scalp};
 use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
-use crate::wisp_state::Styling;
+use crate::wisps::BoundStrands;
 use crate::wisps::Wisp;
 
 /// How well a groom was adopted; one entry for each of its guides, in their order.

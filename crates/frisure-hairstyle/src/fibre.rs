@@ -91,3 +91,38 @@ impl Curl {
         (curvature > 0.0).then(|| (curvature / square, TAU * self.strain.z / square))
     }
 }
+
+/// What water makes of the properties of a hair: a factor on each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wetting {
+    /// Factor on Young's modulus.
+    pub youngs_modulus: f64,
+    /// Factor on the shear modulus.
+    pub shear_modulus: f64,
+    /// Factor on the diameter.
+    pub diameter: f64,
+    /// Factor on the length.
+    pub length: f64,
+    /// Factor on the radius of wisps, and on the distances that contact keeps: a film of water draws
+    /// hairs together.
+    pub wisp: f64,
+}
+
+impl Wetting {
+    /// The paper's: Young's modulus ÷ 5, radius + 13 %, length + 1 %, wisps − 40 %. \[paper\] §3.2.1
+    ///
+    /// Its shear modulus follows from Poisson's ratio, so it falls as much.
+    pub const PAPER: Self =
+        Self { youngs_modulus: 0.2, shear_modulus: 0.2, diameter: 1.13, length: 1.01, wisp: 0.6 };
+
+    /// Measured in water against room-dry hair (Robbins 2012): moduli 3.9 → 1.7 GPa and
+    /// 0.89 → 0.2 GPa; diameter and length from 60 % to 100 % relative humidity. Nobody measured
+    /// wisps: theirs is the paper's.
+    pub const MEASURED: Self = Self {
+        youngs_modulus: 0.43,
+        shear_modulus: 0.22,
+        diameter: 1.065,
+        length: 1.003,
+        wisp: 0.6,
+    };
+}

@@ -6,14 +6,13 @@ use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
+use crate::contact::Pull;
 use crate::contact::{Bed, Layer, Thickness};
 use crate::fibre::{Curl, Handedness};
 use crate::head::{Head, Region};
+use crate::implantation::Root;
 use crate::implantation::{self, Layout};
-use crate::placement::RootPlacement;
-use crate::pull::Pull;
 use crate::random::{Purpose, Stream};
-use crate::roots::Root;
 use crate::spec::HairstyleSpec;
 
 /// A guide before it has come to rest.
@@ -45,7 +44,7 @@ pub struct Guide {
 /// Standard deviation (rad) of the direction about the root tangent in which curls lean.
 const ROLL: f64 = 0.4;
 
-/// Plans the guides of a head.
+/// Plans the guides rooted at `roots` on a scalp of the weighted area `area` (m²).
 ///
 /// # Errors
 /// [`InvalidQuantity`], if length, curl or fibre cannot make a rod.
@@ -53,9 +52,9 @@ pub(crate) fn plan(
     spec: &HairstyleSpec,
     head: &Head,
     layout: &Layout,
-    placement: &RootPlacement,
+    roots: &[Root],
+    area: f64,
 ) -> Result<Vec<Guide>, InvalidQuantity> {
-    let (area, roots) = (placement.area(), placement.roots());
     let heights = roots.iter().map(|r| r.position.z);
     let (low, high) =
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));

@@ -6,15 +6,15 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, settle};
-use crate::grid::Grid;
 use crate::guides::{Guide, plan};
 use crate::hairstyle::Hairstyle;
+use crate::hairstyle::Styling;
+use crate::hairstyle::{Crowded, RootPlacement};
 use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
+use crate::math::Grid;
 use crate::monitor::{Cancelled, Monitor};
-use crate::placement::{Crowded, RootPlacement};
 use crate::spec::{HairstyleSpec, Implantation, InvalidSpec, Wisps};
-use crate::wisp_state::Styling;
 
 /// How [`predict`] computes. The default is the exact prediction, from nothing.
 #[derive(Clone, Copy, Debug, Default)]
@@ -85,7 +85,7 @@ pub fn predict(
     let placement = known.map_or_else(|| RootPlacement::new(spec, head), Ok)?;
     let layout = Layout::new(spec, head)?;
     spec.wisps.check_size(placement.area())?;
-    let guides = plan(spec, head, &layout, &placement)?;
+    let guides = plan(spec, head, &layout, placement.roots(), placement.area())?;
     let nearest_rests;
     let start = match previous.filter(|_| start == Start::Previous) {
         None => GuideStart::Natural,

@@ -4,10 +4,11 @@
 
 use std::f64::consts::PI;
 
-use crate::fibre::{Curl, Fibre};
+use crate::fibre::{Curl, Fibre, Wetting};
 use crate::head::Region;
-use crate::implantation::segments_cross;
-use crate::presets::Wetting;
+use crate::math::segments_cross;
+
+pub use crate::head::Hairline;
 
 /// A whole head of hair, described.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,31 +131,6 @@ pub enum Parting {
     },
     /// A smooth curve through points: across and back (m).
     Through(Vec<[f64; 2]>),
-}
-
-/// The edge of the hair; lengths are distances from the usual line on the skin (m).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hairline {
-    /// Standard deviation of the line from a smooth curve.
-    pub irregularity: f64,
-    /// How much higher the line over the forehead is than usual.
-    pub height: f64,
-    /// How far it recedes at the temples.
-    pub recession: f64,
-    /// How far it comes forward to a point in the middle.
-    pub widows_peak: f64,
-}
-
-impl Hairline {
-    /// The usual line without irregularities.
-    pub const EVEN: Self =
-        Self { irregularity: 0.0, height: 0.0, recession: 0.0, widows_peak: 0.0 };
-}
-
-impl Default for Hairline {
-    fn default() -> Self {
-        Self { irregularity: 1.5e-3, recession: 3e-3, ..Self::EVEN }
-    }
 }
 
 /// What a part of the scalp has that the rest has not. Over about a centimetre at the border,
@@ -486,6 +462,21 @@ impl HairstyleSpec {
             value: e.value.to_string(),
             allowed: e.allowed,
         })
+    }
+}
+
+impl Wetting {
+    /// Checks every factor against the range in which it means something.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], naming the first that is out of range.
+    pub fn check(&self) -> Result<(), InvalidSpec> {
+        let softer = "between 0.01 and 1";
+        range("hair.wetting.youngs_modulus", self.youngs_modulus, 0.01, 1.0, softer)?;
+        range("hair.wetting.shear_modulus", self.shear_modulus, 0.01, 1.0, softer)?;
+        range("hair.wetting.diameter", self.diameter, 1.0, 1.5, "between 1 and 1.5")?;
+        range("hair.wetting.length", self.length, 1.0, 1.1, "between 1 and 1.1")?;
+        range("hair.wetting.wisp", self.wisp, 0.1, 1.0, "between 0.1 and 1")
     }
 }
 

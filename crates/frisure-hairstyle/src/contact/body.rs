@@ -3,8 +3,11 @@
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
-use super::{Bed, Layer, Thickness, outer};
+use super::bed::Bed;
+use super::layers::Layer;
+use super::thickness::Thickness;
 use crate::head::{Head, Sphere};
+use crate::math::outer;
 use crate::spec::Body;
 
 /// The body under a guide: hard skin, and on it the soft thickness of the guide's own wisp and of

@@ -12,6 +12,7 @@ mod bed;
 mod body;
 mod layers;
 mod neighbours;
+mod pull;
 #[cfg(test)]
 mod test_field;
 mod thickness;
@@ -20,18 +21,6 @@ pub use bed::Bed;
 pub use body::BodyContact;
 pub use layers::Layer;
 pub use neighbours::Neighbours;
-pub(crate) use neighbours::{Crowd, Samples};
+pub(crate) use neighbours::{ContactPairs, Samples};
+pub use pull::Pull;
 pub use thickness::Thickness;
-
-use glam::{DMat3, DVec3};
-
-/// `a bᵀ`.
-pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
-    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
-}
-
-/// Smooth step from 0 at zero to 1 at `width`.
-fn rise(width: f64, x: f64) -> f64 {
-    let t = (x / width.max(1e-9)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}

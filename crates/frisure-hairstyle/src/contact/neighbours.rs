@@ -4,8 +4,8 @@ use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::{Thickness, outer};
-use crate::grid::Grid;
+use super::thickness::Thickness;
+use crate::math::{Grid, outer};
 
 /// The points of one guide that contact is felt at: evenly spaced, without the root.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ impl Samples {
 }
 
 /// All wisps of a head, and which points of them may touch.
-pub(crate) struct Crowd {
+pub(crate) struct ContactPairs {
     /// Stiffness of hair per length of hair (Pa).
     stiffness: f64,
     samples: Vec<Samples>,
@@ -62,7 +62,7 @@ struct Point {
 }
 
 /// Points of about the same reach, so that a few that reach far do not make all searches wide.
-struct Shelf {
+struct GridLevel {
     /// The largest of them (m).
     reach: f64,
     grid: Grid,
@@ -70,18 +70,18 @@ struct Shelf {
     points: Vec<Point>,
 }
 
-/// Shelves, each for half the reach of the one before; the last for all that is less.
-const SHELVES: usize = 3;
+/// Levels, each for half the reach of the one before; the last for all that is less.
+const LEVELS: usize = 3;
 
-impl Shelf {
+impl GridLevel {
     fn sort(points: &[Point]) -> Vec<Self> {
         let most = points.iter().map(|p| p.reach).fold(0.0, f64::max);
-        let mut shelves = vec![Vec::new(); SHELVES];
+        let mut levels = vec![Vec::new(); LEVELS];
         for p in points {
             let halvings = (most / p.reach.max(1e-9)).log2() as usize;
-            shelves[halvings.min(SHELVES - 1)].push(*p);
+            levels[halvings.min(LEVELS - 1)].push(*p);
         }
-        shelves.into_iter().filter(|points| !points.is_empty()).map(Self::new).collect()
+        levels.into_iter().filter(|points| !points.is_empty()).map(Self::new).collect()
     }
 
     fn new(points: Vec<Point>) -> Self {
@@ -106,11 +106,11 @@ type Touch = (u32, (u32, u32));
 
 impl Nearby {
     /// What the points `own` of one guide may touch.
-    fn search(own: &[Point], shelves: &[Shelf]) -> Self {
+    fn search(own: &[Point], levels: &[GridLevel]) -> Self {
         let mut found = Vec::new();
         for p in own {
-            for shelf in shelves {
-                shelf.for_each_near(p, |q| {
+            for level in levels {
+                level.for_each_near(p, |q| {
                     let reach = p.reach + q.reach;
                     let near = q.position.distance_squared(p.position) < reach * reach;
                     if near && q.guide != p.guide {
@@ -156,12 +156,12 @@ impl Nearby {
     }
 }
 
-impl Crowd {
+impl ContactPairs {
     pub(crate) fn new(samples: Vec<Samples>, stiffness: f64) -> Self {
         Self { stiffness, samples, nearby: Vec::new() }
     }
 
-    /// Moves the points of a guide; who may touch whom stays until [`Self::look_around`]. Gives the
+    /// Moves the points of a guide; who may touch whom stays until [`Self::update_neighbours`]. Gives the
     /// largest distance that a point has moved (m).
     pub(crate) fn place(&mut self, guide: usize, positions: Vec<DVec3>) -> f64 {
         let moved = positions.iter().zip(&self.samples[guide].positions);
@@ -172,12 +172,12 @@ impl Crowd {
 
     /// Finds which points can touch while each guide moves by at most its margin (m) from where it
     /// is now, of guides that are looked at again, or from where it was when it last was.
-    pub(crate) fn look_around(&mut self, margins: &[f64], again: &[bool]) {
+    pub(crate) fn update_neighbours(&mut self, margins: &[f64], again: &[bool]) {
         let points = self.points(margins);
-        let shelves = Shelf::sort(&points);
+        let levels = GridLevel::sort(&points);
         let found: Vec<Option<Nearby>> = points
             .par_chunk_by(|a, b| a.guide == b.guide)
-            .map(|own| again[own[0].guide as usize].then(|| Nearby::search(own, &shelves)))
+            .map(|own| again[own[0].guide as usize].then(|| Nearby::search(own, &levels)))
             .collect();
         let mut met: Vec<Vec<Touch>> = vec![Vec::new(); found.len()];
         for (guide, near) in found.iter().enumerate() {
@@ -234,12 +234,12 @@ impl Crowd {
 
     /// What one guide feels of the others.
     pub(crate) fn around(&self, guide: usize) -> Neighbours<'_> {
-        Neighbours { crowd: self, guide, share: 1.0 }
+        Neighbours { pairs: self, guide, share: 1.0 }
     }
 
     /// Half of it: a sum over all guides counts each pair once.
     pub(crate) fn shared(&self, guide: usize) -> Neighbours<'_> {
-        Neighbours { crowd: self, guide, share: 0.5 }
+        Neighbours { pairs: self, guide, share: 0.5 }
     }
 }
 
@@ -257,7 +257,7 @@ impl Crowd {
 /// seen from either side.
 #[derive(Clone, Copy)]
 pub struct Neighbours<'a> {
-    crowd: &'a Crowd,
+    pairs: &'a ContactPairs,
     guide: usize,
     /// How much of the energy counts.
     share: f64,
@@ -268,12 +268,12 @@ impl Neighbours<'_> {
     /// touches the point at arc length `s`.
     #[inline]
     fn for_each_touch(&self, s: f64, p: DVec3, mut touch: impl FnMut(DVec3, f64, f64)) {
-        let own = &self.crowd.samples[self.guide];
-        let near = &self.crowd.nearby[self.guide];
+        let own = &self.pairs.samples[self.guide];
+        let near = &self.pairs.nearby[self.guide];
         let k = ((s / own.spacing).round() as usize).clamp(1, own.positions.len()) - 1;
         let radius = own.radii[k];
         for &(guide, point) in near.of_point(k) {
-            let other = &self.crowd.samples[guide as usize];
+            let other = &self.pairs.samples[guide as usize];
             let point = point as usize;
             let reach = radius + other.radii[point];
             let away = p - other.positions[point];
@@ -291,7 +291,7 @@ impl Field for Neighbours<'_> {
             let overlap = 1.0 - away.length_squared() / (reach * reach);
             sum += length * reach * overlap.powi(3);
         });
-        0.125 * self.crowd.stiffness * sum
+        0.125 * self.pairs.stiffness * sum
     }
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
@@ -299,7 +299,7 @@ impl Field for Neighbours<'_> {
         self.for_each_touch(s, p, |away, reach, length| {
             let square = 1.0 / (reach * reach);
             let overlap = 1.0 - away.length_squared() * square;
-            let scale = 0.75 * self.crowd.stiffness * length / reach * overlap;
+            let scale = 0.75 * self.pairs.stiffness * length / reach * overlap;
             let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
             *force -= away * (scale * overlap);
             *stiffness += outer(away, away) * (4.0 * scale * square)
@@ -320,30 +320,30 @@ mod tests {
         Samples::new(points, 1e-3, &wisp())
     }
 
-    fn crowd(gap: f64) -> Crowd {
-        let mut crowd = Crowd::new(vec![line(DVec3::ZERO), line(DVec3::Y * gap)], 2.0);
-        crowd.look_around(&[1e-3, 0.0], &[true; 2]);
-        crowd
+    fn pairs(gap: f64) -> ContactPairs {
+        let mut pairs = ContactPairs::new(vec![line(DVec3::ZERO), line(DVec3::Y * gap)], 2.0);
+        pairs.update_neighbours(&[1e-3, 0.0], &[true; 2]);
+        pairs
     }
 
-    fn energy(crowd: &Crowd, guide: usize) -> f64 {
-        let (field, own) = (crowd.around(guide), &crowd.samples[guide]);
+    fn energy(pairs: &ContactPairs, guide: usize) -> f64 {
+        let (field, own) = (pairs.around(guide), &pairs.samples[guide]);
         let point = |k: usize| (k + 1) as f64 * own.spacing;
         (0..100).map(|k| own.weight(k) * field.energy(point(k), own.positions[k])).sum()
     }
 
     #[test]
     fn derivatives_agree_with_differences() {
-        let crowd = crowd(3e-3);
+        let pairs = pairs(3e-3);
         let p = DVec3::new(0.0501, 3e-4, -4e-4);
-        agrees_with_differences(&crowd.around(0), 0.05, p);
+        agrees_with_differences(&pairs.around(0), 0.05, p);
     }
 
     #[test]
     fn both_sides_see_the_same_energy() {
-        let crowd = crowd(3e-3);
-        assert!(energy(&crowd, 0) > 0.0);
-        assert!((energy(&crowd, 0) / energy(&crowd, 1) - 1.0).abs() < 1e-12);
+        let pairs = pairs(3e-3);
+        assert!(energy(&pairs, 0) > 0.0);
+        assert!((energy(&pairs, 0) / energy(&pairs, 1) - 1.0).abs() < 1e-12);
     }
 
     #[test]
@@ -352,15 +352,15 @@ mod tests {
         let radius = wisp().at(0.05);
         let (d, reach) = (1.4 * radius, 2.0 * radius);
         let exact = 2.0 * reach * reach / 8.0 * 32.0 / 35.0 * (1.0 - 0.49_f64).powf(3.5);
-        let found = crowd(d).around(0).energy(0.05, DVec3::X * 0.05);
+        let found = pairs(d).around(0).energy(0.05, DVec3::X * 0.05);
         assert!((found / exact - 1.0).abs() < 0.02, "{found} {exact}");
     }
 
     #[test]
     fn wisps_apart_do_not_feel_each_other_and_share_a_group() {
-        let apart = crowd(0.05);
+        let apart = pairs(0.05);
         assert_eq!(energy(&apart, 0), 0.0);
         assert_eq!(apart.groups(&[0, 1]), [vec![0, 1]]);
-        assert_eq!(crowd(3e-3).groups(&[1, 0]), [vec![1], vec![0]]);
+        assert_eq!(pairs(3e-3).groups(&[1, 0]), [vec![1], vec![0]]);
     }
 }

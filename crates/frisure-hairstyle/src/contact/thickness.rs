@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use frisure_rod::Rod;
 use glam::DVec3;
 
-use super::rise;
+use crate::math::smooth_step;
 
 /// Radius of a wisp along its guide, from the number of its hairs and their curliness.
 ///
@@ -111,7 +111,8 @@ impl Thickness {
     #[must_use]
     pub fn at(&self, s: f64) -> f64 {
         let packed = self.packed(s);
-        packed * rise((GATHERING * packed).min(0.5 * self.length), s)
+        let width = (GATHERING * packed).min(0.5 * self.length);
+        packed * smooth_step(0.0, width.max(1e-9), s)
     }
 }
 

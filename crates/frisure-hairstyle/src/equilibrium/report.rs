@@ -3,10 +3,9 @@
 use frisure_rod::Stability;
 use rayon::prelude::*;
 
-use super::alone::depth;
-use crate::hairstyle::Hairstyle;
+use super::fields::depth;
+use crate::hairstyle::{Hairstyle, Rest};
 use crate::head::Head;
-use crate::rest::Rest;
 
 /// How a set of guides came to rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

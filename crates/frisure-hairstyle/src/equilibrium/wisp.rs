@@ -5,8 +5,8 @@ use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{Chain, Equilibrium, Rod, Shape};
 use glam::{DMat3, DVec3};
 
-use super::{along, samples};
-use crate::contact::{BodyContact, Crowd, Samples};
+use super::fields::{along, samples};
+use crate::contact::{BodyContact, ContactPairs, Samples};
 use crate::guides::Guide;
 
 /// Iterations of one guide in one sweep: the others will move, too.
@@ -72,14 +72,14 @@ impl<'a> Wisp<'a> {
     }
 
     /// Some steps downhill while all others hold still, by at most `reach` (m).
-    pub(super) fn downhill(&self, crowd: &Crowd, index: usize, reach: f64) -> Settled {
+    pub(super) fn downhill(&self, pairs: &ContactPairs, index: usize, reach: f64) -> Settled {
         let stopping = StoppingCriteria { tolerance: 0.0, max_iterations: ITERATIONS };
         let from = &self.settled.shape;
         let mut stiffness = self.settled.tether;
         for _ in 0..MOST_TETHERS {
             let tether = Tether { stiffness, spacing: self.chain.arc()[1], from };
             let tether = FieldPotential::new(&tether, 1);
-            let found = self.among(crowd, index, Some(&tether), |problem| {
+            let found = self.among(pairs, index, Some(&tether), |problem| {
                 Newton::default().minimise(problem, from.clone(), stopping)
             });
             let moved = farthest(&found.shape, from);
@@ -105,10 +105,10 @@ impl<'a> Wisp<'a> {
     }
 
     /// Newton's step while all others hold still, cut to move no node farther than `reach` (m).
-    pub(super) fn newton_step(&self, crowd: &Crowd, index: usize, reach: f64) -> NewtonStep {
+    pub(super) fn newton_step(&self, pairs: &ContactPairs, index: usize, reach: f64) -> NewtonStep {
         let from = &self.settled.shape;
         let mut newton =
-            self.among(crowd, index, None, |problem| Newton::default().newton_step(problem, from));
+            self.among(pairs, index, None, |problem| Newton::default().newton_step(problem, from));
         let moved = self.length_of(&newton.step);
         if moved > reach {
             for x in &mut newton.step {
@@ -145,12 +145,12 @@ impl<'a> Wisp<'a> {
     /// Calls `act` with the energy of this guide while all others hold still.
     fn among<T>(
         &self,
-        crowd: &Crowd,
+        pairs: &ContactPairs,
         index: usize,
         tether: Option<&dyn Potential>,
         act: impl FnOnce(&Problem<'_>) -> T,
     ) -> T {
-        let around = crowd.around(index);
+        let around = pairs.around(index);
         let around = FieldPotential::new(&around, self.resolution);
         self.feeling(&around, tether, act)
     }
@@ -171,22 +171,27 @@ impl<'a> Wisp<'a> {
     }
 
     /// Energy of overlapping others (J).
-    pub(super) fn overlap_energy(&self, crowd: &Crowd, index: usize) -> f64 {
-        let around = crowd.around(index);
+    pub(super) fn overlap_energy(&self, pairs: &ContactPairs, index: usize) -> f64 {
+        let around = pairs.around(index);
         self.chain.energy(&self.settled.shape, &FieldPotential::new(&around, self.resolution))
     }
 
     /// What the guide adds to the energy of the head (J): half of what it shares with others.
-    pub(super) fn share(&self, crowd: &Crowd, index: usize) -> f64 {
-        let around = crowd.shared(index);
+    pub(super) fn share(&self, pairs: &ContactPairs, index: usize) -> f64 {
+        let around = pairs.shared(index);
         let around = FieldPotential::new(&around, self.resolution);
         self.feeling(&around, None, |problem| problem.energy(&self.settled.shape).total())
     }
 
     /// The guide as an equilibrium.
-    pub(super) fn equilibrium(&self, crowd: &Crowd, index: usize, tolerance: f64) -> Equilibrium {
+    pub(super) fn equilibrium(
+        &self,
+        pairs: &ContactPairs,
+        index: usize,
+        tolerance: f64,
+    ) -> Equilibrium {
         let stopping = StoppingCriteria { tolerance, max_iterations: 0 };
-        self.among(crowd, index, None, |problem| {
+        self.among(pairs, index, None, |problem| {
             let riccati = Newton { escape_saddles: false, ..Newton::default() };
             let found = riccati.minimise(problem, self.settled.shape.clone(), stopping);
             let minimum = Minimum { iterations: self.settled.iterations, ..found };

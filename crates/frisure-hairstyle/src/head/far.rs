@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::triangles::{Soup, closest_point};
-use super::voxels::{Grid, NONE, Node};
+use super::voxel_grid::{Grid, NONE, Node};
 
 /// Directions of the sweeps (bit a: axis a runs downwards). Four of the eight reach everything, and
 /// the descent on the mesh mends what they leave.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::implantation::smooth;
+use crate::math::smooth_step;
 
 /// Places on a head (m) that other parts measure from. The head looks towards −y, left is +x, and
 /// the two sides are taken as mirror images about the plane through the cranium's centre.
@@ -102,7 +102,7 @@ impl Landmarks {
         let whorl = self.normalized(self.whorl).normalize_or(DVec3::Z);
         let azimuth = self.azimuth(p).abs();
         // Half a centimetre to both sides: about 0.06 of the cranium's radius.
-        let above = |x: f64, at: f64, half: f64| smooth(at - half, at + half, x);
+        let above = |x: f64, at: f64, half: f64| smooth_step(at - half, at + half, x);
         let below = |x: f64, at: f64, half: f64| 1.0 - above(x, at, half);
         let crown = above(d.dot(whorl), 0.92, 0.022);
         let nape = below(d.z, -0.35, 0.06) * above(azimuth, 1.9, 0.06);

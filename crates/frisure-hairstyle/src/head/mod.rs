@@ -12,10 +12,10 @@ mod mesher;
 mod scalp;
 mod sculpt;
 mod spheres;
-mod tape;
 #[cfg(test)]
 pub(crate) mod test_shapes;
 mod triangles;
+mod voxel_grid;
 mod voxels;
 
 use frisure_strands::Surface;
@@ -24,10 +24,8 @@ use thiserror::Error;
 pub use distance::SignedDistance;
 pub use landmarks::{Landmarks, Region};
 pub(crate) use scalp::Edge;
+pub use scalp::Hairline;
 pub use spheres::Sphere;
-pub(crate) use tape::Tape;
-
-use crate::spec::Hairline;
 
 /// A head that hair can be planted on.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,31 @@ use rayon::prelude::*;
 
 use super::landmarks::Landmarks;
 use crate::random::{Purpose, Stream};
-use crate::spec::Hairline;
+
+/// The edge of the hair; lengths are distances from the usual line on the skin (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hairline {
+    /// Standard deviation of the line from a smooth curve.
+    pub irregularity: f64,
+    /// How much higher the line over the forehead is than usual.
+    pub height: f64,
+    /// How far it recedes at the temples.
+    pub recession: f64,
+    /// How far it comes forward to a point in the middle.
+    pub widows_peak: f64,
+}
+
+impl Hairline {
+    /// The usual line without irregularities.
+    pub const EVEN: Self =
+        Self { irregularity: 0.0, height: 0.0, recession: 0.0, widows_peak: 0.0 };
+}
+
+impl Default for Hairline {
+    fn default() -> Self {
+        Self { irregularity: 1.5e-3, recession: 3e-3, ..Self::EVEN }
+    }
+}
 
 /// Half the width over which hair thins out at the hairline (m).
 const FEATHER: f64 = 3.5e-3;

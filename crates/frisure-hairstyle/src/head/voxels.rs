@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::far::Coarse;
 use super::triangles::{Soup, closest_point};
+use super::voxel_grid::{FAR, Grid, NONE, Node};
 
 /// Samples at `origin + spacing·(i, j, k)`, i fastest (m).
 pub(crate) struct Voxels {
@@ -35,9 +36,6 @@ const CLEARANCE: f64 = 1.0;
 const SHORE: usize = 4;
 /// Layers of nodes that one task fills.
 const SLAB: usize = 8;
-/// No face.
-pub(crate) const NONE: u32 = u32::MAX;
-
 /// The signed distance to `surface` (m), positive outside, on a grid around it.
 pub(crate) fn sample(surface: &Surface) -> Voxels {
     let soup = Soup::closed(surface);
@@ -53,24 +51,6 @@ pub(crate) fn sample(surface: &Surface) -> Voxels {
     Voxels { origin: grid.origin, spacing: grid.spacing, size: grid.size, values }
 }
 
-/// The nodes.
-pub(crate) struct Grid {
-    origin: DVec3,
-    spacing: f64,
-    pub(crate) size: [usize; 3],
-}
-
-/// What is known at one node near the mesh.
-#[derive(Clone, Copy)]
-pub(crate) struct Node {
-    pub(crate) distance: f32,
-    pub(crate) face: u32,
-    /// Bit a: a face crosses the edge to the next node along axis a.
-    crossed: u8,
-}
-
-const FAR: Node = Node { distance: f32::INFINITY, face: NONE, crossed: 0 };
-
 impl Grid {
     fn around(surface: &Surface) -> Self {
         let (low, high) = surface.bounds();
@@ -80,22 +60,6 @@ impl Grid {
         // node includes the last.
         let size = (extent / spacing).to_array().map(|n| (n.ceil() as usize + 3) | 1);
         Self { origin: low - DVec3::splat(MARGIN + spacing), spacing, size }
-    }
-
-    pub(crate) fn position(&self, [i, j, k]: [usize; 3]) -> DVec3 {
-        self.origin + self.spacing * DVec3::new(i as f64, j as f64, k as f64)
-    }
-
-    pub(crate) fn unravel(&self, at: usize) -> [usize; 3] {
-        [at % self.size[0], at / self.size[0] % self.size[1], at / self.layer()]
-    }
-
-    fn layer(&self) -> usize {
-        self.size[0] * self.size[1]
-    }
-
-    fn len(&self) -> usize {
-        self.layer() * self.size[2]
     }
 
     /// Exact distance, nearest face and crossed edges of the nodes near the mesh, in those slabs of

@@ -8,9 +8,10 @@
 use glam::{DQuat, DVec3};
 
 use super::parting::Partings;
-use super::smooth;
-use crate::head::{Head, Landmarks, Tape};
-use crate::roots::Root;
+use super::roots::Root;
+use super::tape::Tape;
+use crate::head::{Head, Landmarks};
+use crate::math::smooth_step;
 use crate::spec::{Comb, Flow, Turn, Whorls};
 
 /// Distance (m) from a whorl within which hair stands up.
@@ -58,7 +59,7 @@ pub(crate) fn along_skin(
     root: &Root,
 ) -> DVec3 {
     let normal = root.normal;
-    let front = 1.0 - smooth(-0.4, 0.6, marks.normalized(root.position).y);
+    let front = 1.0 - smooth_step(-0.4, 0.6, marks.normalized(root.position).y);
     let base = match flow {
         Flow::Whorl => natural(marks, whorls, root),
         Flow::Parted { .. } => {
@@ -73,8 +74,9 @@ pub(crate) fn along_skin(
     let pull = (-(distance / reach).powi(2)).exp();
     // Beside the line hair leaves sideways, or it would fall back over it; farther off, and above the
     // forehead, it is combed back out of the face.
-    let near = 0.1 + 0.5 * (1.0 - smooth(-0.85, -0.6, marks.normalized(root.position).y));
-    let combed = if parted { near + (1.0 - near) * smooth(0.006, 0.035, distance) } else { 0.0 };
+    let near = 0.1 + 0.5 * (1.0 - smooth_step(-0.85, -0.6, marks.normalized(root.position).y));
+    let combed =
+        if parted { near + (1.0 - near) * smooth_step(0.006, 0.035, distance) } else { 0.0 };
     let away = shortened(away + back(normal) * (1.3 * combed * front));
     base.lerp(away, pull)
 }
@@ -100,15 +102,15 @@ fn natural(marks: &Landmarks, whorls: &[Whorl], root: &Root) -> DVec3 {
         let turn = SWIRL * (-distance / (0.45 * marks.width)).exp() * whorl.hand;
         let radial = (away - root.normal * root.normal.dot(away)).normalize_or_zero();
         let weight = distance.powi(-3);
-        let eye = smooth(0.0, EYE, distance);
+        let eye = smooth_step(0.0, EYE, distance);
         sum += DQuat::from_axis_angle(root.normal, -turn) * radial * (weight * eye);
         weights += weight;
     }
     let whorled = sum / weights.max(1e-12);
     let nearest = whorls.iter().map(|w| w.centre.distance(root.position));
-    let far = smooth(0.3, 0.9, nearest.fold(f64::INFINITY, f64::min) / marks.width);
+    let far = smooth_step(0.3, 0.9, nearest.fold(f64::INFINITY, f64::min) / marks.width);
     let d = marks.normalized(root.position);
-    let (front, low) = (1.0 - smooth(-0.8, 0.0, d.y), 1.0 - smooth(0.0, 0.7, d.z));
+    let (front, low) = (1.0 - smooth_step(-0.8, 0.0, d.y), 1.0 - smooth_step(0.0, 0.7, d.z));
     let over_forehead = forward(root.normal) * (0.5 * front);
     let down = along(DVec3::new(0.0, 0.1, -1.0), root.normal) * (0.8 * low);
     shortened(whorled + (over_forehead + down) * far)
@@ -117,7 +119,7 @@ fn natural(marks: &Landmarks, whorls: &[Whorl], root: &Root) -> DVec3 {
 /// Towards the middle below the occiput, where the streams of both sides meet.
 fn gathered_at_nape(marks: &Landmarks, flow: DVec3, root: &Root) -> DVec3 {
     let d = marks.normalized(root.position);
-    let nape = (1.0 - smooth(-0.7, -0.3, d.z)) * smooth(0.0, 0.4, d.y);
+    let nape = (1.0 - smooth_step(-0.7, -0.3, d.z)) * smooth_step(0.0, 0.4, d.y);
     let inwards = DVec3::new((-2.5 * d.x).clamp(-1.0, 1.0), 0.0, -1.0);
     shortened(flow.lerp(along(inwards, root.normal), 0.8 * nape))
 }
@@ -132,7 +134,7 @@ fn back(normal: DVec3) -> DVec3 {
 fn swept(normal: DVec3) -> DVec3 {
     // All of it but the very middle.
     let side = normal.x / (normal.x.abs() + 0.1);
-    let aside = DVec3::X * (1.2 * side * smooth(-0.2, 0.6, -normal.y));
+    let aside = DVec3::X * (1.2 * side * smooth_step(-0.2, 0.6, -normal.y));
     shortened(back(normal) + along(aside, normal))
 }
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::smooth;
 use crate::head::Landmarks;
+use crate::math::smooth_step;
 use crate::spec::Lift;
 
 /// The angle to the skin (rad) at a point (m) of it.
@@ -21,9 +21,9 @@ pub(crate) fn angle(marks: &Landmarks, lift: Lift, p: DVec3) -> f64 {
 fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
     let up = marks.normalized(p).normalize_or(DVec3::Z).z;
     let reach = marks.width;
-    let crown = 1.0 - smooth(0.08 * reach, 0.45 * reach, p.distance(marks.whorl));
-    let front = 1.0 - smooth(0.05 * reach, 0.3 * reach, p.distance(marks.hairline));
-    let sides_to_top = 7.0 + (30.0 - 7.0) * smooth(-0.2, 0.7, up);
+    let crown = 1.0 - smooth_step(0.08 * reach, 0.45 * reach, p.distance(marks.whorl));
+    let front = 1.0 - smooth_step(0.05 * reach, 0.3 * reach, p.distance(marks.hairline));
+    let sides_to_top = 7.0 + (30.0 - 7.0) * smooth_step(-0.2, 0.7, up);
     let with_crown = sides_to_top + (60.0 - sides_to_top) * crown;
     with_crown + (15.0 - with_crown) * front
 }
@@ -34,7 +34,7 @@ const LAID: f64 = 0.03;
 /// The angle (rad) at `distance` (m) from a parting: there the comb has laid down what would stand.
 pub(crate) fn laid_flat(angle: f64, distance: f64) -> f64 {
     let flat = angle.min(12_f64.to_radians());
-    flat + (angle - flat) * smooth(0.3 * LAID, LAID, distance)
+    flat + (angle - flat) * smooth_step(0.3 * LAID, LAID, distance)
 }
 
 /// Steepest angle (rad) to which hair above the forehead is turned.
@@ -43,7 +43,7 @@ const STEEPEST: f64 = 1.4;
 /// The angle (rad) of a fibre whose curl, not the fibre itself, is combed away from the face: above
 /// the forehead a curl whose axis stood out would fall into it.
 pub(crate) fn turned_back(marks: &Landmarks, angle: f64, lead: f64, p: DVec3) -> f64 {
-    let front = 1.0 - smooth(-0.75, -0.25, marks.normalized(p).y);
+    let front = 1.0 - smooth_step(-0.75, -0.25, marks.normalized(p).y);
     angle + ((angle + lead).min(STEEPEST).max(angle) - angle) * front
 }
 
@@ -57,5 +57,5 @@ pub(crate) fn lead(strain: DVec3) -> f64 {
 /// only bends, 0.
 pub(crate) fn curly(strain: DVec3) -> f64 {
     let turn = std::f64::consts::TAU / strain.length().max(1e-9);
-    1.0 - smooth(0.06, 0.14, turn)
+    1.0 - smooth_step(0.06, 0.14, turn)
 }

@@ -5,15 +5,19 @@ mod lift;
 mod parting;
 pub(crate) mod regions;
 pub(crate) mod rim;
+mod roots;
+mod tape;
 
 use glam::DVec3;
 
 use crate::head::{Head, Landmarks};
-use crate::roots::Root;
+use crate::math::smooth_step;
 use crate::spec::{Flow, HairstyleSpec, Implantation, Lift, Parting, RegionStyle};
 
 pub use parting::PartingError;
-pub(crate) use parting::segments_cross;
+pub(crate) use roots::Scalp;
+pub use roots::{Root, scalp_area};
+pub(crate) use tape::Tape;
 
 use flow::Whorl;
 use parting::Partings;
@@ -69,7 +73,7 @@ impl Layout {
                 angle += (lift - angle) * regions::share(style, marks, root.position);
             }
         }
-        let sure = smooth(0.0, FAINT, along.length());
+        let sure = smooth_step(0.0, FAINT, along.length());
         let angle = angle + (std::f64::consts::FRAC_PI_2 - angle) * (1.0 - sure);
         let along = along.normalize_or_zero();
         (along * angle.cos() + root.normal * angle.sin()).normalize_or(root.normal)
@@ -186,12 +190,6 @@ pub(crate) fn clear_of_skin(head: &Head, root: &Root, direction: DVec3) -> DVec3
         }
     }
     direction
-}
-
-/// Smooth step from 0 at `low` to 1 at `high`.
-pub(crate) fn smooth(low: f64, high: f64, x: f64) -> f64 {
-    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 #[cfg(test)]

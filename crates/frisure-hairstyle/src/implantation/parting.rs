@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use crate::head::{Head, Landmarks, Tape};
+use super::tape::Tape;
+use crate::head::{Head, Landmarks};
+use crate::math::segments_cross;
 use crate::spec::Parting;
 
 /// Length (m) of the pieces of a parting.
@@ -161,14 +163,6 @@ fn map(marks: &Landmarks, p: DVec3) -> [f64; 2] {
     let from_top = d.z.clamp(-1.0, 1.0).acos();
     let scale = from_top / d.x.hypot(d.y).max(1e-12);
     [d.x * scale, d.y * scale]
-}
-
-/// Whether two segments of the plane cross.
-pub(crate) fn segments_cross(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> bool {
-    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-    };
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
 }
 
 fn closest(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {

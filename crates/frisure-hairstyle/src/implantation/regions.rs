@@ -2,15 +2,16 @@
 
 use glam::DVec3;
 
+use super::roots::Root;
 use crate::head::{Head, Landmarks};
-use crate::roots::Root;
+use crate::math::smooth_step;
 use crate::spec::{Level, Place, RegionLength, RegionStyle};
 
 /// How much a style holds at a point (m) of the skin: 1 inside its places, 0 outside, smooth over
 /// about a centimetre at the border.
 pub(crate) fn share(style: &RegionStyle, marks: &Landmarks, p: DVec3) -> f64 {
     let shares = marks.shares(p);
-    let left = super::smooth(-0.006, 0.006, p.x - marks.cranium_centre.x);
+    let left = smooth_step(-0.006, 0.006, p.x - marks.cranium_centre.x);
     let sum: f64 = style
         .places
         .iter()

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::grid::Grid;
 use crate::head::{Edge, Head};
+use crate::math::Grid;
 
 /// The edge of the hair: a natural hairline, or the border of the scalp that a mesh came with.
 pub(crate) enum Rim {

@@ -4,7 +4,6 @@ use super::*;
 use crate::head::test_shapes::mannequin as head;
 use crate::presets::preset;
 use crate::random::Purpose;
-use crate::roots::Scalp;
 use crate::spec::{Comb, Hairline, Lift, Parting, Place, Turn};
 
 fn spec(flow: Flow, change: impl FnOnce(&mut HairstyleSpec)) -> HairstyleSpec {
@@ -43,7 +42,7 @@ fn hair_leaves_at_the_stated_angle_or_more_steeply() {
 fn neighbouring_hair_goes_the_same_way() {
     let roots = Scalp::new(head()).stratified(20_000, 1, Purpose::HairRoots);
     let positions: Vec<DVec3> = roots.iter().map(|r| r.position).collect();
-    let grid = crate::grid::Grid::new(&positions, 2e-3);
+    let grid = crate::math::Grid::new(&positions, 2e-3);
     for flow in FLOWS {
         for count in [1, 2] {
             let layout = layout(flow, |s| s.implantation.whorls.count = count);

@@ -1,6 +1,7 @@
 //! The numbers of each hair type. `docs/hair-types.md` has the source of every one.
 
-use super::hair_type::{HairType, NaturalCurl, Wetting};
+use super::hair_type::{HairType, NaturalCurl};
+use crate::fibre::Wetting;
 
 const PER_SQUARE_CENTIMETRE: f64 = 1e4;
 

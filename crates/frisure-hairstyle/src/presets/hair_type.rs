@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use frisure_rod::{InvalidQuantity, Material, Section, TorsionConstant};
 
-use crate::fibre::{Curl, Fibre};
-use crate::spec::{InvalidSpec, range};
+use crate::fibre::{Curl, Fibre, Wetting};
 
 /// What is known of one type of hair, dry at about 60 % relative humidity: numbers of fibre and
 /// follicle, without any styling. The source of each number is in `docs/hair-types.md`.
@@ -54,22 +53,6 @@ pub struct NaturalCurl {
     pub variation_along: f64,
     /// Correlation length of the variation along a hair (m).
     pub variation_scale: f64,
-}
-
-/// What water makes of the properties of a hair: a factor on each.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wetting {
-    /// Factor on Young's modulus.
-    pub youngs_modulus: f64,
-    /// Factor on the shear modulus.
-    pub shear_modulus: f64,
-    /// Factor on the diameter.
-    pub diameter: f64,
-    /// Factor on the length.
-    pub length: f64,
-    /// Factor on the radius of wisps, and on the distances that contact keeps: a film of water draws
-    /// hairs together.
-    pub wisp: f64,
 }
 
 /// Which of a type's two shapes of the section is taken.
@@ -150,37 +133,5 @@ impl NaturalCurl {
     #[must_use]
     pub fn turns_per_length(&self) -> f64 {
         (TAU * self.radius).hypot(self.pitch).recip()
-    }
-}
-
-impl Wetting {
-    /// The paper's: Young's modulus ÷ 5, radius + 13 %, length + 1 %, wisps − 40 %. \[paper\] §3.2.1
-    ///
-    /// Its shear modulus follows from Poisson's ratio, so it falls as much.
-    pub const PAPER: Self =
-        Self { youngs_modulus: 0.2, shear_modulus: 0.2, diameter: 1.13, length: 1.01, wisp: 0.6 };
-
-    /// Measured in water against room-dry hair (Robbins 2012): moduli 3.9 → 1.7 GPa and
-    /// 0.89 → 0.2 GPa; diameter and length from 60 % to 100 % relative humidity. Nobody measured
-    /// wisps: theirs is the paper's.
-    pub const MEASURED: Self = Self {
-        youngs_modulus: 0.43,
-        shear_modulus: 0.22,
-        diameter: 1.065,
-        length: 1.003,
-        wisp: 0.6,
-    };
-
-    /// Checks every factor against the range in which it means something.
-    ///
-    /// # Errors
-    /// [`InvalidSpec`], naming the first that is out of range.
-    pub fn check(&self) -> Result<(), InvalidSpec> {
-        let softer = "between 0.01 and 1";
-        range("hair.wetting.youngs_modulus", self.youngs_modulus, 0.01, 1.0, softer)?;
-        range("hair.wetting.shear_modulus", self.shear_modulus, 0.01, 1.0, softer)?;
-        range("hair.wetting.diameter", self.diameter, 1.0, 1.5, "between 1 and 1.5")?;
-        range("hair.wetting.length", self.length, 1.0, 1.1, "between 1 and 1.1")?;
-        range("hair.wetting.wisp", self.wisp, 0.1, 1.0, "between 0.1 and 1")
     }
 }

@@ -72,7 +72,7 @@ fn at(curve: &Curve, humidity: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::presets::Wetting;
+    use crate::fibre::Wetting;
 
     fn shares(humidity: f64) -> [f64; 4] {
         let m = Moisture::in_air(humidity);

@@ -10,7 +10,7 @@ use frisure_rod::{ElementKind, Resolution};
 use crate::spec::{
     Body, Contact, HairModel, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
 };
-pub use hair_type::{Ellipticity, HairType, NaturalCurl, Wetting};
+pub use hair_type::{Ellipticity, HairType, NaturalCurl};
 pub use humidity::Moisture;
 use styles::Style;
 

@@ -7,7 +7,8 @@
 //! its root is, and hairs that would lie in the body are laid on it, in the order in which they lay.
 
 mod attributes;
-mod course;
+mod binding;
+mod curve;
 mod described;
 mod population;
 mod simulated;
@@ -20,13 +21,13 @@ use rayon::prelude::*;
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
-use crate::implantation::smooth;
+use crate::math::smooth_step;
 use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::{HairModel, HairstyleSpec};
 
 use attributes::put;
+use curve::Hair;
 pub use described::{add_natural_strains, describe, described_guides, guide_strands};
-use population::Hair;
 pub(crate) use population::{Population, roots};
 use simulated::Simulated;
 pub use simulated::{Checkpoint, Simulation};
@@ -149,7 +150,7 @@ pub fn penetration(strands: &Strands, head: &Head) -> f64 {
 fn assemble(spec: &HairstyleSpec, guides: &[Guide], hairs: &[Hair]) -> Strands {
     let points = spec.wisps.points;
     let taper: Vec<f64> = (0..points)
-        .map(|i| 1.0 - (1.0 - TIP) * smooth(0.85, 1.0, i as f64 / (points - 1) as f64))
+        .map(|i| 1.0 - (1.0 - TIP) * smooth_step(0.85, 1.0, i as f64 / (points - 1) as f64))
         .collect();
     let mut strands = Strands::with_capacity(hairs.len(), hairs.len() * points);
     let mut radii = vec![0.0; points];

@@ -1,25 +1,25 @@
 //! All drawn hairs of a head: where each is rooted, and which guides it follows.
 
 use frisure_rod::Equilibrium;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::course::{Character, Course};
-use super::skin::{Free, LAID, PRESSED};
-use crate::bound_strands::BoundStrands;
-use crate::crossing::first_positive;
-use crate::grid::Grid;
+use super::binding::{StrandBinding, StrandVariation};
+use super::skin::{PRESSED, Skin};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
+use crate::hairstyle::WispState;
 use crate::head::Head;
+use crate::implantation::Layout;
+use crate::implantation::Root;
 use crate::implantation::rim::Rim;
-use crate::implantation::{Layout, smooth};
+use crate::math::Grid;
+use crate::math::smooth_step;
 use crate::random::{Purpose, Stream};
-use crate::roots::Root;
 use crate::spec::HairstyleSpec;
-use crate::splits::{Split, splits};
-use crate::wisp_state::WispState;
+use crate::wisps::BoundStrands;
 use crate::wisps::Wisp;
+use crate::wisps::{Split, splits};
 
 /// How many neighbouring guides a hair can follow.
 const FOLLOWED: usize = 5;
@@ -69,47 +69,21 @@ pub(crate) struct Population<'a> {
     pub(super) patch: f64,
     /// The thinner wisps that each wisp splits into.
     splits: Vec<Vec<Split>>,
-    /// Largest width (m) over which hairs of any wisp are moved out of the body.
-    pub(super) widest: f64,
+    pub(super) skin: Skin<'a>,
 }
 
 /// Where along two guides it shows whether they go the same way, from root to tip.
 const MARKS: [f64; 4] = [0.0, 0.3, 0.65, 1.0];
 
-/// Distance (m) between the points at which a hair is looked at for where it is cut …
-const CUT_STEP: f64 = 5e-3;
-/// … and how often the piece between two is halved: to a millionth of it.
-const HALVINGS: u32 = 20;
-
-/// One drawn hair.
-pub(super) struct Hair {
-    pub(super) guide: u32,
-    /// Factor on its diameter.
-    pub(super) thickness: f64,
-    /// Whether its end was cut.
-    pub(super) cut: bool,
-    pub(super) points: Vec<Vec3>,
-}
-
-/// How much longer than it is a hair may be drawn …
-const STRETCHED: f64 = 1.12;
-/// … before it comes nearer to its guides, step by step.
-const NARROWER: [f64; 4] = [0.6, 0.3, 0.1, 0.0];
-
-/// Length of a line (m).
-fn length(points: &[Vec3]) -> f64 {
-    points.windows(2).map(|pair| f64::from(pair[0].distance(pair[1]))).sum()
-}
-
-/// Where every so manyth drawn hair of a head is rooted, with the index of the hair.
-pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, every: usize) -> Vec<(usize, Root)> {
+/// Where every `stride`-th drawn hair of a head is rooted, with the index of the hair.
+pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, stride: usize) -> Vec<(usize, Root)> {
     let Hairstyle { spec, layout, placement, .. } = hairstyle;
     let roots = placement.hairs(spec, head);
     // Hair of a groom is rooted where the groom has it.
     let own = placement.bound(spec, head).is_some();
     let place = |root: &Root| if own { *root } else { layout.gathered(head, *root) };
     let gathered = |(index, root): (usize, &Root)| (index, place(root));
-    roots.par_iter().enumerate().step_by(every.max(1)).map(gathered).collect()
+    roots.par_iter().enumerate().step_by(stride.max(1)).map(gathered).collect()
 }
 
 impl<'a> Population<'a> {
@@ -141,50 +115,16 @@ impl<'a> Population<'a> {
             spacing,
             patch,
             splits: splits(spec, &styling.planned, patch),
-            widest: PRESSED * guides.iter().map(thickest).fold(0.0, f64::max),
+            skin: Skin {
+                head,
+                body: spec.contact.body,
+                widest: PRESSED * guides.iter().map(thickest).fold(0.0, f64::max),
+            },
         }
     }
 
-    /// The hair rooted somewhere.
-    pub(super) fn hair(&self, root: &Root, index: usize) -> Hair {
-        let mut course = self.course(root, index);
-        let mut points = self.points(&course);
-        for narrow in NARROWER {
-            if length(&points) <= STRETCHED * course.end * course.length {
-                break;
-            }
-            course.narrow = narrow;
-            points = self.points(&course);
-        }
-        let Course { thickness, cut, .. } = course;
-        Hair { guide: course.main() as u32, thickness, cut, points }
-    }
-
-    fn points(&self, course: &Course<'_>) -> Vec<Vec3> {
-        let last = self.spec.wisps.points - 1;
-        let mut free = Free::NOWHERE;
-        (0..=last)
-            .map(|k| self.point(course, k as f64 / last as f64 * course.end, &mut free).as_vec3())
-            .collect()
-    }
-
-    /// Where a hair is at `x` of its guides' length.
-    fn point(&self, course: &Course<'_>, x: f64, free: &mut Free) -> DVec3 {
-        let p = self.followed_point(course, x);
-        if course.own.is_some() && x <= 0.0 {
-            return p;
-        }
-        // Hair of a groom lies as it lies; only what is in the body comes out.
-        let width = match course.own {
-            Some(_) => LAID,
-            None => {
-                (PRESSED * self.guides[course.main()].thickness.at(x * course.length)).max(LAID)
-            }
-        };
-        self.laid_on_body(&course.root, p, x * course.length, width, free)
-    }
-
-    pub(super) fn course(&self, root: &Root, index: usize) -> Course<'_> {
+    /// How the hair of this index, rooted somewhere, is bound to guides.
+    pub(super) fn bind(&self, root: &Root, index: usize) -> StrandBinding<'_> {
         let mut random = Stream::new(self.spec.seed, Purpose::Hair, index);
         let followed = self.followed(root, index);
         let own = self.bound.map(|bound| bound.strand(index));
@@ -193,12 +133,12 @@ impl<'a> Population<'a> {
         let length: f64 = mean(&|g| self.wisps[g].length);
         let uncut: f64 = mean(&|g| self.states[g].uncut);
         let planned: f64 = mean(&|g| self.planned[g].rod.length());
-        let character = Character::new(&self.spec.wisps, planned, self.spacing, &mut random);
+        let variation = StrandVariation::new(&self.spec.wisps, planned, self.spacing, &mut random);
         let grown = match (&own, self.layout.length(self.head, root)) {
             (Some(own), _) => own.length() + (uncut - planned),
             // Roots behind and before the guide's reach the same line.
-            (_, Some(own)) => (character.length.max(CUT) * own + (uncut - planned)).min(uncut),
-            _ => character.length * uncut,
+            (_, Some(own)) => (variation.length.max(CUT) * own + (uncut - planned)).min(uncut),
+            _ => variation.length * uncut,
         };
         let baby = if own.is_some() { None } else { self.baby(root, index) };
         let grown = baby.map_or(grown, |baby| baby.min(grown));
@@ -207,11 +147,11 @@ impl<'a> Population<'a> {
         // Wet hair is longer than dry hair.
         let stretch = self.guides[main].rod.length() / self.states[main].length;
         let known = if own.is_some() { f64::INFINITY } else { self.wisps[main].end() };
-        Course {
+        StrandBinding {
             root: *root,
             split: self.split(main, root.position),
             followed,
-            character,
+            variation,
             length,
             planned,
             uncut,
@@ -222,11 +162,6 @@ impl<'a> Population<'a> {
             narrow: 1.0,
             own,
         }
-    }
-
-    /// The course of a hair that deviates from it by its own physics, not by chance.
-    pub(super) fn still<'c>(&self, course: Course<'c>) -> Course<'c> {
-        Course { character: course.character.still(), ..course }
     }
 
     /// A guide's wisp.
@@ -240,21 +175,6 @@ impl<'a> Population<'a> {
             Some(bound) => bound.carriers(index)[0].0,
             None => self.sorted(root, self.layout.direction(root))[0],
         }
-    }
-
-    /// The length (m, of dry hair) that is left of a hair when it is cut where it first comes to
-    /// where `outside` is positive; none if it does not.
-    pub(crate) fn cut_where(
-        &self,
-        root: &Root,
-        index: usize,
-        outside: impl Fn(DVec3) -> f64,
-    ) -> Option<f64> {
-        let course = self.course(root, index);
-        let steps = (course.end * course.length / CUT_STEP).ceil().clamp(8.0, 400.0) as usize;
-        let at = |x: f64| outside(self.point(&course, x, &mut { Free::NOWHERE }));
-        let left = first_positive(course.end, steps, HALVINGS, at)?;
-        Some(left / course.end * course.dry)
     }
 
     /// Guides near a root that its hair, which leaves in the direction `own`, can go with; the one most
@@ -331,7 +251,7 @@ impl<'a> Population<'a> {
         let (a, b) = (&self.marks[a], &self.marks[b]);
         let apart = |mark: usize| a[mark].distance(b[mark]);
         let most = apart(1).max(apart(2)).max(apart(3));
-        1.0 - smooth(0.8, 1.6, most / (apart(0) + self.spacing))
+        1.0 - smooth_step(0.8, 1.6, most / (apart(0) + self.spacing))
     }
 
     /// The split of a wisp that a hair belongs to: the nearest in the skin.

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::population::Population;
-use crate::roots::Root;
+use crate::head::Head;
+use crate::implantation::Root;
 use crate::spec::Body;
 
 /// Depth of the first point of a hair below the skin (m), so that no root floats.
@@ -35,25 +35,26 @@ impl Free {
     }
 }
 
-impl Population<'_> {
+/// The skin that drawn hairs are laid on.
+pub(super) struct Skin<'a> {
+    pub(super) head: &'a Head,
+    pub(super) body: Body,
+    /// Largest width (m) over which hairs of any wisp are moved out of the body.
+    pub(super) widest: f64,
+}
+
+impl Skin<'_> {
     /// Moves a point at arc length `s` (m) that is in the body, or within about `width` (m) of it, out of
     /// it.
     ///
     /// What would lie at the depths of a wisp that is pressed on the skin comes to lie at
     /// `m + w ln(1 + exp((d − m)/w))`, d its distance before: in the same order, nothing in the skin,
     /// and no two layers in one.
-    pub(super) fn laid_on_body(
-        &self,
-        root: &Root,
-        p: DVec3,
-        s: f64,
-        width: f64,
-        free: &mut Free,
-    ) -> DVec3 {
+    pub(super) fn lay(&self, root: &Root, p: DVec3, s: f64, width: f64, free: &mut Free) -> DVec3 {
         if s <= 0.0 {
             return root.position - root.normal * ROOT_DEPTH;
         }
-        if self.spec.contact.body == Body::None || free.holds(p) {
+        if self.body == Body::None || free.holds(p) {
             return p;
         }
         let least = LEAST_DISTANCE * (s / 0.003).min(1.0);

@@ -13,13 +13,13 @@ use super::settle::{Act, DraftRest};
 use crate::equilibrium::{Change, Effort};
 use crate::guides::{Guide, plan};
 use crate::hairstyle::Hairstyle;
+use crate::hairstyle::{Ends, Grip, Styling, WispState, strain_of};
 use crate::head::Head;
 use crate::implantation::Layout;
+use crate::implantation::Root;
 use crate::monitor::Monitor;
-use crate::roots::Root;
 use crate::spec::{Flow, Parting};
 use crate::strands::Population;
-use crate::wisp_state::{Ends, Grip, Styling, WispState, strain_of};
 
 /// Longest guide (m): that of a description.
 const LONGEST: f64 = 3.0;
@@ -259,7 +259,8 @@ impl Act<'_> {
         spec.implantation.flow = Flow::Parted { offset };
         spec.implantation.partings = vec![part.line.clone()];
         let layout = Layout::new(&spec, self.head)?;
-        let planned = plan(&spec, self.head, &layout, &self.before.placement)?;
+        let placement = &self.before.placement;
+        let planned = plan(&spec, self.head, &layout, placement.roots(), placement.area())?;
         let everyone = vec![true; planned.len()];
         let mut styling = self.before.styling.changed(&everyone, |_, wisp| wisp.moved += 1);
         styling.planned = planned.into();

@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 use frisure_rod::{InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::DVec3;
 
+use crate::contact::Pull;
+use crate::fibre::Wetting;
 use crate::guides::{Guide, grown_strain};
-use crate::presets::{Moisture, Wetting};
-use crate::pull::Pull;
+use crate::hairstyle::{Grip, Holder, Styling, WispState};
+use crate::presets::Moisture;
 use crate::spec::HairstyleSpec;
-use crate::wisp_state::{Grip, Holder, Styling, WispState};
 
 /// How much stiffer hair is for being held in a shape.
 const MOULD: f64 = 10.0;

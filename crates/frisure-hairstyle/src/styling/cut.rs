@@ -4,9 +4,9 @@ use frisure_rod::Equilibrium;
 use glam::DVec3;
 
 use super::operation::{Cut, CutLine, Held};
-use crate::crossing::first_positive;
 use crate::head::Head;
-use crate::roots::Root;
+use crate::implantation::Root;
+use crate::math::first_positive;
 
 /// A cut on a head.
 pub(super) struct Scissors<'a> {

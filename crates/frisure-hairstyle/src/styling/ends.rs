@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
+use crate::hairstyle::Ends;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
-use crate::roots::Root;
+use crate::implantation::Root;
 use crate::strands::{Population, roots};
-use crate::wisp_state::Ends;
 
 impl Ends {
     /// Cuts hairs of the chosen wisps, of all hairs every `stride`-th: `left` gives how much (m, dry) is left

@@ -2,11 +2,10 @@
 
 use glam::DVec3;
 
-use super::Selection;
-use crate::head::Head;
-use crate::implantation::regions::height;
-use crate::spec::{self, InvalidSpec, Level, Parting, range};
-use crate::wisp_state::Holder;
+use super::height::Height;
+use super::selection::Selection;
+use crate::hairstyle::Holder;
+use crate::spec::{self, InvalidSpec, Parting, range};
 
 /// One thing that is done to a hairstyle.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,15 +110,6 @@ pub enum CutLine {
     Gathered(DVec3),
 }
 
-/// A height on a head.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Height {
-    /// So high (m) in the head's frame; the mannequin's cranium has its centre at 0.
-    At(f64),
-    /// Above a level of the head (m), or below it if negative.
-    Above(Level, f64),
-}
-
 /// How hair is held while it is cut; [`CutLine::Length`] and [`CutLine::Gathered`] need no hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Held {
@@ -132,17 +122,6 @@ pub enum Held {
     /// Straight out from its root at an elevation (rad): 0 is flat along the skin downwards (one
     /// length), π/4 graduates, π/2 is perpendicular to the skin (layers), more turns it upwards.
     Elevated(f64),
-}
-
-impl Height {
-    /// The height (m) on a head.
-    #[must_use]
-    pub fn on(self, head: &Head) -> f64 {
-        match self {
-            Self::At(z) => z,
-            Self::Above(level, by) => height(level, head.landmarks()) + by,
-        }
-    }
 }
 
 /// Lets hair grow.

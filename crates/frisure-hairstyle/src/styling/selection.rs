@@ -4,9 +4,11 @@ use frisure_rod::Equilibrium;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Height, StyleError};
+use super::error::StyleError;
+use super::height::Height;
 use crate::guides::Guide;
-use crate::head::{Head, Landmarks, Tape};
+use crate::head::{Head, Landmarks};
+use crate::implantation::Tape;
 use crate::spec::{InvalidSpec, Place, range};
 
 /// A choice of wisps.

@@ -11,10 +11,10 @@ use super::selection::Selection;
 use crate::equilibrium::{Change, Effort, GuideStart, SettleOptions, settle};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
+use crate::hairstyle::Rest;
+use crate::hairstyle::{Grip, Lay, Styling, WispState};
 use crate::head::Head;
 use crate::monitor::Monitor;
-use crate::rest::Rest;
-use crate::wisp_state::{Grip, Lay, Styling, WispState};
 
 /// What an operation acts on: a hairstyle, its head, and how the result is brought to rest.
 #[derive(Clone, Copy)]

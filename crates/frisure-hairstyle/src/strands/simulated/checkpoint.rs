@@ -4,9 +4,11 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use glam::{DVec3, Vec3};
 
-use super::{Hair, Root, Simulation};
+use super::super::curve::Hair;
+use super::simulation::Simulation;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
+use crate::implantation::Root;
 
 /// Saves simulated hairs part by part, and finds them again; called from any thread.
 pub trait Checkpoint: Sync {

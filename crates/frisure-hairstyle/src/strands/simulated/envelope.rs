@@ -3,10 +3,10 @@
 use frisure_rod::batch::{ConfinementTube, Contact, ContactField};
 use glam::DVec3;
 
-use crate::contact::outer;
 use crate::head::Head;
+use crate::math::outer;
 use crate::spec::Body;
-use crate::strands::course::Course;
+use crate::strands::binding::StrandBinding;
 use crate::strands::population::Population;
 use crate::strands::skin::LEAST_DISTANCE;
 
@@ -45,15 +45,15 @@ impl<'a> Envelope<'a> {
     }
 
     /// The next hair, of a length (m).
-    pub(super) fn add(&mut self, course: &Course<'_>, length: f64) {
+    pub(super) fn add(&mut self, binding: &StrandBinding<'_>, length: f64) {
         let Population { spec, head, guides, .. } = self.population;
         let h = length / self.elements as f64;
-        let thickness = &guides[course.main()].thickness;
-        let wide = if course.stray() { STRAY } else { 1.0 };
+        let thickness = &guides[binding.main()].thickness;
+        let wide = if binding.stray() { STRAY } else { 1.0 };
         let mut before = (DVec3::ZERO, -1.0);
         for joint in 0..self.elements {
             let s = (h * (joint as f64 + 1.5)).min(length);
-            let centre = self.population.followed_point(course, s / course.length);
+            let centre = self.population.followed_point(binding, s / binding.length);
             let clear = match spec.contact.body {
                 Body::None => f64::INFINITY,
                 _ => {

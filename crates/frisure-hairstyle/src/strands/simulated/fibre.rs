@@ -3,9 +3,9 @@
 use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DMat3, DQuat, DVec3};
 
-use super::Simulated;
 use crate::random::{Purpose, Stream};
-use crate::strands::course::Course;
+use crate::strands::binding::StrandBinding;
+use crate::strands::population::Population;
 use crate::strands::skin::ROOT_DEPTH;
 
 /// Shortest hair (m) that is a rod.
@@ -14,63 +14,66 @@ const SHORTEST: f64 = 1e-3;
 /// How far a hair's curl is from its guide's at most, in standard deviations of its logarithm.
 const ODDEST: f64 = 2.5;
 
-impl Simulated<'_> {
-    /// The rod of a hair; none if it is too short for one.
-    ///
-    /// It is of its guide's material, as wet, and has its guide's natural strain but for what hairs of a wisp do not
-    /// share: the fraction `fuzziness` of what differs between wisps. Its section is drawn as those of guides are.
-    pub(super) fn rod(&self, course: &Course<'_>, index: usize) -> Option<Rod> {
-        let length = course.end * course.length;
-        (length >= SHORTEST).then(|| self.fibre(course, index, length).ok()).flatten()
-    }
+/// The rod of a hair; none if it is too short for one.
+///
+/// It is of its guide's material, as wet, and has its guide's natural strain but for what hairs of a wisp do not
+/// share: the fraction `fuzziness` of what differs between wisps. Its section is drawn as those of guides are.
+pub(super) fn rod(
+    population: &Population<'_>,
+    binding: &StrandBinding<'_>,
+    index: usize,
+) -> Option<Rod> {
+    let length = binding.end * binding.length;
+    (length >= SHORTEST).then(|| fibre(population, binding, index, length).ok()).flatten()
+}
 
-    fn fibre(
-        &self,
-        course: &Course<'_>,
-        index: usize,
-        length: f64,
-    ) -> Result<Rod, InvalidQuantity> {
-        let spec = self.population.spec;
-        let mut random = Stream::new(spec.seed, Purpose::HairFibre, index);
-        let guide = &self.population.guides[course.main()].rod;
-        let dry = &self.population.planned[course.main()].rod;
-        let swollen = guide.spec().section.mean_radius() / dry.spec().section.mean_radius();
-        let section = spec.fibre.varied(&mut random)?.scaled(swollen * course.thickness)?;
-        let own = spec.wisps.fuzziness;
-        let off = random.normal().clamp(-ODDEST, ODDEST);
-        let factor = (own * spec.curl.variation_between * off).exp();
-        let along = own * spec.curl.variation_along;
-        let natural = match guide.natural() {
-            NaturalStrain::Uniform(strain) if along == 0.0 => {
-                NaturalStrain::Uniform(*strain * factor)
-            }
-            shared => {
-                let mut wander = Wander { along, scale: spec.curl.variation_scale, at: None };
-                let knots = places(shared, length, spec.curl.variation_scale);
-                let knot = |s: f64| (s, shared.at(s) * (factor * wander.at(s, &mut random)));
-                NaturalStrain::Varying(StrainProfile::new(knots.map(knot).collect())?)
-            }
-        };
-        Rod::new(RodSpec {
-            length,
-            section,
-            natural,
-            root: self.root(course)?,
-            ..guide.spec().clone()
-        })
-    }
+fn fibre(
+    population: &Population<'_>,
+    binding: &StrandBinding<'_>,
+    index: usize,
+    length: f64,
+) -> Result<Rod, InvalidQuantity> {
+    let spec = population.spec;
+    let mut random = Stream::new(spec.seed, Purpose::HairFibre, index);
+    let guide = &population.guides[binding.main()].rod;
+    let dry = &population.planned[binding.main()].rod;
+    let swollen = guide.spec().section.mean_radius() / dry.spec().section.mean_radius();
+    let section = spec.fibre.varied(&mut random)?.scaled(swollen * binding.thickness)?;
+    let own = spec.wisps.fuzziness;
+    let off = random.normal().clamp(-ODDEST, ODDEST);
+    let factor = (own * spec.curl.variation_between * off).exp();
+    let along = own * spec.curl.variation_along;
+    let natural = match guide.natural() {
+        NaturalStrain::Uniform(strain) if along == 0.0 => NaturalStrain::Uniform(*strain * factor),
+        shared => {
+            let mut wander = Wander { along, scale: spec.curl.variation_scale, at: None };
+            let knots = places(shared, length, spec.curl.variation_scale);
+            let knot = |s: f64| (s, shared.at(s) * (factor * wander.at(s, &mut random)));
+            NaturalStrain::Varying(StrainProfile::new(knots.map(knot).collect())?)
+        }
+    };
+    Rod::new(RodSpec {
+        length,
+        section,
+        natural,
+        root: root(population, binding)?,
+        ..guide.spec().clone()
+    })
+}
 
-    /// The clamp of a hair: in its own follicle, in the direction of the guides that it follows.
-    fn root(&self, course: &Course<'_>) -> Result<frisure_rod::Root, InvalidQuantity> {
-        let frame = |guide: usize| self.population.guides[guide].rod.root().frame();
-        let mean: DVec3 = course.followed.iter().map(|&(g, w)| frame(g).z_axis * w).sum();
-        let own = frame(course.main());
-        let tangent = mean.normalize_or(own.z_axis);
-        let turn = DQuat::from_rotation_arc(own.z_axis, tangent);
-        let d1 = (DMat3::from_quat(turn) * own).x_axis;
-        let follicle = course.root.position - course.root.normal * ROOT_DEPTH;
-        frisure_rod::Root::from_tangent(follicle, tangent, d1)
-    }
+/// The clamp of a hair: in its own follicle, in the direction of the guides that it follows.
+fn root(
+    population: &Population<'_>,
+    binding: &StrandBinding<'_>,
+) -> Result<frisure_rod::Root, InvalidQuantity> {
+    let frame = |guide: usize| population.guides[guide].rod.root().frame();
+    let mean: DVec3 = binding.followed.iter().map(|&(g, w)| frame(g).z_axis * w).sum();
+    let own = frame(binding.main());
+    let tangent = mean.normalize_or(own.z_axis);
+    let turn = DQuat::from_rotation_arc(own.z_axis, tangent);
+    let d1 = (DMat3::from_quat(turn) * own).x_axis;
+    let follicle = binding.root.position - binding.root.normal * ROOT_DEPTH;
+    frisure_rod::Root::from_tangent(follicle, tangent, d1)
 }
 
 /// Where (m) the natural strain of a hair is given: where its guide's is, and beyond that as far apart.

@@ -7,47 +7,25 @@
 mod checkpoint;
 mod envelope;
 mod fibre;
+mod simulation;
 
 use frisure_rod::batch::{Batch, BatchSolution, Frames, InitialShape, RodSolution};
 use frisure_rod::{Node, Rod, Stability, centre_line};
 use glam::{DMat3, DQuat};
 use rayon::prelude::*;
 
-use super::course::Course;
-use super::population::{Hair, Population};
+use super::binding::StrandBinding;
+use super::curve::Hair;
+use super::population::Population;
 use super::skin::{Free, LAID};
 use crate::hairstyle::Hairstyle;
+use crate::implantation::Root;
 use crate::monitor::{Cancelled, Stage};
-use crate::roots::Root;
 pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::key;
 use checkpoint::{part_from_bytes, part_to_bytes};
 use envelope::Envelope;
-
-/// How many hairs were simulated, and how they came to rest.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Simulation {
-    /// Hairs that are rods.
-    pub hairs: usize,
-    /// Those that rest in a minimum of their energy; the others are drawn between their guides.
-    pub at_rest: usize,
-    /// Elements of all of them.
-    pub elements: usize,
-    /// Iterations of all of them.
-    pub iterations: usize,
-}
-
-impl Simulation {
-    /// What two parts of a head are together.
-    fn and(self, other: Self) -> Self {
-        Self {
-            hairs: self.hairs + other.hairs,
-            at_rest: self.at_rest + other.at_rest,
-            elements: self.elements + other.elements,
-            iterations: self.iterations + other.iterations,
-        }
-    }
-}
+pub use simulation::Simulation;
 
 /// How many elements hairs have: the least of these that resolves the curl.
 const ELEMENTS: [usize; 11] = [12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256];
@@ -79,7 +57,7 @@ const MOST_ITERATIONS: usize = 4000;
 struct Planned<'a> {
     /// Its place in the chunk.
     place: usize,
-    course: Course<'a>,
+    binding: StrandBinding<'a>,
     /// How its root is turned from its guide's.
     turned: DQuat,
 }
@@ -151,15 +129,17 @@ impl<'a> Simulated<'a> {
         drawn.resize_with(roots.len(), || None);
         let mut groups: Vec<Group<'_>> = ELEMENTS.iter().map(|_| Group::default()).collect();
         for (place, (index, root)) in roots.iter().enumerate() {
-            let course = self.population.still(self.population.course(root, *index));
-            let Some(rod) = self.rod(&course, *index) else {
+            let mut binding = self.population.bind(root, *index);
+            // It deviates by its own physics, not by chance.
+            binding.variation = binding.variation.without_deviation();
+            let Some(rod) = fibre::rod(self.population, &binding, *index) else {
                 drawn[place] = Some(self.population.hair(root, *index));
                 continue;
             };
             let frame = DQuat::from_mat3(&rod.root().frame());
-            let turned = frame * self.frames[course.main()][0].inverse();
+            let turned = frame * self.frames[binding.main()][0].inverse();
             let group = &mut groups[division(&rod)];
-            group.planned.push(Planned { place, course, turned });
+            group.planned.push(Planned { place, binding, turned });
             group.rods.push(rod);
         }
         let mut simulation = Simulation::default();
@@ -175,14 +155,14 @@ impl<'a> Simulated<'a> {
                 iterations: found.rods.iter().map(|hair| hair.iterations).sum(),
             });
             for (hair, (planned, rod)) in planned.into_iter().zip(&rods).enumerate() {
-                let Planned { place, course, .. } = planned;
+                let Planned { place, binding, .. } = planned;
                 let nodes = &nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)];
                 drawn[place] = Some(match found.rods[hair].stability {
                     Stability::Stable => Hair {
-                        guide: course.main() as u32,
-                        thickness: course.thickness,
-                        cut: course.cut,
-                        points: self.points(&course.root, rod.length(), nodes),
+                        guide: binding.main() as u32,
+                        thickness: binding.thickness,
+                        cut: binding.cut,
+                        points: self.points(&binding.root, rod.length(), nodes),
                     },
                     // On its way a hair can be anywhere: it is drawn where others carry it.
                     _ => self.population.hair(&roots[place].1, roots[place].0),
@@ -197,8 +177,8 @@ impl<'a> Simulated<'a> {
     fn settle(&self, group: &Group<'_>, elements: usize) -> (BatchSolution, Vec<Node>) {
         let Group { planned, rods } = group;
         let mut envelope = Envelope::new(self.population, elements, planned.len());
-        for (Planned { course, .. }, rod) in planned.iter().zip(rods) {
-            envelope.add(course, rod.length());
+        for (Planned { binding, .. }, rod) in planned.iter().zip(rods) {
+            envelope.add(binding, rod.length());
         }
         let frames = |hair: usize, s: f64| self.frame(&planned[hair], s);
         let batch = Batch {
@@ -223,8 +203,8 @@ impl<'a> Simulated<'a> {
 
     /// The frame that a hair has at arc length `s` (m) if it goes as its guide does, but for having been turned at the
     /// root.
-    fn frame(&self, Planned { course, turned, .. }: &Planned<'_>, s: f64) -> DMat3 {
-        let guide = course.main();
+    fn frame(&self, Planned { binding, turned, .. }: &Planned<'_>, s: f64) -> DMat3 {
+        let guide = binding.main();
         let frames = &self.frames[guide];
         let last = frames.len() - 1;
         let x = (s / self.hairstyle.guides[guide].rod.length()).min(1.0) * last as f64;
@@ -240,7 +220,7 @@ impl<'a> Simulated<'a> {
         (centre_line(nodes, length, count).enumerate())
             .map(|(k, p)| {
                 let s = k as f64 * step;
-                self.population.laid_on_body(root, p, s, LAID, &mut free).as_vec3()
+                self.population.skin.lay(root, p, s, LAID, &mut free).as_vec3()
             })
             .collect()
     }

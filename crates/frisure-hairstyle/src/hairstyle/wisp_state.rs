@@ -5,8 +5,8 @@ use std::sync::Arc;
 use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain, StrainProfile};
 use glam::{DMat3, DQuat, DVec3};
 
+use super::rest::Rest;
 use crate::guides::Guide;
-use crate::rest::Rest;
 
 /// Relative humidity of the air that every hairstyle begins in.
 const ROOM: f64 = 0.6;

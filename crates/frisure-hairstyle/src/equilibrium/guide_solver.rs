@@ -4,16 +4,14 @@ use frisure_rod::potential::Potential;
 use frisure_rod::{Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
 use rayon::prelude::*;
 
-use super::{Change, along, body};
+use super::change::Change;
+use super::fields::{MAX_ITERATIONS, MOST_ELEMENTS, along, body, depth, options};
 use crate::contact::Layer;
+use crate::contact::Pull;
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor, Stage};
-use crate::pull::Pull;
 use crate::spec::{Body, HairContact, HairstyleSpec};
-
-/// Most elements of a guide, whatever accuracy is asked for.
-const MOST_ELEMENTS: usize = 512;
 
 /// Stiffnesses of the body, as fractions of its own: the first while gravity is turned on.
 const HARDNESS: [f64; 3] = [0.0016, 0.04, 1.0];
@@ -24,14 +22,8 @@ const DEEPEST: f64 = 3e-4;
 /// Shapes that are tried for a guide that is still deeper.
 const STARTS: u32 = 8;
 
-/// Relative gradient at which a guide is at rest.
-const TOLERANCE: f64 = 1e-8;
-
 /// The same after a warm start, which has to follow a slider: a hundredth of a hair's breadth.
 const WARM_TOLERANCE: f64 = 1e-5;
-
-/// Most iterations at each step: contact comes and goes, so it can take hundreds.
-pub(super) const MAX_ITERATIONS: usize = 1000;
 
 /// Brings every guide to rest.
 ///
@@ -225,19 +217,6 @@ fn elements_like(spec: &HairstyleSpec, before: &Equilibrium) -> usize {
     }
 }
 
-pub(super) fn options(spec: &HairstyleSpec) -> Options {
-    Options {
-        resolution: spec.equilibrium.resolution,
-        element: spec.equilibrium.element,
-        max_elements: MOST_ELEMENTS,
-        tolerance: TOLERANCE,
-        max_iterations: MAX_ITERATIONS,
-        estimate_error: false,
-        eigenvalue: false,
-        ..Options::default()
-    }
-}
-
 /// The bed of hair that a guide lies on while it is alone.
 fn layer(spec: &HairstyleSpec, guide: &Guide) -> Layer {
     if spec.contact.hair == HairContact::None { Layer::NONE } else { guide.layer }
@@ -315,16 +294,4 @@ fn harden(
         next.certificate.iterations += softer.certificate.iterations;
         next
     })
-}
-
-/// Distance (m) between the points at which a guide is measured.
-const MEASURE: f64 = 2e-3;
-
-/// Deepest that a point of a guide is inside the body (m), other than in its first
-/// [`MEASURE`]; 0 if none is.
-pub(super) fn depth(head: &Head, guide: &Equilibrium) -> f64 {
-    let samples = (guide.rod.length() / (guide.elements as f64 * MEASURE)).ceil().max(1.0);
-    let points = guide.chain().sample_points(&guide.shape, samples as u32);
-    let inside = |p: &glam::DVec3| -head.signed_distance().value(*p);
-    points.iter().skip(1).map(inside).fold(0.0, f64::max)
 }

@@ -5,7 +5,7 @@
 //! coordinate descent), so that no step can raise it; guides that cannot touch move at the same
 //! time. That sorts out who lies on whom, in a few sweeps. Then all move together, along conjugate
 //! directions of which each guide's Newton step is the preconditioner (Polak & Ribière 1969), and at
-//! last the few that are still restless, each by itself; until the derivative of the whole energy by
+//! last the few that are still active, each by itself; until the derivative of the whole energy by
 //! every control of every guide is below the tolerance.
 
 use frisure_rod::Equilibrium;
@@ -13,13 +13,13 @@ use frisure_rod::minimise::NewtonStep;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::body;
+use super::fields::body;
 use super::wisp::{Settled, Wisp};
-use crate::contact::{Crowd, Layer};
+use crate::contact::{ContactPairs, Layer};
 use crate::guides::Guide;
+use crate::hairstyle::Rest;
 use crate::head::Head;
 use crate::monitor::{Cancelled, Monitor, Stage};
-use crate::rest::Rest;
 use crate::spec::HairstyleSpec;
 
 /// Most sweeps of one guide after the other; they end when half of the guides move less than …
@@ -39,7 +39,7 @@ const LARGEST_STEP: f64 = 0.4;
 const LARGEST_MOVE: f64 = 1.5;
 const MOST_REACH: f64 = 4e-3;
 
-/// The restless are few where they are at most one of so many.
+/// The active are few where they are at most one of so many.
 const FEW: usize = 4;
 
 /// The least distance (m) for which neighbours are looked for beyond their thickness.
@@ -57,17 +57,17 @@ pub(super) fn settle(
     monitor: &dyn Monitor,
 ) -> Result<Rest, Cancelled> {
     let stage = Stage::new(monitor, "wisps making way", 1);
-    let mut throng = Throng::new(spec, head, guides, alone);
-    let sweeps = throng.sort_out(&stage)?;
-    let steps = throng.converge(&stage, MOST_STEPS)?;
-    Ok(throng.finish(sweeps + steps))
+    let mut solver = HeadSolver::new(spec, head, guides, alone);
+    let sweeps = solver.sweep_until_calm(&stage)?;
+    let steps = solver.converge(&stage, MOST_STEPS)?;
+    Ok(solver.finish(sweeps + steps))
 }
 
 /// Lets wisps make way for each other in so many steps at most, from where they were nearly at rest.
 ///
 /// # Errors
 /// [`Cancelled`], if the monitor says so.
-pub(super) fn go_on(
+pub(super) fn settle_from(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
@@ -76,17 +76,17 @@ pub(super) fn go_on(
     monitor: &dyn Monitor,
 ) -> Result<Rest, Cancelled> {
     let stage = Stage::new(monitor, "wisps making way", 1);
-    let mut throng = Throng::new(spec, head, guides, start);
-    let steps = throng.converge(&stage, most)?;
-    Ok(throng.finish(steps))
+    let mut solver = HeadSolver::new(spec, head, guides, start);
+    let steps = solver.converge(&stage, most)?;
+    Ok(solver.finish(steps))
 }
 
 /// All guides of a head on their way to rest.
-struct Throng<'a> {
+struct HeadSolver<'a> {
     /// Relative gradient of each guide at which the head is at rest.
     tolerance: f64,
     wisps: Vec<Wisp<'a>>,
-    crowd: Crowd,
+    pairs: ContactPairs,
     /// The order in which guides move.
     order: Vec<usize>,
     /// Guides of which no two may touch, in that order.
@@ -100,7 +100,7 @@ struct Throng<'a> {
     last: Vec<f64>,
 }
 
-impl<'a> Throng<'a> {
+impl<'a> HeadSolver<'a> {
     fn new(
         spec: &HairstyleSpec,
         head: &'a Head,
@@ -110,7 +110,7 @@ impl<'a> Throng<'a> {
         let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
         let wisps: Vec<Wisp<'_>> = guides.iter().zip(alone).map(wisp).collect();
         let samples = wisps.iter().map(Wisp::samples).collect();
-        let crowd = Crowd::new(samples, spec.contact.hair_stiffness);
+        let pairs = ContactPairs::new(samples, spec.contact.hair_stiffness);
         let mut order: Vec<usize> = (0..guides.len()).collect();
         // Hair rooted lower lies lower: it is the first to be pushed out of the way.
         let height = |i: usize| guides[i].root.position.z;
@@ -122,7 +122,7 @@ impl<'a> Throng<'a> {
         Self {
             tolerance: spec.equilibrium.tolerance,
             wisps,
-            crowd,
+            pairs,
             order,
             groups: Vec::new(),
             farthest: largest,
@@ -133,12 +133,12 @@ impl<'a> Throng<'a> {
     }
 }
 
-impl Throng<'_> {
+impl HeadSolver<'_> {
     /// Sweeps until most guides are calm; gives the number of sweeps.
-    fn sort_out(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
+    fn sweep_until_calm(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
         let everyone = vec![true; self.wisps.len()];
         for sweep in 1..=MOST_SWEEPS {
-            self.look_around();
+            self.update_neighbours();
             self.sweep(stage, &everyone)?;
             self.order.reverse();
             stage.at(SORTED * sweep as f64 / MOST_SWEEPS as f64);
@@ -151,7 +151,7 @@ impl Throng<'_> {
     }
 
     /// Looks for neighbours of the guides that have used up most of their reach.
-    fn look_around(&mut self) {
+    fn update_neighbours(&mut self) {
         let used_up: Vec<bool> =
             self.drift.iter().zip(&self.reach).map(|(drift, reach)| *drift > 0.5 * reach).collect();
         if !used_up.contains(&true) {
@@ -162,8 +162,8 @@ impl Throng<'_> {
             self.reach[i] = (4.0 * self.last[i]).clamp(LEAST_REACH, most);
             self.drift[i] = 0.0;
         }
-        self.crowd.look_around(&self.reach, &used_up);
-        self.groups = self.crowd.groups(&self.order);
+        self.pairs.update_neighbours(&self.reach, &used_up);
+        self.groups = self.pairs.groups(&self.order);
     }
 
     /// Every guide that is to goes downhill once, those that cannot touch at the same time.
@@ -173,18 +173,18 @@ impl Throng<'_> {
             let group: Vec<usize> = group.iter().copied().filter(|&i| who[i]).collect();
             let settled: Vec<_> = group
                 .par_iter()
-                .map(|&i| self.wisps[i].downhill(&self.crowd, i, self.reach[i] - self.drift[i]))
+                .map(|&i| self.wisps[i].downhill(&self.pairs, i, self.reach[i] - self.drift[i]))
                 .collect();
             for (i, settled) in group.into_iter().zip(settled) {
                 self.wisps[i].take(settled);
-                self.last[i] = self.crowd.place(i, self.wisps[i].points());
+                self.last[i] = self.pairs.place(i, self.wisps[i].points());
                 self.drift[i] += self.last[i];
             }
         }
         Ok(())
     }
 
-    /// Goes downhill until the head is at rest: with the restless guides one after the other while
+    /// Goes downhill until the head is at rest: with the active guides one after the other while
     /// they are few, else with all together. Gives the number of steps.
     fn converge(&mut self, stage: &Stage<'_>, most: usize) -> Result<usize, Cancelled> {
         self.farthest *= LARGEST_STEP;
@@ -194,10 +194,10 @@ impl Throng<'_> {
         let mut first: Option<f64> = None;
         for step in 0..most {
             stage.check()?;
-            self.look_around();
+            self.update_neighbours();
             self.newton_steps(&mut newton);
-            let restless = self.restless(&newton);
-            let few = restless.iter().filter(|r| **r).count();
+            let active = self.active(&newton);
+            let few = active.iter().filter(|r| **r).count();
             if few == 0 {
                 return Ok(step);
             }
@@ -206,8 +206,8 @@ impl Throng<'_> {
             let done = (first / steepest).ln() / (first / self.tolerance).ln().max(1e-9);
             stage.at(SORTED + (1.0 - SORTED) * done);
             if few * FEW <= self.wisps.len() {
-                self.sweep(stage, &restless)?;
-                self.forget(&mut newton, &restless);
+                self.sweep(stage, &active)?;
+                self.forget(&mut newton, &active);
                 previous = None;
             } else {
                 let all = newton.iter_mut().map(|n| n.take().expect("known for all")).collect();
@@ -216,8 +216,8 @@ impl Throng<'_> {
                     previous = Some(direction);
                 } else {
                     // Some guides have far to go: each by itself does better.
-                    self.look_around();
-                    self.sweep(stage, &restless)?;
+                    self.update_neighbours();
+                    self.sweep(stage, &active)?;
                     previous = None;
                 }
             }
@@ -229,7 +229,7 @@ impl Throng<'_> {
     fn newton_steps(&self, newton: &mut [Option<NewtonStep>]) {
         newton.par_iter_mut().enumerate().filter(|(_, n)| n.is_none()).for_each(|(i, n)| {
             let reach = self.reach[i] - self.drift[i];
-            *n = Some(self.wisps[i].newton_step(&self.crowd, i, reach));
+            *n = Some(self.wisps[i].newton_step(&self.pairs, i, reach));
         });
     }
 
@@ -240,7 +240,7 @@ impl Throng<'_> {
     }
 
     /// Which guides are not at rest.
-    fn restless(&self, newton: &[Option<NewtonStep>]) -> Vec<bool> {
+    fn active(&self, newton: &[Option<NewtonStep>]) -> Vec<bool> {
         let still = |(w, n): (&Wisp<'_>, &Option<NewtonStep>)| {
             n.as_ref().is_some_and(|n| slope(w, n) <= self.tolerance && n.positive_definite)
         };
@@ -250,7 +250,7 @@ impl Throng<'_> {
     /// Forgets the steps of guides that have moved, and of those that may touch them.
     fn forget(&self, newton: &mut [Option<NewtonStep>], moved: &[bool]) {
         for (i, step) in newton.iter_mut().enumerate() {
-            if moved[i] || self.crowd.touched_by(i).any(|j| moved[j]) {
+            if moved[i] || self.pairs.touched_by(i).any(|j| moved[j]) {
                 *step = None;
             }
         }
@@ -305,29 +305,29 @@ impl Throng<'_> {
             .map(|(i, wisp)| wisp.go(&from[i], &way[i], fraction))
             .collect();
         for (i, points) in points.into_iter().enumerate() {
-            self.crowd.place(i, points);
+            self.pairs.place(i, points);
         }
     }
 
     /// Energy of the head (J).
     fn energy(&self) -> f64 {
-        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.crowd, i);
+        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.pairs, i);
         // Summed in order, so that it does not depend on threads.
         self.wisps.par_iter().enumerate().map(share).collect::<Vec<f64>>().iter().sum()
     }
 
     fn finish(mut self, sweeps: usize) -> Rest {
         let count = self.wisps.len();
-        self.crowd.look_around(&vec![0.0; count], &vec![true; count]);
-        let crowd = &self.crowd;
+        self.pairs.update_neighbours(&vec![0.0; count], &vec![true; count]);
+        let pairs = &self.pairs;
         let overlap_energy =
-            self.wisps.iter().enumerate().map(|(i, w)| w.overlap_energy(crowd, i)).sum::<f64>()
+            self.wisps.iter().enumerate().map(|(i, w)| w.overlap_energy(pairs, i)).sum::<f64>()
                 * 0.5;
         let guides = self
             .wisps
             .par_iter()
             .enumerate()
-            .map(|(i, w)| w.equilibrium(crowd, i, self.tolerance))
+            .map(|(i, w)| w.equilibrium(pairs, i, self.tolerance))
             .collect();
         Rest { guides, overlap_energy, sweeps }
     }

@@ -2,14 +2,21 @@
 //!
 //! [`crate::predict()`] makes one, [`crate::style`] makes another from it, [`crate::strands()`] draws it.
 
+mod placement;
+mod rest;
+mod wisp_state;
+
 use frisure_rod::Equilibrium;
 
 use crate::guides::Guide;
 use crate::implantation::Layout;
-use crate::placement::RootPlacement;
-use crate::rest::Rest;
 use crate::spec::HairstyleSpec;
-use crate::wisp_state::{Styling, WispState};
+
+pub use placement::Crowded;
+pub(crate) use placement::RootPlacement;
+pub(crate) use rest::Rest;
+pub(crate) use wisp_state::{Ends, Grip, Lay, Styling, strain_of};
+pub use wisp_state::{Holder, WispState};
 
 /// Guides at rest on a head, the description that they were predicted from, and what styling made of them.
 #[derive(Clone, Debug)]

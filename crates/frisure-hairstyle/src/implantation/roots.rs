@@ -202,7 +202,7 @@ impl PartialOrd for Crowded {
 /// Removes the most crowded of the candidates until `count` are left.
 fn eliminate(candidates: Vec<Root>, count: usize, reach: f64) -> Vec<Root> {
     let positions: Vec<DVec3> = candidates.iter().map(|r| r.position).collect();
-    let grid = crate::grid::Grid::new(&positions, reach);
+    let grid = crate::math::Grid::new(&positions, reach);
     let closeness = |i: usize, j: usize| {
         let d = candidates[i].position.distance(candidates[j].position);
         (1.0 - (d / reach).min(1.0)).powi(8)

@@ -1,4 +1,4 @@
-//! A wisp: the guide's curve, and how a place in the wisp is carried along it.
+//! A wisp: the guide's curve, and how a place in the wisp is transported along it.
 //!
 //! The members of a wisp keep to a cross-section whose radius varies along it (Choe & Ko 2005).
 //! They curl together: each is the guide displaced by a vector that turns as the *axis* of the

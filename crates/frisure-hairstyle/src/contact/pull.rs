@@ -3,7 +3,7 @@
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
-use crate::contact::outer;
+use crate::math::outer;
 
 /// A pull at a guide, as an energy per length of hair.
 #[derive(Clone, Copy, Debug, PartialEq)]

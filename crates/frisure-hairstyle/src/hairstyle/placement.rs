@@ -2,11 +2,11 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::bound_strands::BoundStrands;
 use crate::head::Head;
+use crate::implantation::{Root, Scalp};
 use crate::random::Purpose;
-use crate::roots::{Root, Scalp};
 use crate::spec::{Hairline, HairstyleSpec};
+use crate::wisps::BoundStrands;
 
 /// Most guides on a skin (1/m²): 0.3 mm apart, some five times as many as there are hairs.
 const DENSEST: f64 = 1e7;

@@ -1,4 +1,4 @@
-//! Hairs of a groom that keep their own shapes: each is carried by the guides that are most like it.
+//! Strands of a groom that keep their own shapes: each is bound to the guides that are most like it.
 //!
 //! While guides are as the groom has them, each hair is where the groom has it, to the last point. When they
 //! move, what a hair is away from each guide moves and turns with that guide's axis, as everywhere in a wisp.
@@ -7,8 +7,8 @@ use frisure_strands::Strands;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::grid::Grid;
-use crate::wisps::Wisp;
+use super::wisp::Wisp;
+use crate::math::Grid;
 
 /// Most guides that carry one hair, and among how many the nearest in the skin they are sought.
 const CARRIERS: usize = 3;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Head;
+use crate::head::Head;
 
 /// Step (m) of the walk along the skin.
 const STEP: f64 = 2e-3;

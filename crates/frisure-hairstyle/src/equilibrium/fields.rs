@@ -1,0 +1,118 @@
+//! What a guide feels besides its own rod, and how its equilibrium is sought.
+
+use frisure_rod::potential::{Field, FieldPotential};
+use frisure_rod::{Equilibrium, Options, Resolution, Rod};
+use glam::DVec3;
+
+use crate::contact::{Bed, BodyContact, Layer, Thickness};
+use crate::guides::Guide;
+use crate::head::Head;
+use crate::spec::HairstyleSpec;
+
+/// Most elements of a guide, whatever accuracy is asked for.
+pub(super) const MOST_ELEMENTS: usize = 512;
+
+/// Relative gradient at which a guide is at rest.
+pub(super) const TOLERANCE: f64 = 1e-8;
+
+/// Most iterations at each step: contact comes and goes, so it can take hundreds.
+pub(super) const MAX_ITERATIONS: usize = 1000;
+
+/// How the equilibrium of one guide is sought.
+pub(super) fn options(spec: &HairstyleSpec) -> Options {
+    Options {
+        resolution: spec.equilibrium.resolution,
+        element: spec.equilibrium.element,
+        max_elements: MOST_ELEMENTS,
+        tolerance: TOLERANCE,
+        max_iterations: MAX_ITERATIONS,
+        estimate_error: false,
+        eigenvalue: false,
+        ..Options::default()
+    }
+}
+
+/// Accuracy (m) with which the fibre of a groom is sought.
+const HOLDING: f64 = 1e-4;
+
+/// What holds a strand of a groom up besides its own curl.
+pub(crate) fn held_up<'a>(
+    spec: &HairstyleSpec,
+    head: &'a Head,
+    rod: &Rod,
+    bed: &'a Bed,
+) -> BodyContact<'a> {
+    BodyContact {
+        head,
+        body: spec.contact.body,
+        skin: spec.contact.stiffness,
+        hair: spec.contact.hair_stiffness,
+        // The bed is as high as it is, whatever wisp lies on it.
+        thickness: Thickness::new(rod, DVec3::ZERO, (1.0, 1.0), 0.0, 0.0),
+        layer: Layer::NONE,
+        bed: Some(bed),
+    }
+}
+
+/// How the rest of a groom's strand is sought, whose fibre is to be found.
+pub(crate) fn holding(spec: &HairstyleSpec) -> Options {
+    let resolution = match spec.equilibrium.resolution {
+        Resolution::Accuracy(accuracy) => Resolution::Accuracy(accuracy.min(HOLDING)),
+        elements @ Resolution::Elements(_) => elements,
+    };
+    Options { resolution, ..options(spec) }
+}
+
+/// Largest distance (m) between the points at which a guide feels the body …
+const BODY_SPACING: f64 = 3e-3;
+
+/// … and the largest natural turn between them (rad), so that no coil slips into the skin.
+const BODY_TURN: f64 = 0.7;
+
+/// What a guide feels of the body, on a bed of hair or without.
+pub(super) fn body<'a>(
+    spec: &HairstyleSpec,
+    head: &'a Head,
+    guide: &'a Guide,
+    layer: Layer,
+) -> BodyContact<'a> {
+    BodyContact {
+        head,
+        body: spec.contact.body,
+        skin: spec.contact.stiffness * guide.firmness,
+        hair: spec.contact.hair_stiffness,
+        thickness: guide.thickness,
+        layer,
+        bed: guide.bed.as_deref(),
+    }
+}
+
+/// The body, or what pulls, along a guide of so many elements.
+pub(super) fn along<'a, F: Field>(
+    field: &'a F,
+    guide: &Guide,
+    elements: usize,
+) -> FieldPotential<'a, F> {
+    let strain = guide.rod.natural().mean(0.0, guide.rod.length()).length();
+    FieldPotential::new(
+        field,
+        samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))),
+    )
+}
+
+/// Points per element so that they are at most `spacing` (m) apart.
+pub(super) fn samples(guide: &Guide, elements: usize, spacing: f64) -> u32 {
+    (guide.rod.length() / (elements as f64 * spacing)).ceil().clamp(1.0, 1000.0) as u32
+}
+
+/// Distance (m) between the points at which a guide is measured.
+const MEASURE: f64 = 2e-3;
+
+/// Deepest that a point of a guide is inside the body (m), other than in its first
+/// [`MEASURE`]; 0 if none is.
+pub(super) fn depth(head: &Head, guide: &Equilibrium) -> f64 {
+    let samples = (guide.rod.length() / (guide.elements as f64 * MEASURE)).ceil().max(1.0);
+    let points = guide.chain().sample_points(&guide.shape, samples as u32);
+    let inside = |p: &DVec3| -head.signed_distance().value(*p);
+    points.iter().skip(1).map(inside).fold(0.0, f64::max)
+}
