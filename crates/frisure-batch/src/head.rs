@@ -1,20 +1,15 @@
 //! One head: computed, and measured.
 
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
 use frisure::files::Files;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
-    Cancelled, Hairstyle, Monitor, StrandOptions, StyleOptions, guide_strands, settling_report,
-    strands, style, volume,
+    Hairstyle, StrandOptions, StyleOptions, guide_strands, settling_report, strands, style, volume,
 };
+use frisure::progress::{Cancelled, Progress, Silent};
 use frisure::scene::batch::{Batch, Sample, Value};
 use frisure::scene::edit::EditError;
 use frisure::scene::{Scene, SceneError};
-use frisure_stylist::carry;
-
-use crate::heads::Heads;
+use frisure_engine::{Error, HeadCache, LoadedHead, catch_panic, initial_hairstyle};
 
 /// Hairs that are drawn at most to measure the space that all take.
 const HAIRS: usize = 10_000;
@@ -57,101 +52,64 @@ pub struct Measured {
     pub lines: Vec<f32>,
 }
 
-/// Why a head was not computed.
-enum Stop {
-    Cancelled,
-    Refused(String),
-}
-
-impl From<Cancelled> for Stop {
-    fn from(_: Cancelled) -> Self {
-        Self::Cancelled
-    }
-}
-
-impl From<SceneError> for Stop {
-    fn from(error: SceneError) -> Self {
-        Self::Refused(match error {
-            SceneError::Fault(fault) => {
-                let place = format!("line {}: {}", fault.line, fault.message());
-                if fault.hint.is_empty() { place } else { format!("{place} ({})", fault.hint) }
-            }
-            error => error.to_string(),
-        })
-    }
-}
-
-impl From<Option<SceneError>> for Stop {
-    fn from(error: Option<SceneError>) -> Self {
-        error.map_or(Self::Cancelled, Self::from)
-    }
-}
-
-/// Passes on that the work is to stop, and no progress: that of one head of many tells nobody anything.
-struct Quietly<'a>(&'a dyn Monitor);
-
-impl Monitor for Quietly<'_> {
-    fn progress(&self, _stage: &'static str, _fraction: f64) {}
-
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
+/// The message of an error in a row: with the line of the scene and the hint.
+fn message(error: &Error) -> String {
+    match error {
+        Error::Scene(SceneError::Fault(fault)) => {
+            let place = format!("line {}: {}", fault.line, fault.message());
+            if fault.hint.is_empty() { place } else { format!("{place} ({})", fault.hint) }
+        }
+        error => error.to_string(),
     }
 }
 
 /// Makes the head that the hair of a number grows on, before all threads need it at once.
-pub(crate) fn prepare(batch: &Batch, heads: &Heads, index: usize) {
+pub(crate) fn prepare(batch: &Batch, heads: &HeadCache, index: usize) {
     if let Ok(text) = batch.sample(index).text
         && let Ok(scene) = Scene::parse("scene", text, batch.folder())
     {
         // What is wrong with it is told by every row.
-        let _ = heads.of(&scene);
+        let _ = heads.load(&scene, &Files::default());
     }
 }
 
 /// Computes the head of a number.
 pub(crate) fn row(
     batch: &Batch,
-    heads: &Heads,
+    heads: &HeadCache,
     index: usize,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Row, Cancelled> {
     let Sample { index, seed, values, text } = batch.sample(index);
     let (scene, measured) = match text {
         Ok(text) => {
-            let work = || measured(batch, heads, &text, &Quietly(monitor));
-            let done = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|e| Err(broken(&*e)));
-            (Some(text), done)
+            let measured = catch_panic(|| measured(batch, heads, &text, &Silent(progress)));
+            (Some(text), measured)
         }
         Err(EditError::Scene(error)) => (None, Err(error.into())),
-        Err(error) => (None, Err(Stop::Refused(error.to_string()))),
+        Err(error) => (None, Err(Error::because(&error, ""))),
     };
     let outcome = match measured {
         Ok(measured) => Ok(measured),
-        Err(Stop::Refused(why)) => Err(why),
-        Err(Stop::Cancelled) => return Err(Cancelled),
+        Err(Error::Cancelled(cancelled)) => return Err(cancelled),
+        Err(error) => Err(message(&error)),
     };
     Ok(Row { index, seed, values, scene, outcome })
 }
 
-/// An error of ours, which must not take the batch with it.
-fn broken(panic: &(dyn Any + Send)) -> Stop {
-    let message = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    let message = message.or_else(|| panic.downcast_ref::<String>().cloned());
-    Stop::Refused(format!("internal error: {}", message.unwrap_or_default()))
-}
-
 fn measured(
     batch: &Batch,
-    heads: &Heads,
+    heads: &HeadCache,
     text: &str,
-    monitor: &dyn Monitor,
-) -> Result<Measured, Stop> {
+    progress: &dyn Progress,
+) -> Result<Measured, Error> {
     let scene = Scene::parse("scene", text, batch.folder())?;
     let spec = scene.hairstyle_spec()?;
-    let head = heads.of(&scene)?;
-    let (start, _) = carry::beginning(&scene, &spec, &head, &Files::default(), monitor)?;
-    let styled = styled(&scene, &head, start, monitor)?;
-    numbers(batch, &styled, &head, monitor)
+    let files = Files::default();
+    let LoadedHead { head, .. } = heads.load(&scene, &files)?;
+    let (start, _) = initial_hairstyle(&scene, &spec, &head, &files, progress)?;
+    let styled = styled(&scene, &head, start, progress)?;
+    Ok(numbers(batch, &styled, &head, progress)?)
 }
 
 /// The hair after every step of its scene.
@@ -159,11 +117,11 @@ fn styled(
     scene: &Scene,
     head: &Head,
     start: Hairstyle,
-    monitor: &dyn Monitor,
-) -> Result<Hairstyle, Stop> {
+    progress: &dyn Progress,
+) -> Result<Hairstyle, Error> {
     scene.steps().iter().enumerate().try_fold(start, |hair, (index, operation)| {
-        let after = style(&hair, head, operation, StyleOptions::default(), monitor);
-        after.map_err(|error| carry::not_done(index, &error, scene).into())
+        let after = style(&hair, head, operation, StyleOptions::default(), progress);
+        after.map_err(|error| Error::of_step(index, &error, scene))
     })
 }
 
@@ -171,8 +129,8 @@ fn numbers(
     batch: &Batch,
     hairstyle: &Hairstyle,
     head: &Head,
-    monitor: &dyn Monitor,
-) -> Result<Measured, Stop> {
+    progress: &dyn Progress,
+) -> Result<Measured, Cancelled> {
     let report = settling_report(hairstyle, head);
     let mean = |of: &dyn Fn(usize) -> f64| {
         let count = hairstyle.guides().len();
@@ -192,17 +150,21 @@ fn numbers(
         penetration: report.penetration,
         energy: [report.energy.elastic, report.energy.gravity, report.energy.external],
         mass: hairstyle.mass(),
-        volume: batch.volume().then(|| space(hairstyle, head, monitor)).transpose()?,
+        volume: batch.volume().then(|| space(hairstyle, head, progress)).transpose()?,
         points: points.max(2),
         lines: lines.points().iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
     })
 }
 
 /// The space that the hair takes, by some of its hairs.
-fn space(hairstyle: &Hairstyle, head: &Head, monitor: &dyn Monitor) -> Result<[f64; 2], Cancelled> {
+fn space(
+    hairstyle: &Hairstyle,
+    head: &Head,
+    progress: &dyn Progress,
+) -> Result<[f64; 2], Cancelled> {
     let stride = hairstyle.drawn().div_ceil(HAIRS).max(1);
     let options = StrandOptions { stride, ..StrandOptions::default() };
-    let some = strands(hairstyle, head, options, monitor)?.strands;
+    let some = strands(hairstyle, head, options, progress)?.strands;
     let found = volume(&some, head, hairstyle.grown());
     Ok([found.region, found.hair])
 }

@@ -25,7 +25,6 @@
 //! ```
 
 mod head;
-mod heads;
 mod parquet;
 mod part;
 mod run;

@@ -6,20 +6,20 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure::files::{WriteError, check_destination, write_atomically};
-use frisure::hairstyle::{Cancelled, Monitor};
+use frisure::progress::{Cancelled, Progress};
 use frisure::scene::batch::Batch;
+use frisure_engine::HeadCache;
 use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::head::{self, Row};
-use crate::heads::Heads;
 use crate::parquet::{self, Found};
 use crate::{Part, Shard};
 
 /// Why a run cannot be, or did not end.
 #[derive(Debug, Error)]
 pub enum BatchError {
-    /// The monitor said to stop; parts that were written stay.
+    /// The progress said to stop; parts that were written stay.
     #[error("cancelled")]
     Cancelled,
     /// The folder has parts of something else.
@@ -97,7 +97,7 @@ pub struct Run {
     batch: Batch,
     folder: PathBuf,
     shard: Shard,
-    heads: Heads,
+    heads: HeadCache,
 }
 
 impl Run {
@@ -108,7 +108,7 @@ impl Run {
     pub fn new(batch: Batch, folder: &Path, shard: Shard) -> Result<Self, BatchError> {
         let fail = |source| BatchError::Folder { path: folder.into(), source };
         fs::create_dir_all(folder).map_err(fail)?;
-        let run = Self { batch, folder: folder.into(), shard, heads: Heads::default() };
+        let run = Self { batch, folder: folder.into(), shard, heads: HeadCache::default() };
         let mut known: Option<(usize, PathBuf)> = None;
         for entry in fs::read_dir(folder).map_err(fail)? {
             let entry = entry.map_err(fail)?;
@@ -182,19 +182,19 @@ impl Run {
     /// Computes the heads of a part, on all threads. `each` is called after each of them.
     ///
     /// # Errors
-    /// [`Cancelled`], if the monitor says to stop.
+    /// [`Cancelled`], if the progress says to stop.
     pub fn compute(
         &self,
         part: Part,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
         each: &(dyn Fn() + Sync),
     ) -> Result<Vec<Row>, Cancelled> {
         head::prepare(&self.batch, &self.heads, part.first);
         let one = |index: usize| {
-            if monitor.cancelled() {
+            if progress.is_cancelled() {
                 return Err(Cancelled);
             }
-            let row = head::row(&self.batch, &self.heads, index, monitor);
+            let row = head::row(&self.batch, &self.heads, index, progress);
             each();
             row
         };
@@ -217,18 +217,18 @@ impl Run {
     ///
     /// # Errors
     /// [`BatchError`].
-    pub fn all(&self, monitor: &dyn Monitor) -> Result<Done, BatchError> {
+    pub fn all(&self, progress: &dyn Progress) -> Result<Done, BatchError> {
         let missing = self.missing()?;
         let heads: usize = self.parts().map(|part| part.heads).sum();
         let to_do: usize = missing.iter().map(|part| part.heads).sum();
         let done = AtomicUsize::new(0);
         let each = || {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            monitor.progress("heads", done as f64 / to_do as f64);
+            progress.report("heads", done as f64 / to_do as f64);
         };
         let mut failed = 0;
         for part in missing {
-            let rows = self.compute(part, monitor, &each).map_err(|_| BatchError::Cancelled)?;
+            let rows = self.compute(part, progress, &each).map_err(|_| BatchError::Cancelled)?;
             failed += rows.iter().filter(|row| row.outcome.is_err()).count();
             self.write(part, &rows)?;
         }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frisure::hairstyle::Monitor;
+use frisure::progress::Progress;
 use frisure_batch::{Batch, BatchError, Done, Run, Shard};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
@@ -85,12 +85,12 @@ fn a_head_whose_files_are_missing_fails_alone() {
 /// Says to stop after so many heads.
 struct Patience(AtomicUsize);
 
-impl Monitor for Patience {
-    fn progress(&self, _stage: &'static str, _fraction: f64) {
+impl Progress for Patience {
+    fn report(&self, _stage: &str, _fraction: f64) {
         self.0.fetch_sub(1, Ordering::Relaxed);
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed) <= 1
     }
 }

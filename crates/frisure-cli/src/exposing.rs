@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::io::{ErrorKind, Read};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -11,14 +10,15 @@ use frisure::files::{self, ReadError, WriteError, write_atomically};
 use frisure::formats::picture::exr::{self, Channel, Values};
 use frisure::formats::picture::{Format, PictureError, png};
 use frisure::look::{Camera, Lights};
+use frisure::progress::{SubStage, Until};
 use frisure::render::Image;
 use frisure::render::trace::{ACCUMULATOR_MAGIC, Accumulator, Layers, Tracer};
 use frisure::scene;
 
-use frisure_stylist::picture;
+use frisure_engine::picture;
 
 use crate::failure::Failure;
-use crate::progress::Progress;
+use crate::progress::Bar;
 use crate::{console, interrupt};
 
 /// How often an unfinished picture is saved.
@@ -145,7 +145,7 @@ pub(crate) fn shoot(
     mut shot: Shot,
     path: &Path,
     output: &scene::Output,
-    progress: &Progress,
+    progress: &Bar,
 ) -> Result<Vec<Exposed>, Failure> {
     let Shot { tracer, views, from, denoiser } = &mut shot;
     let denoiser = denoiser.as_ref();
@@ -177,21 +177,17 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn expose(&self, tracer: &Tracer, progress: &Progress, name: &str) -> Result<Exposed, Failure> {
+    fn expose(&self, tracer: &Tracer, progress: &Bar, name: &str) -> Result<Exposed, Failure> {
         let unfinished = self.unfinished(tracer)?;
         let mut accumulator = unfinished.unwrap_or_else(|| tracer.accumulator());
         let before = accumulator.mean_samples();
         let mut pause = SAVED_EVERY;
         loop {
             let since = Instant::now();
-            let watch = |done: f64| {
-                progress.show(name, done);
-                match interrupt::interrupted() || since.elapsed() > pause {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
-                }
-            };
-            let finished = tracer.accumulate(&mut accumulator, &watch).is_continue();
+            let stop = || since.elapsed() > pause;
+            let stage = SubStage { progress, stage: name, range: [0.0, 1.0] };
+            let until = Until { progress: &stage, stop: &stop };
+            let finished = tracer.accumulate(&mut accumulator, &until).is_ok();
             let saving = Instant::now();
             self.write(&accumulator)?;
             if finished {

@@ -84,6 +84,20 @@ impl From<SceneError> for Failure {
     }
 }
 
+impl From<frisure_engine::Error> for Failure {
+    fn from(error: frisure_engine::Error) -> Self {
+        use frisure_engine::Error;
+        match error {
+            Error::Cancelled(_) => Self::Interrupted,
+            Error::Scene(error) => error.into(),
+            Error::Invalid { problem, hint } => Self::wrong_because(problem, &hint),
+            error @ Error::Internal(_) => {
+                Self::failed_because(&error, "please report it, with the scene")
+            }
+        }
+    }
+}
+
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
         Self::wrong(&error, "")

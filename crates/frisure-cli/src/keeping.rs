@@ -9,7 +9,7 @@ use frisure::hairstyle::{HairModel, Hairstyle, HairstyleSpec, simulation_key};
 
 use crate::console;
 use crate::failure::Failure;
-use crate::progress::Progress;
+use crate::progress::Bar;
 
 /// Fewer hairs than this are not worth a file: they take seconds.
 const MANY: usize = 50_000;
@@ -48,7 +48,7 @@ pub(crate) fn open(
     part: Option<PathBuf>,
     hairstyle: &Hairstyle,
     head: &Head,
-    progress: &Progress,
+    progress: &Bar,
 ) -> Result<Option<Kept>, Failure> {
     let Some(path) = part.filter(|_| hairstyle.drawn() >= MANY) else { return Ok(None) };
     let Some(key) = simulation_key(hairstyle, head) else { return Ok(None) };

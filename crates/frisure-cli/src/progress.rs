@@ -3,16 +3,16 @@
 use std::io::IsTerminal;
 use std::time::Duration;
 
-use frisure::hairstyle::Monitor;
+use frisure::progress::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::interrupt;
 
 /// Progress of a long computation on standard error, if a person is looking.
 #[derive(Clone)]
-pub(crate) struct Progress(ProgressBar);
+pub(crate) struct Bar(ProgressBar);
 
-impl Progress {
+impl Bar {
     /// A bar, or nothing where standard error is no terminal or `quiet` is asked for.
     pub(crate) fn new(quiet: bool) -> Self {
         let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
@@ -29,16 +29,6 @@ impl Progress {
         Self(bar)
     }
 
-    /// Shows how far a stage is, 0 to 1.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    pub(crate) fn show(&self, stage: &str, fraction: f64) {
-        if self.0.message() != stage {
-            self.0.set_message(stage.to_owned());
-            self.0.reset_eta();
-        }
-        self.0.set_position((fraction.clamp(0.0, 1.0) * 1000.0) as u64);
-    }
-
     /// Does something that prints, with the bar out of its way.
     pub(crate) fn aside<T>(&self, print: impl FnOnce() -> T) -> T {
         self.0.suspend(print)
@@ -50,13 +40,18 @@ impl Progress {
     }
 }
 
-/// Work that is watched stops after Ctrl-C.
-impl Monitor for Progress {
-    fn progress(&self, stage: &'static str, fraction: f64) {
-        self.show(stage, fraction);
+/// Ctrl-C cancels.
+impl Progress for Bar {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    fn report(&self, stage: &str, fraction: f64) {
+        if self.0.message() != stage {
+            self.0.set_message(stage.to_owned());
+            self.0.reset_eta();
+        }
+        self.0.set_position((fraction.clamp(0.0, 1.0) * 1000.0) as u64);
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         interrupt::interrupted()
     }
 }

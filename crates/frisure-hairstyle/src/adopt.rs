@@ -21,12 +21,12 @@ use crate::head::Head;
 use crate::implantation::Layout;
 use crate::implantation::{Root, Scalp};
 use crate::math::Grid;
-use crate::monitor::{Monitor, Stage};
 use crate::predict::PredictError;
 use crate::random::{Purpose, Stream};
 use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
 use crate::wisps::BoundStrands;
 use crate::wisps::Wisp;
+use frisure_progress::{Progress, StageCounter};
 
 /// How well a groom was adopted; one entry for each of its guides, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,14 +52,14 @@ pub struct Adoption {
 /// head is held as if it were not there, and comes out of it. Strands without length are left out.
 ///
 /// # Errors
-/// [`PredictError`], if the description is out of range, a strand has no length, there is none, or the monitor says
+/// [`PredictError`], if the description is out of range, a strand has no length, there is none, or the progress says
 /// to stop.
 pub fn adopt(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &Strands,
     hairs: &Strands,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<(Hairstyle, Adoption), PredictError> {
     let (guides, hairs) = (with_length(guides), with_length(hairs));
     // The same strands may be both.
@@ -74,7 +74,7 @@ pub fn adopt(
     spec.check()?;
     let lines: Vec<Vec<DVec3>> =
         guides.iter().map(|s| s.points.iter().map(|p| p.as_dvec3()).collect()).collect();
-    let stage = Stage::new(monitor, "finding fibres", lines.len());
+    let stage = StageCounter::new(progress, "finding fibres", lines.len());
     let held: Vec<(InverseSolution, Bed)> = lines
         .par_iter()
         .enumerate()
@@ -92,7 +92,7 @@ pub fn adopt(
     let guides = plan(&spec, head, &placement, &held);
     let before: Vec<_> = held.iter().map(|(held, _)| held.equilibrium.clone()).collect();
     let options = SettleOptions { start: GuideStart::At(&before), effort: Effort::FULL };
-    let rest = settle(&spec, head, &guides, options, monitor)?;
+    let rest = settle(&spec, head, &guides, options, progress)?;
     let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
     let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();
     let stiffness_needed = held.iter().map(|(held, _)| held.stiffness_needed).collect();

@@ -6,8 +6,8 @@ use thiserror::Error;
 
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
-use crate::monitor::Monitor;
 use crate::styling::{Operation, StyleError, StyleOptions, style};
+use frisure_progress::Progress;
 
 /// A hairstyle and the list of what was done to it, which can be undone, done again and edited.
 ///
@@ -55,12 +55,12 @@ impl History {
         operations: Vec<Operation>,
         done: usize,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<Self, HistoryError> {
         let done = done.min(operations.len());
         let known = vec![None; operations.len()];
         let mut history = Self { operations, known, ..Self::new(start) };
-        history.go_to(done, head, monitor)?;
+        history.go_to(done, head, progress)?;
         Ok(history)
     }
 
@@ -96,11 +96,11 @@ impl History {
         &mut self,
         operation: Operation,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<&Hairstyle, HistoryError> {
         let mut operations = self.operations[..self.done].to_vec();
         operations.push(operation);
-        self.become_list(operations, self.done, self.done + 1, head, monitor)
+        self.become_list(operations, self.done, self.done + 1, head, progress)
     }
 
     /// Undoes the last operation; `false` if there is none.
@@ -108,9 +108,9 @@ impl History {
     /// # Errors
     /// [`HistoryError`], if the hairstyle before it is not known any more and its computing is
     /// cancelled.
-    pub fn undo(&mut self, head: &Head, monitor: &dyn Monitor) -> Result<bool, HistoryError> {
+    pub fn undo(&mut self, head: &Head, progress: &dyn Progress) -> Result<bool, HistoryError> {
         let Some(done) = self.done.checked_sub(1) else { return Ok(false) };
-        self.go_to(done, head, monitor)?;
+        self.go_to(done, head, progress)?;
         Ok(true)
     }
 
@@ -118,11 +118,11 @@ impl History {
     ///
     /// # Errors
     /// [`HistoryError`], if it cannot be done, or its computing is cancelled.
-    pub fn redo(&mut self, head: &Head, monitor: &dyn Monitor) -> Result<bool, HistoryError> {
+    pub fn redo(&mut self, head: &Head, progress: &dyn Progress) -> Result<bool, HistoryError> {
         if self.done == self.operations.len() {
             return Ok(false);
         }
-        self.go_to(self.done + 1, head, monitor)?;
+        self.go_to(self.done + 1, head, progress)?;
         Ok(true)
     }
 
@@ -134,13 +134,13 @@ impl History {
         &mut self,
         done: usize,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<(), HistoryError> {
         let done = done.min(self.operations.len());
         let (mut at, mut current) = self.nearest(done);
         while at < done {
             let options = StyleOptions::default();
-            let styled = style(&current, head, &self.operations[at], options, monitor);
+            let styled = style(&current, head, &self.operations[at], options, progress);
             current = Arc::new(styled.map_err(|error| HistoryError { step: at, error })?);
             self.known[at] = Some(current.clone());
             at += 1;
@@ -162,11 +162,11 @@ impl History {
         step: usize,
         operation: Operation,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<&Hairstyle, HistoryError> {
         let mut operations = self.operations.clone();
         operations[step] = operation;
-        self.become_list(operations, step, self.done, head, monitor)
+        self.become_list(operations, step, self.done, head, progress)
     }
 
     /// Inserts an operation before another, as if it had been done there; one that is inserted among
@@ -182,12 +182,12 @@ impl History {
         step: usize,
         operation: Operation,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<&Hairstyle, HistoryError> {
         let mut operations = self.operations.clone();
         operations.insert(step, operation);
         let done = self.done + usize::from(step <= self.done);
-        self.become_list(operations, step, done, head, monitor)
+        self.become_list(operations, step, done, head, progress)
     }
 
     /// Takes an operation out, as if it had never been done.
@@ -201,12 +201,12 @@ impl History {
         &mut self,
         step: usize,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<&Hairstyle, HistoryError> {
         let mut operations = self.operations.clone();
         operations.remove(step);
         let done = self.done - usize::from(step < self.done);
-        self.become_list(operations, step, done, head, monitor)
+        self.become_list(operations, step, done, head, progress)
     }
 
     /// The hairstyle after so many operations, if it is known.
@@ -229,13 +229,13 @@ impl History {
         operations: Vec<Operation>,
         done: usize,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<&Hairstyle, HistoryError> {
         let same = self.operations.iter().zip(&operations).take_while(|(a, b)| a == b).count();
         self.known.truncate(same);
         self.known.resize(operations.len(), None);
         self.operations = operations;
-        if let Err(error) = self.go_to(done, head, monitor) {
+        if let Err(error) = self.go_to(done, head, progress) {
             (self.done, self.current) = self.nearest(error.step);
             return Err(error);
         }
@@ -249,13 +249,13 @@ impl History {
         step: usize,
         done: usize,
         head: &Head,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<&Hairstyle, HistoryError> {
         let mut known = self.known[..step].to_vec();
         known.resize(operations.len(), None);
         let (start, current) = (self.start.clone(), self.current.clone());
         let mut edited = Self { start, operations, done: 0, known, current };
-        edited.go_to(done, head, monitor)?;
+        edited.go_to(done, head, progress)?;
         *self = edited;
         Ok(&self.current)
     }

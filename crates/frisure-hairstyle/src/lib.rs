@@ -1,7 +1,6 @@
 //! A whole head of hair: fibre and head → roots → guides → equilibrium → wisps → strands.
 
 mod math;
-mod monitor;
 mod random;
 
 mod fibre;
@@ -40,7 +39,6 @@ pub use guides::Guide;
 pub use hairstyle::{Crowded, Hairstyle};
 pub use history::{History, HistoryError};
 pub use implantation::{PartingError, Root, scalp_area};
-pub use monitor::{Cancelled, Monitor};
 pub use predict::{PredictError, PredictOptions, Start, predict, redrawn};
 pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset, preset};
 pub use random::Draws;

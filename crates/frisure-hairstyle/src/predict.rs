@@ -13,8 +13,8 @@ use crate::hairstyle::{Crowded, RootPlacement};
 use crate::head::Head;
 use crate::implantation::{Layout, PartingError};
 use crate::math::Grid;
-use crate::monitor::{Cancelled, Monitor};
 use crate::spec::{HairstyleSpec, Implantation, InvalidSpec, Wisps};
+use frisure_progress::{Cancelled, Progress};
 
 /// How [`predict`] computes. The default is the exact prediction, from nothing.
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,7 +76,7 @@ pub fn predict(
     spec: &HairstyleSpec,
     head: &Head,
     options: PredictOptions<'_>,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Hairstyle, PredictError> {
     spec.check()?;
     let PredictOptions { previous, start, effort } = options;
@@ -95,7 +95,7 @@ pub fn predict(
             GuideStart::At(&nearest_rests)
         }
     };
-    let rest = settle(spec, head, &guides, SettleOptions { start, effort }, monitor)?;
+    let rest = settle(spec, head, &guides, SettleOptions { start, effort }, progress)?;
     let styling = Styling::none(&guides);
     Ok(Hairstyle { spec: spec.clone(), placement, layout, guides, rest, styling })
 }

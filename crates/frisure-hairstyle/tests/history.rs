@@ -7,9 +7,10 @@ use frisure_hairstyle::styling::{
     Cut, CutLine, Dry, Grow, Growth, Height, Held, Operation, Selection, StyleError, Wet,
 };
 use frisure_hairstyle::{
-    Cancelled, HairContact, Hairs, Hairstyle, History, Monitor, PredictOptions, StrandOptions,
-    StyleOptions, predict, preset, strands, style,
+    HairContact, Hairs, Hairstyle, History, PredictOptions, StrandOptions, StyleOptions, predict,
+    preset, strands, style,
 };
+use frisure_progress::{Cancelled, Progress};
 
 static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
 
@@ -104,10 +105,10 @@ fn what_was_forgotten_is_computed_again() {
 
 struct Stop;
 
-impl Monitor for Stop {
-    fn progress(&self, _stage: &'static str, _fraction: f64) {}
+impl Progress for Stop {
+    fn report(&self, _stage: &str, _fraction: f64) {}
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         true
     }
 }

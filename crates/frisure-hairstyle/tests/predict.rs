@@ -5,10 +5,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_hairstyle::head::{Head, HeadError, Region, ScalpSource};
 use frisure_hairstyle::{
-    Body, Effort, HairContact, Hairs, Hairstyle, HairstyleSpec, Monitor, PRESETS, Parting, Place,
+    Body, Effort, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place,
     PredictError, PredictOptions, RegionLength, RegionStyle, Start, StrandOptions, predict, preset,
     settling_report, strands as draw,
 };
+use frisure_progress::Progress;
 use frisure_strands::{AttributeValues, Strands, Surface};
 
 fn head() -> &'static Head {
@@ -250,10 +251,10 @@ fn each_hair_names_its_guide() {
 
 struct StopAfter(AtomicUsize);
 
-impl Monitor for StopAfter {
-    fn progress(&self, _stage: &'static str, _fraction: f64) {}
+impl Progress for StopAfter {
+    fn report(&self, _stage: &str, _fraction: f64) {}
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.0.fetch_sub(1, Ordering::Relaxed) == 1
     }
 }
@@ -261,9 +262,9 @@ impl Monitor for StopAfter {
 #[test]
 fn the_work_can_be_given_up() {
     let spec = small("caucasian-straight");
-    let monitor = StopAfter(AtomicUsize::new(5));
+    let progress = StopAfter(AtomicUsize::new(5));
     assert!(matches!(
-        predict(&spec, head(), PredictOptions::default(), &monitor),
+        predict(&spec, head(), PredictOptions::default(), &progress),
         Err(PredictError::Cancelled(_))
     ));
     let style = predict(&spec, head(), PredictOptions::default(), &()).unwrap();

@@ -2,10 +2,10 @@
 
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::{
-    Body, Checkpoint, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, Monitor,
-    PredictOptions, StrandOptions, guide_strands, penetration, predict, preset, simulation_key,
-    strands as draw,
+    Body, Checkpoint, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, PredictOptions,
+    StrandOptions, guide_strands, penetration, predict, preset, simulation_key, strands as draw,
 };
+use frisure_progress::Progress;
 use frisure_rod::Resolution;
 use frisure_strands::Strands;
 use glam::Vec3;
@@ -145,10 +145,10 @@ impl Checkpoint for Kept {
     }
 }
 
-impl Monitor for Kept {
-    fn progress(&self, _: &'static str, _: f64) {}
+impl Progress for Kept {
+    fn report(&self, _: &str, _: f64) {}
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.now.lock().unwrap().len() >= self.enough
     }
 }

@@ -4,8 +4,6 @@
 #[path = "../examples/support/wig.rs"]
 mod wig;
 
-use std::ops::ControlFlow;
-
 use divan::Bencher;
 use frisure_render::Scene;
 use frisure_render::preview::{PreviewOptions, render};
@@ -17,8 +15,7 @@ fn main() {
 fn whole_head(bencher: Bencher<'_, '_>, style: &wig::Style) {
     let (strands, head) = (wig::strands(style, 100_000, 20), wig::ball());
     let scene = Scene::portrait(&strands, Some(&head));
-    bencher
-        .bench_local(|| render(&scene, &PreviewOptions::default(), &|_| ControlFlow::Continue(())));
+    bencher.bench_local(|| render(&scene, &PreviewOptions::default(), &()));
 }
 
 #[divan::bench(sample_count = 5)]

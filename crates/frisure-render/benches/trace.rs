@@ -4,8 +4,6 @@
 #[path = "../examples/support/wig.rs"]
 mod wig;
 
-use std::ops::ControlFlow;
-
 use divan::Bencher;
 use frisure_look::Melanin;
 use frisure_render::Scene;
@@ -20,7 +18,7 @@ fn picture(bencher: Bencher<'_, '_>, strands: usize, samples: usize, melanin: Me
     let mut scene = Scene::portrait(&hair, Some(&ball));
     scene.look.hair.melanin = melanin;
     let options = TraceOptions { width: 64, height: 64, samples, ..TraceOptions::default() };
-    bencher.bench_local(|| render(&scene, &options, &|_| ControlFlow::Continue(())));
+    bencher.bench_local(|| render(&scene, &options, &()));
 }
 
 #[divan::bench(args = [1_000, 10_000, 100_000], sample_count = 3, sample_size = 1)]

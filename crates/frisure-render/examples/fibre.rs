@@ -7,7 +7,6 @@ use std::error::Error;
 use std::f32::consts::TAU;
 use std::fs::File;
 use std::io::BufWriter;
-use std::ops::ControlFlow;
 
 use frisure_look::Melanin;
 use frisure_look::{Background, Camera, Lights};
@@ -40,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     scene.look.background = Background::Gradient { centre: grey, corner: grey };
     let (width, height) = (1024, 640);
     let options = TraceOptions { width, height, samples, ..TraceOptions::default() };
-    let image = render(&scene, &options, &|_| ControlFlow::Continue(()))?;
+    let image = render(&scene, &options, &())?;
     let mut encoder = png::Encoder::new(BufWriter::new(File::create(out)?), 1024, 640);
     encoder.set_color(png::ColorType::Rgba);
     encoder.write_header()?.write_image_data(&image.to_srgb8())?;

@@ -7,7 +7,6 @@ mod wig;
 use std::error::Error;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use frisure_look::Melanin;
@@ -45,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     scene.look.hair.melanin = melanin;
     let options = preview::PreviewOptions { width: size, height: size, ..Default::default() };
     let start = Instant::now();
-    let image = preview::render(&scene, &options, &|_| ControlFlow::Continue(()))?;
+    let image = preview::render(&scene, &options, &())?;
     let seconds = start.elapsed().as_secs_f64();
     writeln!(std::io::stdout().lock(), "{} points, {seconds:.2} s", strands.points().len())?;
 

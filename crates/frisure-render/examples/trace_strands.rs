@@ -15,7 +15,6 @@ mod wig;
 use std::error::Error;
 use std::fs;
 use std::io::Write as _;
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use frisure_look::Melanin;
@@ -195,7 +194,7 @@ fn picture(path: &str, out: &str, keys: &[&str]) -> Outcome<()> {
     let Job { samples, bounces, seed, .. } = job;
     let options = TraceOptions { width, height, samples, noise: None, bounces, seed };
     let start = Instant::now();
-    let image = render(&scene, &options, &|_| ControlFlow::Continue(()))?;
+    let image = render(&scene, &options, &())?;
     writeln!(std::io::stdout().lock(), "{:.2} s", start.elapsed().as_secs_f64())?;
     let bytes: Vec<u8> = image.pixels().iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
     Ok(fs::write(out, bytes)?)

@@ -1,9 +1,9 @@
 //! Pictures that grow: put away, exposed further, good enough, and what they know beside light.
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure_look::{Aperture, Background, Camera, CameraError, Floor};
+use frisure_progress::{Progress, Until};
 use frisure_render::Scene;
 use frisure_render::trace::{
     Accumulator, AccumulatorError, Layers, TraceError, TraceOptions, Tracer,
@@ -56,7 +56,7 @@ fn scene<'a>(strands: &'a Strands, surface: Option<&'a Surface>) -> Scene<'a> {
 
 fn expose(tracer: &Tracer) -> Accumulator {
     let mut accumulator = tracer.accumulator();
-    assert!(tracer.accumulate(&mut accumulator, &|_| ControlFlow::Continue(())).is_continue());
+    assert!(tracer.accumulate(&mut accumulator, &()).is_ok());
     accumulator
 }
 
@@ -69,15 +69,12 @@ fn a_picture_put_away_anywhere_goes_on_to_the_same_bytes() {
     let mut stops = 0;
     loop {
         let tiles = AtomicUsize::new(0);
-        let some = |_| match tiles.fetch_add(1, Ordering::Relaxed) {
-            0..7 => ControlFlow::Continue(()),
-            _ => ControlFlow::Break(()),
-        };
-        let end = tracer.accumulate(&mut accumulator, &some);
+        let stop = || tiles.fetch_add(1, Ordering::Relaxed) >= 7;
+        let end = tracer.accumulate(&mut accumulator, &Until { progress: &(), stop: &stop });
         accumulator = Accumulator::from_bytes(&accumulator.to_bytes()).unwrap();
         assert!(tracer.can_resume(&accumulator));
         assert!(accumulator.image().pixels().iter().flatten().all(|x| x.is_finite()));
-        if end.is_continue() {
+        if end.is_ok() {
             break;
         }
         stops += 1;
@@ -86,19 +83,29 @@ fn a_picture_put_away_anywhere_goes_on_to_the_same_bytes() {
     assert!(accumulator == whole);
 }
 
+/// The fractions that were reported.
+#[derive(Default)]
+struct Seen(std::sync::Mutex<Vec<f64>>);
+
+impl Progress for Seen {
+    fn report(&self, _stage: &str, fraction: f64) {
+        self.0.lock().unwrap().push(fraction);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        false
+    }
+}
+
 #[test]
 fn progress_ends_at_the_whole_and_never_goes_back() {
     let strands = curtain(0.0);
     let tracer = Tracer::new(&scene(&strands, None), &SMALL).unwrap();
-    let seen = std::sync::Mutex::new(Vec::new());
+    let seen = Seen::default();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let mut accumulator = tracer.accumulator();
-    let watch = |done| {
-        seen.lock().unwrap().push(done);
-        ControlFlow::Continue(())
-    };
-    assert!(pool.install(|| tracer.accumulate(&mut accumulator, &watch)).is_continue());
-    let seen = seen.into_inner().unwrap();
+    assert!(pool.install(|| tracer.accumulate(&mut accumulator, &seen)).is_ok());
+    let seen = seen.0.into_inner().unwrap();
     assert!(seen.windows(2).all(|pair| pair[0] <= pair[1]));
     assert_eq!((seen.first(), seen.last()), (Some(&0.0), Some(&1.0)));
 }

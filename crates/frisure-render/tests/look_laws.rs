@@ -1,7 +1,5 @@
 //! What colours of hair must do, in the preview and in the traced picture.
 
-use std::ops::ControlFlow;
-
 use frisure_look::{Background, Camera, Dye, Fade, HairLook, Lights, Look};
 use frisure_look::{SHADES, Shade, absorption_of_colour};
 use frisure_render::Scene;
@@ -58,12 +56,12 @@ fn traced(scene: &Scene<'_>, paths: usize) -> Vec3 {
         seed: 3,
         ..Default::default()
     };
-    mean(&trace::render(scene, &options, &|_| ControlFlow::Continue(())).unwrap())
+    mean(&trace::render(scene, &options, &()).unwrap())
 }
 
 fn drawn(scene: &Scene<'_>) -> Vec3 {
     let options = PreviewOptions { width: 40, height: 40, samples: 1, width_scale: Some(1.0) };
-    mean(&preview::render(scene, &options, &|_| ControlFlow::Continue(())).unwrap())
+    mean(&preview::render(scene, &options, &()).unwrap())
 }
 
 const MIDDLE: (f64, f64) = (-0.005, 0.005);
@@ -141,7 +139,7 @@ fn white_hairs_are_the_share_that_is_asked_for_and_the_seed_says_which() {
         let hair = HairLook { white_share: share, seed, ..named("jet-black") };
         let scene = scene(&strands, hair, (-0.05, 0.05));
         let options = PreviewOptions { width: 400, height: 400, samples: 1, width_scale: None };
-        let image = preview::render(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
+        let image = preview::render(&scene, &options, &()).unwrap();
         (0..400).map(|x| luminance(Vec3::from_slice(&image.pixel(x, 200)))).collect()
     };
     let [black, white] = [0.0, 1.0].map(|share| light(share, 1));

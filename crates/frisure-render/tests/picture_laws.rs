@@ -1,11 +1,10 @@
 //! What must be true of any picture.
 
-use std::ops::ControlFlow;
-
 use frisure_look::{
     AreaLight, Background, Camera, Daylight, DistantLight, EnvironmentLight, EnvironmentMap,
     Lights, PointLight, Setup,
 };
+use frisure_progress::Progress;
 use frisure_render::Image;
 use frisure_render::preview::{PreviewError, PreviewOptions, render};
 use frisure_render::{Scene, framed_bounds};
@@ -29,7 +28,7 @@ fn scene<'a>(strands: &'a Strands, surface: Option<&'a Surface>) -> Scene<'a> {
 }
 
 fn draw(scene: &Scene<'_>) -> Image {
-    render(scene, &SMALL, &|_| ControlFlow::Continue(())).unwrap()
+    render(scene, &SMALL, &()).unwrap()
 }
 
 fn strand(from: Vec3, to: Vec3, radius: f32) -> Strands {
@@ -81,7 +80,7 @@ fn width_scale_multiplies_the_area() {
     let strands = strand(Vec3::X * -0.05, Vec3::X * 0.05, 2e-5);
     let scene = scene(&strands, None);
     let with = |s| PreviewOptions { width_scale: Some(s), ..SMALL };
-    let area = |s| coverage(&render(&scene, &with(s), &|_| ControlFlow::Continue(())).unwrap());
+    let area = |s| coverage(&render(&scene, &with(s), &()).unwrap());
     assert!((area(3.0) / area(1.0) - 3.0).abs() < 0.02);
 }
 
@@ -228,22 +227,35 @@ fn the_picture_is_the_same_on_any_number_of_threads() {
     assert!(one == on(2) && one == on(5));
 }
 
+/// The fractions that were reported; cancels when one exceeds a limit.
+#[derive(Default)]
+struct Seen {
+    limit: f64,
+    fractions: std::sync::Mutex<Vec<f64>>,
+}
+
+impl Progress for Seen {
+    fn report(&self, _stage: &str, fraction: f64) {
+        self.fractions.lock().unwrap().push(fraction);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.fractions.lock().unwrap().iter().any(|done| *done > self.limit)
+    }
+}
+
 #[test]
 fn the_caller_can_stop_and_sizes_are_checked() {
     let strands = strand(Vec3::X * -0.05, Vec3::X * 0.05, 1e-4);
     let scene = scene(&strands, None);
-    let stop_at = |limit: f64| {
-        render(&scene, &SMALL, &|done| {
-            if done > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        })
-    };
+    let stop_at = |limit: f64| render(&scene, &SMALL, &Seen { limit, ..Seen::default() });
     for limit in [-1.0, 0.2, 0.7] {
         assert_eq!(stop_at(limit), Err(PreviewError::Cancelled));
     }
     assert!(stop_at(2.0).is_ok());
     for (width, height) in [(0, 10), (10, 0), (1 << 20, 10)] {
         let options = PreviewOptions { width, height, ..SMALL };
-        let picture = render(&scene, &options, &|_| ControlFlow::Continue(()));
+        let picture = render(&scene, &options, &());
         assert_eq!(picture, Err(PreviewError::Size { width, height }));
     }
 }
@@ -251,14 +263,10 @@ fn the_caller_can_stop_and_sizes_are_checked() {
 #[test]
 fn progress_goes_from_nothing_to_all() {
     let strands = strand(Vec3::X * -0.05, Vec3::X * 0.05, 1e-4);
-    let seen = std::sync::Mutex::new(Vec::new());
+    let seen = Seen { limit: f64::INFINITY, ..Seen::default() };
     let scene = scene(&strands, None);
-    render(&scene, &SMALL, &|done| {
-        seen.lock().unwrap().push(done);
-        ControlFlow::Continue(())
-    })
-    .unwrap();
-    let seen = seen.into_inner().unwrap();
+    render(&scene, &SMALL, &seen).unwrap();
+    let seen = seen.fractions.into_inner().unwrap();
     assert_eq!((seen.first(), seen.last()), (Some(&0.0), Some(&1.0)));
     assert!(seen.iter().all(|d| (0.0..=1.0).contains(d)));
 }

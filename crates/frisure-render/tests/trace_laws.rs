@@ -1,7 +1,5 @@
 //! What holds for light whatever the picture.
 
-use std::ops::ControlFlow;
-
 use frisure_look::Melanin;
 use frisure_look::{
     AreaLight, Background, DistantLight, EnvironmentLight, EnvironmentMap, Lights, Look, PointLight,
@@ -42,7 +40,7 @@ fn look(melanin: Melanin) -> Look {
 fn drawn(strands: &Strands, look: Look, lights: Option<Lights>, options: TraceOptions) -> Image {
     let mut scene = Scene { look, ..Scene::portrait(strands, None) };
     scene.lights = lights.unwrap_or(scene.lights);
-    render(&scene, &options, &|_| ControlFlow::Continue(())).unwrap()
+    render(&scene, &options, &()).unwrap()
 }
 
 const SMALL: TraceOptions =
@@ -96,13 +94,15 @@ fn impossible_pictures_are_refused_before_the_work() {
     let strands = tuft();
     let refused = |options: TraceOptions| {
         let scene = Scene::portrait(&strands, None);
-        render(&scene, &options, &|_| ControlFlow::Continue(())).unwrap_err()
+        render(&scene, &options, &()).unwrap_err()
     };
     assert!(matches!(refused(TraceOptions { width: 0, ..SMALL }), TraceError::Size { .. }));
     assert!(matches!(refused(TraceOptions { height: 100_000, ..SMALL }), TraceError::Size { .. }));
     assert_eq!(refused(TraceOptions { samples: 0, ..SMALL }), TraceError::Samples { samples: 0 });
     let scene = Scene::portrait(&strands, None);
-    let stopped = render(&scene, &SMALL, &|_| ControlFlow::Break(()));
+    let token = frisure_progress::CancellationToken::default();
+    token.cancel();
+    let stopped = render(&scene, &SMALL, &token);
     assert_eq!(stopped, Err(TraceError::Cancelled));
 }
 

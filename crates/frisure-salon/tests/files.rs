@@ -51,7 +51,7 @@ fn errors(world: &World) -> Vec<&Message> {
 
 fn is_held(world: &World) -> bool {
     let hair = world.salon.shown().expect("hair").0;
-    hair.held.as_ref().is_some_and(|held| held.within_a_millimetre * 10 >= held.strands * 8)
+    hair.adoption.as_ref().is_some_and(|held| held.within_a_millimetre * 10 >= held.strands * 8)
 }
 
 #[test]
@@ -82,12 +82,12 @@ fn a_groom_takes_the_place_of_the_hair_and_is_undone_like_any_edit() {
     assert!(after.1 != before.1);
     world.run(Command::Undo);
     assert_eq!((world.text().to_owned(), world.salon.shown().unwrap().0.strands.clone()), before);
-    assert!(world.salon.shown().unwrap().0.held.is_none());
+    assert!(world.salon.shown().unwrap().0.adoption.is_none());
     world.run(Command::Redo);
     assert_eq!((world.text().to_owned(), world.salon.shown().unwrap().0.strands.clone()), after);
     world.run(Command::Groom(None));
     assert!(!world.text().contains("wavy.hair") && world.salon.is_settled());
-    assert!(world.salon.shown().unwrap().0.held.is_none());
+    assert!(world.salon.shown().unwrap().0.adoption.is_none());
 }
 
 #[test]

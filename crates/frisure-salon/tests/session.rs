@@ -5,10 +5,10 @@ mod common;
 use common::{STRAY, World};
 use frisure::hairstyle::Place;
 use frisure::hairstyle::head::Region;
+use frisure_engine::{Diagnostic, Quality, Response};
 use frisure_salon::state::{
     Badge, CONTROLS, Command, Destination, Growing, Mode, Plane, Shot, Tool,
 };
-use frisure_stylist::order::{Answer, Effort, Refusal};
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -72,11 +72,11 @@ fn a_slider_that_is_held_shows_coarse_hair_and_leaves_one_edit() {
     let edits = world.salon.document().unwrap().edits().len();
     for cm in [12.0, 14.0, 16.0, 18.0] {
         world.run(Command::Drag("hair.length", cm));
-        assert_eq!(world.salon.shown().unwrap().0.effort, Effort::Coarse);
+        assert_eq!(world.salon.shown().unwrap().0.quality, Quality::Coarse);
         assert_eq!(world.salon.badge(), Badge::Settling);
     }
     world.run(Command::LetGo);
-    assert_eq!(world.salon.shown().unwrap().0.effort, Effort::Exact);
+    assert_eq!(world.salon.shown().unwrap().0.quality, Quality::Exact);
     let document = world.salon.document().unwrap();
     assert_eq!(document.edits().len(), edits + 1);
     assert_eq!(document.edits().last().unwrap().label, "Length: 18.0 cm");
@@ -324,8 +324,8 @@ fn a_stylist_who_fails_leaves_the_hair_as_it_was() {
     let Some(frisure_salon::state::Errand::Work(_, ticket, _)) = errands.first() else {
         panic!("{errands:?}")
     };
-    let refusal = Refusal { problem: "it broke".into(), ..Refusal::default() };
-    world.salon.receive(*ticket, Answer::Refused(refusal));
+    let refusal = Diagnostic { problem: "it broke".into(), ..Diagnostic::default() };
+    world.salon.receive(*ticket, Response::Failed(refusal));
     world.settle();
     assert!(matches!(world.salon.badge(), Badge::Refused(_)));
     world.run(Command::Undo);

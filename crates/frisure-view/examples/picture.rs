@@ -6,7 +6,6 @@ mod support;
 use std::error::Error;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
@@ -73,7 +72,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         height: size[1] as usize,
         ..Default::default()
     };
-    let image = preview::render(&scene, &options, &|_| ControlFlow::Continue(()))?;
+    let image = preview::render(&scene, &options, &())?;
     let empty = gpu.picture(&Frame::new(scene.camera, &scene.lights, &scene.look), size)?;
     let difference = compare(&image.to_srgb8(), &view, &empty, size);
     let info = gpu.adapter.get_info();

@@ -21,7 +21,7 @@ mod rods;
 
 pub use experiments::EXPERIMENTS;
 pub use finding::{Criterion, Finding, Item, Limit, Picture, Table, Timing};
-pub use frisure::hairstyle::{Cancelled, Monitor};
+pub use frisure::progress::{Cancelled, Progress};
 
 use frisure::hairstyle::PredictError;
 use frisure::rod::InvalidQuantity;
@@ -51,7 +51,7 @@ impl Effort {
 /// Why an experiment gave no finding.
 #[derive(Debug, Error)]
 pub enum Stopped {
-    /// The monitor said to stop.
+    /// The progress said to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// A rod of the experiment is none.
@@ -80,7 +80,7 @@ pub struct Experiment {
     /// How it is answered, and where the truth is from. Paragraphs are apart by an empty line.
     pub method: &'static str,
     /// The program.
-    pub run: fn(Effort, &dyn Monitor) -> Result<Finding, Stopped>,
+    pub run: fn(Effort, &dyn Progress) -> Result<Finding, Stopped>,
 }
 
 /// The experiment of that name.

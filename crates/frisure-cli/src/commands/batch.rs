@@ -7,13 +7,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure::files;
+use frisure::progress::Progress;
 use frisure::scene::SceneError;
 use frisure::scene::edit::EditError;
 use frisure_batch::{Batch as Heads, BatchError, Part, Row, Run, Sample, Shard, Value};
 
 use crate::args::Batch;
 use crate::failure::{Done, Failure};
-use crate::progress::Progress;
+use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
 
 /// Heads that are listed before they are printed.
@@ -60,7 +61,7 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Don
     if !quiet {
         console::print(&beginning(shard, own, all, own - to_do))?;
     }
-    let progress = Progress::new(quiet);
+    let progress = Bar::new(quiet);
     let done = Arc::new(AtomicUsize::new(0));
     let mut ended = Ended::default();
     let result = missing.iter().enumerate().try_for_each(|(place, part)| {
@@ -90,16 +91,16 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Don
 fn part_of(
     work: &Arc<Run>,
     part: Part,
-    progress: &Progress,
+    progress: &Bar,
     done: &Arc<AtomicUsize>,
     all: usize,
 ) -> Result<Vec<Row>, Failure> {
     let (work, progress, done) = (work.clone(), progress.clone(), done.clone());
-    progress.show("heads", done.load(Ordering::Relaxed) as f64 / all as f64);
+    progress.report("heads", done.load(Ordering::Relaxed) as f64 / all as f64);
     interrupt::computing(move || {
         let each = || {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress.show("heads", done as f64 / all as f64);
+            progress.report("heads", done as f64 / all as f64);
         };
         work.compute(part, &progress, &each).map_err(|_| Failure::Interrupted)
     })

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use frisure::formats::groom::Groom;
+use frisure::progress::Progress;
 
 use super::read_groom;
 use crate::args::{Axes, Convert};
 use crate::failure::{Done, Failure};
-use crate::progress::Progress;
+use crate::progress::Bar;
 use crate::written::Grooms;
 use crate::{console, interrupt, outputs};
 
@@ -18,14 +19,14 @@ pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<Done, Failure> {
     let grooms = Grooms::new(&asked, writing)?;
     let names: Vec<&Path> = asked.iter().map(AsRef::as_ref).collect();
     outputs::prepare(&names, &[&path])?;
-    let progress = Progress::new(quiet);
+    let progress = Bar::new(quiet);
     let told = progress.clone();
     let read = interrupt::computing(move || {
-        told.show("reading", 0.0);
+        told.report("reading", 0.0);
         read_groom(&path, from, "`--from-unit` and `--from-up` say what it has")
     });
     let result = read.and_then(|groom: Groom| {
-        progress.show("writing", 0.0);
+        progress.report("writing", 0.0);
         let counts = (groom.hairs.len(), groom.guides.len());
         Ok((counts, grooms.write(groom, &asked)?))
     });

@@ -6,6 +6,7 @@ use frisure::files::Files;
 use frisure::formats::picture::Format;
 use frisure::hairstyle::head::Head;
 use frisure::look::InvalidLight;
+use frisure::progress::Progress;
 use frisure::render::trace::Tracer;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
@@ -15,9 +16,9 @@ use super::{read_groom, read_scene};
 use crate::args::{Axes, Predict, Quality, Render, Writing};
 use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
-use crate::progress::Progress;
+use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
-use frisure_stylist::picture;
+use frisure_engine::picture;
 
 /// Predicts the scene, or reads the groom, and follows the light in it.
 pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
@@ -106,15 +107,15 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     let environment = scene.environment_in(&Files::default())?;
 
     let denoiser = exposing::denoiser(arguments.tracing.denoise)?;
-    let progress = Progress::new(quiet);
+    let progress = Bar::new(quiet);
     let (path, output, has_head) =
         (arguments.scene.clone(), scene.output, arguments.look.is_some());
     let (ready, axes) = (progress.clone(), arguments.axes);
     let shot = interrupt::computing(move || {
-        ready.show("strands", 0.0);
+        ready.report("strands", 0.0);
         let strands = strands(&path, axes)?;
         let head = if has_head { Some(predict::head(&scene)?) } else { None };
-        let surface = head.as_ref().map(Head::surface);
+        let surface = head.as_deref().map(Head::surface);
         let wrong = |e: InvalidLight| Failure::wrong(&e, "");
         let (spec, aspect) = (picture::spec(&scene, environment.as_ref()), picture::aspect(&scene));
         let drawn = spec.framed_scene(&strands, &strands, surface, aspect).map_err(wrong)?;

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use frisure_evidence::report::{Book, in_the_way};
-use frisure_evidence::{EXPERIMENTS, Effort, Experiment, Finding, Monitor, Stopped};
+use frisure_evidence::{EXPERIMENTS, Effort, Experiment, Finding, Progress, Stopped};
 
 use crate::args::Validate;
 use crate::failure::{Done, Failure};
-use crate::progress::Progress;
+use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
 
 /// Runs the experiments and writes the report, also where a verdict fails.
@@ -69,7 +69,7 @@ fn compute(
     effort: Effort,
     quiet: bool,
 ) -> Result<Book<'static>, Failure> {
-    let progress = Progress::new(quiet);
+    let progress = Bar::new(quiet);
     let teller = Teller {
         progress: progress.clone(),
         lines: !quiet && !std::io::stderr().is_terminal(),
@@ -82,29 +82,29 @@ fn compute(
 
 /// Tells how far the experiments are.
 struct Teller {
-    progress: Progress,
+    progress: Bar,
     /// A line for each that is finished, where nobody sees a bar.
     lines: bool,
     count: usize,
 }
 
 /// Shows the progress of an experiment, and stops at Ctrl-C.
-struct Watch<'a> {
-    progress: &'a Progress,
+struct ExperimentProgress<'a> {
+    progress: &'a Bar,
     name: &'static str,
     /// `2 of 11 buckling`.
     shown: String,
 }
 
-impl Monitor for Watch<'_> {
-    fn progress(&self, stage: &'static str, fraction: f64) {
+impl Progress for ExperimentProgress<'_> {
+    fn report(&self, stage: &str, fraction: f64) {
         // What an experiment calls has stages of its own, each from nothing to all.
         if stage == self.name {
-            self.progress.show(&self.shown, fraction);
+            self.progress.report(&self.shown, fraction);
         }
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         interrupt::interrupted()
     }
 }
@@ -126,17 +126,17 @@ impl Teller {
         interrupt::check()?;
         let name = experiment.name;
         let shown = format!("{number} of {} {name}", self.count);
-        let watch = Watch { progress: &self.progress, name, shown };
-        watch.progress(name, 0.0);
+        let progress = ExperimentProgress { progress: &self.progress, name, shown };
+        progress.report(name, 0.0);
         let start = Instant::now();
-        let finding = match (experiment.run)(effort, &watch) {
+        let finding = match (experiment.run)(effort, &progress) {
             Err(Stopped::Cancelled(_)) => return Err(Failure::Interrupted),
             Err(error) => Finding::failed(&error),
             Ok(finding) => finding,
         };
         if self.lines {
             let seconds = start.elapsed().as_secs_f64();
-            console::tell(&format!("{}: {} ({seconds:.1} s)", watch.shown, finding.verdict()));
+            console::tell(&format!("{}: {} ({seconds:.1} s)", progress.shown, finding.verdict()));
         }
         Ok(finding)
     }

@@ -10,8 +10,8 @@ use crate::contact::Layer;
 use crate::contact::Pull;
 use crate::guides::Guide;
 use crate::head::Head;
-use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::{Body, HairContact, HairstyleSpec};
+use frisure_progress::{Cancelled, Progress, StageCounter};
 
 /// Stiffnesses of the body, as fractions of its own: the first while gravity is turned on.
 const HARDNESS: [f64; 3] = [0.0016, 0.04, 1.0];
@@ -28,14 +28,14 @@ const WARM_TOLERANCE: f64 = 1e-5;
 /// Brings every guide to rest.
 ///
 /// # Errors
-/// [`Cancelled`], if the monitor says so.
+/// [`Cancelled`], if the progress says so.
 pub(super) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Vec<Equilibrium>, Cancelled> {
-    let stage = Stage::new(monitor, "settling guides", guides.len());
+    let stage = StageCounter::new(progress, "settling guides", guides.len());
     guides
         .par_iter()
         .map(|guide| {
@@ -51,16 +51,16 @@ pub(super) fn settle(
 /// iterations at most.
 ///
 /// # Errors
-/// [`Cancelled`], if the monitor says so.
+/// [`Cancelled`], if the progress says so.
 pub(super) fn settle_from(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
     before: &[Equilibrium],
     iterations: usize,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Vec<Equilibrium>, Cancelled> {
-    let stage = Stage::new(monitor, "settling guides", guides.len());
+    let stage = StageCounter::new(progress, "settling guides", guides.len());
     (guides.par_iter().zip(before))
         .map(|(guide, before)| {
             stage.check()?;
@@ -75,16 +75,16 @@ pub(super) fn settle_from(
 /// are not put into another shape come nearer to it.
 ///
 /// # Errors
-/// [`Cancelled`], if the monitor says so.
+/// [`Cancelled`], if the progress says so.
 pub(super) fn resettle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
     (before, changes): (&[Equilibrium], &[Change]),
     iterations: usize,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Vec<Equilibrium>, Cancelled> {
-    let stage = Stage::new(monitor, "settling guides", guides.len());
+    let stage = StageCounter::new(progress, "settling guides", guides.len());
     (guides.par_iter().zip(before).zip(changes))
         .map(|((guide, before), change)| {
             stage.check()?;

@@ -19,8 +19,8 @@ use crate::contact::{ContactPairs, Layer};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
-use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::HairstyleSpec;
+use frisure_progress::{Cancelled, Progress, StageCounter};
 
 /// Most sweeps of one guide after the other; they end when half of the guides move less than …
 const MOST_SWEEPS: usize = 30;
@@ -48,15 +48,15 @@ const LEAST_REACH: f64 = 6e-4;
 /// Lets wisps make way for each other, from where each has settled alone.
 ///
 /// # Errors
-/// [`Cancelled`], if the monitor says so.
+/// [`Cancelled`], if the progress says so.
 pub(super) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
     alone: &[Equilibrium],
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
-    let stage = Stage::new(monitor, "wisps making way", 1);
+    let stage = StageCounter::new(progress, "wisps making way", 1);
     let mut solver = HeadSolver::new(spec, head, guides, alone);
     let sweeps = solver.sweep_until_calm(&stage)?;
     let steps = solver.converge(&stage, MOST_STEPS)?;
@@ -66,16 +66,16 @@ pub(super) fn settle(
 /// Lets wisps make way for each other in so many steps at most, from where they were nearly at rest.
 ///
 /// # Errors
-/// [`Cancelled`], if the monitor says so.
+/// [`Cancelled`], if the progress says so.
 pub(super) fn settle_from(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
     start: &[Equilibrium],
     most: usize,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
-    let stage = Stage::new(monitor, "wisps making way", 1);
+    let stage = StageCounter::new(progress, "wisps making way", 1);
     let mut solver = HeadSolver::new(spec, head, guides, start);
     let steps = solver.converge(&stage, most)?;
     Ok(solver.finish(steps))
@@ -135,7 +135,7 @@ impl<'a> HeadSolver<'a> {
 
 impl HeadSolver<'_> {
     /// Sweeps until most guides are calm; gives the number of sweeps.
-    fn sweep_until_calm(&mut self, stage: &Stage<'_>) -> Result<usize, Cancelled> {
+    fn sweep_until_calm(&mut self, stage: &StageCounter<'_>) -> Result<usize, Cancelled> {
         let everyone = vec![true; self.wisps.len()];
         for sweep in 1..=MOST_SWEEPS {
             self.update_neighbours();
@@ -167,7 +167,7 @@ impl HeadSolver<'_> {
     }
 
     /// Every guide that is to goes downhill once, those that cannot touch at the same time.
-    fn sweep(&mut self, stage: &Stage<'_>, who: &[bool]) -> Result<(), Cancelled> {
+    fn sweep(&mut self, stage: &StageCounter<'_>, who: &[bool]) -> Result<(), Cancelled> {
         for group in &self.groups {
             stage.check()?;
             let group: Vec<usize> = group.iter().copied().filter(|&i| who[i]).collect();
@@ -186,7 +186,7 @@ impl HeadSolver<'_> {
 
     /// Goes downhill until the head is at rest: with the active guides one after the other while
     /// they are few, else with all together. Gives the number of steps.
-    fn converge(&mut self, stage: &Stage<'_>, most: usize) -> Result<usize, Cancelled> {
+    fn converge(&mut self, stage: &StageCounter<'_>, most: usize) -> Result<usize, Cancelled> {
         self.farthest *= LARGEST_STEP;
         self.drift.fill(f64::INFINITY);
         let mut newton: Vec<Option<NewtonStep>> = vec![None; self.wisps.len()];

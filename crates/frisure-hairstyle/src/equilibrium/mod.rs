@@ -16,8 +16,8 @@ use frisure_rod::Equilibrium;
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
-use crate::monitor::{Cancelled, Monitor};
 use crate::spec::{HairContact, HairstyleSpec};
+use frisure_progress::{Cancelled, Progress};
 
 /// How much work is done at most; what does not fit is left for the next call, which starts warm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,24 +69,24 @@ pub(crate) enum GuideStart<'a> {
 /// Brings every guide to rest: first each alone on the body, then, if wisps repel each other, all together.
 ///
 /// # Errors
-/// [`Cancelled`], if the monitor says so.
+/// [`Cancelled`], if the progress says so.
 pub(crate) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
     SettleOptions { start, effort }: SettleOptions<'_>,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let wisps_repel = spec.contact.hair == HairContact::Wisps;
     let warm = matches!(start, GuideStart::At(_));
     let alone = match start {
-        GuideStart::Natural => guide_solver::settle(spec, head, guides, monitor)?,
+        GuideStart::Natural => guide_solver::settle(spec, head, guides, progress)?,
         // Among wisps the guides go on from where the other wisps left them.
         GuideStart::At(before) if effort == Effort::NONE || wisps_repel => {
             guide_solver::in_shapes_of(spec, guides, before)
         }
         GuideStart::At(before) => {
-            guide_solver::settle_from(spec, head, guides, before, effort.iterations, monitor)?
+            guide_solver::settle_from(spec, head, guides, before, effort.iterations, progress)?
         }
         GuideStart::Changed { before, changes } => guide_solver::resettle(
             spec,
@@ -94,14 +94,14 @@ pub(crate) fn settle(
             guides,
             (before, changes),
             effort.iterations,
-            monitor,
+            progress,
         )?,
     };
     if !wisps_repel || effort.sweeps == 0 {
         return Ok(Rest::apart(alone));
     }
     if effort == Effort::FULL && !warm {
-        return head_solver::settle(spec, head, guides, &alone, monitor);
+        return head_solver::settle(spec, head, guides, &alone, progress);
     }
-    head_solver::settle_from(spec, head, guides, &alone, effort.sweeps, monitor)
+    head_solver::settle_from(spec, head, guides, &alone, effort.sweeps, progress)
 }

@@ -22,8 +22,8 @@ use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::math::smooth_step;
-use crate::monitor::{Cancelled, Monitor, Stage};
 use crate::spec::{HairModel, HairstyleSpec};
+use frisure_progress::{Cancelled, Progress, StageCounter};
 
 use attributes::put;
 use curve::Hair;
@@ -69,17 +69,17 @@ pub fn strands(
     hairstyle: &Hairstyle,
     head: &Head,
     options: StrandOptions<'_>,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<DrawnHair, Cancelled> {
     let population = Population::new(hairstyle, head);
     let roots = roots(hairstyle, head, options.stride);
     let (hairs, simulation) = match hairstyle.spec.wisps.strands {
         HairModel::Simulated if population.bound.is_none() => {
-            let stage = Stage::new(monitor, "simulating hairs", roots.len());
+            let stage = StageCounter::new(progress, "simulating hairs", roots.len());
             Simulated::new(&population, hairstyle).hairs(&roots, &stage, options.checkpoint)?
         }
         _ => {
-            let stage = Stage::new(monitor, "drawing hairs", roots.len());
+            let stage = StageCounter::new(progress, "drawing hairs", roots.len());
             let hairs = roots.par_iter().map(|(index, root)| {
                 stage.check()?;
                 let hair = population.hair(root, *index);

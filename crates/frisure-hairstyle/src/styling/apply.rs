@@ -17,9 +17,9 @@ use crate::hairstyle::{Ends, Grip, Styling, WispState, strain_of};
 use crate::head::Head;
 use crate::implantation::Layout;
 use crate::implantation::Root;
-use crate::monitor::Monitor;
 use crate::spec::{Flow, Parting};
 use crate::strands::Population;
+use frisure_progress::Progress;
 
 /// Longest guide (m): that of a description.
 const LONGEST: f64 = 3.0;
@@ -62,14 +62,14 @@ pub fn style(
     head: &Head,
     operation: &Operation,
     options: StyleOptions<'_>,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Hairstyle, StyleError> {
     operation.check()?;
     let draft = options.draft.map(|Draft { effort, stride, like }| {
         let like = like.filter(|like| like.guides.len() == hairstyle.guides.len());
         DraftRest { effort, stride, like: like.map(|like| like.rest.guides.as_slice()) }
     });
-    let act = Act { before: hairstyle, head, draft, monitor };
+    let act = Act { before: hairstyle, head, draft, progress };
     match operation {
         Operation::Wet(wet) => act.wet(wet),
         Operation::Dry(dry) => act.dry(dry),

@@ -6,8 +6,8 @@ use frisure_rod::InvalidQuantity;
 use thiserror::Error;
 
 use crate::implantation::PartingError;
-use crate::monitor::Cancelled;
 use crate::spec::InvalidSpec;
+use frisure_progress::Cancelled;
 
 /// Why an operation cannot be applied; the hairstyle is as it was.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -14,7 +14,7 @@ use crate::hairstyle::Hairstyle;
 use crate::hairstyle::Rest;
 use crate::hairstyle::{Grip, Lay, Styling, WispState};
 use crate::head::Head;
-use crate::monitor::Monitor;
+use frisure_progress::Progress;
 
 /// What an operation acts on: a hairstyle, its head, and how the result is brought to rest.
 #[derive(Clone, Copy)]
@@ -24,7 +24,7 @@ pub(super) struct Act<'a> {
     pub(super) head: &'a Head,
     /// How roughly it is done; none for the exact result.
     pub(super) draft: Option<DraftRest<'a>>,
-    pub(super) monitor: &'a dyn Monitor,
+    pub(super) progress: &'a dyn Progress,
 }
 
 /// How roughly a hairstyle is brought to rest.
@@ -154,7 +154,7 @@ impl<'a> Act<'a> {
     }
 
     fn settle(&self, guides: &[Guide], options: SettleOptions<'_>) -> Result<Rest, StyleError> {
-        Ok(settle(&self.before.spec, self.head, guides, options, self.monitor)?)
+        Ok(settle(&self.before.spec, self.head, guides, options, self.progress)?)
     }
 
     /// What was done to each wisp; `otherwise` to those that changed but were not put into another shape.

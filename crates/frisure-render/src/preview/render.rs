@@ -1,8 +1,8 @@
 //! The preview, in the order of its computation.
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use frisure_progress::Progress;
 use frisure_strands::Strands;
 use rayon::prelude::*;
 use thiserror::Error;
@@ -56,36 +56,35 @@ pub enum PreviewError {
 
 /// Draws the scene.
 ///
-/// `watch` gets the fraction that is done, 0 to 1, from any of rayon's threads; [`ControlFlow::Break`] cancels. The
-/// same input gives the same bytes on any number of threads.
+/// Reports the stage `picture`. The same input gives the same bytes on any number of threads.
 ///
 /// # Errors
-/// [`PreviewError`], if the size is impossible or `watch` breaks.
+/// [`PreviewError`], if the size is impossible, or `progress` cancels.
 pub fn render(
     scene: &Scene<'_>,
     options: &PreviewOptions,
-    watch: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
+    progress: &dyn Progress,
 ) -> Result<Image, PreviewError> {
     let (width, height) = (options.width, options.height);
     if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
         return Err(PreviewError::Size { width, height });
     }
-    let go_on = |done: f64| match watch(done) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(PreviewError::Cancelled),
+    let report = |done: f64| {
+        progress.report("picture", done);
+        progress.check().map_err(|_| PreviewError::Cancelled)
     };
-    go_on(0.0)?;
+    report(0.0)?;
 
     let view = Projection::new(&scene.camera, width, height);
     let scale = width_scale(scene.strands, options);
     let curves = Curves::new(scene.strands, &view, scale);
-    go_on(0.1)?;
+    report(0.1)?;
     let materials = Materials::new(scene.strands, &scene.look.hair);
     let mut head = scene.surface.map(Head::new);
     let shader = Shader::new(scene, &curves, materials, head.as_mut());
-    go_on(0.3)?;
+    report(0.3)?;
     let grid = TileGrid::new(&view, &curves, head.as_ref());
-    go_on(0.4)?;
+    report(0.4)?;
 
     let painter = TilePainter {
         view: &view,
@@ -101,12 +100,12 @@ pub fn render(
         .into_par_iter()
         .map(|tile| {
             let before = done.fetch_add(1, Ordering::Relaxed);
-            go_on(0.4 + 0.6 * before as f64 / grid.len() as f64)?;
+            report(0.4 + 0.6 * before as f64 / grid.len() as f64)?;
             Ok(painter.paint(&grid, tile))
         })
         .collect::<Result<_, _>>()?;
     let image = assemble(&tiles, &grid, width, height);
-    go_on(1.0)?;
+    report(1.0)?;
     Ok(image)
 }
 

@@ -1,8 +1,8 @@
 //! The tracer: adds samples to an accumulator, tile by tile.
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use frisure_progress::{Cancelled, Progress};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 use rayon::prelude::*;
@@ -112,18 +112,22 @@ impl Tracer {
             && (accumulator.width, accumulator.height) == (self.options.width, self.options.height)
     }
 
-    /// Adds samples until every tile has all of them or is as free of noise as the options ask, or `watch` breaks.
+    /// Adds samples until every tile has all of them or is as free of noise as the options ask, or `progress`
+    /// cancels.
     ///
-    /// `watch` gets the fraction that is done, 0 to 1, from any of rayon's threads. An accumulator that was stopped
-    /// and resumed has the same bytes as one that never was, on any number of threads.
+    /// Reports the stage `picture`. An accumulator that was stopped and resumed has the same bytes as one that never
+    /// was, on any number of threads.
+    ///
+    /// # Errors
+    /// [`Cancelled`], if `progress` cancels; the accumulator can be resumed.
     ///
     /// # Panics
     /// If the accumulator is of another size: see [`Self::can_resume`].
     pub fn accumulate(
         &self,
         accumulator: &mut Accumulator,
-        watch: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
-    ) -> ControlFlow<()> {
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let TraceOptions { width, height, samples, .. } = self.options;
         let size = (accumulator.width, accumulator.height);
         assert_eq!(size, (width, height), "the size of the picture");
@@ -131,7 +135,11 @@ impl Tracer {
         let due = |tile: &Tile| tile.pixels.len() as u64 * u64::from(self.due(tile));
         let left = AtomicU64::new(accumulator.tiles.iter().map(due).sum());
         let done = || 1.0 - left.load(Ordering::Relaxed) as f64 / all;
-        watch(done())?;
+        let report = || {
+            progress.report("picture", done());
+            progress.check()
+        };
+        report()?;
         while let Some(least) = self.unfinished(accumulator).map(|tile| tile.samples).min() {
             // All tiles reach the same number of samples before any gets more.
             let goal = next_goal(least);
@@ -141,10 +149,10 @@ impl Tracer {
                 let before = due(tile);
                 self.sample_tile(tile, goal.min(samples as u32));
                 left.fetch_sub(before - due(tile), Ordering::Relaxed);
-                watch(done())
+                report()
             })?;
         }
-        ControlFlow::Continue(())
+        Ok(())
     }
 
     fn unfinished<'a>(&'a self, accumulator: &'a Accumulator) -> impl Iterator<Item = &'a Tile> {
@@ -245,20 +253,17 @@ fn next_goal(now: u32) -> u32 {
 
 /// Path-traces the scene in one go.
 ///
-/// `watch` gets the fraction that is done, 0 to 1, from any of rayon's threads; [`ControlFlow::Break`] cancels. The
-/// same input gives the same bytes on any number of threads.
+/// Reports the stage `picture`. The same input gives the same bytes on any number of threads.
 ///
 /// # Errors
-/// [`TraceError`], if an option or the scene is impossible, or `watch` breaks.
+/// [`TraceError`], if an option or the scene is impossible, or `progress` cancels.
 pub fn render(
     scene: &Scene<'_>,
     options: &TraceOptions,
-    watch: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
+    progress: &dyn Progress,
 ) -> Result<Image, TraceError> {
     let tracer = Tracer::new(scene, options)?;
     let mut accumulator = tracer.accumulator();
-    match tracer.accumulate(&mut accumulator, watch) {
-        ControlFlow::Continue(()) => Ok(accumulator.image()),
-        ControlFlow::Break(()) => Err(TraceError::Cancelled),
-    }
+    tracer.accumulate(&mut accumulator, progress).map_err(|_| TraceError::Cancelled)?;
+    Ok(accumulator.image())
 }

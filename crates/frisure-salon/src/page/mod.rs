@@ -15,7 +15,7 @@ use crate::window::{App, Parts, wake};
 use crate::work::web::WebWorker;
 use eframe::{CreationContext, WebOptions, WebRunner};
 use frisure::scene::edit;
-use frisure_stylist::order::Order;
+use frisure_engine::Request;
 use std::cell::RefCell;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
@@ -53,9 +53,9 @@ pub(crate) fn opened() -> Option<Opened> {
 }
 
 /// An order that draws no more hairs than the page's address allows (`?hairs=`): for slow devices.
-pub(crate) fn fewer_hairs(mut order: Order) -> Order {
+pub(crate) fn fewer_hairs(mut order: Request) -> Request {
     let most = opened().and_then(|opened| opened.hairs());
-    if let (Order::Show { asked, .. }, Some(most)) = (&mut order, most)
+    if let (Request::Preview { scene: asked, .. }, Some(most)) = (&mut order, most)
         && let Ok(text) = edit::set_key(&asked.text, "wisps.hairs", &format!("{most:.0}"))
     {
         asked.text = text;

@@ -4,8 +4,8 @@
 //! broken.
 
 use super::trouble;
-use frisure_stylist::order::{Answer, Order};
-use frisure_stylist::{Stylist, Watch};
+use frisure::progress::Progress;
+use frisure_engine::{Request, Response, Session};
 use js_sys::{Array, Atomics, Int32Array, Uint8Array};
 use std::cell::{Cell, RefCell};
 use wasm_bindgen::prelude::*;
@@ -16,7 +16,7 @@ use web_time::{Duration, Instant};
 const OFTEN: Duration = Duration::from_millis(60);
 
 thread_local! {
-    static STYLIST: RefCell<Stylist> = RefCell::new(Stylist::new());
+    static SESSION: RefCell<Session> = RefCell::new(Session::new());
     static STOP: RefCell<Option<Int32Array>> = const { RefCell::new(None) };
     static TICKET: Cell<f64> = const { Cell::new(0.0) };
     static TOLD: Cell<Option<Instant>> = const { Cell::new(None) };
@@ -43,15 +43,17 @@ pub fn worker_message(message: &Array) {
 fn carry_out(ticket: f64, order: &[u8]) {
     TICKET.set(ticket);
     TOLD.set(None);
-    let answer = match postcard::from_bytes::<Order>(order) {
-        Ok(order) => STYLIST.with_borrow_mut(|stylist| stylist.carry_out(&order, &Page)),
+    let answer = match postcard::from_bytes::<Request>(order) {
+        Ok(order) => SESSION.with_borrow_mut(|session| {
+            session.execute_with(&order, &Page, &mut |answer| answer_with(&answer))
+        }),
         // Both sides are one program: only a mistake in it can come here.
         Err(mistake) => panic!("an order cannot be read: {mistake}"),
     };
     answer_with(&answer);
 }
 
-fn answer_with(answer: &Answer) {
+fn answer_with(answer: &Response) {
     // Plain data has no way to fail, but for memory.
     let bytes = postcard::to_stdvec(answer).expect("an answer as bytes");
     let bytes = Uint8Array::from(bytes.as_slice()).buffer();
@@ -66,17 +68,15 @@ fn post(message: &Array, transfer: &Array) {
 /// Whoever is at the page.
 struct Page;
 
-impl Watch for Page {
-    fn tell(&self, answer: Answer) {
-        let progress = matches!(answer, Answer::Progress { .. });
-        let soon = TOLD.get().is_some_and(|told| told.elapsed() < OFTEN);
-        if !(progress && soon) {
+impl Progress for Page {
+    fn report(&self, stage: &str, fraction: f64) {
+        if TOLD.get().is_none_or(|told| told.elapsed() >= OFTEN) {
             TOLD.set(Some(Instant::now()));
-            answer_with(&answer);
+            answer_with(&Response::progress(stage, fraction));
         }
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         STOP.with(|stop| {
             stop.borrow().as_ref().is_some_and(|stop| Atomics::load(stop, 0).is_ok_and(|s| s != 0))
         })

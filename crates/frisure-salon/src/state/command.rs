@@ -10,7 +10,7 @@ use frisure::hairstyle::styling::{
 };
 use frisure::hairstyle::{Comb as Named, Place};
 use frisure::scene::{Scene, SceneError, edit};
-use frisure_stylist::order::Refusal;
+use frisure_engine::Diagnostic;
 use glam::DVec3;
 
 use super::{
@@ -169,8 +169,8 @@ pub(super) fn understand(document: &Document, text: &str) -> Result<Understood, 
 }
 
 /// What a person reads of a scene that is none.
-fn refusal(error: SceneError) -> Refusal {
-    error.into()
+fn refusal(error: SceneError) -> Diagnostic {
+    (&error).into()
 }
 
 impl Salon {
@@ -267,7 +267,7 @@ impl Salon {
             Err(error) => {
                 let refusal = match error {
                     edit::EditError::Scene(error) => refusal(error),
-                    other => Refusal { problem: other.to_string(), ..Refusal::default() },
+                    other => Diagnostic { problem: other.to_string(), ..Diagnostic::default() },
                 };
                 self.complain(&refusal);
                 return false;
@@ -525,8 +525,8 @@ impl Salon {
         let asked = super::asked(document, &before.text, understood.scene.steps().len());
         let label = before.label.clone();
         self.compared = Some(Compared { edit, label, hair: None, version: 0 });
-        let effort = frisure_stylist::order::Effort::Exact;
-        let order = frisure_stylist::order::Order::Show { asked: asked.clone(), effort };
+        let effort = frisure_engine::Quality::Exact;
+        let order = frisure_engine::Request::Preview { scene: asked.clone(), quality: effort };
         self.desk.queue(super::Purpose::Compare(edit), asked, order);
     }
 

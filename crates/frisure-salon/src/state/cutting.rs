@@ -1,7 +1,7 @@
 //! The cutting plane that a hand drags and tilts, and the hair that would fall.
 
 use frisure::hairstyle::styling::{Cut, CutLine, Held, Operation, Selection};
-use frisure_stylist::order::StrandsData;
+use frisure_engine::StrandsData;
 use glam::DVec3;
 
 /// A plane before the head; hair on the side of its normal falls.

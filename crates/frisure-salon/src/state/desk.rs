@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use frisure_stylist::order::{Asked, Effort, Order};
+use frisure_engine::{Quality, Request, SceneRef};
 
 /// Names one order and its answers.
 pub type Ticket = u64;
@@ -23,7 +23,7 @@ pub enum Lane {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Errand {
     /// Carry out an order; its answers come back through [`super::Salon::receive`].
-    Work(Lane, Ticket, Box<Order>),
+    Work(Lane, Ticket, Box<Request>),
     /// Stop it: the answer does not matter any more.
     Cancel(Lane, Ticket),
     /// Write a file, or hand it to the browser to keep.
@@ -37,7 +37,7 @@ pub enum Errand {
 pub(super) enum Purpose {
     /// To know what is in a file.
     Contents,
-    Show(Effort),
+    Show(Quality),
     Choose,
     Hair,
     Compare(usize),
@@ -49,7 +49,7 @@ pub(super) enum Purpose {
 pub(super) struct Job {
     pub(super) ticket: Ticket,
     pub(super) purpose: Purpose,
-    pub(super) asked: Asked,
+    pub(super) asked: SceneRef,
     /// Its answer does not matter any more.
     pub(super) outdated: bool,
 }
@@ -60,7 +60,7 @@ pub(super) struct Desk {
     next: Ticket,
     pub(super) hair: Option<Job>,
     pub(super) aside: Option<Job>,
-    waiting: VecDeque<(Purpose, Asked, Order)>,
+    waiting: VecDeque<(Purpose, SceneRef, Request)>,
     pub(super) errands: VecDeque<Errand>,
 }
 
@@ -71,7 +71,7 @@ impl Desk {
     }
 
     /// Starts work on the hair; there is none under way.
-    pub(super) fn start(&mut self, purpose: Purpose, asked: Asked, order: Order) {
+    pub(super) fn start(&mut self, purpose: Purpose, asked: SceneRef, order: Request) {
         let ticket = self.ticket();
         self.hair = Some(Job { ticket, purpose, asked, outdated: false });
         self.errands.push_back(Errand::Work(Lane::Hair, ticket, Box::new(order)));
@@ -86,7 +86,7 @@ impl Desk {
     }
 
     /// Work beside, when what is before it is done.
-    pub(super) fn queue(&mut self, purpose: Purpose, asked: Asked, order: Order) {
+    pub(super) fn queue(&mut self, purpose: Purpose, asked: SceneRef, order: Request) {
         self.waiting.push_back((purpose, asked, order));
         self.advance();
     }

@@ -4,7 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use frisure::formats::contents::{self, Contents};
 use frisure::scene::{HeadSource, edit};
-use frisure_stylist::order::{Answer, Asked, Order, Refusal};
+use frisure_engine::{Diagnostic, Request, Response, SceneRef};
 use toml_edit::{DocumentMut, Value};
 
 use super::desk::{Job, Purpose};
@@ -52,19 +52,19 @@ impl Salon {
             // What is computed now is mostly for nothing once it is known.
             Some(_) => self.desk.outdate(),
             None => {
-                let order = Order::Contents { path };
-                self.desk.start(Purpose::Contents, Asked::default(), order);
+                let order = Request::Contents { path };
+                self.desk.start(Purpose::Contents, SceneRef::default(), order);
             }
         }
         true
     }
 
     /// Takes the answer of what is in a file.
-    pub(super) fn looked_into(&mut self, answer: Answer) {
+    pub(super) fn looked_into(&mut self, answer: Response) {
         let Some(path) = self.offered.pop_front() else { return };
         match answer {
-            Answer::Contents(contents) => self.use_file(&path, contents),
-            Answer::Refused(refusal) => self.complain(&refusal),
+            Response::Contents(contents) => self.use_file(&path, contents),
+            Response::Failed(refusal) => self.complain(&refusal),
             _ => {}
         }
     }
@@ -175,7 +175,7 @@ impl Salon {
     }
 
     /// What a person in the salon can do about what is wrong with a file; scenes name keys instead.
-    pub(super) fn hint_for(&self, refusal: &Refusal) -> String {
+    pub(super) fn hint_for(&self, refusal: &Diagnostic) -> String {
         let is_missing = refusal.problem.contains("there is no file");
         match refusal.key.as_str() {
             "groom.file" | "head.mesh" if is_missing => {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use frisure::hairstyle::HairstyleSpec;
 use frisure::hairstyle::styling::{Operation, Release};
 use frisure::scene::{GroomFile, HeadSource, write_step};
-use frisure_stylist::order::{Answer, Effort, Order, Refusal, Shown};
+use frisure_engine::{Diagnostic, Preview, Quality, Request, Response};
 
 use super::desk::{Job, Purpose};
 use super::{FILES_PANEL, HeadMesh, Salon, Seen, Understood};
@@ -67,7 +67,7 @@ impl Salon {
         };
         let numbers = &seen.hair.numbers;
         match numbers.unstable + numbers.moving {
-            _ if seen.hair.effort == Effort::Coarse => Badge::Settling,
+            _ if seen.hair.quality == Quality::Coarse => Badge::Settling,
             0 => Badge::AtRest,
             n => Badge::Unstable(n),
         }
@@ -89,11 +89,11 @@ impl Salon {
         let effort = self.wanted(&key);
         if let Some(job) = &self.desk.hair {
             // Coarse work is short, and shows the way; exact work on another text is for nothing.
-            let other = job.asked != asked || effort.is_some_and(|e| e == Effort::Coarse);
+            let other = job.asked != asked || effort.is_some_and(|e| e == Quality::Coarse);
             // Hair of another program takes as long for the eye.
             let held = self.document.as_ref().is_some_and(super::Document::is_draft);
-            let is_long =
-                matches!(job.purpose, Purpose::Show(Effort::Exact)) || key.groom.is_some() && !held;
+            let is_long = matches!(job.purpose, Purpose::Show(Quality::Exact))
+                || key.groom.is_some() && !held;
             if other && is_long && self.differs(&job.asked.text, &key) {
                 self.desk.outdate();
             }
@@ -102,7 +102,7 @@ impl Salon {
         match effort {
             Some(effort) => {
                 self.progress = None;
-                let order = Order::Show { asked: asked.clone(), effort };
+                let order = Request::Preview { scene: asked.clone(), quality: effort };
                 self.desk.start(Purpose::Show(effort), asked, order);
             }
             None => self.ask_about_it(asked),
@@ -117,35 +117,35 @@ impl Salon {
     }
 
     /// How well the hair of a key is to be computed now; `None` if it is there, or cannot be.
-    fn wanted(&self, key: &HairKey) -> Option<Effort> {
+    fn wanted(&self, key: &HairKey) -> Option<Quality> {
         if self.refused.as_ref().is_some_and(|(refused, _)| refused == key) {
             return None;
         }
         let held = self.document.as_ref().is_some_and(super::Document::is_draft);
         let Some(seen) = self.shown.as_ref().filter(|seen| seen.key.as_ref() == Some(key)) else {
-            return Some(Effort::Coarse);
+            return Some(Quality::Coarse);
         };
         let most = if held { ROUGH_HELD } else { ROUGH };
-        match seen.hair.effort {
-            Effort::Exact => None,
+        match seen.hair.quality {
+            Quality::Exact => None,
             // Each coarse answer goes on from the last.
-            Effort::Coarse if seen.hair.numbers.moving > 0 && seen.rough < most => {
-                Some(Effort::Coarse)
+            Quality::Coarse if seen.hair.numbers.moving > 0 && seen.rough < most => {
+                Some(Quality::Coarse)
             }
-            Effort::Coarse if held => None,
-            Effort::Coarse => Some(Effort::Exact),
+            Quality::Coarse if held => None,
+            Quality::Coarse => Some(Quality::Exact),
         }
     }
 
     /// What else is asked about hair that is there.
-    fn ask_about_it(&mut self, asked: frisure_stylist::order::Asked) {
+    fn ask_about_it(&mut self, asked: frisure_engine::SceneRef) {
         let Some(version) = self.shown.as_ref().map(|seen| seen.version) else { return };
         if !self.chosen.is_everything() && self.chosen.wisps.is_none() {
             let step = Operation::Release(Release { selection: self.chosen.selection.clone() });
             match write_step(&step) {
                 Ok(text) => {
                     let step = text.trim_start_matches("[[step]]").trim().to_owned();
-                    let order = Order::Choose { asked: asked.clone(), step };
+                    let order = Request::Select { scene: asked.clone(), step };
                     self.desk.start(Purpose::Choose, asked, order);
                 }
                 Err(e) => {
@@ -156,14 +156,14 @@ impl Salon {
             return;
         }
         if let Some(alone) = self.alone.as_ref().filter(|alone| alone.version != version) {
-            let order = Order::Hair { asked: asked.clone(), wisp: alone.wisp, points: ALONE };
+            let order = Request::Guide { scene: asked.clone(), wisp: alone.wisp, points: ALONE };
             self.desk.start(Purpose::Hair, asked, order);
         }
     }
 
     /// Takes an answer about the hair.
-    pub(super) fn receive_hair(&mut self, answer: Answer) {
-        if let Answer::Progress { stage, fraction } = answer {
+    pub(super) fn receive_hair(&mut self, answer: Response) {
+        if let Response::Progress { stage, fraction } = answer {
             self.progress = Some((stage, fraction));
             return;
         }
@@ -172,16 +172,16 @@ impl Salon {
             return self.looked_into(answer);
         }
         match answer {
-            Answer::Shown(hair) => self.show(&job.asked.text, *hair, job.outdated),
+            Response::Preview(hair) => self.show(&job.asked.text, *hair, job.outdated),
             _ if job.outdated => {}
-            Answer::Chosen(wisps) => self.chosen.wisps = Some(wisps),
-            Answer::Hair(hair) => self.show_alone(*hair),
-            Answer::Refused(refusal) => self.refuse(&job, refusal),
+            Response::Selected(wisps) => self.chosen.wisps = Some(wisps),
+            Response::Guide(hair) => self.show_alone(*hair),
+            Response::Failed(refusal) => self.refuse(&job, refusal),
             _ => {}
         }
     }
 
-    fn refuse(&mut self, job: &Job, refusal: Refusal) {
+    fn refuse(&mut self, job: &Job, refusal: Diagnostic) {
         match job.purpose {
             Purpose::Choose => self.chosen = super::Chosen::default(),
             Purpose::Hair => self.alone = None,
@@ -197,7 +197,7 @@ impl Salon {
         self.complain(&refusal);
     }
 
-    fn show(&mut self, text: &str, mut hair: Shown, outdated: bool) {
+    fn show(&mut self, text: &str, mut hair: Preview, outdated: bool) {
         if let Some(head) = hair.head.take() {
             if !head.note.is_empty() {
                 let hint = format!("Choose another under “{FILES_PANEL}”.");
@@ -228,15 +228,15 @@ impl Salon {
         }
     }
 
-    fn show_alone(&mut self, hair: frisure_stylist::order::OneHair) {
+    fn show_alone(&mut self, hair: frisure_engine::GuideData) {
         let version = self.shown.as_ref().map_or(0, |seen| seen.version);
         let wisp = hair.wisp;
         self.alone = Some(super::Alone { wisp, hair: Some(Arc::new(hair)), version });
     }
 
     /// After a step that took hair away, how much.
-    fn tell_what_fell(&mut self, hair: &Shown) {
-        if hair.effort != Effort::Exact {
+    fn tell_what_fell(&mut self, hair: &Preview) {
+        if hair.quality != Quality::Exact {
             return;
         }
         let Some(mass) = self.mass_before.take() else { return };
@@ -247,12 +247,12 @@ impl Salon {
     }
 
     /// How well hair of another program hangs as it was modelled, when that is new.
-    fn tell_how_it_was_held(&mut self, hair: &Shown) {
-        if hair.effort != Effort::Exact || hair.held == self.held {
+    fn tell_how_it_was_held(&mut self, hair: &Preview) {
+        if hair.quality != Quality::Exact || hair.adoption == self.held {
             return;
         }
-        self.held.clone_from(&hair.held);
-        let Some(held) = &hair.held else { return };
+        self.held.clone_from(&hair.adoption);
+        let Some(held) = &hair.adoption else { return };
         let hint = match held.unstable {
             0 => "",
             _ => "A stiffer or thicker fibre, or a shorter lock, holds more.",

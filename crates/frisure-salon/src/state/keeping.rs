@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use frisure::formats::groom::Format;
-use frisure_stylist::order::Order;
+use frisure_engine::Request;
 
 use super::command::understand;
 use super::desk::Purpose;
@@ -86,7 +86,7 @@ impl Salon {
             self.tell(format!("no groom is called `{}`", to.said()), hint, true);
             return;
         }
-        let order = Order::Groom { asked: asked.clone(), format };
+        let order = Request::Groom { scene: asked.clone(), format };
         self.desk.queue(Purpose::File(to), asked, order);
     }
 

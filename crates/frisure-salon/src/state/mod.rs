@@ -26,8 +26,7 @@ use std::sync::Arc;
 
 use frisure::hairstyle::HairstyleSpec;
 use frisure::scene::Scene;
-use frisure_stylist::held::Held;
-use frisure_stylist::order::{Answer, Asked, OneHair, Refusal, Shown};
+use frisure_engine::{AdoptionReport, Diagnostic, GuideData, Preview, Response, SceneRef};
 
 pub use command::{Command, Growing, Tool};
 pub use controls::{CONTROLS, Choice, Control, Panel, choices, control_of};
@@ -57,11 +56,11 @@ pub struct Salon {
     /// The head that it grows on.
     head: Option<Arc<HeadMesh>>,
     /// A scene whose hair cannot be, so that it is not asked for again and again.
-    refused: Option<(HairKey, Refusal)>,
+    refused: Option<(HairKey, Diagnostic)>,
     /// Files that were opened, and are not known yet.
     offered: VecDeque<String>,
     /// How well the groom was held, as it was told last.
-    held: Option<Held>,
+    held: Option<AdoptionReport>,
     chosen: Chosen,
     /// The text in which that was chosen.
     chosen_in: Option<String>,
@@ -106,7 +105,7 @@ pub struct Understood {
 struct Seen {
     /// None for hair of a file that may be another by now.
     key: Option<HairKey>,
-    hair: Arc<Shown>,
+    hair: Arc<Preview>,
     version: u64,
     /// How many coarse answers to this text there were.
     rough: usize,
@@ -120,7 +119,7 @@ pub struct Compared {
     /// What it is called.
     pub label: String,
     /// The hair, once it is there.
-    pub hair: Option<Arc<Shown>>,
+    pub hair: Option<Arc<Preview>>,
     /// Differs for each hair.
     pub version: u64,
 }
@@ -131,7 +130,7 @@ pub struct Alone {
     /// Which wisp it leads.
     pub wisp: usize,
     /// The hair, once it is there.
-    pub hair: Option<Arc<OneHair>>,
+    pub hair: Option<Arc<GuideData>>,
     /// Of which hair that is seen it was told.
     version: u64,
 }
@@ -193,7 +192,7 @@ impl Salon {
     }
 
     /// Takes an answer to an order.
-    pub fn receive(&mut self, ticket: Ticket, answer: Answer) {
+    pub fn receive(&mut self, ticket: Ticket, answer: Response) {
         match self.desk.lane_of(ticket) {
             Some(Lane::Hair) => self.receive_hair(answer),
             Some(Lane::Aside) => self.receive_aside(answer),
@@ -235,7 +234,7 @@ impl Salon {
 
     /// The hair that is seen, with a number that differs for each.
     #[must_use]
-    pub fn shown(&self) -> Option<(&Arc<Shown>, u64)> {
+    pub fn shown(&self) -> Option<(&Arc<Preview>, u64)> {
         self.shown.as_ref().map(|seen| (&seen.hair, seen.version))
     }
 
@@ -343,7 +342,7 @@ impl Salon {
         self.messages.drain(..surplus);
     }
 
-    fn complain(&mut self, refusal: &Refusal) {
+    fn complain(&mut self, refusal: &Diagnostic) {
         let place = match refusal.line {
             0 => String::new(),
             line => format!("line {line}: "),
@@ -357,14 +356,14 @@ impl Salon {
     }
 
     /// The scene as it is now, for an order.
-    fn asked(&self) -> Option<Asked> {
+    fn asked(&self) -> Option<SceneRef> {
         let (document, understood) = (self.document.as_ref()?, self.scene.as_ref()?);
         Some(asked(document, document.text(), understood.scene.steps().len()))
     }
 }
 
-fn asked(document: &Document, text: &str, done: usize) -> Asked {
-    Asked {
+fn asked(document: &Document, text: &str, done: usize) -> SceneRef {
+    SceneRef {
         name: document.name().to_owned(),
         text: text.to_owned(),
         folder: document.folder().display().to_string(),

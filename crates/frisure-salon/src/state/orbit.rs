@@ -1,7 +1,7 @@
 //! The camera that a hand moves around the head.
 
 use frisure::look::Camera;
-use frisure_stylist::order::Viewpoint;
+use frisure_engine::Viewpoint;
 use glam::DVec3;
 
 /// A camera on a sphere around what it looks at.

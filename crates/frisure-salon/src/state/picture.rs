@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use frisure_stylist::order::{Answer, Order};
+use frisure_engine::{Request, Response};
 
 use super::desk::Purpose;
 use super::{Destination, Errand, Salon, Save};
@@ -49,10 +49,10 @@ impl Salon {
         let viewpoint = Some(self.orbit.viewpoint());
         let order = match shot {
             Shot::Picture { size, paths, noise } => {
-                Order::Picture { asked: asked.clone(), viewpoint, size, paths, noise }
+                Request::Picture { scene: asked.clone(), viewpoint, size, paths, noise }
             }
             Shot::Turntable { size, frames } => {
-                Order::Turntable { asked: asked.clone(), viewpoint, size, frames }
+                Request::Turntable { scene: asked.clone(), viewpoint, size, frames }
             }
         };
         self.exposed = None;
@@ -60,13 +60,13 @@ impl Salon {
     }
 
     /// Takes an answer about work that is done beside.
-    pub(super) fn receive_aside(&mut self, answer: Answer) {
+    pub(super) fn receive_aside(&mut self, answer: Response) {
         match answer {
-            Answer::Progress { stage, fraction } => {
+            Response::Progress { stage, fraction } => {
                 self.aside_progress = Some((stage, fraction));
                 return;
             }
-            Answer::Exposed { size, rgba, fraction, noise } => {
+            Response::PartialPicture { size, rgba, fraction, noise } => {
                 self.version += 1;
                 let (rgba, version) = (Arc::new(rgba), self.version);
                 self.exposed = Some(Exposed { size, rgba, fraction, noise, version });
@@ -79,18 +79,18 @@ impl Salon {
         self.aside_progress = None;
         match (answer, job.purpose) {
             _ if job.outdated => self.tell("Stopped.", "", false),
-            (Answer::File { bytes, .. }, Purpose::File(to)) => {
+            (Response::File { bytes, .. }, Purpose::File(to)) => {
                 let save = Save { to, bytes, is_scene: false };
                 self.desk.errands.push_back(Errand::Save(save));
             }
-            (Answer::Shown(hair), Purpose::Compare(edit)) => {
+            (Response::Preview(hair), Purpose::Compare(edit)) => {
                 self.version += 1;
                 let version = self.version;
                 if let Some(compared) = self.compared.as_mut().filter(|c| c.edit == edit) {
                     (compared.hair, compared.version) = (Some(Arc::new(*hair)), version);
                 }
             }
-            (Answer::Refused(refusal), purpose) => {
+            (Response::Failed(refusal), purpose) => {
                 self.complain(&refusal);
                 if matches!(purpose, Purpose::Compare(_)) {
                     self.compared = None;

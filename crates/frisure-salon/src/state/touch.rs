@@ -1,7 +1,7 @@
 //! Where a hand touches the head.
 
 use frisure::strands::Surface;
-use frisure_stylist::order::HeadData;
+use frisure_engine::HeadData;
 use glam::DVec3;
 
 /// The head that hair grows on.

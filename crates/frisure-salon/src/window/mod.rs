@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 use eframe::egui::{self, CentralPanel, Panel as Edge, Ui};
 use frisure::formats::contents::{self, Contents};
-use frisure_stylist::order::Order;
+use frisure_engine::Request;
 use web_time::{Duration, Instant};
 
 use crate::state::{Choice, Command, Document, Errand, Lane, Salon, choices};
@@ -160,8 +160,8 @@ impl App {
     fn keep(&mut self, given: Given) {
         let Given { path: None, name, bytes } = given else { return };
         // Nobody waits for the answers.
-        self.hair.send(0, Order::Keep { path: name.clone(), bytes: bytes.clone() });
-        self.aside.send(0, Order::Keep { path: name, bytes });
+        self.hair.send(0, Request::ProvideFile { path: name.clone(), bytes: bytes.clone() });
+        self.aside.send(0, Request::ProvideFile { path: name, bytes });
     }
 
     /// Opens a file by its path.
@@ -339,7 +339,7 @@ impl App {
             "drawn": hair.map(|n| n.drawn),
             "mass": hair.map(|n| n.mass),
             "tips": hair.map(|n| n.tips),
-            "held": self.salon.shown().and_then(|(hair, _)| hair.held.as_ref()).map(ToString::to_string),
+            "held": self.salon.shown().and_then(|(hair, _)| hair.adoption.as_ref()).map(ToString::to_string),
             "aside": self.salon.aside().is_some(),
             "messages": self.salon.messages().iter().map(|m| m.text.clone()).collect::<Vec<_>>(),
         })

@@ -99,7 +99,7 @@ fn files(ui: &mut Ui, salon: &Salon, choices: &[Choice], out: &mut Vec<Command>)
         Some(file) => {
             named(ui, "Hair", &file.path);
             frame(ui, "groom.", out);
-            if let Some(held) = salon.shown().and_then(|(hair, _)| hair.held.as_ref()) {
+            if let Some(held) = salon.shown().and_then(|(hair, _)| hair.adoption.as_ref()) {
                 ui.weak(held.to_string());
             }
             let help = "Let fibre, curl, length and implantation make the hair";

@@ -6,7 +6,7 @@ use eframe::egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDes
 use eframe::{egui, wgpu};
 use frisure::look::{Camera, Lights, Look, ToneCurve};
 use frisure::strands::{Attribute, AttributeValues, Domain, Strands};
-use frisure_stylist::order::StrandsData;
+use frisure_engine::StrandsData;
 use frisure_view::{Canvas, Frame, Hair, Line, Mark, Plane, Renderer, Shadows, Skin, ViewError};
 use glam::Vec3;
 
@@ -49,7 +49,7 @@ pub(super) trait AsStrands: Send + Sync {
     fn strands(&self) -> &StrandsData;
 }
 
-impl AsStrands for frisure_stylist::order::Shown {
+impl AsStrands for frisure_engine::Preview {
     fn strands(&self) -> &StrandsData {
         &self.strands
     }

@@ -11,8 +11,8 @@ use eframe::egui_wgpu::Callback;
 use frisure::files::Files;
 use frisure::look::{Camera, EnvironmentMap, Lights, Look};
 use frisure::scene::Scene;
-use frisure_stylist::order::OneHair;
-use frisure_stylist::picture;
+use frisure_engine::GuideData;
+use frisure_engine::picture;
 use frisure_view::{Line, Mark, Plane, Shadows};
 use glam::{DVec3, Vec3};
 
@@ -419,7 +419,7 @@ pub(super) fn aspect(rect: Rect) -> f64 {
 }
 
 /// One hair with its material frames (paper, Fig. 3).
-fn frames(hair: &OneHair) -> Vec<Line> {
+fn frames(hair: &GuideData) -> Vec<Line> {
     const EVERY: usize = 6;
     let line = |from: Vec3, to: Vec3, width, colour| Line { from, to, width, colour, on_top: true };
     let points: Vec<Vec3> = hair.points.iter().map(|p| Vec3::from_array(*p)).collect();
@@ -503,7 +503,7 @@ pub(super) fn badge(salon: &Salon) -> (String, Color32) {
 }
 
 /// Numbers of a hair that is looked at alone.
-fn told(ui: &Ui, hair: &OneHair, rect: Rect) {
+fn told(ui: &Ui, hair: &GuideData, rect: Rect) {
     let [elastic, gravity, contact] = hair.energy.map(|e| e * 1e9);
     let [a, b] = hair.section.map(|a| a * 1e6);
     let text = format!(

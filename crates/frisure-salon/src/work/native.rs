@@ -1,13 +1,12 @@
 //! The stylist on a thread.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-use frisure_stylist::order::{Answer, Order, Refusal};
-use frisure_stylist::{Stylist, Watch};
+use frisure::progress::Progress;
+use frisure_engine::{Request, Response, Session};
 
 use super::Worker;
 
@@ -16,8 +15,8 @@ pub type Wake = Box<dyn Fn() + Send + Sync>;
 
 /// A thread with a stylist. Dropped, it ends.
 pub struct Thread {
-    orders: Sender<(u64, Order)>,
-    answers: Receiver<(u64, Answer)>,
+    orders: Sender<(u64, Request)>,
+    answers: Receiver<(u64, Response)>,
     /// Orders up to this ticket were cancelled.
     cancelled: Arc<AtomicU64>,
 }
@@ -40,13 +39,13 @@ impl Thread {
 }
 
 struct Outbox {
-    out: Sender<(u64, Answer)>,
+    out: Sender<(u64, Response)>,
     wake: Wake,
     told: Arc<AtomicU64>,
 }
 
 impl Outbox {
-    fn send(&self, ticket: u64, answer: Answer) {
+    fn send(&self, ticket: u64, answer: Response) {
         // A window that is gone needs no answer.
         if self.out.send((ticket, answer)).is_ok() {
             (self.wake)();
@@ -56,35 +55,28 @@ impl Outbox {
 
 struct Watching<'a>(u64, &'a Outbox);
 
-impl Watch for Watching<'_> {
-    fn tell(&self, answer: Answer) {
-        self.1.send(self.0, answer);
+impl Progress for Watching<'_> {
+    fn report(&self, stage: &str, fraction: f64) {
+        self.1.send(self.0, Response::progress(stage, fraction));
     }
 
-    fn cancelled(&self) -> bool {
+    fn is_cancelled(&self) -> bool {
         self.1.told.load(Ordering::Relaxed) >= self.0
     }
 }
 
-fn serve(jobs: &Receiver<(u64, Order)>, outbox: &Outbox) {
-    let mut stylist = Stylist::new();
+fn serve(jobs: &Receiver<(u64, Request)>, outbox: &Outbox) {
+    let mut session = Session::new();
     while let Ok((ticket, order)) = jobs.recv() {
-        let work = AssertUnwindSafe(|| stylist.carry_out(&order, &Watching(ticket, outbox)));
-        let answer = catch_unwind(work).unwrap_or_else(|_| {
-            // What it knew may be half done.
-            stylist = Stylist::new();
-            Answer::Refused(Refusal {
-                problem: "the computation failed inside; this is our mistake".into(),
-                hint: "Your scene is kept. Undo the last change, and please report it.".into(),
-                ..Refusal::default()
-            })
-        });
+        let progress = Watching(ticket, outbox);
+        let send = &mut |answer| outbox.send(ticket, answer);
+        let answer = session.execute_with(&order, &progress, send);
         outbox.send(ticket, answer);
     }
 }
 
 impl Worker for Thread {
-    fn send(&mut self, ticket: u64, order: Order) {
+    fn send(&mut self, ticket: u64, order: Request) {
         // The thread ends only with this.
         let _ = self.orders.send((ticket, order));
     }
@@ -93,7 +85,7 @@ impl Worker for Thread {
         self.cancelled.fetch_max(ticket, Ordering::Relaxed);
     }
 
-    fn poll(&mut self) -> Option<(u64, Answer)> {
+    fn poll(&mut self) -> Option<(u64, Response)> {
         self.answers.try_recv().ok()
     }
 }

@@ -7,7 +7,7 @@
 use super::Worker;
 use crate::page::{Opened, fewer_hairs, opened};
 use crate::window::Wake;
-use frisure_stylist::order::{Answer, Order, Refusal};
+use frisure_engine::{Diagnostic, Request, Response};
 use js_sys::{Array, Atomics, Int32Array, Object, Reflect, SharedArrayBuffer, Uint8Array};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, VecDeque};
@@ -52,7 +52,7 @@ impl WebWorker {
 }
 
 impl Worker for WebWorker {
-    fn send(&mut self, ticket: u64, order: Order) {
+    fn send(&mut self, ticket: u64, order: Request) {
         self.0.borrow_mut().send(ticket, order);
     }
 
@@ -60,7 +60,7 @@ impl Worker for WebWorker {
         self.0.borrow_mut().cancel(ticket);
     }
 
-    fn poll(&mut self) -> Option<(u64, Answer)> {
+    fn poll(&mut self) -> Option<(u64, Response)> {
         self.0.borrow_mut().answers.pop_front()
     }
 }
@@ -88,12 +88,12 @@ struct Desk {
     me: Weak<RefCell<Desk>>,
     hired: Option<Hired>,
     /// Files that were given, for a worker that takes the place of this one.
-    kept: BTreeMap<String, Order>,
-    waiting: VecDeque<(u64, Order)>,
+    kept: BTreeMap<String, Request>,
+    waiting: VecDeque<(u64, Request)>,
     busy: Option<u64>,
     since: Instant,
     outdated: bool,
-    answers: VecDeque<(u64, Answer)>,
+    answers: VecDeque<(u64, Response)>,
 }
 
 impl Desk {
@@ -152,8 +152,8 @@ impl Desk {
         })
     }
 
-    fn send(&mut self, ticket: u64, order: Order) {
-        if let Order::Keep { path, .. } = &order {
+    fn send(&mut self, ticket: u64, order: Request) {
+        if let Request::ProvideFile { path, .. } = &order {
             self.kept.insert(path.clone(), order.clone());
         }
         self.waiting.push_back((ticket, fewer_hairs(order)));
@@ -173,7 +173,7 @@ impl Desk {
         }
     }
 
-    fn post(&mut self, ticket: u64, order: &Order) -> Result<(), JsValue> {
+    fn post(&mut self, ticket: u64, order: &Request) -> Result<(), JsValue> {
         if self.hired.is_none() {
             self.hire()?;
         }
@@ -194,16 +194,16 @@ impl Desk {
             return;
         }
         let bytes = Uint8Array::new(&message.get(1)).to_vec();
-        match postcard::from_bytes::<Answer>(&bytes) {
+        match postcard::from_bytes::<Response>(&bytes) {
             Ok(answer) => self.answered(ticket as u64, answer),
             Err(mistake) => self.broken(&format!("an answer cannot be read: {mistake}")),
         }
     }
 
-    fn answered(&mut self, ticket: u64, answer: Answer) {
-        let last = !matches!(answer, Answer::Progress { .. } | Answer::Exposed { .. });
+    fn answered(&mut self, ticket: u64, answer: Response) {
+        let last = !matches!(answer, Response::Progress { .. } | Response::PartialPicture { .. });
         let answer = match self.outdated {
-            true if last => Answer::Cancelled,
+            true if last => Response::Cancelled,
             true => return,
             false => answer,
         };
@@ -223,7 +223,7 @@ impl Desk {
             self.stop(ticket);
         } else if let Some(place) = self.waiting.iter().position(|(t, _)| *t == ticket) {
             self.waiting.remove(place);
-            self.answers.push_back((ticket, Answer::Cancelled));
+            self.answers.push_back((ticket, Response::Cancelled));
             (self.wake)();
         }
     }
@@ -247,7 +247,7 @@ impl Desk {
     fn end(&mut self, ticket: u64) {
         if self.busy == Some(ticket) && self.outdated {
             self.hired = None;
-            self.answered(ticket, Answer::Cancelled);
+            self.answered(ticket, Response::Cancelled);
         }
     }
 
@@ -256,8 +256,8 @@ impl Desk {
         self.hired = None;
         let Some(ticket) = self.busy.take() else { return };
         let answer = match self.outdated {
-            true => Answer::Cancelled,
-            false => Answer::Refused(refusal(report)),
+            true => Response::Cancelled,
+            false => Response::Failed(refusal(report)),
         };
         self.answers.push_back((ticket, answer));
         self.next();
@@ -265,20 +265,20 @@ impl Desk {
 }
 
 /// Sends an order; its memory goes over, it is not copied.
-fn post(worker: &web_sys::Worker, ticket: f64, order: &Order) -> Result<(), JsValue> {
+fn post(worker: &web_sys::Worker, ticket: f64, order: &Request) -> Result<(), JsValue> {
     let bytes = postcard::to_stdvec(order).map_err(|e| JsValue::from(e.to_string()))?;
     let bytes = Uint8Array::from(bytes.as_slice()).buffer();
     let message = Array::of2(&ticket.into(), &bytes);
     worker.post_message_with_transfer(&message, &Array::of1(&bytes))
 }
 
-fn refusal(report: &str) -> Refusal {
+fn refusal(report: &str) -> Diagnostic {
     let first = report.lines().find(|line| !line.trim().is_empty()).unwrap_or("no reason given");
-    Refusal {
+    Diagnostic {
         problem: format!("the computation broke down: {first}"),
         hint: "Undo the last change, or draw fewer hairs; perhaps the browser has no memory left."
             .into(),
-        ..Refusal::default()
+        ..Diagnostic::default()
     }
 }
 

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use frisure_engine::Session;
+use frisure_engine::{Request, Response};
 use frisure_salon::state::{Command, Errand, Lane, Salon, Save};
-use frisure_stylist::Stylist;
-use frisure_stylist::order::{Answer, Order};
 
 /// A salon, and the world outside it.
 pub(crate) struct World {
     pub(crate) salon: Salon,
-    hair: Stylist,
-    aside: Stylist,
+    hair: Session,
+    aside: Session,
     /// Files by what a person calls them.
     pub(crate) files: BTreeMap<String, Vec<u8>>,
     /// What survives a crash.
@@ -24,8 +24,8 @@ impl World {
     pub(crate) fn new() -> Self {
         Self {
             salon: Salon::new(),
-            hair: Stylist::new(),
-            aside: Stylist::new(),
+            hair: Session::new(),
+            aside: Session::new(),
             files: BTreeMap::new(),
             kept: None,
             full: false,
@@ -62,7 +62,7 @@ impl World {
                     Lane::Hair => &mut self.hair,
                     Lane::Aside => &mut self.aside,
                 };
-                let answer = stylist.carry_out(&order, &());
+                let answer = stylist.execute(&order, &());
                 self.salon.receive(ticket, answer);
             }
             // All is done at once here, so that nothing is left to cancel.
@@ -96,9 +96,9 @@ impl World {
     /// Has the stylists keep a file that has no path, as a page does.
     #[allow(dead_code, reason = "not every test drops a file")]
     pub(crate) fn keep(&mut self, name: &str, bytes: &[u8]) {
-        let order = Order::Keep { path: name.into(), bytes: bytes.into() };
+        let order = Request::ProvideFile { path: name.into(), bytes: bytes.into() };
         for stylist in [&mut self.hair, &mut self.aside] {
-            assert_eq!(stylist.carry_out(&order, &()), Answer::Kept);
+            assert_eq!(stylist.execute(&order, &()), Response::FileProvided);
         }
     }
 
@@ -123,4 +123,4 @@ impl World {
 
 /// An answer that is none, for tickets nobody gave.
 #[allow(dead_code, reason = "not every test sends one")]
-pub(crate) const STRAY: Answer = Answer::Cancelled;
+pub(crate) const STRAY: Response = Response::Cancelled;

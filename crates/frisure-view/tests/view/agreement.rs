@@ -1,7 +1,5 @@
 //! The view and the preview show the same hair.
 
-use std::ops::ControlFlow;
-
 use frisure_look::Melanin;
 use frisure_look::{Camera, Lights};
 use frisure_render::preview;
@@ -28,7 +26,7 @@ fn difference(strands: &Strands, melanin: Melanin, azimuth: f64) -> Option<Diffe
     let frame = Frame { hair: Some(&hair), skin: Some(&skin), ..empty.clone() };
     let view = gpu.picture(&frame, SIZE).unwrap();
     let options = preview::PreviewOptions { width: 256, height: 256, ..Default::default() };
-    let image = preview::render(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
+    let image = preview::render(&scene, &options, &()).unwrap();
     Some(compare(&image.to_srgb8(), &view, &gpu.picture(&empty, SIZE).unwrap(), SIZE))
 }
 

@@ -11,7 +11,7 @@ use crate::extremes::{larger, largest, smallest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::{Hanging, Solution};
 use crate::rods::{elements, line, to_accuracy};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "convergence",
@@ -60,12 +60,12 @@ fn hair(name: &str, turns: f64, ratio: f64) -> Result<Case, Stopped> {
 const KINDS: [(ElementKind, &str); 2] =
     [(ElementKind::Helix, "helices"), (ElementKind::Jointed, "jointed")];
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     slopes(&mut finding, effort)?;
-    super::check(monitor, "convergence", 0.4)?;
+    super::check(progress, "convergence", 0.4)?;
     needed(&mut finding, effort)?;
-    super::check(monitor, "convergence", 0.8)?;
+    super::check(progress, "convergence", 0.8)?;
     requests(&mut finding, effort)?;
     Ok(finding)
 }

@@ -12,7 +12,7 @@ use crate::extremes::{larger, largest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::{Hanging, anjyo, greenhill};
 use crate::rods::{line, to_accuracy};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "growth",
@@ -52,12 +52,12 @@ fn threshold() -> Result<f64, Stopped> {
     Ok((greenhill() / rod.heaviness()).cbrt())
 }
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     heads(&mut finding)?;
-    super::check(monitor, "growth", 0.3)?;
+    super::check(progress, "growth", 0.3)?;
     tips(&mut finding, effort)?;
-    super::check(monitor, "growth", 0.7)?;
+    super::check(progress, "growth", 0.7)?;
     exact(&mut finding)?;
     Ok(finding)
 }

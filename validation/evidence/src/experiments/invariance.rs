@@ -11,7 +11,7 @@ use crate::plot::{Mark, Plot, Scale};
 use crate::random::Random;
 use crate::report::words::small;
 use crate::rods::{line, to_accuracy};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "invariance",
@@ -33,11 +33,11 @@ const CHANGES: [&str; 5] = ["room turned", "moved", "mirrored", "directors renam
 /// Beyond this part of the length, two lines are two equilibria.
 const OTHER: f64 = 1e-3;
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let count = effort.pick(150, 2000);
     let mut gaps = Vec::new();
     for (part, items) in (0..count).collect::<Vec<usize>>().chunks(count / 10).enumerate() {
-        super::check(monitor, "invariance", 0.1 * part as f64)?;
+        super::check(progress, "invariance", 0.1 * part as f64)?;
         let some: Vec<[f64; 5]> =
             items.par_iter().map(|&i| gaps_of(i)).collect::<Result<_, Stopped>>()?;
         gaps.extend(some);

@@ -16,7 +16,7 @@ mod curls;
 mod plane;
 mod sphere;
 
-use crate::{Cancelled, Experiment, Monitor};
+use crate::{Cancelled, Experiment, Progress};
 
 /// Every experiment.
 pub const EXPERIMENTS: &[&Experiment] = &[
@@ -33,8 +33,8 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &speed::EXPERIMENT,
 ];
 
-/// Says how far an experiment is, and hears whether it should stop.
-fn check(monitor: &dyn Monitor, name: &'static str, fraction: f64) -> Result<(), Cancelled> {
-    monitor.progress(name, fraction);
-    if monitor.cancelled() { Err(Cancelled) } else { Ok(()) }
+/// Reports the fraction of an experiment; an error if it is cancelled.
+fn check(progress: &dyn Progress, name: &'static str, fraction: f64) -> Result<(), Cancelled> {
+    progress.report(name, fraction);
+    progress.check()
 }

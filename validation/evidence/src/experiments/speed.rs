@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::random::Random;
 use crate::reference::Hanging;
 use crate::rods::{elements, line, to_accuracy};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Timing};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Timing};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "speed",
@@ -54,9 +54,9 @@ fn batched(rods: &[Rod]) -> (f64, usize) {
     (best, stable)
 }
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
-    monitor.progress("speed", 0.0);
+    progress.report("speed", 0.0);
     let mut right = (0, 0);
     for (count, beside) in [(10, "the paper: in real time"), (100, "the paper: a few seconds")] {
         let rods = hairs(count)?;
@@ -78,10 +78,10 @@ fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
         finding.timings.push(Timing { what, seconds, beside: beside.into() });
         right = (right.0 + stable, right.1 + count);
     }
-    super::check(monitor, "speed", 0.3)?;
+    super::check(progress, "speed", 0.3)?;
     errors(&mut finding)?;
-    super::check(monitor, "speed", 0.5)?;
-    head(&mut finding, effort, monitor)?;
+    super::check(progress, "speed", 0.5)?;
+    head(&mut finding, effort, progress)?;
     finding.judge(
         "share of the timed hairs that are stable",
         right.0 as f64 / right.1 as f64,
@@ -119,14 +119,14 @@ fn errors(finding: &mut Finding) -> Result<(), Stopped> {
     Ok(())
 }
 
-fn head(finding: &mut Finding, effort: Effort, monitor: &dyn Monitor) -> Result<(), Stopped> {
+fn head(finding: &mut Finding, effort: Effort, progress: &dyn Progress) -> Result<(), Stopped> {
     let head = super::heads::mannequin();
     let preset = preset("caucasian-curly").ok_or_else(|| Stopped::Other("no curly hair".into()))?;
     let mut spec = preset.spec();
     spec.wisps.count = effort.pick(40, 100);
     spec.length.mean = 0.28;
     let start = Instant::now();
-    let hairstyle = predict(&spec, head, PredictOptions::default(), monitor)?;
+    let hairstyle = predict(&spec, head, PredictOptions::default(), progress)?;
     let seconds = start.elapsed().as_secs_f64();
     let report = settling_report(&hairstyle, head);
     let what = format!("a head of {} curly guides, all contacts", report.guides);

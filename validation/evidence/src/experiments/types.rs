@@ -12,7 +12,7 @@ use super::curls::curvatures;
 use crate::extremes::largest;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::to_accuracy;
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "types",
@@ -152,12 +152,12 @@ fn hanging_diameter(found: &Equilibrium) -> f64 {
     2.0 * LENGTH / middle[middle.len() / 2]
 }
 
-fn run(_: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(_: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
-    monitor.progress("types", 0.0);
+    progress.report("types", 0.0);
     let found: Vec<Found> =
         PRESETS.par_iter().map(|p| of(p.name, p.hair_type())).collect::<Result<_, Stopped>>()?;
-    super::check(monitor, "types", 0.8)?;
+    super::check(progress, "types", 0.8)?;
     table(&mut finding, &found);
     shapes(&mut finding)?;
     finding.text(

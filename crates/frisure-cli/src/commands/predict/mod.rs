@@ -4,7 +4,6 @@ mod numbers;
 mod steps;
 
 use std::borrow::Cow;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -18,20 +17,20 @@ use frisure::hairstyle::{
     guide_strands, penetration, strands, volume,
 };
 use frisure::look::EnvironmentMap;
+use frisure::progress::Progress;
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::Tracer;
 use frisure::render::{self, Image};
 use frisure::scene::{self, HeadSource, Scene};
 use frisure::strands::Strands;
-use frisure_stylist::held::Held;
-use frisure_stylist::picture as seen;
-use frisure_stylist::{carry, groom};
+use frisure_engine::picture as seen;
+use frisure_engine::{AdoptionReport, HeadCache, LoadedHead, groom, initial_hairstyle};
 
 use super::read_scene;
 use crate::args::{Predict, Quality};
 use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
-use crate::progress::Progress;
+use crate::progress::Bar;
 use crate::written::Grooms;
 use crate::{console, interrupt, keeping, outputs};
 
@@ -67,7 +66,7 @@ pub(crate) fn run_scene(
         Some(_) => scene.environment_in(&Files::default())?,
         None => None,
     };
-    let progress = Progress::new(quiet);
+    let progress = Bar::new(quiet);
     let work = Arc::new(Work { arguments, scene, turntable, environment, progress });
     let result = all(&work, spec);
     work.progress.finish();
@@ -100,7 +99,7 @@ fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), 
         keeping::done(kept);
     }
     let mut numbers = last.expect("the last hairstyle has its numbers");
-    numbers.groom = hair.adoption.as_ref().map(Held::of);
+    numbers.groom = hair.adoption.as_ref().map(AdoptionReport::of);
     numbers.head_note.clone_from(&hair.note);
     numbers.steps.clone_from(&hair.styled.steps);
     if let Some(path) = &work.arguments.report {
@@ -196,12 +195,12 @@ struct Work {
     turntable: Option<Turntable>,
     /// What the scene's file of surroundings shows.
     environment: Option<EnvironmentMap>,
-    progress: Progress,
+    progress: Bar,
 }
 
 /// All hairstyles that are asked for.
 struct Hair {
-    head: Head,
+    head: Arc<Head>,
     /// What had to be guessed of the head.
     note: Option<String>,
     styled: Styled,
@@ -229,12 +228,11 @@ enum Picture {
 
 impl Work {
     fn hair(&self, spec: &HairstyleSpec) -> Result<Hair, Failure> {
-        self.progress.show("head", 0.0);
+        self.progress.report("head", 0.0);
         let watch = &self.progress;
-        let (head, note) = carry::head(&self.scene, &Files::default())?;
-        let (start, adoption) =
-            carry::beginning(&self.scene, spec, &head, &Files::default(), watch)
-                .map_err(|e| e.map_or(Failure::Interrupted, Failure::from))?;
+        let files = Files::default();
+        let LoadedHead { head, note } = HeadCache::default().load(&self.scene, &files)?;
+        let (start, adoption) = initial_hairstyle(&self.scene, spec, &head, &files, watch)?;
         let styled = steps::all(&self.scene, &head, start, self.arguments.each_step, watch)?;
         let several = self.arguments.image.is_some() && styled.hairstyles.len() > 1;
         let shown = several.then(|| swept(&styled.hairstyles));
@@ -268,7 +266,7 @@ impl Work {
         let numbers = is_last.then(|| self.numbers(hairstyle, head, (&strands, simulation)));
         let groom = match self.arguments.outputs.is_empty() {
             true => Groom::of(strands),
-            false => groom::groom(&self.scene, hairstyle, head, strands, self.arguments.fibres),
+            false => groom(&self.scene, hairstyle, head, strands, self.arguments.fibres),
         };
         Ok(Drawn { groom, picture, numbers, kept: keep })
     }
@@ -302,7 +300,7 @@ impl Work {
         if self.arguments.quality == Quality::Preview {
             return self.preview(&drawn).map(Picture::Preview);
         }
-        self.progress.show("strands", 1.0);
+        self.progress.report("strands", 1.0);
         let options = self.arguments.tracing.options(&self.scene);
         let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
         let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
@@ -319,15 +317,7 @@ impl Work {
     fn preview(&self, drawn: &render::Scene<'_>) -> Result<Image, Failure> {
         let scene::Output { width, height, samples, .. } = self.scene.output;
         let options = PreviewOptions { width, height, samples, ..Default::default() };
-        let watch = |done: f64| {
-            self.progress.show("picture", done);
-            if interrupt::interrupted() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        };
-        preview::render(drawn, &options, &watch).map_err(|e| match e {
+        preview::render(drawn, &options, &self.progress).map_err(|e| match e {
             PreviewError::Cancelled => Failure::Interrupted,
             PreviewError::Size { .. } => Failure::wrong(&e, ""),
         })
@@ -380,6 +370,6 @@ fn swept(hairstyles: &[Hairstyle]) -> Strands {
 }
 
 /// The head of a scene.
-pub(crate) fn head(scene: &Scene) -> Result<Head, Failure> {
-    Ok(carry::head(scene, &Files::default())?.0)
+pub(crate) fn head(scene: &Scene) -> Result<Arc<Head>, Failure> {
+    Ok(HeadCache::default().load(scene, &Files::default())?.head)
 }

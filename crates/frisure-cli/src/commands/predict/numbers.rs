@@ -6,7 +6,7 @@ use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{Body, HairContact, Hairstyle, Simulation, Volume, settling_report};
 use frisure::scene::Scene;
 use frisure::strands::Strands;
-use frisure_stylist::held::Held;
+use frisure_engine::AdoptionReport;
 use serde::Serialize;
 
 use super::steps::StepNumbers;
@@ -20,7 +20,7 @@ pub(super) struct Numbers {
     pub(super) guides: Guides,
     /// How well the strands of the scene's groom were held; left out without one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) groom: Option<Held>,
+    pub(super) groom: Option<AdoptionReport>,
     /// What had to be guessed of the head: told, not reported.
     #[serde(skip)]
     pub(super) head_note: Option<String>,

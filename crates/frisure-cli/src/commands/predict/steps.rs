@@ -4,10 +4,11 @@ use std::fmt::Write;
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::{Cut, CutLine, Hold, Holder, Operation, StyleError};
-use frisure::hairstyle::{Hairstyle, Monitor, StyleOptions, selected, style};
+use frisure::hairstyle::{Hairstyle, StyleOptions, selected, style};
+use frisure::progress::Progress;
 use frisure::rod::Equilibrium;
 use frisure::scene::Scene;
-use frisure_stylist::carry;
+use frisure_engine::Error;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -55,15 +56,13 @@ pub(super) fn all(
     head: &Head,
     start: Hairstyle,
     each: bool,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<Styled, Failure> {
     let mut styled = Styled { hairstyles: vec![start], steps: Vec::new() };
     let mut cuts: Vec<(usize, Vec<bool>, f64)> = Vec::new();
     for (index, operation) in scene.steps().iter().enumerate() {
         let before = styled.hairstyles.last().expect("there is one to begin with");
-        let refused = |e: StyleError| {
-            carry::not_done(index, &e, scene).map_or(Failure::Interrupted, Failure::from)
-        };
+        let refused = |e: StyleError| Failure::from(Error::of_step(index, &e, scene));
         let chosen = match operation.selection() {
             Some(selection) => selected(before, head, selection).map_err(refused)?,
             None => vec![true; before.guides().len()],
@@ -71,7 +70,7 @@ pub(super) fn all(
         let mut stages = Vec::new();
         let options =
             StyleOptions { stages: each.then_some(&mut stages), ..StyleOptions::default() };
-        let after = style(before, head, operation, options, monitor).map_err(refused)?;
+        let after = style(before, head, operation, options, progress).map_err(refused)?;
         styled.steps.push(StepNumbers {
             operation: operation.name(),
             wisps: chosen.iter().filter(|chosen| **chosen).count(),

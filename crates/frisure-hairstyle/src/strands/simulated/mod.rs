@@ -20,11 +20,11 @@ use super::population::Population;
 use super::skin::{Free, LAID};
 use crate::hairstyle::Hairstyle;
 use crate::implantation::Root;
-use crate::monitor::{Cancelled, Stage};
 pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::key;
 use checkpoint::{part_from_bytes, part_to_bytes};
 use envelope::Envelope;
+use frisure_progress::{Cancelled, StageCounter};
 pub use simulation::Simulation;
 
 /// How many elements hairs have: the least of these that resolves the curl.
@@ -90,11 +90,11 @@ impl<'a> Simulated<'a> {
     /// The hairs rooted at some places, in their order; those that a checkpoint has are not simulated again.
     ///
     /// # Errors
-    /// [`Cancelled`], if the monitor says so.
+    /// [`Cancelled`], if the progress says so.
     pub(super) fn hairs(
         &self,
         roots: &[(usize, Root)],
-        stage: &Stage<'_>,
+        stage: &StageCounter<'_>,
         checkpoint: Option<&dyn Checkpoint>,
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
         let chunk = |(part, roots): (usize, &[(usize, Root)])| {
@@ -123,7 +123,7 @@ impl<'a> Simulated<'a> {
     fn chunk(
         &self,
         roots: &[(usize, Root)],
-        stage: &Stage<'_>,
+        stage: &StageCounter<'_>,
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
         let mut drawn: Vec<Option<Hair>> = Vec::new();
         drawn.resize_with(roots.len(), || None);

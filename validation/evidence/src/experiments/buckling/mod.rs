@@ -13,7 +13,7 @@ use crate::extremes::{largest, smallest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::greenhill;
 use crate::rods::{Bar, LENGTH, to_accuracy};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) use hanging::hanging_curl;
 
@@ -39,12 +39,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     upright(&mut finding)?;
-    super::check(monitor, "buckling", 0.15)?;
+    super::check(progress, "buckling", 0.15)?;
     sideways::add(&mut finding, effort)?;
-    super::check(monitor, "buckling", 0.5)?;
+    super::check(progress, "buckling", 0.5)?;
     hanging::add(&mut finding, effort)?;
     Ok(finding)
 }

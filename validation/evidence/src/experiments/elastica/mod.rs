@@ -12,7 +12,7 @@ use crate::plot::{Mark, Plot, Scale};
 use crate::reference::Hanging;
 use crate::report::words::number;
 use crate::rods::{Bar, elements, to_accuracy};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 use master::MASTER;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -34,14 +34,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 /// The error that is asked for, over the length.
 const REQUEST: f64 = 1e-6;
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
-    monitor.progress("elastica", 0.0);
+    progress.report("elastica", 0.0);
     let rows: Vec<Row> = MASTER.par_iter().map(Row::of).collect::<Result<_, Stopped>>()?;
     checked(&mut finding, effort)?;
     curve(&mut finding, &rows);
     errors(&mut finding, &rows);
-    super::check(monitor, "elastica", 0.7)?;
+    super::check(progress, "elastica", 0.7)?;
     column::add(&mut finding)?;
     Ok(finding)
 }

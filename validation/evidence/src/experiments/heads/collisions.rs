@@ -13,7 +13,7 @@ use crate::experiments::sphere::Sphere;
 use crate::extremes::largest;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::to_accuracy;
-use crate::{Effort, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Finding, Limit, Progress, Stopped, Table};
 
 /// A curly hair on a sphere, with and without contact.
 pub(super) fn on_a_sphere(finding: &mut Finding) -> Result<(), Stopped> {
@@ -76,7 +76,7 @@ pub(super) fn on_heads(
     finding: &mut Finding,
     head: &Head,
     effort: Effort,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<(), Stopped> {
     let text = include_str!("../../../../../scenes/collisions.toml");
     let ways: [(&str, &[(&str, &str)]); 4] = [
@@ -97,9 +97,9 @@ pub(super) fn on_heads(
     );
     let (mut pictures, mut volumes, mut deepest) = (Vec::new(), Vec::new(), Vec::new());
     for (k, (name, changes)) in ways.into_iter().take(effort.pick(3, 4)).enumerate() {
-        super::super::check(monitor, "heads", 0.2 + 0.08 * k as f64)?;
-        let hair = Hair::of(text, changes, head, effort, monitor)?;
-        let strands = hair.strands(head, monitor)?;
+        super::super::check(progress, "heads", 0.2 + 0.08 * k as f64)?;
+        let hair = Hair::of(text, changes, head, effort, progress)?;
+        let strands = hair.strands(head, progress)?;
         let litres = 1e3 * hair.volume(&strands, head).region;
         let report = settling_report(&hair.hairstyle, head);
         let depth = 1e3 * penetration(&strands, head);
@@ -113,7 +113,7 @@ pub(super) fn on_heads(
         volumes.push(litres);
         deepest.push(1e3 * report.penetration);
         if k < 3 {
-            pictures.push(hair.picture(&strands, &strands, Some(head), None, monitor)?);
+            pictures.push(hair.picture(&strands, &strands, Some(head), None, progress)?);
         }
     }
     finding.picture(strip(

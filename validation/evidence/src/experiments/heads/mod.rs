@@ -12,7 +12,7 @@ use frisure::hairstyle::{guide_strands, settling_report};
 use frisure::strands::Strands;
 
 use crate::extremes::{larger, smallest};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 use scenes::{Hair, strip};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -37,16 +37,16 @@ pub(super) fn mannequin() -> &'static Head {
     HEAD.get_or_init(Head::mannequin)
 }
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
-    monitor.progress("heads", 0.0);
+    progress.report("heads", 0.0);
     let head = mannequin();
     finding.table(sentences::table());
-    first(&mut finding, head, effort, monitor)?;
+    first(&mut finding, head, effort, progress)?;
     collisions::on_a_sphere(&mut finding)?;
-    collisions::on_heads(&mut finding, head, effort, monitor)?;
-    styled::cut_wet(&mut finding, head, effort, monitor)?;
-    kinds(&mut finding, head, effort, monitor)?;
+    collisions::on_heads(&mut finding, head, effort, progress)?;
+    styled::cut_wet(&mut finding, head, effort, progress)?;
+    kinds(&mut finding, head, effort, progress)?;
     Ok(finding)
 }
 
@@ -55,11 +55,11 @@ fn first(
     finding: &mut Finding,
     head: &Head,
     effort: Effort,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<(), Stopped> {
     let hair =
-        Hair::of(include_str!("../../../../../scenes/ringlets.toml"), &[], head, effort, monitor)?;
-    let strands = hair.strands(head, monitor)?;
+        Hair::of(include_str!("../../../../../scenes/ringlets.toml"), &[], head, effort, progress)?;
+    let strands = hair.strands(head, progress)?;
     // The wisp whose tip hangs lowest.
     let rest = hair.hairstyle.equilibria();
     let lowest = (0..rest.len()).min_by(|&a, &b| rest[a].tip().z.total_cmp(&rest[b].tip().z));
@@ -69,9 +69,9 @@ fn first(
     one.push(guides.strand(chosen).points, guides.strand(chosen).radii);
     let wisp = scenes::wisp(&strands, chosen as u32);
     let pictures = [
-        hair.picture(&one, &wisp, None, Some(9.0), monitor)?,
-        hair.picture(&wisp, &wisp, None, Some(2.5), monitor)?,
-        hair.picture(&strands, &strands, Some(head), None, monitor)?,
+        hair.picture(&one, &wisp, None, Some(9.0), progress)?,
+        hair.picture(&wisp, &wisp, None, Some(2.5), progress)?,
+        hair.picture(&strands, &strands, Some(head), None, progress)?,
     ];
     finding.picture(strip(
         "figure-1",
@@ -98,7 +98,7 @@ fn kinds(
     finding: &mut Finding,
     head: &Head,
     effort: Effort,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<(), Stopped> {
     let scenes = [
         ("straight", include_str!("../../../../../scenes/straight.toml")),
@@ -121,9 +121,9 @@ fn kinds(
     let (mut pictures, mut fills, mut drops) = (Vec::new(), Vec::new(), Vec::new());
     let (mut stable, mut deepest) = (1.0_f64, 0.0_f64);
     for (k, (name, text)) in scenes.into_iter().enumerate() {
-        super::check(monitor, "heads", 0.75 + 0.08 * k as f64)?;
-        let hair = Hair::of(text, &[], head, effort, monitor)?;
-        let strands = hair.strands(head, monitor)?;
+        super::check(progress, "heads", 0.75 + 0.08 * k as f64)?;
+        let hair = Hair::of(text, &[], head, effort, progress)?;
+        let strands = hair.strands(head, progress)?;
         let volume = hair.volume(&strands, head);
         let report = settling_report(&hair.hairstyle, head);
         let rest = hair.hairstyle.equilibria();
@@ -148,7 +148,7 @@ fn kinds(
         drops.push(drop);
         stable = smallest([stable, report.stable as f64 / report.guides as f64]);
         deepest = larger(deepest, report.penetration);
-        pictures.push(hair.picture(&strands, &strands, Some(head), None, monitor)?);
+        pictures.push(hair.picture(&strands, &strands, Some(head), None, progress)?);
     }
     finding.picture(strip("figure-7", "Figure 7: straight, curly and frizzy hair.", &pictures)?);
     finding.table(table);

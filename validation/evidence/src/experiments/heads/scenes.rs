@@ -1,7 +1,6 @@
 //! Scenes carried out and drawn.
 
 use std::fmt::Display;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use frisure::formats::picture::png;
@@ -9,12 +8,13 @@ use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
     Hairstyle, PredictOptions, StrandOptions, Volume, predict, strands, volume,
 };
+use frisure::progress::Silent;
 use frisure::render::preview::{self, PreviewOptions};
 use frisure::scene::{Scene, edit};
 use frisure::strands::{AttributeValues, Strands};
-use frisure_stylist::picture as seen;
+use frisure_engine::picture as seen;
 
-use crate::{Cancelled, Effort, Monitor, Picture, Stopped};
+use crate::{Cancelled, Effort, Picture, Progress, Stopped};
 
 /// A scene and the hair that it predicts, before any step.
 pub(super) struct Hair {
@@ -23,8 +23,8 @@ pub(super) struct Hair {
 }
 
 /// Why something failed, unless it was told to stop.
-pub(super) fn failed(monitor: &dyn Monitor, error: impl Display) -> Stopped {
-    match monitor.cancelled() {
+pub(super) fn failed(progress: &dyn Progress, error: impl Display) -> Stopped {
+    match progress.is_cancelled() {
         true => Stopped::Cancelled(Cancelled),
         false => Stopped::Other(error.to_string()),
     }
@@ -43,7 +43,7 @@ impl Hair {
         changes: &[(&str, &str)],
         head: &Head,
         effort: Effort,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<Self, Stopped> {
         let [width, height] = effort.pick(["160", "200"], ["340", "420"]);
         let mut all =
@@ -53,15 +53,15 @@ impl Hair {
         }
         all.extend(changes);
         let all: Vec<(&str, Option<&str>)> = all.into_iter().map(|(k, v)| (k, Some(v))).collect();
-        let text = edit::set_keys(text, &all).map_err(|e| failed(monitor, e))?;
-        let scene = Scene::parse("scene", text, Path::new("")).map_err(|e| failed(monitor, e))?;
-        let spec = scene.hairstyle_spec().map_err(|e| failed(monitor, e))?;
-        let hairstyle = predict(&spec, head, PredictOptions::default(), monitor)?;
+        let text = edit::set_keys(text, &all).map_err(|e| failed(progress, e))?;
+        let scene = Scene::parse("scene", text, Path::new("")).map_err(|e| failed(progress, e))?;
+        let spec = scene.hairstyle_spec().map_err(|e| failed(progress, e))?;
+        let hairstyle = predict(&spec, head, PredictOptions::default(), progress)?;
         Ok(Self { scene, hairstyle })
     }
 
-    pub(super) fn strands(&self, head: &Head, monitor: &dyn Monitor) -> Result<Strands, Stopped> {
-        Ok(strands(&self.hairstyle, head, StrandOptions::default(), monitor)?.strands)
+    pub(super) fn strands(&self, head: &Head, progress: &dyn Progress) -> Result<Strands, Stopped> {
+        Ok(strands(&self.hairstyle, head, StrandOptions::default(), progress)?.strands)
     }
 
     pub(super) fn volume(&self, strands: &Strands, head: &Head) -> Volume {
@@ -75,21 +75,18 @@ impl Hair {
         framed: &Strands,
         head: Option<&Head>,
         width_scale: Option<f32>,
-        monitor: &dyn Monitor,
+        progress: &dyn Progress,
     ) -> Result<Pixels, Stopped> {
         let surface = head.map(Head::surface);
         let aspect = seen::aspect(&self.scene);
         let drawn = seen::spec(&self.scene, None)
             .framed_scene(strands, framed, surface, aspect)
-            .map_err(|e| failed(monitor, e))?;
+            .map_err(|e| failed(progress, e))?;
         let output = &self.scene.output;
         let (width, height) = (output.width, output.height);
         let options = PreviewOptions { width, height, samples: output.samples, width_scale };
-        let watch = |_: f64| match monitor.cancelled() {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        };
-        let image = preview::render(&drawn, &options, &watch).map_err(|e| failed(monitor, e))?;
+        let silent = Silent(progress);
+        let image = preview::render(&drawn, &options, &silent).map_err(|e| failed(progress, e))?;
         Ok(Pixels { size: [width, height], rgba: seen::developed(&image, output) })
     }
 }

@@ -9,7 +9,7 @@ use frisure::strands::Strands;
 
 use super::scenes::{Hair, failed, strip};
 use crate::extremes::largest;
-use crate::{Effort, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Finding, Limit, Progress, Stopped, Table};
 
 /// Mean height of the tips of some wisps (m).
 fn tips(hairstyle: &Hairstyle, chosen: &[bool]) -> f64 {
@@ -28,20 +28,20 @@ pub(super) fn cut_wet(
     finding: &mut Finding,
     head: &Head,
     effort: Effort,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<(), Stopped> {
     let text = include_str!("../../../../../scenes/fringe-cut.toml");
-    let hair = Hair::of(text, &[], head, effort, monitor)?;
+    let hair = Hair::of(text, &[], head, effort, progress)?;
     let mut states = vec![hair.hairstyle.clone()];
     let mut fringe = Vec::new();
     for (k, operation) in hair.scene.steps().iter().enumerate() {
-        super::super::check(monitor, "heads", 0.55 + 0.05 * k as f64)?;
+        super::super::check(progress, "heads", 0.55 + 0.05 * k as f64)?;
         let before = &states[states.len() - 1];
         if let (Operation::Cut(_), Some(selection)) = (operation, operation.selection()) {
-            fringe = selected(before, head, selection).map_err(|e| failed(monitor, e))?;
+            fringe = selected(before, head, selection).map_err(|e| failed(progress, e))?;
         }
-        let after = style(before, head, operation, StyleOptions::default(), monitor)
-            .map_err(|e| failed(monitor, e))?;
+        let after = style(before, head, operation, StyleOptions::default(), progress)
+            .map_err(|e| failed(progress, e))?;
         states.push(after);
     }
     let names = ["dry", "wet", "cut", "dry again"];
@@ -53,7 +53,7 @@ pub(super) fn cut_wet(
     let (mut pictures, mut heights, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
     let drawn = states
         .iter()
-        .map(|state| Ok(strands(state, head, StrandOptions::default(), monitor)?.strands));
+        .map(|state| Ok(strands(state, head, StrandOptions::default(), progress)?.strands));
     let drawn: Vec<Strands> = drawn.collect::<Result<_, Stopped>>()?;
     for (name, (state, strands)) in names.into_iter().zip(states.iter().zip(&drawn)) {
         let litres = 1e3 * volume(strands, head, state.grown()).region;
@@ -69,7 +69,7 @@ pub(super) fn cut_wet(
         volumes.push(litres);
         // Wet hair reaches farthest.
         let hair = Hair { scene: hair.scene.clone(), hairstyle: state.clone() };
-        pictures.push(hair.picture(strands, &drawn[1], Some(head), None, monitor)?);
+        pictures.push(hair.picture(strands, &drawn[1], Some(head), None, progress)?);
     }
     finding.picture(strip(
         "figure-5",
@@ -78,8 +78,8 @@ pub(super) fn cut_wet(
     )?);
     finding.table(table);
     let dried = Operation::Dry(Dry::default());
-    let back = style(&states[1], head, &dried, StyleOptions::default(), monitor)
-        .map_err(|e| failed(monitor, e))?;
+    let back = style(&states[1], head, &dried, StyleOptions::default(), progress)
+        .map_err(|e| failed(progress, e))?;
     finding.judge(
         "how far the fringe hangs lower when it is wetted (mm)",
         heights[0] - heights[1],

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::plot::{Mark, Plot, Scale};
 use crate::random::Random;
 use crate::report::words::small;
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "robustness",
@@ -33,22 +33,22 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
-    let realistic = solved(effort.pick(400, 10_000), monitor, 0.0, |i| {
+    let realistic = solved(effort.pick(400, 10_000), progress, 0.0, |i| {
         let spec = Random::new(71, i).realistic()?;
         Ok((spec, Resolution::Accuracy(1e-4)))
     })?;
-    let absurd = solved(effort.pick(60, 1000), monitor, 0.4, |i| {
+    let absurd = solved(effort.pick(60, 1000), progress, 0.4, |i| {
         let spec = Random::new(72, i).absurd()?;
         let accuracy = 1e-3 * spec.length;
         Ok((spec, Resolution::Accuracy(accuracy)))
     })?;
     told(&mut finding, &realistic, &absurd);
     exact::add(&mut finding, effort)?;
-    super::check(monitor, "robustness", 0.8)?;
+    super::check(progress, "robustness", 0.8)?;
     batches::add(&mut finding, effort)?;
-    super::check(monitor, "robustness", 0.85)?;
+    super::check(progress, "robustness", 0.85)?;
     minima::add(&mut finding, effort)?;
     Ok(finding)
 }
@@ -78,7 +78,7 @@ impl Solved {
 
 fn solved(
     count: usize,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
     from: f64,
     hair: impl Fn(usize) -> Result<(RodSpec, Resolution), Stopped> + Sync,
 ) -> Result<Vec<Solved>, Stopped> {
@@ -89,7 +89,7 @@ fn solved(
     };
     let mut all = Vec::new();
     for (part, items) in (0..count).collect::<Vec<_>>().chunks(count.div_ceil(20)).enumerate() {
-        super::check(monitor, "robustness", from + 0.02 * part as f64)?;
+        super::check(progress, "robustness", from + 0.02 * part as f64)?;
         all.extend(items.par_iter().map(one).collect::<Result<Vec<_>, Stopped>>()?);
     }
     Ok(all)

@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::curls::turns;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::to_accuracy;
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped, Table};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "single",
@@ -51,12 +51,12 @@ fn rest(spec: &RodSpec) -> Result<Equilibrium, Stopped> {
     Ok(equilibrium(&rod, &[], &to_accuracy(&rod, 1e-4)))
 }
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     six(&mut finding)?;
-    super::check(monitor, "single", 0.2)?;
+    super::check(progress, "single", 0.2)?;
     claim::add(&mut finding, effort)?;
-    super::check(monitor, "single", 0.8)?;
+    super::check(progress, "single", 0.8)?;
     control::add(&mut finding)?;
     Ok(finding)
 }

@@ -7,13 +7,13 @@ use crate::experiments::buckling::hanging_curl;
 use crate::experiments::plane::{first, hook_leaves, reference_leaves};
 use crate::plot::{Mark, Plot, Scale};
 use crate::report::words::number;
-use crate::{Effort, Finding, Limit, Monitor, Stopped};
+use crate::{Effort, Finding, Limit, Progress, Stopped};
 
 /// Which shape has which hair.
 pub(super) fn add(
     finding: &mut Finding,
     effort: Effort,
-    monitor: &dyn Monitor,
+    progress: &dyn Progress,
 ) -> Result<(), Stopped> {
     let (columns, rows) = effort.pick((8, 8), (25, 25));
     let (heaviest, tightest) = effort.pick((1000.0, 40.0), (3000.0, 60.0));
@@ -22,7 +22,7 @@ pub(super) fn add(
     };
     let mut hairs = Vec::new();
     for i in 0..columns {
-        super::super::check(monitor, "suspended", 0.2 + 0.6 * i as f64 / columns as f64)?;
+        super::super::check(progress, "suspended", 0.2 + 0.6 * i as f64 / columns as f64)?;
         let gamma = at(i, columns, 3.0, heaviest);
         let column =
             (0..rows).into_par_iter().map(|j| Hung::new(gamma, at(j, rows, 2.5, tightest)));

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::buckling::hanging_curl;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::{LENGTH, to_accuracy};
-use crate::{Effort, Experiment, Finding, Limit, Monitor, Stopped};
+use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "suspended",
@@ -77,13 +77,13 @@ impl Hung {
     }
 }
 
-fn run(effort: Effort, monitor: &dyn Monitor) -> Result<Finding, Stopped> {
+fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     shapes(&mut finding)?;
-    super::check(monitor, "suspended", 0.1)?;
+    super::check(progress, "suspended", 0.1)?;
     helix::add(&mut finding)?;
-    super::check(monitor, "suspended", 0.2)?;
-    diagram::add(&mut finding, effort, monitor)?;
+    super::check(progress, "suspended", 0.2)?;
+    diagram::add(&mut finding, effort, progress)?;
     Ok(finding)
 }
 

@@ -1,10 +1,10 @@
 //! How long a slider waits, and how long all hair at rest takes, for every hair type.
 //!
-//! `cargo bench -p frisure-stylist`
+//! `cargo bench -p frisure-engine`
 
 use divan::Bencher;
-use frisure_stylist::Stylist;
-use frisure_stylist::order::{Answer, Asked, Effort, Order};
+use frisure_engine::Session;
+use frisure_engine::{Quality, Request, Response, SceneRef};
 
 fn main() {
     divan::main();
@@ -19,24 +19,24 @@ const TYPES: [&str; 6] = [
     "african-coily",
 ];
 
-fn asked(kind: &str, length: f64, steps: &str, done: usize) -> Asked {
+fn asked(kind: &str, length: f64, steps: &str, done: usize) -> SceneRef {
     let text = format!("[hair]\ntype = '{kind}'\nlength = {length}\n{steps}");
-    Asked { name: "bench".into(), text, folder: String::new(), done }
+    SceneRef { name: "bench".into(), text, folder: String::new(), done }
 }
 
-fn show(stylist: &mut Stylist, asked: Asked, effort: Effort) {
-    let answer = stylist.carry_out(&Order::Show { asked, effort }, &());
-    assert!(matches!(answer, Answer::Shown(_)), "{answer:?}");
+fn show(session: &mut Session, asked: SceneRef, effort: Quality) {
+    let answer = session.execute(&Request::Preview { scene: asked, quality: effort }, &());
+    assert!(matches!(answer, Response::Preview(_)), "{answer:?}");
 }
 
 /// A slider that moves by a hundredth, on hair at rest.
 fn drag(bencher: Bencher<'_, '_>, kind: &str, steps: &str, done: usize) {
-    let mut stylist = Stylist::new();
+    let mut session = Session::new();
     let mut length = 0.2;
-    show(&mut stylist, asked(kind, length, steps, done), Effort::Exact);
+    show(&mut session, asked(kind, length, steps, done), Quality::Exact);
     bencher.bench_local(|| {
         length *= 1.01;
-        show(&mut stylist, asked(kind, length, steps, done), Effort::Coarse);
+        show(&mut session, asked(kind, length, steps, done), Quality::Coarse);
     });
 }
 
@@ -57,7 +57,7 @@ fn coarse_styled(bencher: Bencher<'_, '_>, kind: &str) {
 #[divan::bench(args = ["caucasian-curly"], sample_count = 3)]
 fn first(bencher: Bencher<'_, '_>, kind: &str) {
     bencher.bench_local(|| {
-        show(&mut Stylist::new(), asked(kind, 0.2, "", 0), Effort::Coarse);
+        show(&mut Session::new(), asked(kind, 0.2, "", 0), Quality::Coarse);
     });
 }
 
@@ -65,17 +65,17 @@ fn first(bencher: Bencher<'_, '_>, kind: &str) {
 #[divan::bench(args = TYPES, sample_count = 1)]
 fn exact(bencher: Bencher<'_, '_>, kind: &str) {
     bencher.bench_local(|| {
-        show(&mut Stylist::new(), asked(kind, 0.2, "", 0), Effort::Exact);
+        show(&mut Session::new(), asked(kind, 0.2, "", 0), Quality::Exact);
     });
 }
 
 /// Another clumping: other hairs around the same guides.
 #[divan::bench(args = ["caucasian-curly"], sample_count = 2)]
 fn redrawn(bencher: Bencher<'_, '_>, kind: &str) {
-    let (mut stylist, mut clumping) = (Stylist::new(), 0.5);
+    let (mut session, mut clumping) = (Session::new(), 0.5);
     bencher.bench_local(|| {
         clumping *= 0.99;
         let wisps = format!("[wisps]\nclumping = {clumping}\n");
-        show(&mut stylist, asked(kind, 0.2, &wisps, 0), Effort::Exact);
+        show(&mut session, asked(kind, 0.2, &wisps, 0), Quality::Exact);
     });
 }

@@ -1,77 +1,80 @@
-//! Hair as plain data to look at.
+//! A hairstyle as plain data to look at.
 
 use std::sync::Arc;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Cancelled, Hairstyle, Monitor, StrandOptions, settling_report, strands};
+use frisure::hairstyle::{Hairstyle, StrandOptions, settling_report, strands};
+use frisure::progress::{Cancelled, Progress};
 use frisure::rod::Stability;
 use frisure::scene::Scene;
 use frisure::strands::{AttributeValues, Strands};
 use glam::{DVec3, Vec3};
 
-use crate::order::{Effort, HeadData, Numbers, OneHair, Refusal, Shown, StrandsData};
+use crate::error::Error;
+use crate::request::Quality;
+use crate::response::{GuideData, HeadData, Numbers, Preview, StrandsData};
 
-/// Points that are drawn for a coarse answer, per thread: what a slider leaves time for.
+/// Points of a coarse preview, per thread: as many as a slider leaves time for; chosen by trial.
 const COARSE_POINTS: usize = 70_000;
 
-/// Most points that are shown: a page in a browser has 4 GiB in all.
+/// Most points of a preview: a page in a browser has 4 GiB in all.
 const MOST_POINTS: usize = 16_000_000;
 
-/// For how many hairs one is to stand.
-pub(crate) fn every(hairstyle: &Hairstyle, effort: Effort) -> usize {
+/// The stride between the hairs that are drawn.
+pub(crate) fn stride(hairstyle: &Hairstyle, quality: Quality) -> usize {
     let points = hairstyle.drawn().saturating_mul(hairstyle.spec().wisps.points);
-    let most = match effort {
-        Effort::Coarse => MOST_POINTS.min(COARSE_POINTS * rayon::current_num_threads()),
-        Effort::Exact => MOST_POINTS,
+    let most = match quality {
+        Quality::Coarse => MOST_POINTS.min(COARSE_POINTS * rayon::current_num_threads()),
+        Quality::Exact => MOST_POINTS,
     };
     points.div_ceil(most).max(1)
 }
 
-/// The hairs that were drawn last, so that another light does not draw them again.
+/// The strands that were drawn last, so that another light does not draw them again.
 #[derive(Debug, Default)]
-pub(crate) struct Drawn {
+pub(crate) struct StrandCache {
     last: Option<(Arc<Hairstyle>, usize, Arc<Strands>)>,
 }
 
-impl Drawn {
-    /// Every so manyth hair.
+impl StrandCache {
+    /// Every `stride`-th hair.
     pub(crate) fn strands(
         &mut self,
         hairstyle: &Arc<Hairstyle>,
         head: &Head,
-        every: usize,
-        monitor: &dyn Monitor,
+        stride: usize,
+        progress: &dyn Progress,
     ) -> Result<Arc<Strands>, Cancelled> {
-        if let Some((of, thinned, strands)) = &self.last
+        if let Some((of, step, strands)) = &self.last
             && Arc::ptr_eq(of, hairstyle)
-            && *thinned == every
+            && *step == stride
         {
             return Ok(strands.clone());
         }
-        let options = StrandOptions { stride: every, ..StrandOptions::default() };
-        let strands = Arc::new(strands(hairstyle, head, options, monitor)?.strands);
-        self.last = Some((hairstyle.clone(), every, strands.clone()));
+        let options = StrandOptions { stride, ..StrandOptions::default() };
+        let strands = Arc::new(strands(hairstyle, head, options, progress)?.strands);
+        self.last = Some((hairstyle.clone(), stride, strands.clone()));
         Ok(strands)
     }
 }
 
-/// A hairstyle to look at, without its head.
-pub(crate) fn shown(
-    effort: Effort,
+/// The preview of a hairstyle, without its head.
+pub(crate) fn preview(
+    quality: Quality,
     hairstyle: &Hairstyle,
     head: &Head,
-    (strands, every): (&Strands, usize),
-) -> Shown {
+    (strands, stride): (&Strands, usize),
+) -> Preview {
     let root = |position: DVec3| position.as_vec3().to_array();
-    Shown {
-        effort,
+    Preview {
+        quality,
         strands: plain(strands),
-        every,
+        stride,
         head: None,
         numbers: numbers(hairstyle, head, strands.len()),
         roots: hairstyle.guides().iter().map(|guide| root(guide.root.position)).collect(),
         wetness: hairstyle.wisps().iter().map(|wisp| wisp.wetness as f32).collect(),
-        held: None,
+        adoption: None,
     }
 }
 
@@ -93,7 +96,7 @@ fn plain(strands: &Strands) -> StrandsData {
     }
 }
 
-/// A head's surface, and what had to be guessed of it.
+/// The surface of a head, and what was guessed of it.
 pub(crate) fn head_data(head: &Head, note: Option<&String>) -> HeadData {
     let surface = head.surface();
     HeadData {
@@ -121,24 +124,20 @@ fn numbers(hairstyle: &Hairstyle, head: &Head, drawn: usize) -> Numbers {
     }
 }
 
-/// Most points along one hair.
+/// Most points along one guide.
 const MOST_ALONG: usize = 10_000;
 
-/// One guide.
-pub(crate) fn one_hair(
-    hairstyle: &Hairstyle,
-    wisp: usize,
-    points: usize,
-) -> Result<OneHair, Refusal> {
+/// One guide with its material frames.
+pub(crate) fn guide(hairstyle: &Hairstyle, wisp: usize, points: usize) -> Result<GuideData, Error> {
     let Some(rest) = hairstyle.equilibria().get(wisp) else {
         let count = hairstyle.guides().len();
         let problem = format!("there is no wisp {wisp}; this head has {count}");
-        return Err(Refusal::because(problem, "choose another hair"));
+        return Err(Error::invalid(problem, "choose another hair"));
     };
     let sample = rest.sample(points.clamp(2, MOST_ALONG));
     let array = |v: DVec3| v.as_vec3().to_array();
     let section = rest.rod.spec().section;
-    Ok(OneHair {
+    Ok(GuideData {
         wisp,
         points: sample.iter().map(|(p, _)| array(*p)).collect(),
         frames: sample.iter().map(|(_, r)| [r.x_axis, r.y_axis, r.z_axis].map(array)).collect(),
@@ -157,7 +156,7 @@ pub(crate) fn one_hair(
     })
 }
 
-/// A file name for what a scene makes: its name in plain characters, or `hair`.
+/// A file name from the name of a scene, in plain characters, or `hair`.
 pub(crate) fn file_name(scene: &Scene, extension: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let name: String = scene.name.chars().take(60).map(plain).collect();
@@ -173,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_million_hairs_are_not_more_than_can_be_shown() {
+    fn a_preview_of_a_million_hairs_leaves_some_out() {
         let text = "[hair]\nlength = '5 cm'\n[wisps]\ncount = 4\nhairs = 1_000_000\npoints = 32";
         let scene = Scene::parse("a", text, "".as_ref()).unwrap();
         let hair = predict(
@@ -184,12 +183,12 @@ mod tests {
         )
         .unwrap();
         assert_eq!(hair.drawn(), 1_000_000);
-        assert_eq!(every(&hair, Effort::Exact), 2);
-        assert!(every(&hair, Effort::Coarse) > 2);
+        assert_eq!(stride(&hair, Quality::Exact), 2);
+        assert!(stride(&hair, Quality::Coarse) > 2);
     }
 
     #[test]
-    fn names_are_plain() {
+    fn file_names_are_plain() {
         let name = |name: &str| {
             let scene = Scene::parse("a", format!("name = '{name}'"), "".as_ref()).unwrap();
             file_name(&scene, "hair")

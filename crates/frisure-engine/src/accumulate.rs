@@ -1,12 +1,12 @@
-//! Pictures: traced, told while they grow; and turntables.
+//! Pictures: traced, with partial pictures while samples accumulate; and turntables.
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use frisure::formats::picture::{PictureError, png};
 use frisure::hairstyle::head::Head;
 use frisure::look::{Camera, EnvironmentMap};
+use frisure::progress::{Cancelled, Progress, SubStage, Until};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::{Accumulator, MAX_PIXELS, TraceError, TraceOptions, Tracer};
 use frisure::render::{self, MAX_SIZE, PictureSpec};
@@ -15,21 +15,21 @@ use frisure::strands::Strands;
 use glam::DVec3;
 use web_time::Instant;
 
-use crate::order::{Answer, Refusal, Viewpoint};
+use crate::error::Error;
 use crate::picture;
-use crate::refusal::Stop;
-use crate::watch::{Watch, going, progress};
+use crate::request::Viewpoint;
+use crate::response::Response;
 
-/// How often a picture is told of while it grows.
-const TOLD_EVERY: Duration = Duration::from_secs(1);
+/// Time between partial pictures; chosen.
+const PARTIAL_EVERY: Duration = Duration::from_secs(1);
 
 /// Most pixels of all frames of a turntable together: a quarter of a gigabyte.
-const MOST_FRAME_PIXELS: usize = 1 << 26;
+const MOST_TURNTABLE_PIXELS: usize = 1 << 26;
 
-/// How long a turn takes to look at (ms).
+/// Duration of a turn of the animated picture (ms); chosen.
 const TURN: usize = 6000;
 
-/// What a picture is of.
+/// The content of a picture.
 pub(crate) struct Subject<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) strands: &'a Strands,
@@ -37,17 +37,17 @@ pub(crate) struct Subject<'a> {
     pub(crate) environment: Option<&'a EnvironmentMap>,
 }
 
-/// How good a traced picture is to be.
+/// Size and sampling of a traced picture.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Quality {
+pub(crate) struct Sampling {
     pub(crate) size: [usize; 2],
     pub(crate) paths: usize,
     pub(crate) noise: f64,
 }
 
-impl Quality {
-    /// The tracer's options; known to be possible before the work.
-    pub(crate) fn options(self, scene: &Scene) -> Result<TraceOptions, Refusal> {
+impl Sampling {
+    /// The options of the tracer, checked.
+    pub(crate) fn options(self, scene: &Scene) -> Result<TraceOptions, Error> {
         let options = TraceOptions {
             width: self.size[0],
             height: self.size[1],
@@ -57,8 +57,24 @@ impl Quality {
             seed: scene.look.hair.seed,
             ..TraceOptions::default()
         };
-        options.check().map_err(|e| Refusal::of(&e, ""))?;
+        options.check().map_err(|e| Error::because(&e, ""))?;
         Ok(options)
+    }
+}
+
+/// Keeps the last fraction, which is reported with the partial picture.
+struct LastFraction<'a> {
+    progress: &'a dyn Progress,
+    fraction: AtomicU32,
+}
+
+impl Progress for LastFraction<'_> {
+    fn report(&self, _stage: &str, fraction: f64) {
+        self.fraction.store((fraction as f32).to_bits(), Ordering::Relaxed);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.progress.is_cancelled()
     }
 }
 
@@ -67,7 +83,7 @@ impl Subject<'_> {
         picture::spec(self.scene, self.environment)
     }
 
-    fn camera(&self, viewpoint: Option<Viewpoint>, [w, h]: [usize; 2]) -> Result<Camera, Refusal> {
+    fn camera(&self, viewpoint: Option<Viewpoint>, [w, h]: [usize; 2]) -> Result<Camera, Error> {
         let aspect = w as f64 / h as f64;
         let Some(Viewpoint { eye, target, field_of_view }) = viewpoint else {
             let surface = Some(self.head.surface());
@@ -75,13 +91,13 @@ impl Subject<'_> {
         };
         let [eye, target] = [eye, target].map(DVec3::from_array);
         let camera = self.scene.camera.at(eye, target, field_of_view, aspect);
-        camera.map_err(|e| Refusal::of(&e, "look from somewhere else"))
+        camera.map_err(|e| Error::because(&e, "look from somewhere else"))
     }
 
-    fn drawn(&self, camera: Camera) -> Result<render::Scene<'_>, Refusal> {
+    fn drawn(&self, camera: Camera) -> Result<render::Scene<'_>, Error> {
         let drawn =
             self.picture().scene(camera, self.strands, self.strands, Some(self.head.surface()));
-        drawn.map_err(|e| Refusal::of(&e, ""))
+        drawn.map_err(|e| Error::because(&e, ""))
     }
 
     /// The traced picture as a PNG.
@@ -89,44 +105,39 @@ impl Subject<'_> {
         &self,
         viewpoint: Option<Viewpoint>,
         options: &TraceOptions,
-        watch: &dyn Watch,
-    ) -> Result<Vec<u8>, Stop> {
+        progress: &dyn Progress,
+        partial: &mut dyn FnMut(Response),
+    ) -> Result<Vec<u8>, Error> {
         let size = [options.width, options.height];
         let drawn = self.drawn(self.camera(viewpoint, size)?)?;
-        progress(watch, "preparing the light", 0.0);
+        progress.report("preparing the light", 0.0);
         let tracer = Tracer::new(&drawn, options).map_err(|e| match e {
-            TraceError::Cancelled => Stop::Cancelled,
-            e => Refusal::of(&e, "").into(),
+            TraceError::Cancelled => Error::Cancelled(Cancelled),
+            e => Error::because(&e, ""),
         })?;
         let mut accumulator = tracer.accumulator();
-        let mut pause = TOLD_EVERY;
-        let done = AtomicU32::new(0);
+        let mut pause = PARTIAL_EVERY;
+        let last = LastFraction { progress, fraction: AtomicU32::new(0) };
         loop {
             let since = Instant::now();
-            let look = |part: f64| {
-                done.store((part as f32).to_bits(), Ordering::Relaxed);
-                match since.elapsed() > pause {
-                    true => ControlFlow::Break(()),
-                    false => going(watch),
-                }
-            };
-            if tracer.accumulate(&mut accumulator, &look).is_continue() {
+            let stop = || since.elapsed() > pause;
+            if tracer.accumulate(&mut accumulator, &Until { progress: &last, stop: &stop }).is_ok()
+            {
                 break;
             }
-            if watch.cancelled() {
-                return Err(Stop::Cancelled);
-            }
-            let telling = Instant::now();
-            watch.tell(self.exposed(&accumulator, f32::from_bits(done.load(Ordering::Relaxed))));
-            // Large pictures take long to develop: most of the time is for light.
-            pause = TOLD_EVERY.max(10 * telling.elapsed());
+            progress.check()?;
+            let developing = Instant::now();
+            let fraction = f32::from_bits(last.fraction.load(Ordering::Relaxed));
+            partial(self.partial_picture(&accumulator, fraction));
+            // Large pictures take long to develop: most of the time is for tracing.
+            pause = PARTIAL_EVERY.max(10 * developing.elapsed());
         }
         let rgba = picture::developed(&accumulator.image(), &self.scene.output);
-        Ok(encoded(size, |w, h| png::encode(w, h, &rgba))?)
+        encoded(size, |w, h| png::encode(w, h, &rgba))
     }
 
-    fn exposed(&self, accumulator: &Accumulator, fraction: f32) -> Answer {
-        Answer::Exposed {
+    fn partial_picture(&self, accumulator: &Accumulator, fraction: f32) -> Response {
+        Response::PartialPicture {
             size: [accumulator.width(), accumulator.height()],
             rgba: picture::developed(&accumulator.image(), &self.scene.output),
             fraction,
@@ -140,8 +151,8 @@ impl Subject<'_> {
         viewpoint: Option<Viewpoint>,
         size: [usize; 2],
         frames: usize,
-        watch: &dyn Watch,
-    ) -> Result<Vec<u8>, Stop> {
+        progress: &dyn Progress,
+    ) -> Result<Vec<u8>, Error> {
         let (scene, surface) = (self.scene, Some(self.head.surface()));
         let views = match viewpoint {
             Some(_) => {
@@ -153,7 +164,7 @@ impl Subject<'_> {
                 self.picture().turntable(self.strands, surface, frames, aspect)
             }
         };
-        let views = views.map_err(|e| Refusal::of(&e, ""))?;
+        let views = views.map_err(|e| Error::because(&e, ""))?;
         let mut drawn = self.drawn(views[0].0)?;
         let [width, height] = size;
         let samples = scene.output.samples;
@@ -162,42 +173,40 @@ impl Subject<'_> {
         for (frame, (camera, lights)) in views.into_iter().enumerate() {
             (drawn.camera, drawn.lights) = (camera, lights);
             let at = |part: f64| (frame as f64 + part) / frames as f64;
-            let look = |part: f64| {
-                progress(watch, "turntable", at(part));
-                going(watch)
-            };
-            let image = preview::render(&drawn, &options, &look).map_err(|e| match e {
-                PreviewError::Cancelled => Stop::Cancelled,
-                e @ PreviewError::Size { .. } => Refusal::of(&e, "").into(),
+            let range = [at(0.0), at(1.0)];
+            let stage = SubStage { progress, stage: "turntable", range };
+            let image = preview::render(&drawn, &options, &stage).map_err(|e| match e {
+                PreviewError::Cancelled => Error::Cancelled(Cancelled),
+                e @ PreviewError::Size { .. } => Error::because(&e, ""),
             })?;
             pictures.push(picture::developed(&image, &scene.output));
         }
         let pause = u16::try_from((TURN / frames).clamp(20, 1000)).unwrap_or(100);
-        Ok(encoded(size, |w, h| png::encode_animated(w, h, &pictures, pause))?)
+        encoded(size, |w, h| png::encode_animated(w, h, &pictures, pause))
     }
 }
 
-/// Whether a turntable is possible: to be known before the work.
-pub(crate) fn check_turntable([width, height]: [usize; 2], frames: usize) -> Result<(), Refusal> {
+/// An error if a turntable is impossible.
+pub(crate) fn check_turntable([width, height]: [usize; 2], frames: usize) -> Result<(), Error> {
     let sides = 1..=MAX_SIZE;
     if !sides.contains(&width) || !sides.contains(&height) || width * height > MAX_PIXELS {
         let error = PreviewError::Size { width, height };
-        return Err(Refusal::of(&error, "choose a smaller picture"));
+        return Err(Error::because(&error, "choose a smaller picture"));
     }
-    let most = (MOST_FRAME_PIXELS / (width * height)).min(720);
+    let most = (MOST_TURNTABLE_PIXELS / (width * height)).min(720);
     if (1..=most).contains(&frames) {
         return Ok(());
     }
     let problem = format!(
         "{frames} pictures of {width}×{height} pixels: a turntable of this size has 1 to {most}"
     );
-    Err(Refusal::because(problem, "choose fewer pictures, or smaller ones"))
+    Err(Error::invalid(problem, "choose fewer pictures, or smaller ones"))
 }
 
 fn encoded(
     [width, height]: [usize; 2],
     encode: impl FnOnce(u32, u32) -> Result<Vec<u8>, PictureError>,
-) -> Result<Vec<u8>, Refusal> {
+) -> Result<Vec<u8>, Error> {
     // Both are at most 16384.
-    encode(width as u32, height as u32).map_err(|e| Refusal::of(&e, ""))
+    encode(width as u32, height as u32).map_err(|e| Error::because(&e, ""))
 }

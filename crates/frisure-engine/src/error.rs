@@ -1,0 +1,134 @@
+//! Why a computation has no result, and the same as plain data for a person.
+
+use std::any::Any;
+use std::error::Error as StdError;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use frisure::hairstyle::styling::StyleError;
+use frisure::hairstyle::{HistoryError, PredictError};
+use frisure::progress::Cancelled;
+use frisure::scene::{Scene, SceneError};
+use thiserror::Error;
+
+use crate::response::{Diagnostic, Response};
+
+/// Why a computation has no result.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// [`frisure::progress::Progress::is_cancelled`] returned true.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The scene, or a file that it names, is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The request is impossible.
+    #[error("{problem}")]
+    Invalid {
+        /// What is wrong.
+        problem: String,
+        /// What to do; may be empty.
+        hint: String,
+    },
+    /// A panic in the computation: a mistake in this program.
+    #[error("internal error: {0}")]
+    Internal(String),
+}
+
+/// What to do about a panic.
+pub(crate) const REPORT: &str = "please report it, with the scene";
+
+impl Error {
+    /// An impossible request; `hint` may be empty.
+    pub fn invalid(problem: impl Into<String>, hint: &str) -> Self {
+        Self::Invalid { problem: problem.into(), hint: hint.to_owned() }
+    }
+
+    /// The same with the message of an error and of its causes.
+    pub fn because(error: &dyn StdError, hint: &str) -> Self {
+        Self::invalid(message(error), hint)
+    }
+
+    /// The error of a prediction, at the key of the scene that has to change.
+    #[must_use]
+    pub fn of_prediction(error: &PredictError, scene: &Scene) -> Self {
+        Self::Scene(match error {
+            PredictError::Cancelled(cancelled) => return Self::Cancelled(*cancelled),
+            PredictError::Quantity(error) => scene.blame(error),
+            PredictError::Parting(e) => {
+                let key = format!("implantation.partings[{}].line[{}]", e.index, e.place);
+                scene.fault(&key, e.to_string(), "")
+            }
+            PredictError::Crowded(e) => scene.fault("wisps.count", e.to_string(), ""),
+            PredictError::Spec(error) => scene.out_of_range(error),
+        })
+    }
+
+    /// The error of a styling step (from 0), at the key of the scene that has to change.
+    #[must_use]
+    pub fn of_step(step: usize, error: &StyleError, scene: &Scene) -> Self {
+        match error {
+            StyleError::Cancelled(cancelled) => Self::Cancelled(*cancelled),
+            error => Self::Scene(scene.step_fault(step, error)),
+        }
+    }
+
+    /// The same of a list of steps.
+    pub(crate) fn of_history(error: &HistoryError, scene: &Scene) -> Self {
+        Self::of_step(error.step, &error.error, scene)
+    }
+}
+
+/// Runs a computation; a panic in it becomes [`Error::Internal`].
+///
+/// # Errors
+/// Those of `work`, and [`Error::Internal`].
+pub fn catch_panic<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(Error::Internal(text(&*panic))))
+}
+
+/// The message of a panic.
+fn text(panic: &(dyn Any + Send)) -> String {
+    let message = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    message.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}
+
+/// The message of an error with those of its causes.
+fn message(error: &dyn StdError) -> String {
+    let mut message = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        message = format!("{message}: {error}");
+        cause = error.source();
+    }
+    message
+}
+
+impl From<&SceneError> for Diagnostic {
+    fn from(error: &SceneError) -> Self {
+        match error.fault() {
+            None => Self { problem: message(error), ..Self::default() },
+            Some(fault) => Self {
+                problem: fault.message(),
+                key: fault.key.clone(),
+                line: fault.line,
+                hint: fault.hint.clone(),
+            },
+        }
+    }
+}
+
+impl From<Error> for Response {
+    fn from(error: Error) -> Self {
+        let diagnostic = |problem, hint: &str| Diagnostic {
+            problem,
+            hint: hint.to_owned(),
+            ..Diagnostic::default()
+        };
+        Self::Failed(match &error {
+            Error::Cancelled(_) => return Self::Cancelled,
+            Error::Invalid { problem, hint } => diagnostic(problem.clone(), hint),
+            Error::Internal(_) => diagnostic(error.to_string(), REPORT),
+            Error::Scene(error) => error.into(),
+        })
+    }
+}

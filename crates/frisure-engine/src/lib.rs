@@ -1,0 +1,37 @@
+//! From a scene to a hairstyle, strands and a picture, for every program alike.
+//!
+//! A [`Session`] executes a [`Request`] about a scene and returns a [`Response`], both plain data; it
+//! caches heads, hairstyles and strands, so that the next request computes only what changed.
+//!
+//! ```
+//! use frisure_engine::{Quality, Request, Response, SceneRef, Session};
+//!
+//! let text = "[hair]\nlength = '3 cm'\n[wisps]\ncount = 3\nhairs = 30\n";
+//! let scene = SceneRef { name: "short".into(), text: text.into(), ..SceneRef::default() };
+//! let request = Request::Preview { scene, quality: Quality::Exact };
+//! let Response::Preview(preview) = Session::new().execute(&request, &()) else { panic!() };
+//! assert_eq!((preview.numbers.wisps, preview.numbers.drawn), (3, 30));
+//! ```
+
+mod accumulate;
+mod adoption;
+mod bytes;
+mod error;
+mod groom;
+mod hairstyles;
+mod heads;
+mod initial;
+pub mod picture;
+mod preview;
+mod request;
+mod response;
+mod session;
+
+pub use adoption::AdoptionReport;
+pub use error::{Error, catch_panic};
+pub use groom::groom;
+pub use heads::{HeadCache, LoadedHead};
+pub use initial::initial_hairstyle;
+pub use request::{Quality, Request, SceneRef, Viewpoint};
+pub use response::{Diagnostic, GuideData, HeadData, Numbers, Preview, Response, StrandsData};
+pub use session::Session;
