@@ -2,16 +2,16 @@
 
 use glam::DVec3;
 
-/// Where an element of a rod ends, and the next begins.
+/// A node of a rod: the end of an element, the root or the tip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Node {
-    /// There (m, world).
+    /// Position (m, world).
     pub position: DVec3,
     /// Unit tangent, towards the tip (world).
     pub tangent: DVec3,
 }
 
-/// Largest `1 − cos θ` between neighbouring tangents that lengthens them.
+/// Largest `1 − cos θ` between neighbouring tangents that lengthens them. Chosen by trial.
 const SHARPEST: f64 = 1.5;
 
 /// `count` points (m, world) of the line through evenly spaced nodes of a rod of `length` (m), from the first to the
@@ -31,6 +31,7 @@ pub fn centre_line(nodes: &[Node], length: f64, count: usize) -> impl Iterator<I
     let mut element = usize::MAX;
     let mut cubic = [DVec3::ZERO; 4];
     (0..count).map(move |k| {
+        // The element, and the fraction t of it; the cubic by Horner's rule.
         let x = (k as f64 * step).min(elements as f64);
         let i = (x as usize).min(elements - 1);
         if i != element {
@@ -48,6 +49,7 @@ fn between(a: Node, b: Node, h: f64) -> [DVec3; 4] {
     // θ²/16, and with it tan(θ/4)/(θ/4).
     let y = x * (2.0 + x * (1.0 / 3.0 + x * (4.0 / 45.0))) / 16.0;
     let speed = h * (1.0 + y * (1.0 / 3.0 + y * (2.0 / 15.0)));
+    // The Hermite cubic with these tangents at both ends.
     let (from, to) = (a.tangent * speed, b.tangent * speed);
     let chord = b.position - a.position;
     [a.position, from, chord * 3.0 - from * 2.0 - to, from + to - chord * 2.0]

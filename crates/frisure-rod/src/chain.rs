@@ -14,7 +14,7 @@ pub struct Chain<'a> {
     kind: ElementKind,
     /// Arc length of each node (m), one more than elements.
     arc: Vec<f64>,
-    /// One per element, or a single one when all are alike.
+    /// One per element, or a single one when all are equal.
     geometry: Vec<Geometry>,
 }
 
@@ -97,6 +97,7 @@ impl<'a> Chain<'a> {
         let (mut frame, mut position) = (self.rod.root().frame(), self.rod.root().position());
         frames.push(frame);
         positions.push(position);
+        // r⁺ = r + R p(c), R⁺ = R Q(c), from root to tip.
         for (i, &c) in controls.iter().enumerate() {
             let motion = self.geometry(i).motion(c);
             position += frame * motion.advance();
@@ -112,6 +113,7 @@ impl<'a> Chain<'a> {
     pub fn moments(&self, shape: &Shape) -> Vec<DVec3> {
         (0..self.len())
             .map(|i| {
+                // Hooke's law: m = K/h (c − c⁰), in the frame of the joint or of the middle of a helix.
                 let (g, c) = (self.geometry(i), shape.controls[i]);
                 shape.frames[i] * (g.moment_frame(c) * (g.stiffness() * (c - g.rest())))
             })
@@ -128,7 +130,8 @@ impl<'a> Chain<'a> {
             let g = self.geometry(i);
             let m = moment(0.5 * (self.arc[i] + self.arc[i + 1]));
             let inside = (frame * g.moment_frame(g.rest())).transpose() * m;
-            // A moment from elsewhere may ask for more than a turn: such a start is useless.
+            // Hooke's law inverted, c = c⁰ + (K/h)⁻¹ m. A moment of another division can lead to more than a turn: such a
+            // start is useless.
             let bent = (inside / g.stiffness()).clamp_length_max(1.5);
             let c = g.rest() + bent;
             controls.push(c);

@@ -57,11 +57,13 @@ impl Geometry {
         natural: [DVec3; 2],
         material: DVec3,
     ) -> Self {
+        // ½ (c − c⁰)ᵀ (K/h) (c − c⁰), with c⁰ = h u⁰ for a helix and 0 for a joint. [paper] (2.3)
         let stiffness = material / length;
         let mean = (natural[0] + natural[1]) * (0.5 * length);
         match kind {
             ElementKind::Helix => Self { length, rest: mean, stiffness, curve: Curve::Helix },
             ElementKind::Jointed | ElementKind::Auto => {
+                // A and B with their advances p and first moments w; the first piece carries its advance along the rest.
                 let half = 0.5 * length;
                 let (before, p0, w0) = helix_piece(natural[0] * half, half);
                 let (after, p1, w1) = helix_piece(natural[1] * half, half);
@@ -101,6 +103,7 @@ impl Geometry {
 
     /// The control (rad) at which the end frame is `turn` seen from the start frame.
     pub(crate) fn control_for(&self, turn: &DMat3) -> DVec3 {
+        // The turn of the joint alone, Aᵀ Q Bᵀ.
         let turn = match &self.curve {
             Curve::Helix => *turn,
             Curve::Jointed(j) => j.before.transpose() * *turn * j.after.transpose(),
@@ -231,11 +234,13 @@ impl Motion<'_> {
     pub(crate) fn reach(&self, alpha: f64, beta: f64) -> Reach<'_> {
         let (h, c, t) = (self.geometry.length, self.control, &self.table);
         let (before, offset, series) = match &self.geometry.curve {
+            // h φ_1 e_3 is the advance and h² φ_2 e_3 the first moment. docs/theory.md, "Elements"
             Curve::Helix => {
                 let advance = RotationSeries::phi(1, t, alpha * h, DVec3::Z);
                 let moment = RotationSeries::phi(2, t, beta * h * h, DVec3::Z);
                 (None, DVec3::ZERO, advance.plus(&moment))
             }
+            // The second piece is rigid in the frame after the joint: A exp[c] b.
             Curve::Jointed(j) => {
                 let arm = j.end[0] * alpha + j.end[1] * beta;
                 let offset = j.start[0] * alpha + j.start[1] * beta;
@@ -251,12 +256,14 @@ impl Motion<'_> {
         let h = self.geometry.length;
         match &self.geometry.curve {
             Curve::Helix => {
+                // The same helix over the length x h: the control is x c, and the derivative by c gains a factor x.
                 let control = self.control * x;
                 let table = stumpff(control.length_squared());
                 let series = RotationSeries::phi(1, &table, x * h, DVec3::Z);
                 let reach = Reach { control, before: None, offset: DVec3::ZERO, series };
                 Part { reach, share: x }
             }
+            // Before the joint the control has no effect.
             Curve::Jointed(j) if x <= 0.5 => {
                 let offset = helix_advance(j.natural[0] * (x * h), x * h);
                 let series = RotationSeries::phi(0, &self.table, 0.0, DVec3::Z);

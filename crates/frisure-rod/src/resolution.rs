@@ -27,6 +27,16 @@ pub enum ElementKind {
     Helix,
 }
 
+/// Natural turn of the whole rod over √Γ (rad) from which on joints are chosen. Tuned on nineteen reference cases: it
+/// takes the better kind in eighteen (docs/theory.md, "The study of elements").
+const JOINTED_FROM: f64 = 1.5;
+
+/// Least elements per turn of the natural curl, by kind, and per boundary layer. Tuned on the same cases: the least with
+/// which shapes and errors behave.
+const HELICES_PER_TURN: f64 = 6.0;
+const JOINTS_PER_TURN: f64 = 3.5;
+const PER_LAYER: f64 = 0.6;
+
 impl ElementKind {
     /// The kind that [`Self::Auto`] stands for; the others stand for themselves.
     ///
@@ -37,7 +47,7 @@ impl ElementKind {
     pub fn chosen_for(self, rod: &Rod) -> Self {
         let turn = rod.natural().max_magnitude(rod.length()) * rod.length();
         match self {
-            Self::Auto if turn > 1.5 * rod.heaviness().sqrt() => Self::Jointed,
+            Self::Auto if turn > JOINTED_FROM * rod.heaviness().sqrt() => Self::Jointed,
             Self::Auto => Self::Helix,
             kind => kind,
         }
@@ -49,8 +59,10 @@ impl ElementKind {
     pub fn resolving_elements(self, rod: &Rod) -> usize {
         let length = rod.length();
         let turns = rod.natural().max_magnitude(length) * length / std::f64::consts::TAU;
-        let per_turn = if self.chosen_for(rod) == Self::Helix { 6.0 } else { 3.5 };
-        let bends = 0.6 * rod.heaviness().sqrt();
+        let helix = self.chosen_for(rod) == Self::Helix;
+        let per_turn = if helix { HELICES_PER_TURN } else { JOINTS_PER_TURN };
+        // The boundary layer at the root has the length L/√Γ.
+        let bends = PER_LAYER * rod.heaviness().sqrt();
         (per_turn * turns).max(bends).ceil().clamp(12.0, 1250.0) as usize
     }
 }

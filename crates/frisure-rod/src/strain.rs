@@ -89,6 +89,7 @@ impl StrainProfile {
 
     /// Integral of the strain from the first knot to `s` (rad).
     fn integral(&self, s: f64) -> DVec3 {
+        // Whole trapezia up to the knot before s, and the part of the next.
         let after = self.knots.partition_point(|k| k.0 <= s);
         let Some(i) = after.checked_sub(1) else {
             return (s - self.knots[0].0) * self.knots[0].1;

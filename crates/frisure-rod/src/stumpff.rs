@@ -13,11 +13,13 @@ const SERIES_LIMIT: f64 = 9.0;
 pub(crate) fn stumpff(y: f64) -> [f64; ORDERS] {
     let mut c = [0.0; ORDERS];
     if y < SERIES_LIMIT {
+        // Downward recurrence c_k = 1/k! − y c_{k+2}, from the two series.
         (c[7], c[8]) = series(y);
         for k in (0..7).rev() {
             c[k] = INVERSE_FACTORIALS[k] - y * c[k + 2];
         }
     } else {
+        // Upward recurrence c_{k+2} = (1/k! − c_k)/y, from cos θ and sin θ/θ.
         let theta = y.sqrt();
         (c[1], c[0]) = theta.sin_cos();
         c[1] /= theta;

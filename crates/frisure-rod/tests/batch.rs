@@ -83,8 +83,11 @@ fn rest_is_rest() {
             assert!(gradient < 2e-8, "{i}: {gradient}");
             assert!(problem.min_eigenvalue(&shape) > -1e-9, "{i}");
             let energy = problem.energy(&shape).total();
-            let told = batched.rods[i].energy;
-            assert!((told - energy).abs() < 1e-9 * rod.moment_scale(), "{i}: {told} {energy}");
+            let reported = batched.rods[i].energy;
+            assert!(
+                (reported - energy).abs() < 1e-9 * rod.moment_scale(),
+                "{i}: {reported} {energy}"
+            );
         }
     }
 }

@@ -16,7 +16,7 @@ const SPRING: Spring = Spring { stiffness: 1e-3, anchor: DVec3::new(0.02, -0.01,
 const WELL: Well =
     Well { stiffness: 1e-3, anchor: DVec3::new(0.03, 0.02, -0.05), breadth: 0.06, length: 0.15 };
 
-/// A force and a moment that are felt: comparable with the weight and with EI/L.
+/// A force and a moment that are comparable with the weight and with EI/L.
 fn wrench(rod: &Rod, node: usize) -> TipWrench {
     TipWrench {
         node,

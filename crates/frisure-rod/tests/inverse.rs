@@ -91,7 +91,7 @@ fn a_drawn_shape_is_held() {
     assert!(held.error < 1e-4, "{} mm", 1e3 * held.error);
 }
 
-/// Long hair cannot stand on end: it is told how much stiffer it would have to be (Greenhill 1881).
+/// Long hair cannot stand upright: the solution reports the stiffness that it would need (Greenhill 1881).
 #[test]
 fn what_cannot_stand_is_told() {
     let spec = spec(0.1, 1.0, NaturalStrain::STRAIGHT, DVec3::Z);
@@ -123,7 +123,7 @@ fn a_table_bears_what_lies_on_it() {
     let borne: f64 = fitted.least_support(&on_table).iter().sum();
     assert!((borne / weight - 1.0).abs() < 0.03, "{}", borne / weight);
     assert!(fitted.least_support(&vec![None; fitted.nodes().len()]).iter().all(|f| *f == 0.0));
-    // Beneath a ceiling nothing is borne.
+    // A support from above bears nothing.
     let ceiling = vec![Some(DVec3::NEG_Z); fitted.nodes().len()];
     assert!(fitted.least_support(&ceiling).iter().all(|f| *f == 0.0));
 }

@@ -141,7 +141,7 @@ impl Finding {
     }
 
     /// Adds a criterion.
-    pub fn judge(&mut self, what: impl Into<String>, measured: f64, limit: Limit) {
+    pub fn check(&mut self, what: impl Into<String>, measured: f64, limit: Limit) {
         self.criteria.push(Criterion { what: what.into(), measured, limit });
     }
 

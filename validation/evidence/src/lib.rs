@@ -1,4 +1,4 @@
-//! The book of evidence: experiments that hold frisure against physics from elsewhere and against the
+//! The book of evidence: experiments that compare frisure with independent physics and against the
 //! figures of the paper.
 //!
 //! An [`Experiment`] has a question, a method and a program. The program gives a [`Finding`]: tables,

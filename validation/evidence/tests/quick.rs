@@ -8,7 +8,7 @@ fn every_verdict_holds() {
     let mut chapters = Vec::new();
     for &experiment in EXPERIMENTS {
         let finding = (experiment.run)(Effort::Quick, &()).expect(experiment.name);
-        assert!(!finding.criteria.is_empty(), "{} judges nothing", experiment.name);
+        assert!(!finding.criteria.is_empty(), "{} checks nothing", experiment.name);
         for criterion in &finding.criteria {
             assert!(criterion.holds(), "{}: {criterion:?}", experiment.name);
         }

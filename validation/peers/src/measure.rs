@@ -16,7 +16,7 @@ const ELSEWHERE: f64 = 0.1;
 /// Elements tried.
 const ELEMENTS: [usize; 14] = [6, 8, 10, 12, 15, 20, 24, 30, 40, 60, 90, 120, 180, 240];
 
-/// Accuracies (m) that the scalar solver is asked for.
+/// Requested accuracies (m) of the scalar solver.
 const ACCURACIES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
 /// One way at one resolution.
@@ -24,7 +24,7 @@ const ACCURACIES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 pub(crate) struct Measured {
     /// Which way.
     way: &'static str,
-    /// Elements, or the accuracy asked for (m).
+    /// Elements, or the requested accuracy (m).
     setting: f64,
     /// Distance of the one hair's tip from the true one (m).
     error_one: f64,
@@ -48,7 +48,7 @@ pub(crate) struct Sample {
     pub(crate) tips: Vec<DVec3>,
 }
 
-/// What came of a hair: where its tip is, and whether it is certified a minimum.
+/// The result of a hair: its tip (m), and whether it is certified a minimum.
 type End = (DVec3, bool);
 
 impl Sample {
@@ -114,7 +114,7 @@ fn end(rest: &BatchSolution, rod: &Rod, hair: usize) -> End {
     (tip, rest.rods[hair].stability == Stability::Stable)
 }
 
-/// Richardson's extrapolation of the tip from so many elements and twice as many, which start where those rest.
+/// Richardson's extrapolation of the tip from `elements` and twice as many, which start from the coarse equilibrium.
 fn extrapolated(batch: &Batch, rods: &[Rod]) -> Vec<End> {
     let coarse = batch.solve(rods);
     let halves = coarse.controls.iter().flat_map(|turn| [*turn * 0.5; 2]).collect();

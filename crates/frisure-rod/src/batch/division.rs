@@ -89,6 +89,7 @@ impl Joints {
             let hanging = weight * h * (n - 1 - i) as f64;
             let bears = first.advance * (hanging + weight * half) + first.moment * weight;
             match before {
+                // Before the first joint there is the clamp: its weight is a constant.
                 None => {
                     let (position, clamp) = self.root;
                     self.constant = (clamp * bears).z;
@@ -96,6 +97,7 @@ impl Joints {
                     self.start = position + clamp * first.advance;
                     self.up = self.frame.transpose() * DVec3::Z;
                 }
+                // The first piece moves rigidly with the joint before: it belongs to that joint's arm and link.
                 Some(before) => {
                     if i == 1 || !uniform {
                         self.turns.push(before.turn * first.turn);

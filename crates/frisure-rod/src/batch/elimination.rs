@@ -226,6 +226,7 @@ impl<F: Lanes> BlockFactor<F> {
     fn new(block: Sym3<F>) -> Self {
         let one = block.xx.splat(1.0);
         let small = block.xx.splat(PIVOT_ROUNDING);
+        // Column by column: 1/d_k and the column of L below it.
         let d1 = one / block.xx;
         let (l21, l31) = (block.xy * d1, block.xz * d1);
         let second = (-l21).mul_add(block.xy, block.yy);

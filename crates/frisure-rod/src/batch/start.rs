@@ -42,8 +42,10 @@ impl<'a> GuidedStart<'a> {
     pub(super) fn turn(&mut self, joint: usize, rod: usize, tube: &ConfinementTube) -> DVec3 {
         let Self { joints, frames, before, at, wanted } = self;
         let link = joints.links[joint];
+        // 1. The given frame after the joint.
         let node = frames(rod, (joint + 1) as f64 * joints.h);
         let mut frame = node * joints.halves(joint)[1].turn.transpose();
+        // 2. Turned so that its link leads along the middle of the tube, and a little towards it.
         if tube.radius.is_finite() {
             let along = tube.centre - *wanted + (*wanted - *at) * APPROACH;
             let (from, to) = (frame * link.normalize_or(DVec3::Z), along.normalize_or_zero());
@@ -52,6 +54,7 @@ impl<'a> GuidedStart<'a> {
             }
             *wanted = tube.centre;
         }
+        // 3. The turn of the joint to that frame, limited.
         let turn = DQuat::from_mat3(&(before.transpose() * frame)).normalize().to_scaled_axis();
         let turn = turn.clamp_length_max(LARGEST_START);
         frame = *before * DMat3::from_quat(DQuat::from_scaled_axis(turn));

@@ -37,6 +37,7 @@ pub(super) fn extrapolate(coarse: &Shape, fine: &Shape) -> Vec<DVec3> {
 pub(super) fn corrections(coarse: &Shape, fine: &Shape) -> Vec<Correction> {
     (0..coarse.positions.len())
         .map(|i| {
+            // (4 x_2N − x_N)/3 − x_2N = (x_2N − x_N)/3, for positions and for rotation vectors alike.
             let (position, frame) = (fine.positions[2 * i], fine.frames[2 * i]);
             let turn = deviation(&(frame * coarse.frames[i].transpose())) / 3.0;
             Correction {

@@ -14,7 +14,7 @@ pub struct Certificate {
     /// Relative gradient, see [`Problem::gradient_norm`].
     pub gradient_norm: f64,
     /// Smallest λ in `H x = λ M x`, H the second variation of the energy and M that of the elastic
-    /// energy: 1 without loads, 0 where stability is lost. `None` if it was not asked for.
+    /// energy: 1 without loads, 0 where stability is lost. `None` unless [`Options::eigenvalue`](crate::Options::eigenvalue) is set.
     pub min_eigenvalue: Option<f64>,
     /// Minimum, saddle or neither.
     pub stability: Stability,

@@ -9,16 +9,18 @@ use crate::chain::{Chain, Shape};
 /// would naturally.
 pub(super) fn warm_start(chain: &Chain<'_>, previous: &Equilibrium) -> Shape {
     let old = previous.chain();
+    // 1. Frames at equal arc length, as far as the other rod reaches.
     let covered = previous.rod.length() * (1.0 + 1e-12);
     let known = chain.arc().iter().take_while(|&&s| s <= covered).count();
     let mut frames: Vec<DMat3> =
         chain.arc()[..known].iter().map(|&s| old.point(&previous.shape, s).1).collect();
+    // 2. Beyond it the natural shape.
     for i in known..=chain.len() {
         let g = chain.geometry(i - 1);
         let last = frames[i - 1];
         frames.push(last * g.motion(g.rest()).rotation());
     }
-    // A root that was turned turns the whole shape with it.
+    // 3. A root that was turned turns the whole shape with it.
     let turn = chain.rod().root().frame() * previous.rod.root().frame().transpose();
     for frame in &mut frames {
         *frame = turn * *frame;

@@ -30,6 +30,7 @@ impl Curve {
             }
         }
         let last = nodes.len().checked_sub(1).filter(|&last| last > 0)?;
+        // Centripetal Catmull–Rom: each piece from four points; the ends are mirrored.
         let mut points = vec![nodes[0]];
         for i in 0..last {
             let (b, c) = (nodes[i], nodes[i + 1]);
@@ -107,6 +108,7 @@ fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
     let t3 = t2 + step(p[2], p[3]);
     let t = t1 + x * (t2 - t1);
     let mix = |a: DVec3, b: DVec3, from: f64, to: f64| a + (b - a) * ((t - from) / (to - from));
+    // Barry and Goldman's pyramid of linear interpolations.
     let (a, b, c) = (mix(p[0], p[1], 0.0, t1), mix(p[1], p[2], t1, t2), mix(p[2], p[3], t2, t3));
     let (d, e) = (mix(a, b, 0.0, t2), mix(b, c, t1, t3));
     mix(d, e, t1, t2)
@@ -119,6 +121,7 @@ fn twist_free_frames(tangents: &[DVec3]) -> Vec<DMat3> {
     let mut frame = DMat3::from_cols(d1, first.cross(d1), first);
     let mut frames = vec![frame];
     for pair in tangents.windows(2) {
+        // The smallest rotation from one tangent to the next, then d1 made orthogonal again.
         frame = DMat3::from_quat(DQuat::from_rotation_arc(pair[0], pair[1])) * frame;
         let (t, d1) = (pair[1], frame.x_axis);
         let d1 = (d1 - t * t.dot(d1)).normalize();
@@ -131,6 +134,7 @@ fn twist_free_frames(tangents: &[DVec3]) -> Vec<DMat3> {
 /// The twist (rad per element) and the angle at the start (rad) of frames in which bending is most about d1:
 /// the peak of the spectrum of the bending.
 fn best_twist(bends: &[(f64, f64)]) -> (f64, f64) {
+    // Fourier sum of the bending at a twist (rad per element).
     let sum = |twist: f64| {
         bends.iter().enumerate().fold((0.0, 0.0), |(x, y), (i, b)| {
             let (sin, cos) = (twist * i as f64).sin_cos();

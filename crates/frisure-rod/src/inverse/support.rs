@@ -26,12 +26,14 @@ pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DV
     };
 
     let weight = DVec3::NEG_Z * (rod.weight() * h);
+    // Moments of the weight alone.
     let mut moments: Vec<DVec3> = (0..elements)
         .map(|i| {
             let beyond = (i + 1..elements).map(|k| (middle(k) - middle(i)).cross(weight));
             scaled(i, beyond.sum())
         })
         .collect();
+    // Nodes with a support, and the square of the moments of a unit force there.
     let mut forces = vec![0.0; beneath.len()];
     let supported: Vec<(usize, DVec3, f64)> = (beneath.iter().enumerate().skip(1))
         .filter_map(|(node, way)| {
@@ -43,6 +45,7 @@ pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DV
     for _ in 0..SWEEPS {
         // From the tip, whose weight has the longest lever.
         for &(node, way, lever) in supported.iter().rev() {
+            // Exact minimum of the energy along this force, if it pushes.
             let slope: f64 = (0..node).map(|i| pushed(i, node, way).dot(moments[i])).sum();
             let force = (forces[node] - slope / lever).max(0.0);
             let change = force - forces[node];

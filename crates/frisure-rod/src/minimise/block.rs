@@ -15,7 +15,9 @@ impl BlockFactor {
     /// `None` unless the matrix is positive definite beyond rounding.
     #[inline]
     pub(crate) fn new(m: &DMat3) -> Option<Self> {
+        // A pivot this small relative to its diagonal is zero to rounding.
         const ROUNDING: f64 = 1e-13;
+        // Column by column: d_k and the column of L below it.
         let d1 = m.x_axis.x;
         let (l21, l31) = (m.x_axis.y / d1, m.x_axis.z / d1);
         let d2 = m.y_axis.y - l21 * m.x_axis.y;
@@ -29,6 +31,7 @@ impl BlockFactor {
 
     #[inline]
     pub(crate) fn solve(&self, b: DVec3) -> DVec3 {
+        // L y = b forwards, then D Lᵀ x = y backwards.
         let y2 = b.y - self.l21 * b.x;
         let y3 = b.z - self.l31 * b.x - self.l32 * y2;
         let z = y3 / self.d.z;
@@ -55,6 +58,7 @@ pub(crate) fn lowest_eigenpair(m: &DMat3) -> (f64, DVec3) {
             if apq == 0.0 {
                 continue;
             }
+            // The rotation in the plane p, q that makes a_pq zero.
             let theta = 0.5 * (2.0 * apq).atan2(a.col(q)[q] - a.col(p)[p]);
             let (s, c) = theta.sin_cos();
             let mut g = DMat3::IDENTITY;

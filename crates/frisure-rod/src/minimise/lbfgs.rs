@@ -88,6 +88,7 @@ impl Minimiser for Lbfgs {
 }
 
 fn descent(problem: &Problem<'_>, gradient: &[DVec3], pairs: &VecDeque<Pair>) -> Vec<DVec3> {
+    // Two-loop recursion: from the latest pair to the oldest …
     let mut d: Vec<DVec3> = gradient.iter().map(|g| -*g).collect();
     let mut alphas = Vec::with_capacity(pairs.len());
     for p in pairs.iter().rev() {
@@ -95,9 +96,11 @@ fn descent(problem: &Problem<'_>, gradient: &[DVec3], pairs: &VecDeque<Pair>) ->
         add_scaled(&mut d, -alpha, &p.change);
         alphas.push(alpha);
     }
+    // … the first Hessian, that of the elastic energy …
     for (i, x) in d.iter_mut().enumerate() {
         *x /= problem.chain.geometry(i).stiffness();
     }
+    // … and back.
     for (p, alpha) in pairs.iter().zip(alphas.iter().rev()) {
         let beta = p.inverse * dot(&p.change, &d);
         add_scaled(&mut d, alpha - beta, &p.step);
@@ -115,6 +118,7 @@ fn backtrack(
     if slope >= 0.0 {
         return None;
     }
+    // The first trial turns no control by more than 0.7 rad.
     let largest = direction.iter().map(|d| d.length()).fold(0.0, f64::max);
     let mut fraction = (1.0_f64).min(0.7 / largest);
     for _ in 0..50 {

@@ -62,6 +62,7 @@ impl<'a> Problem<'a> {
     /// The eigenvalue that is zero but for rounding, on the scale of [`Self::min_eigenvalue`]: a
     /// rod clamped upright that fell over may turn about the vertical freely.
     pub(crate) fn neutral_eigenvalue(&self) -> f64 {
+        // 1e-8, or 1e-8 (EI/L + ρSgL²)/(K/h) where that is more. docs/theory.md, "Certificates"
         let rod = self.chain.rod();
         let stiffness = rod.stiffness().min_element() * self.chain.len() as f64 / rod.length();
         1e-8 * (rod.moment_scale() / stiffness).max(1.0)

@@ -77,7 +77,7 @@ impl<F: Field + ?Sized> Potential for FieldPotential<'_, F> {
 }
 
 impl Chain<'_> {
-    /// The points (m) of a shape at which [`FieldPotential`] with `samples` points per element feels its
+    /// The points (m) of a shape at which [`FieldPotential`] with `samples` points per element evaluates its
     /// field, from the first after the root to the tip.
     #[must_use]
     pub fn sample_points(&self, shape: &Shape, samples: u32) -> Vec<DVec3> {
@@ -110,7 +110,7 @@ impl ElementState<'_> {
         hessian: &DMat3,
         sum: &mut Derivatives,
     ) {
-        // r = r₀ + ξ + R exp[η] p(c + x): ∂r/∂η = −R [p]×, ∂r/∂c = R P.
+        // 1. The point r = r₀ + ξ + R exp[η] p(c + x): ∂r/∂ξ = I, ∂r/∂η = −R [p]×, ∂r/∂c = R P.
         let part = self.motion.part(x);
         let (p, by_control) = (part.value(), part.jacobian());
         let pull = self.frame.transpose() * gradient;
@@ -118,12 +118,14 @@ impl ElementState<'_> {
         let turned = cross_matrix(p);
         let inside = self.frame.transpose() * *hessian;
         let local = inside * self.frame;
-        // [p]×ᵀ = −[p]×.
+        // [p]×ᵀ = −[p]×, which absorbs the signs below.
         let local_control = local * by_control;
 
+        // 2. Gradient by ξ, η and x.
         sum.position += gradient;
         sum.rotation += p.cross(pull);
         sum.control += slope;
+        // 3. Hessian: that of the field through ∂r, and the gradient contracted with the second derivatives of r.
         sum.position_position += *hessian;
         sum.rotation_position += turned * inside;
         sum.rotation_rotation += turned * local * turned * -1.0 + symmetric_outer(pull, p) * 0.5

@@ -244,7 +244,7 @@ impl Random {
     }
 }
 
-/// One of the equilibria in tests/data/reference_cases.json; its header tells where they are from.
+/// One of the equilibria in tests/data/reference_cases.json; its header names their source.
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) rod: Rod,

@@ -133,12 +133,12 @@ fn slopes(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         finding.plot(plot);
     }
     finding.table(table);
-    finding.judge(
+    finding.check(
         "smallest order of convergence",
         smallest(slopes.iter().copied()),
         Limit::AtLeast(1.9),
     );
-    finding.judge("largest order of convergence", largest(slopes), Limit::AtMost(2.2));
+    finding.check("largest order of convergence", largest(slopes), Limit::AtMost(2.2));
     Ok(())
 }
 
@@ -200,7 +200,7 @@ fn needed(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         table.row(cells);
     }
     finding.table(table);
-    finding.judge(
+    finding.check(
         "jointed elements a turn that keep a curl of 4 turns and more within 1 % of the length (most)",
         most,
         Limit::AtMost(8.0),
@@ -231,6 +231,6 @@ fn requests(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         table.row(cells);
     }
     finding.table(table);
-    finding.judge("largest error over what was asked for", worst, Limit::AtMost(1.0));
+    finding.check("largest error over what was asked for", worst, Limit::AtMost(1.0));
     Ok(())
 }

@@ -166,7 +166,7 @@ fn tips(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     }
     finding.table(table);
     let highest = largest(ends.iter().map(|e| e.0));
-    finding.judge(
+    finding.check(
         "height of the tip of the highest rod over its length, 25 cm of hair from any root",
         highest,
         Limit::AtMost(-0.6),
@@ -194,7 +194,7 @@ fn exact(finding: &mut Finding) -> Result<(), Stopped> {
         100.0 * low,
         100.0 * expected
     ));
-    finding.judge(
+    finding.check(
         "relative difference of the threshold length from Greenhill's",
         (low / expected - 1.0).abs(),
         Limit::AtMost(1e-4),
@@ -207,7 +207,7 @@ fn exact(finding: &mut Finding) -> Result<(), Stopped> {
             worst = larger(worst, reference.distance(line(&rest(&spec)?)));
         }
     }
-    finding.judge(
+    finding.check(
         "largest distance of lines from the boundary-value problem's over the length, 20 hairs, 1e-5 asked for",
         worst,
         Limit::AtMost(1e-5),

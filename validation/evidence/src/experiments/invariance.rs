@@ -80,12 +80,12 @@ fn told(gaps: &[[f64; 5]]) -> Finding {
     }
     finding.table(table);
     finding.plot(plot);
-    finding.judge(
+    finding.check(
         "largest distance over the length, where the equilibrium is the same",
         worst,
         Limit::AtMost(2e-6),
     );
-    finding.judge(
+    finding.check(
         "share of comparisons that end in another equilibrium",
         others as f64 / (CHANGES.len() * gaps.len()) as f64,
         Limit::AtMost(2e-3),

@@ -82,7 +82,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     errors(&mut finding)?;
     super::check(progress, "speed", 0.5)?;
     head(&mut finding, effort, progress)?;
-    finding.judge(
+    finding.check(
         "share of the timed hairs that are stable",
         right.0 as f64 / right.1 as f64,
         Limit::AtLeast(1.0),
@@ -111,7 +111,7 @@ fn errors(finding: &mut Finding) -> Result<(), Stopped> {
         at(0, 0.9),
         at(1, 1.0)
     ));
-    finding.judge(
+    finding.check(
         "largest error of the timed hairs, 0.1 mm asked for (mm)",
         at(1, 1.0),
         Limit::AtMost(0.1),
@@ -135,7 +135,7 @@ fn head(finding: &mut Finding, effort: Effort, progress: &dyn Progress) -> Resul
         seconds,
         beside: "the paper: 6 s, about a hundred guides".into(),
     });
-    finding.judge(
+    finding.check(
         "share of the timed head's guides in a minimum",
         report.stable as f64 / report.guides as f64,
         Limit::AtLeast(1.0),

@@ -167,7 +167,7 @@ fn run(_: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
          measured on hair that is drawn out by hand, and water that holds many hairs together is not in this \
          experiment. Where a hair has fewer than two turns, clamp and tip count, and the closed form is no guide.",
     );
-    judge(&mut finding, &found);
+    check_criteria(&mut finding, &found);
     Ok(finding)
 }
 
@@ -245,7 +245,7 @@ fn shapes(finding: &mut Finding) -> Result<(), Stopped> {
     Ok(())
 }
 
-fn judge(finding: &mut Finding, found: &[Found]) {
+fn check_criteria(finding: &mut Finding, found: &[Found]) {
     let by = |name: &str| found.iter().find(|f| f.name == name);
     let limits = [
         ("type-1", 0.105, f64::INFINITY),
@@ -256,7 +256,7 @@ fn judge(finding: &mut Finding, found: &[Found]) {
     let inside = |(name, from, to): &(&str, f64, f64)| {
         by(name).is_some_and(|f| (*from..=*to).contains(&f.diameter))
     };
-    finding.judge(
+    finding.check(
         "of types I to IV, those whose curve diameter in our table is within the limits of the type (no physics in it)",
         limits.iter().filter(|l| inside(l)).count() as f64,
         Limit::AtLeast(4.0),
@@ -264,19 +264,19 @@ fn judge(finding: &mut Finding, found: &[Found]) {
     let share = |yes: &dyn Fn(&Found) -> bool| {
         found.iter().filter(|f| yes(f)).count() as f64 / found.len() as f64
     };
-    finding.judge(
+    finding.check(
         "share of types whose hairs are all stable",
         share(&|f| f.stable),
         Limit::AtLeast(1.0),
     );
-    finding.judge(
+    finding.check(
         "share of types that are longer wet than dry, as measured and as in the paper",
         share(&|f| f.heights[1][0] > f.heights[0][0] && f.heights[2][0] > f.heights[0][0]),
         Limit::AtLeast(1.0),
     );
     let curly = || found.iter().filter(|f| f.turns >= 4.0);
     let differences = curly().flat_map(|f| f.heights.map(|[a, b]| (a - b).abs()));
-    finding.judge(
+    finding.check(
         "largest difference of the height from the closed form over the length, curls of 4 turns and more",
         largest(differences),
         Limit::AtMost(0.01),
@@ -284,14 +284,14 @@ fn judge(finding: &mut Finding, found: &[Found]) {
     let order = (2..=8).filter_map(|k| by(&format!("type-{k}"))).map(|f| f.heights[0][0]);
     let heights: Vec<f64> = order.collect();
     let falls = heights.windows(2).filter(|p| p[1] < p[0]).count();
-    finding.judge(
+    finding.check(
         "of the six steps from type II to VIII, those at which dry hair hangs shorter",
         falls as f64,
         Limit::AtLeast(6.0),
     );
     for name in ["african-coily", "african-kinky", "coily", "kinky"] {
         let shrinks = by(name).map_or(f64::NAN, |f| 1.0 - f.heights[0][0]);
-        finding.judge(
+        finding.check(
             format!("shrinkage of dry hair, {name} (range from magazines)"),
             shrinks,
             Limit::Between(0.4, 0.85),

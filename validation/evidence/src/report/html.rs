@@ -127,11 +127,11 @@ fn criteria(out: &mut String, finding: &Finding) {
         (3, false) => "fails",
         _ => "",
     };
-    table(out, &judged(finding), class);
+    table(out, &checked(finding), class);
 }
 
 /// The criteria as a table.
-pub(super) fn judged(finding: &Finding) -> Table {
+pub(super) fn checked(finding: &Finding) -> Table {
     let mut table = Table::new("Verdict", &["what", "measured", "must be", "verdict"]);
     for criterion in &finding.criteria {
         table.row([

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::html::{judged, timed};
+use super::html::{checked, timed};
 use super::{Book, plot_name, words};
 use crate::{Item, Table};
 
@@ -37,7 +37,7 @@ pub(super) fn page(book: &Book<'_>) -> String {
             Some(_) => {
                 let _ = write!(out, "**{}**\n\n", finding.verdict());
             }
-            None => table(&mut out, &judged(finding)),
+            None => table(&mut out, &checked(finding)),
         }
     }
     if let Some(times) = timed(book) {

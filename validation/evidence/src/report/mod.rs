@@ -89,7 +89,7 @@ mod tests {
         finding.plot(plot);
         let (name, caption) = ("dot".to_owned(), "a dot".to_owned());
         finding.picture(Picture { name, caption, width: 1, png: vec![1, 2, 3] });
-        finding.judge("one", 1.0, Limit::AtMost(2.0));
+        finding.check("one", 1.0, Limit::AtMost(2.0));
         Book { effort: Effort::Quick, chapters: vec![(&EXPERIMENT, finding)] }
     }
 
@@ -97,7 +97,7 @@ mod tests {
     fn a_failed_verdict_is_told() {
         let mut book = book();
         assert!(book.holds() && book.html().contains("1 of 1 criterion hold"));
-        book.chapters[0].1.judge("two", 3.0, Limit::AtMost(2.0));
+        book.chapters[0].1.check("two", 3.0, Limit::AtMost(2.0));
         assert!(!book.holds());
         for text in [book.html(), book.markdown()] {
             assert!(text.contains("1 of 2 criteria FAIL") && text.contains("FAILS"), "{text}");

@@ -29,7 +29,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     let coils = kappas.par_iter().map(|&case| coil(case)).collect::<Result<Vec<_>, _>>()?;
     told(finding, &Told { cases: &gammas, found: &hooks, ..HOOKS });
     told(finding, &Told { cases: &kappas, found: &coils, ..COILS });
-    finding.judge(
+    finding.check(
         "largest relative difference of the two thresholds from the boundary-value problem's",
         largest(hooks.iter().chain(&coils).map(|[r, f]| (f / r - 1.0).abs())),
         Limit::AtMost(1e-4),

@@ -75,7 +75,7 @@ fn upright(finding: &mut Finding) -> Result<(), Stopped> {
     table.row(["Greenhill".to_owned(), shown(exact), shown(exact)]);
     finding.table(table);
     let error = largest(limit.iter().map(|l| (l / exact - 1.0).abs()));
-    finding.judge("relative error of Greenhill's load", error, Limit::AtMost(1e-7));
+    finding.check("relative error of Greenhill's load", error, Limit::AtMost(1e-7));
     fall(finding, exact)
 }
 
@@ -107,8 +107,8 @@ fn fall(finding: &mut Finding, exact: f64) -> Result<(), Stopped> {
     let below = both().filter(|(g, _)| **g < exact).map(|(_, t)| t.truncate().length());
     let above = both().filter(|(g, _)| **g > exact).map(|(_, t)| t.truncate().length());
     let lean = "tip of an upright hair sideways, over the length";
-    finding.judge(format!("{lean}, below the load (most)"), largest(below), Limit::AtMost(1e-6));
-    finding.judge(
+    finding.check(format!("{lean}, below the load (most)"), largest(below), Limit::AtMost(1e-6));
+    finding.check(
         format!("{lean}, above it by 2 % and more (least)"),
         smallest(above),
         Limit::AtLeast(0.1),

@@ -64,13 +64,13 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
         "Where none is found, loads from Γ = 2 to {HEAVIEST} were looked at in steps of 15 %, with both codes. Which axis ratio \
          turns over hangs on GJ/EI: the less it resists twist, the rounder the hair that still does.",
     ));
-    finding.judge(
+    finding.check(
         "largest relative difference of the sideways load from the boundary-value problem's, both shear moduli",
         largest(loads.iter().flatten().map(|l| (l.frisure / l.reference - 1.0).abs())),
         Limit::AtMost(1e-4),
     );
     let flat = loads.last().copied().flatten().map_or(f64::NAN, |l| l.frisure / limit - 1.0);
-    finding.judge(
+    finding.check(
         "relative difference of it at a/b = 100 from Prandtl and Michell",
         flat.abs(),
         Limit::AtMost(1e-3),

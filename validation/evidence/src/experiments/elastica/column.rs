@@ -80,7 +80,7 @@ pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
     plot.add("tips by elliptic integrals", Mark::Points, tips).colour = Some(1);
     finding.table(table);
     finding.plot(plot);
-    finding.judge(
+    finding.check(
         "largest error of the tip of Euler's column over the length, 1e-6 asked for",
         worst,
         Limit::AtMost(1e-6),

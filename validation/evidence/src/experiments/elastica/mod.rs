@@ -88,7 +88,7 @@ fn checked(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         Ok(tip.distance(DVec3::new(reach, 0.0, -drop)))
     };
     let off: Vec<f64> = some.par_iter().map(off).collect::<Result<_, Stopped>>()?;
-    finding.judge(
+    finding.check(
         format!(
             "largest distance of {} rows of the master curve from the boundary-value problem, over the length",
             some.len()
@@ -147,18 +147,18 @@ fn errors(finding: &mut Finding, rows: &[Row]) {
 
     let most = |of: fn(&Row) -> f64| largest(rows.iter().map(of));
     let over = |r: &Row| r.error / (r.estimate + 1e-10);
-    finding.judge(
+    finding.check(
         "largest error of the tip over the length, Γ from 0.01 to 100 000, 1e-6 asked for",
         most(|r| r.error),
         Limit::AtMost(REQUEST),
     );
-    finding.judge(
+    finding.check(
         "largest error over its estimate (with 1e-10 of the length for rounding)",
         most(over),
         Limit::AtMost(1.0),
     );
     let hair = largest(rows.iter().filter(|r| r.gamma < 110.0).map(|r| r.fixed[0]));
-    finding.judge(
+    finding.check(
         "largest error of the paper's 15 elements over the length, Γ up to 100",
         hair,
         Limit::AtMost(5e-3),

@@ -62,8 +62,8 @@ pub(super) fn on_a_sphere(finding: &mut Finding) -> Result<(), Stopped> {
         1e3 * depths[0],
         1e3 * depths[1]
     ));
-    finding.judge("depth of a curly hair in a sphere (mm)", 1e3 * depths[1], Limit::AtMost(0.1));
-    finding.judge(
+    finding.check("depth of a curly hair in a sphere (mm)", 1e3 * depths[1], Limit::AtMost(0.1));
+    finding.check(
         "both hairs in a minimum (1 if so)",
         f64::from(u8::from(stable)),
         Limit::AtLeast(1.0),
@@ -122,17 +122,17 @@ pub(super) fn on_heads(
         &pictures,
     )?);
     finding.table(table);
-    finding.judge(
+    finding.check(
         "volume with all collisions over that with those with the head alone",
         volumes[2] / volumes[1],
         Limit::AtLeast(1.1),
     );
-    finding.judge(
+    finding.check(
         "deepest that a guide is in the head with all collisions (mm)",
         deepest[2],
         Limit::AtMost(0.5),
     );
-    finding.judge(
+    finding.check(
         "deepest that a guide is in the head with none (mm)",
         deepest[0],
         Limit::AtLeast(5.0),

@@ -85,12 +85,27 @@ fn first(
         strands.len(),
         report.elements
     ));
-    finding.judge(
+    finding.check(
         "share of the guides of figure 1 that rest in a minimum",
         report.stable as f64 / report.guides as f64,
         Limit::AtLeast(1.0),
     );
     Ok(())
+}
+
+/// How far hair hangs and how densely it is packed, from straight to frizzy.
+fn check_order(finding: &mut Finding, drops: &[f64], fills: &[f64]) {
+    let falls = |x: &[f64]| x.windows(2).all(|p| p[1] < p[0]);
+    finding.check(
+        "hair hangs less and less from straight to curly to frizzy (1 if so)",
+        f64::from(u8::from(falls(drops))),
+        Limit::AtLeast(1.0),
+    );
+    finding.check(
+        "hair is looser and looser packed from straight to curly to frizzy (1 if so)",
+        f64::from(u8::from(falls(fills))),
+        Limit::AtLeast(1.0),
+    );
 }
 
 /// Figure 7: straight, curly, frizzy.
@@ -152,23 +167,13 @@ fn kinds(
     }
     finding.picture(strip("figure-7", "Figure 7: straight, curly and frizzy hair.", &pictures)?);
     finding.table(table);
-    let falls = |x: &[f64]| x.windows(2).all(|p| p[1] < p[0]);
-    finding.judge(
-        "hair hangs less and less from straight to curly to frizzy (1 if so)",
-        f64::from(u8::from(falls(&drops))),
-        Limit::AtLeast(1.0),
-    );
-    finding.judge(
-        "hair is looser and looser packed from straight to curly to frizzy (1 if so)",
-        f64::from(u8::from(falls(&fills))),
-        Limit::AtLeast(1.0),
-    );
-    finding.judge(
+    check_order(finding, &drops, &fills);
+    finding.check(
         "least share of the guides of figure 7 in a minimum",
         stable,
         Limit::AtLeast(0.99),
     );
-    finding.judge(
+    finding.check(
         "deepest that a guide of figure 7 is in the head (mm)",
         1e3 * deepest,
         Limit::AtMost(0.5),

@@ -80,18 +80,18 @@ pub(super) fn cut_wet(
     let dried = Operation::Dry(Dry::default());
     let back = style(&states[1], head, &dried, StyleOptions::default(), progress)
         .map_err(|e| failed(progress, e))?;
-    finding.judge(
+    finding.check(
         "how far the fringe hangs lower when it is wetted (mm)",
         heights[0] - heights[1],
         Limit::AtLeast(10.0),
     );
-    finding.judge(
+    finding.check(
         "how far the cut fringe springs up when it is dried (mm)",
         heights[3] - heights[2],
         Limit::AtLeast(10.0),
     );
-    finding.judge("volume wet over dry", volumes[1] / volumes[0], Limit::AtMost(0.95));
-    finding.judge(
+    finding.check("volume wet over dry", volumes[1] / volumes[0], Limit::AtMost(0.95));
+    finding.check(
         "largest distance of a tip from where it was, wetted and dried without a cut (mm): by construction",
         1e3 * moved(&states[0], &back),
         Limit::AtMost(0.0),

@@ -36,12 +36,12 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
          rest in a minimum; {other} in another one than by gravity's branch. The tips of the others are within \
          {worst:.0e} of the length."
     ));
-    finding.judge(
+    finding.check(
         "share of hairs that a batch brings to rest in a minimum",
         stable as f64 / count as f64,
         Limit::AtLeast(1.0),
     );
-    finding.judge(
+    finding.check(
         "share of hairs that a batch brings to rest elsewhere than gravity's branch",
         other as f64 / count as f64,
         Limit::AtMost(0.01),

@@ -14,14 +14,14 @@ use crate::{Effort, Finding, Limit, Stopped, Table};
 const OTHER: f64 = 1e-3;
 
 /// What the boundary-value problem says of a hair that frisure solved.
-struct Judged {
+struct Checked {
     /// Distance to the solution beside frisure's line, over what was asked for, and that solution's index.
     beside: Option<(f64, usize)>,
     /// Distance (m) to the solution that it follows by itself.
     followed: Option<f64>,
 }
 
-impl Judged {
+impl Checked {
     fn of(spec: &RodSpec, accuracy: f64, follow: bool) -> Result<Self, Stopped> {
         let (resolution, max_elements) = (Resolution::Accuracy(accuracy), 4000);
         let options = Options { resolution, max_elements, ..Options::default() };
@@ -43,34 +43,34 @@ fn distance(found: &Equilibrium, solution: &Solution) -> f64 {
 }
 
 pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
-    let realistic = |i: usize| Judged::of(&Random::new(71, i).realistic()?, 1e-4, true);
+    let realistic = |i: usize| Checked::of(&Random::new(71, i).realistic()?, 1e-4, true);
     let absurd = |i: usize| {
         let spec = Random::new(72, i).absurd()?;
-        Judged::of(&spec, 1e-3 * spec.length, false)
+        Checked::of(&spec, 1e-3 * spec.length, false)
     };
     let some = |count: usize| (0..count).into_par_iter();
-    let realistic: Vec<Judged> =
+    let realistic: Vec<Checked> =
         some(effort.pick(60, 1000)).map(realistic).collect::<Result<_, Stopped>>()?;
-    let absurd: Vec<Judged> =
+    let absurd: Vec<Checked> =
         some(effort.pick(30, 1000)).map(absurd).collect::<Result<_, Stopped>>()?;
-    told(finding, &realistic, &absurd);
-    for (kind, judged) in [("realistic", &realistic), ("absurd", &absurd)] {
-        beside(finding, kind, judged);
+    tabulate(finding, &realistic, &absurd);
+    for (kind, checked) in [("realistic", &realistic), ("absurd", &absurd)] {
+        beside(finding, kind, checked);
     }
     followed(finding, &realistic);
     Ok(())
 }
 
-fn told(finding: &mut Finding, realistic: &[Judged], absurd: &[Judged]) {
+fn tabulate(finding: &mut Finding, realistic: &[Checked], absurd: &[Checked]) {
     let mut table = Table::new(
         "frisure's lines, judged by the boundary-value problem that starts from them",
         &["", "realistic", "absurd"],
     );
-    let mut row = |name: &str, of: &dyn Fn(&[Judged]) -> String| {
+    let mut row = |name: &str, of: &dyn Fn(&[Checked]) -> String| {
         table.row([name.to_owned(), of(realistic), of(absurd)]);
     };
-    let index = |judged: &[Judged], yes: fn(usize) -> bool| {
-        judged.iter().filter_map(|j| j.beside).filter(|b| yes(b.1)).count().to_string()
+    let index = |checked: &[Checked], yes: fn(usize) -> bool| {
+        checked.iter().filter_map(|j| j.beside).filter(|b| yes(b.1)).count().to_string()
     };
     row("hairs", &|j| j.len().to_string());
     row("a solution beside the line", &|j| index(j, |_| true));
@@ -83,23 +83,23 @@ fn told(finding: &mut Finding, realistic: &[Judged], absurd: &[Judged]) {
 }
 
 /// Whether every line is one of the boundary-value problem, and a minimum there too.
-fn beside(finding: &mut Finding, kind: &str, judged: &[Judged]) {
-    let solved: Vec<(f64, usize)> = judged.iter().filter_map(|j| j.beside).collect();
-    let part = |count: usize| count as f64 / judged.len() as f64;
-    finding.judge(
+fn beside(finding: &mut Finding, kind: &str, checked: &[Checked]) {
+    let solved: Vec<(f64, usize)> = checked.iter().filter_map(|j| j.beside).collect();
+    let part = |count: usize| count as f64 / checked.len() as f64;
+    finding.check(
         format!(
             "share of {} {kind} hairs beside whose line the boundary-value problem has a solution",
-            judged.len()
+            checked.len()
         ),
         part(solved.len()),
         Limit::AtLeast(1.0),
     );
-    finding.judge(
-        format!("share of {} {kind} hairs whose solution has Morse's index 0", judged.len()),
+    finding.check(
+        format!("share of {} {kind} hairs whose solution has Morse's index 0", checked.len()),
         part(solved.iter().filter(|s| s.1 == 0).count()),
         Limit::AtLeast(1.0),
     );
-    finding.judge(
+    finding.check(
         format!(
             "largest distance of it from frisure's line, over the accuracy asked for, {kind} hairs"
         ),
@@ -109,7 +109,7 @@ fn beside(finding: &mut Finding, kind: &str, judged: &[Judged]) {
 }
 
 /// Whether the boundary-value problem comes to the same by itself.
-fn followed(finding: &mut Finding, realistic: &[Judged]) {
+fn followed(finding: &mut Finding, realistic: &[Checked]) {
     let known: Vec<f64> = realistic.iter().filter_map(|j| j.followed).collect();
     let same: Vec<f64> = known.iter().copied().filter(|g| *g <= OTHER).collect();
     let other = known.len() - same.len();
@@ -120,17 +120,17 @@ fn followed(finding: &mut Finding, realistic: &[Judged]) {
         realistic.len(),
         known.len(),
     ));
-    finding.judge(
+    finding.check(
         "largest distance from the line that the boundary-value problem follows (mm), same equilibrium, 0.1 mm asked for",
         worst,
         Limit::AtMost(0.1),
     );
-    finding.judge(
+    finding.check(
         "share of those followed that end in another equilibrium",
         other as f64 / known.len() as f64,
         Limit::AtMost(0.005),
     );
-    finding.judge(
+    finding.check(
         "share that the boundary-value problem could follow",
         known.len() as f64 / realistic.len() as f64,
         Limit::AtLeast(0.95),

@@ -86,7 +86,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
         ]);
     }
     finding.table(table);
-    finding.judge(
+    finding.check(
         "share of helices in which gravity's branch is the lowest minimum found",
         lowest[1],
         Limit::AtLeast(0.9),

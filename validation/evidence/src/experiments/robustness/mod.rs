@@ -144,11 +144,11 @@ fn told(finding: &mut Finding, realistic: &[Solved], absurd: &[Solved]) {
     let stable =
         |s: &[Solved]| count(s, &|s| s.stability == Stability::Stable) as f64 / s.len() as f64;
     let most = sorted(realistic, &|s| s.iterations as f64);
-    finding.judge(
+    finding.check(
         "share of realistic hairs that are stable and within the accuracy by their estimate",
         share(realistic),
         Limit::AtLeast(1.0),
     );
-    finding.judge("iterations of 99 of 100 realistic hairs", at(&most, 0.99), Limit::AtMost(200.0));
-    finding.judge("share of absurd hairs that are stable", stable(absurd), Limit::AtLeast(1.0));
+    finding.check("iterations of 99 of 100 realistic hairs", at(&most, 0.99), Limit::AtMost(200.0));
+    finding.check("share of absurd hairs that are stable", stable(absurd), Limit::AtLeast(1.0));
 }

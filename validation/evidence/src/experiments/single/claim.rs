@@ -106,7 +106,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
          With ε read as √(1 − (b/a)²), the paper's range ends at 0.2, where either effect is a few per cent, which nobody \
          sees. Read as one minus a ratio of axes it ends at 0.6 of ours, where it is tens of per cent.",
     );
-    judged(finding, &all, &found);
+    check_criteria(finding, &all, &found);
     Ok(())
 }
 
@@ -139,19 +139,19 @@ fn shown(finding: &mut Finding, all: &[f64], found: &[Vec<Relative>]) {
     finding.table(table);
 }
 
-fn judged(finding: &mut Finding, all: &[f64], found: &[Vec<Relative>]) {
+fn check_criteria(finding: &mut Finding, all: &[f64], found: &[Vec<Relative>]) {
     let hairs = 2 * CURLS.len() * (all.len() - 1);
     let share = |soft: bool| {
         let these = WAYS.iter().zip(found).filter(|(way, _)| way.0 == soft);
         let regular: usize = these.flat_map(|(_, s)| &s[1..]).map(|r| regular(r, 0)).sum();
         regular as f64 / hairs as f64
     };
-    finding.judge(
+    finding.check(
         format!("share of {hairs} hairs curled about the stiff axis, ε from {:.3} to 0.9, whose curvature is more regular than at 0", all[1]),
         share(false),
         Limit::AtLeast(1.0),
     );
-    finding.judge(
+    finding.check(
         format!("share of {hairs} hairs curled about the soft axis of which the same is true"),
         share(true),
         Limit::AtMost(0.0),
@@ -160,7 +160,7 @@ fn judged(finding: &mut Finding, all: &[f64], found: &[Vec<Relative>]) {
         let small = all.iter().zip(series.clone()).filter(|(e, _)| **e < 0.2 + 1e-9);
         small.flat_map(|(_, r)| r).map(|r| (r[0] - 1.0).abs()).collect::<Vec<f64>>()
     };
-    finding.judge(
+    finding.check(
         "largest relative change of that irregularity, ε = √(1 − (b/a)²) up to the paper's 0.2",
         largest(found.iter().flat_map(within)),
         Limit::AtMost(0.05),

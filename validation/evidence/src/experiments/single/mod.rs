@@ -119,7 +119,7 @@ fn six(finding: &mut Finding) -> Result<(), Stopped> {
          0.9: what the claim is about has to be measured.",
     );
     finding.table(table);
-    finding.judge(
+    finding.check(
         "of seven hairs, those in a stable equilibrium",
         stable as f64,
         Limit::AtLeast(7.0),

@@ -54,7 +54,7 @@ pub(super) fn add(
     let border = [40.0, 1500.0, 3000.0].map(|g: f64| (g, (g / B).sqrt()));
     plot.add("Γ = (EI/GJ)(κL)²", Mark::Dashed, border).colour = Some(3);
     finding.plot(plot);
-    judge(finding, &hairs)
+    check_criteria(finding, &hairs)
 }
 
 /// The two borders of the plane, as points (Γ, κL): that of curls as the weight grows, and that of hooks as the
@@ -84,10 +84,10 @@ fn expected(hair: &Hung) -> bool {
     hook_leaves(&bar).unwrap_or(true) && reference_leaves(&bar).unwrap_or(true)
 }
 
-fn judge(finding: &mut Finding, hairs: &[Hung]) -> Result<(), Stopped> {
+fn check_criteria(finding: &mut Finding, hairs: &[Hung]) -> Result<(), Stopped> {
     let share = |part: usize, of: usize| part as f64 / of as f64;
     let stable = hairs.iter().filter(|h| h.stable).count();
-    finding.judge(
+    finding.check(
         "share of the diagram's hairs that are stable",
         share(stable, hairs.len()),
         Limit::AtLeast(1.0),
@@ -100,7 +100,7 @@ fn judge(finding: &mut Finding, hairs: &[Hung]) -> Result<(), Stopped> {
             "Against the boundary-value problem, Γ = {gamma}, κL = {kappa} is {is} the plane."
         ));
     }
-    finding.judge(
+    finding.check(
         format!(
             "share of {} hairs, all of the diagram, in or out of the plane as Morse's index has it",
             hairs.len()
@@ -112,7 +112,7 @@ fn judge(finding: &mut Finding, hairs: &[Hung]) -> Result<(), Stopped> {
     let helices: Vec<&Hung> =
         hairs.iter().filter(|h| h.leaves() && !(0.5..2.0).contains(&tension(h))).collect();
     let placed = helices.iter().filter(|h| (h.phase() == Phase::Global) == (tension(h) < 1.0));
-    finding.judge(
+    finding.check(
         format!(
             "share of {} helices, off Γ = (EI/GJ)(κL)² by a factor of 2, that are near the tip or all along as it has it",
             helices.len()

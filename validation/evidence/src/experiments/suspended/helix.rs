@@ -74,12 +74,12 @@ pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
     }
     finding.plot(plot);
     finding.table(table);
-    finding.judge(
+    finding.check(
         "largest difference of the height from the closed form, over the length",
         worst,
         Limit::AtMost(0.005),
     );
-    finding.judge(
+    finding.check(
         "largest difference of a turn's descent from the closed form, but for the turns at the ends",
         angle,
         Limit::AtMost(0.01),

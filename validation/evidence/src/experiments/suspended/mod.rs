@@ -113,7 +113,7 @@ fn shapes(finding: &mut Finding) -> Result<(), Stopped> {
         plot.add("", Mark::Line, hung.line.iter().map(|p| (at + 0.25 + p.y, p.z))).colour = Some(i);
     }
     finding.plot(plot);
-    finding.judge(
+    finding.check(
         "of three hairs, those with the shape expected",
         right as f64,
         Limit::AtLeast(3.0),
