@@ -42,6 +42,7 @@ pub struct Guide {
 }
 
 /// Standard deviation (rad) of the direction about the root tangent in which curls lean.
+/// Chosen by eye; how follicles turn their curl is not known.
 const ROLL: f64 = 0.4;
 
 /// Plans the guides rooted at `roots` on a scalp of the weighted area `area` (m²).
@@ -121,6 +122,7 @@ fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
 }
 
 /// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.
+/// Chosen by trial; not measured further.
 const SPARE: f64 = 5e-3;
 
 /// The fibre that a guide is.
@@ -199,6 +201,7 @@ fn leaning(strain: DVec3, tangent: DVec3, lean: DVec3, random: &mut Stream) -> D
 }
 
 /// How far the curl of a wisp is from the mean at most, in standard deviations.
+/// Chosen: a wisp is the mean of hundreds of hairs.
 const ODDEST: f64 = 1.6;
 
 /// The mean natural strain of one guide (rad/m): the head's, varied between guides.

@@ -126,7 +126,7 @@ impl History {
         Ok(true)
     }
 
-    /// Undoes or does again until so many operations are done; at most all.
+    /// Undoes or does again until `done` operations are done; at most all.
     ///
     /// # Errors
     /// [`HistoryError`], if one cannot be done, or its computing is cancelled.
@@ -209,7 +209,7 @@ impl History {
         self.become_list(operations, step, done, head, progress)
     }
 
-    /// The hairstyle after so many operations, if it is known.
+    /// The hairstyle after `done` operations, if it is known.
     #[must_use]
     pub fn known(&self, done: usize) -> Option<&Arc<Hairstyle>> {
         match done.checked_sub(1) {
@@ -219,7 +219,7 @@ impl History {
     }
 
     /// Takes another list over, of which the first `done` are to be done; at most all. What is known of
-    /// the operations that both lists begin with stays known, also where it fails: then so many are done
+    /// the operations that both lists begin with stays known, also where it fails: then as many are done
     /// as could be.
     ///
     /// # Errors
@@ -260,7 +260,7 @@ impl History {
         Ok(&self.current)
     }
 
-    /// The last known hairstyle with at most so many operations done, and how many it has.
+    /// The last known hairstyle with at most `done` operations done, and how many it has.
     fn nearest(&self, done: usize) -> (usize, Arc<Hairstyle>) {
         let known = (0..done).rev().find_map(|i| self.known[i].clone().map(|h| (i + 1, h)));
         known.unwrap_or((0, self.start.clone()))

@@ -1,4 +1,25 @@
 //! A whole head of hair: fibre and head → roots → guides → equilibrium → wisps → strands.
+//!
+//! [`Hairstyle`] is plain data. [`predict()`] makes one from a [`HairstyleSpec`] and a [`head::Head`], [`style`] makes
+//! another from it, [`strands()`] draws it. Long work reports to a `Progress` and can be cancelled; `&()` reports nothing.
+//!
+//! ```
+//! use frisure_hairstyle::{PredictOptions, StrandOptions, head::Head, predict, preset, settling_report, strands};
+//!
+//! let mut spec = preset("wavy").expect("a preset").spec();
+//! spec.wisps.count = 20; // few guides: quick
+//! spec.wisps.hairs = frisure_hairstyle::Hairs::Count(100);
+//! let head = Head::mannequin();
+//! let hairstyle = predict(&spec, &head, PredictOptions::default(), &())?;
+//! assert_eq!(settling_report(&hairstyle, &head).stable, 20);
+//! let drawn = strands(&hairstyle, &head, StrandOptions::default(), &())?;
+//! assert_eq!(drawn.strands.len(), 100);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Modules, in the order of computation: `head`, `spec`, `presets`, `implantation` (roots and directions), `contact`,
+//! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict` and `adopt`, `strands`, `styling`, `history`. None uses
+//! one that comes later.
 
 mod math;
 mod random;
@@ -44,8 +65,8 @@ pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset,
 pub use random::Draws;
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec,
-    Implantation, InvalidSpec, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle,
-    Settling, Turn, Whorls, Wisps,
+    Implantation, InvalidSpec, Length, Level, Lift, Parting, Place, RANGES, Range, RegionLength,
+    RegionStyle, Settling, Turn, Whorls, Wisps, range_of,
 };
 pub use strands::{
     Checkpoint, DrawnHair, Simulation, StrandOptions, add_natural_strains, add_sections, describe,

@@ -96,9 +96,9 @@ impl Draws {
         self.0.gaussian()
     }
 
-    /// One of so many things, counted from 0; all are as likely.
+    /// A number below `count`; all are as likely.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "less than count")]
-    #[expect(clippy::cast_precision_loss, reason = "nobody has so many things")]
+    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2⁵³")]
     pub fn one_of(&mut self, count: usize) -> usize {
         ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
     }

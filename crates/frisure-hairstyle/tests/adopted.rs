@@ -121,7 +121,7 @@ fn hairs_keep_their_own_shapes() {
             .collect();
         apart.sort_by(f32::total_cmp);
         let held = adoption.distances.iter().filter(|d| **d < 5e-4).count() * apart.len() / GUIDES;
-        // Some hairs are carried by one guide that was held and one that was not.
+        // Some hairs are bound to one guide that was held and one that was not.
         assert!(apart[held * 8 / 10] < 1e-3, "{name}: {:?}", &apart[held * 7 / 10..]);
         assert!(apart[apart.len() / 2] < 4e-4, "{name}: {}", apart[apart.len() / 2]);
 

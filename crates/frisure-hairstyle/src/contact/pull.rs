@@ -28,7 +28,7 @@ pub enum Pull {
 }
 
 impl Pull {
-    /// The same, so many times as strong.
+    /// The same, `factor` times as strong.
     pub(crate) fn scaled(self, factor: f64) -> Self {
         match self {
             Self::Comb { force } => Self::Comb { force: force * factor },

@@ -1,4 +1,4 @@
-//! Each guide on its own, on the body and on the bed of hair.
+//! Each guide by itself, on the body and on the bed of hair.
 
 use frisure_rod::potential::Potential;
 use frisure_rod::{Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
@@ -14,15 +14,16 @@ use crate::spec::{Body, HairContact, HairstyleSpec};
 use frisure_progress::{Cancelled, Progress, StageCounter};
 
 /// Stiffnesses of the body, as fractions of its own: the first while gravity is turned on.
+/// docs/theory.md, "Contact with the body".
 const HARDNESS: [f64; 3] = [0.0016, 0.04, 1.0];
 
-/// Depth (m) in the body beyond which another way out is sought.
+/// Depth (m) in the body beyond which another way out is sought. docs/theory.md, "Contact with the body".
 const DEEPEST: f64 = 3e-4;
 
-/// Shapes that are tried for a guide that is still deeper.
+/// Shapes that are tried for a guide that is still deeper. Chosen by trial; not measured further.
 const STARTS: u32 = 8;
 
-/// The same after a warm start, which has to follow a slider: a hundredth of a hair's breadth.
+/// Relative gradient at which a guide is at rest after a warm start, which has to follow a slider: a hundredth of a hair's breadth.
 const WARM_TOLERANCE: f64 = 1e-5;
 
 /// Brings every guide to rest.
@@ -47,8 +48,8 @@ pub(super) fn settle(
         .collect()
 }
 
-/// Brings every guide to rest from where the guide of the same index rested before, in so many
-/// iterations at most.
+/// Brings every guide to rest from where the guide of the same index rested before, in at most
+/// `iterations` iterations.
 ///
 /// # Errors
 /// [`Cancelled`], if the progress says so.
@@ -113,9 +114,11 @@ fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibriu
 }
 
 /// How hard a comb or a clip pulls, in steps: it does not tear hair through the head …
+/// Chosen by trial; not measured further.
 const PULLS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
 
-/// … and how hard while it lets go, before it is gone: hair sinks to where it is let go.
+/// How hard a comb or clip pulls in steps while it lets go: hair sinks to where it is let go.
+/// Chosen by trial; not measured further.
 const LETTING_GO: [f64; 6] = [0.6, 0.35, 0.2, 0.1, 0.05, 0.02];
 
 /// From where it lay to rest; `gone` is what pulled at it and has let go.
@@ -201,15 +204,15 @@ pub(super) fn in_shapes_of(
     (guides.par_iter().zip(before))
         .map(|(guide, before)| {
             let resolution = Resolution::Elements(elements_like(spec, before));
-            let mut carried =
+            let mut transferred =
                 equilibrium_from(&guide.rod, &[], &Options { resolution, ..options }, before);
-            carried.certificate.iterations = 0;
-            carried
+            transferred.certificate.iterations = 0;
+            transferred
         })
         .collect()
 }
 
-/// The division of a guide: that of the one before it, if an accuracy is asked for.
+/// The division of a guide: that of the one before it, if the description gives an accuracy.
 fn elements_like(spec: &HairstyleSpec, before: &Equilibrium) -> usize {
     match spec.equilibrium.resolution {
         Resolution::Elements(n) => n,

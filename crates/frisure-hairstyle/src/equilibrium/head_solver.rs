@@ -1,12 +1,17 @@
 //! All guides at once: wisps make way for each other until the energy of the whole head is least.
 //!
-//! The energy of the head is that of its guides on the body and of every pair of wisps that
-//! overlap. First one guide after the other goes downhill in it while the others hold still (block
-//! coordinate descent), so that no step can raise it; guides that cannot touch move at the same
-//! time. That sorts out who lies on whom, in a few sweeps. Then all move together, along conjugate
-//! directions of which each guide's Newton step is the preconditioner (Polak & Ribière 1969), and at
-//! last the few that are still active, each by itself; until the derivative of the whole energy by
-//! every control of every guide is below the tolerance.
+//! The energy of the head is that of its guides on the body and of every pair of wisps that overlap
+//! (docs/theory.md, "Hair against hair: layers and wisps"). It is lowered in two phases, neither of which can raise it:
+//!
+//! 1. *Sweeps* (block coordinate descent): one guide after the other goes downhill while the others hold still; guides
+//!    that cannot touch move at the same time. A few sweeps settle which wisp lies on which.
+//! 2. *Convergence*, until the derivative of the energy by every control of every guide is below the tolerance. Each step
+//!    1. updates the neighbours of guides that have used up half of their reach;
+//!    2. computes each guide's Newton step while the others hold still;
+//!    3. finds the active guides, those not at rest; it ends if there are none;
+//!    4. while they are few, sweeps over the active guides alone;
+//!    5. otherwise moves all guides along a conjugate direction with the Newton steps as preconditioner (Polak & Ribière
+//!       1969), by a line search.
 
 use frisure_rod::Equilibrium;
 use frisure_rod::minimise::NewtonStep;
@@ -22,30 +27,32 @@ use crate::head::Head;
 use crate::spec::HairstyleSpec;
 use frisure_progress::{Cancelled, Progress, StageCounter};
 
-/// Most sweeps of one guide after the other; they end when half of the guides move less than …
+/// Most sweeps of phase 1. Chosen by trial; not measured further.
 const MOST_SWEEPS: usize = 30;
-/// … this (m).
+/// Phase 1 ends when half of the guides move less than this (m). Chosen by trial; not measured further.
 const CALM: f64 = 2e-4;
 
-/// How much of the work the sweeps are, for the progress shown.
+/// Share of phase 1 in the progress shown; no result depends on it.
 const SORTED: f64 = 0.3;
 
-/// Most steps of all guides together, and how far each may move in one, as a share of a sweep.
+/// Most steps of phase 2: a guard, seldom reached.
 pub(super) const MOST_STEPS: usize = 1000;
+/// How far a guide may move in a step of phase 2, as a share of a sweep. Chosen by trial; not measured further.
 const LARGEST_STEP: f64 = 0.4;
 
 /// How far a guide may move in one sweep, as a fraction of the mean radius of wisps: not so far that
-/// it could jump over another. And the most that it is (m).
+/// it could jump over another. Chosen by trial; not measured further.
 const LARGEST_MOVE: f64 = 1.5;
+/// Largest move in one sweep (m), also among thick wisps. Chosen by trial; not measured further.
 const MOST_REACH: f64 = 4e-3;
 
-/// The active are few where they are at most one of so many.
+/// Active guides are few if at most one guide in this many is active (docs/theory.md, "Hair against hair").
 const FEW: usize = 4;
 
-/// The least distance (m) for which neighbours are looked for beyond their thickness.
+/// Least distance (m) beyond their thickness within which neighbours are searched. Chosen: a fraction of a wisp's radius.
 const LEAST_REACH: f64 = 6e-4;
 
-/// Lets wisps make way for each other, from where each has settled alone.
+/// Lets wisps make way for each other, from where each guide rests by itself: phases 1 and 2.
 ///
 /// # Errors
 /// [`Cancelled`], if the progress says so.
@@ -63,7 +70,7 @@ pub(super) fn settle(
     Ok(solver.finish(sweeps + steps))
 }
 
-/// Lets wisps make way for each other in so many steps at most, from where they were nearly at rest.
+/// Lets wisps make way for each other in at most `most` steps, from where they nearly rest: phase 2 only.
 ///
 /// # Errors
 /// [`Cancelled`], if the progress says so.
@@ -93,10 +100,11 @@ struct HeadSolver<'a> {
     groups: Vec<Vec<usize>>,
     /// How far a guide may move at once (m).
     farthest: f64,
-    /// How far each guide may move (m) before neighbours are looked for again …
+    /// How far each guide may move (m) before its neighbours are searched again …
     reach: Vec<f64>,
-    /// … how far it has, and how far in the last sweep.
+    /// How far each guide has moved (m) since its neighbours were searched.
     drift: Vec<f64>,
+    /// How far each guide moved (m) in the last sweep.
     last: Vec<f64>,
 }
 
@@ -134,7 +142,7 @@ impl<'a> HeadSolver<'a> {
 }
 
 impl HeadSolver<'_> {
-    /// Sweeps until most guides are calm; gives the number of sweeps.
+    /// Phase 1: sweeps until half of the guides are calm. Returns the number of sweeps.
     fn sweep_until_calm(&mut self, stage: &StageCounter<'_>) -> Result<usize, Cancelled> {
         let everyone = vec![true; self.wisps.len()];
         for sweep in 1..=MOST_SWEEPS {
@@ -150,7 +158,7 @@ impl HeadSolver<'_> {
         Ok(MOST_SWEEPS)
     }
 
-    /// Looks for neighbours of the guides that have used up most of their reach.
+    /// Step 2.1: searches the neighbours of guides that have used up half of their reach.
     fn update_neighbours(&mut self) {
         let used_up: Vec<bool> =
             self.drift.iter().zip(&self.reach).map(|(drift, reach)| *drift > 0.5 * reach).collect();
@@ -166,7 +174,7 @@ impl HeadSolver<'_> {
         self.groups = self.pairs.groups(&self.order);
     }
 
-    /// Every guide that is to goes downhill once, those that cannot touch at the same time.
+    /// Moves each guide of `who` downhill once, those that cannot touch at the same time.
     fn sweep(&mut self, stage: &StageCounter<'_>, who: &[bool]) -> Result<(), Cancelled> {
         for group in &self.groups {
             stage.check()?;
@@ -184,8 +192,7 @@ impl HeadSolver<'_> {
         Ok(())
     }
 
-    /// Goes downhill until the head is at rest: with the active guides one after the other while
-    /// they are few, else with all together. Gives the number of steps.
+    /// Phase 2: steps until no guide is active, at most `most`. Returns the number of steps.
     fn converge(&mut self, stage: &StageCounter<'_>, most: usize) -> Result<usize, Cancelled> {
         self.farthest *= LARGEST_STEP;
         self.drift.fill(f64::INFINITY);
@@ -194,22 +201,24 @@ impl HeadSolver<'_> {
         let mut first: Option<f64> = None;
         for step in 0..most {
             stage.check()?;
-            self.update_neighbours();
-            self.newton_steps(&mut newton);
-            let active = self.active(&newton);
-            let few = active.iter().filter(|r| **r).count();
-            if few == 0 {
+            self.update_neighbours(); // 2.1
+            self.newton_steps(&mut newton); // 2.2
+            let active = self.active(&newton); // 2.3
+            let count = active.iter().filter(|r| **r).count();
+            if count == 0 {
                 return Ok(step);
             }
             let steepest = self.steepest(&newton);
             let first = *first.get_or_insert(steepest);
             let done = (first / steepest).ln() / (first / self.tolerance).ln().max(1e-9);
             stage.at(SORTED + (1.0 - SORTED) * done);
-            if few * FEW <= self.wisps.len() {
+            if count * FEW <= self.wisps.len() {
+                // 2.4
                 self.sweep(stage, &active)?;
                 self.forget(&mut newton, &active);
                 previous = None;
             } else {
+                // 2.5
                 let all = newton.iter_mut().map(|n| n.take().expect("known for all")).collect();
                 let mut direction = Direction::new(all, previous.as_ref());
                 if self.search(&mut direction) {
@@ -225,7 +234,7 @@ impl HeadSolver<'_> {
         Ok(most)
     }
 
-    /// Fills in Newton's steps where they are not known.
+    /// Step 2.2: computes the Newton steps that are not known.
     fn newton_steps(&self, newton: &mut [Option<NewtonStep>]) {
         newton.par_iter_mut().enumerate().filter(|(_, n)| n.is_none()).for_each(|(i, n)| {
             let reach = self.reach[i] - self.drift[i];
@@ -239,7 +248,7 @@ impl HeadSolver<'_> {
         known.map(|(w, n)| slope(w, n)).fold(0.0, f64::max)
     }
 
-    /// Which guides are not at rest.
+    /// Step 2.3: which guides are not at rest.
     fn active(&self, newton: &[Option<NewtonStep>]) -> Vec<bool> {
         let still = |(w, n): (&Wisp<'_>, &Option<NewtonStep>)| {
             n.as_ref().is_some_and(|n| slope(w, n) <= self.tolerance && n.positive_definite)
@@ -256,7 +265,7 @@ impl HeadSolver<'_> {
         }
     }
 
-    /// Goes along a direction to about the least energy there; whether it is lower than here.
+    /// Step 2.5: a line search by parabolas along a direction. Returns whether it found a lower energy.
     fn search(&mut self, direction: &mut Direction) -> bool {
         let energy = direction.energy.unwrap_or_else(|| self.energy());
         let mut fraction = direction.fraction;

@@ -28,6 +28,15 @@ pub use scalp::Hairline;
 pub use spheres::Sphere;
 
 /// A head that hair can be planted on.
+///
+/// ```
+/// use frisure_hairstyle::head::Head;
+///
+/// let head = Head::mannequin();
+/// let skin = head.surface().positions()[0];
+/// assert!(head.signed_distance().value(skin).abs() < 2e-3);
+/// assert!(head.signed_distance().value(head.landmarks().whorl * 1.5) > 0.04); // outside
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head {
     surface: Surface,

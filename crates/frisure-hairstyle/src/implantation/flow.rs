@@ -14,13 +14,13 @@ use crate::head::{Head, Landmarks};
 use crate::math::smooth_step;
 use crate::spec::{Comb, Flow, Turn, Whorls};
 
-/// Distance (m) from a whorl within which hair stands up.
+/// Distance (m) from a whorl within which hair stands up. docs/theory.md, "Roots and implantation".
 const EYE: f64 = 0.012;
 
-/// How far (rad) hair beside a whorl turns away from the radius.
+/// How far (rad) hair beside a whorl turns away from the radius. docs/theory.md, "Roots and implantation".
 const SWIRL: f64 = 1.2;
 
-/// Half the distance (m) between two whorls.
+/// Half the distance (m) between two whorls. Chosen by eye; not measured.
 const PAIR: f64 = 0.022;
 
 /// Where hair turns.

@@ -17,7 +17,7 @@ pub(crate) fn angle(marks: &Landmarks, lift: Lift, p: DVec3) -> f64 {
 }
 
 /// Measured implantation angles (degrees to the skin): hairline 10–20, temples 3–10, mid-scalp 30,
-/// rising to 60 at the crown. PHYSICS_NOTES, "Constants".
+/// rising to 60 at the crown (docs/theory.md, "Roots and implantation").
 fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
     let up = marks.normalized(p).normalize_or(DVec3::Z).z;
     let reach = marks.width;
@@ -28,7 +28,7 @@ fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
     with_crown + (15.0 - with_crown) * front
 }
 
-/// Distance (m) from a parting up to which a comb lays hair on the skin.
+/// Distance (m) from a parting up to which a comb lays hair on the skin. docs/theory.md, "Roots and implantation".
 const LAID: f64 = 0.03;
 
 /// The angle (rad) at `distance` (m) from a parting: there the comb has laid down what would stand.
@@ -37,7 +37,7 @@ pub(crate) fn laid_flat(angle: f64, distance: f64) -> f64 {
     flat + (angle - flat) * smooth_step(0.3 * LAID, LAID, distance)
 }
 
-/// Steepest angle (rad) to which hair above the forehead is turned.
+/// Steepest angle (rad) to which hair above the forehead is turned. Chosen by eye; not measured.
 const STEEPEST: f64 = 1.4;
 
 /// The angle (rad) of a fibre whose curl, not the fibre itself, is combed away from the face: above

@@ -7,16 +7,17 @@ use crate::head::{Head, Landmarks};
 use crate::math::segments_cross;
 use crate::spec::Parting;
 
-/// Length (m) of the pieces of a parting.
+/// Length (m) of the pieces of a parting. Chosen by trial; not measured further.
 const PIECE: f64 = 2.5e-3;
 
 /// How far (m) a parting begins in front of the forehead's hairline, so that it parts the edge.
+/// Chosen by eye; not measured.
 const BEFORE: f64 = 6e-3;
 
-/// Width and period (m) of a zigzag.
+/// Width and period (m) of a zigzag. Chosen by eye; not measured.
 const ZIGZAG: (f64, f64) = (0.011, 0.026);
 
-/// Farthest (m) from growing hair that a point of a parting may be.
+/// Farthest (m) from growing hair that a point of a parting may be. Chosen by trial; not measured further.
 const OFF: f64 = 0.015;
 
 /// A parting that is not where hair grows.
@@ -39,9 +40,11 @@ fn short(metres: f64) -> f64 {
 }
 
 /// Width (m) of the strip beside a parting of which the drawn hair is gathered at the line.
+/// docs/theory.md, "Roots and implantation".
 const GATHERED: f64 = 8e-3;
 
 /// Distance (m) from the line within which hair is not moved, so that it stays on its side.
+/// Chosen by trial; not measured further.
 const SIDE: f64 = 1e-4;
 
 /// The partings of one head.
@@ -207,11 +210,11 @@ fn check(
     }
 }
 
-/// Longest way (m) that a parting which ends near the edge of the hair is carried on over it: no hair
-/// falls forward between its end and the edge.
+/// Longest way (m) that a parting which ends near the edge of the hair is extended over it: no hair
+/// falls forward between its end and the edge. docs/theory.md, "Roots and implantation".
 const ONWARD: f64 = 0.02;
 
-/// Carries a line on past its last point until no hair grows, if that is near.
+/// Extends a line past its last point until no hair grows, if that is near.
 fn extend(line: &mut Vec<[f64; 2]>, tape: &Tape<'_>, head: &Head) {
     let [.., before, last] = line.as_slice() else { return };
     let way = [last[0] - before[0], last[1] - before[1]];

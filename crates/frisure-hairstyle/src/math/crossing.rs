@@ -1,7 +1,7 @@
 //! Where a function first becomes positive.
 
-/// Where a function first becomes positive between 0 and `end`, looked for in so many steps; the step
-/// is then halved so many times. 0 if it is positive there, none if it is positive nowhere.
+/// Where a function first becomes positive between 0 and `end`, searched in `steps` steps; the step
+/// is then bisected `halvings` times. 0 if it is positive there, none if it is positive nowhere.
 pub(crate) fn first_positive(
     end: f64,
     steps: usize,

@@ -112,7 +112,7 @@ fn what_is_the_same_for_all_hair_is_in_its_measured_range() {
 #[test]
 fn curl_types_are_in_their_classes() {
     // Curve diameters (m) from above to below: de la Mettrie et al. 2007. Types IV to VIII share the
-    // last class and are told apart by curl index, waves and twists.
+    // last class and differ by curl index, waves and twists.
     let classes =
         [(0.105, f64::INFINITY), (0.055, 0.105), (0.035, 0.055), (0.0, 0.035), (0.0, 0.035)];
     let mut previous = f64::INFINITY;

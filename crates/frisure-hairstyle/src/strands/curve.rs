@@ -9,18 +9,18 @@ use crate::implantation::Root;
 use crate::math::{first_positive, smooth_step};
 use crate::wisps::{BoundStrand, BoundStrands};
 
-/// Least length (m) along which hair gathers into wisps: stubble stands by itself.
+/// Least length (m) along which hair gathers into wisps: stubble stands by itself. Chosen by eye; not measured.
 const GATHERING: f64 = 0.06;
 
-/// How much of the way to the middle of its split a hair has come at the tip.
+/// How much of the way to the middle of its split a hair has come at the tip. Chosen by eye; not measured.
 const GATHERED: f64 = 0.75;
 
-/// Length (m) along which hair that would be stretched is drawn in to its guides.
+/// Length (m) along which hair that would be stretched is drawn in to its guides. Chosen by eye; not measured.
 const DRAWN_IN: f64 = 0.02;
 
-/// Distance (m) between the points at which a hair is looked at for where it is cut …
+/// Distance (m) between the points between which the place of a cut is searched. Chosen by trial; not measured further.
 const CUT_STEP: f64 = 5e-3;
-/// … and how often the piece between two is halved: to a millionth of it.
+/// How often the piece between two such points is halved: to a millionth of it.
 const HALVINGS: u32 = 20;
 
 /// One drawn hair.
@@ -33,9 +33,9 @@ pub(super) struct Hair {
     pub(super) points: Vec<Vec3>,
 }
 
-/// How much longer than it is a hair may be drawn …
+/// Largest ratio of drawn to true length of a hair. Chosen by trial; not measured further.
 const STRETCHED: f64 = 1.12;
-/// … before it comes nearer to its guides, step by step.
+/// Factors by which a hair that would be stretched more comes nearer to its guides, tried in order. Chosen by trial; not measured further.
 const NARROWER: [f64; 4] = [0.6, 0.3, 0.1, 0.0];
 
 /// Length of a line (m).
@@ -100,8 +100,8 @@ impl Population<'_> {
 
     /// Point of a hair at `x` of its guides' length.
     pub(super) fn followed_point(&self, binding: &StrandBinding<'_>, x: f64) -> DVec3 {
-        if let (Some(own), Some(carried)) = (&binding.own, self.bound) {
-            return self.bound_point(binding, own, carried, x);
+        if let (Some(own), Some(bound)) = (&binding.own, self.bound) {
+            return self.bound_point(binding, own, bound, x);
         }
         let StrandBinding {
             root, followed, variation, split, length, planned, uncut, narrow, ..
@@ -110,7 +110,7 @@ impl Population<'_> {
         let rise = smooth_step(0.0, 0.06_f64.min(0.5 * length), along);
         let gathered = smooth_step(0.0, 1.0, (along / uncut.max(GATHERING)).powf(0.8));
         let drifted = x * (1.0 + (variation.drift - 1.0) * rise);
-        let mut carried = variation.waves.at(along / planned) * (rise * narrow);
+        let mut transported = variation.waves.at(along / planned) * (rise * narrow);
         let drawn_in = 1.0 + (narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * length), along);
         for (rank, &(g, weight)) in followed.iter().enumerate() {
             let (centre, turn) = self.wisps[g].at(drifted);
@@ -120,12 +120,12 @@ impl Population<'_> {
             {
                 // All of the hair goes with its split, of which only the first wisp knows.
                 place += (split.middle - place) * (GATHERED * gathered / weight);
-                carried += split.waves.at(along / planned) * (rise * narrow);
+                transported += split.waves.at(along / planned) * (rise * narrow);
             }
-            carried +=
+            transported +=
                 (centre + turn * place * (drawn_in * self.narrowing(g, along, gathered))) * weight;
         }
-        carried
+        transported
     }
 
     /// The same, of a hair of a groom.
@@ -136,7 +136,7 @@ impl Population<'_> {
         &self,
         binding: &StrandBinding<'_>,
         own: &BoundStrand,
-        carried: &BoundStrands,
+        bound: &BoundStrands,
         x: f64,
     ) -> DVec3 {
         let dry = x / binding.end.max(1e-12) * binding.dry;
@@ -147,7 +147,7 @@ impl Population<'_> {
             + (binding.narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * binding.length), along);
         let mut point = DVec3::ZERO;
         for &(g, weight) in &binding.followed {
-            let (now, before) = (&self.wisps[g], &carried.wisps[g]);
+            let (now, before) = (&self.wisps[g], &bound.wisps[g]);
             // Lengths (m) of dry hair.
             let length = self.states[g].length;
             let known = before.length.min(now.end() * length);

@@ -21,28 +21,30 @@ use crate::wisps::BoundStrands;
 use crate::wisps::Wisp;
 use crate::wisps::{Split, splits};
 
-/// How many neighbouring guides a hair can follow.
+/// How many neighbouring guides a hair can follow. Chosen by trial; not measured further.
 const FOLLOWED: usize = 5;
 
-/// How many guides are looked at where the nearest are across a parting.
+/// How many guides are looked at where the nearest are across a parting. Chosen by trial; not measured further.
 const SOUGHT: usize = 24;
 
-/// Width of the strip along the hairline in which baby hairs grow (m).
+/// Width of the strip along the hairline in which baby hairs grow (m). docs/theory.md, "Roots and implantation".
 const BABY_RIM: f64 = 0.015;
 
-/// Shortest and longest baby hair (m).
+/// Shortest and longest baby hair (m). docs/theory.md, "Roots and implantation".
 const BABY_LENGTH: (f64, f64) = (0.02, 0.05);
 
-/// Diameter of a baby hair, as a fraction of other hair's.
+/// Diameter of a baby hair, as a fraction of other hair's. docs/theory.md, "Roots and implantation".
 const THIN: f64 = 0.5;
 
 /// Least length of a hair that is cut to a line, as a fraction: a cut leaves no short hairs.
+/// Chosen by eye; not measured.
 const CUT: f64 = 0.97;
 
 /// How much farther away a guide seems for going another way than the hair's own root.
+/// Chosen by trial; not measured further.
 const AGAINST: f64 = 8.0;
 
-/// How far (m) beyond the end of its guide a hair that was cut can end.
+/// How far (m) beyond the end of its guide a hair that was cut can end. Chosen by trial; not measured further.
 const BEYOND: f64 = 0.05;
 
 /// Everything that drawing a hair needs.
@@ -73,6 +75,7 @@ pub(crate) struct Population<'a> {
 }
 
 /// Where along two guides it shows whether they go the same way, from root to tip.
+/// Chosen by trial; not measured further.
 const MARKS: [f64; 4] = [0.0, 0.3, 0.65, 1.0];
 
 /// Where every `stride`-th drawn hair of a head is rooted, with the index of the hair.
@@ -172,7 +175,7 @@ impl<'a> Population<'a> {
     /// The guide of the hair of this index that is rooted somewhere.
     pub(crate) fn main(&self, root: &Root, index: usize) -> usize {
         match self.bound {
-            Some(bound) => bound.carriers(index)[0].0,
+            Some(bound) => bound.bindings(index)[0].0,
             None => self.sorted(root, self.layout.direction(root))[0],
         }
     }
@@ -196,7 +199,7 @@ impl<'a> Population<'a> {
     /// Guides that a hair follows, with weights that sum to one; the nearest first.
     pub(super) fn followed(&self, root: &Root, index: usize) -> Vec<(usize, f64)> {
         if let Some(bound) = self.bound {
-            return bound.carriers(index).to_vec();
+            return bound.bindings(index).to_vec();
         }
         let own = self.layout.direction(root);
         let near = self.sorted(root, own);

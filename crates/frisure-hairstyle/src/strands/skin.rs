@@ -7,18 +7,20 @@ use crate::implantation::Root;
 use crate::spec::Body;
 
 /// Depth of the first point of a hair below the skin (m), so that no root floats.
+/// Chosen: more than the error of the distance field on smooth skin.
 pub(super) const ROOT_DEPTH: f64 = 3e-4;
 
-/// Least distance of a hair from the skin far from its root (m).
+/// Least distance of a hair from the skin far from its root (m). Chosen by eye; not measured.
 pub(super) const LEAST_DISTANCE: f64 = 4e-4;
 
 /// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
+/// Chosen by eye; not measured.
 pub(super) const PRESSED: f64 = 0.3;
 
-/// … at least (m) …
+/// Least width (m) over which hairs are moved out of the body. Chosen by trial; not measured further.
 pub(super) const LAID: f64 = 2e-5;
 
-/// … and how many of them farther out no hair is moved.
+/// How many widths farther out no hair is moved: there the law moves it by less than a rounding.
 const FREE: f64 = 6.0;
 
 /// A ball (m) known to be free of the body and of its layers: most points need no look-up.

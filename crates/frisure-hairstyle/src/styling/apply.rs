@@ -55,6 +55,19 @@ pub struct Draft<'a> {
 /// rest from where it lay; one that is dried without having been touched lies exactly as before
 /// it was wetted.
 ///
+/// ```
+/// use frisure_hairstyle::styling::{Operation, Wet};
+/// use frisure_hairstyle::{PredictOptions, StyleOptions, head::Head, predict, preset, style};
+///
+/// let mut spec = preset("curly").expect("a preset").spec();
+/// spec.wisps.count = 20;
+/// let head = Head::mannequin();
+/// let dry = predict(&spec, &head, PredictOptions::default(), &())?;
+/// let wet = style(&dry, &head, &Operation::Wet(Wet::default()), StyleOptions::default(), &())?;
+/// assert!(wet.wisps().iter().all(|wisp| wisp.wetness == 1.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`StyleError`], if the operation is out of range or cannot be done to this hair, or the work is cancelled.
 pub fn style(

@@ -12,25 +12,26 @@ use crate::hairstyle::{Grip, Holder, Styling, WispState};
 use crate::presets::Moisture;
 use crate::spec::HairstyleSpec;
 
-/// How much stiffer hair is for being held in a shape.
+/// How much stiffer hair is for being held in a shape. Chosen by trial; not measured further.
 const MOULD: f64 = 10.0;
 
-/// Tension in hair that is braided or drawn straight, in weights.
+/// Tension in hair that is braided or drawn straight, in weights. Chosen by trial; not measured further.
 const DRAWN: f64 = 25.0;
 
-/// Knots of a braid's strain per pitch.
+/// Knots of a braid's strain per pitch. Chosen by trial; not measured further.
 const BRAID_KNOTS: f64 = 16.0;
 
-/// Force (in EI/L³) that bends a hair as a comb does.
+/// Force (in EI/L³) that bends a hair as a comb does. Chosen by trial; not measured further.
 const BENDING: f64 = 20.0;
 
 /// Stiffness (Pa) with which a clip holds a piece of hair, and the length (m) of the piece.
+/// Chosen by trial; not measured further.
 const CLIP: (f64, f64) = (20.0, 0.012);
 
-/// Shortest hair (m) that a clip bends; it pulls at stubble no harder.
+/// Shortest hair (m) that a clip bends; it pulls at stubble no harder. Chosen by trial; not measured further.
 const CLIPPABLE: f64 = 0.1;
 
-/// Most that a clip pulls (in what it takes to bend the hair or to carry it).
+/// Most that a clip pulls (in what it takes to bend the hair or to carry it). Chosen by trial; not measured further.
 const CLIPPED: f64 = 30.0;
 
 /// What water does to a wisp: factors, exactly 1 in room-dry hair.

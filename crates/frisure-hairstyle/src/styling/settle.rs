@@ -32,7 +32,7 @@ pub(super) struct Act<'a> {
 pub(super) struct DraftRest<'a> {
     /// How much work is done at most each time that hair comes to rest.
     pub(super) effort: Effort,
-    /// Only every so many-th drawn hair is cut.
+    /// Only every `stride`-th drawn hair is cut.
     pub(super) stride: usize,
     /// Where guides start from.
     pub(super) like: Option<&'a [Equilibrium]>,

@@ -10,22 +10,22 @@ use rayon::prelude::*;
 use super::wisp::Wisp;
 use crate::math::Grid;
 
-/// Most guides that carry one hair, and among how many the nearest in the skin they are sought.
-const CARRIERS: usize = 3;
+/// Most guides that one strand is bound to, and among how many of the nearest they are searched.
+const BINDINGS: usize = 3;
 const SOUGHT: usize = 24;
 
-/// Places along a hair at which it is compared with guides.
+/// Places along a hair at which it is compared with guides. Chosen by trial; not measured further.
 const COMPARED: usize = 8;
 
-/// Distance (m) below which a guide is as good as the hair itself.
+/// Distance (m) below which a guide is as good as the hair itself. Chosen by trial; not measured further.
 const ALIKE: f64 = 5e-4;
 
-/// The hairs of a groom, with what is needed to carry them.
+/// The hairs of a groom, with the guides that each is bound to.
 #[derive(Debug)]
 pub(crate) struct BoundStrands {
     hairs: Strands,
     /// Guides with weights that sum to one, the most alike first.
-    carriers: Vec<Vec<(usize, f64)>>,
+    bindings: Vec<Vec<(usize, f64)>>,
     /// The guides as the groom has them.
     pub(crate) wisps: Vec<Wisp>,
 }
@@ -74,14 +74,14 @@ impl BoundStrands {
             roots.iter().fold((roots[0], roots[0]), |(l, h), p| (l.min(*p), h.max(*p)));
         let spacing = ((high - low).length() / (roots.len() as f64).sqrt()).max(1e-3);
         let grid = Grid::new(&roots, spacing);
-        let carriers = (0..hairs.len())
+        let bindings = (0..hairs.len())
             .into_par_iter()
             .map(|hair| {
                 let own = BoundStrand::new(hairs.strand(hair).points.iter().map(|p| p.as_dvec3()));
-                carriers(&own, &grid.nearest(own.points[0], SOUGHT, &roots), &wisps)
+                bindings(&own, &grid.nearest(own.points[0], SOUGHT, &roots), &wisps)
             })
             .collect();
-        Self { hairs: hairs.clone(), carriers, wisps }
+        Self { hairs: hairs.clone(), bindings, wisps }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -92,13 +92,13 @@ impl BoundStrands {
         BoundStrand::new(self.hairs.strand(hair).points.iter().map(|p| p.as_dvec3()))
     }
 
-    pub(crate) fn carriers(&self, hair: usize) -> &[(usize, f64)] {
-        &self.carriers[hair]
+    pub(crate) fn bindings(&self, hair: usize) -> &[(usize, f64)] {
+        &self.bindings[hair]
     }
 }
 
 /// Those of some guides that go most as a hair goes.
-fn carriers(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f64)> {
+fn bindings(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f64)> {
     let apart = |guide: usize| {
         let wisp = &wisps[guide];
         let square = |k: usize| {
@@ -110,14 +110,14 @@ fn carriers(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f6
     };
     let mut found: Vec<(usize, f64)> = near.iter().map(|&guide| apart(guide)).collect();
     found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
-    found.truncate(CARRIERS);
+    found.truncate(BINDINGS);
     let nearest = found[0].1;
-    for carrier in &mut found {
-        carrier.1 = (nearest / carrier.1).powi(2);
+    for binding in &mut found {
+        binding.1 = (nearest / binding.1).powi(2);
     }
-    found.retain(|carrier| carrier.1 > 1e-2);
-    let sum: f64 = found.iter().map(|carrier| carrier.1).sum();
-    found.iter_mut().for_each(|carrier| carrier.1 /= sum);
+    found.retain(|binding| binding.1 > 1e-2);
+    let sum: f64 = found.iter().map(|binding| binding.1).sum();
+    found.iter_mut().for_each(|binding| binding.1 /= sum);
     found
 }
 

@@ -100,9 +100,9 @@ mod tests {
         let simulation = Simulation { hairs: 3, at_rest: 2, elements: 50, iterations: 17 };
         let hairs = [hair(2), hair(0), hair(1)];
         let bytes = part_to_bytes(&hairs, simulation);
-        let (again, told) = part_from_bytes(&bytes, 3).unwrap();
-        assert_eq!(told, simulation);
-        assert_eq!(part_to_bytes(&again, told), bytes);
+        let (again, counts) = part_from_bytes(&bytes, 3).unwrap();
+        assert_eq!(counts, simulation);
+        assert_eq!(part_to_bytes(&again, counts), bytes);
         assert!(part_from_bytes(&bytes, 2).is_none() && part_from_bytes(&bytes, 4).is_none());
         for cut in 0..bytes.len() {
             assert!(part_from_bytes(&bytes[..cut], 3).is_none());

@@ -13,7 +13,7 @@ use crate::strands::skin::LEAST_DISTANCE;
 /// The skin, and around each hair a tube between its neighbours.
 ///
 /// Hairs of a wisp lie side by side: each has the tube of the radius ρ for itself in which hairs of one wisp wander
-/// (see [`crate::contact::Thickness`]), about the place that it is carried to by its guides. Beyond it neighbours push
+/// (see [`crate::contact::Thickness`]), about the place where its guides put it. Beyond it neighbours push
 /// back with the stiffness of hair, as [`ConfinementTube`] says. That is a mean field: neighbours do not answer.
 ///
 /// Skin begins a little outside, where the line of a hair has to be: `k e³/6m` for the depth e below that margin m, k
@@ -30,12 +30,13 @@ pub(super) struct Envelope<'a> {
 }
 
 /// Steepest slope of the distance from the skin: it is 1 but for the smoothing.
+/// Chosen by trial; not measured further.
 const STEEPEST: f64 = 1.25;
 
-/// How much wider the tube of a hair is that leaves its wisp.
+/// How much wider the tube of a hair is that leaves its wisp. Chosen by eye; not measured.
 const STRAY: f64 = 12.0;
 
-/// From which distance (m) on it is enough to know that skin is as far.
+/// From which distance (m) on it is enough to know that skin is as far. No result depends on it.
 const FAR: f64 = 0.02;
 
 impl<'a> Envelope<'a> {

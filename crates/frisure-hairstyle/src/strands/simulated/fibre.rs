@@ -8,10 +8,11 @@ use crate::strands::binding::StrandBinding;
 use crate::strands::population::Population;
 use crate::strands::skin::ROOT_DEPTH;
 
-/// Shortest hair (m) that is a rod.
+/// Shortest hair (m) that is a rod. Shorter than any cut leaves.
 const SHORTEST: f64 = 1e-3;
 
 /// How far a hair's curl is from its guide's at most, in standard deviations of its logarithm.
+/// Chosen: no hair is an outlier.
 const ODDEST: f64 = 2.5;
 
 /// The rod of a hair; none if it is too short for one.

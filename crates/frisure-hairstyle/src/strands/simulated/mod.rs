@@ -2,7 +2,7 @@
 //! hairs around it.
 //!
 //! Hundreds of them rest side by side in the lanes of vectors ([`frisure_rod::batch`]). They start where their guides
-//! carry them to, turned as the guide that they follow.
+//! put them, turned as the guide that they follow.
 
 mod checkpoint;
 mod envelope;
@@ -33,7 +33,7 @@ const ELEMENTS: [usize; 11] = [12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256];
 /// Elements per turn of the natural curl: the tip is then within a per cent of the length (docs/validation.md).
 const PER_TURN: f64 = 6.0;
 
-/// Longest element (m): skin is felt at joints.
+/// Longest element (m): skin is felt at joints. Chosen by trial; not measured further.
 const LONGEST: f64 = 0.012;
 
 /// Hairs that are looked after together: enough to keep vectors filled.
@@ -47,10 +47,11 @@ const MAX_ITERATIONS: usize = 400;
 
 /// For a hair that did not come to rest: how hard skin and neighbours are, as fractions of what they are, and by how
 /// much (rad) each joint is turned before. They become harder and harder; then a hair on a saddle is pushed off it.
+/// Chosen by trial; not measured further.
 const PATIENCE: [(f64, f64); 7] =
     [(1e-3, 0.0), (0.03, 0.0), (1.0, 0.0), (1.0, 1e-3), (1.0, -3e-3), (1.0, 0.01), (1.0, -0.03)];
 
-/// Most iterations at each of them.
+/// Most iterations at each of them. Chosen by trial; not measured further.
 const MOST_ITERATIONS: usize = 4000;
 
 /// A hair before it has come to rest.
@@ -164,7 +165,7 @@ impl<'a> Simulated<'a> {
                         cut: binding.cut,
                         points: self.points(&binding.root, rod.length(), nodes),
                     },
-                    // On its way a hair can be anywhere: it is drawn where others carry it.
+                    // On its way a hair can be anywhere: it is drawn between its guides.
                     _ => self.population.hair(&roots[place].1, roots[place].0),
                 });
                 stage.advance();
@@ -173,7 +174,7 @@ impl<'a> Simulated<'a> {
         Ok((drawn.into_iter().flatten().collect(), simulation))
     }
 
-    /// Brings hairs of so many elements to rest; tells the nodes of each, too.
+    /// Brings hairs of `elements` elements to rest. Returns the nodes of each, too.
     fn settle(&self, group: &Group<'_>, elements: usize) -> (BatchSolution, Vec<Node>) {
         let Group { planned, rods } = group;
         let mut envelope = Envelope::new(self.population, elements, planned.len());
@@ -226,7 +227,7 @@ impl<'a> Simulated<'a> {
     }
 }
 
-/// Brings a hair to rest step by step, by [`PATIENCE`], from given frames; tells its nodes, too.
+/// Brings a hair to rest step by step, by [`PATIENCE`], from given frames; returns its nodes, too.
 fn patiently(
     batch: &Batch,
     rod: &Rod,

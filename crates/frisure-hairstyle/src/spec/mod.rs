@@ -2,15 +2,28 @@
 //!
 //! Plain data, SI units; a scene file is one way to write it down.
 
-use std::f64::consts::PI;
+mod ranges;
 
 use crate::fibre::{Curl, Fibre, Wetting};
 use crate::head::Region;
 use crate::math::segments_cross;
 
 pub use crate::head::Hairline;
+pub(crate) use ranges::range;
+use ranges::within;
+pub use ranges::{InvalidSpec, RANGES, Range, range_of};
 
 /// A whole head of hair, described.
+///
+/// A preset is a place to start:
+///
+/// ```
+/// let mut spec = frisure_hairstyle::preset("caucasian-curly").expect("a preset").spec();
+/// spec.length.mean = 0.3;
+/// assert!(spec.check().is_ok());
+/// spec.length.mean = 30.0;
+/// assert_eq!(spec.check().unwrap_err().to_string(), "hair.length is 30; it must be between 1 mm and 3 m");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct HairstyleSpec {
     /// Drives all randomness.
@@ -379,84 +392,57 @@ pub struct Settling {
     pub tolerance: f64,
 }
 
-/// A description that cannot be computed.
-#[derive(Clone, Debug, thiserror::Error, PartialEq)]
-#[error("{field} is {value}; it must be {allowed}")]
-pub struct InvalidSpec {
-    /// Path of the field as scenes name it, such as `wisps.count`.
-    pub field: &'static str,
-    /// The value given.
-    pub value: String,
-    /// The allowed range in words.
-    pub allowed: &'static str,
-}
-
 impl HairstyleSpec {
     /// Checks every number against the range in which it means something.
     ///
     /// # Errors
     /// [`InvalidSpec`], naming the first field that is out of range.
     pub fn check(&self) -> Result<(), InvalidSpec> {
-        let fraction = "between 0 and 1";
-        range("hair.length", self.length.mean, 1e-3, 3.0, "between 1 mm and 3 m")?;
-        range("hair.length_variation", self.length.variation_between, 0.0, 0.5, "0 to 0.5")?;
-        range("hair.fibre.variation", self.fibre.variation, 0.0, 0.5, "between 0 and 0.5")?;
-        let growth = self.length.growth_rate;
-        range("hair.growth_rate", growth, 0.0, 1e-7, "between 0 and 26 cm a month")?;
+        within("hair.length", self.length.mean)?;
+        within("hair.length_variation", self.length.variation_between)?;
+        within("hair.fibre.variation", self.fibre.variation)?;
+        within("hair.growth_rate", self.length.growth_rate)?;
         self.wetting.check()?;
-        let shape = self.fibre.axis_ratio_variation;
-        range("hair.fibre.axis_ratio_variation", shape, 0.0, 1.0, fraction)?;
-        let strain = self.curl.strain.length();
-        range("hair.curl", strain, 0.0, 2e4, "a strain of at most 20000 rad/m (0.05 mm radius)")?;
-        range("hair.curl.variation_between", self.curl.variation_between, 0.0, 1.0, fraction)?;
-        range("hair.curl.variation_along", self.curl.variation_along, 0.0, 1.0, fraction)?;
-        range("hair.curl.variation_scale", self.curl.variation_scale, 1e-3, 1.0, "1 mm to 1 m")?;
+        within("hair.fibre.axis_ratio_variation", self.fibre.axis_ratio_variation)?;
+        within("hair.curl", self.curl.strain.length())?;
+        within("hair.curl.variation_between", self.curl.variation_between)?;
+        within("hair.curl.variation_along", self.curl.variation_along)?;
+        within("hair.curl.variation_scale", self.curl.variation_scale)?;
         self.implantation.check()?;
         self.regions.iter().try_for_each(RegionStyle::check)?;
-        count("wisps.count", self.wisps.count, 20_000, "between 1 and 20000")?;
+        within("wisps.count", self.wisps.count as f64)?;
         match self.wisps.hairs {
-            Hairs::Count(hairs) => count("wisps.hairs", hairs, MAX_HAIRS, "between 1 and 1000000")?,
+            Hairs::Count(hairs) => within("wisps.hairs", hairs as f64)?,
             Hairs::PerWisp(each) => {
-                count("wisps.hairs_per_wisp", each, 100_000, "between 1 and 100000")?;
+                within("wisps.hairs_per_wisp", each as f64)?;
             }
             Hairs::Density(density) => {
-                range("wisps.density", density, 1e4, 1e7, "between 1 and 1000 1/cm^2")?;
+                within("wisps.density", density)?;
             }
         }
-        range("wisps.clumping", self.wisps.clumping, 0.0, 1.0, fraction)?;
-        range("wisps.fuzziness", self.wisps.fuzziness, 0.0, 2.0, "between 0 and 2")?;
-        range("wisps.length_variation", self.wisps.length_variation, 0.0, 0.5, "0 to 0.5")?;
-        range("wisps.flyaways", self.wisps.flyaways, 0.0, 1.0, fraction)?;
-        count("wisps.splits", self.wisps.splits, 100, "between 1 and 100")?;
+        within("wisps.clumping", self.wisps.clumping)?;
+        within("wisps.fuzziness", self.wisps.fuzziness)?;
+        within("wisps.length_variation", self.wisps.length_variation)?;
+        within("wisps.flyaways", self.wisps.flyaways)?;
+        within("wisps.splits", self.wisps.splits as f64)?;
         for factor in self.wisps.profile {
-            range(
-                "wisps.profile",
-                factor,
-                0.0,
-                10.0,
-                "three factors between 0 and 10 each, such as [1, 1, 0.5]",
-            )?;
+            within("wisps.profile", factor)?;
         }
-        range("wisps.blending", self.wisps.blending, 0.0, 1.0, fraction)?;
-        let points = self.wisps.points as f64;
-        range("wisps.points", points, 2.0, 1000.0, "between 2 and 1000")?;
+        within("wisps.blending", self.wisps.blending)?;
+        within("wisps.points", self.wisps.points as f64)?;
         // What does not depend on the scalp is refused here, the rest when there is a head.
         if !matches!(self.wisps.hairs, Hairs::Density(_)) {
             self.wisps.check_size(0.0)?;
         }
-        let stiffness = self.contact.stiffness;
-        range("contact.stiffness", stiffness, 1e-6, 1e5, "between 1e-6 and 1e5 Pa")?;
-        let hair = self.contact.hair_stiffness;
-        range("contact.hair_stiffness", hair, 1e-6, 1e5, "between 1e-6 and 1e5 Pa")?;
-        let grown = self.implantation.density;
-        range("wisps.density", grown, 1e4, 1e7, "between 1 and 1000 1/cm^2")?;
-        range("contact.volume", self.contact.volume, 0.0, 10.0, "between 0 and 10")?;
-        range("gravity", self.gravity, 0.0, 1000.0, "between 0 and 1000 m/s²")?;
+        within("contact.stiffness", self.contact.stiffness)?;
+        within("contact.hair_stiffness", self.contact.hair_stiffness)?;
+        within("wisps.density", self.implantation.density)?;
+        within("contact.volume", self.contact.volume)?;
+        within("gravity", self.gravity)?;
         if let frisure_rod::Resolution::Elements(n) = self.equilibrium.resolution {
-            count("equilibrium.elements", n, 1000, "between 1 and 1000 on a head")?;
+            within("equilibrium.elements", n as f64)?;
         }
-        let tolerance = self.equilibrium.tolerance;
-        range("equilibrium.tolerance", tolerance, 1e-8, 0.1, "between 1e-8 and 0.1")?;
+        within("equilibrium.tolerance", self.equilibrium.tolerance)?;
         self.equilibrium.resolution.check().map_err(|e| InvalidSpec {
             field: "equilibrium",
             value: e.value.to_string(),
@@ -471,42 +457,39 @@ impl Wetting {
     /// # Errors
     /// [`InvalidSpec`], naming the first that is out of range.
     pub fn check(&self) -> Result<(), InvalidSpec> {
-        let softer = "between 0.01 and 1";
-        range("hair.wetting.youngs_modulus", self.youngs_modulus, 0.01, 1.0, softer)?;
-        range("hair.wetting.shear_modulus", self.shear_modulus, 0.01, 1.0, softer)?;
-        range("hair.wetting.diameter", self.diameter, 1.0, 1.5, "between 1 and 1.5")?;
-        range("hair.wetting.length", self.length, 1.0, 1.1, "between 1 and 1.1")?;
-        range("hair.wetting.wisp", self.wisp, 0.1, 1.0, "between 0.1 and 1")
+        within("hair.wetting.youngs_modulus", self.youngs_modulus)?;
+        within("hair.wetting.shear_modulus", self.shear_modulus)?;
+        within("hair.wetting.diameter", self.diameter)?;
+        within("hair.wetting.length", self.length)?;
+        within("hair.wetting.wisp", self.wisp)
     }
 }
 
 impl Implantation {
     fn check(&self) -> Result<(), InvalidSpec> {
-        range("implantation.jitter", self.jitter, 0.0, 1.0, "0 to 1 rad (57 deg)")?;
+        within("implantation.jitter", self.jitter)?;
         if let Flow::Parted { offset } = self.flow {
-            range("implantation.parting", offset, -0.06, 0.06, "within 6 cm of the middle")?;
+            within("implantation.parting", offset)?;
         }
         match self.lift {
             Lift::Regional { scale } => {
-                range("implantation.lift_scale", scale, 0.0, 6.0, "between 0 and 6")?;
+                within("implantation.lift_scale", scale)?;
             }
             Lift::Uniform(angle) => {
-                range("implantation.lift", angle, 0.0, PI / 2.0, "between 0 and 90 deg")?;
+                within("implantation.lift", angle)?;
             }
         }
         self.partings.iter().try_for_each(Parting::check)?;
-        count("implantation.whorls", self.whorls.count, 2, "1 or 2")?;
+        within("implantation.whorls", self.whorls.count as f64)?;
         for x in self.whorls.offset {
-            range("implantation.whorl_offset", x, -0.05, 0.05, "within 5 cm of the usual place")?;
+            within("implantation.whorl_offset", x)?;
         }
-        range("implantation.baby_hairs", self.baby_hairs, 0.0, 1.0, "between 0 and 1")?;
+        within("implantation.baby_hairs", self.baby_hairs)?;
         let h = &self.hairline;
-        let wavy = "between 0 and 1 cm";
-        range("implantation.hairline.irregularity", h.irregularity, 0.0, 0.01, wavy)?;
-        range("implantation.hairline.height", h.height, -0.03, 0.05, "between -3 and 5 cm")?;
-        range("implantation.hairline.recession", h.recession, 0.0, 0.04, "between 0 and 4 cm")?;
-        let peak = "between 0 and 3 cm";
-        range("implantation.hairline.widows_peak", h.widows_peak, 0.0, 0.03, peak)
+        within("implantation.hairline.irregularity", h.irregularity)?;
+        within("implantation.hairline.height", h.height)?;
+        within("implantation.hairline.recession", h.recession)?;
+        within("implantation.hairline.widows_peak", h.widows_peak)
     }
 }
 
@@ -518,8 +501,7 @@ impl Parting {
     pub fn check(&self) -> Result<(), InvalidSpec> {
         let points = match self {
             Self::Straight { offset } | Self::Zigzag { offset } => {
-                let field = "implantation.partings.offset";
-                return range(field, *offset, -0.06, 0.06, "within 6 cm of the middle");
+                return within("implantation.partings.offset", *offset);
             }
             Self::Through(points) => points,
         };
@@ -565,34 +547,11 @@ impl RegionStyle {
             return Err(InvalidSpec { field: "region.where", value, allowed: "one place or more" });
         }
         if let Some(RegionLength::Mean(length)) = self.length {
-            range("region.length", length, 1e-3, 3.0, "between 1 mm and 3 m")?;
+            within("region.length", length)?;
         }
         if let Some(lift) = self.lift {
-            range("region.lift", lift, 0.0, PI / 2.0, "between 0 and 90 deg")?;
+            within("region.lift", lift)?;
         }
-        range("region.curl", self.curl.unwrap_or(1.0), 0.0, 10.0, "between 0 and 10")
+        within("region.curl", self.curl.unwrap_or(1.0))
     }
-}
-
-pub(crate) fn range(
-    field: &'static str,
-    value: f64,
-    min: f64,
-    max: f64,
-    allowed: &'static str,
-) -> Result<(), InvalidSpec> {
-    let inside = value >= min && value <= max;
-    let value = value.to_string();
-    if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
-}
-
-fn count(
-    field: &'static str,
-    value: usize,
-    max: usize,
-    allowed: &'static str,
-) -> Result<(), InvalidSpec> {
-    let inside = value >= 1 && value <= max;
-    let value = value.to_string();
-    if inside { Ok(()) } else { Err(InvalidSpec { field, value, allowed }) }
 }
