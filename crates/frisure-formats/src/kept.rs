@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 
 use frisure_hairstyle::Checkpoint;
 
-use crate::digest::digest;
+use frisure_digest::checksum;
 use frisure_files::{ReadError, read_bytes};
 
 /// What such a file begins with.
@@ -91,7 +91,7 @@ impl Checkpoint for Kept {
         let mut record = Vec::with_capacity(RECORD + bytes.len());
         record.extend((part as u32).to_le_bytes());
         record.extend((bytes.len() as u32).to_le_bytes());
-        record.extend(digest(bytes));
+        record.extend(checksum(bytes));
         record.extend(bytes);
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         // After a record that is broken no other would be found.
@@ -132,7 +132,7 @@ fn parts(bytes: &[u8]) -> (Vec<Option<(usize, usize)>>, usize) {
         let (numbers, _) = numbers.as_chunks::<4>();
         let [part, length] = [0, 1].map(|i| u32::from_le_bytes(numbers[i]) as usize);
         let (from, to) = (end + RECORD, end + RECORD + length);
-        let whole = bytes.get(from..to).is_some_and(|bytes| digest(bytes) == told);
+        let whole = bytes.get(from..to).is_some_and(|bytes| checksum(bytes) == told);
         if !whole || part > bytes.len() {
             break;
         }

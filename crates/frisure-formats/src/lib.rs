@@ -16,7 +16,6 @@
 //! ([`frisure_files::write_atomically`]). The same input gives the same bytes.
 
 pub mod contents;
-pub mod digest;
 pub mod environment;
 pub mod groom;
 pub mod head;

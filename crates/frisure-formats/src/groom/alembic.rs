@@ -7,13 +7,9 @@
 //! Sources of the layout: the Alembic library 1.8.12 (<https://github.com/alembic/alembic>), whose files the
 //! tests compare with; Epic's "Using Alembic for Grooms".
 
-mod archive;
 mod curves;
-mod ogawa;
 mod part;
 mod read;
-mod reader;
-mod values;
 mod write;
 
 use super::attributes as names;

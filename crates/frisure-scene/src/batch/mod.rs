@@ -19,7 +19,7 @@ use frisure_hairstyle::Draws;
 use super::edit::{EditError, set_key, set_keys};
 use super::source::Source;
 use super::{Scene, SceneError};
-use frisure_formats::digest::digest;
+use frisure_digest::Digest;
 use sheet::Sheet;
 pub use way::{Kind, Value};
 use way::{Parameter, Written};
@@ -145,7 +145,7 @@ impl Batch {
     /// stay the same.
     #[must_use]
     pub fn digest(&self) -> String {
-        self.digest.map(|byte| format!("{byte:02x}")).concat()
+        frisure_digest::hexadecimal(self.digest)
     }
 
     /// The head of a number less than [`Self::heads`].
@@ -240,15 +240,18 @@ impl Batch {
 
     fn digest_with(&self, files: &[Vec<u8>]) -> [u8; 16] {
         let Self { seed, same_seed, rows, points, volume, fixed, parameters, .. } = self;
-        let meaning = format!(
-            "{} {seed} {same_seed} {rows} {points:?} {volume} {fixed:?} {parameters:?}",
-            env!("CARGO_PKG_VERSION")
-        );
-        let mut bytes = Vec::new();
-        let parts = [meaning.as_bytes(), self.base.text().as_bytes()];
-        for part in parts.into_iter().chain(files.iter().map(Vec::as_slice)) {
-            bytes.extend_from_slice(&digest(part));
-        }
-        digest(&bytes)
+        let mut digest = Digest::new("batch");
+        digest
+            .field("version", env!("CARGO_PKG_VERSION"))
+            .field("seed", seed)
+            .field("same_seed", same_seed)
+            .field("rows", rows)
+            .field("points", points)
+            .field("volume", volume)
+            .field("fixed", fixed)
+            .field("parameters", parameters)
+            .field("scene", self.base.text())
+            .field("files", files);
+        digest.bytes()
     }
 }

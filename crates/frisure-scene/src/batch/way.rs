@@ -1,5 +1,6 @@
 //! How a key varies from head to head.
 
+use frisure_digest::digest_fields;
 use frisure_hairstyle::Draws;
 use serde_spanned::Spanned;
 use toml::Value as Toml;
@@ -71,6 +72,19 @@ pub(super) enum Scale {
     /// As ratios.
     Log,
 }
+
+digest_fields!(Kind: Number, Whole, Flag, Text);
+digest_fields!(Value: Number(x), Whole(x), Flag(x), Text(x));
+digest_fields!(Written { value, literal });
+digest_fields!(Parameter { key, kind, way });
+digest_fields!(Way:
+    Grid(values),
+    Choice { choices, sums },
+    Uniform { range, scale, whole },
+    Normal { centre, deviation, limits, scale, whole },
+    Column { sheet, cells },
+);
+digest_fields!(Scale: Linear, Log);
 
 impl Scale {
     fn to(self, x: f64) -> f64 {

@@ -5,9 +5,9 @@ use glam::Vec3;
 
 use super::curves::Stencil;
 use super::names;
-use super::values::Scope;
 use crate::groom::checked::{Curves, USUAL_RADIUS};
 use frisure_files::frame::Frame;
+use frisure_ogawa::parameter::Scope;
 
 /// Curves as a file has them.
 #[derive(Clone, Debug, Default)]
@@ -41,12 +41,12 @@ impl Part {
     /// Values of a scope as one for each point.
     pub(super) fn per_point(&self, scope: Scope, values: &[f32]) -> Vec<f32> {
         match scope {
-            Scope::Object => vec![values[0]; self.points.len()],
-            Scope::Strand => {
+            Scope::Constant => vec![values[0]; self.points.len()],
+            Scope::Uniform => {
                 let each = self.counts.iter().zip(values);
                 each.flat_map(|(&n, &v)| std::iter::repeat_n(v, n)).collect()
             }
-            Scope::Point => values.to_vec(),
+            Scope::Varying => values.to_vec(),
         }
     }
 

@@ -6,12 +6,12 @@ use glam::{DMat4, DVec3, Vec3};
 
 use super::curves::{Stencil, bezier, spline};
 use super::part::{self, Part};
-use super::reader::{Archive, Object, Property};
-use super::values::{Numbers, Parameter, Scope};
 use super::write::fits;
 use super::{KNOWN, OURS, UNREAL, names};
 use crate::groom::{Format, Groom, HairColour};
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
+use frisure_ogawa::parameter::{Numbers, Parameter, Scope};
+use frisure_ogawa::read::{Archive, Object, Property};
 
 /// How deep objects can be in each other.
 const DEEPEST: usize = 64;
@@ -332,14 +332,14 @@ fn parameter<'a>(
     if is_guide {
         if let Numbers::Whole(flags) = found.values {
             match found.scope {
-                Scope::Object => guides.fill(flags[0] != 0),
-                Scope::Strand => guides.iter_mut().zip(flags).for_each(|(g, f)| *g = f != 0),
-                Scope::Point => {}
+                Scope::Constant => guides.fill(flags[0] != 0),
+                Scope::Uniform => guides.iter_mut().zip(flags).for_each(|(g, f)| *g = f != 0),
+                Scope::Varying => {}
             }
         }
         return Ok(());
     }
-    if let (names::COLOUR, Scope::Object, 3, Numbers::Real(c)) =
+    if let (names::COLOUR, Scope::Constant, 3, Numbers::Real(c)) =
         (name, found.scope, found.extent, &found.values)
     {
         part.colour = Some([c[0], c[1], c[2]]);
@@ -381,7 +381,7 @@ fn is_plain(name: &str) -> bool {
 /// An attribute; what an object has one of is each strand's.
 fn attribute(name: &str, found: Parameter, strands: usize) -> Option<Attribute> {
     fn spread<T: Clone>(values: &[T], scope: Scope, strands: usize) -> Vec<T> {
-        if scope == Scope::Object { vec![values[0].clone(); strands] } else { values.to_vec() }
+        if scope == Scope::Constant { vec![values[0].clone(); strands] } else { values.to_vec() }
     }
     let Parameter { scope, extent, values } = found;
     let values = match (&values, extent) {
@@ -392,6 +392,6 @@ fn attribute(name: &str, found: Parameter, strands: usize) -> Option<Attribute> 
         (Numbers::Real(v), 3) => AttributeValues::F32x3(spread(v.as_chunks().0, scope, strands)),
         _ => return None,
     };
-    let domain = if scope == Scope::Point { Domain::Point } else { Domain::Strand };
+    let domain = if scope == Scope::Varying { Domain::Point } else { Domain::Strand };
     Some(Attribute { name: name.into(), domain, values })
 }

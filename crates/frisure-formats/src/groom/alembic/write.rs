@@ -6,11 +6,12 @@ use std::io::{self, Write};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::Vec3;
 
-use super::archive::{self, Object, Pod, Property, Values};
 use super::{CURVES, GROUPS, KNOWN, OURS, UNREAL, XFORM, names};
 use crate::groom::attributes::{indices, of_strands};
 use crate::groom::{Groom, HairColour};
 use frisure_files::frame::{Frame, UpAxis};
+use frisure_ogawa::parameter::Scope;
+use frisure_ogawa::write::{Object, Pod, Property, Sample, write_archive};
 
 /// Checks that the format has room: two points a strand, since Unreal refuses fewer, and counts that are signed.
 pub(in crate::groom) fn check(groom: &Groom) -> Result<(), String> {
@@ -56,7 +57,7 @@ pub(in crate::groom) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame)
         children,
     };
     let metadata = "_ai_AlembicVersion=Alembic 1.8.12;_ai_Application=frisure";
-    archive::write(out, metadata, vec![top])
+    write_archive(out, metadata, vec![top])
 }
 
 /// Attributes with some in place of those of the same names.
@@ -160,14 +161,6 @@ fn group_name(group: u32) -> String {
     known.map_or_else(|| format!("group_{group}"), |&name| name.into())
 }
 
-/// Which values say what there is one for.
-#[derive(Clone, Copy)]
-enum Scope {
-    Constant,
-    Strand,
-    Point,
-}
-
 impl Part<'_> {
     fn object(&self, frame: Frame, colour: Option<HairColour>) -> Object<'_> {
         let mut geometry = vec![
@@ -176,7 +169,7 @@ impl Part<'_> {
             Property::array("nVertices", "", self.counts()),
             // Linear, not closed, no basis (twice).
             Property::scalar("curveBasisAndType", "", bytes(&[1, 0, 0, 0])),
-            parameter("width", Scope::Point, "", self.widths(frame)),
+            parameter("width", Scope::Varying, "", self.widths(frame)),
         ];
         geometry.push(Property::compound(".arbGeomParams", "", self.parameters(frame, colour)));
         let base = "schemaBaseType=AbcGeom_GeomBase_v1";
@@ -218,28 +211,28 @@ impl Part<'_> {
         let corners = [low.to_array(), high.to_array()];
         let bytes = corners.as_flattened().iter().flat_map(|x| f64::from(*x).to_le_bytes());
         let bytes: Vec<u8> = bytes.collect();
-        let values = Values::of(Pod::F64, 6, 1, move |out| out.extend_from_slice(&bytes));
+        let values = Sample::of(Pod::F64, 6, 1, move |out| out.extend_from_slice(&bytes));
         Property::scalar(".selfBnds", "interpretation=box", values)
     }
 
-    fn positions(&self, frame: Frame) -> Values<'_> {
-        Values::of(Pod::F32, 3, self.points(), move |out| {
+    fn positions(&self, frame: Frame) -> Sample<'_> {
+        Sample::of(Pod::F32, 3, self.points(), move |out| {
             for i in self.ranges().flatten() {
                 push(out, frame.position_to_file(self.strands.points()[i]).to_array());
             }
         })
     }
 
-    fn counts(&self) -> Values<'_> {
-        Values::of(Pod::I32, 1, self.rows.len(), move |out| {
+    fn counts(&self) -> Sample<'_> {
+        Sample::of(Pod::I32, 1, self.rows.len(), move |out| {
             for range in self.ranges() {
                 out.extend((range.len() as i32).to_le_bytes());
             }
         })
     }
 
-    fn widths(&self, frame: Frame) -> Values<'_> {
-        Values::of(Pod::F32, 1, self.points(), move |out| {
+    fn widths(&self, frame: Frame) -> Sample<'_> {
+        Sample::of(Pod::F32, 1, self.points(), move |out| {
             for i in self.ranges().flatten() {
                 push(out, [frame.length_to_file(2.0 * self.strands.radii()[i])]);
             }
@@ -249,19 +242,19 @@ impl Part<'_> {
     /// What Unreal reads, and attributes of ours that it passes over.
     fn parameters(&self, frame: Frame, colour: Option<HairColour>) -> Vec<Property<'_>> {
         let guide = [u8::from(self.is_guide), 0];
-        let guide = Values::of(Pod::I16, 1, 1, move |out| out.extend_from_slice(&guide));
+        let guide = Sample::of(Pod::I16, 1, 1, move |out| out.extend_from_slice(&guide));
         let mut all = vec![parameter("groom_guide", Scope::Constant, "", guide)];
         if let Some(group) = self.group {
             let id = (group as i32).to_le_bytes();
-            let id = Values::of(Pod::I32, 1, 1, move |out| out.extend_from_slice(&id));
+            let id = Sample::of(Pod::I32, 1, 1, move |out| out.extend_from_slice(&id));
             all.push(parameter("groom_group_id", Scope::Constant, "", id));
-            let name = Values::texts(&[&self.name]);
+            let name = Sample::texts(&[&self.name]);
             all.push(parameter("groom_group_name", Scope::Constant, "", name));
         } else if let Some(groups) = indices(self.strands, names::GROUP) {
             let called: Vec<String> =
                 self.rows.iter().map(|&row| group_name(groups[row])).collect();
             let called: Vec<&str> = called.iter().map(String::as_str).collect();
-            all.push(parameter("groom_group_name", Scope::Strand, "", Values::texts(&called)));
+            all.push(parameter("groom_group_name", Scope::Uniform, "", Sample::texts(&called)));
         }
         for attribute in self.attributes {
             if attribute.name == names::GROUP && self.is_one_group(attribute) {
@@ -275,7 +268,7 @@ impl Part<'_> {
             && !self.is_guide
             && let Some(HairColour { colour, .. }) = colour
         {
-            let values = Values::of(Pod::F32, 3, 1, move |out| push(out, colour));
+            let values = Sample::of(Pod::F32, 3, 1, move |out| push(out, colour));
             all.push(parameter("groom_color", Scope::Constant, "rgb", values));
         }
         all
@@ -319,7 +312,7 @@ impl Part<'_> {
             AttributeValues::F32x2(_) => (Pod::F32, 2),
             AttributeValues::F32x3(_) => (Pod::F32, 3),
         };
-        let filled = Values::of(pod, extent, count, move |out| {
+        let filled = Sample::of(pod, extent, count, move |out| {
             at(&mut |i| match values {
                 AttributeValues::U32(v) => out.extend(v[i].to_le_bytes()),
                 AttributeValues::U32x3(v) => out.extend(v[i].map(u32::to_le_bytes).as_flattened()),
@@ -338,7 +331,7 @@ impl Part<'_> {
         };
         let written = known
             .map_or_else(|| format!("{OURS}{name}"), |(_, theirs)| format!("{UNREAL}{theirs}"));
-        let scope = if per_point { Scope::Point } else { Scope::Strand };
+        let scope = if per_point { Scope::Varying } else { Scope::Uniform };
         parameter(&written, scope, meaning, filled)
     }
 }
@@ -365,17 +358,17 @@ fn push<const N: usize>(out: &mut Vec<u8>, values: [f32; N]) {
     out.extend_from_slice(values.map(f32::to_le_bytes).as_flattened());
 }
 
-fn bytes(bytes: &[u8; 4]) -> Values<'static> {
+fn bytes(bytes: &[u8; 4]) -> Sample<'static> {
     let bytes = *bytes;
-    Values::of(Pod::U8, 4, 1, move |out| out.extend_from_slice(&bytes))
+    Sample::of(Pod::U8, 4, 1, move |out| out.extend_from_slice(&bytes))
 }
 
 /// A geometry parameter of a name, for strands or points.
-fn parameter<'a>(name: &str, scope: Scope, meaning: &str, values: Values<'a>) -> Property<'a> {
+fn parameter<'a>(name: &str, scope: Scope, meaning: &str, values: Sample<'a>) -> Property<'a> {
     let scope = match scope {
         Scope::Constant => "con",
-        Scope::Strand => "uni",
-        Scope::Point => "vtx",
+        Scope::Uniform => "uni",
+        Scope::Varying => "vtx",
     };
     let (pod, extent) = values.kind();
     let meaning =
@@ -401,27 +394,27 @@ fn object_name(name: &str) -> String {
 
 /// The top transform, which moves nothing and says what the groom is.
 fn transform(groom: &Groom, frame: Frame) -> Property<'static> {
-    let short = |n: i16| Values::of(Pod::I16, 1, 1, move |out| out.extend(n.to_le_bytes()));
+    let short = |n: i16| Sample::of(Pod::I16, 1, 1, move |out| out.extend(n.to_le_bytes()));
     let up = match frame.up {
         UpAxis::Y => "y",
         UpAxis::Z => "z",
     };
     let metres = frame.metres;
-    let unit = Values::of(Pod::F64, 1, 1, move |out| out.extend(metres.to_le_bytes()));
+    let unit = Sample::of(Pod::F64, 1, 1, move |out| out.extend(metres.to_le_bytes()));
     let mut user = vec![
         Property::scalar("groom_version_major", "", short(1)),
         Property::scalar("groom_version_minor", "", short(5)),
-        Property::scalar("groom_tool", "", Values::texts(&["frisure"])),
+        Property::scalar("groom_tool", "", Sample::texts(&["frisure"])),
         Property::scalar("frisure_metres", "", unit),
-        Property::scalar("frisure_up", "", Values::texts(&[up])),
+        Property::scalar("frisure_up", "", Sample::texts(&[up])),
     ];
     if let Some(HairColour { colour, .. }) = groom.colour {
-        let values = Values::of(Pod::F32, 3, 1, move |out| push(out, colour));
+        let values = Sample::of(Pod::F32, 3, 1, move |out| push(out, colour));
         user.push(Property::scalar("frisure_color", "interpretation=rgb", values));
     }
     if let Some(melanin) = groom.colour.and_then(|c| c.melanin) {
         let pair = [melanin.eumelanin, melanin.pheomelanin];
-        let values = Values::of(Pod::F32, 2, 1, move |out| push(out, pair));
+        let values = Sample::of(Pod::F32, 2, 1, move |out| push(out, pair));
         user.push(Property::scalar("frisure_melanin", "interpretation=vector", values));
     }
     still(vec![Property::compound(".userProperties", "", user)])
@@ -429,7 +422,7 @@ fn transform(groom: &Groom, frame: Frame) -> Property<'static> {
 
 /// A transform that moves nothing, with some properties more.
 fn still(more: Vec<Property<'static>>) -> Property<'static> {
-    let inherits = Values::of(Pod::Bool, 1, 1, |out| out.push(1));
+    let inherits = Sample::of(Pod::Bool, 1, 1, |out| out.push(1));
     let mut parts = vec![Property::scalar(".inherits", "", inherits)];
     parts.extend(more);
     Property::compound(".xform", &format!("schema={XFORM}"), parts)

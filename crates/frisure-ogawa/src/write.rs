@@ -1,30 +1,39 @@
-//! Objects and properties of an Alembic file, as groups and blocks of [`ogawa`].
+//! Objects and properties written as groups and blocks of the container.
 //!
 //! An object is a group of its properties, of its children, and a block that names the children. A compound
 //! property is a group of its properties and a block that names them; a scalar one, a group of a sample; an
-//! array, a group of a sample and its dimensions. A sample is a [`digest`] and the values.
+//! array, a group of a sample and its dimensions. A sample is a digest (`MurmurHash3`) and the values.
 
 use std::io::{self, Write};
 
-use super::ogawa::{self, Block, Node};
-use crate::digest::digest;
+use super::container::{self, Block, Node};
+use crate::murmur::murmur3;
 
-/// Kinds of values, as they are numbered in a file.
+/// Types of numbers (`Alembic::Util::PlainOldDataType`), as files number them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Pod {
+pub enum Pod {
+    /// `bool_t`
     Bool = 0,
+    /// `uint8_t`
     U8 = 1,
+    /// `int16_t`
     I16 = 4,
+    /// `uint32_t`
     U32 = 5,
+    /// `int32_t`
     I32 = 6,
+    /// `float32_t`
     F32 = 10,
+    /// `float64_t`
     F64 = 11,
+    /// `string`
     Text = 12,
 }
 
 impl Pod {
-    /// As metadata call it.
-    pub(super) fn name(self) -> &'static str {
+    /// The name that metadata use.
+    #[must_use]
+    pub fn name(self) -> &'static str {
         match self {
             Self::Bool => "bool_t",
             Self::U8 => "uint8_t",
@@ -38,8 +47,8 @@ impl Pod {
     }
 }
 
-/// Values of a property.
-pub(super) struct Values<'a> {
+/// Sample of a property.
+pub struct Sample<'a> {
     pod: Pod,
     /// How many of them make one.
     extent: u8,
@@ -49,9 +58,9 @@ pub(super) struct Values<'a> {
     block: Block<'a>,
 }
 
-impl<'a> Values<'a> {
-    /// Values whose bytes are made twice: for their digest, and when they are written.
-    pub(super) fn of(pod: Pod, extent: u8, count: usize, fill: impl Fn(&mut Vec<u8>) + 'a) -> Self {
+impl<'a> Sample<'a> {
+    /// A sample of `count` values of `extent` numbers each; `fill` is called twice, for the digest and for the file.
+    pub fn of(pod: Pod, extent: u8, count: usize, fill: impl Fn(&mut Vec<u8>) + 'a) -> Self {
         let mut bytes = Vec::new();
         fill(&mut bytes);
         let size = bytes.len();
@@ -59,19 +68,20 @@ impl<'a> Values<'a> {
             pod,
             extent,
             count,
-            digest: digest(&bytes),
+            digest: murmur3(&bytes),
             block: Block { size, fill: Box::new(fill) },
         }
     }
 
-    /// A text, or several.
-    pub(super) fn texts(texts: &[&str]) -> Self {
+    /// A string, or several.
+    #[must_use]
+    pub fn texts(texts: &[&str]) -> Self {
         let bytes = texts.iter().flat_map(|t| t.bytes().chain([0])).collect::<Vec<u8>>();
         Self::of(Pod::Text, 1, texts.len(), move |out| out.extend_from_slice(&bytes))
     }
 
-    /// What they are, and how many make one.
-    pub(super) fn kind(&self) -> (Pod, u8) {
+    /// PropertyData they are, and how many make one.
+    pub fn kind(&self) -> (Pod, u8) {
         (self.pod, self.extent)
     }
 
@@ -88,44 +98,56 @@ impl<'a> Values<'a> {
     }
 }
 
-/// A property.
-pub(super) struct Property<'a> {
-    pub(super) name: String,
+/// A property to be written.
+pub struct Property<'a> {
+    /// Its name.
+    pub name: String,
     /// `key=value` with semicolons between, in the order of the keys.
-    pub(super) metadata: String,
-    pub(super) what: What<'a>,
+    pub metadata: String,
+    /// Its values, or the properties in it.
+    pub data: PropertyData<'a>,
 }
 
-/// What a property is.
-pub(super) enum What<'a> {
+/// PropertyData a property is.
+pub enum PropertyData<'a> {
+    /// Properties under a name.
     Compound(Vec<Property<'a>>),
-    Scalar(Values<'a>),
-    Array(Values<'a>),
+    /// One value.
+    Scalar(Sample<'a>),
+    /// Any number of values.
+    Array(Sample<'a>),
 }
 
 impl<'a> Property<'a> {
     /// Properties under a name.
-    pub(super) fn compound(name: &str, metadata: &str, parts: Vec<Self>) -> Self {
-        Self { name: name.into(), metadata: metadata.into(), what: What::Compound(parts) }
+    #[must_use]
+    pub fn compound(name: &str, metadata: &str, parts: Vec<Self>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Compound(parts) }
     }
 
     /// One value.
-    pub(super) fn scalar(name: &str, metadata: &str, values: Values<'a>) -> Self {
-        Self { name: name.into(), metadata: metadata.into(), what: What::Scalar(values) }
+    #[must_use]
+    pub fn scalar(name: &str, metadata: &str, values: Sample<'a>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Scalar(values) }
     }
 
     /// Any number of values.
-    pub(super) fn array(name: &str, metadata: &str, values: Values<'a>) -> Self {
-        Self { name: name.into(), metadata: metadata.into(), what: What::Array(values) }
+    #[must_use]
+    pub fn array(name: &str, metadata: &str, values: Sample<'a>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Array(values) }
     }
 }
 
-/// An object.
-pub(super) struct Object<'a> {
-    pub(super) name: String,
-    pub(super) metadata: String,
-    pub(super) properties: Vec<Property<'a>>,
-    pub(super) children: Vec<Object<'a>>,
+/// An object to be written.
+pub struct Object<'a> {
+    /// Its name.
+    pub name: String,
+    /// `key=value` with semicolons between, in the order of the keys.
+    pub metadata: String,
+    /// Its properties.
+    pub properties: Vec<Property<'a>>,
+    /// The objects in it.
+    pub children: Vec<Object<'a>>,
 }
 
 /// The version of the Alembic library whose files these are like.
@@ -140,8 +162,11 @@ fn times() -> Vec<u8> {
     bytes
 }
 
-/// Writes a file of objects.
-pub(super) fn write(
+/// Writes an archive of objects.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_archive(
     out: &mut dyn Write,
     metadata: &str,
     objects: Vec<Object<'_>>,
@@ -162,7 +187,7 @@ pub(super) fn write(
         Node::bytes(times()),
         Node::bytes(names.bytes()),
     ]);
-    ogawa::write(out, &root)
+    container::write(out, &root)
 }
 
 /// Metadata that are numbered: each is written once.
@@ -210,11 +235,11 @@ fn object<'a>(object: Object<'a>, names: &mut Metadata) -> (Node<'a>, [u8; 16]) 
         inner.extend(hash);
     }
     // Programs compare these to find what they have read already.
-    hashes.extend(digest(&inner));
-    headers.extend(digest(&hashes));
-    headers.extend(if inner.is_empty() { [0; 16] } else { digest(&inner) });
+    hashes.extend(murmur3(&inner));
+    headers.extend(murmur3(&hashes));
+    headers.extend(if inner.is_empty() { [0; 16] } else { murmur3(&inner) });
     nodes.push(Node::bytes(headers));
-    (Node::Group(nodes), digest(&hashes))
+    (Node::Group(nodes), murmur3(&hashes))
 }
 
 /// Properties, and digests of them.
@@ -225,17 +250,17 @@ fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a
         let header = header(&property, names);
         hashes.extend(&header);
         headers.extend(header);
-        nodes.push(match property.what {
-            What::Compound(parts) => {
+        nodes.push(match property.data {
+            PropertyData::Compound(parts) => {
                 let (node, inner) = compound(parts, names);
                 hashes.extend(inner);
                 node
             }
-            What::Scalar(values) => {
+            PropertyData::Scalar(values) => {
                 hashes.extend(values.digest);
                 Node::Group(vec![values.sample()])
             }
-            What::Array(values) => {
+            PropertyData::Array(values) => {
                 hashes.extend(values.digest);
                 // The number of texts is not the number of bytes.
                 let told = values.pod == Pod::Text;
@@ -250,9 +275,9 @@ fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a
     (Node::Group(nodes), hashes)
 }
 
-/// What tells of a property: bits, the number of samples, name, and metadata.
+/// PropertyData tells of a property: bits, the number of samples, name, and metadata.
 fn header(property: &Property<'_>, names: &mut Metadata) -> Vec<u8> {
-    let Property { name, metadata, what } = property;
+    let Property { name, metadata, data } = property;
     // Bytes of the numbers below: 1, 2, or 4.
     let hint = match name.len().max(metadata.len()) {
         0..256 => 0,
@@ -263,14 +288,14 @@ fn header(property: &Property<'_>, names: &mut Metadata) -> Vec<u8> {
     let index = names.number(metadata);
     let mut info = u32::from(index) << 20 | hint << 2;
     // One sample that never changes, of the same size every time.
-    let values = |v: &Values<'_>| {
+    let values = |v: &Sample<'_>| {
         0x800 | 0x400 | u32::from(v.extent) << 12 | (v.pod as u32) << 4 | u32::from(v.count == 1)
     };
-    let is_compound = matches!(what, What::Compound(_));
-    info |= match what {
-        What::Compound(_) => 0,
-        What::Scalar(v) => 1 | values(v),
-        What::Array(v) => 2 | values(v),
+    let is_compound = matches!(data, PropertyData::Compound(_));
+    info |= match data {
+        PropertyData::Compound(_) => 0,
+        PropertyData::Scalar(v) => 1 | values(v),
+        PropertyData::Array(v) => 2 | values(v),
     };
     let mut bytes = info.to_le_bytes().to_vec();
     if !is_compound {

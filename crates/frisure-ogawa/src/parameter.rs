@@ -1,10 +1,10 @@
-//! Values of a property, and what there is one for.
+//! Numbers of a property, and geometry parameters of curves.
 
-use super::reader::{Archive, Kind, Property};
+use super::read::{Archive, Kind, Property};
 
 /// Values, whatever their width in the file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Numbers {
+pub enum Numbers {
     /// Of whole kinds; those below 0 wrap round, as -1 is written for nothing.
     Whole(Vec<u32>),
     /// Of the others.
@@ -20,27 +20,33 @@ impl Numbers {
     }
 }
 
-/// What there is one value for.
+/// What has one value each (`geoScope`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scope {
-    Object,
-    Strand,
-    Point,
+pub enum Scope {
+    /// The whole object.
+    Constant,
+    /// Each curve.
+    Uniform,
+    /// Each point.
+    Varying,
 }
 
 /// A parameter of curves.
-pub(super) struct Parameter {
-    pub(super) scope: Scope,
-    pub(super) extent: usize,
-    pub(super) values: Numbers,
+pub struct Parameter {
+    /// What has one value each.
+    pub scope: Scope,
+    /// How many numbers make one value.
+    pub extent: usize,
+    /// Its numbers, value after value.
+    pub values: Numbers,
 }
 
 impl<'a> Archive<'a> {
     /// The numbers of a property, and how many make one; nothing where it has none or is text.
-    pub(super) fn numbers(
-        &self,
-        property: &Property<'a>,
-    ) -> Result<Option<(usize, Numbers)>, String> {
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn numbers(&self, property: &Property<'a>) -> Result<Option<(usize, Numbers)>, String> {
         let Kind::Values { pod, extent } = property.kind else { return Ok(None) };
         let bytes = self.sample(property)?;
         let whole = |values: Vec<u32>| Numbers::Whole(values);
@@ -67,10 +73,13 @@ impl<'a> Archive<'a> {
     }
 
     /// A geometry parameter of curves, with indices or without; nothing where it is of no kind that hair has.
-    pub(super) fn parameter(
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn parameter(
         &self,
         property: &Property<'a>,
-        strands: usize,
+        curves: usize,
         points: usize,
     ) -> Result<Option<Parameter>, String> {
         let inner = self.parts(property)?;
@@ -87,9 +96,9 @@ impl<'a> Archive<'a> {
         }
         let count = values.len() / extent;
         let scope =
-            scope(property.metadata("geoScope"), count, strands, points).ok_or_else(|| {
+            scope(property.metadata("geoScope"), count, curves, points).ok_or_else(|| {
                 let name = String::from_utf8_lossy(property.name);
-                format!("`{name}` has {count} values for {strands} curves of {points} points")
+                format!("`{name}` has {count} values for {curves} curves of {points} points")
             })?;
         Ok(Some(Parameter { scope, extent, values }))
     }
@@ -116,18 +125,18 @@ fn picked(values: &Numbers, extent: usize, indices: &[u32]) -> Result<Numbers, S
 }
 
 /// What the values are for: as it is said, where their number allows it.
-fn scope(said: Option<&[u8]>, count: usize, strands: usize, points: usize) -> Option<Scope> {
+fn scope(said: Option<&[u8]>, count: usize, curves: usize, points: usize) -> Option<Scope> {
     let order = match said {
-        Some(b"con") => [Scope::Object, Scope::Strand, Scope::Point],
-        Some(b"uni") => [Scope::Strand, Scope::Point, Scope::Object],
-        _ => [Scope::Point, Scope::Strand, Scope::Object],
+        Some(b"con") => [Scope::Constant, Scope::Uniform, Scope::Varying],
+        Some(b"uni") => [Scope::Uniform, Scope::Varying, Scope::Constant],
+        _ => [Scope::Varying, Scope::Uniform, Scope::Constant],
     };
     order.into_iter().find(|scope| {
         count
             == match scope {
-                Scope::Object => 1,
-                Scope::Strand => strands,
-                Scope::Point => points,
+                Scope::Constant => 1,
+                Scope::Uniform => curves,
+                Scope::Varying => points,
             }
     })
 }

@@ -1,13 +1,13 @@
-//! `MurmurHash3` (x64, 128 bits, seed 0), by which Alembic knows equal samples, and a batch its parts.
+//! `MurmurHash3` (x64, 128 bits, seed 0), the digest that Alembic stores with each sample.
 //!
+//! Part of the file format, so that readers find equal samples; nothing else uses it.
 //! Source: Austin Appleby, `MurmurHash3.cpp`, in the public domain.
 
 const C1: u64 = 0x87c3_7b91_1142_53d5;
 const C2: u64 = 0x4cf5_ad43_2745_937f;
 
-/// The digest of some bytes.
-#[must_use]
-pub fn digest(bytes: &[u8]) -> [u8; 16] {
+/// The digest of `bytes`.
+pub(crate) fn murmur3(bytes: &[u8]) -> [u8; 16] {
     let (mut h1, mut h2) = (0_u64, 0_u64);
     let (blocks, tail) = bytes.as_chunks::<16>();
     for block in blocks {
@@ -62,7 +62,7 @@ mod tests {
     /// As the Alembic library 1.8.12 wrote them.
     #[test]
     fn digests_are_those_of_the_library() {
-        let hex = |bytes: &[u8]| digest(bytes).map(|b| format!("{b:02x}")).concat();
+        let hex = |bytes: &[u8]| murmur3(bytes).map(|b| format!("{b:02x}")).concat();
         assert_eq!(hex(&[1]), "16fe7483905cce7a85670e43e4678877");
         assert_eq!(hex(b"ref\0"), "15adccc5d3cca8668555df10667d6599");
         assert_eq!(hex(&[3, 0, 0, 0, 3, 0, 0, 0]), "1171dea6747ab509fdaefbe74f7195af");

@@ -17,7 +17,7 @@ const HEADER: usize = 16;
 type Fill<'a> = Box<dyn Fn(&mut Vec<u8>) + 'a>;
 
 /// A node of a file to be written.
-pub(super) enum Node<'a> {
+pub(crate) enum Node<'a> {
     /// Its children.
     Group(Vec<Node<'a>>),
     /// Bytes.
@@ -25,16 +25,16 @@ pub(super) enum Node<'a> {
 }
 
 /// Bytes that are made when their turn comes, so that only one block at a time is in memory.
-pub(super) struct Block<'a> {
+pub(crate) struct Block<'a> {
     /// How many there are.
-    pub(super) size: usize,
+    pub(crate) size: usize,
     /// Appends just as many.
-    pub(super) fill: Fill<'a>,
+    pub(crate) fill: Fill<'a>,
 }
 
 impl Node<'_> {
     /// A block of bytes that are there already.
-    pub(super) fn bytes(bytes: Vec<u8>) -> Self {
+    pub(crate) fn bytes(bytes: Vec<u8>) -> Self {
         let size = bytes.len();
         Self::Block(Block { size, fill: Box::new(move |out| out.extend_from_slice(&bytes)) })
     }
@@ -47,7 +47,7 @@ struct Place {
 }
 
 /// Writes a file of a root group.
-pub(super) fn write(out: &mut dyn Write, root: &Node<'_>) -> io::Result<()> {
+pub(crate) fn write(out: &mut dyn Write, root: &Node<'_>) -> io::Result<()> {
     let place = place(root, &mut (HEADER as u64));
     out.write_all(b"Ogawa\xff\x00\x01")?;
     out.write_all(&place.reference.to_le_bytes())?;
@@ -99,7 +99,7 @@ fn write_node(out: &mut dyn Write, node: &Node<'_>, place: &Place) -> io::Result
 }
 
 /// A file that is read.
-pub(super) struct Container<'a> {
+pub(crate) struct Container<'a> {
     bytes: &'a [u8],
     /// How many more bytes are looked at. References may lead anywhere, to the same place again too.
     left: Cell<u64>,
@@ -107,7 +107,7 @@ pub(super) struct Container<'a> {
 
 /// A child of a group.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reference(u64);
+pub(crate) struct Reference(u64);
 
 impl Reference {
     fn is_block(self) -> bool {
@@ -117,7 +117,7 @@ impl Reference {
 
 impl<'a> Container<'a> {
     /// A file, and the children of its root group.
-    pub(super) fn open(bytes: &'a [u8]) -> Result<(Self, Vec<Reference>), String> {
+    pub(crate) fn open(bytes: &'a [u8]) -> Result<(Self, Vec<Reference>), String> {
         if bytes.starts_with(b"\x89HDF") {
             return Err(
                 "it is an Alembic file of the old kind, HDF5, and only Ogawa is read".into()
@@ -144,7 +144,7 @@ impl<'a> Container<'a> {
     }
 
     /// The children of a group.
-    pub(super) fn group(&self, group: Reference) -> Result<Vec<Reference>, String> {
+    pub(crate) fn group(&self, group: Reference) -> Result<Vec<Reference>, String> {
         if group.is_block() {
             return Err(format!("byte {:#x} is data, and not a group", group.0 & !BLOCK));
         }
@@ -153,7 +153,7 @@ impl<'a> Container<'a> {
     }
 
     /// The bytes of a block.
-    pub(super) fn block(&self, block: Reference) -> Result<&'a [u8], String> {
+    pub(crate) fn block(&self, block: Reference) -> Result<&'a [u8], String> {
         if !block.is_block() {
             return Err(format!("byte {:#x} is a group, and not data", block.0));
         }

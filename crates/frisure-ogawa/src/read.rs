@@ -1,42 +1,45 @@
-//! Objects and properties of an Alembic file that is read: the layout is told in [`super::archive`].
+//! Objects and properties of an archive that is read; [`crate::write`] describes the layout.
 
-use super::ogawa::{Container, Reference};
+use super::container::{Container, Reference};
 
 /// Bytes of a name that are kept.
 const LONGEST: usize = 256;
 
-/// A file.
-pub(super) struct Archive<'a> {
+/// An archive.
+pub struct Archive<'a> {
     container: Container<'a>,
     /// Metadata that are numbered, the first of them none.
     metadata: Vec<&'a [u8]>,
     top: Reference,
 }
 
-/// An object of it.
-pub(super) struct Object<'a> {
-    pub(super) name: String,
+/// An object of an archive.
+pub struct Object<'a> {
+    /// Its name, cut to 256 bytes.
+    pub name: String,
     metadata: &'a [u8],
     reference: Reference,
 }
 
-/// A property.
+/// A property of an object.
 #[derive(Clone, Copy)]
-pub(super) struct Property<'a> {
-    pub(super) name: &'a [u8],
+pub struct Property<'a> {
+    /// Its name.
+    pub name: &'a [u8],
     metadata: &'a [u8],
-    pub(super) kind: Kind,
+    /// Whether it has values or properties.
+    pub kind: Kind,
     reference: Reference,
 }
 
-/// What a property is.
+/// Whether a property has values or properties.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
     /// Properties under a name.
     Compound,
-    /// Values of a kind of number, so many of which make one.
+    /// Values of a type of number.
     Values {
-        /// As [`super::archive::Pod`] numbers them.
+        /// As [`crate::write::Pod`] numbers them.
         pod: u8,
         /// How many make one.
         extent: u8,
@@ -50,14 +53,17 @@ fn lookup<'a>(metadata: &'a [u8], key: &str) -> Option<&'a [u8]> {
 }
 
 impl<'a> Property<'a> {
-    pub(super) fn metadata(&self, key: &str) -> Option<&'a [u8]> {
+    /// The value of a key of its metadata.
+    #[must_use]
+    pub fn metadata(&self, key: &str) -> Option<&'a [u8]> {
         lookup(self.metadata, key)
     }
 }
 
 impl Object<'_> {
     /// Its schema, such as `AbcGeom_Curve_v2`.
-    pub(super) fn schema(&self) -> &[u8] {
+    #[must_use]
+    pub fn schema(&self) -> &[u8] {
         lookup(self.metadata, "schema").unwrap_or_default()
     }
 }
@@ -84,7 +90,10 @@ impl<'a> Bytes<'a> {
 
 impl<'a> Archive<'a> {
     /// Opens a file.
-    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, String> {
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn open(bytes: &'a [u8]) -> Result<Self, String> {
         let (container, root) = Container::open(bytes)?;
         let [_, _, top, _, _, names, ..] = root[..] else {
             return Err(format!("its root has {} parts, and should have 6", root.len()));
@@ -99,12 +108,16 @@ impl<'a> Archive<'a> {
     }
 
     /// The object that all others are under.
-    pub(super) fn top(&self) -> Object<'a> {
+    #[must_use]
+    pub fn top(&self) -> Object<'a> {
         Object { name: String::new(), metadata: &[], reference: self.top }
     }
 
     /// What is under an object.
-    pub(super) fn children(&self, object: &Object<'a>) -> Result<Vec<Object<'a>>, String> {
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn children(&self, object: &Object<'a>) -> Result<Vec<Object<'a>>, String> {
         let parts = self.container.group(object.reference)?;
         let [_, groups @ .., headers] = &parts[..] else { return Ok(Vec::new()) };
         if groups.is_empty() {
@@ -141,7 +154,10 @@ impl<'a> Archive<'a> {
     }
 
     /// The properties of an object.
-    pub(super) fn properties(&self, object: &Object<'a>) -> Result<Vec<Property<'a>>, String> {
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn properties(&self, object: &Object<'a>) -> Result<Vec<Property<'a>>, String> {
         match self.container.group(object.reference)?.first() {
             Some(&properties) => self.under(properties),
             None => Ok(Vec::new()),
@@ -149,7 +165,10 @@ impl<'a> Archive<'a> {
     }
 
     /// The properties of a compound one.
-    pub(super) fn parts(&self, property: &Property<'a>) -> Result<Vec<Property<'a>>, String> {
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn parts(&self, property: &Property<'a>) -> Result<Vec<Property<'a>>, String> {
         match property.kind {
             Kind::Compound => self.under(property.reference),
             Kind::Values { .. } => Ok(Vec::new()),
@@ -188,7 +207,10 @@ impl<'a> Archive<'a> {
     }
 
     /// The bytes of the first sample of a property; none where it has no sample.
-    pub(super) fn sample(&self, property: &Property<'a>) -> Result<&'a [u8], String> {
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn sample(&self, property: &Property<'a>) -> Result<&'a [u8], String> {
         let Some(&first) = self.container.group(property.reference)?.first() else {
             return Ok(&[]);
         };
