@@ -478,7 +478,7 @@ pub(crate) struct Convert {
 /// Examples, and the formats.
 fn after_convert() -> String {
     let mut text = format!("{CONVERT_EXAMPLES}\n\nFormats:\n");
-    for format in Format::ALL {
+    for &format in Format::ALL {
         let names = format.extensions().iter().map(|e| format!(".{e}")).collect::<Vec<_>>();
         let Frame { metres, up } = format.frame();
         let unit = if metres == 1.0 { "m" } else { "cm" };

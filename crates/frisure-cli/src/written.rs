@@ -21,7 +21,7 @@ impl Grooms {
             let format = Format::of(path).map_err(|e| Failure::wrong(&e, hint_of(path)))?;
             if writing.content == Some(Content::Both) && !format.tells_guides() {
                 let what = "both guides and hairs: it does not tell them apart".into();
-                let error = GroomError::CannotHold { format: format.name(), what };
+                let error = GroomError::CannotHold { format: format.extension(), what };
                 return Err(Failure::wrong(
                     &error,
                     "write each with `--content` to a file of its own",

@@ -47,8 +47,8 @@ pub enum ContentsError {
 /// The extensions of heads and grooms that are read, without dots, each once.
 #[must_use]
 pub fn extensions() -> Vec<&'static str> {
-    let grooms = Format::ALL.into_iter().filter(|f| f.is_read()).flat_map(Format::extensions);
-    let mut all: Vec<&str> = grooms.chain(&head::EXTENSIONS).copied().collect();
+    let grooms = Format::ALL.iter().filter(|f| f.is_read()).flat_map(|f| f.extensions());
+    let mut all: Vec<&str> = grooms.copied().chain(head::extensions()).collect();
     all.sort_unstable();
     all.dedup();
     all
@@ -58,7 +58,7 @@ pub fn extensions() -> Vec<&'static str> {
 #[must_use]
 pub fn by_name(path: &Path) -> Contents {
     let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let head = extension.is_some_and(|e| head::EXTENSIONS.contains(&e.as_str()));
+    let head = extension.is_some_and(|e| head::extensions().any(|known| known == e));
     Contents { head, groom: Format::of(path).is_ok_and(Format::is_read) }
 }
 

@@ -23,4 +23,5 @@ pub mod kept;
 pub mod picture;
 mod ply;
 pub mod report;
+#[cfg(feature = "usd")]
 mod stage_frame;

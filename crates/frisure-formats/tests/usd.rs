@@ -23,12 +23,15 @@ fn groom(count: u16) -> Groom {
 
 /// A groom of 20 hairs, in each format.
 static WHOLE: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
-    [Format::Usda, Format::Usdc]
-        .map(|format| encode(format, &groom(20), FrameChoice::default()).unwrap())
+    ["usda", "usdc"].map(|name| {
+        encode(Format::named(name).unwrap(), &groom(20), FrameChoice::default()).unwrap()
+    })
 });
 
 fn read(bytes: &[u8]) {
-    if let Ok(groom) = decode(Format::Usdc, bytes, Path::new("a"), FrameChoice::default()) {
+    if let Ok(groom) =
+        decode(Format::named("usdc").unwrap(), bytes, Path::new("a"), FrameChoice::default())
+    {
         assert!(groom.hairs.points().iter().all(|p| p.is_finite()));
     }
 }

@@ -1,5 +1,6 @@
 //! Pictures of surroundings with all of their light: Radiance `.hdr` and OpenEXR `.exr`.
 
+#[cfg(feature = "exr")]
 mod openexr;
 mod radiance;
 
@@ -86,6 +87,7 @@ pub fn read(path: &Path, files: &Files) -> Result<Environment, EnvironmentError>
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
     let decode = match ending.as_str() {
         "hdr" => radiance::decode,
+        #[cfg(feature = "exr")]
         "exr" => openexr::decode,
         _ => return Err(EnvironmentError::Extension { path: path.into() }),
     };

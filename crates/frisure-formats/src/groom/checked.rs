@@ -3,8 +3,8 @@
 use frisure_strands::{Attribute, AttributeValues, Strands};
 use glam::{DVec3, Vec3};
 
-use super::Groom;
 use super::attributes::{self as names, indices};
+use super::data::Groom;
 use frisure_files::frame::Frame;
 
 /// Most strands that are read from a file.

@@ -11,15 +11,28 @@ use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 use serde_json::{Value, json};
 
-use super::Groom;
 use super::attributes::COLOUR;
+use super::data::Groom;
+use super::format::Declaration;
 use frisure_files::frame::Frame;
+
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["glb"],
+    title: "glTF lines for the web",
+    frame: Frame::METRES_Y,
+    tells_guides: true,
+    usual_points: None,
+    check,
+    write: encode,
+    read: None,
+};
 
 /// Of hair of which nothing is known: a brown.
 const BROWN: [f32; 3] = [0.1, 0.05, 0.025];
 
 /// Checks that the format has room: lines, in a buffer of 4 GiB.
-pub(super) fn check(groom: &Groom) -> Result<(), String> {
+fn check(groom: &Groom) -> Result<(), String> {
     let size: u64 = parts(groom).map(|(_, s)| size(s)).sum();
     if size == 0 {
         return Err("a groom without lines".into());
@@ -45,7 +58,7 @@ fn size(strands: &Strands) -> u64 {
 }
 
 /// Writes what [`check`] has passed.
-pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     let colour = groom.colour.map_or(BROWN, |c| c.colour);
     let (mut views, mut accessors) = (Vec::new(), Vec::new());
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());

@@ -12,8 +12,21 @@ use frisure_strands::{AttributeValues, Domain, Strands};
 
 use super::attributes::{COLOUR as COLOUR_ATTRIBUTE, of_points};
 use super::checked::Curves;
-use super::{Format, Groom};
+use super::data::Groom;
+use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
+
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["hair"],
+    title: "Cem Yuksel's hair file",
+    frame: Frame::CENTIMETRES_Z,
+    tells_guides: false,
+    usual_points: None,
+    check: |groom| check(groom.strands()),
+    write: |out, groom, frame| encode(out, groom.strands(), frame),
+    read: Some(decode),
+};
 
 const HEADER: usize = 128;
 /// Name of the attribute of the points that are not opaque, from 0 to 1.
@@ -45,7 +58,7 @@ fn info(frame: Frame) -> String {
 const DEFAULT_COLOUR: [f32; 3] = [0.25, 0.15, 0.09];
 
 /// Checks that the format has room: strands of 1 to 65 536 points.
-pub(super) fn check(strands: &Strands) -> Result<(), String> {
+fn check(strands: &Strands) -> Result<(), String> {
     for (i, strand) in strands.iter().enumerate() {
         let points = strand.points.len();
         if points == 0 || points > 1 + usize::from(u16::MAX) {
@@ -60,7 +73,7 @@ pub(super) fn check(strands: &Strands) -> Result<(), String> {
 
 /// Writes what [`check`] has passed.
 #[expect(clippy::cast_possible_truncation, reason = "counts were checked to fit")]
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let segments = |i: usize| strands.offsets()[i + 1] - strands.offsets()[i] - 1;
     let first = if strands.is_empty() { 0 } else { segments(0) };
     // A single count in the header serves when all strands are alike.
@@ -128,7 +141,7 @@ fn write_floats<const N: usize>(out: &mut dyn Write, values: [f32; N]) -> io::Re
 }
 
 /// Bytes of a file into hairs (m), or what is wrong with them; thickness is taken as the diameter.
-pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let (header, mut rest) = bytes.split_at_checked(HEADER).ok_or_else(|| {
         format!("it has {} bytes, and the header alone has {HEADER}", bytes.len())
     })?;
@@ -179,7 +192,7 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
         attributes.push(of_points(COLOUR_ATTRIBUTE, values));
     }
     let curves = Curves { counts, points: positions, diameters, attributes };
-    Ok(Groom::of(curves.strands(choice.or(Format::Hair.frame()))?))
+    Ok(Groom::of(curves.strands(choice.or(FORMAT.frame))?))
 }
 
 /// Compares the counts in the header with the bytes that follow it, before anything is allocated

@@ -8,7 +8,20 @@ use std::io::{self, Write};
 
 use frisure_strands::Strands;
 
+use super::format::Declaration;
 use frisure_files::frame::Frame;
+
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["txt"],
+    title: "curves for Mitsuba 3",
+    frame: Frame::METRES_Y,
+    tells_guides: false,
+    usual_points: None,
+    check: |groom| check(groom.strands()),
+    write: |out, groom, frame| encode(out, groom.strands(), frame),
+    read: None,
+};
 
 /// Checks that the format has room: a curve has two points.
 pub(super) fn check(strands: &Strands) -> Result<(), String> {
@@ -19,7 +32,7 @@ pub(super) fn check(strands: &Strands) -> Result<(), String> {
 }
 
 /// Writes what [`check`] has passed.
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let mut text = Vec::with_capacity(1 << 14);
     for strand in strands.iter() {
         text.clear();

@@ -21,8 +21,21 @@ use zip::{CompressionMethod, ZipArchive};
 use self::array::{Array, header};
 use super::attributes as names;
 use super::checked::{Curves, MAX_STRANDS};
-use super::{Format, Groom, HairColour};
+use super::data::{Groom, HairColour};
+use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
+
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["npz"],
+    title: "arrays for NumPy",
+    frame: Frame::METRES_Z,
+    tells_guides: true,
+    usual_points: None,
+    check: |_| Ok(()),
+    write: encode,
+    read: Some(decode),
+};
 
 /// In front of the names of arrays of guides.
 const GUIDE: &str = "guide_";
@@ -39,7 +52,7 @@ const HAIR_COLOUR: &str = "hair_color";
 const MELANIN: &str = "melanin";
 
 /// Writes hairs and guides.
-pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     let mut zip = ZipWriter::new_stream(out);
     strands(&mut zip, "", &groom.hairs, frame)?;
     if !groom.guides.is_empty() {
@@ -165,12 +178,12 @@ fn array(
 }
 
 /// Bytes of a file into a groom, or what is wrong with them.
-pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let mut arrays = arrays(bytes)?;
     let metres = arrays.remove(METRES).and_then(|a| a.number());
     let up = arrays.remove(UP).and_then(|a| a.text());
     let up = up.map(|t| if t == "y" { UpAxis::Y } else { UpAxis::Z });
-    let frame = choice.or(FrameChoice { metres, up }.or(Format::Npz.frame()));
+    let frame = choice.or(FrameChoice { metres, up }.or(FORMAT.frame));
     let name = arrays.remove(NAME).and_then(|a| a.text()).unwrap_or_default();
     let colour = colour(&mut arrays);
     let keys: Vec<String> = arrays.keys().cloned().collect();

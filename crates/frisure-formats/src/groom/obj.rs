@@ -8,12 +8,25 @@ use std::io::{self, Write};
 use frisure_strands::Strands;
 use glam::Vec3;
 
+use super::data::Groom;
+use super::format::Declaration;
 use super::lines::Lines;
-use super::{Format, Groom};
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
 
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["obj"],
+    title: "Wavefront polylines",
+    frame: Frame::METRES_Y,
+    tells_guides: false,
+    usual_points: None,
+    check: |_| Ok(()),
+    write: |out, groom, frame| encode(out, groom.strands(), frame),
+    read: Some(decode),
+};
+
 /// Writes strands as one `l` each.
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let (count, points) = (strands.len(), strands.points().len());
     let up = match frame.up {
         UpAxis::Y => 'y',
@@ -81,7 +94,7 @@ fn push_digits(line: &mut Vec<u8>, mut value: u64, width: usize) {
 }
 
 /// Bytes of a file into hairs (m), or what is wrong with them. Faces and all else are passed over.
-pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let mut points: Vec<[f32; 3]> = Vec::new();
     let mut lines = Lines::default();
     let mut line: Vec<u32> = Vec::new();
@@ -118,7 +131,7 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
         return Err("it has points, but no lines (`l`)".into());
     }
     let curves = lines.curves(&points, &[])?;
-    Ok(Groom::of(curves.strands(choice.or(Format::Obj.frame()))?))
+    Ok(Groom::of(curves.strands(choice.or(FORMAT.frame))?))
 }
 
 fn position<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Result<[f32; 3], String> {

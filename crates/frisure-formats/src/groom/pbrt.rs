@@ -10,13 +10,24 @@ use std::io::{self, Write};
 use frisure_strands::Strands;
 use glam::Vec3;
 
+use super::format::Declaration;
+use super::mitsuba::check;
 use frisure_files::frame::{Frame, UpAxis};
 
-/// Checks that the format has room: a curve has two points.
-pub(super) use super::mitsuba::check;
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["pbrt"],
+    title: "curves for pbrt-v4",
+    frame: Frame::METRES_Y,
+    tells_guides: false,
+    usual_points: None,
+    check: |groom| check(groom.strands()),
+    write: |out, groom, frame| encode(out, groom.strands(), frame),
+    read: None,
+};
 
 /// Writes what [`check`] has passed.
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let up = match frame.up {
         UpAxis::Y => 'y',
         UpAxis::Z => 'z',

@@ -7,13 +7,26 @@ use std::io::{self, Write};
 use frisure_strands::Strands;
 
 use super::checked::Curves;
+use super::data::Groom;
+use super::format::Declaration;
 use super::lines::Lines;
-use super::{Format, Groom};
 use crate::ply::open;
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
 
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["ply"],
+    title: "Stanford points and edges",
+    frame: Frame::METRES_Z,
+    tells_guides: false,
+    usual_points: None,
+    check: |groom| check(groom.strands()),
+    write: |out, groom, frame| encode(out, groom.strands(), frame),
+    read: Some(decode),
+};
+
 /// Checks that the format has room: vertex indices are signed in most readers.
-pub(super) fn check(strands: &Strands) -> Result<(), String> {
+fn check(strands: &Strands) -> Result<(), String> {
     let points = strands.points().len();
     if i32::try_from(points).is_ok() {
         return Ok(());
@@ -23,7 +36,7 @@ pub(super) fn check(strands: &Strands) -> Result<(), String> {
 
 /// Writes what [`check`] has passed.
 #[expect(clippy::cast_possible_truncation, reason = "counts were checked to fit")]
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let up = match frame.up {
         UpAxis::Y => 'y',
         UpAxis::Z => 'z',
@@ -61,7 +74,7 @@ pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io
 /// Bytes of a file into hairs (m), or what is wrong with them.
 ///
 /// Strands are told by `strand` of the vertices, or else by the edges.
-pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let (elements, mut body) = open(bytes)?;
     let (mut points, mut diameters, mut strands) = (Vec::new(), Vec::new(), Vec::new());
     let mut lines = Lines::default();
@@ -99,7 +112,7 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
         let counts = strands.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
         Curves { counts, points, diameters, ..Curves::default() }
     };
-    Ok(Groom::of(curves.strands(choice.or(Format::Ply.frame()))?))
+    Ok(Groom::of(curves.strands(choice.or(FORMAT.frame))?))
 }
 
 #[cfg(test)]

@@ -12,11 +12,24 @@ use std::io::{self, Write};
 use frisure_strands::Strands;
 
 use super::checked::Curves;
-use super::{Format, Groom};
+use super::data::Groom;
+use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice};
 
+/// What the format declares.
+pub(super) static FORMAT: Declaration = Declaration {
+    extensions: &["data"],
+    title: "hairstyles of USC-HairSalon",
+    frame: Frame::METRES_Y,
+    tells_guides: false,
+    usual_points: Some(100),
+    check: |groom| check(groom.strands()),
+    write: |out, groom, frame| encode(out, groom.strands(), frame),
+    read: Some(decode),
+};
+
 /// Checks that the format has room: counts are signed.
-pub(super) fn check(strands: &Strands) -> Result<(), String> {
+fn check(strands: &Strands) -> Result<(), String> {
     match i32::try_from(strands.points().len().max(strands.len())) {
         Ok(_) => Ok(()),
         Err(_) => Err(format!("{} points", strands.points().len())),
@@ -24,7 +37,7 @@ pub(super) fn check(strands: &Strands) -> Result<(), String> {
 }
 
 /// Writes what [`check`] has passed.
-pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
+fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     out.write_all(&(strands.len() as i32).to_le_bytes())?;
     let mut bytes = Vec::new();
     for strand in strands.iter() {
@@ -40,7 +53,7 @@ pub(super) fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io
 }
 
 /// Bytes of a file into hairs (m), or what is wrong with them.
-pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let (first, mut rest) = bytes.split_first_chunk().ok_or("it has no number of strands")?;
     let strands = i32::from_le_bytes(*first);
     // Each has at least its number of points.
@@ -68,7 +81,7 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
     if !rest.is_empty() {
         return Err(format!("{} bytes follow its last strand", rest.len()));
     }
-    Ok(Groom::of(curves.strands(choice.or(Format::Usc.frame()))?))
+    Ok(Groom::of(curves.strands(choice.or(FORMAT.frame))?))
 }
 
 #[cfg(test)]

@@ -1,16 +1,29 @@
 //! glTF 2.0, as JSON with its buffers beside it or in it, and as one binary file (GLB).
 //!
-//! Read here and not by the crate `gltf`: what a head needs of the format is little, and that crate checks no accessor against
-//! its buffer unless it imports pictures too. Source: Khronos, "glTF 2.0 Specification".
+//! Read here and not by the crate `gltf`, which checks no accessor against its buffer, and refuses files whose
+//! positions state no bounds; `docs/dependencies.md` has the comparison. Source: Khronos, "glTF 2.0 Specification".
 
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use base64::{Engine, alphabet};
 use glam::{DMat4, DQuat, DVec3};
+use percent_encoding::percent_decode_str;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 
-use super::MAX_SIZE;
+use super::format::{Beside, MeshFormat};
 use super::mesh::Mesh;
+use super::source::MAX_SIZE;
 use frisure_files::frame::Frame;
+
+/// What the format declares.
+pub(super) static FORMAT: MeshFormat = MeshFormat {
+    extensions: &["glb", "gltf"],
+    expected: "a glTF mesh",
+    begins: |bytes| bytes.starts_with(b"glTF") || bytes.trim_ascii_start().starts_with(b"{"),
+    is_text: false,
+    read: |bytes, beside| Ok(parse(bytes, beside)?),
+};
 
 /// Nodes within nodes, at most.
 const MAX_DEPTH: usize = 200;
@@ -69,6 +82,7 @@ struct Primitive {
     indices: Option<usize>,
     material: Option<usize>,
     mode: Option<u32>,
+    extensions: BTreeMap<String, IgnoredAny>,
 }
 
 #[derive(Default, Deserialize)]
@@ -81,7 +95,25 @@ struct Accessor {
     count: usize,
     #[serde(rename = "type")]
     shape: String,
-    sparse: Option<IgnoredAny>,
+    sparse: Option<Sparse>,
+}
+
+/// Values that take the place of some of an accessor's.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Sparse {
+    count: usize,
+    indices: Span,
+    values: Span,
+}
+
+/// Where numbers begin.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct Span {
+    buffer_view: usize,
+    byte_offset: usize,
+    component_type: u32,
 }
 
 #[derive(Default, Deserialize)]
@@ -100,10 +132,7 @@ struct Buffer {
 }
 
 /// Reads a file; `beside` gives the bytes of another by the name that it has in this one.
-pub(super) fn parse(
-    bytes: &[u8],
-    beside: &dyn Fn(&str) -> Result<Vec<u8>, String>,
-) -> Result<Mesh, String> {
+fn parse(bytes: &[u8], beside: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Result<Mesh, String> {
     let (json, binary) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (bytes, None) };
     let document: Document = serde_json::from_slice(json).map_err(|e| e.to_string())?;
     let mut buffers = Vec::new();
@@ -156,56 +185,24 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
 }
 
 /// The bytes that an address names.
-fn contents(
-    uri: &str,
-    beside: &dyn Fn(&str) -> Result<Vec<u8>, String>,
-) -> Result<Vec<u8>, String> {
+fn contents(uri: &str, beside: Beside<'_>) -> Result<Vec<u8>, String> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, data) = data.split_once("base64,").ok_or("its data are not base64")?;
-        return from_base64(data).ok_or_else(|| "its data are not base64".into());
+        return BASE64.decode(data).map_err(|e| format!("its data are not base64: {e}"));
     }
-    beside(&unescaped(uri))
+    beside(&percent_decode_str(uri).decode_utf8_lossy())
 }
 
-fn from_base64(text: &str) -> Option<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
-    let (mut held, mut bits) = (0_u32, 0);
-    for b in text.trim_end_matches('=').bytes() {
-        let six = match b {
-            b'A'..=b'Z' => b - b'A',
-            b'a'..=b'z' => b - b'a' + 26,
-            b'0'..=b'9' => b - b'0' + 52,
-            b'+' => 62,
-            b'/' => 63,
-            _ => return None,
-        };
-        held = held << 6 | u32::from(six);
-        bits += 6;
-        if bits >= 8 {
-            bits -= 8;
-            bytes.push((held >> bits & 0xff) as u8);
-        }
-    }
-    Some(bytes)
-}
+/// With or without padding: exporters differ.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &alphabet::STANDARD,
+    GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true),
+);
 
-/// A name without its `%20`.
-fn unescaped(uri: &str) -> String {
-    let mut bytes = Vec::new();
-    let mut parts = uri.split('%');
-    bytes.extend(parts.next().unwrap_or("").bytes());
-    for part in parts {
-        let hex = part.get(..2).and_then(|hex| u8::from_str_radix(hex, 16).ok());
-        match hex {
-            Some(byte) => {
-                bytes.push(byte);
-                bytes.extend(part[2..].bytes());
-            }
-            None => bytes.extend(format!("%{part}").bytes()),
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
-}
+/// The extension that packs a primitive's numbers into bytes of its own.
+const DRACO: &str = "KHR_draco_mesh_compression";
 
 struct Reader<'a> {
     document: &'a Document,
@@ -266,6 +263,15 @@ impl Reader<'_> {
         if !(4..=6).contains(&mode) {
             return Ok(());
         }
+        // A file can hold the same numbers uncompressed besides.
+        let has_bytes = |a: &Accessor| a.buffer_view.is_some() || a.sparse.is_some();
+        if primitive.extensions.contains_key(DRACO)
+            && !self.document.accessors.get(positions).is_some_and(has_bytes)
+        {
+            return Err(format!(
+                "it is compressed with Draco ({DRACO}), which is not read: export it without compression"
+            ));
+        }
         let positions = self.numbers(positions)?;
         let (first, points) = (self.mesh.positions.len(), positions.all.len() / 3);
         if positions.width != 3 || first + points > MOST {
@@ -299,6 +305,21 @@ impl Reader<'_> {
             self.mesh.triangles.push([corner(a)?, corner(b)?, corner(c)?]);
         }
         self.textures(primitive, first, points, first_triangle)?;
+        self.channels(primitive, first, points)?;
+        let material = primitive.material.and_then(|m| self.document.materials.get(m));
+        if let Some(material) = material {
+            self.mesh.group(&material.name, first_triangle);
+        }
+        Ok(())
+    }
+
+    /// Colours and numbers of our own at the newest vertices.
+    fn channels(
+        &mut self,
+        primitive: &Primitive,
+        first: usize,
+        points: usize,
+    ) -> Result<(), String> {
         for (name, &accessor) in &primitive.attributes {
             let is_ours = name.starts_with('_') || name.starts_with("COLOR_");
             if !is_ours {
@@ -317,10 +338,6 @@ impl Reader<'_> {
                 }
                 _ => {}
             }
-        }
-        let material = primitive.material.and_then(|m| self.document.materials.get(m));
-        if let Some(material) = material {
-            self.mesh.group(&material.name, first_triangle);
         }
         Ok(())
     }
@@ -363,48 +380,83 @@ impl Reader<'_> {
             "VEC4" => 4,
             other => return Err(format!("its type is `{other}`")),
         };
-        let (size, full) = match accessor.component_type {
-            5120 => (1, 127.0),
-            5121 => (1, 255.0),
-            5122 => (2, 32767.0),
-            5123 => (2, 65535.0),
-            5125 => (4, 1.0),
-            5126 => (4, 1.0),
-            other => return Err(format!("its components are of type {other}")),
+        let kind = accessor.component_type;
+        let at = |view, offset| (view, offset, kind);
+        let mut all = match (accessor.buffer_view, &accessor.sparse) {
+            (Some(view), _) => self.span(at(view, accessor.byte_offset), width, accessor.count)?,
+            // Zeros, but for the values that follow.
+            (None, Some(_)) if accessor.count <= MOST => vec![0.0; accessor.count * width],
+            (None, Some(_)) => return Err(format!("it has more than {MOST} values")),
+            (None, None) => return Err("it has no bytes".into()),
         };
-        if accessor.sparse.is_some() {
-            return Err("it is sparse, which is not read".into());
+        if let Some(Sparse { count, indices, values }) = &accessor.sparse {
+            let Span { buffer_view, byte_offset, component_type } = *indices;
+            let rows = self.span((buffer_view, byte_offset, component_type), 1, *count)?;
+            let values = self.span(at(values.buffer_view, values.byte_offset), width, *count)?;
+            for (&row, value) in rows.iter().zip(values.chunks_exact(width)) {
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "other numbers than indices are beyond the end"
+                )]
+                let slot = all.chunks_exact_mut(width).nth(row as usize);
+                let slot = slot.filter(|_| row >= 0.0);
+                slot.ok_or("a sparse value is beyond its end")?.copy_from_slice(value);
+            }
         }
-        let view = accessor.buffer_view.ok_or("it has no bytes; compressed meshes are not read")?;
+        let scale = if accessor.normalized { size_and_full(kind)?.1 } else { 1.0 };
+        all.iter_mut().for_each(|x| *x /= scale);
+        Ok(Numbers { all, width })
+    }
+
+    /// `count` values of `width` numbers from an offset of a buffer view, of a type of components.
+    fn span(
+        &self,
+        (view, offset, kind): (usize, usize, u32),
+        width: usize,
+        count: usize,
+    ) -> Result<Vec<f64>, String> {
+        let (size, _) = size_and_full(kind)?;
         let view = self.document.buffer_views.get(view).ok_or("it has no bytes")?;
         let buffer = self.buffers.get(view.buffer).ok_or("it has no buffer")?;
         let end = view.byte_offset.checked_add(view.byte_length);
         let bytes = end
             .and_then(|end| buffer.get(view.byte_offset..end))
+            .and_then(|bytes| bytes.get(offset..))
             .ok_or("its buffer is too short")?;
-        let bytes = bytes.get(accessor.byte_offset..).ok_or("its buffer is too short")?;
         let one = size * width;
         let stride = view.byte_stride.unwrap_or(one);
-        let last = accessor.count.checked_sub(1).and_then(|n| n.checked_mul(stride));
+        let last = count.checked_sub(1).and_then(|n| n.checked_mul(stride));
         let fits =
             last.and_then(|last| last.checked_add(one)).is_some_and(|end| end <= bytes.len());
-        if stride < one || !fits && accessor.count > 0 {
-            return Err(format!("its buffer is too short for {} values", accessor.count));
+        if stride < one || !fits && count > 0 {
+            return Err(format!("its buffer is too short for {count} values"));
         }
-        let scale = if accessor.normalized { full } else { 1.0 };
-        let mut all = Vec::with_capacity(accessor.count * width);
-        for value in 0..accessor.count {
+        let mut all = Vec::with_capacity(count * width);
+        for value in 0..count {
             for c in 0..width {
                 let at = value * stride + c * size;
-                let number = component(accessor.component_type, &bytes[at..at + size]) / scale;
+                let number = component(kind, &bytes[at..at + size]);
                 if !number.is_finite() {
                     return Err(format!("value {value} is {number}"));
                 }
                 all.push(number);
             }
         }
-        Ok(Numbers { all, width })
+        Ok(all)
     }
+}
+
+/// The bytes of a component, and the number that normalized ones have for 1.
+fn size_and_full(kind: u32) -> Result<(usize, f64), String> {
+    Ok(match kind {
+        5120 => (1, 127.0),
+        5121 => (1, 255.0),
+        5122 => (2, 32767.0),
+        5123 => (2, 65535.0),
+        5125 | 5126 => (4, 1.0),
+        other => return Err(format!("its components are of type {other}")),
+    })
 }
 
 fn component(kind: u32, b: &[u8]) -> f64 {
@@ -525,10 +577,45 @@ mod tests {
 
     #[test]
     fn buffers_beside_and_within() {
-        assert_eq!(from_base64("aGFpcg==").unwrap(), b"hair");
-        assert_eq!(from_base64("a-"), None);
+        for whole in ["data:;base64,aGFpcg==", "data:;base64,aGFpcg"] {
+            assert_eq!(contents(whole, &none).unwrap(), b"hair");
+        }
+        assert!(contents("data:;base64,a-", &none).is_err());
         let asked = |name: &str| Err(format!("asked for {name}"));
         let json = r#"{"buffers":[{"uri":"my%20head.bin","byteLength":4}]}"#;
         assert_eq!(parse(json.as_bytes(), &asked).unwrap_err(), "buffer 0: asked for my head.bin");
+    }
+
+    /// A triangle whose third vertex is moved by a sparse accessor; the rest are zeros or in a view.
+    fn sparse(base: &str, row: u8) -> Result<Mesh, String> {
+        let mut bin = Vec::new();
+        for x in [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0_f32, 0.0, 2.0, 0.0] {
+            bin.extend(x.to_le_bytes());
+        }
+        bin.push(row);
+        let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+            "accessors":[{BASE"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,
+                "indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":1}}}],
+            "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12},
+                {"buffer":0,"byteOffset":48,"byteLength":1}],
+            "buffers":[{"uri":"a.bin"}]}"#;
+        parse(json.replace("BASE", base).as_bytes(), &|_| Ok(bin.clone()))
+    }
+
+    #[test]
+    fn sparse_values_take_the_place_of_others() {
+        let mesh = sparse(r#""bufferView":0,"#, 2).unwrap();
+        assert_eq!(mesh.positions, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]]);
+        assert_eq!(sparse("", 2).unwrap().positions, [[0.0; 3], [0.0, 2.0, 0.0]]);
+        assert!(sparse("", 3).unwrap_err().contains("a sparse value is beyond its end"));
+    }
+
+    #[test]
+    fn draco_is_named() {
+        let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"accessors":[{"componentType":5126,"count":3,"type":"VEC3"}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}]}]}"#;
+        let error = parse(json.as_bytes(), &none).unwrap_err();
+        assert!(error.contains("compressed with Draco (KHR_draco_mesh_compression)"), "{error}");
     }
 }

@@ -3,14 +3,27 @@
 //! Read here and not by a library, for two things that a head needs: vertices that groups share stay
 //! one vertex (a split seam would be a hole in the signed distance), and an error names its line.
 
+use super::format::{MeshFormat, Problem};
 use super::mesh::{MAX_CORNERS, Mesh};
 use frisure_files::frame::Frame;
+
+/// What the format declares.
+pub(super) static FORMAT: MeshFormat = MeshFormat {
+    extensions: &["obj"],
+    expected: "an OBJ mesh",
+    begins: |_| true,
+    is_text: true,
+    read: |bytes, _| {
+        let text = std::str::from_utf8(bytes).map_err(|e| e.to_string())?;
+        parse(text).map_err(|(line, what)| Problem { line: Some(line), what })
+    },
+};
 
 /// A line's number from 1, and what is wrong with it.
 type Fault = (usize, String);
 
 /// Reads the text of a file.
-pub(super) fn parse(text: &str) -> Result<Mesh, Fault> {
+fn parse(text: &str) -> Result<Mesh, Fault> {
     let mut mesh = Mesh { frame: Some(Frame::METRES_Y), ..Mesh::default() };
     let mut colours: Vec<f64> = Vec::new();
     let mut current: Vec<String> = Vec::new();

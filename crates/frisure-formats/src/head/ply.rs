@@ -2,12 +2,22 @@
 //!
 //! Source of the format: Greg Turk, "The PLY Polygon File Format" (1994).
 
+use super::format::MeshFormat;
 use super::mesh::{COLOURS, MAX_CORNERS, Mesh};
 use crate::ply::{Body, Element, Property, open};
 use frisure_files::frame::Frame;
 
+/// What the format declares.
+pub(super) static FORMAT: MeshFormat = MeshFormat {
+    extensions: &["ply"],
+    expected: "a PLY mesh",
+    begins: |bytes| bytes.starts_with(b"ply"),
+    is_text: false,
+    read: |bytes, _| Ok(parse(bytes)?),
+};
+
 /// Reads a file.
-pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, String> {
+fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     let (elements, mut body) = open(bytes)?;
     let mut mesh = Mesh { frame: Some(frame(bytes)), ..Mesh::default() };
     for element in &elements {

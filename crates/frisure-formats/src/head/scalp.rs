@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use super::mesh::Mesh;
-use super::{HeadFileError, MAX_SIZE};
+use super::source::{HeadFileError, MAX_SIZE, not_a_mesh};
 use frisure_files::Files;
 
 /// Largest mask that is decoded (bytes of pixels): a small file can claim a huge picture.
@@ -51,7 +51,7 @@ pub(super) fn from_mask(
 ) -> Result<Vec<f64>, HeadFileError> {
     if mesh.triangle_uvs.iter().all(Option::is_none) {
         let problem = "a scalp mask needs texture coordinates, and its faces have none";
-        return Err(super::not_a_mesh(path, problem));
+        return Err(not_a_mesh(path, problem));
     }
     let picture = Mask::read(mask, files)?;
     let mut sums = vec![(0.0, 0_u32); mesh.positions.len()];

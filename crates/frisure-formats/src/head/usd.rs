@@ -1,12 +1,22 @@
 //! Heads in stages of Universal Scene Description: all their meshes, in their places.
 
+use super::format::MeshFormat;
 use super::mesh::Mesh;
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::FrameChoice;
 use frisure_usd::{self as usd, Place, Prim, Stage, Value};
 
+/// What the format declares.
+pub(super) static FORMAT: MeshFormat = MeshFormat {
+    extensions: &["usd", "usda", "usdc", "usdz"],
+    expected: "a USD stage with meshes",
+    begins: usd::is_one,
+    is_text: false,
+    read: |bytes, _| Ok(parse(bytes)?),
+};
+
 /// The meshes of a stage as one.
-pub(super) fn parse(bytes: &[u8]) -> Result<Mesh, String> {
+fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     let layer = usd::read(bytes)?;
     let stage = Stage::of(&layer)?;
     let mut mesh =

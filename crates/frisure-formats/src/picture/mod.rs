@@ -1,5 +1,6 @@
 //! Pictures: PNG for screens, OpenEXR for compositors.
 
+#[cfg(feature = "exr")]
 pub mod exr;
 pub mod png;
 

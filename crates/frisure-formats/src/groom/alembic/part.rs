@@ -3,8 +3,8 @@
 use frisure_strands::{Attribute, AttributeValues, Domain};
 use glam::Vec3;
 
+use super::super::attributes as names;
 use super::curves::Stencil;
-use super::names;
 use crate::groom::checked::{Curves, USUAL_RADIUS};
 use frisure_files::frame::Frame;
 use frisure_ogawa::parameter::Scope;

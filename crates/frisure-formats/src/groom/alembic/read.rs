@@ -4,11 +4,12 @@ use frisure_look::Melanin;
 use frisure_strands::{Attribute, AttributeValues, Domain};
 use glam::{DMat4, DVec3, Vec3};
 
+use super::super::attributes as names;
 use super::curves::{Stencil, bezier, spline};
+use super::names::{FRAME, KNOWN, OURS, UNREAL};
 use super::part::{self, Part};
 use super::write::fits;
-use super::{KNOWN, OURS, UNREAL, names};
-use crate::groom::{Format, Groom, HairColour};
+use crate::groom::data::{Groom, HairColour};
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
 use frisure_ogawa::parameter::{Numbers, Parameter, Scope};
 use frisure_ogawa::read::{Archive, Object, Property};
@@ -20,7 +21,7 @@ const DEEPEST: usize = 64;
 const MOST_ATTRIBUTES: usize = 64;
 
 /// Bytes of a file into a groom, or what is wrong with them.
-pub(in crate::groom) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let archive = Archive::open(bytes)?;
     let mut found = Found::default();
     let mut open = vec![(archive.top(), DMat4::IDENTITY, 0)];
@@ -33,7 +34,7 @@ pub(in crate::groom) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groo
         }
         open.extend(children.into_iter().rev().map(|child| (child, placed, depth + 1)));
     }
-    let usual = found.frame.unwrap_or(Format::Alembic.frame());
+    let usual = found.frame.unwrap_or(FRAME);
     found.groom(choice.or(usual))
 }
 

@@ -6,15 +6,16 @@ use std::io::{self, Write};
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::Vec3;
 
-use super::{CURVES, GROUPS, KNOWN, OURS, UNREAL, XFORM, names};
+use super::super::attributes as names;
+use super::names::{CURVES, GROUPS, KNOWN, OURS, UNREAL, XFORM};
 use crate::groom::attributes::{indices, of_strands};
-use crate::groom::{Groom, HairColour};
+use crate::groom::data::{Groom, HairColour};
 use frisure_files::frame::{Frame, UpAxis};
 use frisure_ogawa::parameter::Scope;
 use frisure_ogawa::write::{Object, Pod, Property, Sample, write_archive};
 
 /// Checks that the format has room: two points a strand, since Unreal refuses fewer, and counts that are signed.
-pub(in crate::groom) fn check(groom: &Groom) -> Result<(), String> {
+pub(super) fn check(groom: &Groom) -> Result<(), String> {
     for (what, strands) in [("strand", &groom.hairs), ("guide", &groom.guides)] {
         if let Some(i) = (0..strands.len()).find(|&i| strands.strand(i).points.len() < 2) {
             let points = strands.strand(i).points.len();
@@ -29,7 +30,7 @@ pub(in crate::groom) fn check(groom: &Groom) -> Result<(), String> {
 }
 
 /// Writes what [`check`] has passed.
-pub(in crate::groom) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     let of_guides = with_extras(&groom.guides, guide_extras(&groom.guides));
     let of_hairs = with_extras(&groom.hairs, hair_extras(groom));
     let mut parts = Vec::new();

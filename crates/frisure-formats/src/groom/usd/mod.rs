@@ -17,25 +17,62 @@ use std::io::{self, Cursor, Write};
 use zip::CompressionMethod;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
-use super::Groom;
+use super::data::Groom;
+use super::format::Declaration;
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::{Frame, FrameChoice};
 use frisure_usd as usd;
 
-pub(super) use write::check;
+use write::check;
+
+/// What the format declares.
+pub(super) static USDC: Declaration = Declaration {
+    extensions: &["usdc", "usd"],
+    title: "Universal Scene Description, binary",
+    frame: Frame::METRES_Z,
+    tells_guides: true,
+    usual_points: None,
+    check,
+    write: encode_binary,
+    read: Some(decode),
+};
+
+/// What the format declares.
+pub(super) static USDA: Declaration = Declaration {
+    extensions: &["usda"],
+    title: "Universal Scene Description, text",
+    frame: Frame::METRES_Z,
+    tells_guides: true,
+    usual_points: None,
+    check,
+    write: encode_text,
+    read: Some(decode),
+};
+
+/// What the format declares.
+pub(super) static USDZ: Declaration = Declaration {
+    extensions: &["usdz"],
+    title: "Universal Scene Description, package",
+    frame: Frame::METRES_Z,
+    tells_guides: true,
+    usual_points: None,
+    check,
+    write: encode_package,
+    read: Some(decode),
+};
 
 /// Writes what [`check`] has passed, as text.
-pub(super) fn encode_text(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+fn encode_text(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     usd::write_text(out, &write::layer(groom, frame))
 }
 
 /// Writes what [`check`] has passed, in binary.
-pub(super) fn encode_binary(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+fn encode_binary(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     usd::write_binary(out, &write::layer(groom, frame))
 }
 
 /// Writes what [`check`] has passed, in binary and as a package.
-pub(super) fn encode_package(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+fn encode_package(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     // Where layers are read as they lie in the archive, they have to lie so.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
@@ -48,7 +85,7 @@ pub(super) fn encode_package(out: &mut dyn Write, groom: &Groom, frame: Frame) -
 }
 
 /// A groom from the bytes of a stage of any kind, or what is wrong with it.
-pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
+fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let layer = usd::read(bytes)?;
     let stage = usd::Stage::of(&layer)?;
     read::groom(&stage, stage_frame(&stage, choice))

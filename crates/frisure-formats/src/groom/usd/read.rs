@@ -5,7 +5,7 @@ use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DMat4, Vec3};
 
 use super::super::checked::Curves;
-use super::super::{Groom, HairColour};
+use super::super::data::{Groom, HairColour};
 use super::basis::{self, Taps};
 use super::names::PIGMENTS;
 use super::primvars::{self, Per, given, mixed};

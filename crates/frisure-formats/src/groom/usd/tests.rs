@@ -7,7 +7,7 @@ use frisure_files::frame::UpAxis;
 use frisure_look::Melanin;
 use frisure_strands::{AttributeValues as Values, Strands};
 
-use super::super::HairColour;
+use super::super::data::HairColour;
 
 fn strands(count: usize, points: usize) -> Strands {
     let mut strands = Strands::new();

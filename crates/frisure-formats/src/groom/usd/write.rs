@@ -4,14 +4,14 @@ use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::Vec3;
 
 use super::super::attributes::{COLOUR, DIRECTOR};
-use super::super::{Groom, HairColour};
+use super::super::data::{Groom, HairColour};
 use super::look;
 use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
 use frisure_files::frame::{Frame, UpAxis};
 use frisure_usd::{Data, Layer, Prim, Value};
 
 /// Checks that a stage has room for a groom: curves have at least two points.
-pub(in crate::groom) fn check(groom: &Groom) -> Result<(), String> {
+pub(super) fn check(groom: &Groom) -> Result<(), String> {
     for (kind, strands) in [("hair", &groom.hairs), ("guide", &groom.guides)] {
         if let Some(i) = strands.iter().position(|strand| strand.points.len() < 2) {
             let points = strands.strand(i).points.len();

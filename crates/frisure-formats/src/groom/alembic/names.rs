@@ -1,0 +1,29 @@
+//! Names that Alembic, Unreal and frisure use in a file.
+
+use frisure_files::frame::Frame;
+
+use super::super::attributes;
+
+/// Unit and axes where the file has none: those of programs that write for Unreal.
+pub(super) const FRAME: Frame = Frame::CENTIMETRES_Y;
+/// Beginning of the names of Unreal's properties.
+pub(super) const UNREAL: &str = "groom_";
+/// Beginning of the names of ours.
+pub(super) const OURS: &str = "frisure_";
+
+/// Attributes that Unreal knows: our name, and its, without [`UNREAL`].
+pub(super) const KNOWN: [(&str, &str); 6] = [
+    (attributes::ID, "id"),
+    (attributes::GROUP, "group_id"),
+    (attributes::ROOT_UV, "root_uv"),
+    (attributes::COLOUR, "color"),
+    (attributes::CLOSEST_GUIDES, "closest_guides"),
+    (attributes::GUIDE_WEIGHTS, "guide_weights"),
+];
+
+/// Names of the parts of the scalp, by their number.
+pub(super) const GROUPS: [&str; 6] = ["fringe", "top", "crown", "sides", "back", "nape"];
+
+/// What marks curves and transforms among objects.
+pub(super) const CURVES: &str = "AbcGeom_Curve_v2";
+pub(super) const XFORM: &str = "AbcGeom_Xform_v3";

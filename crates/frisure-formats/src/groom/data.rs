@@ -1,0 +1,53 @@
+//! What a groom holds, whatever its format.
+
+use frisure_look::Melanin;
+use frisure_strands::{Strands, Surface};
+
+/// The hair of a file, in metres, z up. Not every format holds all of it: see [`super::Format`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Groom {
+    /// What it is called; may be empty.
+    pub name: String,
+    /// The hairs, with attributes of the names in [`super::attributes`]; may be empty.
+    pub hairs: Strands,
+    /// The guides that they follow, in the order in which `guide` counts them; may be empty.
+    pub guides: Strands,
+    /// The head that it is rooted in.
+    pub head: Option<Surface>,
+    /// The colour of its hairs, where they have none of their own.
+    pub colour: Option<HairColour>,
+}
+
+/// What a picture has to know of the colour of hair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairColour {
+    /// Its pigment; unknown where hair is dyed.
+    pub melanin: Option<Melanin>,
+    /// Colour of much of it (linear, primaries of sRGB).
+    pub colour: [f32; 3],
+}
+
+impl Groom {
+    /// A groom of nothing but hairs.
+    #[must_use]
+    pub fn of(hairs: Strands) -> Self {
+        Self { hairs, ..Self::default() }
+    }
+
+    /// The groom with so many points a strand, and how far (m) its strands are from what they were: see
+    /// [`Strands::resampled`].
+    #[must_use]
+    pub fn resampled(&self, points: usize) -> (Self, f32) {
+        let (hairs, guides) = (self.hairs.resampled(points), self.guides.resampled(points));
+        let error = hairs.error.max(guides.error);
+        let Self { name, head, colour, .. } = self;
+        let (name, head, colour) = (name.clone(), head.clone(), *colour);
+        (Self { name, hairs: hairs.strands, guides: guides.strands, head, colour }, error)
+    }
+
+    /// The strands for a format that knows one kind: the hairs, or the guides where there are none.
+    #[must_use]
+    pub fn strands(&self) -> &Strands {
+        if self.hairs.is_empty() { &self.guides } else { &self.hairs }
+    }
+}

@@ -1,0 +1,93 @@
+//! What a groom format declares about itself.
+
+use std::fmt;
+use std::io::{self, Write};
+
+use frisure_files::frame::{Frame, FrameChoice};
+
+use super::data::Groom;
+
+/// Turns the bytes of a file into a groom, or says what is wrong with them.
+pub(super) type Read = fn(&[u8], FrameChoice) -> Result<Groom, String>;
+
+/// Everything that the program knows of a groom format: help, error messages and lists derive from it.
+pub(super) struct Declaration {
+    /// The extensions that name it, without a dot; the first is the one to show.
+    pub(super) extensions: &'static [&'static str],
+    /// What it is, in a few words for a person.
+    pub(super) title: &'static str,
+    /// Unit and axes that it has by convention, where neither file nor person says anything else.
+    pub(super) frame: Frame,
+    /// Whether it tells guides from hairs, so that a file can hold both.
+    pub(super) tells_guides: bool,
+    /// How many points its readers expect of a strand, where it matters to them.
+    pub(super) usual_points: Option<usize>,
+    /// Checks that it has room for a groom.
+    pub(super) check: fn(&Groom) -> Result<(), String>,
+    /// Writes what `check` has passed.
+    pub(super) write: fn(&mut dyn Write, &Groom, Frame) -> io::Result<()>,
+    /// Reads a groom; none where the format is only written.
+    pub(super) read: Option<Read>,
+}
+
+/// A groom format, one of [`Format::ALL`].
+#[derive(Clone, Copy)]
+pub struct Format(pub(super) &'static Declaration);
+
+impl PartialEq for Format {
+    fn eq(&self, other: &Self) -> bool {
+        self.extension() == other.extension()
+    }
+}
+
+impl Eq for Format {}
+
+impl fmt::Debug for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Format({})", self.extension())
+    }
+}
+
+impl Format {
+    /// The extensions that name it, without a dot; the first is the one to show.
+    #[must_use]
+    pub const fn extensions(self) -> &'static [&'static str] {
+        self.0.extensions
+    }
+
+    /// The extension to show, without a dot.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        self.0.extensions[0]
+    }
+
+    /// What it is, in a few words for a person.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        self.0.title
+    }
+
+    /// Whether it is read, too.
+    #[must_use]
+    pub const fn is_read(self) -> bool {
+        self.0.read.is_some()
+    }
+
+    /// Whether it tells guides from hairs, so that a file can hold both.
+    #[must_use]
+    pub const fn tells_guides(self) -> bool {
+        self.0.tells_guides
+    }
+
+    /// How many points its readers expect of a strand, where it matters to them.
+    #[must_use]
+    pub const fn usual_points(self) -> Option<usize> {
+        self.0.usual_points
+    }
+
+    /// Unit and axes that it has by convention, where neither file nor person says anything else.
+    #[must_use]
+    pub const fn frame(self) -> Frame {
+        self.0.frame
+    }
+}
