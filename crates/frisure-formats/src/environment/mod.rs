@@ -1,5 +1,6 @@
 //! Pictures of surroundings with all of their light: Radiance `.hdr` and OpenEXR `.exr`.
 
+mod map;
 #[cfg(feature = "exr")]
 mod openexr;
 mod radiance;
@@ -10,8 +11,7 @@ use thiserror::Error;
 
 use frisure_files::{Files, ReadError};
 
-/// Most pixels across and down.
-const MOST: [usize; 2] = [16_384, 8192];
+pub use map::Environment;
 
 /// Largest file that is read (bytes).
 const MAX_SIZE: u64 = 1 << 30;
@@ -21,17 +21,6 @@ const ROUNDING: f32 = 0.01;
 
 /// Brightest light that is understood.
 const BRIGHTEST: f32 = 1e12;
-
-/// An equirectangular picture of everything around, its upper edge straight above.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Environment {
-    /// Pixels across.
-    pub width: usize,
-    /// Pixels down.
-    pub height: usize,
-    /// Radiance of each pixel, linear sRGB, row by row from the top; finite and not negative.
-    pub pixels: Vec<[f32; 3]>,
-}
 
 /// Why there is no environment.
 #[derive(Debug, Error)]
@@ -96,24 +85,6 @@ pub fn read(path: &Path, files: &Files) -> Result<Environment, EnvironmentError>
     let mut environment = decode(&bytes).map_err(broken)?;
     clean(&mut environment).map_err(broken)?;
     Ok(environment)
-}
-
-/// Refuses sizes that no environment has.
-fn check_size(width: usize, height: usize) -> Result<(), String> {
-    let [across, down] = MOST;
-    if width > across || height > down {
-        return Err(format!(
-            "has {width} x {height} pixels; an environment has at most {across} x {down}"
-        ));
-    }
-    // A pixel more or less is a matter of taste.
-    let ratio = width as f64 / height.max(1) as f64;
-    if height == 0 || (width.abs_diff(2 * height) > 2 && !(1.9..=2.1).contains(&ratio)) {
-        return Err(format!(
-            "has {width} x {height} pixels; an environment is twice as wide as it is high"
-        ));
-    }
-    Ok(())
 }
 
 /// Takes rounding below zero away, and refuses what is no light.

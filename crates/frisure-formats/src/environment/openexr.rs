@@ -5,7 +5,7 @@ use std::io::Cursor;
 use exr::image::pixel_vec::PixelVec;
 use exr::prelude::*;
 
-use super::{Environment, check_size};
+use super::map::{Environment, check_size};
 
 /// Reads the first layer with red, green and blue, or says what is wrong with the picture.
 pub(super) fn decode(bytes: &[u8]) -> std::result::Result<Environment, String> {

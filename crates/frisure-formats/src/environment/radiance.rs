@@ -1,7 +1,7 @@
 //! Radiance pictures (Ward 1991, *Real pixels*): three mantissas and an exponent of eight bits each,
 //! plain or in runs.
 
-use super::{Environment, check_size};
+use super::map::{Environment, check_size};
 
 /// Reads a picture, or says what is wrong with it.
 pub(super) fn decode(bytes: &[u8]) -> Result<Environment, String> {

@@ -4,11 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use frisure_hairstyle::{NaturalCurl, PRESETS, Preset, preset};
 
+use super::choices::{Choices, Steepness};
+use super::error::{MeasurementError, per_millimetre};
 use super::heading::Property;
 use super::readings::Readings;
 use super::sample::Sample;
 use super::table::Table;
-use super::{Choices, MeasurementError, per_millimetre};
 use crate::quantity::LENGTH;
 
 /// Types that differ in nothing but the curl, from which the nearest is taken.
@@ -23,20 +24,6 @@ const DIAMETERS: (f64, f64) = (35e-6, 140e-6);
 /// Mean curvature (1/m) below which short fragments do not tell hair that is straight from hair that
 /// is wavy.
 const FRAGMENTS_TELL_FROM: f64 = 150.0;
-
-/// What says how steep the helix is whose curvature is known. A hair pressed flat does not: its
-/// torsion is lost.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Steepness {
-    /// Advance per turn (m).
-    Pitch(f64),
-    /// Radius of the helix (m).
-    Radius(f64),
-    /// Length along the hair over the distance that it spans; more than 1.
-    CurlIndex(f64),
-    /// Turns per length of hair (1/m).
-    Turns(f64),
-}
 
 /// A fibre and its curl, as far as measured. SI units.
 #[derive(Clone, Debug)]

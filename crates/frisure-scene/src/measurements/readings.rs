@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
+use super::choices::Choices;
+use super::error::{MeasurementError, known_headings, per_millimetre};
 use super::heading::{Aggregate, Meaning, Name, Property};
 use super::sample::{Group, Sample, median, robust_variation};
 use super::table::{Row, Table};
-use super::{Choices, MeasurementError, per_millimetre};
 use crate::quantity::{Dimension, LENGTH};
 
 /// What fibermorph writes into the names of its samples and files, before the window's length.
@@ -111,7 +112,7 @@ impl Readings {
             ));
         }
         if readings.numbers.is_empty() {
-            return Err(MeasurementError::Nothing { known: super::known_headings() });
+            return Err(MeasurementError::Nothing { known: known_headings() });
         }
         readings.notes.dedup();
         readings.compare_groups();
@@ -450,7 +451,7 @@ fn check_columns(tables: &[Table], choices: &Choices) -> Result<(), MeasurementE
     }
     let meant = |title: &String| title != OTHER && matches!(Meaning::of(title), Meaning::Other);
     if let Some((_, title)) = choices.columns.iter().find(|(_, title)| meant(title)) {
-        let (title, known) = (title.clone(), super::known_headings());
+        let (title, known) = (title.clone(), known_headings());
         return Err(MeasurementError::NoMeaning { title, known });
     }
     for (heading, pattern) in &choices.rows {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{MeasurementError, Place};
+use super::error::{MeasurementError, Place};
 use frisure_files::read_text;
 
 /// Largest file that is read (bytes).

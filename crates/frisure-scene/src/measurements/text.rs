@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use super::error::per_millimetre;
 use super::estimate::Estimate;
-use super::per_millimetre;
 use super::sample::Sample;
 use crate::quantity::{DENSITY, Dimension, LENGTH, PRESSURE, RATIO};
 

@@ -187,63 +187,28 @@ fn transformed<'a>(
     Ok(matrix)
 }
 
+/// The numbers of a property of a name; nothing where there is none.
+fn numbers<'a>(
+    archive: &Archive<'a>,
+    properties: &[Property<'a>],
+    name: &str,
+) -> Result<Option<(usize, Numbers)>, String> {
+    match named(properties, name) {
+        Some(property) => archive.numbers(&property),
+        None => Ok(None),
+    }
+}
+
 /// The curves of an object, and which of them are guides; nothing where they are closed, as no hair is.
 fn curves<'a>(
     archive: &Archive<'a>,
     geometry: &[Property<'a>],
     placed: DMat4,
 ) -> Result<Option<(Part, Vec<bool>)>, String> {
-    let whole = |name: &str| match named(geometry, name) {
-        Some(p) => archive.numbers(&p),
-        None => Ok(None),
-    };
-    let Some((1, Numbers::Whole(counts))) = whole("nVertices")? else { return Ok(None) };
-    let counts: Vec<usize> = counts.into_iter().map(|n| n as usize).collect();
-    let Some((3, Numbers::Real(points))) = whole("P")? else { return Ok(None) };
-    let points: &[[f32; 3]] = points.as_chunks().0;
-    let total = counts.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
-    if total != Some(points.len()) {
-        let total = total.map_or("too many".into(), |n| n.to_string());
-        return Err(format!("its curves have {total} points, and it has {}", points.len()));
-    }
-    if let Some(i) = counts.iter().position(|&n| n == 0) {
-        return Err(format!("curve {i} has no point"));
-    }
-    let how = match named(geometry, "curveBasisAndType") {
-        Some(p) => archive.sample(&p)?,
-        None => &[],
-    };
-    // Linear, open, no basis, where nothing is said.
-    let (kind, closed, basis) = match how {
-        [kind, closed, basis, ..] => (*kind, *closed, *basis),
-        _ => (1, 0, 0),
-    };
-    if closed != 0 {
+    let Some((counts, points)) = control_points(archive, geometry, placed)? else {
         return Ok(None);
-    }
-    if let Some((1, Numbers::Real(weights))) = whole("w")?
-        && weights.iter().any(|w| *w != weights[0])
-    {
-        return Err("its points have weights, and those are not read".into());
-    }
-    let orders = match whole(".orders")? {
-        Some((1, Numbers::Whole(orders))) => orders,
-        _ => Vec::new(),
     };
-    let knots = match whole(".knots")? {
-        Some((1, Numbers::Real(knots))) => knots,
-        _ => Vec::new(),
-    };
-    let stencils = stencils(kind, basis, &counts, &orders, &knots)?;
-    let scale = placed.determinant().abs().cbrt();
-    let moved = |p: &[f32; 3]| {
-        placed.transform_point3(Vec3::from_array(*p).as_dvec3()).as_vec3().to_array()
-    };
-    let points = if placed == DMat4::IDENTITY {
-        points.to_vec()
-    } else {
-        points.iter().map(moved).collect()
-    };
+    let Some(stencils) = basis(archive, geometry, &counts)? else { return Ok(None) };
     let mut part = Part { counts, points, ..Part::default() };
     let parameters = match named(geometry, ".arbGeomParams") {
         Some(compound) => archive.parts(&compound)?,
@@ -254,6 +219,7 @@ fn curves<'a>(
         && let Some(Parameter { scope, extent: 1, values: Numbers::Real(values) }) =
             archive.parameter(&width, part.counts.len(), part.points.len())?
     {
+        let scale = placed.determinant().abs().cbrt();
         let scaled: Vec<f32> = values.iter().map(|w| (f64::from(*w) * scale) as f32).collect();
         part.diameters = part.per_point(scope, &scaled);
     }
@@ -274,6 +240,76 @@ fn curves<'a>(
         part = part.evaluated(&stencils);
     }
     Ok(Some((part, guides)))
+}
+
+/// The number of control points of each curve, and all points.
+type ControlPoints = (Vec<usize>, Vec<[f32; 3]>);
+
+/// The control points where they are in the file's space; nothing where the object has none.
+fn control_points<'a>(
+    archive: &Archive<'a>,
+    geometry: &[Property<'a>],
+    placed: DMat4,
+) -> Result<Option<ControlPoints>, String> {
+    let Some((1, Numbers::Whole(counts))) = numbers(archive, geometry, "nVertices")? else {
+        return Ok(None);
+    };
+    let counts: Vec<usize> = counts.into_iter().map(|n| n as usize).collect();
+    let Some((3, Numbers::Real(points))) = numbers(archive, geometry, "P")? else {
+        return Ok(None);
+    };
+    let points: &[[f32; 3]] = points.as_chunks().0;
+    let total = counts.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
+    if total != Some(points.len()) {
+        let total = total.map_or("too many".into(), |n| n.to_string());
+        return Err(format!("its curves have {total} points, and it has {}", points.len()));
+    }
+    if let Some(i) = counts.iter().position(|&n| n == 0) {
+        return Err(format!("curve {i} has no point"));
+    }
+    let moved = |p: &[f32; 3]| {
+        placed.transform_point3(Vec3::from_array(*p).as_dvec3()).as_vec3().to_array()
+    };
+    let points = if placed == DMat4::IDENTITY {
+        points.to_vec()
+    } else {
+        points.iter().map(moved).collect()
+    };
+    Ok(Some((counts, points)))
+}
+
+/// The stencils of each curve, none where its points are control points; nothing where the curves are closed.
+fn basis<'a>(
+    archive: &Archive<'a>,
+    geometry: &[Property<'a>],
+    counts: &[usize],
+) -> Result<Option<Option<Vec<Vec<Stencil>>>>, String> {
+    let how = match named(geometry, "curveBasisAndType") {
+        Some(p) => archive.sample(&p)?,
+        None => &[],
+    };
+    // Linear, open, no basis, where nothing is said.
+    let (kind, closed, basis) = match how {
+        [kind, closed, basis, ..] => (*kind, *closed, *basis),
+        _ => (1, 0, 0),
+    };
+    if closed != 0 {
+        return Ok(None);
+    }
+    if let Some((1, Numbers::Real(weights))) = numbers(archive, geometry, "w")?
+        && weights.iter().any(|w| *w != weights[0])
+    {
+        return Err("its points have weights, and those are not read".into());
+    }
+    let orders = match numbers(archive, geometry, ".orders")? {
+        Some((1, Numbers::Whole(orders))) => orders,
+        _ => Vec::new(),
+    };
+    let knots = match numbers(archive, geometry, ".knots")? {
+        Some((1, Numbers::Real(knots))) => knots,
+        _ => Vec::new(),
+    };
+    stencils(kind, basis, counts, &orders, &knots).map(Some)
 }
 
 /// How points of strands come from control points, curve by curve; nothing where they are the same.
