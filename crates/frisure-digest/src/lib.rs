@@ -18,6 +18,9 @@
 //! assert_ne!(key(&camera), key(&Camera { f_number: Some(2.8), ..camera }));
 //! ```
 
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
 use twox_hash::XxHash3_128;
 use twox_hash::xxhash3_128::Hasher;
 
@@ -174,6 +177,24 @@ impl<T: Digestible> Digestible for Vec<T> {
 impl<T: Digestible, const N: usize> Digestible for [T; N] {
     fn add_to(&self, digest: &mut Digest) {
         self.as_slice().add_to(digest);
+    }
+}
+
+impl<T: Digestible + ?Sized> Digestible for Arc<T> {
+    fn add_to(&self, digest: &mut Digest) {
+        (**self).add_to(digest);
+    }
+}
+
+impl Digestible for Vec3 {
+    fn add_to(&self, digest: &mut Digest) {
+        self.to_array().add_to(digest);
+    }
+}
+
+impl Digestible for DVec3 {
+    fn add_to(&self, digest: &mut Digest) {
+        self.to_array().add_to(digest);
     }
 }
 

@@ -9,6 +9,8 @@ pub struct Bed {
     heights: Vec<f64>,
 }
 
+frisure_digest::digest_fields!(Bed { spacing, heights });
+
 impl Bed {
     /// From the distance (m) from the skin and the force per length (N/m) borne at points `spacing` (m) apart,
     /// from the root on, where hair has the stiffness `hair` (Pa); see [`super::BodyContact`] for the law.

@@ -15,6 +15,8 @@ pub struct Layer {
     pub most: f64,
 }
 
+frisure_digest::digest_fields!(Layer { slope, most });
+
 /// The steepest bed: hair that stands up by more has no hair beneath it, but beside it.
 /// docs/theory.md, "Hair against hair: layers and wisps"; chosen by trial.
 const STEEPEST: f64 = 0.6;

@@ -27,6 +27,8 @@ pub enum Pull {
     },
 }
 
+frisure_digest::digest_fields!(Pull: Comb { force }, Clip { piece, point, stiffness, most });
+
 impl Pull {
     /// The same, `factor` times as strong.
     pub(crate) fn scaled(self, factor: f64) -> Self {

@@ -42,6 +42,18 @@ pub struct Thickness {
     volume: f64,
 }
 
+frisure_digest::digest_fields!(Thickness {
+    hairs,
+    fibre,
+    spread,
+    wave,
+    sag,
+    slack,
+    length,
+    ground,
+    volume,
+});
+
 /// How gently a wisp grows from nothing at the root: arc length per radius.
 /// docs/theory.md, "Thickness of a wisp"; chosen by trial.
 const GATHERING: f64 = 4.0;

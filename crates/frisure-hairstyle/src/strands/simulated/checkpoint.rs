@@ -1,14 +1,9 @@
 //! Checkpoints of simulated hairs: long work that was interrupted goes on from there.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
-
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use super::super::curve::Hair;
 use super::simulation::Simulation;
-use crate::hairstyle::Hairstyle;
-use crate::head::Head;
-use crate::implantation::Root;
 
 /// Saves simulated hairs part by part, and finds them again; called from any thread.
 pub trait Checkpoint: Sync {
@@ -17,28 +12,6 @@ pub trait Checkpoint: Sync {
 
     /// Saves the result of a part. If it cannot, the work goes on.
     fn save(&self, part: usize, bytes: &[u8]);
-}
-
-/// What the hairs of this hairstyle depend on, for the same build: if it is the same, so are the hairs.
-pub(crate) fn key(hairstyle: &Hairstyle, head: &Head, roots: &[(usize, Root)]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    let mut place = |p: DVec3| p.to_array().map(f64::to_bits).hash(&mut hasher);
-    for (_, root) in roots {
-        place(root.position);
-        place(root.normal);
-    }
-    for rest in &hairstyle.rest.guides {
-        rest.shape.positions.iter().for_each(|p| place(*p));
-        rest.shape.frames.iter().for_each(|frame| place(frame.x_axis));
-    }
-    for p in head.surface().positions() {
-        place(*p);
-    }
-    env!("CARGO_PKG_VERSION").hash(&mut hasher);
-    // Every number of it, as it would be written.
-    format!("{:?} {:?}", hairstyle.spec, hairstyle.guides).hash(&mut hasher);
-    roots.iter().for_each(|(index, _)| index.hash(&mut hasher));
-    hasher.finish()
 }
 
 /// The bytes of a part: how its hairs came to rest, then for each guide, thickness, whether it was cut, and points.

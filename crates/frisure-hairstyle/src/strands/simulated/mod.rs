@@ -7,6 +7,7 @@
 mod checkpoint;
 mod envelope;
 mod fibre;
+mod key;
 mod simulation;
 
 use frisure_rod::batch::{Batch, BatchSolution, Frames, InitialShape, RodSolution};
@@ -21,10 +22,10 @@ use super::skin::{Free, LAID};
 use crate::hairstyle::Hairstyle;
 use crate::implantation::Root;
 pub use checkpoint::Checkpoint;
-pub(crate) use checkpoint::key;
 use checkpoint::{part_from_bytes, part_to_bytes};
 use envelope::Envelope;
 use frisure_progress::{Cancelled, StageCounter};
+pub(crate) use key::key;
 pub use simulation::Simulation;
 
 /// How many elements hairs have: the least of these that resolves the curl.
