@@ -4,8 +4,8 @@ use std::sync::LazyLock;
 
 use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::styling::{
-    Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Hold, Holder, Humidity, Lasso,
-    Operation, Part, Release, Selection, Spot, StyleError, View, Wet,
+    Clip, Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Humidity, Lasso,
+    Operation, Part, Release, Roll, Selection, Spot, StyleError, View, Wet,
 };
 use frisure_hairstyle::{
     Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place, PredictOptions,
@@ -354,13 +354,10 @@ fn bad_operations_are_refused() {
 #[test]
 fn hair_that_is_dried_in_a_shape_keeps_part_of_it_until_it_is_wet_again() {
     let before = hairstyle("caucasian-straight", 20);
-    let roll = Hold {
-        selection: Selection::Everything,
-        by: Holder::Roller { radius: 0.012, pitch: 0.005 },
-    };
+    let roll = Roll { selection: Selection::Everything, radius: 0.012, pitch: 0.005 };
     let release = Operation::Release(Release { selection: Selection::Everything });
     let rolled =
-        done(&done(&done(&done(&before, &wet()), &Operation::Hold(roll)), &dry()), &release);
+        done(&done(&done(&done(&before, &wet()), &Operation::Roll(roll)), &dry()), &release);
     let spanned = |h: &Hairstyle| {
         let each = h.guides().iter().zip(h.equilibria());
         each.map(|(g, r)| r.tip().distance(g.root.position)).sum::<f64>()
@@ -417,8 +414,8 @@ fn a_clip_holds_hair_where_it_is_put() {
     let before = hairstyle("caucasian-straight", 80);
     let wisp = (0..80).find(|&i| before.guides()[i].region == Region::Sides).unwrap();
     let to = HEAD.landmarks().whorl + glam::DVec3::new(0.0, 0.03, 0.03);
-    let clip = Hold { selection: Selection::Wisps(vec![wisp]), by: Holder::Clip { at: 1.0, to } };
-    let clipped = done(&before, &Operation::Hold(clip));
+    let clip = Clip { selection: Selection::Wisps(vec![wisp]), at: 1.0, to };
+    let clipped = done(&before, &Operation::Clip(clip));
     let distance = clipped.equilibria()[wisp].tip().distance(to);
     assert!(distance < 0.01, "{distance}");
     assert_eq!(settling_report(&clipped, &HEAD).not_converged, 0);

@@ -35,6 +35,23 @@ pub(super) trait Kind {
     fn schema() -> Schema;
 }
 
+/// A kind of value that is written as a person would, as far as that is exact.
+pub(super) trait ToText: Kind {
+    /// The value as a scene writes it; it reads as the same to the last bit.
+    fn text(value: &Self::Value) -> String;
+}
+
+/// A list as a scene writes it.
+pub(super) fn list_text<T>(items: &[T], text: impl Fn(&T) -> String) -> String {
+    format!("[{}]", items.iter().map(text).collect::<Vec<_>>().join(", "))
+}
+
+/// A bare number that reads as exactly this one; whole ones without a point.
+fn number_text(x: f64) -> String {
+    let whole = x.fract() == 0.0 && x.abs() < 1e15 && x.to_bits() != (-0.0_f64).to_bits();
+    if whole { format!("{x:.0}") } else { format!("{x:?}") }
+}
+
 /// A value that is not of its kind.
 #[derive(Default)]
 pub(super) struct Refusal {
@@ -98,13 +115,14 @@ impl Refusal {
 
     /// The refusal of a value that stands at a place of a scene.
     pub(super) fn at(self, span: Range<usize>, source: &Source) -> SceneError {
+        self.at_path(&source.path_at(&span), source)
+    }
+
+    /// The refusal of the value at a path such as `step[1].cut.below`.
+    pub(super) fn at_path(self, path: &str, source: &Source) -> SceneError {
         let Self { allowed, hint, problem, value, inside, in_key } = self;
-        let key = source.path_at(&span) + &inside;
-        let span = match inside.is_empty() {
-            true => span,
-            false if in_key => source.locate_key(&key),
-            false => source.locate(&key),
-        };
+        let key = format!("{path}{inside}");
+        let span = if in_key { source.locate_key(&key) } else { source.locate(&key) };
         let value = value.map_or_else(|| source.slice(span.clone()).to_owned(), String::from);
         let fault = Fault { problem, ..Fault::outside(allowed) };
         fault.hint(hint).key(key).value(value).at(source, span)
@@ -170,55 +188,6 @@ impl<K: Kind> Key<K> {
     /// The value, or `default` if the key is not written.
     pub(super) fn or(&self, default: K::Value, source: &Source) -> Result<K::Value, SceneError> {
         Ok(self.get(source)?.unwrap_or(default))
-    }
-}
-
-/// A table of keys that may be written in a scene, with its place there.
-pub(super) struct Table<T> {
-    written: Option<Spanned<T>>,
-}
-
-impl<T> Default for Table<T> {
-    fn default() -> Self {
-        Self { written: None }
-    }
-}
-
-impl<T: fmt::Debug> fmt::Debug for Table<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.written.fmt(f)
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Ok(Self { written: Some(Spanned::deserialize(deserializer)?) })
-    }
-}
-
-impl<T: JsonSchema> JsonSchema for Table<T> {
-    fn schema_name() -> Cow<'static, str> {
-        T::schema_name()
-    }
-
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        T::json_schema(generator)
-    }
-}
-
-impl<T> Table<T> {
-    /// The keys, if the table is written.
-    pub(super) fn get(&self) -> Option<&T> {
-        self.written.as_ref().map(Spanned::get_ref)
-    }
-
-    /// Bytes of the table or of its header, if it is written.
-    pub(super) fn span(&self) -> Option<Range<usize>> {
-        self.written.as_ref().map(Spanned::span)
     }
 }
 
@@ -301,7 +270,7 @@ fn quantity_schema(dimension: &'static Dimension) -> Schema {
 }
 
 macro_rules! quantities {
-    ($($(#[$doc:meta])* $name:ident = $dimension:ident;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident = $dimension:ident $units:expr;)*) => {$(
         $(#[$doc])*
         pub(super) struct $name;
 
@@ -316,30 +285,39 @@ macro_rules! quantities {
                 quantity_schema(&quantity::$dimension)
             }
         }
+
+        impl ToText for $name {
+            fn text(value: &f64) -> String {
+                let units: &[&str] = &$units;
+                // Nothing is 0 in any unit.
+                let text = if *value == 0.0 { None } else { quantity::$dimension.text(*value, units) };
+                text.map_or_else(|| number_text(*value), |text| format!("\"{text}\""))
+            }
+        }
     )*};
 }
 
 quantities! {
     /// A length (m).
-    Length = LENGTH;
+    Length = LENGTH ["cm", "mm", "m"];
     /// An angle (rad).
-    Angle = ANGLE;
+    Angle = ANGLE ["deg"];
     /// An elastic modulus (Pa).
-    Modulus = PRESSURE;
+    Modulus = PRESSURE [];
     /// A density (kg/m³).
-    Density = DENSITY;
+    Density = DENSITY [];
     /// A curvature or twist (rad/m).
-    Strain = STRAIN;
+    Strain = STRAIN [];
     /// A number per area (1/m²).
-    NumberDensity = NUMBER_DENSITY;
+    NumberDensity = NUMBER_DENSITY [];
     /// An acceleration (m/s²).
-    Acceleration = ACCELERATION;
+    Acceleration = ACCELERATION [];
     /// A pure number.
-    Ratio = RATIO;
+    Ratio = RATIO [];
     /// A speed (m/s).
-    Speed = SPEED;
+    Speed = SPEED [];
     /// A time (s).
-    Time = TIME;
+    Time = TIME [];
 }
 
 /// Yes or no.
@@ -354,6 +332,12 @@ impl Kind for Flag {
 
     fn schema() -> Schema {
         json_schema!({ "type": "boolean" })
+    }
+}
+
+impl ToText for Flag {
+    fn text(flag: &bool) -> String {
+        flag.to_string()
     }
 }
 
@@ -372,6 +356,12 @@ impl Kind for Count {
 
     fn schema() -> Schema {
         json_schema!({ "type": "integer", "minimum": 0 })
+    }
+}
+
+impl ToText for Count {
+    fn text(count: &usize) -> String {
+        count.to_string()
     }
 }
 
@@ -417,6 +407,12 @@ impl Kind for Vector {
     }
 }
 
+impl ToText for Vector {
+    fn text(v: &DVec3) -> String {
+        list_text(&v.to_array(), |x| number_text(*x))
+    }
+}
+
 /// Three lengths (m).
 pub(super) struct Point;
 
@@ -442,6 +438,12 @@ impl Kind for Point {
     }
 }
 
+impl ToText for Point {
+    fn text(p: &DVec3) -> String {
+        list_text(&p.to_array(), Length::text)
+    }
+}
+
 /// Two lengths (m).
 pub(super) struct Pair;
 
@@ -461,6 +463,12 @@ impl Kind for Pair {
             "type": "array", "items": { "type": ["number", "string"] }, "minItems": 2,
             "maxItems": 2, "examples": [["2 cm", "5 cm"]],
         })
+    }
+}
+
+impl ToText for Pair {
+    fn text(pair: &[f64; 2]) -> String {
+        list_text(pair, Length::text)
     }
 }
 
@@ -499,6 +507,12 @@ impl Kind for Points {
             "type": "array", "items": Pair::schema(), "minItems": 2, "maxItems": 100,
             "examples": [[["2 cm", "0 cm"], ["3 cm", "8 cm"]]],
         })
+    }
+}
+
+impl ToText for Points {
+    fn text(places: &Vec<[f64; 2]>) -> String {
+        list_text(places, Pair::text)
     }
 }
 
@@ -624,5 +638,12 @@ impl<C: Choice> Kind for OneOf<C> {
             .map(|(word, meaning, _)| json_schema!({ "const": word, "description": meaning }))
             .collect();
         json_schema!({ "oneOf": one_of })
+    }
+}
+
+impl<C: Choice + PartialEq> ToText for OneOf<C> {
+    fn text(value: &C) -> String {
+        let word = C::words().into_iter().find(|(_, _, known)| known == value);
+        format!("\"{}\"", word.map_or("", |word| word.0))
     }
 }

@@ -9,7 +9,7 @@ use frisure_rod::{ElementKind, TorsionConstant};
 use schemars::{Schema, json_schema};
 use toml::Value;
 
-use super::key::{Choice, Kind, Length, OneOf, Refusal};
+use super::key::{Choice, Kind, Length, OneOf, Refusal, ToText};
 use frisure_files::frame::UpAxis;
 
 /// A hair type, by its name.
@@ -50,7 +50,7 @@ impl Choice for ShadeWord {
 }
 
 /// A value that is itself one of a few: each word stands for it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Which<T>(pub(super) T);
 
 impl Choice for Which<UpAxis> {
@@ -234,6 +234,17 @@ impl Kind for PartingPlace {
 
     fn schema() -> Schema {
         json_schema!({ "anyOf": [OneOf::<PartingWord>::schema(), Length::schema()] })
+    }
+}
+
+impl ToText for PartingPlace {
+    fn text(parting: &Parting) -> String {
+        match parting {
+            Parting::Straight { offset } if offset.to_bits() == 0 => "\"middle\"".into(),
+            Parting::Straight { offset } => Length::text(offset),
+            // The one zigzag that has a word.
+            Parting::Zigzag { .. } | Parting::Through(_) => "\"zigzag\"".into(),
+        }
     }
 }
 

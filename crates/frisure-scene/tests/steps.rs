@@ -4,8 +4,8 @@ use std::path::Path;
 
 use frisure_hairstyle::head::Region;
 use frisure_hairstyle::styling::{
-    Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Hold, Holder, Humidity, Lasso,
-    Operation, Part, Release, Selection, Spot, StyleError, View, Wet,
+    Braid, Clip, Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Humidity, Lasso,
+    Operation, Part, Release, Roll, Selection, Spot, Straighten, StyleError, View, Wet,
 };
 use frisure_hairstyle::{Comb as Word, Level, Parting, Place, preset};
 use frisure_scene::edit::{self, EditError};
@@ -96,16 +96,13 @@ fn every_operation_can_be_said() {
     let through = Parting::Through(vec![[0.02, 0.0], [0.03, 0.08]]);
     let text = "part = { line = [['2 cm', 0], ['3 cm', '8 cm']] }";
     assert_eq!(one(text), part(through));
-    let hold = |by| Operation::Hold(Hold { selection: EVERYTHING, by });
-    assert_eq!(
-        one("roll = { radius = '1 cm' }"),
-        hold(Holder::Roller { radius: 0.01, pitch: 5e-3 })
-    );
-    let braid = Holder::Braid { width: 0.02, pitch: 0.04 };
-    assert_eq!(one("braid = { width = '2 cm', pitch = '4 cm' }"), hold(braid));
-    assert_eq!(one("straighten = {}"), hold(Holder::Straight));
-    let clip = Holder::Clip { at: 0.5, to: DVec3::new(0.0, -0.1, 0.2) };
-    assert_eq!(one("clip = { at = 0.5, to = [0, '-10 cm', '20 cm'] }"), hold(clip));
+    let roll = Roll { selection: EVERYTHING, radius: 0.01, pitch: 5e-3 };
+    assert_eq!(one("roll = { radius = '1 cm' }"), roll.into());
+    let braid = Braid { selection: EVERYTHING, width: 0.02, pitch: 0.04 };
+    assert_eq!(one("braid = { width = '2 cm', pitch = '4 cm' }"), braid.into());
+    assert_eq!(one("straighten = {}"), Straighten { selection: EVERYTHING }.into());
+    let clip = Clip { selection: EVERYTHING, at: 0.5, to: DVec3::new(0.0, -0.1, 0.2) };
+    assert_eq!(one("clip = { at = 0.5, to = [0, '-10 cm', '20 cm'] }"), clip.into());
     let release = Release { selection: fringe() };
     assert_eq!(one("release = { where = 'fringe' }"), Operation::Release(release));
 }
@@ -611,14 +608,19 @@ fn cut() -> impl Strategy<Value = Cut> {
     (selection(), how).prop_map(|(selection, (line, held))| Cut { selection, line, held })
 }
 
-fn held_by() -> impl Strategy<Value = Holder> {
+fn held_hair() -> impl Strategy<Value = Operation> {
     prop_oneof![
-        (number(1e-3, 0.1), number(0.0, 0.1))
-            .prop_map(|(radius, pitch)| Holder::Roller { radius, pitch }),
-        (number(1e-3, 0.1), number(5e-3, 0.5))
-            .prop_map(|(width, pitch)| Holder::Braid { width, pitch }),
-        Just(Holder::Straight),
-        (number(0.05, 1.0), point()).prop_map(|(at, to)| Holder::Clip { at, to }),
+        (selection(), number(1e-3, 0.1), number(0.0, 0.1))
+            .prop_map(|(selection, radius, pitch)| Roll { selection, radius, pitch }.into()),
+        (selection(), number(1e-3, 0.1), number(5e-3, 0.5))
+            .prop_map(|(selection, width, pitch)| Braid { selection, width, pitch }.into()),
+        selection().prop_map(|selection| Straighten { selection }.into()),
+        (selection(), number(0.05, 1.0), point()).prop_map(|(selection, at, to)| Clip {
+            selection,
+            at,
+            to
+        }
+        .into()),
     ]
 }
 
@@ -652,8 +654,7 @@ fn operation() -> impl Strategy<Value = Operation> {
             }
         ),
         line.prop_map(|line| Operation::Part(Part { line })),
-        (selection(), held_by())
-            .prop_map(|(selection, by)| Operation::Hold(Hold { selection, by })),
+        held_hair(),
         selection().prop_map(|selection| Operation::Release(Release { selection })),
     ]
 }

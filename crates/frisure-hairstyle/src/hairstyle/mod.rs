@@ -15,8 +15,8 @@ use crate::spec::HairstyleSpec;
 pub use placement::Crowded;
 pub(crate) use placement::RootPlacement;
 pub(crate) use rest::Rest;
-pub(crate) use wisp_state::{Ends, Grip, Lay, Styling, strain_of};
-pub use wisp_state::{Holder, WispState};
+pub use wisp_state::WispState;
+pub(crate) use wisp_state::{DRAWN, Ends, Grip, Lay, Mould, ROOM, Styling, strain_of};
 
 /// Guides at rest on a head, the description that they were predicted from, and what styling made of them.
 #[derive(Clone, Debug)]

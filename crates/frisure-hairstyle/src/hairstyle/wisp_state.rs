@@ -9,7 +9,7 @@ use super::rest::Rest;
 use crate::guides::Guide;
 
 /// Relative humidity of the air that every hairstyle begins in.
-const ROOM: f64 = 0.6;
+pub(crate) const ROOM: f64 = 0.6;
 
 /// What styling has made of a hairstyle.
 #[derive(Clone, Debug)]
@@ -86,39 +86,23 @@ pub struct WispState {
     pub(crate) moved: u32,
 }
 
-/// What holds hair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Holder {
-    /// Wound on a roller.
-    Roller {
-        /// Radius of the roller (m).
-        radius: f64,
-        /// Advance per turn along the roller (m).
-        pitch: f64,
-    },
-    /// In a braid of three.
-    Braid {
-        /// Width of the braid (m).
-        width: f64,
-        /// Length in which a part comes back to its place (m).
-        pitch: f64,
-    },
-    /// Drawn straight, as between hot plates or under a brush.
-    Straight,
-    /// With a clip that brings a place of each wisp to a point.
-    Clip {
-        /// Which place: 0 (root) to 1 (tip).
-        at: f64,
-        /// The point (m).
-        to: DVec3,
-    },
-}
-
 /// What holds a wisp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Grip {
-    /// Rollers, braids, plates and clips.
-    Holder(Holder),
+    /// Gives the hair another shape, and draws it down with a force (in weights of the hair).
+    Mould {
+        /// The shape.
+        mould: Mould,
+        /// How hard it is drawn down.
+        tension: f64,
+    },
+    /// Brings a place, 0 (root) to 1 (tip), to a point (m).
+    Clip {
+        /// Which place.
+        at: f64,
+        /// The point.
+        to: DVec3,
+    },
     /// A comb that is not taken away.
     Comb {
         /// A unit vector.
@@ -128,13 +112,24 @@ pub(crate) enum Grip {
     },
 }
 
+/// A shape into which hair is forced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Mould {
+    /// A straight line.
+    Straight,
+    /// A helix, by radius and pitch (m).
+    Helix { radius: f64, pitch: f64 },
+    /// A part of a braid of three, by the braid's width and pitch (m).
+    Braid { width: f64, pitch: f64 },
+}
+
+/// Tension in hair that is braided or drawn straight, in weights; chosen by trial, not measured further.
+pub(crate) const DRAWN: f64 = 25.0;
+
 impl Grip {
     /// Whether it gives hair another shape, rather than another place.
     pub(crate) fn moulds(self) -> bool {
-        match self {
-            Self::Holder(Holder::Clip { .. }) | Self::Comb { .. } => false,
-            Self::Holder(_) => true,
-        }
+        matches!(self, Self::Mould { .. })
     }
 }
 

@@ -46,8 +46,24 @@ pub struct Range {
     pub allowed: &'static str,
 }
 
+impl Range {
+    /// A range from `min` to `max`.
+    #[must_use]
+    pub const fn new(field: &'static str, min: f64, max: f64, allowed: &'static str) -> Self {
+        Self { field, min, max, allowed }
+    }
+
+    /// Checks that a value is in the range.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], naming the field.
+    pub fn check(&self, value: f64) -> Result<(), InvalidSpec> {
+        range(self.field, value, self.min, self.max, self.allowed)
+    }
+}
+
 const fn of(field: &'static str, min: f64, max: f64, allowed: &'static str) -> Range {
-    Range { field, min, max, allowed }
+    Range::new(field, min, max, allowed)
 }
 
 /// The ranges of all numbers of a [`HairstyleSpec`](super::HairstyleSpec) that are checked one by one.
@@ -116,9 +132,7 @@ pub fn range_of(field: &str) -> Option<&'static Range> {
 /// # Panics
 /// If the field is not in [`RANGES`].
 pub(crate) fn within(field: &'static str, value: f64) -> Result<(), InvalidSpec> {
-    let Range { min, max, allowed, .. } =
-        *range_of(field).expect("every checked field has a range");
-    range(field, value, min, max, allowed)
+    range_of(field).expect("every checked field has a range").check(value)
 }
 
 #[cfg(test)]

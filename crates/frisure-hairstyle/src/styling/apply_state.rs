@@ -8,15 +8,12 @@ use glam::DVec3;
 use crate::contact::Pull;
 use crate::fibre::Wetting;
 use crate::guides::{Guide, grown_strain};
-use crate::hairstyle::{Grip, Holder, Styling, WispState};
+use crate::hairstyle::{Grip, Mould, Styling, WispState};
 use crate::presets::Moisture;
 use crate::spec::HairstyleSpec;
 
 /// How much stiffer hair is for being held in a shape. Chosen by trial; not measured further.
 const MOULD: f64 = 10.0;
-
-/// Tension in hair that is braided or drawn straight, in weights. Chosen by trial; not measured further.
-const DRAWN: f64 = 25.0;
 
 /// Knots of a braid's strain per pitch. Chosen by trial; not measured further.
 const BRAID_KNOTS: f64 = 16.0;
@@ -81,7 +78,7 @@ pub(super) fn guide(
     let natural = stretched(&state.with_sets(grown)?, factors.length)?;
     let rod = wetted(&dry, natural, &factors)?;
     let rod = match state.grip {
-        Some(Grip::Holder(holder)) => held(rod, holder)?,
+        Some(Grip::Mould { mould, .. }) => held(rod, mould)?,
         _ => rod,
     };
     let mut guide = planned.with_rod(spec, area, rod, &dry, factors.wisp);
@@ -120,12 +117,11 @@ fn wetted(dry: &Rod, natural: NaturalStrain, by: &Factors) -> Result<Rod, Invali
 }
 
 /// The rod in what moulds it: stiff in that shape.
-fn held(rod: Rod, holder: Holder) -> Result<Rod, InvalidQuantity> {
-    let natural = match holder {
-        Holder::Clip { .. } => return Ok(rod),
-        Holder::Straight => NaturalStrain::STRAIGHT,
-        Holder::Roller { radius, pitch } => NaturalStrain::helix(radius, pitch)?,
-        Holder::Braid { width, pitch } => braid(width, pitch, rod.length())?,
+fn held(rod: Rod, mould: Mould) -> Result<Rod, InvalidQuantity> {
+    let natural = match mould {
+        Mould::Straight => NaturalStrain::STRAIGHT,
+        Mould::Helix { radius, pitch } => NaturalStrain::helix(radius, pitch)?,
+        Mould::Braid { width, pitch } => braid(width, pitch, rod.length())?,
     };
     let material = rod.spec().material;
     let material = Material::new(
@@ -164,7 +160,7 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
         Grip::Comb { direction, strength } => {
             Some(Pull::Comb { force: direction * (strength * effort(rod, 0.0)) })
         }
-        Grip::Holder(Holder::Clip { at, to: point }) => {
+        Grip::Clip { at, to: point } => {
             let middle = at * rod.length();
             let half = 0.5 * CLIP.1.min(rod.length());
             let middle = middle.clamp(half, rod.length() - half);
@@ -172,10 +168,8 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
             let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / (2.0 * half);
             Some(Pull::Clip { piece, point, stiffness: CLIP.0, most })
         }
-        // The hand that braids, or draws hair through plates, draws it down.
-        Grip::Holder(Holder::Braid { .. } | Holder::Straight) => {
-            Some(Pull::Comb { force: DVec3::NEG_Z * (DRAWN * rod.weight()) })
+        Grip::Mould { tension, .. } => {
+            (tension > 0.0).then(|| Pull::Comb { force: DVec3::NEG_Z * (tension * rod.weight()) })
         }
-        Grip::Holder(Holder::Roller { .. }) => None,
     }
 }

@@ -7,21 +7,17 @@
 
 mod apply;
 mod apply_state;
-mod cut;
 mod ends;
 mod error;
 mod height;
-mod operation;
+mod operations;
 mod selection;
 mod settle;
 
 pub use apply::{Draft, StyleOptions, selected, style};
 pub use error::StyleError;
 pub use height::Height;
-pub use operation::{
-    Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Held, Hold, Humidity, Operation, Part,
-    Release, Wet,
-};
+pub use operations::*;
 pub use selection::{Lasso, Selection, Spot, View};
 
-pub use crate::hairstyle::{Holder, WispState};
+pub use crate::hairstyle::WispState;

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use frisure::formats::contents::Contents;
 use frisure::hairstyle::styling::{
-    Comb, Direction, Dry, Grow, Growth, Hold as HoldStep, Holder, Lasso, Operation, Release,
+    Comb, Direction, Dry, Grow, Growth, Lasso, Operation, Release,
     Selection, Spot, View, Wet,
 };
 use frisure::hairstyle::{Comb as Named, Place};
-use frisure::scene::{Scene, SceneError, edit};
+use frisure::scene::{Button, Scene, SceneError, edit};
 use frisure_engine::Diagnostic;
 use glam::DVec3;
 
@@ -116,8 +116,8 @@ pub enum Command {
     Plane(Plane),
     /// Cut what is chosen at the plane.
     Cut,
-    /// Hold what is chosen.
-    Hold(Holder),
+    /// Does what a button says to what is chosen.
+    Hold(Button),
     /// Let go of it.
     Release,
     /// Another step, as it is.
@@ -455,14 +455,8 @@ impl Salon {
                 self.mass_before = Some(mass);
                 (self.plane.operation(selection), format!("Cut {of}"))
             }
-            Command::Hold(by) => {
-                let said = match by {
-                    Holder::Roller { .. } => "Rolled",
-                    Holder::Braid { .. } => "Braided",
-                    Holder::Straight => "Straightened",
-                    Holder::Clip { .. } => "Clipped",
-                };
-                (Operation::Hold(HoldStep { selection, by }), format!("{said} {of}"))
+            Command::Hold(button) => {
+                (button.operation().on(selection), format!("{}: {of}", button.label))
             }
             Command::Release => {
                 (Operation::Release(Release { selection }), format!("Let go of {of}"))

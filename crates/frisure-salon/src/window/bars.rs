@@ -2,7 +2,6 @@
 
 use eframe::egui::{self, ComboBox, DragValue, ProgressBar, RichText, Slider, Ui};
 use frisure::hairstyle::Comb as Named;
-use frisure::hairstyle::styling::Holder;
 
 use super::dialogs::Dialog;
 use super::{keys, theme, widgets};
@@ -247,14 +246,9 @@ pub(super) fn choosing(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
 fn holds(ui: &mut Ui, out: &mut Vec<Command>) {
     let list = ComboBox::from_id_salt("hold").selected_text("Hold…").width(80.0);
     let shown = list.show_ui(ui, |ui| {
-        let holders = [
-            ("On rollers", Holder::Roller { radius: 0.012, pitch: 0.006 }),
-            ("In braids", Holder::Braid { width: 0.02, pitch: 0.04 }),
-            ("Straight", Holder::Straight),
-        ];
-        for (label, holder) in holders {
-            if ui.selectable_label(false, label).clicked() {
-                out.push(Command::Hold(holder));
+        for button in frisure::scene::buttons() {
+            if ui.selectable_label(false, button.label).clicked() {
+                out.push(Command::Hold(*button));
             }
         }
     });

@@ -3,6 +3,7 @@
 use frisure_hairstyle::InvalidSpec;
 use frisure_hairstyle::styling::StyleError;
 
+use super::operations::find;
 use crate::error::{Fault, SceneError};
 use crate::source::Source;
 
@@ -11,16 +12,10 @@ pub(super) fn join(path: &str, key: &str) -> String {
     if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
 }
 
-/// The keys of a step that a field of an operation is written in, the likeliest first.
-fn keys_of(field: &'static str) -> &'static [&'static str] {
-    match field {
-        "humidity.relative" => &["humidity"],
-        "comb.towards" => &["comb.to"],
-        "grow.time" => &["grow.months", "grow.time"],
-        "implantation.partings.offset" => &["part.at"],
-        "implantation.partings.line" => &["part.line"],
-        _ => &[],
-    }
+/// An operation without a key that it needs.
+pub(super) fn missing(key: &str, example: &str, here: &str, source: &Source) -> SceneError {
+    let fault = Fault::new(format!("`{here}` needs `{key}`")).key(here);
+    fault.hint(format!("write for example `{example}`")).at(source, source.locate(here))
 }
 
 /// A number that an operation refuses, at the key of the step at `here` that it is written in.
@@ -30,14 +25,19 @@ pub(super) fn out_of_range(
     operation: &str,
     source: &Source,
 ) -> SceneError {
-    let own = [error.field];
-    let keys = Some(keys_of(error.field)).filter(|keys| !keys.is_empty()).unwrap_or(&own);
-    let written = |key: &&str| {
+    let written = |key: &str| {
         let path = join(here, key);
         source.find(&path).map(|(span, single)| (path, span, single))
     };
+    // The field may be written by another key that excludes its own.
+    let (_, field) = error.field.split_once('.').unwrap_or_default();
+    let groups = find(operation).map_or(&[][..], |declared| declared.groups);
+    let group = groups.iter().find(|group| group.keys.contains(&field));
+    let instead = group.into_iter().flat_map(|group| group.keys);
+    let instead = instead.map(|key| join(operation, key));
+    let mut keys = std::iter::once(error.field.to_owned()).chain(instead);
     // A part of a selection does not say in which of several it is.
-    let inside = keys.iter().find_map(written).unwrap_or_else(|| {
+    let inside = keys.find_map(|key| written(&key)).unwrap_or_else(|| {
         let path = match error.field.starts_with("where") {
             true => join(&join(here, operation), "where"),
             false => join(here, operation),

@@ -12,7 +12,8 @@ use thiserror::Error;
 use toml::de::DeTable;
 
 use super::layout::{Inline, Layout, Tables};
-use super::write::{WriteStepError, value, write_step};
+use super::operations::declaration;
+use super::write::{WriteStepError, write_step};
 use super::{SceneError, Source, parse_steps, without_mark};
 
 /// Why the steps of a text cannot be edited.
@@ -147,7 +148,7 @@ fn same_without_steps(before: &str, after: &str) -> bool {
 /// A step as an entry of its table.
 fn entry(step: &Operation) -> Result<String> {
     write_step(step)?;
-    Ok(format!("{} = {}", step.name(), value(step)))
+    Ok(format!("{} = {}", step.name(), declaration(step).write(step)))
 }
 
 fn spliced(text: &str, span: Range<usize>, with: &str) -> String {
@@ -210,7 +211,7 @@ fn table_removed(text: &str, tables: &Tables, index: usize) -> Result<String> {
 
 fn inline_inserted(text: &str, inline: &Inline, at: usize, steps: &[Operation]) -> String {
     let items: Vec<_> =
-        steps.iter().map(|s| format!("{{ {} = {} }}", s.name(), value(s))).collect();
+        steps.iter().map(|s| format!("{{ {} = {} }}", s.name(), declaration(s).write(s))).collect();
     let end = line_end(text);
     let Some(first) = inline.steps.first() else {
         let inside = inline.list.start + 1..inline.list.end - 1;

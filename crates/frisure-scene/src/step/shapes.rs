@@ -6,7 +6,8 @@ use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::{Table, Value};
 
-use crate::key::{Choice, Kind, Length, OneOf, Point, Ratio, Refusal, Time, Vector};
+use super::declare::table_text;
+use crate::key::{Choice, Kind, Length, OneOf, Point, Ratio, Refusal, Time, ToText, Vector};
 use crate::words::Which;
 
 /// The keys of a table that is a value.
@@ -66,6 +67,12 @@ impl Kind for Plane {
     }
 }
 
+impl ToText for Plane {
+    fn text((point, normal): &(DVec3, DVec3)) -> String {
+        table_text([("point", Point::text(point)), ("normal", Vector::text(normal))])
+    }
+}
+
 /// A sphere: its centre and radius (m).
 pub(super) struct Sphere;
 
@@ -87,6 +94,12 @@ impl Kind for Sphere {
             },
             "required": ["centre", "radius"],
         })
+    }
+}
+
+impl ToText for Sphere {
+    fn text((centre, radius): &(DVec3, f64)) -> String {
+        table_text([("centre", Point::text(centre)), ("radius", Length::text(radius))])
     }
 }
 
@@ -139,6 +152,15 @@ impl Kind for Below {
     }
 }
 
+impl ToText for Below {
+    fn text(height: &Height) -> String {
+        match height {
+            Height::At(z) => Length::text(z),
+            Height::Above(level, _) => OneOf::<Which<Level>>::text(&Which(*level)),
+        }
+    }
+}
+
 /// A number of months, which are the unit of the key itself.
 pub(super) struct Months;
 
@@ -159,6 +181,12 @@ impl Kind for Months {
     }
 }
 
+impl ToText for Months {
+    fn text(months: &f64) -> String {
+        Ratio::text(months)
+    }
+}
+
 /// Where hair is combed to: a word, or a direction.
 pub(super) struct Towards;
 
@@ -175,5 +203,14 @@ impl Kind for Towards {
 
     fn schema() -> Schema {
         json_schema!({ "anyOf": [OneOf::<Which<Comb>>::schema(), Vector::schema()] })
+    }
+}
+
+impl ToText for Towards {
+    fn text(towards: &Direction) -> String {
+        match towards {
+            Direction::Named(comb) => OneOf::<Which<Comb>>::text(&Which(*comb)),
+            Direction::Along(direction) => Vector::text(direction),
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::styling::{Cut, CutLine, Hold, Holder, Operation, StyleError};
+use frisure::hairstyle::styling::{Clip, Cut, CutLine, Operation, StyleError};
 use frisure::hairstyle::{Hairstyle, StyleOptions, selected, style};
 use frisure::progress::Progress;
 use frisure::rod::Equilibrium;
@@ -114,7 +114,7 @@ const AT_CLIP: f64 = 0.01;
 
 /// How many wisps a clip does not hold: they are too short for it, or the head is in the way.
 fn short_of(operation: &Operation, after: &Hairstyle, chosen: &[bool]) -> Option<usize> {
-    let Operation::Hold(Hold { by: Holder::Clip { at, to }, .. }) = operation else { return None };
+    let Operation::Clip(Clip { at, to, .. }) = operation else { return None };
     let away = |rest: &Equilibrium| rest.at(&rest.chain(), *at).0.distance(*to);
     let wisps = after.equilibria().iter().zip(chosen).filter(|(_, chosen)| **chosen);
     Some(wisps.filter(|(rest, _)| away(rest) > AT_CLIP).count())

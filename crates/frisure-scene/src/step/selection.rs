@@ -1,4 +1,4 @@
-//! `where`: which wisps a step is about.
+//! `where`: the wisps that a step selects.
 
 use std::f64::consts::PI;
 
@@ -8,9 +8,11 @@ use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::Value;
 
+use super::declare::table_text;
 use super::shapes::{Below, Fields, Plane, bounded, described};
 use crate::key::{
-    Angle, Choice, Count, Flag, Kind, Length, OneOf, Pair, Point, Ratio, Refusal, two_words,
+    Angle, Choice, Count, Flag, Kind, Length, OneOf, Pair, Point, Ratio, Refusal, ToText,
+    list_text, two_words,
 };
 
 /// Name of the schema of `where`, which refers to itself.
@@ -54,6 +56,48 @@ impl Kind for Where {
     fn schema() -> Schema {
         json_schema!({ "$ref": format!("#/$defs/{WHERE}") })
     }
+}
+
+impl ToText for Where {
+    fn text(chosen: &Selection) -> String {
+        let one = |key, value| table_text([(key, value)]);
+        let is_place = |chosen: &Selection| matches!(chosen, Selection::Place(_));
+        match chosen {
+            Selection::Everything => "\"everything\"".into(),
+            Selection::Place(place) => OneOf::<Place>::text(place),
+            Selection::Any(parts) if !parts.is_empty() && parts.iter().all(is_place) => {
+                list_text(parts, Self::text)
+            }
+            Selection::Above(height) => one("above", Below::text(height)),
+            Selection::Wisps(wisps) => one("wisps", list_text(wisps, ToString::to_string)),
+            Selection::Beyond { point, normal } => one("plane", Plane::text(&(*point, *normal))),
+            Selection::Brush { spots, radius } => {
+                let spot = |spot: &Spot| match spot {
+                    Spot::At(p) => Point::text(p),
+                    Spot::Tape(place) => Pair::text(place),
+                };
+                let at = list_text(spots, spot);
+                one("brush", table_text([("at", at), ("radius", Length::text(radius))]))
+            }
+            Selection::Lasso(lasso) => one("lasso", lasso_text(lasso)),
+            Selection::Any(parts) => one("any", list_text(parts, Self::text)),
+            Selection::All(parts) => one("all", list_text(parts, Self::text)),
+            Selection::Not(part) => one("not", Self::text(part)),
+        }
+    }
+}
+
+fn lasso_text(lasso: &Lasso) -> String {
+    let view = lasso.view;
+    let camera = table_text([
+        ("eye", Point::text(&view.eye)),
+        ("target", Point::text(&view.target)),
+        ("field_of_view", Angle::text(&view.field_of_view)),
+        ("aspect", Ratio::text(&view.aspect)),
+    ]);
+    let polygon = list_text(&lasso.polygon, |corner| list_text(corner, Ratio::text));
+    let through = lasso.through.then(|| ("through", "true".to_owned()));
+    table_text([("camera", camera), ("polygon", polygon)].into_iter().chain(through))
 }
 
 fn selection(value: &Value, depth: usize) -> Result<Selection, Refusal> {

@@ -3,7 +3,7 @@
 use frisure_rod::Equilibrium;
 use glam::DVec3;
 
-use super::operation::{Cut, CutLine, Held};
+use super::{Cut, CutLine, Held};
 use crate::head::Head;
 use crate::implantation::Root;
 use crate::math::first_positive;

@@ -1,0 +1,169 @@
+//! Cutting.
+
+use frisure_rod::Equilibrium;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::scissors::{Scissors, enough};
+use super::{
+    Apply, FARTHEST, Hairstyle, InvalidSpec, Range, Selection, StyleError, Act,
+    check_direction, check_point,
+};
+use crate::equilibrium::Change;
+use crate::styling::height::Height;
+use crate::guides::Guide;
+use crate::hairstyle::Ends;
+use crate::implantation::Root;
+use crate::spec::Level;
+use crate::strands::Population;
+
+/// Cuts hair. \[paper\] §3.2
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cut {
+    /// Which wisps.
+    pub selection: Selection,
+    /// Where the scissors go.
+    pub line: CutLine,
+    /// How the hair is held meanwhile.
+    pub held: Held,
+}
+
+/// Where the scissors go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CutLine {
+    /// A horizontal plane; what is below falls. \[paper\] §3.2
+    Below(Height),
+    /// A plane; what is on the side that the normal points to falls.
+    Plane {
+        /// A point of the plane (m).
+        point: DVec3,
+        /// Towards the hair that falls; any length but zero.
+        normal: DVec3,
+    },
+    /// A sphere around the head; what is outside falls.
+    Sphere {
+        /// Centre (m).
+        centre: DVec3,
+        /// Radius (m).
+        radius: f64,
+    },
+    /// This far (m) from the skin: what is farther away falls.
+    OffSkin(f64),
+    /// This much hair is left (m), along the fibre, wherever it is rooted.
+    Length(f64),
+    /// All hair is pulled straight to this point (m) and cut there: a stationary guide, which leaves
+    /// hair the longer the farther it is rooted.
+    Gathered(DVec3),
+}
+
+/// How hair is held while it is cut; [`CutLine::Length`] and [`CutLine::Gathered`] need no hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Held {
+    /// Combed straight down from its root, as if the head were not in the way: below a horizontal
+    /// plane at z_c the paper's rule, L = z_root − z_c. \[paper\] §3.2
+    #[default]
+    Down,
+    /// Not at all: each hair is cut where its curve first meets the line.
+    Hanging,
+    /// Straight out from its root at an elevation (rad): 0 is flat along the skin downwards (one
+    /// length), π/4 graduates, π/2 is perpendicular to the skin (layers), more turns it upwards.
+    Elevated(f64),
+}
+
+impl Default for Cut {
+    fn default() -> Self {
+        let line = CutLine::Below(Height::Above(Level::Chin, 0.0));
+        Self { selection: Selection::Everything, line, held: Held::Down }
+    }
+}
+
+impl Cut {
+    /// Range of a height in the head's frame (m).
+    pub const BELOW: Range =
+        Range::new("cut.below", -FARTHEST, FARTHEST, "within 100 m of the origin");
+    /// Range of a height above a level of the head (m).
+    pub const RAISE: Range = Range::new("cut.raise", -1.0, 1.0, "between -1 and 1 m");
+    /// Range of a sphere's radius (m).
+    pub const RADIUS: Range =
+        Range::new("cut.sphere.radius", 1e-3, FARTHEST, "between 1 mm and 100 m");
+    /// Range of a distance from the skin (m).
+    pub const OFF_SKIN: Range = Range::new("cut.off_skin", 0.0, 3.0, "between 0 and 3 m");
+    /// Range of the length that is left (m).
+    pub const LENGTH: Range = Range::new("cut.length", 1e-3, 3.0, "between 1 mm and 3 m");
+    /// Range of the elevation (rad).
+    pub const ELEVATION: Range = Range::new(
+        "cut.elevation",
+        0.0,
+        std::f64::consts::PI,
+        "between 0 (along the skin) and 180 deg",
+    );
+
+    fn check_line(&self) -> Result<(), InvalidSpec> {
+        match self.line {
+            CutLine::Below(Height::At(z)) => Self::BELOW.check(z),
+            CutLine::Below(Height::Above(_, by)) => Self::RAISE.check(by),
+            CutLine::Plane { point, normal } => {
+                check_point("cut.plane.point", point)?;
+                check_direction("cut.plane.normal", normal)
+            }
+            CutLine::Sphere { centre, radius } => {
+                check_point("cut.sphere.centre", centre)?;
+                Self::RADIUS.check(radius)
+            }
+            CutLine::OffSkin(distance) => Self::OFF_SKIN.check(distance),
+            CutLine::Length(length) => Self::LENGTH.check(length),
+            CutLine::Gathered(point) => check_point("cut.gathered", point),
+        }
+    }
+}
+
+impl Apply for Cut {
+    fn check(&self) -> Result<(), InvalidSpec> {
+        self.check_line()?;
+        if matches!(self.line, CutLine::Length(_) | CutLine::Gathered(_)) {
+            let given = self.held != Held::default();
+            let (field, value) = ("cut.held", "given with `length` or `gathered`".to_owned());
+            let allowed = "left out there: how the hair is held does not matter";
+            return if given { Err(InvalidSpec { field, value, allowed }) } else { Ok(()) };
+        }
+        match self.held {
+            Held::Elevated(angle) => Self::ELEVATION.check(angle),
+            Held::Down | Held::Hanging => Ok(()),
+        }
+    }
+
+    fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
+        let Act { before: hair, head, .. } = *act;
+        let chosen = act.selected(&self.selection)?;
+        let scissors = Scissors::new(self, head);
+        let left = |(guide, rest): (&Guide, &Equilibrium)| match scissors.hanging() {
+            true => scissors.left_hanging(rest),
+            false => scissors.left_straight(&guide.root),
+        };
+        let left: Vec<f64> = hair.guides.par_iter().zip(&hair.rest.guides).map(left).collect();
+        let none = |i: &usize| chosen[*i] && !enough(left[*i]);
+        let wisps: Vec<usize> = (0..left.len()).filter(none).collect();
+        if !wisps.is_empty() {
+            let selected = chosen.iter().filter(|chosen| **chosen).count();
+            return Err(StyleError::AboveRoot { wisps, selected });
+        }
+        let stretch = |i: usize| hair.guides[i].rod.length() / hair.styling.wisps[i].length;
+        let mut styling = hair.styling.changed(&chosen, |index, wisp| {
+            wisp.length = wisp.length.min(left[index] / stretch(index));
+        });
+        let stride = act.draft.map_or(1, |draft| draft.stride);
+        let left = |population: &Population<'_>, root: &Root, index: usize, wisp: usize| {
+            if scissors.hanging() {
+                let left = population.cut_where(root, index, |p| scissors.beyond(p));
+                left.unwrap_or(f64::INFINITY)
+            } else {
+                scissors.left_straight(root) / stretch(wisp)
+            }
+        };
+        styling.ends = Some(Ends::cut(hair, head, stride, &chosen, left));
+        if scissors.hanging() {
+            return act.with(styling);
+        }
+        act.at_rest(styling, Change::Handled)
+    }
+}

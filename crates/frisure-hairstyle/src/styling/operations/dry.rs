@@ -1,0 +1,60 @@
+//! Drying.
+
+use frisure_rod::{InvalidQuantity, NaturalStrain};
+use rayon::prelude::*;
+
+use super::{Apply, Hairstyle, InvalidSpec, Range, Selection, StyleError, WispState, Act};
+use crate::hairstyle::strain_of;
+
+/// Dries hair: the inverse of wetting, except that hair held in a shape keeps part of it.
+/// \[paper\] §3.2
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dry {
+    /// Which wisps.
+    pub selection: Selection,
+    /// How much of the shape in which wet hair is held while it dries it keeps until it is wet
+    /// again, 0 to 1.
+    pub keep: f64,
+}
+
+impl Default for Dry {
+    fn default() -> Self {
+        Self { selection: Selection::Everything, keep: 0.6 }
+    }
+}
+
+impl Dry {
+    /// Range of [`Self::keep`].
+    pub const KEEP: Range = Range::new("dry.keep", 0.0, 1.0, "between 0 and 1");
+}
+
+impl Apply for Dry {
+    fn check(&self) -> Result<(), InvalidSpec> {
+        Self::KEEP.check(self.keep)
+    }
+
+    fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
+        let chosen = act.selected(&self.selection)?;
+        let kept = shapes_kept(act.before, &chosen)?;
+        act.with(act.before.styling.changed(&chosen, |index, wisp| {
+            let closed = wisp.wetness;
+            wisp.wet(0.0);
+            if let Some(held) = &kept[index] {
+                wisp.keep(held.clone(), self.keep * closed);
+            }
+        }))
+    }
+}
+
+/// The strain of each chosen wisp that is wet and held.
+fn shapes_kept(
+    hair: &Hairstyle,
+    chosen: &[bool],
+) -> Result<Vec<Option<NaturalStrain>>, InvalidQuantity> {
+    let kept = |(index, wisp): (usize, &WispState)| {
+        let setting = chosen[index] && wisp.wetness > 0.0 && wisp.is_held();
+        let stretch = hair.guides[index].rod.length() / wisp.length;
+        setting.then(|| strain_of(&hair.rest.guides[index], stretch)).transpose()
+    };
+    hair.styling.wisps.par_iter().enumerate().map(kept).collect()
+}

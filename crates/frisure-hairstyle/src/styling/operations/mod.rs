@@ -1,0 +1,179 @@
+//! What can be done to a hairstyle: one file per operation.
+//!
+//! To add one, write its file with a struct that implements [`Apply`] and `Default`, and add a line to
+//! the list `operations!` below. Its keys in scene files stand in `frisure-scene`, from which text,
+//! errors, schema, documentation and the salon's button follow.
+
+mod scissors;
+
+use glam::DVec3;
+
+use super::error::StyleError;
+use super::selection::Selection;
+use super::settle::Act;
+use crate::hairstyle::{Grip, Hairstyle, Styling, WispState};
+use crate::head::Head;
+use crate::spec::{InvalidSpec, Range};
+
+/// What an operation checks and does.
+pub(super) trait Apply {
+    /// Checks each number against its range.
+    fn check(&self) -> Result<(), InvalidSpec> {
+        Ok(())
+    }
+
+    /// The hairstyle that it makes.
+    fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError>;
+
+    /// The hairstyles that it makes one after the other, the result last; at least one.
+    fn stages(&self, act: &Act<'_>) -> Result<Vec<Hairstyle>, StyleError> {
+        Ok(vec![self.apply(act)?])
+    }
+}
+
+/// Declares the operations: the module and the type of each, and its field with the selected wisps, if
+/// it has one. The module's name is the operation's name in scenes.
+macro_rules! operations {
+    ($($(#[$doc:meta])* $module:ident::$Type:ident($($selection:ident)?),)*) => {
+        $(mod $module;
+        pub use $module::$Type;)*
+
+        /// One operation on a hairstyle.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Operation {
+            $($(#[$doc])* $Type($Type),)*
+        }
+
+        $(impl From<$Type> for Operation {
+            fn from(operation: $Type) -> Self {
+                Self::$Type(operation)
+            }
+        })*
+
+        impl Operation {
+            /// The names of all operations.
+            pub const NAMES: &'static [&'static str] = &[$(stringify!($module)),*];
+
+            /// Returns its name, as scenes write it.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$Type(_) => stringify!($module),)*
+                }
+            }
+
+            /// Returns the wisps that it selects; none if it concerns all hair at once.
+            #[must_use]
+            pub fn selection(&self) -> Option<&Selection> {
+                match self {
+                    $(Self::$Type(_operation) => None$(.or(Some(&_operation.$selection)))?,)*
+                }
+            }
+
+            /// The same, to be changed.
+            pub fn selection_mut(&mut self) -> Option<&mut Selection> {
+                match self {
+                    $(Self::$Type(_operation) => None$(.or(Some(&mut _operation.$selection)))?,)*
+                }
+            }
+
+            pub(super) fn inner(&self) -> &dyn Apply {
+                match self {
+                    $(Self::$Type(operation) => operation,)*
+                }
+            }
+        }
+    };
+}
+
+operations! {
+    /// Wets hair. \[paper\] §3.2
+    wet::Wet(selection),
+    /// Dries hair: the inverse. \[paper\] §3.2
+    dry::Dry(selection),
+    /// Leaves hair in damp or dry air.
+    humidity::Humidity(),
+    /// Cuts hair. \[paper\] §3.2
+    cut::Cut(selection),
+    /// Lets hair grow. \[paper\] §3.2, §4.1
+    grow::Grow(selection),
+    /// Drags hair aside, and lets it go unless it is to be held.
+    comb::Comb(selection),
+    /// Parts hair anew.
+    part::Part(),
+    /// Winds hair on rollers, and holds it.
+    roll::Roll(selection),
+    /// Braids hair in three, and holds it.
+    braid::Braid(selection),
+    /// Draws hair straight, and holds it.
+    straighten::Straighten(selection),
+    /// Holds a place of each wisp at a point.
+    clip::Clip(selection),
+    /// Lets go of held hair.
+    release::Release(selection),
+}
+
+pub use comb::Direction;
+pub use cut::{CutLine, Held};
+pub use grow::Growth;
+
+impl Operation {
+    /// Checks every number against its range.
+    ///
+    /// # Errors
+    /// [`InvalidSpec`], naming the first field that is out of range.
+    pub fn check(&self) -> Result<(), InvalidSpec> {
+        self.selection().map_or(Ok(()), Selection::check)?;
+        self.inner().check()
+    }
+
+    /// Returns the same operation on other wisps; unchanged if it concerns all hair at once.
+    #[must_use]
+    pub fn on(mut self, selection: Selection) -> Self {
+        if let Some(selected) = self.selection_mut() {
+            *selected = selection;
+        }
+        self
+    }
+}
+
+impl Act<'_> {
+    /// The hairstyle with the selected wisps moved by hand and held.
+    fn held(&self, selection: &Selection, grip: Grip) -> Result<Hairstyle, StyleError> {
+        let chosen = self.selected(selection)?;
+        self.with(self.before.styling.changed(&chosen, |_, wisp| {
+            wisp.moved += 1;
+            wisp.grip = Some(grip);
+        }))
+    }
+}
+
+impl Styling {
+    /// The same with chosen wisps changed.
+    fn changed(&self, chosen: &[bool], mut change: impl FnMut(usize, &mut WispState)) -> Self {
+        let mut styling = self.clone();
+        for (index, wisp) in styling.wisps.iter_mut().enumerate() {
+            if chosen[index] {
+                change(index, wisp);
+            }
+        }
+        styling
+    }
+}
+
+/// Farthest (m) from the origin that a line or a point may be; chosen: beyond it a unit was mistaken.
+const FARTHEST: f64 = 100.0;
+
+/// A point near the head.
+fn check_point(field: &'static str, p: DVec3) -> Result<(), InvalidSpec> {
+    let far =
+        p.to_array().into_iter().fold(0.0, |far: f64, x| if x.abs() <= far { far } else { x });
+    let allowed = "three numbers within 100 m of the origin";
+    Range::new(field, -FARTHEST, FARTHEST, allowed).check(far)
+}
+
+/// A vector with a length.
+fn check_direction(field: &'static str, d: DVec3) -> Result<(), InvalidSpec> {
+    let allowed = "a direction, which has a length between 1e-9 and 1e9";
+    Range::new(field, 1e-9, 1e9, allowed).check(d.length())
+}

@@ -1,0 +1,53 @@
+//! Parting.
+
+use super::{Apply, Hairstyle, InvalidSpec, StyleError, Act};
+use crate::guides::plan;
+use crate::implantation::Layout;
+use crate::spec::{Flow, Parting};
+
+/// Parts all hair anew: roots turn away from the line to both sides, and hair falls to the side that
+/// it is turned to. The hair beside it keeps it there, as with [`crate::Flow::Parted`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The line.
+    pub line: Parting,
+}
+
+impl Default for Part {
+    fn default() -> Self {
+        Self { line: Parting::Straight { offset: 0.0 } }
+    }
+}
+
+impl Apply for Part {
+    fn check(&self) -> Result<(), InvalidSpec> {
+        self.line.check().map_err(|error| {
+            let field =
+                if matches!(self.line, Parting::Through(_)) { "part.line" } else { "part.at" };
+            InvalidSpec { field, ..error }
+        })
+    }
+
+    /// Roots turn as if the hair had been planted with this parting; fibres stay what they are.
+    fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
+        let Act { before: hair, head, .. } = *act;
+        let mut spec = hair.spec.clone();
+        let offset = match self.line {
+            Parting::Straight { offset } | Parting::Zigzag { offset } => offset,
+            Parting::Through(_) => 0.0,
+        };
+        spec.implantation.flow = Flow::Parted { offset };
+        spec.implantation.partings = vec![self.line.clone()];
+        let layout = Layout::new(&spec, head)?;
+        let placement = &hair.placement;
+        let planned = plan(&spec, head, &layout, placement.roots(), placement.area())?;
+        let everyone = vec![true; planned.len()];
+        let mut styling = hair.styling.changed(&everyone, |_, wisp| wisp.moved += 1);
+        styling.planned = planned.into();
+        let replanted = Hairstyle { spec, layout, ..hair.clone() };
+        let mut parted = act.on(&replanted).with(styling)?;
+        let ends = parted.styling.ends.take();
+        parted.styling.ends = ends.map(|ends| ends.replanted(&parted, head));
+        Ok(parted)
+    }
+}
