@@ -5,11 +5,12 @@ use std::sync::LazyLock;
 use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::styling::{
     Clip, Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Humidity, Lasso,
-    Operation, Part, Release, Roll, Selection, Spot, StyleError, View, Wet,
+    Operation, Part, Release, Roll, Selection, Spot, StyleError, Twist, View, Wet,
 };
 use frisure_hairstyle::{
-    Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place, PredictOptions,
-    StrandOptions, StyleOptions, predict, preset, selected, settling_report, strands, style,
+    Body, Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place,
+    PredictOptions, StrandOptions, StyleOptions, predict, preset, selected, settling_report,
+    strands, style,
 };
 use frisure_strands::AttributeValues;
 
@@ -372,6 +373,63 @@ fn hair_that_is_dried_in_a_shape_keeps_part_of_it_until_it_is_wet_again() {
     assert_eq!(again.guides()[3].rod, before.guides()[3].rod);
 }
 
+/// A straight hair style without gravity and contact, in which a shape is what holds it.
+fn weightless(wisps: usize) -> Hairstyle {
+    let mut spec = spec("caucasian-straight", wisps, HairContact::None);
+    spec.gravity = 0.0;
+    spec.contact.body = Body::None;
+    spec.curl.strain = glam::DVec3::ZERO;
+    predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap()
+}
+
+#[test]
+fn a_lock_in_a_twist_is_the_helix_of_a_quarter_of_its_width() {
+    let (width, pitch) = (0.012, 0.03);
+    let twist = Twist { width, pitch, ..Twist::default() };
+    let twisted = done(&weightless(6), &twist.into());
+    // A helix of radius r and pitch P has the curvature r / (r² + c²) and the torsion c / (r² + c²), c = P / 2π,
+    // and a turn is 2π √(r² + c²) long.
+    let (r, c) = (0.25 * width, pitch / std::f64::consts::TAU);
+    let square = r * r + c * c;
+    for (guide, rest) in twisted.guides().iter().zip(twisted.equilibria()) {
+        let strain = guide.rod.spec().natural.at(0.1);
+        assert!((strain.truncate().length() * square / r - 1.0).abs() < 1e-9);
+        assert!((strain.z * square / c - 1.0).abs() < 1e-9);
+        let length = guide.rod.length();
+        let turn = std::f64::consts::TAU * square.sqrt() / length;
+        let chain = rest.chain();
+        let at = |x: f64| rest.at(&chain, x).0;
+        for start in [0.0, 0.3, 0.9 - turn] {
+            let whole = at(start).distance(at(start + turn));
+            let half = at(start).distance(at(start + 0.5 * turn));
+            assert!((whole / pitch - 1.0).abs() < 0.01, "{whole}");
+            assert!((half / (0.5 * pitch).hypot(2.0 * r) - 1.0).abs() < 0.01, "{half}");
+        }
+    }
+}
+
+#[test]
+fn a_twist_out_keeps_the_share_of_the_twist_that_it_was_dried_with() {
+    let before = weightless(4);
+    let (width, pitch, keep) = (0.012, 0.03, 0.6);
+    let twist = Twist { width, pitch, ..Twist::default() };
+    let release = Operation::Release(Release { selection: Selection::Everything });
+    let dry = Operation::Dry(Dry { keep, ..Dry::default() });
+    let steps = [wet(), twist.into(), dry, release];
+    let after = steps.iter().fold(before.clone(), |hair, step| done(&hair, step));
+    let (r, c) = (0.25 * width, pitch / std::f64::consts::TAU);
+    let curvature = r / (r * r + c * c);
+    for guide in after.guides() {
+        let strain = guide.rod.spec().natural.at(0.5 * guide.rod.length());
+        // The frames that the shape is taken between are a millimetre apart.
+        let kept = strain.truncate().length() / curvature;
+        assert!((kept / keep - 1.0).abs() < 0.02, "{kept}");
+    }
+    // Water opens it again.
+    let again = done(&done(&after, &wet()), &Operation::Dry(Dry::default()));
+    assert_eq!(again.guides()[2].rod, before.guides()[2].rod);
+}
+
 #[test]
 fn damp_air_softens_hair_and_dry_air_stiffens_it() {
     let before = hairstyle("caucasian-curly", 10);
@@ -489,7 +547,7 @@ fn hair_grows_at_its_own_rate_and_the_same_in_any_number_of_stages() {
 fn hair_standing_up_grows_straight_then_buckles_at_its_own_threshold() {
     // ρSgL³/EI = 7.8373 (Greenhill); a circle, so that no direction is weaker.
     let mut spec = spec("straight", 12, HairContact::None);
-    spec.contact.body = frisure_hairstyle::Body::None;
+    spec.contact.body = Body::None;
     spec.curl = Curl::STRAIGHT;
     spec.length.mean = 0.02;
     spec.implantation.lift = frisure_hairstyle::Lift::Uniform(std::f64::consts::FRAC_PI_2);

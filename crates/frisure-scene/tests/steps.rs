@@ -5,7 +5,7 @@ use std::path::Path;
 use frisure_hairstyle::head::Region;
 use frisure_hairstyle::styling::{
     Braid, Clip, Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Humidity, Lasso,
-    Operation, Part, Release, Roll, Selection, Spot, Straighten, StyleError, View, Wet,
+    Operation, Part, Release, Roll, Selection, Spot, Straighten, StyleError, Twist, View, Wet,
 };
 use frisure_hairstyle::{Comb as Word, Level, Parting, Place, preset};
 use frisure_scene::edit::{self, EditError};
@@ -100,6 +100,9 @@ fn every_operation_can_be_said() {
     assert_eq!(one("roll = { radius = '1 cm' }"), roll.into());
     let braid = Braid { selection: EVERYTHING, width: 0.02, pitch: 0.04 };
     assert_eq!(one("braid = { width = '2 cm', pitch = '4 cm' }"), braid.into());
+    let twist = Twist { selection: EVERYTHING, width: 0.02, pitch: 0.03 };
+    assert_eq!(one("twist = { width = '2 cm' }"), twist.into());
+    assert_eq!(one("twist = {}"), Twist::default().into());
     assert_eq!(one("straighten = {}"), Straighten { selection: EVERYTHING }.into());
     let clip = Clip { selection: EVERYTHING, at: 0.5, to: DVec3::new(0.0, -0.1, 0.2) };
     assert_eq!(one("clip = { at = 0.5, to = [0, '-10 cm', '20 cm'] }"), clip.into());
@@ -247,6 +250,8 @@ fn faults_name_place_value_range_and_hint() {
         ("roll = {}", 8, "roll", &["needs `radius`"]),
         ("roll = { radius = 1 }", 19, "roll.radius", &["between 1 mm and 10 cm"]),
         ("braid = { width = 0.01 }", 9, "braid", &["needs `pitch`"]),
+        ("twist = { width = 2 }", 19, "twist.width", &["between 1 mm and 10 cm"]),
+        ("twist = { pitch = '1 mm' }", 19, "twist.pitch", &["between 5 mm and 50 cm"]),
         ("clip = { at = 0, to = [0, 0, 0] }", 15, "clip.at", &["between 0.05 and 1"]),
         ("clip = { at = 1, to = [0, 0, 101] }", 23, "clip.to", &["within 100 m"]),
         ("release = { where = 'fringes' }", 21, "release.where", &["did you mean \"fringe\"?"]),
@@ -374,6 +379,8 @@ fn a_step_said_in_another_way_is_told_how() {
         ("shampoo = {}", "did you mean `wet`?"),
         ("wash = {}", "did you mean `wet`?"),
         ("ponytail = {}", "did you mean `clip`?"),
+        ("rope = {}", "did you mean `twist`?"),
+        ("twist = '2 cm'", "write `twist = { width = '2 cm' }`"),
         ("blow-dry = {}", "did you mean `dry`?"),
         ("below = 'chin'", "there is a `cut.below`"),
         ("wet = true", "write `wet = {}`"),
@@ -614,6 +621,8 @@ fn held_hair() -> impl Strategy<Value = Operation> {
             .prop_map(|(selection, radius, pitch)| Roll { selection, radius, pitch }.into()),
         (selection(), number(1e-3, 0.1), number(5e-3, 0.5))
             .prop_map(|(selection, width, pitch)| Braid { selection, width, pitch }.into()),
+        (selection(), number(1e-3, 0.1), number(5e-3, 0.5))
+            .prop_map(|(selection, width, pitch)| Twist { selection, width, pitch }.into()),
         selection().prop_map(|selection| Straighten { selection }.into()),
         (selection(), number(0.05, 1.0), point()).prop_map(|(selection, at, to)| Clip {
             selection,

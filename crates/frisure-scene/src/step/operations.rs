@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use frisure_hairstyle::styling::{
     Braid, Clip, Comb, Cut, CutLine, Dry, Grow, Growth, Height, Held, Humidity, Operation, Part,
-    Release, Roll, Straighten, Wet,
+    Release, Roll, Straighten, Twist, Wet,
 };
 use frisure_hairstyle::{Parting, Range};
 
@@ -260,6 +260,20 @@ operations! {
         width: Length, in Braid::WIDTH, needed "width = \"2 cm\"";
         /// Length in which a part comes back to its place; {}.
         pitch: Length, in Braid::PITCH, needed "pitch = \"4 cm\"";
+    }
+
+    /// Winds two locks round each other, each wisp one of the two, and holds them. Dried so and released,
+    /// the hair keeps waves: a twist-out.
+    twist: Twist {
+        example: "twist = {}",
+        main: Some("width"),
+        synonyms: &["rope", "two_strand_twist"],
+        button: Some(Button { label: "In twists", step: "twist = {}" }),
+    } keys {
+        /// Width of the twist; {}. Default 12 mm.
+        width: Length, in Twist::WIDTH;
+        /// Length in which a lock comes back to its side; {}. Default 3 cm.
+        pitch: Length, in Twist::PITCH;
     }
 
     /// Draws hair straight, as between hot plates or under a brush, and holds it.

@@ -12,7 +12,6 @@ use super::error::StyleError;
 use super::selection::Selection;
 use super::settle::Act;
 use crate::hairstyle::{Grip, Hairstyle, Styling, WispState};
-use crate::head::Head;
 use crate::spec::{InvalidSpec, Range};
 
 /// What an operation checks and does.
@@ -105,6 +104,8 @@ operations! {
     roll::Roll(selection),
     /// Braids hair in three, and holds it.
     braid::Braid(selection),
+    /// Winds two locks round each other, and holds them.
+    twist::Twist(selection),
     /// Draws hair straight, and holds it.
     straighten::Straighten(selection),
     /// Holds a place of each wisp at a point.
