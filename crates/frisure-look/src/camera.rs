@@ -9,11 +9,28 @@ const PORTRAIT_FOV: f64 = 24.0 * std::f64::consts::PI / 180.0;
 /// Part of the picture's width or height that framing leaves free on each side; chosen by eye.
 const MARGIN: f64 = 0.05;
 
-/// Points on each rim of the cylinder that [`Camera::framing`] fits into the picture.
+/// Points on each rim of the cylinder that [`Camera::framing`] fits into the picture; chosen.
 const AROUND: u32 = 32;
 
-/// A perspective camera: an eye, an upright frame, a vertical field of view, and an opening, if it is
-/// not a pinhole.
+/// A perspective camera: an eye, an upright frame, a vertical field of view, and an aperture, if it is not a
+/// pinhole.
+///
+/// ```
+/// use frisure_look::{Aperture, Camera};
+/// use glam::DVec3;
+///
+/// // From 1 m in front of the face, with a portrait lens of 85 mm at f/2.8.
+/// let eye = DVec3::new(0.0, -1.0, 0.0);
+/// let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Z, 24_f64.to_radians())?
+///     .with_aperture(Aperture { radius: 0.015, focus: Some(0.9) })?;
+/// assert_eq!(camera.right(), DVec3::X);
+///
+/// // Or as near as it can be with all of a box in the picture.
+/// let bounds = (DVec3::splat(-0.12), DVec3::splat(0.12));
+/// let framed = Camera::framing(bounds, 0.5, 0.1, 1.0);
+/// assert!(framed.eye().length() > 0.5);
+/// # Ok::<(), frisure_look::CameraError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: DVec3,

@@ -6,7 +6,18 @@ use crate::camera::Camera;
 use crate::hair::HairLook;
 use crate::light::Lights;
 
-/// Appearance of everything in a picture.
+/// The materials of everything in a picture.
+///
+/// ```
+/// use frisure_look::{Background, HairLook, Look, Melanin, Shade};
+///
+/// let auburn = Shade::named("auburn").expect("a shade of the list");
+/// let hair = HairLook { melanin: auburn.melanin, white_share: 0.1, ..HairLook::default() };
+/// let look = Look { hair, background: Background::Transparent, ..Look::default() };
+/// // Pigment absorbs blue most, so that brown and red hair is warm.
+/// let absorption = look.hair.natural();
+/// assert!(absorption.z > absorption.y && absorption.y > absorption.x);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Look {
     /// The hair.

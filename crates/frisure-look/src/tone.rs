@@ -18,6 +18,7 @@ impl ToneCurve {
     /// Display-linear value (0 to 1) of a scene-linear one; not-a-number is black.
     #[must_use]
     pub fn apply(self, light: f32) -> f32 {
+        // Chosen by eye.
         const KNEE: f32 = 0.55;
         let light = light.max(0.0);
         match self {

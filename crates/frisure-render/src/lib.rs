@@ -10,6 +10,7 @@
 
 pub mod accel;
 mod film;
+mod hash;
 mod picture;
 mod pigment;
 pub mod preview;

@@ -1,15 +1,16 @@
-//! What each place of each hair absorbs.
+//! Absorption along each strand: pigment, fades, dye and white hairs.
 
+use frisure_look::{Dye, Fade, HairLook};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
-use frisure_look::{Dye, Fade, HairLook};
+use crate::hash::mix;
 
-/// Relative deviation of the pigment from wisp to wisp, as part of that from strand to strand.
+/// Relative deviation of the pigment from wisp to wisp, over that from strand to strand; chosen by eye.
 const WISP_PART: f32 = 0.6;
-/// Least and greatest factor on the pigment of a strand.
+/// Least and greatest factor on the pigment of a strand; chosen.
 const FACTORS: (f32, f32) = (0.25, 4.0);
-/// Length over which dye begins (m).
+/// Length over which dye begins (m); chosen by eye.
 const DYE_EDGE: f32 = 0.01;
 
 /// The absorption of all hair.
@@ -135,7 +136,7 @@ fn varied(strands: &Strands, look: &HairLook) -> Vec<f32> {
         _ => None,
     };
     let variation = if look.variation.is_finite() { look.variation.max(0.0) } else { 0.0 };
-    let seed = hash(look.seed);
+    let seed = mix(look.seed);
     (0..strands.len())
         .map(|i| {
             let wisp = guide.map_or(0.0, |g| deviate(g[i], seed ^ 0x9e37_79b9));
@@ -147,7 +148,7 @@ fn varied(strands: &Strands, look: &HairLook) -> Vec<f32> {
 
 /// Whether a strand is one of the white ones.
 fn is_white(strand: u32, look: &HairLook) -> bool {
-    let bits = hash(hash(strand ^ 0x51ed_270b) ^ look.seed);
+    let bits = mix(mix(strand ^ 0x51ed_270b) ^ look.seed);
     // 24 bits are exact.
     ((bits >> 8) as f32) < look.white_share * 16_777_216.0
 }
@@ -159,17 +160,10 @@ fn bounded(factor: f32) -> f32 {
 
 /// A number of mean 0 and deviation about 1 that only `index` and `salt` decide.
 pub(crate) fn deviate(index: u32, salt: u32) -> f32 {
-    let bits = hash(index ^ salt);
+    let bits = mix(index ^ salt);
     // The sum of four uniform bytes, of variance 4/12.
     let sum: f32 = bits.to_le_bytes().iter().map(|&b| f32::from(b) / 255.0 - 0.5).sum();
     sum * 3.0_f32.sqrt()
-}
-
-/// A mixing of 32 bits (the finaliser of MurmurHash3).
-fn hash(mut x: u32) -> u32 {
-    x = (x ^ (x >> 16)).wrapping_mul(0x85eb_ca6b);
-    x = (x ^ (x >> 13)).wrapping_mul(0xc2b2_ae35);
-    x ^ (x >> 16)
 }
 
 #[cfg(test)]

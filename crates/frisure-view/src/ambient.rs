@@ -7,8 +7,8 @@ use glam::Vec3;
 use wgpu::{BufferUsages, Device, Queue, TextureDimension, TextureFormat, TextureUsages};
 
 use crate::gpu;
-use crate::half::halves;
-use crate::{Hair, Skin};
+use crate::hair::Hair;
+use crate::skin::Skin;
 
 /// Most nodes along a side of the grid.
 const CELLS: f32 = 48.0;
@@ -40,7 +40,7 @@ impl AmbientVolume {
             AmbientLight::new(occluders, skin.map(Skin::surface), environment, taken, CELLS);
         let (low, cell, size) = light.grid();
         let nodes: Vec<[u16; 4]> =
-            light.nodes().iter().map(|n| halves([n.x, n.y, n.z, 0.0])).collect();
+            light.nodes().iter().map(|n| gpu::halves([n.x, n.y, n.z, 0.0])).collect();
         let texture = gpu::texture_of(
             device,
             "environment",
@@ -94,7 +94,7 @@ pub(crate) fn environment_texture(
         let [r, g, b] = environment
             .radiance_interpolated(Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine))
             .to_array();
-        halves([r, g, b, 1.0])
+        gpu::halves([r, g, b, 1.0])
     });
     let light: Vec<[u16; 4]> = light.collect();
     gpu::fill(queue, &texture, width as usize * 8, cast_slice(&light));

@@ -4,9 +4,9 @@ use std::future::Future as _;
 
 use wgpu::{Device, Queue, Texture, TextureFormat, TextureUsages};
 
+use crate::cache::FrameCache;
 use crate::error::ViewError;
 use crate::gpu::{self, DEPTH, LIGHT};
-use crate::paint::FrameCache;
 
 /// Targets of one size, the finished picture among them, and what was computed for the last one.
 #[derive(Debug)]

@@ -1,5 +1,8 @@
-//! Short words for what a graphics interface needs said at length.
+//! Short functions for layouts, textures, buffers, pipelines and passes of wgpu.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use half::f16;
 use wgpu::{
     BindGroup, BindGroupLayout, BindGroupLayoutEntry, BindingType, BlendState, CompareFunction,
     Device, Extent3d, RenderPipeline, ShaderModule, Texture, TextureDimension, TextureFormat,
@@ -303,4 +306,28 @@ pub(crate) fn fill(queue: &wgpu::Queue, texture: &Texture, row: usize, bytes: &[
         },
         Extent3d { width: size.width, height: rows / depth, depth_or_array_layers: depth },
     );
+}
+
+/// A number that no other call returns: the version of what is on the device.
+pub(crate) fn version() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+/// Four numbers as 16-bit floats (IEEE 754 binary16), for textures; too large numbers become the largest, NaN 0.
+pub(crate) fn halves(values: [f32; 4]) -> [u16; 4] {
+    let max = f16::MAX.to_f32();
+    let half = |x: f32| if x.is_nan() { f16::ZERO } else { f16::from_f32(x.clamp(-max, max)) };
+    values.map(|x| half(x).to_bits())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::halves;
+
+    #[test]
+    fn halves_of_known_numbers() {
+        assert_eq!(halves([0.0, 1.0, -2.0, 65_504.0]), [0, 0x3c00, 0xc000, 0x7bff]);
+        assert_eq!(halves([1e9, f32::NAN, 6e-8, 0.1]), [0x7bff, 0, 1, 0x2e66]);
+    }
 }

@@ -36,22 +36,26 @@
 //! head's edge is guessed from the pixels beside it; a floor ([`frisure_look::Floor`]) is left out.
 
 mod ambient;
+mod cache;
 mod canvas;
+mod context;
 mod error;
 mod frame;
 mod gpu;
 mod hair;
-mod half;
 mod lamps;
+mod marks;
 mod paint;
 mod renderer;
+mod ribbons;
 mod shadow_maps;
 mod skin;
 mod uniforms;
 
 pub use canvas::Canvas;
 pub use error::ViewError;
-pub use frame::{Frame, Line, MAX_PLANES, Mark, MarkColours, Plane, Shadows};
+pub use frame::{Frame, Line, MAX_PLANES, Plane, Shadows};
 pub use hair::Hair;
+pub use marks::{Mark, MarkColours};
 pub use renderer::Renderer;
 pub use skin::Skin;

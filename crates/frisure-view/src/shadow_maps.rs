@@ -6,12 +6,13 @@ use wgpu::{
     TextureUsages,
 };
 
+use crate::context::FrameContext;
 use crate::frame::Shadows;
 use crate::gpu::{self, DEPTH, LIGHT};
+use crate::hair::Hair;
 use crate::lamps::{FIRST_MAP, HAIR_MAP, HEAD_MAP, LAMPS, Lamp};
-use crate::paint::FrameContext;
 use crate::renderer::Renderer;
-use crate::{Hair, Skin};
+use crate::skin::Skin;
 
 /// Pieces of hair that are enough for a density map, and while something moves.
 const PIECES: [usize; 2] = [250_000, 50_000];

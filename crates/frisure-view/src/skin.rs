@@ -6,7 +6,6 @@ use glam::{DVec3, Vec3};
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
 use crate::gpu;
-use crate::hair::version;
 use crate::renderer::Renderer;
 
 /// A surface on the device.
@@ -50,7 +49,7 @@ impl Skin {
             surface: surface.clone(),
             positions,
             normals,
-            version: version(),
+            version: gpu::version(),
         }
     }
 

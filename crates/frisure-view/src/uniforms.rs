@@ -40,7 +40,7 @@ pub(crate) fn packed(
     let planes: Vec<_> = frame.planes.iter().filter_map(plane).take(MAX_PLANES).collect();
     all.push([frame.stops.exp2(), tone(frame.tone), lamps.len() as f32, planes.len() as f32]);
     all.extend(marks(frame));
-    let varies = frame.hair.is_some_and(crate::Hair::varies);
+    let varies = frame.hair.is_some_and(crate::hair::Hair::varies);
     let soft = frame.shadows == Shadows::Fine;
     all.push([f32::from(u8::from(varies)), f32::from(u8::from(soft)), LIFT, HALF_CELL]);
     for i in 0..LAMPS {

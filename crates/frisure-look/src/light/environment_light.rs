@@ -33,8 +33,8 @@ impl EnvironmentLight {
         }
     }
 
-    /// Radiance (linear sRGB) as an eye should see it from the unit direction `towards`: without the edges of
-    /// a picture's pixels.
+    /// Radiance (linear sRGB) from the unit direction `towards`, interpolated between the pixels of a map: for
+    /// backgrounds.
     #[must_use]
     pub fn radiance_interpolated(&self, towards: Vec3) -> Vec3 {
         match self {

@@ -1,4 +1,4 @@
-//! A picture of everything around, as light.
+//! Environment maps: an equirectangular image as light, importance-sampled by its radiance.
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt;
@@ -8,13 +8,13 @@ use glam::{DVec3, Vec3};
 
 use super::error::{BRIGHTEST, InvalidLight, refusal};
 
-/// Most pixels across of a picture that is taken.
+/// Most pixels across of an environment map; chosen.
 pub const MAX_ENVIRONMENT_WIDTH: usize = 16_384;
 
-/// Most pixels across that are kept: each is a twelfth of a degree, a sixth of the sun.
+/// Most pixels across that are kept: each is a twelfth of a degree, a sixth of the sun; chosen.
 const KEPT_WIDTH: usize = 4096;
 
-/// A picture of everything around: equirectangular, its upper edge straight above, its middle in front of
+/// An environment map: an equirectangular image of radiance, its upper edge straight above, its middle in front of
 /// the face (−y), its left half on the head's left (+x).
 ///
 /// Each pixel shines evenly. Pictures wider than 4096 pixels are averaged down to that, with all of
@@ -109,8 +109,8 @@ impl EnvironmentMap {
         self.strength * self.table.at(x, y)
     }
 
-    /// Radiance as an eye should see it from a unit direction: even between the middles of pixels, where
-    /// [`Self::radiance`] is even in each.
+    /// Radiance from a unit direction, bilinear between the middles of pixels, for backgrounds;
+    /// [`Self::radiance`] is constant in each pixel.
     #[must_use]
     pub fn radiance_interpolated(&self, towards: Vec3) -> Vec3 {
         self.strength * self.table.interpolated(self.unturned(towards))
@@ -122,14 +122,14 @@ impl EnvironmentMap {
         self.strength * self.table.mean
     }
 
-    /// Radiance from a unit direction, and the density (1/sr) with which [`Self::sample`] gives it.
+    /// Radiance from a unit direction, and the pdf (1/sr) of [`Self::sample`].
     #[must_use]
     pub fn radiance_and_pdf(&self, towards: Vec3) -> (Vec3, f32) {
         let [x, y] = self.table.pixel(self.unturned(towards));
         (self.strength * self.table.at(x, y), self.table.density(x, y))
     }
 
-    /// A direction, as likely as its light, from numbers in [0, 1).
+    /// Samples a direction with a pdf in proportion to its radiance, from numbers in [0, 1) (pbrt-v4, §12.5).
     #[must_use]
     pub fn sample(&self, [u, v]: [f32; 2]) -> Vec3 {
         let table = &self.table;
@@ -137,6 +137,15 @@ impl EnvironmentMap {
         let (x, u) = sample_interval(table.row(y), u);
         let z = table.heights[y] + v * (table.heights[y + 1] - table.heights[y]);
         self.turned_by(direction((x as f32 + u) / table.width as f32, z))
+    }
+
+    /// A number that identifies pixels, turn and strength, the same in every build.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        let [c, s] = self.turn;
+        let size = [self.table.width, self.table.height].map(|n| n as u64);
+        let rest = [c, s, self.strength].map(|x| u64::from(x.to_bits()));
+        size.into_iter().chain(rest).fold(self.table.name, mixed)
     }
 
     /// Number of pixels.
@@ -289,10 +298,14 @@ fn narrowed(from_width: usize, from_height: usize, from: &[[f32; 3]]) -> Table {
 
 /// The hash of Fowler, Noll and Vo (FNV-1a) over the numbers of the pixels.
 fn name(pixels: &[[f32; 3]]) -> u64 {
-    pixels.as_flattened().iter().fold(0xcbf2_9ce4_8422_2325, |name, x| {
-        let name = (name ^ u64::from(x.to_bits())).wrapping_mul(0x0000_0100_0000_01b3);
-        name ^ name >> 32
-    })
+    let words = pixels.as_flattened().iter().map(|x| u64::from(x.to_bits()));
+    words.fold(0xcbf2_9ce4_8422_2325, mixed)
+}
+
+/// One step of FNV-1a over a word.
+fn mixed(name: u64, word: u64) -> u64 {
+    let name = (name ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+    name ^ name >> 32
 }
 
 /// Which of `many` equal intervals one of `few` overlaps, and how much of it each takes in a measure.

@@ -1,11 +1,11 @@
-//! Light that cannot be.
+//! Errors and checks of lights.
 
 use std::fmt::Display;
 
 use glam::{DVec3, Vec3};
 use thiserror::Error;
 
-/// A value of a light that is outside what is allowed.
+/// A value of a light that is out of its range.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{field} is {value}; it must be {allowed}")]
 pub struct InvalidLight {
@@ -17,7 +17,7 @@ pub struct InvalidLight {
     pub allowed: &'static str,
 }
 
-/// Brightest light that is understood: single precision has room for its sums.
+/// Greatest amount of light: single precision has room for its sums; chosen.
 pub(super) const BRIGHTEST: f32 = 1e12;
 
 const AMOUNT: &str = "from 0 to 1e12 in each of red, green and blue";

@@ -1,4 +1,4 @@
-//! Lamps: far away, of no size, and with a face that shines.
+//! Lamps: distant lights, point lights and area lights.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use super::error::{InvalidLight, amount, direction, place, within};
 
-/// Half the angle under which a softbox some metres away is seen (rad).
+/// Angular radius of a softbox some metres away (rad); chosen.
 pub const SOFTBOX: f64 = 0.09;
 
 /// Any lamp.
@@ -29,7 +29,7 @@ pub struct DistantLight {
     radius: f64,
 }
 
-/// A lamp of no size, which shines the same in all directions.
+/// A point light, which shines the same in all directions: a delta light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
     position: DVec3,
@@ -60,8 +60,7 @@ pub enum AreaShape {
 
 impl DistantLight {
     /// Light from `direction` (from the scene *to* the light; need not be a unit vector) that is seen
-    /// under `radius`, half the angle from edge to edge (rad), at most π/2; 0 or less than 1e-4 is one
-    /// true direction. `irradiance` is that of a surface that faces it, linear sRGB: π makes a white
+    /// under `radius`, half the angle from edge to edge (rad), at most π/2; below 1e-4 it is a delta light. `irradiance` is that of a surface that faces it, linear sRGB: π makes a white
     /// wall 1.
     ///
     /// # Errors
@@ -132,7 +131,7 @@ impl PointLight {
     }
 }
 
-/// Sizes of area lights that are understood (m).
+/// Least and greatest size of an area light (m); chosen.
 const SIZES: (f64, f64) = (1e-4, 1e3);
 
 /// The same in words.

@@ -17,7 +17,7 @@
 
 use glam::Vec4;
 
-use super::fibre::FibreSpec;
+use super::spec::FibreSpec;
 
 /// Refractive index of water.
 pub const WATER_INDEX: f32 = 1.33;

@@ -29,15 +29,17 @@ mod frame;
 mod longitudinal;
 mod marschner;
 mod section;
+mod spec;
 
 use core::f32::consts::TAU;
 
 use glam::{Mat4, Vec3, Vec4};
 
-pub use fibre::{Fibre, FibreError, FibreSpec};
+pub use fibre::Fibre;
 pub use film::WATER_INDEX;
 pub use frame::FibreFrame;
 pub use marschner::Marschner2003;
+pub use spec::{FibreError, FibreSpec};
 
 use elementary::{atan2, sin_cos};
 use energy::energies;

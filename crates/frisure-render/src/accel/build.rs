@@ -9,43 +9,8 @@ use glam::Vec3A;
 use rayon::prelude::*;
 
 use super::aabb::Aabb;
-use super::bvh::{Child, Leaf, Node};
+use super::node::{Child, Leaf, Node, Primitive};
 use super::simd::{LANES, Lanes};
-
-/// A primitive: its AABB, its index and a number of its own.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(16))]
-pub(super) struct Primitive {
-    low: [f32; 3],
-    index: u32,
-    high: [f32; 3],
-    number: u32,
-}
-
-impl Primitive {
-    pub(super) fn new(bounds: Aabb, index: u32, number: u32) -> Self {
-        Self { low: bounds.low.to_array(), index, high: bounds.high.to_array(), number }
-    }
-
-    #[inline]
-    pub(super) fn bounds(&self) -> Aabb {
-        Aabb { low: Vec3A::from(self.low), high: Vec3A::from(self.high) }
-    }
-
-    pub(super) fn index(&self) -> usize {
-        self.index as usize
-    }
-
-    pub(super) fn number(&self) -> u32 {
-        self.number
-    }
-
-    /// Twice the centroid of the AABB.
-    #[inline]
-    fn centroid(&self) -> Vec3A {
-        Vec3A::from(self.low) + Vec3A::from(self.high)
-    }
-}
 
 /// Nodes (the root first) and leaves.
 pub(super) struct Tree<L> {

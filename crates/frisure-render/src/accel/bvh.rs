@@ -4,64 +4,11 @@ use glam::{DVec3, Vec3};
 
 use super::Ray;
 use super::aabb::Aabb;
-use super::build::{self, Primitive};
+use super::build;
+use super::node::{LEAF, Leaf, Node, Primitive, WideRay};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::simd::{LANES, Lanes, Portable, Simd, Vectors, Wide3};
-
-/// Up to eight primitives that are intersected at once.
-pub(super) trait Leaf: Copy + Send + Sync {
-    /// All primitives.
-    type Primitives: Sync + ?Sized;
-    /// The leaf of up to eight primitives.
-    fn new(all: &Self::Primitives, primitives: &[Primitive]) -> Self;
-    /// Intersects the ray: distances along it (m), and a bit mask of the primitives that are hit before `t_max`. The
-    /// ray starts at or before the leaf's AABB.
-    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32);
-}
-
-/// A ray in all eight lanes.
-pub(super) struct WideRay<F> {
-    pub(super) origin: Wide3<F>,
-    pub(super) direction: Wide3<F>,
-}
-
-/// A node: the AABBs of eight children.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(32))]
-pub(super) struct Node {
-    pub(super) low: [Lanes; 3],
-    pub(super) high: [Lanes; 3],
-    pub(super) child: [Child; LANES],
-}
-
-/// Index of a node or of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Child(u32);
-
-const LEAF: u32 = 1 << 31;
-
-impl Child {
-    pub(super) const NONE: Self = Self(u32::MAX);
-
-    // There are fewer than 2³¹ primitives, so that indices fit.
-    pub(super) fn node(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    pub(super) fn leaf(index: usize) -> Self {
-        Self(index as u32 | LEAF)
-    }
-
-    /// The child, moved behind `nodes` nodes and `leaves` leaves.
-    pub(super) fn behind(self, nodes: usize, leaves: usize) -> Self {
-        match self {
-            Self::NONE => self,
-            Self(leaf) if leaf & LEAF != 0 => Self(leaf + leaves as u32),
-            Self(node) => Self(node + nodes as u32),
-        }
-    }
-}
 
 /// An 8-wide BVH with leaves of type `L`.
 #[derive(Clone, Debug, PartialEq)]

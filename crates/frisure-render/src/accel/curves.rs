@@ -8,8 +8,8 @@ use rayon::prelude::*;
 
 use super::AccelError;
 use super::aabb::Aabb;
-use super::build::Primitive;
 use super::error::FARTHEST;
+use super::node::Primitive;
 
 /// How curves are cut into straight pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ const MOST_PIECES: f32 = 255.0;
 /// moved outwards by half; between, since segments that bend differently share their joints.
 const BEND: f32 = 12.0;
 
-/// By how much of the longest piece a piece may be longer, before it is cut in two for it.
+/// Part of the longest piece by which a piece may be longer before it is cut in two; chosen by trial.
 const LONGER: f32 = 0.3;
 
 /// Stride in points at which the strand of a point is stored.

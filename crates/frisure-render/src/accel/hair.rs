@@ -2,9 +2,8 @@
 
 use glam::{DVec3, Vec3, Vec4};
 
-use super::build::Primitive;
-use super::bvh::{Leaf, WideRay};
 use super::curves::{Curves, Piece, PieceName, REACH};
+use super::node::{Leaf, Primitive, WideRay};
 use super::simd::{LANES, Simd, Vectors, Wide3};
 
 /// Up to eight pieces, side by side, on a grid of their own; unused lanes have no radius.

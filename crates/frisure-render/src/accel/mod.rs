@@ -34,6 +34,7 @@ mod curves;
 mod error;
 mod hair;
 mod hit;
+mod node;
 mod ray;
 mod scene;
 mod simd;

@@ -4,11 +4,11 @@ use frisure_strands::{Strands, Surface};
 use glam::Vec3;
 
 use super::aabb::Aabb;
-use super::build::Primitive;
 use super::bvh::{Bvh, LeafHit, SimdLevel};
 use super::curves::Curves;
 use super::error::FARTHEST;
 use super::hair::{HairLeaf, entry};
+use super::node::Primitive;
 use super::skin::{SkinLeaf, Triangle};
 use super::{AccelError, CurveOptions, HairHit, Hit, Ray, SkinHit};
 

@@ -4,8 +4,7 @@ use frisure_strands::Surface;
 use glam::{DVec3, Vec3};
 
 use super::aabb::Aabb;
-use super::build::Primitive;
-use super::bvh::{Leaf, WideRay};
+use super::node::{Leaf, Primitive, WideRay};
 use super::simd::{LANES, Lanes, Simd, Vectors};
 
 /// A triangle: a corner, and the ways to the two others (m).

@@ -6,9 +6,9 @@ use frisure_optics::scattering::{Fibre, FibreFrame, FibreSpec};
 use frisure_strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
 
-use super::bvh::Leaf as _;
 use super::curves::{Curves, Piece, REACH};
 use super::hair::HairLeaf;
+use super::node::Leaf as _;
 use super::*;
 
 /// A small generator of random numbers.

@@ -7,14 +7,15 @@
 
 use glam::Vec3;
 
+use super::area::{Area, TILE};
 use super::curves::{Curves, Vertex};
 use super::head::{Head, HeadPixel};
 use super::projection::Projection;
 use super::shading::Shader;
-use super::tiles::{Area, TILE, TileGrid};
+use super::tiles::TileGrid;
 use frisure_look::{Background, EnvironmentLight};
 
-/// Least softening (pixels): a line that is nearly level would show where it changes row.
+/// Least softening (pixels): a line that is nearly level would show where it changes row. Chosen by eye.
 const SOFTNESS: f32 = 0.35;
 /// What a pixel lets through when it counts as finished: half a step of an 8-bit picture.
 const FINISHED: f32 = 1.0 / 512.0;

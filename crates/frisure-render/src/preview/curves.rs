@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::projection::{NEAR, Projection};
 
-/// Greatest distance between a drawn chord and its curve (pixels).
+/// Greatest distance between a drawn chord and its curve (pixels); this and the next three are chosen by eye.
 const FLATNESS: f32 = 0.15;
 /// Greatest turn within a piece (rad): the highlight must not jump.
 const MAX_TURN: f32 = 0.2;

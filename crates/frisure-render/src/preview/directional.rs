@@ -16,7 +16,7 @@ pub struct DirectionalLights {
     pub environment: [Vec3; DIRECTION_COUNT],
 }
 
-/// Most lamps that an environment map becomes.
+/// Most lamps that an environment map becomes; chosen.
 const FOUND: usize = 3;
 
 /// Radiance of a spot that becomes a lamp, over the mean; chosen by trial.

@@ -3,9 +3,9 @@
 use frisure_strands::Surface;
 use glam::Vec3;
 
+use super::area::{Area, TILE};
 use super::projection::{NEAR, Projection};
 use super::raster;
-use super::tiles::{Area, TILE};
 
 /// The surface that hair grows on, ready to be drawn.
 pub(super) struct Head {

@@ -13,6 +13,7 @@
 //! section is round; and hairs that cross within one short piece may be seen in the wrong order.
 
 mod ambient;
+mod area;
 mod composite;
 pub mod constants;
 mod curves;

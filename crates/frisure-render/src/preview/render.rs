@@ -7,13 +7,14 @@ use frisure_strands::Strands;
 use rayon::prelude::*;
 use thiserror::Error;
 
+use super::area::TILE;
 use super::composite::TilePainter;
 use super::curves::Curves;
 use super::head::Head;
 use super::material::Materials;
 use super::projection::Projection;
 use super::shading::Shader;
-use super::tiles::{TILE, TileGrid};
+use super::tiles::TileGrid;
 use crate::film::{Image, MAX_SIZE};
 use crate::scene::Scene;
 
@@ -55,6 +56,20 @@ pub enum PreviewError {
 }
 
 /// Draws the scene.
+///
+/// ```
+/// use frisure_render::Scene;
+/// use frisure_render::preview::{PreviewOptions, render};
+/// use frisure_strands::Strands;
+/// use glam::Vec3;
+///
+/// let mut strands = Strands::new();
+/// strands.push(&[Vec3::ZERO, Vec3::new(0.0, 0.02, -0.1)], &[4e-5; 2]);
+/// let options = PreviewOptions { width: 32, height: 32, ..PreviewOptions::default() };
+/// let image = render(&Scene::portrait(&strands, None), &options, &())?;
+/// assert_eq!(image.to_srgb8().len(), 32 * 32 * 4);
+/// # Ok::<(), frisure_render::preview::PreviewError>(())
+/// ```
 ///
 /// Reports the stage `picture`. The same input gives the same bytes on any number of threads.
 ///

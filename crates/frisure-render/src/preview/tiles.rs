@@ -2,26 +2,16 @@
 
 use rayon::prelude::*;
 
+use super::area::{Area, TILE};
 use super::curves::Curves;
 use super::head::Head;
 use super::projection::{NEAR, Projection};
 
-/// Side of a tile (pixels).
-pub(super) const TILE: usize = 32;
 /// How far across a hair its softened edge can reach (pixels): half a pixel and half of the rise of
 /// a line within a column.
 const REACH: f32 = 1.0;
 /// Vertices per parallel job.
 const CHUNK: usize = 1 << 16;
-
-/// Pixels `x0..x1` × `y0..y1` of the picture.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Area {
-    pub(super) x0: usize,
-    pub(super) y0: usize,
-    pub(super) x1: usize,
-    pub(super) y1: usize,
-}
 
 /// The tiles of a picture, and what lies in them.
 pub(super) struct TileGrid {

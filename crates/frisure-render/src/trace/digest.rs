@@ -16,11 +16,22 @@ impl Digest {
         all.value()
     }
 
+    /// Adds bytes, and how many they are.
     pub(super) fn put(&mut self, bytes: &[u8]) {
         let (words, rest) = bytes.as_chunks::<8>();
         words.iter().for_each(|word| self.word(u64::from_le_bytes(*word)));
         rest.iter().for_each(|byte| self.word(u64::from(*byte)));
         self.word(bytes.len() as u64);
+    }
+
+    /// Adds a named field.
+    pub(super) fn field<const N: usize, const B: usize>(
+        &mut self,
+        name: &str,
+        values: [[u8; B]; N],
+    ) {
+        self.put(name.as_bytes());
+        self.put(values.as_flattened());
     }
 
     fn word(&mut self, word: u64) {

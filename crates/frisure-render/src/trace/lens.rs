@@ -11,7 +11,7 @@ use super::sampler::Sampler;
 use crate::accel::Ray;
 use frisure_look::Camera;
 
-/// Radius of the pixel filter (pixels).
+/// Radius of the pixel filter (pixels); chosen.
 const FILTER: f32 = 1.5;
 
 /// Entries of the table of quantiles.

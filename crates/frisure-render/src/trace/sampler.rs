@@ -3,6 +3,8 @@
 //! The first two dimensions of the Sobol' sequence, in pairs that are shuffled and Owen-scrambled for each pixel
 //! and each pair by hashing (Burley 2020, *Practical hash-based Owen scrambling*, §3 and listing 1).
 
+use crate::hash::mix;
+
 /// The random numbers of one sample of one pixel.
 #[derive(Clone, Debug)]
 pub(super) struct Sampler {
@@ -54,15 +56,6 @@ fn second(index: u32) -> u32 {
         index >>= 1;
     }
     x
-}
-
-/// Mixes 32 bits (the finaliser of MurmurHash3).
-fn mix(mut x: u32) -> u32 {
-    x ^= x >> 16;
-    x = x.wrapping_mul(0x85eb_ca6b);
-    x ^= x >> 13;
-    x = x.wrapping_mul(0xc2b2_ae35);
-    x ^ (x >> 16)
 }
 
 fn unit(x: u32) -> f32 {

@@ -22,10 +22,10 @@ use crate::accel::{CurveOptions, SceneBvh};
 use crate::scene::Scene;
 use frisure_look::{Background, Camera, Lights};
 
-/// Samples per pixel after which the noise of a tile is measured.
+/// Samples per pixel after which the noise of a tile is measured; chosen.
 const MIN_SAMPLES: u32 = 32;
 
-/// Most samples that a pixel gets in one round over the picture.
+/// Most samples that a pixel gets in one round over the picture; a power of two, chosen.
 const ROUND: u32 = 16;
 
 /// A scene, ready for rays.
@@ -251,7 +251,21 @@ fn next_goal(now: u32) -> u32 {
     if now < ROUND { (2 * now).max(1) } else { (now / ROUND + 1) * ROUND }
 }
 
-/// Path-traces the scene in one go.
+/// Path-traces the scene in one go; a [`Tracer`] can be stopped and resumed.
+///
+/// ```
+/// use frisure_render::Scene;
+/// use frisure_render::trace::{TraceOptions, render};
+/// use frisure_strands::Strands;
+/// use glam::Vec3;
+///
+/// let mut strands = Strands::new();
+/// strands.push(&[Vec3::ZERO, Vec3::new(0.0, 0.02, -0.1)], &[4e-5; 2]);
+/// let options = TraceOptions { width: 16, height: 16, samples: 4, ..TraceOptions::default() };
+/// let image = render(&Scene::portrait(&strands, None), &options, &())?;
+/// assert!(image.pixels().iter().flatten().all(|x| x.is_finite()));
+/// # Ok::<(), frisure_render::trace::TraceError>(())
+/// ```
 ///
 /// Reports the stage `picture`. The same input gives the same bytes on any number of threads.
 ///

@@ -4,8 +4,6 @@ mod curves;
 mod nearest;
 mod ranks;
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use bytemuck::cast_slice;
 use frisure_look::HairLook;
 use frisure_render::preview::chosen_width;
@@ -14,9 +12,8 @@ use frisure_strands::Strands;
 use glam::{Vec3, Vec4};
 use wgpu::{Device, Queue, Texture, TextureFormat, TextureUsages};
 
-use crate::frame::Mark;
 use crate::gpu;
-use crate::half::halves;
+use crate::marks::Mark;
 use crate::renderer::Renderer;
 use curves::Curves;
 pub(crate) use nearest::Nearest;
@@ -76,7 +73,7 @@ impl Hair {
         let curves = Curves::new(strands, enough, most);
         let textures = Textures::new(device, queue, &curves);
         let group = textures.group(renderer, device);
-        let shape = version();
+        let shape = gpu::version();
         let mut hair = Self {
             strands: strands.clone(),
             box_: enclosing(&curves),
@@ -243,7 +240,7 @@ fn texel_of(mark: Mark) -> [f32; 2] {
 /// A material as its textures have it.
 fn texels(material: &Material, strand: u32) -> [[u16; 4]; 3] {
     let (strength, shift) = glitter(strand);
-    let texel = |colour: Vec3, rest: f32| halves(Vec4::from((colour, rest)).to_array());
+    let texel = |colour: Vec3, rest: f32| gpu::halves(Vec4::from((colour, rest)).to_array());
     [
         texel(material.diffuse, strength),
         texel(material.transmitted, shift),
@@ -300,10 +297,4 @@ fn enclosing(curves: &Curves) -> (Vec3, Vec3) {
     let grown = |(low, high): (Vec3, Vec3), p: Vec3| (low.min(p), high.max(p));
     let all = (0..curves.places.len()).map(|i| curves.position(i)).fold(empty, grown);
     if all.0.is_finite() { all } else { (Vec3::ZERO, Vec3::ZERO) }
-}
-
-/// A number that was not there before.
-pub(crate) fn version() -> u64 {
-    static NEXT: AtomicU64 = AtomicU64::new(1);
-    NEXT.fetch_add(1, Ordering::Relaxed)
 }

@@ -3,8 +3,8 @@
 use bytemuck::cast_slice;
 use wgpu::{BindingResource, BufferUsages, CommandEncoder};
 
-use super::FrameContext;
 use crate::canvas::Canvas;
+use crate::context::FrameContext;
 use crate::frame::Line;
 use crate::gpu;
 

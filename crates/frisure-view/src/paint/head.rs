@@ -2,8 +2,8 @@
 
 use wgpu::CommandEncoder;
 
-use super::FrameContext;
 use crate::canvas::{Canvas, Fine};
+use crate::context::FrameContext;
 use crate::gpu;
 
 impl FrameContext<'_> {

@@ -1,36 +1,21 @@
 //! One picture, in the order in which it is drawn.
 
-mod cache;
 mod compose;
 mod hair;
 mod head;
 
 use bytemuck::cast_slice;
-use wgpu::{BindGroup, BindingResource, CommandEncoder, Device, Queue, RenderPass};
+use wgpu::{BindingResource, CommandEncoder, Device, Queue, RenderPass};
 
+use crate::cache::FrameCache;
 use crate::canvas::Canvas;
+use crate::context::FrameContext;
 use crate::frame::{Frame, Shadows};
 use crate::gpu;
 use crate::hair::Hair;
 use crate::lamps::{Lamp, strongest};
 use crate::renderer::Renderer;
 use crate::uniforms;
-
-pub(crate) use cache::FrameCache;
-
-/// A picture in the making.
-pub(crate) struct FrameContext<'a> {
-    pub(crate) renderer: &'a Renderer,
-    pub(crate) device: &'a Device,
-    pub(crate) queue: &'a Queue,
-    pub(crate) frame: &'a Frame<'a>,
-    /// Its numbers, for shaders.
-    pub(crate) picture: BindGroup,
-    pub(crate) lamps: Vec<Lamp>,
-    /// Strands that are drawn, and vertices of these.
-    strands: usize,
-    vertices: usize,
-}
 
 impl Renderer {
     /// Draws into the canvas: shadows, light along the hairs, hair, head, lines. The commands take effect when
@@ -79,7 +64,8 @@ impl FrameCache {
     ) -> Option<FrameContext<'a>> {
         let (buffer, group) = self.numbers.as_ref()?;
         let (lights, environment) = (self.lights()?, self.environment()?);
-        let (hair, head) = (frame.hair.map(Hair::bounds), frame.skin.map(crate::Skin::bounds));
+        let (hair, head) =
+            (frame.hair.map(Hair::bounds), frame.skin.map(crate::skin::Skin::bounds));
         let shadowed = frame.shadows != Shadows::None;
         let of = |lamp| Lamp::new(lamp, hair, head, shadowed);
         let lamps: Vec<Lamp> = strongest(lights).into_iter().map(of).collect();

@@ -7,41 +7,41 @@ use frisure_strands::Strands;
 use glam::{DVec3, Vec3};
 use wgpu::{BindGroup, Buffer, BufferUsages, CommandEncoder, Device, Queue, TextureView};
 
-use super::FrameContext;
-use super::hair::{Shaded, Sorted};
 use crate::ambient::{AmbientVolume, environment_texture};
+use crate::context::FrameContext;
 use crate::frame::Frame;
 use crate::gpu;
 use crate::renderer::Renderer;
+use crate::ribbons::{Shaded, Sorted};
 use crate::shadow_maps::ShadowMaps;
 use crate::uniforms;
 
 /// All of it.
 #[derive(Debug, Default)]
 pub(crate) struct FrameCache {
-    pub(super) numbers: Option<(Buffer, BindGroup)>,
+    pub(crate) numbers: Option<(Buffer, BindGroup)>,
     lights: Option<(Lights, DVec3, DirectionalLights)>,
     environment: Option<(AmbientKey, AmbientVolume)>,
-    pub(super) environment_map: Option<(Option<EnvironmentLight>, TextureView)>,
-    pub(super) maps: Option<ShadowMaps>,
-    pub(super) shaded: Option<Shaded>,
-    pub(super) sorted: Option<Sorted>,
+    pub(crate) environment_map: Option<(Option<EnvironmentLight>, TextureView)>,
+    pub(crate) maps: Option<ShadowMaps>,
+    pub(crate) shaded: Option<Shaded>,
+    pub(crate) sorted: Option<Sorted>,
 }
 
 /// What the environment's light depends on.
 type AmbientKey = (Option<(u64, Vec3)>, Option<u64>, [Vec3; preview::DIRECTION_COUNT]);
 
 impl FrameCache {
-    pub(super) fn lights(&self) -> Option<&DirectionalLights> {
+    pub(crate) fn lights(&self) -> Option<&DirectionalLights> {
         self.lights.as_ref().map(|(_, _, at_point)| at_point)
     }
 
-    pub(super) fn environment(&self) -> Option<&AmbientVolume> {
+    pub(crate) fn environment(&self) -> Option<&AmbientVolume> {
         self.environment.as_ref().map(|(_, environment)| environment)
     }
 
     /// Makes what the picture needs and is not there.
-    pub(super) fn prepare(
+    pub(crate) fn prepare(
         &mut self,
         renderer: &Renderer,
         device: &Device,
@@ -57,7 +57,7 @@ impl FrameCache {
         });
         let at_point = self.at_point(frame);
         let of_hair = frame.hair.map(|hair| (hair.shape(), hair.taken()));
-        let key = (of_hair, frame.skin.map(crate::Skin::version), at_point.environment);
+        let key = (of_hair, frame.skin.map(crate::skin::Skin::version), at_point.environment);
         if self.environment.as_ref().is_none_or(|(known, _)| *known != key) {
             let things = (frame.hair, frame.skin);
             let environment = AmbientVolume::new(
@@ -98,7 +98,7 @@ impl FrameCache {
     }
 
     /// Shadows, where lamps, hair or head have moved.
-    pub(super) fn draw_maps(&mut self, job: &FrameContext<'_>, encoder: &mut CommandEncoder) {
+    pub(crate) fn draw_maps(&mut self, job: &FrameContext<'_>, encoder: &mut CommandEncoder) {
         let ribbons = self.shaded.as_ref().map(|shaded| &shaded.group);
         if let Some(maps) = &mut self.maps {
             maps.draw(job, encoder, ribbons);
