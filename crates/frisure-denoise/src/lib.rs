@@ -1,8 +1,8 @@
-//! Takes the noise out of a picture with [Open Image Denoise](https://www.openimagedenoise.org), where it
+//! Denoises pictures with [Open Image Denoise](https://www.openimagedenoise.org), where it
 //! is installed.
 //!
-//! The library is looked for when it is needed, not when this crate is built: it weighs more than all of
-//! frisure, and pictures that are exposed long enough need none. Versions 1.4 and 2 have the functions that
+//! The library is loaded at run time, not linked: it is larger than all of frisure, and pictures with enough samples
+//! need none. Versions 1.4 and 2 have the functions that
 //! are used here, under two names for one of them.
 //!
 //! What comes out is a guess: pleasant, not unbiased, and not the same bytes with another version of the
@@ -31,7 +31,7 @@ const NAMES: [&str; 5] = [
     "OpenImageDenoise.dll",
 ];
 
-/// Why a picture keeps its noise.
+/// Why a picture cannot be denoised.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum DenoiseError {
     /// No library, or one that cannot be used.
@@ -49,7 +49,7 @@ pub enum DenoiseError {
         /// Pixels down.
         height: usize,
     },
-    /// The library refused.
+    /// The library reported an error.
     #[error("Open Image Denoise says: {0}")]
     Refused(String),
 }
@@ -91,7 +91,7 @@ impl Denoiser {
         for name in names {
             match Self::load(&name) {
                 Ok(denoiser) => return Ok(denoiser),
-                Err(error) => tried.push(told(&name, &error)),
+                Err(error) => tried.push(attempt(&name, &error)),
             }
         }
         Err(DenoiseError::Library(tried.join("; ")))
@@ -148,7 +148,7 @@ impl<'a> Session<'a> {
             (functions.commit_device)(device);
             let filter = (functions.new_filter)(device, c"RT".as_ptr());
             if filter.is_null() {
-                let error = said(functions, device).unwrap_or_else(|| "no filter".into());
+                let error = device_error(functions, device).unwrap_or_else(|| "no filter".into());
                 (functions.release_device)(device);
                 return Err(DenoiseError::Refused(error));
             }
@@ -184,7 +184,8 @@ impl<'a> Session<'a> {
             (self.functions.commit_filter)(self.filter);
             (self.functions.execute_filter)(self.filter);
         }
-        said(self.functions, self.device).map_or(Ok(()), |error| Err(DenoiseError::Refused(error)))
+        device_error(self.functions, self.device)
+            .map_or(Ok(()), |error| Err(DenoiseError::Refused(error)))
     }
 }
 
@@ -198,8 +199,8 @@ impl Drop for Session<'_> {
     }
 }
 
-/// What the system said about a file.
-fn told(name: &OsStr, error: &libloading::Error) -> String {
+/// The system's message about a file.
+fn attempt(name: &OsStr, error: &libloading::Error) -> String {
     let name = name.to_string_lossy();
     match error.source() {
         Some(cause) => format!("`{name}`: {cause}"),
@@ -207,8 +208,8 @@ fn told(name: &OsStr, error: &libloading::Error) -> String {
     }
 }
 
-/// What went wrong on a device since it was asked last.
-fn said(functions: &Functions, device: Handle) -> Option<String> {
+/// The error of a device since the last call.
+fn device_error(functions: &Functions, device: Handle) -> Option<String> {
     let mut message = std::ptr::null();
     // SAFETY: the device is valid; the library leaves the message alone or points it at a C string that
     // lives until the next call.

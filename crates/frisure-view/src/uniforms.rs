@@ -9,7 +9,8 @@ use crate::ambient::AmbientVolume;
 use crate::frame::{Frame, MAX_PLANES, Plane, Shadows, linear};
 use crate::lamps::{LAMPS, Lamp};
 
-/// How much nearer to a lamp hair looks up how much hair is before it (m): hair must not shade itself.
+/// Distance (m) towards a lamp at which hair looks up the hair in front of it, so that it does not shade itself; chosen
+/// by trial.
 const LIFT: f32 = 2.3e-3;
 /// Half of what counts as around a hair (m): of a cell of the preview's finest maps.
 const HALF_CELL: f32 = 1.1e-3;

@@ -1,4 +1,4 @@
-//! One fibre scatters light: the model of the final picture.
+//! The hair BSDF: how one fibre scatters light, for the final picture.
 //!
 //! Near-field: where across the fibre's width a ray meets it is known. Light leaves by reflection
 //! (R), straight through (TT), after one reflection inside (TRT), or later (the rest, spread evenly
@@ -47,7 +47,7 @@ use fibre::towards;
 use longitudinal::Inclinations;
 use section::{Incident, circle, ellipse};
 
-/// HairBsdf for one direction to the eye and one offset.
+/// The BSDF of a hair fibre, for one direction to the eye and one offset across its width.
 #[derive(Clone, Copy, Debug)]
 pub struct HairBsdf<'a> {
     fibre: &'a Fibre,
@@ -57,23 +57,23 @@ pub struct HairBsdf<'a> {
     energy: Mat4,
 }
 
-/// The model for a pair of directions.
+/// Value and pdf of a BSDF for a pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
-    /// Scattering function times the cosine (1/sr), by colour.
+    /// BSDF times the cosine (1/sr), by colour.
     pub f_cos: Vec3,
-    /// Density with which [`HairBsdf::sample`] gives this direction (1/sr).
+    /// Pdf of [`HairBsdf::sample`] for this direction (1/sr).
     pub pdf: f32,
 }
 
-/// A direction drawn from the model.
+/// A direction drawn by importance sampling of a BSDF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfSample {
-    /// Local unit direction to the light.
+    /// Unit direction to the light.
     pub wi: Vec3,
     /// f cos over pdf; 1 without absorption.
     pub weight: Vec3,
-    /// Density (1/sr).
+    /// Pdf (1/sr).
     pub pdf: f32,
 }
 
@@ -89,6 +89,7 @@ impl<'a> HairBsdf<'a> {
     /// the colour of a hair changes along it.
     #[must_use]
     pub fn coloured(fibre: &'a Fibre, absorption: Vec3, wo: Vec3, h: f32) -> Self {
+        // 1. Inclinations outside and inside: Snell's law along the fibre.
         let sine = wo.z.clamp(-1.0, 1.0);
         let cosine = (wo.x * wo.x + wo.y * wo.y).sqrt().clamp(1e-4, 1.0);
         let inner_sine = sine / fibre.index;
@@ -103,8 +104,10 @@ impl<'a> HairBsdf<'a> {
             index: fibre.index,
             wetness: fibre.wetness,
         };
+        // 2. The path through the section: azimuths, reflectances and lengths (`section`).
         let round = fibre.is_round();
         let crossing = if round { circle(&ray) } else { ellipse(&ray, fibre.axes) };
+        // 3. Energies A_p of the lobes (Chiang et al. 2016, §3), and the inclination as each lobe sees it.
         let energy = energies(&crossing, absorption / ray.inner_cosine);
         let from = fibre.tilted(sine, cosine);
         Self { fibre, from, azimuth: crossing.azimuth, energy }
@@ -127,11 +130,14 @@ impl<'a> HairBsdf<'a> {
     /// Draws a direction to the light from numbers in [0, 1).
     #[must_use]
     pub fn sample(&self, u: [f32; 4]) -> BsdfSample {
+        // 1. A lobe, with a probability in proportion to its energy.
         let p = self.pick(u[0]);
+        // 2. The inclination from M_p (d'Eon et al. 2013), the azimuth from N_p.
         let sine = self.fibre.longitudinal.sample(p, &self.from, [u[1], u[2]]);
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
         let phi =
             if p < 3 { self.azimuth[p] + self.fibre.azimuthal.sample(u[3]) } else { TAU * u[3] };
+        // 3. Value and pdf of all lobes in that direction.
         let (y, x) = sin_cos(phi);
         let Evaluation { f_cos, pdf } = self.at(sine, cosine, phi);
         let weight = if pdf > 0.0 { f_cos / pdf } else { Vec3::ZERO };

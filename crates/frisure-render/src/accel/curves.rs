@@ -56,7 +56,7 @@ pub(super) const REACH: f32 = 0.25;
 /// Kept are the points, and for each segment (from a point to the next) the number of equal steps of
 /// the spline's parameter that the straight *pieces* make: no longer and no farther beside the curve
 /// than [`CurveOptions`] allows. Their ends lie outside the curve as far as their middles lie inside,
-/// so that there need not be so many.
+/// so that fewer are needed.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curves {
     /// Points and radii, one strand after another.

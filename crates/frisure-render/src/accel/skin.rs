@@ -33,7 +33,7 @@ impl Triangle {
     }
 }
 
-/// How far a triangle reaches over its edges, as a part of it: rays must not slip through between.
+/// Margin over the edges of a triangle, in barycentric weights, against rays that slip between triangles; chosen.
 const OVERLAP: f32 = 1e-5;
 
 /// Up to eight triangles, side by side; unused lanes have no area.

@@ -134,7 +134,7 @@ impl AmbientLight {
     /// Irradiance / π from the environment on a surface at `point` (m) with unit normal `normal`.
     #[must_use]
     pub fn on_surface(&self, point: Vec3, normal: Vec3) -> Vec3 {
-        // The surface's own shell must not shade it.
+        // Outside the surface's own shell, which would shade it.
         let point = point + 1.7 * self.cell * normal;
         let mut met = [0.0; DIRECTION_COUNT];
         self.visit_nodes(point, |i, weight| {

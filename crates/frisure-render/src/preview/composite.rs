@@ -31,7 +31,7 @@ pub(super) struct TilePainter<'a> {
     pub(super) samples: usize,
 }
 
-/// Light gathered so far, and what is still let through.
+/// Accumulated light, and the transmittance that is left.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     light: Vec3,

@@ -8,7 +8,7 @@ use super::projection::{NEAR, Projection};
 
 /// Greatest distance between a drawn chord and its curve (pixels); this and the next three are chosen by eye.
 const FLATNESS: f32 = 0.15;
-/// Greatest turn within a piece (rad): the highlight must not jump.
+/// Greatest turn within a piece (rad): more would make highlights jump.
 const MAX_TURN: f32 = 0.2;
 /// Greatest length of a piece on the screen (pixels): it is sorted by depth as a whole.
 const MAX_PIXELS: f32 = 16.0;

@@ -16,7 +16,7 @@ const MIN_CELL: f32 = 2.2e-3;
 /// Most cells along a side; chosen by trial for speed.
 const MAX_CELLS: f32 = 168.0;
 /// Distance towards the lamp at which a point looks up its shadow, in cells: the filters spread a hair over four
-/// cells, and it must not shade itself. Chosen by trial.
+/// cells, and would shade itself. Chosen by trial.
 const LIFT: f32 = 1.3;
 
 /// Mean number of hairs between each point and a lamp.

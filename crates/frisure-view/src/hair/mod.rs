@@ -280,7 +280,7 @@ impl Textures {
     }
 }
 
-/// A texture with room for so many texels in rows.
+/// A texture with room for `count` texels in rows.
 fn rows(device: &Device, label: &str, count: usize, format: TextureFormat) -> Texture {
     let height = (count as u32).div_ceil(ROW).max(1);
     gpu::texture(device, label, [ROW, height, 1], format, TextureUsages::COPY_DST)
