@@ -11,8 +11,30 @@ use frisure::hairstyle::PRESETS;
 use frisure::render::trace::TraceOptions;
 use frisure::scene::Scene;
 use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
-use frisure_batch::Shard;
-use frisure_evidence::EXPERIMENTS;
+
+#[cfg(feature = "batch")]
+mod batch;
+#[cfg(feature = "validate")]
+mod validate;
+
+#[cfg(feature = "batch")]
+pub(crate) use batch::Batch;
+#[cfg(feature = "validate")]
+pub(crate) use validate::Validate;
+
+#[cfg(not(feature = "batch"))]
+pub(crate) type Batch = NotBuilt;
+#[cfg(not(feature = "validate"))]
+pub(crate) type Validate = NotBuilt;
+
+/// Any arguments, for a command that this build does not have.
+#[cfg(not(all(feature = "batch", feature = "validate")))]
+#[derive(Args, Debug)]
+#[command(disable_help_flag = true)]
+pub(crate) struct NotBuilt {
+    #[arg(hide = true, trailing_var_arg = true, allow_hyphen_values = true)]
+    _rest: Vec<std::ffi::OsString>,
+}
 
 const EXAMPLES: &str = "\
 Examples:
@@ -128,48 +150,6 @@ pub(crate) struct Predict {
     /// hair-01.png and so on, all from one place. Growth in stages counts each stage.
     #[arg(long)]
     pub(crate) each_step: bool,
-}
-
-const BATCH_EXAMPLES: &str = "\
-Examples:
-  frisure batch people.toml -o heads
-  frisure batch people.toml -o heads --shard 3/100
-  frisure batch people.toml --list > heads.csv
-  frisure batch people.toml --scene 4711 -o head.toml && frisure predict head.toml -o head.abc
-
-The batch (TOML) names a scene, keys of it, and how they differ from head to head: over a [grid], or
-drawn from ranges, distributions and tables of measured people in [vary]. docs/batch.md tells how,
-and what the columns are.
-
-Heads are written in parts of some rows, each whole or not there. The same command leaves those
-that are there and computes the others; it may be killed at any time. What a head is follows from
-the batch and its number alone, whatever the shards and threads. A head that cannot be is a row
-that says why, and no error.";
-
-/// Arguments of `frisure batch`.
-#[derive(Args, Debug)]
-#[command(after_help = BATCH_EXAMPLES)]
-pub(crate) struct Batch {
-    /// The batch (TOML).
-    pub(crate) spec: PathBuf,
-
-    /// Write the heads into this folder; with --scene, the scene into this file.
-    #[arg(long, short, value_name = "DIR")]
-    pub(crate) output: Option<PathBuf>,
-
-    /// Only the i-th of N equal shares, from 1/N to N/N: for as many programs or machines at a time,
-    /// into one folder.
-    #[arg(long, value_name = "i/N", default_value_t = Shard::WHOLE)]
-    pub(crate) shard: Shard,
-
-    /// Print what the heads would be, with commas between, SI units, and compute nothing.
-    #[arg(long, conflicts_with = "output")]
-    pub(crate) list: bool,
-
-    /// Write the scene of the head with this number, from 0, to standard output or to the file of -o:
-    /// `frisure predict` makes all its hairs again.
-    #[arg(long, value_name = "INDEX", conflicts_with_all = ["list", "shard"])]
-    pub(crate) scene: Option<usize>,
 }
 
 const STYLE_EXAMPLES: &str = "\
@@ -638,42 +618,6 @@ fn positive(dimension: &Dimension, text: &str) -> Result<f64, String> {
     let value = dimension.parse(text);
     let value = value.map_err(|e| format!("{e}; it must be such as \"{}\"", dimension.example))?;
     if value > 0.0 { Ok(value) } else { Err("it must be more than 0".into()) }
-}
-
-const VALIDATE_EXAMPLES: &str = "\
-Examples:
-  frisure validate
-  frisure validate elastica buckling -o out/physics
-  frisure validate --full
-
-Writes index.html, which opens offline with everything inside, and report.md with its pictures
-beside it. An earlier report in the folder is replaced. What each experiment asks, and what came
-out, is told in docs/validation.md.";
-
-/// Arguments of `frisure validate`.
-#[derive(Args, Debug)]
-#[command(after_help = VALIDATE_EXAMPLES)]
-pub(crate) struct Validate {
-    /// The experiments to run, by default all.
-    #[arg(value_name = "EXPERIMENT", hide_possible_values = true)]
-    #[arg(value_parser = PossibleValuesParser::new(EXPERIMENTS.iter().map(|e| e.name)))]
-    pub(crate) experiments: Vec<String>,
-
-    /// Fewer hairs and coarser scans, under the same criteria: about a minute. This is the default.
-    #[arg(long)]
-    pub(crate) quick: bool,
-
-    /// Everything: five to ten minutes on two cores.
-    #[arg(long, conflicts_with = "quick")]
-    pub(crate) full: bool,
-
-    /// Write the report into this folder.
-    #[arg(long, short, value_name = "FOLDER", default_value = "out/validation")]
-    pub(crate) output: PathBuf,
-
-    /// Print the experiments and what each asks, and run none.
-    #[arg(long, conflicts_with_all = ["experiments", "quick", "full", "output"])]
-    pub(crate) list: bool,
 }
 
 fn threads(text: &str) -> Result<usize, String> {

@@ -39,7 +39,10 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
     let quiet = arguments.quiet;
     match arguments.command {
         Command::Predict(predict) => commands::predict::run(predict, quiet),
+        #[cfg(feature = "batch")]
         Command::Batch(batch) => commands::batch::run(&batch, quiet),
+        #[cfg(not(feature = "batch"))]
+        Command::Batch(_) => Err(commands::not_built("batch")),
         Command::Style(style) => commands::style::run(&style, quiet),
         Command::Render(render) => commands::render::run(render, quiet),
         Command::Convert(convert) => commands::convert::run(convert, quiet),
@@ -48,6 +51,9 @@ fn run(arguments: Arguments) -> Result<Done, Failure> {
         Command::New(new) => commands::new::run(&new),
         Command::Measured(measured) => commands::measured::run(&measured, quiet),
         Command::Schema => commands::schema::run(),
+        #[cfg(feature = "validate")]
         Command::Validate(validate) => commands::validate::run(validate, quiet),
+        #[cfg(not(feature = "validate"))]
+        Command::Validate(_) => Err(commands::not_built("validate")),
     }
 }

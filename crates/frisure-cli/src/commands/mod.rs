@@ -1,5 +1,6 @@
 //! The commands, one per file.
 
+#[cfg(feature = "batch")]
 pub(crate) mod batch;
 pub(crate) mod convert;
 pub(crate) mod hair;
@@ -10,6 +11,7 @@ pub(crate) mod presets;
 pub(crate) mod render;
 pub(crate) mod schema;
 pub(crate) mod style;
+#[cfg(feature = "validate")]
 pub(crate) mod validate;
 
 use std::io::Read;
@@ -25,6 +27,13 @@ use crate::interrupt;
 
 /// What a scene is called in errors about its size.
 const WHAT: &str = "a scene";
+
+/// The error of a command that this build does not have.
+#[cfg(not(all(feature = "batch", feature = "validate")))]
+pub(crate) fn not_built(name: &str) -> Failure {
+    let hint = format!("build with `--features {name}`");
+    Failure::wrong_because(format!("this build has no `{name}`"), &hint)
+}
 
 /// The scene in a file, or on standard input for `-`.
 fn read_scene(path: &Path) -> Result<Scene, Failure> {

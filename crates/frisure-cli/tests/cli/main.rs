@@ -1,10 +1,12 @@
 //! Tests of the real program: one binary, so that it is linked once.
 
+#[cfg(feature = "batch")]
 mod batch;
 mod hair;
 mod help;
 mod predict;
 mod room;
 mod style;
+#[cfg(feature = "validate")]
 mod validate;
 mod wrong;
