@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::contact::Bed;
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, held_up, holding, settle};
-use crate::guides::{Guide, covered};
+use crate::guides::{Guide, Planned, covered};
 use crate::hairstyle::Hairstyle;
 use crate::hairstyle::RootPlacement;
 use crate::hairstyle::Styling;
@@ -295,8 +295,8 @@ fn plan(
     let guide = |(root, (held, bed)): (&Root, &(InverseSolution, Bed))| {
         let altitude = (root.position.z - low) / (high - low).max(1e-9);
         let curl = held.rod.natural().mean(0.0, held.rod.length());
-        let fibre = (held.rod.clone(), curl, 1.0);
-        let guide = covered(spec, head, placement.area(), (*root, altitude), fibre);
+        let planned = Planned { rod: held.rod.clone(), curl, share: 1.0 };
+        let guide = covered(spec, head, placement.area(), *root, altitude, planned);
         Guide { bed: Some(Arc::new(bed.clone())), ..guide }
     };
     placement.roots().iter().zip(held).map(guide).collect()

@@ -64,8 +64,8 @@ pub(crate) fn plan(
         .enumerate()
         .map(|(index, &root)| {
             let altitude = (root.position.z - low) / (high - low).max(1e-9);
-            let Planned { rod, curl, share } = fibre(spec, head, layout, &root, index)?;
-            Ok(covered(spec, head, area, (root, altitude), (rod, curl, share)))
+            let planned = fibre(spec, head, layout, &root, index)?;
+            Ok(covered(spec, head, area, root, altitude, planned))
         })
         .collect()
 }
@@ -75,8 +75,9 @@ pub(crate) fn covered(
     spec: &HairstyleSpec,
     head: &Head,
     area: f64,
-    (root, altitude): (Root, f64),
-    (rod, curl, share): (Rod, DVec3, f64),
+    root: Root,
+    altitude: f64,
+    Planned { rod, curl, share }: Planned,
 ) -> Guide {
     let region = head.landmarks().region(root.position);
     let thickness = thickness(spec, area, &rod);
@@ -118,7 +119,7 @@ fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
     let patch = scalp / spec.wisps.count as f64;
     let hairs = spec.implantation.density * patch;
     let spread = spec.wisps.fuzziness * spec.curl.variation_between;
-    Thickness::new(rod, spec.curl.strain, (hairs, patch), spread, spec.contact.volume)
+    Thickness::new(rod, spec.curl.strain, hairs, patch, spread, spec.contact.volume)
 }
 
 /// How much longer (m) than its way down a guide is: the way over hair is longer than over skin.
@@ -126,12 +127,12 @@ fn thickness(spec: &HairstyleSpec, scalp: f64, rod: &Rod) -> Thickness {
 const SPARE: f64 = 5e-3;
 
 /// The fibre that a guide is.
-struct Planned {
-    rod: Rod,
+pub(crate) struct Planned {
+    pub(crate) rod: Rod,
     /// Mean natural strain (rad/m).
-    curl: DVec3,
+    pub(crate) curl: DVec3,
     /// Length over that of the head.
-    share: f64,
+    pub(crate) share: f64,
 }
 
 fn fibre(

@@ -18,7 +18,7 @@ pub(super) fn wisp() -> Thickness {
         gravity: 9.81,
     });
     let rod = rod.unwrap();
-    Thickness::new(&rod, rod.natural().at(0.0), (300.0, 1.0), 0.05, 1.0)
+    Thickness::new(&rod, rod.natural().at(0.0), 300.0, 1.0, 0.05, 1.0)
 }
 
 /// The field is felt at `p`, and its derivatives are those of its energy.

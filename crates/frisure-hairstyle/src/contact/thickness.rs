@@ -66,7 +66,8 @@ impl Thickness {
     pub fn new(
         rod: &Rod,
         natural: DVec3,
-        (hairs, patch): (f64, f64),
+        hairs: f64,
+        patch: f64,
         spread: f64,
         volume: f64,
     ) -> Self {
@@ -149,7 +150,7 @@ mod tests {
     }
 
     fn wisp(rod: &Rod, hairs: f64, spread: f64) -> Thickness {
-        Thickness::new(rod, rod.natural().at(0.0), (hairs, 1.0), spread, 1.0)
+        Thickness::new(rod, rod.natural().at(0.0), hairs, 1.0, spread, 1.0)
     }
 
     #[test]
@@ -180,7 +181,7 @@ mod tests {
         // No wisp is thicker than the skin it grows on is wide.
         let free = rod(0.2, (0.3, 0.5), 0.0);
         let strain = free.natural().at(0.0);
-        let wide = Thickness::new(&free, strain, (400.0, 2e-4), 0.5, 1.0);
+        let wide = Thickness::new(&free, strain, 400.0, 2e-4, 0.5, 1.0);
         assert!((wide.packed(0.1) - (2e-4 / PI).sqrt()).abs() < 1e-12);
     }
 }

@@ -50,7 +50,7 @@ pub(crate) fn held_up<'a>(
         skin: spec.contact.stiffness,
         hair: spec.contact.hair_stiffness,
         // The bed is as high as it is, whatever wisp lies on it.
-        thickness: Thickness::new(rod, DVec3::ZERO, (1.0, 1.0), 0.0, 0.0),
+        thickness: Thickness::new(rod, DVec3::ZERO, 1.0, 1.0, 0.0, 0.0),
         layer: Layer::NONE,
         bed: Some(bed),
     }

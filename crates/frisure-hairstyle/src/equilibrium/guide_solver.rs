@@ -4,8 +4,8 @@ use frisure_rod::potential::Potential;
 use frisure_rod::{Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
 use rayon::prelude::*;
 
-use super::change::Change;
 use super::fields::{MAX_ITERATIONS, MOST_ELEMENTS, along, body, depth, options};
+use super::start::{Change, GuideStart};
 use crate::contact::Layer;
 use crate::contact::Pull;
 use crate::guides::Guide;
@@ -26,83 +26,56 @@ const STARTS: u32 = 8;
 /// Relative gradient at which a guide is at rest after a warm start, which has to follow a slider: a hundredth of a hair's breadth.
 const WARM_TOLERANCE: f64 = 1e-5;
 
-/// Brings every guide to rest.
+/// Brings every guide to rest by itself, in at most `iterations` iterations from where it rested before. With
+/// fewer than [`MAX_ITERATIONS`] a changed guide that was not put into another shape comes nearer to rest.
 ///
 /// # Errors
-/// [`Cancelled`], if the progress says so.
+/// [`Cancelled`], if the work is cancelled.
 pub(super) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    progress: &dyn Progress,
-) -> Result<Vec<Equilibrium>, Cancelled> {
-    let stage = StageCounter::new(progress, "settling guides", guides.len());
-    guides
-        .par_iter()
-        .map(|guide| {
-            stage.check()?;
-            let rest = settle_one(spec, head, guide);
-            stage.advance();
-            Ok(rest)
-        })
-        .collect()
-}
-
-/// Brings every guide to rest from where the guide of the same index rested before, in at most
-/// `iterations` iterations.
-///
-/// # Errors
-/// [`Cancelled`], if the progress says so.
-pub(super) fn settle_from(
-    spec: &HairstyleSpec,
-    head: &Head,
-    guides: &[Guide],
-    before: &[Equilibrium],
+    start: GuideStart<'_>,
     iterations: usize,
     progress: &dyn Progress,
 ) -> Result<Vec<Equilibrium>, Cancelled> {
     let stage = StageCounter::new(progress, "settling guides", guides.len());
-    (guides.par_iter().zip(before))
-        .map(|(guide, before)| {
-            stage.check()?;
-            let rest = settle_one_from(spec, head, guide, before, iterations);
-            stage.advance();
-            Ok(rest)
-        })
-        .collect()
+    let rest = |(index, guide): (usize, &Guide)| {
+        stage.check()?;
+        let rest = match start {
+            GuideStart::Natural => settle_one(spec, head, guide),
+            GuideStart::At(before) => {
+                settle_one_from(spec, head, guide, &before[index], iterations)
+            }
+            GuideStart::Changed { before, changes } => {
+                settle_changed(spec, head, guide, &before[index], changes[index], iterations)
+            }
+        };
+        stage.advance();
+        Ok(rest)
+    };
+    guides.par_iter().enumerate().map(rest).collect()
 }
 
-/// Brings the guides to which something was done to rest; with fewer than [`MAX_ITERATIONS`] those that
-/// are not put into another shape come nearer to it.
-///
-/// # Errors
-/// [`Cancelled`], if the progress says so.
-pub(super) fn resettle(
+/// Brings a guide to rest after something was done to it.
+fn settle_changed(
     spec: &HairstyleSpec,
     head: &Head,
-    guides: &[Guide],
-    (before, changes): (&[Equilibrium], &[Change]),
+    guide: &Guide,
+    before: &Equilibrium,
+    change: Change,
     iterations: usize,
-    progress: &dyn Progress,
-) -> Result<Vec<Equilibrium>, Cancelled> {
-    let stage = StageCounter::new(progress, "settling guides", guides.len());
-    (guides.par_iter().zip(before).zip(changes))
-        .map(|((guide, before), change)| {
-            stage.check()?;
-            let rest = match change {
-                Change::None => before.clone(),
-                Change::Changed | Change::LetGo(_) if iterations < MAX_ITERATIONS => {
-                    settle_one_from(spec, head, guide, before, iterations)
-                }
-                Change::Changed => resettle_one(spec, head, guide, before, None),
-                Change::LetGo(pull) => resettle_one(spec, head, guide, before, Some(*pull)),
-                Change::Moulded => settle_one(spec, head, guide),
-                Change::Handled => handled(spec, head, guide, before),
-            };
-            stage.advance();
-            Ok(rest)
-        })
-        .collect()
+) -> Equilibrium {
+    match change {
+        Change::None => before.clone(),
+        Change::Changed | Change::LetGo(_) if iterations < MAX_ITERATIONS => {
+            settle_one_from(spec, head, guide, before, iterations)
+        }
+        Change::Changed => resettle_one(spec, head, guide, before, None),
+        Change::LetGo(pull) => resettle_one(spec, head, guide, before, Some(pull)),
+        Change::Moulded => settle_one(spec, head, guide),
+        Change::Handled => handled(spec, head, guide, before),
+    }
 }
 
 /// The lower of two rests: what lay looped over an ear does not stay so when it is cut.

@@ -52,40 +52,25 @@ const FEW: usize = 4;
 /// Least distance (m) beyond their thickness within which neighbours are searched. Chosen: a fraction of a wisp's radius.
 const LEAST_REACH: f64 = 6e-4;
 
-/// Lets wisps make way for each other, from where each guide rests by itself: phases 1 and 2.
+/// Lets wisps make way for each other from where the guides are in `start`: phase 1 if `sweep_first`, then at most
+/// `most` steps of phase 2.
 ///
 /// # Errors
-/// [`Cancelled`], if the progress says so.
+/// [`Cancelled`], if the work is cancelled.
 pub(super) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    alone: &[Equilibrium],
-    progress: &dyn Progress,
-) -> Result<Rest, Cancelled> {
-    let stage = StageCounter::new(progress, "wisps making way", 1);
-    let mut solver = HeadSolver::new(spec, head, guides, alone);
-    let sweeps = solver.sweep_until_calm(&stage)?;
-    let steps = solver.converge(&stage, MOST_STEPS)?;
-    Ok(solver.finish(sweeps + steps))
-}
-
-/// Lets wisps make way for each other in at most `most` steps, from where they nearly rest: phase 2 only.
-///
-/// # Errors
-/// [`Cancelled`], if the progress says so.
-pub(super) fn settle_from(
-    spec: &HairstyleSpec,
-    head: &Head,
-    guides: &[Guide],
     start: &[Equilibrium],
+    sweep_first: bool,
     most: usize,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let stage = StageCounter::new(progress, "wisps making way", 1);
     let mut solver = HeadSolver::new(spec, head, guides, start);
+    let sweeps = if sweep_first { solver.sweep_until_calm(&stage)? } else { 0 };
     let steps = solver.converge(&stage, most)?;
-    Ok(solver.finish(steps))
+    Ok(solver.finish(sweeps + steps))
 }
 
 /// All guides of a head on their way to rest.

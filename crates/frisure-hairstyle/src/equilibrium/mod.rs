@@ -1,17 +1,15 @@
 //! Guides coming to rest: each alone on the body, then all together among each other.
 
-mod change;
 mod fields;
 mod guide_solver;
 mod head_solver;
 mod report;
+mod start;
 mod wisp;
 
-pub(crate) use change::Change;
 pub(crate) use fields::{held_up, holding};
 pub use report::{SettlingReport, settling_report};
-
-use frisure_rod::Equilibrium;
+pub(crate) use start::{Change, GuideStart};
 
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
@@ -51,21 +49,6 @@ pub(crate) struct SettleOptions<'a> {
     pub(crate) effort: Effort,
 }
 
-/// Where each guide starts from.
-pub(crate) enum GuideStart<'a> {
-    /// From its natural shape, while gravity is turned on.
-    Natural,
-    /// From where the guide of the same index rested before.
-    At(&'a [Equilibrium]),
-    /// From where it rested before, by what was done to it since.
-    Changed {
-        /// How guides rested before.
-        before: &'a [Equilibrium],
-        /// What was done to each.
-        changes: &'a [Change],
-    },
-}
-
 /// Brings every guide to rest: first each alone on the body, then, if wisps repel each other, all together.
 ///
 /// # Errors
@@ -80,28 +63,15 @@ pub(crate) fn settle(
     let wisps_repel = spec.contact.hair == HairContact::Wisps;
     let warm = matches!(start, GuideStart::At(_));
     let alone = match start {
-        GuideStart::Natural => guide_solver::settle(spec, head, guides, progress)?,
         // Among wisps the guides go on from where the other wisps left them.
         GuideStart::At(before) if effort == Effort::NONE || wisps_repel => {
             guide_solver::in_shapes_of(spec, guides, before)
         }
-        GuideStart::At(before) => {
-            guide_solver::settle_from(spec, head, guides, before, effort.iterations, progress)?
-        }
-        GuideStart::Changed { before, changes } => guide_solver::resettle(
-            spec,
-            head,
-            guides,
-            (before, changes),
-            effort.iterations,
-            progress,
-        )?,
+        _ => guide_solver::settle(spec, head, guides, start, effort.iterations, progress)?,
     };
     if !wisps_repel || effort.sweeps == 0 {
         return Ok(Rest::apart(alone));
     }
-    if effort == Effort::FULL && !warm {
-        return head_solver::settle(spec, head, guides, &alone, progress);
-    }
-    head_solver::settle_from(spec, head, guides, &alone, effort.sweeps, progress)
+    let sweep_first = effort == Effort::FULL && !warm;
+    head_solver::settle(spec, head, guides, &alone, sweep_first, effort.sweeps, progress)
 }

@@ -195,7 +195,7 @@ impl<'a> Simulated<'a> {
             if found.rods[hair].stability == Stability::Stable {
                 continue;
             }
-            let (again, line) = patiently(&batch, rod, &frames, (&mut envelope, hair));
+            let (again, line) = patiently(&batch, rod, &frames, &mut envelope, hair);
             let iterations = found.rods[hair].iterations + again.iterations;
             found.rods[hair] = RodSolution { iterations, ..again };
             nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)].copy_from_slice(&line);
@@ -233,7 +233,8 @@ fn patiently(
     batch: &Batch,
     rod: &Rod,
     frames: Frames<'_>,
-    (envelope, hair): (&mut Envelope<'_>, usize),
+    envelope: &mut Envelope<'_>,
+    hair: usize,
 ) -> (RodSolution, Vec<Node>) {
     let batch = Batch { max_iterations: MOST_ITERATIONS, ..*batch };
     let mut iterations = 0;
