@@ -1,6 +1,11 @@
 //! Braids.
 
-use super::{Apply, Grip, Hairstyle, InvalidSpec, Range, Selection, StyleError, Act};
+use crate::hairstyle::{Grip, Hairstyle};
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 use crate::hairstyle::{DRAWN, Mould};
 
 /// Braids hair in three, and holds it.

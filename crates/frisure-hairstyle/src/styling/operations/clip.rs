@@ -2,9 +2,12 @@
 
 use glam::DVec3;
 
-use super::{
-    Apply, Grip, Hairstyle, InvalidSpec, Range, Selection, StyleError, Act, check_point,
-};
+use crate::hairstyle::{Grip, Hairstyle};
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::{Apply, check_point};
 
 /// Holds a place of each wisp at a point.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,12 @@
 use frisure_rod::{InvalidQuantity, NaturalStrain};
 use rayon::prelude::*;
 
-use super::{Apply, Hairstyle, InvalidSpec, Range, Selection, StyleError, WispState, Act};
+use crate::hairstyle::{Hairstyle, WispState};
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 use crate::hairstyle::strain_of;
 
 /// Dries hair: the inverse of wetting, except that hair held in a shape keeps part of it.

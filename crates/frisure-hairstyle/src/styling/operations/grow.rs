@@ -1,8 +1,11 @@
 //! Growing.
 
-use super::{
-    Apply, Hairstyle, InvalidSpec, Range, Selection, StyleError, WispState, Act,
-};
+use crate::hairstyle::{Hairstyle, WispState};
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 
 /// Longest guide (m): that of a description.
 const LONGEST: f64 = 3.0;

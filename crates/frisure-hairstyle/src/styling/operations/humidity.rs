@@ -1,6 +1,10 @@
 //! Damp and dry air.
 
-use super::{Apply, Hairstyle, InvalidSpec, Range, StyleError, Styling, Act};
+use crate::hairstyle::{Hairstyle, Styling};
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 
 /// Leaves all hair that is not wet in air of some humidity.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,31 +4,13 @@
 //! the list `operations!` below. Its keys in scene files stand in `frisure-scene`, from which text,
 //! errors, schema, documentation and the salon's button follow.
 
+mod apply;
+mod cut_line;
 mod scissors;
 
-use glam::DVec3;
-
-use super::error::StyleError;
 use super::selection::Selection;
-use super::settle::Act;
-use crate::hairstyle::{Grip, Hairstyle, Styling, WispState};
-use crate::spec::{InvalidSpec, Range};
-
-/// What an operation checks and does.
-pub(super) trait Apply {
-    /// Checks each number against its range.
-    fn check(&self) -> Result<(), InvalidSpec> {
-        Ok(())
-    }
-
-    /// The hairstyle that it makes.
-    fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError>;
-
-    /// The hairstyles that it makes one after the other, the result last; at least one.
-    fn stages(&self, act: &Act<'_>) -> Result<Vec<Hairstyle>, StyleError> {
-        Ok(vec![self.apply(act)?])
-    }
-}
+use crate::spec::InvalidSpec;
+use apply::Apply;
 
 /// Declares the operations: the module and the type of each, and its field with the selected wisps, if
 /// it has one. The module's name is the operation's name in scenes.
@@ -115,7 +97,7 @@ operations! {
 }
 
 pub use comb::Direction;
-pub use cut::{CutLine, Held};
+pub use cut_line::{CutLine, Held};
 pub use grow::Growth;
 
 impl Operation {
@@ -136,45 +118,4 @@ impl Operation {
         }
         self
     }
-}
-
-impl Act<'_> {
-    /// The hairstyle with the selected wisps moved by hand and held.
-    fn held(&self, selection: &Selection, grip: Grip) -> Result<Hairstyle, StyleError> {
-        let chosen = self.selected(selection)?;
-        self.with(self.before.styling.changed(&chosen, |_, wisp| {
-            wisp.moved += 1;
-            wisp.grip = Some(grip);
-        }))
-    }
-}
-
-impl Styling {
-    /// The same with chosen wisps changed.
-    fn changed(&self, chosen: &[bool], mut change: impl FnMut(usize, &mut WispState)) -> Self {
-        let mut styling = self.clone();
-        for (index, wisp) in styling.wisps.iter_mut().enumerate() {
-            if chosen[index] {
-                change(index, wisp);
-            }
-        }
-        styling
-    }
-}
-
-/// Farthest (m) from the origin that a line or a point may be; chosen: beyond it a unit was mistaken.
-const FARTHEST: f64 = 100.0;
-
-/// A point near the head.
-fn check_point(field: &'static str, p: DVec3) -> Result<(), InvalidSpec> {
-    let far =
-        p.to_array().into_iter().fold(0.0, |far: f64, x| if x.abs() <= far { far } else { x });
-    let allowed = "three numbers within 100 m of the origin";
-    Range::new(field, -FARTHEST, FARTHEST, allowed).check(far)
-}
-
-/// A vector with a length.
-fn check_direction(field: &'static str, d: DVec3) -> Result<(), InvalidSpec> {
-    let allowed = "a direction, which has a length between 1e-9 and 1e9";
-    Range::new(field, 1e-9, 1e9, allowed).check(d.length())
 }

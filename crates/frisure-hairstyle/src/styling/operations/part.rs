@@ -1,6 +1,10 @@
 //! Parting.
 
-use super::{Apply, Hairstyle, InvalidSpec, StyleError, Act};
+use crate::hairstyle::Hairstyle;
+use crate::spec::InvalidSpec;
+use crate::styling::error::StyleError;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 use crate::guides::plan;
 use crate::implantation::Layout;
 use crate::spec::{Flow, Parting};

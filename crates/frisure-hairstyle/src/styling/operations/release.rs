@@ -1,6 +1,10 @@
 //! Letting go.
 
-use super::{Apply, Hairstyle, Selection, StyleError, Act};
+use crate::hairstyle::Hairstyle;
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 
 /// Lets go of held hair.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,11 @@
 //! Rollers.
 
-use super::{Apply, Grip, Hairstyle, InvalidSpec, Range, Selection, StyleError, Act};
+use crate::hairstyle::{Grip, Hairstyle};
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 use crate::hairstyle::Mould;
 
 /// Winds each wisp on a roller, and holds it.

@@ -3,7 +3,7 @@
 use frisure_rod::Equilibrium;
 use glam::DVec3;
 
-use super::{Cut, CutLine, Held};
+use super::cut_line::{CutLine, Held};
 use crate::head::Head;
 use crate::implantation::Root;
 use crate::math::first_positive;
@@ -28,8 +28,8 @@ const LOOKED_AT: usize = 256;
 const HALVINGS: u32 = 40;
 
 impl<'a> Scissors<'a> {
-    pub(super) fn new(cut: &Cut, head: &'a Head) -> Self {
-        let line = match cut.line {
+    pub(super) fn new(line: CutLine, held: Held, head: &'a Head) -> Self {
+        let line = match line {
             CutLine::Below(height) => {
                 CutLine::Plane { point: DVec3::Z * height.on(head), normal: DVec3::NEG_Z }
             }
@@ -38,7 +38,7 @@ impl<'a> Scissors<'a> {
             }
             line => line,
         };
-        Self { head, line, held: cut.held }
+        Self { head, line, held }
     }
 
     /// Whether hair is cut as it hangs: by its curve, not by its root.

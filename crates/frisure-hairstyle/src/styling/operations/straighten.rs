@@ -1,6 +1,10 @@
 //! Hot plates.
 
-use super::{Apply, Grip, Hairstyle, Selection, StyleError, Act};
+use crate::hairstyle::{Grip, Hairstyle};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 use crate::hairstyle::{DRAWN, Mould};
 
 /// Draws hair straight, as between hot plates or under a brush, and holds it.

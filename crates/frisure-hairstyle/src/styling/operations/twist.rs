@@ -1,6 +1,11 @@
 //! Two-strand twists.
 
-use super::{Act, Apply, Grip, Hairstyle, InvalidSpec, Range, Selection, StyleError};
+use crate::hairstyle::{Grip, Hairstyle};
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 use crate::hairstyle::Mould;
 
 /// Winds two locks round each other, and holds them: each wisp is one of the two. Dried so and released,

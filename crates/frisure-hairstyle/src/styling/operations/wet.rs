@@ -1,6 +1,11 @@
 //! Wetting.
 
-use super::{Apply, Hairstyle, InvalidSpec, Range, Selection, StyleError, Act};
+use crate::hairstyle::Hairstyle;
+use crate::spec::{InvalidSpec, Range};
+use crate::styling::error::StyleError;
+use crate::styling::selection::Selection;
+use crate::styling::settle::Act;
+use super::apply::Apply;
 
 /// Wets hair. \[paper\] §3.2
 #[derive(Clone, Debug, PartialEq)]
