@@ -26,9 +26,10 @@ pub(crate) fn note(text: &str) {
 
 /// Shows why a command failed. If standard error is closed there is nobody to tell.
 pub(crate) fn complain(failure: &Failure) {
-    let mut err = io::stderr().lock();
+    // Removes colours where they are not wanted: in files, with NO_COLOR.
+    let mut err = anstream::stderr().lock();
     let _ = match failure {
-        Failure::Failed(report) | Failure::Wrong(report) => writeln!(err, "{report:?}"),
+        Failure::Failed(report) | Failure::Wrong(report) => writeln!(err, "{}", report.render()),
         Failure::Interrupted => writeln!(err, "interrupted"),
         Failure::Paused(what) => writeln!(err, "interrupted: {what}"),
     };

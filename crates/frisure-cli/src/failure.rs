@@ -1,12 +1,14 @@
 //! How a command ends: exit codes, and errors as people see them.
 
 use std::error::Error;
+use std::ops::Range;
 use std::process::ExitCode;
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use frisure::files::ReadError;
 use frisure::scene::{Fault, SceneError};
-use miette::{Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, Report};
-use thiserror::Error;
 
 /// What a command achieved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,9 +35,9 @@ impl Done {
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// Something failed that was asked for rightly.
-    Failed(Report),
+    Failed(Diagnostic),
     /// The command line, the scene or the head is wrong.
-    Wrong(Report),
+    Wrong(Diagnostic),
     /// Ctrl-C.
     Interrupted,
     /// Ctrl-C, with something to go on from; told in sentences.
@@ -60,8 +62,7 @@ impl Failure {
 
     /// What was asked for is wrong, in words.
     pub(crate) fn wrong_because(message: impl Into<String>, hint: &str) -> Self {
-        let shown = Shown { message: message.into(), hint: some(hint), ..Shown::default() };
-        Self::Wrong(shown.into())
+        Self::Wrong(Diagnostic::new(message.into(), hint))
     }
 
     /// The exit code.
@@ -78,7 +79,7 @@ impl Failure {
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         match error {
-            SceneError::Fault(fault) => Self::Wrong(Shown::from(*fault).into()),
+            SceneError::Fault(fault) => Self::Wrong(Diagnostic::from(*fault)),
             SceneError::Read(error) => error.into(),
         }
     }
@@ -104,20 +105,48 @@ impl From<ReadError> for Failure {
     }
 }
 
-/// An error as it is shown: with the line of the scene, where there is one.
-#[derive(Debug, Default, Diagnostic, Error)]
-#[error("{message}")]
-struct Shown {
+/// An error for people: with the line of the scene, where there is one.
+#[derive(Debug)]
+pub(crate) struct Diagnostic {
     message: String,
-    #[help]
-    hint: Option<String>,
-    #[source_code]
-    text: Option<NamedSource<String>>,
-    #[label(collection)]
-    labels: Vec<LabeledSpan>,
+    hint: String,
+    source: Option<Source>,
 }
 
-impl From<Fault> for Shown {
+/// A text, and what is said about places in it; the first place is the error's.
+#[derive(Debug)]
+struct Source {
+    file: String,
+    text: String,
+    labels: Vec<(Range<usize>, String)>,
+}
+
+impl Diagnostic {
+    fn new(message: String, hint: &str) -> Self {
+        Self { message, hint: hint.to_owned(), source: None }
+    }
+
+    /// The diagnostic as text of several lines, with colours as escape sequences.
+    pub(crate) fn render(&self) -> String {
+        let mut group = Group::with_title(Level::ERROR.primary_title(self.message.as_str()));
+        if let Some(Source { file, text, labels }) = &self.source {
+            let mut kinds = std::iter::once(AnnotationKind::Primary);
+            let annotations = labels.iter().map(|(span, label)| {
+                let kind = kinds.next().unwrap_or(AnnotationKind::Context);
+                kind.span(span.clone()).label(label.as_str())
+            });
+            group = group
+                .element(Snippet::source(text.as_str()).path(file.as_str()).annotations(annotations));
+        }
+        if !self.hint.is_empty() {
+            group = group.element(Level::HELP.message(self.hint.as_str()));
+        }
+        let renderer = Renderer::styled().decor_style(DecorStyle::Unicode).term_width(usize::MAX);
+        renderer.render(&[group])
+    }
+}
+
+impl From<Fault> for Diagnostic {
     fn from(fault: Fault) -> Self {
         let message = fault.message();
         let label = if fault.allowed.is_empty() || !fault.problem.is_empty() {
@@ -125,36 +154,20 @@ impl From<Fault> for Shown {
         } else {
             format!("must be {}", fault.allowed)
         };
-        let mut labels = vec![LabeledSpan::new_primary_with_span(Some(label), fault.span)];
-        let related = fault.related.into_iter();
-        labels.extend(related.map(|(span, what)| LabeledSpan::new_with_span(Some(what), span)));
-        let text = Some(NamedSource::new(fault.file, fault.text));
-        Self { message, hint: some(&fault.hint), text, labels }
+        let mut labels = vec![(fault.span, label)];
+        labels.extend(fault.related);
+        let source = Some(Source { file: fault.file, text: fault.text, labels });
+        Self { message, hint: fault.hint, source }
     }
 }
 
-fn some(text: &str) -> Option<String> {
-    (!text.is_empty()).then(|| text.to_owned())
-}
-
 /// An error with its causes in one sentence: `cannot write `x`: no space left`.
-fn report(error: &dyn Error, hint: &str) -> Report {
+fn report(error: &dyn Error, hint: &str) -> Diagnostic {
     let mut message = error.to_string();
     let mut cause = error.source();
     while let Some(error) = cause {
         message = format!("{message}: {error}");
         cause = error.source();
     }
-    Shown { message, hint: some(hint), ..Shown::default() }.into()
-}
-
-/// Sets how errors are shown.
-pub(crate) fn install_handler() {
-    let set = miette::set_hook(Box::new(|_| {
-        // Broken lines cannot be searched for, and paths break badly.
-        let options = MietteHandlerOpts::new().context_lines(1).terminal_links(false);
-        Box::new(options.wrap_lines(false).build())
-    }));
-    // Only a second hook is refused.
-    debug_assert!(set.is_ok());
+    Diagnostic::new(message, hint)
 }

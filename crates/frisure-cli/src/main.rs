@@ -20,7 +20,6 @@ use failure::{Done, Failure};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    failure::install_handler();
     match run(arguments) {
         Ok(done) => done.code(),
         Err(failure) => {
