@@ -141,7 +141,7 @@ impl Diagnostic {
         if !self.hint.is_empty() {
             group = group.element(Level::HELP.message(self.hint.as_str()));
         }
-        let renderer = Renderer::styled().decor_style(DecorStyle::Unicode).term_width(usize::MAX);
+        let renderer = Renderer::styled().decor_style(DecorStyle::Unicode).term_width(10_000);
         renderer.render(&[group])
     }
 }

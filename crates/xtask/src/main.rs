@@ -1,6 +1,8 @@
 //! Jobs around the workspace: `cargo xtask measure`, `cargo xtask page --serve`.
 
 #[cfg(feature = "page")]
+mod ci;
+#[cfg(feature = "page")]
 mod page;
 #[cfg(feature = "page")]
 mod serve;
@@ -25,6 +27,14 @@ enum Job {
 
     /// Check the rules about the tree that no compiler checks: words, lengths, circles, links
     Tidy,
+
+    /// Run the gate: all that a change must pass
+    #[cfg(feature = "page")]
+    Ci {
+        /// Only format, spelling, lints, unit tests and one scene
+        #[arg(long)]
+        quick: bool,
+    },
 
     /// Build the page of the salon into `out/page`, ready for any static host
     #[cfg(feature = "page")]
@@ -85,6 +95,8 @@ fn run(job: &Job) -> anyhow::Result<()> {
             anyhow::ensure!(broken.is_empty(), "{} places break a rule", broken.len());
             Ok(())
         }
+        #[cfg(feature = "page")]
+        Job::Ci { quick } => ci::run(*quick),
         #[cfg(feature = "page")]
         Job::Page(asked) => build_page(asked),
     }

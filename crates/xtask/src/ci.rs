@@ -1,0 +1,172 @@
+//! The gate: what every change must pass, each thing built and tested once.
+
+use crate::page;
+use anyhow::{Context, Result, ensure};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+use xtask::workspace::{root, say};
+
+/// The deepest that a predicted hair may be inside the head (m).
+const MOST_PENETRATION: f64 = 5e-4;
+
+/// The smallest groom and picture of the README's main command that are not broken (bytes).
+const LEAST_GROOM: u64 = 10_000_000;
+const LEAST_PICTURE: u64 = 100_000;
+
+/// Runs the gate; the quick one leaves out what takes minutes.
+pub(crate) fn run(quick: bool) -> Result<()> {
+    let mut gate = Gate { times: Vec::new() };
+    gate.step("format", || cargo("fmt --all --check"))?;
+    gate.step("spelling", spelling)?;
+    gate.step("lints", || cargo("clippy --workspace --all-targets --locked -- -D warnings"))?;
+    if quick {
+        gate.step("unit tests", || {
+            cargo("test --workspace --locked --lib --bins --test tidy --test architecture")
+        })?;
+        gate.step("one scene", || {
+            cargo("build --workspace --locked --bin frisure")?;
+            predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
+        })?;
+    } else {
+        gate.step("documentation", || {
+            shell("RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --locked")
+        })?;
+        gate.step("page", || page::build(false))?;
+        gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
+        gate.step("examples", examples)?;
+        gate.step("the README's main command", main_command)?;
+        gate.step("programs that open grooms", || shell("validation/clients/run"))?;
+        gate.step("every scene", every_scene)?;
+    }
+    gate.report();
+    Ok(())
+}
+
+/// The steps so far, with their times.
+struct Gate {
+    times: Vec<(&'static str, Duration)>,
+}
+
+impl Gate {
+    fn step(&mut self, name: &'static str, run: impl FnOnce() -> Result<()>) -> Result<()> {
+        say(&format!("\n== {name}"));
+        let start = Instant::now();
+        run().with_context(|| format!("step \"{name}\" fails"))?;
+        self.times.push((name, start.elapsed()));
+        Ok(())
+    }
+
+    fn report(&self) {
+        say("\nall gates passed");
+        for (name, time) in &self.times {
+            say(&format!("{:7.1} s  {name}", time.as_secs_f64()));
+        }
+    }
+}
+
+fn cargo(arguments: &str) -> Result<()> {
+    shell(&format!("cargo {arguments}"))
+}
+
+/// Runs a line of a shell in the workspace.
+fn shell(line: &str) -> Result<()> {
+    say(line);
+    let status = Command::new("bash").args(["-c", line]).current_dir(root()).status()?;
+    ensure!(status.success(), "`{line}` ends with {status}");
+    Ok(())
+}
+
+/// Checks the spelling where `typos` is installed; `.ci/run` installs it.
+fn spelling() -> Result<()> {
+    let program = root().join("target/typos/bin/typos");
+    let program = if program.is_file() { program } else { "typos".into() };
+    match Command::new(program).current_dir(root()).status() {
+        Ok(status) => {
+            ensure!(status.success(), "there are misspelled words; _typos.toml has the exceptions")
+        }
+        Err(_) => say("skipped: `typos` is not installed (`pip install typos`)"),
+    }
+    Ok(())
+}
+
+/// The first line of the README that begins so.
+fn readme_command(start: &str) -> Result<String> {
+    let readme = fs::read_to_string(root().join("README.md"))?;
+    let line = readme.lines().find(|line| line.starts_with(start));
+    Ok(line.with_context(|| format!("README.md has no `{start}`"))?.to_owned())
+}
+
+/// Runs every example that takes no arguments; the tests have built them.
+fn examples() -> Result<()> {
+    for package in xtask::source::packages(&root())? {
+        let Ok(folder) = fs::read_dir(package.folder.join("examples")) else { continue };
+        let mut files = folder.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>>>()?;
+        files.retain(|path| path.extension().is_some_and(|kind| kind == "rs"));
+        files.sort();
+        for file in files {
+            if !fs::read_to_string(&file)?.contains("env::args") {
+                let name = file.file_stem().unwrap_or_default();
+                say(&format!("{}: {}", package.name, name.display()));
+                run_example(Path::new(name))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn run_example(name: &Path) -> Result<()> {
+    let program = root().join("target/debug/examples").join(name);
+    let output = Command::new(program).current_dir(root()).stdin(Stdio::null()).output()?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "the example {} fails: {said}", name.display());
+    Ok(())
+}
+
+/// Runs the README's main command and checks its groom and its picture.
+fn main_command() -> Result<()> {
+    let out = root().join("out");
+    for file in ["curly.hair", "curly.png"] {
+        let _ = fs::remove_file(out.join(file));
+    }
+    shell(&readme_command("cargo run ")?)?;
+    for (file, start, least) in [
+        ("curly.hair", &b"HAIR"[..], LEAST_GROOM),
+        ("curly.png", b"\x89PNG\r\n\x1a\n", LEAST_PICTURE),
+    ] {
+        let bytes = fs::read(out.join(file))?;
+        ensure!(bytes.starts_with(start), "out/{file} does not begin as such a file does");
+        ensure!(bytes.len() as u64 > least, "out/{file} has only {} bytes", bytes.len());
+    }
+    Ok(())
+}
+
+fn every_scene() -> Result<()> {
+    let mut scenes = Vec::new();
+    for entry in fs::read_dir(root().join("scenes"))? {
+        scenes.push(entry?.path());
+    }
+    scenes.retain(|path| path.extension().is_some_and(|kind| kind == "toml"));
+    scenes.sort();
+    scenes.iter().try_for_each(|scene| predict(&root().join("target/release/frisure"), scene))
+}
+
+/// Predicts a scene; every guide must converge, and no hair may be in the head.
+fn predict(frisure: &Path, scene: &Path) -> Result<()> {
+    let name = scene.file_stem().unwrap_or_default().to_string_lossy();
+    let (picture, report) = (format!("out/{name}.png"), format!("out/{name}.json"));
+    let mut command = Command::new(frisure);
+    command.arg("predict").arg(scene).args(["--image", &picture, "--report", &report]);
+    let status = command.current_dir(root()).status()?;
+    ensure!(status.success(), "{} ends with {status}", scene.display());
+    ensure!(fs::metadata(root().join(&picture))?.len() > 0, "{picture} is empty");
+    let report = fs::read_to_string(root().join(report))?;
+    ensure!(report.contains("\"not_converged\": 0"), "{name}: guides have not converged");
+    for line in report.lines().filter(|line| line.contains("penetration\":")) {
+        let depth = line.split(':').nth(1).unwrap_or_default().trim().trim_end_matches(',');
+        let depth: f64 = depth.parse().with_context(|| format!("{name}: {line}"))?;
+        ensure!(depth <= MOST_PENETRATION, "{name}: a hair is {depth} m inside the head");
+    }
+    Ok(())
+}
