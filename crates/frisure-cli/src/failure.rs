@@ -135,8 +135,9 @@ impl Diagnostic {
                 let kind = kinds.next().unwrap_or(AnnotationKind::Context);
                 kind.span(span.clone()).label(label.as_str())
             });
-            group = group
-                .element(Snippet::source(text.as_str()).path(file.as_str()).annotations(annotations));
+            group = group.element(
+                Snippet::source(text.as_str()).path(file.as_str()).annotations(annotations),
+            );
         }
         if !self.hint.is_empty() {
             group = group.element(Level::HELP.message(self.hint.as_str()));

@@ -1,5 +1,7 @@
 //! The `frisure` command: arguments in [`args`], then one file per command in [`commands`].
 
+#![forbid(unsafe_code)]
+
 mod args;
 mod commands;
 mod console;

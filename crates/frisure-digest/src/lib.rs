@@ -18,6 +18,8 @@
 //! assert_ne!(key(&camera), key(&Camera { f_number: Some(2.8), ..camera }));
 //! ```
 
+#![forbid(unsafe_code)]
+
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};

@@ -13,6 +13,8 @@
 //! assert_eq!((preview.numbers.wisps, preview.numbers.drawn), (3, 30));
 //! ```
 
+#![forbid(unsafe_code)]
+
 mod accumulate;
 mod adoption;
 mod bytes;

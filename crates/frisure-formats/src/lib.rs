@@ -15,6 +15,8 @@
 //! an interrupted program leaves the old file or the new one and never a half of it
 //! ([`frisure_files::write_atomically`]). The same input gives the same bytes.
 
+#![forbid(unsafe_code)]
+
 pub mod contents;
 pub mod environment;
 pub mod groom;

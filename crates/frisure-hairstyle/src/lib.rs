@@ -21,6 +21,8 @@
 //! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict` and `adopt`, `strands`, `styling`, `history`. None uses
 //! one that comes later.
 
+#![forbid(unsafe_code)]
+
 mod math;
 mod random;
 

@@ -7,6 +7,8 @@
 //!
 //! Lengths are metres, angles radians, z is up, the face looks towards −y; colours are linear sRGB.
 
+#![forbid(unsafe_code)]
+
 mod camera;
 mod colour;
 mod hair;

@@ -9,6 +9,8 @@
 //! from the fibre, towards the light and towards the eye; tangents point from root to tip. Nothing
 //! here knows of strands or of pictures.
 
+#![forbid(unsafe_code)]
+
 mod fibre;
 pub mod kajiya_kay;
 mod lobes;

@@ -23,6 +23,8 @@
 //! assert_eq!(sum(&[1.0, 2.0], &token), Err(Cancelled));
 //! ```
 
+#![forbid(unsafe_code)]
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 

@@ -78,6 +78,8 @@
 //! - Beyond hair (Γ above 1e5, or dozens of turns with one stiffness many times the other) answers
 //!   take seconds instead of a millisecond. They still say what they are.
 
+#![forbid(unsafe_code)]
+
 pub mod batch;
 mod centre_line;
 mod chain;

@@ -1,5 +1,8 @@
 //! The salon in a window of the desktop.
 
+// What `wasm_bindgen` generates is unsafe.
+#![cfg_attr(not(target_arch = "wasm32"), forbid(unsafe_code))]
+
 #[cfg(target_arch = "wasm32")]
 fn main() {}
 

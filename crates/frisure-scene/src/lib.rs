@@ -14,6 +14,8 @@
 //! of range (`resolve`). `file` lists the keys and is their reference; the JSON Schema is made from
 //! it.
 
+#![forbid(unsafe_code)]
+
 mod bare;
 pub mod batch;
 mod blame;

@@ -5,6 +5,8 @@
 //! its left is +x. Bulk data are `f32`: at arm's length from the origin that is 30 nm, a thousandth
 //! of a hair's diameter. Nothing here knows where strands come from or where they go.
 
+#![forbid(unsafe_code)]
+
 pub mod names;
 mod resample;
 mod strands;

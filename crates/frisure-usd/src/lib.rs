@@ -9,6 +9,8 @@
 //! Whatever is read, no memory is taken for a number that the file's size does not back up, and nesting ends at
 //! [`MAX_DEPTH`].
 
+#![forbid(unsafe_code)]
+
 mod binary;
 mod layer;
 mod mesh;

@@ -35,6 +35,8 @@
 //! finer pieces as the eye comes near; pieces that cross may be seen in the wrong order; what lies behind the
 //! head's edge is guessed from the pixels beside it; a floor ([`frisure_look::Floor`]) is left out.
 
+#![forbid(unsafe_code)]
+
 mod ambient;
 mod cache;
 mod canvas;

@@ -23,6 +23,8 @@
 //! # Ok::<(), frisure::scene::SceneError>(())
 //! ```
 
+#![forbid(unsafe_code)]
+
 #[cfg(not(target_arch = "wasm32"))]
 pub use frisure_denoise as denoise;
 pub use frisure_files as files;

@@ -1,5 +1,7 @@
 //! Jobs around the workspace: `cargo xtask measure`, `cargo xtask page --serve`.
 
+#![forbid(unsafe_code)]
+
 #[cfg(feature = "page")]
 mod ci;
 #[cfg(feature = "page")]

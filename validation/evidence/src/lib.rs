@@ -10,6 +10,8 @@
 //!
 //! Everything but times is the same at every run.
 
+#![forbid(unsafe_code)]
+
 mod experiments;
 mod extremes;
 mod finding;

@@ -5,6 +5,8 @@
 //! frisure-peers time HAIRS.json OUT.json        frisure's errors and processor times on them, on one thread
 //! ```
 
+#![forbid(unsafe_code)]
+
 mod cpu;
 mod hairs;
 mod measure;
