@@ -14,19 +14,19 @@ pub enum ReadError {
     /// There is no such file.
     #[error("there is no file `{}`", path.display())]
     Missing {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// It is a directory.
     #[error("`{}` is a directory, not a file", path.display())]
     Directory {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// It is larger than such a file can sensibly be.
     #[error("`{}` is larger than {limit} bytes, too large for {what}", path.display())]
     TooLarge {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
         /// Largest size accepted (bytes).
         limit: u64,
@@ -36,7 +36,7 @@ pub enum ReadError {
     /// It is not text.
     #[error("`{}` is not UTF-8 text (byte {offset} of line {line})", path.display())]
     NotText {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
         /// Line of the first bad byte, from 1.
         line: usize,
@@ -46,7 +46,7 @@ pub enum ReadError {
     /// The system refused.
     #[error("cannot read `{}`", path.display())]
     Io {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
         /// What the system said.
         source: io::Error,
@@ -54,7 +54,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// The path asked for.
+    /// The path given.
     #[must_use]
     pub fn path(&self) -> &PathBuf {
         match self {
@@ -73,7 +73,7 @@ pub enum WriteError {
     /// The folder that should hold it does not exist.
     #[error("there is no folder `{}` to write `{}` in", folder.display(), path.display())]
     NoFolder {
-        /// The file asked for.
+        /// The file given.
         path: PathBuf,
         /// Its folder.
         folder: PathBuf,
@@ -81,19 +81,19 @@ pub enum WriteError {
     /// The destination is a directory.
     #[error("`{}` is a directory; name a file", path.display())]
     Directory {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// The destination exists and is write-protected.
     #[error("`{}` is read-only", path.display())]
     ReadOnly {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// The system refused.
     #[error("cannot write `{}`", path.display())]
     Io {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
         /// What the system said.
         source: io::Error,

@@ -28,7 +28,7 @@ pub enum ContentsError {
     /// Neither heads nor grooms are called so.
     #[error("`{}` is neither a head nor a groom that can be read", path.display())]
     Unknown {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// The file cannot be read.
@@ -37,7 +37,7 @@ pub enum ContentsError {
     /// The file is damaged, or has nothing of use.
     #[error("`{}` is of no use: {what}", path.display())]
     Useless {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
         /// What is wrong, or missing.
         what: String,
@@ -82,7 +82,7 @@ pub fn of(path: &Path, files: &Files) -> Result<Contents, ContentsError> {
         _ => {}
     }
     let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom or a head")?;
-    let found = if usd::is_one(&bytes) {
+    let found = if usd::is_usd(&bytes) {
         stage(&bytes)
     } else if bytes.starts_with(b"ply") {
         polygons(&bytes)

@@ -63,7 +63,7 @@ impl Kind {
     }
 }
 
-/// What each of an element's things has.
+/// A property of an element.
 pub(crate) struct Property {
     pub(crate) name: String,
     pub(crate) kind: Kind,
@@ -168,7 +168,7 @@ impl Body<'_> {
         }
     }
 
-    /// Refuses more things than bytes: each has at least one.
+    /// Refuses more items than bytes: each has at least one.
     pub(crate) fn check(&self, element: &Element) -> Result<(), String> {
         let Element { name, count, properties } = element;
         // Things without a byte could be as many as anyone says.

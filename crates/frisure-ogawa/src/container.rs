@@ -130,7 +130,7 @@ impl<'a> Container<'a> {
             return Err(format!("it is cut short: {} bytes", bytes.len()));
         }
         if bytes[5] != 0xff {
-            return Err("whoever wrote it did not finish".into());
+            return Err("its writer did not finish".into());
         }
         if bytes[6..8] != [0, 1] {
             return Err(format!("its version is {}.{}, and 0.1 is read", bytes[6], bytes[7]));

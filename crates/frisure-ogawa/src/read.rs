@@ -150,7 +150,7 @@ impl<'a> Archive<'a> {
         }
         let known = self.metadata.len();
         let found = self.metadata.get(index).copied();
-        found.ok_or_else(|| format!("metadata {index} of {known} are asked for"))
+        found.ok_or_else(|| format!("metadata {index} is missing: there are {known}"))
     }
 
     /// The properties of an object.

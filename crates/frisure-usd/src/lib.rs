@@ -21,18 +21,18 @@ mod value;
 
 pub use layer::{Attribute, Layer, Prim, Relationship, Specifier};
 pub use mesh::Mesh;
-pub use stage::{Place, Stage};
+pub use stage::{StagePrim, Stage};
 pub use value::{Base, Data, Kind, Shape, Value};
 
 /// Whether a file begins as one of the three kinds does.
-pub fn is_one(bytes: &[u8]) -> bool {
+pub fn is_usd(bytes: &[u8]) -> bool {
     [binary::MAGIC, package::MAGIC, b"#usda"].iter().any(|magic| bytes.starts_with(magic))
 }
 
 /// Prims within prims, at most.
 pub const MAX_DEPTH: usize = 200;
 
-/// A layer from a file of any of the three kinds, told by its first bytes; the error says what is wrong where.
+/// A layer from a file of any of the three kinds, recognised by its first bytes; the error says what is wrong where.
 pub fn read(bytes: &[u8]) -> Result<Layer, String> {
     let bytes = if bytes.starts_with(package::MAGIC) { package::first(bytes)? } else { bytes };
     if bytes.starts_with(binary::MAGIC) {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::layer::Prim;
-use super::stage::Place;
+use super::stage::StagePrim;
 use super::value::Value;
 
 /// Corners of one face, at most.
@@ -24,7 +24,7 @@ pub struct Mesh {
     pub corner_count: usize,
 }
 
-impl Place<'_> {
+impl StagePrim<'_> {
     /// The mesh of a `Mesh` prim.
     pub fn mesh(&self) -> Result<Mesh, String> {
         let positions = self.prim.value("points").and_then(Value::numbers).unwrap_or_default();

@@ -13,7 +13,7 @@ pub(super) fn first(bytes: &[u8]) -> Result<&[u8], String> {
     let head = bytes.get(..HEAD).ok_or("the package is cut short")?;
     let short = |at: usize| usize::from(u16::from_le_bytes([head[at], head[at + 1]]));
     let size = u32::from_le_bytes([head[18], head[19], head[20], head[21]]);
-    // Bit 3 of the flags: the size is told behind the file.
+    // Bit 3 of the flags: the size stands behind the file.
     if short(8) != 0 || short(6) & 8 != 0 || size == u32::MAX {
         return Err("the first file of the package is compressed, or does not say its size".into());
     }

@@ -10,7 +10,7 @@ const USUAL_METRES: f64 = 0.01;
 
 /// A prim in its place.
 #[derive(Clone, Debug)]
-pub struct Place<'a> {
+pub struct StagePrim<'a> {
     /// The prim itself.
     pub prim: &'a Prim,
     /// The place of the prim that it is in.
@@ -25,7 +25,7 @@ pub struct Place<'a> {
 #[derive(Debug)]
 pub struct Stage<'a> {
     /// Parents stand before their children.
-    pub places: Vec<Place<'a>>,
+    pub places: Vec<StagePrim<'a>>,
     /// Metres per unit of its positions.
     pub metres_per_unit: f64,
     /// Whether z points up in it, and not y.
@@ -75,13 +75,13 @@ impl<'a> Stage<'a> {
         let world = if resets { own } else { above.world * own };
         let is_guide = above.is_guide || prim.word("purpose") == Some("guide");
         let here = self.places.len();
-        self.places.push(Place { prim, parent, world, is_guide });
+        self.places.push(StagePrim { prim, parent, world, is_guide });
         let above = Above { world, is_guide };
         prim.children.iter().try_for_each(|child| self.add(child, Some(here), above))
     }
 
     /// Where a prim is, such as `/groom/hairs`: made when it is asked for, since a path has the names of all above.
-    pub fn path(&self, place: &Place) -> String {
+    pub fn path(&self, place: &StagePrim) -> String {
         let mut names = vec![place.prim.name.as_str()];
         let mut parent = place.parent;
         while let Some(above) = parent.and_then(|i| self.places.get(i)) {
@@ -93,7 +93,7 @@ impl<'a> Stage<'a> {
     }
 
     /// An error about a prim.
-    pub fn fault(&self, place: &Place, problem: &str) -> String {
+    pub fn fault(&self, place: &StagePrim, problem: &str) -> String {
         format!("<{}>: {problem}", self.path(place))
     }
 

@@ -185,7 +185,7 @@ impl Data {
     }
 }
 
-/// A value that is told.
+/// The value of an attribute or a metadata key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
     /// The type of one value.

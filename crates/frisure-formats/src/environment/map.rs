@@ -22,7 +22,7 @@ pub(super) fn check_size(width: usize, height: usize) -> Result<(), String> {
             "has {width} x {height} pixels; an environment has at most {across} x {down}"
         ));
     }
-    // A pixel more or less is a matter of taste.
+    // Programs differ by a pixel.
     let ratio = width as f64 / height.max(1) as f64;
     if height == 0 || (width.abs_diff(2 * height) > 2 && !(1.9..=2.1).contains(&ratio)) {
         return Err(format!(

@@ -16,7 +16,7 @@ pub use map::Environment;
 /// Largest file that is read (bytes).
 const MAX_SIZE: u64 = 1 << 30;
 
-/// Negative light that is no more than the rounding of whoever wrote it.
+/// Negative light that is no more than rounding.
 const ROUNDING: f32 = 0.01;
 
 /// Brightest light that is understood.
@@ -31,13 +31,13 @@ pub enum EnvironmentError {
     /// Its name has another ending.
     #[error("environments are read from `.hdr` and `.exr`; `{}` is neither", path.display())]
     Extension {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// It is not what its name says, or not an environment.
     #[error("`{}` {problem}", path.display())]
     Broken {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
         /// What is wrong with it, to follow its name.
         problem: String,

@@ -34,7 +34,7 @@ impl Groom {
         Self { hairs, ..Self::default() }
     }
 
-    /// The groom with so many points a strand, and how far (m) its strands are from what they were: see
+    /// The groom with `points` points per strand, and how far (m) its strands are from what they were: see
     /// [`Strands::resampled`].
     #[must_use]
     pub fn resampled(&self, points: usize) -> (Self, f32) {

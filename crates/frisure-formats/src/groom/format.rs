@@ -20,7 +20,7 @@ pub(super) struct Declaration {
     pub(super) frame: Frame,
     /// Whether it tells guides from hairs, so that a file can hold both.
     pub(super) tells_guides: bool,
-    /// How many points its readers expect of a strand, where it matters to them.
+    /// How many points its readers expect of a strand, where they require a number.
     pub(super) usual_points: Option<usize>,
     /// Checks that it has room for a groom.
     pub(super) check: fn(&Groom) -> Result<(), String>,
@@ -79,7 +79,7 @@ impl Format {
         self.0.tells_guides
     }
 
-    /// How many points its readers expect of a strand, where it matters to them.
+    /// How many points its readers expect of a strand, where they require a number.
     #[must_use]
     pub const fn usual_points(self) -> Option<usize> {
         self.0.usual_points

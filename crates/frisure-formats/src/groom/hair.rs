@@ -1,6 +1,6 @@
 //! Cem Yuksel's `.hair`: a header of 128 bytes, then flat little-endian arrays.
 //!
-//! The format names no unit and no axes. frisure writes centimetres, z up, unless told otherwise, and
+//! The format names no unit and no axes. frisure writes centimetres, z up, unless the caller says otherwise, and
 //! the fibre's mean *diameter* as thickness, and says so in the header's text; the reader takes files
 //! of centimetres, z up.
 //!
@@ -171,7 +171,7 @@ fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
         let words = take(2 * strands).chunks_exact(2);
         words.map(|b| usize::from(u16::from_le_bytes([b[0], b[1]])) + 1).collect()
     };
-    // Bad counts are told before anything is taken for them.
+    // Bad counts are refused before memory is allocated for them.
     let total: usize = counts.iter().sum();
     if total != points {
         return Err(format!("its strands have {total} points, and the header says {points}"));

@@ -1,7 +1,7 @@
 //! Text of Mitsuba 3's `linearcurve` and `bsplinecurve`: a line `x y z radius` for each point, and an empty
 //! line after each strand.
 //!
-//! Metres, y up, unless told otherwise. As `linearcurve` the strands are what they are; a `bsplinecurve` only
+//! Metres, y up, unless the caller says otherwise. As `linearcurve` the strands are what they are; a `bsplinecurve` only
 //! passes near the points.
 
 use std::io::{self, Write};

@@ -1,6 +1,6 @@
 //! Grooms: hair in the files of other programs.
 //!
-//! One module per format; [`Format`] says what each can hold, and `docs/formats.md` tells every byte that
+//! One module per format; [`Format`] says what each can hold, and `docs/formats.md` describes every byte that
 //! matters. What is read has been checked: counts, sizes, widths, points that are nowhere.
 
 #[cfg(feature = "alembic")]
@@ -40,13 +40,13 @@ pub enum GroomError {
     /// The extension names no known format.
     #[error("`{}` has no known groom extension; known are {}", path.display(), known(|_| true))]
     Extension {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// The format is written, but not read.
     #[error("`{}` cannot be read: of grooms, only {} can", path.display(), known(Format::is_read))]
     Unread {
-        /// The path asked for.
+        /// The path given.
         path: PathBuf,
     },
     /// The format cannot hold these strands.

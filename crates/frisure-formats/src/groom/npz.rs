@@ -2,7 +2,7 @@
 //!
 //! `positions` of N × P × 3 where all strands have the same number of points, else `points` of all and
 //! `offsets`; `radii`, and an array for each attribute; those of guides with `guide_` in front. `metres` and
-//! `up` say unit and axes. Metres, z up, unless told otherwise.
+//! `up` say unit and axes. Metres, z up, unless the caller says otherwise.
 //!
 //! The zip is of the crate `zip`, without its other methods of compression; the headers of arrays are a line
 //! of text each.
@@ -219,14 +219,14 @@ fn colour(arrays: &mut BTreeMap<String, Array>) -> Option<HairColour> {
 
 /// All arrays that a groom can have, by their names.
 fn arrays(bytes: &[u8]) -> Result<BTreeMap<String, Array>, String> {
-    let told = |e: zip::result::ZipError| format!("its zip is damaged: {e}");
-    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(told)?;
+    let described = |e: zip::result::ZipError| format!("its zip is damaged: {e}");
+    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(described)?;
     // What is unpacked is counted: a small file can hold a lot of zeros.
     let mut left = MOST_PACKED * bytes.len() as u64 + FREE;
     let mut arrays = BTreeMap::new();
     for i in 0..zip.len() {
-        let file = zip.by_index(i).map_err(told)?;
-        let name = file.name().map_err(told)?;
+        let file = zip.by_index(i).map_err(described)?;
+        let name = file.name().map_err(described)?;
         let Some(name) = name.strip_suffix(".npy").map(str::to_owned) else { continue };
         let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_';
         if name.is_empty() || name.len() > 64 || !name.bytes().all(plain) {
@@ -360,7 +360,7 @@ fn meaning(name: &str, shape: &[usize], strands: usize, points: usize) -> Option
         }
         _ => None,
     };
-    // Strands of two or three points are told from pairs and triples by what has these.
+    // Strands of two or three points are distinguished from pairs and triples by the arrays that have these.
     let several = [names::CLOSEST_GUIDES, names::GUIDE_WEIGHTS, names::ROOT_UV, names::COLOUR];
     if several.contains(&name) || shape.len() == 1 {
         of_strands().or_else(of_points)

@@ -1,6 +1,6 @@
 //! Wavefront `.obj` polylines (`v` and `l`): read by nearly everything, without thickness.
 //!
-//! Metres, y up with the face towards +z, unless told otherwise, as programs expect of OBJ and as heads
+//! Metres, y up with the face towards +z, unless the caller says otherwise, as programs expect of OBJ and as heads
 //! are read: a groom predicted on an OBJ head in metres lies on that head.
 
 use std::io::{self, Write};

@@ -2,7 +2,7 @@
 //! each two points.
 //!
 //! The pieces are those of the Catmull-Rom curve through the points, so that the strand is smooth and passes
-//! through every one of them. Metres, y up, unless told otherwise. The widths are those of root and tip, between
+//! through every one of them. Metres, y up, unless the caller says otherwise. The widths are those of root and tip, between
 //! which pbrt interpolates.
 
 use std::io::{self, Write};

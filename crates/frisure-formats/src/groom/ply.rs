@@ -1,6 +1,6 @@
 //! Stanford `.ply`, binary little-endian: points with radius and strand number, and edges.
 //!
-//! Metres, z up, unless told otherwise: the strands as they were computed.
+//! Metres, z up, unless the caller says otherwise: the strands as they were computed.
 
 use std::io::{self, Write};
 
@@ -73,7 +73,7 @@ fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()
 
 /// Bytes of a file into hairs (m), or what is wrong with them.
 ///
-/// Strands are told by `strand` of the vertices, or else by the edges.
+/// Strands follow from `strand` of the vertices, or else by the edges.
 fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let (elements, mut body) = open(bytes)?;
     let (mut points, mut diameters, mut strands) = (Vec::new(), Vec::new(), Vec::new());

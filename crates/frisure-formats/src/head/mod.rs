@@ -1,6 +1,6 @@
 //! Heads: a mesh into a [`Surface`] with z up, and where on it hair grows.
 //!
-//! One module per format, told by the first bytes of a file; each gives a mesh as it stands there.
+//! One module per format, recognised by the first bytes of a file; each gives a mesh as it stands there.
 
 mod format;
 mod gltf;

@@ -1,6 +1,6 @@
 //! The part of Wavefront OBJ that heads need: vertices, texture coordinates, faces and their groups.
 //!
-//! Read here and not by a library, for two things that a head needs: vertices that groups share stay
+//! Read here and not by a library, for two reasons: vertices that groups share stay
 //! one vertex (a split seam would be a hole in the signed distance), and an error names its line.
 
 use super::format::{MeshFormat, Problem};

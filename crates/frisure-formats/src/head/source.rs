@@ -90,7 +90,7 @@ pub enum HeadFileError {
     NoGroup {
         /// The file.
         path: PathBuf,
-        /// The group asked for.
+        /// The group given.
         group: String,
         /// The groups there are.
         known: Vec<String>,
@@ -100,7 +100,7 @@ pub enum HeadFileError {
     NoChannel {
         /// The file.
         path: PathBuf,
-        /// What was asked for.
+        /// What was requested.
         channel: String,
         /// What there is.
         known: Vec<String>,
@@ -108,7 +108,7 @@ pub enum HeadFileError {
     /// Hair would grow nowhere.
     #[error("the scalp has no area: {what}")]
     NoScalp {
-        /// What was asked for.
+        /// What was requested.
         what: String,
     },
 }

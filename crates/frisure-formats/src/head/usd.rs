@@ -4,13 +4,13 @@ use super::format::MeshFormat;
 use super::mesh::Mesh;
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::FrameChoice;
-use frisure_usd::{self as usd, Place, Prim, Stage, Value};
+use frisure_usd::{self as usd, StagePrim, Prim, Stage, Value};
 
 /// What the format declares.
 pub(super) static FORMAT: MeshFormat = MeshFormat {
     extensions: &["usd", "usda", "usdc", "usdz"],
     expected: "a USD stage with meshes",
-    begins: usd::is_one,
+    begins: usd::is_usd,
     is_text: false,
     read: |bytes, _| Ok(parse(bytes)?),
 };
@@ -33,7 +33,7 @@ fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-fn add(mesh: &mut Mesh, place: &Place) -> Result<(), String> {
+fn add(mesh: &mut Mesh, place: &StagePrim) -> Result<(), String> {
     let prim = place.prim;
     let own = place.mesh()?;
     let (first, first_triangle) = (mesh.positions.len(), mesh.triangles.len());

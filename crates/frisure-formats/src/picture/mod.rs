@@ -28,7 +28,7 @@ pub enum PictureError {
     /// The extension names no known format.
     #[error("pictures are written as `.png` or `.exr`; `{name}` is neither")]
     Extension {
-        /// The file name asked for.
+        /// The file name given.
         name: String,
     },
     /// The pixels cannot be encoded.

@@ -79,9 +79,9 @@ impl Budget {
         Self(bytes.len().saturating_mul(MOST.0).saturating_add(MOST.1))
     }
 
-    /// Takes room for things of a size; how many they are.
+    /// Reserves room for items of a size; returns their number.
     pub(super) fn take(&mut self, count: u64, size: usize) -> Result<usize, String> {
-        let too_much = || format!("{count} things of {size} bytes are more than its size backs up");
+        let too_much = || format!("{count} items of {size} bytes are more than its size backs up");
         let count = usize::try_from(count).map_err(|_| too_much())?;
         let bytes = count.checked_mul(size).ok_or_else(too_much)?;
         self.0 = self.0.checked_sub(bytes).ok_or_else(too_much)?;

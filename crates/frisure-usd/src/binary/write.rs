@@ -472,8 +472,8 @@ fn real_last<T: Copy>(values: &[T], quaternions: bool) -> std::borrow::Cow<'_, [
     values.chunks_exact(4).flat_map(|q| [q[1], q[2], q[3], q[0]]).collect::<Vec<_>>().into()
 }
 
-/// An index in the file's own width: a layer has fewer things than that.
-#[expect(clippy::cast_possible_truncation, reason = "things are counted in thousands")]
+/// An index in the file's own width: a layer has fewer entries than that.
+#[expect(clippy::cast_possible_truncation, reason = "entries are counted in thousands")]
 fn index(i: usize) -> u32 {
     i as u32
 }

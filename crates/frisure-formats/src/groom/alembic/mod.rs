@@ -1,7 +1,7 @@
 //! Alembic `.abc` (Ogawa), laid out as Unreal's "Alembic for Grooms Specification" 1.5 asks for.
 //!
 //! No crate writes Alembic, and the library is C++; the container and the few properties of curves are little.
-//! Alembic says nothing about unit and axes: centimetres, y up, unless told otherwise, as programs that write
+//! Alembic says nothing about unit and axes: centimetres, y up, unless the caller says otherwise, as programs that write
 //! for Unreal have it. What is written says so in properties of our own, which the reader believes.
 //!
 //! Sources of the layout: the Alembic library 1.8.12 (<https://github.com/alembic/alembic>), whose files the

@@ -52,7 +52,7 @@ enum Wrap {
     Closed,
 }
 
-/// Points on `BasisCurves` of so many vertices each.
+/// Points on `BasisCurves` with `counts` vertices each.
 pub(super) fn basis_curves(prim: &Prim, counts: &[usize]) -> Result<Taps, String> {
     let word = |name, usual| prim.word(name).unwrap_or(usual);
     let kind = match (word("type", "cubic"), word("basis", "bezier")) {
@@ -190,7 +190,7 @@ fn index(i: usize) -> u32 {
     i as u32
 }
 
-/// Points on `NurbsCurves` of so many vertices each, of order 2 to 4.
+/// Points on `NurbsCurves` with `counts` vertices each, of order 2 to 4.
 pub(super) fn nurbs_curves(prim: &Prim, counts: &[usize]) -> Result<Taps, String> {
     let numbers = |name: &str| prim.value(name).and_then(Value::numbers).unwrap_or_default();
     let (orders, knots) = (numbers("order"), numbers("knots"));

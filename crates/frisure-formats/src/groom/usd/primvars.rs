@@ -7,9 +7,9 @@ use super::super::attributes::{COLOUR, DIRECTOR};
 use super::basis::{Tap, Taps};
 use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
 use frisure_files::frame::Frame;
-use frisure_usd::{self as usd, Data, Kind, Place, Value};
+use frisure_usd::{self as usd, Data, Kind, StagePrim, Value};
 
-/// Attributes that have no name inside, at most: a constant is a small thing in a file, and one value for each strand
+/// Attributes that have no name inside, at most: a constant is small in a file, and one value for each strand
 /// here.
 const MOST_OWN: usize = 32;
 
@@ -51,7 +51,7 @@ pub(super) struct Given {
 
 /// Reads an attribute of curves; none where it is not there or has no value.
 pub(super) fn given(
-    place: &Place,
+    place: &StagePrim,
     name: &str,
     usual: Per,
     taps: &Taps,
@@ -212,7 +212,7 @@ fn floats(data: &Data) -> Option<Vec<f32>> {
 
 /// All attributes of curves that have a name inside.
 pub(super) fn attributes(
-    place: &Place,
+    place: &StagePrim,
     taps: &Taps,
     frame: Frame,
 ) -> Result<Vec<Attribute>, String> {
@@ -275,7 +275,7 @@ fn turn(attribute: &mut Attribute, world: &DMat4, frame: Frame) {
 }
 
 /// Whether each curve is a guide; none where nothing is said.
-pub(super) fn guides(place: &Place, taps: &Taps) -> Result<Option<Vec<bool>>, String> {
+pub(super) fn guides(place: &StagePrim, taps: &Taps) -> Result<Option<Vec<bool>>, String> {
     let Some(given) = given(place, IS_GUIDE, Per::Prim, taps)? else { return Ok(None) };
     if given.per.domain() != Domain::Strand {
         return Ok(None);

@@ -10,7 +10,7 @@ use super::basis::{self, Taps};
 use super::names::PIGMENTS;
 use super::primvars::{self, Per, given, mixed};
 use frisure_files::frame::Frame;
-use frisure_usd::{Place, Stage, Value};
+use frisure_usd::{StagePrim, Stage, Value};
 
 /// Diameter of fibres of a prim without widths, where others have some (m).
 const USUAL_DIAMETER: f64 = 70e-6;
@@ -21,11 +21,11 @@ pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
     let mut found = false;
     let (mut colour, mut coloured) = (None, false);
     for place in &stage.places {
-        let told = |e: String| stage.fault(place, &e);
-        let Some(taps) = taps(place).map_err(told)? else { continue };
+        let described = |e: String| stage.fault(place, &e);
+        let Some(taps) = taps(place).map_err(described)? else { continue };
         found = true;
-        let part = Part::of(place, &taps, frame).map_err(told)?;
-        let (own_hairs, own_guides) = part.divided(place, &taps).map_err(told)?;
+        let part = Part::of(place, &taps, frame).map_err(described)?;
+        let (own_hairs, own_guides) = part.divided(place, &taps).map_err(described)?;
         // That of the first prim with hairs.
         if !coloured && !own_hairs.counts.is_empty() {
             (colour, coloured) = (self::colour(place, &taps, stage), true);
@@ -52,7 +52,7 @@ fn name(stage: &Stage) -> Option<String> {
 }
 
 /// Points on a prim's curves; none of what has no curves.
-fn taps(place: &Place) -> Result<Option<Taps>, String> {
+fn taps(place: &StagePrim) -> Result<Option<Taps>, String> {
     let is_basis = match place.prim.type_name.as_str() {
         "BasisCurves" => true,
         "NurbsCurves" => false,
@@ -95,7 +95,7 @@ struct Part {
 }
 
 impl Part {
-    fn of(place: &Place, taps: &Taps, frame: Frame) -> Result<Self, String> {
+    fn of(place: &StagePrim, taps: &Taps, frame: Frame) -> Result<Self, String> {
         let positions = place.prim.value("points").and_then(Value::to_floats).unwrap_or_default();
         if positions.len() != 3 * taps.vertices {
             return Err("its points have not three coordinates each".into());
@@ -120,7 +120,7 @@ impl Part {
     }
 
     /// Hairs and guides.
-    fn divided(self, place: &Place, taps: &Taps) -> Result<(Self, Self), String> {
+    fn divided(self, place: &StagePrim, taps: &Taps) -> Result<(Self, Self), String> {
         let is_guide = match primvars::guides(place, taps)? {
             Some(all) if all.iter().any(|&g| g != all[0]) => {
                 let no_guide: Vec<bool> = all.iter().map(|g| !g).collect();
@@ -179,7 +179,7 @@ fn placed(mut points: Vec<[f32; 3]>, world: &DMat4) -> Vec<[f32; 3]> {
     points
 }
 
-/// How much larger things become, in the mean of all directions.
+/// How much larger lengths become, in the mean of all directions.
 #[expect(clippy::cast_possible_truncation, reason = "of a thickness")]
 fn scale(world: &DMat4) -> f32 {
     let size = world.determinant().abs().cbrt();
@@ -223,7 +223,7 @@ fn fill(part: &mut Part, frame: Frame) {
 }
 
 /// The colour of a prim's hair: that of its material, or one for all its curves.
-fn colour(place: &Place, taps: &Taps, stage: &Stage) -> Option<HairColour> {
+fn colour(place: &StagePrim, taps: &Taps, stage: &Stage) -> Option<HairColour> {
     let constant = |name: &str| given(place, name, Per::Prim, taps).ok()??.constant();
     let three = |v: Vec<f32>| <[f32; 3]>::try_from(v).ok();
     let shown = || three(constant("primvars:displayColor")?);
@@ -237,7 +237,7 @@ fn colour(place: &Place, taps: &Taps, stage: &Stage) -> Option<HairColour> {
 }
 
 /// The colour of the preview material that a prim has.
-fn diffuse(place: &Place, stage: &Stage) -> Option<Vec<f32>> {
+fn diffuse(place: &StagePrim, stage: &Stage) -> Option<Vec<f32>> {
     let bound = place.prim.relationships.iter().find(|r| r.name == "material:binding")?;
     let path = bound.targets.first()?;
     let mut shaders = stage.prim(path)?.children.iter();
