@@ -35,7 +35,7 @@ pub(crate) fn check() -> Result<(), Failure> {
 ///
 /// Work that does not look at the flag is left behind when the process ends. It must not write
 /// files: those are written by the main thread, which always finishes or cleans up the one it is at. Only what may end
-/// anywhere is written here ([`frisure::formats::kept`]).
+/// anywhere is written here ([`frisure_engine::CheckpointFile`]).
 pub(crate) fn computing<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, Failure> + Send + 'static,
 ) -> Result<T, Failure> {

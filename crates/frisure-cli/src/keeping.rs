@@ -3,9 +3,9 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use frisure::formats::kept::Kept;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{HairModel, Hairstyle, HairstyleSpec, simulation_key};
+use frisure_engine::CheckpointFile;
 
 use crate::console;
 use crate::failure::Failure;
@@ -30,7 +30,7 @@ pub(crate) fn part(spec: &HairstyleSpec, output: &Path) -> Option<PathBuf> {
 /// Refuses to begin where a file of somebody else's would be overwritten.
 pub(crate) fn check(parts: &[PathBuf]) -> Result<(), Failure> {
     for path in parts {
-        let ours = match Kept::is_one(path) {
+        let ours = match CheckpointFile::is_one(path) {
             Ok(ours) => ours,
             Err(error) => error.kind() == ErrorKind::NotFound,
         };
@@ -49,10 +49,10 @@ pub(crate) fn open(
     hairstyle: &Hairstyle,
     head: &Head,
     progress: &Bar,
-) -> Result<Option<Kept>, Failure> {
+) -> Result<Option<CheckpointFile>, Failure> {
     let Some(path) = part.filter(|_| hairstyle.drawn() >= MANY) else { return Ok(None) };
     let Some(key) = simulation_key(hairstyle, head) else { return Ok(None) };
-    let kept = Kept::open(&path, key).map_err(|e| Failure::failed(&e))?;
+    let kept = CheckpointFile::open(&path, key).map_err(|e| Failure::failed(&e))?;
     if kept.found() > 0 {
         let text = format!("hairs that came to rest before are taken from `{}`", path.display());
         progress.aside(|| console::note(&text));
@@ -72,8 +72,8 @@ pub(crate) fn interrupted(failure: Failure, part: Option<&Path>) -> Failure {
 }
 
 /// Takes away what was kept: what it was kept for is written.
-pub(crate) fn done(kept: Option<Kept>) {
-    if let Some(Err(error)) = kept.map(Kept::remove) {
+pub(crate) fn done(kept: Option<CheckpointFile>) {
+    if let Some(Err(error)) = kept.map(CheckpointFile::remove) {
         console::note(&format!("simulated hairs could not be kept for another time: {error}"));
     }
 }

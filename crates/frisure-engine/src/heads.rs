@@ -1,5 +1,6 @@
 //! The heads of scenes, each loaded once.
 
+use crate::inputs::{head_mesh, head_note};
 use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
@@ -71,10 +72,10 @@ impl HeadCache {
 }
 
 fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
-    let Some(mesh) = scene.head_mesh_in(files)? else {
+    let Some(mesh) = head_mesh(scene, files)? else {
         return Ok(LoadedHead { head: MANNEQUIN.clone(), note: None });
     };
-    let note = scene.head_note(&mesh);
+    let note = head_note(scene, &mesh);
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
     let head = Head::from_surface(mesh.surface, scalp);
     let head = head.map_err(|e| scene.fault("head.mesh", e.to_string(), ""))?;

@@ -11,6 +11,7 @@ use frisure::strands::Strands;
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::inputs::scene_groom;
 
 /// The hairstyle before the first step: predicted from `[hair]`, or adopted from the groom of the scene.
 ///
@@ -23,7 +24,7 @@ pub fn initial_hairstyle(
     files: &Files,
     progress: &dyn Progress,
 ) -> Result<(Hairstyle, Option<Adoption>), Error> {
-    let Some(groom) = scene.groom_in(files)? else {
+    let Some(groom) = scene_groom(scene, files)? else {
         let predicted = predict(spec, head, PredictOptions::default(), progress)
             .map_err(|e| Error::of_prediction(&e, scene))?;
         return Ok((predicted, None));

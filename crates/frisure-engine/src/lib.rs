@@ -18,11 +18,13 @@
 mod accumulate;
 mod adoption;
 mod bytes;
+mod checkpoint_file;
 mod error;
 mod groom;
 mod hairstyles;
 mod heads;
 mod initial;
+mod inputs;
 pub mod picture;
 mod preview;
 mod request;
@@ -30,10 +32,12 @@ mod response;
 mod session;
 
 pub use adoption::AdoptionReport;
+pub use checkpoint_file::CheckpointFile;
 pub use error::{Error, catch_panic};
 pub use groom::groom;
 pub use heads::{HeadCache, LoadedHead};
 pub use initial::initial_hairstyle;
+pub use inputs::{environment_map, head_mesh, scene_groom};
 pub use request::{Quality, Request, SceneRef, Viewpoint};
 pub use response::{Diagnostic, GuideData, HeadData, Numbers, Preview, Response, StrandsData};
 pub use session::Session;

@@ -4,7 +4,7 @@ use frisure::look::EnvironmentMap;
 use frisure::render::{Image, PictureSpec};
 use frisure::scene::{Output, Scene};
 
-/// How the picture of a scene is taken, with the scene's environment map ([`Scene::environment_in`]).
+/// How the picture of a scene is taken, with the scene's environment map ([`crate::environment_map`]).
 #[must_use]
 pub fn spec<'a>(scene: &'a Scene, environment: Option<&'a EnvironmentMap>) -> PictureSpec<'a> {
     let Scene { camera, light, look, .. } = scene;

@@ -19,6 +19,7 @@ use crate::adoption::AdoptionReport;
 use crate::error::{Error, catch_panic};
 use crate::hairstyles::{HairstyleCache, Input};
 use crate::heads::{HeadCache, LoadedHead};
+use crate::inputs::environment_map;
 use crate::preview::{self, StrandCache};
 use crate::request::{Quality, Request, SceneRef, Viewpoint};
 use crate::response::Response;
@@ -195,7 +196,7 @@ impl Session {
     ) -> Result<Response, Error> {
         let loaded = self.load(scene, Quality::Exact, progress)?;
         let options = sampling.options(&loaded.scene)?;
-        let environment = loaded.scene.environment_in(&self.files)?;
+        let environment = environment_map(&loaded.scene, &self.files)?;
         let mut strands = Strands::clone(&*self.all_strands(&loaded, progress)?);
         add_sections(&mut strands, &loaded.hairstyle, &loaded.head);
         let bytes = Subject {
@@ -217,7 +218,7 @@ impl Session {
     ) -> Result<Response, Error> {
         check_turntable(size, frames)?;
         let loaded = self.load(scene, Quality::Exact, progress)?;
-        let environment = loaded.scene.environment_in(&self.files)?;
+        let environment = environment_map(&loaded.scene, &self.files)?;
         let strands = self.all_strands(&loaded, progress)?;
         let bytes = Subject {
             scene: &loaded.scene,

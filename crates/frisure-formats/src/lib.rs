@@ -9,7 +9,6 @@
 //! | [`environment`] | environment maps, `.hdr` and `.exr` | |
 //! | [`picture`] | | PNG, OpenEXR |
 //! | [`report`] | | JSON |
-//! | [`kept`] | parts of long work, kept so that it can go on | the same |
 //!
 //! Every file is written beside its destination and renamed over it when it is complete, so that
 //! an interrupted program leaves the old file or the new one and never a half of it
@@ -21,7 +20,6 @@ pub mod contents;
 pub mod environment;
 pub mod groom;
 pub mod head;
-pub mod kept;
 pub mod picture;
 mod ply;
 pub mod report;

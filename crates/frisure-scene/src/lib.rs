@@ -38,7 +38,7 @@ mod template;
 mod words;
 
 pub use error::{Fault, SceneError};
-pub use frisure_formats::head::{HeadFile, ScalpSource};
+pub use frisure_files::head::{HeadFile, ScalpSource};
 use scene::without_mark;
 pub use scene::*;
 pub use schema::schema;

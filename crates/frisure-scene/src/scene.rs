@@ -4,14 +4,12 @@ use std::path::{Path, PathBuf};
 
 use frisure_hairstyle::styling::{Operation, StyleError};
 use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
-use frisure_look::{CameraSpec, EnvironmentMap, LightSpec, LookSpec, ToneCurve};
+use frisure_look::{CameraSpec, LightSpec, LookSpec, ToneCurve};
 use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
 
+use frisure_files as files;
 use frisure_files::frame::FrameChoice;
-use frisure_files::{self as files, Files};
-use frisure_formats::environment;
-use frisure_formats::groom::{self, Groom, GroomError};
-use frisure_formats::head::{self, HeadFile, HeadFileError, HeadMesh};
+use frisure_files::head::HeadFile;
 
 use crate::error::{Fault, SceneError};
 use crate::source::Source;
@@ -152,87 +150,6 @@ impl Scene {
     /// [`SceneError`] for a number out of range.
     pub fn single_hair(&self) -> Result<SingleHair, SceneError> {
         resolve::single_hair(self)
-    }
-
-    /// The head in files that the scene names, or `None` for the built-in mannequin.
-    ///
-    /// # Errors
-    /// [`SceneError`] at the key that names what cannot be used.
-    pub fn head_mesh(&self) -> Result<Option<HeadMesh>, SceneError> {
-        self.head_mesh_in(&Files::default())
-    }
-
-    /// The same, with files from somewhere.
-    ///
-    /// # Errors
-    /// As [`Self::head_mesh`].
-    pub fn head_mesh_in(&self, files: &Files) -> Result<Option<HeadMesh>, SceneError> {
-        let HeadSource::Mesh(file) = &self.head else { return Ok(None) };
-        head::read(file, files).map(Some).map_err(|e| {
-            // A cause, such as what the system said, belongs to the same sentence.
-            let message = match std::error::Error::source(&e) {
-                Some(cause) => format!("{e}: {cause}"),
-                None => e.to_string(),
-            };
-            let hint = match e {
-                HeadFileError::Size { .. } => "`unit` and `up` of `[head]` say what it is in",
-                _ => "",
-            };
-            self.fault(e.key(file), message, hint)
-        })
-    }
-
-    /// The groom that the scene names, if it names one.
-    ///
-    /// # Errors
-    /// [`SceneError`] at the key that names what cannot be used.
-    pub fn groom_in(&self, files: &Files) -> Result<Option<Groom>, SceneError> {
-        let Some(GroomFile { path, frame, .. }) = &self.groom else { return Ok(None) };
-        let wrong = |e: GroomError| {
-            let message = match std::error::Error::source(&e) {
-                Some(cause) => format!("{e}: {cause}"),
-                None => e.to_string(),
-            };
-            let hint = match e {
-                GroomError::Malformed { .. } => "`unit` and `up` of `[groom]` say what it is in",
-                _ => "",
-            };
-            self.fault("groom.file", message, hint)
-        };
-        let format = groom::Format::of(path).map_err(wrong)?;
-        let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
-        let bytes = bytes.map_err(|e| wrong(e.into()))?;
-        let groom = groom::decode(format, &bytes, path, *frame).map_err(wrong)?;
-        if groom.strands().is_empty() {
-            let message = format!("`{}` has no strands", path.display());
-            return Err(self.fault("groom.file", message, ""));
-        }
-        Ok(Some(groom))
-    }
-
-    /// The environment map that the scene names, if it names one.
-    ///
-    /// # Errors
-    /// [`SceneError`] at the key that names what cannot be used.
-    pub fn environment_in(&self, files: &Files) -> Result<Option<EnvironmentMap>, SceneError> {
-        let Some(path) = &self.environment else { return Ok(None) };
-        let read = environment::read(path, files).map_err(|e| {
-            let message = match std::error::Error::source(&e) {
-                Some(cause) => format!("{e}: {cause}"),
-                None => e.to_string(),
-            };
-            self.fault("light.environment", message, e.hint())
-        })?;
-        let map = EnvironmentMap::new(read.width, read.height, read.pixels);
-        map.map(Some).map_err(|e| self.fault("light.environment", e.to_string(), ""))
-    }
-
-    /// What had to be guessed of the head's mesh, for people.
-    #[must_use]
-    pub fn head_note(&self, mesh: &HeadMesh) -> Option<String> {
-        let HeadSource::Mesh(file) = &self.head else { return None };
-        let (path, unit) = (file.path.display(), mesh.guessed_unit?);
-        Some(format!("{path} says no unit and is taken to be in {unit}: `head.unit` says another"))
     }
 
     /// An error found later in what `key` says, such as a mesh at `head.mesh` that is no head;

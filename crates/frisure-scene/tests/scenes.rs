@@ -442,16 +442,4 @@ fn lights_are_understood_or_refused_at_their_key() {
         let error = read(text).unwrap_err().to_string();
         assert!(error.contains(part), "{text}: {error}");
     }
-    let none = read("environment = 'nowhere.hdr'")
-        .unwrap()
-        .environment_in(&Files::default())
-        .unwrap_err()
-        .to_string();
-    assert!(none.contains("there is no file") && none.contains("a:2:15"), "{none}");
-    let screen = read("environment = 'a.png'")
-        .unwrap()
-        .environment_in(&Files::default())
-        .unwrap_err()
-        .to_string();
-    assert!(screen.contains("`.hdr` and `.exr`") && screen.contains("cuts off"), "{screen}");
 }

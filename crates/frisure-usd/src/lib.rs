@@ -21,7 +21,7 @@ mod value;
 
 pub use layer::{Attribute, Layer, Prim, Relationship, Specifier};
 pub use mesh::Mesh;
-pub use stage::{StagePrim, Stage};
+pub use stage::{Stage, StagePrim};
 pub use value::{Base, Data, Kind, Shape, Value};
 
 /// Whether a file begins as one of the three kinds does.

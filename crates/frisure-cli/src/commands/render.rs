@@ -18,7 +18,7 @@ use crate::exposing::{self, Shot};
 use crate::failure::{Done, Failure};
 use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
-use frisure_engine::picture;
+use frisure_engine::{environment_map, picture};
 
 /// Predicts the scene, or reads the groom, and follows the light in it.
 pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
@@ -104,7 +104,7 @@ fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Resul
     );
     outputs::prepare(&names, &inputs)?;
     exposing::check_parts(&parts)?;
-    let environment = scene.environment_in(&Files::default())?;
+    let environment = environment_map(&scene, &Files::default())?;
 
     let denoiser = exposing::denoiser(arguments.tracing.denoise)?;
     let progress = Bar::new(quiet);

@@ -15,6 +15,7 @@ mod usd;
 use std::path::{Component, Path};
 
 use frisure_files::frame::{Frame, FrameChoice};
+pub use frisure_files::head::{HeadFile, ScalpSource};
 use frisure_files::{Files, to_text};
 use frisure_strands::Surface;
 use glam::DVec3;
@@ -23,7 +24,7 @@ use format::{MeshFormat, Problem};
 pub use mesh::Group;
 use mesh::Mesh;
 use source::not_a_mesh;
-pub use source::{HeadFile, HeadFileError, MAX_SIZE, ScalpSource};
+pub use source::{HeadFileError, MAX_SIZE};
 
 /// The formats of heads; a new format is its own file, and its line here.
 ///

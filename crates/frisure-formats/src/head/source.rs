@@ -3,38 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use frisure_files::ReadError;
-use frisure_files::frame::FrameChoice;
 use frisure_strands::SurfaceError;
 use thiserror::Error;
 
 /// Largest mesh, mask or list of weights that is read (bytes).
 pub const MAX_SIZE: u64 = 1 << 30;
-
-/// A head in files.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HeadFile {
-    /// The mesh: OBJ, USD, glTF or PLY.
-    pub path: PathBuf,
-    /// Unit and axes, where the scene says them.
-    pub frame: FrameChoice,
-    /// Where hair grows.
-    pub scalp: ScalpSource,
-}
-
-/// Where on a mesh hair grows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ScalpSource {
-    /// To be guessed from the shape.
-    Guess,
-    /// On a group of faces, by name.
-    Group(String),
-    /// By what is painted on the vertices: `red`, `green`, `blue`, `alpha`, `brightness`, or another name that the file has.
-    Colour(String),
-    /// Where a PNG over the texture coordinates is white.
-    Mask(PathBuf),
-    /// As a text file says, a number per vertex.
-    Weights(PathBuf),
-}
 
 /// Why a head cannot be used.
 #[derive(Debug, Error)]
@@ -111,29 +84,6 @@ pub enum HeadFileError {
         /// What was requested.
         what: String,
     },
-}
-
-impl HeadFileError {
-    /// The key of a scene that has to change.
-    #[must_use]
-    pub fn key(&self, head: &HeadFile) -> &'static str {
-        let path = match self {
-            Self::NoGroup { .. } => return "head.scalp_group",
-            Self::NoChannel { .. } => return "head.scalp_colour",
-            Self::Size { .. } | Self::Surface { .. } => return "head.mesh",
-            Self::NoScalp { .. } => None,
-            Self::Line { path, .. } | Self::Format { path, .. } => Some(path),
-            Self::Read(error) => Some(error.path()),
-        };
-        match &head.scalp {
-            _ if path == Some(&head.path) => "head.mesh",
-            ScalpSource::Guess => "head.mesh",
-            ScalpSource::Group(_) => "head.scalp_group",
-            ScalpSource::Colour(_) => "head.scalp_colour",
-            ScalpSource::Mask(_) => "head.scalp_mask",
-            ScalpSource::Weights(_) => "head.scalp_weights",
-        }
-    }
 }
 
 fn list(groups: &[String]) -> String {

@@ -4,7 +4,7 @@ use super::format::MeshFormat;
 use super::mesh::Mesh;
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::FrameChoice;
-use frisure_usd::{self as usd, StagePrim, Prim, Stage, Value};
+use frisure_usd::{self as usd, Prim, Stage, StagePrim, Value};
 
 /// What the format declares.
 pub(super) static FORMAT: MeshFormat = MeshFormat {

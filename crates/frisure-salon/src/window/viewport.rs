@@ -12,7 +12,7 @@ use frisure::files::Files;
 use frisure::look::{Camera, EnvironmentMap, Lights, Look};
 use frisure::scene::Scene;
 use frisure_engine::GuideData;
-use frisure_engine::picture;
+use frisure_engine::{environment_map, picture};
 use frisure_view::{Line, Mark, Plane, Shadows};
 use glam::{DVec3, Vec3};
 
@@ -317,7 +317,7 @@ impl Viewport {
         if self.surroundings.as_ref().is_some_and(|(path, _)| path == named) {
             return;
         }
-        let map = scene.environment_in(&Files::default()).unwrap_or_else(|error| {
+        let map = environment_map(scene, &Files::default()).unwrap_or_else(|error| {
             self.complain(error.to_string());
             None
         });

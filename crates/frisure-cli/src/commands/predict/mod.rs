@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 use frisure::files::Files;
 use frisure::formats::groom::Groom;
-use frisure::formats::kept::Kept;
 use frisure::formats::{picture, report};
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
@@ -23,8 +22,11 @@ use frisure::render::trace::Tracer;
 use frisure::render::{self, Image};
 use frisure::scene::{self, HeadSource, Scene};
 use frisure::strands::Strands;
+use frisure_engine::CheckpointFile;
 use frisure_engine::picture as seen;
-use frisure_engine::{AdoptionReport, HeadCache, LoadedHead, groom, initial_hairstyle};
+use frisure_engine::{
+    AdoptionReport, HeadCache, LoadedHead, environment_map, groom, initial_hairstyle,
+};
 
 use super::read_scene;
 use crate::args::{Predict, Quality};
@@ -63,7 +65,7 @@ pub(crate) fn run_scene(
     check_outputs(&arguments, &scene, &spec, turntable)?;
 
     let environment = match arguments.image {
-        Some(_) => scene.environment_in(&Files::default())?,
+        Some(_) => environment_map(&scene, &Files::default())?,
         None => None,
     };
     let progress = Bar::new(quiet);
@@ -217,7 +219,7 @@ struct Drawn {
     /// Of the last.
     numbers: Option<Numbers>,
     /// Its hairs so far, until it is written.
-    kept: Option<Kept>,
+    kept: Option<CheckpointFile>,
 }
 
 /// A picture, or what it is made with.

@@ -10,7 +10,7 @@ use super::basis::{self, Taps};
 use super::names::PIGMENTS;
 use super::primvars::{self, Per, given, mixed};
 use frisure_files::frame::Frame;
-use frisure_usd::{StagePrim, Stage, Value};
+use frisure_usd::{Stage, StagePrim, Value};
 
 /// Diameter of fibres of a prim without widths, where others have some (m).
 const USUAL_DIAMETER: f64 = 70e-6;

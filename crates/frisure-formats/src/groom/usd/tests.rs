@@ -119,7 +119,7 @@ fn other_units_and_axes_come_back_as_they_were() {
         let d1 = |groom: &Groom| groom.hairs.attribute(attributes::DIRECTOR).cloned();
         assert_eq!(d1(&read), d1(&whole()));
         let described = FrameChoice { metres: Some(0.1), up: None };
-        let larger = decode(&bytes(&strands(1, 5).into_groom(), frame, binary), told).unwrap();
+        let larger = decode(&bytes(&strands(1, 5).into_groom(), frame, binary), described).unwrap();
         assert!((larger.hairs.points()[0].z - 15.0).abs() < 1e-4);
     }
 }

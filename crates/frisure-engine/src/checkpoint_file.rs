@@ -1,4 +1,4 @@
-//! Parts of long work in a file that grows, so that work that was cut off can go on.
+//! A checkpoint file: parts of long work in a file that grows, so that interrupted work goes on.
 //!
 //! `FRISKEPT`, the key of the work (u64), then records: the number of a part and its length (u32 each), its digest
 //! (16 bytes), and its bytes; all little-endian, in the order in which parts were done. Where a record is broken, as
@@ -9,10 +9,9 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use frisure_hairstyle::Checkpoint;
-
+use frisure::files::{ReadError, read_bytes};
+use frisure::hairstyle::Checkpoint;
 use frisure_digest::checksum;
-use frisure_files::{ReadError, read_bytes};
 
 /// What such a file begins with.
 const MARK: &[u8; 8] = b"FRISKEPT";
@@ -24,9 +23,9 @@ const RECORD: usize = 24;
 /// Largest file that is read (bytes).
 const LARGEST: u64 = 64 << 30;
 
-/// Parts of one work.
+/// The parts of one work that are done, in a file.
 #[derive(Debug)]
-pub struct Kept {
+pub struct CheckpointFile {
     path: PathBuf,
     bytes: Vec<u8>,
     /// Where in the bytes each part is that there was.
@@ -35,13 +34,13 @@ pub struct Kept {
     file: Mutex<Result<File, io::Error>>,
 }
 
-impl Kept {
+impl CheckpointFile {
     /// Opens the file of the work with a key, or begins it. What is there of another work is given up.
     ///
     /// # Errors
     /// [`ReadError`], if there is a file that cannot be read.
     pub fn open(path: &Path, key: u64) -> Result<Self, ReadError> {
-        let mut bytes = match read_bytes(path, LARGEST, "hairs that were kept") {
+        let mut bytes = match read_bytes(path, LARGEST, "a checkpoint of simulated hairs") {
             Err(ReadError::Missing { .. }) => Vec::new(),
             found => found?,
         };
@@ -81,7 +80,7 @@ impl Kept {
     }
 }
 
-impl Checkpoint for Kept {
+impl Checkpoint for CheckpointFile {
     fn find(&self, part: usize) -> Option<&[u8]> {
         let (from, to) = (*self.found.get(part)?)?;
         self.bytes.get(from..to)
@@ -151,13 +150,13 @@ mod tests {
     fn what_is_whole_is_found_again() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("curls.hair.hairs.part");
-        let kept = Kept::open(&path, 7).unwrap();
-        assert_eq!(kept.found(), 0);
-        kept.save(3, b"three");
-        kept.save(0, b"");
-        drop(kept);
+        let checkpoint = CheckpointFile::open(&path, 7).unwrap();
+        assert_eq!(checkpoint.found(), 0);
+        checkpoint.save(3, b"three");
+        checkpoint.save(0, b"");
+        drop(checkpoint);
         let whole = std::fs::read(&path).unwrap();
-        assert!(Kept::is_one(&path).unwrap());
+        assert!(CheckpointFile::is_one(&path).unwrap());
         // A part that a crash left unfinished, and one that a disk changed.
         for spoilt in [[&whole[..], b"\x01\0\0\0\x09\0\0\0rest"].concat(), {
             let mut more = whole.clone();
@@ -166,21 +165,27 @@ mod tests {
             more
         }] {
             std::fs::write(&path, &spoilt).unwrap();
-            let kept = Kept::open(&path, 7).unwrap();
-            assert_eq!((kept.find(3), kept.find(0)), (Some(&b"three"[..]), Some(&b""[..])));
-            assert_eq!((kept.find(1), kept.find(9), kept.found()), (None, None, 2));
-            drop(kept);
+            let checkpoint = CheckpointFile::open(&path, 7).unwrap();
+            assert_eq!(
+                (checkpoint.find(3), checkpoint.find(0)),
+                (Some(&b"three"[..]), Some(&b""[..]))
+            );
+            assert_eq!(
+                (checkpoint.find(1), checkpoint.find(9), checkpoint.found()),
+                (None, None, 2)
+            );
+            drop(checkpoint);
             assert_eq!(std::fs::read(&path).unwrap(), whole);
         }
         for left in [0, 5, HEADER - 1] {
             std::fs::write(&path, &whole[..left]).unwrap();
-            assert!(Kept::is_one(&path).unwrap());
-            assert_eq!(Kept::open(&path, 7).unwrap().found(), 0);
+            assert!(CheckpointFile::is_one(&path).unwrap());
+            assert_eq!(CheckpointFile::open(&path, 7).unwrap().found(), 0);
         }
         std::fs::write(&path, b"letters").unwrap();
-        assert!(!Kept::is_one(&path).unwrap());
+        assert!(!CheckpointFile::is_one(&path).unwrap());
         // Another work begins anew.
-        let other = Kept::open(&path, 8).unwrap();
+        let other = CheckpointFile::open(&path, 8).unwrap();
         assert_eq!(other.found(), 0);
         other.remove().unwrap();
         assert!(!path.exists());

@@ -1,0 +1,115 @@
+//! The files that a scene names, read: head, groom and environment map.
+
+use std::error::Error;
+use std::path::PathBuf;
+
+use frisure::files::Files;
+use frisure::formats::environment;
+use frisure::formats::groom::{self, Format, Groom, GroomError};
+use frisure::formats::head::{self, HeadFile, HeadFileError, HeadMesh, ScalpSource};
+use frisure::look::EnvironmentMap;
+use frisure::scene::{GroomFile, HeadSource, Scene, SceneError};
+
+/// The mesh of the scene's head, or `None` for the built-in mannequin.
+///
+/// # Errors
+/// [`SceneError`] at the key that names what cannot be used.
+pub fn head_mesh(scene: &Scene, files: &Files) -> Result<Option<HeadMesh>, SceneError> {
+    let HeadSource::Mesh(file) = &scene.head else { return Ok(None) };
+    head::read(file, files).map(Some).map_err(|e| {
+        let hint = match e {
+            HeadFileError::Size { .. } => "`unit` and `up` of `[head]` say what it is in",
+            _ => "",
+        };
+        scene.fault(key(&e, file), with_cause(&e), hint)
+    })
+}
+
+/// What the reader guessed about the head's mesh, for people.
+pub(crate) fn head_note(scene: &Scene, mesh: &HeadMesh) -> Option<String> {
+    let HeadSource::Mesh(file) = &scene.head else { return None };
+    let (path, unit) = (file.path.display(), mesh.guessed_unit?);
+    Some(format!("{path} says no unit and is taken to be in {unit}: `head.unit` says another"))
+}
+
+/// The groom that the scene names, if it names one.
+///
+/// # Errors
+/// [`SceneError`] at the key that names what cannot be used.
+pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneError> {
+    let Some(GroomFile { path, frame, .. }) = &scene.groom else { return Ok(None) };
+    let wrong = |e: GroomError| {
+        let hint = match e {
+            GroomError::Malformed { .. } => "`unit` and `up` of `[groom]` say what it is in",
+            _ => "",
+        };
+        scene.fault("groom.file", with_cause(&e), hint)
+    };
+    let format = Format::of(path).map_err(wrong)?;
+    let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
+    let bytes = bytes.map_err(|e| wrong(e.into()))?;
+    let groom = groom::decode(format, &bytes, path, *frame).map_err(wrong)?;
+    if groom.strands().is_empty() {
+        let message = format!("`{}` has no strands", path.display());
+        return Err(scene.fault("groom.file", message, ""));
+    }
+    Ok(Some(groom))
+}
+
+/// The environment map that the scene names, if it names one.
+///
+/// # Errors
+/// [`SceneError`] at the key that names what cannot be used.
+pub fn environment_map(scene: &Scene, files: &Files) -> Result<Option<EnvironmentMap>, SceneError> {
+    let Some(path) = &scene.environment else { return Ok(None) };
+    let wrong = |message, hint| scene.fault("light.environment", message, hint);
+    let read = environment::read(path, files).map_err(|e| wrong(with_cause(&e), e.hint()))?;
+    let map = EnvironmentMap::new(read.width, read.height, read.pixels);
+    map.map(Some).map_err(|e| wrong(e.to_string(), ""))
+}
+
+/// A message with its cause, such as what the system said, in one sentence.
+fn with_cause(error: &dyn Error) -> String {
+    match error.source() {
+        Some(cause) => format!("{error}: {cause}"),
+        None => error.to_string(),
+    }
+}
+
+/// The key of a scene that has to change.
+fn key(error: &HeadFileError, head: &HeadFile) -> &'static str {
+    let path: Option<&PathBuf> = match error {
+        HeadFileError::NoGroup { .. } => return "head.scalp_group",
+        HeadFileError::NoChannel { .. } => return "head.scalp_colour",
+        HeadFileError::Size { .. } | HeadFileError::Surface { .. } => return "head.mesh",
+        HeadFileError::NoScalp { .. } => None,
+        HeadFileError::Line { path, .. } | HeadFileError::Format { path, .. } => Some(path),
+        HeadFileError::Read(error) => Some(error.path()),
+    };
+    match &head.scalp {
+        _ if path == Some(&head.path) => "head.mesh",
+        ScalpSource::Guess => "head.mesh",
+        ScalpSource::Group(_) => "head.scalp_group",
+        ScalpSource::Colour(_) => "head.scalp_colour",
+        ScalpSource::Mask(_) => "head.scalp_mask",
+        ScalpSource::Weights(_) => "head.scalp_weights",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn environment_errors_name_the_key_and_the_reason() {
+        let read = |line: &str| {
+            let text = format!("[light]\n{line}\n");
+            let scene = Scene::parse("a", text, "".as_ref()).unwrap();
+            environment_map(&scene, &Files::default()).unwrap_err().to_string()
+        };
+        let none = read("environment = 'nowhere.hdr'");
+        assert!(none.contains("there is no file") && none.contains("a:2:15"), "{none}");
+        let screen = read("environment = 'a.png'");
+        assert!(screen.contains("`.hdr` and `.exr`") && screen.contains("cuts off"), "{screen}");
+    }
+}
