@@ -100,46 +100,55 @@ pub enum WriteError {
     },
 }
 
-/// Where files are read from: those that were handed over as bytes, as to a page in a browser, before
-/// those of the system. By default only the latter.
+/// A source of files: bytes that the caller provides, as a page in a browser does, before files of the
+/// system. The default has only the latter.
+///
+/// ```
+/// use frisure_files::Files;
+///
+/// let mut files = Files::default();
+/// files.provide("head.obj", *b"v 0 0 0");
+/// assert_eq!(files.read_bytes("head.obj".as_ref(), 1 << 20, "a mesh")?, b"v 0 0 0");
+/// # Ok::<(), frisure_files::ReadError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Files {
     provided: BTreeMap<PathBuf, Provided>,
-    /// How many were handed over so far.
+    /// How many were provided so far.
     count: u64,
 }
 
-/// A file that was handed over.
+/// A file that the caller provided.
 #[derive(Clone, Debug)]
 struct Provided {
     bytes: Arc<[u8]>,
-    /// As the how manyth.
+    /// Its ordinal number among the files provided.
     number: u64,
 }
 
-/// Tells one state of a file from another.
+/// Identifies one state of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
     /// Its size (bytes).
     size: u64,
-    /// When it was written, or as the how manyth it was handed over.
+    /// When it was written, or the ordinal number of a file provided.
     mark: u128,
 }
 
 impl Files {
-    /// Hands over a file; one of the same path is replaced.
+    /// Provides a file, in place of one with the same path.
     pub fn provide(&mut self, path: impl Into<PathBuf>, bytes: impl Into<Arc<[u8]>>) {
         self.count += 1;
         let provided = Provided { bytes: bytes.into(), number: self.count };
         self.provided.insert(path.into(), provided);
     }
 
-    /// Forgets a file that was handed over.
+    /// Removes a file that was provided.
     pub fn forget(&mut self, path: &Path) {
         self.provided.remove(path);
     }
 
-    /// A file that was handed over: by its path, or else the only one of its name, since what is dropped
+    /// A file that was provided: by its path, or else the only one of its name, since what is dropped
     /// on a page has no folder.
     fn provided(&self, path: &Path) -> Option<&Provided> {
         let named = || {
@@ -150,7 +159,7 @@ impl Files {
         self.provided.get(path).or_else(named)
     }
 
-    /// What tells this state of a file from another; none if it is not there.
+    /// The stamp of this state of a file; none if it is not there.
     #[must_use]
     pub fn stamp(&self, path: &Path) -> Option<Stamp> {
         if let Some(Provided { bytes, number }) = self.provided(path) {

@@ -6,6 +6,20 @@ use super::value::{Base, Kind, Value};
 const MOST_PROPERTIES: usize = 10_000;
 
 /// What one file holds.
+///
+/// ```
+/// use frisure_usd::{Layer, Prim, Value, read, write_text};
+///
+/// let mut prim = Prim::new("Mesh", "head");
+/// prim.varying("float", "width", Value::float(0.5));
+/// let layer = Layer { prims: vec![prim], ..Layer::default() };
+/// let mut text = Vec::new();
+/// write_text(&mut text, &layer)?;
+/// assert!(text.starts_with(b"#usda 1.0"));
+/// let same = read(&text)?;
+/// assert_eq!(same.prims[0].value("width").and_then(Value::number), Some(0.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layer {
     /// Of those that [`metadata_kind`] knows.

@@ -4,6 +4,21 @@ use frisure_look::Melanin;
 use frisure_strands::{Strands, Surface};
 
 /// The hair of a file, in metres, z up. Not every format holds all of it: see [`super::Format`].
+///
+/// ```
+/// use frisure_files::frame::FrameChoice;
+/// use frisure_formats::groom::{Format, Groom, decode, encode};
+/// use frisure_strands::Strands;
+/// use glam::Vec3;
+///
+/// let mut hairs = Strands::new();
+/// hairs.push(&[Vec3::ZERO, Vec3::new(0.0, 0.0, -0.1)], &[35e-6; 2]);
+/// let format = Format::named("hair").unwrap();
+/// let bytes = encode(format, &Groom::of(hairs), FrameChoice::default())?;
+/// let read = decode(format, &bytes, "curls.hair".as_ref(), FrameChoice::default())?;
+/// assert_eq!(read.hairs.len(), 1);
+/// # Ok::<(), frisure_formats::groom::GroomError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Groom {
     /// What it is called; may be empty.

@@ -31,6 +31,15 @@ pub(super) struct Declaration {
 }
 
 /// A groom format, one of [`Format::ALL`].
+///
+/// ```
+/// use frisure_formats::groom::Format;
+///
+/// let format = Format::of("curls.npz".as_ref())?;
+/// assert_eq!(format.extensions(), ["npz"]);
+/// assert!(format.is_read() && format.tells_guides());
+/// # Ok::<(), frisure_formats::groom::GroomError>(())
+/// ```
 #[derive(Clone, Copy)]
 pub struct Format(pub(super) &'static Declaration);
 

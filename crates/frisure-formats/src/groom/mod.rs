@@ -2,9 +2,7 @@
 //!
 //! One module per format, which declares everything that the program knows of it: to add one, write its file and
 //! name it in [`Format::ALL`]; help, error messages and lists derive from the declaration.
-//!
-//! One module per format; [`Format`] says what each can hold, and `docs/formats.md` describes every byte that
-//! matters. What is read has been checked: counts, sizes, widths, points that are nowhere.
+//! [`Format`] says what each can hold, and `docs/formats.md` describes every byte that matters. What is read has been checked: counts, sizes, widths, points that are nowhere.
 
 #[cfg(feature = "alembic")]
 mod alembic;
