@@ -5,7 +5,6 @@ mod common;
 use std::path::Path;
 
 use common::{fault, good};
-use frisure_files::Files;
 use frisure_files::frame::{FrameChoice, UpAxis};
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
 use frisure_look::{
