@@ -264,7 +264,8 @@ fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a
                 hashes.extend(values.digest);
                 // The number of texts is not the number of bytes.
                 let is_text = values.pod == Pod::Text;
-                let size = if is_text { (values.count as u64).to_le_bytes().to_vec() } else { vec![] };
+                let size =
+                    if is_text { (values.count as u64).to_le_bytes().to_vec() } else { vec![] };
                 Node::Group(vec![values.sample(), Node::bytes(size)])
             }
         });
