@@ -28,8 +28,8 @@ pub(super) fn hint(key: &str, written: &str) -> Option<String> {
 /// What the schema says about a key that takes a quantity.
 pub(super) struct Quantity {
     pub(super) dimension: &'static Dimension,
-    least: Option<f64>,
-    most: Option<f64>,
+    pub(super) least: Option<f64>,
+    pub(super) most: Option<f64>,
 }
 
 pub(super) fn quantity(root: &'static Value, path: &str) -> Option<Quantity> {

@@ -1,8 +1,9 @@
 //! The keys of a scene, as they stand in the file.
 //!
 //! The comments here are the reference: they become the descriptions in the JSON Schema and in
-//! `docs/scene.md`. Ranges are those of [`frisure_hairstyle::HairstyleSpec::check`]; a test
-//! compares the two. What a table is about stands at the field that holds it.
+//! `docs/scene.md`. The range of a number that a hairstyle checks stands with its description
+//! ([`frisure_hairstyle::RANGES`]) and takes the place of `{}` in the comment; every other
+//! range stands here, and is checked from here. What a table is about stands at the field that holds it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -32,8 +33,7 @@ pub(super) struct File {
     pub(super) name: Key<Text>,
     /// Drives all randomness: the same scene and seed give the same bytes. Default 1.
     pub(super) seed: Key<Count>,
-    /// Acceleration of gravity, along -z; 0 to 1000 m/s^2. Default 9.81 m/s^2.
-    #[schemars(range(min = 0.0, max = 1000.0))]
+    /// Acceleration of gravity, along -z; {}. Default 9.81 m/s^2.
     pub(super) gravity: Key<Acceleration>,
     /// What the hair is: a type, and what differs from it.
     pub(super) hair: Hair,
@@ -74,17 +74,14 @@ pub(super) struct Hair {
     /// The hair type to start from; every other key overrides it. Default "caucasian-straight".
     #[serde(rename = "type")]
     pub(super) kind: Key<OneOf<HairType>>,
-    /// Mean length along the fibre; 1 mm to 3 m on a head.
-    #[schemars(range(min = 0.001, max = 3.0))]
+    /// Mean length along the fibre; {} on a head.
     pub(super) length: Key<Length>,
-    /// Standard deviation of the length between wisps, as a fraction; 0 to 0.5.
-    #[schemars(range(min = 0.0, max = 0.5))]
+    /// Standard deviation of the length between wisps, as a fraction; {}.
     pub(super) length_variation: Key<Ratio>,
     /// Which shape of the type's section is taken, where `[hair.fibre]` gives none. Default
     /// "measured".
     pub(super) ellipticity: Key<OneOf<Which<frisure_hairstyle::Ellipticity>>>,
-    /// How fast it grows; 0 to 26 cm a month. Default the type's.
-    #[schemars(range(min = 0.0, max = 1e-7))]
+    /// How fast it grows; {}. Default the type's.
     pub(super) growth_rate: Key<Speed>,
     /// What water makes of a fibre. Default "paper".
     pub(super) wetting: Key<OneOf<Which<WettingWord>>>,
@@ -135,12 +132,10 @@ pub(super) struct Fibre {
     /// Density; more than 0. Default 1.3 g/cm^3.
     #[schemars(range(min = 0.0))]
     pub(super) density: Key<Density>,
-    /// Standard deviation of the diameter between guides, as a fraction of the mean; 0 to 0.5.
-    #[schemars(range(min = 0.0, max = 0.5))]
+    /// Standard deviation of the diameter between guides, as a fraction of the mean; {}.
     pub(super) variation: Key<Ratio>,
     /// Standard deviation between guides of what the axis ratio exceeds 1 by, as a fraction of the
-    /// mean; 0 to 1. A circle stays one.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    /// mean; {}. A circle stays one.
     pub(super) axis_ratio_variation: Key<Ratio>,
     /// Which torsion constant the section is given. Default "saint-venant".
     pub(super) torsion: Key<OneOf<Which<frisure_rod::TorsionConstant>>>,
@@ -166,14 +161,11 @@ pub(super) struct Curl {
     pub(super) along: Vec<Knot>,
     /// Which way curls turn on a head. Default "random".
     pub(super) handedness: Key<OneOf<Handed>>,
-    /// Standard deviation of the strain between wisps, as a fraction; 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    /// Standard deviation of the strain between wisps, as a fraction; {}.
     pub(super) variation_between: Key<Ratio>,
-    /// Standard deviation of the strain along a hair, as a fraction; 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    /// Standard deviation of the strain along a hair, as a fraction; {}.
     pub(super) variation_along: Key<Ratio>,
     /// Correlation length of the variation along a hair; 1 mm to 1 m.
-    #[schemars(range(min = 0.001, max = 1.0))]
     pub(super) variation_scale: Key<Length>,
 }
 
@@ -257,25 +249,20 @@ pub(super) struct Implantation {
     pub(super) partings: Vec<Parting>,
     /// Whorls at the crown about which hair turns as it grows: 1, or 2 as about 5 % of people have
     /// them. Default 1.
-    #[schemars(range(min = 1, max = 2))]
     pub(super) whorls: Key<Count>,
     /// Distance of the whorl from its usual place, to the head's left and back; within 5 cm.
     pub(super) whorl_offset: Key<Pair>,
     /// Which way hair turns about the whorl, seen from outside; of two, the right one. Default
     /// "clockwise", as in most people.
     pub(super) whorl_turn: Key<OneOf<Which<frisure_hairstyle::Turn>>>,
-    /// Angle to the skin, the same everywhere; 0 to 90 deg.
-    #[schemars(range(min = 0.0, max = FRAC_PI_2))]
+    /// Angle to the skin, the same everywhere; {}.
     pub(super) lift: Key<Angle>,
-    /// Instead of `lift`: factor on the angles measured by region; 0 to 6.
-    #[schemars(range(min = 0.0, max = 6.0))]
+    /// Instead of `lift`: factor on the angles measured by region; {}.
     pub(super) lift_scale: Key<Ratio>,
     /// Standard deviation of the direction between wisps; 0 to 1 rad.
-    #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) jitter: Key<Angle>,
-    /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin; 0 to 1. Default
+    /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin; {}. Default
     /// 0.15.
-    #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) baby_hairs: Key<Ratio>,
     /// The edge of the hair, against the usual line. A scalp that comes with a mesh keeps its own.
     pub(super) hairline: Hairline,
@@ -296,17 +283,13 @@ pub(super) struct Parting {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Hairline {
-    /// Standard deviation from a smooth line; 0 to 1 cm. Default 1.5 mm.
-    #[schemars(range(min = 0.0, max = 0.01))]
+    /// Standard deviation from a smooth line; {}. Default 1.5 mm.
     pub(super) irregularity: Key<Length>,
-    /// How much higher it is over the forehead; -3 to 5 cm. Default 0.
-    #[schemars(range(min = -0.03, max = 0.05))]
+    /// How much higher it is over the forehead; {}. Default 0.
     pub(super) height: Key<Length>,
-    /// How far it recedes at the temples; 0 to 4 cm. Default 3 mm.
-    #[schemars(range(min = 0.0, max = 0.04))]
+    /// How far it recedes at the temples; {}. Default 3 mm.
     pub(super) recession: Key<Length>,
-    /// How far it comes forward to a point in the middle; 0 to 3 cm. Default 0.
-    #[schemars(range(min = 0.0, max = 0.03))]
+    /// How far it comes forward to a point in the middle; {}. Default 0.
     pub(super) widows_peak: Key<Length>,
 }
 
@@ -317,18 +300,15 @@ pub(super) struct Region {
     /// Which part of the scalp, or a list of parts.
     #[serde(rename = "where")]
     pub(super) place: Key<Places>,
-    /// Length along the fibre; 1 mm to 3 m. It changes at once at the region's border, as cut.
-    #[schemars(range(min = 0.001, max = 3.0))]
+    /// Length along the fibre; {}. It changes at once at the region's border, as cut.
     pub(super) length: Key<Length>,
     /// Instead of `length`: as long as it takes to reach down to here, cut to a line.
     pub(super) down_to: Key<OneOf<Which<frisure_hairstyle::Level>>>,
     /// Direction along the skin.
     pub(super) comb: Key<OneOf<Which<frisure_hairstyle::Comb>>>,
-    /// Angle to the skin; 0 to 90 deg.
-    #[schemars(range(min = 0.0, max = FRAC_PI_2))]
+    /// Angle to the skin; {}.
     pub(super) lift: Key<Angle>,
-    /// Factor on the natural curl; 0 to 10.
-    #[schemars(range(min = 0.0, max = 10.0))]
+    /// Factor on the natural curl; {}.
     pub(super) curl: Key<Ratio>,
 }
 
@@ -336,43 +316,32 @@ pub(super) struct Region {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Wisps {
-    /// Number of wisps, each with one computed guide; 1 to 20000.
-    #[schemars(range(min = 1, max = 20_000))]
+    /// Number of wisps, each with one computed guide; {}.
     pub(super) count: Key<Count>,
-    /// Drawn hairs per area of scalp, instead of `hairs`; 1 to 1000 1/cm^2. Default that of the hair
+    /// Drawn hairs per area of scalp, instead of `hairs`; {}. Default that of the hair
     /// type.
-    #[schemars(range(min = 1e4, max = 1e7))]
     pub(super) density: Key<NumberDensity>,
-    /// Number of drawn hairs on the whole head; 1 to 1000000. Default by `density`.
-    #[schemars(range(min = 1, max = 1_000_000))]
+    /// Number of drawn hairs on the whole head; {}. Default by `density`.
     pub(super) hairs: Key<Count>,
-    /// Mean number of drawn hairs around each guide, instead of `hairs`; 1 to 100000.
-    #[schemars(range(min = 1, max = 100_000))]
+    /// Mean number of drawn hairs around each guide, instead of `hairs`; {}.
     pub(super) hairs_per_wisp: Key<Count>,
     /// How much a wisp gathers to its tip: 0 (as wide as at the scalp) to 1 (as thick as its hairs
     /// need).
-    #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) clumping: Key<Ratio>,
     /// Further factors on the width of a wisp at root, middle and tip; each 0 to 10. Default
     /// [1, 1, 1].
     pub(super) profile: Key<Vector>,
-    /// Number of thinner wisps that each wisp splits into; 1 to 100.
-    #[schemars(range(min = 1, max = 100))]
+    /// Number of thinner wisps that each wisp splits into; {}.
     pub(super) splits: Key<Count>,
-    /// How far hairs stray from their place, as a fraction of the wisp's radius; 0 to 2.
-    #[schemars(range(min = 0.0, max = 2.0))]
+    /// How far hairs stray from their place, as a fraction of the wisp's radius; {}.
     pub(super) fuzziness: Key<Ratio>,
-    /// Standard deviation of the length within a wisp, as a fraction; 0 to 0.5.
-    #[schemars(range(min = 0.0, max = 0.5))]
+    /// Standard deviation of the length within a wisp, as a fraction; {}.
     pub(super) length_variation: Key<Ratio>,
-    /// Fraction of hairs that leave their wisp; 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
+    /// Fraction of hairs that leave their wisp; {}.
     pub(super) flyaways: Key<Ratio>,
     /// How far neighbouring wisps blend: 0 (distinct) to 1 (a smooth mass).
-    #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) blending: Key<Ratio>,
-    /// Points along each drawn hair; 2 to 1000.
-    #[schemars(range(min = 2, max = 1000))]
+    /// Points along each drawn hair; {}.
     pub(super) points: Key<Count>,
     /// What drawn hairs are. Default "interpolated".
     pub(super) strands: Key<OneOf<Which<frisure_hairstyle::HairModel>>>,
@@ -386,14 +355,11 @@ pub(super) struct Contact {
     pub(super) body: Key<OneOf<BodyWord>>,
     /// What a wisp makes of the other wisps. Default "wisps".
     pub(super) hair: Key<OneOf<HairContactWord>>,
-    /// Stiffness of skin per length of hair; 1e-6 to 1e5 Pa. Default 2000 Pa.
-    #[schemars(range(min = 1e-6, max = 1e5))]
+    /// Stiffness of skin per length of hair; {}. Default 2000 Pa.
     pub(super) stiffness: Key<Modulus>,
-    /// Stiffness of hair per length of hair; 1e-6 to 1e5 Pa. Default 0.5 Pa.
-    #[schemars(range(min = 1e-6, max = 1e5))]
+    /// Stiffness of hair per length of hair; {}. Default 0.5 Pa.
     pub(super) hair_stiffness: Key<Modulus>,
-    /// Factor on the thickness of wisps, which follows from their hairs; 0 to 10. Default 1.
-    #[schemars(range(min = 0.0, max = 10.0))]
+    /// Factor on the thickness of wisps, which follows from their hairs; {}. Default 1.
     pub(super) volume: Key<Ratio>,
 }
 
@@ -409,8 +375,7 @@ pub(super) struct Equilibrium {
     #[schemars(range(min = 0.0))]
     pub(super) accuracy: Key<Length>,
     /// Slope, relative to the weight of a hair, at which wisps that make way for each other are at
-    /// rest; 1e-8 to 0.1. Default 0.03, which friction would hold ten times over.
-    #[schemars(range(min = 1e-8, max = 0.1))]
+    /// rest; {}. Default 0.03, which friction would hold ten times over.
     pub(super) tolerance: Key<Ratio>,
     /// The curve that an element can take. Default "auto".
     pub(super) element: Key<OneOf<Which<frisure_rod::ElementKind>>>,
@@ -457,7 +422,7 @@ pub(super) struct Look {
     #[schemars(range(min = 0.05, max = 1.0))]
     pub(super) roughness_around: Key<Ratio>,
     /// Tilt of the cuticle's scales, which moves the highlights apart; -20 to 20 deg. Default 3 deg.
-    #[schemars(range(min = -0.349, max = 0.349))]
+    #[schemars(range(min = (-20_f64).to_radians(), max = 20_f64.to_radians()))]
     pub(super) tilt: Key<Angle>,
     /// Refractive index of the fibre; 1.05 to 3. Default 1.55.
     #[schemars(range(min = 1.05, max = 3.0))]
@@ -504,10 +469,10 @@ pub(super) struct Camera {
     /// Around the head: 0 faces it, 90 deg sees its left side, -90 deg its right. Default 30 deg.
     pub(super) azimuth: Key<Angle>,
     /// Above the horizon; -85 to 85 deg. Default 5 deg.
-    #[schemars(range(min = -1.4836, max = 1.4836))]
+    #[schemars(range(min = (-85_f64).to_radians(), max = 85_f64.to_radians()))]
     pub(super) elevation: Key<Angle>,
     /// Angle from the picture's bottom to its top; 1 to 120 deg. Default 24 deg, a portrait lens.
-    #[schemars(range(min = 0.01745, max = 2.0945))]
+    #[schemars(range(min = 1_f64.to_radians(), max = 120_f64.to_radians()))]
     pub(super) field_of_view: Key<Angle>,
     /// How far the lens is closed, in a final picture: at 2.8 what is out of its focus is blurred as in a
     /// portrait; 0.5 to 64. Left out, everything is sharp.
@@ -534,7 +499,7 @@ pub(super) struct Light {
     pub(super) elevation: Key<Angle>,
     /// How large the main lamp is, as the angle from edge to edge under which the head sees it: a larger
     /// one is softer. 0 to 170 deg; the studio's is about 10 deg, the sun 0.5 deg.
-    #[schemars(range(min = 0.0, max = 2.967))]
+    #[schemars(range(min = 0.0, max = 170_f64.to_radians() + 1e-9))]
     pub(super) size: Key<Angle>,
     /// Factor on the strength of all lamps; 0 to 100. Default 1.
     #[schemars(range(min = 0.0, max = 100.0))]
@@ -550,6 +515,7 @@ pub(super) struct Light {
     pub(super) rotation: Key<Angle>,
     /// Where the sun of `setup = "daylight"` stands around the head: 0 before the face, 90 deg at its
     /// left. It stays there when the camera moves. Default 50 deg.
+    #[schemars(range(min = -2.0 * PI, max = 2.0 * PI))]
     pub(super) sun_azimuth: Key<Angle>,
     /// How far the sun stands above the horizon; 0 to 90 deg. Default 40 deg.
     #[schemars(range(min = 0.0, max = FRAC_PI_2))]
@@ -578,7 +544,7 @@ pub(super) struct Lamp {
     /// Instead of these: its place, with x to the head's left, y back, z up; within 1 km.
     pub(super) position: Key<Point>,
     /// Angle from edge to edge of a lamp that is very far away; 0 to 170 deg. Default 10 deg.
-    #[schemars(range(min = 0.0, max = 2.967))]
+    #[schemars(range(min = 0.0, max = 170_f64.to_radians() + 1e-9))]
     pub(super) angle: Key<Angle>,
     /// Size of a lamp that is not: diameter of a disc, or width and height of a rectangle, facing the
     /// head; 1 mm to 100 m. Left out, it shines from a point to all sides.

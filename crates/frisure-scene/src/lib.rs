@@ -41,7 +41,7 @@ pub use error::{Fault, SceneError};
 pub use frisure_files::head::{HeadFile, ScalpSource};
 use scene::without_mark;
 pub use scene::*;
-pub use schema::schema;
+pub use schema::{NumberKey, number_key, schema};
 pub use step::{Button, WriteStepError, buttons, parse_step, write_step};
 pub(crate) use step::{Record, parse_record};
 pub use template::template;

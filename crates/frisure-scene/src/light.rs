@@ -1,6 +1,5 @@
 //! Resolving the keys of `[light]`.
 
-use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -37,9 +36,6 @@ const ROUND: &str = "between -180 and 180 deg";
 const UP: &str = "between -90 and 90 deg";
 const STRENGTH: &str = "between 0 and 100";
 
-/// Largest angle under which a lamp is seen.
-const WIDEST: f64 = 170.0 * PI / 180.0;
-
 /// Understands the keys; paths are relative to `folder`.
 pub(super) fn light(file: &file::Light, folder: &Path, source: &Source) -> Result<Lit> {
     let environment_rotation = file.rotation.or(0.0, source)?;
@@ -55,14 +51,14 @@ pub(super) fn light(file: &file::Light, folder: &Path, source: &Source) -> Resul
     check_setup(file, setup, source)?;
     let direction = (
         // Where the studio's main lamp stands, for a scene that gives one of the two.
-        within(&file.azimuth, -0.68, -PI, PI, ROUND, source)?,
-        within(&file.elevation, 0.72, -FRAC_PI_2, FRAC_PI_2, UP, source)?,
+        within(&file.azimuth, -0.68, ROUND, source)?,
+        within(&file.elevation, 0.72, UP, source)?,
     );
     let is_aimed = file.azimuth.is_given() || file.elevation.is_given();
     let lamps = file.lamp.iter().enumerate().map(|(i, file)| lamp(i, file, source));
     let size = angle(&file.size, source)?;
-    let strength = within(&file.strength, 1.0, 0.0, 100.0, STRENGTH, source)?;
-    let sky_strength = within(&file.sky_strength, 1.0, 0.0, 1e3, "between 0 and 1000", source)?;
+    let strength = within(&file.strength, 1.0, STRENGTH, source)?;
+    let sky_strength = within(&file.sky_strength, 1.0, "between 0 and 1000", source)?;
     let sun = sun(file, source)?;
     let light = LightSpec {
         setup: if matches!(setup, Setup::Daylight(_)) { Setup::Daylight(sun) } else { setup },
@@ -120,16 +116,9 @@ fn sun(file: &file::Light, source: &Source) -> Result<Daylight> {
     let deg = f64::to_radians;
     let (elevation, up) = (&file.sun_elevation, "between 0 and 90 deg");
     Ok(Daylight {
-        sun_azimuth: within(
-            &file.sun_azimuth,
-            deg(50.0),
-            -2.0 * PI,
-            2.0 * PI,
-            "a turn at most",
-            source,
-        )?,
-        sun_elevation: within(elevation, deg(40.0), 0.0, FRAC_PI_2, up, source)?,
-        turbidity: within(&file.turbidity, 3.0, 1.9, 10.0, "between 1.9 and 10", source)?,
+        sun_azimuth: within(&file.sun_azimuth, deg(50.0), "a turn at most", source)?,
+        sun_elevation: within(elevation, deg(40.0), up, source)?,
+        turbidity: within(&file.turbidity, 3.0, "between 1.9 and 10", source)?,
     })
 }
 
@@ -162,7 +151,7 @@ fn lamp(index: usize, file: &file::Lamp, source: &Source) -> Result<LampSpec> {
     let temperature = "between 1667 and 25000 K";
     let temperature = match file.temperature.is_given() {
         true => {
-            let kelvin = within(&file.temperature, 6500.0, 1667.0, 25_000.0, temperature, source)?;
+            let kelvin = within(&file.temperature, 6500.0, temperature, source)?;
             Some(colour_of_temperature(kelvin))
         }
         false => None,
@@ -170,7 +159,7 @@ fn lamp(index: usize, file: &file::Lamp, source: &Source) -> Result<LampSpec> {
     let colour = linear_from_srgb(file.colour.or([1.0; 3], source)?);
     Ok(LampSpec {
         place: place(file, source)?,
-        strength: within(&file.strength, 1.0, 0.0, 100.0, STRENGTH, source)?,
+        strength: within(&file.strength, 1.0, STRENGTH, source)?,
         colour: temperature.unwrap_or(colour),
     })
 }
@@ -184,14 +173,12 @@ fn place(file: &file::Lamp, source: &Source) -> Result<LampPlace> {
         }
         return Ok(LampPlace::At { position, face });
     }
-    let direction = (
-        within(&file.azimuth, 0.0, -PI, PI, ROUND, source)?,
-        within(&file.elevation, 0.0, -FRAC_PI_2, FRAC_PI_2, UP, source)?,
-    );
+    let direction =
+        (within(&file.azimuth, 0.0, ROUND, source)?, within(&file.elevation, 0.0, UP, source)?);
     if !file.distance.is_given() {
         return Ok(LampPlace::Far { direction, angle: angle(&file.angle, source)? });
     }
-    let distance = within(&file.distance, 1.0, 0.01, far, "between 1 cm and 1 km", source)?;
+    let distance = within(&file.distance, 1.0, "between 1 cm and 1 km", source)?;
     Ok(LampPlace::Beside { direction, distance, face })
 }
 
@@ -208,6 +195,6 @@ fn face(file: &file::Lamp, source: &Source) -> Result<Option<LampFace>> {
 }
 
 fn angle<K: Kind<Value = f64>>(key: &Key<K>, source: &Source) -> Result<Option<f64>> {
-    let angle = within(key, 0.0, 0.0, WIDEST + 1e-9, "between 0 and 170 deg", source)?;
+    let angle = within(key, 0.0, "between 0 and 170 deg", source)?;
     Ok(key.is_given().then_some(angle))
 }

@@ -18,6 +18,7 @@ use frisure_rod::{
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
+use super::bare;
 use super::blame::{blame, out_of_range, place};
 use super::error::{Fault, SceneError};
 use super::file::{self, File};
@@ -550,35 +551,22 @@ fn look(file: &file::Look, seed: u64, behind: Backdrop, source: &Source) -> Resu
     let shade = file.colour.get(source)?;
     let white = shade.map_or(0.0, |ShadeWord(shade)| f64::from(shade.white_share));
     let (unit, rough) = ("between 0 and 1", "between 0.05 and 1");
-    let most = 20_f64.to_radians();
-    let tilt = within(&file.tilt, 0.0, -most, most, "between -20 and 20 deg", source)?;
+    let tilt = within(&file.tilt, 0.0, "between -20 and 20 deg", source)?;
     let natural = natural_colour(file, source)?;
     let usual = HairLook::default();
-    let given = |key: &Key<super::key::Ratio>, default: f32, min, max, allowed: &str| {
-        within(key, f64::from(default), min, max, allowed, source).map(|value| value as f32)
+    let given = |key: &Key<super::key::Ratio>, default: f32, allowed: &str| {
+        within(key, f64::from(default), allowed, source).map(|value| value as f32)
     };
-    let white_share = within(&file.white_share, white, 0.0, 1.0, unit, source)? as f32;
-    let variation = given(&file.variation, usual.variation, 0.0, 1.0, unit)?;
+    let white_share = within(&file.white_share, white, unit, source)? as f32;
+    let variation = given(&file.variation, usual.variation, unit)?;
     let (roots, tips) = (look_end(&file.roots, source)?, look_end(&file.tips, source)?);
     let dye = dye(&file.dye, source)?;
     let plain = usual.surface;
     let surface = HairSurface {
-        longitudinal_roughness: given(
-            &file.roughness,
-            plain.longitudinal_roughness,
-            0.05,
-            1.0,
-            rough,
-        )?,
-        azimuthal_roughness: given(
-            &file.roughness_around,
-            plain.azimuthal_roughness,
-            0.05,
-            1.0,
-            rough,
-        )?,
+        longitudinal_roughness: given(&file.roughness, plain.longitudinal_roughness, rough)?,
+        azimuthal_roughness: given(&file.roughness_around, plain.azimuthal_roughness, rough)?,
         tilt: if file.tilt.is_given() { tilt as f32 } else { plain.tilt },
-        index: given(&file.index, plain.index, 1.05, 3.0, "between 1.05 and 3")?,
+        index: given(&file.index, plain.index, "between 1.05 and 3")?,
     };
     let absorption_of = |colour| absorption_of_colour(colour, surface.azimuthal_roughness);
     let (melanin, absorption) = match natural {
@@ -634,7 +622,7 @@ fn natural_colour(file: &file::Look, source: &Source) -> Result<NaturalColour> {
     }
     let shade = file.colour.get(source)?.map_or_else(Melanin::default, |word| word.0.melanin);
     let of = |key, default: f32| {
-        within(key, f64::from(default), 0.0, 100.0, "between 0 and 100", source).map(|x| x as f32)
+        within(key, f64::from(default), "between 0 and 100", source).map(|x| x as f32)
     };
     let eumelanin = of(&file.eumelanin, shade.eumelanin)?;
     let pheomelanin = of(&file.pheomelanin, shade.pheomelanin)?;
@@ -642,15 +630,15 @@ fn natural_colour(file: &file::Look, source: &Source) -> Result<NaturalColour> {
 }
 
 fn look_end(file: &file::LookEnd, source: &Source) -> Result<Fade> {
-    let factor = within(&file.pigment, 1.0, 0.0, 10.0, "between 0 and 10", source)? as f32;
-    let length = within(&file.fade, 0.05, 0.0, 3.0, "between 0 and 3 m", source)? as f32;
+    let factor = within(&file.pigment, 1.0, "between 0 and 10", source)? as f32;
+    let length = within(&file.fade, 0.05, "between 0 and 3 m", source)? as f32;
     Ok(if file.pigment.is_given() { Fade { factor, length } } else { Fade::default() })
 }
 
 /// A dye whose absorption is still to be found from its colour (linear sRGB).
 fn dye(file: &file::LookDye, source: &Source) -> Result<Option<(Vec3, Dye)>> {
-    let strength = within(&file.strength, 1.0, 0.0, 1.0, "between 0 and 1", source)? as f32;
-    let regrowth = within(&file.regrowth, 0.0, 0.0, 3.0, "between 0 and 3 m", source)? as f32;
+    let strength = within(&file.strength, 1.0, "between 0 and 1", source)? as f32;
+    let regrowth = within(&file.regrowth, 0.0, "between 0 and 3 m", source)? as f32;
     let colour = file.colour.get(source)?;
     if colour.is_none() && file.strength.is_given() {
         return Err(missing(&file.strength, "colour", source));
@@ -668,22 +656,15 @@ fn camera(file: &file::Camera, source: &Source) -> Result<CameraSpec> {
     let up = "between -85 and 85 deg";
     Ok(CameraSpec {
         azimuth: azimuth.or(deg(30.0), source)?,
-        elevation: within(elevation, deg(5.0), deg(-85.0), deg(85.0), up, source)?,
-        field_of_view: within(
-            field,
-            deg(24.0),
-            deg(1.0),
-            deg(120.0),
-            "between 1 and 120 deg",
-            source,
-        )?,
+        elevation: within(elevation, deg(5.0), up, source)?,
+        field_of_view: within(field, deg(24.0), "between 1 and 120 deg", source)?,
         f_number: f_number(file, source)?,
         focus: file.focus.get(source)?,
     })
 }
 
 fn f_number(file: &file::Camera, source: &Source) -> Result<Option<f64>> {
-    within(&file.focus, 1.0, 0.01, 1000.0, "between 1 cm and 1 km", source)?;
+    within(&file.focus, 1.0, "between 1 cm and 1 km", source)?;
     if !file.f_number.is_given() {
         return if file.focus.is_given() {
             Err(missing(&file.focus, "f_number", source))
@@ -691,7 +672,7 @@ fn f_number(file: &file::Camera, source: &Source) -> Result<Option<f64>> {
             Ok(None)
         };
     }
-    within(&file.f_number, 8.0, 0.5, 64.0, "between 0.5 and 64", source).map(Some)
+    within(&file.f_number, 8.0, "between 0.5 and 64", source).map(Some)
 }
 
 fn output(file: &file::Output, source: &Source) -> Result<Output> {
@@ -703,21 +684,26 @@ fn output(file: &file::Output, source: &Source) -> Result<Output> {
         width: size(&file.width, 900, 16_384, "between 1 and 16384")?,
         height: size(&file.height, 1100, 16_384, "between 1 and 16384")?,
         samples: size(&file.samples, 4, 8, "between 1 and 8")?,
-        exposure: within(&file.exposure, 0.0, -20.0, 20.0, "between -20 and 20", source)?,
+        exposure: within(&file.exposure, 0.0, "between -20 and 20", source)?,
         tone: file.tone.or(ToneCurve::default(), source)?,
     })
 }
 
+/// The value of a key, inside the range that is declared for it.
 pub(super) fn within<K: Kind<Value = f64>>(
     key: &Key<K>,
     default: f64,
-    min: f64,
-    max: f64,
     allowed: &str,
     source: &Source,
 ) -> Result<f64> {
-    let value = key.or(default, source)?;
-    if value >= min && value <= max { Ok(value) } else { Err(outside(key, allowed, source)) }
+    let Some(value) = key.get(source)? else { return Ok(default) };
+    let path = source.path_at(&key.span().unwrap_or_default());
+    let range = bare::quantity(schema(), &path);
+    let inside = range.is_none_or(|range| {
+        value >= range.least.unwrap_or(f64::NEG_INFINITY)
+            && value <= range.most.unwrap_or(f64::INFINITY)
+    });
+    if inside { Ok(value) } else { Err(outside(key, allowed, source)) }
 }
 
 pub(super) fn outside<K>(key: &Key<K>, allowed: &str, source: &Source) -> SceneError {
