@@ -1,31 +1,31 @@
-// What lies over the canvas: how far loading is, or what went wrong and what to do.
+// The notice over the canvas: progress of loading, or an error with what the user can do.
 
 const part = (id) => document.getElementById(id);
 
 part("again").addEventListener("click", () => location.reload());
 
-/** Says how far loading is: 0 to 1, or nothing if it is not known. */
+/** Shows the progress of loading: 0 to 1, or undefined if it is not known. */
 export function loading(text, fraction) {
   part("text").textContent = text;
   if (fraction === undefined) part("progress").removeAttribute("value");
   else part("progress").value = Math.min(fraction, 1);
 }
 
-/** Takes the notice away: the salon is there. */
+/** Hides the notice once the salon runs. */
 export function ready() {
   part("notice").hidden = true;
   part("salon").focus();
 }
 
-let told = false;
+let failed = false;
 
-/** Says what is wrong and what to do. The first reason stays: others follow from it. */
-export function trouble({ title, text, report = "", again = true }) {
-  if (told) {
+/** Shows an error and what the user can do. The first error stays: later ones follow from it. */
+export function showError({ title, text, report = "", again = true }) {
+  if (failed) {
     part("report").textContent += `\n\n${report}`;
     return;
   }
-  told = true;
+  failed = true;
   part("notice").hidden = false;
   part("notice").setAttribute("role", "alert");
   part("title").textContent = title;

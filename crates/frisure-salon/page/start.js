@@ -1,33 +1,33 @@
 // Loads the salon and starts it.
 //
-// In the address: ?backend=webgl or webgpu, ?scene=NAME, ?hairs=N (draw so many), ?samples=1 (rough
-// edges, for slow devices).
+// Query parameters: ?backend=webgl or webgpu, ?scene=NAME, ?hairs=N (number of drawn hairs), ?samples=1 (no
+// antialiasing, for slow devices).
 
-import { loading, ready, trouble } from "./notice.js?v={{build}}";
+import { loading, ready, showError } from "./notice.js?v={{build}}";
 
 window.salonOpens = true;
 
 const { build, bytes } = document.documentElement.dataset;
-const asked = new URLSearchParams(location.search);
+const query = new URLSearchParams(location.search);
 const at = (name) => new URL(`${name}?v=${build}`, import.meta.url).href;
 
-const KEPT = "What you did is kept in this browser up to a few seconds ago. Reload the page to go on.";
+const AUTOSAVED = "Your work is autosaved in this browser, up to a few seconds ago. Reload the page to continue.";
 
-const TROUBLES = {
-  panic: { title: "The salon stopped", text: `That is a mistake in the program, not yours. ${KEPT}` },
-  graphics: { title: "The graphics were lost", text: `The browser took them away, as it does when they are short or restart. ${KEPT}` },
+const FAILURES = {
+  panic: { title: "The salon stopped", text: `This is an error in the program. ${AUTOSAVED}` },
+  graphics: { title: "The graphics were lost", text: `The browser took away the graphics device. ${AUTOSAVED}` },
 };
 
-/** What the salon calls when it cannot go on. */
-const broken = (kind, report) => trouble({ ...(TROUBLES[kind] ?? TROUBLES.panic), report });
+/** Called by the salon on a failure. */
+const failed = (kind, report) => showError({ ...(FAILURES[kind] ?? FAILURES.panic), report });
 
-/** The program, and how far it is while it comes. */
+/** Downloads and compiles the program, and shows the progress. */
 async function download(address) {
   loading("Loading the salon.", 0);
   const answer = await fetch(address);
   if (!answer.ok) throw new Error(`${address}: ${answer.status} ${answer.statusText}`);
   count(answer.clone()).catch(() => {});
-  // Compiled while it comes, and kept compiled by the browser; some hosts do not say what it is.
+  // Compiled while it downloads, and cached by the browser; some hosts do not send the content type.
   const known = answer.headers.get("Content-Type")?.startsWith("application/wasm");
   return known ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 }
@@ -42,7 +42,7 @@ async function count(answer) {
   loading("Preparing the first head.");
 }
 
-/** Why this browser cannot run the salon, or nothing. */
+/** The reason why this browser cannot run the salon, or undefined. */
 async function missing() {
   if (typeof WebAssembly !== "object" || !simd()) {
     return "It needs WebAssembly with vector instructions. Every browser has it since 2023: update yours, or switch WebAssembly on.";
@@ -55,50 +55,50 @@ async function missing() {
   }
 }
 
-/** What WebGPU would draw with; many browsers know WebGPU and have nothing to draw with. */
+/** The WebGPU adapter; many browsers have the interface without an adapter. */
 const adapter = async () => navigator.gpu?.requestAdapter().catch(() => null);
 
-/** Whether a module of one vector instruction is understood. */
+/** Whether the browser accepts a module with a vector instruction. */
 function simd() {
   const module = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
   return WebAssembly.validate(new Uint8Array(module));
 }
 
-/** A canvas that was used for one kind of graphics is of no use for the other. */
+/** Replaces the canvas: one that was used with WebGPU cannot be used with WebGL. */
 function freshCanvas() {
   const old = document.getElementById("salon");
   const canvas = old.cloneNode();
   old.replaceWith(canvas);
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
-    broken("graphics", "webglcontextlost");
+    failed("graphics", "webglcontextlost");
   });
   return canvas;
 }
 
-/** Starts with the graphics that are asked for; else with WebGPU, and if that fails with WebGL 2. */
+/** Starts with the backend of the query; by default WebGPU, and if that fails WebGL 2. */
 async function start(salon, module) {
-  const wanted = asked.get("backend");
-  const ways = ["webgl", "webgpu"].includes(wanted) ? [wanted] : ["any", "webgl"];
-  for (const [tried, backend] of ways.entries()) {
+  const wanted = query.get("backend");
+  const backends = ["webgl", "webgpu"].includes(wanted) ? [wanted] : ["any", "webgl"];
+  for (const [tried, backend] of backends.entries()) {
     try {
       await salon.start(freshCanvas(), {
         backend, module, build,
         worker: at("worker.js"),
-        scene: asked.get("scene") ?? undefined,
-        hairs: Number(asked.get("hairs")) || undefined,
-        samples: [1, 4].find((n) => String(n) === asked.get("samples")),
-        broken,
+        scene: query.get("scene") ?? undefined,
+        hairs: Number(query.get("hairs")) || undefined,
+        samples: [1, 4].find((n) => String(n) === query.get("samples")),
+        failed,
       });
       return;
     } catch (error) {
-      if (tried + 1 === ways.length) throw error;
+      if (tried + 1 === backends.length) throw error;
       console.warn(`no graphics with ${backend}: ${error}`);
     }
   }
 }
 
-/** For tests, and for whoever wants to drive the salon by program. */
+/** The functions of window.frisure, for tests and other programs. */
 function automation(salon) {
   const text = (json) => (json === undefined ? undefined : JSON.parse(json));
   return {
@@ -111,12 +111,12 @@ function automation(salon) {
   };
 }
 
-/** Lets a screen reader have the salon in words. */
+/** Connects the button that describes the salon for screen readers. */
 function describe(salon) {
-  const button = document.getElementById("spoken");
+  const button = document.getElementById("describe");
   button.hidden = false;
   button.addEventListener("click", () => {
-    salon.describe(document.getElementById("mirror"));
+    salon.describe(document.getElementById("aria-tree"));
     button.hidden = true;
   });
 }
@@ -124,15 +124,15 @@ function describe(salon) {
 async function open() {
   const reason = await missing();
   if (reason) {
-    trouble({ title: "This browser cannot show the salon", text: reason, again: false });
+    showError({ title: "This browser cannot show the salon", text: reason, again: false });
     return;
   }
   const module = await download(at("salon_bg.wasm"));
   const salon = await import(at("salon.js"));
   await salon.default({ module_or_path: module });
-  // Whatever breaks from here on ends the program: better told than a canvas that no longer moves.
+  // From here on an error in the program ends it.
   addEventListener("error", ({ error, message }) => {
-    if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) broken("panic", `${message}\n${error.stack}`);
+    if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) failed("panic", `${message}\n${error.stack}`);
   });
   await start(salon, module);
   window.frisure = automation(salon);
@@ -140,8 +140,8 @@ async function open() {
   ready();
 }
 
-open().catch((error) => trouble({
+open().catch((error) => showError({
   title: "The salon could not be opened",
-  text: "Perhaps the connection broke off, or the graphics are busy. Reload the page; if that does not help, try another browser.",
+  text: "The connection may be lost, or the graphics device busy. Reload the page; if that does not help, try another browser.",
   report: String(error?.stack ?? error),
 }));

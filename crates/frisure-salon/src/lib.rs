@@ -1,7 +1,7 @@
-//! The salon: a head of hair that is seen, changed and styled, in a window and in a page.
+//! The salon: shows, edits and styles a head of hair, in a window or in a page.
 //!
-//! [`state`] is all of it without a toolkit; [`work`] carries its orders out elsewhere; [`window`]
-//! shows it, and `page` is what a browser needs.
+//! [`state`] is the application without a toolkit; [`work`] executes its requests on another thread; [`window`]
+//! shows it; `page` has what a browser needs.
 
 // What `wasm_bindgen` generates is unsafe.
 #![cfg_attr(not(target_arch = "wasm32"), forbid(unsafe_code))]

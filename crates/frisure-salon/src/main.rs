@@ -1,4 +1,4 @@
-//! The salon in a window of the desktop.
+//! The salon on the desktop.
 
 // What `wasm_bindgen` generates is unsafe.
 #![cfg_attr(not(target_arch = "wasm32"), forbid(unsafe_code))]
@@ -23,27 +23,28 @@ mod desktop {
     use eframe::{CreationContext, NativeOptions, egui, egui_wgpu, wgpu};
     use frisure_salon::state::{Command, Salon};
     use frisure_salon::window::desktop::Desktop;
-    use frisure_salon::window::{App, Parts, Wake, wake};
+    use frisure_salon::window::{App, Parts, waker};
     use frisure_salon::work::native::Thread;
+    use frisure_salon::work::{Wake, Worker};
 
-    /// See a head of natural hair, change its fibres, wet it, cut it, dry it.
+    /// Shows a head of natural hair, to edit and style it.
     #[derive(Parser)]
     #[command(name = "frisure-salon", version, about)]
     struct Arguments {
-        /// A scene to open (.toml), a head or a groom, or several of them; without any the gallery is shown
+        /// Scenes (.toml), heads or grooms to open; without any, the gallery opens
         files: Vec<PathBuf>,
-        /// Begin with this hair of the gallery, such as `curly`
+        /// Begin with a card of the gallery, such as `curly`
         #[arg(long, value_name = "NAME", conflicts_with = "files")]
         begin: Option<String>,
-        /// Which graphics interface to draw with; by default the best there is
+        /// The graphics interface; by default the best one available
         #[arg(long, value_enum)]
         backend: Option<Backend>,
-        /// Samples for each pixel: 1 on a slow device
+        /// Samples per pixel: 1 for a slow device
         #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=8))]
         samples: u32,
-        /// Where work that was not saved is kept over a crash; by default in the user's data folder
-        #[arg(long, value_name = "FILE")]
-        kept: Option<PathBuf>,
+        /// The autosave file; by default one in the user's data folder
+        #[arg(long, value_name = "FILE", alias = "kept")]
+        autosave: Option<PathBuf>,
     }
 
     #[derive(Clone, Copy, ValueEnum)]
@@ -83,24 +84,23 @@ mod desktop {
         {
             return Err(format!("there is no hair called `{name}` in the gallery"));
         }
-        let mut taken_over = None;
-        for _ in 0..MOST_WINDOWS {
-            let lost = Lost::default();
-            let salon = taken_over.take();
-            let create = |cc: &CreationContext<'_>| window(cc, arguments, &lost, salon);
+        let mut salon = None;
+        for _ in 0..MAX_RESTARTS {
+            let lost = DeviceLoss::default();
+            let restored = salon.take();
+            let create = |cc: &CreationContext<'_>| window(cc, arguments, &lost, restored);
             eframe::run_native("frisure salon", options(arguments), Box::new(create))
                 .map_err(|e| explained(&e))?;
-            taken_over = lost.salon();
-            if taken_over.is_none() {
+            salon = take(&lost.salon);
+            if salon.is_none() {
                 return Ok(());
             }
         }
-        Err("the graphics device was lost again and again; what was not saved is kept, and offered at \
-             the next start\n  hint: update the graphics driver, or try --backend gl".into())
+        Err("the graphics device was lost repeatedly; the next start offers the autosaved work\n  hint: update the graphics driver, or try --backend gl".into())
     }
 
-    /// Windows that are opened one after the other as graphics devices are lost.
-    const MOST_WINDOWS: usize = 5;
+    /// Most windows that are opened in a row because the graphics device was lost.
+    const MAX_RESTARTS: usize = 5;
 
     fn options(arguments: &Arguments) -> NativeOptions {
         let viewport = ViewportBuilder::default()
@@ -118,49 +118,45 @@ mod desktop {
         options
     }
 
-    /// Whether the graphics device is gone, and the salon that the next window takes over.
+    /// The reason for the loss of the graphics device, and the state for the next window.
     #[derive(Clone, Default)]
-    struct Lost {
-        why: Arc<Mutex<Option<String>>>,
+    struct DeviceLoss {
+        reason: Arc<Mutex<Option<String>>>,
         salon: Arc<Mutex<Option<Salon>>>,
     }
 
-    impl Lost {
-        fn salon(&self) -> Option<Salon> {
-            self.salon.lock().ok()?.take()
-        }
+    fn take<T>(slot: &Mutex<Option<T>>) -> Option<T> {
+        slot.lock().ok()?.take()
+    }
 
-        fn why(&self) -> Option<String> {
-            self.why.lock().ok()?.take()
-        }
-
-        /// Has a device tell when it is gone.
+    impl DeviceLoss {
+        /// Records the loss of a device.
         fn watch(&self, device: &wgpu::Device, wake: Wake) {
-            let why = Arc::clone(&self.why);
+            let slot = Arc::clone(&self.reason);
             device.set_device_lost_callback(move |reason, message| {
-                // Dropped at the end of a window, it is not lost.
+                // A device that is dropped with its window is not lost.
                 if reason == wgpu::DeviceLostReason::Unknown
-                    && let Ok(mut why) = why.lock()
+                    && let Ok(mut slot) = slot.lock()
                 {
-                    *why = Some(message);
+                    *slot = Some(message);
                     wake();
                 }
             });
         }
     }
 
-    /// A window that hands its salon over when its graphics device is lost.
+    /// A window that closes and hands on its state when its graphics device is lost.
     struct Window {
         app: App,
-        lost: Lost,
+        lost: DeviceLoss,
     }
 
     impl eframe::App for Window {
         fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
-            if let Some(why) = self.lost.why() {
-                let mut salon = self.app.hand_over();
-                let hint = "Nothing is lost but the picture, which was drawn anew.";
-                salon.tell(format!("the graphics device was lost: {why}"), hint, true);
+            if let Some(reason) = take(&self.lost.reason) {
+                let mut salon = self.app.take_salon();
+                let hint = "Your work is kept; the window was opened again.";
+                salon.notify(format!("the graphics device was lost: {reason}"), hint, true);
                 if let Ok(mut slot) = self.lost.salon.lock() {
                     *slot = Some(salon);
                 }
@@ -179,33 +175,30 @@ mod desktop {
     fn window(
         cc: &CreationContext<'_>,
         arguments: &Arguments,
-        lost: &Lost,
+        lost: &DeviceLoss,
         salon: Option<Salon>,
     ) -> Created {
-        let wake = wake(&cc.egui_ctx);
+        let wake = waker(&cc.egui_ctx);
         if let Some(state) = &cc.wgpu_render_state {
             lost.watch(&state.device, Arc::clone(&wake));
         }
-        let worker = || {
-            let wake = wake.clone();
-            Thread::start(Box::new(move || wake()))
-        };
+        let worker =
+            || -> std::io::Result<Box<dyn Worker>> { Ok(Box::new(Thread::start(wake.clone())?)) };
         let parts = Parts {
-            hair: Box::new(worker()?),
-            aside: Box::new(worker()?),
-            outside: Box::new(Desktop::new(arguments.kept.clone(), Arc::clone(&wake))),
+            workers: [worker()?, worker()?],
+            platform: Box::new(Desktop::new(arguments.autosave.clone(), wake.clone())),
             samples: arguments.samples,
         };
         let mut app = App::new(cc, parts);
         match (salon, &arguments.begin) {
-            (Some(salon), _) => app.take_over(salon),
+            (Some(salon), _) => app.restore(salon),
             (None, Some(name)) => app.run(Command::Begin(name.clone())),
             (None, None) => arguments.files.iter().for_each(|file| app.open(file)),
         }
         Ok(Box::new(Window { app, lost: lost.clone() }))
     }
 
-    /// What a newcomer can do about it.
+    /// An error with a hint for the user.
     fn explained(error: &eframe::Error) -> String {
         let hint = match error {
             eframe::Error::Wgpu(_) => {
@@ -214,14 +207,14 @@ mod desktop {
                  another --backend. The command `frisure` works without."
             }
             _ => {
-                "The salon needs a screen. Without one, use the command `frisure`, or the page in a \
+                "The salon needs a display. Without one, use the command `frisure`, or the page in a \
                  browser."
             }
         };
-        // Where in whose source it was found helps nobody here.
-        let told = error.to_string();
-        let words = told.split_whitespace().filter(|word| !word.contains("/registry/"));
-        let told = words.collect::<Vec<_>>().join(" ");
-        format!("the window cannot be opened: {told}\n  hint: {hint}")
+        // Without the source locations that wgpu adds.
+        let text = error.to_string();
+        let words = text.split_whitespace().filter(|word| !word.contains("/registry/"));
+        let text = words.collect::<Vec<_>>().join(" ");
+        format!("the window cannot be opened: {text}\n  hint: {hint}")
     }
 }

@@ -1,4 +1,4 @@
-//! Heads and grooms of other programs in the salon, without a window.
+//! Heads and grooms of other programs, without a window.
 
 mod common;
 
@@ -42,103 +42,109 @@ fn head_in_cm() -> Vec<u8> {
 }
 
 fn last(world: &World) -> Message {
-    world.salon.messages().last().cloned().unwrap_or_default()
+    world.salon.messages.last().cloned().unwrap_or_default()
 }
 
 fn errors(world: &World) -> Vec<&Message> {
-    world.salon.messages().iter().filter(|m| m.is_error).collect()
+    world.salon.messages.iter().filter(|m| m.is_error).collect()
 }
 
 fn is_held(world: &World) -> bool {
-    let hair = world.salon.shown().expect("hair").0;
+    let hair = world.salon.preview().expect("hair").0;
     hair.adoption.as_ref().is_some_and(|held| held.within_a_millimetre * 10 >= held.strands * 8)
 }
 
 #[test]
-fn a_groom_that_is_dropped_on_the_gallery_is_hair_and_can_be_wetted() {
+fn a_groom_dropped_on_the_gallery_is_shown_and_can_be_wetted() {
     let mut world = World::new();
     world.drop("her-hair.npz", &exported("npz"));
-    assert!(!world.salon.is_gallery() && world.salon.is_settled(), "{:?}", world.salon.messages());
-    assert_eq!(world.salon.document().unwrap().name(), "her-hair");
+    assert!(!world.salon.is_gallery() && world.salon.is_settled(), "{:?}", world.salon.messages);
+    assert_eq!(world.salon.document.as_ref().unwrap().name(), "her-hair");
     assert!(world.text().contains("file = \"her-hair.npz\""), "{}", world.text());
     assert!(is_held(&world));
-    let told = last(&world);
-    assert!(told.text.starts_with("groom: ") && told.text.contains("stay within 1 mm"), "{told:?}");
-    let dry = world.salon.shown().unwrap().0.strands.clone();
-    world.run(Command::Wet);
-    assert!(world.salon.is_wet() && world.salon.shown().unwrap().0.strands != dry);
+    let message = last(&world);
+    assert!(
+        message.text.starts_with("groom: ") && message.text.contains("stay within 1 mm"),
+        "{message:?}"
+    );
+    let dry = world.salon.preview().unwrap().0.strands.clone();
+    world.run(Command::ToggleWet);
+    assert!(world.salon.is_wet() && world.salon.preview().unwrap().0.strands != dry);
     assert!(errors(&world).is_empty(), "{:?}", errors(&world));
 }
 
 #[test]
-fn a_groom_takes_the_place_of_the_hair_and_is_undone_like_any_edit() {
+fn a_groom_replaces_the_hair_and_is_undone_like_any_edit() {
     let mut world = World::new();
     world.small("curly");
-    let before = (world.text().to_owned(), world.salon.shown().unwrap().0.strands.clone());
+    let before = (world.text().to_owned(), world.salon.preview().unwrap().0.strands.clone());
     world.drop("wavy.hair", &exported("hair"));
-    assert!(is_held(&world), "{:?}", world.salon.messages());
-    assert_eq!(world.salon.document().unwrap().edits().last().unwrap().label, "Hair of wavy.hair");
-    let after = (world.text().to_owned(), world.salon.shown().unwrap().0.strands.clone());
+    assert!(is_held(&world), "{:?}", world.salon.messages);
+    assert_eq!(
+        world.salon.document.as_ref().unwrap().edits().last().unwrap().label,
+        "Hair of wavy.hair"
+    );
+    let after = (world.text().to_owned(), world.salon.preview().unwrap().0.strands.clone());
     assert!(after.1 != before.1);
     world.run(Command::Undo);
-    assert_eq!((world.text().to_owned(), world.salon.shown().unwrap().0.strands.clone()), before);
-    assert!(world.salon.shown().unwrap().0.adoption.is_none());
+    assert_eq!((world.text().to_owned(), world.salon.preview().unwrap().0.strands.clone()), before);
+    assert!(world.salon.preview().unwrap().0.adoption.is_none());
     world.run(Command::Redo);
-    assert_eq!((world.text().to_owned(), world.salon.shown().unwrap().0.strands.clone()), after);
+    assert_eq!((world.text().to_owned(), world.salon.preview().unwrap().0.strands.clone()), after);
     world.run(Command::Groom(None));
     assert!(!world.text().contains("wavy.hair") && world.salon.is_settled());
-    assert!(world.salon.shown().unwrap().0.adoption.is_none());
+    assert!(world.salon.preview().unwrap().0.adoption.is_none());
 }
 
 #[test]
-fn unit_and_axis_that_are_wrong_are_told_with_what_to_do_here() {
+fn a_wrong_unit_or_axis_is_reported_with_a_hint_for_the_window() {
     let mut world = World::new();
     world.small("wavy");
     world.drop("a.obj", &exported("obj"));
-    assert!(is_held(&world), "{:?}", world.salon.messages());
+    assert!(is_held(&world), "{:?}", world.salon.messages);
     let hint = |world: &World| {
-        let told = last(world);
-        assert!(told.is_error && told.hint.contains(FILES_PANEL), "{told:?}");
-        assert!(!told.hint.contains('`'), "no keys of scenes: {told:?}");
+        let message = last(world);
+        assert!(message.is_error && message.hint.contains(FILES_PANEL), "{message:?}");
+        assert!(!message.hint.contains('`'), "no keys of scenes: {message:?}");
         assert!(matches!(world.salon.badge(), Badge::Refused(_)));
-        told.text
+        message.text
     };
-    world.run(Command::Word("groom.up", "\"z\"".into()));
+    world.run(Command::SetOption("groom.up", "\"z\"".into()));
     assert!(hint(&world).ends_with("but with y up they fit"));
     world.run(Command::Reset("groom.up"));
     assert!(is_held(&world) && world.salon.is_settled());
-    let label = &world.salon.document().unwrap().edits().last().unwrap().label;
-    assert_eq!(label, "Up in the groom: as the file says");
+    let label = &world.salon.document.as_ref().unwrap().edits().last().unwrap().label;
+    assert_eq!(label, "Up in the groom: as in the file");
 
-    world.run(Command::Word("groom.unit", "\"mm\"".into()));
+    world.run(Command::SetOption("groom.unit", "\"mm\"".into()));
     assert!(hint(&world).contains("is it in m?"));
-    world.run(Command::Word("groom.unit", "\"m\"".into()));
+    world.run(Command::SetOption("groom.unit", "\"m\"".into()));
     assert!(is_held(&world) && world.salon.is_settled());
 
     // Another file has a unit of its own.
     world.drop("b.hair", &exported("hair"));
     assert!(!world.text().contains("unit"), "{}", world.text());
-    assert!(is_held(&world), "{:?}", world.salon.messages());
+    assert!(is_held(&world), "{:?}", world.salon.messages);
 }
 
 #[test]
-fn a_stage_with_a_head_and_hair_is_both() {
+fn a_stage_with_a_head_and_hair_is_used_as_both() {
     let mut world = World::new();
     world.drop("all.usda", &exported("usda"));
-    assert!(world.salon.is_settled(), "{:?}", world.salon.messages());
+    assert!(world.salon.is_settled(), "{:?}", world.salon.messages);
     let files = world.salon.files();
     assert!(files.head && files.groom && is_held(&world));
-    assert!(world.salon.messages().iter().any(|m| m.text.contains("both")));
+    assert!(world.salon.messages.iter().any(|m| m.text.contains("both")));
     world.run(Command::Head(None));
     assert!(is_held(&world), "the mannequin is the head that it was made on");
 }
 
 #[test]
-fn head_and_groom_come_in_any_order() {
+fn head_and_groom_can_be_opened_in_any_order() {
     for groom_first in [false, true] {
         let mut world = World::new();
         let mut files = [("face.obj", head_in_cm()), ("hair.npz", exported("npz"))];
-        files.iter().for_each(|(name, bytes)| world.keep(name, bytes));
+        files.iter().for_each(|(name, bytes)| world.upload(name, bytes));
         if groom_first {
             files.reverse();
         }
@@ -147,15 +153,15 @@ fn head_and_groom_come_in_any_order() {
         }
         world.settle();
         let files = world.salon.files();
-        assert!(files.head && files.groom && is_held(&world), "{:?}", world.salon.messages());
+        assert!(files.head && files.groom && is_held(&world), "{:?}", world.salon.messages);
         assert!(errors(&world).is_empty(), "{:?}", errors(&world));
-        let unit = world.salon.messages().iter().find(|m| m.text.contains("taken to be in cm"));
-        assert!(unit.is_some_and(|m| m.hint.contains(FILES_PANEL)), "{:?}", world.salon.messages());
+        let unit = world.salon.messages.iter().find(|m| m.text.contains("taken to be in cm"));
+        assert!(unit.is_some_and(|m| m.hint.contains(FILES_PANEL)), "{:?}", world.salon.messages);
     }
 }
 
 #[test]
-fn a_file_that_is_given_again_is_read_again() {
+fn a_file_that_is_opened_again_is_read_again() {
     let mut world = World::new();
     world.small("curly");
     let (groom, text) = (exported("npz"), world.text().to_owned());
@@ -165,11 +171,11 @@ fn a_file_that_is_given_again_is_read_again() {
     assert!(refused != text);
     world.drop("a.npz", &groom);
     assert_eq!(world.text(), refused);
-    assert!(world.salon.is_settled() && is_held(&world), "{:?}", world.salon.messages());
+    assert!(world.salon.is_settled() && is_held(&world), "{:?}", world.salon.messages);
 }
 
 #[test]
-fn a_scene_names_what_lies_near_it_from_its_folder() {
+fn paths_of_files_near_the_scene_are_relative() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
     std::fs::create_dir(place("scenes")).unwrap();
@@ -184,7 +190,7 @@ fn a_scene_names_what_lies_near_it_from_its_folder() {
         world.salon.run(Command::Open { path, name: "x.toml".into(), text });
         world.run(Command::File(place(name).display().to_string()));
         assert!(world.text().contains(&format!("file = \"{written}\"")), "{}", world.text());
-        assert!(is_held(&world), "{:?}", world.salon.messages());
+        assert!(is_held(&world), "{:?}", world.salon.messages);
     }
     // Saved elsewhere, it names the same file.
     let mut world = World::new();
@@ -194,7 +200,7 @@ fn a_scene_names_what_lies_near_it_from_its_folder() {
     world.run(Command::Save(Destination::Path(place("y.toml"))));
     assert!(world.text().contains("file = \"scenes/a.npz\" # hers"), "{}", world.text());
     assert_eq!(world.files[&place("y.toml").display().to_string()], world.text().as_bytes());
-    assert!(!world.salon.document().unwrap().is_changed() && is_held(&world));
+    assert!(!world.salon.document.as_ref().unwrap().is_changed() && is_held(&world));
     world.run(Command::Save(Destination::Path(place("scenes/z.toml"))));
     assert!(world.text().contains("file = \"a.npz\""), "{}", world.text());
     // A scene without a file has no folder.
@@ -205,7 +211,7 @@ fn a_scene_names_what_lies_near_it_from_its_folder() {
 }
 
 #[test]
-fn files_that_are_of_no_use_are_told_and_change_nothing() {
+fn unusable_files_are_reported_and_change_nothing() {
     let mut world = World::new();
     world.small("curly");
     let text = world.text().to_owned();
@@ -217,8 +223,8 @@ fn files_that_are_of_no_use_are_told_and_change_nothing() {
         ("a.pbrt", b"Shape", "cannot be opened here"),
     ] {
         world.drop(name, bytes);
-        let told = last(&world);
-        assert!(told.is_error && told.text.contains(problem), "{name}: {told:?}");
+        let message = last(&world);
+        assert!(message.is_error && message.text.contains(problem), "{name}: {message:?}");
         assert_eq!(world.text(), text);
         assert!(world.salon.is_settled());
     }

@@ -14,8 +14,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use frisure_salon::state::{Badge, Command, Destination, Document};
 use frisure_salon::window::desktop::Desktop;
-use frisure_salon::window::outside::Given;
+use frisure_salon::window::platform::InputFile;
 use frisure_salon::window::{App, Parts};
+use frisure_salon::work::Worker;
 use frisure_salon::work::native::Thread;
 
 /// Longest that hair may take to settle on the slowest machine.
@@ -46,9 +47,11 @@ impl Window {
             .with_max_steps(64)
             .wgpu()
             .build_eframe(move |cc| {
-                let worker = || Box::new(Thread::start(Box::new(|| ())).expect("a thread"));
-                let outside = Box::new(Desktop::new(Some(kept), Arc::new(|| ())));
-                let parts = Parts { hair: worker(), aside: worker(), outside, samples: 1 };
+                let worker = || -> Box<dyn Worker> {
+                    Box::new(Thread::start(Arc::new(|| ())).expect("a thread"))
+                };
+                let platform = Box::new(Desktop::new(Some(kept), Arc::new(|| ())));
+                let parts = Parts { workers: [worker(), worker()], platform, samples: 1 };
                 App::new(cc, parts)
             });
         Self { harness, folder, screens: 0 }
@@ -62,7 +65,7 @@ impl Window {
 
     /// Lets the hair come to rest, and the picture with it.
     fn settle(&mut self) {
-        self.wait("the hair", |app| app.salon().is_settled() && app.salon().aside().is_none());
+        self.wait("the hair", |app| app.salon().is_settled() && app.salon().background().is_none());
         // Pictures are complete a moment after the last movement.
         for _ in 0..30 {
             self.harness.step();
@@ -77,11 +80,12 @@ impl Window {
                 return;
             }
             let salon = self.harness.state().salon();
-            let (badge, messages) = (salon.badge(), salon.messages());
-            let (tool, alone) = (salon.tool(), salon.alone().map(|alone| alone.wisp));
+            let (badge, messages) = (salon.badge(), &salon.messages);
+            let (tool, isolated) =
+                (salon.tool, salon.isolated.as_ref().map(|isolated| isolated.wisp));
             assert!(
                 since.elapsed() < PATIENCE,
-                "{what} is late: {badge:?} {tool:?} {alone:?} {messages:?}"
+                "{what} is late: {badge:?} {tool:?} {isolated:?} {messages:?}"
             );
             std::thread::sleep(Duration::from_millis(20));
         }
@@ -165,13 +169,13 @@ impl Window {
         let text = format!(
             "[hair]\ntype = \"{hair_type}\"\n\n[wisps]\ncount = 40\nhairs = 1500\npoints = 12\n"
         );
-        let given = Given { path: None, name: "small.toml".into(), bytes: text.into_bytes() };
-        self.harness.state_mut().take(given);
+        let file = InputFile { path: None, name: "small.toml".into(), bytes: text.into_bytes() };
+        self.harness.state_mut().take(file);
         self.settle();
     }
 
     fn text(&self) -> String {
-        self.harness.state().salon().document().expect("a document").text().to_owned()
+        self.harness.state().salon().document.as_ref().expect("a document").text().to_owned()
     }
 }
 
@@ -185,7 +189,7 @@ fn a_session_in_the_window() {
     let gallery = window.screen("gallery");
     // The gallery's own button, then a head with fewer hairs, for the time's sake.
     window.click("Begin: Curly");
-    assert_eq!(window.harness.state().salon().document().map(Document::name), Some("Curly"));
+    assert_eq!(window.harness.state().salon().document.as_ref().map(Document::name), Some("Curly"));
     window.small("curly");
     let dry = window.screen("test-dry");
     assert!(dry != gallery);
@@ -196,7 +200,7 @@ fn a_session_in_the_window() {
     assert!(wet != dry && window.text().contains("wet = {}"));
 
     window.click("Fringe");
-    window.wait("the choice", |app| app.salon().chosen().count().is_some());
+    window.wait("the choice", |app| app.salon().selected.count().is_some());
     window.click("Cut");
     window.steps(10);
     window.screen("test-cut");
@@ -230,16 +234,16 @@ fn a_session_in_the_window() {
 }
 
 #[test]
-fn hands_on_the_head() {
+fn pointer_and_keys_orbit_select_cut_and_pick() {
     if !has_graphics() {
         return;
     }
     let mut window = Window::open([1280.0, 800.0], 1.0);
     window.small("curly");
-    let before = *window.harness.state().salon().orbit();
+    let before = window.harness.state().salon().orbit;
     let path: Vec<Pos2> = (0..10).map(|i| pos2(400.0 + 12.0 * i as f32, 400.0)).collect();
     window.drag(&path, Modifiers::NONE);
-    assert!(window.harness.state().salon().orbit().azimuth != before.azimuth);
+    assert!(window.harness.state().salon().orbit.azimuth != before.azimuth);
 
     window.key(Modifiers::NONE, Key::Num1);
     window.key(Modifiers::NONE, Key::F);
@@ -247,44 +251,44 @@ fn hands_on_the_head() {
     let around = [(250.0, 150.0), (700.0, 150.0), (700.0, 320.0), (250.0, 320.0), (250.0, 160.0)];
     let path: Vec<Pos2> = around.iter().map(|(x, y)| pos2(*x, *y)).collect();
     window.drag(&path, Modifiers::NONE);
-    window.wait("the choice", |app| app.salon().chosen().count().is_some());
-    let count = window.harness.state().salon().chosen().count().expect("wisps");
+    window.wait("the choice", |app| app.salon().selected.count().is_some());
+    let count = window.harness.state().salon().selected.count().expect("wisps");
     assert!(count > 0 && count < 40, "{count}");
 
     window.key(Modifiers::NONE, Key::C);
-    let plane = *window.harness.state().salon().plane();
+    let plane = window.harness.state().salon().plane;
     let path: Vec<Pos2> = (0..6).map(|i| pos2(450.0, 500.0 - 8.0 * i as f32)).collect();
     window.drag(&path, Modifiers::NONE);
-    let raised = *window.harness.state().salon().plane();
+    let raised = window.harness.state().salon().plane;
     assert!(raised.point.z > plane.point.z + 0.005, "{plane:?} {raised:?}");
     window.drag(&[pos2(450.0, 400.0), pos2(500.0, 400.0)], Modifiers::SHIFT);
-    assert!(window.harness.state().salon().plane().roll != 0.0);
+    assert!(window.harness.state().salon().plane.roll != 0.0);
     window.key(Modifiers::NONE, Key::Enter);
     window.settle();
     assert!(window.text().contains("cut = {"), "{}", window.text());
 
     window.key(Modifiers::NONE, Key::H);
     window.press(pos2(450.0, 250.0));
-    window.wait("the hair", |app| app.salon().alone().is_some_and(|a| a.hair.is_some()));
-    window.screen("test-alone");
+    window.wait("the hair", |app| app.salon().isolated.as_ref().is_some_and(|a| a.hair.is_some()));
+    window.screen("test-isolated");
     window.key(Modifiers::NONE, Key::Escape);
-    assert!(window.harness.state().salon().alone().is_none());
+    assert!(window.harness.state().salon().isolated.is_none());
 }
 
 #[test]
-fn a_slider_is_dragged_and_typed() {
+fn one_drag_of_a_slider_is_one_edit() {
     if !has_graphics() {
         return;
     }
     let mut window = Window::open([1280.0, 800.0], 1.0);
     window.small("wavy");
-    let edits = window.harness.state().salon().document().expect("one").edits().len();
+    let edits = window.harness.state().salon().document.as_ref().expect("one").edits().len();
     let slider = window.harness.get_by_role_and_label(Role::Slider, "Diameter").rect();
     let y = slider.center().y;
     let path: Vec<Pos2> = (0..5).map(|i| pos2(slider.left() + 20.0 + 8.0 * i as f32, y)).collect();
     window.drag(&path, Modifiers::NONE);
     window.settle();
-    let document = window.harness.state().salon().document().expect("one").clone();
+    let document = window.harness.state().salon().document.as_ref().expect("one").clone();
     assert_eq!(document.edits().len(), edits + 1, "one edit for one drag");
     assert!(document.text().contains("diameter"), "{}", document.text());
     let labels: Vec<_> = document.edits().iter().map(|e| e.label.clone()).collect();
@@ -292,7 +296,7 @@ fn a_slider_is_dragged_and_typed() {
 }
 
 #[test]
-fn it_is_readable_light_dark_and_at_twice_the_scale() {
+fn every_control_has_a_name_at_twice_the_scale_and_in_the_light_theme() {
     if !has_graphics() {
         return;
     }
@@ -314,7 +318,7 @@ fn it_is_readable_light_dark_and_at_twice_the_scale() {
 }
 
 #[test]
-fn broken_files_dropped_on_the_window_are_told() {
+fn broken_files_dropped_on_the_window_are_reported() {
     if !has_graphics() {
         return;
     }
@@ -329,29 +333,29 @@ fn broken_files_dropped_on_the_window_are_told() {
         ("empty.toml", b"\0"),
     ];
     for (name, bytes) in files {
-        let given = Given { path: None, name: name.into(), bytes: bytes.to_vec() };
-        window.harness.state_mut().take(given);
+        let file = InputFile { path: None, name: name.into(), bytes: bytes.to_vec() };
+        window.harness.state_mut().take(file);
         window.steps(3);
-        let message = window.harness.state().salon().messages().last().cloned();
+        let message = window.harness.state().salon().messages.last().cloned();
         assert!(message.as_ref().is_some_and(|m| m.is_error), "{name}: {message:?}");
     }
-    let told =
-        |app: &App| app.salon().messages().last().is_some_and(|m| m.text.contains("no-head"));
-    let given = Given { path: None, name: "no-head.obj".into(), bytes: b"nonsense".to_vec() };
-    window.harness.state_mut().take(given);
-    window.wait("what it is", told);
+    let message =
+        |app: &App| app.salon().messages.last().is_some_and(|m| m.text.contains("no-head"));
+    let file = InputFile { path: None, name: "no-head.obj".into(), bytes: b"nonsense".to_vec() };
+    window.harness.state_mut().take(file);
+    window.wait("what it is", message);
     assert_eq!(window.text(), text);
     let bytes = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec();
-    window.harness.state_mut().take(Given { path: None, name: "flat.obj".into(), bytes });
+    window.harness.state_mut().take(InputFile { path: None, name: "flat.obj".into(), bytes });
     window.wait("the refusal", |app| matches!(app.salon().badge(), Badge::Refused(_)));
     window.harness.state_mut().run(Command::Undo);
     window.settle();
     assert_eq!(window.text(), text);
-    window.screen("test-told");
+    window.screen("test-message");
 }
 
 #[test]
-fn a_window_that_was_killed_offers_its_work() {
+fn a_killed_window_offers_its_autosaved_work() {
     if !has_graphics() {
         return;
     }
@@ -372,16 +376,16 @@ fn a_window_that_was_killed_offers_its_work() {
     std::fs::copy(folder.path().join("kept.toml"), next.folder.path().join("kept.toml"))
         .expect("kept");
     let kept = std::fs::read_to_string(next.folder.path().join("kept.toml")).expect("kept");
-    next.harness.state_mut().found_kept(&kept);
+    next.harness.state_mut().offer_recovery(&kept);
     next.steps(3);
     next.screen("recovery");
-    next.click("Take it up");
+    next.click("Recover");
     next.settle();
     assert_eq!(next.text(), text);
 }
 
 #[test]
-fn a_groom_dropped_on_the_window_is_held_and_its_axis_can_be_said() {
+fn a_groom_opened_in_the_window_is_held_and_its_axis_can_be_set() {
     if !has_graphics() {
         return;
     }
@@ -399,8 +403,8 @@ fn a_groom_dropped_on_the_window_is_held_and_its_axis_can_be_said() {
     window.wait("the groom", |app| app.salon().files().groom);
     window.settle();
     assert!(window.screen("test-groom") != straight);
-    let told = "guides stay within 1 mm";
-    let is_told = |app: &App| app.salon().messages().iter().any(|m| m.text.contains(told));
+    let message = "guides stay within 1 mm";
+    let is_told = |app: &App| app.salon().messages.iter().any(|m| m.text.contains(message));
     assert!(is_told(window.harness.state()));
     assert!(window.harness.query_by_role_and_label(Role::Slider, "Curl radius").is_none());
     assert!(window.harness.query_by_role_and_label(Role::Slider, "Diameter").is_some());
@@ -413,7 +417,7 @@ fn a_groom_dropped_on_the_window_is_held_and_its_axis_can_be_said() {
     window.screen("test-groom-axis");
     window.click("Undo");
     window.settle();
-    window.click("Use hair of its own");
+    window.click("Use the scene's own hair");
     window.settle();
     assert!(!window.text().contains("her-hair"), "{}", window.text());
 }
@@ -437,7 +441,7 @@ fn the_tour() {
     window.settle();
     window.click("Front");
     window.click("Cut");
-    let plane = frisure_salon::state::Plane::level(0.0);
+    let plane = frisure_salon::state::CutPlane::level(0.0);
     window.harness.state_mut().run(Command::Plane(plane));
     window.settle();
     window.screen("cut");
@@ -453,9 +457,9 @@ fn the_tour() {
     window.harness.state_mut().run(Command::Compare(None));
     window.click("Three-quarter");
     window.click("One hair");
-    window.harness.state_mut().run(Command::Alone(Some(20)));
+    window.harness.state_mut().run(Command::Isolate(Some(20)));
     window.settle();
-    window.screen("alone");
+    window.screen("isolated");
     window.click("All hair");
     window.key(Modifiers::COMMAND, Key::P);
     window.steps(5);

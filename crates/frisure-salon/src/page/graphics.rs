@@ -1,12 +1,12 @@
-//! Which graphics of the browser are used, and what if they are lost.
+//! The graphics backend of the browser, and its loss.
 
-use super::trouble;
+use super::failure;
 use eframe::CreationContext;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use wgpu::{Backends, DeviceLostReason};
 
-/// `webgl`, `webgpu`, or any: WebGPU where it works, else WebGL 2.
-pub(crate) fn wanted(backend: &str) -> WgpuConfiguration {
+/// The configuration for `webgl`, `webgpu`, or any: WebGPU where it works, else WebGL 2.
+pub(crate) fn configuration(backend: &str) -> WgpuConfiguration {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = match backend {
         "webgl" => Backends::GL,
@@ -16,12 +16,12 @@ pub(crate) fn wanted(backend: &str) -> WgpuConfiguration {
     WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() }
 }
 
-/// Says so on the page if the device goes away. (The canvas itself tells it of WebGL 2.)
-pub(crate) fn tell_when_lost(cc: &CreationContext<'_>) {
+/// Reports the loss of the device; the page itself handles that of WebGL 2.
+pub(crate) fn report_loss(cc: &CreationContext<'_>) {
     let Some(state) = &cc.wgpu_render_state else { return };
-    state.device.set_device_lost_callback(|reason, told| {
+    state.device.set_device_lost_callback(|reason, message| {
         if reason != DeviceLostReason::Destroyed {
-            trouble::tell("graphics", &format!("{reason:?}: {told}"));
+            failure::report("graphics", &format!("{reason:?}: {message}"));
         }
     });
 }

@@ -1,27 +1,27 @@
-//! What the browser keeps for this page: texts by name.
+//! Local storage of the browser: texts by name.
 
 use thiserror::Error;
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::{DomException, Storage};
 
-/// Names begin so: other pages of the same host keep theirs in the same place.
-const OURS: &str = "frisure:";
+/// Prefix of the names; pages of the same host share the storage.
+const PREFIX: &str = "frisure:";
 
-/// Why a text cannot be kept.
+/// The reason why a text cannot be stored.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum StorageError {
     /// Private windows and settings may forbid it.
-    #[error("this browser keeps nothing for this page: {0}")]
+    #[error("this browser does not let this page store data: {0}")]
     Forbidden(String),
-    /// Browsers give a page some five megabytes.
-    #[error("there is no room left for {bytes} bytes in what this browser keeps for this page")]
+    /// Browsers give a page about five megabytes.
+    #[error("the browser's storage has no room for {bytes} bytes")]
     Full {
-        /// What was to be kept.
+        /// Size of the text.
         bytes: usize,
     },
 }
 
-/// The text of this name, if one is kept.
+/// Returns the text of a name.
 ///
 /// # Errors
 /// The browser forbids it.
@@ -29,20 +29,20 @@ pub fn get(name: &str) -> Result<Option<String>, StorageError> {
     storage()?.get_item(&key(name)).map_err(|e| forbidden(&e))
 }
 
-/// Keeps a text.
+/// Stores a text.
 ///
 /// # Errors
-/// The browser forbids it, or there is no room; what was kept before stays.
+/// The browser forbids it, or there is no room; the stored text stays.
 pub fn set(name: &str, text: &str) -> Result<(), StorageError> {
     storage()?.set_item(&key(name), text).map_err(|e| match e.dyn_ref::<DomException>() {
-        Some(told) if told.name() == "QuotaExceededError" => {
+        Some(error) if error.name() == "QuotaExceededError" => {
             StorageError::Full { bytes: text.len() }
         }
         _ => forbidden(&e),
     })
 }
 
-/// Forgets a text.
+/// Deletes a text.
 ///
 /// # Errors
 /// The browser forbids it.
@@ -51,7 +51,7 @@ pub fn remove(name: &str) -> Result<(), StorageError> {
 }
 
 fn key(name: &str) -> String {
-    format!("{OURS}{name}")
+    format!("{PREFIX}{name}")
 }
 
 fn storage() -> Result<Storage, StorageError> {
@@ -60,7 +60,7 @@ fn storage() -> Result<Storage, StorageError> {
     storage.ok_or_else(|| StorageError::Forbidden("it is switched off".into()))
 }
 
-fn forbidden(told: &JsValue) -> StorageError {
-    let words = told.dyn_ref::<DomException>().map(DomException::message);
-    StorageError::Forbidden(words.unwrap_or_else(|| format!("{told:?}")))
+fn forbidden(error: &JsValue) -> StorageError {
+    let message = error.dyn_ref::<DomException>().map(DomException::message);
+    StorageError::Forbidden(message.unwrap_or_else(|| format!("{error:?}")))
 }

@@ -1,9 +1,8 @@
-//! The other side: in a worker, orders are carried out one after the other.
+//! The worker's side: executes requests one after the other.
 //!
-//! Messages in are `[ticket, order]`, messages out `[ticket, answer]`, or `[-1, report]` when the worker is
-//! broken.
+//! Incoming messages are `[job, request]`, outgoing ones `[job, response]`, or `[-1, report]` after a failure.
 
-use super::trouble;
+use super::failure;
 use frisure::progress::Progress;
 use frisure_engine::{Request, Response, Session};
 use js_sys::{Array, Atomics, Int32Array, Uint8Array};
@@ -12,52 +11,45 @@ use wasm_bindgen::prelude::*;
 use web_sys::DedicatedWorkerGlobalScope;
 use web_time::{Duration, Instant};
 
-/// Progress is told no more often.
-const OFTEN: Duration = Duration::from_millis(60);
+/// Least time between two reports of progress.
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(60);
 
 thread_local! {
     static SESSION: RefCell<Session> = RefCell::new(Session::new());
-    static STOP: RefCell<Option<Int32Array>> = const { RefCell::new(None) };
-    static TICKET: Cell<f64> = const { Cell::new(0.0) };
-    static TOLD: Cell<Option<Instant>> = const { Cell::new(None) };
+    static CANCEL: RefCell<Option<Int32Array>> = const { RefCell::new(None) };
+    static JOB: Cell<f64> = const { Cell::new(0.0) };
+    static LAST_REPORT: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// Makes this the program of a worker; `stop` is shared memory that says when to stop, if the page
-/// may share any.
+/// Initializes a worker; `cancel` is shared memory that cancels the job when it is not 0, where the page may
+/// share memory.
 #[wasm_bindgen]
-pub fn worker_main(stop: Option<Int32Array>) {
-    STOP.with(|known| *known.borrow_mut() = stop);
-    let broken = Closure::<dyn Fn(JsValue, String)>::new(|_, report: String| {
+pub fn worker_main(cancel: Option<Int32Array>) {
+    CANCEL.set(cancel);
+    let failed = Closure::<dyn Fn(JsValue, String)>::new(|_, report: String| {
         post(&Array::of2(&JsValue::from_f64(-1.0), &report.into()), &Array::new());
     });
-    trouble::call(broken.into_js_value().unchecked_into());
+    failure::set_handler(failed.into_js_value().unchecked_into());
 }
 
-/// Does what a message says.
+/// Executes the request of a message.
 #[wasm_bindgen]
 pub fn worker_message(message: &Array) {
+    JOB.set(message.get(0).as_f64().unwrap_or_default());
+    LAST_REPORT.set(None);
     let bytes = Uint8Array::new(&message.get(1)).to_vec();
-    carry_out(message.get(0).as_f64().unwrap_or_default(), &bytes);
+    // Page and worker are the same build, which reads what it writes.
+    let request = postcard::from_bytes::<Request>(&bytes).expect("a request");
+    let response = SESSION.with_borrow_mut(|session| {
+        session.execute_with(&request, &JobProgress, &mut |partial| respond(&partial))
+    });
+    respond(&response);
 }
 
-fn carry_out(ticket: f64, order: &[u8]) {
-    TICKET.set(ticket);
-    TOLD.set(None);
-    let answer = match postcard::from_bytes::<Request>(order) {
-        Ok(order) => SESSION.with_borrow_mut(|session| {
-            session.execute_with(&order, &Page, &mut |answer| answer_with(&answer))
-        }),
-        // Both sides are one program: only a mistake in it can come here.
-        Err(mistake) => panic!("an order cannot be read: {mistake}"),
-    };
-    answer_with(&answer);
-}
-
-fn answer_with(answer: &Response) {
-    // Plain data has no way to fail, but for memory.
-    let bytes = postcard::to_stdvec(answer).expect("an answer as bytes");
+fn respond(response: &Response) {
+    let bytes = postcard::to_stdvec(response).expect("a response as bytes");
     let bytes = Uint8Array::from(bytes.as_slice()).buffer();
-    post(&Array::of2(&TICKET.get().into(), &bytes), &Array::of1(&bytes));
+    post(&Array::of2(&JOB.get().into(), &bytes), &Array::of1(&bytes));
 }
 
 fn post(message: &Array, transfer: &Array) {
@@ -65,20 +57,20 @@ fn post(message: &Array, transfer: &Array) {
     worker.post_message_with_transfer(message, transfer).expect("a message to the page");
 }
 
-/// Whoever is at the page.
-struct Page;
+/// Progress and cancellation of the current job.
+struct JobProgress;
 
-impl Progress for Page {
+impl Progress for JobProgress {
     fn report(&self, stage: &str, fraction: f64) {
-        if TOLD.get().is_none_or(|told| told.elapsed() >= OFTEN) {
-            TOLD.set(Some(Instant::now()));
-            answer_with(&Response::progress(stage, fraction));
+        if LAST_REPORT.get().is_none_or(|last| last.elapsed() >= PROGRESS_INTERVAL) {
+            LAST_REPORT.set(Some(Instant::now()));
+            respond(&Response::progress(stage, fraction));
         }
     }
 
     fn is_cancelled(&self) -> bool {
-        STOP.with(|stop| {
-            stop.borrow().as_ref().is_some_and(|stop| Atomics::load(stop, 0).is_ok_and(|s| s != 0))
+        CANCEL.with_borrow(|cancel| {
+            cancel.as_ref().is_some_and(|cancel| Atomics::load(cancel, 0).is_ok_and(|c| c != 0))
         })
     }
 }

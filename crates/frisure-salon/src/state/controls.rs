@@ -1,32 +1,33 @@
-//! What can be set in the panels: each slider and each choice, with the key of the scene it writes.
-//!
-//! One table for the window, its tests and its help; a new slider is a new row.
+//! The controls of the panels: each slider and each choice, with the scene key that it edits.
 
 use frisure::hairstyle::HairstyleSpec;
 use frisure::look::{Melanin, SHADES};
 use frisure::scene::Scene;
 
-/// The panels, in the order in which a person meets them.
+/// The title of the panel about files, which hints name.
+pub const FILES_PANEL: &str = "Head and groom";
+
+/// The panels, in the order of the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Panel {
-    /// Files that the hair or the head come from.
+    /// The files of the head and the groom.
     Files,
-    /// Section and material.
+    /// The section and the material of the fibre.
     Fibre,
-    /// Natural curl.
+    /// The natural curl.
     Curl,
-    /// How long.
+    /// Length and growth.
     Length,
-    /// Guides and the hairs around them.
+    /// The guides and the strands around them.
     Wisps,
-    /// How hair leaves the scalp.
+    /// Where and in which direction hair grows.
     Implantation,
-    /// Colours and light.
+    /// Colour and light.
     Look,
 }
 
 impl Panel {
-    /// All, in order.
+    /// All panels, in order.
     pub const ALL: [Self; 7] = [
         Self::Files,
         Self::Fibre,
@@ -37,11 +38,11 @@ impl Panel {
         Self::Look,
     ];
 
-    /// What it is called.
+    /// Its title.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
-            Self::Files => super::FILES_PANEL,
+            Self::Files => FILES_PANEL,
             Self::Fibre => "Fibre",
             Self::Curl => "Curl",
             Self::Length => "Length",
@@ -55,44 +56,42 @@ impl Panel {
 /// Reads a number (SI) of a scene.
 type Read = fn(&Scene, &HairstyleSpec) -> f64;
 
-/// A number that a slider sets.
+/// A slider for a number.
 #[derive(Clone, Copy, Debug)]
 pub struct Control {
-    /// Where it is.
+    /// Its panel.
     pub panel: Panel,
-    /// What it is called.
+    /// Its label.
     pub label: &'static str,
-    /// The key of the scene.
+    /// The scene key.
     pub key: &'static str,
-    /// What a person reads behind the number.
+    /// The displayed unit.
     pub unit: &'static str,
-    /// The unit as a scene writes it; empty for pure numbers and counts.
+    /// The unit in scenes; empty for pure numbers and counts.
     pub written: &'static str,
-    /// The unit in SI.
+    /// The unit (SI).
     pub factor: f64,
-    /// Range of the slider, in the unit. What is typed may not leave it either.
+    /// The range of slider and number field, in the unit.
     pub range: (f64, f64),
-    /// Decimals that are shown and written.
+    /// The number of decimals.
     pub decimals: usize,
-    /// Whether equal factors are equally far apart on the slider.
+    /// Whether the slider has a logarithmic scale.
     pub logarithmic: bool,
-    /// One sentence: what it does to the hair.
+    /// The tooltip.
     pub help: &'static str,
-    /// Whether hair has to be computed anew when it changes.
-    pub moves_hair: bool,
     read: Read,
 }
 
-/// Keys of the panels of shape that count for hair of another program, too.
-const COUNT_ANYWAY: [&str; 2] = ["hair.growth_rate", "gravity"];
+/// Keys of the panels of shape that also apply to a groom.
+const APPLY_TO_GROOMS: [&str; 2] = ["hair.growth_rate", "gravity"];
 
 impl Control {
-    /// Whether it does anything to hair that another program has shaped.
+    /// Whether it has an effect on a groom.
     #[must_use]
-    pub fn counts_for_groom(&self) -> bool {
+    pub fn applies_to_groom(&self) -> bool {
         let is_shape = matches!(self.panel, Panel::Curl | Panel::Length | Panel::Implantation)
             || self.key == "wisps.count";
-        !is_shape || COUNT_ANYWAY.contains(&self.key)
+        !is_shape || APPLY_TO_GROOMS.contains(&self.key)
     }
 
     /// Its value in a scene, in its unit.
@@ -101,8 +100,7 @@ impl Control {
         (self.read)(scene, spec) / self.factor
     }
 
-    /// A value in its unit, inside its range and rounded as it is written; what is no number becomes
-    /// the lower end.
+    /// Clamps and rounds a value in its unit; NaN becomes the lower end of the range.
     #[must_use]
     pub fn clean(&self, value: f64) -> f64 {
         let (low, high) = self.range;
@@ -111,7 +109,7 @@ impl Control {
         (inside * scale).round() / scale
     }
 
-    /// A value as the scene writes it.
+    /// A value as TOML.
     #[must_use]
     pub fn written(&self, value: f64) -> String {
         let value = self.clean(value);
@@ -126,31 +124,29 @@ impl Control {
         }
     }
 
-    /// A value as a person reads it, such as "28 cm".
+    /// A value with its unit, such as "28 cm".
     #[must_use]
-    pub fn said(&self, value: f64) -> String {
+    pub fn displayed(&self, value: f64) -> String {
         let value = format!("{:.*}", self.decimals, self.clean(value));
         if self.unit.is_empty() { value } else { format!("{value} {}", self.unit) }
     }
 }
 
-/// A word that a list sets.
+/// A list of options for a key.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Where it is.
+    /// Its panel.
     pub panel: Panel,
-    /// What it is called.
+    /// Its label.
     pub label: &'static str,
-    /// The key of the scene.
+    /// The scene key.
     pub key: &'static str,
-    /// What holds where nothing was chosen, in words.
-    pub usual: &'static str,
-    /// What can be chosen: as the scene writes it (TOML), and in words.
+    /// The name of the default, where the key is not set.
+    pub default: &'static str,
+    /// The options: the value as TOML, and its title.
     pub options: Vec<(String, String)>,
-    /// One sentence: what it does.
+    /// The tooltip.
     pub help: &'static str,
-    /// Whether hair has to be computed anew when it changes.
-    pub moves_hair: bool,
 }
 
 #[expect(clippy::too_many_arguments, reason = "a row of the table below")]
@@ -164,22 +160,8 @@ const fn control(
     read: Read,
     help: &'static str,
 ) -> Control {
-    let moves_hair = !matches!(panel, Panel::Look);
     let logarithmic = false;
-    Control {
-        panel,
-        label,
-        key,
-        unit,
-        written,
-        factor,
-        range,
-        decimals,
-        logarithmic,
-        help,
-        moves_hair,
-        read,
-    }
+    Control { panel, label, key, unit, written, factor, range, decimals, logarithmic, help, read }
 }
 
 const fn logarithmic(control: Control) -> Control {
@@ -197,10 +179,10 @@ const DEGREES: Unit = ("°", "deg", std::f64::consts::PI / 180.0);
 const PER_CM2: Unit = ("/cm²", "1/cm^2", 1e4);
 const NUMBER: Unit = ("", "", 1.0);
 const TIMES: Unit = ("×", "", 1.0);
-/// A mean month, as scenes count it.
+/// The month is the mean month, as in scenes.
 const SPEED: Unit = ("cm/month", "cm/month", 0.01 / (365.2425 / 12.0 * 86_400.0));
 
-/// Every slider.
+/// All sliders.
 pub const CONTROLS: &[Control] = &[
     control(
         Panel::Fibre,
@@ -250,7 +232,7 @@ pub const CONTROLS: &[Control] = &[
         (0.5, 3.0),
         2,
         |_, s| s.fibre.material.density(),
-        "Mass per volume: what gravity pulls at.",
+        "Mass per volume.",
     ),
     control(
         Panel::Fibre,
@@ -280,7 +262,7 @@ pub const CONTROLS: &[Control] = &[
         (-500.0, 500.0),
         1,
         |_, s| helix(s)[1],
-        "How far a curl advances in a turn, without weight. Negative turns the other way.",
+        "How far a curl advances in a turn, without weight. A negative pitch reverses the handedness.",
     )),
     control(
         Panel::Curl,
@@ -350,7 +332,7 @@ pub const CONTROLS: &[Control] = &[
         (20.0, 1500.0),
         0,
         |_, s| s.wisps.count as f64,
-        "Number of guides: hairs that are computed. The others follow them.",
+        "Number of guides, the hairs that are simulated. The others follow them.",
     )),
     control(
         Panel::Wisps,
@@ -570,8 +552,7 @@ pub const CONTROLS: &[Control] = &[
     ),
 ];
 
-/// Radius and pitch (m) of the natural helix; hair that is straight has the widest radius that a
-/// slider knows.
+/// Radius and pitch (m) of the natural helix; for straight hair the largest radius of the slider.
 fn helix(spec: &HairstyleSpec) -> [f64; 2] {
     let strain = spec.curl.strain;
     let (bend, twist) = (strain.x.hypot(strain.y), strain.z);
@@ -582,7 +563,7 @@ fn helix(spec: &HairstyleSpec) -> [f64; 2] {
     [(bend / total).max(5e-4), std::f64::consts::TAU * twist / total]
 }
 
-/// Eumelanin and pheomelanin; of colours that are said otherwise, those of brown hair.
+/// Eumelanin and pheomelanin; those of brown hair where the colour is given in another way.
 fn pigments(scene: &Scene) -> [f64; 2] {
     let Melanin { eumelanin, pheomelanin } = scene.look.hair.melanin;
     [rounded(eumelanin), rounded(pheomelanin)]
@@ -597,13 +578,12 @@ fn words(options: &[(&str, &str)]) -> Vec<(String, String)> {
     options.iter().map(|(word, said)| (format!("\"{word}\""), (*said).to_owned())).collect()
 }
 
-/// Every list.
+/// All choices.
 #[must_use]
 pub fn choices() -> Vec<Choice> {
     let choice = |panel, label, key, options, help| {
-        let moves_hair = panel != Panel::Look;
-        let usual = if panel == Panel::Files { "as the file says" } else { "as usual" };
-        Choice { panel, label, key, usual, options, help, moves_hair }
+        let default = if panel == Panel::Files { "as in the file" } else { "default" };
+        Choice { panel, label, key, default, options, help }
     };
     let units = || {
         words(&[
@@ -697,7 +677,7 @@ pub fn choices() -> Vec<Choice> {
     ]
 }
 
-/// The slider that sets a key.
+/// The slider of a key.
 #[must_use]
 pub fn control_of(key: &str) -> Option<&'static Control> {
     CONTROLS.iter().find(|control| control.key == key)
@@ -710,7 +690,7 @@ mod tests {
     use std::path::Path;
 
     #[test]
-    fn every_slider_shows_what_each_hair_type_has() {
+    fn every_slider_can_show_the_value_of_each_hair_type() {
         for preset in PRESETS {
             let text = format!("[hair]\ntype = \"{}\"\n", preset.name);
             let scene = Scene::parse("scene", text, Path::new("")).unwrap();
@@ -725,7 +705,7 @@ mod tests {
     }
 
     #[test]
-    fn absurd_values_become_what_can_be() {
+    fn absurd_values_are_clamped() {
         for control in CONTROLS {
             for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 0.0, -0.0] {
                 let clean = control.clean(value);

@@ -1,34 +1,34 @@
-//! The text of a scene and everything that was done to it: undo and redo without limit.
+//! The edited text of a scene, with unlimited undo and redo.
 
 use std::path::{Path, PathBuf};
 
-/// A scene being edited: a list of texts, each with what led to it.
+/// An edited scene: a list of texts, each with the label of its edit.
 ///
-/// A scene is a few kilobytes, so that whole texts are kept, and undo is exact whatever an edit was.
+/// A scene is a few kilobytes, so the document stores whole texts, and undo is exact for every edit.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// What errors and the window's title call it.
+    /// Its name in errors and in the window.
     name: String,
     /// The file it is saved to, if it has one.
     path: Option<PathBuf>,
     edits: Vec<Edit>,
     at: usize,
     saved: Option<usize>,
-    /// The text while a slider is held.
+    /// The text while a slider is dragged.
     draft: Option<String>,
 }
 
-/// A text, and what made it.
+/// A text, and the label of the edit that made it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// In words for a person, such as "Cut the fringe".
+    /// The label, such as "Length: 18 cm".
     pub label: String,
-    /// The whole scene after it.
+    /// The whole text after the edit.
     pub text: String,
 }
 
 impl Document {
-    /// A scene that was not edited yet; `label` says where it comes from.
+    /// An unedited scene; `label` names its origin.
     #[must_use]
     pub fn new(
         name: impl Into<String>,
@@ -41,7 +41,7 @@ impl Document {
         Self { name: name.into(), path, edits, at: 0, saved, draft: None }
     }
 
-    /// What it is called.
+    /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -59,45 +59,45 @@ impl Document {
         self.path().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// The text as it is now, a slider that is held included.
+    /// The current text, with the draft of a dragged slider.
     #[must_use]
     pub fn text(&self) -> &str {
         self.draft.as_deref().unwrap_or(&self.edits[self.at].text)
     }
 
-    /// Every text, the one it began with first.
+    /// All texts, the first one first.
     #[must_use]
     pub fn edits(&self) -> &[Edit] {
         &self.edits
     }
 
-    /// Which of [`Self::edits`] is shown.
+    /// The index of the current text in [`Self::edits`].
     #[must_use]
     pub fn at(&self) -> usize {
         self.at
     }
 
-    /// Whether a slider is held.
+    /// Whether a slider is being dragged.
     #[must_use]
     pub fn is_draft(&self) -> bool {
         self.draft.is_some()
     }
 
-    /// Whether something would be lost that was not saved.
+    /// Whether there are unsaved changes.
     #[must_use]
     pub fn is_changed(&self) -> bool {
-        // What a scene began with can be had again without a file.
-        let kept = self.saved.or((self.path.is_none()).then_some(0));
+        // The first text of a scene without a file comes from the gallery and needs no saving.
+        let saved = self.saved.or((self.path.is_none()).then_some(0));
         let same = |i: usize| self.edits.get(i).is_some_and(|e| e.text == self.text());
-        !kept.is_some_and(same)
+        !saved.is_some_and(same)
     }
 
-    /// Shows a text without keeping the one before: a slider moves.
+    /// Replaces the current text while a slider is dragged, without an edit.
     pub fn draft(&mut self, text: String) {
         self.draft = Some(text);
     }
 
-    /// Makes a new text the current one; what was undone is forgotten.
+    /// Adds an edit and makes it the current one; edits that were undone are dropped.
     pub fn change(&mut self, label: impl Into<String>, text: String) {
         self.draft = None;
         if text == self.edits[self.at].text {
@@ -111,19 +111,19 @@ impl Document {
         self.at += 1;
     }
 
-    /// The slider is let go: what it showed last is kept.
+    /// Makes the draft an edit.
     pub fn keep_draft(&mut self, label: impl Into<String>) {
         if let Some(text) = self.draft.take() {
             self.change(label, text);
         }
     }
 
-    /// Forgets what a held slider showed.
+    /// Drops the draft.
     pub fn drop_draft(&mut self) {
         self.draft = None;
     }
 
-    /// Shows another of the texts; `false` if there is none, or it is shown already.
+    /// Makes another text the current one; `false` if it does not exist or is the current one already.
     pub fn go_to(&mut self, at: usize) -> bool {
         let other = at < self.edits.len() && at != self.at;
         if other {
@@ -132,7 +132,7 @@ impl Document {
         other
     }
 
-    /// It was saved as it is.
+    /// Marks the current text as saved to a file.
     pub fn saved_to(&mut self, path: PathBuf) {
         if let Some(name) = path.file_name() {
             self.name = name.to_string_lossy().into_owned();
@@ -141,13 +141,13 @@ impl Document {
         self.saved = Some(self.at);
     }
 
-    /// Nobody has it as it is, such as after a crash.
-    pub(super) fn unsaved(&mut self) {
+    /// Marks all texts as unsaved, such as after a crash.
+    pub(super) fn mark_unsaved(&mut self) {
         self.saved = Some(usize::MAX);
     }
 
-    /// A copy of it was handed out, such as a page's download.
-    pub fn handed_out(&mut self) {
+    /// Marks the current text as saved without a file, such as by a download.
+    pub fn mark_saved(&mut self) {
         self.saved = Some(self.at);
     }
 }

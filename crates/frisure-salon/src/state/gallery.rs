@@ -1,17 +1,17 @@
-//! What there is to begin with.
+//! The gallery: hair types and hairstyles to begin with.
 
 use frisure::hairstyle::PRESETS;
 
 /// A card of the gallery.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
-    /// What it is called in words.
+    /// Its title.
     pub title: &'static str,
-    /// A name without spaces: of the hair type, or of the scene.
+    /// The name of the hair type or of the scene.
     pub name: &'static str,
-    /// One sentence.
+    /// A short description.
     pub description: &'static str,
-    /// A picture of it (PNG).
+    /// Its picture (PNG).
     pub picture: &'static [u8],
     /// Its scene; empty for a hair type, whose scene is one line.
     scene: &'static str,
@@ -69,20 +69,20 @@ pub const SCENES: &[Card] = &[
     card!(scene "fringe", "Fringe", "long, with a fringe"),
     card!(scene "ringlets", "Ringlets", "long curls of one radius"),
     card!(scene "long-straight", "Long", "down the back"),
-    card!(scene "afro", "Afro", "kinky hair that stands off"),
-    card!(scene "short-asian", "Short", "stands up by itself"),
+    card!(scene "afro", "Afro", "kinky hair that stands up"),
+    card!(scene "short-asian", "Short", "short, and stands up"),
     card!(scene "parting", "Parting", "parted at the side"),
     card!(scene "rollers", "Rollers", "set on rollers and dried"),
 ];
 
-/// The card of a name.
+/// The card with a name.
 #[must_use]
 pub fn card(name: &str) -> Option<&'static Card> {
     TYPES.iter().chain(SCENES).find(|card| card.name == name)
 }
 
 impl Card {
-    /// Its scene.
+    /// The text of its scene.
     #[must_use]
     pub fn text(&self) -> String {
         match self.scene {
@@ -91,7 +91,7 @@ impl Card {
         }
     }
 
-    /// One sentence about it.
+    /// A short description.
     #[must_use]
     pub fn about(&self) -> &'static str {
         let preset = PRESETS.iter().find(|p| p.name == self.name && self.scene.is_empty());
@@ -106,7 +106,7 @@ mod tests {
     use std::path::Path;
 
     #[test]
-    fn every_card_is_a_scene_and_every_hair_type_a_card() {
+    fn every_card_is_a_valid_scene_and_every_hair_type_has_a_card() {
         for card in TYPES.iter().chain(SCENES) {
             let scene = Scene::parse(card.name, card.text(), Path::new("")).unwrap();
             assert!(scene.hairstyle_spec().is_ok(), "{}", card.name);

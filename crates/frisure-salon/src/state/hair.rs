@@ -1,283 +1,260 @@
-//! The hair that follows from the text: when it is asked for, and how well.
+//! Scheduling of the hair that follows from the text: when it is requested, and at which effort.
 
 use std::sync::Arc;
 
-use frisure::hairstyle::HairstyleSpec;
 use frisure::hairstyle::styling::{Operation, Release};
-use frisure::scene::{GroomFile, HeadSource, write_step};
-use frisure_engine::{Diagnostic, Preview, Quality, Request, Response};
+use frisure::scene::write_step;
+use frisure_engine::{Diagnostic, GuideData, Preview, Quality, Request, Response, SceneRef};
+use glam::{DVec3, Vec3};
 
-use super::desk::{Job, Purpose};
-use super::{FILES_PANEL, HeadMesh, Salon, Seen, Understood};
+use super::controls::FILES_PANEL;
+use super::head_mesh::HeadMesh;
+use super::jobs::{Job, Purpose};
+use super::salon::{CurrentHair, HairKey, IsolatedHair, Salon, parse};
+use super::selection::Selected;
 
-/// What the shape of the hair depends on: two scenes with the same key have the same hair.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct HairKey {
-    spec: HairstyleSpec,
-    steps: Vec<Operation>,
-    head: HeadSource,
-    groom: Option<GroomFile>,
-}
-
-impl HairKey {
-    pub(super) fn of(understood: &Understood) -> Self {
-        Self {
-            spec: understood.spec.clone(),
-            steps: understood.scene.steps().to_vec(),
-            head: understood.scene.head.clone(),
-            groom: understood.scene.groom.clone(),
-        }
-    }
-}
-
-/// How the hair that is seen stands to the text.
+/// Whether the shown hair is that of the text, and at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Badge {
-    /// There is none.
+    /// There is no hair.
     Empty,
-    /// It is on its way.
+    /// The hair is being computed.
     Settling,
-    /// It is at rest, every guide at a minimum of its energy.
+    /// Every guide is at a stable minimum of its energy.
     AtRest,
-    /// It has come to rest where a breath would move it, or not come to rest: so many guides.
+    /// The number of guides that are unstable or not converged.
     Unstable(usize),
-    /// What the text says cannot be; the hair is what it was before.
+    /// The hair of the text cannot be computed; that of an earlier text is shown.
     Refused(String),
 }
 
-/// Most coarse answers one after the other to one text, while a slider is held and when it is not: exact
-/// work takes seconds, and hair that has not come far yet is no sight.
-const ROUGH_HELD: usize = 30;
-const ROUGH: usize = 3;
+/// Most coarse responses to one text before the exact one, while a slider is dragged and otherwise: an exact
+/// computation takes seconds, and early coarse hair is far from its rest shape. Chosen by trial.
+const MAX_COARSE_DRAGGING: usize = 30;
+const MAX_COARSE: usize = 3;
 
-/// Points along a hair that is looked at alone.
-const ALONE: usize = 120;
+/// Number of points along a hair that is shown alone.
+const ISOLATED_POINTS: usize = 120;
 
 impl Salon {
-    /// How the hair stands.
+    /// Whether the shown hair is that of the text, and at rest.
     #[must_use]
     pub fn badge(&self) -> Badge {
-        let Some(understood) = &self.scene else { return Badge::Empty };
-        let key = HairKey::of(understood);
-        if let Some((_, refusal)) = self.refused.as_ref().filter(|(refused, _)| *refused == key) {
-            return Badge::Refused(refusal.problem.clone());
+        let Some(parsed) = &self.scene else { return Badge::Empty };
+        let key = HairKey::of(parsed);
+        if let Some((_, error)) = self.refused.as_ref().filter(|(refused, _)| *refused == key) {
+            return Badge::Refused(error.problem.clone());
         }
-        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key.as_ref() == Some(&key)) else {
-            return Badge::Settling;
-        };
-        let numbers = &seen.hair.numbers;
+        let Some(current) = self.current_of(&key) else { return Badge::Settling };
+        let numbers = &current.hair.numbers;
         match numbers.unstable + numbers.moving {
-            _ if seen.hair.quality == Quality::Coarse => Badge::Settling,
+            _ if current.hair.quality == Quality::Coarse => Badge::Settling,
             0 => Badge::AtRest,
             n => Badge::Unstable(n),
         }
     }
 
-    /// Whether the hair that is seen is that of the text, at rest.
+    /// Whether the shown hair is that of the text, at rest.
     #[must_use]
     pub fn is_settled(&self) -> bool {
         matches!(self.badge(), Badge::AtRest | Badge::Unstable(_))
     }
 
-    /// Starts what is to be done next for the hair, and stops what is for nothing.
+    /// The shown hair, if it has a key.
+    fn current_of(&self, key: &HairKey) -> Option<&CurrentHair> {
+        self.current.as_ref().filter(|current| current.key.as_ref() == Some(key))
+    }
+
+    /// Starts the next job for the shown hair, or cancels an outdated one.
     pub(super) fn schedule(&mut self) {
-        if self.look_into_files() {
+        if self.inspect_next_file() {
             return;
         }
-        let (Some(understood), Some(asked)) = (self.scene.clone(), self.asked()) else { return };
-        let key = HairKey::of(&understood);
+        let (Some(parsed), Some(scene)) = (self.scene.clone(), self.scene_ref()) else { return };
+        let key = HairKey::of(&parsed);
         let effort = self.wanted(&key);
-        if let Some(job) = &self.desk.hair {
-            // Coarse work is short, and shows the way; exact work on another text is for nothing.
-            let other = job.asked != asked || effort.is_some_and(|e| e == Quality::Coarse);
-            // Hair of another program takes as long for the eye.
-            let held = self.document.as_ref().is_some_and(super::Document::is_draft);
+        if let Some(job) = &self.jobs.hair {
+            // A coarse job is short and its hair is shown; an exact one for another text is cancelled.
+            let other = job.scene != scene || effort.is_some_and(|e| e == Quality::Coarse);
+            // A coarse job for a groom takes as long as an exact one.
             let is_long = matches!(job.purpose, Purpose::Show(Quality::Exact))
-                || key.groom.is_some() && !held;
-            if other && is_long && self.differs(&job.asked.text, &key) {
-                self.desk.outdate();
+                || key.groom.is_some() && !self.is_dragging();
+            if other && is_long && self.differs(&job.scene.text, &key) {
+                self.jobs.cancel_hair();
             }
             return;
         }
         match effort {
             Some(effort) => {
                 self.progress = None;
-                let order = Request::Preview { scene: asked.clone(), quality: effort };
-                self.desk.start(Purpose::Show(effort), asked, order);
+                let request = Request::Preview { scene: scene.clone(), quality: effort };
+                self.jobs.start(Purpose::Show(effort), scene, request);
             }
-            None => self.ask_about_it(asked),
+            None => self.request_details(scene),
         }
     }
 
-    /// Whether a text has other hair than a key.
+    /// Whether the hair of a text has another key.
     fn differs(&self, text: &str, key: &HairKey) -> bool {
         let Some(document) = &self.document else { return true };
-        let other = super::command::understand(document, text);
-        !other.is_ok_and(|other| HairKey::of(&other) == *key)
+        !parse(document, text).is_ok_and(|other| HairKey::of(&other) == *key)
     }
 
-    /// How well the hair of a key is to be computed now; `None` if it is there, or cannot be.
+    /// The effort at which the hair of a key is computed next; `None` if it is complete or refused.
     fn wanted(&self, key: &HairKey) -> Option<Quality> {
         if self.refused.as_ref().is_some_and(|(refused, _)| refused == key) {
             return None;
         }
-        let held = self.document.as_ref().is_some_and(super::Document::is_draft);
-        let Some(seen) = self.shown.as_ref().filter(|seen| seen.key.as_ref() == Some(key)) else {
-            return Some(Quality::Coarse);
-        };
-        let most = if held { ROUGH_HELD } else { ROUGH };
-        match seen.hair.quality {
+        let dragging = self.is_dragging();
+        let Some(current) = self.current_of(key) else { return Some(Quality::Coarse) };
+        let most = if dragging { MAX_COARSE_DRAGGING } else { MAX_COARSE };
+        match current.hair.quality {
             Quality::Exact => None,
-            // Each coarse answer goes on from the last.
-            Quality::Coarse if seen.hair.numbers.moving > 0 && seen.rough < most => {
+            // Each coarse response continues from the one before.
+            Quality::Coarse if current.hair.numbers.moving > 0 && current.coarse_count < most => {
                 Some(Quality::Coarse)
             }
-            Quality::Coarse if held => None,
+            Quality::Coarse if dragging => None,
             Quality::Coarse => Some(Quality::Exact),
         }
     }
 
-    /// What else is asked about hair that is there.
-    fn ask_about_it(&mut self, asked: frisure_engine::SceneRef) {
-        let Some(version) = self.shown.as_ref().map(|seen| seen.version) else { return };
-        if !self.chosen.is_everything() && self.chosen.wisps.is_none() {
-            let step = Operation::Release(Release { selection: self.chosen.selection.clone() });
+    /// Requests the wisps of a new selection, or the hair that is shown alone.
+    fn request_details(&mut self, scene: SceneRef) {
+        let Some(version) = self.current.as_ref().map(|current| current.version) else { return };
+        if !self.selected.is_everything() && self.selected.wisps.is_none() {
+            let step = Operation::Release(Release { selection: self.selected.selection.clone() });
             match write_step(&step) {
                 Ok(text) => {
                     let step = text.trim_start_matches("[[step]]").trim().to_owned();
-                    let order = Request::Select { scene: asked.clone(), step };
-                    self.desk.start(Purpose::Choose, asked, order);
+                    let request = Request::Select { scene: scene.clone(), step };
+                    self.jobs.start(Purpose::Select, scene, request);
                 }
                 Err(e) => {
-                    self.tell(e.to_string(), "Choose other hair.", true);
-                    self.chosen = super::Chosen::default();
+                    self.notify(e.to_string(), "Select other hair.", true);
+                    self.selected = Selected::default();
                 }
             }
             return;
         }
-        if let Some(alone) = self.alone.as_ref().filter(|alone| alone.version != version) {
-            let order = Request::Guide { scene: asked.clone(), wisp: alone.wisp, points: ALONE };
-            self.desk.start(Purpose::Hair, asked, order);
+        if let Some(isolated) = self.isolated.as_ref().filter(|hair| hair.version != version) {
+            let (asked, wisp) = (scene.clone(), isolated.wisp);
+            let request = Request::Guide { scene: asked, wisp, points: ISOLATED_POINTS };
+            self.jobs.start(Purpose::Isolate, scene, request);
         }
     }
 
-    /// Takes an answer about the hair.
-    pub(super) fn receive_hair(&mut self, answer: Response) {
-        if let Response::Progress { stage, fraction } = answer {
+    /// Takes a response to a job for the shown hair.
+    pub(super) fn receive_hair(&mut self, response: Response) {
+        if let Response::Progress { stage, fraction } = response {
             self.progress = Some((stage, fraction));
             return;
         }
-        let Some(job) = self.desk.hair.take() else { return };
+        let Some(job) = self.jobs.hair.take() else { return };
         if job.purpose == Purpose::Contents {
-            return self.looked_into(answer);
+            return self.file_inspected(response);
         }
-        match answer {
-            Response::Preview(hair) => self.show(&job.asked.text, *hair, job.outdated),
+        match response {
+            Response::Preview(hair) => self.show(&job.scene.text, *hair, job.outdated),
             _ if job.outdated => {}
-            Response::Selected(wisps) => self.chosen.wisps = Some(wisps),
-            Response::Guide(hair) => self.show_alone(*hair),
-            Response::Failed(refusal) => self.refuse(&job, refusal),
+            Response::Selected(wisps) => self.selected.wisps = Some(wisps),
+            Response::Guide(hair) => self.show_isolated(*hair),
+            Response::Failed(error) => self.refuse(&job, error),
             _ => {}
         }
     }
 
-    fn refuse(&mut self, job: &Job, refusal: Diagnostic) {
+    fn refuse(&mut self, job: &Job, error: Diagnostic) {
         match job.purpose {
-            Purpose::Choose => self.chosen = super::Chosen::default(),
-            Purpose::Hair => self.alone = None,
+            Purpose::Select => self.selected = Selected::default(),
+            Purpose::Isolate => self.isolated = None,
             _ => {
-                // Of a text that nobody edits any more nobody wants to know.
-                let now = self.scene.as_ref().map(|understood| HairKey::of(understood));
-                let Some(key) = now.filter(|key| !self.differs(&job.asked.text, key)) else {
+                // An error of a text that is not the current one is not reported.
+                let now = self.scene.as_ref().map(|parsed| HairKey::of(parsed));
+                let Some(key) = now.filter(|key| !self.differs(&job.scene.text, key)) else {
                     return;
                 };
-                self.refused = Some((key, refusal.clone()));
+                self.refused = Some((key, error.clone()));
             }
         }
-        self.complain(&refusal);
+        self.report_error(&error);
     }
 
     fn show(&mut self, text: &str, mut hair: Preview, outdated: bool) {
         if let Some(head) = hair.head.take() {
             if !head.note.is_empty() {
                 let hint = format!("Choose another under “{FILES_PANEL}”.");
-                self.tell(head.note.clone(), hint, false);
+                self.notify(head.note.clone(), hint, false);
             }
             self.head = Some(Arc::new(HeadMesh::new(head)));
         }
         let Some(document) = &self.document else { return };
-        let Ok(understood) = super::command::understand(document, text) else { return };
-        let key = HairKey::of(&understood);
-        // Hair that is out of date is better than older hair while a slider moves, but not
-        // than newer.
-        let newest = self.scene.as_ref().is_some_and(|u| HairKey::of(u) == key);
+        let Ok(parsed) = parse(document, text) else { return };
+        let key = HairKey::of(&parsed);
+        // Outdated hair is shown only if its text has the same hair as the current one.
+        let newest = self.scene.as_ref().is_some_and(|parsed| HairKey::of(parsed) == key);
         if outdated && !newest {
             return;
         }
         self.version += 1;
-        self.tell_what_fell(&hair);
-        self.tell_how_it_was_held(&hair);
-        let known = self.shown.as_ref().filter(|seen| seen.key.as_ref() == Some(&key));
-        let rough = known.map_or(0, |seen| seen.rough) + 1;
-        self.shown =
-            Some(Seen { key: Some(key), hair: Arc::new(hair), version: self.version, rough });
-        self.falling = None;
+        if hair.quality == Quality::Exact {
+            self.report_cut_mass(&hair);
+            self.report_groom_fit(&hair);
+        }
+        let coarse_count = self.current_of(&key).map_or(0, |current| current.coarse_count) + 1;
+        let (key, hair, version) = (Some(key), Arc::new(hair), self.version);
+        self.current = Some(CurrentHair { key, hair, version, coarse_count });
+        self.cut_preview = None;
         if !self.framed {
             self.framed = true;
             self.frame_all(1.0);
         }
     }
 
-    fn show_alone(&mut self, hair: frisure_engine::GuideData) {
-        let version = self.shown.as_ref().map_or(0, |seen| seen.version);
+    fn show_isolated(&mut self, hair: GuideData) {
+        let version = self.current.as_ref().map_or(0, |current| current.version);
         let wisp = hair.wisp;
-        self.alone = Some(super::Alone { wisp, hair: Some(Arc::new(hair)), version });
+        self.isolated = Some(IsolatedHair { wisp, hair: Some(Arc::new(hair)), version });
     }
 
-    /// After a step that took hair away, how much.
-    fn tell_what_fell(&mut self, hair: &Preview) {
-        if hair.quality != Quality::Exact {
-            return;
-        }
+    /// After a cut, reports the mass of the hair that was cut off.
+    fn report_cut_mass(&mut self, hair: &Preview) {
         let Some(mass) = self.mass_before.take() else { return };
-        let fell = mass - hair.numbers.mass;
-        if fell > 1e-7 {
-            self.tell(format!("{:.1} g of hair fell.", fell * 1e3), "", false);
+        let cut_off = mass - hair.numbers.mass;
+        if cut_off > 1e-7 {
+            self.notify(format!("Cut off {:.1} g of hair.", cut_off * 1e3), "", false);
         }
     }
 
-    /// How well hair of another program hangs as it was modelled, when that is new.
-    fn tell_how_it_was_held(&mut self, hair: &Preview) {
-        if hair.quality != Quality::Exact || hair.adoption == self.held {
+    /// Reports how closely a groom's hair keeps its modelled shape, when that changes.
+    fn report_groom_fit(&mut self, hair: &Preview) {
+        if hair.adoption == self.held {
             return;
         }
         self.held.clone_from(&hair.adoption);
         let Some(held) = &hair.adoption else { return };
         let hint = match held.unstable {
             0 => "",
-            _ => "A stiffer or thicker fibre, or a shorter lock, holds more.",
+            _ => "A stiffer or thicker fibre, or a shorter lock, is stable.",
         };
-        self.tell(format!("groom: {held}"), hint, false);
+        self.notify(format!("groom: {held}"), hint, false);
     }
 
-    /// Brings all of the hair and the head into a picture of an aspect.
+    /// Frames the hair and the head in a picture of an aspect ratio.
     pub(super) fn frame_all(&mut self, aspect: f64) {
-        let Some(seen) = &self.shown else { return };
-        let hair = bounds(&seen.hair.strands.points);
+        let Some(current) = &self.current else { return };
+        let hair = bounds(&current.hair.strands.points);
         let head = self.head.as_ref().map(|head| head.framed());
-        let all = match (hair, head) {
-            (Some(a), Some(b)) => (a.0.min(b.0), a.1.max(b.1)),
-            (Some(a), None) | (None, Some(a)) => a,
-            (None, None) => return,
-        };
-        self.orbit.frame(all, aspect);
+        let boxes = hair.into_iter().chain(head);
+        if let Some(all) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) {
+            self.orbit.frame(all, aspect);
+        }
     }
 }
 
-/// The box around points, three numbers each (m).
-fn bounds(points: &[f32]) -> Option<(glam::DVec3, glam::DVec3)> {
-    let points = points.chunks_exact(3).map(|p| glam::Vec3::new(p[0], p[1], p[2]).as_dvec3());
-    let mut points = points.filter(|p| p.is_finite());
-    let first = points.next()?;
-    Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
+/// The bounding box of points, three numbers each (m).
+fn bounds(points: &[f32]) -> Option<(DVec3, DVec3)> {
+    let points = points.chunks_exact(3).map(|p| Vec3::new(p[0], p[1], p[2]).as_dvec3());
+    let points = points.filter(|p| p.is_finite());
+    points.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }

@@ -1,4 +1,4 @@
-//! The world outside a window of the desktop.
+//! The desktop: files, the system's dialog, and the autosave file.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -6,45 +6,50 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use frisure::files::{read_bytes, write_atomically};
 use frisure::formats::contents::{self, Contents};
 
-use super::outside::{Dropped, Given, Outside, extensions};
+use super::platform::{DroppedFile, InputFile, Platform, extensions};
 use crate::state::{Destination, Save};
+use crate::work::Wake;
 
-/// Largest file that is opened (bytes).
-const MOST: u64 = 1 << 30;
+/// Largest scene that is opened (bytes).
+const MAX_SIZE: u64 = 1 << 30;
 
-/// Files of the system, and its dialog.
+/// The desktop platform.
 pub struct Desktop {
-    /// Where the text that survives a crash is.
-    kept: Option<PathBuf>,
-    given: (Sender<Given>, Receiver<Given>),
-    wake: super::Wake,
+    autosave: Option<PathBuf>,
+    files: (Sender<InputFile>, Receiver<InputFile>),
+    wake: Wake,
 }
 
 impl Desktop {
-    /// The usual folders of the system; `kept` overrides where the text is kept.
+    /// Creates it with an autosave file; by default one in the user's data folder.
     #[must_use]
-    pub fn new(kept: Option<PathBuf>, wake: super::Wake) -> Self {
+    pub fn new(autosave: Option<PathBuf>, wake: Wake) -> Self {
         let usual = || {
             let dirs = directories::ProjectDirs::from("", "", "frisure")?;
             Some(dirs.data_local_dir().join("salon-kept.toml"))
         };
-        Self { kept: kept.or_else(usual), given: channel(), wake }
+        Self { autosave: autosave.or_else(usual), files: channel(), wake }
     }
 }
 
-/// Reads a file that somebody names. Heads and grooms are read where hair is computed.
+/// Reads a file. The contents of heads and grooms are left to the engine.
 ///
 /// # Errors
-/// What went wrong, for a person.
-pub fn read(path: &Path) -> Result<Given, String> {
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+/// The reason, for a message.
+pub fn read(path: &Path) -> Result<InputFile, String> {
     let bytes = match contents::by_name(path) == Contents::default() {
-        true => read_bytes(path, MOST, "a file").map_err(|e| full(&e))?,
+        true => read_bytes(path, MAX_SIZE, "a file").map_err(|e| full(&e))?,
         false => Vec::new(),
     };
-    // A scene names it from its own folder.
-    let whole = std::path::absolute(path).unwrap_or_else(|_| path.into());
-    Ok(Given { path: Some(whole), name, bytes })
+    Ok(InputFile { bytes, ..unread(path) })
+}
+
+/// A file without its contents.
+fn unread(path: &Path) -> InputFile {
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    // The scene's folder is not the working folder.
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.into());
+    InputFile { path: Some(path), name, bytes: Vec::new() }
 }
 
 fn full(error: &dyn std::error::Error) -> String {
@@ -58,7 +63,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     write_atomically(path, |out| out.write_all(bytes)).map_err(|e| full(&e))
 }
 
-impl Outside for Desktop {
+impl Platform for Desktop {
     fn save(&mut self, save: &Save) -> Result<(), String> {
         match &save.to {
             Destination::Path(path) => write(path, &save.bytes),
@@ -66,8 +71,8 @@ impl Outside for Desktop {
         }
     }
 
-    fn keep(&mut self, text: Option<&str>) -> Result<(), String> {
-        let Some(path) = &self.kept else { return Ok(()) };
+    fn write_autosave(&mut self, text: Option<&str>) -> Result<(), String> {
+        let Some(path) = &self.autosave else { return Ok(()) };
         match text {
             Some(text) => {
                 let folder = path.parent().unwrap_or(Path::new(""));
@@ -81,37 +86,33 @@ impl Outside for Desktop {
         }
     }
 
-    fn kept(&mut self) -> Option<String> {
-        std::fs::read_to_string(self.kept.as_ref()?).ok()
+    fn read_autosave(&mut self) -> Option<String> {
+        std::fs::read_to_string(self.autosave.as_ref()?).ok()
     }
 
-    fn ask_for_file(&mut self) {
-        let sender = self.given.0.clone();
-        let wake = self.wake.clone();
-        // The dialog blocks, and the window must not.
+    fn show_open_dialog(&mut self) {
+        let (sender, wake) = (self.files.0.clone(), self.wake.clone());
+        // The dialog blocks its thread.
         std::thread::spawn(move || {
             let dialog = rfd::FileDialog::new()
                 .set_title("Open a scene, a head or a groom")
                 .add_filter("Scenes, heads and grooms", &extensions());
-            if let Some(given) = dialog.pick_file().and_then(|path| read(&path).ok())
-                && sender.send(given).is_ok()
+            if let Some(file) = dialog.pick_file().and_then(|path| read(&path).ok())
+                && sender.send(file).is_ok()
             {
                 wake();
             }
         });
     }
 
-    fn take_in(&mut self, file: Dropped) {
-        // What cannot be read is told by name, as what cannot be understood is.
-        let path = file.path();
-        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let given =
-            read(path).unwrap_or(Given { path: Some(path.into()), name, bytes: Vec::new() });
-        let _ = self.given.0.send(given);
+    fn read_dropped(&mut self, file: DroppedFile) {
+        // A file that cannot be read is reported as one that is not a scene.
+        let file = read(file.path()).unwrap_or_else(|_| unread(file.path()));
+        let _ = self.files.0.send(file);
     }
 
-    fn given(&mut self) -> Option<Given> {
-        self.given.1.try_recv().ok()
+    fn next_file(&mut self) -> Option<InputFile> {
+        self.files.1.try_recv().ok()
     }
 
     fn has_paths(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Questions that the window asks.
+//! The modal dialogs.
 
 use std::path::PathBuf;
 
@@ -6,11 +6,11 @@ use eframe::egui::{
     self, ColorImage, ComboBox, DragValue, Grid, Modal, TextureHandle, TextureOptions, Ui,
 };
 
-use super::outside::Outside;
-use super::{keys, widgets};
-use crate::state::{Command, Destination, FORMATS, Salon, Shot};
+use super::platform::Platform;
+use super::widgets;
+use crate::state::{Command, Destination, FORMATS, RenderTask, Salon};
 
-/// A question that is open.
+/// A dialog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialog {
     Open,
@@ -20,94 +20,103 @@ pub(super) enum Dialog {
     Help,
 }
 
-/// What was answered so far.
+impl Dialog {
+    pub(super) fn needs_document(self) -> bool {
+        !matches!(self, Self::Open | Self::Help)
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open a scene, a head or a groom",
+            Self::Save => "Save the scene",
+            Self::Export => "Export the hair",
+            Self::Picture => "Render a picture",
+            Self::Help => "Keys and tools",
+        }
+    }
+}
+
+/// The open dialog, and the contents of the fields.
 pub(super) struct Dialogs {
-    pub(super) open: Option<Dialog>,
+    pub(super) current: Option<Dialog>,
     path: String,
     format: usize,
     size: [usize; 2],
     paths: usize,
     noise: f64,
     frames: usize,
-    film: bool,
+    turntable: bool,
     texture: Option<(u64, TextureHandle)>,
-    /// The question has just been opened: its field wants the keyboard.
+    /// Whether the dialog has just been opened and its field takes the focus.
     is_new: bool,
-    /// A path to open, for the window.
-    pub(super) wanted: Option<PathBuf>,
+    /// A path that the window is to open.
+    pub(super) path_to_open: Option<PathBuf>,
 }
 
 impl Default for Dialogs {
     fn default() -> Self {
         Self {
-            open: None,
+            current: None,
             path: String::new(),
             format: 0,
             size: [1024, 1024],
             paths: 256,
             noise: 3.0,
             frames: 24,
-            film: false,
+            turntable: false,
             texture: None,
             is_new: false,
-            wanted: None,
+            path_to_open: None,
         }
     }
 }
 
 impl Dialogs {
-    /// Opens a question, with the usual answer.
-    pub(super) fn ask(&mut self, dialog: Dialog, salon: &Salon, outside: &dyn Outside) {
-        (self.open, self.is_new) = (Some(dialog), true);
-        let saved = salon.document().and_then(|d| d.path().map(PathBuf::from));
-        let usual = |extension: &str| outside.folder().join(salon.file_name(extension));
+    /// Opens a dialog and proposes a path.
+    pub(super) fn open(&mut self, dialog: Dialog, salon: &Salon, platform: &dyn Platform) {
+        (self.current, self.is_new) = (Some(dialog), true);
+        let saved = salon.document.as_ref().and_then(|d| d.path().map(PathBuf::from));
+        let proposed = |extension: &str| platform.folder().join(salon.file_name(extension));
         let path = match dialog {
-            Dialog::Save => saved.unwrap_or_else(|| usual("toml")),
-            Dialog::Export => usual(FORMATS[self.format].0),
-            Dialog::Picture => usual("png"),
+            Dialog::Save => saved.unwrap_or_else(|| proposed("toml")),
+            Dialog::Export => proposed(FORMATS[self.format].0),
+            Dialog::Picture => proposed("png"),
             Dialog::Open | Dialog::Help => PathBuf::new(),
         };
         self.path = path.display().to_string();
     }
 
-    /// Shows the open question.
+    /// Shows the open dialog.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         salon: &Salon,
-        outside: &mut dyn Outside,
+        platform: &mut dyn Platform,
         out: &mut Vec<Command>,
     ) {
-        let Some(dialog) = self.open else { return };
-        let title = match dialog {
-            Dialog::Open => "Open a scene, a head or a groom",
-            Dialog::Save => "Save the scene",
-            Dialog::Export => "Export the hair",
-            Dialog::Picture => "Take a picture",
-            Dialog::Help => "Keys and tools",
-        };
+        let Some(dialog) = self.current else { return };
         let modal = Modal::new(egui::Id::unique("dialog")).show(ui.ctx(), |ui| {
             ui.set_width(if dialog == Dialog::Help { 560.0 } else { 460.0 });
-            ui.heading(title);
+            ui.heading(dialog.title());
             ui.add_space(6.0);
             match dialog {
-                Dialog::Open => self.opening(ui, outside),
-                Dialog::Save => self.saving(ui, salon, outside, out),
-                Dialog::Export => self.exporting(ui, salon, outside, out),
-                Dialog::Picture => self.taking(ui, salon, outside, out),
+                Dialog::Open => self.open_file(ui, platform),
+                Dialog::Save => self.save(ui, salon, platform, out),
+                Dialog::Export => self.export(ui, salon, platform, out),
+                Dialog::Picture => self.picture(ui, salon, platform, out),
                 Dialog::Help => help(ui),
             }
             ui.add_space(6.0);
             if widgets::plain(ui, "Close", "Escape").clicked() {
-                self.open = None;
+                self.current = None;
             }
         });
         if modal.should_close() {
-            self.open = None;
+            self.current = None;
         }
     }
 
-    /// A field for a path; whether Enter was pressed in it.
+    /// Shows a field for a path; returns whether Enter was pressed in it.
     fn path(&mut self, ui: &mut Ui) -> bool {
         let name = ui.label("File");
         let field = egui::TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY);
@@ -118,32 +127,32 @@ impl Dialogs {
         field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter))
     }
 
-    fn opening(&mut self, ui: &mut Ui, outside: &mut dyn Outside) {
+    fn open_file(&mut self, ui: &mut Ui, platform: &mut dyn Platform) {
         ui.label(
-            "A scene is a .toml file. Meshes become the head, curves and lines the hair of the scene that is open: \
-             USD, Alembic, glTF, .obj, .ply, .hair, .data, .npz. All can be dropped on the window.",
+            "A scene is a .toml file. A mesh becomes the head of the open scene, curves and lines its hair: USD, \
+             Alembic, glTF, .obj, .ply, .hair, .data, .npz. Files can also be dropped on the window.",
         );
-        if outside.has_paths() {
+        if platform.has_paths() {
             let entered = self.path(ui);
             ui.horizontal(|ui| {
                 if widgets::plain(ui, "Open file", "").clicked() || entered {
-                    self.wanted = Some(PathBuf::from(self.path.trim()));
-                    self.open = None;
+                    self.path_to_open = Some(PathBuf::from(self.path.trim()));
+                    self.current = None;
                 }
                 if widgets::plain(ui, "Browse…", "The system's own dialog").clicked() {
-                    outside.ask_for_file();
-                    self.open = None;
+                    platform.show_open_dialog();
+                    self.current = None;
                 }
             });
         } else if widgets::plain(ui, "Choose a file…", "").clicked() {
-            outside.ask_for_file();
-            self.open = None;
+            platform.show_open_dialog();
+            self.current = None;
         }
     }
 
-    /// Where a file with this extension goes.
-    fn destination(&self, salon: &Salon, outside: &dyn Outside, extension: &str) -> Destination {
-        match outside.has_paths() {
+    /// The destination of a file with an extension.
+    fn destination(&self, salon: &Salon, platform: &dyn Platform, extension: &str) -> Destination {
+        match platform.has_paths() {
             true => {
                 let path = PathBuf::from(self.path.trim());
                 Destination::Path(match path.extension() {
@@ -155,35 +164,37 @@ impl Dialogs {
         }
     }
 
-    fn saving(
+    fn save(
         &mut self,
         ui: &mut Ui,
         salon: &Salon,
-        outside: &dyn Outside,
+        platform: &dyn Platform,
         out: &mut Vec<Command>,
     ) {
-        ui.label("The scene is a text with all that was done; the command line reads the same.");
-        let entered = outside.has_paths() && self.path(ui);
+        ui.label(
+            "The scene is a text file with all edits and steps; the command line reads it, too.",
+        );
+        let entered = platform.has_paths() && self.path(ui);
         if widgets::plain(ui, "Save scene", "").clicked() || entered {
-            out.push(Command::Save(self.destination(salon, outside, "toml")));
-            self.open = None;
+            out.push(Command::Save(self.destination(salon, platform, "toml")));
+            self.current = None;
         }
     }
 
-    fn exporting(
+    fn export(
         &mut self,
         ui: &mut Ui,
         salon: &Salon,
-        outside: &dyn Outside,
+        platform: &dyn Platform,
         out: &mut Vec<Command>,
     ) {
-        ui.label("All hairs as they are now, in metres, z up.");
+        ui.label("All hairs in their current shape, in metres, z up.");
         let before = self.format;
         let name = ui.label("Format");
         let list = ComboBox::from_id_salt("format").selected_text(FORMATS[self.format].1);
         let shown = list.show_ui(ui, |ui| {
-            for (index, (extension, said)) in FORMATS.iter().enumerate() {
-                let label = format!("{said} (.{extension})");
+            for (index, (extension, title)) in FORMATS.iter().enumerate() {
+                let label = format!("{title} (.{extension})");
                 ui.selectable_value(&mut self.format, index, label);
             }
         });
@@ -193,24 +204,24 @@ impl Dialogs {
             let path = PathBuf::from(&self.path).with_extension(extension);
             self.path = path.display().to_string();
         }
-        let entered = outside.has_paths() && self.path(ui);
+        let entered = platform.has_paths() && self.path(ui);
         if widgets::plain(ui, "Export groom", "").clicked() || entered {
-            out.push(Command::Export(self.destination(salon, outside, extension)));
-            self.open = None;
+            out.push(Command::Export(self.destination(salon, platform, extension)));
+            self.current = None;
         }
     }
 
-    fn taking(
+    fn picture(
         &mut self,
         ui: &mut Ui,
         salon: &Salon,
-        outside: &dyn Outside,
+        platform: &dyn Platform,
         out: &mut Vec<Command>,
     ) {
-        ui.label("Made in the background, from where you look now.");
+        ui.label("Rendered in the background, from the current view.");
         ui.horizontal(|ui| {
-            ui.selectable_value(&mut self.film, false, "Final picture");
-            ui.selectable_value(&mut self.film, true, "Turntable");
+            ui.selectable_value(&mut self.turntable, false, "Final picture");
+            ui.selectable_value(&mut self.turntable, true, "Turntable");
         });
         let number = |ui: &mut Ui, name: &str, value: &mut usize, range| {
             let label = ui.label(name);
@@ -220,7 +231,7 @@ impl Dialogs {
             number(ui, "Width", &mut self.size[0], 16..=8192);
             number(ui, "Height", &mut self.size[1], 16..=8192);
         });
-        if self.film {
+        if self.turntable {
             number(ui, "Pictures", &mut self.frames, 2..=360);
         } else {
             ui.horizontal(|ui| {
@@ -230,54 +241,80 @@ impl Dialogs {
                 ui.add(field.speed(0.1)).labelled_by(label.id);
             });
         }
-        if outside.has_paths() {
+        if platform.has_paths() {
             self.path(ui);
         }
-        let label = if self.film { "Make turntable" } else { "Render picture" };
+        let label = if self.turntable { "Make turntable" } else { "Render picture" };
         if widgets::plain(ui, label, "").clicked() {
-            let shot = match self.film {
-                true => Shot::Turntable { size: self.size, frames: self.frames },
-                false => {
-                    Shot::Picture { size: self.size, paths: self.paths, noise: self.noise / 100.0 }
-                }
+            let task = match self.turntable {
+                true => RenderTask::Turntable { size: self.size, frames: self.frames },
+                false => RenderTask::Picture {
+                    size: self.size,
+                    paths: self.paths,
+                    noise: self.noise / 100.0,
+                },
             };
-            out.push(Command::Shoot(shot, self.destination(salon, outside, "png")));
+            out.push(Command::Render(task, self.destination(salon, platform, "png")));
         }
-        self.developing(ui, salon, out);
+        self.partial_picture(ui, salon, out);
     }
 
-    /// The picture as it grows.
-    fn developing(&mut self, ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
-        if let Some((stage, done, _)) = salon.aside() {
+    /// Shows the picture as far as it is rendered.
+    fn partial_picture(&mut self, ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
+        if let Some((stage, done, _)) = salon.background() {
             let text = format!("{stage} {:.0} %", done * 100.0);
             ui.add(egui::ProgressBar::new(done).text(text));
             if widgets::plain(ui, "Stop rendering", "").clicked() {
                 out.push(Command::Stop);
             }
         }
-        let Some(exposed) = salon.exposed() else { return };
-        let known = self.texture.as_ref().is_some_and(|(v, _)| *v == exposed.version);
-        let whole = exposed.rgba.len() == 4 * exposed.size[0] * exposed.size[1];
-        if !known && whole && !exposed.rgba.is_empty() {
-            let image = ColorImage::from_rgba_unmultiplied(exposed.size, &exposed.rgba);
-            let texture = ui.ctx().load_texture("exposed", image, TextureOptions::LINEAR);
-            self.texture = Some((exposed.version, texture));
+        let Some(picture) = &salon.partial_picture else { return };
+        let known = self.texture.as_ref().is_some_and(|(v, _)| *v == picture.version);
+        let whole = picture.rgba.len() == 4 * picture.size[0] * picture.size[1];
+        if !known && whole && !picture.rgba.is_empty() {
+            let image = ColorImage::from_rgba_unmultiplied(picture.size, &picture.rgba);
+            let texture = ui.ctx().load_texture("partial picture", image, TextureOptions::LINEAR);
+            self.texture = Some((picture.version, texture));
         }
         if let Some((_, texture)) = &self.texture {
             ui.add(egui::Image::new(texture).max_size(egui::vec2(440.0, 360.0)));
-            ui.weak(format!("noise {:.1} %", exposed.noise * 100.0));
+            ui.weak(format!("noise {:.1} %", picture.noise * 100.0));
         }
     }
 }
 
+/// The keys and what they do.
+const KEYS: &[(&str, &str)] = &[
+    ("V", "orbit (drag); Shift-drag pans; the wheel zooms"),
+    ("L", "lasso: draw around hair; Shift adds, Alt removes"),
+    ("B", "brush: paint over the scalp"),
+    ("C", "cutting plane: drag it; Shift-drag tilts it; Enter cuts"),
+    ("K", "comb: drag in the direction that the hair takes"),
+    ("H", "pick one hair, to see its material frames"),
+    ("Space", "while held: orbit with every tool"),
+    ("A / I", "select all hair / invert the selection"),
+    ("W", "wet or dry the selected hair"),
+    ("G", "grow it by a month"),
+    ("R", "release held hair"),
+    ("Enter", "cut at the plane"),
+    ("Ctrl Z / Ctrl Shift Z", "undo / redo"),
+    ("X", "compare with the hair before the last edit"),
+    ("1 … 6", "front, three-quarter, left, back, right, top"),
+    ("F", "frame everything"),
+    ("Arrows, + / −", "orbit, zoom"),
+    ("Ctrl O / S / E / P", "open / save / export / picture"),
+    ("Esc", "orbit tool, all hair selected and shown"),
+    ("F1", "this help"),
+];
+
 fn help(ui: &mut Ui) {
     Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-        for (key, what) in keys::HELP {
+        for (key, action) in KEYS {
             ui.strong(*key);
-            ui.label(*what);
+            ui.label(*action);
             ui.end_row();
         }
     });
     ui.add_space(6.0);
-    ui.weak("The right mouse button turns the head whatever the tool, the middle one moves it.");
+    ui.weak("With every tool the right mouse button orbits and the middle one pans.");
 }

@@ -1,4 +1,4 @@
-//! The gallery: hair to begin with.
+//! The gallery: cards to begin with.
 
 use eframe::egui::{
     self, Align2, ColorImage, FontId, Rect, Sense, StrokeKind, TextureHandle, TextureOptions, Ui,
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::theme;
 use crate::state::{Card, Command, SCENES, Salon, TYPES};
 
-/// Pictures of cards on the device.
+/// The textures of the cards.
 #[derive(Default)]
 pub(super) struct Pictures(BTreeMap<&'static str, TextureHandle>);
 
@@ -27,8 +27,8 @@ impl Pictures {
     }
 }
 
-/// Until there is hair of its own, the picture of a hair type in the middle of a place.
-pub(super) fn meanwhile(ui: &Ui, rect: Rect, hair_type: &str, pictures: &mut Pictures) {
+/// Shows the picture of a hair type in a rectangle until the first hair is computed.
+pub(super) fn placeholder(ui: &Ui, rect: Rect, hair_type: &str, pictures: &mut Pictures) {
     let Some(card) = TYPES.iter().find(|card| card.name == hair_type) else { return };
     let Some(texture) = pictures.of(ui, card) else { return };
     let size = texture.size_vec2();
@@ -37,12 +37,12 @@ pub(super) fn meanwhile(ui: &Ui, rect: Rect, hair_type: &str, pictures: &mut Pic
     let uv = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
     let faint = egui::Color32::from_white_alpha(70);
     ui.painter().image(texture.id(), place, uv, faint);
-    let text = "The first hair is coming…";
+    let text = "Computing the first hair…";
     let (at, font) = (place.center_bottom() + vec2(0.0, 14.0), FontId::proportional(16.0));
     ui.painter().text(at, Align2::CENTER_TOP, text, font, egui::Color32::from_gray(200));
 }
 
-/// A PNG of ours, whatever its palette.
+/// Decodes a PNG.
 fn decoded(bytes: &[u8]) -> Option<ColorImage> {
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
@@ -57,15 +57,15 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, pictures: &mut Pictures, out: &mu
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            ui.heading("What hair do you want to begin with?");
-            if salon.document().is_some() {
+            ui.heading("Choose hair to begin with");
+            if salon.document.is_some() {
                 let back = super::widgets::plain(ui, "Back to the head", "Escape");
                 if back.clicked() {
                     out.push(Command::Gallery(false));
                 }
             }
         });
-        ui.weak("Pick a hair type or a hairstyle, open a scene, or drop a file on the window.");
+        ui.weak("Choose a hair type or a hairstyle, open a scene, or drop a file on the window.");
         ui.add_space(8.0);
         row(ui, "Hair types", TYPES, pictures, out);
         row(ui, "Hairstyles", SCENES, pictures, out);
@@ -86,7 +86,7 @@ fn row(ui: &mut Ui, title: &str, all: &[Card], pictures: &mut Pictures, out: &mu
     });
 }
 
-/// A card that can be clicked.
+/// Shows a card; returns whether it was clicked.
 fn card(ui: &mut Ui, card: &Card, pictures: &mut Pictures) -> bool {
     let (rect, response) = ui.allocate_exact_size(CARD + vec2(0.0, CAPTION), Sense::click());
     response.widget_info(|| {

@@ -1,45 +1,21 @@
-//! The keyboard: every tool has a key.
+//! Key bindings.
 
 use eframe::egui::{Key, KeyboardShortcut, Modifiers, Ui};
 
 use super::dialogs::Dialog;
-use crate::state::{Command, Document, Growing, Salon, Tool, VIEWS};
+use super::toolbars::{grow_a_month, release};
+use crate::state::{Command, Salon, Tool, VIEWS};
 
-/// What a key does, as the help shows it.
-pub(super) const HELP: &[(&str, &str)] = &[
-    ("V", "turn the head (drag); Shift: move it; wheel: nearer and farther"),
-    ("L", "lasso: draw around hair; Shift adds, Alt takes away"),
-    ("B", "brush: paint over the scalp"),
-    ("C", "cutting plane: drag it; Shift-drag tilts it; Enter cuts"),
-    ("K", "comb: drag along the hair's way"),
-    ("H", "pick one hair, to see its material frames"),
-    ("Space", "while held: turn the head whatever the tool"),
-    ("A / I", "choose all hair / what is not chosen"),
-    ("W", "wet or dry what is chosen"),
-    ("G", "let it grow by a month"),
-    ("R", "let go of what is held"),
-    ("Enter", "cut at the plane"),
-    ("Ctrl Z / Ctrl Shift Z", "undo / redo"),
-    ("X", "before and after, side by side"),
-    ("1 … 6", "front, three-quarter, left, back, right, top"),
-    ("F", "all in the picture"),
-    ("Arrows, + / −", "turn, nearer and farther"),
-    ("Ctrl O / S / E / P", "open / save / export / picture"),
-    ("Esc", "put the tool down; choose all"),
-    ("F1", "this help"),
-];
-
-/// The commands that keys give in this frame, and the dialog that one opens.
-///
-/// While a question is open (`asking`), keys belong to it.
+/// The commands of the keys pressed in this frame, and the dialog that one opens; none while a dialog has the
+/// keys (`modal`).
 pub(super) fn commands(
     ui: &Ui,
     salon: &Salon,
     aspect: f64,
-    asking: bool,
+    modal: bool,
 ) -> (Vec<Command>, Option<Dialog>) {
     let mut out = Vec::new();
-    if asking {
+    if modal {
         return (out, None);
     }
     let hit = |modifiers: Modifiers, key: Key| {
@@ -62,7 +38,7 @@ pub(super) fn commands(
     if hit(Modifiers::NONE, Key::F1) {
         dialog = Some(Dialog::Help);
     }
-    // A field that is being typed in keeps its letters.
+    // A focused text field takes the letters.
     if ui.ctx().egui_wants_keyboard_input() || salon.is_gallery() {
         if salon.is_gallery() && hit(Modifiers::NONE, Key::Escape) {
             out.push(Command::Gallery(false));
@@ -86,32 +62,26 @@ fn letters(hit: &dyn Fn(Modifiers, Key) -> bool, salon: &Salon, out: &mut Vec<Co
     ];
     out.extend(tools.iter().filter(|(k, _)| hit(none, *k)).map(|(_, t)| Command::Take(*t)));
     let plain = [
-        (Key::A, Command::ChooseAll),
-        (Key::I, Command::Invert),
-        (Key::W, Command::Water),
-        (Key::G, Command::Grow(Growing::Months(1.0))),
-        (Key::R, Command::Release),
+        (Key::A, Command::SelectAll),
+        (Key::I, Command::InvertSelection),
+        (Key::W, Command::ToggleWet),
+        (Key::G, grow_a_month()),
+        (Key::R, release()),
     ];
     out.extend(plain.into_iter().filter(|(k, _)| hit(none, *k)).map(|(_, c)| c));
-    if salon.tool() == Tool::Cut && hit(none, Key::Enter) {
+    if salon.tool == Tool::Cut && hit(none, Key::Enter) {
         out.push(Command::Cut);
     }
     if hit(none, Key::X) {
-        out.push(compare(salon));
+        out.push(Command::ToggleCompare);
     }
     if hit(none, Key::Escape) {
-        out.extend([Command::Take(Tool::Orbit), Command::Alone(None), Command::ChooseAll]);
+        out.extend([Command::Take(Tool::Orbit), Command::Isolate(None), Command::SelectAll]);
     }
-}
-
-/// Before and after: what was before the last change, or the end of it.
-pub(super) fn compare(salon: &Salon) -> Command {
-    let at = salon.document().map_or(0, Document::at);
-    Command::Compare(salon.compared().is_none().then(|| at.saturating_sub(1)))
 }
 
 fn camera(hit: &dyn Fn(Modifiers, Key) -> bool, aspect: f64, out: &mut Vec<Command>) {
-    /// Radians that an arrow turns.
+    /// Angle of an arrow key (rad).
     const STEP: f64 = 0.15;
     let none = Modifiers::NONE;
     let numbers = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];

@@ -1,13 +1,13 @@
-//! How the window looks, light and dark.
+//! The light and the dark theme.
 
 use eframe::egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme};
 
-/// The colour of what is chosen and of what is on.
+/// The colour of the selection and of toggles that are on.
 pub(super) const ACCENT: Color32 = Color32::from_rgb(0x2f, 0x8f, 0xd8);
-/// The colour of what falls.
-pub(super) const FALLING: Color32 = Color32::from_rgb(0xd8, 0x4a, 0x3a);
+/// The colour of hair that is cut off, and of errors.
+pub(super) const CUT_COLOUR: Color32 = Color32::from_rgb(0xd8, 0x4a, 0x3a);
 
-/// Sets both themes up.
+/// Installs both themes.
 pub(super) fn install(context: &Context) {
     context.style_mut_of(Theme::Dark, |style| set(style, true));
     context.style_mut_of(Theme::Light, |style| set(style, false));

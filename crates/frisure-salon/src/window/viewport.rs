@@ -1,11 +1,12 @@
-//! The head in the middle of the window, and the hand on it.
+//! The viewport: the head with its hair, and the pointer on it.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use eframe::egui::{
     self, Align2, Color32, CursorIcon, FontId, Key, PointerButton, Pos2, Rect, Response, Sense,
-    Shape, Stroke, Ui, vec2,
+    Shape, Stroke, Ui, Vec2, vec2,
 };
 use eframe::egui_wgpu::Callback;
 use frisure::files::Files;
@@ -16,104 +17,100 @@ use frisure_engine::{environment_map, picture};
 use frisure_view::{Line, Mark, Plane, Shadows};
 use glam::{DVec3, Vec3};
 
-use super::theatre::{Picture, Side};
-use super::{probe, theme};
-use crate::state::{Badge, Command, Mode, Salon, Tool};
+use super::renderer::{Picture, Side, Versioned, View};
+use super::{automation, theme, widgets};
+use crate::state::{Badge, Command, CutPlane, Salon, Tool};
 
-/// What the viewport remembers between frames.
+/// What the viewport keeps between frames.
 #[derive(Default)]
 pub(super) struct Viewport {
-    /// Corners of a lasso that is being drawn (points of the window).
+    /// Corners of the lasso that is being drawn (points of the window).
     lasso: Vec<Pos2>,
-    /// Places under a brush or a comb that is being drawn (m).
+    /// Hits of the brush or comb stroke that is being drawn (m).
     stroke: Vec<DVec3>,
-    /// When something last moved (s).
-    moved: f64,
-    /// Part of the hairs drawn while something moves.
+    /// Time of the last motion (s).
+    last_motion: f64,
+    /// Fraction of the strands drawn during motion.
     share: f32,
-    marks: Option<MarksOf>,
+    marks: Option<StrandMarks>,
     marks_version: u64,
-    /// The picture of surroundings that was read last: its path, and what it shows.
-    surroundings: Option<(PathBuf, Option<EnvironmentMap>)>,
-    pub(super) trouble: Arc<Mutex<Option<String>>>,
-    /// The device is slow, as somebody said who asked for one sample.
+    /// The environment map that was read last, and its path.
+    environment: Option<(PathBuf, Option<EnvironmentMap>)>,
+    /// The last error of the renderer.
+    pub(super) error: Arc<Mutex<Option<String>>>,
+    /// Whether the user asked for the settings of a slow device.
     is_slow: bool,
 }
 
-struct MarksOf {
+struct StrandMarks {
     hair: u64,
-    chosen: Option<Vec<bool>>,
-    falling: Option<crate::state::Plane>,
+    wisps: Option<Vec<bool>>,
+    plane: Option<CutPlane>,
     marks: Option<Arc<Vec<Mark>>>,
 }
 
-/// Seconds after the last movement until all hairs are drawn.
+/// Time after the last motion until all strands are drawn (s).
 const REST: f64 = 0.25;
 
-/// Hairs that are drawn while something moves, at least: fewer are no hair.
-const FEWEST: f32 = 4000.0;
+/// Least number of strands drawn during motion. Chosen by trial.
+const MIN_STRANDS: f32 = 4000.0;
 
-/// Radians for a drag over the viewport's height.
+/// Angle of a drag over the viewport's height (rad).
 const TURN: f64 = 3.5;
 
 impl Viewport {
-    /// A viewport on a device that is slow, or not.
     pub(super) fn new(is_slow: bool) -> Self {
         Self { is_slow, ..Self::default() }
     }
 
-    /// Shows it, and says what the hand does.
+    /// Shows the viewport and collects the commands of the pointer.
     pub(super) fn show(&mut self, ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The head"));
-        probe::record("The head", rect);
-        let sides = sides(rect, salon.compared().is_some());
-        let here = sides.iter().find(|(_, r)| {
-            response.interact_pointer_pos().or(response.hover_pos()).is_some_and(|p| r.contains(p))
-        });
-        let mine = here.map_or(sides[0].1, |(_, r)| *r);
-        self.hand(ui, &response, mine, salon, out);
-        let now = ui.input(|i| i.time);
-        let pace = self.pace(ui, now, salon);
+        automation::record("The head", rect);
+        let sides = sides(rect, salon.comparison.is_some());
+        let pointer = response.interact_pointer_pos().or(response.hover_pos());
+        let under = sides.iter().find(|(_, r)| pointer.is_some_and(|p| r.contains(p)));
+        let active = under.map_or(sides[0].1, |(_, r)| *r);
+        self.handle_pointer(ui, &response, active, salon, out);
+        let (share, shadows) = self.adapt_quality(ui, salon);
         for (side, rect) in &sides {
-            if let Some(picture) = self.picture(salon, *side, *rect, pace) {
+            if let Some(mut picture) = self.picture(salon, *side, *rect) {
+                (picture.view.share, picture.view.shadows) = (share, shadows);
                 ui.painter().add(Callback::new_paint_callback(*rect, picture));
             }
         }
         overlay(ui, salon, &sides);
-        self.drawn_shapes(ui, mine, salon);
+        self.draw_stroke(ui, active, salon);
     }
 
-    /// Something moved.
-    pub(super) fn moves(&mut self, now: f64) {
-        self.moved = now;
+    /// Notes that something moves, so that fewer strands are drawn for a while.
+    pub(super) fn note_motion(&mut self, now: f64) {
+        self.last_motion = now;
     }
 
-    /// Part of the hairs to draw now, and how well: all when still; while something moves so many that
-    /// pictures follow the hand.
-    fn pace(&mut self, ui: &Ui, now: f64, salon: &Salon) -> (f32, Shadows) {
-        let held = salon.document().is_some_and(crate::state::Document::is_draft);
-        if now - self.moved > REST && !held {
-            // Maps of density are what costs most without a graphics card.
+    /// The fraction of the strands to draw and the quality of shadows: everything at rest; during motion as much as
+    /// keeps the frame time between 22 ms and 50 ms.
+    fn adapt_quality(&mut self, ui: &Ui, salon: &Salon) -> (f32, Shadows) {
+        let (now, frame_time) = ui.input(|i| (i.time, i.unstable_dt));
+        if now - self.last_motion > REST && !salon.is_dragging() {
+            // Density maps cost most without a graphics card.
             return (1.0, if self.is_slow { Shadows::None } else { Shadows::Fine });
         }
         if self.share == 0.0 {
             self.share = 0.3;
         }
-        let took = ui.input(|i| i.unstable_dt);
-        let factor = if took > 0.05 {
-            0.75
-        } else if took < 0.022 {
-            1.25
-        } else {
-            1.0
+        let factor = match frame_time {
+            t if t > 0.05 => 0.75,
+            t if t < 0.022 => 1.25,
+            _ => 1.0,
         };
-        let drawn = salon.shown().map_or(1, |(hair, _)| hair.numbers.drawn.max(1));
-        let least = (FEWEST / drawn as f32).min(1.0);
+        let drawn = salon.preview().map_or(1, |(hair, _)| hair.numbers.drawn.max(1));
+        let least = (MIN_STRANDS / drawn as f32).min(1.0);
         self.share = (self.share * factor).clamp(least, 1.0);
-        ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(REST + 0.01));
-        // Steps, so that not every frame draws another choice of hairs.
+        ui.ctx().request_repaint_after(Duration::from_secs_f64(REST + 0.01));
+        // In steps of half an octave, so that not every frame draws another choice of strands.
         let steps = (self.share.log2() * 2.0).round() / 2.0;
         let shadows = match (self.is_slow, self.share < 1.0) {
             (true, _) => Shadows::None,
@@ -123,8 +120,7 @@ impl Viewport {
         (steps.exp2().min(1.0), shadows)
     }
 
-    /// What pointer and wheel do.
-    fn hand(
+    fn handle_pointer(
         &mut self,
         ui: &Ui,
         response: &Response,
@@ -133,266 +129,239 @@ impl Viewport {
         out: &mut Vec<Command>,
     ) {
         let before = out.len();
-        self.camera_by_hand(ui, response, rect, salon, out);
-        let pointer = response.interact_pointer_pos();
-        let drags = response.dragged_by(PointerButton::Primary) && !camera_keys(ui);
-        match (salon.tool(), pointer) {
-            (Tool::Lasso, Some(at))
-                if drags && self.lasso.last().is_none_or(|last| last.distance(at) > 2.0) =>
-            {
-                self.lasso.push(at);
-            }
-            (Tool::Brush | Tool::Comb, Some(at)) if drags || response.clicked() => {
-                let (from, way) = salon.orbit().ray(place(at, rect), aspect(rect));
-                let hit = salon.head().and_then(|head| head.hit(from, way));
-                self.stroke.extend(hit);
-            }
-            (Tool::Cut, Some(_)) if drags => {
-                let delta = f64::from(response.drag_delta().y / rect.height());
-                let across = f64::from(response.drag_delta().x / rect.height());
-                let mut plane = *salon.plane();
-                if ui.input(|i| i.modifiers.shift) {
-                    // The plane leans as the hand draws it on the screen.
-                    let right = salon.orbit().camera().right();
-                    plane.tilt(-across * 3.0 * right.x, -across * 3.0 * right.y);
-                } else {
-                    let height =
-                        2.0 * salon.orbit().distance * (0.5 * salon.orbit().field_of_view).tan();
-                    plane.raise(-delta * height);
-                }
-                out.push(Command::Plane(plane));
-            }
-            (Tool::Pick, Some(at)) if response.clicked() => {
-                let (from, way) = salon.orbit().ray(place(at, rect), aspect(rect));
-                if let Some(hit) = salon.head().and_then(|head| head.hit(from, way)) {
-                    out.push(Command::Alone(salon.wisp_at(hit)));
-                }
-            }
-            _ => {}
+        move_camera(ui, response, rect, salon, out);
+        if let Some(at) = response.interact_pointer_pos() {
+            self.use_tool(ui, response, at, rect, salon, out);
         }
         if response.drag_stopped() || response.clicked() {
-            self.lift(ui, rect, salon, out);
+            self.finish_stroke(ui, rect, salon, out);
         }
         if out.len() > before {
-            self.moved = ui.input(|i| i.time);
+            self.note_motion(ui.input(|i| i.time));
         }
-        let cursor = match salon.tool() {
-            Tool::Orbit => CursorIcon::Grab,
-            Tool::Cut => CursorIcon::ResizeVertical,
-            _ => CursorIcon::Crosshair,
-        };
         if response.hovered() {
-            ui.ctx().set_cursor_icon(cursor);
+            ui.ctx().set_cursor_icon(match salon.tool {
+                Tool::Orbit => CursorIcon::Grab,
+                Tool::Cut => CursorIcon::ResizeVertical,
+                _ => CursorIcon::Crosshair,
+            });
         }
     }
 
-    /// The hand lets go of what it drew.
-    fn lift(&mut self, ui: &Ui, rect: Rect, salon: &Salon, out: &mut Vec<Command>) {
-        let mode = ui.input(|i| match (i.modifiers.shift, i.modifiers.alt) {
-            (_, true) => Mode::Remove,
-            (true, _) => Mode::Add,
-            _ => Mode::Replace,
-        });
-        let lasso = std::mem::take(&mut self.lasso);
-        let stroke = std::mem::take(&mut self.stroke);
-        match salon.tool() {
-            Tool::Lasso if lasso.len() >= 3 => {
-                let polygon = lasso.into_iter().map(|p| place(p, rect)).collect();
-                out.push(Command::DrawLasso { polygon, aspect: aspect(rect), mode });
-            }
-            Tool::Brush if !stroke.is_empty() => out.push(Command::Paint(stroke, mode)),
-            Tool::Comb if stroke.len() >= 2 => {
-                let way = stroke[stroke.len() - 1] - stroke[0];
-                out.push(Command::Stroke(stroke, way));
-            }
-            _ => {}
-        }
-    }
-
-    /// Turning, moving and coming nearer: with the tool for it, or with the other buttons at any time.
-    fn camera_by_hand(
-        &self,
+    fn use_tool(
+        &mut self,
         ui: &Ui,
         response: &Response,
+        at: Pos2,
         rect: Rect,
         salon: &Salon,
         out: &mut Vec<Command>,
     ) {
-        let delta = response.drag_delta();
-        let (dx, dy) = (f64::from(delta.x / rect.height()), f64::from(delta.y / rect.height()));
-        let moved = delta != egui::Vec2::ZERO;
-        let primary = response.dragged_by(PointerButton::Primary);
-        let turns = response.dragged_by(PointerButton::Secondary)
-            || (primary && (salon.tool() == Tool::Orbit || camera_keys(ui)));
-        let shift = ui.input(|i| i.modifiers.shift) && salon.tool() == Tool::Orbit;
-        if response.dragged_by(PointerButton::Middle) || (turns && shift) {
-            if moved {
-                out.push(Command::Pan(dx, -dy));
+        let drags = response.dragged_by(PointerButton::Primary) && !orbit_key(ui);
+        let hit = || {
+            let (from, direction) = salon.orbit.ray(to_ndc(at, rect), aspect(rect));
+            salon.head.as_ref().and_then(|head| head.hit(from, direction))
+        };
+        match salon.tool {
+            Tool::Lasso
+                if drags && self.lasso.last().is_none_or(|last| last.distance(at) > 2.0) =>
+            {
+                self.lasso.push(at);
             }
-        } else if turns && moved {
-            out.push(Command::Turn(dx * TURN, dy * TURN));
-        }
-        if response.hovered() {
-            let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
-            let factor = f64::from(pinch) * (f64::from(scroll) * 0.004).exp();
-            if (factor - 1.0).abs() > 1e-6 {
-                out.push(Command::Zoom(factor));
+            Tool::Brush | Tool::Comb if drags || response.clicked() => self.stroke.extend(hit()),
+            Tool::Cut if drags => {
+                let delta = response.drag_delta() / rect.height();
+                let mut plane = salon.plane;
+                if ui.input(|i| i.modifiers.shift) {
+                    // Tilts about the direction of view.
+                    let by = -3.0 * f64::from(delta.x) * salon.orbit.camera().right();
+                    plane.tilt(by.x, by.y);
+                } else {
+                    plane.raise(-f64::from(delta.y) * view_height(salon));
+                }
+                out.push(Command::Plane(plane));
             }
+            Tool::Pick if response.clicked() => {
+                if let Some(hit) = hit() {
+                    out.push(Command::Isolate(salon.wisp_at(hit)));
+                }
+            }
+            _ => {}
         }
-        if response.double_clicked() && salon.tool() == Tool::Orbit {
-            out.push(Command::Frame(aspect(rect)));
+    }
+
+    /// Turns the drawn lasso or stroke into a command.
+    fn finish_stroke(&mut self, ui: &Ui, rect: Rect, salon: &Salon, out: &mut Vec<Command>) {
+        let mode = widgets::select_mode(ui);
+        let lasso = std::mem::take(&mut self.lasso);
+        let stroke = std::mem::take(&mut self.stroke);
+        match salon.tool {
+            Tool::Lasso if lasso.len() >= 3 => {
+                let polygon = lasso.into_iter().map(|p| to_ndc(p, rect)).collect();
+                out.push(Command::DrawLasso { polygon, aspect: aspect(rect), mode });
+            }
+            Tool::Brush if !stroke.is_empty() => out.push(Command::Paint(stroke, mode)),
+            Tool::Comb if stroke.len() >= 2 => {
+                let direction = stroke[stroke.len() - 1] - stroke[0];
+                out.push(Command::Stroke(stroke, direction));
+            }
+            _ => {}
         }
     }
 
     /// The picture of one side.
-    fn picture(
-        &mut self,
-        salon: &mut Salon,
-        side: Side,
-        rect: Rect,
-        (share, shadows): (f32, Shadows),
-    ) -> Option<Picture> {
-        let understood = salon.scene()?.clone();
-        let camera = salon.orbit().camera();
-        let middle = salon.head().map_or(DVec3::ZERO, |head| {
+    fn picture(&mut self, salon: &mut Salon, side: Side, rect: Rect) -> Option<Picture> {
+        let parsed = salon.scene.clone()?;
+        let camera = salon.orbit.camera();
+        let middle = salon.head.as_ref().map_or(DVec3::ZERO, |head| {
             let (low, high) = head.framed();
             0.5 * (low + high)
         });
-        let (look, lights) = self.lit(&understood.scene, &camera, middle);
+        let (look, lights) = self.look_and_lights(&parsed.scene, &camera, middle);
         let (hair, version) = match side {
-            Side::Now => salon.shown().map(|(hair, version)| (hair.clone(), version))?,
+            Side::Now => salon.preview().map(|(hair, version)| (hair.clone(), version))?,
             Side::Before => {
-                let compared = salon.compared()?;
-                (compared.hair.clone()?, compared.version)
+                let comparison = salon.comparison.as_ref()?;
+                (comparison.hair.clone()?, comparison.version)
             }
         };
-        let marks = (side == Side::Now).then(|| self.marks(salon)).flatten();
-        let alone = salon.alone().and_then(|alone| alone.hair.clone());
-        let (mut lines, mut planes) = (Vec::new(), Vec::new());
-        // The others are out of the way.
-        let isolated = alone.is_some() && side == Side::Now;
-        if let Some(hair) = alone.as_ref().filter(|_| isolated) {
-            lines = frames(hair);
-        }
-        if salon.tool() == Tool::Cut && side == Side::Now {
-            planes.push(cutting_plane(salon.plane()));
-        }
-        let tone = understood.scene.output.tone;
-        let head = salon.head().map(|head| (head.clone(), Arc::as_ptr(head) as usize as u64));
+        let is_now = side == Side::Now;
+        let marks = if is_now { self.marks(salon) } else { None };
+        let isolated = salon.isolated.as_ref().and_then(|i| i.hair.as_ref()).filter(|_| is_now);
+        let planes = (is_now && salon.tool == Tool::Cut).then(|| cutting_plane(&salon.plane));
+        let output = &parsed.scene.output;
         Some(Picture {
             side,
-            hair: (!isolated).then_some((hair, version)),
-            head,
-            camera,
-            lights,
-            look,
+            hair: isolated.is_none().then_some((hair, version)),
+            head: salon.head.as_ref().map(|head| (head.clone(), Arc::as_ptr(head) as usize as u64)),
             marks,
-            lines,
-            planes,
-            share,
-            shadows,
-            tone,
-            stops: understood.scene.output.exposure as f32,
+            view: View {
+                camera,
+                lights,
+                look,
+                lines: isolated.map(|hair| material_frames(hair)).unwrap_or_default(),
+                planes: planes.into_iter().collect(),
+                share: 1.0,
+                shadows: Shadows::None,
+                tone: output.tone,
+                stops: output.exposure as f32,
+            },
             rect,
-            trouble: self.trouble.clone(),
+            error: self.error.clone(),
         })
     }
 
-    /// The scene's look and light, or the default if they cannot be.
-    fn lit(&mut self, scene: &Scene, camera: &Camera, middle: DVec3) -> (Look, Lights) {
-        self.look_around(scene);
-        let around = self.surroundings.as_ref().and_then(|(_, map)| map.as_ref());
-        picture::spec(scene, around).look_and_lights(camera, middle).unwrap_or_else(|error| {
-            self.complain(error.to_string());
+    /// The scene's look and lights, or the default ones where the scene's are invalid.
+    fn look_and_lights(&mut self, scene: &Scene, camera: &Camera, middle: DVec3) -> (Look, Lights) {
+        self.read_environment(scene);
+        let map = self.environment.as_ref().and_then(|(_, map)| map.as_ref());
+        picture::spec(scene, map).look_and_lights(camera, middle).unwrap_or_else(|error| {
+            self.report(error.to_string());
             (Look::default(), Lights::studio(camera))
         })
     }
 
-    /// Reads the picture of surroundings that a scene names, once.
-    fn look_around(&mut self, scene: &Scene) {
-        let Some(named) = &scene.environment else {
-            self.surroundings = None;
+    /// Reads the environment map of a scene, once.
+    fn read_environment(&mut self, scene: &Scene) {
+        let Some(file) = &scene.environment else {
+            self.environment = None;
             return;
         };
-        if self.surroundings.as_ref().is_some_and(|(path, _)| path == named) {
+        if self.environment.as_ref().is_some_and(|(path, _)| path == file) {
             return;
         }
         let map = environment_map(scene, &Files::default()).unwrap_or_else(|error| {
-            self.complain(error.to_string());
+            self.report(error.to_string());
             None
         });
-        self.surroundings = Some((named.clone(), map));
+        self.environment = Some((file.clone(), map));
     }
 
-    fn complain(&self, problem: String) {
-        if let Ok(mut trouble) = self.trouble.lock() {
-            *trouble = Some(problem);
+    fn report(&self, problem: String) {
+        if let Ok(mut error) = self.error.lock() {
+            *error = Some(problem);
         }
     }
 
-    /// What is special about strands: chosen, or about to fall.
-    fn marks(&mut self, salon: &mut Salon) -> Option<(Arc<Vec<Mark>>, u64)> {
-        let falling = salon.falling();
-        let (hair, version) = salon.shown()?;
-        let chosen = salon.chosen();
-        let wisps = chosen.wisps.clone().filter(|_| !chosen.is_everything());
-        let plane = falling.as_ref().map(|_| *salon.plane());
-        let same = self
-            .marks
-            .as_ref()
-            .is_some_and(|m| (m.hair, &m.chosen, m.falling) == (version, &wisps, plane));
-        if !same {
-            let is =
+    /// The marks of strands that are selected or would be cut.
+    fn marks(&mut self, salon: &mut Salon) -> Option<Versioned<Vec<Mark>>> {
+        let preview = salon.cut_preview();
+        let (hair, version) = salon.preview()?;
+        let selected = &salon.selected;
+        let wisps = selected.wisps.clone().filter(|_| !selected.is_everything());
+        let plane = preview.as_ref().map(|_| salon.plane);
+        let known = self.marks.as_ref().map(|m| (m.hair, &m.wisps, m.plane));
+        if known != Some((version, &wisps, plane)) {
+            let is_selected =
                 |guide: u32| wisps.as_ref().is_some_and(|w| w.get(guide as usize) == Some(&true));
-            let special = wisps.is_some() || falling.is_some();
-            let marks = special.then(|| {
-                let mark = |(i, guide): (usize, &u32)| Mark {
-                    chosen: is(*guide),
-                    falls_from: falling.as_ref().map_or(1.0, |f| f.from[i]),
-                };
-                Arc::new(hair.strands.guide.iter().enumerate().map(mark).collect::<Vec<_>>())
-            });
+            let mark = |(i, guide): (usize, &u32)| Mark {
+                chosen: is_selected(*guide),
+                falls_from: preview.as_ref().map_or(1.0, |preview| preview.kept[i]),
+            };
+            let marks = (wisps.is_some() || preview.is_some())
+                .then(|| Arc::new(hair.strands.guide.iter().enumerate().map(mark).collect()));
             self.marks_version += 1;
-            self.marks = Some(MarksOf { hair: version, chosen: wisps, falling: plane, marks });
+            self.marks = Some(StrandMarks { hair: version, wisps, plane, marks });
         }
         let marks = self.marks.as_ref()?.marks.clone()?;
         Some((marks, self.marks_version))
     }
 
-    /// What is being drawn with the hand.
-    fn drawn_shapes(&self, ui: &Ui, rect: Rect, salon: &Salon) {
+    /// Draws the lasso or stroke, and the circle of the brush.
+    fn draw_stroke(&self, ui: &Ui, rect: Rect, salon: &Salon) {
         let painter = ui.painter().with_clip_rect(rect);
         if self.lasso.len() > 1 {
-            let fill = theme::ACCENT.gamma_multiply(0.15);
             painter.add(Shape::line(self.lasso.clone(), Stroke::new(2.0, theme::ACCENT)));
-            painter.add(Shape::convex_polygon(vec![], fill, Stroke::NONE));
         }
-        let Some(pointer) = ui.input(|i| i.pointer.hover_pos()).filter(|p| rect.contains(*p))
-        else {
-            return;
-        };
-        if matches!(salon.tool(), Tool::Brush | Tool::Comb) {
-            let orbit = salon.orbit();
-            let height = 2.0 * orbit.distance * (0.5 * orbit.field_of_view).tan();
-            let radius = salon.brush() / height * f64::from(rect.height());
+        let pointer = ui.input(|i| i.pointer.hover_pos()).filter(|p| rect.contains(*p));
+        let Some(pointer) = pointer else { return };
+        if matches!(salon.tool, Tool::Brush | Tool::Comb) {
+            let radius = salon.brush.radius / view_height(salon) * f64::from(rect.height());
             painter.circle_stroke(pointer, radius as f32, Stroke::new(1.5, theme::ACCENT));
         }
         for place in &self.stroke {
-            if let Some([x, y]) = salon.orbit().project(*place, aspect(rect)) {
-                painter.circle_filled(at([x, y], rect), 2.5, theme::ACCENT);
+            if let Some(at) = salon.orbit.project(*place, aspect(rect)) {
+                painter.circle_filled(from_ndc(at, rect), 2.5, theme::ACCENT);
             }
         }
     }
 }
 
-/// Keys that make the hand turn the head whatever tool it holds.
-fn camera_keys(ui: &Ui) -> bool {
+/// Orbits, pans and zooms: with the orbit tool, and with the other buttons at any time.
+fn move_camera(ui: &Ui, response: &Response, rect: Rect, salon: &Salon, out: &mut Vec<Command>) {
+    let delta = response.drag_delta() / rect.height();
+    let (dx, dy) = (f64::from(delta.x), f64::from(delta.y));
+    let is_orbit = salon.tool == Tool::Orbit;
+    let primary = response.dragged_by(PointerButton::Primary);
+    let turns =
+        response.dragged_by(PointerButton::Secondary) || (primary && (is_orbit || orbit_key(ui)));
+    let shift = ui.input(|i| i.modifiers.shift) && is_orbit;
+    let pans = response.dragged_by(PointerButton::Middle) || (turns && shift);
+    if delta != Vec2::ZERO && pans {
+        out.push(Command::Pan(dx, -dy));
+    } else if delta != Vec2::ZERO && turns {
+        out.push(Command::Turn(dx * TURN, dy * TURN));
+    }
+    if response.hovered() {
+        let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
+        let factor = f64::from(pinch) * (f64::from(scroll) * 0.004).exp();
+        if (factor - 1.0).abs() > 1e-6 {
+            out.push(Command::Zoom(factor));
+        }
+    }
+    if response.double_clicked() && is_orbit {
+        out.push(Command::Frame(aspect(rect)));
+    }
+}
+
+/// Whether the key is held that orbits with every tool.
+fn orbit_key(ui: &Ui) -> bool {
     ui.input(|i| i.key_down(Key::Space))
 }
 
 /// The viewport, or its two halves.
-fn sides(rect: Rect, compared: bool) -> Vec<(Side, Rect)> {
-    if !compared {
+fn sides(rect: Rect, compare: bool) -> Vec<(Side, Rect)> {
+    if !compare {
         return vec![(Side::Now, rect)];
     }
     let (left, right) = rect.split_left_right_at_fraction(0.5);
@@ -402,15 +371,20 @@ fn sides(rect: Rect, compared: bool) -> Vec<(Side, Rect)> {
     ]
 }
 
-/// A place of the window in the picture: −1 to 1 to the right and up.
-fn place(at: Pos2, rect: Rect) -> [f64; 2] {
+/// Height of the picture at the camera's target (m).
+fn view_height(salon: &Salon) -> f64 {
+    2.0 * salon.orbit.distance * (0.5 * salon.orbit.field_of_view).tan()
+}
+
+/// A point of the window in normalized device coordinates: −1 to 1, right and up.
+fn to_ndc(at: Pos2, rect: Rect) -> [f64; 2] {
     let half = 0.5 * rect.size();
     let from = at - rect.center();
     [f64::from(from.x / half.x), -f64::from(from.y / half.y)]
 }
 
-/// The other way round.
-fn at([x, y]: [f64; 2], rect: Rect) -> Pos2 {
+/// The inverse of [`to_ndc`].
+fn from_ndc([x, y]: [f64; 2], rect: Rect) -> Pos2 {
     rect.center() + vec2(0.5 * rect.width() * x as f32, -0.5 * rect.height() * y as f32)
 }
 
@@ -418,16 +392,16 @@ pub(super) fn aspect(rect: Rect) -> f64 {
     f64::from(rect.width() / rect.height().max(1.0))
 }
 
-/// One hair with its material frames (paper, Fig. 3).
-fn frames(hair: &GuideData) -> Vec<Line> {
-    const EVERY: usize = 6;
+/// The lines of one hair with its material frames. \[paper\] Fig. 3
+fn material_frames(hair: &GuideData) -> Vec<Line> {
+    const STRIDE: usize = 6;
     let line = |from: Vec3, to: Vec3, width, colour| Line { from, to, width, colour, on_top: true };
     let points: Vec<Vec3> = hair.points.iter().map(|p| Vec3::from_array(*p)).collect();
-    let thread = points.windows(2).map(|p| line(p[0], p[1], 3.0, [0.98, 0.82, 0.35, 1.0]));
-    let mut lines: Vec<Line> = thread.collect();
+    let centreline = points.windows(2).map(|p| line(p[0], p[1], 3.0, [0.98, 0.82, 0.35, 1.0]));
+    let mut lines: Vec<Line> = centreline.collect();
     let arm = (0.05 * hair.length as f32).clamp(1e-3, 8e-3);
     let colours = [[0.93, 0.3, 0.28, 1.0], [0.35, 0.8, 0.38, 1.0], [0.35, 0.55, 0.98, 1.0]];
-    for (point, frame) in points.iter().zip(&hair.frames).step_by(EVERY) {
+    for (point, frame) in points.iter().zip(&hair.frames).step_by(STRIDE) {
         for (axis, colour) in frame.iter().zip(colours) {
             lines.push(line(*point, *point + arm * Vec3::from_array(*axis), 2.0, colour));
         }
@@ -435,49 +409,56 @@ fn frames(hair: &GuideData) -> Vec<Line> {
     lines
 }
 
-fn cutting_plane(plane: &crate::state::Plane) -> Plane {
-    let [r, g, b, _] = theme::FALLING.to_normalized_gamma_f32();
+fn cutting_plane(plane: &CutPlane) -> Plane {
+    let [r, g, b, _] = theme::CUT_COLOUR.to_normalized_gamma_f32();
     Plane::across(plane.point.as_vec3(), plane.normal().as_vec3(), 0.22, [r, g, b, 0.22])
 }
 
-/// Words over the picture.
-fn overlay(ui: &Ui, salon: &Salon, sides: &[(Side, Rect)]) {
+/// Draws a text on a filled box over the picture; returns the box.
+fn text_box(ui: &Ui, at: Pos2, align: Align2, text: String, fill: Color32) -> Rect {
     let font = FontId::proportional(13.0);
-    let tag = |at: Pos2, align: Align2, text: &str, fill: Color32| {
-        let galley = ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::WHITE);
-        let rect = align.anchor_size(at, galley.size() + vec2(16.0, 8.0));
-        ui.painter().rect_filled(rect, 6.0, fill);
-        ui.painter().galley(rect.min + vec2(8.0, 4.0), galley, Color32::WHITE);
-        rect
-    };
-    let dark = Color32::from_black_alpha(150);
+    let galley = ui.painter().layout_no_wrap(text, font, Color32::WHITE);
+    let rect = align.anchor_size(at, galley.size() + vec2(16.0, 8.0));
+    ui.painter().rect_filled(rect, 6.0, fill);
+    ui.painter().galley(rect.min + vec2(8.0, 4.0), galley, Color32::WHITE);
+    rect
+}
+
+const DARK: Color32 = Color32::from_black_alpha(160);
+
+/// Draws the texts over the picture.
+fn overlay(ui: &Ui, salon: &Salon, sides: &[(Side, Rect)]) {
     for (side, rect) in sides {
         let corner = rect.left_top() + vec2(10.0, 10.0);
         match side {
             Side::Before => {
-                let label = salon.compared().map_or("", |c| c.label.as_str());
-                tag(corner, Align2::LEFT_TOP, &format!("Before: {label}"), dark);
-                let waits = salon.compared().is_some_and(|c| c.hair.is_none());
-                if waits {
-                    tag(rect.center(), Align2::CENTER_CENTER, "Coming…", dark);
+                let Some(comparison) = &salon.comparison else { continue };
+                let text = format!("Before: {}", comparison.label);
+                text_box(ui, corner, Align2::LEFT_TOP, text, DARK);
+                if comparison.hair.is_none() {
+                    let (centre, text) = (Align2::CENTER_CENTER, "Computing…".to_owned());
+                    text_box(ui, rect.center(), centre, text, DARK);
                 }
             }
             Side::Now => {
                 let (text, fill) = badge(salon);
-                let rect = tag(corner, Align2::LEFT_TOP, &text, fill);
-                probe::record("badge", rect);
+                let rect = text_box(ui, corner, Align2::LEFT_TOP, text, fill);
+                automation::record("badge", rect);
             }
         }
     }
-    if let Some(hair) = salon.alone().and_then(|alone| alone.hair.as_ref()) {
-        told(ui, hair, sides[sides.len() - 1].1);
+    if let Some(hair) = salon.isolated.as_ref().and_then(|isolated| isolated.hair.as_ref()) {
+        let corner = sides[sides.len() - 1].1.right_top() + vec2(-10.0, 10.0);
+        text_box(ui, corner, Align2::RIGHT_TOP, hair_report(hair), DARK);
     }
 }
 
-/// The badge: how the hair stands.
+/// The text and the colour of the badge.
 pub(super) fn badge(salon: &Salon) -> (String, Color32) {
+    let colour = |r, g, b| Color32::from_rgba_unmultiplied(r, g, b, 230);
+    let red = colour(0xb0, 0x3a, 0x2e);
     match salon.badge() {
-        Badge::Empty => ("No hair yet".into(), Color32::from_black_alpha(150)),
+        Badge::Empty => ("No hair yet".into(), DARK),
         Badge::Settling => {
             let text = match salon.progress() {
                 Some((stage, done)) if !stage.is_empty() => {
@@ -485,42 +466,30 @@ pub(super) fn badge(salon: &Salon) -> (String, Color32) {
                 }
                 _ => "Settling…".into(),
             };
-            (text, Color32::from_rgba_unmultiplied(0xb0, 0x78, 0x10, 230))
+            (text, colour(0xb0, 0x78, 0x10))
         }
-        Badge::AtRest => ("At rest".into(), Color32::from_rgba_unmultiplied(0x2c, 0x7a, 0x3e, 230)),
-        Badge::Unstable(count) => {
-            let text = format!("Unstable: {count} guides");
-            (text, Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230))
+        Badge::AtRest => ("At rest".into(), colour(0x2c, 0x7a, 0x3e)),
+        Badge::Unstable(count) => (format!("Unstable: {count} guides"), red),
+        Badge::Refused(_) if salon.preview().is_some() => {
+            ("Not possible: earlier hair".into(), red)
         }
-        Badge::Refused(_) => {
-            let text = match salon.shown() {
-                Some(_) => "Not possible: as before",
-                None => "Not possible",
-            };
-            (text.into(), Color32::from_rgba_unmultiplied(0xb0, 0x3a, 0x2e, 230))
-        }
+        Badge::Refused(_) => ("Not possible".into(), red),
     }
 }
 
-/// Numbers of a hair that is looked at alone.
-fn told(ui: &Ui, hair: &GuideData, rect: Rect) {
+/// The numbers of a hair that is shown alone.
+fn hair_report(hair: &GuideData) -> String {
     let [elastic, gravity, contact] = hair.energy.map(|e| e * 1e9);
     let [a, b] = hair.section.map(|a| a * 1e6);
-    let text = format!(
-        "Wisp {}\nlength {:.1} cm, section {a:.0} × {b:.0} µm\nelastic {elastic:.1} nJ, gravity {gravity:.1} nJ, contact {contact:.1} nJ\n{} elements, {} iterations\nrelative gradient {:.0e}: {}\nd1 red, d2 green, tangent blue",
-        hair.wisp,
-        hair.length * 100.0,
-        hair.elements,
-        hair.iterations,
-        hair.gradient,
-        hair.stability,
-    );
-    let galley =
-        ui.painter().layout_no_wrap(text, FontId::proportional(13.0), Color32::from_gray(235));
-    let box_ = Align2::RIGHT_TOP
-        .anchor_size(rect.right_top() + vec2(-10.0, 10.0), galley.size() + vec2(20.0, 16.0));
-    ui.painter().rect_filled(box_, 6.0, Color32::from_black_alpha(170));
-    ui.painter().galley(box_.min + vec2(10.0, 8.0), galley, Color32::WHITE);
+    let GuideData { wisp, elements, iterations, gradient, stability, .. } = hair;
+    let length = hair.length * 100.0;
+    format!(
+        "Wisp {wisp}\nlength {length:.1} cm, section {a:.0} × {b:.0} µm\n\
+         elastic {elastic:.1} nJ, gravity {gravity:.1} nJ, contact {contact:.1} nJ\n\
+         {elements} elements, {iterations} iterations\n\
+         relative gradient {gradient:.0e}: {stability}\n\
+         d1 red, d2 green, tangent blue"
+    )
 }
 
 #[cfg(test)]
@@ -529,11 +498,11 @@ mod tests {
     use eframe::egui::pos2;
 
     #[test]
-    fn places_of_the_picture_come_back() {
+    fn picture_coordinates_round_trip() {
         let rect = Rect::from_min_max(pos2(10.0, 20.0), pos2(310.0, 220.0));
         for p in [rect.min, rect.max, rect.center(), pos2(50.0, 60.0)] {
-            assert!(at(place(p, rect), rect).distance(p) < 1e-3);
+            assert!(from_ndc(to_ndc(p, rect), rect).distance(p) < 1e-3);
         }
-        assert_eq!(place(rect.right_top(), rect), [1.0, 1.0]);
+        assert_eq!(to_ndc(rect.right_top(), rect), [1.0, 1.0]);
     }
 }

@@ -1,18 +1,25 @@
-//! Widgets that are used in more than one place.
+//! Widgets that several parts of the window use.
 
-use eframe::egui::{Button, Response, RichText, Slider, Ui, Widget};
+use eframe::egui::{
+    Align, Button, Layout, Response, RichText, Role, Slider, Ui, Widget, WidgetInfo,
+};
 
-use crate::state::{Command, Control};
+use crate::state::{Command, Control, SelectMode};
 
-/// Room for the value beside a slider (points).
-const VALUE: f32 = 104.0;
+/// Width of the number beside a slider (points).
+const NUMBER_WIDTH: f32 = 104.0;
 
-/// A plain button.
+/// A button.
 pub(super) fn plain(ui: &mut Ui, label: &str, help: &str) -> Response {
     with_help(ui, Button::new(label), help)
 }
 
-/// A button that stays down.
+/// A button that may be disabled; returns whether it was clicked.
+pub(super) fn enabled(ui: &mut Ui, enabled: bool, label: &str, help: &str) -> bool {
+    ui.add_enabled_ui(enabled, |ui| plain(ui, label, help).clicked()).inner
+}
+
+/// A button that shows whether something is on.
 pub(super) fn toggle(ui: &mut Ui, label: &str, on: bool, help: &str) -> Response {
     with_help(ui, Button::selectable(on, label), help)
 }
@@ -22,48 +29,55 @@ fn with_help(ui: &mut Ui, button: impl Widget, help: &str) -> Response {
     if help.is_empty() { response } else { response.on_hover_text(help) }
 }
 
-/// A slider of a control under its name; the commands it gives, if it is moved.
-pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64) -> Vec<Command> {
-    let mut commands = Vec::new();
+/// A widget with a label before it.
+pub(super) fn labelled(ui: &mut Ui, label: &str, widget: impl Widget) -> Response {
+    let name = ui.label(label);
+    ui.add(widget).labelled_by(name.id)
+}
+
+/// How the modifier keys combine a selection with the current one.
+pub(super) fn select_mode(ui: &Ui) -> SelectMode {
+    ui.input(|i| match (i.modifiers.shift, i.modifiers.alt) {
+        (_, true) => SelectMode::Remove,
+        (true, _) => SelectMode::Add,
+        _ => SelectMode::Replace,
+    })
+}
+
+/// A slider with its label and a reset button.
+pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64, out: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        let name = ui.label(control.label).on_hover_text(control.help);
-        ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
+        ui.label(control.label).on_hover_text(control.help);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let reset = Button::new(RichText::new("reset").small().weak()).frame(false);
-            let reset = ui.add(reset).on_hover_text("As the hair type has it");
+            let reset = ui.add(reset).on_hover_text("Use the default of the hair type");
             reset.widget_info(|| {
-                let label = format!("Reset {}", control.label);
-                eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, label)
+                WidgetInfo::labeled(Role::Button, true, format!("Reset {}", control.label))
             });
             if reset.clicked() {
-                commands.push(Command::Reset(control.key));
+                out.push(Command::Reset(control.key));
             }
         });
-        name.id
     });
-    let mut now = value.clamp(control.range.0, control.range.1);
-    ui.spacing_mut().slider_width = (ui.available_width() - VALUE).max(60.0);
-    let suffix = match control.unit {
-        "" => String::new(),
-        unit => format!(" {unit}"),
-    };
-    let slider = Slider::new(&mut now, control.range.0..=control.range.1)
+    let (low, high) = control.range;
+    let mut now = value.clamp(low, high);
+    ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH).max(60.0);
+    let space = if control.unit.is_empty() { "" } else { " " };
+    let slider = Slider::new(&mut now, low..=high)
         .logarithmic(control.logarithmic)
         .smallest_positive(0.01)
         .max_decimals(control.decimals)
-        .suffix(suffix);
+        .suffix(format!("{space}{}", control.unit));
     let response = ui.add(slider).on_hover_text(control.help);
-    response.widget_info(|| eframe::egui::WidgetInfo::slider(true, value, control.label));
-    // A value that is shown rounded is no change.
-    let moved = control.clean(now) != control.clean(value);
-    let held = response.dragged() || response.drag_stopped();
-    if response.changed() && moved {
-        commands.push(match held {
+    response.widget_info(|| WidgetInfo::slider(true, value, control.label));
+    // The slider reports a change when it rounds the value, too.
+    if response.changed() && control.clean(now) != control.clean(value) {
+        out.push(match response.dragged() || response.drag_stopped() {
             true => Command::Drag(control.key, now),
             false => Command::Set(control.key, now),
         });
     }
     if response.drag_stopped() {
-        commands.push(Command::LetGo);
+        out.push(Command::EndDrag);
     }
-    commands
 }

@@ -1,18 +1,21 @@
-//! Work off the window's thread: orders in, answers out.
+//! Execution of requests away from the window's thread.
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod native;
-#[cfg(target_arch = "wasm32")]
-pub mod web;
+
+use std::sync::Arc;
 
 use frisure_engine::{Request, Response};
 
-/// Someone who carries out orders elsewhere, one after the other. Nothing here waits.
+/// Repaints the window; called from any thread when there is something to poll.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// Executes requests one after the other. Nothing here blocks.
 pub trait Worker {
-    /// Hands in an order; its answers come back under this ticket.
-    fn send(&mut self, ticket: u64, order: Request);
-    /// An order is outdated: [`Response::Cancelled`] comes back soon.
-    fn cancel(&mut self, ticket: u64);
-    /// The next answer, if there is one.
+    /// Sends a request; its responses come back under this job.
+    fn send(&mut self, job: u64, request: Request);
+    /// Cancels a job; [`Response::Cancelled`] comes back soon.
+    fn cancel(&mut self, job: u64);
+    /// The next response.
     fn poll(&mut self) -> Option<(u64, Response)>;
 }

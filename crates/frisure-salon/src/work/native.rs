@@ -1,4 +1,4 @@
-//! The stylist on a thread.
+//! A thread that executes requests.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,85 +8,79 @@ use std::thread;
 use frisure::progress::Progress;
 use frisure_engine::{Request, Response, Session};
 
-use super::Worker;
+use super::{Wake, Worker};
 
-/// Called, from any thread, when there is an answer to poll.
-pub type Wake = Box<dyn Fn() + Send + Sync>;
-
-/// A thread with a stylist. Dropped, it ends.
+/// A thread with a session of the engine, which ends when this is dropped.
 pub struct Thread {
-    orders: Sender<(u64, Request)>,
-    answers: Receiver<(u64, Response)>,
-    /// Orders up to this ticket were cancelled.
+    requests: Sender<(u64, Request)>,
+    responses: Receiver<(u64, Response)>,
+    /// Jobs up to this one are cancelled.
     cancelled: Arc<AtomicU64>,
 }
 
 impl Thread {
-    /// Starts it.
+    /// Starts the thread.
     ///
     /// # Errors
-    /// If the system has no room for a thread.
+    /// The system cannot start a thread.
     pub fn start(wake: Wake) -> std::io::Result<Self> {
-        let (orders, jobs) = channel();
-        let (out, answers) = channel();
+        let (requests, jobs) = channel();
+        let (sender, responses) = channel();
         let cancelled = Arc::new(AtomicU64::new(0));
-        let told = cancelled.clone();
-        thread::Builder::new()
-            .name("stylist".into())
-            .spawn(move || serve(&jobs, &Outbox { out, wake, told }))?;
-        Ok(Self { orders, answers, cancelled })
+        let outbox = Outbox { sender, wake, cancelled: cancelled.clone() };
+        thread::Builder::new().name("engine".into()).spawn(move || serve(&jobs, &outbox))?;
+        Ok(Self { requests, responses, cancelled })
     }
 }
 
 struct Outbox {
-    out: Sender<(u64, Response)>,
+    sender: Sender<(u64, Response)>,
     wake: Wake,
-    told: Arc<AtomicU64>,
+    cancelled: Arc<AtomicU64>,
 }
 
 impl Outbox {
-    fn send(&self, ticket: u64, answer: Response) {
-        // A window that is gone needs no answer.
-        if self.out.send((ticket, answer)).is_ok() {
+    fn send(&self, job: u64, response: Response) {
+        // The window may be closed.
+        if self.sender.send((job, response)).is_ok() {
             (self.wake)();
         }
     }
 }
 
-struct Watching<'a>(u64, &'a Outbox);
+struct JobProgress<'a>(u64, &'a Outbox);
 
-impl Progress for Watching<'_> {
+impl Progress for JobProgress<'_> {
     fn report(&self, stage: &str, fraction: f64) {
         self.1.send(self.0, Response::progress(stage, fraction));
     }
 
     fn is_cancelled(&self) -> bool {
-        self.1.told.load(Ordering::Relaxed) >= self.0
+        self.1.cancelled.load(Ordering::Relaxed) >= self.0
     }
 }
 
 fn serve(jobs: &Receiver<(u64, Request)>, outbox: &Outbox) {
     let mut session = Session::new();
-    while let Ok((ticket, order)) = jobs.recv() {
-        let progress = Watching(ticket, outbox);
-        let send = &mut |answer| outbox.send(ticket, answer);
-        let answer = session.execute_with(&order, &progress, send);
-        outbox.send(ticket, answer);
+    while let Ok((job, request)) = jobs.recv() {
+        let partial = &mut |response| outbox.send(job, response);
+        let response = session.execute_with(&request, &JobProgress(job, outbox), partial);
+        outbox.send(job, response);
     }
 }
 
 impl Worker for Thread {
-    fn send(&mut self, ticket: u64, order: Request) {
-        // The thread ends only with this.
-        let _ = self.orders.send((ticket, order));
+    fn send(&mut self, job: u64, request: Request) {
+        // The thread lives as long as this sender.
+        let _ = self.requests.send((job, request));
     }
 
-    fn cancel(&mut self, ticket: u64) {
-        self.cancelled.fetch_max(ticket, Ordering::Relaxed);
+    fn cancel(&mut self, job: u64) {
+        self.cancelled.fetch_max(job, Ordering::Relaxed);
     }
 
     fn poll(&mut self) -> Option<(u64, Response)> {
-        self.answers.try_recv().ok()
+        self.responses.try_recv().ok()
     }
 }
 

@@ -1,20 +1,19 @@
-//! A world for a salon without a window: a stylist who works at once, and files in memory.
+//! A salon without a window, with sessions that execute requests at once, and files in memory.
 
 use std::collections::BTreeMap;
 
 use frisure_engine::Session;
 use frisure_engine::{Request, Response};
-use frisure_salon::state::{Command, Errand, Lane, Salon, Save};
+use frisure_salon::state::{Command, Effect, Salon, Save};
 
-/// A salon, and the world outside it.
+/// A salon, and everything around it.
 pub(crate) struct World {
     pub(crate) salon: Salon,
-    hair: Session,
-    aside: Session,
-    /// Files by what a person calls them.
+    sessions: [Session; 2],
+    /// Written files by path or name.
     pub(crate) files: BTreeMap<String, Vec<u8>>,
-    /// What survives a crash.
-    pub(crate) kept: Option<String>,
+    /// The autosaved text.
+    pub(crate) autosaved: Option<String>,
     /// Whether writing fails.
     pub(crate) full: bool,
     now: f64,
@@ -24,51 +23,46 @@ impl World {
     pub(crate) fn new() -> Self {
         Self {
             salon: Salon::new(),
-            hair: Session::new(),
-            aside: Session::new(),
+            sessions: [Session::new(), Session::new()],
             files: BTreeMap::new(),
-            kept: None,
+            autosaved: None,
             full: false,
             now: 0.0,
         }
     }
 
-    /// Does a command and all that comes of it.
+    /// Runs a command and all jobs that follow from it.
     pub(crate) fn run(&mut self, command: Command) {
         self.salon.run(command);
         self.settle();
     }
 
-    /// Carries errands out until there are none; time passes.
+    /// Carries out effects until there are none; time passes.
     pub(crate) fn settle(&mut self) {
         for _ in 0..100 {
             self.now += 2.0;
             self.salon.tick(self.now);
-            let errands = self.salon.errands();
-            if errands.is_empty() {
+            let effects = self.salon.effects();
+            if effects.is_empty() {
                 return;
             }
-            for errand in errands {
-                self.errand(errand);
+            for effect in effects {
+                self.effect(effect);
             }
         }
-        panic!("the salon never rests");
+        panic!("the salon never comes to rest");
     }
 
-    fn errand(&mut self, errand: Errand) {
-        match errand {
-            Errand::Work(lane, ticket, order) => {
-                let stylist = match lane {
-                    Lane::Hair => &mut self.hair,
-                    Lane::Aside => &mut self.aside,
-                };
-                let answer = stylist.execute(&order, &());
-                self.salon.receive(ticket, answer);
+    fn effect(&mut self, effect: Effect) {
+        match effect {
+            Effect::Execute(queue, job, request) => {
+                let response = self.sessions[queue as usize].execute(&request, &());
+                self.salon.receive(job, response);
             }
-            // All is done at once here, so that nothing is left to cancel.
-            Errand::Cancel(..) => {}
-            Errand::Save(save) => self.save(&save),
-            Errand::Autosave(text) => self.kept = text,
+            // Every request is complete before the next one.
+            Effect::Cancel(..) => {}
+            Effect::Save(save) => self.save(&save),
+            Effect::Autosave(text) => self.autosaved = text,
         }
     }
 
@@ -76,7 +70,7 @@ impl World {
         let result = match self.full {
             true => Err("no space left".to_owned()),
             false => {
-                self.files.insert(save.to.said(), save.bytes.clone());
+                self.files.insert(save.to.display(), save.bytes.clone());
                 Ok(())
             }
         };
@@ -90,37 +84,37 @@ impl World {
         );
         let name = "small".to_owned();
         self.run(Command::Open { path: None, name, text });
-        assert!(self.salon.is_settled(), "{:?} {:?}", self.salon.badge(), self.salon.messages());
+        assert!(self.salon.is_settled(), "{:?} {:?}", self.salon.badge(), self.salon.messages);
     }
 
-    /// Has the stylists keep a file that has no path, as a page does.
+    /// Uploads a file without a path to the sessions, as a page does.
     #[allow(dead_code, reason = "not every test drops a file")]
-    pub(crate) fn keep(&mut self, name: &str, bytes: &[u8]) {
-        let order = Request::ProvideFile { path: name.into(), bytes: bytes.into() };
-        for stylist in [&mut self.hair, &mut self.aside] {
-            assert_eq!(stylist.execute(&order, &()), Response::FileProvided);
+    pub(crate) fn upload(&mut self, name: &str, bytes: &[u8]) {
+        let request = Request::ProvideFile { path: name.into(), bytes: bytes.into() };
+        for session in &mut self.sessions {
+            assert_eq!(session.execute(&request, &()), Response::FileProvided);
         }
     }
 
     /// Drops a file on a page.
     #[allow(dead_code, reason = "not every test drops a file")]
     pub(crate) fn drop(&mut self, name: &str, bytes: &[u8]) {
-        self.keep(name, bytes);
+        self.upload(name, bytes);
         self.run(Command::File(name.into()));
     }
 
     /// The text that is edited.
     pub(crate) fn text(&self) -> &str {
-        self.salon.document().expect("a document").text()
+        self.salon.document.as_ref().expect("a document").text()
     }
 
     /// Mean height of the tips (m).
     #[allow(dead_code, reason = "not every test asks")]
     pub(crate) fn tips(&self) -> f64 {
-        self.salon.shown().expect("hair").0.numbers.tips
+        self.salon.preview().expect("hair").0.numbers.tips
     }
 }
 
-/// An answer that is none, for tickets nobody gave.
+/// A response for a job that does not exist.
 #[allow(dead_code, reason = "not every test sends one")]
 pub(crate) const STRAY: Response = Response::Cancelled;

@@ -64,8 +64,8 @@ impl Chromium {
 
     fn open_page(&mut self, [width, height]: [u32; 2]) {
         let target = self.call("Target.createTarget", &json!({ "url": "about:blank" }));
-        let asked = json!({ "targetId": target["targetId"], "flatten": true });
-        let attached = self.call("Target.attachToTarget", &asked);
+        let request = json!({ "targetId": target["targetId"], "flatten": true });
+        let attached = self.call("Target.attachToTarget", &request);
         self.session = attached["sessionId"].as_str().map(str::to_owned);
         for domain in ["Page.enable", "Runtime.enable", "DOM.enable"] {
             self.call(domain, &json!({}));
@@ -101,8 +101,8 @@ impl Chromium {
 
     /// Goes to an address.
     pub(crate) fn open(&mut self, address: &str) {
-        let told = self.call("Page.navigate", &json!({ "url": address }));
-        assert!(told["errorText"].is_null(), "{address}: {told}");
+        let reply = self.call("Page.navigate", &json!({ "url": address }));
+        assert!(reply["errorText"].is_null(), "{address}: {reply}");
     }
 
     /// Lets the page have nothing from such addresses any more.
@@ -114,11 +114,11 @@ impl Chromium {
 
     /// What an expression of JavaScript gives; promises are waited for.
     pub(crate) fn evaluate(&mut self, expression: &str) -> Value {
-        let asked =
+        let request =
             json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
-        let told = self.call("Runtime.evaluate", &asked);
-        assert!(told["exceptionDetails"].is_null(), "{expression}: {told}");
-        told["result"]["value"].clone()
+        let reply = self.call("Runtime.evaluate", &request);
+        assert!(reply["exceptionDetails"].is_null(), "{expression}: {reply}");
+        reply["result"]["value"].clone()
     }
 
     /// The first value of an expression that is true in JavaScript's sense. While it cannot be
@@ -203,8 +203,8 @@ impl Chromium {
 
     /// What is seen now, as the bytes of a PNG.
     pub(crate) fn screenshot(&mut self) -> Vec<u8> {
-        let told = self.call("Page.captureScreenshot", &json!({ "format": "png" }));
-        from_base64(told["data"].as_str().expect("a picture"))
+        let reply = self.call("Page.captureScreenshot", &json!({ "format": "png" }));
+        from_base64(reply["data"].as_str().expect("a picture"))
     }
 
     /// Calls a method of the protocol.

@@ -10,11 +10,11 @@
 )]
 
 mod chromium;
+mod failures;
 mod picture;
 mod salon;
 mod session;
 mod site;
-mod trouble;
 
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};

@@ -12,7 +12,7 @@ const SMALL: &str = "[hair]\ntype = \"straight\"\nlength = \"9 cm\"\n[wisps]\nco
 const HEAD: [f64; 4] = [0.05, 0.15, 0.5, 0.7];
 
 #[test]
-fn a_head_is_chosen_wetted_cut_dried_saved_and_exported() {
+fn a_head_is_opened_wetted_cut_dried_saved_and_exported() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     println!("the page runs after {:.1} s", salon.runs().as_secs_f64());
     assert_eq!(salon.page.evaluate("window.crossOriginIsolated"), true);
@@ -32,10 +32,10 @@ fn a_head_is_chosen_wetted_cut_dried_saved_and_exported() {
     assert!(wet.change(&curly, HEAD) > 0.003, "wet hair looks as dry hair");
 
     salon.click("Fringe");
-    salon.until("s.chosen == 'fringe' && s.chosenWisps > 0");
+    salon.until("s.selected == 'fringe' && s.selectedWisps > 0");
     let before = salon.state("mass").as_f64().expect("a mass");
     salon.click("Cut");
-    // Above the chosen tips: the plane follows the hand.
+    // Drags the plane above the selected tips.
     let [x, y] = salon.middle("The head");
     salon.page.drag([x, y + 120.0], [x, y - 60.0]);
     salon.picture("4-plane");
@@ -48,7 +48,7 @@ fn a_head_is_chosen_wetted_cut_dried_saved_and_exported() {
     salon.until("!s.wet && s.history.length == s.at + 1");
     salon.picture("6-dry");
     let done = salon.state("history.map((label) => label.split(' ')[0])");
-    assert_eq!(done, serde_json::json!(["Curly", "Wetted", "Cut", "Dried"]));
+    assert_eq!(done, serde_json::json!(["Curly", "Wet:", "Cut:", "Dry:"]));
 
     salon.click("Undo");
     salon.until("s.wet && s.at == 2");
@@ -71,7 +71,7 @@ fn a_head_is_chosen_wetted_cut_dried_saved_and_exported() {
 }
 
 #[test]
-fn work_is_kept_when_the_page_is_left() {
+fn unsaved_work_is_recovered_after_leaving_the_page() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
     salon.page.drop_file("small.toml", SMALL);
@@ -83,13 +83,13 @@ fn work_is_kept_when_the_page_is_left() {
     salon.again(QUERY);
     salon.runs();
     salon.picture("kept");
-    salon.click("Take it up");
+    salon.click("Recover");
     salon.until("s.drawn");
     assert_eq!(salon.state("text"), text);
 }
 
 #[test]
-fn files_come_by_drop_and_by_choice() {
+fn files_are_opened_by_drop_and_by_dialog() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
     salon.page.drop_file("broken.toml", "[hair]\nlenght = \"20 cm\"\n");
@@ -106,7 +106,7 @@ fn files_come_by_drop_and_by_choice() {
 }
 
 #[test]
-fn a_groom_is_hair_by_drop_and_by_choice_and_is_wetted() {
+fn a_groom_is_opened_by_drop_and_by_dialog_and_wetted() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
     salon.page.drop_file("small.toml", format!("{SMALL}hairs = 150\n"));
@@ -129,7 +129,7 @@ fn a_groom_is_hair_by_drop_and_by_choice_and_is_wetted() {
     salon.until("s.wet && s.settled");
     assert!(salon.picture("groom-wet").change(&dry, HEAD) > 0.003, "wet hair looks as dry hair");
 
-    // One that is damaged is told, and undone.
+    // A damaged one is reported, and undone.
     salon.click("Open…");
     salon.click("Choose a file…");
     salon.page.choose_file("cut.hair", &groom[..groom.len() / 2]);
@@ -140,7 +140,7 @@ fn a_groom_is_hair_by_drop_and_by_choice_and_is_wetted() {
 }
 
 #[test]
-fn it_runs_without_headers_and_under_a_path() {
+fn the_page_runs_without_headers_and_under_a_path() {
     let server = ["--plain", "--under", "some/where"];
     let Some(mut salon) = Salon::open(&format!("{QUERY}&scene=bob"), &server, &[]) else { return };
     salon.runs();
@@ -160,16 +160,16 @@ fn it_runs_without_headers_and_under_a_path() {
 fn a_screen_reader_finds_and_uses_widgets() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
-    salon.page.evaluate("document.getElementById('spoken').click()");
-    let card = "document.querySelector('#mirror button[aria-label=\"Begin: Straight\"]')";
+    salon.page.evaluate("document.getElementById('describe').click()");
+    let card = "document.querySelector('#aria-tree button[aria-label=\"Begin: Straight\"]')";
     salon.page.wait_for(card, 60);
     salon.page.drop_file("small.toml", SMALL);
     salon.until("s.drawn");
-    let wet = "document.querySelector('#mirror button[aria-label=\"Wet\"]')";
+    let wet = "document.querySelector('#aria-tree button[aria-label=\"Wet\"]')";
     salon.page.wait_for(wet, 60);
     salon.page.evaluate(&format!("{wet}.click()"));
     salon.until("s.wet");
-    let length = "document.querySelector('#mirror [role=slider][aria-label=\"Length\"]')";
+    let length = "document.querySelector('#aria-tree [role=slider][aria-label=\"Length\"]')";
     salon.page.wait_for(length, 60);
     let value = format!("Number({length}.getAttribute('aria-valuenow'))");
     let before = salon.page.evaluate(&value).as_f64().expect("a length");

@@ -1,52 +1,52 @@
-//! What goes wrong is told, with what to do.
+//! Failures are reported, with a hint.
 
 use crate::salon::Salon;
 
 const QUERY: &str = "?backend=webgl&samples=1&hairs=150";
 
 #[test]
-fn a_program_that_breaks_down_says_so_and_opens_again() {
+fn a_panic_is_reported_and_the_page_can_be_reloaded() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
     salon.page.evaluate("(() => { try { window.frisure.breakDown() } catch {} })()");
-    let told = salon.notice();
-    assert!(told.contains("The salon stopped") && told.contains("Reload"), "{told}");
-    salon.picture("trouble-panic");
+    let notice = salon.notice();
+    assert!(notice.contains("The salon stopped") && notice.contains("Reload"), "{notice}");
+    salon.picture("failure-panic");
     let report = salon.page.evaluate("document.getElementById('report').textContent");
-    assert!(report.as_str().is_some_and(|r| r.contains("asked to break down")), "{report}");
+    assert!(report.as_str().is_some_and(|r| r.contains("panic by command")), "{report}");
     salon.page.evaluate("document.getElementById('again').click()");
     salon.runs();
 }
 
 #[test]
-fn lost_graphics_are_told() {
+fn lost_graphics_are_reported() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
     salon.page.evaluate(
         "document.getElementById('salon').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()",
     );
-    let told = salon.notice();
-    assert!(told.contains("The graphics were lost") && told.contains("Reload"), "{told}");
-    salon.picture("trouble-graphics");
+    let notice = salon.notice();
+    assert!(notice.contains("The graphics were lost") && notice.contains("Reload"), "{notice}");
+    salon.picture("failure-graphics");
 }
 
 #[test]
-fn a_browser_without_graphics_is_told_what_to_do() {
+fn a_browser_without_graphics_gets_a_hint() {
     let Some(mut salon) = Salon::open("", &[], &["--disable-3d-apis", "--disable-features=WebGPU"])
     else {
         return;
     };
-    let told = salon.notice();
-    assert!(told.contains("hardware acceleration"), "{told}");
-    salon.picture("trouble-no-graphics");
+    let notice = salon.notice();
+    assert!(notice.contains("hardware acceleration"), "{notice}");
+    salon.picture("failure-no-graphics");
 }
 
 #[test]
-fn a_connection_that_breaks_off_is_told() {
+fn a_lost_connection_is_reported() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
     salon.page.block("*salon_bg.wasm*");
     salon.again(QUERY);
-    let told = salon.notice();
-    assert!(told.contains("could not be opened") && told.contains("connection"), "{told}");
+    let notice = salon.notice();
+    assert!(notice.contains("could not be opened") && notice.contains("connection"), "{notice}");
 }

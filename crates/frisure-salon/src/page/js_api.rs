@@ -1,8 +1,8 @@
-//! The salon driven by a program or read by a screen reader: `window.frisure` of the page.
+//! The functions behind `window.frisure` of the page, for programs and screen readers.
 
-use super::mirror;
-use crate::window::probe::{self, Widget};
-use crate::work::web::last_took;
+use super::aria_tree;
+use super::worker_client::last_duration;
+use crate::window::automation::{self, Widget};
 use eframe::egui::{Context, Rect};
 use serde_json::{Value, json};
 use std::cell::RefCell;
@@ -13,47 +13,46 @@ thread_local! {
     static CONTEXT: RefCell<Option<Context>> = const { RefCell::new(None) };
 }
 
-/// Lets the functions of this file reach the window.
-pub(crate) fn drive(ctx: &Context) {
-    CONTEXT.with(|known| *known.borrow_mut() = Some(ctx.clone()));
+/// Connects the functions of this module to the window.
+pub(crate) fn connect(ctx: &Context) {
+    CONTEXT.set(Some(ctx.clone()));
 }
 
-/// The window; from the first call on, what it shows is collected.
+/// The window; the first call enables automation.
 fn window() -> Option<Context> {
-    let ctx = CONTEXT.with(|known| known.borrow().clone())?;
-    probe::watch(&ctx);
+    let ctx = CONTEXT.with_borrow(Clone::clone)?;
+    automation::enable(&ctx);
     Some(ctx)
 }
 
-/// What the salon knows, as JSON; nothing before its first frame.
+/// The state as JSON; nothing before the first frame.
 #[wasm_bindgen]
 #[must_use]
 pub fn state() -> Option<String> {
     window()?;
-    probe::state()
+    automation::state()
 }
 
-/// Asks the salon to do something, by the name of its command.
+/// Runs a command by name.
 #[wasm_bindgen]
 pub fn command(name: &str) {
     if let Some(ctx) = window() {
-        probe::ask(&ctx, name);
+        automation::queue_command(&ctx, name);
     }
 }
 
-/// Breaks down, to see what the page does then.
+/// Panics, to test the error page.
 #[wasm_bindgen]
 pub fn break_down() {
-    panic!("asked to break down");
+    panic!("panic by command");
 }
 
-/// The widget of this accessible name, as JSON, in the canvas's own pixels; nothing if it is not on
-/// the screen.
+/// The widget with an accessible name, as JSON, in pixels of the canvas; nothing if it is not on the screen.
 #[wasm_bindgen]
 #[must_use]
 pub fn widget(label: &str) -> Option<String> {
     let ctx = window()?;
-    probe::widget(label).map(|w| described(&w, ctx.zoom_factor()).to_string())
+    automation::widget(label).map(|w| widget_json(&w, ctx.zoom_factor()).to_string())
 }
 
 /// All widgets, as JSON.
@@ -61,30 +60,30 @@ pub fn widget(label: &str) -> Option<String> {
 #[must_use]
 pub fn widgets() -> Option<String> {
     let ctx = window()?;
-    let all = probe::widgets().iter().map(|w| described(w, ctx.zoom_factor())).collect();
+    let all = automation::widgets().iter().map(|w| widget_json(w, ctx.zoom_factor())).collect();
     Some(Value::Array(all).to_string())
 }
 
-/// Memory of the window's side of the program (bytes), frames that were looked at, and how long the
-/// last work took (s), as JSON.
+/// The memory of the window's side of the program (bytes), the number of collected frames, and the duration of
+/// the last job (s), as JSON.
 #[wasm_bindgen]
 #[must_use]
 pub fn measured() -> String {
     const PAGE: usize = 65_536;
     let memory = core::arch::wasm32::memory_size(0) * PAGE;
-    json!({ "memory": memory, "frames": probe::passes(), "took": last_took() }).to_string()
+    json!({ "memory": memory, "frames": automation::frames(), "took": last_duration() }).to_string()
 }
 
-/// Describes the salon in this element, for screen readers, from now on.
+/// Keeps a description of the salon for screen readers in an element.
 #[wasm_bindgen]
 pub fn describe(element: HtmlElement) {
     if let Some(ctx) = window() {
-        mirror::describe_in(element, &ctx);
+        aria_tree::install(element, &ctx);
         ctx.request_repaint();
     }
 }
 
-fn described(widget: &Widget, zoom: f32) -> Value {
+fn widget_json(widget: &Widget, zoom: f32) -> Value {
     let Widget { role, label, value, number, on, enabled, rect, node: _ } = widget;
     let Rect { min, .. } = *rect * zoom;
     let size = rect.size() * zoom;

@@ -1,10 +1,8 @@
-//! The salon in words: elements of the page, unseen, one for each widget, where screen readers find
-//! them. What is done to them is done to the widgets.
+//! Invisible elements of the page for screen readers, one for each widget, which forward actions to it.
 //!
-//! egui draws on a canvas, which says nothing; its accessibility tree has no way into a browser of
-//! its own yet.
+//! egui draws on a canvas and does not export its accessibility tree to browsers.
 
-use crate::window::probe::{self, Widget};
+use crate::window::automation::{self, Widget};
 use eframe::egui::accesskit::{Action, NodeId, Role};
 use eframe::egui::{Context, FullOutput, Plugin};
 use std::cell::RefCell;
@@ -12,62 +10,62 @@ use std::collections::BTreeMap;
 use wasm_bindgen::prelude::*;
 use web_sys::{Document, Event, HtmlElement, KeyboardEvent, Node};
 
-/// One element: what it was made of, and what listens to it.
-struct Shown {
+/// The element of a widget.
+struct Entry {
     widget: Widget,
     element: HtmlElement,
-    _heard: [Closure<dyn Fn(Event)>; 2],
+    _listeners: [Closure<dyn Fn(Event)>; 2],
 }
 
-/// Keeps elements as the widgets are.
-struct Mirror {
+/// The elements of all widgets.
+struct AriaTree {
     home: HtmlElement,
-    shown: BTreeMap<NodeId, Shown>,
+    entries: BTreeMap<NodeId, Entry>,
 }
 
 thread_local! {
-    // Not in the plugin: egui's plugins must be able to change threads, elements cannot.
-    static MIRROR: RefCell<Option<Mirror>> = const { RefCell::new(None) };
+    // Elements are not `Send`, and egui's plugins must be.
+    static TREE: RefCell<Option<AriaTree>> = const { RefCell::new(None) };
 }
 
-/// Describes the window in this element from now on.
-pub(crate) fn describe_in(home: HtmlElement, ctx: &Context) {
-    MIRROR.with(|m| *m.borrow_mut() = Some(Mirror { home, shown: BTreeMap::new() }));
-    ctx.add_plugin(Describer);
+/// Keeps the elements of the window in `home`.
+pub(crate) fn install(home: HtmlElement, ctx: &Context) {
+    TREE.set(Some(AriaTree { home, entries: BTreeMap::new() }));
+    ctx.add_plugin(Updater);
 }
 
-impl Mirror {
-    /// Makes, changes and removes elements.
-    fn follow(&mut self, ctx: &Context) -> Result<(), JsValue> {
+impl AriaTree {
+    /// Creates, updates and removes elements.
+    fn update(&mut self, ctx: &Context) -> Result<(), JsValue> {
         let widgets: Vec<(NodeId, Widget)> =
-            probe::widgets().into_iter().filter_map(|w| Some((w.node?, w))).collect();
+            automation::widgets().into_iter().filter_map(|w| Some((w.node?, w))).collect();
         let roles: BTreeMap<NodeId, Role> = widgets.iter().map(|(n, w)| (*n, w.role)).collect();
-        self.shown.retain(|node, shown| {
-            let stays = roles.get(node) == Some(&shown.widget.role);
+        self.entries.retain(|node, entry| {
+            let stays = roles.get(node) == Some(&entry.widget.role);
             if !stays {
-                shown.element.remove();
+                entry.element.remove();
             }
             stays
         });
         let order: Vec<NodeId> = widgets.iter().map(|(node, _)| *node).collect();
         for (node, widget) in widgets {
-            match self.shown.get_mut(&node) {
-                Some(shown) if shown.widget == widget => {}
-                Some(shown) => {
-                    describe(&shown.element, &widget, ctx.zoom_factor())?;
-                    shown.widget = widget;
+            match self.entries.get_mut(&node) {
+                Some(entry) if entry.widget == widget => {}
+                Some(entry) => {
+                    set_attributes(&entry.element, &widget, ctx.zoom_factor())?;
+                    entry.widget = widget;
                 }
-                None => self.show(node, widget, ctx)?,
+                None => self.insert(node, widget, ctx)?,
             }
         }
         self.sort(&order)
     }
 
-    /// Puts the elements in the order in which they are read; those in their place stay untouched.
+    /// Sorts the elements into reading order; it touches only those out of order.
     fn sort(&self, order: &[NodeId]) -> Result<(), JsValue> {
         let mut next = self.home.first_child();
-        for shown in order.iter().filter_map(|node| self.shown.get(node)) {
-            let element: &Node = &shown.element;
+        for entry in order.iter().filter_map(|node| self.entries.get(node)) {
+            let element: &Node = &entry.element;
             if next.as_ref() == Some(element) {
                 next = element.next_sibling();
             } else {
@@ -77,40 +75,44 @@ impl Mirror {
         Ok(())
     }
 
-    fn show(&mut self, node: NodeId, widget: Widget, ctx: &Context) -> Result<(), JsValue> {
+    fn insert(&mut self, node: NodeId, widget: Widget, ctx: &Context) -> Result<(), JsValue> {
         let Some((tag, _)) = kind(widget.role) else { return Ok(()) };
         let document: Document = self.home.owner_document().ok_or("no document")?;
         let element: HtmlElement = document.create_element(tag)?.unchecked_into();
-        describe(&element, &widget, ctx.zoom_factor())?;
-        let clicked = listener(ctx, move |ctx, _| probe::act(ctx, node, Action::Click));
+        set_attributes(&element, &widget, ctx.zoom_factor())?;
+        let clicked = listener(ctx, move |ctx, _| automation::perform(ctx, node, Action::Click));
         let keyed = listener(ctx, move |ctx, event| {
             let key = event.unchecked_into::<KeyboardEvent>().key();
             match key.as_str() {
-                "ArrowUp" | "ArrowRight" => probe::act(ctx, node, Action::Increment),
-                "ArrowDown" | "ArrowLeft" => probe::act(ctx, node, Action::Decrement),
+                "ArrowUp" | "ArrowRight" => automation::perform(ctx, node, Action::Increment),
+                "ArrowDown" | "ArrowLeft" => automation::perform(ctx, node, Action::Decrement),
                 _ => {}
             }
         });
         element.set_onclick(Some(clicked.as_ref().unchecked_ref()));
         element.set_onkeydown(Some(keyed.as_ref().unchecked_ref()));
         self.home.append_child(&element)?;
-        self.shown.insert(node, Shown { widget, element, _heard: [clicked, keyed] });
+        self.entries.insert(node, Entry { widget, element, _listeners: [clicked, keyed] });
         Ok(())
     }
 }
 
-/// Has the mirror follow each frame.
-struct Describer;
+/// Updates the elements after each frame.
+struct Updater;
 
-impl Plugin for Describer {
+impl Plugin for Updater {
     fn debug_name(&self) -> &'static str {
-        "describer"
+        "aria tree"
     }
 
     fn output_hook(&mut self, ctx: &Context, _: &mut FullOutput) {
-        let followed = MIRROR.with(|m| m.borrow_mut().as_mut().map_or(Ok(()), |m| m.follow(ctx)));
-        if let Err(reason) = followed {
-            web_sys::console::warn_2(&"the salon cannot be described".into(), &reason);
+        let updated =
+            TREE.with_borrow_mut(|tree| tree.as_mut().map_or(Ok(()), |tree| tree.update(ctx)));
+        if let Err(reason) = updated {
+            web_sys::console::warn_2(
+                &"the description for screen readers cannot be updated".into(),
+                &reason,
+            );
         }
     }
 }
@@ -120,7 +122,7 @@ fn listener(ctx: &Context, act: impl Fn(&Context, Event) + 'static) -> Closure<d
     Closure::new(move |event| act(&ctx, event))
 }
 
-/// The element for a role, and the role's name in ARIA if the element does not say it.
+/// The tag of a role's element, and its ARIA role if the tag does not imply it.
 fn kind(role: Role) -> Option<(&'static str, &'static str)> {
     Some(match role {
         Role::Label => ("span", ""),
@@ -142,7 +144,7 @@ fn kind(role: Role) -> Option<(&'static str, &'static str)> {
     })
 }
 
-fn describe(element: &HtmlElement, widget: &Widget, zoom: f32) -> Result<(), JsValue> {
+fn set_attributes(element: &HtmlElement, widget: &Widget, zoom: f32) -> Result<(), JsValue> {
     let Some((tag, role)) = kind(widget.role) else { return Ok(()) };
     if !role.is_empty() {
         element.set_attribute("role", role)?;

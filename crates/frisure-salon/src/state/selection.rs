@@ -1,22 +1,22 @@
-//! Which hair the next step is about.
+//! The hair that the next step applies to.
 
 use frisure::hairstyle::Place;
 use frisure::hairstyle::head::Region;
 use frisure::hairstyle::styling::Selection;
 
-/// How a new choice and the one there was become one.
+/// How a new selection combines with the current one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mode {
-    /// The new one alone.
+pub enum SelectMode {
+    /// The new one replaces it.
     #[default]
     Replace,
-    /// Both.
+    /// The new one is added.
     Add,
-    /// What is in the old one and not in the new.
+    /// The new one is removed.
     Remove,
 }
 
-/// Parts of the scalp that can be chosen by name.
+/// Parts of the scalp, with their names.
 pub const PLACES: [(&str, Place); 8] = [
     ("Fringe", Place::Region(Region::Fringe)),
     ("Top", Place::Region(Region::Top)),
@@ -28,40 +28,40 @@ pub const PLACES: [(&str, Place); 8] = [
     ("Right half", Place::Right),
 ];
 
-/// A choice, and which wisps it is.
+/// A selection, and the wisps that it covers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chosen {
-    /// The choice as steps say it.
+pub struct Selected {
+    /// The selection as steps store it.
     pub selection: Selection,
-    /// In words, such as "fringe".
+    /// Its name, such as "fringe".
     pub label: String,
-    /// Which wisps, once that is known.
+    /// For each wisp whether it is selected; `None` until it is computed.
     pub wisps: Option<Vec<bool>>,
 }
 
-impl Default for Chosen {
+impl Default for Selected {
     fn default() -> Self {
         Self { selection: Selection::Everything, label: "all hair".into(), wisps: None }
     }
 }
 
-impl Chosen {
-    /// Whether it is all hair.
+impl Selected {
+    /// Whether it covers all hair.
     #[must_use]
     pub fn is_everything(&self) -> bool {
         self.selection == Selection::Everything
     }
 
-    /// This choice and a new one.
+    /// The combination with a new selection.
     #[must_use]
-    pub fn with(&self, new: Selection, label: &str, mode: Mode) -> Self {
+    pub fn with(&self, new: Selection, label: &str, mode: SelectMode) -> Self {
         let old = self.selection.clone();
         let (selection, label) = match mode {
-            Mode::Add if !self.is_everything() => {
+            SelectMode::Add if !self.is_everything() => {
                 (joined(old, new), format!("{} and {label}", self.label))
             }
-            Mode::Replace | Mode::Add => (new, label.to_owned()),
-            Mode::Remove => {
+            SelectMode::Replace | SelectMode::Add => (new, label.to_owned()),
+            SelectMode::Remove => {
                 let not = Selection::Not(Box::new(new));
                 let label = format!("{} without {label}", self.label);
                 (if self.is_everything() { not } else { both(old, not) }, label)
@@ -70,7 +70,7 @@ impl Chosen {
         Self { selection, label, wisps: None }
     }
 
-    /// All hair but this; of all hair, all of it, since nothing cannot be chosen.
+    /// The complement; all hair stays all hair, because a selection cannot be empty.
     #[must_use]
     pub fn inverted(&self) -> Self {
         if self.is_everything() {
@@ -86,30 +86,30 @@ impl Chosen {
         Self { selection, label, wisps: None }
     }
 
-    /// How many wisps it has.
+    /// The number of selected wisps.
     #[must_use]
     pub fn count(&self) -> Option<usize> {
         self.wisps.as_ref().map(|w| w.iter().filter(|c| **c).count())
     }
 
-    /// The same wisps by number, for a step that comes after the hair has moved: a lasso drawn on it
-    /// as it was would be about other hair now. Wisps by place stay what they are.
+    /// The same wisps by index, for a step after the hair has moved: a lasso that was drawn before would cover
+    /// other hair. Selections by place do not change.
     #[must_use]
     pub fn fixed(&self) -> Self {
-        let Some(wisps) = self.wisps.as_ref().filter(|_| looks(&self.selection)) else {
+        let Some(wisps) = self.wisps.as_ref().filter(|_| depends_on_shape(&self.selection)) else {
             return self.clone();
         };
-        let numbers = (0..wisps.len()).filter(|i| wisps[*i]).collect();
-        Self { selection: Selection::Wisps(numbers), ..self.clone() }
+        let indices = (0..wisps.len()).filter(|i| wisps[*i]).collect();
+        Self { selection: Selection::Wisps(indices), ..self.clone() }
     }
 }
 
-/// Whether a choice depends on how the hair lies.
-fn looks(selection: &Selection) -> bool {
+/// Whether a selection depends on the shape of the hair.
+fn depends_on_shape(selection: &Selection) -> bool {
     match selection {
         Selection::Lasso(_) => true,
-        Selection::Any(parts) | Selection::All(parts) => parts.iter().any(looks),
-        Selection::Not(part) => looks(part),
+        Selection::Any(parts) | Selection::All(parts) => parts.iter().any(depends_on_shape),
+        Selection::Not(part) => depends_on_shape(part),
         _ => false,
     }
 }
@@ -143,13 +143,13 @@ mod tests {
     }
 
     #[test]
-    fn choices_add_up() {
-        let none = Chosen::default();
-        let fringe = none.with(place(Region::Fringe), "fringe", Mode::Add);
+    fn selections_combine_by_mode() {
+        let none = Selected::default();
+        let fringe = none.with(place(Region::Fringe), "fringe", SelectMode::Add);
         assert_eq!(fringe.selection, place(Region::Fringe));
-        let both = fringe.with(place(Region::Top), "top", Mode::Add);
+        let both = fringe.with(place(Region::Top), "top", SelectMode::Add);
         assert_eq!(both.label, "fringe and top");
-        let less = both.with(Selection::Place(Place::Left), "left half", Mode::Remove);
+        let less = both.with(Selection::Place(Place::Left), "left half", SelectMode::Remove);
         let Selection::All(parts) = &less.selection else { panic!("{less:?}") };
         assert_eq!(parts.len(), 2);
         assert_eq!(fringe.inverted().inverted().selection, fringe.selection);

@@ -1,146 +1,145 @@
-//! What is on the screen and what the salon knows, for an onlooker that is no eye: a test, a program,
-//! a screen reader on a page. Where nobody looks, nothing is collected.
+//! Automation: the widgets on the screen and the state, for tests, programs and screen readers on a page.
 //!
-//! Widgets come by themselves, under their accessible names, from egui's accessibility tree; what
-//! has no widget (a handle in the picture) is named with [`record`].
+//! Widgets come from egui's accessibility tree, under their accessible names; places in the picture that are not
+//! widgets are named with [`record`]. Nothing is collected before [`enable`].
 
 use eframe::egui::accesskit::{self, NodeId, Role, Toggled};
 use eframe::egui::{Context, Event, FullOutput, Plugin, RawInput, Rect, pos2};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
 
-/// Something on the screen.
+/// A widget on the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widget {
     /// Its node in the accessibility tree; `None` if it was [`record`]ed.
     pub node: Option<NodeId>,
-    /// What it is.
+    /// Its role.
     pub role: Role,
     /// Its accessible name.
     pub label: String,
-    /// What it says or holds, in words.
+    /// Its value as text.
     pub value: String,
-    /// What it holds, if that is a number: itself, its least and its most.
+    /// Its value, minimum and maximum, if it is numeric.
     pub number: Option<[f64; 3]>,
-    /// Whether it is on, if it can be.
+    /// Whether it is on, if it is a toggle.
     pub on: Option<bool>,
-    /// Whether it can be used.
+    /// Whether it is enabled.
     pub enabled: bool,
-    /// Where it is (egui's points).
+    /// Its rectangle (points).
     pub rect: Rect,
 }
 
 #[derive(Default)]
-struct Seen {
-    watched: bool,
+struct Collected {
+    enabled: bool,
     widgets: Vec<Widget>,
     recorded: BTreeMap<String, Rect>,
     state: Option<String>,
-    asked: VecDeque<String>,
+    commands: VecDeque<String>,
     events: Vec<Event>,
-    passes: u64,
+    frames: u64,
 }
 
 thread_local! {
-    // One window in a thread: egui's own.
-    static SEEN: RefCell<Seen> = RefCell::default();
+    // A thread has one window.
+    static COLLECTED: RefCell<Collected> = RefCell::default();
 }
 
-fn seen<T>(with: impl FnOnce(&mut Seen) -> T) -> T {
-    SEEN.with(|seen| with(&mut seen.borrow_mut()))
+fn collected<T>(with: impl FnOnce(&mut Collected) -> T) -> T {
+    COLLECTED.with_borrow_mut(with)
 }
 
-/// Starts to look. Looking on costs the window nothing: it draws no frame more than it does anyway.
-pub fn watch(ctx: &Context) {
-    if !seen(|s| std::mem::replace(&mut s.watched, true)) {
+/// Starts to collect. It causes no additional frames.
+pub fn enable(ctx: &Context) {
+    if !collected(|s| std::mem::replace(&mut s.enabled, true)) {
         ctx.enable_accesskit();
-        ctx.add_plugin(Onlooker);
+        ctx.add_plugin(Collector);
         ctx.request_repaint();
     }
 }
 
-/// Names a place in the picture that is no widget, for this frame.
+/// Names a place in the picture that is not a widget, for this frame.
 pub fn record(label: &str, rect: Rect) {
-    seen(|s| {
-        if s.watched {
+    collected(|s| {
+        if s.enabled {
             s.recorded.insert(label.to_owned(), rect);
         }
     });
 }
 
-/// Tells what the salon knows, as JSON; `state` is called only if somebody looks.
-pub fn tell(state: impl FnOnce() -> String) {
-    if seen(|s| s.watched) {
+/// Publishes the state as JSON; calls `state` only if automation is enabled.
+pub fn publish_state(state: impl FnOnce() -> String) {
+    if collected(|s| s.enabled) {
         let state = state();
-        seen(|s| s.state = Some(state));
+        collected(|s| s.state = Some(state));
     }
 }
 
-/// The next thing that an onlooker asks the salon to do, by the name of its command.
+/// The next queued command.
 #[must_use]
-pub fn asked() -> Option<String> {
-    seen(|s| s.asked.pop_front())
+pub fn next_command() -> Option<String> {
+    collected(|s| s.commands.pop_front())
 }
 
-/// Asks the salon to do something: see [`asked`].
-pub fn ask(ctx: &Context, command: &str) {
-    seen(|s| s.asked.push_back(command.to_owned()));
+/// Queues a command for the window, by name.
+pub fn queue_command(ctx: &Context, command: &str) {
+    collected(|s| s.commands.push_back(command.to_owned()));
     ctx.request_repaint();
 }
 
-/// What [`tell`] told last.
+/// The last published state.
 #[must_use]
 pub fn state() -> Option<String> {
-    seen(|s| s.state.clone())
+    collected(|s| s.state.clone())
 }
 
-/// All that was on the screen in the last frame.
+/// The widgets of the last frame.
 #[must_use]
 pub fn widgets() -> Vec<Widget> {
-    seen(|s| s.widgets.clone())
+    collected(|s| s.widgets.clone())
 }
 
-/// How many frames were looked at.
+/// The number of collected frames.
 #[must_use]
-pub fn passes() -> u64 {
-    seen(|s| s.passes)
+pub fn frames() -> u64 {
+    collected(|s| s.frames)
 }
 
-/// The widget of this name: of several, one that can be clicked goes before words.
+/// The widget with a name; of several, an enabled one that is not a label.
 #[must_use]
 pub fn widget(label: &str) -> Option<Widget> {
     let named = widgets().into_iter().filter(|w| w.label == label);
     named.min_by_key(|w| (w.role == Role::Label, !w.enabled))
 }
 
-/// Does to a widget what a screen reader asks for.
-pub fn act(ctx: &Context, node: NodeId, action: accesskit::Action) {
+/// Performs an action of a screen reader on a widget.
+pub fn perform(ctx: &Context, node: NodeId, action: accesskit::Action) {
     let (target_tree, target_node) = (accesskit::TreeId::ROOT, node);
     let request = accesskit::ActionRequest { action, target_tree, target_node, data: None };
-    seen(|s| s.events.push(Event::AccessKitActionRequest(request)));
+    collected(|s| s.events.push(Event::AccessKitActionRequest(request)));
     ctx.request_repaint();
 }
 
-/// Looks at what egui puts out.
-struct Onlooker;
+/// Collects the output of egui.
+struct Collector;
 
-impl Plugin for Onlooker {
+impl Plugin for Collector {
     fn debug_name(&self) -> &'static str {
-        "onlooker"
+        "collector"
     }
 
     fn input_hook(&mut self, _: &Context, input: &mut RawInput) {
-        input.events.append(&mut seen(|s| std::mem::take(&mut s.events)));
+        input.events.append(&mut collected(|s| std::mem::take(&mut s.events)));
     }
 
     fn output_hook(&mut self, _: &Context, output: &mut FullOutput) {
         let Some(tree) = &output.platform_output.accesskit_update else { return };
         let named = named(tree);
-        seen(|s| {
+        collected(|s| {
             let recorded = std::mem::take(&mut s.recorded);
             s.widgets = named;
             s.widgets.extend(recorded.into_iter().map(|(label, rect)| place(label, rect)));
-            s.passes += 1;
+            s.frames += 1;
         });
     }
 }
@@ -150,7 +149,7 @@ fn place(label: String, rect: Rect) -> Widget {
     Widget { node: None, role, label, value, number: None, on: None, enabled: true, rect }
 }
 
-/// The nodes of a tree that have a name and a place, in the order in which they are read.
+/// The nodes of a tree with a name and a rectangle, in reading order.
 fn named(tree: &accesskit::TreeUpdate) -> Vec<Widget> {
     let nodes: BTreeMap<NodeId, &accesskit::Node> =
         tree.nodes.iter().map(|(id, node)| (*id, node)).collect();
@@ -183,17 +182,17 @@ fn as_widget(
     Some(Widget { node: Some(id), role, label, value, number, on, enabled, rect })
 }
 
-/// What a node is called: by itself, by the labels beside it, or, if it is words, what they say.
+/// The name of a node: its own, that of its labels, or the text of a label.
 fn name(node: &accesskit::Node, nodes: &BTreeMap<NodeId, &accesskit::Node>) -> Option<String> {
-    let said = |node: &accesskit::Node| node.label().or(node.value()).map(str::to_owned);
+    let text = |node: &accesskit::Node| node.label().or(node.value()).map(str::to_owned);
     if let Some(label) = node.label() {
         return Some(label.to_owned());
     }
-    let beside: Vec<String> =
-        node.labelled_by().iter().filter_map(|id| nodes.get(id).and_then(|n| said(n))).collect();
-    match beside.is_empty() {
-        false => Some(beside.join(" ")),
-        true => said(node).filter(|words| node.role() == Role::Label && !words.is_empty()),
+    let labels: Vec<String> =
+        node.labelled_by().iter().filter_map(|id| nodes.get(id).and_then(|n| text(n))).collect();
+    match labels.is_empty() {
+        false => Some(labels.join(" ")),
+        true => text(node).filter(|text| node.role() == Role::Label && !text.is_empty()),
     }
 }
 
@@ -211,9 +210,9 @@ mod tests {
     }
 
     #[test]
-    fn widgets_are_found_by_their_names_and_used_as_a_screen_reader_does() {
+    fn widgets_are_found_by_name_and_take_actions() {
         let ctx = Context::default();
-        watch(&ctx);
+        enable(&ctx);
         let (mut wet, mut length) = (0, 0.2);
         for pass in 0..3 {
             frame(&ctx, |ui| {
@@ -226,7 +225,7 @@ mod tests {
             if pass == 1 {
                 let button = widget("Wet").expect("a button");
                 assert!(button.enabled && button.role == Role::Button && button.rect.width() > 5.0);
-                act(&ctx, button.node.expect("a node"), accesskit::Action::Click);
+                perform(&ctx, button.node.expect("a node"), accesskit::Action::Click);
             }
         }
         assert_eq!(wet, 1);
@@ -238,14 +237,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_asked_is_done_once_and_nothing_is_told_to_nobody() {
+    fn commands_are_taken_once_and_the_state_is_published_only_when_enabled() {
         let ctx = Context::default();
-        tell(|| unreachable!("nobody looks"));
-        ask(&ctx, "wet");
-        assert_eq!(asked().as_deref(), Some("wet"));
-        assert_eq!(asked(), None);
-        watch(&ctx);
-        tell(|| "{}".into());
+        publish_state(|| unreachable!("automation is not enabled"));
+        queue_command(&ctx, "wet");
+        assert_eq!(next_command().as_deref(), Some("wet"));
+        assert_eq!(next_command(), None);
+        enable(&ctx);
+        publish_state(|| "{}".into());
         assert_eq!(state().as_deref(), Some("{}"));
     }
 }

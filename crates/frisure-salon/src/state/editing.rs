@@ -1,0 +1,154 @@
+//! Edits of the document's text: opening, sliders, choices, undo and redo.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use frisure::scene::{Scene, edit};
+use frisure_engine::Diagnostic;
+
+use super::controls::{CONTROLS, Control, choices, control_of};
+use super::document::Document;
+use super::gallery::card;
+use super::salon::{ParsedScene, Salon, Tool, parse};
+use super::selection::Selected;
+
+impl Salon {
+    /// Opens a card of the gallery.
+    pub(super) fn begin(&mut self, name: &str) {
+        let Some(card) = card(name) else {
+            let hint = "Open the gallery to see the names.";
+            return self.notify(format!("there is no hair called `{name}`"), hint, true);
+        };
+        self.open_document(Document::new(card.title, None, card.title, card.text()));
+    }
+
+    /// Replaces the document, unless the new one does not parse.
+    pub(super) fn open_document(&mut self, document: Document) {
+        match parse(&document, document.text()) {
+            Ok(parsed) => {
+                self.jobs.cancel_hair();
+                let view = parsed.scene.camera;
+                self.orbit.look_from(view.azimuth, view.elevation);
+                self.orbit.field_of_view = view.field_of_view;
+                self.scene = Some(Arc::new(parsed));
+                self.document = Some(document);
+                (self.selected, self.comparison, self.isolated) = (Selected::default(), None, None);
+                (self.refused, self.held, self.gallery, self.framed) = (None, None, false, false);
+                (self.tool, self.cut_preview, self.mass_before) = (Tool::Orbit, None, None);
+            }
+            Err(error) => self.report_error(&(&error).into()),
+        }
+    }
+
+    /// Makes a text the current one, or a draft while a slider is dragged. Returns whether it is a valid scene;
+    /// an invalid one is reported and changes nothing.
+    pub(super) fn change(
+        &mut self,
+        label: &str,
+        text: Result<String, edit::EditError>,
+        draft: bool,
+    ) -> bool {
+        let Some(document) = &mut self.document else { return false };
+        let text = text.map_err(|error| match error {
+            edit::EditError::Scene(error) => (&error).into(),
+            other => Diagnostic { problem: other.to_string(), ..Diagnostic::default() },
+        });
+        let parsed = text.and_then(|text| match parse(document, &text) {
+            Ok(parsed) => Ok((text, parsed)),
+            Err(error) => Err((&error).into()),
+        });
+        match parsed {
+            Ok((text, parsed)) => {
+                match draft {
+                    true => document.draft(text),
+                    false => document.change(label, text),
+                }
+                self.scene = Some(Arc::new(parsed));
+                true
+            }
+            Err(error) => {
+                self.report_error(&error);
+                false
+            }
+        }
+    }
+
+    /// Sets a key to a value in its control's unit.
+    pub(super) fn set(&mut self, key: &'static str, value: f64, draft: bool) {
+        let (Some(control), Some(base)) = (control_of(key), self.base()) else { return };
+        let text = edit::set_key(base, key, &control.written(value));
+        self.change(&label(control, value), text, draft);
+    }
+
+    /// Ends the drag of a slider: its draft becomes an edit.
+    pub(super) fn end_drag(&mut self) {
+        let Some(document) = self.document.as_mut().filter(|d| d.is_draft()) else { return };
+        let before = &document.edits()[document.at()].text;
+        let label = self.scene.as_ref().and_then(|parsed| changed(before, parsed));
+        document.keep_draft(label.unwrap_or_else(|| "Changed".into()));
+    }
+
+    /// Sets a key to an option of its choice, as TOML.
+    pub(super) fn set_option(&mut self, key: &'static str, value: &str) {
+        let Some(base) = self.base() else { return };
+        let label = choices().into_iter().find(|choice| choice.key == key).and_then(|choice| {
+            let (_, title) = choice.options.iter().find(|(written, _)| written == value)?;
+            Some(format!("{}: {}", choice.label, title.to_lowercase()))
+        });
+        let text = edit::set_key(base, key, value);
+        self.change(label.as_deref().unwrap_or("Changed"), text, false);
+    }
+
+    /// Removes a key, so that its default holds.
+    pub(super) fn reset(&mut self, key: &'static str) {
+        let Some(base) = self.base() else { return };
+        let text = edit::unset_key(base, key);
+        let label = match choices().into_iter().find(|choice| choice.key == key) {
+            Some(choice) => format!("{}: {}", choice.label, choice.default),
+            None => {
+                let name = control_of(key).map_or(key, |control| control.label);
+                format!("{name}: default of the hair type")
+            }
+        };
+        self.change(&label, text, false);
+    }
+
+    /// Goes to another text of the document, chosen from the index of the current one.
+    pub(super) fn go_to(&mut self, to: impl FnOnce(usize) -> Option<usize>) {
+        let Some(document) = &mut self.document else { return };
+        document.drop_draft();
+        let Some(to) = to(document.at()) else { return };
+        if document.go_to(to)
+            && let Ok(parsed) = parse(document, document.text())
+        {
+            self.scene = Some(Arc::new(parsed));
+            self.mass_before = None;
+        }
+    }
+
+    /// Writes the view to the scene's camera, which the command line renders from.
+    pub(super) fn keep_view(&mut self) {
+        let Some(base) = self.base() else { return };
+        let degrees = |angle: f64| (angle.to_degrees() * 10.0).round() / 10.0;
+        let azimuth = (degrees(self.orbit.azimuth) + 180.0).rem_euclid(360.0) - 180.0;
+        let azimuth = format!("\"{azimuth} deg\"");
+        let elevation = format!("\"{} deg\"", degrees(self.orbit.elevation));
+        let keys = [("camera.azimuth", Some(&*azimuth)), ("camera.elevation", Some(&*elevation))];
+        let text = edit::set_keys(base, &keys);
+        self.change("The scene's camera", text, false);
+    }
+}
+
+fn label(control: &Control, value: f64) -> String {
+    format!("{}: {}", control.label, control.displayed(value))
+}
+
+/// The label of a dragged slider: that of the first control whose value differs between two scenes.
+fn changed(before: &str, now: &ParsedScene) -> Option<String> {
+    let before = Scene::parse("before", before, Path::new("")).ok()?;
+    let spec = before.hairstyle_spec().ok()?;
+    CONTROLS.iter().find_map(|control| {
+        let (old, new) = (control.value(&before, &spec), control.value(&now.scene, &now.spec));
+        (control.clean(old) != control.clean(new)).then(|| label(control, new))
+    })
+}

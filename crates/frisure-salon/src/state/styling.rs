@@ -1,0 +1,204 @@
+//! Selecting hair, and the steps that style it.
+
+use std::sync::Arc;
+
+use frisure::hairstyle::styling::{
+    Comb, Direction, Dry, Grow, Growth, Lasso, Operation, Selection, Spot, View, Wet,
+};
+use frisure::scene::edit;
+use glam::{DVec3, Vec3};
+
+use super::command::Command;
+use super::cut_plane::{CutPlane, CutPreview, rounded};
+use super::salon::{Salon, Tool};
+use super::selection::{PLACES, Selected};
+
+impl Salon {
+    pub(super) fn take_tool(&mut self, tool: Tool) {
+        if tool == Tool::Cut && self.tool != Tool::Cut {
+            // Starts just above the tips, so that the preview shows a cut.
+            let tips = self.current.as_ref().map_or(-0.1, |current| current.hair.numbers.tips);
+            self.plane = CutPlane { held: self.plane.held, ..CutPlane::level(tips + 0.02) };
+        }
+        if tool != Tool::Pick {
+            self.isolated = None;
+        }
+        self.tool = tool;
+    }
+
+    pub(super) fn move_plane(&mut self, plane: CutPlane) {
+        if plane.point.is_finite() && plane.normal().is_finite() {
+            self.plane = plane;
+        }
+    }
+
+    /// Sets the radius of the brush (m), within 2 mm and 10 cm.
+    pub(super) fn set_brush(&mut self, radius: f64) {
+        self.brush.radius = if radius.is_nan() { 0.02 } else { radius.clamp(0.002, 0.1) };
+    }
+
+    /// Executes a command that selects hair.
+    pub(super) fn select(&mut self, command: Command) {
+        let selected = match command {
+            Command::Select(place, mode) => {
+                let name = PLACES.iter().find(|(_, p)| *p == place);
+                let name = name.map_or_else(|| "a part".to_owned(), |(n, _)| n.to_lowercase());
+                self.selected.with(Selection::Place(place), &name, mode)
+            }
+            Command::InvertSelection => self.selected.inverted(),
+            Command::DrawLasso { polygon, aspect, mode } => {
+                let view = View {
+                    eye: rounded(self.orbit.eye(), 1e-5),
+                    target: rounded(self.orbit.target, 1e-5),
+                    field_of_view: self.orbit.field_of_view,
+                    aspect: (aspect * 1e4).round() / 1e4,
+                };
+                let lasso = Lasso { view, polygon: simplified(&polygon), through: false };
+                self.selected.with(Selection::Lasso(lasso), "a lasso", mode)
+            }
+            Command::Paint(places, mode) => match self.under_brush(&places) {
+                Some(selection) => self.selected.with(selection, "a brush stroke", mode),
+                None => return,
+            },
+            _ => Selected::default(),
+        };
+        self.selected_in = self.base().map(str::to_owned);
+        match selected.selection.check() {
+            Ok(()) => self.selected = selected,
+            Err(error) => self.notify(error.to_string(), "Draw a larger shape.", true),
+        }
+        self.cut_preview = None;
+    }
+
+    /// The hair rooted under a brush that passed over places on the skin (m).
+    fn under_brush(&self, places: &[DVec3]) -> Option<Selection> {
+        let radius = self.brush.radius;
+        let mut spots: Vec<DVec3> = Vec::new();
+        for &place in places.iter().filter(|p| p.is_finite()) {
+            // A third of the radius between spots covers the stroke.
+            if spots.last().is_none_or(|last| last.distance(place) > radius / 3.0) {
+                spots.push(place);
+            }
+        }
+        let spots: Vec<Spot> = spots.into_iter().map(|p| Spot::At(rounded(p, 1e-4))).collect();
+        (!spots.is_empty()).then_some(Selection::Brush { spots, radius })
+    }
+
+    /// Executes a command that adds a step for the selected hair.
+    pub(super) fn style(&mut self, command: Command) {
+        if self.current.is_none() {
+            return;
+        }
+        let is_same = self.base().is_some_and(|base| self.selected_in.as_deref() == Some(base));
+        let Selected { selection, label: of, .. } =
+            if is_same { self.selected.clone() } else { self.selected.fixed() };
+        let operation = match command {
+            Command::Apply(operation) => operation.on(selection),
+            Command::ToggleWet if self.is_wet() => Operation::from(Dry::default()).on(selection),
+            Command::ToggleWet => Operation::from(Wet::default()).on(selection),
+            Command::Stroke(places, direction) => {
+                let Some(direction) = direction.try_normalize() else { return };
+                let Some(under) = self.under_brush(&places) else { return };
+                let all = selection == Selection::Everything;
+                let selection = if all { under } else { Selection::All(vec![selection, under]) };
+                comb(Direction::Along(rounded(direction, 1e-3))).on(selection)
+            }
+            Command::Cut => {
+                self.mass_before = self.current.as_ref().map(|c| c.hair.numbers.mass);
+                self.plane.operation().on(selection)
+            }
+            _ => return,
+        };
+        let label = format!("{}: {of}", title(&operation));
+        if let Some(base) = self.base() {
+            let text = edit::append(base, std::slice::from_ref(&operation));
+            self.change(&label, text, false);
+        }
+    }
+
+    /// Whether most of the selected hair is wet.
+    #[must_use]
+    pub fn is_wet(&self) -> bool {
+        let Some(current) = &self.current else { return false };
+        let selected = self.selected.wisps.as_deref();
+        let is = |i: &usize| selected.is_none_or(|s| s.get(*i).copied().unwrap_or(false));
+        let wetness = &current.hair.wetness;
+        let (sum, count) =
+            (0..wetness.len()).filter(is).fold((0.0, 0), |(sum, n), i| (sum + wetness[i], n + 1));
+        sum > 0.5 * count as f32
+    }
+
+    /// What the cutting plane would cut off the shown hair, while its tool is active.
+    pub fn cut_preview(&mut self) -> Option<Arc<CutPreview>> {
+        let current = self.current.as_ref().filter(|_| self.tool == Tool::Cut)?;
+        let (version, plane) = (current.version, self.plane);
+        if let Some((.., preview)) =
+            self.cut_preview.as_ref().filter(|(v, p, _)| (*v, *p) == (version, plane))
+        {
+            return Some(preview.clone());
+        }
+        let wisps = self.selected.wisps.as_deref();
+        if !self.selected.is_everything() && wisps.is_none() {
+            return None;
+        }
+        let preview = Arc::new(plane.preview(&current.hair.strands, wisps));
+        self.cut_preview = Some((version, plane, preview.clone()));
+        Some(preview)
+    }
+
+    /// The wisp whose root is nearest to a place on the skin (m).
+    #[must_use]
+    pub fn wisp_at(&self, place: DVec3) -> Option<usize> {
+        let roots = &self.current.as_ref()?.hair.roots;
+        let far = |i: &usize| Vec3::from_array(roots[*i]).as_dvec3().distance(place);
+        (0..roots.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
+    }
+}
+
+/// An operation that combs hair in a direction and holds it there.
+#[must_use]
+pub fn comb(towards: Direction) -> Operation {
+    let selection = Selection::Everything;
+    Operation::Comb(Comb { selection, towards, strength: Comb::STRENGTH, hold: true })
+}
+
+/// The title of an operation in the history.
+fn title(operation: &Operation) -> String {
+    let title = match operation {
+        Operation::Grow(Grow { amount: Growth::By(length), .. }) => {
+            format!("grow by {:.1} cm", length * 100.0)
+        }
+        Operation::Comb(Comb { towards: Direction::Named(side), .. }) => {
+            format!("comb {side:?}").to_lowercase()
+        }
+        other => other.name().to_owned(),
+    };
+    capitalized(&title)
+}
+
+/// A text with its first letter in upper case.
+pub(super) fn capitalized(text: &str) -> String {
+    let mut text = text.to_owned();
+    if let Some(first) = text.get_mut(0..1) {
+        first.make_ascii_uppercase();
+    }
+    text
+}
+
+/// A drawn polygon without the corners that are close to the one before.
+fn simplified(polygon: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    /// Least distance of corners (as a fraction of the picture's half height). Chosen by trial.
+    const MIN_DISTANCE: f64 = 0.015;
+    /// Most corners of a lasso, which bounds the scene's text.
+    const MAX_CORNERS: usize = 200;
+    let mut corners: Vec<[f64; 2]> = Vec::new();
+    for &[x, y] in polygon.iter().filter(|p| p.iter().all(|x| x.is_finite())) {
+        let far = |last: &[f64; 2]| (last[0] - x).hypot(last[1] - y) > MIN_DISTANCE;
+        if corners.last().is_none_or(far) {
+            let round = |x: f64| (x * 1e3).round() / 1e3 + 0.0;
+            corners.push([round(x), round(y)]);
+        }
+    }
+    let step = corners.len().div_ceil(MAX_CORNERS).max(1);
+    corners.into_iter().step_by(step).collect()
+}

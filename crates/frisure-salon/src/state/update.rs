@@ -1,0 +1,89 @@
+//! The entry points of the salon: commands, responses of the engine, and time.
+
+use frisure::formats::contents::Contents;
+use frisure_engine::Response;
+
+use super::command::Command;
+use super::document::Document;
+use super::jobs::{JobId, Queue};
+use super::salon::{IsolatedHair, Salon};
+
+impl Salon {
+    /// Executes a command.
+    pub fn run(&mut self, command: Command) {
+        match command {
+            Command::Begin(name) => self.begin(&name),
+            Command::Open { path, name, text } => {
+                self.open_document(Document::new(name, path, "Opened", text));
+            }
+            Command::Gallery(open) => self.gallery = open,
+            Command::Drag(key, value) => self.set(key, value, true),
+            Command::EndDrag => self.end_drag(),
+            Command::Set(key, value) => self.set(key, value, false),
+            Command::SetOption(key, value) => self.set_option(key, &value),
+            Command::Reset(key) => self.reset(key),
+            Command::File(path) => self.queue_file(path),
+            Command::Retry => self.retry(),
+            Command::Head(path) => self.set_file(path, Contents { head: true, groom: false }),
+            Command::Groom(path) => self.set_file(path, Contents { head: false, groom: true }),
+            Command::Take(tool) => self.take_tool(tool),
+            Command::BrushSize(radius) => self.set_brush(radius),
+            Command::Undo => self.go_to(|at| at.checked_sub(1)),
+            Command::Redo => self.go_to(|at| Some(at + 1)),
+            Command::GoTo(to) => self.go_to(|_| Some(to)),
+            Command::Isolate(wisp) => {
+                self.isolated = wisp.map(|wisp| IsolatedHair { wisp, hair: None, version: 0 });
+            }
+            Command::Compare(edit) => self.compare(edit),
+            Command::ToggleCompare => {
+                let at = self.document.as_ref().map_or(0, Document::at);
+                self.compare(self.comparison.is_none().then(|| at.saturating_sub(1)));
+            }
+            Command::Turn(right, up) => self.orbit.turn(right, up),
+            Command::Pan(right, up) => self.orbit.pan(right, up),
+            Command::Zoom(factor) => self.orbit.zoom(factor),
+            Command::LookFrom(azimuth, elevation) => self.orbit.look_from(azimuth, elevation),
+            Command::Frame(aspect) => self.frame_all(aspect),
+            Command::KeepView => self.keep_view(),
+            Command::Save(to) => self.save(to),
+            Command::Export(to) => self.export(to),
+            Command::Render(task, to) => self.render(task, to),
+            Command::Stop => self.jobs.cancel_background(),
+            Command::Recover(wanted) => self.recover(wanted),
+            Command::Dismiss(index) => {
+                if index < self.messages.len() {
+                    self.messages.remove(index);
+                }
+            }
+            Command::Plane(plane) => self.move_plane(plane),
+            Command::Apply(_) | Command::ToggleWet | Command::Stroke(..) | Command::Cut => {
+                self.style(command);
+            }
+            selecting => self.select(selecting),
+        }
+        self.schedule();
+    }
+
+    /// Takes a response of the engine.
+    pub fn receive(&mut self, job: JobId, response: Response) {
+        match self.jobs.queue_of(job) {
+            Some(Queue::Hair) => self.receive_hair(response),
+            Some(Queue::Background) => self.receive_background(response),
+            None => {}
+        }
+        self.schedule();
+    }
+
+    /// Takes the current time, in seconds from any start.
+    pub fn tick(&mut self, now: f64) {
+        self.autosave(now);
+        self.schedule();
+    }
+
+    /// Starts the jobs again, for workers that have lost them.
+    pub fn restart_jobs(&mut self) {
+        self.jobs.clear();
+        (self.progress, self.background_progress) = (None, None);
+        self.schedule();
+    }
+}

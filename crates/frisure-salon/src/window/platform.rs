@@ -1,0 +1,61 @@
+//! The interface to desktop or browser: files, dialogs, and storage for the autosaved text.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use frisure::formats::contents;
+
+use crate::state::Save;
+
+/// A file that was dropped on the window.
+pub type DroppedFile = Arc<dyn eframe::egui::DroppedFile + Send + Sync>;
+
+/// An opened or dropped file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InputFile {
+    /// Its path, where the platform has paths.
+    pub path: Option<PathBuf>,
+    /// Its name.
+    pub name: String,
+    /// Its contents; empty for a head or groom with a path, which the engine reads.
+    pub bytes: Vec<u8>,
+}
+
+/// The extensions of the files that can be opened, without dots.
+#[must_use]
+pub fn extensions() -> Vec<&'static str> {
+    [vec!["toml"], contents::extensions()].concat()
+}
+
+/// What the window needs from desktop or browser.
+pub trait Platform {
+    /// Writes a file, or hands it to the browser as a download.
+    ///
+    /// # Errors
+    /// The reason, for a message.
+    fn save(&mut self, save: &Save) -> Result<(), String>;
+
+    /// Stores the autosaved text; `None` deletes it.
+    ///
+    /// # Errors
+    /// The reason, for a message.
+    fn write_autosave(&mut self, text: Option<&str>) -> Result<(), String>;
+
+    /// The autosaved text.
+    fn read_autosave(&mut self) -> Option<String>;
+
+    /// Shows the system's dialog to open files; they come through [`Self::next_file`].
+    fn show_open_dialog(&mut self);
+
+    /// Reads a dropped file; it comes through [`Self::next_file`].
+    fn read_dropped(&mut self, file: DroppedFile);
+
+    /// The next opened or dropped file.
+    fn next_file(&mut self) -> Option<InputFile>;
+
+    /// Whether files have paths, which dialogs ask for; in a browser they do not.
+    fn has_paths(&self) -> bool;
+
+    /// The folder that dialogs propose.
+    fn folder(&self) -> PathBuf;
+}
