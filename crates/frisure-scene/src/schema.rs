@@ -29,21 +29,23 @@ pub fn schema() -> &'static Value {
 
 /// Adds the ranges of what a hairstyle checks, and puts them into the descriptions.
 fn add_ranges(schema: &mut Value, path: &str) {
-    for (key, inner) in schema["properties"].as_object_mut().into_iter().flatten() {
+    let keys = schema.get_mut("properties").and_then(Value::as_object_mut);
+    for (key, inner) in keys.into_iter().flatten() {
         let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
         if let Some(range) = range_of(&path) {
             write_range(inner, range);
         }
-        match inner["items"].is_object() {
-            true => add_ranges(&mut inner["items"], &path),
-            false => add_ranges(inner, &path),
+        match inner.get_mut("items") {
+            Some(items) => add_ranges(items, &path),
+            None => add_ranges(inner, &path),
         }
     }
 }
 
 /// Adds a range to the schema of a number that has none of its own.
 fn write_range(schema: &mut Value, range: &Range) {
-    let (_, between) = range.allowed.split_once("between ").unwrap_or(("", range.allowed));
+    let allowed = range.allowed.replace('²', "^2");
+    let (_, between) = allowed.split_once("between ").unwrap_or(("", &allowed));
     if let Some(doc) = schema["description"].as_str() {
         schema["description"] = doc.replace("{}", &between.replacen(" and ", " to ", 1)).into();
     }
