@@ -11,6 +11,7 @@ use thiserror::Error;
 use crate::groom::{self, Format};
 use crate::{head, ply};
 use frisure_files::{Files, ReadError};
+#[cfg(feature = "usd")]
 use frisure_usd::{self as usd, Stage};
 
 /// What a file can be used for.
@@ -82,8 +83,8 @@ pub fn of(path: &Path, files: &Files) -> Result<Contents, ContentsError> {
         _ => {}
     }
     let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom or a head")?;
-    let found = if usd::is_usd(&bytes) {
-        stage(&bytes)
+    let found = if let Some(found) = stage(&bytes) {
+        found
     } else if bytes.starts_with(b"ply") {
         polygons(&bytes)
     } else {
@@ -98,7 +99,19 @@ pub fn of(path: &Path, files: &Files) -> Result<Contents, ContentsError> {
     }
 }
 
-fn stage(bytes: &[u8]) -> Result<Contents, String> {
+/// The contents of a stage of USD; nothing for other files.
+#[cfg(feature = "usd")]
+fn stage(bytes: &[u8]) -> Option<Result<Contents, String>> {
+    usd::is_usd(bytes).then(|| stage_contents(bytes))
+}
+
+#[cfg(not(feature = "usd"))]
+fn stage(_: &[u8]) -> Option<Result<Contents, String>> {
+    None
+}
+
+#[cfg(feature = "usd")]
+fn stage_contents(bytes: &[u8]) -> Result<Contents, String> {
     let layer = usd::read(bytes)?;
     let stage = Stage::of(&layer)?;
     let has = |names: &[&str]| {
@@ -116,6 +129,7 @@ fn stage(bytes: &[u8]) -> Result<Contents, String> {
 }
 
 /// Types of prims that are strands.
+#[cfg(feature = "usd")]
 const CURVES: [&str; 2] = ["BasisCurves", "NurbsCurves"];
 
 fn polygons(bytes: &[u8]) -> Result<Contents, String> {
