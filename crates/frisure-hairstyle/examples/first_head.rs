@@ -2,6 +2,8 @@
 //!
 //!     cargo run --release -p frisure-hairstyle --example first_head
 
+#![expect(clippy::print_stdout, reason = "an example prints")]
+
 use std::error::Error;
 
 use frisure_hairstyle::head::Head;

@@ -29,7 +29,7 @@ fn hairstyle(name: &str, wisps: usize) -> Hairstyle {
 }
 
 fn done(before: &Hairstyle, operation: &Operation) -> Hairstyle {
-    style(&before, &HEAD, operation, StyleOptions::default(), &()).unwrap()
+    style(before, &HEAD, operation, StyleOptions::default(), &()).unwrap()
 }
 
 fn wet() -> Operation {

@@ -6,6 +6,8 @@
 //!
 //! A lock of wavy blond hair, drawn by the preview and lit by a portrait studio.
 
+#![expect(clippy::print_stdout, reason = "an example prints")]
+
 use std::error::Error;
 use std::fs::File;
 

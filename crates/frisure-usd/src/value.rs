@@ -174,7 +174,7 @@ impl Data {
     }
 
     /// How many numbers or words there are.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         match self {
             Self::I32(v) => v.len(),
             Self::I64(v) => v.len(),
@@ -254,7 +254,7 @@ impl Value {
     }
 
     /// How many values there are.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.data.len() / self.kind.width()
     }
 

@@ -84,7 +84,7 @@ fn spelling() -> Result<()> {
     let program = if program.is_file() { program } else { "typos".into() };
     match Command::new(program).current_dir(root()).status() {
         Ok(status) => {
-            ensure!(status.success(), "there are misspelled words; _typos.toml has the exceptions")
+            ensure!(status.success(), "there are misspelled words; _typos.toml has the exceptions");
         }
         Err(_) => say("skipped: `typos` is not installed (`pip install typos`)"),
     }
