@@ -174,7 +174,8 @@ impl Data {
     }
 
     /// How many numbers or words there are.
-    pub(crate) fn len(&self) -> usize {
+    #[expect(clippy::len_without_is_empty, reason = "no caller needs `is_empty`")]
+    pub fn len(&self) -> usize {
         match self {
             Self::I32(v) => v.len(),
             Self::I64(v) => v.len(),
@@ -254,7 +255,8 @@ impl Value {
     }
 
     /// How many values there are.
-    pub(crate) fn len(&self) -> usize {
+    #[expect(clippy::len_without_is_empty, reason = "no caller needs `is_empty`")]
+    pub fn len(&self) -> usize {
         self.data.len() / self.kind.width()
     }
 
