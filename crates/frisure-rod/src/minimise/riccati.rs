@@ -64,6 +64,7 @@ impl ValueFunction {
         position_position: DMat3::ZERO,
     };
 
+    #[inline]
     fn add(&mut self, node: &Derivatives) {
         self.rotation += node.rotation;
         self.position += node.position;
@@ -188,6 +189,7 @@ impl Stage<'_> {
     }
 }
 
+#[inline]
 fn symmetric(m: DMat3) -> DMat3 {
     (m + m.transpose()) * 0.5
 }

@@ -13,6 +13,7 @@ pub(super) const LARGEST_TURN: f64 = 1.0;
 impl FeedbackLaw {
     /// The step x (rad) of element `i` whose start, at `from`, is now at `position` with `frame`; `fraction` of the
     /// feedforward k, as a line search asks for.
+    #[inline]
     fn applied<const POSITION: bool>(
         &self,
         from: &Shape,
