@@ -49,7 +49,7 @@ class Frisure:
 @pytest.fixture(scope="session")
 def frisure():
     path = pathlib.Path(os.environ.get("FRISURE", ROOT / "target/release/frisure"))
-    assert path.exists(), f"build it first: cargo build --release -p frisure-cli ({path})"
+    assert path.exists(), f"build it first: cargo build --release -p frisure-cli --features batch ({path})"
     return Frisure(path.resolve())
 
 

@@ -20,18 +20,20 @@ pub(crate) fn run(quick: bool) -> Result<()> {
     let mut gate = Gate { times: Vec::new() };
     gate.step("format", || cargo("fmt --all --check"))?;
     gate.step("spelling", spelling)?;
-    gate.step("lints", || cargo("clippy --workspace --all-targets --locked -- -D warnings"))?;
+    gate.step("lints", || {
+        cargo("clippy --workspace --all-targets --all-features --locked -- -D warnings")
+    })?;
     if quick {
         gate.step("unit tests", || {
-            cargo("test --workspace --locked --lib --bins --test tidy --test architecture")
+            cargo("test --workspace --all-features --locked --lib --bins --test tidy --test architecture")
         })?;
         gate.step("one scene", || {
-            cargo("build --workspace --locked --bin frisure")?;
+            cargo("build --workspace --all-features --locked --bin frisure")?;
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
         gate.step("documentation", || {
-            shell("RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --locked")
+            shell("RUSTDOCFLAGS='-D warnings' cargo doc --workspace --all-features --no-deps --locked")
         })?;
         gate.step("page", || page::build(false))?;
         gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
