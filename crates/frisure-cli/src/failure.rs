@@ -151,7 +151,10 @@ impl From<Fault> for Diagnostic {
     fn from(fault: Fault) -> Self {
         let message = fault.message();
         let label = if fault.allowed.is_empty() || !fault.problem.is_empty() {
-            "here".to_owned()
+            // A message about a file does not name the key that the file stands at.
+            let name = fault.key.rsplit('.').next().unwrap_or_default();
+            let named = message.contains(&fault.key) || message.contains(&format!("`{name}`"));
+            if named { "here".to_owned() } else { format!("`{}`", fault.key) }
         } else {
             format!("must be {}", fault.allowed)
         };
