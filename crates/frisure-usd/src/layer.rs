@@ -22,7 +22,7 @@ const MOST_PROPERTIES: usize = 10_000;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layer {
-    /// Of those that [`metadata_kind`] knows.
+    /// The metadata keys that the reader supports.
     pub metadata: Vec<(String, Value)>,
     /// Its root prims.
     pub prims: Vec<Prim>,
@@ -39,7 +39,7 @@ pub struct Prim {
     pub specifier: Specifier,
     /// Names of the schemas that are applied to it.
     pub schemas: Vec<String>,
-    /// Of those that [`metadata_kind`] knows.
+    /// The metadata keys that the reader supports.
     pub metadata: Vec<(String, Value)>,
     /// What it would take from elsewhere (`references`, `payload`, `variantSets`, …), which is not followed.
     pub elsewhere: Vec<String>,
@@ -92,7 +92,7 @@ pub struct Attribute {
     pub value: Option<Value>,
     /// Paths of the attributes that it is connected to.
     pub connections: Vec<String>,
-    /// Of those that [`metadata_kind`] knows.
+    /// The metadata keys that the reader supports.
     pub metadata: Vec<(String, Value)>,
 }
 

@@ -52,7 +52,7 @@ impl Grow {
     /// Range of [`Growth::For`].
     pub const TIME: Range =
         Range::new("grow.time", 0.0, Self::LONGEST_TIME, "between 0 and 20 years");
-    /// Range of [`Self::stages`].
+    /// Range of [`stages`](field@Self::stages).
     pub const STAGES: Range =
         Range::new("grow.stages", 1.0, 1000.0, "a whole number between 1 and 1000");
 }
