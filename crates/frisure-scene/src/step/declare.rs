@@ -261,7 +261,9 @@ impl Declaration {
         let empty = toml::Table::new();
         let table = value.as_table().unwrap_or(&empty);
         for group in self.groups {
-            let paths: Vec<_> = group.keys.iter().map(|key| join(path, key)).collect();
+            // Positions are looked up in the whole text, so only the keys that are there are compared.
+            let given = group.keys.iter().filter(|key| table.contains_key(**key));
+            let paths: Vec<_> = given.map(|key| join(path, key)).collect();
             one_way(source, &paths.iter().map(std::slice::from_ref).collect::<Vec<_>>())?;
             if let Some((problem, hint)) = group.needed
                 && !group.keys.iter().any(|key| table.contains_key(*key))
