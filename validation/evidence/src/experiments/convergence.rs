@@ -7,6 +7,7 @@ use frisure::rod::{
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::experiment::check;
 use crate::extremes::{larger, largest, smallest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::{Hanging, Solution};
@@ -63,9 +64,9 @@ const KINDS: [(ElementKind, &str); 2] =
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     slopes(&mut finding, effort)?;
-    super::check(progress, "convergence", 0.4)?;
+    check(progress, "convergence", 0.4)?;
     needed(&mut finding, effort)?;
-    super::check(progress, "convergence", 0.8)?;
+    check(progress, "convergence", 0.8)?;
     requests(&mut finding, effort)?;
     Ok(finding)
 }

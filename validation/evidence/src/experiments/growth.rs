@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::sphere::Sphere;
+use crate::experiment::check;
 use crate::extremes::{larger, largest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::{Hanging, anjyo, greenhill};
@@ -55,9 +56,9 @@ fn threshold() -> Result<f64, Stopped> {
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     heads(&mut finding)?;
-    super::check(progress, "growth", 0.3)?;
+    check(progress, "growth", 0.3)?;
     tips(&mut finding, effort)?;
-    super::check(progress, "growth", 0.7)?;
+    check(progress, "growth", 0.7)?;
     exact(&mut finding)?;
     Ok(finding)
 }

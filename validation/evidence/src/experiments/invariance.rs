@@ -6,10 +6,11 @@ use frisure::rod::{
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use crate::experiment::check;
 use crate::extremes::{larger, largest};
+use crate::numbers::small;
 use crate::plot::{Mark, Plot, Scale};
 use crate::random::Random;
-use crate::report::words::small;
 use crate::rods::{line, to_accuracy};
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
@@ -37,7 +38,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let count = effort.pick(150, 2000);
     let mut gaps = Vec::new();
     for (part, items) in (0..count).collect::<Vec<usize>>().chunks(count / 10).enumerate() {
-        super::check(progress, "invariance", 0.1 * part as f64)?;
+        check(progress, "invariance", 0.1 * part as f64)?;
         let some: Vec<[f64; 5]> =
             items.par_iter().map(|&i| gaps_of(i)).collect::<Result<_, Stopped>>()?;
         gaps.extend(some);

@@ -16,7 +16,7 @@ mod curls;
 mod plane;
 mod sphere;
 
-use crate::{Cancelled, Experiment, Progress};
+use crate::Experiment;
 
 /// Every experiment.
 pub const EXPERIMENTS: &[&Experiment] = &[
@@ -33,8 +33,8 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &speed::EXPERIMENT,
 ];
 
-/// Reports the fraction of an experiment; an error if it is cancelled.
-fn check(progress: &dyn Progress, name: &'static str, fraction: f64) -> Result<(), Cancelled> {
-    progress.report(name, fraction);
-    progress.check()
+/// The experiment of that name.
+#[must_use]
+pub fn experiment(name: &str) -> Option<&'static Experiment> {
+    EXPERIMENTS.iter().copied().find(|e| e.name == name)
 }

@@ -7,6 +7,7 @@ use frisure::rod::batch::Batch;
 use frisure::rod::{ElementKind, Rod, RodSpec, Stability, equilibrium};
 use rayon::prelude::*;
 
+use crate::experiment::check;
 use crate::random::Random;
 use crate::reference::Hanging;
 use crate::rods::{elements, line, to_accuracy};
@@ -78,9 +79,9 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
         finding.timings.push(Timing { what, seconds, beside: beside.into() });
         right = (right.0 + stable, right.1 + count);
     }
-    super::check(progress, "speed", 0.3)?;
+    check(progress, "speed", 0.3)?;
     errors(&mut finding)?;
-    super::check(progress, "speed", 0.5)?;
+    check(progress, "speed", 0.5)?;
     head(&mut finding, effort, progress)?;
     finding.check(
         "share of the timed hairs that are stable",

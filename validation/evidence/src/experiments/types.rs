@@ -9,6 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::curls::curvatures;
+use crate::experiment::check;
 use crate::extremes::largest;
 use crate::plot::{Mark, Plot, Scale};
 use crate::rods::to_accuracy;
@@ -157,7 +158,7 @@ fn run(_: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     progress.report("types", 0.0);
     let found: Vec<Found> =
         PRESETS.par_iter().map(|p| of(p.name, p.hair_type())).collect::<Result<_, Stopped>>()?;
-    super::check(progress, "types", 0.8)?;
+    check(progress, "types", 0.8)?;
     table(&mut finding, &found);
     shapes(&mut finding)?;
     finding.text(

@@ -2,7 +2,7 @@
 
 use std::fmt::{Formatter, Result};
 
-use super::draw::{BOTTOM, COLOURS, Frame, LEFT, RIGHT, TOP, escaped};
+use super::frame::{BOTTOM, COLOURS, Frame, LEFT, RIGHT, TOP, escaped};
 use super::{Mark, Plot, Series};
 
 /// Height of a line (pixels).

@@ -6,9 +6,10 @@
 
 mod axis;
 mod draw;
+mod frame;
 mod legend;
 
-pub(crate) use draw::escaped;
+pub(crate) use frame::escaped;
 
 pub use axis::Scale;
 

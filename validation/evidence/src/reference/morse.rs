@@ -4,9 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::Hanging;
 use super::gauss::integrate;
-use super::shooting::{Nodes, halves, joined};
+use super::hanging::{Hanging, Nodes, halves, joined};
 
 /// Morse's index: how many independent small changes lower the energy. It is the number of points on the way
 /// from tip to root where a neighbouring solution that leaves the tip free meets this one.

@@ -4,49 +4,13 @@ use glam::{DMat3, DVec3};
 
 use super::banded::Banded;
 use super::gauss::integrate;
+use super::hanging::{Hanging, NoSolution, Nodes, halves, joined};
 use super::morse::index;
-use super::{Hanging, NoSolution};
-
-/// ζ and M at the ends of all pieces.
-pub(super) type Nodes = Vec<[f64; 6]>;
 
 /// Residual at which the equations hold.
 const EXACT: f64 = 1e-13;
 
-pub(super) fn halves(y: &[f64]) -> (DVec3, DVec3) {
-    (DVec3::new(y[0], y[1], y[2]), DVec3::new(y[3], y[4], y[5]))
-}
-
-pub(super) fn joined(zeta: DVec3, moment: DVec3) -> [f64; 6] {
-    [zeta.x, zeta.y, zeta.z, moment.x, moment.y, moment.z]
-}
-
 impl Hanging {
-    fn strain(&self, moment: DVec3) -> DVec3 {
-        self.natural + moment / self.stiffness
-    }
-
-    /// ζ' and M'.
-    pub(super) fn slope(&self, s: f64, y: &[f64]) -> [f64; 6] {
-        let (zeta, moment) = halves(y);
-        let u = self.strain(moment);
-        let load = DVec3::Z.cross(zeta) * (self.weight * (1.0 - s));
-        joined(zeta.cross(u), moment.cross(u) + load)
-    }
-
-    /// The same for a small change of the solution.
-    pub(super) fn change(&self, s: f64, y: &[f64], by: &[f64]) -> [f64; 6] {
-        let (zeta, moment) = halves(y);
-        let (d_zeta, d_moment) = halves(by);
-        let (u, du) = (self.strain(moment), d_moment / self.stiffness);
-        let load = DVec3::Z.cross(d_zeta) * (self.weight * (1.0 - s));
-        joined(d_zeta.cross(u) + zeta.cross(du), d_moment.cross(u) + moment.cross(du) + load)
-    }
-
-    fn root_zeta(&self) -> DVec3 {
-        self.root.transpose() * DVec3::Z
-    }
-
     /// The end of a piece that starts from `y`, and its derivatives, column by column.
     fn across(&self, from: f64, to: f64, steps: usize, y: &[f64; 6]) -> [f64; 42] {
         let f = |s: f64, y: &[f64; 42]| {

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use frisure::files::{WriteError, write_atomically};
 
-use super::{Book, words};
+use super::book::Book;
+use super::words;
 use crate::Experiment;
 
 impl Book<'_> {

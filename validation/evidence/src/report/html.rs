@@ -5,7 +5,9 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::{Book, words};
+use super::book::Book;
+use super::tables::{checked, timed};
+use super::words;
 use crate::plot::escaped;
 use crate::{Finding, Item, Table};
 
@@ -17,7 +19,15 @@ const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:54em;marg
     font-size:.9em}svg,img{max-width:100%;height:auto}.holds{color:#176f2c}.fails{color:#b00020;\
     font-weight:bold}.q{font-style:italic}.wide{overflow-x:auto}";
 
-pub(super) fn page(book: &Book<'_>) -> String {
+impl Book<'_> {
+    /// The whole report as one HTML page with its pictures inside.
+    #[must_use]
+    pub fn html(&self) -> String {
+        page(self)
+    }
+}
+
+fn page(book: &Book<'_>) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width\"><title>{0}</title>\
@@ -128,30 +138,6 @@ fn criteria(out: &mut String, finding: &Finding) {
         _ => "",
     };
     table(out, &checked(finding), class);
-}
-
-/// The criteria as a table.
-pub(super) fn checked(finding: &Finding) -> Table {
-    let mut table = Table::new("Verdict", &["what", "measured", "must be", "verdict"]);
-    for criterion in &finding.criteria {
-        table.row([
-            criterion.what.clone(),
-            words::number(criterion.measured),
-            words::limit(criterion.limit),
-            words::verdict(criterion).to_owned(),
-        ]);
-    }
-    table
-}
-
-/// All times as a table, if there are any.
-pub(super) fn timed(book: &Book<'_>) -> Option<Table> {
-    let mut table = Table::new("", &["what", "seconds", "beside"]);
-    for timing in book.chapters.iter().flat_map(|(_, finding)| &finding.timings) {
-        let seconds = words::number(timing.seconds);
-        table.row([timing.what.clone(), seconds, timing.beside.clone()]);
-    }
-    (!table.rows.is_empty()).then_some(table)
 }
 
 fn times(out: &mut String, book: &Book<'_>) {

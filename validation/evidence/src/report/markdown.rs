@@ -2,11 +2,20 @@
 
 use std::fmt::Write;
 
-use super::html::{checked, timed};
-use super::{Book, plot_name, words};
+use super::book::{Book, plot_name};
+use super::tables::{checked, timed};
+use super::words;
 use crate::{Item, Table};
 
-pub(super) fn page(book: &Book<'_>) -> String {
+impl Book<'_> {
+    /// The report as Markdown that refers to the files of [`Self::pictures`].
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        page(self)
+    }
+}
+
+fn page(book: &Book<'_>) -> String {
     let mut out =
         format!("# {}\n\n{}\n\n{}\n\n", words::TITLE, words::INTRODUCTION, words::written(book));
     if let Some(names) = words::left_out(book) {

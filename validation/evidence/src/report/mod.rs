@@ -1,66 +1,14 @@
 //! Findings as documents: one page that opens offline, and Markdown with its pictures beside it.
 
+mod book;
 mod folder;
 mod html;
 mod markdown;
-pub(crate) mod words;
+mod tables;
+mod words;
 
+pub use book::Book;
 pub use folder::in_the_way;
-
-use crate::{Effort, Experiment, Finding, Item};
-
-/// Every experiment that was run, and what it found.
-pub struct Book<'a> {
-    /// How much was computed.
-    pub effort: Effort,
-    /// In the order of the report.
-    pub chapters: Vec<(&'a Experiment, Finding)>,
-}
-
-impl Book<'_> {
-    /// Whether every criterion of every finding holds.
-    #[must_use]
-    pub fn holds(&self) -> bool {
-        self.chapters.iter().all(|(_, finding)| finding.holds())
-    }
-
-    /// One page with everything inside.
-    #[must_use]
-    pub fn html(&self) -> String {
-        html::page(self)
-    }
-
-    /// Markdown that refers to files of [`Self::pictures`].
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        markdown::page(self)
-    }
-
-    /// Names (with extensions) and bytes of plots and pictures.
-    #[must_use]
-    pub fn pictures(&self) -> Vec<(String, Vec<u8>)> {
-        let mut files = Vec::new();
-        for (experiment, finding) in &self.chapters {
-            for (number, item) in finding.items.iter().enumerate() {
-                match item {
-                    Item::Plot(plot) => {
-                        files.push((plot_name(experiment, number), plot.to_string().into_bytes()));
-                    }
-                    Item::Picture(picture) => {
-                        files.push((format!("{}.png", picture.name), picture.png.clone()));
-                    }
-                    Item::Text(_) | Item::Table(_) => {}
-                }
-            }
-        }
-        files
-    }
-}
-
-/// The file of the plot that is the `number`th item of a finding.
-fn plot_name(experiment: &Experiment, number: usize) -> String {
-    format!("{}-{number}.svg", experiment.name)
-}
 
 #[cfg(test)]
 mod tests {
@@ -68,7 +16,7 @@ mod tests {
 
     use super::*;
     use crate::plot::{Mark, Plot, Scale};
-    use crate::{Limit, Picture, Table};
+    use crate::{Effort, Experiment, Finding, Limit, Picture, Table};
 
     const EXPERIMENT: Experiment = Experiment {
         name: "test",

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::experiments::plane::{first, frisure_threshold, hook_leaves, reference_leaves};
 use crate::extremes::largest;
-use crate::report::words::small;
+use crate::numbers::small;
 use crate::rods::{Bar, HAIR_SHEAR, INCOMPRESSIBLE};
 use crate::{Effort, Finding, Limit, Stopped, Table};
 

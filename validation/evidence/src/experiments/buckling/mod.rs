@@ -9,6 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::plane::bisect;
+use crate::experiment::check;
 use crate::extremes::{largest, smallest};
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::greenhill;
@@ -42,9 +43,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     upright(&mut finding)?;
-    super::check(progress, "buckling", 0.15)?;
+    check(progress, "buckling", 0.15)?;
     sideways::add(&mut finding, effort)?;
-    super::check(progress, "buckling", 0.5)?;
+    check(progress, "buckling", 0.5)?;
     hanging::add(&mut finding, effort)?;
     Ok(finding)
 }

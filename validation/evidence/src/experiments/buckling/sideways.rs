@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use crate::experiments::plane::{first, frisure_leaves, frisure_threshold, reference_leaves};
 use crate::extremes::largest;
+use crate::numbers::small;
 use crate::reference::prandtl_michell;
-use crate::report::words::small;
 use crate::rods::{Bar, HAIR_SHEAR, INCOMPRESSIBLE};
 use crate::{Effort, Finding, Limit, Stopped, Table};
 

@@ -7,10 +7,11 @@ use frisure::rod::{ElementKind, Options, equilibrium};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use crate::experiment::check;
 use crate::extremes::largest;
+use crate::numbers::number;
 use crate::plot::{Mark, Plot, Scale};
 use crate::reference::Hanging;
-use crate::report::words::number;
 use crate::rods::{Bar, elements, to_accuracy};
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 use master::MASTER;
@@ -41,7 +42,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     checked(&mut finding, effort)?;
     curve(&mut finding, &rows);
     errors(&mut finding, &rows);
-    super::check(progress, "elastica", 0.7)?;
+    check(progress, "elastica", 0.7)?;
     column::add(&mut finding)?;
     Ok(finding)
 }

@@ -9,6 +9,7 @@ use frisure::rod::{
 use glam::DVec3;
 
 use super::scenes::{Hair, strip};
+use crate::experiment::check;
 use crate::experiments::sphere::Sphere;
 use crate::extremes::largest;
 use crate::plot::{Mark, Plot, Scale};
@@ -97,7 +98,7 @@ pub(super) fn on_heads(
     );
     let (mut pictures, mut volumes, mut deepest) = (Vec::new(), Vec::new(), Vec::new());
     for (k, (name, changes)) in ways.into_iter().take(effort.pick(3, 4)).enumerate() {
-        super::super::check(progress, "heads", 0.2 + 0.08 * k as f64)?;
+        check(progress, "heads", 0.2 + 0.08 * k as f64)?;
         let hair = Hair::of(text, changes, head, effort, progress)?;
         let strands = hair.strands(head, progress)?;
         let litres = 1e3 * hair.volume(&strands, head).region;

@@ -11,6 +11,7 @@ use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{guide_strands, settling_report};
 use frisure::strands::Strands;
 
+use crate::experiment::check;
 use crate::extremes::{larger, smallest};
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 use scenes::{Hair, strip};
@@ -136,7 +137,7 @@ fn kinds(
     let (mut pictures, mut fills, mut drops) = (Vec::new(), Vec::new(), Vec::new());
     let (mut stable, mut deepest) = (1.0_f64, 0.0_f64);
     for (k, (name, text)) in scenes.into_iter().enumerate() {
-        super::check(progress, "heads", 0.75 + 0.08 * k as f64)?;
+        check(progress, "heads", 0.75 + 0.08 * k as f64)?;
         let hair = Hair::of(text, &[], head, effort, progress)?;
         let strands = hair.strands(head, progress)?;
         let volume = hair.volume(&strands, head);

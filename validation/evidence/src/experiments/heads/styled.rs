@@ -8,6 +8,7 @@ use frisure::hairstyle::{
 use frisure::strands::Strands;
 
 use super::scenes::{Hair, failed, strip};
+use crate::experiment::check;
 use crate::extremes::largest;
 use crate::{Effort, Finding, Limit, Progress, Stopped, Table};
 
@@ -35,7 +36,7 @@ pub(super) fn cut_wet(
     let mut states = vec![hair.hairstyle.clone()];
     let mut fringe = Vec::new();
     for (k, operation) in hair.scene.steps().iter().enumerate() {
-        super::super::check(progress, "heads", 0.55 + 0.05 * k as f64)?;
+        check(progress, "heads", 0.55 + 0.05 * k as f64)?;
         let before = &states[states.len() - 1];
         if let (Operation::Cut(_), Some(selection)) = (operation, operation.selection()) {
             fringe = selected(before, head, selection).map_err(|e| failed(progress, e))?;

@@ -4,9 +4,9 @@ use frisure::rod::{Equilibrium, Options, Resolution, Rod, RodSpec, equilibrium};
 use rayon::prelude::*;
 
 use crate::extremes::largest;
+use crate::numbers::small;
 use crate::random::Random;
 use crate::reference::{Hanging, Solution};
-use crate::report::words::small;
 use crate::rods::{frame, line};
 use crate::{Effort, Finding, Limit, Stopped, Table};
 

@@ -7,9 +7,10 @@ mod minima;
 use frisure::rod::{Equilibrium, Options, Resolution, Rod, RodSpec, Stability, equilibrium};
 use rayon::prelude::*;
 
+use crate::experiment::check;
+use crate::numbers::small;
 use crate::plot::{Mark, Plot, Scale};
 use crate::random::Random;
-use crate::report::words::small;
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -46,9 +47,9 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     })?;
     told(&mut finding, &realistic, &absurd);
     exact::add(&mut finding, effort)?;
-    super::check(progress, "robustness", 0.8)?;
+    check(progress, "robustness", 0.8)?;
     batches::add(&mut finding, effort)?;
-    super::check(progress, "robustness", 0.85)?;
+    check(progress, "robustness", 0.85)?;
     minima::add(&mut finding, effort)?;
     Ok(finding)
 }
@@ -89,7 +90,7 @@ fn solved(
     };
     let mut all = Vec::new();
     for (part, items) in (0..count).collect::<Vec<_>>().chunks(count.div_ceil(20)).enumerate() {
-        super::check(progress, "robustness", from + 0.02 * part as f64)?;
+        check(progress, "robustness", from + 0.02 * part as f64)?;
         all.extend(items.par_iter().map(one).collect::<Result<Vec<_>, Stopped>>()?);
     }
     Ok(all)

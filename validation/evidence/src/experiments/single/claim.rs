@@ -4,7 +4,7 @@ use frisure::rod::{NaturalStrain, RodSpec, TorsionConstant};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{rest, spec, stiff};
+use super::hairs::{rest, spec, stiff};
 use crate::experiments::curls::{curvatures, turns, variation};
 use crate::extremes::largest;
 use crate::plot::{Mark, Plot, Scale};

@@ -2,17 +2,16 @@
 
 mod claim;
 mod control;
+mod hairs;
 
-use frisure::rod::{
-    Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant,
-    equilibrium,
-};
+use frisure::rod::{NaturalStrain, Stability};
 use glam::DVec3;
 
 use super::curls::turns;
+use crate::experiment::check;
 use crate::plot::{Mark, Plot, Scale};
-use crate::rods::to_accuracy;
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
+use hairs::{rest, spec, stiff};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "single",
@@ -34,29 +33,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-fn spec(length: f64, eccentricity: f64, natural: NaturalStrain) -> Result<RodSpec, Stopped> {
-    Ok(RodSpec {
-        length,
-        section: Section::from_mean_radius(40e-6, eccentricity)?,
-        material: Material::isotropic(3.9e9, 0.3, 1300.0)?,
-        torsion: TorsionConstant::Polar,
-        natural,
-        root: Root::from_tangent(DVec3::ZERO, DVec3::new(1.0, 0.0, 0.4), DVec3::Y)?,
-        gravity: 9.81,
-    })
-}
-
-fn rest(spec: &RodSpec) -> Result<Equilibrium, Stopped> {
-    let rod = Rod::new(spec.clone())?;
-    Ok(equilibrium(&rod, &[], &to_accuracy(&rod, 1e-4)))
-}
-
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     six(&mut finding)?;
-    super::check(progress, "single", 0.2)?;
+    check(progress, "single", 0.2)?;
     claim::add(&mut finding, effort)?;
-    super::check(progress, "single", 0.8)?;
+    check(progress, "single", 0.8)?;
     control::add(&mut finding)?;
     Ok(finding)
 }
@@ -136,13 +118,4 @@ fn frames(plot: &mut Plot, points: &[(DVec3, glam::DMat3)], at: f64) {
             plot.add("", Mark::Line, stroke).colour = Some(colour);
         }
     }
-}
-
-/// The same curl in the same place, about the other axis of its section.
-fn stiff(spec: RodSpec) -> Result<RodSpec, Stopped> {
-    let u = spec.natural.at(0.0);
-    let frame = spec.root.frame();
-    let root = Root::new(DVec3::ZERO, -frame.y_axis, frame.x_axis, frame.z_axis)?;
-    let natural = NaturalStrain::Uniform(DVec3::new(0.0, u.x, u.z));
-    Ok(RodSpec { natural, root, ..spec })
 }

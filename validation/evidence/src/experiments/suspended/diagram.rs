@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::{B, Hung, Phase};
+use super::hung::{B, Hung, Phase};
+use crate::experiment::check;
 use crate::experiments::buckling::hanging_curl;
 use crate::experiments::plane::{first, hook_leaves, reference_leaves};
+use crate::numbers::number;
 use crate::plot::{Mark, Plot, Scale};
-use crate::report::words::number;
 use crate::{Effort, Finding, Limit, Progress, Stopped};
 
 /// Which shape has which hair.
@@ -22,7 +23,7 @@ pub(super) fn add(
     };
     let mut hairs = Vec::new();
     for i in 0..columns {
-        super::super::check(progress, "suspended", 0.2 + 0.6 * i as f64 / columns as f64)?;
+        check(progress, "suspended", 0.2 + 0.6 * i as f64 / columns as f64)?;
         let gamma = at(i, columns, 3.0, heaviest);
         let column =
             (0..rows).into_par_iter().map(|j| Hung::new(gamma, at(j, rows, 2.5, tightest)));

@@ -1,10 +1,10 @@
 //! The closed form of a helix under tension.
 
-use super::{B, Hung};
+use super::hung::{B, Hung};
 use crate::experiments::curls::turns;
 use crate::extremes::larger;
+use crate::numbers::rounded;
 use crate::plot::{Mark, Plot, Scale};
-use crate::report::words::rounded;
 use crate::{Finding, Limit, Stopped, Table};
 
 /// The cosine of the angle at which a curl of κL hangs under a tension T L²/EI.

@@ -2,14 +2,12 @@
 
 mod diagram;
 mod helix;
+mod hung;
 
-use frisure::rod::{Stability, equilibrium};
-use glam::DVec3;
-
-use super::buckling::hanging_curl;
+use crate::experiment::check;
 use crate::plot::{Mark, Plot, Scale};
-use crate::rods::{LENGTH, to_accuracy};
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped};
+use hung::{Hung, Phase};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "suspended",
@@ -34,55 +32,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     run,
 };
 
-/// EI/GJ of the rods.
-const B: f64 = 1.5;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Phase {
-    Planar,
-    Local,
-    Global,
-}
-
-/// A hair of the diagram.
-struct Hung {
-    gamma: f64,
-    kappa: f64,
-    line: Vec<DVec3>,
-    stable: bool,
-}
-
-impl Hung {
-    fn new(gamma: f64, kappa: f64) -> Result<Self, Stopped> {
-        let rod = hanging_curl(gamma, kappa).rod()?;
-        let found = equilibrium(&rod, &[], &to_accuracy(&rod, 1e-4));
-        let line = found.centre_line(2001).iter().map(|p| *p / LENGTH).collect();
-        let stable = found.certificate.stability == Stability::Stable;
-        Ok(Self { gamma, kappa, line, stable })
-    }
-
-    fn leaves(&self) -> bool {
-        self.line.iter().any(|p| !(p.y.abs() <= 1e-3))
-    }
-
-    /// The helix is global if the tangents of the upper tenth of the hair still wind.
-    fn phase(&self) -> Phase {
-        let upper = &self.line[100..500];
-        let descent = (upper[0].z - upper[upper.len() - 1].z) * 2000.0 / (upper.len() - 1) as f64;
-        match self.leaves() {
-            false => Phase::Planar,
-            true if descent < 0.95 => Phase::Global,
-            true => Phase::Local,
-        }
-    }
-}
-
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     shapes(&mut finding)?;
-    super::check(progress, "suspended", 0.1)?;
+    check(progress, "suspended", 0.1)?;
     helix::add(&mut finding)?;
-    super::check(progress, "suspended", 0.2)?;
+    check(progress, "suspended", 0.2)?;
     diagram::add(&mut finding, effort, progress)?;
     Ok(finding)
 }

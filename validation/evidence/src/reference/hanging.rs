@@ -1,0 +1,112 @@
+//! The rod of the boundary-value problem, and its equations.
+
+use std::f64::consts::PI;
+
+use frisure::rod::{NaturalStrain, RodSpec, TorsionConstant};
+use glam::{DMat3, DVec3};
+use thiserror::Error;
+
+/// The weight, or the natural strain, could not be turned on wholly.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("the boundary-value problem has no solution beyond {fraction} of the way on this branch")]
+pub struct NoSolution {
+    /// How much of it could be.
+    pub fraction: f64,
+}
+
+/// A hanging rod in numbers without units.
+#[derive(Clone, Copy, Debug)]
+pub struct Hanging {
+    /// Weight per length times L³/EI, EI the stiffness about d1.
+    pub weight: f64,
+    /// Stiffness about d1, d2 and t over EI.
+    pub stiffness: DVec3,
+    /// Natural strain times L.
+    pub natural: DVec3,
+    /// Directors d1, d2, t at the root, in columns.
+    pub root: DMat3,
+    /// The length (m) that is the unit.
+    pub length: f64,
+}
+
+impl Hanging {
+    /// The numbers of a rod with uniform natural strain, from the formulas of sections in the books.
+    ///
+    /// # Panics
+    /// If the natural strain varies.
+    #[must_use]
+    pub fn new(spec: &RodSpec) -> Self {
+        let NaturalStrain::Uniform(natural) = spec.natural else {
+            panic!("the reference is for uniform natural strain")
+        };
+        let (a, b, l) = (spec.section.a(), spec.section.b(), spec.length);
+        let (e, g) = (spec.material.youngs_modulus(), spec.material.shear_modulus());
+        let j = match spec.torsion {
+            TorsionConstant::SaintVenant => PI * (a * b).powi(3) / (a * a + b * b),
+            TorsionConstant::Polar => 0.25 * PI * a * b * (a * a + b * b),
+        };
+        let bend = 0.25 * PI * a * b.powi(3) * e;
+        let stiffness = DVec3::new(1.0, (a / b).powi(2), g * j / bend);
+        let weight = spec.material.density() * PI * a * b * spec.gravity * l.powi(3) / bend;
+        Self { weight, stiffness, natural: natural * l, root: spec.root.frame(), length: l }
+    }
+
+    /// The same rod with another weight.
+    #[must_use]
+    pub fn with_weight(self, weight: f64) -> Self {
+        Self { weight, ..self }
+    }
+
+    /// How many pieces the rod is cut into, and into how many steps each.
+    pub(super) fn division(&self) -> (usize, usize) {
+        let turn = self.natural.length();
+        // Within a piece the fastest growth, exp(√Γ s), stays below e².
+        let heavy = self.weight / self.stiffness.min_element().min(1.0);
+        let pieces = (0.5 * heavy.sqrt()).max(0.5 * turn).ceil().clamp(16.0, 400.0);
+        let steps = (6.0 * (turn + heavy.sqrt() + 6.0) / pieces).ceil().max(6.0);
+        // Points of the line within a piece are ends of steps, so that it is the same solution.
+        let (pieces, each) = (pieces as usize, POINTS.div_ceil(pieces as usize));
+        (pieces, (steps as usize).next_multiple_of(each))
+    }
+}
+
+/// Least number of intervals between the points at which lines are compared.
+pub const POINTS: usize = 96;
+
+/// ζ and M at the ends of all pieces.
+pub(super) type Nodes = Vec<[f64; 6]>;
+
+pub(super) fn halves(y: &[f64]) -> (DVec3, DVec3) {
+    (DVec3::new(y[0], y[1], y[2]), DVec3::new(y[3], y[4], y[5]))
+}
+
+pub(super) fn joined(zeta: DVec3, moment: DVec3) -> [f64; 6] {
+    [zeta.x, zeta.y, zeta.z, moment.x, moment.y, moment.z]
+}
+
+impl Hanging {
+    pub(super) fn strain(&self, moment: DVec3) -> DVec3 {
+        self.natural + moment / self.stiffness
+    }
+
+    /// ζ' and M'.
+    pub(super) fn slope(&self, s: f64, y: &[f64]) -> [f64; 6] {
+        let (zeta, moment) = halves(y);
+        let u = self.strain(moment);
+        let load = DVec3::Z.cross(zeta) * (self.weight * (1.0 - s));
+        joined(zeta.cross(u), moment.cross(u) + load)
+    }
+
+    /// The same for a small change of the solution.
+    pub(super) fn change(&self, s: f64, y: &[f64], by: &[f64]) -> [f64; 6] {
+        let (zeta, moment) = halves(y);
+        let (d_zeta, d_moment) = halves(by);
+        let (u, du) = (self.strain(moment), d_moment / self.stiffness);
+        let load = DVec3::Z.cross(d_zeta) * (self.weight * (1.0 - s));
+        joined(d_zeta.cross(u) + zeta.cross(du), d_moment.cross(u) + moment.cross(du) + load)
+    }
+
+    pub(super) fn root_zeta(&self) -> DVec3 {
+        self.root.transpose() * DVec3::Z
+    }
+}
