@@ -33,7 +33,7 @@ macro_rules! card {
             name: $name,
             description: $description,
             picture: include_bytes!(concat!("../../gallery/scene-", $name, ".png")),
-            scene: include_str!(concat!("../../../../scenes/", $name, ".toml")),
+            scene: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/", $name, ".toml")),
         }
     };
 }

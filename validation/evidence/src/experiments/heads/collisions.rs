@@ -79,7 +79,7 @@ pub(super) fn on_heads(
     effort: Effort,
     progress: &dyn Progress,
 ) -> Result<(), Stopped> {
-    let text = include_str!("../../../../../scenes/collisions.toml");
+    let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/collisions.toml"));
     let ways: [(&str, &[(&str, &str)]); 4] = [
         ("none", &[("contact.body", "\"none\""), ("contact.hair", "\"none\"")]),
         ("head", &[("contact.hair", "\"none\"")]),

@@ -58,8 +58,13 @@ fn first(
     effort: Effort,
     progress: &dyn Progress,
 ) -> Result<(), Stopped> {
-    let hair =
-        Hair::of(include_str!("../../../../../scenes/ringlets.toml"), &[], head, effort, progress)?;
+    let hair = Hair::of(
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/ringlets.toml")),
+        &[],
+        head,
+        effort,
+        progress,
+    )?;
     let strands = hair.strands(head, progress)?;
     // The wisp whose tip hangs lowest.
     let rest = hair.hairstyle.equilibria();
@@ -117,9 +122,9 @@ fn kinds(
     progress: &dyn Progress,
 ) -> Result<(), Stopped> {
     let scenes = [
-        ("straight", include_str!("../../../../../scenes/straight.toml")),
-        ("curly", include_str!("../../../../../scenes/curly.toml")),
-        ("frizzy", include_str!("../../../../../scenes/frizzy.toml")),
+        ("straight", include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/straight.toml"))),
+        ("curly", include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/curly.toml"))),
+        ("frizzy", include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/frizzy.toml"))),
     ];
     let mut table = Table::new(
         "Straight, curly and frizzy heads",

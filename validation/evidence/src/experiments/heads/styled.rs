@@ -31,7 +31,7 @@ pub(super) fn cut_wet(
     effort: Effort,
     progress: &dyn Progress,
 ) -> Result<(), Stopped> {
-    let text = include_str!("../../../../../scenes/fringe-cut.toml");
+    let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/fringe-cut.toml"));
     let hair = Hair::of(text, &[], head, effort, progress)?;
     let mut states = vec![hair.hairstyle.clone()];
     let mut fringe = Vec::new();
