@@ -1,5 +1,5 @@
-//! The largest and the smallest of what was measured. `f64::max` forgets a number that is none, and a criterion
-//! would hold because of it; here one such number makes the whole none, and so does measuring nothing.
+//! Largest and smallest of measured numbers. `f64::max` ignores NaN, so a criterion could hold by mistake; here one NaN
+//! makes the result NaN, and so does an empty set.
 
 pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().reduce(larger).unwrap_or(f64::NAN)
@@ -9,7 +9,7 @@ pub(crate) fn smallest(values: impl IntoIterator<Item = f64>) -> f64 {
     -largest(values.into_iter().map(|x| -x))
 }
 
-/// The larger of two; none if either is none.
+/// The larger of two numbers; NaN if either is NaN.
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

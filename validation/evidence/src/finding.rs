@@ -1,19 +1,19 @@
-//! What an experiment found, as plain data.
+//! The results of an experiment, as plain data.
 
 use std::error::Error;
 
 use crate::plot::Plot;
 
-/// What an experiment found.
+/// The results of an experiment.
 #[derive(Clone, Debug, Default)]
 pub struct Finding {
     /// Tables, plots, pictures and sentences, in the order of the report.
     pub items: Vec<Item>,
-    /// What decides.
+    /// Conditions on measured numbers.
     pub criteria: Vec<Criterion>,
-    /// How long things took; decides nothing.
+    /// Times, which have no criteria.
     pub timings: Vec<Timing>,
-    /// Why the experiment could not be run, if so.
+    /// The error, if the experiment could not be run.
     pub failure: Option<String>,
 }
 
@@ -30,14 +30,14 @@ pub enum Item {
     Picture(Picture),
 }
 
-/// Rows of cells under a head.
+/// A table with a header row.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// Names of the columns.
     pub head: Vec<String>,
-    /// Cells, as many in each row as there are columns.
+    /// Cells; each row has one per column.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -60,49 +60,49 @@ impl Table {
 pub struct Picture {
     /// Name of its file, without extension.
     pub name: String,
-    /// What it shows.
+    /// Caption.
     pub caption: String,
-    /// Columns of pixels.
+    /// Width (pixels).
     pub width: usize,
     /// The file (PNG).
     pub png: Vec<u8>,
 }
 
-/// How long something took.
+/// A measured time.
 #[derive(Clone, Debug)]
 pub struct Timing {
-    /// What was timed.
+    /// Description of the computation.
     pub what: String,
     /// Wall-clock time (s).
     pub seconds: f64,
-    /// What it can be compared with.
+    /// A time to compare it with.
     pub beside: String,
 }
 
-/// What a measured number must be.
+/// The allowed range of a measured number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limit {
-    /// No more than that.
+    /// At most this value.
     AtMost(f64),
-    /// No less than that.
+    /// At least this value.
     AtLeast(f64),
-    /// Neither less than the first nor more than the second.
+    /// From the first to the second value, inclusive.
     Between(f64, f64),
 }
 
-/// Something measured, and what it must be.
+/// A measured number and its limit.
 #[derive(Clone, Debug)]
 pub struct Criterion {
-    /// What was measured, with its unit.
+    /// Description of the measurement, with its unit.
     pub what: String,
     /// The number.
     pub measured: f64,
-    /// What it must be.
+    /// The limit.
     pub limit: Limit,
 }
 
 impl Criterion {
-    /// Whether what was measured is what it must be; never for a number that is none.
+    /// Whether the measured number is within the limit; false for NaN.
     #[must_use]
     pub fn holds(&self) -> bool {
         match self.limit {
@@ -114,7 +114,7 @@ impl Criterion {
 }
 
 impl Finding {
-    /// Of an experiment that could not be run.
+    /// The finding of an experiment that could not be run.
     #[must_use]
     pub fn failed(why: &dyn Error) -> Self {
         Self { failure: Some(why.to_string()), ..Self::default() }
@@ -145,13 +145,13 @@ impl Finding {
         self.criteria.push(Criterion { what: what.into(), measured, limit });
     }
 
-    /// Whether the experiment was run, and every criterion holds.
+    /// Whether the experiment was run and every criterion holds.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.failure.is_none() && self.criteria.iter().all(Criterion::holds)
     }
 
-    /// The same in words.
+    /// The verdict as text.
     #[must_use]
     pub fn verdict(&self) -> String {
         if let Some(why) = &self.failure {
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_that_is_none_never_holds() {
+    fn nan_never_holds() {
         for limit in [Limit::AtMost(1.0), Limit::AtLeast(1.0), Limit::Between(0.0, 1.0)] {
             let criterion = |measured| Criterion { what: String::new(), measured, limit };
             assert!(!criterion(f64::NAN).holds());

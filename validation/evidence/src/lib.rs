@@ -1,14 +1,13 @@
-//! The book of evidence: experiments that compare frisure with independent physics and against the
-//! figures of the paper.
+//! Experiments that compare frisure with independent physics and with the figures of the paper, and their report.
 //!
 //! An [`Experiment`] has a question, a method and a program. The program gives a [`Finding`]: tables,
-//! plots, pictures, and criteria, each with what was measured, what is allowed, and the verdict that
-//! follows. [`report`] makes a page of findings. What is compared with is a closed form, a published number,
-//! or what [`mod@reference`] solves, by another method from other equations. Where there is none of these, the
-//! experiment says so: `invariance` holds frisure against itself, `robustness` also tells frisure's own
-//! certificates, `heads` has the paper's sentences, and `speed` has a clock.
+//! plots, pictures, and criteria, each with a measured number, a limit and the verdict.
+//! [`report`] makes a page of findings. The reference is a closed form, a published number,
+//! or a solution by [`mod@reference`], with another method and other equations. Experiments without a reference
+//! state so: `invariance` compares frisure with itself, `robustness` also reports frisure's own
+//! certificates, `heads` uses the paper's sentences, and `speed` measures times.
 //!
-//! Everything but times is the same at every run.
+//! All results except times are the same at every run.
 
 #![forbid(unsafe_code)]
 

@@ -9,10 +9,10 @@ use glam::DVec3;
 pub(crate) struct Random(u64);
 
 impl Random {
-    /// The stream of an experiment's item.
+    /// The random stream of one item of an experiment.
     pub(crate) fn new(seed: u64, item: usize) -> Self {
         let mut random = Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ (item as u64) << 20);
-        // Neighbouring seeds part company.
+        // Neighbouring seeds give unrelated streams.
         random.unit();
         random
     }
@@ -54,8 +54,8 @@ impl Random {
         }
     }
 
-    /// Hair as it grows on people: 1 to 60 cm, 45 to 110 µm, straight to the tightest coil, a tenth of it
-    /// curled in a plane, its root pointing anywhere.
+    /// Realistic hair: 1 to 60 cm, 45 to 110 µm, straight to the tightest coil, a tenth of it
+    /// curled in a plane, its root in any direction.
     pub(crate) fn realistic(&mut self) -> Result<RodSpec, InvalidQuantity> {
         let natural = if self.chance(0.15) {
             NaturalStrain::STRAIGHT
@@ -76,8 +76,8 @@ impl Random {
         })
     }
 
-    /// What no one has on the head: from a bristle of a millimetre to ten metres of thread, rubber to
-    /// diamond, weightless to the the surface of a dwarf star, curled up to forty times.
+    /// Absurd hair: from a bristle of a millimetre to ten metres of thread, rubber to
+    /// diamond, weightless to the surface of a dwarf star, curled up to forty times.
     pub(crate) fn absurd(&mut self) -> Result<RodSpec, InvalidQuantity> {
         let length = self.decades(1e-3, 10.0);
         let strain = self.direction() * (self.decades(0.01, 250.0) / length);
@@ -95,7 +95,7 @@ impl Random {
         let young = self.decades(1e5, 1e12);
         let material =
             Material::new(young, young * self.decades(0.02, 2.0), self.decades(1.0, 2e4))?;
-        // Heavier than a metre of silk, and lighter than nothing can be.
+        // From almost weightless to heavier than a metre of silk.
         let heaviness = self.decades(1e-4, 3e4);
         let unit = material.density() * section.area() * length.powi(3);
         let bend = young * section.i1().min(section.i2());

@@ -1,4 +1,4 @@
-//! Rods that several experiments use, and what is measured of them.
+//! Rods that several experiments use, and measurements of them.
 
 use frisure::rod::{
     ElementKind, Equilibrium, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod,
@@ -6,8 +6,8 @@ use frisure::rod::{
 };
 use glam::{DMat3, DVec3};
 
-/// A rod by the numbers without units that its shape depends on. It is 10 cm of hair; gravity is whatever
-/// gives it its heaviness.
+/// The numbers without units that determine the shape of a rod. The rod is 10 cm of hair; gravity follows from
+/// the heaviness.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bar {
     /// ρSgL³/EI, EI about d1.
@@ -18,7 +18,7 @@ pub(crate) struct Bar {
     pub(crate) natural: DVec3,
     /// Direction of the root.
     pub(crate) tangent: DVec3,
-    /// Director d1 at the root, as near as it can be.
+    /// Approximate director d1 at the root, made perpendicular to the tangent.
     pub(crate) d1: DVec3,
     /// Shear modulus over Young's.
     pub(crate) shear: f64,
@@ -71,7 +71,7 @@ pub(crate) fn to_accuracy(rod: &Rod, part: f64) -> Options {
     Options { resolution: Resolution::Accuracy(part * rod.length()), ..Options::default() }
 }
 
-/// So many elements, and nothing beyond the equilibrium itself.
+/// Options for `count` elements, and nothing beyond the equilibrium itself.
 pub(crate) fn elements(count: usize, element: ElementKind) -> Options {
     Options {
         resolution: Resolution::Elements(count),

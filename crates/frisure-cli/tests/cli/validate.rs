@@ -69,7 +69,7 @@ fn another_run_into_the_folder_replaces_the_report() {
     let ran = room.run(&["validate", "-q", "types", "-o", "book"]);
     assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
     let page = fs::read_to_string(room.path("book/index.html")).unwrap();
-    assert!(page.contains("Not run, and not told of here: elastica, "));
+    assert!(page.contains("Not run: elastica, "));
     let text = fs::read_to_string(room.path("book/report.md")).unwrap();
     assert_eq!(pictures(), text.matches(".svg)").count() + 1);
 }

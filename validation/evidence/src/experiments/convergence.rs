@@ -1,4 +1,4 @@
-//! How fast errors fall with the number of elements.
+//! Convergence of errors with the number of elements.
 
 use frisure::rod::{
     ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant,
@@ -18,14 +18,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "convergence",
     title: "Convergence: how many elements a hair needs",
     question: "How does the error fall with the number of elements, for straight, curly and elliptical hair; \
-        how many does a user need for which curl; and is an accuracy that is asked for kept?",
+        how many elements does each curl need; and is the error within a requested accuracy?",
     method: "The error is the largest distance of any point of the centre line from the solution of the \
         boundary-value problem, over the length. Its slope against the number of elements N is fitted in \
-        logarithms from N = 80 on (from eight elements a turn on, for curls). Both kinds of element are of \
-        second order by construction. Lines are compared at 97 points and more. Hair has 75 µm, E = 3.9 GPa, \
+        logarithms from N = 80 on (from eight elements per turn on, for curls). Both kinds of element are of \
+        second order by construction. Lines are compared at 97 points and more. The hair has 75 µm, E = 3.9 GPa, \
         G = 0.9 GPa (GJ/EI from 0.46 of round hair to 0.70 of a/b = 1.75), and leaves its root horizontally; a curl's \
-        pitch is twice its radius. It is one orientation, one pitch, one length (15 cm) and one material: another hair needs \
-        other numbers. N is tried in steps of 2^¼, so that a count in the table may be a fifth too large.",
+        pitch is twice its radius. There is one orientation, one pitch, one length (15 cm) and one material: other hair needs \
+        other numbers. N is tried in steps of 2^¼, so a number in the table may be a fifth too large.",
     run,
 };
 
@@ -71,7 +71,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     Ok(finding)
 }
 
-/// Error of so many elements, over the length; not a number if no stable equilibrium is found.
+/// Error with `count` elements, over the length; NaN if no stable equilibrium is found.
 fn error(rod: &Rod, exact: &Solution, kind: ElementKind, count: usize) -> f64 {
     let found = equilibrium(rod, &[], &elements(count, kind));
     match found.certificate.stability {
@@ -185,7 +185,7 @@ fn needed(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         let mut cells = vec![format!("{turns}"), radius];
         for limit in limits {
             for errors in &errors {
-                // From there on, and not by chance before.
+                // For this and all larger counts.
                 let bad = errors.iter().rposition(|e| !(*e <= limit));
                 let first = bad.map_or(0, |i| i + 1);
                 cells.push(counts.get(first).map_or_else(|| "more".into(), usize::to_string));
@@ -202,19 +202,19 @@ fn needed(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     }
     finding.table(table);
     finding.check(
-        "jointed elements a turn that keep a curl of 4 turns and more within 1 % of the length (most)",
+        "jointed elements per turn for a curl of 4 turns and more within 1 % of the length (maximum)",
         most,
         Limit::AtMost(8.0),
     );
     Ok(())
 }
 
-/// Whether an accuracy that is asked for is kept, everywhere on the line.
+/// Checks that the error of the whole line is within a requested accuracy.
 fn requests(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     let mut worst = 0.0_f64;
     let mut table = Table::new(
         "Largest error of the whole line over the length, with its estimate and its elements",
-        &["hair", "1e-3 asked for", "1e-4", "1e-5", "1e-6"],
+        &["hair", "1e-3 requested", "1e-4", "1e-5", "1e-6"],
     );
     let turns: &[f64] = effort.pick(&[0.0, 4.0], &[0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0]);
     for &turns in turns {
@@ -232,6 +232,6 @@ fn requests(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         table.row(cells);
     }
     finding.table(table);
-    finding.check("largest error over what was asked for", worst, Limit::AtMost(1.0));
+    finding.check("largest error over the requested accuracy", worst, Limit::AtMost(1.0));
     Ok(())
 }

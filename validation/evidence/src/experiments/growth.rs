@@ -19,13 +19,13 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "growth",
     title: "Figure 6: hair that grows, and the linear beam of Anjyo et al.",
     question: "Does hair that grows stand straight at first, bend under its own weight beyond a threshold length, \
-        and then fall, where a linear beam stays out?",
+        and then fall, where a linear beam still points outwards?",
     method: "Straight hair of 80 µm (E = 3.9 GPa, ν = 0.3, so that G/E = 0.385 and GJ/EI = 0.77; 1.3 g/cm³) grows from 1 to 25 cm, from roots at 0 to 89.9° over \
         the horizontal. The threshold of an upright hair is Greenhill's length (7.8373 EI/ρSg)^⅓; shapes are \
         compared with the boundary-value problem. The linear beam after Anjyo, Usami and Kurihara (1992), as the \
-        paper describes it: a chain of rigid segments, each turned, along the direction across the root, by what the \
+        paper describes it: a chain of rigid segments, each rotated, along the direction across the root, by the angle that the \
         formula of the cantilever for small deflections gives for the moment of the weight on the hair as it grew. \
-        We write it from that description and from memory of the original.",
+        It is our reconstruction from that description and from memory of the original.",
     run,
 };
 
@@ -47,7 +47,7 @@ fn rest(spec: &RodSpec) -> Result<Equilibrium, Stopped> {
     Ok(equilibrium(&rod, &[], &to_accuracy(&rod, 1e-5)))
 }
 
-/// Length (m) at which an upright hair of the experiment gives way.
+/// Length (m) at which an upright hair of the experiment buckles.
 fn threshold() -> Result<f64, Stopped> {
     let rod = Rod::new(spec(1.0, 0.0)?)?;
     Ok((greenhill() / rod.heaviness()).cbrt())
@@ -99,9 +99,9 @@ fn heads(finding: &mut Finding) -> Result<(), Stopped> {
         finding.plot(plot);
     }
     finding.text(
-        "Rods rest on the head, of which the beam knows nothing. Rods stand, then bend, then hang; the linear beam \
-         bends roots that lie, but the steeper the root the longer it stays out, and hair at the crown stands for \
-         ever.",
+        "Rods lie on the head; the beam has no contact with it. Rods stand, then bend, then hang; the linear beam \
+         bends hair with a horizontal root, but the steeper the root the longer is the hair that points outwards, and at the \
+         crown it stands at any length.",
     );
     Ok(())
 }
@@ -112,7 +112,7 @@ fn rod_line(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
     Ok(found.centre_line(81).iter().map(|p| DVec2::new(p.truncate().length(), p.z)).collect())
 }
 
-/// The same of a rod that rests on the head.
+/// The same of a rod in contact with the head.
 fn on_the_head(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
     let rod = Rod::new(spec(length, rise)?)?;
     let root = DVec3::new(rise.cos(), 0.0, rise.sin()) * (HEAD + 1e-4);
@@ -126,7 +126,7 @@ fn beam_line(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
     Ok(anjyo(gamma, rise, 80).into_iter().map(|p| p * length).collect())
 }
 
-/// How high the tip is as the hair grows.
+/// Height of the tip as the hair grows.
 fn tips(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     let count = effort.pick(50, 240);
     let lengths: Vec<f64> =
@@ -173,17 +173,17 @@ fn tips(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         Limit::AtMost(-0.6),
     );
     finding.text(format!(
-        "The linear beam's tip is {:.3} of its length above the steepest root, 25 cm of hair: what the paper says of Anjyo's \
-         model. It is our reconstruction of that model, from memory, that says so, and nothing is judged by it.",
+        "The linear beam's tip is {:.3} of its length above the steepest root, 25 cm of hair, as the paper says of Anjyo's \
+         model. This is our reconstruction of that model, from memory, and no criterion depends on it.",
         ends[3].1
     ));
     Ok(())
 }
 
-/// Threshold and shapes against what is known.
+/// Compares the threshold with Greenhill's and the shapes with the boundary-value problem.
 fn exact(finding: &mut Finding) -> Result<(), Stopped> {
     let expected = threshold()?;
-    // Where an upright hair of so many metres first leans.
+    // The length in metres at which an upright hair first leans.
     let (mut low, mut high) = (0.5 * expected, 2.0 * expected);
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
@@ -209,7 +209,7 @@ fn exact(finding: &mut Finding) -> Result<(), Stopped> {
         }
     }
     finding.check(
-        "largest distance of lines from the boundary-value problem's over the length, 20 hairs, 1e-5 asked for",
+        "largest distance of lines from the boundary-value problem's over the length, 20 hairs, 1e-5 requested",
         worst,
         Limit::AtMost(1e-5),
     );

@@ -1,4 +1,4 @@
-//! What must not matter.
+//! Changes that must have no effect on the shape.
 
 use frisure::rod::{
     Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, equilibrium,
@@ -17,21 +17,21 @@ use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "invariance",
     title: "Invariance: the room, the mirror, the units",
-    question: "Is a hair's shape the same, turned, mirrored or scaled, when the room is turned about the \
-        vertical, seen in a mirror, or when everything changes but the numbers without units?",
+    question: "Does the shape of a hair stay the same (rotated, mirrored or scaled) if the room is rotated about the \
+        vertical or mirrored, or if all quantities change and the numbers without units do not?",
     method: "Random realistic hairs (1 to 60 cm, 45 to 110 µm, axis ratio up to 2, straight to tightly coiled, \
-        the root pointing anywhere) are solved to 1e-6 of their length. Each is solved again: in a room \
-        turned by a random angle; moved by metres; in a mirror (the natural strain (κ₁, κ₂, τ) becomes (−κ₁, κ₂, −τ) \
-        for directors d₁, −d₂, t of the mirrored root); with d₁ and d₂ exchanged in name; and as another rod \
-        altogether, of another length, radius, modulus, density and gravity, that has the same ρSgL³/EI, GJ/EI, \
+        the root in any direction) are solved to 1e-6 of their length. Each is solved again: in a room \
+        rotated by a random angle; moved by metres; in a mirror (the natural strain (κ₁, κ₂, τ) becomes (−κ₁, κ₂, −τ) \
+        for directors d₁, −d₂, t of the mirrored root); with d₁ and d₂ exchanged; and as a different rod \
+        of another length, radius, modulus, density and gravity, with the same ρSgL³/EI, GJ/EI, \
         axis ratio and strain times length. The lines are compared at 41 points.",
     run,
 };
 
-/// What is changed.
-const CHANGES: [&str; 5] = ["room turned", "moved", "mirrored", "directors renamed", "scaled"];
+/// The changes.
+const CHANGES: [&str; 5] = ["room rotated", "moved", "mirrored", "directors exchanged", "scaled"];
 
-/// Beyond this part of the length, two lines are two equilibria.
+/// Distance over the length beyond which two lines are different equilibria.
 const OTHER: f64 = 1e-3;
 
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
@@ -43,10 +43,10 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
             items.par_iter().map(|&i| gaps_of(i)).collect::<Result<_, Stopped>>()?;
         gaps.extend(some);
     }
-    Ok(told(&gaps))
+    Ok(finding_of(&gaps))
 }
 
-fn told(gaps: &[[f64; 5]]) -> Finding {
+fn finding_of(gaps: &[[f64; 5]]) -> Finding {
     let mut finding = Finding::default();
     let mut table = Table::new(
         &format!("Distance of lines over the length, {} hairs", gaps.len()),
@@ -92,15 +92,15 @@ fn told(gaps: &[[f64; 5]]) -> Finding {
         Limit::AtMost(2e-3),
     );
     finding.text(format!(
-        "The computations differ in every digit that is rounded, so that a hair at a fork of its branch, where \
-         it falls to one side or the other, may fall differently; of {} comparisons {others} ended so. All others \
-         agree far better than the 1e-6 that was asked for: they are the same computation, but for rounding.",
+        "Each computation rounds different digits, so a hair close to a bifurcation of its branch \
+         may fall to the other side; {others} of {} comparisons end so. All others \
+         agree far better than the requested 1e-6: they are the same computation except for rounding.",
         CHANGES.len() * gaps.len()
     ));
     finding
 }
 
-/// How far the lines of a hair are from those of the changed one, changed back.
+/// Distances of the lines of a hair from those of each changed hair after the inverse change.
 fn gaps_of(item: usize) -> Result<[f64; 5], Stopped> {
     let mut random = Random::new(4, item);
     let spec = random.realistic()?;

@@ -1,4 +1,4 @@
-//! Where a rod that could stay in a plane leaves it.
+//! Thresholds at which a rod leaves the plane of its symmetric shape.
 
 use frisure::rod::{ElementKind, equilibrium};
 use glam::DVec3;
@@ -13,13 +13,13 @@ pub(super) fn reference_leaves(bar: &Bar) -> Result<bool, Stopped> {
     Ok(Hanging::new(&bar.spec()?).solve_symmetric()?.index() > 0)
 }
 
-/// The same of a rod that was given its natural strain as it hung; where that branch has ended, it has been
-/// left.
+/// Whether the planar equilibrium is unstable if the natural strain increases on the hanging rod; true where that
+/// branch has ended.
 pub(super) fn hook_leaves(bar: &Bar) -> Result<bool, Stopped> {
     Ok(Hanging::new(&bar.spec()?).solve_curled().map_or(true, |hook| hook.index() > 0))
 }
 
-/// Whether frisure finds it out of the plane with that normal.
+/// Whether frisure's equilibrium is out of the plane with that normal.
 pub(super) fn frisure_leaves(bar: &Bar, normal: DVec3, count: usize) -> Result<bool, Stopped> {
     let found = equilibrium(&bar.rod()?, &[], &elements(count, ElementKind::Helix));
     let away = largest(found.shape.positions.iter().map(|p| p.dot(normal).abs()));
@@ -29,7 +29,7 @@ pub(super) fn frisure_leaves(bar: &Bar, normal: DVec3, count: usize) -> Result<b
     }
 }
 
-/// Where a question's answer turns from no, at `low`, to yes, at `high`.
+/// The threshold between `low`, where the answer is no, and `high`, where it is yes.
 pub(super) fn bisect(
     mut low: f64,
     mut high: f64,
@@ -47,8 +47,8 @@ pub(super) fn bisect(
     Ok(0.5 * (low + high))
 }
 
-/// The first place, in steps of a factor, where the answer is yes, made exact by so many halvings; none before
-/// `most`.
+/// The smallest value, in steps of a factor, at which the answer is yes, refined by `halvings` bisections; `None` if
+/// there is none up to `most`.
 pub(super) fn first(
     from: f64,
     factor: f64,
@@ -65,7 +65,7 @@ pub(super) fn first(
     Ok(None)
 }
 
-/// Where frisure's answer turns, extrapolated from `count` and twice as many elements: sought within 6 % of a
+/// frisure's threshold, extrapolated from `count` and twice as many elements; the search covers 6 % around a
 /// guess.
 pub(super) fn frisure_threshold(
     guess: f64,
@@ -76,7 +76,7 @@ pub(super) fn frisure_threshold(
     let at = |count| {
         let leaves = |x: f64| frisure_leaves(&bar(x), normal, count);
         let (low, high) = (0.94 * guess, 1.06 * guess);
-        // An answer that is the same at both ends is no threshold.
+        // If the answer is the same at both ends, there is no threshold between them.
         if leaves(low)? || !leaves(high)? {
             return Ok(f64::NAN);
         }

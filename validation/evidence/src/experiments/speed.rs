@@ -1,4 +1,4 @@
-//! The paper's speeds.
+//! Times beside those of the paper.
 
 use std::time::Instant;
 
@@ -16,12 +16,12 @@ use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Timing};
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "speed",
     title: "Speed, beside the paper's of 2005",
-    question: "How long do ten hairs take, a hundred, and a head of a hundred guides?",
+    question: "How long do ten hairs, a hundred hairs, and a head of a hundred guides take?",
     method: "Random realistic hairs of 15 cm, each divided into the paper's 15 helix elements, from their natural \
         shapes; the same to 0.1 mm; one thread, the best of three runs. A head of 100 curly guides with all its contacts, \
         on all threads. The paper has ten hairs in real time, a hundred in a few seconds, and 6 s for the equilibrium of a \
-        head of about a hundred guides, on a machine that it does not name. The times stand in the last section of this \
-        report; here stands only whether what was timed was right.",
+        head of about a hundred guides, on a machine that it does not name. The last section of this report has the \
+        times; this section checks only that the timed results are correct.",
     run,
 };
 
@@ -74,7 +74,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
         let (seconds, stable) = timed(&rods, exact);
         finding.timings.push(Timing { what, seconds, beside: "nothing in the paper".into() });
         right = (right.0 + stable, right.1 + count);
-        let what = format!("{count} hairs, 15 jointed elements, side by side (batch)");
+        let what = format!("{count} hairs, 15 jointed elements, as a batch");
         let (seconds, stable) = batched(&rods);
         finding.timings.push(Timing { what, seconds, beside: beside.into() });
         right = (right.0 + stable, right.1 + count);
@@ -91,7 +91,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     Ok(finding)
 }
 
-/// How right the paper's fifteen elements are on such hair.
+/// Errors of the paper's fifteen elements on such hair.
 fn errors(finding: &mut Finding) -> Result<(), Stopped> {
     let one = |rod: &Rod| -> Option<[f64; 2]> {
         let reference = Hanging::new(rod.spec()).solve().ok()?;
@@ -105,15 +105,15 @@ fn errors(finding: &mut Finding) -> Result<(), Stopped> {
         errors[((errors.len() - 1) as f64 * share) as usize]
     };
     finding.text(format!(
-        "Of the hundred hairs, against the boundary-value problem (which followed {}): fifteen helix elements err by \
-         {:.2} mm in the median and {:.1} mm in one of ten; where 0.1 mm is asked for, the largest error is {:.4} mm.",
+        "For the hundred hairs, against the boundary-value problem (which followed {}), the error of fifteen helix elements is \
+         {:.2} mm in the median and {:.1} mm in one of ten; with 0.1 mm requested, the largest error is {:.4} mm.",
         found.len(),
         at(0, 0.5),
         at(0, 0.9),
         at(1, 1.0)
     ));
     finding.check(
-        "largest error of the timed hairs, 0.1 mm asked for (mm)",
+        "largest error of the timed hairs, 0.1 mm requested (mm)",
         at(1, 1.0),
         Limit::AtMost(0.1),
     );

@@ -1,9 +1,9 @@
-//! A head that is a sphere.
+//! A sphere in place of a head.
 
 use frisure::rod::potential::Field;
 use glam::{DMat3, DVec3};
 
-/// A sphere that pushes out what is in it: ½ k d² per length of hair, d the depth.
+/// A repulsive sphere: ½ k d² per length of hair, d the depth.
 pub(super) struct Sphere {
     /// Its centre (m).
     pub(super) middle: DVec3,

@@ -1,4 +1,4 @@
-//! Hair types: what the literature says of curls, under gravity.
+//! Hair types under gravity, compared with what the literature reports of curls.
 
 use frisure::hairstyle::{HairType, PRESETS, Wetting};
 use frisure::rod::{
@@ -18,11 +18,11 @@ use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "types",
     title: "Hair types: curve diameter, shrinkage, wet lengthening",
-    question: "Do the hair types that frisure starts from have the curve diameters that curl types are defined by, and \
+    question: "Do the hair types of frisure have the curve diameters that define curl types, and \
         do their hairs shrink dry and lengthen wet as hair does?",
     method: "The curve diameter of a type is 2/κ of its natural curl; the limits of types I to IV (10.5, 5.5, 3.5 cm, \
-        de la Mettrie et al. 2007) are as docs/hair-types.md has them: recalled, not read. Types V to VIII have no \
-        limits that we know. Those who measure it lay the hair flat: a curl that is pressed into a plane stays a \
+        de la Mettrie et al. 2007) are those of docs/hair-types.md: recalled, not read. We found no limits for types V to VIII. \
+        The diameter is measured on hair that lies flat: a curl that is pressed into a plane stays a \
         circle of 2/κ where τ/κ is below (2/π)√(EI₁/GJ), from the sine-Gordon equation ½EI₁κ² sin²φ + ½GJ(φ′ − τ)² for the \
         angle φ of its section to the plane (of a nearly round hair), and becomes a wave beyond, whose crests have the \
         same 2/κ.\n\n\
@@ -30,10 +30,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         (E × 0.43, G × 0.22, diameter × 1.065) and wet as in the paper (E ÷ 5, diameter × 1.13, length × 1.01), its \
         mass without the water. Its height over its length is compared with the closed form of a curl under tension: \
         at each arc length the helix with the least energy ½EI₁(Ω sin θ − κ)² + ½GJ(Ω cos θ − τ)² − T cos θ, T the weight \
-        below, which knows no clamp and no tip. That coily and kinky hair shrinks to a half and less of its length, \
-        by up to 75 or 80 per cent, is what stylists say (read in magazines and blogs): no study of single hairs was \
-        found, and the range of 0.40 to 0.85 that shrinkage is judged by is from there. How much longer hair is when it is \
-        wet is compared with no number of the literature: none was at hand. Whether diameters are within the limits of \
+        below. The closed form has neither clamp nor tip. Stylists report that coily and kinky hair shrinks to a half and less of its length, \
+        by up to 75 or 80 per cent (read in magazines and blogs): no study of single hairs was \
+        found, and the range of the criterion, 0.40 to 0.85, is from these reports. The lengthening of wet hair \
+        is not compared with the literature: no number was available. The criterion on the diameters and the limits of \
         their types compares constants of the code with constants of the literature: it checks a table, not physics. \
         G/E is that of the types, 0.9/3.9 = 0.231, and half of it wet.",
     run,
@@ -77,7 +77,7 @@ fn rest(spec: RodSpec) -> Result<Equilibrium, Stopped> {
     Ok(equilibrium(&rod, &[], &to_accuracy(&rod, 1e-4)))
 }
 
-/// Height (m) of a curl that hangs, by the closed form.
+/// Height (m) of a hanging curl by the closed form.
 fn height(rod: &Rod) -> f64 {
     let (u, k) = (rod.natural().at(0.0), rod.stiffness());
     let steps = 400;
@@ -96,7 +96,7 @@ fn steepness(kappa: f64, tau: f64, bend: f64, twist: f64, tension: f64) -> f64 {
         0.5 * bend * (turn * s - kappa).powi(2) + 0.5 * twist * (turn * c - tau).powi(2)
             - tension * c
     };
-    // The lowest of a coarse search, made exact by halving steps.
+    // The lowest of a coarse search, refined by halving steps.
     let coarse = 180;
     let at = |i: i32| f64::from(i) / f64::from(coarse) * std::f64::consts::PI;
     let best = (0..=coarse).min_by(|&a, &b| energy(at(a)).total_cmp(&energy(at(b)))).unwrap_or(0);
@@ -111,16 +111,16 @@ fn steepness(kappa: f64, tau: f64, bend: f64, twist: f64, tension: f64) -> f64 {
     angle.cos()
 }
 
-/// What is found of a type.
+/// Results of a type.
 struct Found {
     name: &'static str,
     diameter: f64,
     turns: f64,
-    /// Twist over curvature of the natural curl, over that up to which it lies flat as a circle.
+    /// Twist over curvature of the natural curl, relative to the limit below which it lies flat as a circle.
     flat: f64,
     /// Curve diameter (m) in the middle of the hair as it hangs dry: median of 2/κ.
     hanging: f64,
-    /// Heights over the dry length, found and by the closed form, in each state.
+    /// Heights over the dry length, computed and by the closed form, in each state.
     heights: [[f64; 2]; 3],
     stable: bool,
 }
@@ -162,11 +162,11 @@ fn run(_: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     table(&mut finding, &found);
     shapes(&mut finding)?;
     finding.text(
-        "Wet hair is longer in every type: most by far where a curl is about 2 cm wide (a fifth to a third), since \
+        "Wet hair is longer in every type. The increase is largest where a curl is about 2 cm wide (a fifth to a third), because \
          wider curls hang nearly straight when dry, and the weight of 15 cm hardly opens coils of half a centimetre. \
          So the weight alone does not explain how much coily hair is said to shrink from wet to dry: that is \
          measured on hair that is drawn out by hand, and water that holds many hairs together is not in this \
-         experiment. Where a hair has fewer than two turns, clamp and tip count, and the closed form is no guide.",
+         experiment. For a hair with fewer than two turns, clamp and tip matter, and the closed form does not apply.",
     );
     check_criteria(&mut finding, &found);
     Ok(finding)
@@ -174,7 +174,7 @@ fn run(_: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
 
 fn table(finding: &mut Finding, found: &[Found]) {
     let mut table = Table::new(
-        "A hanging hair of 15 cm: height over length (closed form), and how much longer it is wet",
+        "A hanging hair of 15 cm: height over length (closed form), and the lengthening when wet",
         &[
             "type",
             "curve diameter",
@@ -222,7 +222,7 @@ fn table(finding: &mut Finding, found: &[Found]) {
     finding.plot(plot);
 }
 
-/// The eight types as they hang, dry and wet.
+/// The eight types hanging, dry and wet.
 fn shapes(finding: &mut Finding) -> Result<(), Stopped> {
     let mut plot = Plot::new(
         "Types I to VIII, 15 cm, hanging dry (blue) and wet as measured (orange)",

@@ -1,17 +1,17 @@
-//! Where numbers are on an axis, and which are named.
+//! Positions of numbers on an axis, and its ticks.
 
 /// Kind of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// Equal steps add.
+    /// Equal distances are equal differences.
     #[default]
     Linear,
-    /// Equal steps multiply.
+    /// Equal distances are equal ratios.
     Log,
 }
 
 impl Scale {
-    /// What a number is drawn at, before it is fitted to the paper; none where it cannot be drawn.
+    /// The coordinate of a number before scaling to the drawing; `None` if it cannot be drawn.
     pub(crate) fn place(self, x: f64) -> Option<f64> {
         match self {
             Self::Linear => Some(x).filter(|x| x.is_finite()),
@@ -20,7 +20,7 @@ impl Scale {
     }
 }
 
-/// A range of places, and what is written along it.
+/// A range of coordinates, and its ticks.
 #[derive(Clone, Debug)]
 pub(crate) struct Axis {
     pub(crate) from: f64,
@@ -29,7 +29,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// The range of the numbers, with a margin; of whole decades where a logarithmic axis has few.
+    /// The range of the numbers, with a margin; extended to whole decades if a logarithmic axis has few.
     pub(crate) fn around(scale: Scale, numbers: impl Iterator<Item = f64>) -> Self {
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
         for x in numbers.filter_map(|x| scale.place(x)) {
@@ -40,7 +40,7 @@ impl Axis {
         }
         match scale {
             Scale::Log => {
-                // Few decades are shown whole: a tick is needed at either end.
+                // A few decades are shown whole, for a tick at either end.
                 if to - from < 1.5 {
                     (from, to) = (from.floor(), to.ceil().max(from.floor() + 1.0));
                 }
@@ -49,7 +49,7 @@ impl Axis {
             }
             Scale::Linear => {
                 let margin = 0.04 * (to - from).max(1e-12 * from.abs().max(to.abs()).max(1e-300));
-                // Zero is an end by itself.
+                // Zero needs no margin.
                 from = if from >= 0.0 && from <= margin { 0.0 } else { from - margin };
                 to += margin;
             }
@@ -57,7 +57,7 @@ impl Axis {
         Self { from, to, scale }
     }
 
-    /// Places of ticks, and what is written at each.
+    /// Coordinates and labels of the ticks.
     pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
         match self.scale {
             Scale::Log => {
@@ -87,14 +87,14 @@ impl Axis {
     }
 }
 
-/// The round number (1, 2 or 5 and zeros) that is next above.
+/// The next larger round number (1, 2 or 5 and zeros).
 fn nice(step: f64) -> f64 {
     let power = 10_f64.powf(step.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|f| f * power >= step * 0.999);
     factor.unwrap_or(10.0) * power
 }
 
-/// A power of ten as it is written by hand.
+/// The label of a power of ten.
 fn power(exponent: i32) -> String {
     match exponent {
         0 => "1".into(),

@@ -86,7 +86,7 @@ fn draw(f: &mut Formatter<'_>, series: &Series, colour: &str, frame: &Frame) -> 
     Ok(())
 }
 
-/// A line through points, with a gap where a number cannot be drawn.
+/// An SVG path through points, with a gap where a number cannot be drawn.
 fn path(points: &[(f64, f64)], frame: &Frame) -> String {
     let mut path = String::new();
     let mut last: Option<(f64, f64)> = None;
@@ -95,7 +95,7 @@ fn path(points: &[(f64, f64)], frame: &Frame) -> String {
             last = None;
             continue;
         };
-        // What is nearer to the last point than the eye can see is left out.
+        // Points too close to the last one to be visible are left out.
         let near = last.is_some_and(|(a, b)| (x - a).hypot(y - b) < 0.7);
         if near && i + 1 < points.len() {
             continue;
@@ -129,7 +129,7 @@ mod tests {
         plot.add("a few", Mark::Points, [(0.0, 0.0), (1.0, 1.0)]);
         assert!(plot.to_string().contains("viewBox=\"0 0 640 400\""));
         plot.add("all", Mark::Points, (0..900).map(|i| (f64::from(i % 30), f64::from(i / 30))));
-        // It stands below the axes then.
+        // The legend is below the axes then.
         assert!(plot.to_string().contains("viewBox=\"0 0 640 425\""), "{plot}");
     }
 

@@ -1,4 +1,4 @@
-//! The legend: in a corner where it covers nothing, else in lines below the axes.
+//! The legend: in a free corner, or in lines below the axes.
 
 use std::fmt::{Formatter, Result};
 
@@ -8,24 +8,24 @@ use super::{Mark, Plot, Series};
 /// Height of a line (pixels).
 const LINE: f64 = 17.0;
 
-/// Width of a letter, and of what is drawn before a name with the space about it (pixels).
+/// Width of a letter, and of the symbol before a name with its margins (pixels).
 const LETTER: f64 = 6.6;
 const SAMPLE: f64 = 36.0;
 
-/// Space about the whole (pixels).
+/// Margin (pixels).
 const MARGIN: f64 = 8.0;
 
-/// A name of the legend, its colour, and the left end and middle of its line (pixels).
+/// An entry of the legend, its colour, and the left end and middle of its line (pixels).
 struct Entry<'a> {
     series: &'a Series,
     colour: &'static str,
     at: (f64, f64),
 }
 
-/// Names of series, and where they stand.
+/// Names of series, and their positions.
 pub(super) struct Legend<'a> {
     entries: Vec<Entry<'a>>,
-    /// Left, top, width and height of the box, if it has one: where it stands over lines.
+    /// Left, top, width and height of the box, if the legend is inside the axes.
     frame: Option<[f64; 4]>,
     below: f64,
 }
@@ -43,12 +43,12 @@ impl<'a> Legend<'a> {
         }
     }
 
-    /// By how much (pixels) it makes the drawing higher.
+    /// Height that it adds to the drawing (pixels).
     pub(super) fn below(&self) -> f64 {
         self.below
     }
 
-    /// One under the other, from a corner of the box.
+    /// Places the entries in a column, from a corner of the box.
     fn boxed(mut entries: Vec<Entry<'a>>, (x, y): (f64, f64)) -> Self {
         let [w, h] = size(&entries);
         for (row, entry) in entries.iter_mut().enumerate() {
@@ -57,7 +57,7 @@ impl<'a> Legend<'a> {
         Self { frame: (!entries.is_empty()).then_some([x, y, w, h]), entries, below: 0.0 }
     }
 
-    /// One after the other below the axes, in as many lines as it takes.
+    /// Places the entries in rows below the axes.
     fn flowing(mut entries: Vec<Entry<'a>>, frame: &Frame) -> Self {
         let [width, height] = frame.size;
         let (mut x, mut row) = (LEFT, 0.0);
@@ -109,13 +109,13 @@ fn width_of(series: &Series) -> f64 {
     SAMPLE + LETTER * series.name.chars().count() as f64
 }
 
-/// Width and height of a box with them one under the other.
+/// Width and height of a box with the entries in a column.
 fn size(entries: &[Entry<'_>]) -> [f64; 2] {
     let width = entries.iter().map(|e| width_of(e.series)).fold(0.0, f64::max);
     [width, LINE * entries.len() as f64 + MARGIN]
 }
 
-/// The upper left corner of a box that covers nothing that is drawn; none if there is no such place.
+/// The upper left corner of a box that covers no series; `None` if there is no such place.
 fn corner(entries: &[Entry<'_>], plot: &Plot, frame: &Frame) -> Option<(f64, f64)> {
     let [w, h] = size(entries);
     let [width, height] = frame.size;
@@ -130,7 +130,7 @@ fn corner(entries: &[Entry<'_>], plot: &Plot, frame: &Frame) -> Option<(f64, f64
         .find(|&(x, y)| !points.iter().any(|p| inside(x, y, p)))
 }
 
-/// Points of a series as drawn, lines as points along them.
+/// Points of a series in pixels, lines as points along them.
 fn dense(series: &Series, frame: &Frame) -> Vec<(f64, f64)> {
     let points: Vec<(f64, f64)> = series.points.iter().filter_map(|p| frame.at(*p)).collect();
     if series.mark == Mark::Points {
@@ -138,7 +138,7 @@ fn dense(series: &Series, frame: &Frame) -> Vec<(f64, f64)> {
     }
     let between = |pair: &[(f64, f64)]| {
         let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
-        // Nearer to each other than the box is high.
+        // Their spacing is less than the height of the box.
         let count = ((x1 - x0).hypot(y1 - y0) / 8.0).ceil().clamp(1.0, 200.0) as i32;
         (0..=count)
             .map(move |k| f64::from(k) / f64::from(count))

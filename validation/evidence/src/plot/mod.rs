@@ -1,7 +1,7 @@
 //! Curves, drawn as SVG.
 //!
-//! A small drawer of our own: libraries that plot lay out text by the fonts of the machine, or bring
-//! hundreds of kilobytes of code; a report needs lines, points, two kinds of axis and a legend, and the
+//! Plotting libraries lay out text by the fonts of the machine, or add
+//! hundreds of kilobytes of code. A report needs only lines, points, two kinds of axis and a legend, and the
 //! same bytes everywhere.
 
 mod axis;
@@ -13,7 +13,7 @@ pub(crate) use frame::escaped;
 
 pub use axis::Scale;
 
-/// How a series is drawn.
+/// The style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// A line.
@@ -26,38 +26,38 @@ pub enum Mark {
     Both,
 }
 
-/// Numbers of one kind.
+/// A series of points.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// Name in the legend; without one it is not there.
+    /// Name in the legend; a series with an empty name has no entry.
     pub name: String,
     /// x and y.
     pub points: Vec<(f64, f64)>,
-    /// How it is drawn.
+    /// Style.
     pub mark: Mark,
-    /// Which of the colours, from 0; by default its own.
+    /// Index of the colour; by default the index of the series.
     pub colour: Option<usize>,
 }
 
-/// Curves in a frame with axes.
+/// A plot with axes.
 #[derive(Clone, Debug)]
 pub struct Plot {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// Name and unit of x and y.
     pub labels: [String; 2],
     /// Kinds of axes.
     pub scales: [Scale; 2],
-    /// What is drawn, in this order.
+    /// Series in drawing order.
     pub series: Vec<Series>,
-    /// Whether a unit of x is as long as one of y: for shapes.
+    /// Whether a unit of x is as long as one of y, as for shapes.
     pub equal: bool,
     /// Width and height of the drawing (pixels).
     pub size: [f64; 2],
 }
 
 impl Plot {
-    /// Axes without curves.
+    /// Creates a plot without series.
     #[must_use]
     pub fn new(title: &str, x: &str, y: &str, scales: [Scale; 2]) -> Self {
         Self {

@@ -8,7 +8,7 @@ pub(super) struct Banded {
 
 /// Diagonals on either side.
 const HALF: usize = 8;
-/// Room for those that pivots fill in.
+/// Space for diagonals that pivoting fills.
 const WIDTH: usize = 3 * HALF + 1;
 
 impl Banded {
@@ -25,7 +25,7 @@ impl Banded {
         row * WIDTH + column + HALF - row
     }
 
-    /// The solution for a right-hand side; none if the matrix is singular.
+    /// The solution for a right-hand side; `None` if the matrix is singular.
     pub(super) fn solve(mut self, mut b: Vec<f64>) -> Option<Vec<f64>> {
         let n = self.n;
         for k in 0..n {

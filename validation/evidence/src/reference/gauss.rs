@@ -1,4 +1,4 @@
-//! Gauss–Legendre collocation with three stages: order six, and exact for whatever quadratic stays constant,
+//! Gauss–Legendre collocation with three stages: order six, and exact for every quadratic invariant,
 //! such as |ζ|² and M·ζ (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, IV.2).
 
 const R: f64 = 3.872_983_346_207_417; // √15

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-/// q L³/√(EI GJ) at which a deep cantilever under its own weight gives way sideways: Prandtl and Michell
+/// q L³/√(EI GJ) at which a deep cantilever under its own weight buckles sideways: Prandtl and Michell
 /// 1899; 12.85 in Timoshenko & Gere, *Theory of Elastic Stability*, §6.3. The angle of twist β obeys
 /// `β'' + (Q²/4) σ⁴ β = 0` at the distance σ from the tip, so that `β = √σ J(Qσ³/6)` of order −1/6.
 #[must_use]
@@ -10,7 +10,7 @@ pub fn prandtl_michell() -> f64 {
     6.0 * first_zero(-1.0 / 6.0)
 }
 
-/// ρSgL³/EI at which a straight rod clamped upright gives way: Greenhill 1881.
+/// ρSgL³/EI at which a straight rod clamped upright buckles: Greenhill 1881.
 #[must_use]
 pub fn greenhill() -> f64 {
     2.25 * first_zero(-1.0 / 3.0).powi(2)
@@ -40,14 +40,14 @@ fn first_zero(order: f64) -> f64 {
 }
 
 /// Points (over the length) of a hair of Anjyo, Usami & Kurihara 1992: a chain of rigid segments that leaves
-/// the root at the angle `rise` (rad) over the horizontal. Each segment is turned from the one before, along
-/// the direction across the root, by what the cantilever formula for small deflections has for it,
+/// the root at the angle `rise` (rad) over the horizontal. Each segment is rotated from the one before, along
+/// the direction across the root, by the angle of the cantilever formula for small deflections,
 /// `h M/EI`, with the moment `M = ½ ρSg (L − s)² cos(rise)` of the weight on the hair as it grew.
 #[must_use]
 pub fn anjyo(gamma: f64, rise: f64, segments: usize) -> Vec<DVec2> {
     let h = 1.0 / segments as f64;
     let mut along = DVec2::from_angle(rise);
-    // Down, as far as it is across the root.
+    // The component of down across the root.
     let across = DVec2::new(rise.sin(), -rise.cos());
     let mut at = DVec2::ZERO;
     let mut points = vec![at];

@@ -1,20 +1,20 @@
-//! The other way to the same truth: Kirchhoff's equations as a boundary-value problem.
+//! The reference solver: Kirchhoff's equations as a boundary-value problem.
 //!
-//! Nothing here uses frisure's solver. Of ours it has the numbers of a rod as frisure converts them: a helix of a radius and
-//! a pitch to strains, a diameter and an axis ratio to semi-axes, directors to a frame. A hanging rod obeys, in its material frame,
+//! Nothing here uses frisure's solver. The only shared code converts the numbers of a rod: a radius and
+//! a pitch to strains, a diameter and an axis ratio to semi-axes, directors to a frame. In its material frame, a hanging rod satisfies
 //!
 //! ```text
 //! ζ' = ζ × u        M' = M × u + w(L − s) e₃ × ζ        u = u⁰ + K⁻¹ M
 //! ζ(0) = R(0)ᵀ e_z                  M(L) = 0
 //! ```
 //!
-//! with ζ the vertical as the section sees it, M the internal moment, w the weight per length. Lengths are in
-//! units of L and moments of EI/L inside. The interval is cut into pieces, each is integrated by
+//! with ζ the vertical in the material frame, M the internal moment, w the weight per length. Lengths are in
+//! units of L and moments of EI/L inside. The interval is divided into pieces, each is integrated by
 //! Gauss–Legendre collocation of order six (`gauss`), and Newton's method joins them (`shooting`): multiple
-//! shooting, without any minimisation of energy. The weight is turned on in steps.
+//! shooting, without any minimisation of energy. The weight increases in steps.
 //!
-//! Whether a solution is stable is Jacobi's condition: no neighbouring solution that leaves the tip free may
-//! meet it on the way to the root. How many do is Morse's index, the number of ways downhill.
+//! A solution is stable if it satisfies Jacobi's condition: no neighbouring solution with a free tip
+//! meets it between tip and root. The number of those that do is Morse's index, the number of unstable directions.
 
 mod banded;
 mod gauss;

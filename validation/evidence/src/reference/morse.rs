@@ -7,8 +7,8 @@ use glam::{DMat2, DVec2, DVec3};
 use super::gauss::integrate;
 use super::hanging::{Hanging, Nodes, halves, joined};
 
-/// Morse's index: how many independent small changes lower the energy. It is the number of points on the way
-/// from tip to root where a neighbouring solution that leaves the tip free meets this one.
+/// Morse's index: the number of independent directions in which the energy decreases. It is the number of points
+/// between tip and root where a neighbouring solution with a free tip meets this one.
 pub(super) fn index(rod: &Hanging, nodes: &Nodes) -> usize {
     const LOOKS: usize = 16;
     let pieces = nodes.len() - 1;
@@ -34,9 +34,9 @@ pub(super) fn index(rod: &Hanging, nodes: &Nodes) -> usize {
     met
 }
 
-/// The solution and its two neighbours at the other end of an interval, and how many phases have gone round on the
-/// way. Phases may turn within a small part of the length, and what has turned by much could have turned by more: such
-/// an interval is halved, so many times at most.
+/// The solution and its two neighbours at the other end of an interval, and the number of phases that wrapped around
+/// in it. Phases may change quickly, and a large change is ambiguous by a full turn: such
+/// an interval is halved, at most a given number of times.
 fn looked(
     rod: &Hanging,
     (from, to): (f64, f64),
@@ -80,7 +80,7 @@ fn phases(at: &[f64; 6], fields: &[[f64; 6]; 2]) -> [f64; 2] {
     let part = |field: &[f64; 6]| {
         let (d_zeta, d_moment) = halves(field);
         let turn = d_zeta.cross(zeta);
-        // Half of η × M makes the pair canonical in coordinates that turn with the section.
+        // Half of η × M makes the pair canonical in coordinates that rotate with the section.
         let p = d_moment + turn.cross(moment) * 0.5;
         (DVec2::new(turn.dot(e), turn.dot(g)), DVec2::new(p.dot(e), p.dot(g)))
     };
@@ -88,7 +88,7 @@ fn phases(at: &[f64; 6], fields: &[[f64; 6]; 2]) -> [f64; 2] {
     let (x, p) = (DMat2::from_cols(x0, x1), DMat2::from_cols(p0, p1));
     let det = x.determinant();
     let adjugate = DMat2::from_cols_array(&[x.y_axis.y, -x.x_axis.y, -x.y_axis.x, x.x_axis.x]);
-    // P adj(X) is det(X) times the symmetric matrix; this way nothing is divided by zero.
+    // P adj(X) is det(X) times the symmetric matrix; this form has no division by zero.
     let q = p * adjugate;
     let middle = 0.5 * (q.x_axis.x + q.y_axis.y);
     let half = (0.5 * (q.x_axis.x - q.y_axis.y)).hypot(0.5 * (q.x_axis.y + q.y_axis.x));
@@ -106,7 +106,7 @@ fn phases(at: &[f64; 6], fields: &[[f64; 6]; 2]) -> [f64; 2] {
     angles
 }
 
-/// How many phases have gone round, by the least that they can have moved, and how much that is.
+/// The number of phases that wrapped around, by the smallest possible motion, and the size of that motion.
 fn passed(before: [f64; 2], now: [f64; 2]) -> (usize, f64) {
     let moved = |count: usize| {
         let after = match count {
@@ -120,7 +120,7 @@ fn passed(before: [f64; 2], now: [f64; 2]) -> (usize, f64) {
     all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
 }
 
-/// The same fields, of size 1 and at right angles to each other: only their plane matters.
+/// The fields, orthonormalised; only their plane matters.
 fn orthonormalise(fields: &mut [[f64; 6]; 2]) {
     let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let size = dot(&fields[0], &fields[0]).sqrt();

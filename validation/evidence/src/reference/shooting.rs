@@ -7,7 +7,7 @@ use super::gauss::integrate;
 use super::hanging::{Hanging, NoSolution, Nodes, halves, joined};
 use super::morse::index;
 
-/// Residual at which the equations hold.
+/// Largest residual of a solution.
 const EXACT: f64 = 1e-13;
 
 impl Hanging {
@@ -46,12 +46,12 @@ fn natural(rod: &Hanging, pieces: usize) -> Nodes {
     nodes
 }
 
-/// Newton's method from a start; none if it does not come to rest in a few steps, of which none may be long.
+/// Newton's method from a start; `None` if it does not converge in a few steps, or if a step is long.
 fn newton(rod: &Hanging, nodes: Nodes) -> Option<Nodes> {
     newton_in(rod, nodes, 14, false)
 }
 
-/// The same in so many steps; long ones are made shorter, if that is asked for.
+/// Newton's method with a limit on the steps; shortens long steps if requested.
 fn newton_in(rod: &Hanging, mut nodes: Nodes, most: usize, shorten: bool) -> Option<Nodes> {
     let pieces = nodes.len() - 1;
     let steps = rod.division().1;
@@ -93,7 +93,7 @@ fn newton_in(rod: &Hanging, mut nodes: Nodes, most: usize, shorten: bool) -> Opt
                 *y += part * d;
             }
         }
-        // Rounding is reached where a step brings nothing any more.
+        // A step without progress means that the rounding error is reached.
         if residual < EXACT || (size < 1e-9 && size >= 0.5 * before) {
             return Some(nodes);
         }
@@ -102,23 +102,23 @@ fn newton_in(rod: &Hanging, mut nodes: Nodes, most: usize, shorten: bool) -> Opt
     None
 }
 
-/// Turns the weight on, in steps that become smaller where Newton's method fails, or where it ends in a
-/// solution that is not stable and `stable` is asked for.
+/// Increases the weight from zero, in steps that become smaller where Newton's method fails, or where it ends in a
+/// solution that is not stable and `stable` is set.
 pub(super) fn follow(rod: &Hanging, stable: bool) -> Result<Nodes, NoSolution> {
     let nodes = natural(rod, rod.division().0);
     let first = (0.5 / rod.weight).min(1.0);
-    // A branch in a plane may end where the rod has long left it: its end need not be known to a digit.
+    // A planar branch may end far beyond the loss of its stability, so its end does not need precision.
     let least = if stable { 1.000_1 } else { 1.005 };
     advance(nodes, (first, least), stable, |part| rod.with_weight(rod.weight * part))
 }
 
-/// Gives a straight rod that hangs straight down its natural strain, in steps.
+/// Increases the natural strain of a straight rod that hangs straight down, in steps.
 pub(super) fn curl(rod: &Hanging) -> Result<Nodes, NoSolution> {
     let straight = vec![joined(rod.root_zeta(), DVec3::ZERO); rod.division().0 + 1];
     advance(straight, (0.1, 1.000_1), false, |part| Hanging { natural: rod.natural * part, ..*rod })
 }
 
-/// Goes from part 0 to part 1 of something: first to the part `first`, then in steps of a factor, which is never
+/// Continuation from 0 to 1: first to `first`, then in steps by a factor, which is never
 /// less than `least`.
 fn advance(
     mut nodes: Nodes,
@@ -145,15 +145,15 @@ fn advance(
     Ok(nodes)
 }
 
-/// Whether a tangent turned by so much against the vertical that another branch is likelier than this one.
+/// Whether a tangent rotated so far against the vertical that the solution is probably on another branch.
 fn jumped(from: &Nodes, to: &Nodes) -> bool {
     let cosine = |(a, b): (&[f64; 6], &[f64; 6])| halves(a).0.dot(halves(b).0);
     from.iter().zip(to).map(cosine).fold(1.0, f64::min) < 0.3
 }
 
-/// ζ and M of a line, given as a function of arc length to a frame: a start for Newton's method. M is that of the
-/// weight beyond, M' = w(1 − s) t × e_z in the room, which asks for directions only: curvatures of a line that is
-/// divided are known less well.
+/// ζ and M of a line, given as a function from arc length to a frame: a start for Newton's method. M is that of the
+/// weight beyond, M' = w(1 − s) t × e_z in the world frame, which needs directions only: the curvatures of a divided
+/// line are less accurate.
 pub(super) fn of_frames(rod: &Hanging, frame: impl Fn(f64) -> DMat3) -> Nodes {
     const PARTS: usize = 4;
     let pieces = rod.division().0;
@@ -177,12 +177,12 @@ pub(super) fn of_frames(rod: &Hanging, frame: impl Fn(f64) -> DMat3) -> Nodes {
     nodes
 }
 
-/// Newton's method from those.
+/// Newton's method from a given line.
 pub(super) fn near(rod: &Hanging, start: Nodes) -> Result<Nodes, NoSolution> {
     newton_in(rod, start, 60, true).ok_or(NoSolution { fraction: 0.0 })
 }
 
-/// Positions and frames, so many in each piece, the last at its end.
+/// Positions and frames, `each` in each piece, the last at its end.
 pub(super) fn line(rod: &Hanging, nodes: &Nodes, each: usize) -> Vec<(DVec3, DMat3)> {
     let pieces = nodes.len() - 1;
     let steps = rod.division().1.div_ceil(each);

@@ -1,4 +1,4 @@
-//! The reference against closed forms, and against numbers that others computed.
+//! The reference compared with closed forms and with numbers of other programs.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::{Hanging, greenhill, prandtl_michell};
 
-/// A straight rod with a section that is as thin as asked for, its stiff axis along d2.
+/// A straight rod with a section of a given axis ratio, its stiff axis along d2.
 fn straight(weight: f64, ratio: f64, tangent: DVec3, d1: DVec3) -> Hanging {
     let twist = 2.0 * 0.35 * ratio * ratio / (1.0 + ratio * ratio) * 2.0;
     Hanging {
@@ -26,7 +26,7 @@ fn without_weight_a_helix_is_one() {
     let natural = DVec3::new(radius / square, 0.0, p / square);
     let rod = Hanging { natural, ..straight(0.0, 1.2, DVec3::X, DVec3::Y) };
     let solution = rod.solve().unwrap();
-    // After whole turns it has gone along its axis only.
+    // After whole turns the displacement is along the axis.
     let axis = rod.root * natural.normalize();
     let turns = natural.length() / (2.0 * PI);
     let whole = Hanging { natural: natural / turns * turns.round(), ..rod };
@@ -62,7 +62,7 @@ fn a_solution_is_found_again_from_its_frames() {
 
 #[test]
 fn an_upright_rod_gives_way_at_greenhills_load() {
-    // In two planes alike; the zeros of J of order −1/3 are at 1, 7.1 and 18.9 times the load.
+    // The same in two planes; the zeros of J of order −1/3 are at 1, 7.1 and 18.9 times the load.
     for (factor, index) in [(0.999, 0), (1.001, 2), (5.0, 2), (20.0, 6)] {
         let rod = straight(greenhill() * factor, 1.0, DVec3::Z, DVec3::X);
         let mut solution = straight(0.1, 1.0, DVec3::Z, DVec3::X).solve().unwrap();
@@ -74,7 +74,7 @@ fn an_upright_rod_gives_way_at_greenhills_load() {
 
 #[test]
 fn a_thin_strip_gives_way_sideways_at_the_load_of_prandtl_and_michell() {
-    // d1, about which it bends easily, is vertical: its weight bends it about d2.
+    // d1, the soft axis, is vertical: the weight bends the rod about d2.
     for (factor, stable) in [(0.99, true), (1.01, false)] {
         let rod = straight(0.0, 1000.0, DVec3::X, DVec3::Z);
         let critical = prandtl_michell() * rod.stiffness.z.sqrt();

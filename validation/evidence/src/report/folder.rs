@@ -11,10 +11,10 @@ use super::words;
 use crate::Experiment;
 
 impl Book<'_> {
-    /// Writes the pictures, `report.md` and last `index.html` into a folder, which is made; gives the path of the
-    /// page. Each file is whole or as it was, and the page, which has everything inside, is of one run in any case; where
-    /// writing fails on the way, a `report.md` that is left may show newer pictures than it tells of. Pictures that
-    /// an earlier report in the folder showed and this one does not are removed.
+    /// Writes the pictures, `report.md` and last `index.html` into a folder, and returns the path of the
+    /// page. It creates the folder if needed. Each file is written as a whole, and the page, which contains all pictures, is
+    /// always of one run. If writing fails, an old `report.md` may refer to newer pictures. Pictures of
+    /// an earlier report in the folder that this report does not have are removed.
     ///
     /// # Errors
     /// [`WriteError`], if a file cannot be written.
@@ -33,28 +33,28 @@ impl Book<'_> {
         write("report.md", self.markdown().as_bytes())?;
         let page = write("index.html", self.html().as_bytes())?;
         for name in old {
-            // What cannot be removed is only in the way of tidiness.
+            // A picture that cannot be removed does no harm.
             let _ = fs::remove_file(folder.join(name));
         }
         Ok(page)
     }
 }
 
-/// The pictures that a report of ours in a folder shows; none where there is no such report.
+/// The pictures of a report in a folder; empty if the folder has no report of frisure.
 fn shown_before(folder: &Path) -> BTreeSet<String> {
     let text = fs::read_to_string(folder.join("report.md")).unwrap_or_default();
     if !text.starts_with(&format!("# {}\n", words::TITLE)) {
         return BTreeSet::new();
     }
     let links = text.split("](").skip(1).filter_map(|link| link.split(')').next());
-    // Names alone: a link that leads out of the folder is none of ours.
+    // Only names: a link out of the folder is not a picture of the report.
     let plain = |name: &&str| {
         [".svg", ".png"].iter().any(|end| name.ends_with(end)) && !name.contains(['/', '\\'])
     };
     links.filter(plain).map(str::to_owned).collect()
 }
 
-/// What is in a folder under a name that a picture of these experiments may have.
+/// The files of a folder with names of pictures of these experiments.
 #[must_use]
 pub fn in_the_way(folder: &Path, experiments: &[&Experiment]) -> Vec<PathBuf> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! The same as Markdown.
+//! The report as Markdown.
 
 use std::fmt::Write;
 

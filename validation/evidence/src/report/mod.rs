@@ -1,4 +1,4 @@
-//! Findings as documents: one page that opens offline, and Markdown with its pictures beside it.
+//! Findings as documents: a single page that opens offline, and Markdown with picture files.
 
 mod book;
 mod folder;
@@ -42,7 +42,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failed_verdict_is_told() {
+    fn reports_a_failed_verdict() {
         let mut book = book();
         assert!(book.holds() && book.html().contains("1 of 1 criterion hold"));
         book.chapters[0].1.check("two", 3.0, Limit::AtMost(2.0));
@@ -64,13 +64,13 @@ mod tests {
     }
 
     #[test]
-    fn an_experiment_that_could_not_be_run_is_told() {
+    fn reports_an_experiment_that_could_not_be_run() {
         let mut book = book();
         book.chapters[0].1 = Finding::failed(&std::fmt::Error);
         assert!(!book.holds());
         for text in [book.html(), book.markdown()] {
             assert_eq!(text.matches("COULD NOT BE RUN: an error occurred").count(), 2, "{text}");
-            assert!(text.contains("Not run, and not told of here: elastica, "), "{text}");
+            assert!(text.contains("Not run: elastica, "), "{text}");
             assert!(text.contains(env!("CARGO_PKG_VERSION")), "{text}");
         }
     }
@@ -85,7 +85,7 @@ mod tests {
         assert_eq!(names, ["test-2.svg", "dot.png"]);
         assert!(names.iter().all(|name| folder.join(name).is_file()));
 
-        // A later report takes the pictures away that only the earlier one showed, and nothing else.
+        // A later report removes the pictures that only the earlier one showed, and nothing else.
         fs::write(folder.join("mine.png"), "mine").unwrap();
         let mut later = book();
         later.chapters[0].1.items.pop();

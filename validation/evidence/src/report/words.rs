@@ -1,4 +1,4 @@
-//! What both documents say.
+//! Text of both documents.
 
 use super::book::Book;
 use crate::numbers::number;
@@ -16,7 +16,7 @@ pub(super) fn verdict(criterion: &Criterion) -> &'static str {
     if criterion.holds() { "holds" } else { "FAILS" }
 }
 
-/// Who wrote the report, and how.
+/// The version of frisure and the effort of the report.
 pub(super) fn written(book: &Book<'_>) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let run = match book.effort {
@@ -31,25 +31,25 @@ pub(super) fn written(book: &Book<'_>) -> String {
     )
 }
 
-/// Which experiments the report is not of.
+/// The experiments that were not run.
 pub(super) fn left_out(book: &Book<'_>) -> Option<String> {
     let run = |name: &str| book.chapters.iter().any(|(e, _)| e.name == name);
     let names: Vec<&str> = EXPERIMENTS.iter().map(|e| e.name).filter(|name| !run(name)).collect();
-    (!names.is_empty()).then(|| format!("Not run, and not told of here: {}.", names.join(", ")))
+    (!names.is_empty()).then(|| format!("Not run: {}.", names.join(", ")))
 }
 
-pub(super) const TITLE: &str = "frisure: the book of evidence";
+pub(super) const TITLE: &str = "frisure: validation report";
 
-pub(super) const INTRODUCTION: &str = "Each experiment asks a question, says how it is answered and \
-    where the truth is from, shows what came out, and judges it by criteria. The truth is a closed form, a \
-    published number, or Kirchhoff's equations solved as a boundary-value problem. Where there is none, an \
-    experiment says so: what must not matter is frisure against itself, how often it fails is also told by its own \
-    certificates, heads are held against sentences of the paper, and speed is of one machine.";
+pub(super) const INTRODUCTION: &str = "Each experiment has a question, a method with its \
+    reference, results, and criteria. The reference is a closed form, a \
+    published number, or Kirchhoff's equations solved as a boundary-value problem. Experiments without such a reference \
+    state so: `invariance` compares frisure with itself, `robustness` also reports frisure's own \
+    certificates, `heads` compares heads with sentences of the paper, and `speed` measures one machine.";
 
 /// Above the times.
 pub(super) fn times() -> String {
     format!(
-        "Of the machine that wrote this, with {} threads, and of nothing else; they decide nothing, and are the \
+        "The times are those of the machine that wrote this report, with {} threads. They have no criteria, and are the \
          only numbers here that change from run to run.",
         rayon::current_num_threads()
     )

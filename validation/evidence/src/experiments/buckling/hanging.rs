@@ -27,8 +27,8 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     let hooks = gammas.par_iter().map(|&case| hook(case)).collect::<Result<Vec<_>, _>>()?;
     let kappas = cases(effort.pick(&[8.0, 16.0], &KAPPAS), effort.pick(&[], &[8.0, 16.0, 50.0]));
     let coils = kappas.par_iter().map(|&case| coil(case)).collect::<Result<Vec<_>, _>>()?;
-    told(finding, &Told { cases: &gammas, found: &hooks, ..HOOKS });
-    told(finding, &Told { cases: &kappas, found: &coils, ..COILS });
+    add_table(finding, &ThresholdTable { cases: &gammas, found: &hooks, ..HOOKS });
+    add_table(finding, &ThresholdTable { cases: &kappas, found: &coils, ..COILS });
     finding.check(
         "largest relative difference of the two thresholds from the boundary-value problem's",
         largest(hooks.iter().chain(&coils).map(|[r, f]| (f / r - 1.0).abs())),
@@ -36,14 +36,14 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     );
     finding.text(
         "Between the two thresholds the hair is out of its plane. In the first table κ(EI/ρSg)^⅓ tends to a \
-         constant for each GJ/EI: it is the lowest part of a heavy hair alone that decides, and its length does not \
-         matter.",
+         constant for each GJ/EI: only the lowest part of a heavy hair determines the threshold, and its length has no \
+         effect.",
     );
     Ok(())
 }
 
-/// Thresholds, and how they are told.
-struct Told<'a> {
+/// A table of thresholds.
+struct ThresholdTable<'a> {
     title: &'a str,
     at: &'a str,
     scaled: &'a str,
@@ -52,7 +52,7 @@ struct Told<'a> {
     found: &'a [[f64; 2]],
 }
 
-const HOOKS: Told<'static> = Told {
+const HOOKS: ThresholdTable<'static> = ThresholdTable {
     title: "Natural curvature κL beyond which the hook at the end of a hanging hair leaves its plane",
     at: "Γ = ρSgL³/EI",
     scaled: "κ(EI/ρSg)^⅓",
@@ -61,7 +61,7 @@ const HOOKS: Told<'static> = Told {
     found: &[],
 };
 
-const COILS: Told<'static> = Told {
+const COILS: ThresholdTable<'static> = ThresholdTable {
     title: "Weight Γ = ρSgL³/EI beyond which a hanging planar curl leaves its plane",
     at: "κL",
     scaled: "Γ/(κL)²",
@@ -70,18 +70,19 @@ const COILS: Told<'static> = Told {
     found: &[],
 };
 
-fn told(finding: &mut Finding, told: &Told<'_>) {
-    let head = [told.at, "GJ/EI", "reference", "frisure", "relative difference", told.scaled];
-    let mut table = Table::new(told.title, &head);
-    for (&(shear, at), &[reference, frisure]) in told.cases.iter().zip(told.found) {
+fn add_table(finding: &mut Finding, thresholds: &ThresholdTable<'_>) {
+    let head =
+        [thresholds.at, "GJ/EI", "reference", "frisure", "relative difference", thresholds.scaled];
+    let mut table = Table::new(thresholds.title, &head);
+    for (&(shear, at), &[reference, frisure]) in thresholds.cases.iter().zip(thresholds.found) {
         table.row([
             format!("{at}"),
-            // Of a round section J = 2I.
+            // J = 2I for a round section.
             format!("{:.3}", 2.0 * shear),
             format!("{reference:.6}"),
             format!("{frisure:.6}"),
             small(frisure / reference - 1.0),
-            format!("{:.4}", (told.scale)(at, reference)),
+            format!("{:.4}", (thresholds.scale)(at, reference)),
         ]);
     }
     finding.table(table);

@@ -1,4 +1,4 @@
-//! Loads at which a shape gives way.
+//! Loads at which a shape loses its stability.
 
 mod hanging;
 mod sideways;
@@ -21,22 +21,22 @@ pub(super) use hanging::hanging_curl;
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "buckling",
     title: "Buckling: upright, sideways, out of the plane",
-    question: "Does hair give way where it must: upright under its own weight, a flat hair sideways, a \
+    question: "Does hair buckle at the correct loads: upright under its own weight, a flat hair sideways, a \
         naturally curved hair out of its plane?",
-    method: "Three loads at which a symmetric shape loses its stability. Greenhill's (1881), of a column under \
+    method: "The experiment has three loads at which a symmetric shape loses its stability. Greenhill's (1881), of a column under \
         its own weight, is 9/4 of the square of the first zero of the Bessel function of order −1/3. A flat \
-        cantilever that is loaded edgewise turns over sideways; for a very flat one Prandtl and Michell \
+        cantilever that is loaded edgewise buckles sideways; for a very flat one Prandtl and Michell \
         (1899) have qL³/√(EI·GJ) = 6 times the first zero of the Bessel function of order −1/6; for other \
-        sections the load is where Morse's index of the shape in the plane, by the boundary-value problem, \
-        turns from 0 to 1. The third is the bend–twist test of simulators of Romero et al. (2021), after \
+        sections the load is that at which Morse's index of the shape in the plane, by the boundary-value problem, \
+        changes from 0 to 1. The third is the bend–twist test of simulators of Romero et al. (2021), after \
         Miller et al. (2014): a naturally curved hair that hangs from a vertical clamp leaves the plane of its \
-        curl where its curvature is too large for its weight. We know both papers by their subject, not by \
-        tables, so that the threshold is again that of the boundary-value problem. frisure's loads are \
+        curl if its curvature is too large for its weight. The tables of both papers were not \
+        available, so the threshold is again that of the boundary-value problem. frisure's loads are \
         found by bisection (of the sign of the smallest eigenvalue; of whether the equilibrium is in the \
         plane), with N and 2N elements, and extrapolated.\n\n\
-        The second and the third depend on the stiffness of twist over that of bending, GJ/EI (EI about the softer axis), and \
-        so on the shear modulus G over E. Two values of it are computed: 1/3, of an incompressible isotropic material \
-        (GJ/EI = 2/3 of a round hair), and 0.9/3.9 = 0.231, which is what the hair types here have (GJ/EI = 0.462).",
+        The second and the third depend on the ratio of the stiffnesses in twist and bending, GJ/EI (EI about the softer axis), and \
+        so on the shear modulus G over E. They are computed for two values: 1/3, of an incompressible isotropic material \
+        (GJ/EI = 2/3 of a round hair), and 0.9/3.9 = 0.231, that of the hair types here (GJ/EI = 0.462).",
     run,
 };
 
@@ -60,7 +60,7 @@ fn upright(finding: &mut Finding) -> Result<(), Stopped> {
     };
     let exact = greenhill();
     let mut table = Table::new(
-        "Load ρSgL³/EI at which an upright hair gives way",
+        "Load ρSgL³/EI at which an upright hair buckles",
         &["elements", "helices", "jointed"],
     );
     let kinds = [ElementKind::Helix, ElementKind::Jointed];
@@ -84,10 +84,10 @@ fn shown(load: f64) -> String {
     format!("{load:.8}")
 }
 
-/// What becomes of a hair that was planted exactly upright.
+/// The equilibrium of a hair with an exactly upright root.
 fn fall(finding: &mut Finding, exact: f64) -> Result<(), Stopped> {
     let mut plot = Plot::new(
-        "A hair planted exactly upright",
+        "A hair with an exactly upright root",
         "Γ = ρSgL³/EI",
         "tip over the length",
         [Scale::Linear; 2],

@@ -1,4 +1,4 @@
-//! A flat hair that is loaded edgewise and turns over sideways.
+//! A flat hair that is loaded edgewise and buckles sideways.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,10 +10,10 @@ use crate::reference::prandtl_michell;
 use crate::rods::{Bar, HAIR_SHEAR, INCOMPRESSIBLE};
 use crate::{Effort, Finding, Limit, Stopped, Table};
 
-/// Up to this Γ loads are looked for.
+/// Largest Γ of the search.
 const HEAVIEST: f64 = 2000.0;
 
-/// Each load that is looked at is so much more than the last.
+/// Ratio of successive loads of the search.
 const STEP: f64 = 1.15;
 
 /// A hair that is loaded edgewise.
@@ -25,7 +25,7 @@ struct Edge {
     shear: f64,
 }
 
-/// Loads at which a hair turns over.
+/// Loads at which a hair buckles sideways.
 #[derive(Clone, Copy)]
 struct Loads {
     /// In units of √(EI·GJ)/L³.
@@ -35,7 +35,7 @@ struct Loads {
     gamma: f64,
 }
 
-/// What is tried; the flattest with G/E = 1/3 last.
+/// The cases; the flattest with G/E = 1/3 last.
 fn edges(effort: Effort) -> Vec<Edge> {
     let with = |shear: f64, ratios: &[f64]| {
         ratios.iter().map(|&ratio| Edge { ratio, shear }).collect::<Vec<_>>()
@@ -50,7 +50,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     let edges = edges(effort);
     let loads = edges.par_iter().map(Edge::turns_over).collect::<Result<Vec<_>, _>>()?;
     let mut table = Table::new(
-        "Load qL³/√(EI·GJ) at which a hair of axis ratio a/b, loaded edgewise, turns over",
+        "Load qL³/√(EI·GJ) at which a hair of axis ratio a/b, loaded edgewise, buckles sideways",
         &["a/b", "G/E", "GJ/EI", "reference", "frisure", "relative difference", "Γ = qL³/EI"],
     );
     for (edge, loads) in edges.iter().zip(&loads) {
@@ -61,8 +61,8 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     table.row([flat, none(), none(), format!("{limit:.6}"), none(), none(), none()]);
     finding.table(table);
     finding.text(format!(
-        "Where none is found, loads from Γ = 2 to {HEAVIEST} were looked at in steps of 15 %, with both codes. Which axis ratio \
-         turns over hangs on GJ/EI: the less it resists twist, the rounder the hair that still does.",
+        "\"None\" means that neither code found a load from Γ = 2 to {HEAVIEST} in steps of 15 %. Whether a hair of an axis ratio \
+         buckles depends on GJ/EI: the smaller its stiffness in twist, the rounder the hair that still buckles.",
     ));
     finding.check(
         "largest relative difference of the sideways load from the boundary-value problem's, both shear moduli",
@@ -89,12 +89,12 @@ impl Edge {
         Ok(stiffness.z / stiffness.x)
     }
 
-    /// None if it never turns over.
+    /// `None` if it never buckles.
     fn turns_over(&self) -> Result<Option<Loads>, Stopped> {
         let unit = self.twist()?.sqrt();
         let leaves = |gamma: f64| reference_leaves(&self.bar(gamma));
         let Some(gamma) = first(2.0, STEP, (HEAVIEST, 27), leaves)? else {
-            // frisure must not turn over either; a load at which it does has nothing to agree with.
+            // frisure must not buckle either: a load of frisure alone is a disagreement.
             let steps = (HEAVIEST / 2.0).log(STEP) as i32;
             for gamma in (0..=steps).map(|k| 2.0 * STEP.powi(k)) {
                 if frisure_leaves(&self.bar(gamma), DVec3::Y, 60)? {
@@ -104,7 +104,7 @@ impl Edge {
             }
             return Ok(None);
         };
-        // A hair that has bent down nearly before it turns over takes more elements.
+        // A hair that has nearly bent down before it buckles needs more elements.
         let count = if gamma < 40.0 { 60 } else { 400 };
         let frisure = frisure_threshold(gamma, DVec3::Y, count, |gamma| self.bar(gamma))?;
         Ok(Some(Loads { reference: gamma / unit, frisure: frisure / unit, gamma }))

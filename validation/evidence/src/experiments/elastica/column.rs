@@ -1,4 +1,4 @@
-//! Euler's column beyond its load.
+//! Euler's column beyond its critical load.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -81,7 +81,7 @@ pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
     finding.table(table);
     finding.plot(plot);
     finding.check(
-        "largest error of the tip of Euler's column over the length, 1e-6 asked for",
+        "largest error of the tip of Euler's column over the length, 1e-6 requested",
         worst,
         Limit::AtMost(1e-6),
     );

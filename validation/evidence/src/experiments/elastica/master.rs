@@ -2,7 +2,7 @@
 //!
 //! Computed for this project by shooting backward from the tip (DOP853, relative tolerance 1e-13), to ten
 //! digits; it obeys the asymptotes of Romero et al. 2021, drop/reach → Γ/8 and √(Γ/2). The experiment computes every row again by the
-//! boundary-value problem of `reference` and judges the difference.
+//! boundary-value problem of `reference` and checks the difference.
 
 /// Γ, reach and drop over the length of a rod clamped horizontally.
 pub(super) const MASTER: [[f64; 3]; 65] = [

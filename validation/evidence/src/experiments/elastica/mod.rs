@@ -23,16 +23,16 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         its tip, from a millimetre of stubble to hair that reaches the floor?",
     method: "A straight rod clamped horizontally bends under its own weight along one master curve of \
         Γ = ρSgL³/EI. The curve is known to ten digits from Γ = 0.01 to 100 000 by shooting from the tip, \
-        computed apart from frisure, and held against the boundary-value problem here; its ends are Γ/8 (the linear beam) and √(Γ/2) (a thread with a stiff \
-        root) for drop over reach. The tips of rods are compared with it, at an accuracy that is asked for \
-        and with the fixed numbers of elements that the paper used.\n\n\
+        computed independently of frisure, and compared with the boundary-value problem here; its ends are Γ/8 (the linear beam) and √(Γ/2) (a thread with a stiff \
+        root) for drop over reach. The experiment compares the tips of rods with it, at a requested accuracy \
+        and with the fixed numbers of elements of the paper.\n\n\
         A column that is clamped at its foot and carries a weight at its tip, without a weight of its own, \
         is Euler's own problem. Beyond P = π²EI/4L² its shape is known by complete elliptic integrals: \
         PL²/EI = K(k)², height 2E/K − 1, sideways 2k/K, with k = sin(α/2) and α the angle of the tip.",
     run,
 };
 
-/// The error that is asked for, over the length.
+/// The requested accuracy, over the length.
 const REQUEST: f64 = 1e-6;
 
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
@@ -47,7 +47,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     Ok(finding)
 }
 
-/// Numbers of fixed elements that are tried.
+/// Fixed numbers of elements.
 const COUNTS: [usize; 3] = [15, 30, 60];
 
 /// One heaviness.
@@ -68,7 +68,7 @@ impl Row {
         let tip = |options: &Options| {
             let found = equilibrium(&rod, &[], options);
             let tip = found.tip() / rod.length();
-            // What leaves the plane counts as an error.
+            // A displacement out of the plane counts as an error.
             let error = tip.distance(DVec3::new(reach, 0.0, -drop));
             (found, DVec2::new(tip.x, tip.z), error)
         };
@@ -128,14 +128,14 @@ fn errors(finding: &mut Finding, rows: &[Row]) {
         let name = format!("{count} helix elements");
         plot.add(&name, Mark::Line, rows.iter().map(|r| (r.gamma, r.fixed[k])));
     }
-    plot.add("1e-6 asked for", Mark::Line, rows.iter().map(|r| (r.gamma, r.error)));
+    plot.add("1e-6 requested", Mark::Line, rows.iter().map(|r| (r.gamma, r.error)));
     plot.add("its estimate", Mark::Dashed, rows.iter().map(|r| (r.gamma, r.estimate))).colour =
         Some(3);
     finding.plot(plot);
 
     let mut table = Table::new(
         "Error of the tip over the length",
-        &["Γ", "15 elements", "30", "60", "1e-6 asked for", "its elements"],
+        &["Γ", "15 elements", "30", "60", "1e-6 requested", "its elements"],
     );
     for row in rows.iter().step_by(8) {
         let shown = |x: f64| format!("{x:.1e}");
@@ -149,7 +149,7 @@ fn errors(finding: &mut Finding, rows: &[Row]) {
     let most = |of: fn(&Row) -> f64| largest(rows.iter().map(of));
     let over = |r: &Row| r.error / (r.estimate + 1e-10);
     finding.check(
-        "largest error of the tip over the length, Γ from 0.01 to 100 000, 1e-6 asked for",
+        "largest error of the tip over the length, Γ from 0.01 to 100 000, 1e-6 requested",
         most(|r| r.error),
         Limit::AtMost(REQUEST),
     );
@@ -165,8 +165,8 @@ fn errors(finding: &mut Finding, rows: &[Row]) {
         Limit::AtMost(5e-3),
     );
     finding.text(
-        "15 cm of hair has Γ around 50. Beyond Γ = 1000, as for a metre of hair, the whole bend happens within \
+        "15 cm of hair has Γ around 50. Beyond Γ = 1000, as for a metre of hair, the whole bend is within \
          L/√Γ of the root, which 15 equal elements do not resolve: their error is then a per cent and more of \
-         the length. An accuracy that is asked for is kept over all seven decades.",
+         the length. With a requested accuracy, the error is below it over all seven decades.",
     );
 }

@@ -59,7 +59,7 @@ pub(super) fn on_a_sphere(finding: &mut Finding) -> Result<(), Stopped> {
     }
     finding.plot(plot);
     finding.text(format!(
-        "Without contact the hair is up to {:.1} mm inside of the sphere, with it {:.4} mm.",
+        "Without contact the depth of the hair in the sphere is {:.1} mm, with contact {:.4} mm.",
         1e3 * depths[0],
         1e3 * depths[1]
     ));
@@ -129,12 +129,12 @@ pub(super) fn on_heads(
         Limit::AtLeast(1.1),
     );
     finding.check(
-        "deepest that a guide is in the head with all collisions (mm)",
+        "largest depth of a guide in the head with all collisions (mm)",
         deepest[2],
         Limit::AtMost(0.5),
     );
     finding.check(
-        "deepest that a guide is in the head with none (mm)",
+        "largest depth of a guide in the head with none (mm)",
         deepest[0],
         Limit::AtLeast(5.0),
     );

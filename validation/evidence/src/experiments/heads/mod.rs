@@ -19,20 +19,20 @@ use scenes::{Hair, strip};
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "heads",
     title: "Figures 1, 4, 5 and 7: wisps and heads",
-    question: "Do whole heads do what the paper shows: a head of ringlets from about a hundred wisps, volume from \
+    question: "Do whole heads show the effects of the paper: a head of ringlets from about a hundred wisps, volume from \
         collisions, a fringe that springs up when it is cut wet and dried, and straight, curly and frizzy hair?",
-    method: "The scenes of the repository (`scenes/`), on its mannequin, drawn by the quick renderer. Measured are: how \
-        many guides rest; how deep hair is in the head; the volume of the region that hair occupies, air included; \
-        heights of tips. There is no independent truth for a head; the criteria are the paper's own sentences, which the first table \
-        quotes. Three of them say less than they seem to. That wet hair takes less space follows mostly from a number that is \
-        put in: wetting makes a wisp 0.6 as thick, which is the paper's number. How densely straight, curly and frizzy \
-        hair is packed hangs on settings of the scenes too, such as the thickness of wisps. And that hair dried without a \
-        cut comes back to the last bit is so by construction: a shape here is found from what a hair is, not from what \
-        was done to it, while real hair keeps the set that water gave it. Pictures are for the eye.",
+    method: "The heads are the scenes of the repository (`scenes/`), on its mannequin, drawn by the quick renderer. The \
+        experiment measures the number of guides in equilibrium; the depth of hair in the head; the volume of the region that hair occupies, air included; \
+        heights of tips. There is no independent reference for a head; the criteria are the paper's own sentences, which the first table \
+        quotes. Three of them are weaker than they seem. That wet hair takes less space follows mostly from an \
+        input: wetting multiplies the thickness of a wisp by 0.6, which is the paper's number. The density of straight, curly and frizzy \
+        hair also depends on settings of the scenes, such as the thickness of wisps. And hair dried without a \
+        cut returns to the last bit by construction: in this model a shape follows from the properties of a hair, not from its \
+        history, while real hair keeps the set from water. The pictures have no criteria.",
     run,
 };
 
-/// The mannequin, made once: its distance takes seconds.
+/// The mannequin, made once because its distance field takes seconds.
 pub(super) fn mannequin() -> &'static Head {
     static HEAD: OnceLock<Head> = OnceLock::new();
     HEAD.get_or_init(Head::mannequin)
@@ -86,13 +86,13 @@ fn first(
     )?);
     let report = settling_report(&hair.hairstyle, head);
     finding.text(format!(
-        "The head has {} wisps and {} drawn hairs; its guides have {} elements in all.",
+        "The head has {} wisps and {} drawn hairs; its guides have {} elements in total.",
         report.guides,
         strands.len(),
         report.elements
     ));
     finding.check(
-        "share of the guides of figure 1 that rest in a minimum",
+        "share of the guides of figure 1 in a minimum",
         report.stable as f64 / report.guides as f64,
         Limit::AtLeast(1.0),
     );
@@ -175,12 +175,12 @@ fn kinds(
     finding.table(table);
     check_order(finding, &drops, &fills);
     finding.check(
-        "least share of the guides of figure 7 in a minimum",
+        "smallest share of the guides of figure 7 in a minimum",
         stable,
         Limit::AtLeast(0.99),
     );
     finding.check(
-        "deepest that a guide of figure 7 is in the head (mm)",
+        "largest depth of a guide of figure 7 in the head (mm)",
         1e3 * deepest,
         Limit::AtMost(0.5),
     );

@@ -1,4 +1,4 @@
-//! Scenes carried out and drawn.
+//! Scenes of the experiment, predicted and drawn.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -22,7 +22,7 @@ pub(super) struct Hair {
     pub(super) hairstyle: Hairstyle,
 }
 
-/// Why something failed, unless it was told to stop.
+/// The error of a failure, or cancellation.
 pub(super) fn failed(progress: &dyn Progress, error: impl Display) -> Stopped {
     match progress.is_cancelled() {
         true => Stopped::Cancelled(Cancelled),
@@ -68,7 +68,7 @@ impl Hair {
         volume(strands, head, self.hairstyle.grown())
     }
 
-    /// A picture of strands, framed so that others would be in it, with the head or without.
+    /// A picture of strands, with or without the head, framed so that other strands would be inside the frame.
     pub(super) fn picture(
         &self,
         strands: &Strands,

@@ -2,12 +2,12 @@
 
 use crate::Table;
 
-/// In French, in English, and what is judged by each.
+/// Each in French and English, and its criterion.
 const SENTENCES: [[&str; 3]; 5] = [
     [
         "« … une chevelure complète composée d’une centaine de mèches » (figure 1)",
         "a whole head of hair made of about a hundred wisps",
-        "the guides of figure 1 rest in a minimum",
+        "the guides of figure 1 are in a minimum",
     ],
     [
         "« Remarquer en particulier la différence de volume entre les deux coiffures. » (figure 4)",
@@ -30,15 +30,15 @@ const SENTENCES: [[&str; 3]; 5] = [
     [
         "« … images réelles de cheveux (a) raides, (b) bouclés et (c) crépus. À gauche : résultats synthétiques \
          correspondants » (figure 7)",
-        "real pictures of (a) straight, (b) curly and (c) frizzy hair; on the left the synthetic results that answer them",
-        "hair hangs less and less, and is packed less and less densely, from (a) to (c): our reading of the pictures",
+        "real pictures of (a) straight, (b) curly and (c) frizzy hair; on the left the corresponding synthetic results",
+        "hair hangs less and less, and is packed less and less densely, from (a) to (c): our interpretation of the pictures",
     ],
 ];
 
 pub(super) fn table() -> Table {
     let mut table = Table::new(
-        "What the paper says, and what is judged",
-        &["the paper", "in English", "judged"],
+        "Sentences of the paper, and their criteria",
+        &["the paper", "in English", "criterion"],
     );
     for row in SENTENCES {
         table.row(row.map(str::to_owned));

@@ -1,4 +1,4 @@
-//! Figure 5: wetted, cut, dried.
+//! Figure 5: wet, cut, dry.
 
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::{Dry, Operation};
@@ -68,7 +68,7 @@ pub(super) fn cut_wet(
         ]);
         heights.push(height);
         volumes.push(litres);
-        // Wet hair reaches farthest.
+        // Wet hair extends farthest.
         let hair = Hair { scene: hair.scene.clone(), hairstyle: state.clone() };
         pictures.push(hair.picture(strands, &drawn[1], Some(head), None, progress)?);
     }
@@ -82,18 +82,18 @@ pub(super) fn cut_wet(
     let back = style(&states[1], head, &dried, StyleOptions::default(), progress)
         .map_err(|e| failed(progress, e))?;
     finding.check(
-        "how far the fringe hangs lower when it is wetted (mm)",
+        "drop of the fringe when it is wetted (mm)",
         heights[0] - heights[1],
         Limit::AtLeast(10.0),
     );
     finding.check(
-        "how far the cut fringe springs up when it is dried (mm)",
+        "rise of the cut fringe when it is dried (mm)",
         heights[3] - heights[2],
         Limit::AtLeast(10.0),
     );
     finding.check("volume wet over dry", volumes[1] / volumes[0], Limit::AtMost(0.95));
     finding.check(
-        "largest distance of a tip from where it was, wetted and dried without a cut (mm): by construction",
+        "largest displacement of a tip, wetted and dried without a cut (mm): by construction",
         1e3 * moved(&states[0], &back),
         Limit::AtMost(0.0),
     );

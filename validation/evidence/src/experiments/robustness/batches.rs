@@ -1,4 +1,4 @@
-//! Hairs side by side in a batch.
+//! Hairs in a batch.
 
 use frisure::rod::batch::Batch;
 use frisure::rod::{ElementKind, Rod, Stability, equilibrium};
@@ -9,8 +9,8 @@ use crate::random::Random;
 use crate::rods::elements;
 use crate::{Effort, Finding, Limit, Stopped};
 
-/// The same hairs in a batch, which goes straight to rest, and one by one along gravity's branch, with the same
-/// elements.
+/// Compares hairs in a batch, which starts at the natural shape under the whole weight, with the same hairs one by one
+/// along gravity's branch, with the same elements.
 pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     let count = effort.pick(300, 4000);
     let spec = |i| Random::new(75, i).realistic().and_then(Rod::new);
@@ -32,17 +32,17 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     let other = count - same.len();
     let worst = largest(same);
     finding.text(format!(
-        "Side by side, straight from the natural shape (60 jointed elements), {stable} of {count} realistic hairs come to \
-         rest in a minimum; {other} in another one than by gravity's branch. The tips of the others are within \
+        "In a batch, from the natural shape under the whole weight (60 jointed elements), {stable} of {count} realistic hairs \
+         converge to a minimum; {other} of these minima are not on gravity's branch. The tips of the others are within \
          {worst:.0e} of the length."
     ));
     finding.check(
-        "share of hairs that a batch brings to rest in a minimum",
+        "share of hairs that converge to a minimum in a batch",
         stable as f64 / count as f64,
         Limit::AtLeast(1.0),
     );
     finding.check(
-        "share of hairs that a batch brings to rest elsewhere than gravity's branch",
+        "share of hairs that a batch brings to another minimum than that of gravity's branch",
         other as f64 / count as f64,
         Limit::AtMost(0.01),
     );

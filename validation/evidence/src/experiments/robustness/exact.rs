@@ -10,14 +10,14 @@ use crate::reference::{Hanging, Solution};
 use crate::rods::{frame, line};
 use crate::{Effort, Finding, Limit, Stopped, Table};
 
-/// Beyond this (m) two lines of realistic hair are two equilibria.
+/// Distance (m) beyond which two lines of realistic hair are different equilibria.
 const OTHER: f64 = 1e-3;
 
-/// What the boundary-value problem says of a hair that frisure solved.
+/// The boundary-value problem's results for a hair that frisure solved.
 struct Checked {
-    /// Distance to the solution beside frisure's line, over what was asked for, and that solution's index.
+    /// Distance to the solution beside frisure's line, over the requested accuracy, and the index of that solution.
     beside: Option<(f64, usize)>,
-    /// Distance (m) to the solution that it follows by itself.
+    /// Distance (m) to the solution of the branch that it follows from the natural shape.
     followed: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
 
 fn tabulate(finding: &mut Finding, realistic: &[Checked], absurd: &[Checked]) {
     let mut table = Table::new(
-        "frisure's lines, judged by the boundary-value problem that starts from them",
+        "frisure's lines, checked by the boundary-value problem that starts from them",
         &["", "realistic", "absurd"],
     );
     let mut row = |name: &str, of: &dyn Fn(&[Checked]) -> String| {
@@ -76,13 +76,13 @@ fn tabulate(finding: &mut Finding, realistic: &[Checked], absurd: &[Checked]) {
     row("a solution beside the line", &|j| index(j, |_| true));
     row("Morse's index 0: a minimum", &|j| index(j, |index| index == 0));
     row("Morse's index 1 or more: a saddle", &|j| index(j, |index| index > 0));
-    row("largest error over what was asked for", &|j| {
+    row("largest error over the requested accuracy", &|j| {
         small(largest(j.iter().filter_map(|j| j.beside).map(|b| b.0)))
     });
     finding.table(table);
 }
 
-/// Whether every line is one of the boundary-value problem, and a minimum there too.
+/// Checks that every line is a solution of the boundary-value problem, and a minimum there too.
 fn beside(finding: &mut Finding, kind: &str, checked: &[Checked]) {
     let solved: Vec<(f64, usize)> = checked.iter().filter_map(|j| j.beside).collect();
     let part = |count: usize| count as f64 / checked.len() as f64;
@@ -101,27 +101,27 @@ fn beside(finding: &mut Finding, kind: &str, checked: &[Checked]) {
     );
     finding.check(
         format!(
-            "largest distance of it from frisure's line, over the accuracy asked for, {kind} hairs"
+            "largest distance of it from frisure's line, over the requested accuracy, {kind} hairs"
         ),
         largest(solved.iter().map(|s| s.0)),
         Limit::AtMost(1.0),
     );
 }
 
-/// Whether the boundary-value problem comes to the same by itself.
+/// Compares frisure with the boundary-value problem that starts from the natural shape.
 fn followed(finding: &mut Finding, realistic: &[Checked]) {
     let known: Vec<f64> = realistic.iter().filter_map(|j| j.followed).collect();
     let same: Vec<f64> = known.iter().copied().filter(|g| *g <= OTHER).collect();
     let other = known.len() - same.len();
     let worst = 1e3 * largest(same);
     finding.text(format!(
-        "Of {} realistic hairs the boundary-value problem followed {} by itself; in {other} of them frisure ends in another \
-         stable equilibrium (more than a millimetre away). The others are within {worst:.4} mm, where 0.1 mm was asked for.",
+        "Of {} realistic hairs the boundary-value problem followed {} from the natural shape; in {other} of them frisure ends in another \
+         stable equilibrium (more than a millimetre away). The others are within {worst:.4} mm, with 0.1 mm requested.",
         realistic.len(),
         known.len(),
     ));
     finding.check(
-        "largest distance from the line that the boundary-value problem follows (mm), same equilibrium, 0.1 mm asked for",
+        "largest distance from the line that the boundary-value problem follows (mm), same equilibrium, 0.1 mm requested",
         worst,
         Limit::AtMost(0.1),
     );

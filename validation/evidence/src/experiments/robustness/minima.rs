@@ -1,4 +1,4 @@
-//! How many equilibria a hair has.
+//! The number of equilibria of a hair.
 
 use frisure::rod::minimise::{Minimiser, Newton, Problem, StoppingCriteria};
 use frisure::rod::{
@@ -11,7 +11,7 @@ use crate::extremes::{largest, smallest};
 use crate::random::Random;
 use crate::{Effort, Finding, Limit, Stopped, Table};
 
-/// How many minima a hair has, and whether gravity's branch ends in the lowest.
+/// The number of minima of a hair, and whether gravity's branch ends in the lowest.
 fn minima(spec: &RodSpec, starts: usize, seed: usize) -> Result<(usize, bool), Stopped> {
     let rod = Rod::new(spec.clone())?;
     let count = ElementKind::Jointed.resolving_elements(&rod).clamp(30, 120);

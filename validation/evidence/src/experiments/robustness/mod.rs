@@ -1,4 +1,4 @@
-//! How often it fails.
+//! The rate of failures.
 
 mod batches;
 mod exact;
@@ -15,22 +15,22 @@ use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "robustness",
-    title: "Robustness: random hair as it is, and as no one has it",
-    question: "How many random hairs come to rest, in how many iterations, with what certificate; and how many \
+    title: "Robustness: realistic and absurd random hair",
+    question: "How many random hairs converge, in how many iterations, with what certificate; and how many \
         equilibria does a curly hair have?",
     method: "Realistic hairs: 1 to 60 cm, 45 to 110 µm, axis ratio 1 to 2, E 1 to 5 GPa, straight, curled in a plane, or \
-        helices of 1.5 to 60 mm, roots anywhere; solved to 0.1 mm. Absurd ones: a millimetre to ten metres, axis \
+        helices of 1.5 to 60 mm, roots in any direction; solved to 0.1 mm. Absurd hairs: a millimetre to ten metres, axis \
         ratios up to 10, moduli of rubber to diamond, Γ from 0 to 30 000, natural turns up to forty; solved to a thousandth of the \
         length with at most 4000 elements. The certificate of each is its relative gradient and whether its second \
-        variation is positive: numbers of frisure's own, which say what it makes of its work. So some hairs of both \
-        kinds are judged from outside. The boundary-value problem starts Newton's method at frisure's line, on equations \
-        that do not know where it started: how far its solution is from the line is the error, and Morse's index of the \
-        solution says whether it is a minimum. The realistic ones are solved by the boundary-value problem alone as well, \
-        as the weight is turned on; it gives up where it cannot follow a stable branch. G/E is random: E 1 to 5 GPa and G \
+        variation is positive: numbers of frisure's own solver. An independent check covers some hairs of both \
+        kinds. The boundary-value problem starts Newton's method at frisure's line, on equations \
+        that do not depend on the start: the distance of its solution from the line is the error, and Morse's index of the \
+        solution states whether it is a minimum. The boundary-value problem also solves the realistic hairs from the natural shape, \
+        as the weight increases; it fails where it cannot follow a stable branch. G/E is random: E 1 to 5 GPa and G \
         0.4 to 1.4 GPa for realistic hair, 0.02 to 2 for absurd.\n\n\
-        Equilibria are counted by minimising from random shapes: every element of a division into 30 to 120 is \
-        turned at random about its natural turn. Minima whose lines differ by more than a hundredth of the length are \
-        two.",
+        The number of equilibria is that of minima found from random shapes: every element of a division into 30 to 120 is \
+        rotated at random about its natural rotation. Minima whose lines differ by more than a hundredth of the length count \
+        as different.",
     run,
 };
 
@@ -45,7 +45,7 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
         let accuracy = 1e-3 * spec.length;
         Ok((spec, Resolution::Accuracy(accuracy)))
     })?;
-    told(&mut finding, &realistic, &absurd);
+    add_results(&mut finding, &realistic, &absurd);
     exact::add(&mut finding, effort)?;
     check(progress, "robustness", 0.8)?;
     batches::add(&mut finding, effort)?;
@@ -54,13 +54,13 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     Ok(finding)
 }
 
-/// What is known of a hair that was solved.
+/// Results of a hair that was solved.
 struct Solved {
     stability: Stability,
     gradient: f64,
     iterations: usize,
     elements: usize,
-    /// Estimate of the error over what was asked for.
+    /// Estimate of the error over the requested accuracy.
     estimate: f64,
 }
 
@@ -96,8 +96,8 @@ fn solved(
     Ok(all)
 }
 
-fn told(finding: &mut Finding, realistic: &[Solved], absurd: &[Solved]) {
-    let mut table = Table::new("What became of them", &["", "realistic", "absurd"]);
+fn add_results(finding: &mut Finding, realistic: &[Solved], absurd: &[Solved]) {
+    let mut table = Table::new("Results", &["", "realistic", "absurd"]);
     let both = [realistic, absurd];
     let mut row = |name: &str, of: &dyn Fn(&[Solved]) -> String| {
         table.row([name.to_owned(), of(both[0]), of(both[1])]);
@@ -113,10 +113,10 @@ fn told(finding: &mut Finding, realistic: &[Solved], absurd: &[Solved]) {
     row("stable", &|s| count(s, &|s| s.stability == Stability::Stable).to_string());
     row("saddles", &|s| count(s, &|s| s.stability == Stability::Saddle).to_string());
     row("not converged", &|s| count(s, &|s| s.stability == Stability::NotConverged).to_string());
-    row("stable, with an estimated error above what was asked", &|s| {
+    row("stable, with an estimated error above the requested accuracy", &|s| {
         count(s, &|s| s.stability == Stability::Stable && !(s.estimate <= 1.0)).to_string()
     });
-    for (name, share) in [("iterations: median", 0.5), ("99 of 100", 0.99), ("most", 1.0)] {
+    for (name, share) in [("iterations: median", 0.5), ("99 of 100", 0.99), ("maximum", 1.0)] {
         row(name, &|s| format!("{:.0}", at(&sorted(s, &|s| s.iterations as f64), share)));
     }
     for (name, share) in [("elements: median", 0.5), ("99 of 100", 0.99)] {
@@ -127,7 +127,7 @@ fn told(finding: &mut Finding, realistic: &[Solved], absurd: &[Solved]) {
     }
     finding.table(table);
     let mut plot = Plot::new(
-        "Iterations, all divisions and steps of gravity together",
+        "Iterations, over all divisions and steps of gravity",
         "iterations",
         "share of hairs that need more",
         [Scale::Log, Scale::Log],

@@ -1,4 +1,4 @@
-//! Whether ellipticity makes curls regular.
+//! The claim that ellipticity makes curls regular.
 
 use frisure::rod::{NaturalStrain, RodSpec, TorsionConstant};
 use glam::DVec3;
@@ -19,7 +19,7 @@ pub(super) const CURLS: [(f64, f64, f64); 5] = [
     (0.010, 0.024, 0.40),
 ];
 
-/// What is irregular.
+/// Measures of irregularity.
 const MEASURES: [&str; 3] =
     ["curvature below the first tenth", "curvature, whole hair", "descent of turns"];
 
@@ -49,7 +49,7 @@ pub(super) fn curl(
     if soft { Ok(spec) } else { stiff(spec) }
 }
 
-/// Irregularities of a hair, as [`MEASURES`] has them.
+/// Irregularities of a hair in the order of [`MEASURES`].
 pub(super) fn irregular(spec: &RodSpec) -> Result<[f64; 3], Stopped> {
     let found = rest(spec)?;
     let line: Vec<DVec3> = found.centre_line(2001).iter().map(|p| *p / spec.length).collect();
@@ -58,7 +58,7 @@ pub(super) fn irregular(spec: &RodSpec) -> Result<[f64; 3], Stopped> {
     Ok([variation(&curvature[200..]), variation(&curvature), variation(&descents)])
 }
 
-/// Irregularities over those of the round hair: of each curl, as [`MEASURES`] has them.
+/// Irregularities over those of the round hair, for each curl in the order of [`MEASURES`].
 type Relative = Vec<[f64; 3]>;
 
 /// The eccentricities that are sampled, 0 first.
@@ -88,7 +88,7 @@ fn mean(relative: &Relative, measure: usize) -> f64 {
     relative.iter().map(|r| r[measure]).sum::<f64>() / relative.len() as f64
 }
 
-/// How many curls are more regular than round ones.
+/// Number of curls that are more regular than round ones.
 fn regular(relative: &Relative, measure: usize) -> usize {
     relative.iter().filter(|r| r[measure] < 1.0).count()
 }
@@ -100,11 +100,11 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     shown(finding, &all, &found);
     finding.text(
         "By curvature the claim is true of a curl about the stiff axis of its section, and false of one about the \
-         soft axis, at every ε sampled, for every curl and both torsion constants. By the descent of turns it is so in \
-         the mean only, and not even that at ε = 0.2 about the stiff axis: some curls go the other way (the table says \
-         how many). Nothing in the paper says which axis it means; our hair curls about its soft axis, as a strip does. \
-         With ε read as √(1 − (b/a)²), the paper's range ends at 0.2, where either effect is a few per cent, which nobody \
-         sees. Read as one minus a ratio of axes it ends at 0.6 of ours, where it is tens of per cent.",
+         soft axis, at every ε sampled, for every curl and both torsion constants. By the descent of turns the claim holds in \
+         the mean only, and not at ε = 0.2 about the stiff axis: some curls show the opposite (the table has \
+         their number). The paper does not state the axis; our hair curls about its soft axis, as a strip does. \
+         If ε is √(1 − (b/a)²), the paper's range ends at 0.2, where either effect is a few per cent, which is not \
+         visible. If it is one minus a ratio of axes, the range ends at 0.6 of ours, where the effect is tens of per cent.",
     );
     check_criteria(finding, &all, &found);
     Ok(())
@@ -113,7 +113,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
 fn shown(finding: &mut Finding, all: &[f64], found: &[Vec<Relative>]) {
     let mut table = Table::new(
         "Irregularity over that at ε = 0: mean over five curls (and how many of them are more regular)",
-        &["what varies", "curl about", "ε = 0.2", "0.5", "0.6", "0.75", "0.9"],
+        &["measure", "curl about", "ε = 0.2", "0.5", "0.6", "0.75", "0.9"],
     );
     for (m, measure) in MEASURES.into_iter().enumerate() {
         let mut plot = Plot::new(
@@ -152,7 +152,7 @@ fn check_criteria(finding: &mut Finding, all: &[f64], found: &[Vec<Relative>]) {
         Limit::AtLeast(1.0),
     );
     finding.check(
-        format!("share of {hairs} hairs curled about the soft axis of which the same is true"),
+        format!("the same share of {hairs} hairs curled about the soft axis"),
         share(true),
         Limit::AtMost(0.0),
     );

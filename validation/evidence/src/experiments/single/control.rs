@@ -1,4 +1,4 @@
-//! Why ellipticity changes a curl: round hair that has one of its stiffnesses.
+//! The reason why ellipticity changes a curl: round hair with one of the stiffnesses of elliptical hair.
 
 use frisure::rod::{Material, Rod, RodSpec, Section, TorsionConstant};
 use rayon::prelude::*;
@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::claim::{CURLS, curl, irregular};
 use crate::{Finding, Stopped, Table};
 
-/// Which stiffnesses of the elliptical hair a round one is given; it has its weight in any case.
+/// Which stiffnesses of the elliptical hair a round hair has; its weight is always that of the elliptical hair.
 #[derive(Clone, Copy)]
 struct Given {
     name: &'static str,
@@ -42,7 +42,7 @@ fn round(elliptical: &RodSpec, soft: bool, given: Given) -> Result<RodSpec, Stop
     Ok(RodSpec { section, material, ..elliptical.clone() })
 }
 
-/// Mean over the curls of the irregularity of curvature over that of plain round hair.
+/// Mean over the curls of the irregularity of curvature over that of unmodified round hair.
 fn mean(soft: bool, e: f64, given: Option<Given>) -> Result<f64, Stopped> {
     let one = |k: usize| -> Result<f64, Stopped> {
         let elliptical = curl(k, soft, TORSION, e)?;
@@ -59,7 +59,7 @@ fn mean(soft: bool, e: f64, given: Option<Given>) -> Result<f64, Stopped> {
 
 pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
     let mut table = Table::new(
-        "Why: irregularity of curvature over that at ε = 0, and that of round hair with a stiffness of the elliptical \
+        "The reason: irregularity of curvature over that at ε = 0, for elliptical hair and for round hair with a stiffness of the elliptical \
          (Saint-Venant)",
         &["curl about", "hair", "ε = 0.2", "0.6", "0.75", "0.9"],
     );
@@ -77,8 +77,8 @@ pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
     finding.text(
         "Round hair that has the elliptical one's stiffness EI about the axis of the curl, EI(1 − ε²)^(½) about the soft and \
          EI(1 − ε²)^(−½) about the stiff axis at constant mean radius, has seven to nine tenths of its change. The twisting \
-         stiffness GJ hardly matters. What is left, where both are given, is that an elliptical hair bends about its other \
-         axis with another stiffness still.",
+         stiffness GJ hardly matters. The rest, where both are equal, is due to the stiffness of elliptical hair about its other \
+         axis.",
     );
     Ok(())
 }

@@ -26,10 +26,10 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         section and about the stiff one, with each of two torsion constants (the paper's J = I₁ + I₂, and \
         Saint-Venant's, which is exact). G/E is 1/2(1 + ν) = 0.385, as the paper's ν has it. Irregularity is the standard \
         deviation over the mean of the curvature along the centre line, and of the descents per arc length of one turn \
-        after the other. The clamp bends the uppermost tenth of a hair whatever its section, so that curvature is told \
-        without it, and with it beside; descents are told of all turns.\n\n\
-        ε is read as √(1 − (b/a)²), as the word has it: the paper's 0.2 is then an axis ratio of 1.02. If the paper meant one \
-        minus a ratio of axes, its 0.2 is an axis ratio of 1.25, which is ε = 0.6 here. Both readings are told.",
+        after the other. The clamp bends the uppermost tenth of a hair for any section, so the report has the curvature \
+        without it and with it; descents are of all turns.\n\n\
+        ε is √(1 − (b/a)²), the usual definition: the paper's 0.2 is then an axis ratio of 1.02. If the paper meant one \
+        minus a ratio of axes, its 0.2 is an axis ratio of 1.25, which is ε = 0.6 here. The report has both.",
     run,
 };
 
@@ -55,7 +55,7 @@ fn six(finding: &mut Finding) -> Result<(), Stopped> {
         ("f′ ε = 0.9, stiff axis", stiff(spec(0.22, 0.9, curl(0.006, 0.007)?)?)?),
     ];
     let mut plot = Plot::new(
-        "Figure 3: hairs at rest",
+        "Figure 3: hairs in equilibrium",
         "cm (each hair shifted)",
         "height over the root (cm)",
         [Scale::Linear; 2],
@@ -97,8 +97,8 @@ fn six(finding: &mut Finding) -> Result<(), Stopped> {
     }
     finding.plot(plot);
     finding.text(
-        "Of b's two directors the picture shows one: the other points at who looks. e, f and f′ look alike, although ε is \
-         0.9: what the claim is about has to be measured.",
+        "The picture shows one of b's two directors: the other points at the viewer. e, f and f′ look alike, although ε is \
+         0.9, so the claim has to be measured.",
     );
     finding.table(table);
     finding.check(

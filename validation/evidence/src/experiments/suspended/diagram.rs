@@ -10,7 +10,7 @@ use crate::numbers::number;
 use crate::plot::{Mark, Plot, Scale};
 use crate::{Effort, Finding, Limit, Progress, Stopped};
 
-/// Which shape has which hair.
+/// The shape of each hair.
 pub(super) fn add(
     finding: &mut Finding,
     effort: Effort,
@@ -103,7 +103,7 @@ fn check_criteria(finding: &mut Finding, hairs: &[Hung]) -> Result<(), Stopped> 
     }
     finding.check(
         format!(
-            "share of {} hairs, all of the diagram, in or out of the plane as Morse's index has it",
+            "share of {} hairs, all of the diagram, in or out of the plane as Morse's index predicts",
             hairs.len()
         ),
         1.0 - share(wrong.len(), hairs.len()),
@@ -115,7 +115,7 @@ fn check_criteria(finding: &mut Finding, hairs: &[Hung]) -> Result<(), Stopped> 
     let placed = helices.iter().filter(|h| (h.phase() == Phase::Global) == (tension(h) < 1.0));
     finding.check(
         format!(
-            "share of {} helices, off Γ = (EI/GJ)(κL)² by a factor of 2, that are near the tip or all along as it has it",
+            "share of {} helices, off Γ = (EI/GJ)(κL)² by a factor of 2, that are near the tip or all along as it predicts",
             helices.len()
         ),
         share(placed.count(), helices.len()),

@@ -35,7 +35,7 @@ fn height(gamma: f64, kappa: f64) -> f64 {
 /// Angles and heights against the closed form.
 pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
     let mut plot = Plot::new(
-        "How steeply a curl descends, turn by turn",
+        "Descent of a curl, turn by turn",
         "arc length over length",
         "descent over arc length",
         [Scale::Linear; 2],
@@ -57,7 +57,7 @@ pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
         plot.add(&name, Mark::Line, steps.map(|s| (s, cosine(gamma * (1.0 - s), kappa)))).colour =
             Some(i);
         let turns = turns(&hung.line);
-        // The first turns at either end belong to clamp and tip.
+        // Clamp and tip influence the first turns at either end.
         for turn in turns.iter().skip(1).filter(|t| t.middle > 0.1) {
             let exact = cosine(gamma * (1.0 - turn.middle), kappa);
             angle = larger(angle, (turn.descent - exact).abs());
@@ -80,7 +80,7 @@ pub(super) fn add(finding: &mut Finding) -> Result<(), Stopped> {
         Limit::AtMost(0.005),
     );
     finding.check(
-        "largest difference of a turn's descent from the closed form, but for the turns at the ends",
+        "largest difference of a turn's descent from the closed form, except for the turns at the ends",
         angle,
         Limit::AtMost(0.01),
     );

@@ -12,23 +12,23 @@ use hung::{Hung, Phase};
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "suspended",
     title: "The shapes of a suspended curly hair (Miller et al. 2014)",
-    question: "Does a naturally curved hair that hangs from a vertical clamp take the three shapes that Miller, \
-        Lazarus, Audoly and Reis found (planar curl, helix near the tip, helix all along), each where it must?",
+    question: "Does a naturally curved hair that hangs from a vertical clamp take the three shapes of Miller, \
+        Lazarus, Audoly and Reis (planar curl, helix near the tip, helix all along), each in its region?",
     method: "A round rod (GJ/EI = 2/3), its natural shape a circle of curvature κ, hangs from a clamp that \
         points down. Two numbers remain: κL and Γ = ρSgL³/EI. We have the abstract of the paper, not its \
-        diagram, and so compute the borders ourselves: the plane is left where Morse's index of the planar \
-        solution of the boundary-value problem turns from 0 to 1. Every hair of the diagram is judged by that index of \
-        its own planar shapes, both the one that natural curls come to as the weight is turned on and the one that \
-        straight hair comes to as it is given its curl: it must be in the plane if either is stable, and out of it if none \
+        diagram, and so compute the borders ourselves: the hair leaves the plane where Morse's index of the planar \
+        solution of the boundary-value problem changes from 0 to 1. The criterion for every hair of the diagram is that index of \
+        its own planar shapes, both the one that natural curls reach as the weight increases and the one that \
+        straight hair reaches as its curl increases: the hair must be in the plane if either is stable, and out of it if none \
         is.\n\n\
-        Out of the plane and far from the clamp, each piece hangs under the tension T = ρSg(L − s) of what is \
+        Out of the plane and far from the clamp, each piece hangs under the tension T = ρSg(L − s) of the hair \
         below it. A helix that winds about the vertical at the angle θ has the least energy of bending, twist \
         and tension for T/EIκ² = b cos θ/(b − (b − 1) cos²θ)², b = EI/GJ (from ½EI(Ω sin θ − κ)² + ½GJ(Ω cos θ)² − \
-        T cos θ, first by Ω). It is straight for T ≥ bEIκ²: the helix reaches up to bκ²EI/ρSg from the tip, and \
+        T cos θ, first by Ω). It is straight for T ≥ bEIκ²: the helix extends up to bκ²EI/ρSg from the tip, and \
         through the whole hair where Γ < b(κL)². The height of the hair is the integral of cos θ. These \
-        closed forms know nothing of clamp and tip, which spoil about a turn each. Where a helix is all along is told by the \
-        upper part of the hair: between 5 and 25 % of the length it descends by less than 0.95 of its arc length. That \
-        0.95 is ours, as is the factor of 2 by which a hair must be off Γ = b(κL)² to be judged by it.",
+        closed forms contain neither clamp nor tip, which change about a turn each. The criterion for a helix all along is the \
+        upper part of the hair: between 5 and 25 % of the length it descends by less than 0.95 of its arc length. We chose \
+        this 0.95, and the factor of 2 by which a hair must be off Γ = b(κL)² for the comparison.",
     run,
 };
 
