@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sets peers beside frisure at equal error of the tip, and writes the tables.
+"""Compares peers with frisure at equal error of the tip, and writes the tables.
 
 usage: collect.py WORK RESULTS.md RESULTS.json
 """
@@ -11,8 +11,8 @@ import sys
 from datetime import date
 from pathlib import Path
 
-# Told to us, not run here: time a hair and error of the tip (one hair), on another machine.
-PUBLISHED = {"peer": "ElasticRods (told to us, not run here)", "seconds": (0.005, 0.007), "error": (0.0015, 0.002)}
+# Told to us, not run here: time per hair and error of the tip (one hair), on another machine.
+PUBLISHED = {"peer": "ElasticRods (reported, not run here)", "seconds": (0.005, 0.007), "error": (0.0015, 0.002)}
 GOAL = 300
 
 
@@ -44,17 +44,17 @@ def infinite(x):
 
 
 def quantile(m, share, hairs=None):
-    """Of frisure's errors, of so many hairs: those that a peer had."""
+    """A quantile of frisure's errors on the first `hairs` hairs, those of the peer."""
     errors = sorted(m["errors"][:hairs])
     return errors[round(share * (len(errors) - 1))]
 
 
 def at_error(frisure, good, seconds):
-    """The quickest way of frisure that is as good. A resolution counts only if all finer ones of its way are as good, so
+    """The quickest measurement of frisure that satisfies `good`. A resolution counts only if all finer ones satisfy it too, so
     that no error is small by chance."""
     kept = []
     for way in {m["way"] for m in frisure}:
-        # An accuracy is finer the smaller it is, elements the more there are.
+        # A smaller accuracy is finer, and a larger number of elements.
         finest = sorted((m for m in frisure if m["way"] == way), key=lambda m: m["setting"], reverse="accuracy" not in way)
         for m in finest:
             if not good(m):
@@ -105,7 +105,7 @@ def way(m):
     if m is None:
         return "—"
     if "accuracy" in m["way"]:
-        return f"one by one, {1e3 * m['setting']:g} mm asked for"
+        return f"one by one, {1e3 * m['setting']:g} mm requested"
     return f"{m['setting']:g} elements" + (" and twice as many" if "extrapolated" in m["way"] else "")
 
 
@@ -123,15 +123,15 @@ def share(n, of):
 
 def peers_table(peers):
     text = "## One hair\n\n"
-    text += table(["peer", "setting", "tip off by (mm)", "time", "frisure", "its time", "ratio"])
+    text += table(["peer", "setting", "error of the tip (mm)", "time", "frisure", "its time", "ratio"])
     for peer in peers:
         for p in peer["points"]:
             name = f"{peer['peer']} {peer['version']}"
-            text += row(name, p["setting"], mm(p["error_one"]) if p["error_one"] is not None else "does not come to rest",
+            text += row(name, p["setting"], mm(p["error_one"]) if p["error_one"] is not None else "does not converge",
                         seconds(p["seconds_one"]), way(p["frisure_one"]),
                         seconds(p["frisure_one"] and p["frisure_one"]["seconds_one"]), digits(p["ratio_one"]))
     text += "\n## Many hairs, roots at random\n\n"
-    text += table(["peer", "setting", "failed", "elsewhere", "median (mm)", "95 % (mm)", "time a hair", "frisure", "its time a hair", "ratio"])
+    text += table(["peer", "setting", "failed", "elsewhere", "median (mm)", "95 % (mm)", "time per hair", "frisure", "its time per hair", "ratio"])
     for peer in peers:
         for p in peer["points"]:
             name = f"{peer['peer']} {peer['version']}"
@@ -143,7 +143,7 @@ def peers_table(peers):
 
 def frisure_table(frisure):
     text = "\n## frisure\n\n"
-    text += table(["way", "one: tip off by (mm)", "one: time", "not a minimum", "elsewhere", "median (mm)", "95 % (mm)", "largest (mm)", "time a hair"])
+    text += table(["setting", "one: error of the tip (mm)", "one: time", "not a minimum", "elsewhere", "median (mm)", "95 % (mm)", "largest (mm)", "time per hair"])
     for m in frisure:
         text += row(way(m), mm(m["error_one"]), seconds(m["seconds_one"]), share(m["failed"], m["hairs"]), share(m["elsewhere"], m["hairs"]),
                     *(mm(quantile(m, share)) for share in (0.5, 0.95, 1.0)), seconds(m["seconds_many"]))
@@ -151,11 +151,11 @@ def frisure_table(frisure):
 
 
 def goal(peers, frisure):
-    """What was asked for: so many times faster than the quickest at 1.5 to 2 mm, with none failed."""
+    """The goal: GOAL times faster than the quickest at 1.5 to 2 mm, with none failed."""
     low, high = PUBLISHED["error"]
-    text = f"## At {1e3 * low:g} to {1e3 * high:g} mm\n\nThe quickest setting of each peer whose tip is off by at most {1e3 * high:g} mm: "
+    text = f"## At {1e3 * low:g} to {1e3 * high:g} mm\n\nThe quickest setting of each peer with an error of the tip of at most {1e3 * high:g} mm: "
     text += "for the one hair, and in the median of the many.\n\n"
-    text += table(["peer", "one: off by (mm)", "time", "ratio", "many: median (mm)", "failed", "elsewhere", "time a hair", "ratio"])
+    text += table(["peer", "one: error (mm)", "time", "ratio", "many: median (mm)", "failed", "elsewhere", "time per hair", "ratio"])
     for peer in peers:
         one = [p for p in peer["points"] if infinite(p["error_one"]) <= high and p["ratio_one"]]
         many = [p for p in peer["points"] if infinite(p["median"]) <= high and p["ratio_many"]]
@@ -166,7 +166,7 @@ def goal(peers, frisure):
                     mm(get(many, "median")), share(many["failed"], many["hairs"]) if many else "—",
                     share(many["elsewhere"], many["hairs"]) if many else "—", seconds(get(many, "seconds_many")), digits(get(many, "ratio_many")))
     fast, slow = PUBLISHED["seconds"]
-    # The many: as good as told in the median and 95 of 100; all at rest where they should be; and all as good as told.
+    # The many: within the reported errors in the median and 95 of 100; all in the true equilibrium; and all within the reported error.
     close = lambda m: quantile(m, 0.5) <= low and quantile(m, 0.95) <= high  # noqa: E731
     ways = [
         ("one hair", at_error(frisure, lambda m: m["error_one"] <= low, "seconds_one"), "seconds_one"),
@@ -174,9 +174,9 @@ def goal(peers, frisure):
         ("and none failed or elsewhere", at_error(frisure, lambda m: close(m) and m["failed"] + m["elsewhere"] == 0, "seconds_many"), "seconds_many"),
         (f"and every hair within {1e3 * high:g} mm", at_error(frisure, lambda m: m["failed"] == 0 and quantile(m, 1.0) <= high, "seconds_many"), "seconds_many"),
     ]
-    text += f"\n{PUBLISHED['peer']}: 60 elements, 5 to 7 ms a hair at 1.5 to 2 mm, 5.1 to 5.7 ms each of a thousand, of which 7 % were above "
-    text += f"tolerance; on another machine. It is not on PyPI. Asked for is {GOAL} times less:\n\n"
-    text += table(["what", "frisure", "its time a hair", "off by, in the median (mm)", "95 % (mm)", "largest (mm)", "not a minimum", "elsewhere", "5 to 7 ms over it"])
+    text += f"\n{PUBLISHED['peer']}: 60 elements, 5 to 7 ms per hair at 1.5 to 2 mm, 5.1 to 5.7 ms each of a thousand, of which 7 % were above "
+    text += f"tolerance; on another machine. It is not on PyPI. The goal is a time that is {GOAL} times shorter:\n\n"
+    text += table(["what", "frisure", "its time per hair", "median error (mm)", "95 % (mm)", "largest (mm)", "not a minimum", "elsewhere", "ratio of 5 to 7 ms to it"])
     for what, m, key in ways:
         of_many = [mm(quantile(m, q)) for q in (0.5, 0.95, 1.0)] + [share(m["failed"], m["hairs"]), share(m["elsewhere"], m["hairs"])]
         errors = of_many if key == "seconds_many" else [mm(m["error_one"])] + ["—"] * 4
@@ -200,9 +200,9 @@ def main():
     text = "# Results\n\n"
     text += f"Written by `run` on {date.today()}: {processor()}, {platform.system()}, Python {platform.python_version()}. "
     text += "Times are processor times of one thread. "
-    text += f"frisure was timed {len(runs)} times, before, between and after the peers; its times at the same setting differ by a factor of {spread:.2f} at most. "
+    text += f"The run timed frisure {len(runs)} times, before, between and after the peers; its times at the same setting differ by a factor of {spread:.2f} at most. "
     text += f"Of {len(reached)} true shapes {reached.count('Branch')} were reached along gravity's branch, {reached.count('Fallen')} beside where that branch loses its stability, {reached.count('None')} not at all. "
-    text += "README.md says what is compared.\n\n"
+    text += "README.md has the rules.\n\n"
     text += goal(peers, middle) + peers_table(peers) + frisure_table(middle)
     Path(markdown).write_text(text, encoding="utf8")
     Path(out).write_text(json.dumps({"peers": peers, "frisure": middle, "spread": spread}, indent=1), encoding="utf8")

@@ -1,21 +1,21 @@
-"""What all peers share: the hairs, processor time, and how a peer's runs are told."""
+"""Shared code of the peers: the hairs, processor time, and reports of runs."""
 import json
 import os
 import sys
 import time
 
-# One thread, whatever the libraries would like; before they are loaded.
+# One thread for all libraries, set before they are loaded.
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
     os.environ[name] = "1"
 
 import numpy as np  # noqa: E402
 
-# Distance of the tip from the true one, over the length, beyond which a hair at rest is somewhere else.
+# Distance of the tip from the true one, over the length, beyond which the hair is in another equilibrium.
 ELSEWHERE = 0.1
 
 
 class Hair:
-    """One hair in units of its length, of the weight per length and of the time that falls go with: L = w = g = 1."""
+    """One hair in units of its length, of the weight per length and of its time of fall: L = w = g = 1."""
 
     def __init__(self, case):
         hair, truth = case["hair"], case["truth"]
@@ -55,7 +55,7 @@ def read_hairs(path):
 
 
 def cpu(work):
-    """What it gives, and its processor time (s)."""
+    """The result of `work`, and its processor time (s)."""
     start = time.process_time()
     found = work()
     return found, time.process_time() - start
@@ -80,8 +80,8 @@ def summary(setting, one, many, length):
     }
 
 
-def told(point):
-    """One line about a point, for who waits."""
+def reported(point):
+    """Prints one line about a point, and returns the point."""
     mm = lambda x: "failed" if x is None or not np.isfinite(x) else f"{1e3 * x:.4f} mm"  # noqa: E731
     print(
         f"  {point['setting']}: one {mm(point['error_one'])} in {1e3 * point['seconds_one']:.2f} ms; of {point['hairs']}"
@@ -94,7 +94,7 @@ def told(point):
 
 
 class Division:
-    """A hair divided so that joints are in the middles of what they stand for, which makes a chain of segments exact to second
+    """A hair divided so that joints are in the middles of the pieces that they represent, which makes a chain of segments exact to second
     order: the first vertex is half an element before the root, where the first segment is clamped, and the last segment has its
     middle at the tip."""
 
@@ -117,9 +117,9 @@ class Division:
 
 
 def come_to_rest(hair, path):
-    """What became of a hair in motion, whose tips and the seconds spent on each are `path`: its error at rest (m), or None if it
-    did not come to rest; and the processor time after which its tip was never farther from the true one than 1.1 times that
-    error, as if somebody who knows had stopped it. It looks no further once the tip hardly moves."""
+    """The final error (m) of a hair in motion, or None if it does not converge, and the processor time after which its tip stays
+    within 1.1 times that error of the true one. `path` has its tips and the seconds spent on each. The search ends when the
+    tip hardly moves."""
     times, tips, spent = [], [], 0.0
     for tip, seconds in path:
         spent += seconds
@@ -146,7 +146,7 @@ def moved(tips):
 
 
 def write(path, peer, version, points):
-    # Infinity is no JSON.
+    # JSON has no infinity.
     clean = lambda v: None if isinstance(v, float) and not np.isfinite(v) else v  # noqa: E731
     points = [{k: clean(v) for k, v in p.items()} for p in points]
     with open(path, "w", encoding="utf8") as file:

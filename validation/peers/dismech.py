@@ -76,7 +76,7 @@ def main():
         alone = [attempt(one, elements, 90) for _ in range(5)]
         alone = (alone[0][0], float(np.median([t for _, t in alone])))
         ends = [attempt(hair, elements, 90) for hair in many[: max(1, round(share * args.many))]]
-        points.append(common.told(common.summary(f"{elements} segments", alone, ends, one.length)))
+        points.append(common.reported(common.summary(f"{elements} segments", alone, ends, one.length)))
     common.write(args.out, "DiSMech-Newton", version("dismech-newton"), points)
 
 

@@ -74,7 +74,7 @@ def main():
     for elements, share in [(30, 1.0), (60, 1.0)]:
         alone = attempt(one, elements, 6000)
         ends = [attempt(hair, elements, 6000) for hair in many[: max(1, round(share * args.many))]]
-        points.append(common.told(common.summary(f"{elements} bodies", alone, ends, one.length)))
+        points.append(common.reported(common.summary(f"{elements} bodies", alone, ends, one.length)))
     common.write(args.out, "MuJoCo's cable plugin", mujoco.__version__, points)
 
 

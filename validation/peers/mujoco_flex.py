@@ -72,7 +72,7 @@ def main():
         alone = (alone[0][0], float(np.median([t for _, t in alone])))
         few = many[: max(1, round(share * args.many))]
         ends = [attempt(hair, elements, 12000) for hair in few]
-        points.append(common.told(common.summary(f"{elements} segments", alone, ends, one.length)))
+        points.append(common.reported(common.summary(f"{elements} segments", alone, ends, one.length)))
     common.write(args.out, "MuJoCo's 1-D flex", mujoco.__version__, points)
 
 

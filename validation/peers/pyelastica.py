@@ -98,7 +98,7 @@ def main():
         alone = attempts([one], elements, radius, step, damping, steps)[0]
         ends = attempts(many[: max(1, round(share * args.many))], elements, radius, step, damping, steps)
         setting = f"{elements} elements, radius L/{1 / radius:.0f}, step {step:g}"
-        points.append(common.told(common.summary(setting, alone, ends, one.length)))
+        points.append(common.reported(common.summary(setting, alone, ends, one.length)))
     common.write(args.out, "PyElastica", VERSION, points)
 
 

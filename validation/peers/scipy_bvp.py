@@ -135,8 +135,8 @@ def main():
             alone = (alone[0][0], float(np.median([t for _, t in alone])))
             few = many[: args.many]
             ends = [attempt(hair, tolerance, mesh, steps) for hair in few]
-            setting = f"{way}, tolerance {tolerance:g}, {mesh} nodes to begin with"
-            points.append(common.told(common.summary(setting, alone, ends, one.length)))
+            setting = f"{way}, tolerance {tolerance:g}, {mesh} initial nodes"
+            points.append(common.reported(common.summary(setting, alone, ends, one.length)))
     common.write(args.out, "scipy's solve_bvp", scipy.__version__, points)
 
 

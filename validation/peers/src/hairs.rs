@@ -1,4 +1,4 @@
-//! The hairs: one curl, and as many like it as one likes with roots turned at random.
+//! The hairs: one curl, and any number of the same curl with roots rotated at random.
 
 use frisure::rod::{
     InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant,
@@ -6,7 +6,7 @@ use frisure::rod::{
 use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// A round hair in numbers that any solver understands; SI units, z up.
+/// A round hair as plain numbers for any solver; SI units, z up.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(crate) struct Hair {
     /// Length (m).
@@ -21,7 +21,7 @@ pub(crate) struct Hair {
     pub(crate) density: f64,
     /// Acceleration of gravity along −z (m/s²).
     pub(crate) gravity: f64,
-    /// Stiffness against bending about d1, d2 and against twist (N m²).
+    /// Stiffness in bending about d1, d2 and in twist (N m²).
     pub(crate) stiffness: [f64; 3],
     /// Weight per length (N/m).
     pub(crate) weight_per_length: f64,
@@ -40,7 +40,7 @@ pub(crate) fn the_one() -> Result<Rod, InvalidQuantity> {
     curl(DMat3::from_cols(DVec3::Y, DVec3::new(half, 0.0, half), DVec3::new(half, 0.0, -half)))
 }
 
-/// A hair whose root is turned at random, evenly over all rotations: half of them point upwards.
+/// A hair with a random root, uniform over all rotations: half of them point upwards.
 pub(crate) fn turned(seed: u64, item: u64) -> Result<Rod, InvalidQuantity> {
     let mut random = SplitMix(seed ^ item.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let [x, y, z] = [(); 3].map(|()| random.unit());
@@ -50,7 +50,7 @@ pub(crate) fn turned(seed: u64, item: u64) -> Result<Rod, InvalidQuantity> {
     curl(DMat3::from_quat(DQuat::from_xyzw(a * y.sin(), a * y.cos(), b * z.sin(), b * z.cos())))
 }
 
-/// A curl of 5 mm radius and 1 cm of advance a turn, 4.5 turns: an incompressible isotropic round fibre of 70 µm.
+/// A curl of 5 mm radius and 1 cm of advance per turn, 4.5 turns: an incompressible isotropic round fibre of 70 µm.
 fn curl(root: DMat3) -> Result<Rod, InvalidQuantity> {
     let (e, nu) = (3e9, 0.45);
     Rod::new(RodSpec {
@@ -82,7 +82,7 @@ impl Hair {
     }
 }
 
-/// Steele, Lea & Flood's generator.
+/// Steele, Lea & Flood's random generator.
 struct SplitMix(u64);
 
 impl SplitMix {

@@ -1,4 +1,4 @@
-//! The hairs on which solvers are compared, their true shapes, and how fast frisure finds them: README.md.
+//! The hairs of the comparison, their true shapes, and frisure's times: README.md.
 //!
 //! ```text
 //! frisure-peers hairs OUT.json [COUNT [SEED]]   the one hair and COUNT more (1000), with true shapes
@@ -25,14 +25,14 @@ use hairs::Hair;
 use measure::Sample;
 use truth::{Truth, truth};
 
-/// A hair and where it truly rests; none where the boundary-value problem could not be solved.
+/// A hair and its true shape; `None` if the boundary-value problem has no solution.
 #[derive(Debug, Deserialize, Serialize)]
 struct Case {
     hair: Hair,
     truth: Option<Truth>,
 }
 
-/// What all solvers read.
+/// The input of all solvers.
 #[derive(Debug, Deserialize, Serialize)]
 struct Cases {
     seed: u64,
@@ -82,7 +82,7 @@ fn time(from: &str, out: &str) -> Result<(), Box<dyn Error>> {
     write(out, &sample(&cases)?.measure(false))
 }
 
-/// The rods of the cases whose truth is known.
+/// The rods of the cases with a true shape.
 fn sample(cases: &Cases) -> Result<Sample, Box<dyn Error>> {
     let one = cases.one.truth.as_ref().ok_or("the one hair has no true shape")?;
     let (mut rods, mut tips) = (Vec::new(), Vec::new());
@@ -115,7 +115,7 @@ mod tests {
         let read: Cases = serde_json::from_str(&written).unwrap();
         for (made, read) in made.many.iter().zip(&read.many) {
             let (made, read) = (made.truth.as_ref().unwrap(), read.truth.as_ref().unwrap());
-            // Reading may miss the last digit.
+            // Parsing may change the last digit.
             assert!(made.tip().distance(read.tip()) < 1e-16);
         }
         let sample = sample(&read).unwrap();

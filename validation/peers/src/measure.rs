@@ -1,4 +1,4 @@
-//! How fast frisure is at which error: the hairs side by side, and one by one.
+//! frisure's times and errors: the hairs in a batch, and one by one.
 
 use std::hint::black_box;
 
@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::cpu;
 use crate::hairs::LENGTH;
 
-/// Distance from the true tip, over the length, beyond which a hair at rest is somewhere else.
+/// Distance from the true tip, over the length, beyond which a hair is in another equilibrium.
 const ELSEWHERE: f64 = 0.1;
 
 /// Elements tried.
@@ -19,10 +19,10 @@ const ELEMENTS: [usize; 14] = [6, 8, 10, 12, 15, 20, 24, 30, 40, 60, 90, 120, 18
 /// Requested accuracies (m) of the scalar solver.
 const ACCURACIES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
-/// One way at one resolution.
+/// One method at one resolution.
 #[derive(Debug, Serialize)]
 pub(crate) struct Measured {
-    /// Which way.
+    /// Name of the method.
     way: &'static str,
     /// Elements, or the requested accuracy (m).
     setting: f64,
@@ -30,29 +30,29 @@ pub(crate) struct Measured {
     error_one: f64,
     /// Processor time (s) of the one hair alone.
     seconds_one: f64,
-    /// Hairs of the many that were computed, and those among them that are not certified a minimum, and that are at
-    /// rest elsewhere.
+    /// Number of the computed hairs, of those without the certificate of a minimum, and of those in another
+    /// equilibrium.
     hairs: usize,
     failed: usize,
     elsewhere: usize,
-    /// Distance of each one's tip from the true one (m).
+    /// Distance of each tip from the true one (m).
     errors: Vec<f64>,
-    /// Processor time (s) a hair, of the many.
+    /// Processor time (s) per hair of the many.
     seconds_many: f64,
 }
 
-/// One hair and many, each with its true tip.
+/// One hair and many hairs, each with its true tip.
 pub(crate) struct Sample {
     pub(crate) one: (Rod, DVec3),
     pub(crate) rods: Vec<Rod>,
     pub(crate) tips: Vec<DVec3>,
 }
 
-/// The result of a hair: its tip (m), and whether it is certified a minimum.
+/// The result of a hair: its tip (m), and whether its certificate states a minimum.
 type End = (DVec3, bool);
 
 impl Sample {
-    /// All ways at all resolutions; `quick` once each, for a test.
+    /// All methods at all resolutions; `quick` runs each once, for a test.
     pub(crate) fn measure(&self, quick: bool) -> Vec<Measured> {
         let mut found = Vec::new();
         let cut = if quick { 4 } else { ELEMENTS.len() };
@@ -66,7 +66,7 @@ impl Sample {
         }
         for accuracy in &ACCURACIES[..cut.min(ACCURACIES.len())] {
             let tips = |rods: &[Rod]| rods.iter().map(|rod| alone(rod, *accuracy)).collect();
-            // Slow enough for fewer hairs to say it.
+            // These are slow, so fewer hairs are enough.
             let few = self.rods.len().min(100);
             found.push(self.run("one by one, to an accuracy", *accuracy, few, quick, tips));
         }

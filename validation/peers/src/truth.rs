@@ -1,11 +1,11 @@
-//! The true shapes, from Kirchhoff's equations as a boundary-value problem: nothing of the solver that is timed.
+//! The true shapes, from Kirchhoff's equations as a boundary-value problem, independent of the timed solver.
 
 use frisure::rod::{ElementKind, Options, Resolution, Rod, equilibrium};
 use frisure_evidence::reference::{Hanging, Solution};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// Where a hair truly rests.
+/// The true shape of a hair.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(crate) struct Truth {
     /// Position of the tip (m), the root at the origin.
@@ -14,25 +14,25 @@ pub(crate) struct Truth {
     pub(crate) arc: Vec<f64>,
     /// Points of the centre line (m), from root to tip.
     pub(crate) line: Vec<[f64; 3]>,
-    /// How it was reached.
+    /// The branch of the solution.
     pub(crate) reached: Reached,
     /// Whether it is a minimum by Jacobi's condition.
     pub(crate) stable: bool,
 }
 
-/// How a true shape was reached.
+/// The branch of a true shape.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) enum Reached {
-    /// As the weight was turned on, all the way stable.
+    /// Gravity's branch, stable all the way.
     Branch,
-    /// That branch ends or loses its stability; this is the solution next to where frisure falls from it.
+    /// Gravity's branch ends or loses its stability; this is the solution next to frisure's equilibrium.
     Fallen,
 }
 
-/// How many intervals of a line are written.
+/// Number of intervals of a line in the output.
 const INTERVALS: usize = 24;
 
-/// Where it rests, or none if the boundary-value problem gives no solution.
+/// The true shape, or `None` if the boundary-value problem has no solution.
 pub(crate) fn truth(rod: &Rod) -> Option<Truth> {
     let problem = Hanging::new(rod.spec());
     let (solution, reached) = match problem.solve() {
