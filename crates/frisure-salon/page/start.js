@@ -15,7 +15,7 @@ const AUTOSAVED = "Your work is autosaved in this browser, up to a few seconds a
 
 const FAILURES = {
   panic: { title: "The salon stopped", text: `This is an error in the program. ${AUTOSAVED}` },
-  graphics: { title: "The graphics were lost", text: `The browser took away the graphics device. ${AUTOSAVED}` },
+  graphics: { title: "The graphics were lost", text: `The graphics device is no longer available. ${AUTOSAVED}` },
 };
 
 /** Called by the salon on a failure. */

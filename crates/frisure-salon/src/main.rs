@@ -33,7 +33,7 @@ mod desktop {
     struct Arguments {
         /// Scenes (.toml), heads or grooms to open; without any, the gallery opens
         files: Vec<PathBuf>,
-        /// Begin with a card of the gallery, such as `curly`
+        /// Start with a card of the gallery, such as `curly`
         #[arg(long, value_name = "NAME", conflicts_with = "files")]
         begin: Option<String>,
         /// The graphics interface; by default the best one available
@@ -99,7 +99,7 @@ mod desktop {
         Err("the graphics device was lost repeatedly; the next start offers the autosaved work\n  hint: update the graphics driver, or try --backend gl".into())
     }
 
-    /// Most windows that are opened in a row because the graphics device was lost.
+    /// Maximum number of consecutive windows after losses of the graphics device.
     const MAX_RESTARTS: usize = 5;
 
     fn options(arguments: &Arguments) -> NativeOptions {
@@ -145,7 +145,7 @@ mod desktop {
         }
     }
 
-    /// A window that closes and hands on its state when its graphics device is lost.
+    /// A window that closes and passes its state on when its graphics device is lost.
     struct Window {
         app: App,
         lost: DeviceLoss,
@@ -155,7 +155,7 @@ mod desktop {
         fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
             if let Some(reason) = take(&self.lost.reason) {
                 let mut salon = self.app.take_salon();
-                let hint = "Your work is kept; the window was opened again.";
+                let hint = "Your work is still there, in a new window.";
                 salon.notify(format!("the graphics device was lost: {reason}"), hint, true);
                 if let Ok(mut slot) = self.lost.salon.lock() {
                     *slot = Some(salon);

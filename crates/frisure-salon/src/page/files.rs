@@ -14,7 +14,7 @@ use web_sys::{Blob, BlobPropertyBag, Document, File, HtmlAnchorElement, HtmlInpu
 pub struct PickedFile {
     /// Its name, without folders.
     pub name: String,
-    /// Its contents, or why they cannot be read.
+    /// Its contents, or the error of reading them.
     pub bytes: Result<Vec<u8>, String>,
 }
 

@@ -5,7 +5,7 @@ use eframe::CreationContext;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use wgpu::{Backends, DeviceLostReason};
 
-/// The configuration for `webgl`, `webgpu`, or any: WebGPU where it works, else WebGL 2.
+/// The configuration for `webgl`, `webgpu`, or any: WebGPU if it works, else WebGL 2.
 pub(crate) fn configuration(backend: &str) -> WgpuConfiguration {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = match backend {
@@ -16,7 +16,7 @@ pub(crate) fn configuration(backend: &str) -> WgpuConfiguration {
     WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() }
 }
 
-/// Reports the loss of the device; the page itself handles that of WebGL 2.
+/// Reports the loss of the device; the page handles that of WebGL 2.
 pub(crate) fn report_loss(cc: &CreationContext<'_>) {
     let Some(state) = &cc.wgpu_render_state else { return };
     state.device.set_device_lost_callback(|reason, message| {

@@ -25,7 +25,7 @@ fn window() -> Option<Context> {
     Some(ctx)
 }
 
-/// The state as JSON; nothing before the first frame.
+/// The state as JSON; `None` before the first frame.
 #[wasm_bindgen]
 #[must_use]
 pub fn state() -> Option<String> {
@@ -47,7 +47,7 @@ pub fn break_down() {
     panic!("panic by command");
 }
 
-/// The widget with an accessible name, as JSON, in pixels of the canvas; nothing if it is not on the screen.
+/// The widget with an accessible name, as JSON, in pixels of the canvas; `None` if it is not on the screen.
 #[wasm_bindgen]
 #[must_use]
 pub fn widget(label: &str) -> Option<String> {
@@ -74,7 +74,7 @@ pub fn measured() -> String {
     json!({ "memory": memory, "frames": automation::frames(), "took": last_duration() }).to_string()
 }
 
-/// Keeps a description of the salon for screen readers in an element.
+/// Starts to update a description of the salon for screen readers in an element.
 #[wasm_bindgen]
 pub fn describe(element: HtmlElement) {
     if let Some(ctx) = window() {

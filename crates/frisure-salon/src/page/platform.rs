@@ -15,7 +15,7 @@ const AUTOSAVE: &str = "kept";
 pub(crate) struct Browser {
     inbox: Inbox,
     wake: Wake,
-    /// Whether the user knows that the browser forbids storage.
+    /// Whether the salon has reported that the browser forbids storage.
     reported: bool,
 }
 
@@ -46,12 +46,12 @@ impl Platform for Browser {
     }
 
     fn read_autosave(&mut self) -> Option<String> {
-        // A browser that forbids storage is reported at the first autosave.
+        // If the browser forbids storage, the first autosave reports it.
         storage::get(AUTOSAVE).ok().flatten()
     }
 
     fn show_open_dialog(&mut self) {
-        // And the buffers of glTF meshes.
+        // Also the buffers of glTF meshes.
         let accept = extensions().into_iter().chain(["bin"]).map(|e| format!(".{e}"));
         let accept = accept.collect::<Vec<_>>().join(",");
         if let Err(problem) = files::pick(&accept, self.inbox.clone(), self.wake.clone()) {
@@ -73,7 +73,7 @@ impl Platform for Browser {
         let PickedFile { name, bytes } = self.inbox.borrow_mut().pop_front()?;
         let bytes = bytes.unwrap_or_else(|problem| {
             web_sys::console::warn_1(&format!("{name}: {problem}").into());
-            // A file that cannot be read is reported as one that is not a scene.
+            // An unreadable file is reported as one that is not a scene.
             Vec::new()
         });
         Some(InputFile { path: None, name, bytes })

@@ -10,10 +10,10 @@ const PREFIX: &str = "frisure:";
 /// The reason why a text cannot be stored.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum StorageError {
-    /// Private windows and settings may forbid it.
-    #[error("this browser does not let this page store data: {0}")]
+    /// The browser forbids it, as private windows and settings may.
+    #[error("the browser does not allow this page to store data: {0}")]
     Forbidden(String),
-    /// Browsers give a page about five megabytes.
+    /// The storage is full; browsers allow a page about five megabytes.
     #[error("the browser's storage has no room for {bytes} bytes")]
     Full {
         /// Size of the text.

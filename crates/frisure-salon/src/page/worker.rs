@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::DedicatedWorkerGlobalScope;
 use web_time::{Duration, Instant};
 
-/// Least time between two reports of progress.
+/// Minimum time between two reports of progress.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(60);
 
 thread_local! {
@@ -21,7 +21,7 @@ thread_local! {
     static LAST_REPORT: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// Initializes a worker; `cancel` is shared memory that cancels the job when it is not 0, where the page may
+/// Initializes a worker; `cancel` is shared memory that cancels the job when it is not 0, if the page may
 /// share memory.
 #[wasm_bindgen]
 pub fn worker_main(cancel: Option<Int32Array>) {
@@ -38,7 +38,7 @@ pub fn worker_message(message: &Array) {
     JOB.set(message.get(0).as_f64().unwrap_or_default());
     LAST_REPORT.set(None);
     let bytes = Uint8Array::new(&message.get(1)).to_vec();
-    // Page and worker are the same build, which reads what it writes.
+    // Page and worker are the same build, so they have the same serialization.
     let request = postcard::from_bytes::<Request>(&bytes).expect("a request");
     let response = SESSION.with_borrow_mut(|session| {
         session.execute_with(&request, &JobProgress, &mut |partial| respond(&partial))

@@ -1,6 +1,6 @@
 //! The page's side of a Web Worker, which runs the page's own compiled program.
 //!
-//! The worker has one request at a time; the others wait here. A number in shared memory cancels it; where a
+//! The worker has one request at a time; the others wait here. A number in shared memory cancels it; if a
 //! page may not share memory, a worker that does not finish soon is terminated and replaced.
 
 use super::options::{self, PageOptions, limit_strands};
@@ -14,7 +14,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::{ErrorEvent, MessageEvent, WorkerOptions, WorkerType};
 use web_time::Instant;
 
-/// Time that a worker without shared memory has to finish after a cancellation (ms): its caches are worth it.
+/// Time that a worker without shared memory has to finish after a cancellation (ms), because its caches are valuable.
 const CANCEL_TIMEOUT: i32 = 1500;
 
 thread_local! {
@@ -41,7 +41,7 @@ impl WebWorker {
     /// # Errors
     /// The browser's message, if it cannot start workers.
     pub(super) fn start(wake: Wake) -> Result<Self, String> {
-        let options = options::get().ok_or("there are workers only in a page")?;
+        let options = options::get().ok_or("workers exist only in a page")?;
         let client = Rc::new_cyclic(|this| {
             RefCell::new(Client {
                 options,
@@ -236,7 +236,7 @@ impl Client {
         }
     }
 
-    /// After a failure of the worker: refuses the running job and continues with another worker.
+    /// Refuses the running job after a failure of the worker, and continues with another worker.
     fn fail(&mut self, report: &str) {
         self.process = None;
         let Some((job, _)) = self.running.take() else { return };
@@ -249,7 +249,7 @@ impl Client {
     }
 }
 
-/// Calls a function with a client that still exists, and repaints the window.
+/// Calls a function with the client, if it still exists, and repaints the window.
 fn with(client: &Weak<RefCell<Client>>, act: impl FnOnce(&mut Client)) {
     let Some(client) = client.upgrade() else { return };
     act(&mut client.borrow_mut());
@@ -272,7 +272,7 @@ fn diagnostic(report: &str) -> Diagnostic {
     }
 }
 
-/// Shared memory for one number, where the page may share memory.
+/// Shared memory for one number; `None` if the page may not share memory.
 fn shared_number() -> Option<Int32Array> {
     let isolated = Reflect::get(&js_sys::global(), &"crossOriginIsolated".into()).ok()?;
     isolated.is_truthy().then(|| Int32Array::new(&SharedArrayBuffer::new(4)))

@@ -15,7 +15,7 @@ use super::selection::SelectMode;
 /// A command of the user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Begins with a card of the gallery, by its name.
+    /// Opens the scene of a card of the gallery, by its name.
     Begin(String),
     /// Opens the text of a scene.
     Open {
@@ -36,7 +36,7 @@ pub enum Command {
     Set(&'static str, f64),
     /// Sets the key of a choice to one of its options, as TOML.
     SetOption(&'static str, String),
-    /// Removes a key, so that its default holds.
+    /// Removes a key, so that its default applies.
     Reset(&'static str),
     /// Opens a file by its path, or the name under which the engine keeps it; a head, a groom, or both.
     File(String),
@@ -60,10 +60,10 @@ pub enum Command {
         polygon: Vec<[f64; 2]>,
         /// Width over height of the picture.
         aspect: f64,
-        /// How it combines with the selection.
+        /// The combination with the selection.
         mode: SelectMode,
     },
-    /// Selects the hair rooted near places on the skin (m).
+    /// Selects the hair with roots near positions on the skin (m).
     Paint(Vec<DVec3>, SelectMode),
     /// Sets the radius of the brush (m).
     BrushSize(f64),
@@ -71,7 +71,7 @@ pub enum Command {
     Apply(Operation),
     /// Wets the selected hair, or dries it if it is wet.
     ToggleWet,
-    /// Combs hair rooted near places on the skin along a direction (m).
+    /// Combs hair with roots near positions on the skin along a direction (m).
     Stroke(Vec<DVec3>, DVec3),
     /// Moves the cutting plane.
     Plane(CutPlane),

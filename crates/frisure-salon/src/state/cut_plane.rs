@@ -9,9 +9,9 @@ use glam::{DVec3, Vec3};
 pub struct CutPlane {
     /// Its middle (m).
     pub point: DVec3,
-    /// Lean to the head's left (rad): a positive one leaves more hair there.
+    /// Tilt to the head's left (rad): a positive one leaves more hair there.
     pub roll: f64,
-    /// Lean to the back (rad): a positive one leaves more hair there.
+    /// Tilt to the back (rad): a positive one leaves more hair there.
     pub pitch: f64,
     /// How hair is held while it is cut.
     pub held: CutHold,
@@ -27,9 +27,9 @@ pub enum CutHold {
     Down,
 }
 
-/// Largest lean (rad); short of vertical.
+/// Maximum tilt (rad); less than vertical.
 const MAX_LEAN: f64 = 1.4;
-/// Largest distance from the origin (m); beyond the longest hair.
+/// Maximum distance from the origin (m); beyond the longest hair.
 const MAX_DISTANCE: f64 = 2.0;
 
 impl Default for CutPlane {
@@ -82,7 +82,7 @@ impl CutPlane {
         Operation::Cut(Cut { selection: Selection::Everything, line, held })
     }
 
-    /// What the plane would cut off the drawn strands of some wisps (`None`: of all).
+    /// A preview of the cut of the drawn strands of some wisps (`None`: of all).
     #[must_use]
     pub fn preview(&self, strands: &StrandsData, wisps: Option<&[bool]>) -> CutPreview {
         let (point, normal) = (self.point.as_vec3(), self.normal().as_vec3());
@@ -107,7 +107,7 @@ impl CutPlane {
 }
 
 /// The pieces of a strand before it first crosses the plane, from the signed distances of its points. A strand
-/// whose root is beyond the plane is cut where it comes back and crosses again.
+/// whose root is beyond the plane is cut where it crosses the plane again.
 fn kept_pieces(distances: &[f32]) -> f32 {
     let crossing = distances.windows(2).position(|d| d[0] <= 0.0 && d[1] > 0.0);
     crossing.map_or(distances.len().saturating_sub(1) as f32, |k| {
@@ -122,10 +122,10 @@ pub(super) fn rounded(v: DVec3, to: f64) -> DVec3 {
     (v * steps).round() / steps + DVec3::ZERO
 }
 
-/// What a cut would take off.
+/// The preview of a cut.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CutPreview {
-    /// For each strand, the fraction of its length that stays.
+    /// For each strand, the fraction of its length that remains.
     pub kept: Vec<f32>,
     /// Fraction of the length of all drawn strands that is cut off.
     pub share: f64,

@@ -77,7 +77,7 @@ impl Document {
         self.at
     }
 
-    /// Whether a slider is being dragged.
+    /// Whether the user drags a slider.
     #[must_use]
     pub fn is_draft(&self) -> bool {
         self.draft.is_some()
@@ -86,13 +86,13 @@ impl Document {
     /// Whether there are unsaved changes.
     #[must_use]
     pub fn is_changed(&self) -> bool {
-        // The first text of a scene without a file comes from the gallery and needs no saving.
+        // The first text of a scene without a file is from the gallery and does not need to be saved.
         let saved = self.saved.or((self.path.is_none()).then_some(0));
         let same = |i: usize| self.edits.get(i).is_some_and(|e| e.text == self.text());
         !saved.is_some_and(same)
     }
 
-    /// Replaces the current text while a slider is dragged, without an edit.
+    /// Replaces the current text during a drag of a slider, without an edit.
     pub fn draft(&mut self, text: String) {
         self.draft = Some(text);
     }
@@ -141,12 +141,12 @@ impl Document {
         self.saved = Some(self.at);
     }
 
-    /// Marks all texts as unsaved, such as after a crash.
+    /// Marks all texts as unsaved, as after a crash.
     pub(super) fn mark_unsaved(&mut self) {
         self.saved = Some(usize::MAX);
     }
 
-    /// Marks the current text as saved without a file, such as by a download.
+    /// Marks the current text as saved without a file, as by a download.
     pub fn mark_saved(&mut self) {
         self.saved = Some(self.at);
     }

@@ -1,4 +1,4 @@
-//! The gallery: hair types and hairstyles to begin with.
+//! The cards of the gallery: hair types and hairstyles.
 
 use frisure::hairstyle::PRESETS;
 

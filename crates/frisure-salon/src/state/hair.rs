@@ -1,4 +1,4 @@
-//! Scheduling of the hair that follows from the text: when it is requested, and at which effort.
+//! Scheduling of requests for the hair of the current text, and their effort.
 
 use std::sync::Arc;
 
@@ -13,14 +13,14 @@ use super::jobs::{Job, Purpose};
 use super::salon::{CurrentHair, HairKey, IsolatedHair, Salon, parse};
 use super::selection::Selected;
 
-/// Whether the shown hair is that of the text, and at rest.
+/// Whether the shown hair is that of the text, and in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Badge {
     /// There is no hair.
     Empty,
-    /// The hair is being computed.
+    /// The computation of the hair is running.
     Settling,
-    /// Every guide is at a stable minimum of its energy.
+    /// Every guide is at a minimum of its energy.
     AtRest,
     /// The number of guides that are unstable or not converged.
     Unstable(usize),
@@ -28,8 +28,8 @@ pub enum Badge {
     Refused(String),
 }
 
-/// Most coarse responses to one text before the exact one, while a slider is dragged and otherwise: an exact
-/// computation takes seconds, and early coarse hair is far from its rest shape. Chosen by trial.
+/// Maximum number of coarse responses to one text before the exact one, during a drag of a slider and otherwise. An exact
+/// computation takes seconds, and early coarse hair is far from its equilibrium. Chosen by trial.
 const MAX_COARSE_DRAGGING: usize = 30;
 const MAX_COARSE: usize = 3;
 
@@ -37,7 +37,7 @@ const MAX_COARSE: usize = 3;
 const ISOLATED_POINTS: usize = 120;
 
 impl Salon {
-    /// Whether the shown hair is that of the text, and at rest.
+    /// Whether the shown hair is that of the text, and in equilibrium.
     #[must_use]
     pub fn badge(&self) -> Badge {
         let Some(parsed) = &self.scene else { return Badge::Empty };
@@ -54,7 +54,7 @@ impl Salon {
         }
     }
 
-    /// Whether the shown hair is that of the text, at rest.
+    /// Whether the shown hair is that of the text, in equilibrium.
     #[must_use]
     pub fn is_settled(&self) -> bool {
         matches!(self.badge(), Badge::AtRest | Badge::Unstable(_))
@@ -100,7 +100,7 @@ impl Salon {
         !parse(document, text).is_ok_and(|other| HairKey::of(&other) == *key)
     }
 
-    /// The effort at which the hair of a key is computed next; `None` if it is complete or refused.
+    /// The effort of the next computation of a key's hair; `None` if the hair is complete or refused.
     fn wanted(&self, key: &HairKey) -> Option<Quality> {
         if self.refused.as_ref().is_some_and(|(refused, _)| refused == key) {
             return None;

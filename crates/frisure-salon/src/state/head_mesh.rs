@@ -1,4 +1,4 @@
-//! The head, and where a ray hits it.
+//! The mesh of the head, and its intersection with rays.
 
 use frisure::strands::Surface;
 use frisure_engine::HeadData;
@@ -10,11 +10,11 @@ pub struct HeadMesh {
     surface: Option<Surface>,
 }
 
-/// Height of the head from crown to chin (m); what is below are shoulders.
+/// Height of the head from crown to chin (m); the shoulders are below.
 const HEAD_HEIGHT: f64 = 0.27;
 
 impl HeadMesh {
-    /// From plain arrays.
+    /// Creates the mesh from plain arrays.
     #[must_use]
     pub fn new(head: HeadData) -> Self {
         let positions = head.positions.chunks_exact(3).map(|p| DVec3::new(p[0], p[1], p[2]));

@@ -21,14 +21,14 @@ pub enum Queue {
     Background,
 }
 
-/// An effect that the program around the salon carries out.
+/// An effect for the program around the salon to execute.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// Executes a request; its responses come back through [`super::Salon::receive`].
     Execute(Queue, JobId, Box<Request>),
     /// Cancels a request; its response is ignored.
     Cancel(Queue, JobId),
-    /// Writes a file, or hands it to the browser as a download.
+    /// Writes a file, or passes it to the browser as a download.
     Save(Save),
     /// Stores a text for recovery at the next start; `None` deletes it.
     Autosave(Option<String>),
@@ -37,7 +37,7 @@ pub enum Effect {
 /// A file to write.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Save {
-    /// Where it goes.
+    /// Its destination.
     pub to: Destination,
     /// Its contents.
     pub bytes: Vec<u8>,
@@ -45,7 +45,7 @@ pub struct Save {
     pub is_scene: bool,
 }
 
-/// Where a file goes.
+/// The destination of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Destination {
     /// To a path.
@@ -87,10 +87,10 @@ pub const FORMATS: [(&str, &str); Format::ALL.len()] = {
     formats
 };
 
-/// What the response of a job is for.
+/// The purpose of a job's response.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Purpose {
-    /// To find out whether a file has a head, hair or both.
+    /// Whether a file has a head, hair or both.
     Contents,
     Show(Quality),
     Select,
@@ -108,7 +108,7 @@ pub(super) struct Job {
     pub(super) outdated: bool,
 }
 
-/// The running jobs, the queued ones, and the effects that nobody has taken yet.
+/// The running jobs, the queued jobs, and the queued effects.
 #[derive(Debug, Default)]
 pub(super) struct Jobs {
     last_id: JobId,
@@ -163,7 +163,7 @@ impl Jobs {
         cancel(self.background.as_mut(), Queue::Background, &mut self.effects);
     }
 
-    /// Forgets all jobs.
+    /// Removes all jobs.
     pub(super) fn clear(&mut self) {
         (self.hair, self.background) = (None, None);
         self.waiting.clear();

@@ -3,7 +3,7 @@
 //! The document is the text of a scene. Every [`Command`] edits that text or the view, and the hair follows
 //! from the text. [`Salon::run`] executes commands and [`Salon::receive`] takes responses of the engine; both
 //! queue [`Effect`]s for the program around them. Nothing here uses a toolkit, a thread or a clock, so tests
-//! drive whole sessions, and the window, the page and the keyboard use the same commands.
+//! can run whole sessions, and the window, the page and the keyboard use the same commands.
 
 mod command;
 mod controls;

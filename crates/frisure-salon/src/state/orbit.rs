@@ -9,7 +9,7 @@ use glam::DVec3;
 pub struct Orbit {
     /// The target (m).
     pub target: DVec3,
-    /// The azimuth (rad): 0 sees the face, π/2 the left side.
+    /// The azimuth (rad): 0 is in front of the face, π/2 at its left side.
     pub azimuth: f64,
     /// The elevation above the horizon (rad).
     pub elevation: f64,
@@ -29,11 +29,11 @@ pub const VIEWS: [(&str, f64, f64); 6] = [
     ("Top", 0.0, 80.0),
 ];
 
-/// Largest elevation (rad), short of the pole, where the azimuth is undefined.
+/// Maximum elevation (rad), below the pole, where the azimuth is undefined.
 const MAX_ELEVATION: f64 = 1.5;
-/// Least and largest distance (m).
+/// Minimum and maximum distance (m).
 const DISTANCES: (f64, f64) = (0.03, 20.0);
-/// Largest distance of the target from the origin (m).
+/// Maximum distance of the target from the origin (m).
 const MAX_TARGET_DISTANCE: f64 = 3.0;
 
 impl Default for Orbit {
@@ -101,7 +101,7 @@ impl Orbit {
         self.target + self.distance * DVec3::new(sa * ce, -ca * ce, se)
     }
 
-    /// The same for a request.
+    /// The camera as part of a request.
     #[must_use]
     pub fn viewpoint(&self) -> Viewpoint {
         let (eye, target) = (self.eye().to_array(), self.target.to_array());

@@ -14,7 +14,7 @@ pub enum RenderTask {
     Picture {
         /// Width and height (pixels).
         size: [usize; 2],
-        /// Most paths per pixel.
+        /// Maximum number of paths per pixel.
         paths: usize,
         /// Noise at which rendering stops (as a fraction of the display's range).
         noise: f64,

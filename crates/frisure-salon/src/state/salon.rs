@@ -28,9 +28,9 @@ pub struct Salon {
     pub(super) current: Option<CurrentHair>,
     /// The head below the hair.
     pub head: Option<Arc<HeadMesh>>,
-    /// The key of hair that the engine refused, so that it is not requested again.
+    /// The key of hair that the engine refused, to avoid a second request.
     pub(super) refused: Option<(HairKey, Diagnostic)>,
-    /// Opened files whose contents are not known yet.
+    /// Opened files whose contents are still unknown.
     pub(super) pending_files: VecDeque<String>,
     /// The fit of the groom in the last message about it.
     pub(super) held: Option<AdoptionReport>,
@@ -55,18 +55,18 @@ pub struct Salon {
     pub(super) gallery: bool,
     /// Messages for the user, the oldest first.
     pub messages: Vec<Message>,
-    /// The final picture as far as it is rendered.
+    /// The partial final picture.
     pub partial_picture: Option<PartialPicture>,
     pub(super) progress: Option<(String, f32)>,
     pub(super) background_progress: Option<(String, f32)>,
     /// The text that was autosaved last.
     pub(super) autosaved: Option<String>,
     pub(super) changed_at: Option<f64>,
-    /// A document that was autosaved by an earlier run and not saved, until the user decides about it.
+    /// An unsaved document that an earlier run autosaved, until the user decides about it.
     pub recoverable: Option<Document>,
     pub(super) jobs: Jobs,
     pub(super) version: u64,
-    /// Mass of the hair before the cut that is being computed (kg).
+    /// Mass of the hair before the running cut (kg).
     pub(super) mass_before: Option<f64>,
 }
 
@@ -78,7 +78,7 @@ pub enum Tool {
     Orbit,
     /// Selects the hair inside a drawn shape.
     Lasso,
-    /// Selects the hair rooted where it paints over the scalp.
+    /// Selects the hair with roots under the brush.
     Brush,
     /// Moves the cutting plane.
     Cut,
@@ -133,7 +133,7 @@ impl HairKey {
 /// The hair that the viewport shows.
 #[derive(Clone, Debug)]
 pub(super) struct CurrentHair {
-    /// `None` for hair of a file that may have changed since.
+    /// `None` for hair of a file that may have changed.
     pub(super) key: Option<HairKey>,
     pub(super) hair: Arc<Preview>,
     pub(super) version: u64,
@@ -165,7 +165,7 @@ pub struct IsolatedHair {
     pub(super) version: u64,
 }
 
-/// A final picture as far as it is rendered.
+/// A partial final picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartialPicture {
     /// Width and height (pixels).
@@ -183,13 +183,13 @@ pub struct PartialPicture {
 pub struct Message {
     /// The message.
     pub text: String,
-    /// What the user can do; may be empty.
+    /// A hint for the user; may be empty.
     pub hint: String,
     /// Whether it reports an error.
     pub is_error: bool,
 }
 
-/// Number of messages that are kept.
+/// Maximum number of messages.
 const MAX_MESSAGES: usize = 6;
 
 impl Salon {
@@ -211,7 +211,7 @@ impl Salon {
         self.gallery || self.document.is_none()
     }
 
-    /// Whether a slider is being dragged.
+    /// Whether the user drags a slider.
     #[must_use]
     pub fn is_dragging(&self) -> bool {
         self.document.as_ref().is_some_and(Document::is_draft)
@@ -244,7 +244,7 @@ impl Salon {
         self.jobs.effects.drain(..).collect()
     }
 
-    /// Which of head and hair come from files.
+    /// Which of head and hair are from files.
     #[must_use]
     pub fn files(&self) -> Contents {
         self.scene.as_ref().map_or(Contents::default(), |parsed| Contents {
@@ -275,7 +275,7 @@ impl Salon {
         Some(scene_ref(document, document.text(), parsed))
     }
 
-    /// The text without the effect of a slider that is being dragged.
+    /// The text without the draft of a dragged slider.
     pub(super) fn base(&self) -> Option<&str> {
         let document = self.document.as_ref()?;
         Some(&document.edits()[document.at()].text)
@@ -299,7 +299,7 @@ pub(super) fn parse(document: &Document, text: &str) -> Result<ParsedScene, Scen
     Ok(ParsedScene { scene, spec })
 }
 
-/// What the user of a window can do about an error in a file, where the engine's hint names scene keys.
+/// A hint for an error in a file, without the scene keys of the engine's hint.
 fn hint_for(error: &Diagnostic) -> String {
     let is_missing = error.problem.contains("there is no file");
     match error.key.as_str() {

@@ -44,7 +44,7 @@ impl Salon {
             Destination::Path(path) => path.parent().unwrap_or(Path::new("")),
             Destination::Download(_) => document.folder(),
         };
-        // Saved in another folder, the scene still names the same files.
+        // A scene saved in another folder still refers to the same files.
         let text = self.text_in(folder).unwrap_or_else(|| document.text().to_owned());
         let bytes = text.into_bytes();
         self.jobs.effects.push_back(Effect::Save(Save { to, bytes, is_scene: true }));

@@ -4,7 +4,7 @@ use frisure::hairstyle::Place;
 use frisure::hairstyle::head::Region;
 use frisure::hairstyle::styling::Selection;
 
-/// How a new selection combines with the current one.
+/// The combination of a new selection with the current one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SelectMode {
     /// The new one replaces it.
@@ -35,7 +35,7 @@ pub struct Selected {
     pub selection: Selection,
     /// Its name, such as "fringe".
     pub label: String,
-    /// For each wisp whether it is selected; `None` until it is computed.
+    /// Whether each wisp is selected; `None` until this is computed.
     pub wisps: Option<Vec<bool>>,
 }
 

@@ -1,4 +1,4 @@
-//! Selecting hair, and the steps that style it.
+//! The selection of hair, and the steps that style it.
 
 use std::sync::Arc;
 
@@ -70,7 +70,7 @@ impl Salon {
         self.cut_preview = None;
     }
 
-    /// The hair rooted under a brush that passed over places on the skin (m).
+    /// The hair with roots under a brush that passed over positions on the skin (m).
     fn under_brush(&self, places: &[DVec3]) -> Option<Selection> {
         let radius = self.brush.radius;
         let mut spots: Vec<DVec3> = Vec::new();
@@ -128,7 +128,7 @@ impl Salon {
         sum > 0.5 * count as f32
     }
 
-    /// What the cutting plane would cut off the shown hair, while its tool is active.
+    /// A preview of the cut of the shown hair, while the cutting tool is active.
     pub fn cut_preview(&mut self) -> Option<Arc<CutPreview>> {
         let current = self.current.as_ref().filter(|_| self.tool == Tool::Cut)?;
         let (version, plane) = (current.version, self.plane);
@@ -146,7 +146,7 @@ impl Salon {
         Some(preview)
     }
 
-    /// The wisp whose root is nearest to a place on the skin (m).
+    /// The wisp whose root is nearest to a position on the skin (m).
     #[must_use]
     pub fn wisp_at(&self, place: DVec3) -> Option<usize> {
         let roots = &self.current.as_ref()?.hair.roots;
@@ -187,9 +187,9 @@ pub(super) fn capitalized(text: &str) -> String {
 
 /// A drawn polygon without the corners that are close to the one before.
 fn simplified(polygon: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    /// Least distance of corners (as a fraction of the picture's half height). Chosen by trial.
+    /// Minimum distance of corners (as a fraction of the picture's half height). Chosen by trial.
     const MIN_DISTANCE: f64 = 0.015;
-    /// Most corners of a lasso, which bounds the scene's text.
+    /// Maximum number of corners of a lasso, which limits the size of the scene's text.
     const MAX_CORNERS: usize = 200;
     let mut corners: Vec<[f64; 2]> = Vec::new();
     for &[x, y] in polygon.iter().filter(|p| p.iter().all(|x| x.is_finite())) {

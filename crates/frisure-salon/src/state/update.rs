@@ -74,13 +74,13 @@ impl Salon {
         self.schedule();
     }
 
-    /// Takes the current time, in seconds from any start.
+    /// Takes the current time, in seconds from an arbitrary origin.
     pub fn tick(&mut self, now: f64) {
         self.autosave(now);
         self.schedule();
     }
 
-    /// Starts the jobs again, for workers that have lost them.
+    /// Starts the jobs again after a loss of the workers.
     pub fn restart_jobs(&mut self) {
         self.jobs.clear();
         (self.progress, self.background_progress) = (None, None);

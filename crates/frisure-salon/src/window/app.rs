@@ -1,7 +1,7 @@
 //! The application: passes responses, input and effects between the state, the workers and the platform.
 //!
 //! Each frame takes responses, draws the panels and the viewport, collects the commands of widgets, keys and
-//! pointer, runs them on the state, and carries out the effects.
+//! pointer, runs them on the state, and executes the effects.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -51,7 +51,7 @@ pub struct Parts {
 }
 
 impl App {
-    /// Creates the salon in a window. Without a wgpu device it does not draw the head.
+    /// Creates the salon in a window. Without a wgpu device the window does not show the head.
     #[must_use]
     pub fn new(cc: &eframe::CreationContext<'_>, parts: Parts) -> Self {
         theme::install(&cc.egui_ctx);
@@ -115,11 +115,11 @@ impl App {
                     self.run(Command::Open { path, name, text });
                 }
                 Err(_) => {
-                    let hint = "A scene is UTF-8 text, such as `frisure new` prints.";
+                    let hint = "A scene is UTF-8 text; `frisure new` prints an example.";
                     self.salon.notify(format!("{} is not text", file.name), hint, true);
                 }
             },
-            // The buffer of a glTF mesh; with a path, the engine finds it itself.
+            // The buffer of a glTF mesh; for a file with a path, the engine reads the buffer.
             Some("bin") => {
                 self.upload(file);
                 self.run(Command::Retry);
@@ -157,7 +157,7 @@ impl App {
     #[cfg(target_arch = "wasm32")]
     fn open(&mut self, _path: &Path) {}
 
-    /// Takes responses and input files, runs automation commands, and carries out the effects.
+    /// Takes responses and input files, runs automation commands, and executes the effects.
     pub fn process_events(&mut self) {
         for worker in &mut self.workers {
             while let Some((job, response)) = worker.poll() {
@@ -187,7 +187,7 @@ impl App {
             Effect::Autosave(text) => {
                 if let Err(problem) = self.platform.write_autosave(text.as_deref()) {
                     let text = format!("your work cannot be autosaved: {problem}");
-                    self.salon.notify(text, "Save the scene now and then.", true);
+                    self.salon.notify(text, "Save the scene regularly.", true);
                 }
             }
         }
@@ -267,7 +267,7 @@ impl App {
         let rect = ui.available_rect_before_wrap();
         self.aspect = viewport::aspect(rect);
         if !self.has_renderer {
-            ui.label("There is no graphics device to draw the head with.");
+            ui.label("The head cannot be drawn without a graphics device.");
             return;
         }
         self.viewport.show(ui, &mut self.salon, out);

@@ -1,7 +1,7 @@
 //! Automation: the widgets on the screen and the state, for tests, programs and screen readers on a page.
 //!
-//! Widgets come from egui's accessibility tree, under their accessible names; places in the picture that are not
-//! widgets are named with [`record`]. Nothing is collected before [`enable`].
+//! Widgets come from egui's accessibility tree, under their accessible names; [`record`] names rectangles that are not
+//! widgets. Nothing is collected before [`enable`].
 
 use eframe::egui::accesskit::{self, NodeId, Role, Toggled};
 use eframe::egui::{Context, Event, FullOutput, Plugin, RawInput, Rect, pos2};
@@ -49,7 +49,7 @@ fn collected<T>(with: impl FnOnce(&mut Collected) -> T) -> T {
     COLLECTED.with_borrow_mut(with)
 }
 
-/// Starts to collect. It causes no additional frames.
+/// Starts to collect, without additional frames.
 pub fn enable(ctx: &Context) {
     if !collected(|s| std::mem::replace(&mut s.enabled, true)) {
         ctx.enable_accesskit();
@@ -58,7 +58,7 @@ pub fn enable(ctx: &Context) {
     }
 }
 
-/// Names a place in the picture that is not a widget, for this frame.
+/// Names a rectangle that is not a widget, for this frame.
 pub fn record(label: &str, rect: Rect) {
     collected(|s| {
         if s.enabled {

@@ -10,7 +10,7 @@ use super::platform::{DroppedFile, InputFile, Platform, extensions};
 use crate::state::{Destination, Save};
 use crate::work::Wake;
 
-/// Largest scene that is opened (bytes).
+/// Maximum size of a scene (bytes).
 const MAX_SIZE: u64 = 1 << 30;
 
 /// The desktop platform.
@@ -32,7 +32,7 @@ impl Desktop {
     }
 }
 
-/// Reads a file. The contents of heads and grooms are left to the engine.
+/// Reads a scene; for a head or groom, only its name and path, because the engine reads its contents.
 ///
 /// # Errors
 /// The reason, for a message.
@@ -106,7 +106,7 @@ impl Platform for Desktop {
     }
 
     fn read_dropped(&mut self, file: DroppedFile) {
-        // A file that cannot be read is reported as one that is not a scene.
+        // An unreadable file is reported as one that is not a scene.
         let file = read(file.path()).unwrap_or_else(|_| unread(file.path()));
         let _ = self.files.0.send(file);
     }

@@ -49,7 +49,7 @@ pub(super) struct Dialogs {
     texture: Option<(u64, TextureHandle)>,
     /// Whether the dialog has just been opened and its field takes the focus.
     is_new: bool,
-    /// A path that the window is to open.
+    /// A path for the window to open.
     pub(super) path_to_open: Option<PathBuf>,
 }
 
@@ -130,7 +130,7 @@ impl Dialogs {
     fn open_file(&mut self, ui: &mut Ui, platform: &mut dyn Platform) {
         ui.label(
             "A scene is a .toml file. A mesh becomes the head of the open scene, curves and lines its hair: USD, \
-             Alembic, glTF, .obj, .ply, .hair, .data, .npz. Files can also be dropped on the window.",
+             Alembic, glTF, .obj, .ply, .hair, .data, .npz. You can also drop files on the window.",
         );
         if platform.has_paths() {
             let entered = self.path(ui);
@@ -139,7 +139,7 @@ impl Dialogs {
                     self.path_to_open = Some(PathBuf::from(self.path.trim()));
                     self.current = None;
                 }
-                if widgets::plain(ui, "Browse…", "The system's own dialog").clicked() {
+                if widgets::plain(ui, "Browse…", "The system's file dialog").clicked() {
                     platform.show_open_dialog();
                     self.current = None;
                 }
@@ -235,7 +235,7 @@ impl Dialogs {
             number(ui, "Pictures", &mut self.frames, 2..=360);
         } else {
             ui.horizontal(|ui| {
-                number(ui, "Paths a pixel, at most", &mut self.paths, 1..=4096);
+                number(ui, "Maximum paths per pixel", &mut self.paths, 1..=4096);
                 let label = ui.label("Noise");
                 let field = DragValue::new(&mut self.noise).range(0.2..=20.0).suffix(" %");
                 ui.add(field.speed(0.1)).labelled_by(label.id);
@@ -259,7 +259,7 @@ impl Dialogs {
         self.partial_picture(ui, salon, out);
     }
 
-    /// Shows the picture as far as it is rendered.
+    /// Shows the partial picture.
     fn partial_picture(&mut self, ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
         if let Some((stage, done, _)) = salon.background() {
             let text = format!("{stage} {:.0} %", done * 100.0);
@@ -283,13 +283,13 @@ impl Dialogs {
     }
 }
 
-/// The keys and what they do.
+/// The keys and their effects.
 const KEYS: &[(&str, &str)] = &[
     ("V", "orbit (drag); Shift-drag pans; the wheel zooms"),
     ("L", "lasso: draw around hair; Shift adds, Alt removes"),
     ("B", "brush: paint over the scalp"),
     ("C", "cutting plane: drag it; Shift-drag tilts it; Enter cuts"),
-    ("K", "comb: drag in the direction that the hair takes"),
+    ("K", "comb: drag in the direction of combing"),
     ("H", "pick one hair, to see its material frames"),
     ("Space", "while held: orbit with every tool"),
     ("A / I", "select all hair / invert the selection"),

@@ -1,4 +1,4 @@
-//! The gallery: cards to begin with.
+//! The gallery: cards with hair types and hairstyles.
 
 use eframe::egui::{
     self, Align2, ColorImage, FontId, Rect, Sense, StrokeKind, TextureHandle, TextureOptions, Ui,
@@ -57,7 +57,7 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, pictures: &mut Pictures, out: &mu
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            ui.heading("Choose hair to begin with");
+            ui.heading("Choose hair to start with");
             if salon.document.is_some() {
                 let back = super::widgets::plain(ui, "Back to the head", "Escape");
                 if back.clicked() {

@@ -6,8 +6,8 @@ use super::dialogs::Dialog;
 use super::toolbars::{grow_a_month, release};
 use crate::state::{Command, Salon, Tool, VIEWS};
 
-/// The commands of the keys pressed in this frame, and the dialog that one opens; none while a dialog has the
-/// keys (`modal`).
+/// The commands of the keys pressed in this frame, and the dialog that one opens; none while a dialog is open
+/// (`modal`).
 pub(super) fn commands(
     ui: &Ui,
     salon: &Salon,
@@ -38,7 +38,7 @@ pub(super) fn commands(
     if hit(Modifiers::NONE, Key::F1) {
         dialog = Some(Dialog::Help);
     }
-    // A focused text field takes the letters.
+    // A focused text field receives the letters.
     if ui.ctx().egui_wants_keyboard_input() || salon.is_gallery() {
         if salon.is_gallery() && hit(Modifiers::NONE, Key::Escape) {
             out.push(Command::Gallery(false));

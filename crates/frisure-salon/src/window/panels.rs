@@ -44,7 +44,7 @@ fn controls(
         widgets::slider(ui, control, control.value(&parsed.scene, &parsed.spec), out);
     }
     if !unused.is_empty() {
-        ui.weak("The groom determines the rest.");
+        ui.weak("The groom determines the other parameters.");
     }
 }
 

@@ -13,7 +13,7 @@ pub type DroppedFile = Arc<dyn eframe::egui::DroppedFile + Send + Sync>;
 /// An opened or dropped file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputFile {
-    /// Its path, where the platform has paths.
+    /// Its path, if the platform has paths.
     pub path: Option<PathBuf>,
     /// Its name.
     pub name: String,
@@ -27,9 +27,9 @@ pub fn extensions() -> Vec<&'static str> {
     [vec!["toml"], contents::extensions()].concat()
 }
 
-/// What the window needs from desktop or browser.
+/// The interface of desktop or browser for the window.
 pub trait Platform {
-    /// Writes a file, or hands it to the browser as a download.
+    /// Writes a file, or passes it to the browser as a download.
     ///
     /// # Errors
     /// The reason, for a message.
@@ -53,7 +53,7 @@ pub trait Platform {
     /// The next opened or dropped file.
     fn next_file(&mut self) -> Option<InputFile>;
 
-    /// Whether files have paths, which dialogs ask for; in a browser they do not.
+    /// Whether files have paths, so that dialogs have a field for them; in a browser they do not.
     fn has_paths(&self) -> bool;
 
     /// The folder that dialogs propose.

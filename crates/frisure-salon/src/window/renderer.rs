@@ -21,7 +21,7 @@ pub(super) enum Side {
     Before,
 }
 
-/// A value, and a number that differs for each.
+/// A value with a number that is unique to it.
 pub(super) type Versioned<T> = (Arc<T>, u64);
 
 /// A picture to draw.
@@ -196,7 +196,7 @@ impl Gpu {
 }
 
 impl Target {
-    /// Uploads the hair, its colours and its marks where they have changed.
+    /// Uploads the hair, its colours and its marks if they have changed.
     fn update_hair(
         &mut self,
         renderer: &Renderer,

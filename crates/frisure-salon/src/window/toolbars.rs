@@ -20,7 +20,7 @@ pub(super) fn main(
     dialog: &mut Option<Dialog>,
 ) {
     ui.horizontal_centered(|ui| {
-        if widgets::toggle(ui, "Gallery", salon.is_gallery(), "Hair to begin with").clicked() {
+        if widgets::toggle(ui, "Gallery", salon.is_gallery(), "Hair to start with").clicked() {
             out.push(Command::Gallery(!salon.is_gallery()));
         }
         let dialogs = [
@@ -102,9 +102,9 @@ pub(super) fn tools(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
         let tools = [
             (Tool::Orbit, "Turn", "V: orbit, pan and zoom"),
             (Tool::Lasso, "Lasso", "L: draw around hair to select it"),
-            (Tool::Brush, "Brush", "B: paint over the scalp to select the hair rooted there"),
+            (Tool::Brush, "Brush", "B: paint over the scalp to select hair by its roots"),
             (Tool::Cut, "Cut", "C: drag a cutting plane"),
-            (Tool::Comb, "Comb", "K: drag in the direction that the hair takes"),
+            (Tool::Comb, "Comb", "K: drag in the direction of combing"),
             (Tool::Pick, "One hair", "H: click to see one hair with its material frames"),
         ];
         for (tool, label, help) in tools {
@@ -131,11 +131,11 @@ pub(super) fn tools(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
 
 fn views(ui: &mut Ui, out: &mut Vec<Command>) {
     for (label, azimuth, elevation) in VIEWS {
-        if widgets::plain(ui, label, "Look from here").clicked() {
+        if widgets::plain(ui, label, "Set this view").clicked() {
             out.push(Command::LookFrom(f64::to_radians(azimuth), f64::to_radians(elevation)));
         }
     }
-    if widgets::plain(ui, "Keep this view", "Make it the scene's camera").clicked() {
+    if widgets::plain(ui, "Keep this view", "Save the view as the scene's camera").clicked() {
         out.push(Command::KeepView);
     }
 }

@@ -21,7 +21,7 @@ use super::renderer::{Picture, Side, Versioned, View};
 use super::{automation, theme, widgets};
 use crate::state::{Badge, Command, CutPlane, Salon, Tool};
 
-/// What the viewport keeps between frames.
+/// The state of the viewport between frames.
 #[derive(Default)]
 pub(super) struct Viewport {
     /// Corners of the lasso that is being drawn (points of the window).
@@ -38,7 +38,7 @@ pub(super) struct Viewport {
     environment: Option<(PathBuf, Option<EnvironmentMap>)>,
     /// The last error of the renderer.
     pub(super) error: Arc<Mutex<Option<String>>>,
-    /// Whether the user asked for the settings of a slow device.
+    /// Whether the user chose the settings of a slow device.
     is_slow: bool,
 }
 
@@ -52,7 +52,7 @@ struct StrandMarks {
 /// Time after the last motion until all strands are drawn (s).
 const REST: f64 = 0.25;
 
-/// Least number of strands drawn during motion. Chosen by trial.
+/// Minimum number of strands drawn during motion. Chosen by trial.
 const MIN_STRANDS: f32 = 4000.0;
 
 /// Angle of a drag over the viewport's height (rad).
@@ -85,17 +85,17 @@ impl Viewport {
         self.draw_stroke(ui, active, salon);
     }
 
-    /// Notes that something moves, so that fewer strands are drawn for a while.
+    /// Records a motion, so that fewer strands are drawn for a while.
     pub(super) fn note_motion(&mut self, now: f64) {
         self.last_motion = now;
     }
 
-    /// The fraction of the strands to draw and the quality of shadows: everything at rest; during motion as much as
-    /// keeps the frame time between 22 ms and 50 ms.
+    /// The fraction of the strands to draw and the quality of shadows: everything without motion; during motion the amount
+    /// with a frame time between 22 ms and 50 ms.
     fn adapt_quality(&mut self, ui: &Ui, salon: &Salon) -> (f32, Shadows) {
         let (now, frame_time) = ui.input(|i| (i.time, i.unstable_dt));
         if now - self.last_motion > REST && !salon.is_dragging() {
-            // Density maps cost most without a graphics card.
+            // Density maps are the slowest part without a graphics card.
             return (1.0, if self.is_slow { Shadows::None } else { Shadows::Fine });
         }
         if self.share == 0.0 {
@@ -110,7 +110,7 @@ impl Viewport {
         let least = (MIN_STRANDS / drawn as f32).min(1.0);
         self.share = (self.share * factor).clamp(least, 1.0);
         ui.ctx().request_repaint_after(Duration::from_secs_f64(REST + 0.01));
-        // In steps of half an octave, so that not every frame draws another choice of strands.
+        // In steps of half an octave, so that the set of strands does not change at every frame.
         let steps = (self.share.log2() * 2.0).round() / 2.0;
         let shadows = match (self.is_slow, self.share < 1.0) {
             (true, _) => Shadows::None,
@@ -251,7 +251,7 @@ impl Viewport {
         })
     }
 
-    /// The scene's look and lights, or the default ones where the scene's are invalid.
+    /// The scene's look and lights, or the default ones if the scene's are invalid.
     fn look_and_lights(&mut self, scene: &Scene, camera: &Camera, middle: DVec3) -> (Look, Lights) {
         self.read_environment(scene);
         let map = self.environment.as_ref().and_then(|(_, map)| map.as_ref());

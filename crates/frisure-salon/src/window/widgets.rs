@@ -19,7 +19,7 @@ pub(super) fn enabled(ui: &mut Ui, enabled: bool, label: &str, help: &str) -> bo
     ui.add_enabled_ui(enabled, |ui| plain(ui, label, help).clicked()).inner
 }
 
-/// A button that shows whether something is on.
+/// A toggle button.
 pub(super) fn toggle(ui: &mut Ui, label: &str, on: bool, help: &str) -> Response {
     with_help(ui, Button::selectable(on, label), help)
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use frisure_engine::{Request, Response};
 
-/// Repaints the window; called from any thread when there is something to poll.
+/// Repaints the window; called from any thread when there is a response to poll.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// Executes requests one after the other. Nothing here blocks.

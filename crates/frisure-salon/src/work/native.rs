@@ -22,7 +22,7 @@ impl Thread {
     /// Starts the thread.
     ///
     /// # Errors
-    /// The system cannot start a thread.
+    /// The error of the system if it cannot start a thread.
     pub fn start(wake: Wake) -> std::io::Result<Self> {
         let (requests, jobs) = channel();
         let (sender, responses) = channel();
