@@ -31,7 +31,7 @@ for kind, name in re.findall(r'card!\((type|scene) "([^"]+)"', cards):
         scene, picture = pathlib.Path(folder, "s.toml"), pathlib.Path(folder, "s.png")
         scene.write_text(text)
         subprocess.run([sys.argv[1], "predict", scene, "--image", picture])
-        # A guide that is not quite at rest is told, not fatal.
+        # A guide that has not converged is reported, not fatal.
         image = Image.open(picture).convert("RGB").resize((176, 216), Image.LANCZOS)
     image = image.quantize(96, dither=Image.Dither.FLOYDSTEINBERG)
     bytes_ = io.BytesIO()

@@ -1,4 +1,4 @@
-"""Blender draws a prediction, by the recipe of docs/grooms.md: import, give the hair a material, light it, Cycles.
+"""Draws a prediction with Blender by the steps of docs/grooms.md: import, material, lights, Cycles.
 
     frisure predict scenes/curly.toml -o out/curly.usdc
     PYTHON validation/clients/blender_picture.py out/curly.usdc docs/pictures/grooms/blender.jpg 1.0 0.5
@@ -15,14 +15,14 @@ from mathutils import Vector
 
 
 def opened(path):
-    """What a person imports into an empty file."""
+    """Imports the prediction into an empty file."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.usd_import(filepath=path)
     return bpy.data.objects["hairs"], bpy.data.objects["head"]
 
 
 def dyed(hairs, brown, red):
-    """A Principled Hair BSDF with the pigments of the scene's look: Blender leaves out primvars of the whole prim."""
+    """A Principled Hair BSDF with the pigments of the scene's look; Blender ignores primvars of the whole prim."""
     material = bpy.data.materials.new("pigments")
     nodes, links = material.node_tree.nodes, material.node_tree.links
     hair = nodes.new("ShaderNodeBsdfHairPrincipled")
@@ -34,7 +34,7 @@ def dyed(hairs, brown, red):
 
 
 def lit():
-    """A lamp high at the left, a weak one at the right, one behind, and a grey room."""
+    """A light high at the left, a weak one at the right, one behind, and a grey room."""
     for place, size, watts in (((0.9, -1.1, 0.9), 0.5, 90), ((-1.2, -0.8, 0.2), 0.8, 20), ((-0.6, 1.1, 0.8), 0.4, 90)):
         lamp = bpy.data.objects.new("lamp", bpy.data.lights.new("lamp", "AREA"))
         lamp.data.energy, lamp.data.size = watts, size
@@ -68,7 +68,7 @@ def rendered(path, samples=40):
     scene.cycles_curves.shape = "THICK"
     scene.render.image_settings.file_format = "JPEG"
     scene.render.image_settings.quality = 88
-    # Blender has a current folder of its own.
+    # Blender has a different current folder.
     scene.render.filepath = os.path.abspath(path)
     bpy.ops.render.render(write_still=True)
 

@@ -1,4 +1,4 @@
-"""What all clients are tried with: the program, and a small head of hair that it makes."""
+"""Fixtures of all clients: the program, and a small head of hair from it."""
 
 import os
 import pathlib
@@ -24,20 +24,20 @@ count = 80
 
 
 class Frisure:
-    """The program."""
+    """The program `frisure`."""
 
     def __init__(self, path):
         self.path = path
 
     def run(self, *arguments):
-        """Runs it; an error is that of the test."""
+        """Runs it; a failure fails the test."""
         words = [str(self.path), *map(str, arguments)]
         done = subprocess.run(words, capture_output=True, text=True, check=False)
         assert done.returncode == 0, f"{' '.join(words)}\n{done.stderr}"
         return done.stdout
 
     def convert(self, groom, *outputs, **options):
-        """Reads a groom and writes it elsewhere; `unit="cm"` is `--unit cm`."""
+        """Converts a groom; `unit="cm"` is `--unit cm`."""
         words = []
         for output in outputs:
             words += ["-o", output]
@@ -84,7 +84,7 @@ def read_hair(path):
 
 @pytest.fixture(scope="session")
 def hair_of(frisure, tmp_path_factory):
-    """What frisure reads of a file: points and thickness (m, z up), and the number of points of each strand."""
+    """The groom that frisure reads from a file: points and thickness (m, z up), and the number of points of each strand."""
     folder = tmp_path_factory.mktemp("read")
 
     def hair_of(path, **options):

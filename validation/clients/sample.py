@@ -1,4 +1,4 @@
-"""A groom with everything, as arrays: what the tests of formats compare with."""
+"""A groom with all attributes, as arrays, for the tests of formats."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ REGIONS = ["fringe", "top", "crown", "sides", "back", "nape"]
 
 
 def positions(strands=STRANDS, points=POINTS):
-    """Points of hairs that hang and curl (m, z up)."""
+    """Points of hanging curls (m, z up)."""
     turn = 2.399 * np.arange(strands)[:, None]
     s = np.linspace(0, 0.2, points)[None, :]
     r = 0.08 * np.sqrt((np.arange(strands)[:, None] + 1) / strands)
@@ -49,11 +49,11 @@ def arrays(strands=STRANDS, points=POINTS):
 
 
 def groups():
-    """The group of each hair in files for Unreal: that of the guide that it follows most."""
+    """The group of each hair in files for Unreal: that of its guide with the largest weight."""
     all_arrays = arrays()
     return all_arrays["guide_group"][all_arrays["guide"]]
 
 
 def y_up(points, unit=1.0):
-    """Points (m, z up) as a file with y up has them."""
+    """Points (m, z up) in the axes of a file with y up."""
     return np.stack([points[..., 0], points[..., 2], -points[..., 1]], -1) / unit

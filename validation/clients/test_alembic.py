@@ -1,4 +1,4 @@
-"""The Alembic library: it reads what frisure writes, and frisure reads what it writes."""
+"""The Alembic library reads files of frisure, and frisure reads its files."""
 
 import math
 
@@ -147,7 +147,7 @@ def test_guides_are_marked(written):
     assert list(values["groom_group_name"]) == ["fringe", "crown", "back", "fringe"]
 
 
-# What the library writes, frisure reads.
+# frisure reads files of the library.
 
 ARRAYS = {"f": imath.FloatArray, "i": imath.IntArray, "u": imath.UnsignedIntArray,
           "h": imath.ShortArray, "b": imath.UnsignedCharArray}
@@ -194,14 +194,14 @@ def line(points=10, shift=0.0):
 
 
 def inside(points):
-    """Centimetres, y up, in metres, z up."""
+    """Converts centimetres, y up, to metres, z up."""
     points = np.asarray(points).reshape(-1, 3)
     return 0.01 * np.stack([points[:, 0], -points[:, 2], points[:, 1]], -1)
 
 
 @pytest.fixture()
 def write(tmp_path):
-    """Lets a function write the file; it is complete when nothing of it is held any more."""
+    """Calls a function that writes the file; the file is complete when all its objects are released."""
 
     def write(build):
         path = tmp_path / "library.abc"
@@ -350,7 +350,7 @@ def test_guides_and_attributes(write, frisure, tmp_path):
     with np.load(tmp_path / "out.npz") as found:
         assert found["guide_positions"].shape == (2, 4, 3) and found["positions"].shape == (3, 4, 3)
         assert list(found["guide_id"]) == [70, 80] and list(found["id"]) == [5, 3, 4]
-        # Numbers of guides became their indices; -1 is none.
+        # Numbers of guides become their indices; -1 is none.
         assert found["closest_guides"].tolist() == [[1, 0, 0]] * 3
         np.testing.assert_allclose(found["guide_weights"], [[0.5, 0.3, 0]] * 3, atol=1e-7)
         assert list(found["axis_ratio"]) == [1.5, 1.5, 1.5]

@@ -1,4 +1,4 @@
-"""Blender, as a module: it imports what frisure writes, and frisure reads what it exports."""
+"""Blender, as a module, imports files of frisure, and frisure reads its exports."""
 
 import os
 import pathlib
@@ -11,7 +11,7 @@ KINDS = ("usda", "usdc")
 
 
 def quietly(work):
-    """Carries it out; what Blender printed, without how long it took."""
+    """Runs a script; returns Blender's output without times."""
     report = pathlib.Path(bpy.app.tempdir) / "said.txt"
     old = os.dup(1), os.dup(2)
     with open(report, "w") as file:
@@ -63,7 +63,7 @@ def test_hair_and_head_are_imported(head, kind, hair_of):
     skin = bpy.data.objects["head"].data.materials[0]
     colour = next(n for n in skin.node_tree.nodes if n.type == "BSDF_PRINCIPLED").inputs["Base Color"]
     assert np.allclose(colour.default_value[:3], [0.40, 0.29, 0.235])
-    # Blender gives imported curves no material, but has it.
+    # Blender imports the material, but does not assign it to curves.
     assert "hair" in bpy.data.materials
 
 
@@ -83,7 +83,7 @@ def test_roots_are_on_the_head(head):
 
 
 def make(kind):
-    """Three curves of 4, 5 and 6 points, moved and turned."""
+    """Three curves of 4, 5 and 6 points, translated and rotated."""
     data = bpy.data.hair_curves.new(kind)
     data.add_curves([4, 5, 6])
     points = [[0.01 * i, 0.004 * k * k, 1.5 - 0.02 * k] for i, n in enumerate([4, 5, 6]) for k in range(n)]
@@ -118,7 +118,7 @@ def test_nurbs_are_read_as_points_on_them(hair_of, tmp_path):
     quietly(lambda: bpy.ops.wm.usd_export(filepath=path))
     positions, _, counts = hair_of(path)
     assert list(counts) == [4, 5, 6]
-    # Within the hulls of their vertices.
+    # Points are in the hulls of their vertices.
     for first, n in ((0, 4), (4, 5), (9, 6)):
         low, high = world[first : first + n].min(axis=0), world[first : first + n].max(axis=0)
         own = positions[first : first + n]
@@ -156,7 +156,7 @@ def ply_with_y_up(path):
     return bpy.ops.wm.ply_export(filepath=path, up_axis="Y", forward_axis="NEGATIVE_Z")
 
 
-# A PLY does not say its axes: Blender's own are taken, others are told in the scene.
+# A PLY does not state its axes: the default are Blender's, and the scene can set others.
 @pytest.mark.parametrize(
     "extension, export, axis",
     [(extension, export, "") for extension, export in HEADS.items()]
@@ -190,6 +190,6 @@ def test_hair_grows_where_blender_painted(
     positions, _, counts = hair_of(tmp_path / "grown.usdc")
     roots = positions[np.concatenate([[0], np.cumsum(counts)[:-1]])]
     assert len(roots) == 200
-    # Up to a triangle beside what is white.
+    # Up to a triangle beside the white area.
     assert roots[:, 2].min() > top - 0.07 and roots[:, 2].max() < top + 1e-3
     assert roots[:, 0].min() > -0.02 and roots[:, 0].max() > 0.03

@@ -1,4 +1,4 @@
-"""Blender: it imports the Alembic files of frisure, and frisure reads those that it exports."""
+"""Blender imports Alembic files of frisure, and frisure reads its exports."""
 
 import bpy
 import numpy as np
@@ -36,7 +36,7 @@ def test_all_points_are_there(imported):
         assert [c.points_length for c in thing.data.curves] == [sample.POINTS] * rows.sum()
         matrix = np.array(thing.matrix_world)
         points = points_of(thing.data) @ matrix[:3, :3].T + matrix[:3, 3]
-        # Blender is z up itself: the hair is where it was, in metres.
+        # Blender is z up: the hair keeps its position, in metres.
         np.testing.assert_allclose(points, sample.positions()[rows].reshape(-1, 3), atol=2e-7)
         radii = np.empty(len(points), "f4")
         thing.data.attributes["radius"].data.foreach_get("value", radii)
@@ -80,7 +80,7 @@ def test_splines_that_blender_exports(tmp_path, hair_of, kind):
     bpy.ops.wm.alembic_export(filepath=str(path), check_existing=False)
     points, _, counts = hair_of(path, from_unit="m")
     assert len(counts) == 5 and thing.data.curves[0].points_length == 16
-    # Near the control points, as such curves are.
+    # Such curves are near their control points.
     control = sample.positions(5, 16).reshape(-1, 3)
     nearest = np.linalg.norm(points[:, None] - control[None], axis=-1).min(1)
     assert nearest.max() < 0.01

@@ -42,7 +42,7 @@ def test_accessors_hold_the_hair(glb):
     edges = array(gltf, primitive.indices).reshape(-1, 2)
     assert len(edges) == sample.STRANDS * (sample.POINTS - 1)
     assert (np.diff(edges) == 1).all()
-    # The container: whole chunks of 4 bytes, and no byte more than is said.
+    # The container has chunks of multiples of 4 bytes, with the stated total length.
     data = glb.read_bytes()
     assert len(data) % 4 == 0 and int.from_bytes(data[8:12], "little") == len(data)
 

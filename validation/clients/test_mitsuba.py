@@ -1,4 +1,4 @@
-"""Mitsuba 3: curves are loaded, and a picture has hair where hair is."""
+"""Mitsuba 3 loads curves, and its picture has hair in the right place."""
 
 import mitsuba
 import numpy as np
@@ -48,5 +48,5 @@ def test_a_picture_has_hair(curves, tmp_path):
     cover = image[..., 3]
     assert 0.1 < (cover > 0.05).mean() < 0.7
     assert np.isfinite(image).all()
-    # Nothing in the corners, hair in the middle.
+    # The corners are empty, the middle has hair.
     assert cover[:20, :20].max() == 0 and cover[60:110, 60:100].mean() > 0.3

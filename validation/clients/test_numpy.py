@@ -61,7 +61,7 @@ def test_fortran_and_pickles_are_told(frisure, tmp_path):
 
 
 def read_data(path):
-    """As the users of USC-HairSalon read it."""
+    """Reads a file as users of USC-HairSalon do."""
     words = np.fromfile(path, "<i4")
     strands, at = [], 1
     for _ in range(words[0]):

@@ -1,4 +1,4 @@
-"""Parquet: heads of a batch in the hands of pyarrow, and the same hair made again."""
+"""Parquet: pyarrow reads the heads of a batch, and frisure computes the same hair again."""
 
 import pathlib
 import re

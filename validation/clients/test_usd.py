@@ -1,4 +1,4 @@
-"""Pixar's USD library: it opens and validates what frisure writes, and frisure reads what it writes."""
+"""Pixar's USD library opens and validates files of frisure, and frisure reads its files."""
 
 import subprocess
 import sys
@@ -109,7 +109,7 @@ def test_other_units_and_axes(head, frisure, tmp_path):
 
 
 def test_a_groom_goes_round_unchanged(head, frisure, tmp_path):
-    # Text to binary to text: to the last byte, but for the head's normals, which follow from its rounded points.
+    # Text to binary to text gives the same bytes, except for the head's normals, which follow from its rounded points.
     binary, text = tmp_path / "a.usdc", tmp_path / "b.usda"
     frisure.convert(head / "head.usda", binary)
     frisure.convert(binary, text)
@@ -154,7 +154,7 @@ def test_what_the_library_writes_is_read(kind, hair_of, tmp_path):
     curves.SetWidthsInterpolation("uniform")
     positions, thickness, counts = hair_of(tmp_path / f"made.{kind}") if stage.GetRootLayer().Save() else None
     assert list(counts) == [5] * 40
-    # The ends of pinned B-splines are their vertices; then a quarter turn about y, twice as large, z up.
+    # The ends of pinned B-splines are their vertices; then a quarter turn about y, a factor of two, z up.
     x, y, z = np.array(points, float).T
     world = np.array([2 * z, 2 * y + 150, -2 * x])
     inside = np.array([world[0], -world[2], world[1]]).T * 0.01

@@ -3,21 +3,21 @@
 
 usage: dismech.py HAIRS.json OUT.json [--many N]
 
-Steps of implicit Euler as long as a fall (√(L/g)), with Gauss and Newton's iterations of the whole energy (`exact`), are close to a
-static solver; it computes in single precision. Stretch is an elastic energy: of a rod of a radius of 1/50 of the length, with
-the bending and twist of the hair. Of what was tried (steps of 0.3 to 100, 2 to 20 iterations, radii of L/50 to L/200, without
-`exact`) this is among the quickest, and leaves the fewest hairs in motion. Each hair is a simulation of its own: in a common one they share a line search, and one
-that goes astray stops all. Building the model and compiling kernels are not in the times.
+Steps of implicit Euler as long as a fall (√(L/g)), with Gauss–Newton iterations of the whole energy (`exact`), are close to a
+static solver; it computes in single precision. The stretching energy is that of a rod with a radius of 1/50 of the length, with
+the bending and twist of the hair. Among the tested settings (steps of 0.3 to 100, 2 to 20 iterations, radii of L/50 to L/200, without
+`exact`) this is one of the quickest, and leaves the fewest hairs in motion. Each hair is a separate simulation: in a common one they
+share a line search, and one that diverges stops all. The times exclude building the model and compiling kernels.
 """
 import argparse
 from importlib.metadata import version
 
-import common  # first: it asks for one thread
+import common  # first: it sets one thread
 import numpy as np
 import warp as wp
 
 wp.config.quiet = True
-# Annotations of 0.1.0 such as `Slots | None` need Python 3.14, though it says 3.10.
+# Annotations of 0.1.0 such as `Slots | None` need Python 3.14, although it declares 3.10.
 type(wp.struct(type("Empty", (), {"__annotations__": {"x": float}}))).__or__ = lambda a, b: a
 
 import newton  # noqa: E402
@@ -46,7 +46,7 @@ def build(hair, division):
         builder.particle_mass[k] = float(mass)
     model = builder.finalize(device="cpu")
     solver = DiSMechSolver(model, iterations=ITERATIONS, exact=True, linesearch=TRIALS, self_contact=False)
-    # What the first step of a solver prepares is not in the times either.
+    # The times also exclude the setup in the first step of a solver.
     solver.step(model.state(), model.state(), None, None, STEP)
     return solver, [model.state(), model.state()]
 

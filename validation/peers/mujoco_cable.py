@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""MuJoCo 3's rods: rigid bodies with ball joints and the cable plugin, which holds the curvature that they begin with.
+"""MuJoCo 3's rods: rigid bodies with ball joints and the cable plugin, which keeps their initial curvature.
 
 usage: mujoco_cable.py HAIRS.json OUT.json [--many N]
 
-Hairs are in units of their length, weight and fall. The settings are the best of what was tried: steps of 0.0005 to 0.01 with the
+Hairs are in units of their length, weight and fall. The settings are the best of those tested: steps of 0.0005 to 0.01 with the
 integrators implicitfast and implicit, damping of joints of 0 to 0.02 and armature of 0 to 0.01.
 """
 import argparse
 
-import common  # first: it asks for one thread
+import common  # first: it sets one thread
 import mujoco
 import numpy as np
 
@@ -54,7 +54,7 @@ def attempt(hair, elements, steps):
     def advance():
         mujoco.mj_step(m, d, nstep=EVERY)
         axis = d.xmat[-1].reshape(3, 3)[:, 0]
-        # It starts anew where it is lost: that is no rest.
+        # It restarts after a divergence, which is not convergence.
         if d.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
             return np.full(3, np.nan)
         return d.xpos[-1] + 0.5 * division.chord * axis

@@ -3,13 +3,13 @@
 
 usage: mujoco_flex.py HAIRS.json OUT.json [--many N]
 
-Hairs are in units of their length, weight and fall. The flex has bending and twist; its edges are kept in length by equality
-constraints. Time steps were tried from 0.005 to 1 (of √(L/g)) without and with damping, elastic and viscous: progress per step is
-the same from 0.01 to 0.5, and 0.02 without damping is among the quickest. Compiling the model is not in the times.
+Hairs are in units of their length, weight and fall. The flex has bending and twist; equality constraints keep the lengths of its
+edges. Tested were time steps from 0.005 to 1 (of √(L/g)) without and with damping, elastic and viscous: progress per step is
+the same from 0.01 to 0.5, and 0.02 without damping is one of the quickest. The times exclude compiling the model.
 """
 import argparse
 
-import common  # first: it asks for one thread
+import common  # first: it sets one thread
 import mujoco
 import numpy as np
 
@@ -19,7 +19,7 @@ STEP, EVERY = 0.02, 10
 
 
 def model(hair, division):
-    # Vertices store EI/(l0 + l1) with chords l, where arcs are meant.
+    # Vertices store EI/(l0 + l1) with chords l instead of arcs.
     longer = division.chord / division.h
     young = longer * hair.stiffness[0] / (0.25 * np.pi * RADIUS**4)
     shear = longer * hair.stiffness[2] / (0.5 * np.pi * RADIUS**4)

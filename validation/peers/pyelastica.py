@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""PyElastica: Cosserat rods in motion, damped until they rest.
+"""PyElastica: Cosserat rods in motion, damped until they converge.
 
 usage: pyelastica.py HAIRS.json OUT.json [--many N]
 
-Its steps in time are bounded by how stiff a rod is in tension and shear, for which a true hair (a radius of 1/4000 of its
-length) takes millions of steps. What is compared here are thicker rods of the same weight and the same stiffness in bending and
-twist: the same statics but for stretch and shear, which cost accuracy. Radius, step and damping were chosen by trial. The many
-hairs are rods of one simulation, which share what Python costs. The first, compiling run is not in the times.
+The stiffness of a rod in tension and shear limits the time step, so a real hair (a radius of 1/4000 of its
+length) takes millions of steps. The comparison uses thicker rods of the same weight and the same stiffness in bending and
+twist: the same statics except for stretch and shear, which reduce the accuracy. Radius, step and damping were chosen by trial. The many
+hairs are rods of one simulation, which share the overhead of Python. The times exclude the first run, which compiles.
 """
 import argparse
 
-import common  # first: it asks for one thread
+import common  # first: it sets one thread
 import elastica as ea
 import numpy as np
 from elastica.version import VERSION
@@ -43,7 +43,7 @@ def rod(hair, elements, radius):
         position=division.points.T.copy(),
         directors=np.stack([d1, np.cross(t, d1), t]).transpose(0, 2, 1).copy(),
     )
-    # At rest as it is.
+    # The natural shape is the rest shape.
     made.compute_internal_forces_and_torques(0.0)
     made.rest_kappa[:] = made.kappa
     made.rest_sigma[:] = made.sigma

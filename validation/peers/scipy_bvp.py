@@ -3,9 +3,9 @@
 
 usage: scipy_bvp.py HAIRS.json OUT.json [--many N]
 
-The unknowns are the vertical and the moment as the section sees them: six equations, the fewest there are, with analytic
-Jacobians. The tip follows from the strain by a Magnus integrator of order four. It starts from the natural shape, with the
-whole weight at once or with the weight turned on in steps, each from the one before.
+The unknowns are the vertical and the moment in the material frame: six equations, the smallest possible number, with analytic
+Jacobians. The tip follows from the strain by a Magnus integrator of order four. The solver starts from the natural shape, with the
+whole weight at once or with increasing weight in steps, each from the step before.
 """
 import argparse
 import warnings
@@ -87,7 +87,7 @@ def solve(hair, tolerance, mesh, steps):
 def tip(hair, strain, intervals=192):
     """Tip of the hair of that strain: Magnus's series to order four, and Simpson's rule."""
     h = 1.0 / intervals
-    # Half intervals, so that Simpson's rule has its middles.
+    # Half intervals, for the midpoints of Simpson's rule.
     left = np.arange(2 * intervals) * 0.5 * h
     gauss = 0.25 * h * np.array([1 - 1 / np.sqrt(3), 1 + 1 / np.sqrt(3)])
     u1, u2 = strain(left + gauss[0]), strain(left + gauss[1])

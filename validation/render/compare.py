@@ -49,7 +49,7 @@ def job(args, case, bounces, light, folder):
         "axis_ratio": args.axis_ratio, "cycles_model": args.cycles_model,
         "eye": [0.45, 0.78, 0.2], "target": [0.0, 0.0, -0.03], "field_of_view": 20.0,
         "room": 0.0 if lamp else 1.0, "lamp": 3.14159265 if lamp else 0.0, "towards": [0.8, 0.3, 0.6],
-        # A white ball in a white room must vanish; elsewhere it is out of sight and plain.
+        # A white ball in a white room must be invisible; in other cases it is out of the picture.
         "ball": 1.0 if case == "white" and not lamp else 0.3,
     }
 

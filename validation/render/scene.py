@@ -1,4 +1,4 @@
-"""What all renderers are given: the strands, the ball below them, and a job (a dictionary)."""
+"""The input of all renderers: the strands, the ball below them, and a job (a dictionary)."""
 import json
 import os
 import resource
@@ -18,7 +18,7 @@ def read_strands(path):
 
 
 def ball(radius=0.09, n=96):
-    """Vertices and triangles of the ball that `wig.rs` grows hair on."""
+    """Vertices and triangles of the ball below the hair of `wig.rs`."""
     i, j = np.meshgrid(np.arange(n + 1), np.arange(n), indexing="ij")
     theta, phi = i * np.pi / n, j * 2 * np.pi / n
     p = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], -1)

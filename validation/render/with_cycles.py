@@ -24,7 +24,7 @@ def hair_material(job):
     made, node = material("hair", "ShaderNodeBsdfHairPrincipled")
     node.model = job.get("cycles_model", "CHIANG")
     node.parametrization = "ABSORPTION"
-    # By name over all of them: those that a choice above hides are not found by key.
+    # Sockets hidden by another option have no key, so the search is by name over all.
     inputs = {socket.name: socket for socket in node.inputs}
     inputs["Absorption Coefficient"].default_value = scene.absorption(job)
     for name, value in [("Roughness", 0.3), ("Radial Roughness", 0.3), ("Coat", 0), ("IOR", 1.55),
@@ -98,7 +98,7 @@ def settings(job, into):
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.blur_glossy = cycles.light_sampling_threshold = 0
     cycles.caustics_reflective = cycles.caustics_refractive = True
-    # Direct light is not counted.
+    # Cycles does not count direct light.
     deepest = job["bounces"] - 1
     cycles.max_bounces = cycles.diffuse_bounces = deepest
     cycles.glossy_bounces = cycles.transmission_bounces = deepest

@@ -24,7 +24,7 @@ def prepare(job):
     return picture
 
 
-# All of its work is done in a child.
+# A child process does all the work.
 own = scene.cpu
 scene.cpu = lambda: own(resource.RUSAGE_CHILDREN)
 scene.run(prepare)

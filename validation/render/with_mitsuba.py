@@ -20,7 +20,7 @@ def control_points(points):
 
 
 def curves(strands):
-    """The strands as Mitsuba reads them, in a file beside them."""
+    """Writes the strands in Mitsuba's format to a file beside them."""
     path = strands + ".txt"
     if os.path.exists(path):
         return path
@@ -72,7 +72,7 @@ def prepare(job):
               "sampler": {"type": "independent"}}
     world = mi.load_dict({
         "type": "scene", "sensor": camera, "light": light(job), "ball": ball(job["ball"]),
-        # The first segment of a path is the camera's own.
+        # The first segment of a path starts at the camera.
         "integrator": {"type": "path", "max_depth": job["bounces"] + 1, "hide_emitters": True},
         "curves": {"type": "bsplinecurve", "filename": curves(job["strands"]), "bsdf": hair}})
     return lambda seed, samples: np.array(mi.render(world, spp=samples, seed=seed))

@@ -3,7 +3,7 @@
 //! [`state`] is the application without a toolkit; [`work`] executes its requests on another thread; [`window`]
 //! shows it; `page` has what a browser needs.
 
-// What `wasm_bindgen` generates is unsafe.
+// `wasm_bindgen` generates unsafe code.
 #![cfg_attr(not(target_arch = "wasm32"), forbid(unsafe_code))]
 
 #[cfg(target_arch = "wasm32")]

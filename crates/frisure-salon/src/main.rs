@@ -1,6 +1,6 @@
 //! The salon on the desktop.
 
-// What `wasm_bindgen` generates is unsafe.
+// `wasm_bindgen` generates unsafe code.
 #![cfg_attr(not(target_arch = "wasm32"), forbid(unsafe_code))]
 
 #[cfg(target_arch = "wasm32")]

@@ -13,11 +13,11 @@ pub struct CutPlane {
     pub roll: f64,
     /// Tilt to the back (rad): a positive one leaves more hair there.
     pub pitch: f64,
-    /// How hair is held while it is cut.
+    /// The position of the hair during the cut.
     pub held: CutHold,
 }
 
-/// How hair is held while a plane cuts it.
+/// The position of hair while a plane cuts it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CutHold {
     /// As it hangs.

@@ -244,7 +244,7 @@ impl Salon {
         self.jobs.effects.drain(..).collect()
     }
 
-    /// Which of head and hair are from files.
+    /// Whether head and hair are from files.
     #[must_use]
     pub fn files(&self) -> Contents {
         self.scene.as_ref().map_or(Contents::default(), |parsed| Contents {

@@ -35,7 +35,7 @@ pub(super) fn labelled(ui: &mut Ui, label: &str, widget: impl Widget) -> Respons
     ui.add(widget).labelled_by(name.id)
 }
 
-/// How the modifier keys combine a selection with the current one.
+/// The combination of selections for the pressed modifier keys.
 pub(super) fn select_mode(ui: &Ui) -> SelectMode {
     ui.input(|i| match (i.modifiers.shift, i.modifiers.alt) {
         (_, true) => SelectMode::Remove,

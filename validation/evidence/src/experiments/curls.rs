@@ -1,4 +1,4 @@
-//! What is measured along a curl.
+//! Measurements along a curl.
 
 use glam::DVec3;
 
@@ -7,12 +7,12 @@ use glam::DVec3;
 pub(super) struct Turn {
     /// Arc length over length in its middle.
     pub(super) middle: f64,
-    /// How far it descends over the arc length that it takes: 1 is straight down, 0 a flat ring.
+    /// Descent over arc length: 1 is straight down, 0 a flat ring.
     pub(super) descent: f64,
 }
 
-/// The turns of a line (evenly spaced points, over the length) about the vertical, from the tip up: a turn is
-/// where the horizontal direction of the tangent has gone round once.
+/// The turns of a line (evenly spaced points, over the length) about the vertical, from the tip up. A turn is
+/// one revolution of the horizontal direction of the tangent.
 pub(super) fn turns(line: &[DVec3]) -> Vec<Turn> {
     let last = line.len() - 1;
     let h = 1.0 / last as f64;

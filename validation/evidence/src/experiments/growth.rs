@@ -112,7 +112,7 @@ fn rod_line(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
     Ok(found.centre_line(81).iter().map(|p| DVec2::new(p.truncate().length(), p.z)).collect())
 }
 
-/// The same of a rod in contact with the head.
+/// Points (m) of a rod in contact with the head, in the plane of the hair.
 fn on_the_head(length: f64, rise: f64) -> Result<Vec<DVec2>, Stopped> {
     let rod = Rod::new(spec(length, rise)?)?;
     let root = DVec3::new(rise.cos(), 0.0, rise.sin()) * (HEAD + 1e-4);

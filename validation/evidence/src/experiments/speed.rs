@@ -30,7 +30,7 @@ fn hairs(count: usize) -> Result<Vec<Rod>, Stopped> {
     (0..count).map(one).collect()
 }
 
-/// The shortest of three times (s), and how many of the hairs are stable.
+/// The shortest of three times (s), and the number of stable hairs.
 fn timed(rods: &[Rod], solve: impl Fn(&Rod) -> Stability) -> (f64, usize) {
     let mut best = f64::INFINITY;
     let mut stable = 0;
@@ -42,7 +42,7 @@ fn timed(rods: &[Rod], solve: impl Fn(&Rod) -> Stability) -> (f64, usize) {
     (best, stable)
 }
 
-/// The same for a batch.
+/// The shortest of three times (s) of a batch, and the number of stable hairs.
 fn batched(rods: &[Rod]) -> (f64, usize) {
     let mut best = f64::INFINITY;
     let mut stable = 0;

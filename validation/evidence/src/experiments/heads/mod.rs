@@ -99,7 +99,7 @@ fn first(
     Ok(())
 }
 
-/// How far hair hangs and how densely it is packed, from straight to frizzy.
+/// Compares the descent and the density of hair from straight to frizzy.
 fn check_order(finding: &mut Finding, drops: &[f64], fills: &[f64]) {
     let falls = |x: &[f64]| x.windows(2).all(|p| p[1] < p[0]);
     finding.check(

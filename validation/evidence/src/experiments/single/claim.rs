@@ -23,7 +23,7 @@ pub(super) const CURLS: [(f64, f64, f64); 5] = [
 const MEASURES: [&str; 3] =
     ["curvature below the first tenth", "curvature, whole hair", "descent of turns"];
 
-/// Which axis the curl is about, and the torsion constant.
+/// Whether the curl is about the soft axis, the torsion constant, and the name.
 type Way = (bool, TorsionConstant, &'static str);
 
 const WAYS: [Way; 4] = [

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::claim::{CURLS, curl, irregular};
 use crate::{Finding, Stopped, Table};
 
-/// Which stiffnesses of the elliptical hair a round hair has; its weight is always that of the elliptical hair.
+/// Stiffnesses that a round hair takes from the elliptical hair; its weight is always that of the elliptical hair.
 #[derive(Clone, Copy)]
 struct Given {
     name: &'static str,
