@@ -8,10 +8,10 @@ use thiserror::Error;
 use crate::finding::Finding;
 use crate::reference::NoSolution;
 
-/// How much is computed.
+/// The number of hairs and the resolution of scans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// What runs in the tests: fewer hairs and coarser scans of the same experiments, under the same
+    /// The effort of the tests: fewer hairs and coarser scans of the same experiments, under the same
     /// criteria.
     Quick,
     /// Everything.
@@ -19,7 +19,7 @@ pub enum Effort {
 }
 
 impl Effort {
-    /// One of two values.
+    /// `quick` or `full`, for this effort.
     #[must_use]
     pub fn pick<T>(self, quick: T, full: T) -> T {
         match self {
@@ -29,7 +29,7 @@ impl Effort {
     }
 }
 
-/// Why an experiment gave no finding.
+/// An experiment without a finding.
 #[derive(Debug, Error)]
 pub enum Stopped {
     /// The computation was cancelled.
@@ -44,7 +44,7 @@ pub enum Stopped {
     /// The reference has no solution.
     #[error(transparent)]
     Reference(#[from] NoSolution),
-    /// Something else that the experiment needs.
+    /// Any other failure.
     #[error("{0}")]
     Other(String),
 }
@@ -54,7 +54,7 @@ pub enum Stopped {
 pub struct Experiment {
     /// Name on the command line.
     pub name: &'static str,
-    /// Heading of its part of the report.
+    /// Heading of its section of the report.
     pub title: &'static str,
     /// The question.
     pub question: &'static str,

@@ -33,7 +33,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &speed::EXPERIMENT,
 ];
 
-/// The experiment of that name.
+/// The experiment with the name `name`.
 #[must_use]
 pub fn experiment(name: &str) -> Option<&'static Experiment> {
     EXPERIMENTS.iter().copied().find(|e| e.name == name)

@@ -51,13 +51,13 @@ impl Frame {
         self.size[1] - BOTTOM - up * (self.size[1] - TOP - BOTTOM)
     }
 
-    /// Pixels of a point; none where a number cannot be drawn.
+    /// Pixels of a point; `None` if a number cannot be drawn.
     pub(super) fn at(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         Some((self.x(self.axes[0].scale.place(x)?), self.y(self.axes[1].scale.place(y)?)))
     }
 }
 
-/// Text inside of XML.
+/// Text with XML escapes.
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -6,11 +6,11 @@ use frisure::rod::{NaturalStrain, RodSpec, TorsionConstant};
 use glam::{DMat3, DVec3};
 use thiserror::Error;
 
-/// The weight, or the natural strain, could not be turned on wholly.
+/// The solver could not increase the weight, or the natural strain, to its full value.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error("the boundary-value problem has no solution beyond {fraction} of the way on this branch")]
 pub struct NoSolution {
-    /// How much of it could be.
+    /// The fraction that it reached.
     pub fraction: f64,
 }
 
@@ -25,12 +25,12 @@ pub struct Hanging {
     pub natural: DVec3,
     /// Directors d1, d2, t at the root, in columns.
     pub root: DMat3,
-    /// The length (m) that is the unit.
+    /// Unit of length (m).
     pub length: f64,
 }
 
 impl Hanging {
-    /// The numbers of a rod with uniform natural strain, from the formulas of sections in the books.
+    /// The numbers of a rod with uniform natural strain, from textbook formulas of sections.
     ///
     /// # Panics
     /// If the natural strain varies.
@@ -57,20 +57,20 @@ impl Hanging {
         Self { weight, ..self }
     }
 
-    /// How many pieces the rod is cut into, and into how many steps each.
+    /// The number of pieces of the rod, and of steps in each piece.
     pub(super) fn division(&self) -> (usize, usize) {
         let turn = self.natural.length();
         // Within a piece the fastest growth, exp(√Γ s), stays below e².
         let heavy = self.weight / self.stiffness.min_element().min(1.0);
         let pieces = (0.5 * heavy.sqrt()).max(0.5 * turn).ceil().clamp(16.0, 400.0);
         let steps = (6.0 * (turn + heavy.sqrt() + 6.0) / pieces).ceil().max(6.0);
-        // Points of the line within a piece are ends of steps, so that it is the same solution.
+        // Points of the line within a piece are ends of steps, so that they belong to the same solution.
         let (pieces, each) = (pieces as usize, POINTS.div_ceil(pieces as usize));
         (pieces, (steps as usize).next_multiple_of(each))
     }
 }
 
-/// Least number of intervals between the points at which lines are compared.
+/// Smallest number of intervals between the points at which lines are compared.
 pub const POINTS: usize = 96;
 
 /// ζ and M at the ends of all pieces.
@@ -97,7 +97,7 @@ impl Hanging {
         joined(zeta.cross(u), moment.cross(u) + load)
     }
 
-    /// The same for a small change of the solution.
+    /// The linearised equations for a small change of the solution.
     pub(super) fn change(&self, s: f64, y: &[f64], by: &[f64]) -> [f64; 6] {
         let (zeta, moment) = halves(y);
         let (d_zeta, d_moment) = halves(by);

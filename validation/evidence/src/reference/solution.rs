@@ -7,7 +7,7 @@ use super::{morse, shooting};
 use crate::extremes::largest;
 
 impl Hanging {
-    /// The stable equilibrium reached from the natural shape as the weight is turned on.
+    /// The stable equilibrium reached from the natural shape as the weight increases.
     ///
     /// # Errors
     /// [`NoSolution`], where that branch ends, loses its stability, or cannot be followed.
@@ -15,7 +15,7 @@ impl Hanging {
         shooting::follow(self, true).map(|nodes| Solution { rod: *self, nodes })
     }
 
-    /// The same without asking for stability: a rod and a start that a mirror maps to themselves stay so.
+    /// The equilibrium reached in the same way, stable or not; a mirror-symmetric rod stays symmetric.
     ///
     /// # Errors
     /// [`NoSolution`], where that branch ends or cannot be followed.
@@ -23,8 +23,8 @@ impl Hanging {
         shooting::follow(self, false).map(|nodes| Solution { rod: *self, nodes })
     }
 
-    /// The solution reached from a straight rod that hangs from a root that points straight down, as it is given
-    /// its natural strain.
+    /// The solution reached from a straight rod that hangs from a root that points straight down, as its natural strain
+    /// increases.
     ///
     /// # Errors
     /// [`NoSolution`], where that branch ends or cannot be followed.
@@ -32,8 +32,8 @@ impl Hanging {
         shooting::curl(self).map(|nodes| Solution { rod: *self, nodes })
     }
 
-    /// The solution next to a line that somebody else found, given as a function of arc length over length to the
-    /// frame there: Newton's method on the equations, which keeps nothing of where it started from.
+    /// The solution next to a given line, a function from arc length over length to the
+    /// frame: Newton's method on the equations, which do not depend on the start.
     ///
     /// # Errors
     /// [`NoSolution`], where Newton's method finds none from there.
@@ -75,7 +75,7 @@ impl Solution {
         largest(points.iter().enumerate().map(gap))
     }
 
-    /// How many independent small changes lower the energy: 0 for a minimum.
+    /// The number of independent directions in which the energy decreases: 0 for a minimum.
     #[must_use]
     pub fn index(&self) -> usize {
         morse::index(&self.rod, &self.nodes)

@@ -2,9 +2,9 @@
 
 use crate::{Effort, Experiment, Finding, Item};
 
-/// Every experiment that was run, and what it found.
+/// Every experiment that was run, with its finding.
 pub struct Book<'a> {
-    /// How much was computed.
+    /// Quick or full.
     pub effort: Effort,
     /// In the order of the report.
     pub chapters: Vec<(&'a Experiment, Finding)>,

@@ -7,7 +7,7 @@ use crate::{Finding, Table};
 
 /// The criteria as a table.
 pub(super) fn checked(finding: &Finding) -> Table {
-    let mut table = Table::new("Verdict", &["what", "measured", "must be", "verdict"]);
+    let mut table = Table::new("Verdict", &["criterion", "measured", "must be", "verdict"]);
     for criterion in &finding.criteria {
         table.row([
             criterion.what.clone(),
@@ -21,7 +21,7 @@ pub(super) fn checked(finding: &Finding) -> Table {
 
 /// All times as a table, if there are any.
 pub(super) fn timed(book: &Book<'_>) -> Option<Table> {
-    let mut table = Table::new("", &["what", "seconds", "beside"]);
+    let mut table = Table::new("", &["computation", "seconds", "for comparison"]);
     for timing in book.chapters.iter().flat_map(|(_, finding)| &finding.timings) {
         let seconds = number(timing.seconds);
         table.row([timing.what.clone(), seconds, timing.beside.clone()]);

@@ -29,7 +29,7 @@ pub(super) fn rest(spec: &RodSpec) -> Result<Equilibrium, Stopped> {
     Ok(equilibrium(&rod, &[], &to_accuracy(&rod, 1e-4)))
 }
 
-/// The same curl in the same place, about the other axis of its section.
+/// The same curl at the same position, about the other axis of its section.
 pub(super) fn stiff(spec: RodSpec) -> Result<RodSpec, Stopped> {
     let u = spec.natural.at(0.0);
     let frame = spec.root.frame();

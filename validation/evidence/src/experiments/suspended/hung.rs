@@ -38,7 +38,7 @@ impl Hung {
         self.line.iter().any(|p| !(p.y.abs() <= 1e-3))
     }
 
-    /// The helix is global if the tangents of the upper tenth of the hair still wind.
+    /// The helix is global if the hair between 5 and 25 % of its length descends by less than 0.95 of its arc length.
     pub(super) fn phase(&self) -> Phase {
         let upper = &self.line[100..500];
         let descent = (upper[0].z - upper[upper.len() - 1].z) * 2000.0 / (upper.len() - 1) as f64;
