@@ -7,7 +7,36 @@ use crate::resolution::ElementKind;
 use crate::rod::Rod;
 use crate::strain::NaturalStrain;
 
+/// Largest departure (rad) of an element's control from its natural value in a start that is carried over by moments.
+/// Chosen: about a quarter of a turn; it bounds how far off a start is where one stiffness is many times another.
+const LARGEST_BEND: f64 = 1.5;
+
 /// A rod divided into elements.
+///
+/// ```
+/// use frisure_rod::{
+///     Chain, ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant,
+/// };
+/// use glam::DVec3;
+///
+/// // A quarter of a circle with a radius of 10 cm: exact with any number of helix elements.
+/// let arc = std::f64::consts::FRAC_PI_2 * 0.1;
+/// let rod = Rod::new(RodSpec {
+///     length: arc,
+///     section: Section::circular(35e-6)?,
+///     material: Material::new(3.9e9, 0.9e9, 1300.0)?,
+///     torsion: TorsionConstant::SaintVenant,
+///     natural: NaturalStrain::helix(0.1, 0.0)?,
+///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
+///     gravity: 0.0,
+/// })?;
+/// let chain = Chain::uniform(&rod, ElementKind::Helix, 3);
+/// let shape = chain.natural_shape();
+/// assert!((shape.positions[3].length() - 0.1 * 2.0_f64.sqrt()).abs() < 1e-12);
+/// // The natural shape has no internal moment.
+/// assert!(chain.moments(&shape).iter().all(|moment| moment.length() == 0.0));
+/// # Ok::<(), frisure_rod::InvalidQuantity>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Chain<'a> {
     rod: &'a Rod,
@@ -29,6 +58,7 @@ impl<'a> Chain<'a> {
         let kind = kind.chosen_for(rod);
         let h = rod.length() / elements as f64;
         let arc: Vec<f64> = (0..=elements)
+            // The last node is at L exactly: N h may round to less, and a search by arc length would miss the tip.
             .map(|i| if i == elements { rod.length() } else { h * i as f64 })
             .collect();
         let natural = rod.natural();
@@ -37,6 +67,7 @@ impl<'a> Chain<'a> {
             let halves = [natural.mean(from, middle), natural.mean(middle, to)];
             Geometry::new(kind, h, halves, rod.stiffness())
         };
+        // Equal elements share one geometry, with the sines and cosines of its natural pieces.
         let geometry = match natural {
             NaturalStrain::Uniform(_) => vec![element(0.0, h)],
             NaturalStrain::Varying(_) => arc.windows(2).map(|s| element(s[0], s[1])).collect(),
@@ -129,10 +160,11 @@ impl<'a> Chain<'a> {
         for i in 0..self.len() {
             let g = self.geometry(i);
             let m = moment(0.5 * (self.arc[i] + self.arc[i + 1]));
+            // The frame in which the moment acts depends on the control itself; that of the natural control is near enough for a start.
             let inside = (frame * g.moment_frame(g.rest())).transpose() * m;
             // Hooke's law inverted, c = c⁰ + (K/h)⁻¹ m. A moment of another division can lead to more than a turn: such a
             // start is useless.
-            let bent = (inside / g.stiffness()).clamp_length_max(1.5);
+            let bent = (inside / g.stiffness()).clamp_length_max(LARGEST_BEND);
             let c = g.rest() + bent;
             controls.push(c);
             frame *= g.motion(c).rotation();

@@ -4,8 +4,19 @@ use crate::error::{InvalidQuantity, positive};
 
 /// Young's modulus along the fibre, shear modulus across it, and density.
 ///
-/// The two moduli are independent: hair measures E ≈ 3.9 GPa and G ≈ 0.9 GPa (Robbins), which no
+/// The two moduli are independent: hair measures E ≈ 3.9 GPa and G ≈ 0.9 GPa \[Robbins\], which no
 /// isotropic Poisson's ratio gives.
+///
+/// ```
+/// use frisure_rod::Material;
+///
+/// let hair = Material::new(3.9e9, 0.9e9, 1300.0)?; // E and μ (Pa), density (kg/m³)
+/// // No isotropic material is as soft in shear: ν = 0.5, the limit, gives μ = E/3.
+/// let isotropic = Material::isotropic(3.9e9, 0.5, 1300.0)?;
+/// assert!(hair.shear_modulus() < isotropic.shear_modulus());
+/// assert!(Material::new(3.9e9, -0.9e9, 1300.0).is_err());
+/// # Ok::<(), frisure_rod::InvalidQuantity>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     youngs_modulus: f64,

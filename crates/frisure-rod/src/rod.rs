@@ -29,6 +29,7 @@ impl Root {
         for x in given.to_cols_array() {
             finite("component of a root director", x, "")?;
         }
+        // RᵀR − I vanishes for an orthonormal frame; det R < 0 is a left-handed one.
         let gram = given.transpose() * given - DMat3::IDENTITY;
         let error = gram.to_cols_array().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         if !(error < 1e-3) || given.determinant() < 0.0 {
@@ -39,6 +40,7 @@ impl Root {
                 allowed: "less than 1e-3: d1, d2, t of length 1, at right angles, d1 × d2 = t",
             });
         }
+        // Gram–Schmidt from the tangent, which matters most: the direction in which the hair leaves stays as given.
         let t = t.normalize();
         let d1 = (d1 - t * t.dot(d1)).normalize();
         Ok(Self { position, frame: DMat3::from_cols(d1, t.cross(d1), t) })

@@ -39,6 +39,7 @@ pub(crate) fn scaled_identity(x: f64) -> DMat3 {
 /// `exp([c]×)` from the Stumpff table of |c|².
 #[inline]
 pub(crate) fn exponential(c: DVec3, table: &[f64; ORDERS]) -> DMat3 {
+    // Rodrigues: sin θ/θ = c_1, (1 − cos θ)/θ² = c_2.
     let k = cross_matrix(c);
     // [c]×² = c cᵀ − |c|² I.
     let square = outer(c, c) - scaled_identity(c.length_squared());
@@ -48,6 +49,7 @@ pub(crate) fn exponential(c: DVec3, table: &[f64; ORDERS]) -> DMat3 {
 /// The right Jacobian J with `exp[c + x] = exp[c] exp[J x + …]`.
 #[inline]
 pub(crate) fn right_jacobian(c: DVec3, table: &[f64; ORDERS]) -> DMat3 {
+    // J = ∫₀¹ exp(−σ[c]×) dσ = I − c_2 [c]× + c_3 [c]×². (L1)
     let square = outer(c, c) - scaled_identity(c.length_squared());
     DMat3::IDENTITY - cross_matrix(c) * table[2] + square * table[3]
 }
@@ -56,7 +58,7 @@ pub(crate) fn right_jacobian(c: DVec3, table: &[f64; ORDERS]) -> DMat3 {
 #[inline]
 pub(crate) fn right_jacobian_derivative(c: DVec3, table: &[f64; ORDERS], lambda: DVec3) -> DMat3 {
     // b″ = (d/dt J(c + t x)) x: the curve of body angular velocity has no further second-order
-    // term, since b × b vanishes at the start.
+    // term, since b × b vanishes at the start. Terms with x × x vanish too; docs/theory.md (E4) has the rest.
     let (d2, d3) = (first_derivative(table, 2), first_derivative(table, 3));
     let swirl = c.cross(c.cross(lambda)) * d3 - lambda.cross(c) * d2;
     let gamma = table[3];
@@ -70,13 +72,16 @@ pub(crate) fn deviation(m: &DMat3) -> DVec3 {
     let skew =
         DVec3::new(m.y_axis.z - m.z_axis.y, m.z_axis.x - m.x_axis.z, m.x_axis.y - m.y_axis.x);
     let trace = m.x_axis.x + m.y_axis.y + m.z_axis.z;
-    // 1 + tr = 4 cos²(θ/2); near half a turn the direction is arbitrary and the length bounded.
+    // The skew part has the length 2 sin θ = 4 sin(θ/2) cos(θ/2), and 1 + tr = 4 cos²(θ/2). Near half a turn the direction
+    // is arbitrary; the bound 4 cos² ≥ 0.04 (θ ≤ 169°) is chosen so that the length stays finite.
     skew / (1.0 + trace).max(0.04).sqrt()
 }
 
 /// Of all rotation vectors (rad) of the rotation that `turn` is one of, the nearest to `rest`: a
 /// long element of a tight curl turns by more than half a turn.
 pub(crate) fn nearest_turn(turn: DVec3, rest: DVec3) -> DVec3 {
+    // All rotation vectors of a rotation are (θ + 2πk) along its axis; k minimises the distance along that axis. A turn
+    // below rounding (1e-9 rad) has no axis of its own and takes that of `rest`.
     let angle = turn.length();
     let axis = if angle > 1e-9 { turn / angle } else { rest.normalize_or_zero() };
     let whole = ((rest.dot(axis) - angle) / std::f64::consts::TAU).round();
@@ -101,6 +106,7 @@ impl RotationSeries {
         let jet = |j: usize| {
             [e * table[j], e * first_derivative(table, j), e * second_derivative(table, j)]
         };
+        // φ_k(c) e = e/k! + c_{k+1} c×e + c_{k+2} c×(c×e). (E1)
         let constant = if k == 2 { e * 0.5 } else { e };
         Self { constant, once: jet(k + 1), twice: jet(k + 2) }
     }
@@ -126,14 +132,14 @@ impl RotationSeries {
     pub(crate) fn jacobian(&self, c: DVec3) -> DMat3 {
         let (b, e) = (self.once[0], self.twice[0]);
         let slope = c.cross(self.once[1] + c.cross(self.twice[1])) * 2.0;
-        // x×(c×C) + c×(x×C) = −[c×C]x + (c·C) x − (c·x) C, by the triple product.
+        // (E2): x×(c×C) + c×(x×C) = −[c×C]x + (c·C) x − (c·x) C, by the triple product, and dy = 2 c·x in B and C.
         scaled_identity(c.dot(e)) - outer(e, c) - cross_matrix(b + c.cross(e)) + outer(slope, c)
     }
 
     /// Gradient and Hessian of `ω·F(c)`.
     #[inline]
     pub(crate) fn contracted(&self, c: DVec3, omega: DVec3) -> (DVec3, DMat3) {
-        // ω·F = c·n + q(C) + const with n = B×ω and q(e) = (ω·c)(c·e) − (ω·e)|c|²; n and C depend
+        // (E3): ω·F = c·n + q(C) + const with n = B×ω and q(e) = (ω·c)(c·e) − (ω·e)|c|²; n and C depend
         // on y, through which every further derivative is radial.
         let (oc, y) = (omega.dot(c), c.length_squared());
         let q = |e: DVec3| oc * c.dot(e) - omega.dot(e) * y;
@@ -142,6 +148,7 @@ impl RotationSeries {
         let e = self.twice;
         let n1 = n(1);
         let radial = 2.0 * (c.dot(n1) + q(e[1]));
+        // d²y = 2 |dc|², hence the radial term on the diagonal; (dy)² = 4 (c·dc)², hence the one along c cᵀ.
         let bent = 4.0 * (c.dot(n(2)) + q(e[2]));
         let gradient = n(0) + dq(e[0]) + c * radial;
         let hessian = scaled_identity(radial - 2.0 * omega.dot(e[0]))

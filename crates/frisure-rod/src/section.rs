@@ -88,6 +88,7 @@ impl Section {
                 allowed: "a finite number of at least 1 (a circle)",
             });
         }
+        // a/b is the ratio and ab = r².
         let root = axis_ratio.sqrt();
         Ok(Self { a: r * root, b: r / root })
     }
@@ -145,6 +146,7 @@ impl Section {
     pub fn j(&self, kind: TorsionConstant) -> f64 {
         match kind {
             TorsionConstant::SaintVenant => {
+                // Warping lowers J below the axial moment. docs/theory.md, "The section and the material"
                 PI * (self.a * self.b).powi(3) / (self.a * self.a + self.b * self.b)
             }
             TorsionConstant::Polar => self.i1() + self.i2(),

@@ -61,6 +61,7 @@ impl StrainProfile {
         for pair in knots.windows(2) {
             positive("step between arc lengths of a natural strain", pair[1].0 - pair[0].0, "m")?;
         }
+        // The trapezoidal rule is exact for a linear strain, so means over elements of any length are exact too.
         let mut integral = DVec3::ZERO;
         let mut integrals = vec![integral];
         for pair in knots.windows(2) {
@@ -91,6 +92,7 @@ impl StrainProfile {
     fn integral(&self, s: f64) -> DVec3 {
         // Whole trapezia up to the knot before s, and the part of the next.
         let after = self.knots.partition_point(|k| k.0 <= s);
+        // Before the first knot the strain is constant, and the integral negative.
         let Some(i) = after.checked_sub(1) else {
             return (s - self.knots[0].0) * self.knots[0].1;
         };
@@ -142,6 +144,7 @@ impl NaturalStrain {
             Self::Uniform(u) => *u * s,
             Self::Varying(profile) => profile.integral(s),
         };
+        // Differences of one running integral: consecutive pieces share their end, so that their turns add up exactly.
         let mut before = total(0.0);
         (1..).map(move |k: u32| {
             let after = total(step * f64::from(k));

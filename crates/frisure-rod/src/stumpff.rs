@@ -3,23 +3,25 @@
 /// Highest index that [`stumpff`] computes.
 pub(crate) const ORDERS: usize = 9;
 
-/// Above this argument the closed forms lose nothing; below it the series are short.
+/// Argument θ² (rad²) from which on the closed forms lose nothing; below it the series are short. Chosen: at θ = 3 both
+/// agree to 1e-12 (tested), and fewer than 16 terms reach the last bit.
 const SERIES_LIMIT: f64 = 9.0;
 
 /// `c_k(y) = Σ_j (−y)^j / (2j + k)!` for k = 0..9, with `y = θ² ≥ 0`.
 ///
 /// `c_0 = cos θ`, `c_1 = sin θ/θ`, `c_2 = (1 − cos θ)/θ²`, `c_3 = (θ − sin θ)/θ³`, … They are entire
-/// in `y`: the straight fibre is a case like any other. Battin, *Astrodynamics*, §4.5.
+/// in `y`: the straight fibre is a case like any other. \[Battin\] §4.5
 pub(crate) fn stumpff(y: f64) -> [f64; ORDERS] {
     let mut c = [0.0; ORDERS];
     if y < SERIES_LIMIT {
-        // Downward recurrence c_k = 1/k! − y c_{k+2}, from the two series.
+        // Downward recurrence c_k = 1/k! − y c_{k+2}, from the two series; upwards each step would divide by y, which may be
+        // zero. [Battin] §4.5
         (c[7], c[8]) = series(y);
         for k in (0..7).rev() {
             c[k] = INVERSE_FACTORIALS[k] - y * c[k + 2];
         }
     } else {
-        // Upward recurrence c_{k+2} = (1/k! − c_k)/y, from cos θ and sin θ/θ.
+        // Upward recurrence c_{k+2} = (1/k! − c_k)/y, from cos θ and sin θ/θ: no cancellation where y is large.
         let theta = y.sqrt();
         (c[1], c[0]) = theta.sin_cos();
         c[1] /= theta;
@@ -33,6 +35,7 @@ pub(crate) fn stumpff(y: f64) -> [f64; ORDERS] {
 /// The power series of `c_7` and `c_8`, to the last bit for `y` below [`SERIES_LIMIT`].
 #[inline]
 fn series(y: f64) -> (f64, f64) {
+    // The first term left out, y^(TERMS+1)/(2 TERMS + 9)!, is below 2⁻⁵³ of the first, 1/7!, at each bound.
     if y < 0.05 {
         horner::<5>(y)
     } else if y < 1.0 {
@@ -69,6 +72,7 @@ const INVERSE_FACTORIALS: [f64; 38] = {
 /// `dc_k/dy = (k c_{k+2} − c_{k+1}) / 2`, from the table of values.
 #[inline]
 pub(crate) fn first_derivative(c: &[f64; ORDERS], k: usize) -> f64 {
+    // Term by term of the series: j (−1)^j y^(j−1)/(2j + k)! with 2j = (2j + k) − k. docs/theory.md, "Elements"
     0.5 * (k as f64 * c[k + 2] - c[k + 1])
 }
 

@@ -34,6 +34,7 @@ impl ClearBall {
     const NONE: Self = Self { centre: DVec3::ZERO, radius: -1.0 };
 
     fn contains(&self, position: DVec3) -> bool {
+        // r |r| is negative for an unknown ball: no distance is less.
         position.distance_squared(self.centre) < self.radius * self.radius.abs()
     }
 }
@@ -64,6 +65,7 @@ impl Resident {
 ///
 /// The next joint is half an element into the next element; the tip has half a share.
 fn link_end(h: f64, joint: usize, n: usize) -> (f64, f64) {
+    // The lengths add up to that of the rod beyond the first joint, (n − ½) h; what is before it is clamped.
     match joint + 1 == n {
         true => (n as f64 * h, 0.5 * h),
         false => ((joint as f64 + 1.5) * h, h),
@@ -139,6 +141,7 @@ impl<F: Lanes> LaneSweeps<F> for ContactLanes<'_, F> {
             joint.link.set(lane, joints.links[i]);
             joint.begin(lane, control);
             self.tubes[i].set(lane, &tube, share);
+            // What the tube states about the surroundings of its centre saves the first query of the field.
             self.clear[i * F::LANES + lane] =
                 ClearBall { centre: tube.centre, radius: tube.clearance };
         }
@@ -148,6 +151,7 @@ impl<F: Lanes> LaneSweeps<F> for ContactLanes<'_, F> {
         resident.root = Node { position, tangent: frame.z_axis };
         resident.halves.clear();
         resident.halves.extend(joints.seconds().map(|half| (half.advance, half.turn.z_axis)));
+        // The energy depends on the positions of the given shape, which the next forward sweep computes.
         self.taken[lane] = true;
         None
     }
@@ -170,6 +174,7 @@ impl<F: Lanes> LaneSweeps<F> for ContactLanes<'_, F> {
         let Self { bundle, setup, tubes, residents, taken, clear, no_contact, .. } = self;
         let n = bundle.joints.len();
         bundle.forward(|joint, ends| {
+            // Tubes in all lanes at once; the field one lane after the other, and only where contact is possible.
             let mut term = tubes[joint].contact(ends, no_contact);
             for lane in 0..F::LANES {
                 if !taken[lane] {
@@ -183,6 +188,7 @@ impl<F: Lanes> LaneSweeps<F> for ContactLanes<'_, F> {
                 let Resident { rod, h, .. } = residents[lane];
                 let (s, share) = link_end(h, joint, n);
                 match setup.contacts.contact(rod, s, end) {
+                    // Newton's steps shrink towards rest: most later trials stay in this ball and need no query.
                     Contact::Clear(radius) => *known = ClearBall { centre: end, radius },
                     Contact::Active { energy, gradient, hessian } => {
                         term.add(lane, energy * share, gradient * share, &(hessian * share));
@@ -205,6 +211,7 @@ impl<F: Lanes> LaneSweeps<F> for ContactLanes<'_, F> {
             *control = joint.control(lane);
             let (frame, end) = joint.link_end(lane);
             let (advance, tangent) = resident.halves[i.min(resident.halves.len() - 1)];
+            // The node is at the end of the element, half an element after the joint; the link goes on to the next joint.
             nodes[i + 1] = Node { position: at + frame * advance, tangent: frame * tangent };
             at = end;
         }

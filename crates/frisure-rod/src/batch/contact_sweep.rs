@@ -158,6 +158,7 @@ impl<F: Lanes> PositionModel<F> {
         let half = arm.x.splat(0.5);
         let s = self.shift_shift;
         // 1. Slopes: the moment of the weight, a × y, and that of the force at the end of the link, b × Gᵀ f.
+        // y = Gᵀ e_z is the third row of G.
         let up = Vec3::new(frame.x.z, frame.y.z, frame.z.z);
         let moment = arm.cross(up);
         let pull = frame.transpose_mul(self.force);
@@ -175,6 +176,7 @@ impl<F: Lanes> PositionModel<F> {
         let q = self.turn_shift;
         let turn_shift = Mat3 { x: q.x + stiff.x, y: q.y + stiff.y, z: q.z + stiff.z };
         // 4. Q W + (Q W)ᵀ + Wᵀ S W = T + Tᵀ with T = (Q + ½ (S W)ᵀ) W.
+        // Half of Wᵀ S W on either side keeps the sum symmetric with half of the products.
         let mixed = |row: Vec3<F>, stiff: Vec3<F>| stiff.mul_add(half, row);
         let (rx, ry, rz) = (mixed(q.x, stiff.x), mixed(q.y, stiff.y), mixed(q.z, stiff.z));
         let both = |a: Vec3<F>, x: Vec3<F>, b: Vec3<F>, y: Vec3<F>| a.dot(x) + b.dot(y);
@@ -240,6 +242,7 @@ impl<F: Lanes> Bundle<F> {
             model.force = eliminated.reduce_slope(model.force, by_shift);
             model.turn_turn = back.congruence(eliminated.reduce_hessian(value.hessian, by_turn));
             model.turn_shift = back.rows_of(eliminated.reduce_mixed(q, by_turn, by_shift));
+            // A shift before the joint is the same shift after it: f and S need no turn.
             model.shift_shift = eliminated.reduce_hessian(model.shift_shift, by_shift);
         }
         result

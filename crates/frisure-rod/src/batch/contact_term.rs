@@ -75,6 +75,7 @@ impl<F: Lanes> TubeTerm<F> {
             return *none;
         }
         let zero = square.splat(0.0);
+        // The bound (m²) keeps the normal finite at the centre of the tube, where the force is zero anyway.
         let distance = square.max(square.splat(1e-30)).sqrt();
         let beyond = (distance - self.radius).max(zero);
         let stiffness = self.stiffness * beyond;
@@ -83,6 +84,7 @@ impl<F: Lanes> TubeTerm<F> {
         let across = force / distance;
         let normal = away * (square.splat(1.0) / distance);
         ContactTerm {
+            // k e³/6ρ = ⅓ e (k e²/2ρ).
             energy: square.splat(1.0 / 3.0) * force * beyond,
             gradient: normal * force,
             hessian: Sym3::splat(zero)

@@ -75,12 +75,14 @@ impl Joints {
                 true
             }
             NaturalStrain::Varying(_) => {
+                // Each half has the mean natural strain of its own, as in crate::element.
                 let mut pieces = rod.natural().means(half).map(|strain| Piece::of(strain, half));
                 let mut piece = || pieces.next().expect("an endless iterator");
                 self.halves.extend((0..n).map(|_| [piece(), piece()]));
                 false
             }
         };
+        // ½ cᵀ (K/h) c: the joint carries the bending of its whole element.
         self.stiffness = rod.stiffness() / h;
         let mut before: Option<Piece> = None;
         for i in 0..n {
@@ -100,6 +102,7 @@ impl Joints {
                 // The first piece moves rigidly with the joint before: it belongs to that joint's arm and link.
                 Some(before) => {
                     if i == 1 || !uniform {
+                        // C = B A⁺. (L2)
                         self.turns.push(before.turn * first.turn);
                     }
                     self.arms[i - 1] += before.turn * bears;

@@ -8,7 +8,7 @@ use super::lanes::Lanes;
 use super::linear::{Mat3, Sym3, Vec3};
 use super::rotation::RotationTable;
 
-/// A pivot this small relative to its diagonal is zero to rounding.
+/// A pivot this small relative to its diagonal is zero to rounding, as in the scalar solver; some hundred times that of f64.
 const PIVOT_ROUNDING: f64 = 1e-13;
 
 /// Trust region: largest change of a joint's turn in one step (rad), as in the scalar solver.
@@ -86,6 +86,7 @@ impl<F: Lanes> Elimination<F> {
         // 2. Gradient: r = Jᵀ g + K c, of the model and of the energy. (L4)
         let elastic = stiffness.elastic.component_mul(c);
         let residue = jacobian.transpose_mul(value.slope) + elastic;
+        // The two differ by what later joints would do: the gradient that decides on rest is that of the energy.
         let exact = jacobian.transpose_mul(value.exact_slope) + elastic;
         result.gradient = result.gradient.max(exact.dot(exact));
         result.turned = result.turned.max(c.dot(c));
@@ -95,6 +96,7 @@ impl<F: Lanes> Elimination<F> {
         let factor = BlockFactor::new(blocks.turn_turn.add_diagonal(stiffness.damped));
         result.pivot = result.pivot.min(factor.least);
         // 5. Expected decrease ½ rᵀ H⁻¹ r. (L6)
+        // With H = L D Lᵀ: z = D⁻¹ L⁻¹ r serves the step (L⁻ᵀ z), the decrease (½ zᵀ D z) and the slope before (Mᵀ L⁻ᵀ z).
         let lowered = factor.lower(residue);
         let reduced = lowered.component_mul(factor.inverse);
         result.decrease = c.x.splat(0.5).mul_add(lowered.dot(reduced), result.decrease);
@@ -157,6 +159,7 @@ impl<F: Lanes> Elimination<F> {
 #[inline(always)]
 pub(super) fn stepped<F: Lanes>(control: Vec3<F>, feedback: Vec3<F>) -> Vec3<F> {
     let one = feedback.x.splat(1.0);
+    // A root and a division only where some lane needs them.
     let most = one.splat(LARGEST_TURN);
     let square = feedback.dot(feedback);
     let too_long = (most * most).lt(square);
@@ -235,6 +238,7 @@ impl<F: Lanes> BlockFactor<F> {
         let l32 = e * d2;
         let third = (-l32).mul_add(e, (-l31).mul_add(block.xz, block.zz));
         let d3 = one / third;
+        // Lanes cannot branch on a pivot: a bad one is reported, and its rod's law is not used.
         let beyond = |pivot: F, of: F| small.mul_add(-of, pivot);
         let least = block.xx.min(beyond(second, block.yy)).min(beyond(third, block.zz));
         Self { l21, l31, l32, inverse: Vec3::new(d1, d2, d3), least }

@@ -18,6 +18,7 @@ pub(super) trait Scalar: Copy + Send + Sync + 'static {
 }
 
 impl Scalar for f64 {
+    // That of f64, 1.1e-16, times about a hundred for the sum over joints; 9.9¹³ 4!/30! is below it.
     const ENERGY_ROUNDING: f64 = 1e-14;
     const SERIES_TERMS: usize = 13;
 
@@ -33,6 +34,7 @@ impl Scalar for f64 {
 }
 
 impl Scalar for f32 {
+    // That of f32, 6e-8, times about twenty; 9.9⁸ 4!/20! is below it.
     const ENERGY_ROUNDING: f64 = 1e-6;
     const SERIES_TERMS: usize = 8;
 

@@ -171,6 +171,7 @@ impl<F: Lanes> Mat3<F> {
         let skew = Vec3::new(y.z - z.y, z.x - x.z, x.y - y.x);
         let one = x.x.splat(1.0);
         let trace = one + x.x + y.y + z.z;
+        // 2 sin θ over 2 cos(θ/2); the bound 0.04 of crate::rotation::deviation keeps it finite near half a turn.
         skew * (one / trace.max(one.splat(0.04)).sqrt())
     }
 
@@ -197,6 +198,7 @@ impl<F: Lanes> Mat3<F> {
             row(self.x.y, self.y.y, self.z.y),
             row(self.x.z, self.y.z, self.z.z),
         );
+        // Rows a, b, c of M: entry ij is row i times S times row j, six of nine by symmetry.
         let (sa, sb, sc) = (s.mul_vec(a), s.mul_vec(b), s.mul_vec(c));
         Sym3 {
             xx: a.dot(sa),

@@ -25,7 +25,7 @@ const SHRINKAGE: f64 = 0.2;
 const LEAST_DAMPING: f64 = 0.01;
 
 /// Factor above a recently rejected damping that the damping keeps, the factor by which this memory fades with each
-/// accepted step, and the damping below which it is dropped.
+/// accepted step, and the damping below which it is dropped. Chosen by trial, as are the following.
 const ABOVE_REJECTED: f64 = 1.5;
 const FADING: f64 = 0.25;
 const FORGOTTEN: f64 = 0.05;
@@ -136,6 +136,7 @@ impl Lane {
     /// After a rejected step, or a pivot that is negative by `missing` (N m): at least that much more stiffness, within
     /// the largest growth. Where a larger damping was accepted before, half the way there (by logarithm) is enough.
     fn increase_damping(&mut self, missing: f64) {
+        // Damping adds σ K to the pivot: `missing / stiffness` is about what it lacks.
         self.rejected_damping = self.damping;
         let least = FIRST_DAMPING.max(GROWTH * self.damping);
         self.damping = if self.accepted_damping > 2.0 * self.damping {
@@ -236,9 +237,11 @@ fn decide<F: Lanes>(
             continue;
         }
         let gradient = found.gradient.get(index).sqrt() / lane.scale;
+        // The scalar solver's certificate: the gradient of the energy itself, and positive pivots without damping.
         let positive = found.pivot.get(index) > 0.0;
         let stationary = gradient <= job.rule.tolerance;
         let converged = stationary && lane.damping == 0.0 && positive;
+        // A joint that turns farther than the series reach, or NaN, fails too: hence the negated comparison.
         let failed = !(found.turned.get(index) < LARGEST_SQUARE)
             || lane.damping > LARGEST_DAMPING
             || lane.iterations >= job.rule.max_iterations
@@ -274,6 +277,7 @@ fn accept<F: Lanes>(lanes: &mut [Lane], found: &SweepResult<F>, energy: &F) -> u
             continue;
         }
         let (tried, expected) = (energy.get(index), found.decrease.get(index));
+        // The constant was rounded with the energy when the rod was loaded, and may be far larger.
         let noise = F::ENERGY_ROUNDING * lane.energy.abs().max(lane.constant.abs());
         let lower = tried <= lane.energy - ARMIJO * expected
             || (expected < noise && tried <= lane.energy + noise);

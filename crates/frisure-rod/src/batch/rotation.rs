@@ -45,6 +45,7 @@ impl<F: Lanes> RotationTable<F> {
         // c_4 and c_5 by their power series, c_3 to c_1 by the downward recurrence c_k = 1/k! − θ² c_{k+2}.
         let square = c.dot(c);
         let down = -square;
+        // Series alone, without a branch for large turns: lanes would have to take both, and joints turn by less than half a turn.
         let last = SERIES[F::SERIES_TERMS - 1];
         let (mut c4, mut c5) = (square.splat(last.0), square.splat(last.1));
         for &(even, odd) in SERIES[..F::SERIES_TERMS - 1].iter().rev() {
@@ -89,6 +90,7 @@ impl<F: Lanes> RotationTable<F> {
         let half = c.x.splat(0.5);
         let d2 = (-half).mul_add(self.c3, self.c4);
         let d3 = half * c.x.splat(3.0).mul_add(self.c5, -self.c4);
+        // (E4): D = c vᵀ + v cᵀ + c_3 ((λ·c) I − ½ (λ cᵀ + c λᵀ)) with v = c_3′ c×(c×λ) + c_2′ c×λ.
         let turned = c.cross(lambda);
         let swirl = c.cross(turned).mul_add(d3, turned * d2);
         let other = lambda.mul_add(-(half * self.c3), swirl);

@@ -41,6 +41,7 @@ pub struct Batch {
 
 impl Default for Batch {
     fn default() -> Self {
+        // Chosen: 15 joints resolve four turns of a curl (3.5 a turn, docs/theory.md); 1e-8 is far below their own error.
         Self { elements: 15, tolerance: 1e-8, max_iterations: 200, precision: Precision::default() }
     }
 }
@@ -73,6 +74,7 @@ impl Batch {
         let mut results = vec![LaneResult::default(); rods.len()];
         let mut before = vec![0; rods.len()];
         let uniform = uniform(rods);
+        // 1. In single precision as far as rounding lets it descend.
         if self.precision == Precision::Single {
             let tolerance = self.tolerance.max(SINGLE_TOLERANCE);
             let rule = StoppingRule { tolerance, max_iterations: SINGLE_ITERATIONS };
@@ -81,8 +83,10 @@ impl Batch {
             dispatch!(Level::new(), simd => in_weight(f32s(simd), uniform, job));
             before = results.iter().map(|result| result.iterations).collect();
         }
+        // 2. In double precision, from there or from the start.
         let job = self.job(rods, &mut controls, &mut results);
         dispatch!(Level::new(), simd => in_weight(f64s(simd), uniform, job));
+        // 3. What did not converge, by the scalar solver.
         let solutions = (results.iter().zip(&before).enumerate())
             .map(|(rod, (result, before))| {
                 let mut found = match result.converged {

@@ -48,6 +48,7 @@ impl<F: Lanes> LaneSweeps<F> for WeightLanes<F> {
             joint.arm.set(lane, joints.arms[i]);
             joint.control.set(lane, *control);
             joint.up.set(lane, up);
+            // In f64 also where lanes are f32: the energy at the start is compared with all later ones.
             energy += 0.5 * control.dot(joints.stiffness * *control) + joints.arms[i].dot(up);
             if i < last {
                 up = joints.turn(i).transpose() * up;

@@ -104,6 +104,7 @@ impl<F: Lanes> Bundle<F> {
         for i in 0..=last {
             let joint = &mut self.joints[i];
             // 1. θ: how the vertical turned. To first order, since turns about the vertical cost nothing.
+            // ζ seen through the old turn of the joint; its cross product with y is the sine of the angle between them.
             let seen = joint.rotation.transpose_mul(before);
             let turned = seen.cross(joint.up);
             // 2. The step, within the trust region. (L7)

@@ -43,11 +43,14 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
+            // 0.1 mm, about the diameter of a hair (m). Chosen.
             resolution: Resolution::Accuracy(1e-4),
             max_elements: MAX_ELEMENTS,
             element: ElementKind::Auto,
             branch: Branch::Gravity,
+            // Chosen: Newton's method converges quadratically there, so a looser tolerance saves little.
             tolerance: 1e-10,
+            // Chosen: far above what hair takes; a bound for rods far outside of it.
             max_iterations: 500,
             estimate_error: true,
             eigenvalue: true,

@@ -29,6 +29,7 @@ pub(super) fn largest_gap(a: &[DVec3], b: &[DVec3]) -> f64 {
 /// Richardson extrapolation of second order at the nodes of the coarse shape:
 /// `(4 r_2N − r_N) / 3`.
 pub(super) fn extrapolate(coarse: &Shape, fine: &Shape) -> Vec<DVec3> {
+    // r_N = r + e h² + O(h⁴): four times the finer less the coarser cancels e.
     let fine = fine.positions.iter().step_by(2);
     coarse.positions.iter().zip(fine).map(|(c, f)| (*f * 4.0 - *c) / 3.0).collect()
 }
@@ -39,6 +40,7 @@ pub(super) fn corrections(coarse: &Shape, fine: &Shape) -> Vec<Correction> {
         .map(|i| {
             // (4 x_2N − x_N)/3 − x_2N = (x_2N − x_N)/3, for positions and for rotation vectors alike.
             let (position, frame) = (fine.positions[2 * i], fine.frames[2 * i]);
+            // In the world frame: the left factor of R_2N = exp([ω]×) R_N.
             let turn = deviation(&(frame * coarse.frames[i].transpose())) / 3.0;
             Correction {
                 shift: (position - coarse.positions[i]) / 3.0,
@@ -50,6 +52,7 @@ pub(super) fn corrections(coarse: &Shape, fine: &Shape) -> Vec<Correction> {
 }
 
 pub(super) fn extrapolate_energy(coarse: &Energy, fine: &Energy) -> Energy {
+    // The error of an energy is of second order in h too.
     let mix = |c: f64, f: f64| (4.0 * f - c) / 3.0;
     Energy {
         elastic: mix(coarse.elastic, fine.elastic),

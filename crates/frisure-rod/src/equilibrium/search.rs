@@ -28,6 +28,31 @@ pub fn equilibrium(rod: &Rod, external: &[&dyn Potential], options: &Options) ->
 
 /// As [`equilibrium`], but starting from the shape of another rod at rest instead of from the
 /// natural shape: the nearest equilibrium downhill from it, in few iterations.
+///
+/// ```
+/// use frisure_rod::{
+///     Material, NaturalStrain, Options, Rod, RodSpec, Root, Section, TorsionConstant, equilibrium,
+///     equilibrium_from,
+/// };
+/// use glam::DVec3;
+///
+/// let hair = RodSpec {
+///     length: 0.15,
+///     section: Section::circular(35e-6)?,
+///     material: Material::new(3.9e9, 0.9e9, 1300.0)?,
+///     torsion: TorsionConstant::SaintVenant,
+///     natural: NaturalStrain::STRAIGHT,
+///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
+///     gravity: 9.81,
+/// };
+/// let options = Options::default();
+/// let long = equilibrium(&Rod::new(hair.clone())?, &[], &options);
+/// // Cut to two thirds, it rests less far down, in the plane in which it hung.
+/// let cut = Rod::new(RodSpec { length: 0.10, ..hair })?;
+/// let short = equilibrium_from(&cut, &[], &options, &long);
+/// assert!(short.tip().z > long.tip().z && short.tip().y.abs() < 1e-9);
+/// # Ok::<(), frisure_rod::InvalidQuantity>(())
+/// ```
 #[must_use]
 pub fn equilibrium_from(
     rod: &Rod,
@@ -64,6 +89,22 @@ const HALVINGS: usize = 60;
 
 /// The same with external potentials, where hair snaps from one minimum to the next. Chosen by trial.
 const HALVINGS_IN_CONTACT: usize = 6;
+
+/// Relative gradient of a shape that only starts the next division, and of one at a part of the weight. Chosen: errors of
+/// the division are larger.
+const ON_THE_WAY: f64 = 1e-4;
+const PART_OF_THE_WEIGHT: f64 = 1e-3;
+
+/// Share of the elastic energy by which a start carried over by moments may exceed the shape that it is from; above it
+/// frames are carried instead. Chosen by trial.
+const MOST_GAIN: f64 = 0.1;
+
+/// Largest random turn (rad) about each axis of an element, times the root of the number of elements: those of a rod add up
+/// to 2.3 rad (root mean square). Chosen.
+const RANDOM_TURN: f64 = 4.0;
+
+/// Relative difference below which two energies are one and the same minimum. Chosen: above rounding, below any barrier.
+const SAME_ENERGY: f64 = 1e-9;
 
 /// Least cosine of the turn of a tangent in a step along the branch; a step that turns one further (72°) is halved.
 /// Chosen by trial.
@@ -121,7 +162,7 @@ impl Search<'_> {
     /// Relative gradient at a division on the way to `last` elements: a start needs no more.
     fn tolerance(&self, elements: usize, last: usize) -> f64 {
         let tolerance = self.options.tolerance;
-        if elements < last { tolerance.max(1e-4) } else { tolerance }
+        if elements < last { tolerance.max(ON_THE_WAY) } else { tolerance }
     }
 
     fn settle(&self, chain: &Chain<'_>, start: Shape, tolerance: f64) -> Level {
@@ -142,6 +183,8 @@ impl Search<'_> {
             let x = s / h - 0.5;
             let i = x.floor();
             let at = |i: f64| match i {
+                // Beyond the first middle the line through the first two; beyond the last the mirror image that makes
+                // the moment vanish at the tip.
                 i if i < 0.0 => moments[0] * 2.0 - moments[1.min(moments.len() - 1)],
                 i => moments.get(i as usize).copied().unwrap_or(-moments[moments.len() - 1]),
             };
@@ -150,7 +193,7 @@ impl Search<'_> {
         // 2. Moments amplify small turns of the frame where one stiffness is many times the other;
         // frames are rougher, but never far off.
         let energy = Problem::new(&to, self.external).energy(&start).total();
-        let start = if energy <= level.energy.total() + 0.1 * level.energy.elastic {
+        let start = if energy <= level.energy.total() + MOST_GAIN * level.energy.elastic {
             start
         } else {
             let frame = |&s: &f64| from.point(&level.minimum.shape, s).1;
@@ -169,7 +212,7 @@ impl Search<'_> {
             // What is only on the way need not be exact.
             let stopping = match load {
                 l if l < 1.0 => StoppingCriteria {
-                    tolerance: last.max(1e-3),
+                    tolerance: last.max(PART_OF_THE_WEIGHT),
                     max_iterations: self.options.max_iterations.div_ceil(4),
                 },
                 _ => self.stopping(last),
@@ -185,8 +228,10 @@ impl Search<'_> {
             (shape, iterations) = (first.shape, first.iterations);
         }
         // 2. Steps of equal ratio, the last of which is the whole weight.
+        // The first load has Γ = 2.5; 1e-300 stands for no weight, which is one step.
         let first = (GRAVITY_FACTOR / self.rod.heaviness().max(1e-300)).min(1.0);
         let steps = (-first.ln() / GRAVITY_FACTOR.ln()).round().max(1.0);
+        // The factor nearest to 2.5 with a whole number of steps: first · factor^steps = 1.
         let factor = first.powf(-1.0 / steps);
         let mut load = 0.0;
         // The least load known to be a jump away.
@@ -237,12 +282,13 @@ impl Search<'_> {
         let mut random = SplitMix(seed);
         for _ in 0..starts {
             let natural = chain.natural_shape().controls;
-            let amplitude = 4.0 / (chain.len() as f64).sqrt();
+            let amplitude = RANDOM_TURN / (chain.len() as f64).sqrt();
             let controls = natural.into_iter().map(|c| c + random.vector() * amplitude).collect();
             let mut level = self.settle(chain, chain.shape(controls), self.options.tolerance);
             level.minimum.iterations += best.minimum.iterations;
             if level.minimum.stability == Stability::Stable
-                && level.energy.total() < best.energy.total() - 1e-9 * best.energy.total().abs()
+                && level.energy.total()
+                    < best.energy.total() - SAME_ENERGY * best.energy.total().abs()
             {
                 best = level;
             } else {

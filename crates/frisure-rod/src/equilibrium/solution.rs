@@ -23,6 +23,35 @@ pub struct Certificate {
 }
 
 /// A rod at rest.
+///
+/// ```
+/// use frisure_rod::{
+///     Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, Stability,
+///     TorsionConstant, equilibrium,
+/// };
+/// use glam::DVec3;
+///
+/// // A straight hair of 5 cm, clamped horizontally.
+/// let rod = Rod::new(RodSpec {
+///     length: 0.05,
+///     section: Section::circular(35e-6)?,
+///     material: Material::new(3.9e9, 0.9e9, 1300.0)?,
+///     torsion: TorsionConstant::SaintVenant,
+///     natural: NaturalStrain::STRAIGHT,
+///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
+///     gravity: 9.81,
+/// })?;
+/// let options = Options { resolution: Resolution::Elements(20), ..Options::default() };
+/// let rest = equilibrium(&rod, &[], &options);
+///
+/// // It sags by nearly w L⁴/8EI, the deflection of a light cantilever.
+/// let light = rod.weight() * 0.05_f64.powi(4) / (8.0 * rod.stiffness().x);
+/// assert!(-rest.tip().z > 0.9 * light && -rest.tip().z < light);
+/// assert_eq!(rest.certificate.stability, Stability::Stable);
+/// // Bending costs energy, and sagging yields more of it.
+/// assert!(rest.energy.elastic > 0.0 && rest.energy.total() < 0.0);
+/// # Ok::<(), frisure_rod::InvalidQuantity>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
     /// The rod.
@@ -83,6 +112,7 @@ impl Equilibrium {
     fn correction_at(&self, node: f64) -> (DVec3, DVec3) {
         let Some(table) = &self.correction else { return (DVec3::ZERO, DVec3::ZERO) };
         let last = table.len() - 1;
+        // Corrections are known at every second node of the fine division, the nodes of the coarse one.
         let x = (0.5 * node).clamp(0.0, last as f64);
         let i = (x as usize).min(last.saturating_sub(1));
         let (from, to) = (&table[i], &table[(i + 1).min(last)]);
@@ -91,6 +121,7 @@ impl Equilibrium {
         // Hermite: cubic, with the slopes at both ends.
         let (rise, y) = (x * x * (3.0 - 2.0 * x), 1.0 - x);
         let bends = (from.slope * y - to.slope * x) * (x * y * step);
+        // Frames are of second order within an element anyway: linear is enough for them.
         (from.shift.lerp(to.shift, rise) + bends, from.turn.lerp(to.turn, x))
     }
 

@@ -10,6 +10,7 @@ use crate::chain::{Chain, Shape};
 pub(super) fn warm_start(chain: &Chain<'_>, previous: &Equilibrium) -> Shape {
     let old = previous.chain();
     // 1. Frames at equal arc length, as far as the other rod reaches.
+    // The tolerance lets a rod of the same length count as covered to its tip in spite of rounding.
     let covered = previous.rod.length() * (1.0 + 1e-12);
     let known = chain.arc().iter().take_while(|&&s| s <= covered).count();
     let mut frames: Vec<DMat3> =

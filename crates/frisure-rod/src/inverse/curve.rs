@@ -2,13 +2,15 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Pieces of the smooth curve per piece of the given polyline. Chosen by trial.
+/// Pieces of the smooth curve per piece of the given polyline. Chosen by trial: on an arc that turns by θ over one given
+/// piece, chords stray by θ/512 of the length of that piece.
 const PIECES: usize = 8;
 
 /// Points nearer to each other than this (m) count as one point.
 const LEAST_DISTANCE: f64 = 1e-9;
 
-/// Twists tried per element, either way. Chosen by trial.
+/// Twists tried per element, either way: steps of π/16 rad over the whole line, where the peak of a spectrum is 2π wide.
+/// Chosen by trial.
 const TWISTS: usize = 4;
 
 /// A smooth curve through points, by arc length.
@@ -94,6 +96,7 @@ impl Curve {
             .collect();
         let (twist, start) = best_twist(&bends);
         let turned = |(i, frame): (usize, DMat3)| {
+            // Bends belong to the middles of elements, frames to their ends: half an element less.
             frame * DMat3::from_rotation_z(start + twist * (i as f64 - 0.5))
         };
         frames.into_iter().enumerate().map(turned).collect()
@@ -102,6 +105,7 @@ impl Curve {
 
 /// Point at the part `x` of the way from the second to the third of four points.
 fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
+    // Knots at the root of the distance (centripetal): no cusps or loops where points are unevenly spaced.
     let step = |a: DVec3, b: DVec3| a.distance(b).sqrt().max(LEAST_DISTANCE);
     let t1 = step(p[0], p[1]);
     let t2 = t1 + step(p[1], p[2]);
@@ -151,6 +155,7 @@ fn best_twist(bends: &[(f64, f64)]) -> (f64, f64) {
         x.hypot(y) - 1e-9 * twist.abs()
     };
     let best = twists.max_by(|a, b| strength(*a).total_cmp(&strength(*b))).unwrap_or(0.0);
+    // In a frame turned by this phase the mean bending is about d1.
     let (x, y) = sum(best);
     (best, y.atan2(x))
 }

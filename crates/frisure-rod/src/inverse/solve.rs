@@ -40,6 +40,13 @@ const ELEMENTS: (f64, f64) = (12.0, 400.0);
 /// Rounds in which the shape is fitted to the line, each with the strain of the one before. Chosen by trial.
 const FIT_ROUNDS: usize = 3;
 
+/// Stiffness of the springs to the line, as a multiple of EI/h⁴. Chosen by trial; not measured further.
+const SPRINGS: f64 = 16.0;
+
+/// Relative gradient at which a fit ends, and most steps of Newton's method for it. Chosen.
+const FIT_TOLERANCE: f64 = 1e-9;
+const FIT_STEPS: usize = 60;
+
 /// Most corrections of the natural strain by the remaining error. Chosen by trial.
 const CORRECTIONS: usize = 2;
 
@@ -124,6 +131,7 @@ impl FittedCurve {
             if best.error < GOOD || best.stiffness_needed > 1.0 {
                 break;
             }
+            // An unstable shape is not corrected: its equilibrium is another one, and the difference says nothing.
             strains = corrected(&strains, &best.equilibrium, &self.target);
             let better = self.with_strains(&strains, external, options)?;
             if better.error >= best.error {
@@ -188,16 +196,17 @@ fn fitted(line: &Curve, spec: &RodSpec) -> Result<(Rod, Shape), InvalidQuantity>
     let mut shape = Chain::uniform(&rod, ElementKind::Helix, elements).shape_through(&frames);
     let h = length / elements as f64;
     for _ in 0..FIT_ROUNDS {
+        // With the shape of the round before as the natural one, bending no longer pulls the rod off the line.
         let strains: Vec<DVec3> = shape.controls.iter().map(|c| *c / h).collect();
         rod = of(profile(h, &strains)?)?;
         let chain = Chain::uniform(&rod, ElementKind::Helix, elements);
-        // Springs that are stiffer than bending over one element.
-        let stiffness = 16.0 * rod.stiffness().max_element() / h.powi(4);
+        // Springs that are stiffer than bending over one element, EI/h⁴ (N/m²): the line wins, the rod smooths it.
+        let stiffness = SPRINGS * rod.stiffness().max_element() / h.powi(4);
         let springs = Springs { line, stiffness };
         let pull = FieldPotential::new(&springs, 2);
         let external: [&dyn Potential; 1] = [&pull];
         let problem = Problem::with_load(&chain, &external, 0.0);
-        let stopping = StoppingCriteria { tolerance: 1e-9, max_iterations: 60 };
+        let stopping = StoppingCriteria { tolerance: FIT_TOLERANCE, max_iterations: FIT_STEPS };
         shape = Newton::default().minimise(&problem, shape, stopping).shape;
     }
     Ok((rod, shape))

@@ -5,7 +5,8 @@ use glam::DVec3;
 use crate::chain::Shape;
 use crate::rod::Rod;
 
-/// Sweeps of coordinate descent over all nodes. Chosen by trial; not measured further.
+/// Sweeps of coordinate descent over all nodes: a bound on time, since the forces of neighbours converge slowly. Chosen by
+/// trial; not measured further.
 const SWEEPS: usize = 80;
 
 /// Ridge regularisation, relative to the diagonal: keeps forces bounded where they hardly matter. Chosen by trial.
@@ -17,7 +18,7 @@ pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DV
     assert_eq!(beneath.len(), shape.positions.len(), "one direction per node");
     let elements = shape.controls.len();
     let h = rod.length() / elements as f64;
-    // Moments in units in which their squares are energies.
+    // Moments in units in which their squares are energies: E = Σ ½ h |K^(−½) Rᵀ M|². docs/theory.md (I2)
     let scale = (DVec3::ONE / rod.stiffness()).map(f64::sqrt);
     let middle = |i: usize| 0.5 * (shape.positions[i] + shape.positions[i + 1]);
     let scaled = |i: usize, moment: DVec3| scale * (shape.frames[i].transpose() * moment);
@@ -25,6 +26,7 @@ pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DV
         scaled(i, (shape.positions[node] - middle(i)).cross(way))
     };
 
+    // The weight (N) of an element, at its middle.
     let weight = DVec3::NEG_Z * (rod.weight() * h);
     // Moments of the weight alone.
     let mut moments: Vec<DVec3> = (0..elements)
@@ -45,7 +47,7 @@ pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DV
     for _ in 0..SWEEPS {
         // From the tip, whose weight has the longest lever.
         for &(node, way, lever) in supported.iter().rev() {
-            // Exact minimum of the energy along this force, if it pushes.
+            // Exact minimum of the energy along this force, if it pushes: f_j ← max(0, f_j − m_j·m/|m_j|²). (I2)
             let slope: f64 = (0..node).map(|i| pushed(i, node, way).dot(moments[i])).sum();
             let force = (forces[node] - slope / lever).max(0.0);
             let change = force - forces[node];

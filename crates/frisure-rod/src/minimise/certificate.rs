@@ -40,8 +40,9 @@ impl Problem<'_> {
 
 /// Bisection on the inertia (Sylvester): `H + σ M` has only positive pivots exactly when σ > −λ_min.
 fn smallest_eigenvalue<const POSITION: bool>(at: &Linearisation<'_, POSITION>) -> f64 {
+    // Docs/theory.md, "Certificates". The damping of a sweep is relative to K/h, the Hessian M of the elastic energy.
     let stable_at = |sigma: f64| at.sweep(sigma).is_ok();
-    // 1. Bracket −λ_min by doubling.
+    // 1. Bracket −λ_min by doubling; the bound 1e12 is chosen, far beyond any load that f64 resolves.
     let (mut low, mut high) = (-1.0, 0.0);
     if stable_at(0.0) {
         while stable_at(low) {
@@ -59,7 +60,7 @@ fn smallest_eigenvalue<const POSITION: bool>(at: &Linearisation<'_, POSITION>) -
             }
         }
     }
-    // 2. Halve the bracket to ten digits.
+    // 2. Halve the bracket to ten digits of λ, or, where λ is near zero, to 2⁻⁴⁴ of the first width.
     for _ in 0..44 {
         let middle = 0.5 * (low + high);
         if stable_at(middle) {

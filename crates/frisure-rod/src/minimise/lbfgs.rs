@@ -8,8 +8,7 @@ use super::minimiser::{Minimiser, Minimum, Stability, StoppingCriteria};
 use super::problem::Problem;
 use crate::chain::Shape;
 
-/// Limited-memory BFGS, preconditioned by the elastic stiffness. Nocedal & Wright, *Numerical
-/// Optimization*, algorithm 7.5, with Armijo backtracking.
+/// Limited-memory BFGS, preconditioned by the elastic stiffness, with Armijo backtracking. \[Nocedal & Wright\] algorithm 7.5
 ///
 /// It stays in the symmetry of its start: at a symmetric saddle it reports a saddle.
 #[derive(Clone, Copy, Debug)]
@@ -20,9 +19,20 @@ pub struct Lbfgs {
 
 impl Default for Lbfgs {
     fn default() -> Self {
+        // Chosen: the upper end of the range, 3 to 20, that [Nocedal & Wright] §7.2 recommend.
         Self { memory: 20 }
     }
 }
+
+/// Largest turn (rad) of a control in the first trial of a line search. Chosen: smaller than the trust region of Newton's
+/// method, since these directions are less exact.
+const LARGEST_TURN: f64 = 0.7;
+
+/// Most halvings of a step: 2⁻⁵⁰ of a turn is its rounding error.
+const HALVINGS: usize = 50;
+
+/// Armijo's constant: the part of the expected decrease that a step has to reach. [Nocedal & Wright] §3.1.
+const ARMIJO: f64 = 1e-4;
 
 struct Pair {
     step: Vec<DVec3>,
@@ -56,6 +66,8 @@ impl Minimiser for Lbfgs {
             let slope = dot(&direction, &gradient);
             let Some((next, lowered)) = backtrack(problem, &shape, energy, &direction, slope)
             else {
+                // No descent along the direction: drop what was learnt and go on along the gradient; if that is what
+                // failed, rounding ends the descent.
                 if pairs.is_empty() {
                     break;
                 }
@@ -66,6 +78,7 @@ impl Minimiser for Lbfgs {
             let step: Vec<_> =
                 next.controls.iter().zip(&shape.controls).map(|(a, b)| *a - *b).collect();
             let change: Vec<_> = new_gradient.iter().zip(&gradient).map(|(a, b)| *a - *b).collect();
+            // Only pairs with yᵀs > 0 keep the approximate Hessian positive definite; backtracking alone does not ensure it.
             let curvature = dot(&step, &change);
             if curvature > 0.0 {
                 pairs.push_back(Pair { step, change, inverse: 1.0 / curvature });
@@ -76,6 +89,7 @@ impl Minimiser for Lbfgs {
             (shape, energy, gradient) = (next, lowered, new_gradient);
         }
         let gradient_norm = norm(&gradient);
+        // A relative gradient of 1e-6 (chosen) counts as zero where first derivatives alone get no farther.
         let stability = if gradient_norm > stopping.tolerance.max(1e-6) {
             Stability::NotConverged
         } else if problem.min_eigenvalue(&shape) > -problem.neutral_eigenvalue() {
@@ -88,7 +102,7 @@ impl Minimiser for Lbfgs {
 }
 
 fn descent(problem: &Problem<'_>, gradient: &[DVec3], pairs: &VecDeque<Pair>) -> Vec<DVec3> {
-    // Two-loop recursion: from the latest pair to the oldest …
+    // Two-loop recursion for d = −H g: from the latest pair to the oldest, α_i = ρ_i s_iᵀ d and d ← d − α_i y_i …
     let mut d: Vec<DVec3> = gradient.iter().map(|g| -*g).collect();
     let mut alphas = Vec::with_capacity(pairs.len());
     for p in pairs.iter().rev() {
@@ -100,7 +114,7 @@ fn descent(problem: &Problem<'_>, gradient: &[DVec3], pairs: &VecDeque<Pair>) ->
     for (i, x) in d.iter_mut().enumerate() {
         *x /= problem.chain.geometry(i).stiffness();
     }
-    // … and back.
+    // … and back, d ← d + (α_i − ρ_i y_iᵀ d) s_i.
     for (p, alpha) in pairs.iter().zip(alphas.iter().rev()) {
         let beta = p.inverse * dot(&p.change, &d);
         add_scaled(&mut d, alpha - beta, &p.step);
@@ -118,15 +132,14 @@ fn backtrack(
     if slope >= 0.0 {
         return None;
     }
-    // The first trial turns no control by more than 0.7 rad.
     let largest = direction.iter().map(|d| d.length()).fold(0.0, f64::max);
-    let mut fraction = (1.0_f64).min(0.7 / largest);
-    for _ in 0..50 {
+    let mut fraction = (1.0_f64).min(LARGEST_TURN / largest);
+    for _ in 0..HALVINGS {
         let mut controls = shape.controls.clone();
         add_scaled(&mut controls, fraction, direction);
         let next = problem.chain.shape(controls);
         let lowered = problem.energy(&next).total();
-        if lowered < energy + 1e-4 * fraction * slope {
+        if lowered < energy + ARMIJO * fraction * slope {
             return Some((next, lowered));
         }
         fraction *= 0.5;

@@ -38,6 +38,7 @@ impl<'a, const POSITION: bool> Linearisation<'a, POSITION> {
         for i in 0..chain.len() {
             let element = chain.element_state(shape, i);
             let motion = element.motion;
+            // Without positions nothing reads p and ∂p/∂c: the sweep is two to three times faster.
             let (advance, advance_jacobian) = if POSITION {
                 let reach = motion.reach(1.0, 0.0);
                 (reach.value(), reach.jacobian())
@@ -55,6 +56,7 @@ impl<'a, const POSITION: bool> Linearisation<'a, POSITION> {
             let stage = &mut stages[i];
             problem.add_element_derivatives(&stage.element, &mut stage.own);
         }
+        // Elastic energy and weight are energies of elements: only external potentials have terms at nodes.
         let nodes = if problem.external.is_empty() {
             Vec::new()
         } else {
@@ -73,8 +75,10 @@ impl<'a, const POSITION: bool> Linearisation<'a, POSITION> {
         let mut gradient = vec![DVec3::ZERO; n];
         // λ (N m, material frame) and f (N, world): derivatives of the energy of everything beyond the present node by
         // its frame and its position.
+        // The tip is free: both vanish beyond it.
         let (mut moment, mut force) = (DVec3::ZERO, DVec3::ZERO);
         for i in (0..n).rev() {
+            // Node i + 1, at the end of element i; the root, which is clamped, has no entry.
             if let Some(node) = self.nodes.get(i) {
                 moment += node.rotation;
                 force += node.position;

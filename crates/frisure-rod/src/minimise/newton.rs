@@ -50,10 +50,18 @@ const DAMPING_GROWTH: f64 = 4.0;
 const DAMPING_SHRINKAGE: f64 = 0.2;
 const LEAST_DAMPING: f64 = 0.05;
 
+/// Least damping after a step that was halved twice or more. Chosen: the next step starts a little shorter than Newton's.
+const DAMPING_AFTER_SHORT_STEP: f64 = 0.01;
+
+/// Most trials of a step, each half as long as the one before, without damping and with it. Chosen: damping shortens a
+/// step better than halving does (it keeps the soft directions), so a damped step is halved only once.
+const UNDAMPED_TRIALS: usize = 4;
+const DAMPED_TRIALS: usize = 2;
+
 /// Armijo's constant: the part of the expected decrease that a step has to reach. [Nocedal & Wright] §3.1.
 const ARMIJO: f64 = 1e-4;
 
-/// Relative rounding error of an energy.
+/// Relative rounding error of an energy: that of f64, 1.1e-16, times about a hundred for the sum over elements.
 const ENERGY_ROUNDING: f64 = 1e-14;
 
 impl Minimiser for Newton {
@@ -122,6 +130,7 @@ impl Newton {
         start: Shape,
         stopping: StoppingCriteria,
     ) -> Minimum {
+        // Energies and gradients are compared with EI/L + ρSgL²: the result does not depend on units or on the size of the rod.
         let scale = problem.chain.rod().moment_scale();
         let mut damping = 0.0;
         let mut shape = start;
@@ -147,6 +156,7 @@ impl Newton {
                 }
                 iterations += 1;
                 let step = self.step(&at, &shape, energy, &mut damping);
+                // A step whose decrease drowns in rounding is judged by the gradient: quadratic convergence at least halves it.
                 let rounded = step.as_ref().is_none_or(|s| s.below_rounding);
                 stalled =
                     if rounded && gradient_norm > 0.5 * last_gradient { stalled + 1 } else { 0 };
@@ -163,6 +173,7 @@ impl Newton {
             }
             // 2. Stationary: a minimum, or a saddle point to leave.
             if at_rest {
+                // A vanishing gradient alone is not a minimum: the pivots decide. docs/theory.md, "Saddles", "Certificates"
                 let Some(failed) = at.negative_pivot() else {
                     return end(shape, iterations, Stability::Stable);
                 };
@@ -195,16 +206,16 @@ impl Newton {
             };
             // Near the minimum the decrease is below rounding; there the gradient decides.
             let noise = ENERGY_ROUNDING * energy.abs();
+            // With damping besides, no step of any length shows a decrease: the caller ends or escapes.
             if sweep.decrease < noise && *damping > 1.0 {
                 return None;
             }
-            // 2. Line search: backtracking by halves until Armijo's condition holds. Damping shortens a step better than
-            // halving does (it keeps the soft directions), so a damped step is halved only once.
-            let trials = if *damping == 0.0 { 4 } else { 2 };
+            // 2. Line search: backtracking by halves until Armijo's condition holds.
+            let trials = if *damping == 0.0 { UNDAMPED_TRIALS } else { DAMPED_TRIALS };
             let mut fraction = 1.0;
             for trial in 0..trials {
                 let (next, lowered) = rollout::<POSITION>(at.problem, shape, &sweep.laws, fraction);
-                // The model's decrease along the step: Δ(α) = α (2 − α) Δ(1).
+                // The model's decrease along the step, a parabola with its vertex at α = 1: Δ(α) = α (2 − α) Δ(1).
                 let expected = sweep.decrease * fraction * (2.0 - fraction);
                 if lowered <= energy - ARMIJO * expected
                     || (expected < noise && lowered <= energy + noise)
@@ -214,7 +225,7 @@ impl Newton {
                         0 if *damping < LEAST_DAMPING => 0.0,
                         0 => *damping * DAMPING_SHRINKAGE,
                         1 => *damping,
-                        _ => (2.0 * *damping).max(0.01),
+                        _ => (2.0 * *damping).max(DAMPING_AFTER_SHORT_STEP),
                     };
                     let below_rounding = expected < noise;
                     return Some(Step { shape: next, energy: lowered, below_rounding });
@@ -247,6 +258,8 @@ fn escape_saddle(
     energy: f64,
     failed: &FailedPivot,
 ) -> Option<(Shape, f64)> {
+    // Later elements follow G_η η + G_ξ ξ without their own k; those before the failed pivot stay as they are. The energy
+    // changes by ½ t² times the pivot's negative eigenvalue then, to second order in the turn t.
     let (_, direction) = lowest_eigenpair(&failed.pivot);
     let mut laws = failed.laws.clone();
     for law in &mut laws {
@@ -262,6 +275,7 @@ fn escape_saddle(
             } else {
                 rollout::<false>(problem, shape, &laws, 1.0)
             };
+            // Lower beyond the last bit of the energy.
             if lowered < energy - 1e-15 * energy.abs() {
                 return Some((next, lowered));
             }

@@ -5,6 +5,10 @@ use glam::{DMat3, DVec3};
 use crate::chain::{Chain, Shape};
 use crate::potential::{Derivatives, Elastic, ElementState, Gravity, Potential};
 
+/// Magnitude of an eigenvalue that counts as zero, relative to the larger of the elastic stiffness and the moment scale.
+/// Chosen: far above the rounding of pivots (1e-13), and a rod that is this near to buckling is at its limit anyway.
+const NEUTRAL_EIGENVALUE: f64 = 1e-8;
+
 /// An energy to minimise: a divided rod in its own weight and in other potentials.
 pub struct Problem<'a> {
     pub(crate) chain: &'a Chain<'a>,
@@ -29,6 +33,7 @@ impl<'a> Problem<'a> {
     ) -> Self {
         let rod = chain.rod();
         let gravity = Gravity { weight: rod.weight() * fraction, length: rod.length() };
+        // Weight counts as independent of positions: E_g = ρSg ∫ (L − s) t·e_z ds needs frames alone. [paper] (2.4)
         let with_position = external.iter().any(|p| p.depends_on_position());
         Self { chain, gravity, external, with_position }
     }
@@ -65,7 +70,7 @@ impl<'a> Problem<'a> {
         // 1e-8, or 1e-8 (EI/L + ρSgL²)/(K/h) where that is more. docs/theory.md, "Certificates"
         let rod = self.chain.rod();
         let stiffness = rod.stiffness().min_element() * self.chain.len() as f64 / rod.length();
-        1e-8 * (rod.moment_scale() / stiffness).max(1.0)
+        NEUTRAL_EIGENVALUE * (rod.moment_scale() / stiffness).max(1.0)
     }
 
     #[inline]

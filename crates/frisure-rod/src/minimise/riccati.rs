@@ -102,6 +102,7 @@ impl<const POSITION: bool> Linearisation<'_, POSITION> {
             // 5. V of the node before: x eliminated. (M5)
             value.rotation = model.rotation + model.rotation_control * step;
             value.rotation_rotation =
+                // Symmetric again after rounding, so that its errors do not add up over hundreds of elements.
                 symmetric(model.rotation_rotation + model.rotation_control * by_rotation);
             let by_position = if POSITION {
                 let by_position = factor.solve_transposed(&model.position_control) * -1.0;
@@ -121,6 +122,7 @@ impl<const POSITION: bool> Linearisation<'_, POSITION> {
 
     /// The pivot that shows a direction of negative curvature beyond rounding, if there is one.
     pub(super) fn negative_pivot(&self) -> Option<FailedPivot> {
+        // An eigenvalue that is zero but for rounding may fail the undamped sweep; it does not fail that of H + σM.
         let failed = self.sweep(0.0).err()?;
         self.sweep(self.problem.neutral_eigenvalue()).is_err().then_some(failed)
     }
@@ -161,6 +163,7 @@ impl Stage<'_> {
         let pull = r.transpose() * value.position;
         let (gradient, hessian) = self.element.motion.reach(1.0, 0.0).contracted(pull);
         // ξ⁺ = ξ + S η + T x + …, with S = −R [p]× and T = R ∂p/∂c.
+        // The second derivative in η of f·R exp[η] p is ½ (Rᵀf pᵀ + p fᵀR) − (Rᵀf·p) I, and that in η and x is −[Rᵀf]× ∂p/∂c.
         let s = *r * cross_matrix(p) * -1.0;
         let t = *r * self.advance_jacobian;
         let (st, tt) = (s.transpose(), t.transpose());

@@ -7,7 +7,7 @@ use super::riccati::FeedbackLaw;
 use crate::chain::Shape;
 use crate::rotation::deviation;
 
-/// Trust region: the largest turn of one element's control in one step (rad). Chosen by trial.
+/// Trust region: the largest turn of one element's control in one step (rad). Chosen by trial; not measured further.
 pub(super) const LARGEST_TURN: f64 = 1.0;
 
 impl FeedbackLaw {
@@ -28,6 +28,7 @@ impl FeedbackLaw {
         if POSITION {
             step += self.by_position * (position - from.positions[i]);
         }
+        // The model is quadratic in turns, which sines and cosines are not beyond about a radian.
         step.clamp_length_max(LARGEST_TURN)
     }
 }
@@ -53,6 +54,7 @@ pub(super) fn rollout<const POSITION: bool>(
     for (i, law) in laws.iter().enumerate() {
         let step = law.applied::<POSITION>(from, i, position, &frame, fraction);
         let control = from.controls[i] + step;
+        // The control is final here, since all elements before have moved: η and ξ above are exact, not linearised. (M6)
         let element = chain.element_at(i, position, frame, control);
         position += frame * element.motion.advance();
         frame *= element.motion.rotation();

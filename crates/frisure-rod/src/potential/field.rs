@@ -35,6 +35,7 @@ impl<'a, F: Field + ?Sized> FieldPotential<'a, F> {
 
     /// Fraction of the element, and arc length (m), of each point inside an element.
     fn inside(&self, element: &ElementState<'_>) -> impl Iterator<Item = (f64, f64)> {
+        // The nodes are terms of their own (k = 0 and k = samples), each evaluated once.
         let (samples, start, h) = (self.samples, element.end - element.length, element.length);
         (1..samples).map(move |k| {
             let x = f64::from(k) / f64::from(samples);
@@ -55,6 +56,7 @@ impl<F: Field + ?Sized> Potential for FieldPotential<'_, F> {
     }
 
     fn add_element_derivatives(&self, element: &ElementState<'_>, sum: &mut Derivatives) {
+        // A point inside an element depends on its frame, its position and its control: no more than an element's own energy may.
         let weight = element.length / f64::from(self.samples);
         for (x, s) in self.inside(element) {
             if let Some((gradient, hessian)) = self.field.derivatives(s, element.point(x)) {
@@ -110,7 +112,7 @@ impl ElementState<'_> {
         hessian: &DMat3,
         sum: &mut Derivatives,
     ) {
-        // 1. The point r = r₀ + ξ + R exp[η] p(c + x): ∂r/∂ξ = I, ∂r/∂η = −R [p]×, ∂r/∂c = R P.
+        // 1. The point r = r₀ + ξ + R exp[η] p(c + x): ∂r/∂ξ = I, ∂r/∂η = −R [p]×, ∂r/∂c = R P. (E6)
         let part = self.motion.part(x);
         let (p, by_control) = (part.value(), part.jacobian());
         let pull = self.frame.transpose() * gradient;

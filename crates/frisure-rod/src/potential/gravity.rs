@@ -29,6 +29,7 @@ impl Potential for Gravity {
 
     #[inline]
     fn element_energy(&self, e: &ElementState<'_>) -> f64 {
+        // ∫ z dm over the element and what hangs below its end: hanging · p + ρSg ∫ (r − r_start) ds, upwards. [paper] (2.4)
         e.work(DVec3::Z, self.hanging(e), self.weight)
     }
 

@@ -72,6 +72,7 @@ impl ElementState<'_> {
     #[must_use]
     #[inline]
     pub fn work(&self, omega: DVec3, alpha: f64, beta: f64) -> f64 {
+        // The reach is in the start frame: ω turns into it rather than three vectors out of it.
         (self.frame.transpose() * omega).dot(self.motion.plain_reach(alpha, beta))
     }
 
@@ -83,9 +84,10 @@ impl ElementState<'_> {
         let reach = self.motion.reach(alpha, beta);
         let q = reach.value();
         let (gradient, hessian) = reach.contracted(omega);
-        // 2. By η and by both: ω·exp[η]q(x) = ω·(q + η×q + ½ η×(η×q) + …). docs/theory.md, "Elements"
+        // 2. By η: ω·exp[η]q = ω·(q + η×q + ½ η×(η×q) + …), hence q × ω and ½ (ω qᵀ + q ωᵀ) − (ω·q) I. (E5)
         sum.rotation += q.cross(omega);
         sum.rotation_rotation += symmetric_outer(omega, q) * 0.5 - scaled_identity(omega.dot(q));
+        // 3. By x, and by both: ω·(η × ∂q/∂c x) = −η·[ω]× ∂q/∂c x.
         sum.control += gradient;
         sum.control_control += hessian;
         sum.rotation_control -= cross_matrix(omega) * reach.jacobian();
@@ -161,6 +163,7 @@ impl Chain<'_> {
     #[inline]
     pub(crate) fn node_at(&self, index: usize, position: DVec3, frame: DMat3) -> NodeState {
         let arc = self.arc();
+        // The trapezoidal rule: half of each neighbouring element; half a weight at the tip.
         let before = if index > 0 { arc[index] - arc[index - 1] } else { 0.0 };
         let after = arc.get(index + 1).map_or(0.0, |a| a - arc[index]);
         NodeState { index, s: arc[index], weight: 0.5 * (before + after), position, frame }
