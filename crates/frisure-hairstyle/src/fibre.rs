@@ -92,7 +92,9 @@ impl Curl {
     }
 }
 
-/// What water makes of the properties of a hair: a factor on each.
+/// The factors of the wet law: what full wetting makes of each property of a hair (swelling, softening, lengthening).
+///
+/// `styling/wet_law.rs` applies them; [`Moisture`](crate::presets::Moisture) has the shares of them that humid air does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wetting {
     /// Factor on Young's modulus.

@@ -2,7 +2,7 @@
 //!
 //! An [`Operation`] is data; [`style`] maps a hairstyle to another one. What
 //! styling has made of each wisp is a [`WispState`], and the guide that the wisp has now follows from
-//! it and from the guide that was planned (`apply_state`). So drying is the exact inverse of wetting,
+//! it and from the guide that was planned (`apply_state`; what water does is in `wet_law`). So drying is the exact inverse of wetting,
 //! whatever has been rounded on the way.
 
 mod apply;
@@ -13,6 +13,7 @@ mod height;
 mod operations;
 mod selection;
 mod settle;
+mod wet_law;
 
 pub use apply::{Draft, StyleOptions, selected, style};
 pub use error::StyleError;
