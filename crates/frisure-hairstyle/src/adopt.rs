@@ -175,6 +175,7 @@ fn held(
 /// Forces at nodes, each shared with its neighbours: hair lies on hair, not on the points of a comb.
 fn spread(forces: &[f64]) -> Vec<f64> {
     let mut spread = forces.to_vec();
+    // Weights ¼, ½, ¼ three times over (chosen): a bell with a standard deviation of 1.2 nodes.
     for _ in 0..3 {
         let at = |i: usize| spread.get(i).copied().unwrap_or(0.0);
         let last = spread.len() - 1;

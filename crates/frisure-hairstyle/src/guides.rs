@@ -87,6 +87,7 @@ pub(crate) fn covered(
 
 /// Cross-section of hair per area of skin, in the middle of a guide.
 fn cover(spec: &HairstyleSpec, thickness: &Thickness, rod: &Rod) -> f64 {
+    // ν A, docs/theory.md, "Hair against hair: layers and wisps".
     let taken = thickness.area_per_hair(0.5 * rod.length());
     spec.contact.volume * spec.implantation.density * taken
 }
@@ -179,9 +180,11 @@ fn jittered(
     let mut random = Stream::new(spec.seed, Purpose::GuideDirection, index);
     let mean = layout.direction(root);
     let axis = DVec3::new(random.normal(), random.normal(), random.normal());
+    // Three independent components: jitter is the root mean square of the angle.
     let turn = DQuat::from_scaled_axis(axis * (spec.implantation.jitter / 3.0_f64.sqrt()));
     let turned = turn * mean;
     let outwards = turned.dot(root.normal);
+    // Sine of the least angle to the skin, 3°. Chosen; hair that starts along the skin is soon in it.
     const LEAST: f64 = 0.05;
     let raised = turned + root.normal * (LEAST - outwards).max(0.0);
     implantation::clear_of_skin(head, root, raised.normalize_or(root.normal))
@@ -197,6 +200,7 @@ fn leaning(strain: DVec3, tangent: DVec3, lean: DVec3, random: &mut Stream) -> D
         .unwrap_or_else(|| tangent.any_orthonormal_vector());
     // Angle of the strain's bending part from d1, in the plane of d1 and d2.
     let phase = strain.y.atan2(strain.x);
+    // The axis of a left-handed helix points the other way.
     let hand = if strain.z < 0.0 { std::f64::consts::PI } else { 0.0 };
     DQuat::from_axis_angle(tangent, ROLL * random.normal() + hand - phase) * out
 }
@@ -226,6 +230,7 @@ fn natural_strain(
     if curl.variation_along == 0.0 || mean == DVec3::ZERO {
         return Ok(NaturalStrain::Uniform(mean));
     }
+    // Half a correlation length, over which the process keeps 0.6 of its value; at most 500 knots. Chosen.
     let step = (0.5 * curl.variation_scale).max(length / 500.0);
     let first = [curl.variation_along * random.normal(), curl.variation_along * random.normal()];
     let knots = Wander { curl, mean, step, at: 0.0, off: first }.knots(length, random);
@@ -248,6 +253,7 @@ pub(crate) fn grown_strain(
         return Ok(planned.clone());
     }
     let step = knots.get(1).map_or(0.5 * spec.curl.variation_scale, |second| second.0);
+    // The state of the process at the last knot, read back from the strain there, so that it goes on without a jump.
     let off = |x: f64, mean: f64| if mean == 0.0 { 0.0 } else { x / mean - 1.0 };
     let mean = guide.curl;
     let bend = if mean.x == 0.0 { off(strain.y, mean.y) } else { off(strain.x, mean.x) };
@@ -274,6 +280,7 @@ impl Wander<'_> {
     /// Arc lengths (m) and strains, from where it begins to `length` (m) or a little beyond.
     fn knots(self, length: f64, random: &mut Stream) -> Vec<(f64, DVec3)> {
         let Self { curl, mean, step, at, off: [mut bend, mut twist] } = self;
+        // x(s + Δs) = k x + σ √(1 − k²) N(0, 1) with k = e^(−Δs/ℓ): exact for any step, and stationary with deviation σ.
         let keep = (-step / curl.variation_scale).exp();
         let fresh = curl.variation_along * (1.0 - keep * keep).sqrt();
         let count = ((length - at) / step).ceil() as usize + 1;

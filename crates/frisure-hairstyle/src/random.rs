@@ -57,6 +57,7 @@ impl Stream {
 
     /// A factor with mean 1 and this relative standard deviation: log-normal, never negative.
     pub(crate) fn positive(&mut self, deviation: f64) -> f64 {
+        // exp(N(−σ²/2, σ²)) has the mean 1 and the relative variance e^(σ²) − 1, hence σ² = ln(1 + deviation²).
         let variance = (deviation * deviation).ln_1p();
         (self.normal() * variance.sqrt() - 0.5 * variance).exp()
     }

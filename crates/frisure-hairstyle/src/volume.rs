@@ -27,13 +27,14 @@ const CELL: f64 = 5e-3;
 /// 0.015 % of a cell that it crosses, and a wisp is several per cent hair: flyaways do not count.
 const OCCUPIED: f64 = 1e-3;
 
-/// Most cells: hair that reaches farther than 1 m is averaged over larger ones.
+/// Most cells, a guard on memory: hair that reaches over more is averaged over larger ones.
 const MOST_CELLS: f64 = 1.6e7;
 
-/// Longest piece of a hair that is put into one cell, as a fraction of its side.
+/// Longest piece of a hair that is put into one cell, as a fraction of its side. Chosen; a piece lies in the wrong cell by
+/// half of it at most.
 const PIECE: f64 = 0.25;
 
-/// Most pieces of one segment, however long.
+/// Most pieces of one segment, however long. A guard on time.
 const MOST_PIECES: f64 = 4096.0;
 
 /// Volumes are added as whole multiples of this (m³), so that no order of threads shows.
@@ -105,6 +106,7 @@ impl Cells {
         for k in 1..strand.points.len() {
             let [a, b] = [k - 1, k].map(|k| strand.points[k].as_dvec3());
             let radii = [k - 1, k].map(|k| f64::from(strand.radii[k]));
+            // Mean section of a truncated cone, π (r₀² + r₀ r₁ + r₁²)/3.
             let section =
                 PI * (radii[0] * radii[0] + radii[0] * radii[1] + radii[1] * radii[1]) / 3.0;
             let (length, whole) = (a.distance(b), section * a.distance(b));
@@ -137,6 +139,7 @@ impl Cells {
     /// Fraction of a cell that is outside the body.
     fn outside(&self, index: usize, head: &Head) -> f64 {
         let centre = self.low + (self.key(index).as_dvec3() + 0.5) * self.side;
+        // As if the skin were a plane through the cell, at right angles to one of its sides.
         (0.5 + head.signed_distance().value(centre) / self.side).clamp(0.0, 1.0)
     }
 

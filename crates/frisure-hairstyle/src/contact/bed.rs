@@ -20,7 +20,8 @@ impl Bed {
             if force <= 0.0 {
                 return 0.0;
             }
-            // hair (K − D)² / 2K = force, for the height K.
+            // hair (K − D)² / 2K = force, for the height K: K² − 2 (D + force/hair) K + D² = 0, of whose two solutions the
+            // larger is above the strand.
             let (distance, sink) = (distance.max(0.0), force / hair);
             let half = distance + sink;
             half + (half * half - distance * distance).max(0.0).sqrt()

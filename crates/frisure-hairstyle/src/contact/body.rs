@@ -57,6 +57,7 @@ impl BodyContact<'_> {
                 }
             }
             Body::SignedDistance => {
+                // Most points are far from the skin: the value alone costs a fraction of the derivatives.
                 let field = self.head.signed_distance();
                 if field.value(p) < keep {
                     let (distance, gradient, hessian) = field.value_gradient_hessian(p);
@@ -68,6 +69,7 @@ impl BodyContact<'_> {
 
     /// Energy per length (J/m) at a distance (m), and its first two derivatives.
     fn penalty(&self, keep: f64, distance: f64) -> [f64; 3] {
+        // e = K − D and d = −D, docs/theory.md, "Hair on the body"; derivatives by D, hence the sign of the slope.
         let (soft, hard) = ((keep - distance).max(0.0), (-distance).max(0.0));
         let hair = if soft > 0.0 && keep > 0.0 { self.hair * soft / keep } else { 0.0 };
         let skin = if hard > 0.0 { self.skin } else { 0.0 };
@@ -87,6 +89,7 @@ fn near(sphere: &Sphere, keep: f64, p: DVec3) -> Option<(f64, DVec3, DMat3)> {
     if !(distance < keep && reach > 0.0) {
         return None;
     }
+    // φ = |r − o| − ρ: gradient n, Hessian (I − n nᵀ)/|r − o|. docs/theory.md, "Contact with the body"
     let normal = away / reach;
     Some((distance, normal, (DMat3::IDENTITY - outer(normal, normal)) * (1.0 / reach)))
 }
@@ -108,6 +111,7 @@ impl Field for BodyContact<'_> {
         self.for_each_near(keep, p, |distance, gradient, hessian| {
             let [_, slope, bend] = self.penalty(keep, distance);
             let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
+            // E(D(r)): ∇E = E′ ∇D and ∇²E = E″ ∇D ∇Dᵀ + E′ ∇²D; |∇D| is 1 but for the smoothing of the distance.
             *force += gradient * slope;
             *stiffness += outer(gradient, gradient) * bend + hessian * slope;
         });

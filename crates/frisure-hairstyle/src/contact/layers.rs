@@ -30,6 +30,7 @@ impl Layer {
     /// area of skin (ν A).
     #[must_use]
     pub fn new(altitude: f64, scalp: f64, cover: f64) -> Self {
+        // Half a sphere has the area 2πR². The altitude is the sine of the angle up from its rim, R times that angle the way.
         let radius = (scalp / std::f64::consts::TAU).sqrt();
         Self { slope: cover.min(STEEPEST), most: radius * altitude.clamp(0.0, 1.0).asin() }
     }

@@ -78,6 +78,7 @@ impl GridLevel {
         let most = points.iter().map(|p| p.reach).fold(0.0, f64::max);
         let mut levels = vec![Vec::new(); LEVELS];
         for p in points {
+            // The bound (m) keeps the ratio finite; the cast takes the whole part.
             let halvings = (most / p.reach.max(1e-9)).log2() as usize;
             levels[halvings.min(LEVELS - 1)].push(*p);
         }
@@ -179,6 +180,8 @@ impl ContactPairs {
             .par_chunk_by(|a, b| a.guide == b.guide)
             .map(|own| again[own[0].guide as usize].then(|| Nearby::search(own, &levels)))
             .collect();
+        // A touch belongs to both guides: what a search found is entered with those that were not searched, too. So the
+        // energy of a pair is the same from either side.
         let mut met: Vec<Vec<Touch>> = vec![Vec::new(); found.len()];
         for (guide, near) in found.iter().enumerate() {
             for (k, (other, point)) in near.iter().flat_map(Nearby::iter) {
@@ -214,6 +217,7 @@ impl ContactPairs {
         const NONE: usize = usize::MAX;
         let mut group = vec![NONE; self.samples.len()];
         let mut groups: Vec<Vec<usize>> = Vec::new();
+        // Greedy colouring of the graph of touches: the first group in which no neighbour is.
         for &guide in order {
             let taken: Vec<usize> =
                 self.nearby[guide].guides.iter().map(|&g| group[g as usize]).collect();
@@ -270,6 +274,7 @@ impl Neighbours<'_> {
     fn for_each_touch(&self, s: f64, p: DVec3, mut touch: impl FnMut(DVec3, f64, f64)) {
         let own = &self.pairs.samples[self.guide];
         let near = &self.pairs.nearby[self.guide];
+        // The field is evaluated at these points alone: rounding finds the one at s. Point 0 is one spacing from the root.
         let k = ((s / own.spacing).round() as usize).clamp(1, own.positions.len()) - 1;
         let radius = own.radii[k];
         for &(guide, point) in near.of_point(k) {
@@ -297,6 +302,7 @@ impl Field for Neighbours<'_> {
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
         let mut sum: Option<(DVec3, DMat3)> = None;
         self.for_each_touch(s, p, |away, reach, length| {
+            // With o = 1 − r²/D²: E = (k D/8) o³, ∇E = −(¾ k/D) o² r, ∇²E = (¾ k/D) o (4 r rᵀ/D² − o I).
             let square = 1.0 / (reach * reach);
             let overlap = 1.0 - away.length_squared() * square;
             let scale = 0.75 * self.pairs.stiffness * length / reach * overlap;

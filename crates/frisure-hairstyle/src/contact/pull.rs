@@ -49,6 +49,7 @@ impl Field for Pull {
                 if !(from..=to).contains(&s) {
                     return 0.0;
                 }
+                // A spring up to the distance f/c, a constant force beyond (Huber): value and slope meet there.
                 let (away, near) = (p.distance(point), most / stiffness);
                 if away < near { 0.5 * stiffness * away * away } else { most * (away - 0.5 * near) }
             }
@@ -67,6 +68,7 @@ impl Field for Pull {
                 if distance * stiffness < most {
                     return Some((away * stiffness, DMat3::from_diagonal(DVec3::splat(stiffness))));
                 }
+                // The force keeps its size and turns with the direction: stiffness f/d at right angles to it, none along it.
                 let way = away / distance;
                 let across = DMat3::IDENTITY - outer(way, way);
                 Some((way * most, across * (most / distance)))

@@ -71,6 +71,7 @@ impl Thickness {
         spread: f64,
         volume: f64,
     ) -> Self {
+        // The geometric mean of both bending stiffnesses: hairs of a wisp turn their soft axes every way.
         let stiffness = rod.stiffness();
         let sag = rod.weight() / (stiffness.x * stiffness.y).sqrt();
         Self {
@@ -97,12 +98,14 @@ impl Thickness {
     #[must_use]
     pub fn area_per_hair(&self, s: f64) -> f64 {
         let tube = self.tube(s);
+        // A hexagon about a circle of radius t has the area √12 t².
         (12.0_f64.sqrt() * tube * tube).min(self.ground)
     }
 
     /// Radius (m) of the tube that one hair has for itself at arc length `s` (m), `r + w/2`.
     #[must_use]
     pub fn tube(&self, s: f64) -> f64 {
+        // T/EI (1/m²), and w = σκ/(q² + T/EI); the bound stands for straight hair without weight, where σκ is zero too.
         let tension = self.sag * (self.length - s).max(self.slack);
         let wander = self.spread / (self.wave + tension).max(1e-12);
         self.fibre + 0.5 * wander

@@ -97,15 +97,19 @@ pub(super) fn along<'a, F: Field>(
     elements: usize,
 ) -> FieldPotential<'a, F> {
     let strain = guide.rod.natural().mean(0.0, guide.rod.length()).length();
+    // The bound (rad/m) stands for straight hair, where the spacing alone decides.
     FieldPotential::new(
         field,
         samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))),
     )
 }
 
+/// Most points per element: a guard on time for extreme scenes.
+const MOST_SAMPLES: f64 = 1000.0;
+
 /// Points per element so that they are at most `spacing` (m) apart.
 pub(super) fn samples(guide: &Guide, elements: usize, spacing: f64) -> u32 {
-    (guide.rod.length() / (elements as f64 * spacing)).ceil().clamp(1.0, 1000.0) as u32
+    (guide.rod.length() / (elements as f64 * spacing)).ceil().clamp(1.0, MOST_SAMPLES) as u32
 }
 
 /// Distance (m) between the points at which a guide is measured. Chosen by trial; not measured further.
@@ -116,6 +120,7 @@ const MEASURE: f64 = 2e-3;
 pub(super) fn depth(head: &Head, guide: &Equilibrium) -> f64 {
     let samples = (guide.rod.length() / (guide.elements as f64 * MEASURE)).ceil().max(1.0);
     let points = guide.chain().sample_points(&guide.shape, samples as u32);
+    // The clamp is below the skin, where the follicle is: the first point does not count.
     let inside = |p: &DVec3| -head.signed_distance().value(*p);
     points.iter().skip(1).map(inside).fold(0.0, f64::max)
 }

@@ -23,7 +23,8 @@ const DEEPEST: f64 = 3e-4;
 /// Shapes that are tried for a guide that is still deeper. Chosen by trial; not measured further.
 const STARTS: u32 = 8;
 
-/// Relative gradient at which a guide is at rest after a warm start, which has to follow a slider: a hundredth of a hair's breadth.
+/// Relative gradient at which a guide is at rest after a warm start, which has to follow a slider. Chosen; a thousand times
+/// that of a cold start.
 const WARM_TOLERANCE: f64 = 1e-5;
 
 /// Brings every guide to rest by itself, in at most `iterations` iterations from where it rested before. With
@@ -80,6 +81,7 @@ fn settle_changed(
 
 /// The lower of two rests: what lay looped over an ear does not stay so when it is cut.
 fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibrium) -> Equilibrium {
+    // Two minima of the same energy: downhill from where it lay, and along gravity's branch from its root.
     let lying = resettle_one(spec, head, guide, before, None);
     let fallen = settle_one(spec, head, guide);
     let lower = fallen.energy.total() < lying.energy.total();
@@ -102,6 +104,7 @@ fn resettle_one(
     before: &Equilibrium,
     gone: Option<Pull>,
 ) -> Equilibrium {
+    // 1. Without a body and without a pull the rod's own search needs no steps.
     let alone = guide.pull.is_none() && gone.is_none();
     if spec.contact.body == Body::None && alone {
         return equilibrium_from(&guide.rod, &[], &options(spec), before);
@@ -116,6 +119,7 @@ fn resettle_one(
             equilibrium_from(&guide.rod, &[&body, &along(pull, guide, elements)], &options, from)
         }
     };
+    // 2. The pull turned on, or off, in steps, each from the shape of the one before. docs/theory.md, "Styling"
     let pulls: Vec<Option<Pull>> = match (guide.pull, gone) {
         (None, None) => vec![None],
         (Some(pull), _) => PULLS.iter().map(|&share| Some(pull.scaled(share))).collect(),
@@ -126,7 +130,7 @@ fn resettle_one(
     };
     let first = settle(pulls[0], before);
     let rest = pulls[1..].iter().fold(first, |rest, &pull| settle(pull, &rest));
-    // It may have been pushed into the body, or have been there when it was held: then it comes down
+    // 3. It may have been pushed into the body, or have been there when it was held: then it comes down
     // from its root again.
     let deep = depth(head, &rest);
     if deep <= DEEPEST {
@@ -159,7 +163,7 @@ fn settle_one_from(
     let mut felt: Vec<&dyn Potential> = vec![&body];
     felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
     let rest = equilibrium_from(&guide.rod, &felt, &options, before);
-    // It may have been pushed into the body: then it comes down from its root again.
+    // It may have been pushed into the body: then it comes down from its root again. One that lay deep before stays.
     let deep = depth(head, &rest);
     if deep > DEEPEST && deep > depth(head, before) + DEEPEST {
         return settle_one(spec, head, guide);
@@ -173,6 +177,7 @@ pub(super) fn in_shapes_of(
     guides: &[Guide],
     before: &[Equilibrium],
 ) -> Vec<Equilibrium> {
+    // No iteration: the shape is transferred by its frames and stays as it is. docs/theory.md, "Warm starts"
     let options = Options { max_iterations: 0, tolerance: 0.0, ..options(spec) };
     (guides.par_iter().zip(before))
         .map(|(guide, before)| {
@@ -209,18 +214,19 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     if alone {
         return equilibrium(&guide.rod, &[], &options);
     }
-    // On a soft body the branch of gravity is followed in a fifth of the iterations; from one
-    // hardness to the next the answer is near. But hair can sink into a soft ear and stay there.
+    // 1. On a soft body the branch of gravity is followed in a fifth of the iterations; from one
+    // hardness to the next the answer is near.
     let rest = harden(spec, head, guide, &options, &HARDNESS);
     if depth(head, &rest) <= DEEPEST {
         return rest;
     }
+    // 2. But hair can sink into a soft ear and stay there: on the hard body from the start.
     let hard = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
     let rest = if depth(head, &hard) < depth(head, &rest) { hard } else { rest };
     if depth(head, &rest) <= DEEPEST {
         return rest;
     }
-    // It was born into the body: of several shapes the one that is not in it has the least energy.
+    // 3. Its natural shape is in the body: of several random starts the one that is not in it has the least energy.
     let branch = Branch::Lowest { starts: STARTS, seed: spec.seed };
     let options = Options { branch, ..options };
     let freed = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
@@ -232,6 +238,7 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
 fn division(spec: &HairstyleSpec, guide: &Guide) -> usize {
     match spec.equilibrium.resolution {
         Resolution::Elements(n) => n,
+        // An accuracy takes at least two doublings of the first division: more than that is not worth the search.
         Resolution::Accuracy(_)
             if 4 * spec.equilibrium.element.resolving_elements(&guide.rod) > MOST_ELEMENTS =>
         {
@@ -255,6 +262,7 @@ fn harden(
     let layer = layer(spec, guide);
     let settle = |hardness: f64, previous: Option<&Equilibrium>| {
         let mut body = body(spec, head, guide, layer);
+        // Skin alone is softened; hair over it is soft already.
         body.skin *= hardness;
         let body = along(&body, guide, elements);
         let pull = guide.pull.as_ref().map(|pull| along(pull, guide, elements));

@@ -37,7 +37,8 @@ const SORTED: f64 = 0.3;
 
 /// Most steps of phase 2: a guard, seldom reached.
 pub(super) const MOST_STEPS: usize = 1000;
-/// How far a guide may move in a step of phase 2, as a share of a sweep. Chosen by trial; not measured further.
+/// How far a guide may move in a step of phase 2, as a share of a sweep: far moves are done. Chosen by trial; not measured
+/// further.
 const LARGEST_STEP: f64 = 0.4;
 
 /// How far a guide may move in one sweep, as a fraction of the mean radius of wisps: not so far that
@@ -51,6 +52,26 @@ const FEW: usize = 4;
 
 /// Least distance (m) beyond their thickness within which neighbours are searched. Chosen: a fraction of a wisp's radius.
 const LEAST_REACH: f64 = 6e-4;
+
+/// Reach (m) of a guide after a search, in moves like its last: with four of them a search of neighbours serves about two
+/// steps. At most twice the farthest move. Chosen by trial; no result depends on it but by rounding.
+const MOVES_PER_SEARCH: f64 = 4.0;
+
+/// Share of what is left of its reach that a guide may move in a line search, so that rounding does not use it up. Chosen.
+const ROOM: f64 = 0.9;
+
+/// Energies computed in one line search at most. Chosen by trial; not measured further.
+const TRIALS: usize = 4;
+
+/// The part of the expected decrease that a step of all guides has to reach. Chosen: larger than Armijo's usual 1e-4, since
+/// a sweep over the active guides is the alternative to a poor step.
+const SUFFICIENT: f64 = 0.1;
+
+/// Least and largest fraction of a direction that the next line search starts with. Chosen.
+const FRACTIONS: (f64, f64) = (0.1, 2.0);
+
+/// Least and largest factor on a fraction after a failed trial. [Nocedal & Wright] §3.5: interpolation with safeguards.
+const BACKTRACKING: (f64, f64) = (0.1, 0.5);
 
 /// Lets wisps make way for each other from where the guides are in `start`: phase 1 if `sweep_first`, then at most
 /// `most` steps of phase 2.
@@ -109,6 +130,7 @@ impl<'a> HeadSolver<'a> {
         let height = |i: usize| guides[i].root.position.z;
         order.sort_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
         let count = wisps.len();
+        // The scale of the head: wisps are about as thick in the middle as contact takes them to be.
         let middle = |g: &Guide| g.thickness.packed(0.5 * g.rod.length());
         let radius = guides.iter().map(middle).sum::<f64>() / count as f64;
         let largest = (LARGEST_MOVE * radius).clamp(LEAST_REACH, MOST_REACH);
@@ -133,6 +155,7 @@ impl HeadSolver<'_> {
         for sweep in 1..=MOST_SWEEPS {
             self.update_neighbours();
             self.sweep(stage, &everyone)?;
+            // Symmetric sweeps (Gauss–Seidel): the same guides are not the first to move every time.
             self.order.reverse();
             stage.at(SORTED * sweep as f64 / MOST_SWEEPS as f64);
             let calm = self.last.iter().filter(|&&m| m < CALM).count();
@@ -145,6 +168,7 @@ impl HeadSolver<'_> {
 
     /// Step 2.1: searches the neighbours of guides that have used up half of their reach.
     fn update_neighbours(&mut self) {
+        // Lists hold while no guide has moved by more than its reach since; half of it is left for the next move.
         let used_up: Vec<bool> =
             self.drift.iter().zip(&self.reach).map(|(drift, reach)| *drift > 0.5 * reach).collect();
         if !used_up.contains(&true) {
@@ -152,7 +176,7 @@ impl HeadSolver<'_> {
         }
         for i in (0..self.wisps.len()).filter(|&i| used_up[i]) {
             let most = (2.0 * self.farthest).max(LEAST_REACH);
-            self.reach[i] = (4.0 * self.last[i]).clamp(LEAST_REACH, most);
+            self.reach[i] = (MOVES_PER_SEARCH * self.last[i]).clamp(LEAST_REACH, most);
             self.drift[i] = 0.0;
         }
         self.pairs.update_neighbours(&self.reach, &used_up);
@@ -166,6 +190,7 @@ impl HeadSolver<'_> {
             let group: Vec<usize> = group.iter().copied().filter(|&i| who[i]).collect();
             let settled: Vec<_> = group
                 .par_iter()
+                // No guide of a group touches another, so that moving them at the same time gives the same as one by one.
                 .map(|&i| self.wisps[i].downhill(&self.pairs, i, self.reach[i] - self.drift[i]))
                 .collect();
             for (i, settled) in group.into_iter().zip(settled) {
@@ -195,6 +220,7 @@ impl HeadSolver<'_> {
             }
             let steepest = self.steepest(&newton);
             let first = *first.get_or_insert(steepest);
+            // Progress on a logarithmic scale: from the first gradient to the tolerance.
             let done = (first / steepest).ln() / (first / self.tolerance).ln().max(1e-9);
             stage.at(SORTED + (1.0 - SORTED) * done);
             if count * FEW <= self.wisps.len() {
@@ -236,6 +262,7 @@ impl HeadSolver<'_> {
     /// Step 2.3: which guides are not at rest.
     fn active(&self, newton: &[Option<NewtonStep>]) -> Vec<bool> {
         let still = |(w, n): (&Wisp<'_>, &Option<NewtonStep>)| {
+            // A vanishing gradient at a saddle point is not rest.
             n.as_ref().is_some_and(|n| slope(w, n) <= self.tolerance && n.positive_definite)
         };
         self.wisps.iter().zip(newton).map(|wn| !still(wn)).collect()
@@ -253,6 +280,7 @@ impl HeadSolver<'_> {
     /// Step 2.5: a line search by parabolas along a direction. Returns whether it found a lower energy.
     fn search(&mut self, direction: &mut Direction) -> bool {
         let energy = direction.energy.unwrap_or_else(|| self.energy());
+        // 1. Each guide's part of the direction, cut to its remaining reach: who may touch whom stays valid.
         let mut fraction = direction.fraction;
         let mut lengths: Vec<f64> = self
             .wisps
@@ -261,7 +289,7 @@ impl HeadSolver<'_> {
             .map(|(wisp, way)| wisp.length_of(way))
             .collect();
         for (i, length) in lengths.iter_mut().enumerate() {
-            let room = 0.9 * (self.reach[i] - self.drift[i]) / fraction;
+            let room = ROOM * (self.reach[i] - self.drift[i]) / fraction;
             if *length > room {
                 direction.shorten(i, room / *length);
                 *length = room;
@@ -270,16 +298,17 @@ impl HeadSolver<'_> {
         if direction.slope >= 0.0 {
             return false;
         }
+        // 2. Trials of E(α) until the decrease is sufficient.
         let here: Vec<_> = self.wisps.iter().map(|w| w.settled().clone()).collect();
-        for _ in 0..4 {
+        for _ in 0..TRIALS {
             self.go(&here, &direction.way, fraction);
             let found = self.energy();
-            // The parabola through both energies with the slope at the start.
+            // The parabola E(0) + s α + b α² through both energies with the slope s at the start; least at −s/2b.
             let bend = (found - energy - direction.slope * fraction) / (fraction * fraction);
             let least = -0.5 * direction.slope / bend;
             let least = if bend > 0.0 { least } else { 4.0 * fraction };
-            if found <= energy + 0.1 * direction.slope * fraction {
-                direction.fraction = least.clamp(0.1, 2.0);
+            if found <= energy + SUFFICIENT * direction.slope * fraction {
+                direction.fraction = least.clamp(FRACTIONS.0, FRACTIONS.1);
                 direction.energy = Some(found);
                 for (i, length) in lengths.into_iter().enumerate() {
                     self.last[i] = fraction * length;
@@ -287,8 +316,9 @@ impl HeadSolver<'_> {
                 }
                 return true;
             }
-            fraction = least.clamp(0.1 * fraction, 0.5 * fraction);
+            fraction = least.clamp(BACKTRACKING.0 * fraction, BACKTRACKING.1 * fraction);
         }
+        // 3. No trial was good enough: back to where the guides were.
         self.go(&here, &direction.way, 0.0);
         false
     }
@@ -312,6 +342,7 @@ impl HeadSolver<'_> {
 
     fn finish(mut self, sweeps: usize) -> Rest {
         let count = self.wisps.len();
+        // The lists without margins: certificates count what touches now, nothing else.
         self.pairs.update_neighbours(&vec![0.0; count], &vec![true; count]);
         let pairs = &self.pairs;
         let overlap_energy =
@@ -350,7 +381,8 @@ impl Direction {
         let mut direction = Self::downhill(newton, previous.map_or(1.0, |p| p.fraction));
         let Some(previous) = previous else { return direction };
         direction.energy = previous.energy;
-        // Polak & Ribière's factor, with Newton's steps −z for the preconditioned gradients.
+        // Polak & Ribière's factor β = z·(g − h) / y·h, with Newton's steps −z and −y for the preconditioned gradients of this
+        // step (g) and of the last (h). A negative β starts afresh, [Nocedal & Wright] (5.45).
         let (mut above, mut below) = (0.0, 0.0);
         for (new, old) in direction.newton.iter().zip(&previous.newton) {
             for ((g, z), (h, y)) in

@@ -26,6 +26,17 @@ const SPACING: f64 = 1.1;
 /// Least distance (m) between these points. Chosen by trial; not measured further.
 const LEAST_SPACING: f64 = 1e-3;
 
+/// Factor on the tether of a guide that moved too far, and on that of one that moved less than [`SHORT_MOVE`] of what it may.
+/// Chosen by trial; not measured further.
+const TIGHTENING: f64 = 4.0;
+const LOOSENING: f64 = 0.4;
+
+/// Share of what a guide may move below which its tether is loosened. Chosen by trial; not measured further.
+const SHORT_MOVE: f64 = 0.4;
+
+/// Least tether, as a share of the first: not so loose that it takes long to be held again. Chosen by trial.
+const LOOSEST: f64 = 1e-4;
+
 /// One guide and where it is.
 pub(super) struct Wisp<'a> {
     guide: &'a Guide,
@@ -80,21 +91,21 @@ impl<'a> Wisp<'a> {
         let mut stiffness = self.settled.tether;
         for _ in 0..MOST_TETHERS {
             let tether = Tether { stiffness, spacing: self.chain.arc()[1], from };
+            // ½ c |r − r₀|² per length is a damping in space: the softest motions of a long hair are those that move it farthest.
             let tether = FieldPotential::new(&tether, 1);
             let found = self.among(pairs, index, Some(&tether), |problem| {
                 Newton::default().minimise(problem, from.clone(), stopping)
             });
             let moved = farthest(&found.shape, from);
             if moved <= reach {
-                let looser = if moved < 0.4 * reach { 0.4 } else { 1.0 };
+                let looser = if moved < SHORT_MOVE * reach { LOOSENING } else { 1.0 };
                 return Settled {
                     shape: found.shape,
                     iterations: found.iterations,
-                    // Not so loose that it takes long to be held again.
-                    tether: (stiffness * looser).max(1e-4 * firmness(&self.guide.rod)),
+                    tether: (stiffness * looser).max(LOOSEST * firmness(&self.guide.rod)),
                 };
             }
-            stiffness *= 4.0;
+            stiffness *= TIGHTENING;
         }
         // No tether holds it: it stays where it is.
         Settled { tether: stiffness, iterations: 0, shape: from.clone() }
@@ -194,6 +205,7 @@ impl<'a> Wisp<'a> {
     ) -> Equilibrium {
         let stopping = StoppingCriteria { tolerance, max_iterations: 0 };
         self.among(pairs, index, None, |problem| {
+            // No iteration: only the gradient and the pivots of the shape as it is, hence the certificate.
             let riccati = Newton { escape_saddles: false, ..Newton::default() };
             let found = riccati.minimise(problem, self.settled.shape.clone(), stopping);
             let minimum = Minimum { iterations: self.settled.iterations, ..found };
@@ -205,6 +217,7 @@ impl<'a> Wisp<'a> {
 /// Stiffness (Pa) that holds a guide in its first sweep: its weight and its elasticity move it by
 /// about [`FIRST_SAG`] against it.
 fn firmness(rod: &Rod) -> f64 {
+    // The moment scale EI/L + ρSgL² over L² is a force per length (N/m); over a distance, a stiffness (Pa).
     rod.moment_scale() / rod.length().powi(2) / FIRST_SAG
 }
 
@@ -225,6 +238,7 @@ struct Tether<'a> {
 
 impl Tether<'_> {
     fn away(&self, s: f64, p: DVec3) -> DVec3 {
+        // With one sample per element the field is evaluated at nodes alone; rounding finds the node again.
         let node = ((s / self.spacing).round() as usize).min(self.from.positions.len() - 1);
         p - self.from.positions[node]
     }

@@ -73,6 +73,7 @@ impl SignedDistance {
             value += here * v;
             gradient += DVec3::new(here * s, along_y * v, along_z * v);
         }
+        // Outside the box φ(q) + |p − q| with q the nearest point of the box: q moves only along the sides that hold it.
         let beyond = p - q;
         (value + beyond.length(), gradient * free(beyond) + beyond.normalize_or_zero())
     }
@@ -155,12 +156,14 @@ fn free(beyond: DVec3) -> DVec3 {
 /// Hessian of the length of `beyond`, in the coordinates that are not zero.
 fn length_hessian(beyond: DVec3) -> DMat3 {
     let Some(u) = beyond.try_normalize() else { return DMat3::ZERO };
+    // (I − u uᵀ)/|d| in the held coordinates.
     let held = DMat3::from_diagonal(DVec3::ONE - free(beyond));
     (held - DMat3::from_cols(u * u.x, u * u.y, u * u.z)) * beyond.length().recip()
 }
 
 /// The uniform cubic B-spline at `t` in 0..1 of a cell of width `h`, with two derivatives.
 fn cubic(t: f64, h: f64) -> Weights {
+    // ⅙ (1 − t)³, ⅙ (4 − 6t² + 3t³), the same mirrored, ⅙ t³; the derivatives by position divide by h and by h².
     let s = 1.0 - t;
     let value =
         [s * s * s, 4.0 - 3.0 * t * t * (2.0 - t), 4.0 - 3.0 * s * s * (2.0 - s), t * t * t];
@@ -192,6 +195,7 @@ fn filter_axis(values: &mut [f32], stride: usize, length: usize) {
             for (lane, before) in before.iter_mut().enumerate() {
                 let at = row * stride + lane;
                 let here = block[at];
+                // The spline at a node is (c₋ + 4c + c₊)/6 = c + δ²c/6; `before` keeps the sample that was overwritten.
                 block[at] = here - (*before - 2.0 * here + block[at + stride]) / 6.0;
                 *before = here;
             }

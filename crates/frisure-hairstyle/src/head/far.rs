@@ -6,7 +6,7 @@ use super::triangles::{Soup, closest_point};
 use super::voxel_grid::{Grid, NONE, Node};
 
 /// Directions of the sweeps (bit a: axis a runs downwards). Four of the eight reach everything, and
-/// the descent on the mesh mends what they leave.
+/// the descent on the mesh mends what they leave. Chosen.
 const SWEEPS: [usize; 4] = [0b000, 0b111, 0b101, 0b010];
 
 /// Every second node along each axis, with the face nearest to it.
@@ -48,6 +48,7 @@ impl Coarse {
         let measure = |(at, &face): (usize, &u32)| {
             let at3 = [at % size[0], at / size[0] % size[1], at / (size[0] * size[1])];
             let near = nodes[fine(at3)];
+            // In the band about the skin the distance is known exactly; elsewhere the swept face is a start.
             let distance = if near.face == NONE {
                 soup.descend(&neighbours, face, place(at3)) as f32
             } else {
@@ -131,7 +132,7 @@ impl Coarse {
     }
 }
 
-/// Offsets and weights of cubic interpolation at a coarse node, and half-way between two.
+/// Offsets and weights of cubic interpolation at a coarse node, and half-way between two: Lagrange's (−1, 9, 9, −1)/16.
 const ON_NODE: [(isize, f32); 1] = [(0, 1.0)];
 const BETWEEN: [(isize, f32); 4] = [(-1, -0.0625), (0, 0.5625), (1, 0.5625), (2, -0.0625)];
 

@@ -8,6 +8,7 @@ use glam::{DMat3, DVec3};
 /// An ellipsoid with half axes `radii`.
 pub(crate) fn ellipsoid(p: DVec3, centre: DVec3, radii: DVec3) -> f64 {
     let q = p - centre;
+    // k₁ (k₁ − 1)/k₂ with k₁ = |q/r| and k₂ = |q/r²|: first order in the distance near the surface.
     let scaled = (q / radii).length();
     let slope = (q / (radii * radii)).length();
     if slope < 1e-12 { -radii.min_element() } else { scaled * (scaled - 1.0) / slope }

@@ -59,6 +59,7 @@ pub(crate) fn along_skin(
     root: &Root,
 ) -> DVec3 {
     let normal = root.normal;
+    // The numbers below are shares and places in radii of the cranium (y backwards, z up), chosen by eye.
     let front = 1.0 - smooth_step(-0.4, 0.6, marks.normalized(root.position).y);
     let base = match flow {
         Flow::Whorl => natural(marks, whorls, root),
@@ -71,6 +72,7 @@ pub(crate) fn along_skin(
     let Some((away, distance)) = partings.away(root.position, normal) else { return base };
     let parted = matches!(flow, Flow::Parted { .. });
     let reach = marks.width * if parted { 0.5 } else { 0.22 };
+    // It fades into the rest over a few centimetres, more where the whole head is parted.
     let pull = (-(distance / reach).powi(2)).exp();
     // Beside the line hair leaves sideways, or it would fall back over it; farther off, and above the
     // forehead, it is combed back out of the face.
@@ -99,9 +101,11 @@ fn natural(marks: &Landmarks, whorls: &[Whorl], root: &Root) -> DVec3 {
     for whorl in whorls {
         let away = root.position - whorl.centre;
         let distance = away.length().max(1e-9);
+        // 1.2 rad · exp(−d/0.45 w) about the skin's normal, weighted by 1/d³. docs/theory.md, "Roots and implantation"
         let turn = SWIRL * (-distance / (0.45 * marks.width)).exp() * whorl.hand;
         let radial = (away - root.normal * root.normal.dot(away)).normalize_or_zero();
         let weight = distance.powi(-3);
+        // The direction winds once about the whorl, so that in its eye there is none: it shrinks to zero there.
         let eye = smooth_step(0.0, EYE, distance);
         sum += DQuat::from_axis_angle(root.normal, -turn) * radial * (weight * eye);
         weights += weight;
@@ -133,6 +137,7 @@ fn back(normal: DVec3) -> DVec3 {
 /// Back, and in front also to both sides: out of the face.
 fn swept(normal: DVec3) -> DVec3 {
     // All of it but the very middle.
+    // The sign of x, smoothed over a tenth of the radius.
     let side = normal.x / (normal.x.abs() + 0.1);
     let aside = DVec3::X * (1.2 * side * smooth_step(-0.2, 0.6, -normal.y));
     shortened(back(normal) + along(aside, normal))

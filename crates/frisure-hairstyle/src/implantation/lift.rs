@@ -19,6 +19,7 @@ pub(crate) fn angle(marks: &Landmarks, lift: Lift, p: DVec3) -> f64 {
 /// Measured implantation angles (degrees to the skin): hairline 10–20, temples 3–10, mid-scalp 30,
 /// rising to 60 at the crown (docs/theory.md, "Roots and implantation").
 fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
+    // The means of the measured ranges, blended over distances in head widths that are chosen by eye.
     let up = marks.normalized(p).normalize_or(DVec3::Z).z;
     let reach = marks.width;
     let crown = 1.0 - smooth_step(0.08 * reach, 0.45 * reach, p.distance(marks.whorl));
@@ -31,9 +32,12 @@ fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
 /// Distance (m) from a parting up to which a comb lays hair on the skin. docs/theory.md, "Roots and implantation".
 const LAID: f64 = 0.03;
 
+/// Angle to the skin (degrees) to which a comb lays hair beside a parting. docs/theory.md, "Roots and implantation".
+const FLAT: f64 = 12.0;
+
 /// The angle (rad) at `distance` (m) from a parting: there the comb has laid down what would stand.
 pub(crate) fn laid_flat(angle: f64, distance: f64) -> f64 {
-    let flat = angle.min(12_f64.to_radians());
+    let flat = angle.min(FLAT.to_radians());
     flat + (angle - flat) * smooth_step(0.3 * LAID, LAID, distance)
 }
 

@@ -105,8 +105,8 @@ impl Partings {
             for pair in line.points.windows(2) {
                 let d = p - closest(p, pair[0], pair[1]);
                 let distance = d.length().max(1e-6);
-                // A line of charges whose force falls fast enough for each side to feel its own
-                // piece, and slowly enough to be smooth.
+                // Σ d |d|⁻⁴ over pieces: d/|d| · length/|d|³. A line of charges whose force falls fast enough for each side
+                // to feel its own piece, and slowly enough to be smooth. docs/theory.md, "Roots and implantation"
                 let weight = pair[0].distance(pair[1]) / distance.powi(3);
                 sum += d / distance * weight;
                 most += weight;
@@ -132,6 +132,7 @@ impl Partings {
         if distance >= GATHERED {
             return p;
         }
+        // d (d/8 mm)^1.5: continuous at the border of the strip, and never across the line.
         let nearer = distance * (distance / GATHERED).powf(1.5);
         on_line + (p - on_line).normalize_or_zero() * nearer.max(distance.min(SIDE))
     }

@@ -89,6 +89,7 @@ impl<'a> Scalp<'a> {
         let step = self.area() / count as f64;
         (0..count)
             .map(|i| {
+                // One point in each of `count` strata of the running sum of areas; faces in Morton order keep strata compact.
                 let target = (i as f64 + random.unit()) * step;
                 let at = self.faces.partition_point(|f| f.1 <= target);
                 self.on_face(self.faces[at.min(self.faces.len() - 1)].0, &mut random)
@@ -107,12 +108,14 @@ impl<'a> Scalp<'a> {
         };
         let mut b = [1.0 / 3.0; 3];
         for _ in 0..TRIES {
+            // Uniform on the triangle: the root makes up for its narrowing towards the first corner.
             let (u, v) = (random.unit().sqrt(), random.unit());
             b = [1.0 - u, u * (1.0 - v), u * v];
             let here = match &self.edge {
                 Some(edge) => edge.density(at(b, corners)),
                 None => b.iter().zip(weights).map(|(b, w)| b * w).sum(),
             };
+            // Rejection sampling in proportion to the density.
             if random.unit() * largest <= here {
                 break;
             }
@@ -133,7 +136,7 @@ impl<'a> Scalp<'a> {
     }
 }
 
-/// Most points of a face that are tried: where hair is sparse, most are bald.
+/// Most points of a face that are tried: where hair is sparse, most are bald. A guard on time.
 const TRIES: usize = 200;
 
 /// The mean of three values with weights that sum to 1.
@@ -205,6 +208,7 @@ fn eliminate(candidates: Vec<Root>, count: usize, reach: f64) -> Vec<Root> {
     let grid = crate::math::Grid::new(&positions, reach);
     let closeness = |i: usize, j: usize| {
         let d = candidates[i].position.distance(candidates[j].position);
+        // Yuksel's weight (1 − d/2r)⁸ with 2r the reach; the exponent is his. docs/theory.md, "Roots and implantation"
         (1.0 - (d / reach).min(1.0)).powi(8)
     };
     let neighbours = |i: usize| grid.near(candidates[i].position).filter(move |&j| j != i);

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::head::Head;
 
-/// Step (m) of the walk along the skin.
+/// Step (m) of the walk along the skin. Chosen: less than the spacing of the distance grid.
 const STEP: f64 = 2e-3;
 
 /// Length of the tape (m) back from the forehead's hairline, and down over the forehead.
@@ -75,6 +75,7 @@ fn forth(head: &Head, p: DVec3, axis: DVec3) -> DVec3 {
 /// The skin nearest to a point, in the plane through it at right angles to `axis`.
 fn onto_skin(head: &Head, p: DVec3, axis: DVec3) -> DVec3 {
     let mut p = p;
+    // Newton's method on the distance along its own gradient, four steps (chosen).
     for _ in 0..4 {
         let (distance, away) = head.signed_distance().value_gradient(p);
         p -= (away - axis * away.dot(axis)) * distance;

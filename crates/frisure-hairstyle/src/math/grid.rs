@@ -106,6 +106,7 @@ impl Grid {
         loop {
             let mut found: Vec<_> =
                 self.within(p, rings).map(|i| (points[i].distance_squared(p), i)).collect();
+            // All points within `rings` cells of the one of p have been found; farther ones may be missing.
             let reach = (self.cell * f64::from(rings)).powi(2);
             let sure = found.iter().filter(|f| f.0 <= reach).count();
             if sure >= count.min(points.len()) || found.len() == points.len() {

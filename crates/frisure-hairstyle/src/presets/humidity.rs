@@ -62,6 +62,7 @@ fn share(curve: &Curve, humidity: f64) -> f64 {
 }
 
 fn at(curve: &Curve, humidity: f64) -> f64 {
+    // The piece that ends at the first point of at least this humidity; the first piece below it, the last beyond.
     let next = curve.partition_point(|p| p.0 < humidity).clamp(1, curve.len() - 1);
     let ((from, a), (to, b)) = (curve[next - 1], curve[next]);
     let t = (humidity - from) / (to - from);

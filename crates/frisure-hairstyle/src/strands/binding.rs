@@ -6,6 +6,21 @@ use crate::spec::Wisps;
 use crate::wisps::BoundStrand;
 use crate::wisps::{Split, Waves};
 
+/// Standard deviation of the logarithm of a hair's own fuzziness. Chosen by eye; not measured.
+const FUZZ_SPREAD: f64 = 0.5;
+
+/// Factor on the deviation of a hair that leaves its wisp. docs/theory.md, "Wisps".
+const STRAY: f64 = 2.5;
+
+/// Amplitude of deviations per fuzziness, as a share of the spacing of guides. Chosen by eye; not measured.
+const AMPLITUDE: f64 = 0.3;
+
+/// Least length of a hair, as a share of its guides'. Chosen by eye; not measured.
+const SHORTEST: f64 = 0.2;
+
+/// Standard deviation of the drift: without fuzziness, and per fuzziness. Chosen by eye; not measured.
+const DRIFT: (f64, f64) = (0.006, 0.06);
+
 /// What makes one hair differ from its neighbours.
 pub(super) struct StrandVariation {
     /// Length as a fraction of its guides'.
@@ -21,11 +36,11 @@ pub(super) struct StrandVariation {
 impl StrandVariation {
     pub(super) fn new(wisps: &Wisps, length: f64, spacing: f64, random: &mut Stream) -> Self {
         let stray = random.unit() < wisps.flyaways;
-        let fuzz = wisps.fuzziness * random.factor(0.5) * if stray { 2.5 } else { 1.0 };
+        let fuzz = wisps.fuzziness * random.factor(FUZZ_SPREAD) * if stray { STRAY } else { 1.0 };
         Self {
-            waves: Waves::new(0.3 * fuzz * spacing, length, random),
-            length: (1.0 - wisps.length_variation * random.normal().abs()).max(0.2),
-            drift: 1.0 + (0.006 + 0.06 * wisps.fuzziness) * random.normal(),
+            waves: Waves::new(AMPLITUDE * fuzz * spacing, length, random),
+            length: (1.0 - wisps.length_variation * random.normal().abs()).max(SHORTEST),
+            drift: 1.0 + (DRIFT.0 + DRIFT.1 * wisps.fuzziness) * random.normal(),
             stray,
         }
     }

@@ -108,11 +108,14 @@ impl Population<'_> {
         } = binding;
         let along = x * length;
         let rise = smooth_step(0.0, 0.06_f64.min(0.5 * length), along);
+        // How far the wisp has gathered, by the length that it would have uncut: what is left after a cut does not gather
+        // more. The exponent 0.8 and the 6 cm over which deviations rise are chosen by eye.
         let gathered = smooth_step(0.0, 1.0, (along / uncut.max(GATHERING)).powf(0.8));
         let drifted = x * (1.0 + (variation.drift - 1.0) * rise);
         let mut transported = variation.waves.at(along / planned) * (rise * narrow);
         let drawn_in = 1.0 + (narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * length), along);
         for (rank, &(g, weight)) in followed.iter().enumerate() {
+            // C(x) + n(x) T(x) δ, weighted over the guides. docs/theory.md, "Wisps"
             let (centre, turn) = self.wisps[g].at(drifted);
             let mut place = root.position - self.roots[g];
             if rank == 0
@@ -168,6 +171,7 @@ impl Population<'_> {
         } else {
             middle + (tip - middle) * (2.0 * x - 1.0)
         };
+        // n from 1, the patch of skin, by the share `clumping` to the packed radius over that of the patch.
         (1.0 + self.spec.wisps.clumping * gathered * (packed - 1.0)) * along
     }
 }

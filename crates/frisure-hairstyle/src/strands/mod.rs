@@ -35,6 +35,9 @@ pub use simulated::{Checkpoint, Simulation};
 /// Radius at the tip, as a fraction of the fibre's. Chosen by eye; not measured.
 const TIP: f64 = 0.35;
 
+/// Share of its length from which on an uncut hair tapers. Chosen by eye; not measured.
+const TAPER: f64 = 0.85;
+
 /// How [`strands`] draws. The default draws every hair.
 #[derive(Clone, Copy)]
 pub struct StrandOptions<'a> {
@@ -150,7 +153,7 @@ pub fn penetration(strands: &Strands, head: &Head) -> f64 {
 fn assemble(spec: &HairstyleSpec, guides: &[Guide], hairs: &[Hair]) -> Strands {
     let points = spec.wisps.points;
     let taper: Vec<f64> = (0..points)
-        .map(|i| 1.0 - (1.0 - TIP) * smooth_step(0.85, 1.0, i as f64 / (points - 1) as f64))
+        .map(|i| 1.0 - (1.0 - TIP) * smooth_step(TAPER, 1.0, i as f64 / (points - 1) as f64))
         .collect();
     let mut strands = Strands::with_capacity(hairs.len(), hairs.len() * points);
     let mut radii = vec![0.0; points];

@@ -74,6 +74,10 @@ pub(crate) struct Population<'a> {
     pub(super) skin: Skin<'a>,
 }
 
+/// Ratios of distances along two guides to that of their roots: up to the first they go the same way, from the second on they
+/// do not. Chosen by eye; not measured.
+const AGREEING: (f64, f64) = (0.8, 1.6);
+
 /// Where along two guides it shows whether they go the same way, from root to tip.
 /// Chosen by trial; not measured further.
 const MARKS: [f64; 4] = [0.0, 0.3, 0.65, 1.0];
@@ -254,7 +258,8 @@ impl<'a> Population<'a> {
         let (a, b) = (&self.marks[a], &self.marks[b]);
         let apart = |mark: usize| a[mark].distance(b[mark]);
         let most = apart(1).max(apart(2)).max(apart(3));
-        1.0 - smooth_step(0.8, 1.6, most / (apart(0) + self.spacing))
+        // How many times as far apart they end as they start; a spacing is added so that neighbours may spread a little.
+        1.0 - smooth_step(AGREEING.0, AGREEING.1, most / (apart(0) + self.spacing))
     }
 
     /// The split of a wisp that a hair belongs to: the nearest in the skin.

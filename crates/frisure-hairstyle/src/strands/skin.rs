@@ -13,6 +13,9 @@ pub(super) const ROOT_DEPTH: f64 = 3e-4;
 /// Least distance of a hair from the skin far from its root (m). Chosen by eye; not measured.
 pub(super) const LEAST_DISTANCE: f64 = 4e-4;
 
+/// Arc length (m) over which the least distance grows to its full size. Chosen by eye; not measured.
+const LEAST_GROWTH: f64 = 0.003;
+
 /// Width over which hairs are moved out of the body, as a fraction of the radius of their wisp …
 /// Chosen by eye; not measured.
 pub(super) const PRESSED: f64 = 0.3;
@@ -20,7 +23,7 @@ pub(super) const PRESSED: f64 = 0.3;
 /// Least width (m) over which hairs are moved out of the body. Chosen by trial; not measured further.
 pub(super) const LAID: f64 = 2e-5;
 
-/// How many widths farther out no hair is moved: there the law moves it by less than a rounding.
+/// How many widths farther out no hair is moved: there the law moves it by 2.5e-3 of a width. Chosen.
 const FREE: f64 = 6.0;
 
 /// A ball (m) known to be free of the body and of its layers: most points need no look-up.
@@ -59,9 +62,11 @@ impl Skin<'_> {
         if self.body == Body::None || free.holds(p) {
             return p;
         }
-        let least = LEAST_DISTANCE * (s / 0.003).min(1.0);
+        // It grows from zero at the follicle.
+        let least = LEAST_DISTANCE * (s / LEAST_GROWTH).min(1.0);
         let (distance, gradient) = self.head.signed_distance().value_gradient(p);
         let beyond = (distance - least) / width;
+        // The point stays, and so does all in the ball up to the layers of the thickest wisp.
         if beyond > FREE {
             *free = Free { centre: p, radius: distance - least - FREE * self.widest };
             return p;
@@ -69,7 +74,7 @@ impl Skin<'_> {
         let wanted = least + width * beyond.exp().ln_1p();
         let mut p = p + gradient.normalize_or(root.normal) * (wanted - distance);
         for _ in 0..4 {
-            // Where the skin is curved the way out is not straight.
+            // Where the skin is curved the way out is not straight: four steps (chosen) along the gradient there.
             let (distance, gradient) = self.head.signed_distance().value_gradient(p);
             if distance >= least {
                 break;

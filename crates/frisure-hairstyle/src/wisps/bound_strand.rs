@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::wisp::Wisp;
 use crate::math::Grid;
 
-/// Most guides that one strand is bound to, and among how many of the nearest they are searched.
+/// Most guides that one strand is bound to, and among how many of the nearest they are searched. Chosen by trial.
 const BINDINGS: usize = 3;
 const SOUGHT: usize = 24;
 
@@ -112,6 +112,7 @@ fn bindings(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f6
     found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
     found.truncate(BINDINGS);
     let nearest = found[0].1;
+    // Inverse fourth power of the distance, relative to the nearest; what counts for less than a hundredth is left out.
     for binding in &mut found {
         binding.1 = (nearest / binding.1).powi(2);
     }

@@ -35,11 +35,13 @@ impl Waves {
     /// Of about `amplitude` (m) on hair of `length` (m).
     pub(crate) fn new(amplitude: f64, length: f64, random: &mut Stream) -> Self {
         let mut wave = |wavelength: f64, share: f64| {
+            // Wavelengths vary by a factor with a deviation of 0.3 between hairs, so that no two run in step. Chosen by eye.
             let number = TAU * length / (wavelength * random.factor(0.3));
             let direction = DVec3::new(random.normal(), random.normal(), random.normal());
             let phase = TAU * random.unit();
             Wave { amplitude: direction * (amplitude * share), number, phase, root: phase.sin() }
         };
+        // Wavelength (m) and share of the amplitude: 16, 6 and 2.5 cm. docs/theory.md, "Wisps"; shares chosen by eye.
         Self([wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)])
     }
 
@@ -67,6 +69,7 @@ pub(crate) fn splits(spec: &HairstyleSpec, guides: &[Guide], patch: f64) -> Vec<
     let split = |guide: &Guide, random: &mut Stream| {
         let normal = guide.root.normal;
         let (u, v) = normal.any_orthonormal_pair();
+        // Uniform on the disc of the patch.
         let (radius, angle) = (patch * random.unit().sqrt(), TAU * random.unit());
         let amplitude = STRAY * spec.wisps.fuzziness * patch;
         let length = guide.rod.length();

@@ -37,6 +37,7 @@ impl Wisp {
         let directors = line.iter().map(|(_, frame)| frame.x_axis.as_vec3()).collect();
         let positions: Vec<DVec3> = line.into_iter().map(|(p, _)| p).chain(more).collect();
         let strain = guide.rod.natural().mean(0.0, length).length();
+        // One turn of the curl, over which its winding averages out; hair that turns less than twice has no axis to find.
         let period = TAU / strain.max(1e-9);
         let window = if period < 0.5 * length { period } else { STRAIGHT_WINDOW.min(length) };
         let half = (0.5 * window / length * (samples - 1) as f64).max(1.0);
@@ -85,6 +86,7 @@ fn beyond_tip(
     let turn = guide.shape.controls.last().map_or(DVec3::ZERO, |c| *c * (spacing / step));
     let half = DMat3::from_quat(DQuat::from_scaled_axis(0.5 * turn));
     (0..count.min(MOST_BEYOND))
+        // The midpoint rule: half a turn, a step along the tangent there, half a turn.
         .map(|_| {
             frame *= half;
             p += frame.z_axis * spacing;
@@ -99,6 +101,7 @@ fn catmull_rom(points: &[DVec3], i: usize, t: f64) -> DVec3 {
     let (b, c) = (points[i], points[i + 1]);
     let a = if i > 0 { points[i - 1] } else { b * 2.0 - c };
     let d = points.get(i + 2).copied().unwrap_or(c * 2.0 - b);
+    // Hermite's cubic with central differences as tangents.
     let (m0, m1) = ((c - a) * 0.5, (d - b) * 0.5);
     let (t2, t3) = (t * t, t * t * t);
     b * (2.0 * t3 - 3.0 * t2 + 1.0)
@@ -125,6 +128,7 @@ fn transported(positions: &[DVec3], half: f64) -> Vec<DQuat> {
     (0..positions.len())
         .map(|k| {
             let next = axis(k);
+            // The least rotation from chord to chord: parallel transport, without twist about the axis.
             turn = (DQuat::from_rotation_arc(previous, next) * turn).normalize();
             previous = next;
             turn

@@ -39,6 +39,9 @@ const STRAY: f64 = 12.0;
 /// From which distance (m) on it is enough to know that skin is as far. No result depends on it.
 const FAR: f64 = 0.02;
 
+/// Arc length (m) over which the margin over the skin grows to its full size. Chosen; not measured further.
+const MARGIN_GROWTH: f64 = 0.003;
+
 impl<'a> Envelope<'a> {
     pub(super) fn new(population: &'a Population<'a>, elements: usize, hairs: usize) -> Self {
         let tubes = Vec::with_capacity(elements * hairs);
@@ -58,6 +61,7 @@ impl<'a> Envelope<'a> {
             let clear = match spec.contact.body {
                 Body::None => f64::INFINITY,
                 _ => {
+                    // From the tube before: a distance that is far enough needs no query.
                     let at_least = before.1 - centre.distance(before.0);
                     if at_least > FAR { at_least } else { self.clear(head, centre, s) }
                 }
@@ -81,7 +85,8 @@ impl<'a> Envelope<'a> {
 
 /// How far (m) outside the skin it begins.
 fn margin(s: f64) -> f64 {
-    LEAST_DISTANCE * (s / 0.003).min(1.0)
+    // It grows from zero at the follicle.
+    LEAST_DISTANCE * (s / MARGIN_GROWTH).min(1.0)
 }
 
 impl ContactField for Envelope<'_> {
@@ -93,11 +98,14 @@ impl ContactField for Envelope<'_> {
     fn contact(&self, _: usize, s: f64, position: DVec3) -> Contact {
         let margin = margin(s);
         let skin = self.population.head.signed_distance();
+        // The distance falls by at most STEEPEST per length: a ball of that radius has no skin in it.
         let out = skin.value(position) - margin;
         if out > 0.0 {
             return Contact::Clear(out / STEEPEST);
         }
         let (distance, gradient, hessian) = skin.value_gradient_hessian(position);
+        // k e³/6m with e the depth: force k e²/2m against ∇φ, stiffness k e/m along it. docs/theory.md, "Hairs that are rods
+        // themselves"
         let depth = margin - distance;
         let stiffness = self.hardness * self.population.spec.contact.stiffness * depth / margin;
         let force = 0.5 * stiffness * depth;

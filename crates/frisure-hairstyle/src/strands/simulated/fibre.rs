@@ -38,10 +38,12 @@ fn fibre(
     let mut random = Stream::new(spec.seed, Purpose::HairFibre, index);
     let guide = &population.guides[binding.main()].rod;
     let dry = &population.planned[binding.main()].rod;
+    // The guide as it is now over the guide as planned: what water makes of its section applies to every hair.
     let swollen = guide.spec().section.mean_radius() / dry.spec().section.mean_radius();
     let section = spec.fibre.varied(&mut random)?.scaled(swollen * binding.thickness)?;
     let own = spec.wisps.fuzziness;
     let off = random.normal().clamp(-ODDEST, ODDEST);
+    // Log-normal, as between guides, with a standard deviation `fuzziness` times theirs.
     let factor = (own * spec.curl.variation_between * off).exp();
     let along = own * spec.curl.variation_along;
     let natural = match guide.natural() {
@@ -84,6 +86,7 @@ fn places(shared: &NaturalStrain, length: f64, scale: f64) -> impl Iterator<Item
         NaturalStrain::Varying(profile) => profile.knots().iter().map(|knot| knot.0).collect(),
     };
     let last = known.last().copied().unwrap_or(0.0);
+    // Half a correlation length, over which the process keeps 0.6 of its value; at most 500 knots. Chosen.
     let step = (0.5 * scale).max(length / 500.0);
     let more = ((length - last) / step).ceil().max(0.0) as usize;
     known.into_iter().chain((1..=more).map(move |k| last + k as f64 * step))
@@ -103,6 +106,8 @@ impl Wander {
     /// The factor at the next arc length (m).
     fn at(&mut self, s: f64, random: &mut Stream) -> f64 {
         let Self { along, scale, at } = self;
+        // x(s) = e^(−Δs/ℓ) x + σ √(1 − e^(−2Δs/ℓ)) N(0, 1): the exact step of the process, of any length. It is stationary,
+        // so that the first value is drawn from N(0, σ²).
         let keep = at.map_or(0.0, |(before, _)| (-(s - before) / *scale).exp());
         let off = at.map_or(0.0, |(_, off)| off);
         let off = keep * off + *along * (1.0 - keep * keep).sqrt() * random.normal();

@@ -37,13 +37,13 @@ const PER_TURN: f64 = 6.0;
 /// Longest element (m): skin is felt at joints. Chosen by trial; not measured further.
 const LONGEST: f64 = 0.012;
 
-/// Hairs that are looked after together: enough to keep vectors filled.
+/// Hairs that are looked after together: enough to keep vectors filled. Chosen; a part of a checkpoint is one of these.
 const CHUNK: usize = 1024;
 
-/// Gradient at rest, relative to the moment of the hair's weight: a hundredth of a hair's breadth.
+/// Gradient at rest, relative to the moment of the hair's weight. docs/theory.md, "Hairs that are rods themselves".
 const TOLERANCE: f64 = 1e-5;
 
-/// Most iterations of a hair: contact comes and goes.
+/// Most iterations of a hair: contact comes and goes. Chosen by trial; the rest goes to `patiently`.
 const MAX_ITERATIONS: usize = 400;
 
 /// For a hair that did not come to rest: how hard skin and neighbours are, as fractions of what they are, and by how
@@ -138,6 +138,7 @@ impl<'a> Simulated<'a> {
                 drawn[place] = Some(self.population.hair(root, *index));
                 continue;
             };
+            // The turn from the root of its guide to its own, which the whole start shape takes.
             let frame = DQuat::from_mat3(&rod.root().frame());
             let turned = frame * self.frames[binding.main()][0].inverse();
             let group = &mut groups[division(&rod)];
@@ -242,6 +243,7 @@ fn patiently(
     let mut at_rest = None;
     for (hardness, kick) in PATIENCE {
         envelope.hardness = hardness;
+        // All joints turned alike about d1: a saddle's negative curvature has some part along that.
         if let InitialShape::Controls(controls) = &mut start {
             controls.iter_mut().for_each(|control| control.x += kick);
         }
