@@ -1,27 +1,67 @@
 //! frisure predicts how natural hair falls, from the physics of its fibres.
 //!
-//! One hair is an elastic rod, clamped in the scalp, that rests where elasticity and weight balance
-//! ([`rod`]). A head of hair is some hundred such rods, its guides, with the drawn hairs around them
-//! ([`hairstyle`]); what comes out are [`strands`], to be drawn ([`render`], with the [`optics`] of
-//! a fibre) or written to a file ([`formats`]).
+//! This crate re-exports the libraries of the project and holds nothing of its own. What they do, in the order of the
+//! computation:
 //!
-//! This crate is a door: it holds nothing of its own.
+//! 1. **A fibre.** A hair is an elastic rod with an elliptical section and a natural curl, clamped in the scalp
+//!    ([`rod::Rod`]). A [`scene`] describes its length, section, stiffness and curl with units; hair types
+//!    ([`hairstyle::preset`]) have measured values for what the scene leaves out.
+//! 2. **A head.** A mesh, or the built-in mannequin, with a scalp, landmarks and a signed distance to the skin
+//!    ([`hairstyle::head::Head`]).
+//! 3. **A hairstyle.** [`hairstyle::predict`] places some hundred guides on the scalp, each a rod with its own variation of
+//!    the fibre. [`hairstyle::style`] changes them: wet, cut, comb, dry and more.
+//! 4. **Equilibrium.** Each guide comes to rest at a minimum of its potential energy: elasticity, weight, contact with the
+//!    body and with other hair ([`rod::equilibrium()`] for one rod). Each result has a certificate of its stability.
+//! 5. **Strands.** [`hairstyle::strands()`] interpolates the drawn hairs between the guides, or simulates each. They are
+//!    plain points and radii ([`strands::Strands`]).
+//! 6. **A picture or a file.** [`render::preview`] makes a picture in seconds, [`render::trace`] the final one, with the
+//!    scattering of light by an elliptical fibre ([`optics::scattering`]); [`formats::groom`] writes a groom that other
+//!    programs read.
 //!
 //! ```
+//! use frisure::formats::groom::{Format, Groom, encode};
+//! use frisure::hairstyle::head::Head;
+//! use frisure::hairstyle::{
+//!     PredictOptions, StrandOptions, StyleOptions, predict, settling_report, strands, style,
+//! };
 //! use frisure::scene::Scene;
-//! use frisure::rod::equilibrium;
 //!
-//! // A ringlet of 20 cm, held out horizontally.
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let text = r#"
-//!     [hair]
-//!     length = "20 cm"
-//!     curl = { radius = "1 cm", pitch = "3 cm" }
+//!     hair = { type = "caucasian-curly", length = "12 cm" }
+//!     wisps = { count = 12, hairs = 100 }
+//!     step = [{ wet = {} }]
 //! "#;
-//! let hair = Scene::parse("ringlet", text, "".as_ref())?.single_hair()?;
-//! let rest = equilibrium(&hair.rod, &[], &hair.options);
-//! assert!(rest.tip().z < 0.0, "it hangs");
-//! # Ok::<(), frisure::scene::SceneError>(())
+//! let scene = Scene::parse("small.toml", text, "".as_ref())?; // 1. the fibre, with units
+//! let head = Head::mannequin(); // 2.
+//! let dry = predict(&scene.hairstyle_spec()?, &head, PredictOptions::default(), &())?; // 3., 4.
+//! let wet = style(&dry, &head, &scene.steps()[0], StyleOptions::default(), &())?;
+//! assert_eq!(settling_report(&wet, &head).stable, 12);
+//! let hairs = strands(&wet, &head, StrandOptions::default(), &())?.strands; // 5.
+//! assert_eq!(hairs.len(), 100);
+//! let format = Format::named("hair").unwrap();
+//! let bytes = encode(format, &Groom::of(hairs), Default::default())?; // 6.
+//! assert!(bytes.starts_with(b"HAIR"));
+//! # Ok(())
+//! # }
 //! ```
+//!
+//! # Where is …
+//!
+//! | what | where |
+//! | --- | --- |
+//! | the elastic energy of a rod, its gradient and Hessian | [`rod::potential::Elastic`], `crates/frisure-rod/src/potential/elastic.rs` |
+//! | the Newton step: Hessian, factorisation, line search | [`rod::minimise::Newton`], `crates/frisure-rod/src/minimise` |
+//! | contact of hair with the head | `crates/frisure-hairstyle/src/contact/body.rs`, on the signed distance of `crates/frisure-hairstyle/src/head/distance.rs` |
+//! | contact of hair with hair | `crates/frisure-hairstyle/src/contact/neighbours.rs`, solved by `crates/frisure-hairstyle/src/equilibrium/head_solver.rs` |
+//! | the wet law: water, swelling, softening, humidity | `crates/frisure-hairstyle/src/styling/wet_law.rs`, [`hairstyle::Wetting`], [`hairstyle::Moisture`] |
+//! | sampling of the elliptical fibre | [`optics::scattering::HairBsdf::sample`], `crates/frisure-optics/src/scattering` |
+//! | the declaration of a scene key: unit, range, text | `crates/frisure-scene/src/file.rs`; how to add one: `CONTRIBUTING.md`, "Add a scene key with a slider" |
+//! | the declaration of a styling operation | `crates/frisure-scene/src/step/operations.rs`; `CONTRIBUTING.md`, "Add an operation" |
+//! | the groom formats | [`formats::groom::Format`], `crates/frisure-formats/src/groom`; `CONTRIBUTING.md`, "Add a groom format" |
+//! | the equations and their sources | `docs/theory.md` |
+//!
+//! `docs/glossary.md` has the words of the field and where each is in the code, `ARCHITECTURE.md` the map of the crates.
 
 #![forbid(unsafe_code)]
 
