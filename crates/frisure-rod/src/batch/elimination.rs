@@ -11,7 +11,7 @@ use super::rotation::RotationTable;
 /// A pivot this small relative to its diagonal is zero to rounding, as in the scalar solver; some hundred times that of f64.
 const PIVOT_ROUNDING: f64 = 1e-13;
 
-/// Trust region: largest change of a joint's turn in one step (rad), as in the scalar solver.
+/// Trust region: largest change of a joint's turn in one step (rad), as in the scalar solver. Chosen by trial.
 const LARGEST_TURN: f64 = 1.0;
 
 /// The result of a backward sweep for each rod.

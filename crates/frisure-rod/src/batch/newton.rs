@@ -15,7 +15,7 @@ use crate::minimise::Stability;
 use crate::rod::Rod;
 
 /// Damping after a first failed pivot or a rejected step, as a fraction of the stiffness; as in
-/// [`crate::minimise::Newton`].
+/// [`crate::minimise::Newton`]. Chosen by trial.
 const FIRST_DAMPING: f64 = 0.3;
 
 /// Least factor by which damping grows, and the factor after an accepted step; below [`LEAST_DAMPING`] it is switched
@@ -30,13 +30,13 @@ const ABOVE_REJECTED: f64 = 1.5;
 const FADING: f64 = 0.25;
 const FORGOTTEN: f64 = 0.05;
 
-/// Largest factor by which damping grows at once.
+/// Largest factor by which damping grows at once. Chosen by trial.
 const MOST_GROWTH: f64 = 16.0;
 
-/// Damping at which a rod is given up.
+/// Damping at which a rod is given up. Chosen: a step is shorter than rounding then.
 const LARGEST_DAMPING: f64 = 1e9;
 
-/// Armijo's constant: the part of the expected decrease that a step has to reach.
+/// Armijo's constant: the part of the expected decrease that a step has to reach. \[Nocedal & Wright\] §3.1.
 const ARMIJO: f64 = 1e-4;
 
 /// When a rod is at rest.

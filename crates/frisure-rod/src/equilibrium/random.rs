@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Steele, Lea & Flood's `SplitMix64`: a start for a minimiser needs no better.
+/// `SplitMix64` \[Steele 2014\]: a start for a minimiser needs no better.
 pub(super) struct SplitMix(pub(super) u64);
 
 impl SplitMix {

@@ -6,7 +6,7 @@ use glam::{DMat3, DQuat, DVec3};
 /// piece, chords stray by θ/512 of the length of that piece.
 const PIECES: usize = 8;
 
-/// Points nearer to each other than this (m) count as one point.
+/// Points nearer to each other than this (m) count as one point. Chosen: far below the diameter of a hair.
 const LEAST_DISTANCE: f64 = 1e-9;
 
 /// Twists tried per element, either way: steps of π/16 rad over the whole line, where the peak of a spectrum is 2π wide.
@@ -112,7 +112,7 @@ fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
     let t3 = t2 + step(p[2], p[3]);
     let t = t1 + x * (t2 - t1);
     let mix = |a: DVec3, b: DVec3, from: f64, to: f64| a + (b - a) * ((t - from) / (to - from));
-    // Barry and Goldman's pyramid of linear interpolations.
+    // The pyramid of linear interpolations of [Barry & Goldman 1988].
     let (a, b, c) = (mix(p[0], p[1], 0.0, t1), mix(p[1], p[2], t1, t2), mix(p[2], p[3], t2, t3));
     let (d, e) = (mix(a, b, 0.0, t2), mix(b, c, t1, t3));
     mix(d, e, t1, t2)

@@ -50,7 +50,7 @@ const FIT_STEPS: usize = 60;
 /// Most corrections of the natural strain by the remaining error. Chosen by trial.
 const CORRECTIONS: usize = 2;
 
-/// Error (m) that needs no correction: a seventh of the diameter of a hair.
+/// Error (m) that needs no correction: a seventh of the diameter of a hair. Chosen.
 const GOOD: f64 = 1e-5;
 
 /// The rod that rests in the shape of a line in its own weight and in other potentials: [`FittedCurve::new`] and
