@@ -1,7 +1,4 @@
-//! The model of Kajiya & Kay 1989, "Rendering fur with three dimensional textures", §4.
-//!
-//! Its two terms are here without their constants K_d and K_s. Equation numbers are left out on
-//! purpose: the paper was cited from memory and its numbering could not be checked.
+//! The model of \[Kajiya & Kay 1989\]: its two terms, without their constants K_d and K_s.
 
 use glam::Vec3;
 
@@ -18,6 +15,7 @@ pub fn diffuse(tangent: Vec3, light: Vec3) -> f32 {
 /// where t·e = −t·l: on the mirror cone. Below zero it counts as zero.
 #[must_use]
 pub fn specular(tangent: Vec3, light: Vec3, eye: Vec3, exponent: f32) -> f32 {
+    // cos(θ_l + θ_e) with θ measured from the normal plane: sines along the fibre multiply with a minus.
     let (tl, te) = (tangent.dot(light), tangent.dot(eye));
     (sine(tl) * sine(te) - tl * te).max(0.0).powf(exponent)
 }

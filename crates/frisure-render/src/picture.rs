@@ -11,10 +11,10 @@ use glam::DVec3;
 
 use crate::scene::{Scene, framed_bounds, head_centre};
 
-/// Points of hair that are enough to frame it; more are thinned out.
+/// Points of hair that are enough to frame it; more are thinned out. Chosen.
 const FRAMED_POINTS: usize = 50_000;
 
-/// Positions around the axis of a turntable at which its picture is framed.
+/// Positions around the axis of a turntable at which its picture is framed. Chosen.
 const TURNTABLE_POSITIONS: usize = 24;
 
 /// How a picture is taken, relative to what it shows.

@@ -66,7 +66,7 @@ pub fn head_centre(strands: &Strands, surface: Option<&Surface>) -> DVec3 {
     0.5 * (low + high)
 }
 
-/// From the crown to below the chin (m).
+/// From the crown to below the chin (m). That of the mannequin and a margin.
 const HEAD: f64 = 0.27;
 
 /// The box around some points; `None` without points.

@@ -42,7 +42,7 @@ pub const SUN_RADIUS: f64 = 0.004_65;
 const SUN: f64 = 133.8;
 const SUN_COLOUR: [f64; 3] = [1.05, 0.99, 0.96];
 
-/// Wavelengths (µm) that stand for red, green and blue.
+/// Wavelengths (µm) that stand for red, green and blue. Chosen.
 const WAVELENGTHS: [f64; 3] = [0.61, 0.55, 0.465];
 
 /// Diffuse reflectance of the ground: grass, earth and stone; chosen.
@@ -55,7 +55,7 @@ const EXPOSED: f64 = 9.5;
 /// Factor on the exposure under clouds: a camera is set for the face, which sees half of the sky; chosen by eye.
 const UNDER_CLOUDS: f32 = 1.35;
 
-/// Columns and rows of the sky that is computed.
+/// Columns and rows of the sky that is computed: 0.7° each. Chosen; the sun is a lamp of its own.
 const WIDTH: usize = 512;
 const HEIGHT: usize = 256;
 
@@ -86,6 +86,7 @@ impl Lights {
     #[must_use]
     pub fn overcast() -> Self {
         let cloud = DVec3::new(0.985, 1.0, 1.04);
+        // L = L_z (1 + 2 sin elevation)/3: three times as bright at the zenith as at the horizon. [Moon & Spencer 1942]
         let sky = |d: DVec3| cloud * ((1.0 + 2.0 * d.z) / 3.0);
         let environment =
             Exposed::new(sky, DVec3::ZERO, 0.0).map_or(EnvironmentLight::DARK, |e| e.environment);
@@ -124,9 +125,11 @@ impl Exposed {
         for (i, colour) in above.iter().enumerate() {
             let angle = PI * (0.5 - ((i / WIDTH) as f64 + 0.5) / HEIGHT as f64);
             let solid = 2.0 * PI / WIDTH as f64 * PI / HEIGHT as f64 * angle.cos();
+            // ∫ L cos dω on level ground, and ∫ L dω of all sides.
             level += *colour * (solid * angle.sin());
             around += luminance(*colour) * solid;
         }
+        // A matt surface of reflectance a has the radiance a E/π.
         let ground = level * (ALBEDO / PI);
         // A fibre sees π/4 of light that comes from everywhere.
         let all = facing + PI / 4.0 * (around + 2.0 * PI * luminance(ground));
@@ -143,7 +146,8 @@ impl Exposed {
 /// Illuminance of the sun on a surface that faces it (klx, linear sRGB).
 fn sunlight(elevation: f64, turbidity: f64) -> DVec3 {
     let zenith = 90.0 - elevation.to_degrees();
-    // Air on the way, against straight up.
+    // Relative optical mass, m = 1/(cos θ + 0.15 (93.885° − θ)^−1.253), with θ the sun's angle from the zenith. Rayleigh
+    // exp(−0.008735 λ^−4.08 m), aerosol exp(−β λ^−1.3 m) with β = 0.04608 T − 0.04586. [Preetham 1999]
     let air = 1.0 / (elevation.sin() + 0.15 * (93.885 - zenith).powf(-1.253));
     let haze = (0.046_08 * turbidity - 0.045_86).max(0.0);
     let passed = WAVELENGTHS.map(|w| {
@@ -203,6 +207,7 @@ impl Sky {
             let row = |r: [f64; 4]| ((r[0] * s + r[1]) * s + r[2]) * s + r[3];
             (row(rows[0]) * t + row(rows[1])) * t + row(rows[2])
         });
+        // Luminance at the zenith (kcd/m²) and the coefficients of Perez: [Preetham 1999].
         let chi = (4.0 / 9.0 - t / 120.0) * (PI - 2.0 * s);
         let luminance = (4.0453 * t - 4.9710) * chi.tan() - 0.2155 * t + 2.4192;
         let [x, y] = chromaticity;
@@ -223,6 +228,7 @@ impl Sky {
 }
 
 fn distribution([a, b, c, d, e]: &[f64; 5], elevation: f64, from_sun: f64) -> f64 {
+    // F = (1 + A e^(B/cos θ)) (1 + C e^(D γ) + E cos² γ); the bound keeps the horizon finite.
     let up = elevation.sin().max(0.01);
     (1.0 + a * (b / up).exp()) * (1.0 + c * (d * from_sun).exp() + e * from_sun.cos().powi(2))
 }

@@ -135,6 +135,7 @@ impl EnvironmentMap {
         let table = &self.table;
         let (y, v) = sample_interval(&table.rows, v);
         let (x, u) = sample_interval(table.row(y), u);
+        // Uniform in z within the row: uniform on the sphere.
         let z = table.heights[y] + v * (table.heights[y + 1] - table.heights[y]);
         self.turned_by(direction((x as f32 + u) / table.width as f32, z))
     }
@@ -219,6 +220,7 @@ fn parts(values: impl ExactSizeIterator<Item = f64>, out: &mut Vec<f32>) -> f64 
 
 impl Table {
     fn new(width: usize, height: usize, pixels: Vec<[f32; 3]>) -> Self {
+        // The area of a zone of the sphere is in proportion to its height in z: rows are weighted by that.
         let edge = |y: usize| (std::f64::consts::PI * y as f64 / height as f64).cos();
         let heights = (0..=height).map(|y| edge(y) as f32).collect();
         let weight = |y: usize| edge(y) - edge(y + 1);
@@ -251,6 +253,7 @@ impl Table {
     /// Density of the directions of a pixel (1/sr).
     fn density(&self, x: usize, y: usize) -> f32 {
         let row = self.row(y);
+        // Marginal times conditional probability of the pixel, over its solid angle.
         (self.rows[y + 1] - self.rows[y]) * (row[x + 1] - row[x]) / self.solid_angle(y)
     }
 

@@ -243,6 +243,7 @@ impl AreaLight {
     pub fn form_factor(&self, distance: f64) -> f64 {
         let [x, y] = self.arms.map(|arm| arm.length() / distance.max(1e-9));
         match self.shape {
+            // π sin² of the angular radius, exact on the axis.
             AreaShape::Disc => PI * x * x / (1.0 + x * x),
             AreaShape::Rectangle => {
                 // Four times a rectangle seen from above its corner.

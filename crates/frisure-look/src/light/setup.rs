@@ -94,6 +94,7 @@ impl Default for Lights {
     }
 }
 
+// Positions, irradiances and sizes of the setups are chosen by eye, after the photographers' setups of these names.
 const SOFT: [Stand; 3] = [
     (-25.0, 35.0, [3.0, 2.96, 2.9], 0.5),
     (40.0, 15.0, [1.7, 1.72, 1.75], 0.5),

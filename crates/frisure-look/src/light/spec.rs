@@ -10,7 +10,7 @@ use super::lights::Lights;
 use super::setup::{Setup, beside_camera};
 use crate::camera::Camera;
 
-/// Irradiance of the studio's main lamp (red, green and blue alike): the unit of [`LampSpec::strength`].
+/// Irradiance of the studio's main lamp (red, green and blue alike): the unit of [`LampSpec::strength`]. Chosen.
 const MAIN: f32 = 5.0;
 
 /// The lights of a scene, relative to the camera.

@@ -1,6 +1,6 @@
 //! N: how a lobe spreads around the fibre.
 //!
-//! The logistic distribution trimmed to a turn, of Chiang et al. 2016, §4.1.
+//! The logistic distribution trimmed to a turn, \[Chiang 2016\] §4.1.
 
 use core::f32::consts::{PI, TAU};
 
@@ -27,6 +27,7 @@ impl Azimuthal {
     /// From the roughness β_N in (0, 1], with the constants of `pbrt-v3`.
     pub(super) fn new(roughness: f32) -> Self {
         let b = roughness;
+        // The fit of [Chiang 2016] that makes β_N perceptually even. docs/theory.md, "Light in a fibre"
         let s = (PI / 8.0).sqrt() * (0.265 * b + 1.194 * b * b + 5.372 * b.powi(22));
         // Share above minus share below: 1/(1+e^(−π/s)) − 1/(1+e^(π/s)) = tanh(π/2s).
         let inside = (PI / (2.0 * s)).tanh();
@@ -37,6 +38,7 @@ impl Azimuthal {
     /// Densities at azimuth `phi` of R, TT and TRT, centred at `centres` (rad), and of the rest.
     #[inline]
     pub(super) fn values(&self, centres: Vec4, phi: f32) -> Vec4 {
+        // e^(−|x|/s)/(s (1 + e^(−|x|/s))²), with |x| so that the exponential cannot overflow; the rest is 1/2π.
         let e = exp(wrap(Vec4::splat(phi) - centres).abs() * -self.inverse);
         let sum = Vec4::ONE + e;
         (e * self.norm / (sum * sum)).with_w(1.0 / TAU)
@@ -44,6 +46,8 @@ impl Azimuthal {
 
     /// Angle from a lobe's centre (rad), distributed as the lobe.
     pub(super) fn sample(&self, u: f32) -> f32 {
+        // The inverse of the cumulative distribution 1/(1 + e^(−x/s)), of the part within the turn. The bound keeps the
+        // logarithm finite at u = 0.
         let cumulative = u * self.inside + self.below;
         let x = -self.scale * ln((1.0 / cumulative.max(1e-30) - 1.0).max(1e-30));
         x.clamp(-PI, PI)

@@ -30,6 +30,7 @@ pub(super) fn polynomial<const N: usize>(x: Vec4, coefficients: [f32; N]) -> Vec
 #[inline(always)]
 pub(super) fn exp(x: Vec4) -> Vec4 {
     let x = x.max(Vec4::splat(-87.0)).min(Vec4::splat(88.0));
+    // x = n ln 2 + f with |f| ≤ ½ ln 2; 2ⁿ is put together from the bits of its exponent.
     let shifted = x * LOG2_E + Vec4::splat(ROUND);
     let n = shifted - Vec4::splat(ROUND);
     let f = (x - n * LN2_HIGH) - n * LN2_LOW;
@@ -93,6 +94,7 @@ pub(super) fn sin_cos(x: f32) -> (f32, f32) {
     let sine = ((-1.951_529_6e-4 * z + 8.332_161e-3) * z - 0.166_666_55) * z * x + x;
     let cosine =
         ((2.443_315_7e-5 * z - 1.388_731_6e-3) * z + 4.166_664_6e-2) * z * z - 0.5 * z + 1.0;
+    // The low two bits are the quarter: odd ones exchange sine and cosine, the second bit is the sign.
     let turn = shifted.to_bits();
     let (sine, cosine) = if turn & 1 == 1 { (cosine, sine) } else { (sine, cosine) };
     let negative = |flag: u32, v: f32| f32::from_bits(v.to_bits() ^ ((flag & 2) << 30));

@@ -19,9 +19,11 @@ pub(super) fn energies(crossing: &Crossing, depth: Vec3) -> Mat4 {
     let (f, chord) = (crossing.fresnel, crossing.chord);
     let depth = -depth.extend(0.0);
     let [first, second, third] = [chord.x, chord.y, chord.z].map(|way| exp(depth * way));
+    // (1 − F) T on the first way; then F T for each further reflection inside.
     let met = first * (1.0 - f.x);
     let returned = second * met * f.y;
-    // A ray that grazes has F = 1 and leaves nothing inside: keep 0/0 away.
+    // T (1 − F) + T² F (1 − F) + … = T (1 − F)/(1 − T F). A ray that grazes has F = 1 and leaves nothing inside: keep 0/0
+    // away.
     let mean = (0.25 * f.element_sum()).min(0.9999);
     let series = third * (1.0 - mean) / (Vec4::ONE - third * mean);
     with_shares([
@@ -35,6 +37,7 @@ pub(super) fn energies(crossing: &Crossing, depth: Vec3) -> Mat4 {
 /// Energies as columns, each with its share in the luminance of linear sRGB.
 #[inline]
 fn with_shares(energy: [Vec4; 4]) -> Mat4 {
+    // Y of the linear primaries of sRGB (Rec. 709, D65).
     let luminance = Vec4::new(0.212_671, 0.715_160, 0.072_169, 0.0);
     let light = Vec4::from_array(energy.map(|e| e.dot(luminance)));
     let share = light / light.element_sum();

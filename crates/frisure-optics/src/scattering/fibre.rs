@@ -30,6 +30,7 @@ impl Fibre {
     pub fn new(spec: FibreSpec) -> Result<Self, FibreError> {
         check(&spec)?;
         let wet = under_film(&spec);
+        // −2α, α, 4α and 0 for R, TT, TRT and the rest. docs/theory.md, "Light in a fibre"
         let turn = Vec4::new(-2.0, 1.0, 4.0, 0.0) * wet.tilt;
         Ok(Self {
             spec,
@@ -74,6 +75,7 @@ impl Fibre {
     /// Half the width in mean radii, as seen from local direction `w`.
     #[must_use]
     pub fn half_width(&self, w: Vec3) -> f32 {
+        // √(b² cos² φ + a² sin² φ): the largest distance of the ellipse from the line through its centre along φ.
         (towards(w) * self.axes.yx()).length()
     }
 
@@ -91,6 +93,7 @@ impl Fibre {
 
     /// An inclination as each lobe sees it: tilted by −2α, α and 4α, the rest not.
     pub(super) fn tilted(&self, sine: f32, cosine: f32) -> Inclinations {
+        // Sine and cosine of a sum; a cosine that turned negative belongs to a direction beyond the pole.
         let (s, c) = self.turn;
         Inclinations { sine: c * sine + s * cosine, cosine: (c * cosine - s * sine).abs() }
     }
@@ -105,6 +108,7 @@ fn axes(axis_ratio: f32) -> Vec2 {
     if axis_ratio == 1.0 {
         return Vec2::ONE;
     }
+    // In mean radii: a b = 1.
     Vec2::new(axis_ratio.sqrt(), axis_ratio.sqrt().recip())
 }
 

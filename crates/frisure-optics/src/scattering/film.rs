@@ -19,11 +19,12 @@ use glam::Vec4;
 
 use super::spec::FibreSpec;
 
-/// Refractive index of water.
+/// Refractive index of water in visible light at room temperature.
 pub const WATER_INDEX: f32 = 1.33;
 
 /// The fibre under its film: between dry and wet in proportion to its wetness.
 pub(super) fn under_film(spec: &FibreSpec) -> FibreSpec {
+    // Half the roughness and no tilt in a full film: chosen, since water fills the gaps between scales but not their bulk.
     let w = spec.wetness;
     FibreSpec {
         longitudinal_roughness: spec.longitudinal_roughness * (1.0 - 0.5 * w),
@@ -34,6 +35,7 @@ pub(super) fn under_film(spec: &FibreSpec) -> FibreSpec {
 
 /// Reflectances of a fibre of relative index `index` under a film, at the cosines outside and inside.
 pub(super) fn reflectance(outer: Vec4, inner: Vec4, index: f32) -> Vec4 {
+    // The ray in the film, by Snell; the bound below stands for total reflection between both surfaces.
     let sine2 = (Vec4::ONE - outer * outer) * (WATER_INDEX * WATER_INDEX).recip();
     let water = (Vec4::ONE - sine2).max(Vec4::ZERO).sqrt();
     let (air, hair) =
@@ -46,6 +48,7 @@ pub(super) fn reflectance(outer: Vec4, inner: Vec4, index: f32) -> Vec4 {
 /// cosines; 1 where `outer` is 0.
 #[inline(always)]
 pub(super) fn fresnel(outer: Vec4, inner: Vec4, index: f32) -> Vec4 {
+    // Both polarisations, unpolarised light having half of each. The bound keeps 0/0 away where both cosines vanish.
     let (dense_outer, dense_inner) = (outer * index, inner * index);
     let least = Vec4::splat(1e-20);
     let parallel = (dense_outer - inner) / (dense_outer + inner).max(least);

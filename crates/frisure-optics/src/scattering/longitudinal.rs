@@ -1,6 +1,6 @@
 //! M: how a lobe spreads along the fibre.
 //!
-//! d'Eon et al. 2011, eq. (7): the von Mises–Fisher distribution of variance v about the mirror
+//! \[d'Eon 2011\] (7): the von Mises–Fisher distribution of variance v about the mirror
 //! direction, averaged around the fibre,
 //!
 //! ```text
@@ -32,6 +32,7 @@ impl Longitudinal {
     /// From the roughness β_M in (0, 1]: Chiang et al. 2016, §4.1, as `pbrt-v3` has it.
     pub(super) fn new(roughness: f32) -> Self {
         let b = roughness;
+        // The fit of [Chiang 2016] that makes β_M perceptually even; v of R, v/4 of TT, 4v of TRT and the rest.
         let v = (0.726 * b + 0.812 * b * b + 3.7 * b.powi(20)).powi(2);
         let variance = v * Vec4::new(1.0, 0.25, 4.0, 4.0);
         let inverse = variance.recip();
@@ -44,6 +45,7 @@ impl Longitudinal {
     /// each lobe sees it.
     #[inline]
     pub(super) fn values(&self, from: &Inclinations, sine: f32, cosine: f32) -> Vec4 {
+        // exp(−½ |Δ|²/v) i(x)/(v (1 − e^(−2/v))): since 2 v sinh(1/v) = v e^(1/v) (1 − e^(−2/v)).
         let across = from.cosine - Vec4::splat(cosine);
         let along = from.sine + Vec4::splat(sine);
         let (extra, bessel) = bessel_i0(from.cosine * cosine * self.inverse);
@@ -51,13 +53,14 @@ impl Longitudinal {
         exp(exponent) * bessel * self.scale
     }
 
-    /// sin θ of light that leaves in lobe `p`, distributed as M(θ) cos θ dθ (d'Eon et al. 2013).
+    /// sin θ of light that leaves in lobe `p`, distributed as M(θ) cos θ dθ. \[d'Eon 2013\]
     #[inline]
     pub(super) fn sample(&self, p: usize, from: &Inclinations, u: [f32; 2]) -> f32 {
         let rest = 1.0 - u[0];
         // 1 − cos of the angle from the mirror direction.
         let versine = (-self.variance[p] * ln((u[0] + rest * self.least[p]).max(1e-30))).min(2.0);
         let sine = (versine * (2.0 - versine)).max(0.0).sqrt();
+        // A direction of the von Mises–Fisher lobe about the mirror direction; M is what is left of it along the fibre.
         let (_, turn) = sin_cos(core::f32::consts::TAU * u[1]);
         let along = (versine - 1.0) * from.sine[p] + sine * turn * from.cosine[p];
         along.clamp(-1.0, 1.0)
@@ -75,7 +78,7 @@ pub(super) struct Inclinations {
 
 /// (y, i) with I0(x) = i e^(x − y): the modified Bessel function, x ≥ 0.
 ///
-/// Abramowitz & Stegun 9.8.1 and 9.8.2, errors below 2e-7. Both are computed and one taken, so that
+/// \[Abramowitz & Stegun\] 9.8.1 and 9.8.2, errors below 2e-7. Both are computed and one taken, so that
 /// four can be done at once.
 #[inline(always)]
 fn bessel_i0(x: Vec4) -> (Vec4, Vec4) {

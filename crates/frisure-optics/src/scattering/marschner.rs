@@ -67,6 +67,7 @@ struct Bravais {
 
 impl Bravais {
     fn new(index: f32, sine: f32, cosine: f32) -> Self {
+        // η' = √(η² − sin²θd)/cos θd and η'' = η² cos θd/√(η² − sin²θd).
         let root = (index * index - sine * sine).sqrt();
         Self { perpendicular: root / cosine, parallel: index * index * cosine / root }
     }
@@ -92,6 +93,7 @@ impl Marschner2003 {
         let (sine, cosine) = (difference.sin(), difference.cos().max(1e-3));
         let (phi_o, phi_i) = (wo.y.atan2(wo.x), wi.y.atan2(wi.x));
         let phi = wrap(phi_o - phi_i);
+        // Ways inside are longer by 1/cos θt.
         let depth = self.absorption / (1.0 - (sine / self.index).powi(2)).sqrt();
         let round = Bravais::new(self.index, sine, cosine);
         let elliptic = Bravais::new(self.elliptic_index(0.5 * (phi_o + phi_i)), sine, cosine);
@@ -118,6 +120,8 @@ impl Marschner2003 {
     /// N of TRT, with the singularities at its caustics replaced by Gaussians of their energy.
     fn around_trt(&self, index: Bravais, phi: f32, depth: Vec3) -> Vec3 {
         let way = Azimuth::new(2, index);
+        // Below η' = 2 there are two caustics, where dφ/dγ = 0; each is as strong as its second derivative lets it be. Above,
+        // they have merged at γ = 0 and fade over Δη'.
         let (gamma, strength, t) = if index.perpendicular < 2.0 {
             let gamma = (way.linear / (-3.0 * way.cubic)).sqrt();
             let bend = 6.0 * way.cubic * gamma / gamma.cos().powi(2);
@@ -146,6 +150,7 @@ struct Azimuth {
 
 impl Azimuth {
     fn new(p: u8, index: Bravais) -> Self {
+        // γt(γ) ≈ 3c/π γ − 4c/π³ γ³ with c = asin(1/η'), exact at γ = 0 and ±π/2; twice p of it, less 2γ.
         let c = f32::from(p) * (1.0 / index.perpendicular).asin();
         Self { linear: 6.0 * c / PI - 2.0, cubic: -8.0 * c / PI.powi(3) }
     }
@@ -172,6 +177,7 @@ impl Azimuth {
 
 /// Real roots of x³ + p x + q; NaN where there is none.
 fn depressed_cubic(p: f32, q: f32) -> [f32; 3] {
+    // Cardano's formula with one real root, Viète's with three; in f64, since the discriminant cancels at caustics.
     let (third, half) = (f64::from(p) / 3.0, 0.5 * f64::from(q));
     let discriminant = half * half + third * third * third;
     if discriminant > 0.0 {
@@ -199,6 +205,7 @@ fn energy(p: u8, index: Bravais, gamma: f32, depth: Vec3) -> Vec3 {
         return Vec3::splat(1.0 - enters);
     }
     let inner = (gamma.sin() / index.perpendicular).clamp(-1.0, 1.0).asin();
+    // As printed; the way through a circle is 2 cos γt, of which 1 + cos 2γt = 2 cos²γt is cos γt.
     let through = (-2.0 * depth * (1.0 + (2.0 * inner).cos())).exp();
     let passes = through * (enters * enters);
     if p == 1 { passes } else { passes * through * index.leave(inner) }

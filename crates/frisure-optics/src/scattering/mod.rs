@@ -48,6 +48,22 @@ use longitudinal::Inclinations;
 use section::{Incident, circle, ellipse};
 
 /// The BSDF of a hair fibre, for one direction to the eye and one offset across its width.
+///
+/// ```
+/// use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
+/// use glam::Vec3;
+///
+/// // White hair with an elliptical section, met a third of its half width beside the middle.
+/// let fibre = Fibre::new(FibreSpec { axis_ratio: 1.4, ..FibreSpec::default() })?;
+/// let bsdf = HairBsdf::new(&fibre, Vec3::X, 1.0 / 3.0); // local directions: d1, d2, tangent
+/// // Without absorption the lobes R, TT, TRT and the rest share out all of the light …
+/// let sum: Vec3 = bsdf.energies().iter().sum();
+/// assert!((sum - Vec3::ONE).length() < 1e-5);
+/// // … and a direction sampled by importance carries its light with the weight 1.
+/// let sample = bsdf.sample([0.3, 0.6, 0.2, 0.8]);
+/// assert!((sample.weight - Vec3::ONE).length() < 1e-4);
+/// # Ok::<(), frisure_optics::scattering::FibreError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct HairBsdf<'a> {
     fibre: &'a Fibre,
@@ -91,6 +107,7 @@ impl<'a> HairBsdf<'a> {
     pub fn coloured(fibre: &'a Fibre, absorption: Vec3, wo: Vec3, h: f32) -> Self {
         // 1. Inclinations outside and inside: Snell's law along the fibre.
         let sine = wo.z.clamp(-1.0, 1.0);
+        // The bound keeps the index η' finite for a ray along the fibre.
         let cosine = (wo.x * wo.x + wo.y * wo.y).sqrt().clamp(1e-4, 1.0);
         let inner_sine = sine / fibre.index;
         // `clamp` would keep NaN, and one bad hit would spoil a picture.
@@ -107,7 +124,7 @@ impl<'a> HairBsdf<'a> {
         // 2. The path through the section: azimuths, reflectances and lengths (`section`).
         let round = fibre.is_round();
         let crossing = if round { circle(&ray) } else { ellipse(&ray, fibre.axes) };
-        // 3. Energies A_p of the lobes (Chiang et al. 2016, §3), and the inclination as each lobe sees it.
+        // 3. Energies A_p of the lobes ([Chiang 2016] §3), and the inclination turned by the tilt of each lobe.
         let energy = energies(&crossing, absorption / ray.inner_cosine);
         let from = fibre.tilted(sine, cosine);
         Self { fibre, from, azimuth: crossing.azimuth, energy }
@@ -132,7 +149,7 @@ impl<'a> HairBsdf<'a> {
     pub fn sample(&self, u: [f32; 4]) -> BsdfSample {
         // 1. A lobe, with a probability in proportion to its energy.
         let p = self.pick(u[0]);
-        // 2. The inclination from M_p (d'Eon et al. 2013), the azimuth from N_p.
+        // 2. The inclination from M_p [d'Eon 2013], the azimuth from N_p.
         let sine = self.fibre.longitudinal.sample(p, &self.from, [u[1], u[2]]);
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
         let phi =

@@ -68,6 +68,8 @@ impl Incident {
 
 /// A circle of radius 1.
 pub(super) fn circle(ray: &Incident) -> Crossing {
+    // sin γi = h and sin γt = h/η'; φ_p = φ − 2γi + p (2γt + π), and every way is 2 cos γt long. docs/theory.md, "Light in a
+    // fibre"
     let (sine, cosine) = (ray.offset, ray.offset_cosine());
     let inner_sine = sine * ray.inverse_index();
     let inner = (1.0 - inner_sine * inner_sine).max(0.0).sqrt();
@@ -85,13 +87,16 @@ pub(super) fn circle(ray: &Incident) -> Crossing {
 
 /// An ellipse of semi-axes `axes`, whose product is 1.
 pub(super) fn ellipse(ray: &Incident, axes: Vec2) -> Crossing {
+    // 1. Entry: the normal of the ellipse at (a u.x, b u.y) is along (u.x/a, u.y/b) = (b u.x, a u.y), as a b = 1.
     let at = entry(ray, axes);
     let normal = (at * axes.yx()).normalize();
     let ratio = ray.inverse_index();
     let outer = normal.dot(ray.towards).clamp(0.0, 1.0);
     let inner = (1.0 - (1.0 - outer * outer) * ratio * ratio).max(0.0).sqrt();
+    // 2. Snell's law as vectors: ratio · d + (ratio cos γi − cos γt) n, with d = −towards.
     let way = normal * (outer * ratio - inner) - ray.towards * ratio;
     let (meetings, chord) = Meetings::within(at, way, axes);
+    // 3. Where it leaves after none, one and two reflections inside; lane 0 is R, mirrored at the entry.
     let ([x, y], outers, inners) = meetings.leave(ratio.recip());
     let mirrored = normal * (2.0 * outer) - ray.towards;
     let azimuth = atan2(y.with_x(mirrored.y), x.with_x(mirrored.x));
@@ -116,6 +121,7 @@ impl Meetings {
     fn within(mut at: Vec2, mut way: Vec2, axes: Vec2) -> (Self, Vec4) {
         let (mut ways, mut normals, mut chord) = ([way; 4], [at; 4], [0.0; 4]);
         for i in 0..3 {
+            // On the circle the way is (w.x/a, w.y/b); |u + ℓ f| = 1 again at ℓ = −2 u·f/|f|².
             let flat = way * axes.yx();
             let length = -2.0 * at.dot(flat) / flat.length_squared();
             at += flat * length;
@@ -138,6 +144,7 @@ impl Meetings {
         let ([x, y], [wx, wy]) = (self.normal, self.way);
         let scale = (x * x + y * y).sqrt().recip();
         let (x, y) = (x * scale, y * scale);
+        // cos γ inside, and sin γ outside by Snell from the cross product of way and normal.
         let inner = (wx * x + wy * y).max(Vec4::ZERO).min(Vec4::ONE);
         let sine = (wx * y - wy * x) * index;
         let outer = (Vec4::ONE - sine * sine).max(Vec4::ZERO).sqrt();

@@ -25,10 +25,10 @@ const FREE_LEVELS: usize = 18;
 /// Levels of nodes at most: 2³¹ primitives, eight to a leaf, are halved 28 times, thrice a level.
 pub(super) const DEEPEST: usize = FREE_LEVELS + 10;
 
-/// Primitives in a node from which its children are built in parallel.
+/// Primitives in a node from which its children are built in parallel. Chosen; no result depends on it.
 const PARALLEL: usize = 1 << 17;
 
-/// Primitives per parallel job of binning.
+/// Primitives per parallel job of binning. Chosen; no result depends on it.
 const CHUNK: usize = 1 << 14;
 
 struct Builder<'a, L: Leaf> {
@@ -300,6 +300,7 @@ fn cheapest<const N: usize>(bins: &Bins<N>) -> Option<(usize, usize)> {
     for (axis, bins) in bins.iter().enumerate() {
         let mut right = [Bin::EMPTY; N];
         let mut all = Bin::EMPTY;
+        // From the right the extent of all bins behind each split, then from the left those before it.
         for i in (0..N).rev() {
             all = all.and(bins[i]);
             right[i] = all;

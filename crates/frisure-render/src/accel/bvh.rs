@@ -112,6 +112,7 @@ impl<L: Leaf> Bvh<L> {
         let (a, b) = ((a - ray.origin()) * inverse, (b - ray.origin()) * inverse);
         let (near, far) = (a.min(b).max_element(), a.max(b).min_element());
         let reach = self.bounds.reach();
+        // A hundredth of the scene (chosen) and the rounding of the distance, so that nothing before the box is skipped.
         let slack = 0.01 * reach + 1e-6 * near.abs();
         if !(near - slack <= far.min(t_max)) || !(far + slack >= 0.0) {
             return None;

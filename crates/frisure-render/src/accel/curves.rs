@@ -27,7 +27,7 @@ impl Default for CurveOptions {
     }
 }
 
-/// Most pieces of one segment.
+/// Most pieces of one segment: what a byte holds.
 const MOST_PIECES: f32 = 255.0;
 
 /// Largest second derivative over a piece, in tolerances: 8 for chords of the curve, 16 for pieces
@@ -37,13 +37,13 @@ const BEND: f32 = 12.0;
 /// Part of the longest piece by which a piece may be longer before it is cut in two; chosen by trial.
 const LONGER: f32 = 0.3;
 
-/// Stride in points at which the strand of a point is stored.
+/// Stride in points at which the strand of a point is stored. Chosen: memory against a short walk.
 const STRIDE: usize = 32;
 
 /// Shortest piece worth a box, in tenths, and smallest radius (m).
 const TINY: f32 = 1e-7;
 
-/// Largest radius (m): whatever is thicker is no hair, but a slip of units.
+/// Largest radius (m): whatever is thicker is no hair, but a slip of units. Chosen.
 const THICKEST: f32 = 0.01;
 
 /// How far a piece reaches beyond its ends, in radii. It closes the wedge on the outer side of a
@@ -149,6 +149,7 @@ impl Curves {
     /// The spline from point `point` to the next, both in the strand of this range.
     fn spline(&self, range: &Range<usize>, point: usize) -> Spline {
         let [b, c] = [self.points[point], self.points[point + 1]];
+        // At the ends the missing neighbour is the mirror image: the curve starts along its first chord.
         let a = if point > range.start { self.points[point - 1] } else { 2.0 * b - c };
         let d = if point + 2 < range.end { self.points[point + 2] } else { 2.0 * c - b };
         Spline { a: a.truncate(), b: b.truncate(), c: c.truncate(), d: d.truncate() }
@@ -306,6 +307,7 @@ impl Spline {
     /// From the curve to where pieces over 1/`count` of the parameter meet: half as far as a chord's
     /// middle would lie inside.
     fn outwards(&self, u: f32, count: f32) -> Vec3 {
+        // |r″|/8n² for the middle of a chord, half of it the other way.
         self.acceleration(u) / (-16.0 * count * count)
     }
 

@@ -64,6 +64,7 @@ impl Leaf for HairLeaf {
     /// both, says so without a division and whatever the length of the axes.
     #[inline(always)]
     fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
+        // 1. Whether the ray comes near any axis made endless: (x·n)² < r² |n|² with n = d × axis. No division.
         let d = ray.direction;
         let x0 = simd.sub3(ray.origin, simd.splat3(self.low.into()));
         let middle = simd.sub(simd.splat(0.0), simd.dot(x0, d));
@@ -72,12 +73,14 @@ impl Leaf for HairLeaf {
         let axis = simd.wide3(self.axis.each_ref().map(|x| simd.load_i16(x)));
         let n = simd.cross(d, axis);
         let apart = simd.dot(x, n);
+        // The thickest radius of the leaf, and a thousandth for rounding.
         let thick = self.radius_step * (1.001 * f32::from(u16::MAX));
         let allowed = simd.mul(simd.dot(n, n), simd.splat(thick * thick));
         if simd.bits(simd.less(simd.mul(apart, apart), allowed)) == 0 {
             return (middle, 0);
         }
 
+        // 2. The closest approach: parts of x and d across the axis, the ray's distance to it, and the axis's fraction s.
         let axis_step = simd.splat(self.axis_step);
         let axis = simd.scale3(Wide3 { x: axis_step, y: axis_step, z: axis_step }, axis);
         let square = simd.dot(axis, axis);
@@ -101,6 +104,7 @@ impl Leaf for HairLeaf {
             return (q2, 0);
         }
 
+        // 3. Entry: (|d⊥|² − κ²) τ² − 2 r κ τ − (r² − q²) = 0, the smaller root.
         let kappa = simd.mul(widening, s1);
         let a = simd.sub_mul(dd, kappa, kappa);
         let rk = simd.mul(r, kappa);
@@ -108,7 +112,7 @@ impl Leaf for HairLeaf {
         let tau = simd.div(simd.sub(rk, root), a);
         let s = simd.mul_add(s1, tau, s);
         let t = simd.add(middle, simd.add(to_closest, tau));
-        // Squared distance beyond the ends against that allowed.
+        // 4. Along the piece, or beyond its ends by the squared distance allowed; and ahead of the ray's start.
         let beyond = simd.max(simd.sub(simd.splat(0.0), s), simd.sub(s, simd.splat(1.0)));
         let beyond = simd.max(beyond, simd.splat(0.0));
         let beyond = simd.mul(simd.mul(beyond, beyond), square);

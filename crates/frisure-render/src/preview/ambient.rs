@@ -135,6 +135,7 @@ impl AmbientLight {
     #[must_use]
     pub fn on_surface(&self, point: Vec3, normal: Vec3) -> Vec3 {
         // Outside the surface's own shell, which would shade it.
+        // The reach of trilinear weights is a cell along each axis, √3 along a diagonal.
         let point = point + 1.7 * self.cell * normal;
         let mut met = [0.0; DIRECTION_COUNT];
         self.visit_nodes(point, |i, weight| {
@@ -220,6 +221,7 @@ impl AmbientLight {
                         next.cmpge(IVec3::ZERO).all() && next.cmplt(self.size.as_ivec3()).all();
                     let before = if inside { whole[self.index(next.as_uvec3())] } else { 0.0 };
                     let i = self.index(p);
+                    // One pass against the direction: what a node adds to those behind it is known when they are reached.
                     met[i] = before + OWN * hair[i] * length;
                     whole[i] = before + hair[i] * length + if shell[i] { SHELL } else { 0.0 };
                 }

@@ -1,6 +1,6 @@
 //! One tile of the picture.
 
-/// Side of a tile (pixels).
+/// Side of a tile (pixels). Chosen; no result depends on it.
 pub(super) const TILE: usize = 32;
 
 /// Pixels `x0..x1` × `y0..y1` of the picture.

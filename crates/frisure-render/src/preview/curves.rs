@@ -14,7 +14,7 @@ const MAX_TURN: f32 = 0.2;
 const MAX_PIXELS: f32 = 16.0;
 /// Greatest length of a piece (m): the density maps take it as a point.
 const MAX_LENGTH: f32 = 0.006;
-/// Most pieces for one segment of the input.
+/// Most pieces for one segment of the input: a guard on time and memory.
 const MAX_PIECES: u32 = 64;
 /// Strands per parallel job; fixed, so that the work is cut the same way on any machine.
 const CHUNK: usize = 512;

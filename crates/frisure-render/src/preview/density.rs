@@ -95,6 +95,7 @@ impl DensityMap {
     /// Adds the shadow of all hair, as area per area of a cell, to the eight nodes around.
     fn spread(&mut self, curves: &Curves, to_light: Vec3) {
         let per_cell = 1.0 / (self.cell * self.cell);
+        // The shadow of a piece on a plane across the light: width times the length of its part across it.
         let shadow =
             |d: Vec3, width: f32| width * (d - to_light * d.dot(to_light)).length() * per_cell;
         curves.lumps(self.cell, shadow, |point, value| self.add(point, value));
@@ -142,6 +143,7 @@ impl DensityMap {
             let mut before = 0.0;
             for node in column {
                 let here = *node;
+                // To the middle of the node's own cell: half of its hair.
                 *node = before + 0.5 * here;
                 before += here;
             }

@@ -9,7 +9,7 @@ use crate::pigment::{Pigments, deviate};
 use frisure_look::HairLook;
 
 /// Entries of the table for each factor of e in absorption, and the logarithms of the least and the
-/// greatest absorption in it.
+/// greatest absorption in it. Chosen.
 const PER_E: f32 = 8.0;
 const LEAST: f32 = -16.0;
 const GREATEST: f32 = 8.0;

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use frisure_look::Camera;
 
-/// Nearest depth that is drawn (m).
+/// Nearest depth that is drawn (m). Chosen.
 pub(super) const NEAR: f32 = 0.01;
 
 /// A camera with a picture in front of it.

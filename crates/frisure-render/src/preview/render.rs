@@ -133,7 +133,7 @@ fn width_scale(strands: &Strands, options: &PreviewOptions) -> f32 {
 /// The factor on the width of `count` strands with which fewer than a full head still cover it.
 #[must_use]
 pub fn chosen_width(count: usize) -> f32 {
-    /// Hairs on a head.
+    /// Hairs on a head. The usual number.
     const FULL_HEAD: f32 = 100_000.0;
     (FULL_HEAD / count.max(1) as f32).powf(0.7).clamp(1.0, 6.0)
 }

@@ -6,10 +6,10 @@ use super::geometry::frame;
 use super::head::Head;
 use super::raster;
 
-/// Texels along a side.
+/// Texels along a side, about 1 mm each on a bust. Chosen.
 const SIZE: usize = 384;
 
-/// Thirteen points spread evenly over the unit disc: one, four and eight on three rings.
+/// Thirteen points spread evenly over the unit disc: one, four and eight on three rings. Chosen.
 const DISC: [(f32, f32); 13] = [
     (0.0, 0.0),
     (0.31, 0.31),

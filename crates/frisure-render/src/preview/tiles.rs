@@ -10,7 +10,7 @@ use super::projection::{NEAR, Projection};
 /// How far across a hair its softened edge can reach (pixels): half a pixel and half of the rise of
 /// a line within a column.
 const REACH: f32 = 1.0;
-/// Vertices per parallel job.
+/// Vertices per parallel job. Chosen; no result depends on it.
 const CHUNK: usize = 1 << 16;
 
 /// The tiles of a picture, and what lies in them.

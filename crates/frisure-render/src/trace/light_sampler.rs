@@ -11,14 +11,15 @@ use glam::Vec3;
 
 use frisure_look::{AreaLight, AreaShape, EnvironmentLight, EnvironmentMap, Lamp, Lights};
 
-/// Angular radius below which a distant light is a delta light (rad).
+/// Angular radius below which a distant light is a delta light (rad). Chosen: a fiftieth of the sun's, so that a disc of it
+/// has no penumbra to see.
 const MIN_RADIUS: f64 = 1e-4;
 
 /// Least and greatest share of the samples of [`InfiniteLights`] that the environment gets where there are lamps,
 /// too: BSDF sampling finds the environment but rarely a lamp. Chosen by trial; not measured further.
 const ENVIRONMENT_SHARE: (f32, f32) = (0.05, 0.6);
 
-/// Relative margin on the area of a disc in [`Disc::contains`], against rounding.
+/// Relative margin on the area of a disc in [`Disc::contains`], against rounding: a sampled direction must count as on the disc.
 const ROUNDING: f32 = 3e-5;
 
 /// All lights of a scene, ready to be sampled.
@@ -155,6 +156,7 @@ impl LightSampler {
         blocked: Option<f32>,
         mut visit: impl FnMut(Vec3, f32),
     ) {
+        // Nothing shines in front of a hit but lights at a finite distance.
         if blocked.is_some() && self.local.is_empty() {
             return;
         }
@@ -202,6 +204,7 @@ impl LightSampler {
         if !(whole > 0.0) {
             return LightSample::NONE;
         }
+        // One number chooses among all lights, in the order infinite, delta, local; each takes its weight from it.
         let mut left = which * whole;
         if left < self.infinite.weight {
             let found = self.infinite.sample(left / self.infinite.weight, place);
@@ -258,6 +261,7 @@ impl InfiniteLights {
         let mut before = 0.0;
         let disc = |&(towards, irradiance, radius): &(Vec3, Vec3, f64)| {
             let share = (1.0 - environment_share) * irradiance.element_sum() / lamps;
+            // The solid angle of the disc is 2π (1 − cos r) = π chord².
             let chord = (2.0 * (0.5 * radius).sin()).powi(2) as f32;
             // A disc of angular radius r that faces the surface gives the irradiance π sin² r times its radiance.
             let radiance = irradiance / (PI * radius.sin().powi(2) as f32);
@@ -310,6 +314,7 @@ impl Environment {
         match environment {
             EnvironmentLight::Gradient { sky, ground } => {
                 let (middle, slope) = (0.5 * (*sky + *ground), 0.5 * (*sky - *ground));
+                // ∫ (1 + tilt z)/4π dω = 1 for any tilt up to 1 in size.
                 let tilt = slope.element_sum() / middle.element_sum().max(f32::MIN_POSITIVE);
                 // The pdf is positive everywhere: a gradient that is dark in sum may have light in one colour.
                 Self::Gradient { middle, slope, tilt: tilt.clamp(-0.98, 0.98) }
@@ -338,6 +343,7 @@ impl Environment {
     fn sample(&self, [u, v]: [f32; 2]) -> Vec3 {
         match self {
             Self::Gradient { tilt, .. } => {
+                // u = (z + 1)/2 + tilt (z² − 1)/4, a quadratic in z, solved without cancellation for small tilts.
                 let c = 2.0 - tilt - 4.0 * u;
                 let z = (-c / (1.0 + (1.0 - tilt * c).max(0.0).sqrt())).clamp(-1.0, 1.0);
                 about(Vec3::Z, z, TAU * v)
@@ -352,6 +358,7 @@ impl LocalLight {
     fn weight(&self, from: Vec3) -> f32 {
         match self {
             Self::Point { position, intensity } => {
+                // The bound (m²) keeps a point on the lamp itself finite.
                 intensity.element_sum() / position.distance_squared(from).max(1e-12)
             }
             Self::Area(area) => area.weight(from),
@@ -391,6 +398,8 @@ impl Area {
         if height <= 0.0 {
             return 0.0;
         }
+        // An estimate of A cos/(d² + A/π), the irradiance of a disc on its axis. Any positive weight is unbiased; a good one
+        // has less noise. The tenth of the size is chosen.
         let (square, size) = (way.length_squared(), self.area / PI);
         // Close to the face its nearest part counts, not its centre.
         let cosine = (height * height + 0.1 * size) / (square + 0.1 * size);
@@ -409,6 +418,7 @@ impl Area {
         let place = from + distance * towards - self.centre;
         let [x, y] = self.arms.map(|arm| place.dot(arm) / arm.length_squared());
         let inside = if self.round { x * x + y * y <= 1.0 } else { x.abs().max(y.abs()) <= 1.0 };
+        // Uniform on the area: the density 1/A per area is d²/(A cos) per solid angle.
         inside.then(|| (distance, distance * distance / (cosine * self.area)))
     }
 

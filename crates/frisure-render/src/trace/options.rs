@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::accel::AccelError;
 use crate::film::MAX_SIZE;
 
-/// Most samples per pixel.
+/// Most samples per pixel. A guard on time.
 pub const MAX_SAMPLES: usize = 65_536;
 
 /// Most pixels of a picture: 8192 × 8192, which need 6 GiB of memory.

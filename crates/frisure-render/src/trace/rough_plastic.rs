@@ -36,6 +36,7 @@ impl RoughPlastic {
         let eye = local.with_z(local.z.max(1e-3)).normalize();
         let coat = fresnel(f0, eye.z);
         let through = (1.0 - coat) * body.max_element();
+        // In proportion to what coat and body reflect of light from the eye's direction.
         let coat_probability = if f0 > 0.0 { coat / (coat + through).max(1e-6) } else { 0.0 };
         Self { frame, eye, body, f0, roughness, coat_probability }
     }
@@ -61,6 +62,7 @@ impl RoughPlastic {
             let half = self.visible_normal(u, v);
             2.0 * self.eye.dot(half) * half - self.eye
         } else {
+            // In proportion to the cosine: a uniform disc lifted onto the hemisphere (Malley).
             let (r, (s, c)) = (u.sqrt(), (TAU * v).sin_cos());
             Vec3::new(r * c, r * s, (1.0 - u).sqrt())
         };
@@ -77,11 +79,14 @@ impl RoughPlastic {
     /// The coat's BSDF times the cosine, and the pdf of its samples (1/sr).
     fn coat(&self, towards: Vec3) -> (f32, f32) {
         let half = (towards + self.eye).normalize();
+        // D = α²/π ((α² − 1) cos²h + 1)², Smith's Λ = ½ (√(1 + α² tan²θ) − 1).
         let a2 = self.roughness * self.roughness;
         let slope = 1.0 + (a2 - 1.0) * half.z * half.z;
         let density = a2 / (PI * slope * slope);
         let hidden = |c: f32| ((1.0 + a2 * (1.0 / (c * c) - 1.0)).sqrt() - 1.0) * 0.5;
         let (to_eye, to_light) = (hidden(self.eye.z), hidden(towards.z));
+        // Visible normals have the density D G₁ h·e/e_z, per light direction D G₁/4e_z with G₁ = 1/(1 + Λ). The BSDF times the
+        // cosine is F D G₂/4e_z with the height-correlated G₂ = 1/(1 + Λ + Λ′).
         let pdf = density / (4.0 * self.eye.z * (1.0 + to_eye));
         let both = density / (4.0 * self.eye.z * (1.0 + to_eye + to_light));
         (fresnel(self.f0, half.dot(self.eye)) * both, pdf)
@@ -90,6 +95,8 @@ impl RoughPlastic {
     /// Samples a visible normal of the coat (Heitz 2018, listing 1).
     fn visible_normal(&self, u: f32, v: f32) -> Vec3 {
         let a = self.roughness;
+        // 1. Stretch the view so that the microfacets become a hemisphere. 2. A point of the disc that the view shows of it,
+        // warped to its projected half. 3. Back onto the hemisphere, and unstretched.
         let stretched = Vec3::new(a * self.eye.x, a * self.eye.y, self.eye.z).normalize();
         let level = stretched.x * stretched.x + stretched.y * stretched.y;
         let x = match level > 1e-12 {

@@ -20,8 +20,10 @@ impl Sampler {
 
     /// Two numbers in [0, 1).
     pub(super) fn pair(&mut self) -> [f32; 2] {
+        // Golden-ratio steps keep the keys of successive pairs far apart; the two constants below only differ.
         let key = mix(self.pixel ^ mix(self.pair.wrapping_mul(0x9e37_79b9)));
         self.pair += 1;
+        // The order of the points is shuffled within powers of two, so that every such block stays stratified.
         let index = scrambled(self.index, key);
         let x = scrambled(index.reverse_bits(), mix(key ^ 0xa511_e9b3));
         let y = scrambled(second(index), mix(key ^ 0x63d8_3595));

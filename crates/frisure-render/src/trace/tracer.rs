@@ -186,7 +186,7 @@ impl Tracer {
     }
 
     fn sample_pixel(&self, (x, y): (usize, usize), index: u32, pixel: &mut Pixel) {
-        // 1. A camera ray.
+        // 1. A camera ray. Pixel and index of the sample alone determine its random numbers.
         let number = (y * self.options.width + x) as u32;
         let mut sampler = Sampler::new(self.options.seed, number, index);
         let film_point = self.lens.film_point((x, y), sampler.pair());

@@ -25,7 +25,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// The depth where nothing is hit (m).
+    /// The depth where nothing is hit (m). Chosen.
     pub const NOWHERE: f32 = 1e10;
 
     fn new(count: usize) -> Self {

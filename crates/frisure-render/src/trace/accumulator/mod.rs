@@ -15,10 +15,29 @@ use glam::Vec3;
 
 use crate::Image;
 
-/// Side of a tile (pixels).
+/// Side of a tile (pixels). Chosen; part of a checkpoint's format.
 pub(super) const TILE: usize = 16;
 
 /// The film: sums of samples per pixel. It can be shown, written to a checkpoint and resumed.
+///
+/// ```
+/// use frisure_render::Scene;
+/// use frisure_render::trace::{TraceOptions, Tracer};
+/// use frisure_strands::Strands;
+/// use glam::Vec3;
+///
+/// let mut strands = Strands::new();
+/// strands.push(&[Vec3::ZERO, Vec3::new(0.0, 0.02, -0.1)], &[4e-5; 2]);
+/// let options = TraceOptions { width: 16, height: 16, samples: 4, ..TraceOptions::default() };
+/// let tracer = Tracer::new(&Scene::portrait(&strands, None), &options)?;
+///
+/// let mut film = tracer.accumulator();
+/// assert_eq!(film.mean_samples(), 0.0);
+/// tracer.accumulate(&mut film, &()).expect("nothing cancels it");
+/// assert_eq!(film.mean_samples(), 4.0);
+/// assert!(tracer.can_resume(&film));
+/// # Ok::<(), frisure_render::trace::TraceError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accumulator {
     pub(super) width: usize,

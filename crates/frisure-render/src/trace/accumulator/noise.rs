@@ -12,7 +12,7 @@ use super::{Accumulator, Pixel, Tile};
 /// Light below which the square root is linear, as the toe of a display's curve; chosen, not measured.
 const TOE: f32 = 0.01;
 
-/// Samples per block (a power of two, so that a block is stratified).
+/// Samples per block (a power of two, so that a block is stratified). Chosen.
 const BLOCK: u32 = 8;
 
 /// Whether a sample belongs to the first of the two halves.
@@ -42,6 +42,7 @@ impl Tile {
         let difference = mean - pixel.half / first;
         // Of halves of a and b samples, the whole differs from the first by b/a of its own variance.
         let variance = difference.length_squared() / 3.0 * first / (all - first);
+        // d√x/dx = ½/√x carries the error of light to that of the display.
         let slope = 0.5 / (mean.element_sum() / 3.0).max(TOE).sqrt();
         variance * slope * slope
     }
