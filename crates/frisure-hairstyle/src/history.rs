@@ -34,7 +34,7 @@ pub struct HistoryError {
     pub error: StyleError,
 }
 
-/// How many hairstyles of the past are kept, some megabytes each.
+/// How many hairstyles of the past are kept, some megabytes each. Chosen; no result depends on it.
 const KEPT: usize = 32;
 
 impl History {

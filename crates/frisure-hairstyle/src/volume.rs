@@ -25,6 +25,7 @@ const CELL: f64 = 5e-3;
 
 /// … and the fraction of one that hair must fill for it to be occupied. A lone hair of 70 µm fills
 /// 0.015 % of a cell that it crosses, and a wisp is several per cent hair: flyaways do not count.
+/// Both are chosen (docs/theory.md, "Volume").
 const OCCUPIED: f64 = 1e-3;
 
 /// Most cells, a guard on memory: hair that reaches over more is averaged over larger ones.
@@ -38,6 +39,7 @@ const PIECE: f64 = 0.25;
 const MOST_PIECES: f64 = 4096.0;
 
 /// Volumes are added as whole multiples of this (m³), so that no order of threads shows.
+/// Chosen: far below the volume of a piece, and 2⁶⁴ of them are 18 m³.
 const QUANTUM: f64 = 1e-18;
 
 /// Measures the space that strands take around a head on which `grown` hairs grow. If fewer are
@@ -182,7 +184,7 @@ struct Fill {
     occupied: bool,
 }
 
-/// Least fraction of a cell outside the body for its packing to be known.
+/// Least fraction of a cell outside the body for its packing to be known. Chosen.
 const ENOUGH: f64 = 0.2;
 
 impl Fill {

@@ -6,6 +6,26 @@ use thiserror::Error;
 /// Many polylines with a radius at each point, stored flat, with named attributes.
 ///
 /// Strand `i` owns points `offset(i)..offset(i + 1)`; point 0 of a strand is its root.
+///
+/// ```
+/// use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
+/// use glam::Vec3;
+///
+/// let mut strands = Strands::new();
+/// for i in 0..3 {
+///     // A hair of 70 µm that hangs 10 cm down (m).
+///     let root = Vec3::X * 0.01 * i as f32;
+///     strands.push(&[root, root - Vec3::Z * 0.1], &[35e-6; 2]);
+/// }
+/// assert_eq!((strands.len(), strands.points().len()), (3, 6));
+/// assert_eq!(strands.strand(1).points[0], Vec3::new(0.01, 0.0, 0.0));
+///
+/// // One value per strand: the wisp that it belongs to.
+/// let values = AttributeValues::U32(vec![7, 7, 8]);
+/// strands.set_attribute(Attribute { name: "guide".into(), domain: Domain::Strand, values })?;
+/// assert!(strands.attribute("guide").is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strands {
     offsets: Vec<u32>,

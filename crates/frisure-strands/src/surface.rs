@@ -5,6 +5,22 @@ use thiserror::Error;
 
 /// A triangle mesh in metres, counter-clockwise seen from outside; every index is valid, every
 /// coordinate finite, and there is at least one triangle of positive area.
+///
+/// ```
+/// use frisure_strands::{Surface, SurfaceError};
+/// use glam::DVec3;
+///
+/// // A right-angled triangle with sides of 1 m.
+/// let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let surface = Surface::new(corners.clone(), vec![[0, 1, 2]])?;
+/// assert_eq!(surface.area(), 0.5);
+/// assert_eq!(surface.vertex_normals()[0], DVec3::Z);
+///
+/// // A mesh with a bad index is refused.
+/// let error = Surface::new(corners, vec![[0, 1, 7]]).unwrap_err();
+/// assert_eq!(error, SurfaceError::Index { face: 0, vertex: 7, count: 3 });
+/// # Ok::<(), SurfaceError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     positions: Vec<DVec3>,

@@ -9,6 +9,7 @@ use super::rest::Rest;
 use crate::guides::Guide;
 
 /// Relative humidity of the air that every hairstyle begins in.
+/// That of the measured hair types (docs/hair-types.md, "Humidity").
 pub(crate) const ROOM: f64 = 0.6;
 
 /// What styling has made of a hairstyle.
@@ -145,12 +146,12 @@ pub(crate) struct Set {
     share: f64,
 }
 
-/// A set of which less is left is gone.
+/// A set of which less is left is gone. Chosen: it changes a curl by a thousandth.
 const LEAST_SHARE: f64 = 1e-3;
 
 /// Distance of the knots (m) of a natural strain that has a set in it, at least …
 const KNOTS: f64 = 2e-3;
-/// … and their most number.
+/// … and their most number. Chosen; a guard on memory.
 const MOST_KNOTS: f64 = 1000.0;
 
 impl WispState {
@@ -168,6 +169,7 @@ impl WispState {
     /// Wets the wisp, or lets it dry to some wetness; what water opens loses its set.
     pub(crate) fn wet(&mut self, to: f64) {
         if to > self.wetness {
+            // Wetting from w to w′ leaves k (1 − w′)/(1 − w) of a set: water opens the hydrogen bonds that hold it.
             let closed = (1.0 - to) / (1.0 - self.wetness);
             for set in &mut self.sets {
                 set.share *= closed;
@@ -205,6 +207,7 @@ impl WispState {
         let strain = |s: f64| {
             self.sets.iter().fold(grown.at(s), |strain, set| match s - set.from {
                 s if s < 0.0 => strain,
+                // u⁰ ← u⁰ + k (u_h − u⁰), the oldest set first; hair that grew since is above where it begins.
                 s => strain.lerp(set.held.at(s), set.share),
             })
         };
@@ -215,6 +218,7 @@ impl WispState {
 }
 
 /// Distance (m) of the frames between which the strain of a shape is taken.
+/// Chosen.
 const FRAMES: f64 = 1e-3;
 
 /// The strain (rad/m) of a guide as it lies, along the dry hair, which is `stretch` times shorter.
@@ -227,6 +231,7 @@ pub(crate) fn strain_of(
     let step = length / count as f64;
     let frames = guide.sample(count + 1);
     let knot = |(i, pair): (usize, &[(DVec3, DMat3)])| {
+        // The rotation vector from frame to frame, in the material frame, over its length: the mean strain between them.
         let turn = DQuat::from_mat3(&(pair[0].1.transpose() * pair[1].1)).to_scaled_axis();
         ((i as f64 + 0.5) * step / stretch, turn / step * stretch)
     };

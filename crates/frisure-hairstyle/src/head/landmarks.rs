@@ -76,6 +76,7 @@ impl Landmarks {
     /// The part of the scalp that the skin point `p` (m) belongs to.
     #[must_use]
     pub fn region(&self, p: DVec3) -> Region {
+        // Borders in directions from the cranium's centre and azimuths (rad), chosen by eye; `shares` has the same.
         let d = self.normalized(p).normalize_or(DVec3::Z);
         let whorl = self.normalized(self.whorl).normalize_or(DVec3::Z);
         let azimuth = self.azimuth(p).abs();
@@ -109,6 +110,7 @@ impl Landmarks {
         let back = above(azimuth, 2.2, 0.06) * below(d.z, 0.75, 0.05);
         let sides = below(d.z, 0.62, 0.05) * above(azimuth, 0.75, 0.06);
         let fringe = below(d.y, -0.45, 0.06);
+        // In the order of `region`: each takes its share of what those before it left, so that all sum to 1.
         let mut left = 1.0;
         let mut take = |share: f64| {
             let taken = left * share;

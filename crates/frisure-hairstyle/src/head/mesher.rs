@@ -13,9 +13,9 @@ pub(crate) struct Lattice {
     pub(crate) axes: [Vec<f64>; 3],
 }
 
-/// Nodes along the edge of a block that is skipped where it is far from the surface.
+/// Nodes along the edge of a block that is skipped where it is far from the surface. Chosen; no result depends on it.
 const BLOCK: usize = 8;
-/// Rounds of smoothing along the surface.
+/// Rounds of smoothing along the surface. Chosen by eye.
 const ROUNDS: usize = 3;
 
 impl Lattice {
@@ -126,6 +126,7 @@ fn cell_vertex(
         for axis in (0..3).filter(|a| c >> a & 1 == 0) {
             let d = c | 1 << axis;
             let (u, v) = (values[corner(c)], values[corner(d)]);
+            // The zero of the linear interpolation along the edge.
             if (u < 0.0) != (v < 0.0) {
                 sum += place(c).lerp(place(d), u / (u - v));
                 count += 1.0;
@@ -152,6 +153,7 @@ fn quads(
         }
         let (su, sv) = (strides[u], strides[v]);
         let mut quad = [cells[at - su - sv], cells[at - sv], cells[at], cells[at - su]];
+        // The normal points from inside to outside, along the edge or against it.
         if !from {
             quad.reverse();
         }
@@ -228,6 +230,7 @@ fn slope(p: DVec3, field: &impl Fn(DVec3) -> f64) -> (f64, DVec3) {
         DVec3::new(-1.0, 1.0, -1.0),
         DVec3::new(1.0, 1.0, 1.0),
     ];
+    // Σ w f(p + h w) = 4 h ∇f + O(h³) over the alternate corners of a cube, with a step of 0.1 mm (chosen).
     let values = ways.map(|w| field(p + h * w));
     let gradient = ways.iter().zip(values).map(|(w, v)| *w * v).sum::<DVec3>() / (4.0 * h);
     (values.iter().sum::<f64>() / 4.0, gradient)

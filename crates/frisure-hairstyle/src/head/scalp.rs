@@ -34,7 +34,7 @@ impl Default for Hairline {
     }
 }
 
-/// Half the width over which hair thins out at the hairline (m).
+/// Half the width over which hair thins out at the hairline (m). Chosen by eye.
 const FEATHER: f64 = 3.5e-3;
 
 /// Weight 0..1 at each vertex: 1 where hair grows, falling to 0 across the hairline.
@@ -45,9 +45,11 @@ pub(crate) fn weights(surface: &Surface, landmarks: &Landmarks) -> Vec<f64> {
 }
 
 /// How far outside the line the first hairs grow, and how far inside hair is full (m).
+/// docs/theory.md, "Roots and implantation"; chosen by eye.
 const THINNING: (f64, f64) = (-2e-3, 8e-3);
 
 /// Number of waves that make a hairline irregular, and their wavelengths (m).
+/// docs/theory.md, "Roots and implantation"; chosen by eye.
 const WAVES: (usize, f64, f64) = (12, 7e-3, 35e-3);
 
 /// The edge of hair as it grows: a hairline with its irregularities, drawn on the sphere of
@@ -99,6 +101,8 @@ impl Edge {
     fn recession(&self, azimuth: f64, p: DVec3) -> f64 {
         let h = &self.hairline;
         let bump = |centre: f64, width: f64| (-((azimuth - centre) / width).powi(2)).exp();
+        // In azimuths (rad) from the middle of the face: the forehead up to 0.95, temples about 0.72, a peak in the middle.
+        // Chosen by eye.
         let forehead = smooth((0.95 - azimuth) / 0.2);
         h.height * forehead + h.recession * bump(0.72, 0.25) - h.widows_peak * bump(0.0, 0.12)
             + h.irregularity * self.noise(p)
@@ -110,6 +114,7 @@ impl Edge {
             return 0.0;
         }
         let sum: f64 = self.waves.iter().map(|(k, phase)| (k.dot(p) + phase).sin()).sum();
+        // n sines of random phase have the variance n/2: the irregularity is the standard deviation of the line.
         sum * (2.0 / self.waves.len() as f64).sqrt()
     }
 
@@ -145,6 +150,7 @@ impl Edge {
         let d = DVec3::new(p.x.abs(), p.y, p.z) - l.ear;
         let scale = l.width / 0.155;
         let out = d.x / scale + 2e-3;
+        // An ellipse of 26 × 38 mm about the ear, from 2 mm outside the skull on.
         let side = DVec3::new(0.0, d.y / 0.026, d.z / 0.038).length() / scale;
         smooth(out / 2e-3) * smooth((1.0 - side) / 0.1)
     }
@@ -166,6 +172,8 @@ fn anchors(l: &Landmarks) -> Vec<[f64; 2]> {
         let radius = (1.0 - h * h).max(0.4).sqrt() / ellipse;
         [azimuth, (z - l.cranium_centre.z).atan2(radius)]
     };
+    // Azimuth (rad) and height of each corner: over the forehead, down the temple, before and round the ear, to the nape.
+    // Proportions are chosen by eye on the mannequin.
     let mut line = vec![
         [0.0, l.elevation(l.hairline)],
         at(0.30, front),
@@ -189,7 +197,7 @@ fn anchors(l: &Landmarks) -> Vec<[f64; 2]> {
     line
 }
 
-/// Segments of the line between two corners.
+/// Segments of the line between two corners. Chosen.
 const STEPS: usize = 8;
 
 /// Smallest and largest angles of the first `count` points of a line.

@@ -50,6 +50,7 @@ pub(crate) fn chain(p: DVec3, balls: &[(DVec3, f64)]) -> f64 {
 
 /// The union, with a fillet of width about `k`.
 pub(crate) fn join(a: f64, b: f64, k: f64) -> f64 {
+    // Where the two are within k of each other a fillet is added, k/6 at most.
     let h = (k - (a - b).abs()).max(0.0) / k;
     // Cubic, so that curvature does not jump where the fillet begins.
     a.min(b) - h * h * h * k / 6.0

@@ -23,7 +23,7 @@ const SKIN_GAP: f64 = 8e-3;
 const MOST: usize = 96;
 /// Smaller spheres are not worth having (m): an ear would take dozens.
 const LEAST: f64 = 1.2e-2;
-/// How far a sphere may stand out of the skin (m): it then touches more of it.
+/// How far a sphere may stand out of the skin (m): it then touches more of it. These five are chosen.
 const STAND_OUT: f64 = 1e-3;
 
 /// Spheres inside the skin, each the largest that touches the vertex farthest from those before.
@@ -61,6 +61,7 @@ pub(crate) fn fit(
 
 /// What is allowed away from the scalp (m): the shoulders may be rough, hair rarely rests there.
 fn skin_gap(p: DVec3, landmarks: &Landmarks) -> f64 {
+    // In multiples of about the width of the head, beyond which the shoulders begin.
     let away = p.distance(landmarks.cranium_centre) / (1.9 * landmarks.width / 2.0);
     SKIN_GAP * away.max(1.0).powi(2)
 }
@@ -86,12 +87,13 @@ fn farthest(gaps: &[f64], allowed: &[f64]) -> Option<usize> {
 /// The largest ball inside the skin that touches it at `p`, where the outward normal is `normal`.
 fn largest_at(p: DVec3, normal: DVec3, inside: &SignedDistance) -> Sphere {
     let fits = |r: f64| -inside.value(p - normal * (r - STAND_OUT)) > r - 2.0 * STAND_OUT;
-    // In steps, since beyond the middle of the body another one could fit; then halving the last.
+    // In steps, since beyond the middle of the body another one could fit; then halving the last. Chosen.
     const STEP: f64 = 2e-3;
     let mut low = STEP;
     while fits(low + STEP) {
         low += STEP;
     }
+    // Twelve halvings of 2 mm: to half a micrometre.
     let mut high = low + STEP;
     for _ in 0..12 {
         let middle = 0.5 * (low + high);

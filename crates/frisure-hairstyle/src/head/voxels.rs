@@ -21,23 +21,25 @@ pub(crate) struct Voxels {
     pub(crate) values: Vec<f32>,
 }
 
-/// Grid spacing where the mesh is of human size (m).
+/// Grid spacing where the mesh is of human size (m). Chosen: within 0.3 mm of a smooth mesh.
 const SPACING: f64 = 3e-3;
-/// Room around the mesh (m): hair that stands away farther than this meets the extrapolation.
+/// Room around the mesh (m): hair that stands away farther than this meets the extrapolation. Chosen.
 const MARGIN: f64 = 0.04;
-/// Most nodes in a grid: 5.5 million of 4 bytes.
+/// Most nodes in a grid: 5.5 million of 4 bytes. A guard on memory.
 const MOST_NODES: f64 = 5.5e6;
-/// Nodes this near (spacings) get an exact distance.
+/// Nodes this near (spacings) get an exact distance: all corners, √3 away, of cells that the mesh passes.
 const BAND: f64 = 1.8;
 /// The outside flows only through nodes farther from the mesh than this (spacings): what lies
-/// behind a narrower slit is inside.
+/// behind a narrower slit is inside. Chosen: a slit of 6 mm.
 const CLEARANCE: f64 = 1.0;
-/// Steps from a node with clearance to one near the skin.
+/// Steps from a node with clearance to one near the skin. Chosen: more than the clearance along each axis.
 const SHORE: usize = 4;
-/// Layers of nodes that one task fills.
+/// Layers of nodes that one task fills. Chosen; no result depends on it.
 const SLAB: usize = 8;
 /// The signed distance to `surface` (m), positive outside, on a grid around it.
 pub(crate) fn sample(surface: &Surface) -> Voxels {
+    // 1. Exact distances near the closed mesh. 2. Which nodes are outside. 3. Without faces that no node outside has as its
+    // nearest. 4. Distances everywhere else.
     let soup = Soup::closed(surface);
     let grid = Grid::around(surface);
     let mut band = vec![FAR; grid.len()];
@@ -118,6 +120,7 @@ impl Grid {
                 let row = ((k - base) * self.size[1] + j) * self.size[0];
                 for i in low[0]..=high[0] {
                     let p = self.position([i, j, k]);
+                    // The plane of the face alone rules most nodes of its box out.
                     if (p - a).dot(normal).abs() > reach {
                         continue;
                     }
@@ -144,6 +147,7 @@ impl Grid {
         outside[0] = true;
         let mut shore = Vec::new();
         while let Some(at) = open.pop() {
+            // Flood fill by clearance; a node with a neighbour closer to the mesh is the shore.
             let mut ashore = false;
             self.for_neighbours(at, |next, _, _| {
                 ashore |= nodes[next].distance <= clearance;

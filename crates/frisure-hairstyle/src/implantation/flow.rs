@@ -110,6 +110,7 @@ fn natural(marks: &Landmarks, whorls: &[Whorl], root: &Root) -> DVec3 {
         sum += DQuat::from_axis_angle(root.normal, -turn) * radial * (weight * eye);
         weights += weight;
     }
+    // Far from the whorls what grows over the forehead and down the sides adds to it; shares and borders chosen by eye.
     let whorled = sum / weights.max(1e-12);
     let nearest = whorls.iter().map(|w| w.centre.distance(root.position));
     let far = smooth_step(0.3, 0.9, nearest.fold(f64::INFINITY, f64::min) / marks.width);

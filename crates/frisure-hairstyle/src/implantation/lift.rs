@@ -57,9 +57,13 @@ pub(crate) fn lead(strain: DVec3) -> f64 {
     strain.truncate().length().atan2(strain.z.abs()) * curly(strain)
 }
 
+/// Lengths (m) of a turn up to which hair winds about an axis, and from which it only bends: a hand's breadth. Chosen by eye;
+/// docs/theory.md, "Roots and implantation".
+const CURLY: (f64, f64) = (0.06, 0.14);
+
 /// Whether hair of this natural strain (rad/m) winds about an axis, 1, or turns so slowly that it
 /// only bends, 0.
 pub(crate) fn curly(strain: DVec3) -> f64 {
     let turn = std::f64::consts::TAU / strain.length().max(1e-9);
-    1.0 - smooth_step(0.06, 0.14, turn)
+    1.0 - smooth_step(CURLY.0, CURLY.1, turn)
 }

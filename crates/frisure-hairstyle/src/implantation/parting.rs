@@ -203,6 +203,7 @@ fn check(
 ) -> Result<(), PartingError> {
     let grows = |p: DVec3| {
         let skin = head.surface().positions().iter().zip(head.scalp());
+        // A third of the full density counts as growing. Chosen.
         skin.into_iter().any(|(q, &w)| w > 0.3 && q.distance(p) < OFF)
     };
     match corners.iter().position(|&c| !grows(tape.at(c))) {

@@ -11,6 +11,7 @@ use crate::spec::{Level, Place, RegionLength, RegionStyle};
 /// about a centimetre at the border.
 pub(crate) fn share(style: &RegionStyle, marks: &Landmarks, p: DVec3) -> f64 {
     let shares = marks.shares(p);
+    // Left and right blend over 12 mm about the middle. Chosen by eye.
     let left = smooth_step(-0.006, 0.006, p.x - marks.cranium_centre.x);
     let sum: f64 = style
         .places

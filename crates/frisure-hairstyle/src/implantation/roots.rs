@@ -31,7 +31,7 @@ pub(crate) struct Scalp<'a> {
 }
 
 /// Distance (m) from the hairline beyond which hair is full, or none: longer than its feather and
-/// the sides of the faces.
+/// the sides of the faces. Chosen; no result depends on it.
 const SURELY: f64 = 0.03;
 
 /// Area (m²) of the scalp of a head on which hair of this description grows, each part weighted with

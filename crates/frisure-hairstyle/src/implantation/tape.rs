@@ -8,6 +8,7 @@ use crate::head::Head;
 const STEP: f64 = 2e-3;
 
 /// Length of the tape (m) back from the forehead's hairline, and down over the forehead.
+/// Chosen: to the neck, and to the brows, of a large head.
 const REACH: (f64, f64) = (0.5, 0.08);
 
 /// A tape along the middle of the head, from the forehead's hairline back to the neck.

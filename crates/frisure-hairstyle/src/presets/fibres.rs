@@ -8,7 +8,7 @@ const PER_SQUARE_CENTIMETRE: f64 = 1e4;
 /// Metres per second for a micrometre a day.
 const MICROMETRE_PER_DAY: f64 = 1e-6 / 86_400.0;
 
-/// Correlation length of the irregularity along a hair (m): by the eye.
+/// Correlation length of the irregularity along a hair (m): by the eye. Chosen.
 const SCALE: f64 = 0.03;
 
 /// A helix of radius and pitch (m), with its variation between wisps and along a hair.

@@ -6,6 +6,18 @@
 /// All are 0 at 60 % and 1 in water, and negative in drier air: drier hair is stiffer, thinner and
 /// shorter. The state is that of equilibrium; hair that dries holds a little more water than hair
 /// that takes it up.
+///
+/// ```
+/// use frisure_hairstyle::{Moisture, Wetting};
+///
+/// // A rainy day, 90 % of relative humidity.
+/// let rain = Moisture::in_air(0.9);
+/// // The diameter has taken about half of the way to that in water …
+/// assert!((0.4..0.7).contains(&rain.swelling));
+/// // … which is 6.5 % more than in a room.
+/// assert_eq!(Wetting::MEASURED.diameter, 1.065);
+/// assert_eq!(Moisture::in_air(0.6).swelling, 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moisture {
     /// Share of the fall of Young's modulus.

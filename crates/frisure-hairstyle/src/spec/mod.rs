@@ -294,7 +294,7 @@ pub enum Hairs {
     Density(f64),
 }
 
-/// Most hairs of a head.
+/// Most hairs of a head. A guard on memory, ten times the hairs of a head.
 const MAX_HAIRS: usize = 1_000_000;
 
 /// Most points of all drawn hairs of a head: 3 GB of positions and radii.

@@ -57,5 +57,5 @@ impl Ends {
     }
 }
 
-/// Length (m) that is left of a hair whose root is beyond the scissors.
+/// Length (m) that is left of a hair whose root is beyond the scissors. Chosen.
 const STUBBLE: f64 = 1e-3;

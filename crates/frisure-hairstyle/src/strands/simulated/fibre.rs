@@ -8,7 +8,7 @@ use crate::strands::binding::StrandBinding;
 use crate::strands::population::Population;
 use crate::strands::skin::ROOT_DEPTH;
 
-/// Shortest hair (m) that is a rod. Shorter than any cut leaves.
+/// Shortest hair (m) that is a rod. Shorter than any cut leaves. Chosen.
 const SHORTEST: f64 = 1e-3;
 
 /// How far a hair's curl is from its guide's at most, in standard deviations of its logarithm.

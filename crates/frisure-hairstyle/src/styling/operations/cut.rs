@@ -107,6 +107,7 @@ impl Apply for Cut {
             let selected = chosen.iter().filter(|chosen| **chosen).count();
             return Err(StyleError::AboveRoot { wisps, selected });
         }
+        // Lengths of wisps are those of dry hair; wet hair is longer when it is cut.
         let stretch = |i: usize| hair.guides[i].rod.length() / hair.styling.wisps[i].length;
         let mut styling = hair.styling.changed(&chosen, |index, wisp| {
             wisp.length = wisp.length.min(left[index] / stretch(index));

@@ -24,6 +24,7 @@ pub struct Dry {
 
 impl Default for Dry {
     fn default() -> Self {
+        // Chosen by eye; docs/styling.md has what it means.
         Self { selection: Selection::Everything, keep: 0.6 }
     }
 }
@@ -44,6 +45,7 @@ impl Apply for Dry {
         act.with(act.before.styling.changed(&chosen, |index, wisp| {
             let closed = wisp.wetness;
             wisp.wet(0.0);
+            // Only the bonds that water had opened close in the new shape.
             if let Some(held) = &kept[index] {
                 wisp.keep(held.clone(), self.keep * closed);
             }

@@ -11,7 +11,7 @@ use super::apply::Apply;
 const LONGEST: f64 = 3.0;
 
 /// How much longer than before hair may be when it comes to rest again while it grows, as a factor
-/// and as a length (m), whichever is more: it buckles and falls on its way, not at its end.
+/// and as a length (m), whichever is more: it buckles and falls on its way, not at its end. Chosen by trial.
 const GROWN_AT_ONCE: (f64, f64) = (1.25, 5e-3);
 
 /// Lets hair grow. \[paper\] §3.2, §4.1
@@ -43,7 +43,7 @@ impl Default for Grow {
 }
 
 impl Grow {
-    /// Longest time (s) that hair grows in one step: twenty years.
+    /// Longest time (s) that hair grows in one step: twenty years. A guard on time.
     const LONGEST_TIME: f64 = 20.0 * 365.25 * 86_400.0;
     /// Range of [`Growth::By`].
     pub const BY: Range = Range::new("grow.by", 0.0, 3.0, "between 0 and 3 m");

@@ -15,16 +15,16 @@ pub(super) struct Scissors<'a> {
     held: Held,
 }
 
-/// Least length (m) that a cut leaves of a wisp.
+/// Least length (m) that a cut leaves of a wisp. Chosen.
 const LEAST: f64 = 1e-3;
 
 /// How far (m) from a line off the skin is on it.
 const ON_LINE: f64 = 1e-9;
 
-/// Points (per guide) between which a line is looked for.
+/// Points (per guide) between which a line is looked for. Chosen: two crossings within a piece are missed.
 const LOOKED_AT: usize = 256;
 
-/// How often the piece between two is halved.
+/// How often the piece between two is halved: to rounding.
 const HALVINGS: u32 = 40;
 
 impl<'a> Scissors<'a> {
@@ -98,6 +98,7 @@ impl<'a> Scissors<'a> {
 
     /// Length (m) of a straight way to a line off the skin: what is so far from it can go so far.
     fn march(&self, from: DVec3, way: DVec3) -> f64 {
+        // Sphere tracing: what is so far from the line can go so far. 10 000 steps and 10 m are guards.
         let mut gone = 0.0;
         for _ in 0..10_000 {
             let before = -self.beyond(from + way * gone);
