@@ -1,4 +1,4 @@
-// What every shader knows: the camera, the lamps and the look of one picture.
+// Uniforms of every shader: the camera, the lamps and the look of one picture.
 //
 // No branch and no loop is decided by these numbers alone: Mesa's software rasteriser would compile the shader
 // anew for each camera. What has to be decided by them comes as a number that vertex shaders hand on.
@@ -97,6 +97,7 @@ fn everything(corner: u32) -> vec4<f32> {
 
 // Depth buffer's value at a distance along the view (m).
 fn buffer_depth(depth: f32) -> f32 {
+    // 0 at NEAR, 1 at FAR, linear in 1/depth as a perspective projection has it.
     return FAR / (FAR - NEAR) * (1.0 - NEAR / depth);
 }
 
@@ -128,6 +129,7 @@ fn in_hair_map(lamp: Lamp, p: vec3<f32>) -> vec3<f32> {
 fn behind_plane(light: vec3<f32>, p: vec3<f32>, plane: Plane) -> vec3<f32> {
     let way = p - picture.eye.xyz;
     let slope = dot(way, plane.normal.xyz);
+    // The way from the eye meets the plane at the fraction t: the plane is in between for t from 0 to 1.
     let t = dot(plane.centre.xyz - picture.eye.xyz, plane.normal.xyz)
         / select(slope, 1e-9, abs(slope) < 1e-9);
     let h = picture.eye.xyz + t * way - plane.centre.xyz;

@@ -16,13 +16,14 @@ fn whole(@builtin(vertex_index) corner: u32) -> Whole {
     return Whole(everything(corner), vec2<i32>(i32(picture.centre.w), i32(picture.film.y)));
 }
 
-// Hable's curve.
+// Hable's curve, as `frisure_look`'s tone curves have it (docs/rendering.md, "Sources").
 fn hable(x: vec3<f32>) -> vec3<f32> {
     return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.0666667;
 }
 
 fn developed(light: vec3<f32>, kind: i32) -> vec3<f32> {
     let x = max(light, vec3<f32>(0.0));
+    // The shoulder begins at 0.55, as in `frisure_look`.
     if kind == 1 {
         let bent = 0.55 + 0.45 * (1.0 - exp((0.55 - x) / 0.45));
         return select(x, bent, x > vec3<f32>(0.55));
@@ -33,6 +34,7 @@ fn developed(light: vec3<f32>, kind: i32) -> vec3<f32> {
     return min(x, vec3<f32>(1.0));
 }
 
+// The transfer function of sRGB.
 fn encoded(linear: vec3<f32>) -> vec3<f32> {
     let high = 1.055 * pow(max(linear, vec3<f32>(0.0)), vec3<f32>(1.0 / 2.4)) - 0.055;
     return select(high, 12.92 * linear, linear <= vec3<f32>(0.0031308));
@@ -72,6 +74,7 @@ fn beside(texel_: vec2<i32>, back: vec4<f32>) -> vec4<f32> {
     for (var i = 0; i < 9; i += 1) {
         let at = clamp(texel_ + vec2<i32>(i % 3 - 1, i / 3 - 1), vec2<i32>(0), most);
         let free = 1.0 - textureLoad(head, at, 0).a;
+        // Neighbours count by how much of them is free of the head; the pixel itself hardly. Chosen by eye.
         let own = select(free * free, 0.02 * free, i == 4);
         let front = textureLoad(hair, at, 0);
         sum += own * (front + (1.0 - front.a) * back);

@@ -74,6 +74,7 @@ fn lay(in: Ribbon) -> Layers {
     let k = layer(in.depth - front);
     // Wide hair that stands for many counts as many do.
     let met = covered(in.offset, in.shape.x, in.shape.y);
+    // A layer has all of a hair in front of it, none of one behind it, and a part of one within half a layer of it.
     let four = vec4<f32>(0.5, 1.5, 2.5, 3.5) - k;
     var out: Layers;
     out.a = met * clamp(four, vec4<f32>(0.0), vec4<f32>(1.0));

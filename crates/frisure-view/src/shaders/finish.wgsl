@@ -2,7 +2,7 @@
 
 @group(1) @binding(0) var hair: texture_2d<f32>;
 
-// What a pixel covers when it counts as finished.
+// Coverage at which a pixel counts as finished. Chosen by eye.
 const FINISHED: f32 = 0.995;
 
 @vertex

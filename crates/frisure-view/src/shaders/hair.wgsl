@@ -19,6 +19,7 @@ fn ribbon(@builtin(vertex_index) corner: u32, @location(0) first: u32) -> Ribbon
     let p = project(a.xyz);
     let q = project(b.xyz);
     let width = (a.w + b.w) * picture.forward.w * picture.eye.w / max(p.z + q.z, 1e-6);
+    // The least softening is that of the preview (`preview/composite.rs`).
     let line = ribbon_corner(p.xy, q.xy, width, vec2<f32>(0.35, 1.0), corner);
     let end = line.end > 0.5;
     out.light = textureLoad(lights, texel(select(first, first + 1u, end)), 0);
@@ -41,6 +42,7 @@ fn paint(in: Ribbon) -> @location(0) vec4<f32> {
     if in.light.w > 0.0 {
         let faint = alpha * picture.falling.w;
         let bright = max(max(in.light.r, in.light.g), in.light.b);
+        // Hair beyond a cut is tinted by three quarters, brighter where it is lit. Chosen by eye.
         return vec4<f32>(faint * mix(in.light.rgb, picture.falling.rgb * (0.3 + bright), 0.75), faint);
     }
     return vec4<f32>(alpha * in.light.rgb, alpha);

@@ -27,6 +27,7 @@ fn ribbon_corner(p: vec2<f32>, q: vec2<f32>, width: f32, softness: vec2<f32>, co
     let run = b.x - a.x;
     line.exists = abs(run) > 1e-4 && width > 0.0;
     let slope = (b.y - a.y) / select(run, 1.0, abs(run) < 1e-4);
+    // The extent across, measured along the second axis, is the width over the cosine of the slope.
     line.half = width * sqrt(1.0 + slope * slope);
     line.rise = clamp(abs(slope), softness.x, softness.y);
     let reach = line.half + 0.5 + 0.5 * line.rise;
@@ -43,6 +44,7 @@ fn ramp(x: f32, inverse: f32) -> f32 {
     return 0.5 * y * y * inverse;
 }
 
+// Integral up to x of a box of width 1 smeared by a box of width `rise`, as `preview/composite.rs` has it.
 fn edge(x: f32, rise: f32, inverse: f32) -> f32 {
     let outer = 0.5 + 0.5 * rise;
     let inner = 0.5 - 0.5 * rise;

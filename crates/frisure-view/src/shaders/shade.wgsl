@@ -29,6 +29,7 @@ fn unfolded(bits: u32) -> vec3<f32> {
     return normalize(v);
 }
 
+// Normal density of standard deviation `width`.
 fn gaussian(x: f32, width: f32) -> f32 {
     let u = x / width;
     return exp(-0.5 * u * u) / (width * sqrt(TAU));
@@ -55,11 +56,14 @@ struct Point {
 
 // The light of a lamp that a point sends to the eye.
 fn from_lamp(at: Point, lamp: Lamp) -> vec3<f32> {
+    // Hairs on the way take a part of the light each: `passed` by colour, `straight` of light that meets none.
     let met = hairs_met(lamp, at.p, picture.hair.z, picture.hair.w);
     let head = past_head(lamp, at.p, picture.room_size.w);
     let passed = exp(-met.before * picture.taken.rgb);
     let straight = exp(-met.before);
 
+    // The lobes of `frisure_optics::lobes`: inclinations from the plane across the fibre, and the azimuth between light and
+    // eye. Highlights are shifted by -2, 1 and 4 times the tilt, and along the strand by its own deviation.
     let sl = clamp(dot(at.tangent, lamp.towards.xyz), -1.0, 1.0);
     let se = clamp(dot(at.tangent, at.eye), -1.0, 1.0);
     let across = sqrt(max((1.0 - sl * sl) * (1.0 - se * se), 1e-12));
@@ -73,9 +77,11 @@ fn from_lamp(at: Point, lamp: Lamp) -> vec3<f32> {
     let tt = caught * gaussian(sum - tilt, 0.5 * width) * gaussian(PI - phi, at.lobes.z);
     let trt = caught * gaussian(sum - 4.0 * tilt, 2.0 * width) * (1.0 + cos_phi) / TAU;
 
+    // [Kajiya & Kay 1989]: sin(t, l)/pi.
     let scattered = caught / PI * at.diffuse;
     let direct = r * at.reflected + trt * at.returned;
     let through = tt * at.transmitted;
+    // Within its cell hair that is seen stands partly in the shadow of other hair that is.
     let open = 1.0 - picture.lobes.w * (1.0 - exp(-met.around));
     return head * lamp.light.rgb
         * (passed * scattered + open * (0.5 * (passed + straight) * direct + straight * through));

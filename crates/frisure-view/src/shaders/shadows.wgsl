@@ -12,6 +12,7 @@ struct Met {
     around: f32,
 }
 
+// Weights of four layers for linear interpolation at the layer `k`.
 fn tent(k: f32, first: f32) -> vec4<f32> {
     return max(vec4<f32>(0.0), 1.0 - abs(vec4<f32>(first, first + 1.0, first + 2.0, first + 3.0) - k));
 }
@@ -51,6 +52,7 @@ fn past_head(lamp: Lamp, p: vec3<f32>, bias: f32) -> f32 {
     }
     let cell = floor(g);
     let f = g - cell;
+    // Smooth weights over 2 x 2 texels: a soft edge without the creases of linear ones.
     let weight = f * f * (3.0 - 2.0 * f);
     let at = vec2<i32>(cell);
     let index = i32(lamp.towards.w);

@@ -2,7 +2,7 @@
 
 @group(2) @binding(0) var hair: texture_2d<f32>;
 
-// What a pixel's hair covers when nobody sees the head behind it.
+// Coverage by hair from which on the head behind it is not shaded. Chosen: half a step of an 8-bit picture.
 const HIDDEN: f32 = 0.998;
 
 struct Vertex {
@@ -63,6 +63,7 @@ fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, places: i32)
 fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, places: i32) -> vec3<f32> {
     let wrap = picture.skin_shape.x;
     let bias = picture.skin_shape.y;
+    // Diffuse light wrapped past the terminator, and a Blinn-Phong gloss, as `preview/shading.rs` has them.
     let facing = (dot(normal, lamp.towards.xyz) + wrap) / (1.0 + wrap);
     if facing <= 0.0 {
         return vec3<f32>(0.0);
