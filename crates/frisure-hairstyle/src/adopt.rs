@@ -140,7 +140,7 @@ fn is_inside(spec: &HairstyleSpec, head: &Head, line: &[DVec3]) -> bool {
 /// How far (m) from the skin there can be other hair under a strand. Chosen by trial; not measured further.
 const DEEPEST_BED: f64 = 0.04;
 
-/// Longest piece (m) along which hair feels what is beneath. Chosen by trial; not measured further.
+/// Longest distance (m) between the points at which the bed is evaluated. Chosen by trial; not measured further.
 const FELT: f64 = 1e-3;
 
 /// The strand of a groom as a rod that rests in its shape, and the bed on which it does.
@@ -162,6 +162,7 @@ fn held(
         (bears && *distance < DEEPEST_BED).then(|| out.normalize_or_zero())
     };
     let ways: Vec<Option<DVec3>> = skin.iter().map(beneath).collect();
+    // The forces of (I2), docs/theory.md, "Inverse statics", as forces per length on a bed of the height that bears them.
     let forces = spread(&fitted.least_support(&ways));
     let spacing = fitted.rod().length() / (skin.len() - 1) as f64;
     let borne = skin.iter().zip(&forces).map(|((distance, _), force)| (*distance, force / spacing));

@@ -30,6 +30,7 @@ impl Fibre {
     /// [`InvalidQuantity`] if the mean section and its variation make none.
     pub(crate) fn varied(&self, random: &mut Stream) -> Result<Section, InvalidQuantity> {
         let diameter = 2.0 * self.section.mean_radius() * random.positive(self.variation);
+        // Varied above 1, so that no section turns its axes.
         let excess = (self.section.axis_ratio() - 1.0) * random.positive(self.axis_ratio_variation);
         let section = Section::from_diameter(diameter, 1.0 + excess)?;
         // The longer axis stays where the mean section has it.

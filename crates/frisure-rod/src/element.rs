@@ -365,7 +365,7 @@ impl Reach<'_> {
     }
 }
 
-/// A [`Reach`] to a point inside an element, which sees a share of the element's control.
+/// A [`Reach`] to a point inside an element, on which a share of the element's control acts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part<'a> {
     reach: Reach<'a>,

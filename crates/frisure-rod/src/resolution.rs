@@ -48,6 +48,7 @@ impl ElementKind {
     /// even where the natural turn of the whole hair is about 1.3 √Γ radians.
     #[must_use]
     pub fn chosen_for(self, rod: &Rod) -> Self {
+        // The largest turn that the strain could make: a fibre that varies is resolved where it turns most.
         let turn = rod.natural().max_magnitude(rod.length()) * rod.length();
         match self {
             Self::Auto if turn > JOINTED_FROM * rod.heaviness().sqrt() => Self::Jointed,

@@ -143,6 +143,7 @@ impl Rod {
             });
         }
         let (section, material) = (spec.section, spec.material);
+        // K = diag(E I1, E I2, μ J). Products of tiny numbers may vanish in f64, hence the checks.
         let stiffness = DVec3::new(
             positive("bending stiffness E I1", material.youngs_modulus() * section.i1(), "N m²")?,
             positive("bending stiffness E I2", material.youngs_modulus() * section.i2(), "N m²")?,

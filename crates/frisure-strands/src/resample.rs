@@ -121,6 +121,7 @@ fn spaced(parts: &[f64], count: usize) -> Vec<Place> {
             while piece + 1 < last && parts[piece + 1] <= s {
                 piece += 1;
             }
+            // Points at the same place make a piece without length, of which the start stands for all.
             let to = (piece + 1).min(last);
             let span = parts[to] - parts[piece];
             let part = if span > 0.0 { (s - parts[piece]) / span } else { 0.0 };
@@ -133,6 +134,7 @@ fn spaced(parts: &[f64], count: usize) -> Vec<Place> {
 fn distance(old: &[Vec3], parts: &[f64], new: &[Vec3]) -> f32 {
     let pieces = new.len() - 1;
     let apart = |(p, part): (&Vec3, &f64)| {
+        // The new line is even in arc length: the piece follows from the part of the length.
         let piece = ((part * pieces as f64) as usize).min(pieces - 1);
         to_segment(*p, new[piece], new[piece + 1])
     };

@@ -5,7 +5,7 @@
 pub struct Bed {
     /// Distance (m) along the strand of two heights.
     spacing: f64,
-    /// Distances (m) from the skin at which hair begins to be felt.
+    /// Distances (m) from the skin at which the contact energy begins.
     heights: Vec<f64>,
 }
 

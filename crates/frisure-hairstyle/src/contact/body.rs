@@ -21,7 +21,7 @@ use crate::spec::Body;
 pub struct BodyContact<'a> {
     /// The head.
     pub head: &'a Head,
-    /// What of it is felt.
+    /// Which model of the body is used.
     pub body: Body,
     /// Stiffness of skin per length of hair (Pa).
     pub skin: f64,
@@ -36,7 +36,7 @@ pub struct BodyContact<'a> {
 }
 
 impl BodyContact<'_> {
-    /// Distance (m) from the skin at which hair begins to be felt, at arc length `s` (m).
+    /// Distance (m) from the skin at which the contact energy begins, at arc length `s` (m).
     fn keep(&self, s: f64) -> f64 {
         match self.bed {
             Some(bed) => bed.at(s),

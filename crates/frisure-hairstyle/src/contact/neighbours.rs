@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::thickness::Thickness;
 use crate::math::{Grid, outer};
 
-/// The points of one guide that contact is felt at: evenly spaced, without the root.
+/// The points of one guide at which contact is evaluated: evenly spaced, without the root.
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
     /// Distance between points along the guide (m).
@@ -27,6 +27,7 @@ impl Samples {
 
     /// Length of hair (m) that a point stands for: half as much at the tip.
     fn weight(&self, k: usize) -> f64 {
+        // The trapezoidal rule; the root, which is clamped, is no point.
         if k + 1 == self.positions.len() { 0.5 * self.spacing } else { self.spacing }
     }
 }
@@ -113,6 +114,7 @@ impl Nearby {
             for level in levels {
                 level.for_each_near(p, |q| {
                     let reach = p.reach + q.reach;
+                    // Radii and margins of both: neither can come to touch the other before its margin is used up.
                     let near = q.position.distance_squared(p.position) < reach * reach;
                     if near && q.guide != p.guide {
                         found.push((p.index, (q.guide, q.index)));
@@ -236,7 +238,7 @@ impl ContactPairs {
         self.nearby[guide].guides.iter().map(|&g| g as usize)
     }
 
-    /// What one guide feels of the others.
+    /// The contact energy of one guide with the others.
     pub(crate) fn around(&self, guide: usize) -> Neighbours<'_> {
         Neighbours { pairs: self, guide, share: 1.0 }
     }

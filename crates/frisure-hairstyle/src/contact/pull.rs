@@ -58,6 +58,7 @@ impl Field for Pull {
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
         match *self {
+            // E = −f·r is linear: no stiffness.
             Self::Comb { force } => Some((-force, DMat3::ZERO)),
             Self::Clip { piece: [from, to], point, stiffness, most } => {
                 if !(from..=to).contains(&s) {

@@ -123,7 +123,7 @@ impl Thickness {
         self.volume * (self.hairs * self.area_per_hair(s) / PI).sqrt()
     }
 
-    /// Radius (m) that contact sees at arc length `s` (m): it grows from zero at the root, where
+    /// Radius (m) for contact at arc length `s` (m): it grows from zero at the root, where
     /// hairs stand side by side in the skin.
     #[must_use]
     pub fn at(&self, s: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! What a guide feels besides its own rod, and how its equilibrium is sought.
+//! The external potentials of a guide, and the options of its equilibrium.
 
 use frisure_rod::potential::{Field, FieldPotential};
 use frisure_rod::{Equilibrium, Options, Resolution, Rod};
@@ -20,7 +20,7 @@ pub(super) const TOLERANCE: f64 = 1e-8;
 /// Chosen with room; a guide that needs more is reported.
 pub(super) const MAX_ITERATIONS: usize = 1000;
 
-/// How the equilibrium of one guide is sought.
+/// Options of the equilibrium of one guide.
 pub(super) fn options(spec: &HairstyleSpec) -> Options {
     Options {
         resolution: spec.equilibrium.resolution,
@@ -37,7 +37,7 @@ pub(super) fn options(spec: &HairstyleSpec) -> Options {
 /// Accuracy (m) with which the fibre of a groom is sought. A tenth of a millimetre: chosen, not measured further.
 const HOLDING: f64 = 1e-4;
 
-/// What holds a strand of a groom up besides its own curl.
+/// Contact that holds a strand of a groom up besides its own curl.
 pub(crate) fn held_up<'a>(
     spec: &HairstyleSpec,
     head: &'a Head,
@@ -65,14 +65,14 @@ pub(crate) fn holding(spec: &HairstyleSpec) -> Options {
     Options { resolution, ..options(spec) }
 }
 
-/// Largest distance (m) between the points at which a guide feels the body; docs/theory.md, "Hair on the body".
+/// Largest distance (m) between the points at which contact with the body is evaluated; docs/theory.md, "Hair on the body".
 const BODY_SPACING: f64 = 3e-3;
 
 /// Largest natural turn (rad) between these points, so that no coil slips into the skin;
 /// docs/theory.md, "Hair on the body".
 const BODY_TURN: f64 = 0.7;
 
-/// What a guide feels of the body, on a bed of hair or without.
+/// Contact of a guide with the body, on a bed of hair or without.
 pub(super) fn body<'a>(
     spec: &HairstyleSpec,
     head: &'a Head,

@@ -72,6 +72,7 @@ pub(crate) fn settle(
     if !wisps_repel || effort.sweeps == 0 {
         return Ok(Rest::apart(alone));
     }
+    // Sweeps decide which wisp lies on which; a warm start has decided it.
     let sweep_first = effort == Effort::FULL && !warm;
     head_solver::settle(spec, head, guides, &alone, sweep_first, effort.sweeps, progress)
 }

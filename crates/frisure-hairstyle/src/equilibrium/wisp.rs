@@ -19,7 +19,7 @@ const FIRST_SAG: f64 = 4e-3;
 /// How often the tether of a guide that moves too far is made four times as stiff. A guard: 4⁴⁰ holds anything.
 const MOST_TETHERS: usize = 40;
 
-/// Distance between points at which wisps feel each other, as a fraction of their radius …
+/// Distance between the points at which contact of wisps is evaluated, as a fraction of their radius …
 /// Chosen by trial; not measured further.
 const SPACING: f64 = 1.1;
 
@@ -42,7 +42,7 @@ pub(super) struct Wisp<'a> {
     guide: &'a Guide,
     chain: Chain<'a>,
     body: BodyContact<'a>,
-    /// Points per element at which other wisps are felt.
+    /// Points per element at which contact with other wisps is evaluated.
     resolution: u32,
     settled: Settled,
 }
@@ -73,7 +73,7 @@ impl<'a> Wisp<'a> {
         &self.settled
     }
 
-    /// The points (m) at which other wisps are felt.
+    /// The points (m) at which contact with other wisps is evaluated.
     pub(super) fn points(&self) -> Vec<DVec3> {
         self.chain.sample_points(&self.settled.shape, self.resolution)
     }
@@ -88,6 +88,7 @@ impl<'a> Wisp<'a> {
     pub(super) fn downhill(&self, pairs: &ContactPairs, index: usize, reach: f64) -> Settled {
         let stopping = StoppingCriteria { tolerance: 0.0, max_iterations: ITERATIONS };
         let from = &self.settled.shape;
+        // A trust region in space: the same step with a stiffer tether until no node moves farther than `reach`.
         let mut stiffness = self.settled.tether;
         for _ in 0..MOST_TETHERS {
             let tether = Tether { stiffness, spacing: self.chain.arc()[1], from };
@@ -122,6 +123,7 @@ impl<'a> Wisp<'a> {
         let from = &self.settled.shape;
         let mut newton =
             self.among(pairs, index, None, |problem| Newton::default().newton_step(problem, from));
+        // Scaled as a whole, so that it stays a direction of descent.
         let moved = self.length_of(&newton.step);
         if moved > reach {
             for x in &mut newton.step {

@@ -15,7 +15,7 @@ const DENSEST: f64 = 1e7;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{count} wisps are too many for a scalp of {} cm²; at most {most} have room", short(*area))]
 pub struct Crowded {
-    /// How many were asked for.
+    /// Number of guides in the description.
     pub count: usize,
     /// Weighted area of the scalp (m²).
     pub area: f64,

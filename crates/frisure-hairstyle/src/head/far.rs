@@ -103,6 +103,7 @@ impl Coarse {
             }
             let mut from = at3;
             from[axis] = if down { at3[axis] + 1 } else { at3[axis] - 1 };
+            // The neighbour's nearest face is a candidate for this node, too.
             let face = self.faces[self.at(from)];
             if face != NONE && face != self.faces[at] {
                 let distance = measure(at3, face);

@@ -73,6 +73,7 @@ impl Layout {
                 angle += (lift - angle) * regions::share(style, marks, root.position);
             }
         }
+        // Where sources contradict each other hair stands up, so that its direction in space is continuous there.
         let sure = smooth_step(0.0, FAINT, along.length());
         let angle = angle + (std::f64::consts::FRAC_PI_2 - angle) * (1.0 - sure);
         let along = along.normalize_or_zero();
@@ -110,6 +111,7 @@ impl Layout {
     pub(crate) fn lean(&self, root: &Root, tangent: DVec3, strain: DVec3) -> DVec3 {
         let (along, combed) = self.along(root);
         let out = root.normal + along * (COMBED * combed);
+        // With the axis across tangent and normal, a wave bends in the plane of both, towards the skin.
         let down = root.normal.cross(tangent) * (COMBED * strain.z.signum());
         out.lerp(down, combed * (1.0 - lift::curly(strain)))
     }
@@ -123,7 +125,7 @@ impl Layout {
         self.regions.iter().map(factor).product()
     }
 
-    /// The length (m) that a region asks for at a root; none where no region does.
+    /// The length (m) that a region has set at a root; none where no region has.
     pub(crate) fn length(&self, head: &Head, root: &Root) -> Option<f64> {
         let style = &self.regions[self.cut(root.position)?];
         let length = style.length?;
@@ -178,6 +180,7 @@ pub(crate) fn clear_of_skin(head: &Head, root: &Root, direction: DVec3) -> DVec3
             let s = CLEAR_PATH * f64::from(step) / f64::from(STEPS);
             let ahead = root.position + direction * s;
             let (distance, away) = head.signed_distance().value_gradient(ahead);
+            // The direction turns along the gradient of the distance by what is missing there.
             let missing = CLEAR_SLOPE * s - distance;
             if missing > 0.0 {
                 blocked = true;

@@ -1,4 +1,4 @@
-//! What a scene asks of parts of the scalp.
+//! Styles of regions: direction, angle, curl and length of hair on parts of the scalp.
 
 use glam::DVec3;
 

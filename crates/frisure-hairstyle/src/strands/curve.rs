@@ -121,7 +121,7 @@ impl Population<'_> {
             if rank == 0
                 && let Some(split) = split
             {
-                // All of the hair goes with its split, of which only the first wisp knows.
+                // The split belongs to the first wisp alone; over its weight, all of the hair follows it.
                 place += (split.middle - place) * (GATHERED * gathered / weight);
                 transported += split.waves.at(along / planned) * (rise * narrow);
             }

@@ -1,5 +1,5 @@
-//! What programs that groom want to know of each strand: whom it follows, where it is rooted, and what
-//! fibre it is.
+//! Attributes of strands for grooming programs: the guides that each follows, where it is rooted, and its
+//! fibre.
 
 use frisure_rod::Equilibrium;
 use frisure_strands::{AttributeValues, Domain, Strands, names};

@@ -105,7 +105,7 @@ pub fn simulation_key(hairstyle: &Hairstyle, head: &Head) -> Option<u64> {
     simulated.then(|| simulated::key(hairstyle, head, &roots(hairstyle, head, 1)))
 }
 
-/// Adds to drawn hairs what light needs to know of their sections: `d1` (three numbers per point), the
+/// Adds to drawn hairs the attributes of their sections for rendering: `d1` (three numbers per point), the
 /// director along the semi-axis a, and `axis_ratio` (a/b, a number per strand). Twelve bytes per point.
 ///
 /// # Panics

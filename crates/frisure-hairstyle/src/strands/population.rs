@@ -74,6 +74,12 @@ pub(crate) struct Population<'a> {
     pub(super) skin: Skin<'a>,
 }
 
+/// Reach of blending at full blending, in spacings of guides. docs/theory.md, "Wisps"; chosen by eye.
+const BLENDING_REACH: f64 = 0.9;
+
+/// Weight, relative to the nearest guide's, below which a guide is not followed. Chosen: it moves a hair by a thousandth.
+const LEAST_WEIGHT: f64 = 1e-3;
+
 /// Ratios of distances along two guides to that of their roots: up to the first they go the same way, from the second on they
 /// do not. Chosen by eye; not measured.
 const AGREEING: (f64, f64) = (0.8, 1.6);
@@ -96,11 +102,13 @@ pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, stride: usize) -> Vec<(u
 impl<'a> Population<'a> {
     pub(crate) fn new(hairstyle: &'a Hairstyle, head: &'a Head) -> Self {
         let Hairstyle { spec, layout, guides, rest, styling, .. } = hairstyle;
+        // ℓ of docs/theory.md, "Wisps": the side of a square of scalp for each guide.
         let spacing = (hairstyle.placement.area() / guides.len() as f64).sqrt();
         let samples = (2 * spec.wisps.points).max(64);
         let limits = styling.limits();
         let beyond = if limits.is_some() { BEYOND } else { 0.0 };
         let roots: Vec<DVec3> = guides.iter().map(|g| g.root.position).collect();
+        // A disc of the same area.
         let patch = spacing / std::f64::consts::PI.sqrt();
         let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
         let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, beyond);
@@ -197,6 +205,7 @@ impl<'a> Population<'a> {
     /// How far (m²) a guide is from a root whose hair leaves in the direction `own`.
     fn farness(&self, root: &Root, own: DVec3, guide: usize) -> f64 {
         let against = 1.0 - own.dot(self.guides[guide].rod.root().frame().z_axis);
+        // `against` is 0 for the same direction and 2 for the opposite one.
         root.position.distance_squared(self.roots[guide]) * (1.0 + AGAINST * against)
     }
 
@@ -209,13 +218,14 @@ impl<'a> Population<'a> {
         let near = self.sorted(root, own);
         let first = near[0];
         let farness = |g: usize| self.farness(root, own, g);
-        let reach = (0.9 * self.spacing * self.spec.wisps.blending).max(1e-9);
+        // exp(−(d² − d₀²)/(0.9 b ℓ)²) times how far the guides go the same way. docs/theory.md, "Wisps"
+        let reach = (BLENDING_REACH * self.spacing * self.spec.wisps.blending).max(1e-9);
         let weight = |g: usize| {
             let excess = (farness(g) - farness(first)).max(0.0);
             (-excess / (reach * reach)).exp() * self.agreement(first, g)
         };
         let mut followed: Vec<_> = near.iter().map(|&g| (g, weight(g))).collect();
-        followed.retain(|f| f.1 > 1e-3);
+        followed.retain(|f| f.1 > LEAST_WEIGHT);
         let sum: f64 = followed.iter().map(|f| f.1).sum();
         for f in &mut followed {
             f.1 /= sum;

@@ -106,6 +106,7 @@ fn bindings(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f6
             own.at(s).distance_squared(wisp.at(s / wisp.length).0)
         };
         let mean = (0..=COMPARED).map(square).sum::<f64>() / (COMPARED + 1) as f64;
+        // The bound keeps a guide that is the hair itself from an infinite weight.
         (guide, mean + ALIKE * ALIKE)
     };
     let mut found: Vec<(usize, f64)> = near.iter().map(|&guide| apart(guide)).collect();

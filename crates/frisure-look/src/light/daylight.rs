@@ -131,7 +131,7 @@ impl Exposed {
         }
         // A matt surface of reflectance a has the radiance a E/π.
         let ground = level * (ALBEDO / PI);
-        // A fibre sees π/4 of light that comes from everywhere.
+        // The width of a fibre, sin θ on average π/4, is what it receives of light from everywhere.
         let all = facing + PI / 4.0 * (around + 2.0 * PI * luminance(ground));
         let factor = EXPOSED / all;
         let pixels = above.iter().chain(std::iter::repeat_n(&ground, WIDTH * HEIGHT / 2));

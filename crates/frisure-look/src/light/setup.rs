@@ -31,7 +31,7 @@ pub enum Setup {
     Dark,
 }
 
-/// A lamp of a setup: degrees to the right of the camera and above the horizon as the head sees it,
+/// A lamp of a setup: degrees to the right of the camera and above the horizon, seen from the head,
 /// irradiance, half its angle from edge to edge (rad).
 type Stand = (f64, f64, [f32; 3], f64);
 

@@ -91,7 +91,7 @@ impl Fibre {
         self.axes.x == self.axes.y
     }
 
-    /// An inclination as each lobe sees it: tilted by −2α, α and 4α, the rest not.
+    /// The inclination of each lobe: tilted by −2α, α and 4α, the rest not.
     pub(super) fn tilted(&self, sine: f32, cosine: f32) -> Inclinations {
         // Sine and cosine of a sum; a cosine that turned negative belongs to a direction beyond the pole.
         let (s, c) = self.turn;

@@ -1,4 +1,4 @@
-//! Directions as a fibre sees them.
+//! Directions in the frame of a fibre.
 
 use glam::Vec3;
 

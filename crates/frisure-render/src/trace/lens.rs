@@ -49,7 +49,7 @@ pub(super) struct Lens {
     right: Vec3,
     up: Vec3,
     size: [f32; 2],
-    /// Radius of the aperture (m), the focus distance along the view that the camera asks for (m), and the one used.
+    /// Radius of the aperture (m), the focus distance of the camera along the view (m), if it has one, and the one used.
     aperture_radius: f32,
     given_focus: Option<f32>,
     focus: f32,

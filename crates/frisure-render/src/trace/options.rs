@@ -65,13 +65,13 @@ pub enum TraceError {
     /// A number of samples of zero or above [`MAX_SAMPLES`].
     #[error("{samples} paths per pixel: there must be 1 to {MAX_SAMPLES}")]
     Samples {
-        /// Samples asked for.
+        /// The number given.
         samples: usize,
     },
     /// A noise that is not above 0.
     #[error("the noise to stop at must be above 0, not {noise}")]
     Noise {
-        /// Noise asked for.
+        /// The noise given.
         noise: f32,
     },
     /// No strand has two points.

@@ -32,7 +32,7 @@ impl RoughPlastic {
         let x = normal.any_orthonormal_vector();
         let frame = [x, normal.cross(x), normal];
         let local = Vec3::from_array(frame.map(|axis| axis.dot(eye)));
-        // A smooth normal may turn away from an eye that sees the face.
+        // An interpolated normal may point away from the eye although the face does not.
         let eye = local.with_z(local.z.max(1e-3)).normalize();
         let coat = fresnel(f0, eye.z);
         let through = (1.0 - coat) * body.max_element();

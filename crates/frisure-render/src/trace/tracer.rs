@@ -131,6 +131,7 @@ impl Tracer {
         let TraceOptions { width, height, samples, .. } = self.options;
         let size = (accumulator.width, accumulator.height);
         assert_eq!(size, (width, height), "the size of the picture");
+        // Progress counts samples that tiles may still get; a tile below the noise threshold has none left.
         let all = (width * height) as f64 * samples as f64;
         let due = |tile: &Tile| tile.pixels.len() as u64 * u64::from(self.due(tile));
         let left = AtomicU64::new(accumulator.tiles.iter().map(due).sum());

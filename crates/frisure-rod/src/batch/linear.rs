@@ -241,6 +241,7 @@ impl<F: Lanes> Sym3<F> {
     /// Plus `a bᵀ + b aᵀ`.
     #[inline(always)]
     pub(super) fn add_outer(self, a: Vec3<F>, b: Vec3<F>) -> Self {
+        // Fused: one rounding per product and sum, where the processor has it.
         let mixed = |p: F, q: F, r: F, s: F, m: F| p.mul_add(q, r.mul_add(s, m));
         Self {
             xx: mixed(a.x, b.x, a.x, b.x, self.xx),

@@ -12,7 +12,7 @@ pub(super) const LARGEST_TURN: f64 = 1.0;
 
 impl FeedbackLaw {
     /// The step x (rad) of element `i` whose start, at `from`, is now at `position` with `frame`; `fraction` of the
-    /// feedforward k, as a line search asks for.
+    /// feedforward k, the length of the step in a line search.
     #[inline]
     fn applied<const POSITION: bool>(
         &self,

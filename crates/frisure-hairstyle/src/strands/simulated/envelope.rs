@@ -1,4 +1,4 @@
-//! What a hair feels: the skin, and the hairs around it.
+//! Contact of a simulated hair: the skin, and the confinement tube of the hairs around it.
 
 use frisure_rod::batch::{ConfinementTube, Contact, ContactField};
 use glam::DVec3;

@@ -34,7 +34,7 @@ const ELEMENTS: [usize; 11] = [12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256];
 /// Elements per turn of the natural curl: the tip is then within a per cent of the length (docs/validation.md).
 const PER_TURN: f64 = 6.0;
 
-/// Longest element (m): skin is felt at joints. Chosen by trial; not measured further.
+/// Longest element (m): contact with the skin is evaluated at joints. Chosen by trial; not measured further.
 const LONGEST: f64 = 0.012;
 
 /// Hairs that are looked after together: enough to keep vectors filled. Chosen; a part of a checkpoint is one of these.
@@ -190,6 +190,7 @@ impl<'a> Simulated<'a> {
             max_iterations: MAX_ITERATIONS,
             ..Batch::default()
         };
+        // 1. All hairs in lanes. 2. Those that did not come to rest, one by one and step by step.
         let (mut found, mut nodes) =
             batch.solve_in_contact(rods, InitialShape::Frames(&frames), &envelope, 0);
         for (hair, rod) in rods.iter().enumerate() {

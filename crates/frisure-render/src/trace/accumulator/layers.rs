@@ -1,4 +1,4 @@
-//! Layers (AOVs): what each pixel sees first, for compositors and denoisers.
+//! Layers (AOVs): the first hits of each pixel, for compositors and denoisers.
 
 use glam::Vec3;
 
