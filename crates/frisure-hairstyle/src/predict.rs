@@ -69,6 +69,29 @@ pub enum PredictError {
 /// [`crate::settling_report`] counts the guides that are not at rest yet. What styling made of the
 /// previous hairstyle is not carried over: a [`crate::History`] does its steps again.
 ///
+/// ```
+/// use frisure_hairstyle::{
+///     Effort, PredictOptions, Start, head::Head, predict, preset, settling_report,
+/// };
+///
+/// let mut spec = preset("wavy").expect("a preset").spec();
+/// spec.wisps.count = 12;
+/// let head = Head::mannequin();
+/// let exact = predict(&spec, &head, PredictOptions::default(), &())?;
+/// assert_eq!(settling_report(&exact, &head).stable, 12);
+///
+/// // A longer head of hair for a slider: each guide starts from where it lay, with a bound on the work.
+/// spec.length.mean *= 1.1;
+/// let options = PredictOptions {
+///     previous: Some(&exact),
+///     start: Start::Previous,
+///     effort: Effort { iterations: 4, sweeps: 0 },
+/// };
+/// let rough = predict(&spec, &head, options, &())?;
+/// assert_eq!(rough.equilibria().len(), 12);
+/// # Ok::<(), frisure_hairstyle::PredictError>(())
+/// ```
+///
 /// # Errors
 /// [`PredictError`], if the description is out of range or the work is cancelled. A guide that
 /// does not come to rest is not an error: [`crate::settling_report`] counts it.

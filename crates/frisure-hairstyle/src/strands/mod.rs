@@ -66,6 +66,24 @@ pub struct DrawnHair {
 
 /// Draws the hairs around the guides of a hairstyle.
 ///
+/// ```
+/// use frisure_hairstyle::{Hairs, PredictOptions, StrandOptions, head::Head, predict, preset, strands};
+///
+/// let mut spec = preset("straight").expect("a preset").spec();
+/// spec.wisps.count = 12;
+/// spec.wisps.hairs = Hairs::Count(60);
+/// let head = Head::mannequin();
+/// let hairstyle = predict(&spec, &head, PredictOptions::default(), &())?;
+///
+/// let all = strands(&hairstyle, &head, StrandOptions::default(), &())?.strands;
+/// assert_eq!(all.len(), 60);
+/// // Every tenth hair for a quick view, each the same as among all.
+/// let options = StrandOptions { stride: 10, ..StrandOptions::default() };
+/// let few = strands(&hairstyle, &head, options, &())?.strands;
+/// assert_eq!(few.strand(1).points, all.strand(10).points);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`Cancelled`], if the work is cancelled.
 pub fn strands(
