@@ -141,6 +141,7 @@ fn varied(strands: &Strands, look: &HairLook) -> Vec<f32> {
         .map(|i| {
             let wisp = guide.map_or(0.0, |g| deviate(g[i], seed ^ 0x9e37_79b9));
             let strand = deviate(i as u32, seed ^ 0x85eb_ca6b);
+            // Log-normal: pigment varies by factors.
             bounded((variation * (strand + WISP_PART * wisp)).exp())
         })
         .collect()

@@ -197,6 +197,7 @@ fn traverse<'a, S: Simd, L: Leaf, const ANY: bool>(
         let (t, bits) = leaf.intersect(simd, &wide, t_max);
         if bits != 0 {
             let (lane, t) = first(&simd.store(t), bits);
+            // Subtrees that begin behind the hit are skipped from here on.
             t_max = t;
             found = Some(LeafHit { t, leaf, lane });
             if ANY {
@@ -238,6 +239,7 @@ fn nearest(
         bits &= bits - 1;
         (StackEntry { near: near.0[lane], child: node.child[lane].0 }, bits != 0)
     };
+    // Insertion sort of the children above `floor`: the stack stays sorted by distance, the nearest on top.
     let (mut best, mut more) = take();
     let floor = *height;
     while more {
@@ -287,6 +289,7 @@ impl<F: Copy> Slabs<F> {
         let (x0, x1) = at(0, self.inverse.x, self.offset.x);
         let (y0, y1) = at(1, self.inverse.y, self.offset.y);
         let (z0, z1) = at(2, self.inverse.z, self.offset.z);
+        // t = x/d − o/d at both slabs of each axis: inside from the last entry to the first exit.
         let near = simd.max(simd.max(x0, y0), simd.max(z0, simd.splat(0.0)));
         let far = simd.min(simd.min(x1, y1), simd.min(z1, simd.splat(t_max)));
         (simd.store(near), simd.bits(simd.at_most(near, far)))

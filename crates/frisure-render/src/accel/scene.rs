@@ -81,6 +81,7 @@ impl SceneBvh {
     /// The closest hit of a ray before `t_max` (m).
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
+        // The head first: few triangles, and its hit shortens the search among the hair.
         let skin = self.skin.closest_hit(self.level, ray, t_max);
         let t_max = skin.map_or(t_max, |found| found.t);
         match (self.hair.closest_hit(self.level, ray, t_max), skin) {
@@ -99,6 +100,7 @@ impl SceneBvh {
     /// Whether most ways out of a point pass through the head's skin from its inside.
     #[must_use]
     pub fn is_inside_head(&self, point: Vec3) -> bool {
+        // Eight rays, one into each octant, no two of them opposite.
         let corner =
             |i: u8| Vec3::from_array([1, 2, 4].map(|bit| if i & bit == 0 { -1.0 } else { 0.9 }));
         let leaves = |direction: Vec3| {
@@ -163,6 +165,7 @@ impl SceneBvh {
         let length = piece.axis.length();
         let axis = piece.axis / length;
         let radius = piece.radius + piece.widening * s;
+        // h = ± the distance at which ray and axis pass each other over the radius.
         let side = direction.cross(axis.as_dvec3()).dot(at.pass);
         let h = at.pass.length().copysign(side) as f32 / radius;
         let out = at.out.normalize_or_zero().as_vec3();
@@ -186,6 +189,7 @@ impl SceneBvh {
         let [a, b, c] = corners.map(|v| self.corners[v as usize].as_dvec3());
         let (origin, direction) = (ray.origin().as_dvec3(), ray.direction().as_dvec3());
         let area = (b - a).cross(c - a);
+        // Again in f64, on the plane of the face: a secondary ray must start on the right side of it.
         let t = (a - origin).dot(area) / direction.dot(area);
         let position = origin + t * direction;
         let weight = |p: glam::DVec3, q: glam::DVec3| {

@@ -117,10 +117,11 @@ impl TilePainter<'_> {
 
     /// Lays the tile's hair over its pixels, nearest first.
     fn lay_hair(&self, hair: &[u32], area: &Area, pixels: &mut [Pixel]) {
+        // By depth, then by index: the order does not depend on threads.
         let mut order: Vec<(u32, u32)> = hair.iter().map(|&i| (self.depth_key(i), i)).collect();
         order.sort_unstable();
         for (n, &(key, index)) in order.iter().enumerate() {
-            // Now and then, see whether anything can still be seen.
+            // Every 256 pieces, whether any pixel still lets light through. Chosen.
             if n % 256 == 255 && !any_open(pixels, area, f32::from_bits(key)) {
                 return;
             }
@@ -198,6 +199,7 @@ impl TilePainter<'_> {
             return None;
         }
         let slope = (q.y - p.y) / length;
+        // The width across the line, measured along the second axis.
         let half = width * (1.0 + slope * slope).sqrt();
         let depth = [p.z, q.z];
         Some(Line { from: p.x, to: q.x, across: p.y, slope, half, depth, steep, reversed })

@@ -185,6 +185,7 @@ fn slope(points: &[Vec3], i: usize) -> Vec3 {
     let last = points.len() - 1;
     let inner = |i: usize| {
         let ((d0, h0), (d1, h1)) = (chord(i - 1), chord(i));
+        // Chords weighted by the length of the other: the tangent of the circle through the three points, to second order.
         (d0 * h1 + d1 * h0).normalize_or(d1)
     };
     // An arc leaves its chord at one end as it meets it at the other.
@@ -245,6 +246,7 @@ fn turn(ends: [Vec3; 2]) -> f32 {
 /// arc of a circle: chord / cos²(turn / 4). Hair curls, and a Catmull-Rom spline would draw its
 /// circles too small by a hundredth at eight points a turn.
 fn reach(chord: f32, ends: [Vec3; 2]) -> f32 {
+    // cos(t/2) by the half-angle formula, and 2/(1 + cos(t/2)) = 1/cos²(t/4).
     let half = (0.5 + 0.5 * ends[0].dot(ends[1])).clamp(0.0, 1.0).sqrt();
     chord * 2.0 / (1.0 + half)
 }

@@ -85,6 +85,7 @@ impl Head {
             }
             let inverse = Vec3::new(1.0 / at[0].z, 1.0 / at[1].z, 1.0 / at[2].z);
             raster::triangle(at.map(Vec3::truncate), (0, 0), window, |x, y, weights| {
+                // 1/z is linear on the screen, and weights over z give those on the face (perspective-correct).
                 let depth = 1.0 / weights.dot(inverse);
                 let sample = &mut nearest[y * side + x];
                 if depth < sample.0 {

@@ -98,6 +98,7 @@ impl Materials {
             through += self.at(strand, place).transmitted;
             visited += 1.0;
         }
+        // Light that goes straight on through a fibre is not taken away.
         Vec3::ONE - through / f32::max(visited, 1.0)
     }
 
@@ -124,6 +125,8 @@ fn entry(sigma: f32, look: &HairLook) -> [f32; 3] {
     let FibreEnergy { reflected, transmitted, returned } =
         fibre_energy(Vec3::splat(sigma), look.surface.index);
     let of_all = |sigma| apparent_colour(Vec3::splat(sigma), look.surface.azimuthal_roughness).x;
+    // Multiple scattering as the published colour of much hair, with the loss of light at the edges of a head: exactly
+    // white without pigment.
     let colour = (of_all(sigma + LOSS) / of_all(LOSS)).powf(DECAY);
     // Among much hair some light only ever meets surfaces, and keeps its colour.
     [DIFFUSE * colour + SHEEN * reflected.x, TRANSMISSION * transmitted.x, returned.x]

@@ -135,6 +135,7 @@ fn width_scale(strands: &Strands, options: &PreviewOptions) -> f32 {
 pub fn chosen_width(count: usize) -> f32 {
     /// Hairs on a head. The usual number.
     const FULL_HEAD: f32 = 100_000.0;
+    // Less than in proportion, since hairs overlap; the exponent and the bound are chosen by eye.
     (FULL_HEAD / count.max(1) as f32).powf(0.7).clamp(1.0, 6.0)
 }
 

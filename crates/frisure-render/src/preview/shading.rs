@@ -106,6 +106,7 @@ impl Shader {
         let mut radiance = environment * (diffuse + ENVIRONMENT_GLOSS * reflected + returned);
         for lamp in &self.lamps {
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
+            // e^(−7.6) of the light that is taken least: no colour of it is left.
             if hairs * self.taken.min_element() > DARK {
                 continue;
             }
@@ -113,6 +114,7 @@ impl Shader {
             if head <= 0.0 {
                 continue;
             }
+            // Beer's law over the hairs in between: by what each takes of a colour, and of light that meets none at all.
             let passed = (-hairs * self.taken).exp();
             let straight = (-hairs).exp();
             let mut angles = Angles::new(vertex.tangent, lamp.to_light, eye);

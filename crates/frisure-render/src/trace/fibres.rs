@@ -42,6 +42,7 @@ impl Fibres {
                 fibres.push(Fibre::new(FibreSpec { wetness, axis_ratio, ..spec(look) })?);
             }
         }
+        // Without directors a section has no orientation: hits then take any d1.
         let directors = match strands.attribute("d1").map(|a| (&a.values, a.domain)) {
             Some((AttributeValues::F32x3(d1), Domain::Point)) => Some(d1.clone()),
             _ => None,

@@ -88,6 +88,7 @@ pub(super) struct Pixel {
 impl Pixel {
     /// Counts a sample that hits a wisp, numbered from 1.
     pub(super) fn vote(&mut self, wisp: u32) {
+        // A wisp with more than half of the votes is left whatever their order; otherwise one that has many.
         if self.lead == 0 {
             (self.wisp, self.lead) = (wisp, 1);
         } else if self.wisp == wisp {
