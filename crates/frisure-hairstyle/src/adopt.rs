@@ -258,7 +258,7 @@ const SAMPLES: usize = 20_000;
 /// Chosen by eye; not measured.
 const REACH: f64 = 1.0;
 
-/// Those roots that are near guides.
+/// The roots that are near guides.
 fn near(guides: &[Root], roots: &[Root]) -> Vec<Root> {
     let places: Vec<DVec3> = guides.iter().map(|root| root.position).collect();
     let (low, high) =

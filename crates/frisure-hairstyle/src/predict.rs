@@ -123,7 +123,7 @@ pub fn predict(
     Ok(Hairstyle { spec: spec.clone(), placement, layout, guides, rest, styling })
 }
 
-/// For each guide, how the one that is rooted nearest to it rests in another hairstyle.
+/// The equilibrium, for each guide, of the guide rooted nearest to it in another hairstyle.
 fn nearest(guides: &[Guide], other: &Hairstyle) -> Vec<Equilibrium> {
     let roots: Vec<DVec3> = other.guides.iter().map(|guide| guide.root.position).collect();
     let spacing = (other.placement.area() / roots.len() as f64).sqrt();

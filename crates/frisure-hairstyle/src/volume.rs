@@ -71,7 +71,7 @@ struct Cells {
 }
 
 impl Cells {
-    /// None without any place.
+    /// The cells around all points of strands; `None` without any point.
     fn around(strands: &Strands) -> Option<Self> {
         let places = || strands.points().iter().filter(|p| p.is_finite()).map(|p| p.as_dvec3());
         let low = places().reduce(DVec3::min)?;

@@ -25,7 +25,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// From Young's modulus (Pa), shear modulus (Pa) and density (kg/m³).
+    /// Creates a material from Young's modulus (Pa), shear modulus (Pa) and density (kg/m³).
     ///
     /// # Errors
     /// [`InvalidQuantity`] unless all three are finite and positive.
@@ -41,7 +41,7 @@ impl Material {
         })
     }
 
-    /// From Young's modulus (Pa), Poisson's ratio and density (kg/m³); μ = E / 2(1 + ν).
+    /// Creates a material from Young's modulus (Pa), Poisson's ratio and density (kg/m³); μ = E / 2(1 + ν).
     /// \[paper\] footnote 3
     ///
     /// # Errors

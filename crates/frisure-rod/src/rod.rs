@@ -15,7 +15,7 @@ pub struct Root {
 }
 
 impl Root {
-    /// From a position (m) and the three directors of the material frame there: d1 and d2 along
+    /// Creates a clamp from a position (m) and the three directors of the material frame there: d1 and d2 along
     /// the principal axes of the section, t the tangent. They are made orthonormal exactly.
     ///
     /// # Errors
@@ -46,7 +46,7 @@ impl Root {
         Ok(Self { position, frame: DMat3::from_cols(d1, t.cross(d1), t) })
     }
 
-    /// From a position (m), the tangent, and a direction that d1 comes as close to as it can.
+    /// Creates a clamp from a position (m), the tangent, and a direction to which d1 is as close as possible.
     ///
     /// # Errors
     /// [`InvalidQuantity`] if a number is not finite, the tangent has no length, or d1 is along it.

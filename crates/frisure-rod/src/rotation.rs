@@ -77,7 +77,7 @@ pub(crate) fn deviation(m: &DMat3) -> DVec3 {
     skew / (1.0 + trace).max(0.04).sqrt()
 }
 
-/// Of all rotation vectors (rad) of the rotation that `turn` is one of, the nearest to `rest`: a
+/// The rotation vector (rad) nearest to `rest` among all those of the same rotation as `turn`: a
 /// long element of a tight curl turns by more than half a turn.
 pub(crate) fn nearest_turn(turn: DVec3, rest: DVec3) -> DVec3 {
     // All rotation vectors of a rotation are (θ + 2πk) along its axis; k minimises the distance along that axis. A turn

@@ -36,7 +36,7 @@ pub enum TorsionConstant {
 }
 
 impl Section {
-    /// From the semi-axes along d1 and d2 (m).
+    /// Creates a section from its semi-axes along d1 and d2 (m).
     ///
     /// # Errors
     /// [`InvalidQuantity`] unless both are finite and positive.
@@ -44,7 +44,7 @@ impl Section {
         Ok(Self { a: positive("semi-axis a", a, "m")?, b: positive("semi-axis b", b, "m")? })
     }
 
-    /// A circle, from its radius (m).
+    /// Creates a circular section from its radius (m).
     ///
     /// # Errors
     /// [`InvalidQuantity`] unless the radius is finite and positive.
@@ -53,7 +53,7 @@ impl Section {
         Ok(Self { a: r, b: r })
     }
 
-    /// From the mean radius √(ab) (m) and the eccentricity ε = √(1 − b²/a²), 0 for a circle.
+    /// Creates a section from its mean radius √(ab) (m) and eccentricity ε = √(1 − b²/a²), 0 for a circle.
     ///
     /// The area does not depend on ε, so neither does the weight: docs/theory.md, "The section and the material".
     ///
@@ -74,7 +74,7 @@ impl Section {
         Ok(Self { a: r / root, b: r * root })
     }
 
-    /// From the mean diameter 2√(ab) (m) and the axis ratio a/b ≥ 1, as fibres are measured.
+    /// Creates a section from its mean diameter 2√(ab) (m) and axis ratio a/b ≥ 1, as fibres are measured.
     ///
     /// # Errors
     /// [`InvalidQuantity`] unless the diameter is positive and the ratio finite and at least 1.

@@ -37,7 +37,7 @@ pub struct StrainProfile {
 }
 
 impl StrainProfile {
-    /// From pairs of arc length (m) and strain (rad/m).
+    /// Creates a profile from pairs of arc length (m) and strain (rad/m).
     ///
     /// # Errors
     /// [`InvalidQuantity`] without knots, if arc lengths do not increase strictly, or if a number

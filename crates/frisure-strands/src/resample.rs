@@ -173,7 +173,7 @@ fn resampled(attribute: &Attribute, places: &[Place]) -> Attribute {
     Attribute { values, ..attribute.clone() }
 }
 
-/// Between two triples; between two directions, a direction.
+/// Interpolates two triples; between two directions the result is a direction.
 fn turned(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {
     let (a, b) = (Vec3::from_array(a), Vec3::from_array(b));
     let mixed = a.lerp(b, t);

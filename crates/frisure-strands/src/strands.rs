@@ -143,13 +143,13 @@ impl Default for Strands {
 }
 
 impl Strands {
-    /// No strand yet.
+    /// Creates an empty set of strands.
     #[must_use]
     pub fn new() -> Self {
         Self::with_capacity(0, 0)
     }
 
-    /// No strand yet, with room for `strands` strands and `points` points in all.
+    /// Creates an empty set with room for `strands` strands and `points` points in all.
     #[must_use]
     pub fn with_capacity(strands: usize, points: usize) -> Self {
         let mut offsets = Vec::with_capacity(strands + 1);

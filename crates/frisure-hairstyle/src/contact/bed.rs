@@ -12,8 +12,8 @@ pub struct Bed {
 frisure_digest::digest_fields!(Bed { spacing, heights });
 
 impl Bed {
-    /// From the distance (m) from the skin and the force per length (N/m) borne at points `spacing` (m) apart,
-    /// from the root on, where hair has the stiffness `hair` (Pa); see [`super::BodyContact`] for the law.
+    /// Creates a bed from the distance (m) from the skin and the force per length (N/m) borne at points `spacing` (m)
+    /// apart, from the root on, where hair has the stiffness `hair` (Pa); see [`super::BodyContact`] for the law.
     #[must_use]
     pub fn new(spacing: f64, borne: impl IntoIterator<Item = (f64, f64)>, hair: f64) -> Self {
         let height = |(distance, force): (f64, f64)| {

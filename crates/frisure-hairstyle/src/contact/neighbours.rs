@@ -18,7 +18,7 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
-    /// From positions (m) spaced by `spacing` (m), the first of them that far from the root.
+    /// Creates samples at positions (m) spaced by `spacing` (m), the first of them that far from the root.
     pub(crate) fn new(positions: Vec<DVec3>, spacing: f64, thickness: &Thickness) -> Self {
         let radius = |k: usize| thickness.at((k + 1) as f64 * spacing);
         let radii = (0..positions.len()).map(radius).collect();

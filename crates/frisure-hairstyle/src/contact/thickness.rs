@@ -59,7 +59,7 @@ frisure_digest::digest_fields!(Thickness {
 const GATHERING: f64 = 4.0;
 
 impl Thickness {
-    /// Of `hairs` hairs like `rod` from a patch of skin of the area `patch` (m²), on a head of the
+    /// The thickness of a wisp of `hairs` hairs like `rod` from a patch of skin of the area `patch` (m²), on a head of the
     /// mean natural strain `natural` (rad/m), whose natural curvatures differ by the relative spread
     /// `spread`; `volume` is a factor on the radius.
     #[must_use]

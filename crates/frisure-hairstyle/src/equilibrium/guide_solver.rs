@@ -96,7 +96,7 @@ const PULLS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
 /// Chosen by trial; not measured further.
 const LETTING_GO: [f64; 6] = [0.6, 0.35, 0.2, 0.1, 0.05, 0.02];
 
-/// From where it lay to rest; `gone` is what pulled at it and has let go.
+/// Brings a guide to rest from where it lay; `gone` is a pull that has let go.
 fn resettle_one(
     spec: &HairstyleSpec,
     head: &Head,

@@ -201,7 +201,7 @@ fn root(parent: &mut [u32], mut v: u32) -> u32 {
     v
 }
 
-/// Each vertex half-way to the mean of its neighbours.
+/// Moves each vertex half-way to the mean of its neighbours.
 fn smoothed(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let mut sums = vec![(DVec3::ZERO, 0.0); positions.len()];
     for &[a, b, c] in triangles {

@@ -40,7 +40,7 @@ impl Soup {
         a != b
     }
 
-    /// Only the faces for which `kept` is true; the others keep their number, but are a point.
+    /// Keeps only the faces for which `kept` is true; the others keep their number, but are a point.
     pub(crate) fn only(mut self, kept: &[bool]) -> Self {
         for (triangle, _) in self.triangles.iter_mut().zip(kept).filter(|(_, kept)| !**kept) {
             *triangle = [triangle[0]; 3];

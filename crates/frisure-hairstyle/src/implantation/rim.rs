@@ -19,7 +19,7 @@ pub(crate) enum Rim {
 }
 
 impl Rim {
-    /// For distances up to `reach` (m).
+    /// Finds the edge of the hair, for distances up to `reach` (m).
     pub(crate) fn new(head: &Head, edge: Option<Edge>, reach: f64) -> Self {
         if let Some(edge) = edge {
             return Self::Line(Box::new(edge));

@@ -52,7 +52,7 @@ impl<'a> Tape<'a> {
         found.map_or(0.0, |(i, _)| i as f64 * STEP)
     }
 
-    /// From a point of the middle line, a length (m) to the left in the plane across the line.
+    /// The point a length (m) to the left of a point of the middle line, in the plane across the line.
     fn sideways(&self, middle: DVec3, across: f64) -> DVec3 {
         let axis = forth(self.head, middle, DVec3::X);
         let mut p = onto_skin(self.head, middle, axis);

@@ -53,7 +53,7 @@ const LENGTH: &Curve =
     &[(0.0, 0.0), (0.1, 0.56), (0.4, 1.29), (ROOM, 1.53), (0.9, 1.72), (1.0, 1.86)];
 
 impl Moisture {
-    /// In air of a relative humidity of 0 (dry) to 1 (as in water); what lies outside is taken as
+    /// The moisture of hair in air of a relative humidity of 0 (dry) to 1 (as in water); what lies outside is taken as
     /// the nearer of the two.
     #[must_use]
     pub fn in_air(relative_humidity: f64) -> Self {

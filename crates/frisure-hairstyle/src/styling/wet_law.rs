@@ -26,7 +26,7 @@ pub(super) struct WetFactors {
 }
 
 impl WetFactors {
-    /// Of a wisp in air of a relative humidity. \[paper\] §3.2.1
+    /// The factors of a wisp in air of a relative humidity. \[paper\] §3.2.1
     pub(super) fn new(wetting: &Wetting, state: &WispState, humidity: f64) -> Self {
         let (air, wet, measured) = (Moisture::in_air(humidity), state.wetness, Wetting::MEASURED);
         // (W1): d = 1 + a (f_measured − 1) in air, d + w (f − d) at the wetness w. Air is what it is measured to be, whatever

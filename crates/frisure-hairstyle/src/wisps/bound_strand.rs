@@ -97,7 +97,7 @@ impl BoundStrands {
     }
 }
 
-/// Those of some guides that go most as a hair goes.
+/// The guides, of those given, whose curves are most like that of a hair, with weights.
 fn bindings(own: &BoundStrand, near: &[usize], wisps: &[Wisp]) -> Vec<(usize, f64)> {
     let apart = |guide: usize| {
         let wisp = &wisps[guide];

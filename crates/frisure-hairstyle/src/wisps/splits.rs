@@ -16,7 +16,7 @@ const STRAY: f64 = 0.5;
 #[derive(Clone, Copy)]
 pub(crate) struct Waves([Wave; 3]);
 
-/// One of them.
+/// One wave of a deviation.
 #[derive(Clone, Copy)]
 struct Wave {
     /// Amplitude (m); zero: there is none.
@@ -32,7 +32,7 @@ impl Waves {
     pub(crate) const NONE: Self =
         Self([Wave { amplitude: DVec3::ZERO, number: 0.0, phase: 0.0, root: 0.0 }; 3]);
 
-    /// Of about `amplitude` (m) on hair of `length` (m).
+    /// Draws waves of about `amplitude` (m) for hair of `length` (m).
     pub(crate) fn new(amplitude: f64, length: f64, random: &mut Stream) -> Self {
         let mut wave = |wavelength: f64, share: f64| {
             // Wavelengths vary by a factor with a deviation of 0.3 between hairs, so that no two run in step. Chosen by eye.

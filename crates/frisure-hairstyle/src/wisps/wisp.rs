@@ -28,7 +28,7 @@ pub(crate) struct Wisp {
 const STRAIGHT_WINDOW: f64 = 0.01;
 
 impl Wisp {
-    /// Of `samples` samples; goes on `beyond` the tip (m), for hairs that end a little farther out.
+    /// Samples a guide at `samples` points, and goes on `beyond` the tip (m) for hairs that end a little farther out.
     pub(crate) fn new(guide: &Equilibrium, samples: usize, beyond: f64) -> Self {
         let line = guide.sample(samples);
         let length = guide.rod.length();

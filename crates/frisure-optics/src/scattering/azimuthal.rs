@@ -24,7 +24,7 @@ pub(super) struct Azimuthal {
 }
 
 impl Azimuthal {
-    /// From the roughness β_N in (0, 1], with the constants of `pbrt-v3`.
+    /// The spread of the roughness β_N in (0, 1], with the constants of `pbrt-v3`.
     pub(super) fn new(roughness: f32) -> Self {
         let b = roughness;
         // The fit of [Chiang 2016] that makes β_N perceptually even. docs/theory.md, "Light in a fibre"

@@ -29,7 +29,7 @@ pub(super) struct Longitudinal {
 }
 
 impl Longitudinal {
-    /// From the roughness β_M in (0, 1]: Chiang et al. 2016, §4.1, as `pbrt-v3` has it.
+    /// The spread of the roughness β_M in (0, 1]: \[Chiang 2016\] §4.1, as `pbrt-v3` has it.
     pub(super) fn new(roughness: f32) -> Self {
         let b = roughness;
         // The fit of [Chiang 2016] that makes β_M perceptually even; v of R, v/4 of TT, 4v of TRT and the rest.

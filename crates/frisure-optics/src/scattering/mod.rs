@@ -94,14 +94,14 @@ pub struct BsdfSample {
 }
 
 impl<'a> HairBsdf<'a> {
-    /// For the unit local direction `wo` to the eye and the offset `h` in [−1, 1] of the ray across
+    /// Creates the BSDF for the unit local direction `wo` to the eye and the offset `h` in [−1, 1] of the ray across
     /// the fibre's projected width, counted along wo × t ([`Fibre::offset`]).
     #[must_use]
     pub fn new(fibre: &'a Fibre, wo: Vec3, h: f32) -> Self {
         Self::coloured(fibre, fibre.absorption, wo, h)
     }
 
-    /// The same where the fibre absorbs `absorption` per mean radius (not negative), whatever its own:
+    /// Creates the BSDF where the fibre absorbs `absorption` per mean radius (not negative), whatever its own:
     /// the colour of a hair changes along it.
     #[must_use]
     pub fn coloured(fibre: &'a Fibre, absorption: Vec3, wo: Vec3, h: f32) -> Self {

@@ -151,7 +151,7 @@ impl<F: Lanes> Mat3<F> {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 
-    /// Of a matrix whose rows are the columns of `o`, this one times it, likewise by rows.
+    /// The product of this matrix with one whose rows are the columns of `o`, likewise with its rows as columns.
     #[inline(always)]
     pub(super) fn rows_of(self, o: Self) -> Self {
         let row = |x: F, y: F, z: F| o.x.mul_add(x, o.y.mul_add(y, o.z * z));
@@ -238,7 +238,7 @@ impl<F: Lanes> Sym3<F> {
         )
     }
 
-    /// Plus `a bᵀ + b aᵀ`.
+    /// Adds `a bᵀ + b aᵀ`.
     #[inline(always)]
     pub(super) fn add_outer(self, a: Vec3<F>, b: Vec3<F>) -> Self {
         // Fused: one rounding per product and sum, where the processor has it.
@@ -253,7 +253,7 @@ impl<F: Lanes> Sym3<F> {
         }
     }
 
-    /// Minus `k v vᵀ`.
+    /// Subtracts `k v vᵀ`.
     #[inline(always)]
     pub(super) fn sub_square(self, k: F, v: Vec3<F>) -> Self {
         let w = v * -k;

@@ -2,7 +2,7 @@
 
 use crate::resolution::{ElementKind, MAX_ELEMENTS, Resolution};
 
-/// Which equilibrium is meant, where there are several.
+/// The choice among several equilibria.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Branch {
     /// The one reached from the natural shape as gravity is turned on slowly. Where that branch
@@ -18,7 +18,7 @@ pub enum Branch {
     },
 }
 
-/// How an equilibrium is sought.
+/// Options of the search for an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Number of elements, or accuracy.

@@ -8,7 +8,7 @@ use crate::minimise::{Energy, Minimum, Problem, Stability};
 use crate::resolution::ElementKind;
 use crate::rod::Rod;
 
-/// What certifies an equilibrium.
+/// The evidence for an equilibrium: gradient, stability, smallest eigenvalue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
     /// Relative gradient, see [`Problem::gradient_norm`].
@@ -73,7 +73,7 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// What a minimiser found, as it is: not extrapolated, its error not estimated.
+    /// Wraps the result of a minimiser as it is: not extrapolated, its error not estimated.
     #[must_use]
     pub fn from_minimum(problem: &Problem<'_>, minimum: Minimum) -> Self {
         let chain = problem.chain();

@@ -23,7 +23,7 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// Through points (m), by centripetal Catmull–Rom splines; none through fewer than two.
+    /// Fits a curve through points (m) by centripetal Catmull–Rom splines; `None` for fewer than two.
     pub(super) fn through(given: &[DVec3]) -> Option<Self> {
         let mut nodes: Vec<DVec3> = Vec::with_capacity(given.len());
         for &p in given {
