@@ -10,9 +10,9 @@ use crate::gpu;
 use crate::hair::Hair;
 use crate::skin::Skin;
 
-/// Most nodes along a side of the grid.
+/// Most nodes along a side of the grid. Chosen for speed.
 const CELLS: f32 = 48.0;
-/// Pieces of hair that are enough to know how much hair is where.
+/// Pieces of hair that are enough to know how much hair is where. Chosen for speed.
 const PIECES: usize = 150_000;
 
 /// The grid, and what of the environment each vertex of the head has.

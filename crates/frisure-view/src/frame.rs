@@ -84,7 +84,7 @@ pub struct Line {
     pub on_top: bool,
 }
 
-/// Most planes in one picture.
+/// Most planes in one picture. Chosen; the shaders have as many.
 pub const MAX_PLANES: usize = 4;
 
 /// A flat rectangle that tints what is behind it.

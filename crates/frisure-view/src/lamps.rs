@@ -3,9 +3,9 @@
 use frisure_render::preview::DirectionalLights;
 use glam::{Vec2, Vec3};
 
-/// Lamps that cast shadows.
+/// Lamps that cast shadows. Chosen; the shaders have as many.
 pub(crate) const LAMPS: usize = 4;
-/// Texels along a side of the maps of hair, of where hair begins, and of the head.
+/// Texels along a side of the maps of hair, of where hair begins, and of the head. Chosen for speed.
 pub(crate) const HAIR_MAP: u32 = 256;
 pub(crate) const FIRST_MAP: u32 = 128;
 pub(crate) const HEAD_MAP: u32 = 384;

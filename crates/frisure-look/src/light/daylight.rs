@@ -165,7 +165,7 @@ struct Sky {
     zenith: [f64; 3],
 }
 
-/// Slope and offset in the turbidity of Perez' coefficients A to E, of x, y and luminance.
+/// Slope and offset in the turbidity of Perez' coefficients A to E, of x, y and luminance. [Preetham 1999].
 const PEREZ: [[[f64; 2]; 5]; 3] = [
     [
         [-0.0193, -0.2592],
@@ -185,7 +185,7 @@ const PEREZ: [[[f64; 2]; 5]; 3] = [
 ];
 
 /// Chromaticity x and y at the zenith: rows for turbidity squared, turbidity and 1, columns for the sun's
-/// zenith angle cubed to 1.
+/// zenith angle cubed to 1. [Preetham 1999].
 const ZENITH: [[[f64; 4]; 3]; 2] = [
     [
         [0.001_66, -0.003_75, 0.002_09, 0.0],

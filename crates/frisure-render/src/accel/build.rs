@@ -19,7 +19,7 @@ pub(super) struct Tree<L> {
 }
 
 /// Levels that are split where it is best; below, ranges are halved, so that the depth is bounded
-/// whatever the input.
+/// whatever the input. Chosen.
 const FREE_LEVELS: usize = 18;
 
 /// Levels of nodes at most: 2³¹ primitives, eight to a leaf, are halved 28 times, thrice a level.

@@ -161,7 +161,7 @@ impl Lane {
     }
 }
 
-/// Most lanes of any instruction set.
+/// Most lanes of any instruction set. `f32` in vectors of 512 bits.
 const MOST_LANES: usize = 16;
 
 /// Solves all rods of a job, as many at a time as there are lanes.

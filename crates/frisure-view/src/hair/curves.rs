@@ -8,14 +8,14 @@ use rayon::prelude::*;
 use super::ranks::ranks;
 
 /// Greatest turn within a piece (rad) and greatest length of one (m): the first that gives few enough
-/// vertices is taken.
+/// vertices is taken. Chosen by eye.
 const DETAIL: [(f32, f32); 6] =
     [(0.15, 0.014), (0.2, 0.016), (0.25, 0.02), (0.33, 0.025), (0.45, 0.03), (0.6, 0.04)];
 /// Vertices that a device can well draw many times a second, and those that one can which is none.
 pub(super) const VERTICES: [usize; 2] = [1_800_000, 250_000];
-/// Most vertices, whatever the detail; fewer strands are kept where there are more.
+/// Most vertices, whatever the detail; fewer strands are kept where there are more. Chosen; a guard on memory.
 pub(super) const MOST: usize = if cfg!(target_arch = "wasm32") { 3_000_000 } else { 6_000_000 };
-/// Strands that tell how many vertices all need.
+/// Strands from which the number of vertices of all is estimated. Chosen.
 const SAMPLE: usize = 2048;
 /// Most pieces for one segment of the input.
 const MAX_PIECES: u32 = 32;

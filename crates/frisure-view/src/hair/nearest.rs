@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::curves::Place;
 
-/// Bins of depth.
+/// Bins of depth. Chosen.
 const BINS: usize = 1 << 13;
 
 /// The first vertices of pieces, those nearest to the eye first, and the depth (m) at which each part of the
