@@ -54,7 +54,7 @@ const FEW: usize = 4;
 const LEAST_REACH: f64 = 6e-4;
 
 /// Reach (m) of a guide after a search, in moves like its last: with four of them a search of neighbours serves about two
-/// steps. At most twice the farthest move. Chosen by trial; no result depends on it but by rounding.
+/// steps. At most twice the farthest move. Chosen by trial; not measured further.
 const MOVES_PER_SEARCH: f64 = 4.0;
 
 /// Share of what is left of its reach that a guide may move in a line search, so that rounding does not use it up. Chosen.

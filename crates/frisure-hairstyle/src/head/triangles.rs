@@ -182,6 +182,7 @@ fn take(next: &mut BTreeMap<u32, Vec<u32>>, at: u32) -> Option<u32> {
 
 /// For each vertex, the first vertex at the same place.
 fn weld(positions: &[DVec3]) -> Vec<u32> {
+    // Adding 0 turns −0 into 0: equal coordinates have equal bits.
     let key = |v: u32| positions[v as usize].to_array().map(|c| (c + 0.0).to_bits());
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     order.sort_unstable_by_key(|&v| (key(v), v));
@@ -196,8 +197,10 @@ fn weld(positions: &[DVec3]) -> Vec<u32> {
     same
 }
 
-/// The point of a triangle that is nearest to `p`. [Ericson, Real-Time Collision Detection, 5.1.5]
+/// The point of a triangle that is nearest to `p`. \[Ericson\] §5.1.5
 pub(crate) fn closest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+    // The Voronoi region of p: a corner, an edge or the face. d1 … d6 are projections on both edges, va, vb and vc areas
+    // (times |ab × ac|) that vanish on the lines through the edges.
     let (ab, ac) = (b - a, c - a);
     let (d1, d2) = (ab.dot(p - a), ac.dot(p - a));
     if d1 <= 0.0 && d2 <= 0.0 {
