@@ -1,5 +1,6 @@
 //! A camera.
 
+use frisure_digest::digest_fields;
 use glam::{DMat3, DVec3};
 use thiserror::Error;
 
@@ -40,6 +41,7 @@ pub struct Camera {
     vertical_fov: f64,
     aperture: Option<Aperture>,
 }
+digest_fields!(Camera { eye, forward, right, up, vertical_fov, aperture });
 
 /// The opening of a thin lens: what is nearer or farther than its focus is blurred. For the path tracer
 /// alone.
@@ -52,6 +54,7 @@ pub struct Aperture {
     /// the picture.
     pub focus: Option<f64>,
 }
+digest_fields!(Aperture { radius, focus });
 
 /// Why a camera cannot be made.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]

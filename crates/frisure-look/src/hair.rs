@@ -1,5 +1,6 @@
 //! The material of hair.
 
+use frisure_digest::digest_fields;
 use glam::Vec3;
 
 use crate::pigment::{Melanin, absorption};
@@ -27,9 +28,20 @@ pub struct HairLook {
     pub dye: Option<Dye>,
     /// Surface and shape of the fibre, for light.
     pub surface: HairSurface,
-    /// Another seed, other hairs that are white, dark or light.
+    /// Seed that decides which hairs are white, dark or light.
     pub seed: u32,
 }
+digest_fields!(HairLook {
+    melanin,
+    absorption,
+    white_share,
+    variation,
+    roots,
+    tips,
+    dye,
+    surface,
+    seed
+});
 
 /// Natural pigment that differs at one end of the hairs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +51,7 @@ pub struct Fade {
     /// Distance from the end over which it fades away (m).
     pub length: f32,
 }
+digest_fields!(Fade { factor, length });
 
 impl Default for Fade {
     /// No difference.
@@ -51,13 +64,14 @@ impl Default for Fade {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dye {
     /// Absorption of dyed hair, per mean radius, for linear sRGB
-    /// ([`crate::absorption_of_colour`] tells that of a colour).
+    /// ([`crate::absorption_of_colour`] computes it from a colour).
     pub absorption: Vec3,
     /// How much of the natural absorption it takes the place of, 0 to 1.
     pub strength: f32,
     /// Length from the root that has no dye (m).
     pub regrowth: f32,
 }
+digest_fields!(Dye { absorption, strength, regrowth });
 
 /// Surface of the fibres, as light meets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +85,7 @@ pub struct HairSurface {
     /// Refractive index, 1.05 to 3.
     pub index: f32,
 }
+digest_fields!(HairSurface { longitudinal_roughness, azimuthal_roughness, tilt, index });
 
 impl Default for HairSurface {
     /// Clean hair: the highlight has a standard deviation of 10°, and the scales stand off by 3°. Marschner

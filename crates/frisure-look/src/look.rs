@@ -1,5 +1,6 @@
 //! Materials: hair, skin, background and floor.
 
+use frisure_digest::digest_fields;
 use glam::{DVec3, Vec3};
 
 use crate::camera::Camera;
@@ -29,6 +30,7 @@ pub struct Look {
     /// A floor under the head; drawn by the path tracer alone.
     pub floor: Option<Floor>,
 }
+digest_fields!(Look { hair, skin, background, floor });
 
 /// Appearance of the head.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +40,7 @@ pub struct SkinLook {
     /// Strength of its soft gloss.
     pub gloss: f32,
 }
+digest_fields!(SkinLook { colour, gloss });
 
 impl Default for SkinLook {
     /// The matte plastic of a training head.
@@ -57,6 +60,7 @@ pub struct Floor {
     /// Diffuse reflectance, linear sRGB.
     pub colour: Vec3,
 }
+digest_fields!(Floor { centre, radius, colour });
 
 /// What is behind the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +77,7 @@ pub enum Background {
     /// What is around the scene and lights it, as the direction has it.
     Environment,
 }
+digest_fields!(Background: Transparent, Gradient { centre, corner }, Environment);
 
 impl Default for Background {
     fn default() -> Self {

@@ -1,5 +1,6 @@
 //! Melanin, the absorption it causes, and the colour that a head of such hair appears to have.
 
+use frisure_digest::digest_fields;
 use glam::Vec3;
 
 /// Absorption of eumelanin at concentration 1, per fibre radius, for linear sRGB.
@@ -19,6 +20,7 @@ pub struct Melanin {
     /// Pheomelanin, yellow-red: 0 in most hair, about 1 in red hair with little eumelanin.
     pub pheomelanin: f32,
 }
+digest_fields!(Melanin { eumelanin, pheomelanin });
 
 impl Default for Melanin {
     /// Brown.

@@ -18,6 +18,7 @@ mod triangles;
 mod voxel_grid;
 mod voxels;
 
+use frisure_digest::Digest;
 use frisure_strands::Surface;
 use thiserror::Error;
 
@@ -188,13 +189,14 @@ impl Head {
     }
 }
 
-/// Fowler, Noll & Vo's hash (FNV-1a), of words.
+/// The digest of a head.
 fn fingerprint(surface: &Surface, scalp: &[f64]) -> u64 {
-    let positions = surface.positions().iter().flat_map(glam::DVec3::to_array).map(f64::to_bits);
-    let corners = surface.triangles().iter().flatten().map(|&v| u64::from(v));
-    let weights = scalp.iter().map(|w| w.to_bits());
-    let words = positions.chain(corners).chain(weights);
-    words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
+    let positions = surface.positions().iter().flat_map(glam::DVec3::to_array);
+    Digest::new("head")
+        .packed("positions", positions.map(f64::to_le_bytes))
+        .packed("triangles", surface.triangles().iter().flatten().map(|v| v.to_le_bytes()))
+        .packed("scalp", scalp.iter().map(|weight| weight.to_le_bytes()))
+        .key()
 }
 
 fn checked(weights: Vec<f64>, vertices: usize) -> Result<Vec<f64>, HeadError> {

@@ -1,5 +1,6 @@
 //! The environment light: light from infinitely far away, in every direction.
 
+use frisure_digest::digest_fields;
 use glam::Vec3;
 
 use super::environment_map::EnvironmentMap;
@@ -17,6 +18,7 @@ pub enum EnvironmentLight {
     /// An image of the environment.
     Map(EnvironmentMap),
 }
+digest_fields!(EnvironmentLight: Gradient { sky, ground }, Map(map));
 
 impl EnvironmentLight {
     /// No light.

@@ -4,6 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt;
 use std::sync::Arc;
 
+use frisure_digest::{Digest, Digestible};
 use glam::{DVec3, Vec3};
 
 use super::error::{BRIGHTEST, InvalidLight, refusal};
@@ -40,16 +41,24 @@ struct Table {
     /// z at the upper edge of each row, and at the lower edge of the last.
     heights: Vec<f32>,
     mean: Vec3,
-    /// A number that tells pictures apart.
-    name: u64,
+    /// The digest of the pixels.
+    digest: u64,
 }
 
 impl fmt::Debug for EnvironmentMap {
-    /// Without the pixels, but with a number that is their own.
+    /// Without the pixels, but with their digest.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Table { width, height, name, .. } = &*self.table;
+        let Table { width, height, digest, .. } = &*self.table;
         let Self { turn, strength, .. } = self;
-        write!(f, "EnvironmentMap({width} x {height}, {name:016x}, {turn:?}, {strength})")
+        write!(f, "EnvironmentMap({width} x {height}, {digest:016x}, {turn:?}, {strength})")
+    }
+}
+
+impl Digestible for EnvironmentMap {
+    fn add_to(&self, digest: &mut Digest) {
+        let Self { table, turn, strength } = self;
+        digest.field("size", &[table.width, table.height]).field("pixels", &table.digest);
+        digest.field("turn", turn).field("strength", strength);
     }
 }
 
@@ -140,15 +149,6 @@ impl EnvironmentMap {
         self.turned_by(direction((x as f32 + u) / table.width as f32, z))
     }
 
-    /// A number that identifies pixels, turn and strength, the same in every build.
-    #[must_use]
-    pub fn digest(&self) -> u64 {
-        let [c, s] = self.turn;
-        let size = [self.table.width, self.table.height].map(|n| n as u64);
-        let rest = [c, s, self.strength].map(|x| u64::from(x.to_bits()));
-        size.into_iter().chain(rest).fold(self.table.name, mixed)
-    }
-
     /// Number of pixels.
     #[must_use]
     pub fn pixel_count(&self) -> usize {
@@ -234,8 +234,9 @@ impl Table {
         let mut rows = Vec::with_capacity(height + 1);
         parts(lights.into_iter(), &mut rows);
         let mean = (mean / (2.0 * width as f64)).as_vec3();
-        let name = name(&pixels);
-        Self { width, height, pixels, rows, columns, heights, mean, name }
+        let numbers = pixels.as_flattened().iter().map(|x| x.to_le_bytes());
+        let digest = Digest::new("pixels").packed("radiance", numbers).key();
+        Self { width, height, pixels, rows, columns, heights, mean, digest }
     }
 
     fn at(&self, x: usize, y: usize) -> Vec3 {
@@ -297,18 +298,6 @@ fn narrowed(from_width: usize, from_height: usize, from: &[[f32; 3]]) -> Table {
         }
     }
     Table::new(width, height, pixels)
-}
-
-/// The hash of Fowler, Noll and Vo (FNV-1a) over the numbers of the pixels.
-fn name(pixels: &[[f32; 3]]) -> u64 {
-    let words = pixels.as_flattened().iter().map(|x| u64::from(x.to_bits()));
-    words.fold(0xcbf2_9ce4_8422_2325, mixed)
-}
-
-/// One step of FNV-1a over a word.
-fn mixed(name: u64, word: u64) -> u64 {
-    let name = (name ^ word).wrapping_mul(0x0000_0100_0000_01b3);
-    name ^ name >> 32
 }
 
 /// Which of `many` equal intervals one of `few` overlaps, and how much of it each takes in a measure.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use frisure_digest::digest_fields;
 use glam::{DVec3, Vec3};
 
 use super::error::{InvalidLight, amount, direction, place, within};
@@ -19,6 +20,7 @@ pub enum Lamp {
     /// One with a face that shines.
     Area(AreaLight),
 }
+digest_fields!(Lamp: Distant(light), Point(light), Area(light));
 
 /// Light from very far away: the sun, or a studio lamp seen from a head. It fills a disc of even
 /// radiance.
@@ -28,6 +30,7 @@ pub struct DistantLight {
     irradiance: Vec3,
     radius: f64,
 }
+digest_fields!(DistantLight { direction, irradiance, radius });
 
 /// A point light, which shines the same in all directions: a delta light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +38,7 @@ pub struct PointLight {
     position: DVec3,
     intensity: Vec3,
 }
+digest_fields!(PointLight { position, intensity });
 
 /// A flat lamp that shines from one side, the same from each place and in each direction. Light
 /// passes through it.
@@ -48,6 +52,7 @@ pub struct AreaLight {
     radiance: Vec3,
     shown: bool,
 }
+digest_fields!(AreaLight { shape, centre, arms, facing, radiance, shown });
 
 /// The outline of an area light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +62,7 @@ pub enum AreaShape {
     /// A rectangle.
     Rectangle,
 }
+digest_fields!(AreaShape: Disc, Rectangle);
 
 impl DistantLight {
     /// Light from `direction` (from the scene *to* the light; need not be a unit vector) that is seen
@@ -92,7 +98,7 @@ impl DistantLight {
     /// The same light from another direction.
     ///
     /// # Errors
-    /// [`InvalidLight`], if it is none.
+    /// [`InvalidLight`], if the direction has no length or is not finite.
     pub fn from_direction(self, dir: DVec3) -> Result<Self, InvalidLight> {
         Ok(Self { direction: direction("the lamp's direction", dir)?, ..self })
     }

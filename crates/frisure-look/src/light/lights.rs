@@ -1,5 +1,6 @@
 //! All lights of a scene.
 
+use frisure_digest::digest_fields;
 use glam::Vec3;
 
 use super::environment_light::EnvironmentLight;
@@ -26,6 +27,7 @@ pub struct Lights {
     /// The light from infinitely far away.
     pub environment: EnvironmentLight,
 }
+digest_fields!(Lights { lamps, environment });
 
 impl Lights {
     /// No light.

@@ -94,7 +94,7 @@ impl LightSpec {
     /// and environment map stay. The environment map replaces the setup's environment light.
     ///
     /// # Errors
-    /// [`InvalidLight`], for a lamp that cannot be where it is asked for.
+    /// [`InvalidLight`], for a lamp at an impossible position.
     pub fn lights(
         &self,
         camera: &Camera,

@@ -13,7 +13,6 @@
 
 mod accumulator;
 mod bsdf;
-mod digest;
 mod fibres;
 mod floor;
 mod integrator;

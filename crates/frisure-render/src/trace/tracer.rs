@@ -2,13 +2,13 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use frisure_digest::Digest;
 use frisure_progress::{Cancelled, Progress};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::accumulator::{self, Accumulator, Pixel, Tile};
-use super::digest::Digest;
 use super::fibres::Fibres;
 use super::floor::Floor;
 use super::integrator::{Integrator, Object, PathSample, PrimaryHit};
@@ -16,7 +16,7 @@ use super::lens::Lens;
 use super::light_sampler::LightSampler;
 use super::options::{TraceError, TraceOptions};
 use super::sampler::Sampler;
-use super::scene_digest::{add_view, scene_digest};
+use super::scene_digest::scene_digest;
 use crate::Image;
 use crate::accel::{CurveOptions, SceneBvh};
 use crate::scene::Scene;
@@ -86,9 +86,8 @@ impl Tracer {
         let pinhole = Lens::new(camera, &self.options, 1.0);
         let focus = pinhole.focus_distance(&self.integrator);
         self.lens = Lens::new(camera, &self.options, focus);
-        let mut digest = self.scene_digest.clone();
-        add_view(&mut digest, camera, lights);
-        self.digest = digest.value();
+        let digest = self.scene_digest.clone();
+        self.digest = digest.with("camera", camera).with("lights", lights).key();
         Ok(())
     }
 

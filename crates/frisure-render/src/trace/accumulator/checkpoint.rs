@@ -3,12 +3,12 @@
 //! Little-endian: a magic number of eight bytes that holds the version, the digest, width and height, then for
 //! each tile its number of samples and its pixels' sums, and a checksum of all before it.
 
+use frisure_digest::checksum;
 use glam::Vec3;
 use thiserror::Error;
 
 use super::{Accumulator, Pixel, Tile};
 use crate::film::MAX_SIZE;
-use crate::trace::digest::Digest;
 use crate::trace::options::{MAX_PIXELS, MAX_SAMPLES};
 
 /// The version of the bytes written, and the only one that is read.
@@ -38,7 +38,7 @@ impl Accumulator {
     /// The bytes from which [`Self::from_bytes`] makes it again.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(HEAD + self.width * self.height * (PIXEL + 1) + 8);
+        let mut bytes = Vec::with_capacity(HEAD + self.width * self.height * (PIXEL + 1) + 16);
         bytes.extend(MAGIC);
         bytes.extend(self.digest.to_le_bytes());
         bytes.extend((self.width as u32).to_le_bytes());
@@ -47,9 +47,8 @@ impl Accumulator {
             bytes.extend(tile.samples.to_le_bytes());
             tile.pixels.iter().for_each(|pixel| write(&mut bytes, pixel));
         }
-        // A digest of all that stands before it, so that a file which was cut off is not taken for a picture.
-        let sum = Digest::of(&bytes);
-        bytes.extend(sum.to_le_bytes());
+        let sum = checksum(&bytes);
+        bytes.extend(sum);
         bytes
     }
 
@@ -61,8 +60,8 @@ impl Accumulator {
         if !bytes.starts_with(&MAGIC) {
             return Err(AccumulatorError::Magic);
         }
-        let (content, sum) = bytes.split_last_chunk::<8>().ok_or(AccumulatorError::Damaged)?;
-        if Digest::of(content) != u64::from_le_bytes(*sum) {
+        let (content, sum) = bytes.split_last_chunk::<16>().ok_or(AccumulatorError::Damaged)?;
+        if checksum(content) != *sum {
             return Err(AccumulatorError::Damaged);
         }
         let mut reader = Reader(&content[MAGIC.len()..]);

@@ -204,7 +204,7 @@ fn one_hot_pixel_is_sampled_without_noise() {
     for index in 0..512 {
         let (which, place) = numbers(index);
         let light = light_sampler.sample(PLACE, which, place);
-        // Each sample alone tells all of the light.
+        // Each sample alone gives all of the light.
         close(light.radiance / light.pdf, expected, 2e-3, "hot");
     }
 }
