@@ -90,6 +90,7 @@ pub mod inverse;
 mod material;
 pub mod minimise;
 pub mod potential;
+mod random;
 mod resolution;
 mod rod;
 mod rotation;
@@ -103,6 +104,7 @@ pub use equilibrium::{Branch, Certificate, Equilibrium, Options, equilibrium, eq
 pub use error::InvalidQuantity;
 pub use material::Material;
 pub use minimise::{Energy, Stability};
+pub use random::SplitMix64;
 pub use resolution::{ElementKind, MAX_ELEMENTS, Resolution};
 pub use rod::{Rod, RodSpec, Root};
 pub use section::{Section, TorsionConstant};

@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::{Random, Spring};
+use common::{Spring, hair};
 use frisure_rod::minimise::{Lbfgs, Minimiser, Minimum, Newton, Problem, StoppingCriteria};
 use frisure_rod::potential::Potential;
-use frisure_rod::{Chain, ElementKind, Rod, Stability};
+use frisure_rod::{Chain, ElementKind, Rod, SplitMix64, Stability};
 use glam::DVec3;
 
 const STOPPING: StoppingCriteria = StoppingCriteria { tolerance: 1e-9, max_iterations: 5000 };
@@ -16,11 +16,11 @@ fn from_natural(minimiser: &dyn Minimiser, problem: &Problem<'_>) -> Minimum {
 
 /// Agreements and differences of the two on random hair.
 fn compare(seed: u64, rods: usize, spring: Option<Spring>) {
-    let mut random = Random(seed);
+    let mut random = SplitMix64(seed);
     let external: Vec<&dyn Potential> = spring.iter().map(|s| s as &dyn Potential).collect();
     let (mut same, mut others, mut unfinished) = (0, 0, 0);
     for i in 0..rods {
-        let rod = Rod::new(random.hair()).unwrap();
+        let rod = Rod::new(hair(&mut random)).unwrap();
         let kind = if i % 2 == 0 { ElementKind::Helix } else { ElementKind::Jointed };
         let chain = Chain::uniform(&rod, kind, 10);
         let problem = Problem::new(&chain, &external);

@@ -5,10 +5,10 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{Random, curl, elements, straight};
+use common::{curl, elements, straight};
 use frisure_rod::{
-    Branch, ElementKind, NaturalStrain, Options, Rod, RodSpec, Root, Section, Stability,
-    equilibrium,
+    Branch, ElementKind, NaturalStrain, Options, Rod, RodSpec, Root, Section, SplitMix64,
+    Stability, equilibrium,
 };
 use glam::DVec3;
 
@@ -74,7 +74,7 @@ fn planar_curls_in_the_plane_of_their_root() {
 
 #[test]
 fn the_lowest_branch_is_no_higher() {
-    let mut random = Random(5);
+    let mut random = SplitMix64(5);
     for _ in 0..12 {
         let (angle, curvature) = (random.between(-PI, PI), random.between(-200.0, 200.0));
         let rod = planar(0.15, curvature, angle, 1.2);

@@ -1,7 +1,8 @@
 //! The hairs: one curl, and any number of the same curl with roots rotated at random.
 
 use frisure::rod::{
-    InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant,
+    InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64,
+    TorsionConstant,
 };
 use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -42,7 +43,7 @@ pub(crate) fn the_one() -> Result<Rod, InvalidQuantity> {
 
 /// A hair with a random root, uniform over all rotations: half of them point upwards.
 pub(crate) fn turned(seed: u64, item: u64) -> Result<Rod, InvalidQuantity> {
-    let mut random = SplitMix(seed ^ item.wrapping_mul(0x2545_f491_4f6c_dd1d));
+    let mut random = SplitMix64(seed ^ item.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let [x, y, z] = [(); 3].map(|()| random.unit());
     // Shoemake 1992, "Uniform random rotations".
     let (y, z) = (std::f64::consts::TAU * y, std::f64::consts::TAU * z);
@@ -79,20 +80,6 @@ impl Hair {
             natural: rod.natural().at(0.0).to_array(),
             root: [frame.x_axis, frame.y_axis, frame.z_axis].map(|d| d.to_array()),
         }
-    }
-}
-
-/// Steele, Lea & Flood's random generator.
-struct SplitMix(u64);
-
-impl SplitMix {
-    /// Uniform in `[0, 1)`.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

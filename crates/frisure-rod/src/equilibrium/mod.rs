@@ -4,7 +4,6 @@
 //! shape of another rod), `richardson` (extrapolation and the estimate of the error), `solution`.
 
 mod options;
-mod random;
 mod richardson;
 mod search;
 mod solution;

@@ -4,7 +4,6 @@
 use glam::DVec3;
 
 use super::options::{Branch, Options};
-use super::random::SplitMix;
 use super::richardson::{
     Correction, corrections, every, extrapolate, extrapolate_energy, largest_gap,
 };
@@ -13,6 +12,7 @@ use super::warm_start::warm_start;
 use crate::chain::{Chain, Shape};
 use crate::minimise::{Energy, Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria};
 use crate::potential::Potential;
+use crate::random::SplitMix64;
 use crate::resolution::{ElementKind, MAX_ELEMENTS, Resolution};
 use crate::rod::Rod;
 
@@ -279,11 +279,11 @@ impl Search<'_> {
     /// The lowest of a level and of those found from random shapes.
     fn lowest(&self, chain: &Chain<'_>, first: Level, starts: u32, seed: u64) -> Level {
         let mut best = first;
-        let mut random = SplitMix(seed);
+        let mut random = SplitMix64(seed);
         for _ in 0..starts {
             let natural = chain.natural_shape().controls;
             let amplitude = RANDOM_TURN / (chain.len() as f64).sqrt();
-            let controls = natural.into_iter().map(|c| c + random.vector() * amplitude).collect();
+            let controls = natural.into_iter().map(|c| c + random.cube() * amplitude).collect();
             let mut level = self.settle(chain, chain.shape(controls), self.options.tolerance);
             level.minimum.iterations += best.minimum.iterations;
             if level.minimum.stability == Stability::Stable

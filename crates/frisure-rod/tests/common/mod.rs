@@ -6,7 +6,7 @@ use frisure_rod::minimise::Problem;
 use frisure_rod::potential::{Derivatives, ElementState, Field, NodeState, Potential};
 use frisure_rod::{
     ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    TorsionConstant,
+    SplitMix64, TorsionConstant,
 };
 use glam::{DMat3, DVec3};
 use serde_json::Value;
@@ -184,66 +184,27 @@ impl Potential for Hold {
     }
 }
 
-/// Steele, Lea & Flood's `SplitMix64`: the same rods on every machine.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    /// Uniform in `[0, 1)`.
-    pub(crate) fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Evenly spread logarithms.
-    pub(crate) fn decades(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-
-    /// Uniform in the cube [−1, 1]³.
-    pub(crate) fn cube(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - DVec3::ONE
-    }
-
-    /// Uniform on the unit sphere.
-    pub(crate) fn direction(&mut self) -> DVec3 {
-        loop {
-            let v = self.cube();
-            if v.length_squared() > 1e-4 && v.length_squared() < 1.0 {
-                return v.normalize();
-            }
-        }
-    }
-
-    /// Hair of all kinds: any root, section, curl and heaviness.
-    pub(crate) fn hair(&mut self) -> RodSpec {
-        let (tangent, d1) = (self.direction(), self.direction());
-        let curl = if self.unit() < 0.2 {
-            NaturalStrain::STRAIGHT
-        } else {
-            let pitch = self.decades(0.003, 0.1) * if self.unit() < 0.5 { 1.0 } else { -1.0 };
-            NaturalStrain::helix(self.decades(0.002, 0.05), pitch).unwrap()
-        };
-        RodSpec {
-            length: self.between(0.02, 0.3),
-            section: Section::from_diameter(self.between(45e-6, 100e-6), self.between(1.0, 1.9))
-                .unwrap(),
-            material: Material::new(self.between(1e9, 4e9), self.between(0.4e9, 1.3e9), 1300.0)
-                .unwrap(),
-            torsion: TorsionConstant::SaintVenant,
-            natural: curl,
-            root: Root::from_tangent(DVec3::ZERO, tangent, d1).unwrap(),
-            gravity: 9.81,
-        }
+/// Hair of all kinds: any root, section, curl and heaviness.
+pub(crate) fn hair(random: &mut SplitMix64) -> RodSpec {
+    let (tangent, d1) = (random.direction(), random.direction());
+    let curl = if random.unit() < 0.2 {
+        NaturalStrain::STRAIGHT
+    } else {
+        let pitch = random.decades(0.003, 0.1) * if random.unit() < 0.5 { 1.0 } else { -1.0 };
+        NaturalStrain::helix(random.decades(0.002, 0.05), pitch).unwrap()
+    };
+    RodSpec {
+        length: random.between(0.02, 0.3),
+        section: Section::from_diameter(random.between(45e-6, 100e-6), random.between(1.0, 1.9))
+            .unwrap(),
+        material: Material::new(random.between(1e9, 4e9), random.between(0.4e9, 1.3e9), 1300.0)
+            .unwrap(),
+        torsion: TorsionConstant::SaintVenant,
+        natural: curl,
+        root: Root::from_tangent(DVec3::ZERO, tangent, d1).unwrap(),
+        gravity: 9.81,
     }
 }
-
 /// One of the equilibria in tests/data/reference_cases.json; its header names their source.
 pub(crate) struct Case {
     pub(crate) name: String,

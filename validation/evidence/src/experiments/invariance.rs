@@ -1,7 +1,8 @@
 //! Changes that must have no effect on the shape.
 
 use frisure::rod::{
-    Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, equilibrium,
+    Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64, Stability,
+    equilibrium,
 };
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -10,7 +11,7 @@ use crate::experiment::check;
 use crate::extremes::{larger, largest};
 use crate::numbers::small;
 use crate::plot::{Mark, Plot, Scale};
-use crate::random::Random;
+use crate::random;
 use crate::rods::{line, to_accuracy};
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
@@ -102,8 +103,8 @@ fn finding_of(gaps: &[[f64; 5]]) -> Finding {
 
 /// Distances of the lines of a hair from those of each changed hair after the inverse change.
 fn gaps_of(item: usize) -> Result<[f64; 5], Stopped> {
-    let mut random = Random::new(4, item);
-    let spec = random.realistic()?;
+    let mut random = random::stream(4, item);
+    let spec = random::realistic(&mut random)?;
     let one = rest(&spec)?;
     let angle = random.between(0.1, 6.0);
     let turn = DMat3::from_rotation_z(angle);
@@ -169,7 +170,7 @@ fn renamed(spec: &RodSpec) -> Result<RodSpec, Stopped> {
     Ok(RodSpec { root, natural, section, ..spec.clone() })
 }
 
-fn scaled(spec: &RodSpec, random: &mut Random) -> Result<RodSpec, Stopped> {
+fn scaled(spec: &RodSpec, random: &mut SplitMix64) -> Result<RodSpec, Stopped> {
     let [length, radius, stiff, dense] = [(); 4].map(|()| random.decades(0.01, 100.0));
     let (section, material) = (spec.section, spec.material);
     let section = Section::from_semi_axes(section.a() * radius, section.b() * radius)?;

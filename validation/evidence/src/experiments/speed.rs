@@ -8,7 +8,7 @@ use frisure::rod::{ElementKind, Rod, RodSpec, Stability, equilibrium};
 use rayon::prelude::*;
 
 use crate::experiment::check;
-use crate::random::Random;
+use crate::random;
 use crate::reference::Hanging;
 use crate::rods::{elements, line, to_accuracy};
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Timing};
@@ -26,7 +26,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 };
 
 fn hairs(count: usize) -> Result<Vec<Rod>, Stopped> {
-    let one = |i| Ok(Rod::new(RodSpec { length: 0.15, ..Random::new(91, i).realistic()? })?);
+    let one = |i| {
+        Ok(Rod::new(RodSpec { length: 0.15, ..random::realistic(&mut random::stream(91, i))? })?)
+    };
     (0..count).map(one).collect()
 }
 

@@ -5,7 +5,7 @@ use frisure::rod::{ElementKind, Rod, Stability, equilibrium};
 use rayon::prelude::*;
 
 use crate::extremes::largest;
-use crate::random::Random;
+use crate::random;
 use crate::rods::elements;
 use crate::{Effort, Finding, Limit, Stopped};
 
@@ -13,7 +13,7 @@ use crate::{Effort, Finding, Limit, Stopped};
 /// along gravity's branch, with the same elements.
 pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
     let count = effort.pick(300, 4000);
-    let spec = |i| Random::new(75, i).realistic().and_then(Rod::new);
+    let spec = |i| random::realistic(&mut random::stream(75, i)).and_then(Rod::new);
     let rods: Vec<Rod> = (0..count).map(spec).collect::<Result<_, _>>()?;
     let batch = Batch { elements: 60, ..Batch::default() };
     let batches = rods.par_chunks(200).map(|rods| (rods, batch.solve(rods)));

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::extremes::largest;
 use crate::numbers::small;
-use crate::random::Random;
+use crate::random;
 use crate::reference::{Hanging, Solution};
 use crate::rods::{frame, line};
 use crate::{Effort, Finding, Limit, Stopped, Table};
@@ -43,9 +43,10 @@ fn distance(found: &Equilibrium, solution: &Solution) -> f64 {
 }
 
 pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
-    let realistic = |i: usize| Checked::of(&Random::new(71, i).realistic()?, 1e-4, true);
+    let realistic =
+        |i: usize| Checked::of(&random::realistic(&mut random::stream(71, i))?, 1e-4, true);
     let absurd = |i: usize| {
-        let spec = Random::new(72, i).absurd()?;
+        let spec = random::absurd(&mut random::stream(72, i))?;
         Checked::of(&spec, 1e-3 * spec.length, false)
     };
     let some = |count: usize| (0..count).into_par_iter();

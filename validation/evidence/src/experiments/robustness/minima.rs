@@ -8,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::extremes::{largest, smallest};
-use crate::random::Random;
+use crate::random;
 use crate::{Effort, Finding, Limit, Stopped, Table};
 
 /// The number of minima of a hair, and whether gravity's branch ends in the lowest.
@@ -27,7 +27,7 @@ fn minima(spec: &RodSpec, starts: usize, seed: usize) -> Result<(usize, bool), S
     };
     let branch = equilibrium(&rod, &[], &options);
     let mut found = vec![(branch.energy.total(), branch.shape.positions)];
-    let mut random = Random::new(74, seed);
+    let mut random = random::stream(74, seed);
     for _ in 0..starts {
         let size = random.between(0.1, 1.2);
         let natural = chain.natural_shape().controls;
@@ -61,7 +61,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
     let mut lowest = Vec::new();
     for (k, kind) in ["straight", "helices", "planar curls"].into_iter().enumerate() {
         let one = |i: usize| {
-            let mut random = Random::new(73, i + 1_000_000 * k);
+            let mut random = random::stream(73, i + 1_000_000 * k);
             let radius = random.decades(0.003, 0.02);
             let natural = match k {
                 0 => NaturalStrain::STRAIGHT,
@@ -69,7 +69,7 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
                 _ => NaturalStrain::helix(radius, 0.0)?,
             };
             let length = random.between(0.05, 0.30);
-            minima(&RodSpec { length, natural, ..random.realistic()? }, starts, i)
+            minima(&RodSpec { length, natural, ..random::realistic(&mut random)? }, starts, i)
         };
         let all: Vec<(usize, bool)> =
             (0..hairs).into_par_iter().map(one).collect::<Result<_, Stopped>>()?;

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::experiment::check;
 use crate::numbers::small;
 use crate::plot::{Mark, Plot, Scale};
-use crate::random::Random;
+use crate::random;
 use crate::{Effort, Experiment, Finding, Limit, Progress, Stopped, Table};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -37,11 +37,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     let realistic = solved(effort.pick(400, 10_000), progress, 0.0, |i| {
-        let spec = Random::new(71, i).realistic()?;
+        let spec = random::realistic(&mut random::stream(71, i))?;
         Ok((spec, Resolution::Accuracy(1e-4)))
     })?;
     let absurd = solved(effort.pick(60, 1000), progress, 0.4, |i| {
-        let spec = Random::new(72, i).absurd()?;
+        let spec = random::absurd(&mut random::stream(72, i))?;
         let accuracy = 1e-3 * spec.length;
         Ok((spec, Resolution::Accuracy(accuracy)))
     })?;
