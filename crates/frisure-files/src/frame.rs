@@ -13,6 +13,17 @@ pub enum UpAxis {
     Z,
 }
 
+impl UpAxis {
+    /// The name of the axis, `y` or `z`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Y => "y",
+            Self::Z => "z",
+        }
+    }
+}
+
 /// Unit and axes of the positions in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {

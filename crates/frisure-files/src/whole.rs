@@ -279,7 +279,7 @@ pub fn check_destination(path: &Path) -> Result<(), WriteError> {
     match destination(path)? {
         Destination::Device => Ok(()),
         Destination::File { folder, .. } => {
-            // Permissions say too little (root, read-only disks): only trying tells.
+            // Permissions are not enough (root, read-only disks): a file is created to find out.
             let probe = tempfile::tempfile_in(folder);
             probe.map(drop).map_err(|source| WriteError::Io { path: path.into(), source })
         }
@@ -353,7 +353,7 @@ fn replace(
     Ok(())
 }
 
-/// Waits until somebody reads a named pipe, and holds it open; other devices are there at once.
+/// Waits until a program reads a named pipe, and holds it open; none for other devices.
 #[cfg(any(target_os = "linux", target_os = "macos"))]
 fn await_reader(path: &Path) -> io::Result<Option<File>> {
     use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};

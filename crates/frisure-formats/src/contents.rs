@@ -1,4 +1,4 @@
-//! What is in a file that somebody hands over: a head, hair, or both.
+//! What a file holds: a head, hair, or both.
 //!
 //! Extensions say which format a file has, and with most formats that is enough. Stages of USD, `.obj` and `.ply`
 //! can hold either.
@@ -26,7 +26,7 @@ pub struct Contents {
 /// Why a file is of no use.
 #[derive(Debug, Error)]
 pub enum ContentsError {
-    /// Neither heads nor grooms are called so.
+    /// The extension is of no format of heads or grooms.
     #[error("`{}` is neither a head nor a groom that can be read", path.display())]
     Unknown {
         /// The path given.
@@ -55,7 +55,7 @@ pub fn extensions() -> Vec<&'static str> {
     all
 }
 
-/// What a file's name lets it hold.
+/// What a file of this name can hold.
 #[must_use]
 pub fn by_name(path: &Path) -> Contents {
     let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
@@ -63,8 +63,7 @@ pub fn by_name(path: &Path) -> Contents {
     Contents { head, groom: Format::of(path).is_ok_and(Format::is_read) }
 }
 
-/// What a file holds. It is looked into only as far as that needs: whatever else is wrong with it is found when it is
-/// read.
+/// What a file holds. Only as much of it is read as that needs; reading it finds further errors.
 ///
 /// An `.obj` or `.ply` with faces is a head, also where it has lines besides: programs write edges of meshes so. A stage
 /// of USD with meshes and curves is both.
@@ -79,7 +78,7 @@ pub fn of(path: &Path, files: &Files) -> Result<Contents, ContentsError> {
         }
         Contents { head: true, groom: true } => {}
         one if files.stamp(path).is_some() => return Ok(one),
-        // Why it cannot be had.
+        // Reading it gives the error.
         _ => {}
     }
     let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom or a head")?;
@@ -115,10 +114,10 @@ fn stage_contents(bytes: &[u8]) -> Result<Contents, String> {
     let layer = usd::read(bytes)?;
     let stage = Stage::of(&layer)?;
     let has = |names: &[&str]| {
-        let mut prims = stage.places.iter().filter(|place| !place.is_guide);
+        let mut prims = stage.prims.iter().filter(|place| !place.is_guide);
         prims.any(|place| names.contains(&place.prim.type_name.as_str()))
     };
-    let guides = stage.places.iter().any(|place| CURVES.contains(&place.prim.type_name.as_str()));
+    let guides = stage.prims.iter().any(|place| CURVES.contains(&place.prim.type_name.as_str()));
     let found = Contents { head: has(&["Mesh"]), groom: guides };
     match found {
         Contents { head: false, groom: false } => {

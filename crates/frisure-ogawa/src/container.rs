@@ -8,7 +8,7 @@
 use std::cell::Cell;
 use std::io::{self, Write};
 
-/// What tells a reference to a block from one to a group.
+/// The bit that distinguishes a reference to a block from one to a group.
 const BLOCK: u64 = 1 << 63;
 
 const HEADER: usize = 16;

@@ -47,12 +47,12 @@ impl Pod {
     }
 }
 
-/// Sample of a property.
+/// The values of a property at one time.
 pub struct Sample<'a> {
     pod: Pod,
-    /// How many of them make one.
+    /// How many numbers make one value.
     extent: u8,
-    /// How many there are of those.
+    /// Number of values.
     count: usize,
     digest: [u8; 16],
     block: Block<'a>,
@@ -80,7 +80,7 @@ impl<'a> Sample<'a> {
         Self::of(Pod::Text, 1, texts.len(), move |out| out.extend_from_slice(&bytes))
     }
 
-    /// PropertyData they are, and how many make one.
+    /// The type of the numbers, and how many make one value.
     pub fn kind(&self) -> (Pod, u8) {
         (self.pod, self.extent)
     }
@@ -108,9 +108,9 @@ pub struct Property<'a> {
     pub data: PropertyData<'a>,
 }
 
-/// PropertyData a property is.
+/// The content of a property.
 pub enum PropertyData<'a> {
-    /// Properties under a name.
+    /// Further properties.
     Compound(Vec<Property<'a>>),
     /// One value.
     Scalar(Sample<'a>),
@@ -150,7 +150,7 @@ pub struct Object<'a> {
     pub children: Vec<Object<'a>>,
 }
 
-/// The version of the Alembic library whose files these are like.
+/// The version of the Alembic library whose layout is written.
 const LIBRARY: i32 = 1_08_12;
 
 /// The one sampling in time there is: one sample at 0, one second apart.
@@ -276,7 +276,7 @@ fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a
     (Node::Group(nodes), hashes)
 }
 
-/// PropertyData tells of a property: bits, the number of samples, name, and metadata.
+/// The header of a property: bits, the number of samples, name, and metadata.
 fn header(property: &Property<'_>, names: &mut Metadata) -> Vec<u8> {
     let Property { name, metadata, data } = property;
     // Bytes of the numbers below: 1, 2, or 4.

@@ -100,6 +100,18 @@ impl AttributeValues {
         }
         true
     }
+
+    /// The values of some rows, in their order.
+    #[must_use]
+    pub fn picked(&self, rows: impl Iterator<Item = usize>) -> Self {
+        match self {
+            Self::U32(v) => Self::U32(rows.map(|i| v[i]).collect()),
+            Self::U32x3(v) => Self::U32x3(rows.map(|i| v[i]).collect()),
+            Self::F32(v) => Self::F32(rows.map(|i| v[i]).collect()),
+            Self::F32x2(v) => Self::F32x2(rows.map(|i| v[i]).collect()),
+            Self::F32x3(v) => Self::F32x3(rows.map(|i| v[i]).collect()),
+        }
+    }
 }
 
 /// A named array over the strands or over their points.

@@ -1,6 +1,9 @@
 //! A layer: prims in a tree, each with attributes and relationships.
 
-use super::value::{Base, Kind, Value};
+use super::value::{Data, ScalarType, Value, ValueType};
+
+/// Prims within prims, at most.
+pub const MAX_DEPTH: usize = 200;
 
 /// Properties that a prim may have: they are looked for one by one.
 const MOST_PROPERTIES: usize = 10_000;
@@ -41,8 +44,8 @@ pub struct Prim {
     pub schemas: Vec<String>,
     /// The metadata keys that the reader supports.
     pub metadata: Vec<(String, Value)>,
-    /// What it would take from elsewhere (`references`, `payload`, `variantSets`, …), which is not followed.
-    pub elsewhere: Vec<String>,
+    /// Its composition arcs (`references`, `payload`, `variantSets`, …), which are not followed.
+    pub arcs: Vec<String>,
     /// Its attributes, in their order.
     pub attributes: Vec<Attribute>,
     /// Its relationships, in their order.
@@ -57,7 +60,7 @@ pub enum Specifier {
     /// Defines a prim.
     #[default]
     Def,
-    /// Says something of a prim that is defined elsewhere.
+    /// Overrides a prim of another layer.
     Over,
     /// To be inherited from.
     Class,
@@ -105,21 +108,21 @@ pub struct Relationship {
     pub targets: Vec<String>,
 }
 
-/// The kinds of the metadata that are kept. Text does not tell them.
-pub(crate) fn metadata_kind(key: &str) -> Option<Kind> {
-    let base = match key {
-        "metersPerUnit" => Base::Double,
-        "elementSize" => Base::Int,
-        "active" => Base::Bool,
-        "defaultPrim" | "interpolation" | "kind" | "upAxis" => Base::Token,
-        "displayName" | "documentation" => Base::String,
+/// The types of the metadata that are kept: the text format does not state them.
+pub(crate) fn metadata_type(key: &str) -> Option<ValueType> {
+    let scalar = match key {
+        "metersPerUnit" => ScalarType::Double,
+        "elementSize" => ScalarType::Int,
+        "active" => ScalarType::Bool,
+        "defaultPrim" | "interpolation" | "kind" | "upAxis" => ScalarType::Token,
+        "displayName" | "documentation" => ScalarType::String,
         _ => return None,
     };
-    Some(Kind::one(base))
+    Some(ValueType::one(scalar))
 }
 
-/// The metadata of prims that bring something from elsewhere.
-pub(crate) fn is_from_elsewhere(key: &str) -> bool {
+/// Whether a metadata key of a prim is a composition arc.
+pub(crate) fn is_composition_arc(key: &str) -> bool {
     let all = ["references", "payload", "inherits", "specializes", "variantSets", "clips"];
     all.contains(&key)
 }
@@ -162,6 +165,31 @@ impl Prim {
     /// The value of an attribute, if it has one.
     pub fn value(&self, name: &str) -> Option<&Value> {
         self.attribute(name)?.value.as_ref()
+    }
+
+    /// The scalars of an attribute's value. Where the prim has indices for it (`NAME:indices`), each index gives the
+    /// `width` scalars that it names.
+    ///
+    /// # Errors
+    /// What is wrong with the indices.
+    pub fn resolved(
+        &self,
+        attribute: &Attribute,
+        value: &Value,
+        width: usize,
+    ) -> Result<Data, String> {
+        let name = &attribute.name;
+        let Some(indices) = self.value(&format!("{name}:indices")) else {
+            return Ok(value.data.clone());
+        };
+        let count = value.data.len() / width;
+        let indices = indices
+            .to_integers()
+            .ok_or_else(|| format!("`{name}` has indices that are no integers"))?;
+        let row = |i: i64| usize::try_from(i).ok().filter(|&i| i < count);
+        let rows: Option<Vec<usize>> = indices.into_iter().map(row).collect();
+        let rows = rows.ok_or_else(|| format!("`{name}` has an index of no value"))?;
+        Ok(value.data.picked(&rows, width))
     }
 
     /// The word that an attribute has.

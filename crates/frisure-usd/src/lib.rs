@@ -2,9 +2,9 @@
 //! (`.usdz`): what hair and heads need of it.
 //!
 //! An implementation of our own: of the libraries at hand, `openusd` 0.8 needs a newer compiler than the
-//! workspace and brings a composition engine, and the binary files of 0.6 open elsewhere with no prims.
+//! workspace and brings a composition engine, and other programs find no prims in the binary files of 0.6.
 //! Layers are read as they stand in one file; what joins several (references, payloads, variants, inherits) is noted at
-//! its prim ([`Prim::elsewhere`]) and not followed.
+//! its prim ([`Prim::arcs`]) and not followed.
 //!
 //! Whatever is read, no memory is taken for a number that the file's size does not back up, and nesting ends at
 //! [`MAX_DEPTH`].
@@ -19,18 +19,15 @@ mod stage;
 mod text;
 mod value;
 
-pub use layer::{Attribute, Layer, Prim, Relationship, Specifier};
+pub use layer::{Attribute, Layer, MAX_DEPTH, Prim, Relationship, Specifier};
 pub use mesh::Mesh;
 pub use stage::{Stage, StagePrim};
-pub use value::{Base, Data, Kind, Shape, Value};
+pub use value::{Data, ScalarType, Shape, Value, ValueType};
 
 /// Whether a file begins as one of the three kinds does.
 pub fn is_usd(bytes: &[u8]) -> bool {
     [binary::MAGIC, package::MAGIC, b"#usda"].iter().any(|magic| bytes.starts_with(magic))
 }
-
-/// Prims within prims, at most.
-pub const MAX_DEPTH: usize = 200;
 
 /// A layer from a file of any of the three kinds, recognised by its first bytes; the error says what is wrong where.
 pub fn read(bytes: &[u8]) -> Result<Layer, String> {

@@ -1,9 +1,9 @@
-//! Prims of a layer where they are: in the world, and to be seen or not.
+//! The prims of a layer that are defined, active and visible, with their transforms.
 
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::layer::{Layer, Prim, Specifier};
-use super::value::{Base, Kind, Shape, Value};
+use super::value::{ScalarType, Shape, Value, ValueType};
 
 /// Unit of a stage that does not say: the centimetre.
 const USUAL_METRES: f64 = 0.01;
@@ -25,13 +25,13 @@ pub struct StagePrim<'a> {
 #[derive(Debug)]
 pub struct Stage<'a> {
     /// Parents stand before their children.
-    pub places: Vec<StagePrim<'a>>,
+    pub prims: Vec<StagePrim<'a>>,
     /// Metres per unit of its positions.
     pub metres_per_unit: f64,
     /// Whether z points up in it, and not y.
     pub is_z_up: bool,
-    /// What prims would take from elsewhere, each once.
-    elsewhere: Vec<&'a str>,
+    /// The composition arcs of its prims, each once.
+    arcs: Vec<&'a str>,
 }
 
 /// What a prim has of those that it is in.
@@ -46,10 +46,10 @@ impl<'a> Stage<'a> {
     pub fn of(layer: &'a Layer) -> Result<Self, String> {
         let metres = layer.meta("metersPerUnit").and_then(Value::number);
         let mut stage = Self {
-            places: Vec::new(),
+            prims: Vec::new(),
             metres_per_unit: metres.unwrap_or(USUAL_METRES),
             is_z_up: layer.meta("upAxis").and_then(Value::word) == Some("Z"),
-            elsewhere: Vec::new(),
+            arcs: Vec::new(),
         };
         let above = Above { world: DMat4::IDENTITY, is_guide: false };
         for prim in &layer.prims {
@@ -66,25 +66,25 @@ impl<'a> Stage<'a> {
         if prim.specifier != Specifier::Def || inactive || invisible || is_proxy {
             return Ok(());
         }
-        for arc in &prim.elsewhere {
-            if !self.elsewhere.contains(&arc.as_str()) {
-                self.elsewhere.push(arc);
+        for arc in &prim.arcs {
+            if !self.arcs.contains(&arc.as_str()) {
+                self.arcs.push(arc);
             }
         }
         let (own, resets) = transform(prim).map_err(|e| format!("`{}`: {e}", prim.name))?;
         let world = if resets { own } else { above.world * own };
         let is_guide = above.is_guide || prim.word("purpose") == Some("guide");
-        let here = self.places.len();
-        self.places.push(StagePrim { prim, parent, world, is_guide });
+        let here = self.prims.len();
+        self.prims.push(StagePrim { prim, parent, world, is_guide });
         let above = Above { world, is_guide };
         prim.children.iter().try_for_each(|child| self.add(child, Some(here), above))
     }
 
-    /// Where a prim is, such as `/groom/hairs`: made when it is asked for, since a path has the names of all above.
+    /// The path of a prim, such as `/groom/hairs`; not stored, since it has the names of all prims above.
     pub fn path(&self, place: &StagePrim) -> String {
         let mut names = vec![place.prim.name.as_str()];
         let mut parent = place.parent;
-        while let Some(above) = parent.and_then(|i| self.places.get(i)) {
+        while let Some(above) = parent.and_then(|i| self.prims.get(i)) {
             names.push(&above.prim.name);
             parent = above.parent;
         }
@@ -101,7 +101,7 @@ impl<'a> Stage<'a> {
     pub fn prim(&self, path: &str) -> Option<&'a Prim> {
         let mut names = path.strip_prefix('/')?.split('/');
         let first = names.next()?;
-        let roots = self.places.iter().filter(|p| p.parent.is_none()).map(|p| p.prim);
+        let roots = self.prims.iter().filter(|p| p.parent.is_none()).map(|p| p.prim);
         let mut prim = roots.into_iter().find(|p| p.name == first)?;
         for name in names {
             prim = prim.children.iter().find(|p| p.name == name)?;
@@ -111,10 +111,10 @@ impl<'a> Stage<'a> {
 
     /// Said where nothing is found: what is in other files is not read.
     pub fn hint(&self) -> String {
-        if self.elsewhere.is_empty() {
+        if self.arcs.is_empty() {
             return String::new();
         }
-        let arcs = self.elsewhere.join(", ");
+        let arcs = self.arcs.join(", ");
         format!("; it has {arcs}, which are not followed: flatten it first (`usdcat --flatten`)")
     }
 }
@@ -175,7 +175,9 @@ fn operation(name: &str, value: &Value) -> Result<DMat4, String> {
             }
             _ => Err(wrong()),
         },
-        "transform" if value.kind == (Kind { base: Base::Double, shape: Shape::Matrix(4) }) => {
+        "transform"
+            if value.ty == (ValueType { scalar: ScalarType::Double, shape: Shape::Matrix(4) }) =>
+        {
             // Rows of files, which multiply from the left, are columns.
             let all = numbers.as_slice().try_into().map_err(|_| wrong())?;
             Ok(DMat4::from_cols_array(all))

@@ -1,8 +1,10 @@
 //! Values of attributes and metadata, flat.
 
-/// What single numbers and words of a value are.
+use std::borrow::Cow;
+
+/// The type of a single number or word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Base {
+pub enum ScalarType {
     /// `bool`
     Bool,
     /// `uchar`
@@ -31,7 +33,7 @@ pub enum Base {
     Asset,
 }
 
-/// How many of them make one value.
+/// How many scalars make one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// A single number or word.
@@ -44,24 +46,65 @@ pub enum Shape {
     Matrix(usize),
 }
 
-/// The type of a value, but for whether it is an array.
+/// The type of a value, but for whether it is an array and for its role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kind {
+pub struct ValueType {
     /// The type of its numbers or words.
-    pub base: Base,
+    pub scalar: ScalarType,
     /// How many of them make one value.
     pub shape: Shape,
 }
 
-impl Kind {
+/// All types: code in binary layers, name in text, type.
+pub(crate) const TYPES: [(u8, &str, ValueType); 31] = {
+    use ScalarType::{Double, Float, Half, Int};
+    const fn new(scalar: ScalarType, shape: Shape) -> ValueType {
+        ValueType { scalar, shape }
+    }
+    [
+        (1, "bool", ValueType::one(ScalarType::Bool)),
+        (2, "uchar", ValueType::one(ScalarType::UChar)),
+        (3, "int", ValueType::one(Int)),
+        (4, "uint", ValueType::one(ScalarType::UInt)),
+        (5, "int64", ValueType::one(ScalarType::Int64)),
+        (6, "uint64", ValueType::one(ScalarType::UInt64)),
+        (7, "half", ValueType::one(Half)),
+        (8, "float", ValueType::one(Float)),
+        (9, "double", ValueType::one(Double)),
+        (10, "string", ValueType::one(ScalarType::String)),
+        (11, "token", ValueType::one(ScalarType::Token)),
+        (12, "asset", ValueType::one(ScalarType::Asset)),
+        (13, "matrix2d", new(Double, Shape::Matrix(2))),
+        (14, "matrix3d", new(Double, Shape::Matrix(3))),
+        (15, "matrix4d", new(Double, Shape::Matrix(4))),
+        (16, "quatd", new(Double, Shape::Quaternion)),
+        (17, "quatf", new(Float, Shape::Quaternion)),
+        (18, "quath", new(Half, Shape::Quaternion)),
+        (19, "double2", ValueType::tuple(Double, 2)),
+        (20, "float2", ValueType::tuple(Float, 2)),
+        (21, "half2", ValueType::tuple(Half, 2)),
+        (22, "int2", ValueType::tuple(Int, 2)),
+        (23, "double3", ValueType::tuple(Double, 3)),
+        (24, "float3", ValueType::tuple(Float, 3)),
+        (25, "half3", ValueType::tuple(Half, 3)),
+        (26, "int3", ValueType::tuple(Int, 3)),
+        (27, "double4", ValueType::tuple(Double, 4)),
+        (28, "float4", ValueType::tuple(Float, 4)),
+        (29, "half4", ValueType::tuple(Half, 4)),
+        (30, "int4", ValueType::tuple(Int, 4)),
+        (56, "timecode", ValueType::one(ScalarType::TimeCode)),
+    ]
+};
+
+impl ValueType {
     /// A single number or word.
-    pub const fn one(base: Base) -> Self {
-        Self { base, shape: Shape::One }
+    pub const fn one(scalar: ScalarType) -> Self {
+        Self { scalar, shape: Shape::One }
     }
 
     /// A tuple of `n` numbers.
-    pub const fn tuple(base: Base, n: usize) -> Self {
-        Self { base, shape: Shape::Tuple(n) }
+    pub const fn tuple(scalar: ScalarType, n: usize) -> Self {
+        Self { scalar, shape: Shape::Tuple(n) }
     }
 
     /// How many numbers or words one value has.
@@ -74,76 +117,31 @@ impl Kind {
         }
     }
 
-    /// The kind that a type's name stands for, and whether it is an array.
+    /// The type of a name such as `point3f[]`, and whether it is an array.
     pub fn of(name: &str) -> Option<(Self, bool)> {
         let (name, array) = match name.strip_suffix("[]") {
             Some(name) => (name, true),
             None => (name, false),
         };
-        Some((Self::of_one(name)?, array))
-    }
-
-    fn of_one(name: &str) -> Option<Self> {
-        let plain = match name {
-            "bool" => Base::Bool,
-            "uchar" => Base::UChar,
-            "int" => Base::Int,
-            "uint" => Base::UInt,
-            "int64" => Base::Int64,
-            "uint64" => Base::UInt64,
-            "half" => Base::Half,
-            "float" => Base::Float,
-            "double" => Base::Double,
-            "timecode" => Base::TimeCode,
-            "string" => Base::String,
-            "token" => Base::Token,
-            "asset" => Base::Asset,
-            "frame4d" => return Some(Self { base: Base::Double, shape: Shape::Matrix(4) }),
-            _ => return Self::of_several(name),
-        };
-        Some(Self::one(plain))
-    }
-
-    fn of_several(name: &str) -> Option<Self> {
-        if let Some(n) = name.strip_prefix("matrix").and_then(|n| n.strip_suffix('d')) {
-            let n = n.parse().ok().filter(|n| (2..=4).contains(n))?;
-            return Some(Self { base: Base::Double, shape: Shape::Matrix(n) });
-        }
-        let letter = |c: &str| match c {
-            "h" => Some(Base::Half),
-            "f" => Some(Base::Float),
-            "d" => Some(Base::Double),
-            _ => None,
-        };
-        if let Some(base) = name.strip_prefix("quat").and_then(letter) {
-            return Some(Self { base, shape: Shape::Quaternion });
-        }
-        for role in ["point", "vector", "normal", "color", "texCoord"] {
-            if let Some((n, base)) = name.strip_prefix(role).and_then(|r| r.split_at_checked(1)) {
-                return Some(Self::tuple(letter(base)?, size(n)?));
-            }
-        }
-        let (base, n) = name.split_at_checked(name.len().saturating_sub(1))?;
-        let base = [Base::Int, Base::Half, Base::Float, Base::Double]
-            .into_iter()
-            .find(|b| Self::one(*b).name() == base)?;
-        Some(Self::tuple(base, size(n)?))
-    }
-
-    /// The name of a type without a role.
-    fn name(self) -> &'static str {
-        match self.base {
-            Base::Int => "int",
-            Base::Half => "half",
-            Base::Float => "float",
-            Base::Double => "double",
-            _ => "",
-        }
+        let name = without_role(name);
+        let (.., ty) = TYPES.iter().find(|(_, known, _)| *known == name)?;
+        Some((*ty, array))
     }
 }
 
-fn size(digit: &str) -> Option<usize> {
-    digit.parse().ok().filter(|n| (2..=4).contains(n))
+/// The name of a type without its role: `float3` of `point3f`.
+fn without_role(name: &str) -> Cow<'_, str> {
+    if name == "frame4d" {
+        return "matrix4d".into();
+    }
+    let roles = ["point", "vector", "normal", "color", "texCoord"];
+    let rest = roles.iter().find_map(|role| name.strip_prefix(role));
+    match rest.and_then(|rest| rest.split_at_checked(1)) {
+        Some((size, "h")) => format!("half{size}").into(),
+        Some((size, "f")) => format!("float{size}").into(),
+        Some((size, "d")) => format!("double{size}").into(),
+        _ => name.into(),
+    }
 }
 
 /// Numbers or words, all values one after another.
@@ -162,14 +160,14 @@ pub enum Data {
 }
 
 impl Data {
-    /// Nothing, of what a base is kept as.
-    pub fn empty(base: Base) -> Self {
-        match base {
-            Base::Bool | Base::UChar | Base::Int => Self::I32(Vec::new()),
-            Base::UInt | Base::Int64 | Base::UInt64 => Self::I64(Vec::new()),
-            Base::Half | Base::Float => Self::F32(Vec::new()),
-            Base::Double | Base::TimeCode => Self::F64(Vec::new()),
-            Base::String | Base::Token | Base::Asset => Self::Words(Vec::new()),
+    /// No values, as those of a scalar type are stored.
+    pub fn empty(scalar: ScalarType) -> Self {
+        match scalar {
+            ScalarType::Bool | ScalarType::UChar | ScalarType::Int => Self::I32(Vec::new()),
+            ScalarType::UInt | ScalarType::Int64 | ScalarType::UInt64 => Self::I64(Vec::new()),
+            ScalarType::Half | ScalarType::Float => Self::F32(Vec::new()),
+            ScalarType::Double | ScalarType::TimeCode => Self::F64(Vec::new()),
+            ScalarType::String | ScalarType::Token | ScalarType::Asset => Self::Words(Vec::new()),
         }
     }
 
@@ -184,13 +182,43 @@ impl Data {
             Self::Words(v) => v.len(),
         }
     }
+
+    /// Some of the values, each of `width` scalars, in an order.
+    ///
+    /// # Panics
+    /// If there is no such value.
+    #[must_use]
+    pub fn picked(&self, rows: &[usize], width: usize) -> Self {
+        fn of<T: Clone>(values: &[T], rows: &[usize], width: usize) -> Vec<T> {
+            rows.iter().flat_map(|&i| values[i * width..(i + 1) * width].iter().cloned()).collect()
+        }
+        match self {
+            Self::I32(v) => Self::I32(of(v, rows, width)),
+            Self::I64(v) => Self::I64(of(v, rows, width)),
+            Self::F32(v) => Self::F32(of(v, rows, width)),
+            Self::F64(v) => Self::F64(of(v, rows, width)),
+            Self::Words(v) => Self::Words(of(v, rows, width)),
+        }
+    }
+
+    /// All numbers; none of words.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        Some(match self {
+            Self::I32(v) => v.iter().map(|&x| f64::from(x)).collect(),
+            #[expect(clippy::cast_precision_loss, reason = "as near as may be")]
+            Self::I64(v) => v.iter().map(|&x| x as f64).collect(),
+            Self::F32(v) => v.iter().map(|&x| f64::from(x)).collect(),
+            Self::F64(v) => v.clone(),
+            Self::Words(_) => return None,
+        })
+    }
 }
 
 /// The value of an attribute or a metadata key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
     /// The type of one value.
-    pub kind: Kind,
+    pub ty: ValueType,
     /// Whether it is an array.
     pub array: bool,
     /// Its numbers or words.
@@ -198,66 +226,68 @@ pub struct Value {
 }
 
 impl Value {
+    fn single(scalar: ScalarType, data: Data) -> Self {
+        Self { ty: ValueType::one(scalar), array: false, data }
+    }
+
+    fn several<const N: usize>(scalar: ScalarType, array: bool, data: Data) -> Self {
+        Self { ty: ValueType::tuple(scalar, N), array, data }
+    }
+
     /// A token.
     pub fn token(word: &str) -> Self {
-        Self::words(Base::Token, word)
+        Self::single(ScalarType::Token, Data::Words(vec![word.into()]))
     }
 
     /// A string.
     pub fn string(text: &str) -> Self {
-        Self::words(Base::String, text)
-    }
-
-    fn words(base: Base, word: &str) -> Self {
-        Self { kind: Kind::one(base), array: false, data: Data::Words(vec![word.into()]) }
+        Self::single(ScalarType::String, Data::Words(vec![text.into()]))
     }
 
     /// A double.
     pub fn double(x: f64) -> Self {
-        Self { kind: Kind::one(Base::Double), array: false, data: Data::F64(vec![x]) }
+        Self::single(ScalarType::Double, Data::F64(vec![x]))
     }
 
     /// A float.
     pub fn float(x: f32) -> Self {
-        Self { kind: Kind::one(Base::Float), array: false, data: Data::F32(vec![x]) }
+        Self::single(ScalarType::Float, Data::F32(vec![x]))
     }
 
     /// An int.
     pub fn int(x: i32) -> Self {
-        Self { kind: Kind::one(Base::Int), array: false, data: Data::I32(vec![x]) }
+        Self::single(ScalarType::Int, Data::I32(vec![x]))
     }
 
     /// A tuple of three floats.
     pub fn float3(x: [f32; 3]) -> Self {
-        Self { kind: Kind::tuple(Base::Float, 3), array: false, data: Data::F32(x.to_vec()) }
+        Self::several::<3>(ScalarType::Float, false, Data::F32(x.to_vec()))
     }
 
     /// An array of ints.
     pub fn ints(data: Vec<i32>) -> Self {
-        Self { kind: Kind::one(Base::Int), array: true, data: Data::I32(data) }
-    }
-
-    /// An array of tuples of ints.
-    pub fn int_tuples<const N: usize>(data: &[[i32; N]]) -> Self {
-        let data = Data::I32(data.as_flattened().to_vec());
-        Self { kind: Kind::tuple(Base::Int, N), array: true, data }
+        Self { array: true, ..Self::single(ScalarType::Int, Data::I32(data)) }
     }
 
     /// An array of floats.
     pub fn floats(data: Vec<f32>) -> Self {
-        Self { kind: Kind::one(Base::Float), array: true, data: Data::F32(data) }
+        Self { array: true, ..Self::single(ScalarType::Float, Data::F32(data)) }
+    }
+
+    /// An array of tuples of ints.
+    pub fn int_tuples<const N: usize>(data: &[[i32; N]]) -> Self {
+        Self::several::<N>(ScalarType::Int, true, Data::I32(data.as_flattened().to_vec()))
     }
 
     /// An array of tuples of floats.
     pub fn float_tuples<const N: usize>(data: &[[f32; N]]) -> Self {
-        let data = Data::F32(data.as_flattened().to_vec());
-        Self { kind: Kind::tuple(Base::Float, N), array: true, data }
+        Self::several::<N>(ScalarType::Float, true, Data::F32(data.as_flattened().to_vec()))
     }
 
     /// How many values there are.
     #[expect(clippy::len_without_is_empty, reason = "no caller needs `is_empty`")]
     pub fn len(&self) -> usize {
-        self.data.len() / self.kind.width()
+        self.data.len() / self.ty.width()
     }
 
     /// The only word.
@@ -278,14 +308,7 @@ impl Value {
 
     /// All numbers; none of words.
     pub fn numbers(&self) -> Option<Vec<f64>> {
-        Some(match &self.data {
-            Data::I32(v) => v.iter().map(|&x| f64::from(x)).collect(),
-            #[expect(clippy::cast_precision_loss, reason = "as near as may be")]
-            Data::I64(v) => v.iter().map(|&x| x as f64).collect(),
-            Data::F32(v) => v.iter().map(|&x| f64::from(x)).collect(),
-            Data::F64(v) => v.clone(),
-            Data::Words(_) => return None,
-        })
+        self.data.numbers()
     }
 
     /// The only number.
@@ -321,18 +344,18 @@ mod tests {
 
     #[test]
     fn names_of_types() {
-        let of = |name| Kind::of(name).unwrap();
-        assert_eq!(of("int"), (Kind::one(Base::Int), false));
-        assert_eq!(of("int3[]"), (Kind::tuple(Base::Int, 3), true));
-        assert_eq!(of("point3f[]"), (Kind::tuple(Base::Float, 3), true));
-        assert_eq!(of("texCoord2h"), (Kind::tuple(Base::Half, 2), false));
+        let of = |name| ValueType::of(name).unwrap();
+        assert_eq!(of("int"), (ValueType::one(ScalarType::Int), false));
+        assert_eq!(of("int3[]"), (ValueType::tuple(ScalarType::Int, 3), true));
+        assert_eq!(of("point3f[]"), (ValueType::tuple(ScalarType::Float, 3), true));
+        assert_eq!(of("texCoord2h"), (ValueType::tuple(ScalarType::Half, 2), false));
         assert_eq!(of("double4").0.width(), 4);
         assert_eq!(of("matrix3d").0.width(), 9);
         assert_eq!(of("quatf").0.shape, Shape::Quaternion);
         for name in
             ["", "int5", "point3", "point3x", "quat", "matrix9d", "é", "pointé", "dictionary"]
         {
-            assert_eq!(Kind::of(name), None, "{name}");
+            assert_eq!(ValueType::of(name), None, "{name}");
         }
     }
 }

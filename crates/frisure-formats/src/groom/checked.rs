@@ -1,9 +1,10 @@
-//! What every file of curves has to stand before it becomes strands.
+//! Checks of the curves of a file, which make them strands.
 
-use frisure_strands::{Attribute, AttributeValues, Strands};
+use frisure_strands::{AttributeValues, Strands};
 use glam::{DVec3, Vec3};
 
 use super::attributes::{self as names, indices};
+use super::curves::Curves;
 use super::data::Groom;
 use frisure_files::frame::Frame;
 
@@ -18,19 +19,6 @@ const THICKEST: f32 = 0.01;
 
 /// Radius of fibres where a file says nothing of it (m): a common human hair.
 pub(super) const USUAL_RADIUS: f32 = 35e-6;
-
-/// Curves as a file has them.
-#[derive(Debug, Default)]
-pub(super) struct Curves {
-    /// How many points each strand has.
-    pub(super) counts: Vec<usize>,
-    /// Points in the unit and axes of the file, one strand after another.
-    pub(super) points: Vec<[f32; 3]>,
-    /// Diameters at the points in the unit of the file; empty where it has none.
-    pub(super) diameters: Vec<f32>,
-    /// What else it says of them, directions already in our axes.
-    pub(super) attributes: Vec<Attribute>,
-}
 
 impl Curves {
     /// The strands (m), or what is wrong with them.
@@ -72,10 +60,26 @@ impl Curves {
     }
 }
 
+/// Checks that curves can hold hairs and guides.
+pub(super) fn check_curves(groom: &Groom) -> Result<(), String> {
+    check_strands("hair", &groom.hairs)?;
+    check_strands("guide", &groom.guides)
+}
+
+/// Checks that curves can hold strands: at least two points each, and counts that are signed.
+pub(super) fn check_strands(kind: &str, strands: &Strands) -> Result<(), String> {
+    if let Some(i) = strands.iter().position(|strand| strand.points.len() < 2) {
+        let points = strands.strand(i).points.len();
+        return Err(format!("{kind} {i} of {points} points: a curve has at least 2"));
+    }
+    let points = strands.points().len();
+    i32::try_from(points).map(drop).map_err(|_| format!("{points} points of {kind}s"))
+}
+
 /// Refuses hairs that follow guides which are not there.
 pub(super) fn check_following(groom: &Groom) -> Result<(), String> {
     let guides = groom.guides.len();
-    // A file of hairs alone may say what they followed elsewhere.
+    // A file of hairs alone may name guides of another file.
     if guides == 0 {
         return Ok(());
     }

@@ -33,10 +33,10 @@ pub struct Groom {
     pub colour: Option<HairColour>,
 }
 
-/// What a picture has to know of the colour of hair.
+/// The colour of hair, for pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HairColour {
-    /// Its pigment; unknown where hair is dyed.
+    /// Its pigment; none where hair is dyed.
     pub melanin: Option<Melanin>,
     /// Colour of much of it (linear, primaries of sRGB).
     pub colour: [f32; 3],
@@ -60,7 +60,7 @@ impl Groom {
         (Self { name, hairs: hairs.strands, guides: guides.strands, head, colour }, error)
     }
 
-    /// The strands for a format that knows one kind: the hairs, or the guides where there are none.
+    /// The strands for a format that holds one kind: the hairs, or the guides where there are no hairs.
     #[must_use]
     pub fn strands(&self) -> &Strands {
         if self.hairs.is_empty() { &self.guides } else { &self.hairs }

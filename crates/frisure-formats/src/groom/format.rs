@@ -1,4 +1,4 @@
-//! What a groom format declares about itself.
+//! The declaration of a groom format.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -10,16 +10,16 @@ use super::data::Groom;
 /// Turns the bytes of a file into a groom, or says what is wrong with them.
 pub(super) type Read = fn(&[u8], FrameChoice) -> Result<Groom, String>;
 
-/// Everything that the program knows of a groom format: help, error messages and lists derive from it.
+/// A groom format; help, error messages and lists derive from it.
 pub(super) struct Declaration {
     /// The extensions that name it, without a dot; the first is the one to show.
     pub(super) extensions: &'static [&'static str],
-    /// What it is, in a few words for a person.
+    /// Its name for people.
     pub(super) title: &'static str,
     /// Unit and axes that it has by convention, where neither file nor person says anything else.
     pub(super) frame: Frame,
-    /// Whether it tells guides from hairs, so that a file can hold both.
-    pub(super) tells_guides: bool,
+    /// Whether a file can hold guides beside hairs.
+    pub(super) holds_guides: bool,
     /// How many points its readers expect of a strand, where they require a number.
     pub(super) usual_points: Option<usize>,
     /// Checks that it has room for a groom.
@@ -37,7 +37,7 @@ pub(super) struct Declaration {
 ///
 /// let format = Format::of("curls.npz".as_ref())?;
 /// assert_eq!(format.extensions(), ["npz"]);
-/// assert!(format.is_read() && format.tells_guides());
+/// assert!(format.is_read() && format.holds_guides());
 /// # Ok::<(), frisure_formats::groom::GroomError>(())
 /// ```
 #[derive(Clone, Copy)]
@@ -70,7 +70,7 @@ impl Format {
         self.0.extensions[0]
     }
 
-    /// What it is, in a few words for a person.
+    /// Its name for people.
     #[must_use]
     pub const fn title(self) -> &'static str {
         self.0.title
@@ -82,10 +82,10 @@ impl Format {
         self.0.read.is_some()
     }
 
-    /// Whether it tells guides from hairs, so that a file can hold both.
+    /// Whether a file can hold guides beside hairs.
     #[must_use]
-    pub const fn tells_guides(self) -> bool {
-        self.0.tells_guides
+    pub const fn holds_guides(self) -> bool {
+        self.0.holds_guides
     }
 
     /// How many points its readers expect of a strand, where they require a number.

@@ -11,17 +11,17 @@ use std::io::{self, Write};
 use frisure_strands::{AttributeValues, Domain, Strands};
 
 use super::attributes::{COLOUR as COLOUR_ATTRIBUTE, of_points};
-use super::checked::Curves;
+use super::curves::Curves;
 use super::data::Groom;
 use super::format::Declaration;
-use frisure_files::frame::{Frame, FrameChoice, UpAxis};
+use frisure_files::frame::{Frame, FrameChoice};
 
 /// What the format declares.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["hair"],
     title: "Cem Yuksel's hair file",
     frame: Frame::CENTIMETRES_Z,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
@@ -39,10 +39,7 @@ const COLOUR: u32 = 16;
 
 /// What the header says for people: at most 88 bytes.
 fn info(frame: Frame) -> String {
-    let up = match frame.up {
-        UpAxis::Y => "y",
-        UpAxis::Z => "z",
-    };
+    let up = frame.up.name();
     // Exactly a centimetre is what nearly all files have.
     let unit = if frame.metres == 0.01 {
         "centimetres".into()

@@ -1,6 +1,6 @@
 //! Strands of lines between numbered points, as meshes have them.
 
-use super::checked::Curves;
+use super::curves::Curves;
 
 /// Lines, one strand after another.
 #[derive(Default)]

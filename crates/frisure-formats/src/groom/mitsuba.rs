@@ -8,6 +8,7 @@ use std::io::{self, Write};
 
 use frisure_strands::Strands;
 
+use super::checked::check_strands;
 use super::format::Declaration;
 use frisure_files::frame::Frame;
 
@@ -16,22 +17,14 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["txt"],
     title: "curves for Mitsuba 3",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
-    check: |groom| check(groom.strands()),
+    check: |groom| check_strands("strand", groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
     read: None,
 };
 
-/// Checks that the format has room: a curve has two points.
-pub(super) fn check(strands: &Strands) -> Result<(), String> {
-    match strands.iter().position(|s| s.points.len() < 2) {
-        None => Ok(()),
-        Some(i) => Err(format!("strand {i}, of fewer than 2 points")),
-    }
-}
-
-/// Writes what [`check`] has passed.
+/// Writes what [`check_strands`] has passed.
 fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let mut text = Vec::with_capacity(1 << 14);
     for strand in strands.iter() {
@@ -63,6 +56,6 @@ mod tests {
         let first = "0.5 1.5 0.25 0.000035\n0 0 -0 0.00001\n\n";
         assert_eq!(text, format!("{first}0 1 -0 0.000035\n1 0 -0 0.000035\n\n"));
         strands.push(&[Vec3::X], &[1e-5]);
-        assert!(check(&strands).is_err());
+        assert!(check_strands("strand", &strands).is_err());
     }
 }

@@ -1,6 +1,6 @@
 //! Grooms: hair in the files of other programs.
 //!
-//! One module per format, which declares everything that the program knows of it: to add one, write its file and
+//! One module per format, with its declaration: to add one, write its file and
 //! name it in [`Format::ALL`]; help, error messages and lists derive from the declaration.
 //! [`Format`] says what each can hold, and `docs/formats.md` describes every byte that matters. What is read has been checked: counts, sizes, widths, points that are nowhere.
 
@@ -8,6 +8,7 @@
 mod alembic;
 pub mod attributes;
 mod checked;
+mod curves;
 mod data;
 mod format;
 mod gltf;

@@ -13,14 +13,14 @@ use std::collections::BTreeMap;
 use std::io::{self, Cursor, Read, Write};
 
 use frisure_look::Melanin;
-use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
-use glam::Vec3;
+use frisure_strands::{Attribute, Domain, Strands};
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, ZipArchive};
 
 use self::array::{Array, header};
 use super::attributes as names;
-use super::checked::{Curves, MAX_STRANDS};
+use super::checked::MAX_STRANDS;
+use super::curves::Curves;
 use super::data::{Groom, HairColour};
 use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
@@ -30,7 +30,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["npz"],
     title: "arrays for NumPy",
     frame: Frame::METRES_Z,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
     check: |_| Ok(()),
     write: encode,
@@ -59,12 +59,14 @@ fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
         strands(&mut zip, GUIDE, &groom.guides, frame)?;
     }
     array(&mut zip, METRES, "<f8", &[], 8, |out| out.extend(frame.metres.to_le_bytes()))?;
-    text(&mut zip, UP, if frame.up == UpAxis::Y { "y" } else { "z" })?;
+    text(&mut zip, UP, frame.up.name())?;
     text(&mut zip, NAME, &groom.name)?;
     if let Some(HairColour { colour, melanin }) = groom.colour {
-        array(&mut zip, HAIR_COLOUR, "<f4", &[3], 12, |out| push(out, colour))?;
+        array(&mut zip, HAIR_COLOUR, "<f4", &[3], 12, |out| names::push(out, colour))?;
         if let Some(Melanin { eumelanin, pheomelanin }) = melanin {
-            array(&mut zip, MELANIN, "<f4", &[2], 8, |out| push(out, [eumelanin, pheomelanin]))?;
+            array(&mut zip, MELANIN, "<f4", &[2], 8, |out| {
+                names::push(out, [eumelanin, pheomelanin])
+            })?;
         }
     }
     zip.finish()?;
@@ -84,7 +86,7 @@ fn strands(zip: &mut Zip<'_>, prefix: &str, strands: &Strands, frame: Frame) -> 
     let with = |extent: &[usize]| [&shape[..], extent].concat();
     let name = if alike.is_some() { "positions" } else { "points" };
     array(zip, &format!("{prefix}{name}"), "<f4", &with(&[3]), 12 * points.len(), |out| {
-        points.iter().for_each(|p| push(out, frame.position_to_file(*p).to_array()));
+        points.iter().for_each(|p| names::push(out, frame.position_to_file(*p).to_array()));
     })?;
     if alike.is_none() {
         let offsets = strands.offsets();
@@ -94,7 +96,7 @@ fn strands(zip: &mut Zip<'_>, prefix: &str, strands: &Strands, frame: Frame) -> 
         })?;
     }
     array(zip, &format!("{prefix}radii"), "<f4", &shape, 4 * points.len(), |out| {
-        strands.radii().iter().for_each(|r| push(out, [frame.length_to_file(*r)]));
+        strands.radii().iter().for_each(|r| names::push(out, [frame.length_to_file(*r)]));
     })?;
     for attribute in strands.attributes() {
         let each = match attribute.domain {
@@ -119,31 +121,13 @@ fn values(
     each: &[usize],
     frame: Frame,
 ) -> io::Result<()> {
-    let count = attribute.values.len();
-    let with = |extent: &[usize]| [each, extent].concat();
-    match &attribute.values {
-        AttributeValues::U32(v) => array(zip, name, "<u4", each, 4 * count, |out| {
-            v.iter().for_each(|x| out.extend(x.to_le_bytes()));
-        }),
-        AttributeValues::U32x3(v) => array(zip, name, "<u4", &with(&[3]), 12 * count, |out| {
-            v.as_flattened().iter().for_each(|x| out.extend(x.to_le_bytes()));
-        }),
-        AttributeValues::F32(v) => array(zip, name, "<f4", each, 4 * count, |out| {
-            v.iter().for_each(|x| push(out, [*x]));
-        }),
-        AttributeValues::F32x2(v) => array(zip, name, "<f4", &with(&[2]), 8 * count, |out| {
-            v.iter().for_each(|x| push(out, *x));
-        }),
-        AttributeValues::F32x3(v) => array(zip, name, "<f4", &with(&[3]), 12 * count, |out| {
-            let turn = |d: [f32; 3]| frame.direction_to_file(Vec3::from_array(d)).to_array();
-            let is_direction = attribute.name == names::DIRECTOR;
-            v.iter().for_each(|&x| push(out, if is_direction { turn(x) } else { x }));
-        }),
-    }
-}
-
-fn push<const N: usize>(out: &mut Vec<u8>, values: [f32; N]) {
-    out.extend_from_slice(values.map(f32::to_le_bytes).as_flattened());
+    let values = &names::in_file_axes(attribute, frame).values;
+    let (is_whole, width) = names::layout(values);
+    let extent: &[usize] = if width > 1 { &[width] } else { &[] };
+    let kind = if is_whole { "<u4" } else { "<f4" };
+    array(zip, name, kind, &[each, extent].concat(), 4 * width * values.len(), |out| {
+        (0..values.len()).for_each(|row| names::push_value(out, values, row));
+    })
 }
 
 fn text(zip: &mut Zip<'_>, name: &str, text: &str) -> io::Result<()> {
@@ -315,29 +299,13 @@ fn attribute(
 ) -> Option<Attribute> {
     let (domain, extent) = meaning(&name, &array.shape, strands, points)?;
     // Numbers below 0 wrap round, as -1 is written for nothing.
-    let values = if let Some(whole) = array.whole(|x| x as u32) {
-        match extent {
-            1 => AttributeValues::U32(whole),
-            3 => AttributeValues::U32x3(whole.as_chunks().0.to_vec()),
-            _ => return None,
-        }
-    } else {
-        let real = array.real()?;
-        match extent {
-            1 => AttributeValues::F32(real),
-            2 => AttributeValues::F32x2(real.as_chunks().0.to_vec()),
-            _ => {
-                let mut rows = real.as_chunks().0.to_vec();
-                if name == names::DIRECTOR {
-                    for d in &mut rows {
-                        *d = frame.direction_from_file(Vec3::from_array(*d)).to_array();
-                    }
-                }
-                AttributeValues::F32x3(rows)
-            }
-        }
+    let values = match array.whole(|x| x as u32) {
+        Some(whole) => names::whole_values(whole, extent)?,
+        None => names::real_values(array.real()?, extent)?,
     };
-    Some(Attribute { name, domain, values })
+    let mut attribute = Attribute { name, domain, values };
+    names::turn_directions(&mut attribute, |d| frame.direction_from_file(d));
+    Some(attribute)
 }
 
 /// What an array has values for, and how many make one.

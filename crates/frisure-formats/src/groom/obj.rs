@@ -11,14 +11,14 @@ use glam::Vec3;
 use super::data::Groom;
 use super::format::Declaration;
 use super::lines::Lines;
-use frisure_files::frame::{Frame, FrameChoice, UpAxis};
+use frisure_files::frame::{Frame, FrameChoice};
 
 /// What the format declares.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["obj"],
     title: "Wavefront polylines",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |_| Ok(()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
@@ -28,10 +28,7 @@ pub(super) static FORMAT: Declaration = Declaration {
 /// Writes strands as one `l` each.
 fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let (count, points) = (strands.len(), strands.points().len());
-    let up = match frame.up {
-        UpAxis::Y => 'y',
-        UpAxis::Z => 'z',
-    };
+    let up = frame.up.name();
     writeln!(out, "# frisure: {count} strands, {points} points; unit {} m, {up} up", frame.metres)?;
     let mut line = Vec::with_capacity(1 << 12);
     for &point in strands.points() {

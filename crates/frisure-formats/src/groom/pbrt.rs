@@ -10,28 +10,25 @@ use std::io::{self, Write};
 use frisure_strands::Strands;
 use glam::Vec3;
 
+use super::checked::check_strands;
 use super::format::Declaration;
-use super::mitsuba::check;
-use frisure_files::frame::{Frame, UpAxis};
+use frisure_files::frame::Frame;
 
 /// What the format declares.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["pbrt"],
     title: "curves for pbrt-v4",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
-    check: |groom| check(groom.strands()),
+    check: |groom| check_strands("strand", groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
     read: None,
 };
 
-/// Writes what [`check`] has passed.
+/// Writes what [`check_strands`] has passed.
 fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
-    let up = match frame.up {
-        UpAxis::Y => 'y',
-        UpAxis::Z => 'z',
-    };
+    let up = frame.up.name();
     let count = strands.len();
     writeln!(out, "# frisure: {count} strands; unit {} m, {up} up", frame.metres)?;
     let mut text = Vec::with_capacity(1 << 14);

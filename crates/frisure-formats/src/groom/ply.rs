@@ -6,19 +6,19 @@ use std::io::{self, Write};
 
 use frisure_strands::Strands;
 
-use super::checked::Curves;
+use super::curves::Curves;
 use super::data::Groom;
 use super::format::Declaration;
 use super::lines::Lines;
 use crate::ply::open;
-use frisure_files::frame::{Frame, FrameChoice, UpAxis};
+use frisure_files::frame::{Frame, FrameChoice};
 
 /// What the format declares.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["ply"],
     title: "Stanford points and edges",
     frame: Frame::METRES_Z,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
@@ -37,10 +37,7 @@ fn check(strands: &Strands) -> Result<(), String> {
 /// Writes what [`check`] has passed.
 #[expect(clippy::cast_possible_truncation, reason = "counts were checked to fit")]
 fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
-    let up = match frame.up {
-        UpAxis::Y => 'y',
-        UpAxis::Z => 'z',
-    };
+    let up = frame.up.name();
     let points = strands.points().len();
     let edges: usize = strands.iter().map(|s| s.points.len().saturating_sub(1)).sum();
     write!(

@@ -11,7 +11,7 @@ use std::io::{self, Write};
 
 use frisure_strands::Strands;
 
-use super::checked::Curves;
+use super::curves::Curves;
 use super::data::Groom;
 use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice};
@@ -21,7 +21,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["data"],
     title: "hairstyles of USC-HairSalon",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: Some(100),
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

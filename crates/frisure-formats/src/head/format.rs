@@ -1,11 +1,11 @@
-//! What a format of heads declares about itself.
+//! The declaration of a format of heads.
 
 use super::mesh::Mesh;
 
-/// Gives the bytes of another file by the name that it has in the one that is read.
+/// Returns the bytes of another file, by its name in the one that is read.
 pub(super) type Beside<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
-/// Everything that the program knows of a format of meshes.
+/// A format of meshes.
 pub(super) struct MeshFormat {
     /// The extensions that name it, without a dot.
     pub(super) extensions: &'static [&'static str],

@@ -12,7 +12,7 @@ use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 
 use super::format::{Beside, MeshFormat};
-use super::mesh::Mesh;
+use super::mesh::{Mesh, vertex_index};
 use super::source::MAX_SIZE;
 use frisure_files::frame::Frame;
 
@@ -147,7 +147,7 @@ fn parse(bytes: &[u8], beside: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Resu
         }
     }
     let frame = Some(Frame::METRES_Y);
-    let mesh = Mesh { frame, tells_unit: true, ..Mesh::default() };
+    let mesh = Mesh { frame, states_unit: true, ..Mesh::default() };
     let seen = vec![false; document.nodes.len()];
     let mut reader = Reader { document: &document, buffers, seen, mesh };
     for &root in &reader.roots() {
@@ -290,16 +290,8 @@ impl Reader<'_> {
         let first_triangle = self.mesh.triangles.len();
         for [a, b, c] in fans(mode, &corners) {
             let corner = |v: f64| {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "checked"
-                )]
-                if v >= 0.0 && v < points as f64 {
-                    Ok((first + v as usize) as u32)
-                } else {
-                    Err(format!("a face names vertex {v}, and there are {points}"))
-                }
+                let found = vertex_index(v, points).map(|v| first as u32 + v);
+                found.ok_or_else(|| format!("a face names vertex {v}, and there are {points}"))
             };
             let (b, c) = if mirrored { (c, b) } else { (b, c) };
             self.mesh.triangles.push([corner(a)?, corner(b)?, corner(c)?]);
@@ -329,14 +321,10 @@ impl Reader<'_> {
             if values.all.len() != points * values.width {
                 return Err(format!("{name} has not one value for each vertex"));
             }
-            match values.width {
-                1 => self.mesh.channel(name, first, values.all.into_iter()),
-                3 | 4 if name == "COLOR_0" => self.mesh.colours(first, &values.all, values.width),
-                3 | 4 => {
-                    let mean = |c: &[f64]| (c[0] + c[1] + c[2]) / 3.0;
-                    self.mesh.channel(name, first, values.all.chunks_exact(values.width).map(mean));
-                }
-                _ => {}
+            if name == "COLOR_0" {
+                self.mesh.colours(first, &values.all, values.width);
+            } else {
+                self.mesh.values(name, first, &values.all, values.width);
             }
         }
         Ok(())
@@ -506,12 +494,17 @@ mod tests {
 
     /// Two triangles with a seam, coloured, in a node that is moved and mirrored.
     fn binary() -> Vec<u8> {
+        changed("", "", [0, 1, 2, 0, 2, 3])
+    }
+
+    /// The same with a part of the JSON replaced, and with these corners.
+    fn changed(from: &str, to: &str, corners: [u16; 6]) -> Vec<u8> {
         let mut bin = Vec::new();
         for x in [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0_f32] {
             bin.extend(x.to_le_bytes());
         }
         bin.extend([255, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255]);
-        for i in [0, 1, 2, 0, 2, 3_u16] {
+        for i in corners {
             bin.extend(i.to_le_bytes());
         }
         let json = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
@@ -524,7 +517,7 @@ mod tests {
             "bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":16},
                 {"buffer":0,"byteOffset":64,"byteLength":12}],
             "buffers":[{"byteLength":76}]}"#;
-        let mut json = json.as_bytes().to_vec();
+        let mut json = json.replacen(from, to, 1).into_bytes();
         json.resize(json.len().next_multiple_of(4), b' ');
         let mut bytes = b"glTF".to_vec();
         bytes.extend(2_u32.to_le_bytes());
@@ -565,6 +558,31 @@ mod tests {
                 let _ = parse(&bytes, &none);
             }
             bytes[i] = good;
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_range_is_named() {
+        let usual = [0, 1, 2, 0, 2, 3];
+        let faults = [
+            ("", "", [0, 1, 2, 0, 2, 4], "mesh 0, part 0: a face names vertex 4, and there are 4"),
+            (r#""indices":2"#, r#""indices":9"#, usual, "there is no accessor 9"),
+            (r#""bufferView":2"#, r#""bufferView":9"#, usual, "accessor 2: it has no bytes"),
+            (
+                r#""count":6"#,
+                r#""count":7"#,
+                usual,
+                "accessor 2: its buffer is too short for 7 values",
+            ),
+            (r#""byteOffset":64"#, r#""byteOffset":65"#, usual, "its buffer is too short"),
+            (r#"{"buffer":0"#, r#"{"buffer":1"#, usual, "accessor 0: it has no buffer"),
+            (r#""count":6"#, r#""count":18446744073709551615"#, usual, "too short"),
+            (r#""mesh":0"#, r#""mesh":3"#, usual, "there is no mesh 3"),
+            (r#""nodes":[0]"#, r#""nodes":[5]"#, usual, "there is no node 5"),
+        ];
+        for (from, to, corners, part) in faults {
+            let error = parse(&changed(from, to, corners), &none).unwrap_err();
+            assert!(error.contains(part), "{to}: {error}");
         }
     }
 

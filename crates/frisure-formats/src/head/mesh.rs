@@ -24,8 +24,8 @@ pub struct Group {
 pub(super) struct Mesh {
     /// Unit and axes that the format or the file has.
     pub(super) frame: Option<Frame>,
-    /// Whether the unit is one that the file says, or its standard.
-    pub(super) tells_unit: bool,
+    /// Whether the file or its format states the unit.
+    pub(super) states_unit: bool,
     /// Vertices, in the file's own unit and axes.
     pub(super) positions: Vec<[f64; 3]>,
     /// Texture coordinates.
@@ -86,8 +86,16 @@ impl Mesh {
         for (i, name) in COLOURS.into_iter().enumerate().take(width) {
             self.channel(name, first, colours.chunks_exact(width).map(|c| c[i]));
         }
-        let brightness = |c: &[f64]| (c[0] + c[1] + c[2]) / 3.0;
-        self.channel(BRIGHTNESS, first, colours.chunks_exact(width).map(brightness));
+        self.channel(BRIGHTNESS, first, colours.chunks_exact(width).map(mean));
+    }
+
+    /// Sets values of vertices from one on: single numbers, or colours as their means. Others are left out.
+    pub(super) fn values(&mut self, name: &str, first: usize, values: &[f64], width: usize) {
+        match width {
+            1 => self.channel(name, first, values.iter().copied()),
+            3 | 4 => self.channel(name, first, values.chunks_exact(width).map(mean)),
+            _ => {}
+        }
     }
 
     /// Makes vertices in the same place one: formats that cannot give a corner of its own a texture coordinate
@@ -132,6 +140,18 @@ impl Mesh {
     pub(super) fn file_vertices(&self) -> usize {
         if self.joined.is_empty() { self.positions.len() } else { self.joined.len() }
     }
+}
+
+/// The mean of red, green and blue.
+fn mean(colour: &[f64]) -> f64 {
+    (colour[0] + colour[1] + colour[2]) / 3.0
+}
+
+/// A number of a file as the index of a vertex, if it is one of `count`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
+pub(super) fn vertex_index(number: f64, count: usize) -> Option<u32> {
+    let is_index = number >= 0.0 && number < count as f64 && number <= f64::from(u32::MAX);
+    is_index.then_some(number as u32)
 }
 
 #[cfg(test)]

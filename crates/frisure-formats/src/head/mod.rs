@@ -98,7 +98,7 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
 fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
     let bytes = files.read_bytes(path, MAX_SIZE, "a mesh")?;
     let beside = |name: &str| {
-        // Only files in the same folder or below: a mesh from elsewhere cannot read other files.
+        // Only files in the same folder or below: a mesh cannot make the program read other files.
         let within = |part| matches!(part, Component::Normal(_));
         if !Path::new(name).components().all(within) {
             return Err(format!("`{name}` is not beside it"));
@@ -118,11 +118,12 @@ fn parse(path: &Path, files: &Files) -> Result<Mesh, HeadFileError> {
     })
 }
 
-/// Unit and axes of a mesh: as told, else as the file has them, else as its format has them and its size lets it be.
-fn frame(mesh: &Mesh, told: FrameChoice) -> (Frame, Option<&'static str>) {
+/// Unit and axes of a mesh: chosen by the caller, else stated in the file, else those of its format, or another unit in
+/// which its size is that of a head.
+fn frame(mesh: &Mesh, choice: FrameChoice) -> (Frame, Option<&'static str>) {
     let usual = mesh.frame.unwrap_or(Frame::METRES_Y);
-    let frame = told.or(usual);
-    if told.metres.is_some() || mesh.tells_unit {
+    let frame = choice.or(usual);
+    if choice.metres.is_some() || mesh.states_unit {
         return (frame, None);
     }
     let raw: Vec<DVec3> = mesh.positions.iter().map(|p| DVec3::from_array(*p)).collect();

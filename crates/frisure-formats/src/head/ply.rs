@@ -3,7 +3,7 @@
 //! Source of the format: Greg Turk, "The PLY Polygon File Format" (1994).
 
 use super::format::MeshFormat;
-use super::mesh::{COLOURS, MAX_CORNERS, Mesh};
+use super::mesh::{COLOURS, MAX_CORNERS, Mesh, vertex_index};
 use crate::ply::{Body, Element, Property, open};
 use frisure_files::frame::Frame;
 
@@ -114,18 +114,9 @@ fn faces(mesh: &mut Mesh, element: &Element, body: &mut Body) -> Result<(), Stri
             let mut corners = Vec::with_capacity(count);
             for _ in 0..count {
                 let vertex = body.number(property.kind)?;
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "checked"
-                )]
-                if vertex >= 0.0 && vertex < points as f64 && vertex < f64::from(u32::MAX) {
-                    corners.push(vertex as u32);
-                } else {
-                    return Err(format!(
-                        "face {face} names vertex {vertex}, and there are {points}"
-                    ));
-                }
+                corners.push(vertex_index(vertex, points).ok_or_else(|| {
+                    format!("face {face} names vertex {vertex}, and there are {points}")
+                })?);
             }
             for pair in corners[1..].windows(2) {
                 let triangle = [corners[0], pair[0], pair[1]];

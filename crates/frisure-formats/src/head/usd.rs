@@ -21,8 +21,8 @@ fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     let stage = Stage::of(&layer)?;
     let mut mesh =
         Mesh { frame: Some(stage_frame(&stage, FrameChoice::default())), ..Mesh::default() };
-    mesh.tells_unit = layer.meta("metersPerUnit").is_some();
-    let meshes = stage.places.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
+    mesh.states_unit = layer.meta("metersPerUnit").is_some();
+    let meshes = stage.prims.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
     for place in meshes {
         add(&mut mesh, place).map_err(|e| stage.fault(place, &e))?;
     }
@@ -94,18 +94,10 @@ struct Values {
 fn corner_values(prim: &Prim, name: &str, own: &usd::Mesh, points: usize) -> Option<Values> {
     let attribute = prim.attribute(name)?;
     let value = attribute.value.as_ref()?;
-    let width = value.kind.width();
-    let mut numbers = value.numbers()?;
+    let width = value.ty.width();
+    let numbers = prim.resolved(attribute, value, width).ok()?.numbers()?;
     if !numbers.iter().all(|x| x.is_finite()) {
         return None;
-    }
-    if let Some(indices) = prim.value(&format!("{name}:indices")) {
-        let mut picked = Vec::new();
-        for i in indices.to_integers()? {
-            let i = usize::try_from(i).ok()?.checked_mul(width)?;
-            picked.extend_from_slice(numbers.get(i..i + width)?);
-        }
-        numbers = picked;
     }
     let of_corners = match attribute.meta("interpolation").and_then(Value::word)? {
         "faceVarying" => true,
@@ -146,12 +138,7 @@ impl Values {
         match (name, self.width) {
             ("displayColor", 3 | 4) => mesh.colours(first, &all, self.width),
             ("displayOpacity", 1) => mesh.channel("alpha", first, all.into_iter()),
-            (_, 1) => mesh.channel(name, first, all.into_iter()),
-            (_, 3 | 4) => {
-                let mean = |c: &[f64]| (c[0] + c[1] + c[2]) / 3.0;
-                mesh.channel(name, first, all.chunks_exact(self.width).map(mean));
-            }
-            _ => {}
+            _ => mesh.values(name, first, &all, self.width),
         }
     }
 

@@ -93,7 +93,7 @@ pub fn write(
         },
         layer_data: layer,
     };
-    // OpenEXR wants to go back and fill in tables, which a stream cannot.
+    // The writer seeks back to fill in tables, which a stream cannot do.
     let mut bytes = Cursor::new(Vec::new());
     image.write().to_buffered(&mut bytes).map_err(|e| PictureError::Encoding(e.to_string()))?;
     write_atomically(path, |out| out.write_all(bytes.get_ref()))?;

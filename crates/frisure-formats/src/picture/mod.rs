@@ -13,7 +13,7 @@ use frisure_files::WriteError;
 /// Why a picture could not be written.
 #[derive(Debug, Error)]
 pub enum PictureError {
-    /// There are more or fewer values than width × height asks for, or there is none.
+    /// The number of values is not width × height, or 0.
     #[error("`{what}` has {found} values, which are no picture of {width} × {height} pixels")]
     Size {
         /// Pixels in a row.

@@ -98,21 +98,20 @@ fn commonest(values: &[i32]) -> i32 {
     counts.into_iter().max_by_key(|(x, n)| (*n, *x)).map_or(0, |(x, _)| x)
 }
 
-/// Gives `count` integers to `take`, 32 bits wide or 64.
+/// The `count` integers that were packed, each of 64 bits (`is_wide`) or 32.
 pub(super) fn unpack_integers(
     packed: &[u8],
     count: usize,
-    wide: bool,
-    mut take: impl FnMut(i64),
-) -> Result<(), String> {
+    is_wide: bool,
+) -> Result<Vec<i64>, String> {
     if count == 0 {
-        return Ok(());
+        return Ok(Vec::new());
     }
     // At best there are two bits to an integer.
     if count as u64 / 4 > MOST * packed.len() as u64 {
         return Err(format!("{} compressed bytes cannot be {count} integers", packed.len()));
     }
-    let width = if wide { 8 } else { 4 };
+    let width = if is_wide { 8 } else { 4 };
     let first = width + count.div_ceil(4);
     let bytes = unpack_at_most(packed, (first + count * width).min(packed.len() * MOST as usize))?;
     let short = || format!("{count} compressed integers are cut short");
@@ -120,22 +119,23 @@ pub(super) fn unpack_integers(
     let (common, codes) = codes.split_at(width);
     let common = signed(common);
     let mut value = 0_i64;
+    let mut integers = Vec::with_capacity(count);
     for i in 0..count {
         let code = codes[i / 4] >> (2 * (i % 4)) & 3;
         let length = if code == 0 { 0 } else { 1_usize << (code - 1) };
         // 1, 2 and 4 bytes; 2, 4 and 8 of wide ones.
-        let length = if wide { length * 2 } else { length };
+        let length = if is_wide { length * 2 } else { length };
         let (difference, tail) = rest.split_at_checked(length).ok_or_else(short)?;
         rest = tail;
         value = value.wrapping_add(if code == 0 { common } else { signed(difference) });
-        if !wide {
+        if !is_wide {
             #[expect(clippy::cast_possible_truncation, reason = "it wraps, as its writer did")]
             let narrow = value as i32;
             value = i64::from(narrow);
         }
-        take(value);
+        integers.push(value);
     }
-    Ok(())
+    Ok(integers)
 }
 
 /// A little-endian number of 1 to 8 bytes.
@@ -150,12 +150,6 @@ fn signed(bytes: &[u8]) -> i64 {
 mod tests {
     use super::*;
 
-    fn unpacked(packed: &[u8], count: usize) -> Result<Vec<i64>, String> {
-        let mut all = Vec::new();
-        unpack_integers(packed, count, false, |x| all.push(x))?;
-        Ok(all)
-    }
-
     #[test]
     fn integers_come_back() {
         let counts = vec![16; 1000];
@@ -163,7 +157,7 @@ mod tests {
         for values in [vec![], vec![7], counts, mixed] {
             let packed = pack_integers(&values);
             let wide: Vec<i64> = values.iter().map(|&x| i64::from(x)).collect();
-            assert_eq!(unpacked(&packed, values.len()).unwrap(), wide);
+            assert_eq!(unpack_integers(&packed, values.len(), false).unwrap(), wide);
         }
         assert!(pack_integers(&vec![16; 100_000]).len() < 200);
     }
@@ -172,11 +166,11 @@ mod tests {
     fn counts_that_lie_take_no_memory() {
         let packed = pack_integers(&[1, 2, 3, 1000]);
         for count in [5, 1 << 20, usize::MAX / 16, usize::MAX] {
-            assert!(unpacked(&packed, count).is_err(), "{count}");
+            assert!(unpack_integers(&packed, count, false).is_err(), "{count}");
         }
         assert!(unpack(&packed, usize::MAX).is_err());
         for n in 0..packed.len() {
-            assert!(unpacked(&packed[..n], 4).is_err(), "{n}");
+            assert!(unpack_integers(&packed[..n], 4, false).is_err(), "{n}");
         }
     }
 

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::structure::{self, Structure};
 use super::values::Source;
-use super::{Rep, spec};
+use super::{ValueRep, spec};
 use crate::layer::{
-    Attribute, Layer, Prim, Relationship, Specifier, is_from_elsewhere, metadata_kind,
+    Attribute, Layer, Prim, Relationship, Specifier, is_composition_arc, metadata_type,
 };
 use crate::value::Value;
 
@@ -51,7 +51,7 @@ impl Tree {
 }
 
 /// The fields of a spec.
-type Fields = BTreeMap<String, Rep>;
+type Fields = BTreeMap<String, ValueRep>;
 
 struct Reader<'a> {
     source: Source<'a>,
@@ -95,7 +95,7 @@ impl Reader<'_> {
 
     fn metadata(&mut self, fields: &Fields) -> Result<Vec<(String, Value)>, String> {
         let mut metadata = Vec::new();
-        for (key, rep) in fields.iter().filter(|(key, _)| metadata_kind(key).is_some()) {
+        for (key, rep) in fields.iter().filter(|(key, _)| metadata_type(key).is_some()) {
             if let Some(value) = self.source.value(*rep)? {
                 metadata.push((key.clone(), value));
             }
@@ -143,13 +143,12 @@ impl Reader<'_> {
             prim.schemas = self.source.words(*rep)?;
         }
         prim.metadata = self.metadata(fields)?;
-        let from_elsewhere = fields.keys().map(|key| match key.as_str() {
+        let arcs = fields.keys().map(|key| match key.as_str() {
             "variantSetNames" => "variantSets",
             "inheritPaths" => "inherits",
             key => key,
         });
-        prim.elsewhere =
-            from_elsewhere.filter(|key| is_from_elsewhere(key)).map(str::to_owned).collect();
+        prim.arcs = arcs.filter(|key| is_composition_arc(key)).map(str::to_owned).collect();
         if let Some(order) = fields.get("properties") {
             let order = self.source.words(*order)?;
             for property in self.inside(path, true, &order)? {

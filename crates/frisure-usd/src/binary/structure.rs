@@ -1,8 +1,8 @@
 //! The sections of a binary file: words, fields, paths, specs.
 
 use super::compressed::{unpack, unpack_integers};
-use super::{HEAD, MAGIC, Rep};
-use crate::MAX_DEPTH;
+use super::{HEAD, MAGIC, ValueRep};
+use crate::layer::MAX_DEPTH;
 
 /// What may be unpacked from a file, for each of its bytes, and besides.
 const MOST: (usize, usize) = (16, 256 << 20);
@@ -103,11 +103,11 @@ pub(super) struct Node {
 /// What is where, without its values.
 #[derive(Default)]
 pub(super) struct Structure {
-    /// The middle number of the version, which tells all that differs.
+    /// The middle number of the version: all differences follow from it.
     pub(super) version: u8,
     pub(super) words: Vec<String>,
     pub(super) strings: Vec<u32>,
-    pub(super) fields: Vec<(u32, Rep)>,
+    pub(super) fields: Vec<(u32, ValueRep)>,
     pub(super) sets: Vec<u32>,
     /// By the index of the path.
     pub(super) nodes: Vec<Node>,
@@ -198,18 +198,18 @@ fn integers(bytes: &mut Bytes, budget: &mut Budget) -> Result<Vec<u32>, String> 
 fn some_integers(bytes: &mut Bytes, count: u64, budget: &mut Budget) -> Result<Vec<u32>, String> {
     let packed = bytes.sized()?;
     let count = budget.take(count, 4)?;
-    let mut all = Vec::new();
+    let all = unpack_integers(packed, count, false)?;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "of 32 bits")]
-    unpack_integers(packed, count, false, |x| all.push(x as u32))?;
-    Ok(all)
+    let narrow = |&x: &i64| x as u32;
+    Ok(all.iter().map(narrow).collect())
 }
 
-fn fields(bytes: &mut Bytes, budget: &mut Budget) -> Result<Vec<(u32, Rep)>, String> {
+fn fields(bytes: &mut Bytes, budget: &mut Budget) -> Result<Vec<(u32, ValueRep)>, String> {
     let count = bytes.u64()?;
     let names = some_integers(bytes, count, budget)?;
     let size = budget.take(count.saturating_mul(8), 1)?;
     let values = unpack(bytes.sized()?, size)?;
-    let values = values.as_chunks().0.iter().map(|b| Rep(u64::from_le_bytes(*b)));
+    let values = values.as_chunks().0.iter().map(|b| ValueRep(u64::from_le_bytes(*b)));
     Ok(names.into_iter().zip(values).collect())
 }
 
@@ -230,20 +230,20 @@ impl Structure {
     }
 
     fn paths(&mut self, bytes: &mut Bytes, budget: &mut Budget) -> Result<(), String> {
-        let (count, told) = (bytes.u64()?, bytes.u64()?);
-        let paths = some_integers(bytes, told, budget)?;
-        let names = some_integers(bytes, told, budget)?;
-        let jumps = some_integers(bytes, told, budget)?;
-        // Paths that are not in the tree are none.
-        if count > told.saturating_add(1) {
-            return Err(format!("it has {told} paths and says that there are {count}"));
+        let (count, stated) = (bytes.u64()?, bytes.u64()?);
+        let paths = some_integers(bytes, stated, budget)?;
+        let names = some_integers(bytes, stated, budget)?;
+        let jumps = some_integers(bytes, stated, budget)?;
+        // Each path is in the tree.
+        if count > stated.saturating_add(1) {
+            return Err(format!("it has {stated} paths and says that there are {count}"));
         }
         self.nodes = vec![Node::default(); budget.take(count, size_of::<Node>())?];
         // Where a node is, what it is in, how deep.
         let mut waiting: Vec<(usize, Option<u32>, usize)> = vec![(0, None, 0)];
         while let Some((at, parent, depth)) = waiting.pop() {
             if at >= paths.len() {
-                return Err(format!("its tree of paths leads to {at} of {told}"));
+                return Err(format!("its tree of paths leads to {at} of {stated}"));
             }
             if depth > MAX_DEPTH {
                 return Err(format!("its paths are more than {MAX_DEPTH} deep"));

@@ -4,8 +4,8 @@ use half::f16;
 
 use super::compressed::unpack_integers;
 use super::structure::{Budget, Bytes, Structure};
-use super::{FEW, KINDS, Rep, code};
-use crate::value::{Base, Data, Kind, Shape, Value};
+use super::{FEW, ValueRep, code};
+use crate::value::{Data, ScalarType, Shape, TYPES, Value, ValueType};
 
 /// A file whose values are read.
 pub(super) struct Source<'a> {
@@ -15,29 +15,29 @@ pub(super) struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// A plain value; none of what is none (blocks, dictionaries, …).
-    pub(super) fn value(&mut self, rep: Rep) -> Result<Option<Value>, String> {
-        let Some((_, kind)) = KINDS.iter().find(|(code, _)| *code == rep.code()) else {
+    /// A plain value; none of other types (blocks, dictionaries, …).
+    pub(super) fn value(&mut self, rep: ValueRep) -> Result<Option<Value>, String> {
+        let Some((.., ty)) = TYPES.iter().find(|(code, ..)| *code == rep.code()) else {
             return Ok(None);
         };
-        if rep.has(Rep::EDIT) {
+        if rep.has(ValueRep::EDIT) {
             return Err("it edits an array of another layer".into());
         }
-        if rep.has(Rep::ARRAY) {
-            return self.array(rep, *kind).map(Some);
+        if rep.has(ValueRep::ARRAY) {
+            return self.array(rep, *ty).map(Some);
         }
-        let data = if rep.has(Rep::INLINED) {
-            self.inlined(rep, *kind)?
+        let data = if rep.has(ValueRep::INLINED) {
+            self.inlined(rep, *ty)?
         } else {
             let mut here = Bytes::new(self.bytes, rep.payload())?;
-            self.raw(&mut here, *kind, 1)?
+            self.raw(&mut here, *ty, 1)?
         };
-        Ok(Some(Value { kind: *kind, array: false, data }))
+        Ok(Some(Value { ty: *ty, array: false, data }))
     }
 
     /// The first of samples in time.
-    pub(super) fn first_sample(&mut self, rep: Rep) -> Result<Option<Value>, String> {
-        if rep.code() != code::TIME_SAMPLES || rep.has(Rep::INLINED) {
+    pub(super) fn first_sample(&mut self, rep: ValueRep) -> Result<Option<Value>, String> {
+        if rep.code() != code::TIME_SAMPLES || rep.has(ValueRep::INLINED) {
             return Ok(None);
         }
         let mut here = Bytes::new(self.bytes, rep.payload())?;
@@ -48,12 +48,12 @@ impl Source<'_> {
         if here.u64()? == 0 {
             return Ok(None);
         }
-        let first = Rep(here.u64()?);
+        let first = ValueRep(here.u64()?);
         self.value(first)
     }
 
     /// Indices of words, of a list or of a change to one.
-    pub(super) fn words(&mut self, rep: Rep) -> Result<Vec<String>, String> {
+    pub(super) fn words(&mut self, rep: ValueRep) -> Result<Vec<String>, String> {
         let indices = match rep.code() {
             code::TOKEN_VECTOR => Bytes::new(self.bytes, rep.payload())?.indices()?,
             code::TOKEN_LIST_OP => self.list(rep)?,
@@ -70,14 +70,14 @@ impl Source<'_> {
     }
 
     /// Indices of paths.
-    pub(super) fn paths(&mut self, rep: Rep) -> Result<Vec<u32>, String> {
+    pub(super) fn paths(&mut self, rep: ValueRep) -> Result<Vec<u32>, String> {
         let paths = if rep.code() == code::PATH_LIST_OP { self.list(rep)? } else { Vec::new() };
         self.budget.take(paths.len() as u64, 4)?;
         Ok(paths)
     }
 
     /// What a change to a list has in it, but for what it takes out.
-    fn list(&self, rep: Rep) -> Result<Vec<u32>, String> {
+    fn list(&self, rep: ValueRep) -> Result<Vec<u32>, String> {
         let mut here = Bytes::new(self.bytes, rep.payload())?;
         let flags = here.u8()?;
         let mut all = Vec::new();
@@ -94,36 +94,35 @@ impl Source<'_> {
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "the low bytes of the payload")]
-    fn inlined(&self, rep: Rep, kind: Kind) -> Result<Data, String> {
+    fn inlined(&mut self, rep: ValueRep, ty: ValueType) -> Result<Data, String> {
         let payload = rep.payload() as u32;
-        if let Shape::Matrix(n) = kind.shape {
+        let bytes = payload.to_le_bytes();
+        if let Shape::Matrix(n) = ty.shape {
             // Only a diagonal of small numbers.
             let mut all = vec![0.0; n * n];
-            for (i, b) in payload.to_le_bytes().into_iter().take(n).enumerate() {
+            for (i, b) in bytes.into_iter().take(n).enumerate() {
                 all[i * n + i] = f64::from(b.cast_signed());
             }
             return Ok(Data::F64(all));
         }
-        if kind.shape != Shape::One {
-            let small = payload.to_le_bytes().map(u8::cast_signed);
-            let small = &small[..kind.width()];
-            return Ok(match Data::empty(kind.base) {
+        if ty.shape != Shape::One {
+            let small = bytes.map(u8::cast_signed);
+            let small = &small[..ty.width()];
+            return Ok(match Data::empty(ty.scalar) {
                 Data::I32(_) => Data::I32(small.iter().map(|&x| x.into()).collect()),
                 Data::F32(_) => Data::F32(small.iter().map(|&x| x.into()).collect()),
                 _ => Data::F64(small.iter().map(|&x| x.into()).collect()),
             });
         }
-        Ok(match kind.base {
-            Base::Bool | Base::UChar => Data::I32(vec![(payload & 0xff).cast_signed()]),
-            Base::Int => Data::I32(vec![payload.cast_signed()]),
-            Base::UInt | Base::UInt64 => Data::I64(vec![payload.into()]),
-            Base::Int64 => Data::I64(vec![payload.cast_signed().into()]),
-            Base::Half => Data::F32(vec![f16::from_bits(payload as u16).to_f32()]),
-            Base::Float => Data::F32(vec![f32::from_bits(payload)]),
-            Base::Double | Base::TimeCode => Data::F64(vec![f32::from_bits(payload).into()]),
-            Base::String => Data::Words(vec![self.string(payload)?]),
-            Base::Token | Base::Asset => Data::Words(vec![self.structure.word(payload)?.into()]),
-        })
+        // Wide numbers are inlined where a narrower type has them exactly.
+        match ty.scalar {
+            ScalarType::UInt64 => Ok(Data::I64(vec![payload.into()])),
+            ScalarType::Int64 => Ok(Data::I64(vec![payload.cast_signed().into()])),
+            ScalarType::Double | ScalarType::TimeCode => {
+                Ok(Data::F64(vec![f32::from_bits(payload).into()]))
+            }
+            scalar => self.scalars(&bytes[..size(scalar)], scalar),
+        }
     }
 
     fn string(&self, index: u32) -> Result<String, String> {
@@ -134,8 +133,8 @@ impl Source<'_> {
         Ok(self.structure.word(*word)?.into())
     }
 
-    fn array(&mut self, rep: Rep, kind: Kind) -> Result<Value, String> {
-        let empty = Value { kind, array: true, data: Data::empty(kind.base) };
+    fn array(&mut self, rep: ValueRep, ty: ValueType) -> Result<Value, String> {
+        let empty = Value { ty, array: true, data: Data::empty(ty.scalar) };
         if rep.payload() == 0 {
             return Ok(empty);
         }
@@ -146,48 +145,49 @@ impl Source<'_> {
             here.u32()?;
         }
         let count = if minor < 7 { u64::from(here.u32()?) } else { here.u64()? };
-        let data = if rep.has(Rep::COMPRESSED) && count >= FEW {
-            self.packed(&mut here, kind, count)?
+        let data = if rep.has(ValueRep::COMPRESSED) && count >= FEW {
+            self.packed(&mut here, ty, count)?
         } else {
-            self.raw(&mut here, kind, count)?
+            self.raw(&mut here, ty, count)?
         };
         Ok(Value { data, ..empty })
     }
 
-    /// Values as they lie in memory elsewhere.
-    fn raw(&mut self, here: &mut Bytes, kind: Kind, count: u64) -> Result<Data, String> {
-        let size = match kind.base {
-            Base::Bool | Base::UChar => 1,
-            Base::Half => 2,
-            Base::Int | Base::UInt | Base::Float => 4,
-            Base::String | Base::Token | Base::Asset => 4,
-            Base::Int64 | Base::UInt64 | Base::Double | Base::TimeCode => 8,
-        };
-        let count = count.saturating_mul(kind.width() as u64);
-        let bytes = here.take(count.saturating_mul(size))?;
-        let kept = match Data::empty(kind.base) {
+    /// Values that are not compressed.
+    fn raw(&mut self, here: &mut Bytes, ty: ValueType, count: u64) -> Result<Data, String> {
+        let count = count.saturating_mul(ty.width() as u64);
+        let bytes = here.take(count.saturating_mul(size(ty.scalar) as u64))?;
+        let kept = match Data::empty(ty.scalar) {
             Data::Words(_) => size_of::<String>(),
             Data::I64(_) | Data::F64(_) => 8,
             _ => 4,
         };
         self.budget.take(count, kept)?;
-        let mut data = match kind.base {
-            Base::Bool | Base::UChar => Data::I32(bytes.iter().map(|&b| b.into()).collect()),
-            Base::Int => Data::I32(each(bytes, i32::from_le_bytes)),
-            Base::UInt => Data::I64(each(bytes, |b| u32::from_le_bytes(b).into())),
-            Base::Int64 | Base::UInt64 => Data::I64(each(bytes, i64::from_le_bytes)),
-            Base::Half => Data::F32(each(bytes, |b| f16::from_le_bytes(b).to_f32())),
-            Base::Float => Data::F32(each(bytes, f32::from_le_bytes)),
-            Base::Double | Base::TimeCode => Data::F64(each(bytes, f64::from_le_bytes)),
-            Base::Token => Data::Words(
-                self.all_words(bytes, |file, i| file.structure.word(i).map(str::to_owned))?,
-            ),
-            Base::String | Base::Asset => Data::Words(self.all_words(bytes, Self::string)?),
-        };
-        if kind.shape == Shape::Quaternion {
+        let mut data = self.scalars(bytes, ty.scalar)?;
+        if ty.shape == Shape::Quaternion {
             real_first(&mut data);
         }
         Ok(data)
+    }
+
+    fn scalars(&mut self, bytes: &[u8], scalar: ScalarType) -> Result<Data, String> {
+        Ok(match scalar {
+            ScalarType::Bool | ScalarType::UChar => {
+                Data::I32(bytes.iter().map(|&b| b.into()).collect())
+            }
+            ScalarType::Int => Data::I32(each(bytes, i32::from_le_bytes)),
+            ScalarType::UInt => Data::I64(each(bytes, |b| u32::from_le_bytes(b).into())),
+            ScalarType::Int64 | ScalarType::UInt64 => Data::I64(each(bytes, i64::from_le_bytes)),
+            ScalarType::Half => Data::F32(each(bytes, |b| f16::from_le_bytes(b).to_f32())),
+            ScalarType::Float => Data::F32(each(bytes, f32::from_le_bytes)),
+            ScalarType::Double | ScalarType::TimeCode => Data::F64(each(bytes, f64::from_le_bytes)),
+            ScalarType::Token => Data::Words(
+                self.all_words(bytes, |file, i| file.structure.word(i).map(str::to_owned))?,
+            ),
+            ScalarType::String | ScalarType::Asset => {
+                Data::Words(self.all_words(bytes, Self::string)?)
+            }
+        })
     }
 
     fn all_words(
@@ -206,15 +206,17 @@ impl Source<'_> {
     }
 
     /// Compressed numbers.
-    fn packed(&mut self, here: &mut Bytes, kind: Kind, count: u64) -> Result<Data, String> {
-        if kind.shape != Shape::One {
+    fn packed(&mut self, here: &mut Bytes, ty: ValueType, count: u64) -> Result<Data, String> {
+        if ty.shape != Shape::One {
             return Err("tuples cannot be compressed".into());
         }
-        match kind.base {
-            Base::Int | Base::UInt | Base::Int64 | Base::UInt64 => {
-                self.whole(here, kind.base, count)
+        match ty.scalar {
+            ScalarType::Int | ScalarType::UInt | ScalarType::Int64 | ScalarType::UInt64 => {
+                self.packed_integers(here, ty.scalar, count)
             }
-            Base::Half | Base::Float | Base::Double => self.floats(here, kind, count),
+            ScalarType::Half | ScalarType::Float | ScalarType::Double => {
+                self.packed_floats(here, ty, count)
+            }
             _ => Err("only numbers can be compressed".into()),
         }
     }
@@ -224,83 +226,78 @@ impl Source<'_> {
         clippy::cast_sign_loss,
         reason = "as its type has it"
     )]
-    fn whole(&mut self, here: &mut Bytes, base: Base, count: u64) -> Result<Data, String> {
+    fn packed_integers(
+        &mut self,
+        here: &mut Bytes,
+        scalar: ScalarType,
+        count: u64,
+    ) -> Result<Data, String> {
         let packed = here.sized()?;
-        let wide = matches!(base, Base::Int64 | Base::UInt64);
-        let count = self.budget.take(count, if base == Base::Int { 4 } else { 8 })?;
-        if base == Base::Int {
-            let mut all = Vec::new();
-            unpack_integers(packed, count, wide, |x| all.push(x as i32))?;
-            return Ok(Data::I32(all));
-        }
-        let mut all = Vec::new();
-        let unsigned = base == Base::UInt;
-        unpack_integers(packed, count, wide, |x| {
-            all.push(if unsigned { i64::from(x as u32) } else { x });
-        })?;
-        Ok(Data::I64(all))
+        let is_wide = matches!(scalar, ScalarType::Int64 | ScalarType::UInt64);
+        let count = self.budget.take(count, if scalar == ScalarType::Int { 4 } else { 8 })?;
+        let all = unpack_integers(packed, count, is_wide)?;
+        Ok(match scalar {
+            ScalarType::Int => Data::I32(all.iter().map(|&x| x as i32).collect()),
+            ScalarType::UInt => Data::I64(all.iter().map(|&x| i64::from(x as u32)).collect()),
+            _ => Data::I64(all),
+        })
     }
 
-    /// Numbers that are whole, or of which few differ.
+    /// Numbers that are integers, or of which few differ.
     #[expect(clippy::cast_precision_loss, reason = "they are floats")]
-    fn floats(&mut self, here: &mut Bytes, kind: Kind, count: u64) -> Result<Data, String> {
-        let how = here.u8()?;
-        let table = match how {
+    fn packed_floats(
+        &mut self,
+        here: &mut Bytes,
+        ty: ValueType,
+        count: u64,
+    ) -> Result<Data, String> {
+        let table = match here.u8()? {
             b'i' => None,
             b't' => {
                 let n = here.u32()?;
-                Some(self.raw(here, kind, n.into())?)
+                Some(self.raw(here, ty, n.into())?)
             }
             other => return Err(format!("its floats are compressed in an unknown way, {other}")),
         };
         let packed = here.sized()?;
-        let wide = matches!(Data::empty(kind.base), Data::F64(_));
-        let count = self.budget.take(count, if wide { 8 } else { 4 })?;
-        let mut missing = None;
-        let mut look = |i: i64, n: usize| {
-            let found = usize::try_from(i).ok().filter(|&i| i < n);
-            if found.is_none() {
-                missing = Some(i);
-            }
-            found.unwrap_or(0)
-        };
-        let data = match table {
-            None if wide => {
-                let mut all = Vec::new();
-                unpack_integers(packed, count, false, |x| all.push(x as f64))?;
-                Data::F64(all)
-            }
-            None => {
-                let mut all = Vec::new();
-                unpack_integers(packed, count, false, |x| all.push(x as f32))?;
-                Data::F32(all)
-            }
-            Some(Data::F64(t)) => {
-                let mut all = Vec::new();
-                let mut at = |x| all.push(t.get(look(x, t.len())).copied().unwrap_or(0.0));
-                unpack_integers(packed, count, false, &mut at)?;
-                Data::F64(all)
-            }
-            Some(Data::F32(t)) => {
-                let mut all = Vec::new();
-                let mut at = |x| all.push(t.get(look(x, t.len())).copied().unwrap_or(0.0));
-                unpack_integers(packed, count, false, &mut at)?;
-                Data::F32(all)
-            }
+        let is_double = ty.scalar == ScalarType::Double;
+        let count = self.budget.take(count, if is_double { 8 } else { 4 })?;
+        let integers = unpack_integers(packed, count, false)?;
+        Ok(match table {
+            None if is_double => Data::F64(integers.iter().map(|&x| x as f64).collect()),
+            None => Data::F32(integers.iter().map(|&x| x as f32).collect()),
+            Some(Data::F64(table)) => Data::F64(looked_up(&table, &integers)?),
+            Some(Data::F32(table)) => Data::F32(looked_up(&table, &integers)?),
             Some(other) => other,
-        };
-        match missing {
-            Some(i) => Err(format!("its floats name {i} of a table that is shorter")),
-            None => Ok(data),
-        }
+        })
     }
+}
+
+/// Bytes of a scalar that is not compressed.
+fn size(scalar: ScalarType) -> usize {
+    match scalar {
+        ScalarType::Bool | ScalarType::UChar => 1,
+        ScalarType::Half => 2,
+        ScalarType::Int | ScalarType::UInt | ScalarType::Float => 4,
+        ScalarType::String | ScalarType::Token | ScalarType::Asset => 4,
+        ScalarType::Int64 | ScalarType::UInt64 | ScalarType::Double | ScalarType::TimeCode => 8,
+    }
+}
+
+/// The numbers of a table that indices name.
+fn looked_up<T: Copy>(table: &[T], indices: &[i64]) -> Result<Vec<T>, String> {
+    let number = |&i: &i64| {
+        let found = usize::try_from(i).ok().and_then(|i| table.get(i)).copied();
+        found.ok_or_else(|| format!("its floats name {i} of a table that is shorter"))
+    };
+    indices.iter().map(number).collect()
 }
 
 fn each<const N: usize, T>(bytes: &[u8], value: impl Fn([u8; N]) -> T) -> Vec<T> {
     bytes.as_chunks().0.iter().map(|b| value(*b)).collect()
 }
 
-/// Quaternions lie in memory with their real part last.
+/// Moves the real part of quaternions, which is last in a file, to the front.
 fn real_first(data: &mut Data) {
     match data {
         Data::F32(v) => v.chunks_exact_mut(4).for_each(|q| q.rotate_right(1)),

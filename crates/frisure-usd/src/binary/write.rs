@@ -6,9 +6,9 @@ use std::io::{self, Write};
 use half::f16;
 
 use super::compressed::{pack, pack_integers};
-use super::{FEW, HEAD, KINDS, MAGIC, Rep, code, spec};
+use super::{FEW, HEAD, MAGIC, ValueRep, code, spec};
 use crate::layer::{Attribute, Layer, Prim, Relationship, Specifier};
-use crate::value::{Base, Data, Shape, Value};
+use crate::value::{Data, ScalarType, Shape, TYPES, Value};
 
 const VERSION: [u8; 8] = [0, 8, 0, 0, 0, 0, 0, 0];
 
@@ -21,7 +21,7 @@ pub fn write(out: &mut dyn Write, layer: &Layer) -> io::Result<()> {
 }
 
 /// Fields of a spec, each a word and a value.
-type Fields = Vec<(u32, Rep)>;
+type Fields = Vec<(u32, ValueRep)>;
 
 /// A node of the tree of paths; its place in the list is the index of its path.
 struct Node {
@@ -121,7 +121,7 @@ impl Crate {
     fn prim(&mut self, prim: &Prim) -> io::Result<()> {
         let at = Specifier::ALL.iter().position(|s| *s == prim.specifier).unwrap_or(0);
         let mut fields = Vec::new();
-        self.field(&mut fields, "specifier", Rep::inlined(code::SPECIFIER, index(at)));
+        self.field(&mut fields, "specifier", ValueRep::inlined(code::SPECIFIER, index(at)));
         if !prim.type_name.is_empty() {
             let value = self.value(&Value::token(&prim.type_name))?;
             self.field(&mut fields, "typeName", value);
@@ -150,12 +150,12 @@ impl Crate {
     fn attribute(&mut self, attribute: &Attribute) -> io::Result<()> {
         let mut fields = Vec::new();
         if attribute.custom {
-            self.field(&mut fields, "custom", Rep::inlined(1, 1));
+            self.field(&mut fields, "custom", ValueRep::inlined(1, 1));
         }
         let kind = self.value(&Value::token(&attribute.type_name))?;
         self.field(&mut fields, "typeName", kind);
         if attribute.uniform {
-            self.field(&mut fields, "variability", Rep::inlined(code::VARIABILITY, 1));
+            self.field(&mut fields, "variability", ValueRep::inlined(code::VARIABILITY, 1));
         }
         if let Some(value) = &attribute.value {
             let value = self.value(value)?;
@@ -172,7 +172,7 @@ impl Crate {
 
     fn relationship(&mut self, relationship: &Relationship) -> io::Result<()> {
         let mut fields = Vec::new();
-        self.field(&mut fields, "variability", Rep::inlined(code::VARIABILITY, 1));
+        self.field(&mut fields, "variability", ValueRep::inlined(code::VARIABILITY, 1));
         if !relationship.targets.is_empty() {
             let paths = self.path_list(&relationship.targets)?;
             self.field(&mut fields, "targetPaths", paths);
@@ -190,7 +190,7 @@ impl Crate {
         Ok(fields)
     }
 
-    fn field(&mut self, fields: &mut Fields, name: &str, value: Rep) {
+    fn field(&mut self, fields: &mut Fields, name: &str, value: ValueRep) {
         let name = self.word(name);
         fields.push((name, value));
     }
@@ -203,23 +203,23 @@ impl Crate {
         self.field(fields, "primChildren", names);
     }
 
-    fn word_list<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Rep {
+    fn word_list<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> ValueRep {
         let words: Vec<u32> = words.map(|word| self.word(word)).collect();
         let at = self.place();
         self.indices(&words);
-        Rep::at(code::TOKEN_VECTOR, at, 0)
+        ValueRep::at(code::TOKEN_VECTOR, at, 0)
     }
 
-    fn prepended(&mut self, words: &[String]) -> Rep {
+    fn prepended(&mut self, words: &[String]) -> ValueRep {
         let words: Vec<u32> = words.iter().map(|word| self.word(word)).collect();
         let at = self.place();
         // Prepended items, and nothing else.
         self.bytes.push(1 << 5);
         self.indices(&words);
-        Rep::at(code::TOKEN_LIST_OP, at, 0)
+        ValueRep::at(code::TOKEN_LIST_OP, at, 0)
     }
 
-    fn path_list(&mut self, paths: &[String]) -> io::Result<Rep> {
+    fn path_list(&mut self, paths: &[String]) -> io::Result<ValueRep> {
         let known = |path: &String| {
             self.paths.get(path).copied().ok_or_else(|| {
                 io::Error::new(io::ErrorKind::InvalidInput, format!("nothing is at <{path}>"))
@@ -230,7 +230,7 @@ impl Crate {
         // Explicit, with explicit items.
         self.bytes.push(0b11);
         self.indices(&paths);
-        Ok(Rep::at(code::PATH_LIST_OP, at, 0))
+        Ok(ValueRep::at(code::PATH_LIST_OP, at, 0))
     }
 
     fn indices(&mut self, indices: &[u32]) {
@@ -244,37 +244,37 @@ impl Crate {
         self.bytes.len()
     }
 
-    fn value(&mut self, value: &Value) -> io::Result<Rep> {
-        let code = KINDS.iter().find(|(_, kind)| *kind == value.kind).map(|(code, _)| *code);
+    fn value(&mut self, value: &Value) -> io::Result<ValueRep> {
+        let code = TYPES.iter().find(|(.., ty)| *ty == value.ty).map(|(code, ..)| *code);
         let code = code.ok_or_else(|| {
-            io::Error::new(io::ErrorKind::InvalidInput, format!("no code for {:?}", value.kind))
+            io::Error::new(io::ErrorKind::InvalidInput, format!("no code for {:?}", value.ty))
         })?;
         if value.array {
             return Ok(self.array(code, value));
         }
         if let Some(payload) = self.short(value) {
-            return Ok(Rep::inlined(code, payload));
+            return Ok(ValueRep::inlined(code, payload));
         }
         let at = self.place();
         self.raw(value);
-        Ok(Rep::at(code, at, 0))
+        Ok(ValueRep::at(code, at, 0))
     }
 
     /// A single number or word of at most 4 bytes.
     #[expect(clippy::cast_possible_truncation, reason = "exactly, or as the type has it")]
     fn short(&mut self, value: &Value) -> Option<u32> {
-        if value.kind.shape != Shape::One {
+        if value.ty.shape != Shape::One {
             return None;
         }
-        match (&value.data, value.kind.base) {
+        match (&value.data, value.ty.scalar) {
             (Data::I32(v), _) => Some(v[0].cast_unsigned()),
-            (Data::I64(v), Base::UInt) => Some(v[0] as u32),
-            (Data::F32(v), Base::Half) => Some(f16::from_f32(v[0]).to_bits().into()),
+            (Data::I64(v), ScalarType::UInt) => Some(v[0] as u32),
+            (Data::F32(v), ScalarType::Half) => Some(f16::from_f32(v[0]).to_bits().into()),
             (Data::F32(v), _) => Some(v[0].to_bits()),
-            (Data::F64(v), Base::Double) if f64::from(v[0] as f32) == v[0] => {
+            (Data::F64(v), ScalarType::Double) if f64::from(v[0] as f32) == v[0] => {
                 Some((v[0] as f32).to_bits())
             }
-            (Data::Words(v), Base::String) => Some(self.string(&v[0])),
+            (Data::Words(v), ScalarType::String) => Some(self.string(&v[0])),
             (Data::Words(v), _) => Some(self.word(&v[0])),
             _ => None,
         }
@@ -290,10 +290,10 @@ impl Crate {
         index(self.strings.len() - 1)
     }
 
-    fn array(&mut self, code: u8, value: &Value) -> Rep {
+    fn array(&mut self, code: u8, value: &Value) -> ValueRep {
         let count = value.len() as u64;
         if count == 0 {
-            return Rep::at(code, 0, Rep::ARRAY);
+            return ValueRep::at(code, 0, ValueRep::ARRAY);
         }
         let at = self.place();
         self.bytes.extend(count.to_le_bytes());
@@ -302,11 +302,11 @@ impl Crate {
                 let packed = pack_integers(v);
                 self.bytes.extend((packed.len() as u64).to_le_bytes());
                 self.bytes.extend(packed);
-                return Rep::at(code, at, Rep::ARRAY | Rep::COMPRESSED);
+                return ValueRep::at(code, at, ValueRep::ARRAY | ValueRep::COMPRESSED);
             }
             _ => self.raw(value),
         }
-        Rep::at(code, at, Rep::ARRAY)
+        ValueRep::at(code, at, ValueRep::ARRAY)
     }
 
     /// All numbers or words, one after another.
@@ -316,17 +316,17 @@ impl Crate {
         reason = "as the type has it"
     )]
     fn raw(&mut self, value: &Value) {
-        let quaternions = value.kind.shape == Shape::Quaternion;
+        let quaternions = value.ty.shape == Shape::Quaternion;
         match &value.data {
-            Data::I32(v) if value.kind.base == Base::Int => {
+            Data::I32(v) if value.ty.scalar == ScalarType::Int => {
                 self.bytes.extend(v.iter().flat_map(|x| x.to_le_bytes()));
             }
             Data::I32(v) => self.bytes.extend(v.iter().map(|&x| x as u8)),
-            Data::I64(v) if value.kind.base == Base::UInt => {
+            Data::I64(v) if value.ty.scalar == ScalarType::UInt => {
                 self.bytes.extend(v.iter().flat_map(|&x| (x as u32).to_le_bytes()));
             }
             Data::I64(v) => self.bytes.extend(v.iter().flat_map(|x| x.to_le_bytes())),
-            Data::F32(v) if value.kind.base == Base::Half => {
+            Data::F32(v) if value.ty.scalar == ScalarType::Half => {
                 let all = real_last(v, quaternions);
                 self.bytes.extend(all.iter().flat_map(|&x| f16::from_f32(x).to_le_bytes()));
             }
@@ -340,7 +340,7 @@ impl Crate {
                 self.bytes.extend(all.iter().flat_map(|x| x.to_le_bytes()));
             }
             Data::Words(v) => {
-                let token = value.kind.base == Base::Token;
+                let token = value.ty.scalar == ScalarType::Token;
                 let indices: Vec<u32> =
                     v.iter().map(|w| if token { self.word(w) } else { self.string(w) }).collect();
                 self.bytes.extend(indices.iter().flat_map(|i| i.to_le_bytes()));
@@ -403,7 +403,7 @@ impl Crate {
         self.put_packed(&pack(&text));
     }
 
-    fn put_fields(&mut self, fields: &[(u32, Rep)]) {
+    fn put_fields(&mut self, fields: &[(u32, ValueRep)]) {
         let names: Vec<i32> = fields.iter().map(|(name, _)| name.cast_signed()).collect();
         let values: Vec<u8> = fields.iter().flat_map(|(_, rep)| rep.0.to_le_bytes()).collect();
         self.put_count(fields.len());
@@ -464,7 +464,7 @@ fn properties(prim: &Prim) -> impl Iterator<Item = &str> {
     prim.attributes.iter().map(|a| a.name.as_str()).chain(relationships)
 }
 
-/// Quaternions as memory has them elsewhere; anything else as it is.
+/// Quaternions with their real part last, as the file has them; other values as they are.
 fn real_last<T: Copy>(values: &[T], quaternions: bool) -> std::borrow::Cow<'_, [T]> {
     if !quaternions {
         return values.into();

@@ -1,6 +1,8 @@
-//! The words of a text, one after another.
+//! The tokens of a text, one after another.
 
-/// What a text is made of.
+use std::fmt;
+
+/// A part of a text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token<'a> {
     /// A name or a word, with `:` and `.` within, and the `[]` of an array's type after it.
@@ -17,16 +19,15 @@ pub(super) enum Token<'a> {
     End,
 }
 
-impl Token<'_> {
-    /// As an error says it.
-    pub(super) fn shown(&self) -> String {
+impl fmt::Display for Token<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Name(word) | Self::Number(word) => format!("`{}`", start(word)),
-            Self::Text(text) => format!("\"{}\"", start(text)),
-            Self::Asset(asset) => format!("@{}@", start(asset)),
-            Self::Path(path) => format!("<{}>", start(path)),
-            Self::Mark(mark) => format!("`{}`", char::from(*mark)),
-            Self::End => "the end".into(),
+            Self::Name(word) | Self::Number(word) => write!(f, "`{}`", start(word)),
+            Self::Text(text) => write!(f, "\"{}\"", start(text)),
+            Self::Asset(asset) => write!(f, "@{}@", start(asset)),
+            Self::Path(path) => write!(f, "<{}>", start(path)),
+            Self::Mark(mark) => write!(f, "`{}`", char::from(*mark)),
+            Self::End => write!(f, "the end"),
         }
     }
 }
@@ -54,7 +55,7 @@ impl<'a> Lexer<'a> {
     }
 
     /// An error at this place.
-    pub(super) fn fault(&self, problem: impl std::fmt::Display) -> String {
+    pub(super) fn fault(&self, problem: impl fmt::Display) -> String {
         format!("line {}: {problem}", self.line())
     }
 
@@ -92,7 +93,7 @@ impl<'a> Lexer<'a> {
         if self.takes(mark)? {
             return Ok(());
         }
-        let found = self.peek()?.shown();
+        let found = self.peek()?.to_string();
         Err(self.fault(format!("`{}` is expected, not {found}", char::from(mark))))
     }
 
@@ -100,17 +101,16 @@ impl<'a> Lexer<'a> {
     pub(super) fn number(&mut self) -> Result<&'a str, String> {
         if let Some((_, _)) = self.ahead {
             return match self.next()? {
-                Token::Number(number) => Ok(number),
                 // `inf` and `nan` look like names.
-                Token::Name(number) => Ok(number),
-                other => Err(self.fault(format!("a number is expected, not {}", other.shown()))),
+                Token::Number(number) | Token::Name(number) => Ok(number),
+                other => Err(self.fault(format!("a number is expected, not {other}"))),
             };
         }
         self.skip_blank();
         let rest = &self.text.as_bytes()[self.at..];
         let length = rest.iter().take_while(|&&b| is_of_number(b)).count();
         if length == 0 {
-            let found = self.peek()?.shown();
+            let found = self.peek()?.to_string();
             return Err(self.fault(format!("a number is expected, not {found}")));
         }
         let number = &self.text[self.at..self.at + length];

@@ -1,11 +1,10 @@
 //! Layers read from text.
 
 use super::lexer::{Lexer, Token};
-use crate::MAX_DEPTH;
 use crate::layer::{
-    Attribute, Layer, Prim, Relationship, Specifier, is_from_elsewhere, metadata_kind,
+    Attribute, Layer, MAX_DEPTH, Prim, Relationship, Specifier, is_composition_arc, metadata_type,
 };
-use crate::value::{Base, Data, Kind, Shape, Value};
+use crate::value::{Data, ScalarType, Shape, Value, ValueType};
 
 /// A layer, or what is wrong with it, with its line.
 pub(crate) fn read(text: &str) -> Result<Layer, String> {
@@ -24,7 +23,7 @@ pub(crate) fn read(text: &str) -> Result<Layer, String> {
                 layer.prims.push(reader.prim(specifier)?);
             }
             Token::Mark(b';') => {}
-            other => return Err(reader.unknown(&other.shown())),
+            other => return Err(reader.unknown(other)),
         }
     }
 }
@@ -38,7 +37,7 @@ fn specifier(word: &str) -> Option<Specifier> {
 struct Metadata {
     kept: Vec<(String, Value)>,
     schemas: Vec<String>,
-    elsewhere: Vec<String>,
+    arcs: Vec<String>,
 }
 
 struct Reader<'a> {
@@ -47,7 +46,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn unknown(&self, what: &str) -> String {
+    fn unknown(&self, what: impl std::fmt::Display) -> String {
         self.lexer.fault(format!("{what} has no place here"))
     }
 
@@ -63,14 +62,14 @@ impl<'a> Reader<'a> {
     fn name(&mut self) -> Result<&'a str, String> {
         match self.lexer.next()? {
             Token::Name(name) => Ok(name),
-            other => Err(self.lexer.fault(format!("a name is expected, not {}", other.shown()))),
+            other => Err(self.lexer.fault(format!("a name is expected, not {other}"))),
         }
     }
 
     fn string(&mut self) -> Result<String, String> {
         match self.lexer.next()? {
             Token::Text(text) => Ok(text),
-            other => Err(self.lexer.fault(format!("a string is expected, not {}", other.shown()))),
+            other => Err(self.lexer.fault(format!("a string is expected, not {other}"))),
         }
     }
 
@@ -86,7 +85,7 @@ impl<'a> Reader<'a> {
         if self.lexer.takes(b'(')? {
             let metadata = self.metadata()?;
             (prim.metadata, prim.schemas) = (metadata.kept, metadata.schemas);
-            prim.elsewhere = metadata.elsewhere;
+            prim.arcs = metadata.arcs;
         }
         self.lexer.expect(b'{')?;
         self.body(&mut prim)?;
@@ -102,8 +101,8 @@ impl<'a> Reader<'a> {
                 Token::Mark(b';') => {}
                 Token::Name("variantSet") => {
                     self.variants()?;
-                    if !prim.elsewhere.iter().any(|e| e == "variantSets") {
-                        prim.elsewhere.push("variantSets".into());
+                    if !prim.arcs.iter().any(|arc| arc == "variantSets") {
+                        prim.arcs.push("variantSets".into());
                     }
                 }
                 Token::Name("reorder") => self.assigned()?,
@@ -117,7 +116,7 @@ impl<'a> Reader<'a> {
                         prim.check_properties().map_err(|e| self.lexer.fault(e))?;
                     }
                 },
-                other => return Err(self.unknown(&other.shown())),
+                other => return Err(self.unknown(other)),
             }
         }
     }
@@ -221,7 +220,7 @@ impl<'a> Reader<'a> {
                 Token::Name("None") if !several => return Ok(paths),
                 Token::Mark(b']') if several => return Ok(paths),
                 other => {
-                    let problem = format!("a path is expected, not {}", other.shown());
+                    let problem = format!("a path is expected, not {other}");
                     return Err(self.lexer.fault(problem));
                 }
             }
@@ -247,7 +246,7 @@ impl<'a> Reader<'a> {
                     self.pass()?;
                 }
                 Token::Name(key) => self.entry(key, &mut metadata)?,
-                other => return Err(self.unknown(&other.shown())),
+                other => return Err(self.unknown(other)),
             }
         }
     }
@@ -258,17 +257,17 @@ impl<'a> Reader<'a> {
         self.lexer.expect(b'=')?;
         if key == "apiSchemas" {
             metadata.schemas.extend(self.schemas()?);
-        } else if let Some(kind) = metadata_kind(key) {
-            if let Some(value) = self.value(kind, false)? {
+        } else if let Some(ty) = metadata_type(key) {
+            if let Some(value) = self.value(ty, false)? {
                 keep(metadata, key, value);
             }
         } else {
-            if is_from_elsewhere(key) {
-                metadata.elsewhere.push(key.into());
+            if is_composition_arc(key) {
+                metadata.arcs.push(key.into());
             }
             self.pass()?;
             // The layer offset of a reference.
-            if is_from_elsewhere(key) && self.lexer.takes(b'(')? {
+            if is_composition_arc(key) && self.lexer.takes(b'(')? {
                 self.pass_to(b')')?;
             }
         }
@@ -276,38 +275,38 @@ impl<'a> Reader<'a> {
     }
 
     fn schemas(&mut self) -> Result<Vec<String>, String> {
-        let value = self.value(Kind::one(Base::Token), true)?;
+        let value = self.value(ValueType::one(ScalarType::Token), true)?;
         Ok(value.map(|v| v.all_words().to_vec()).unwrap_or_default())
     }
 
     fn value_of(&mut self, type_name: &str) -> Result<Option<Value>, String> {
-        match Kind::of(type_name) {
-            Some((kind, array)) => self.value(kind, array),
+        match ValueType::of(type_name) {
+            Some((ty, array)) => self.value(ty, array),
             // Dictionaries, expressions and what is not known yet.
             None => self.pass().map(|()| None),
         }
     }
 
     /// A value; none for `None`.
-    fn value(&mut self, kind: Kind, array: bool) -> Result<Option<Value>, String> {
+    fn value(&mut self, ty: ValueType, array: bool) -> Result<Option<Value>, String> {
         if *self.lexer.peek()? == Token::Name("None") {
             self.lexer.next()?;
             return Ok(None);
         }
-        let mut data = Data::empty(kind.base);
+        let mut data = Data::empty(ty.scalar);
         if !array {
-            self.one(kind, &mut data)?;
-            return Ok(Some(Value { kind, array, data }));
+            self.one(ty, &mut data)?;
+            return Ok(Some(Value { ty, array, data }));
         }
         self.lexer.expect(b'[')?;
         while !self.lexer.takes(b']')? {
-            self.one(kind, &mut data)?;
+            self.one(ty, &mut data)?;
             if !self.lexer.takes(b',')? {
                 self.lexer.expect(b']')?;
                 break;
             }
         }
-        Ok(Some(Value { kind, array, data }))
+        Ok(Some(Value { ty, array, data }))
     }
 
     /// The first of samples in time, which are in the order of time.
@@ -327,16 +326,16 @@ impl<'a> Reader<'a> {
         Ok(first)
     }
 
-    /// One value of a kind.
-    fn one(&mut self, kind: Kind, data: &mut Data) -> Result<(), String> {
-        match kind.shape {
-            Shape::One => self.element(kind.base, data),
-            Shape::Tuple(n) => self.tuple(kind.base, n, data),
-            Shape::Quaternion => self.tuple(kind.base, 4, data),
+    /// One value of a type.
+    fn one(&mut self, ty: ValueType, data: &mut Data) -> Result<(), String> {
+        match ty.shape {
+            Shape::One => self.element(ty.scalar, data),
+            Shape::Tuple(n) => self.tuple(ty.scalar, n, data),
+            Shape::Quaternion => self.tuple(ty.scalar, 4, data),
             Shape::Matrix(n) => {
                 self.lexer.expect(b'(')?;
                 for _ in 0..n {
-                    self.tuple(kind.base, n, data)?;
+                    self.tuple(ty.scalar, n, data)?;
                     self.lexer.takes(b',')?;
                 }
                 self.lexer.expect(b')')
@@ -344,10 +343,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn tuple(&mut self, base: Base, n: usize, data: &mut Data) -> Result<(), String> {
+    fn tuple(&mut self, scalar: ScalarType, n: usize, data: &mut Data) -> Result<(), String> {
         self.lexer.expect(b'(')?;
         for i in 0..n {
-            self.element(base, data)?;
+            self.element(scalar, data)?;
             if i + 1 < n {
                 self.lexer.expect(b',')?;
             }
@@ -356,7 +355,7 @@ impl<'a> Reader<'a> {
         self.lexer.expect(b')')
     }
 
-    fn element(&mut self, base: Base, data: &mut Data) -> Result<(), String> {
+    fn element(&mut self, scalar: ScalarType, data: &mut Data) -> Result<(), String> {
         if let Data::Words(words) = data {
             let word = match self.lexer.next()? {
                 Token::Text(text) => text,
@@ -364,7 +363,7 @@ impl<'a> Reader<'a> {
                 // Metadata has some words without quotes.
                 Token::Name(word) => word.to_owned(),
                 other => {
-                    let problem = format!("a word is expected, not {}", other.shown());
+                    let problem = format!("a word is expected, not {other}");
                     return Err(self.lexer.fault(problem));
                 }
             };
@@ -372,10 +371,10 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         let word = self.lexer.number()?;
-        let bad = || format!("`{word}` is no {base:?}");
+        let bad = || format!("`{word}` is no {scalar:?}");
         let done = match data {
-            Data::I32(v) => whole(word, base).map(|x| v.push(x)),
-            Data::I64(v) if base == Base::UInt64 => {
+            Data::I32(v) => whole(word, scalar).map(|x| v.push(x)),
+            Data::I64(v) if scalar == ScalarType::UInt64 => {
                 word.parse::<u64>().ok().map(|x| v.push(x.cast_signed()))
             }
             Data::I64(v) => word.parse().ok().map(|x| v.push(x)),
@@ -399,7 +398,7 @@ impl<'a> Reader<'a> {
                 }
                 Ok(())
             }
-            token @ (Token::Mark(_) | Token::End) => Err(self.unknown(&token.shown())),
+            token @ (Token::Mark(_) | Token::End) => Err(self.unknown(token)),
             _ => Ok(()),
         }
     }
@@ -416,8 +415,7 @@ impl<'a> Reader<'a> {
                 Token::Mark(b'[') => closes.push(b']'),
                 Token::Mark(b'{') => closes.push(b'}'),
                 token @ (Token::Mark(b')' | b']' | b'}') | Token::End) => {
-                    let problem =
-                        format!("`{}` is expected, not {}", char::from(close), token.shown());
+                    let problem = format!("`{}` is expected, not {token}", char::from(close));
                     return Err(self.lexer.fault(problem));
                 }
                 _ => {}
@@ -434,10 +432,10 @@ fn keep(metadata: &mut Metadata, key: &str, value: Value) {
 }
 
 /// A small whole number, or a word for yes and no.
-fn whole(word: &str, base: Base) -> Option<i32> {
-    match (base, word) {
-        (Base::Bool, "true" | "True" | "yes") => Some(1),
-        (Base::Bool, "false" | "False" | "no") => Some(0),
+fn whole(word: &str, scalar: ScalarType) -> Option<i32> {
+    match (scalar, word) {
+        (ScalarType::Bool, "true" | "True" | "yes") => Some(1),
+        (ScalarType::Bool, "false" | "False" | "no") => Some(0),
         _ => word.parse().ok(),
     }
 }

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use crate::layer::{Attribute, Layer, Prim, Relationship};
-use crate::value::{Base, Data, Kind, Shape, Value};
+use crate::value::{Data, ScalarType, Shape, Value, ValueType};
 
-/// Bytes that are collected before they are handed on.
+/// Bytes that are collected before they are written.
 const BUFFER: usize = 1 << 16;
 
 /// Writes a layer.
@@ -52,7 +52,7 @@ impl Text<'_> {
         self.words(words);
     }
 
-    /// Hands on what is collected, if it is much.
+    /// Writes what is collected, if it is much.
     fn pass(&mut self) -> io::Result<()> {
         if self.buffer.len() > BUFFER {
             self.out.write_all(&self.buffer)?;
@@ -62,7 +62,7 @@ impl Text<'_> {
     }
 
     fn metadata(&mut self, key: &str, value: &Value) -> io::Result<()> {
-        // The text of a layer or prim has another name in text than elsewhere.
+        // The text of a layer or prim has another name in text than in binary.
         let key = if key == "documentation" { "doc" } else { key };
         self.words(&[key, " = "]);
         self.value(value)
@@ -177,7 +177,7 @@ impl Text<'_> {
 
     fn value(&mut self, value: &Value) -> io::Result<()> {
         if !value.array {
-            self.one(value.kind, &value.data, 0);
+            self.one(value.ty, &value.data, 0);
             return self.pass();
         }
         self.word("[");
@@ -185,7 +185,7 @@ impl Text<'_> {
             if i > 0 {
                 self.word(", ");
             }
-            self.one(value.kind, &value.data, i * value.kind.width());
+            self.one(value.ty, &value.data, i * value.ty.width());
             self.pass()?;
         }
         self.word("]");
@@ -193,43 +193,43 @@ impl Text<'_> {
     }
 
     /// The value that begins with this number or word.
-    fn one(&mut self, kind: Kind, data: &Data, at: usize) {
-        match kind.shape {
-            Shape::One => self.element(kind.base, data, at),
-            Shape::Tuple(_) | Shape::Quaternion => self.tuple(kind, data, at, kind.width()),
+    fn one(&mut self, ty: ValueType, data: &Data, at: usize) {
+        match ty.shape {
+            Shape::One => self.element(ty.scalar, data, at),
+            Shape::Tuple(_) | Shape::Quaternion => self.tuple(ty, data, at, ty.width()),
             Shape::Matrix(n) => {
                 self.word("( ");
                 for row in 0..n {
                     if row > 0 {
                         self.word(", ");
                     }
-                    self.tuple(kind, data, at + row * n, n);
+                    self.tuple(ty, data, at + row * n, n);
                 }
                 self.word(" )");
             }
         }
     }
 
-    fn tuple(&mut self, kind: Kind, data: &Data, at: usize, n: usize) {
+    fn tuple(&mut self, ty: ValueType, data: &Data, at: usize, n: usize) {
         for i in 0..n {
             self.word(if i > 0 { ", " } else { "(" });
-            self.element(kind.base, data, at + i);
+            self.element(ty.scalar, data, at + i);
         }
         self.word(")");
     }
 
-    fn element(&mut self, base: Base, data: &Data, at: usize) {
+    fn element(&mut self, scalar: ScalarType, data: &Data, at: usize) {
         match data {
-            Data::I32(v) if base == Base::Bool => {
+            Data::I32(v) if scalar == ScalarType::Bool => {
                 self.word(if v[at] == 0 { "false" } else { "true" });
             }
             Data::I32(v) => self.integer(i64::from(v[at])),
             #[expect(clippy::cast_sign_loss, reason = "the same bits")]
-            Data::I64(v) if base == Base::UInt64 => self.word(&(v[at] as u64).to_string()),
+            Data::I64(v) if scalar == ScalarType::UInt64 => self.word(&(v[at] as u64).to_string()),
             Data::I64(v) => self.integer(v[at]),
             Data::F32(v) => self.float(v[at]),
             Data::F64(v) => self.word(&v[at].to_string()),
-            Data::Words(v) if base == Base::Asset => self.words(&["@", &v[at], "@"]),
+            Data::Words(v) if scalar == ScalarType::Asset => self.words(&["@", &v[at], "@"]),
             Data::Words(v) => self.quoted(&v[at]),
         }
     }

@@ -13,6 +13,7 @@ mod part;
 mod read;
 mod write;
 
+use super::checked::check_curves;
 use super::format::Declaration;
 
 /// What the format declares.
@@ -20,9 +21,9 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["abc"],
     title: "Alembic curves for Unreal, Blender, Houdini and Maya",
     frame: names::FRAME,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
-    check: write::check,
+    check: check_curves,
     write: write::encode,
     read: Some(read::decode),
 };

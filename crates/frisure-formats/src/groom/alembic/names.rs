@@ -11,7 +11,7 @@ pub(super) const UNREAL: &str = "groom_";
 /// Beginning of the names of ours.
 pub(super) const OURS: &str = "frisure_";
 
-/// Attributes that Unreal knows: our name, and its, without [`UNREAL`].
+/// Attributes that Unreal reads: our name, and its own without [`UNREAL`].
 pub(super) const KNOWN: [(&str, &str); 6] = [
     (attributes::ID, "id"),
     (attributes::GROUP, "group_id"),

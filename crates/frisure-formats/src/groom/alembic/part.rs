@@ -1,94 +1,44 @@
 //! The curves of one object, and several of them as one.
 
 use frisure_strands::{Attribute, AttributeValues, Domain};
-use glam::Vec3;
 
 use super::super::attributes as names;
 use super::curves::Stencil;
-use crate::groom::checked::{Curves, USUAL_RADIUS};
+use crate::groom::checked::USUAL_RADIUS;
+use crate::groom::curves::Curves;
 use frisure_files::frame::Frame;
 use frisure_ogawa::parameter::Scope;
 
-/// Curves as a file has them.
+/// The curves of one object, with directions in the axes of the file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Part {
-    /// How many points each has.
-    pub(super) counts: Vec<usize>,
-    /// In the unit and axes of the file.
-    pub(super) points: Vec<[f32; 3]>,
-    /// At the points; empty where there are none.
-    pub(super) diameters: Vec<f32>,
-    /// With directions in the axes of the file.
-    pub(super) attributes: Vec<Attribute>,
+    pub(super) curves: Curves,
     /// The one colour of all.
     pub(super) colour: Option<[f32; 3]>,
-}
-
-/// Does the same with the values of an attribute, of whichever kind.
-macro_rules! each_kind {
-    ($values:expr, $v:ident => $made:expr) => {
-        match $values {
-            AttributeValues::U32($v) => AttributeValues::U32($made),
-            AttributeValues::U32x3($v) => AttributeValues::U32x3($made),
-            AttributeValues::F32($v) => AttributeValues::F32($made),
-            AttributeValues::F32x2($v) => AttributeValues::F32x2($made),
-            AttributeValues::F32x3($v) => AttributeValues::F32x3($made),
-        }
-    };
 }
 
 impl Part {
     /// Values of a scope as one for each point.
     pub(super) fn per_point(&self, scope: Scope, values: &[f32]) -> Vec<f32> {
         match scope {
-            Scope::Constant => vec![values[0]; self.points.len()],
+            Scope::Constant => vec![values[0]; self.curves.points.len()],
             Scope::Uniform => {
-                let each = self.counts.iter().zip(values);
+                let each = self.curves.counts.iter().zip(values);
                 each.flat_map(|(&n, &v)| std::iter::repeat_n(v, n)).collect()
             }
             Scope::Varying => values.to_vec(),
         }
     }
 
-    fn starts(&self) -> Vec<usize> {
-        let mut end = 0;
-        let start = |n: &usize| {
-            end += n;
-            end - n
-        };
-        self.counts.iter().map(start).collect()
-    }
-
     /// Some of the curves, in an order.
     pub(super) fn picked(&self, rows: &[usize]) -> Self {
-        fn of<T: Copy>(values: &[T], picked: impl Iterator<Item = usize>) -> Vec<T> {
-            picked.map(|i| values[i]).collect()
-        }
-        let starts = self.starts();
-        let points = || rows.iter().flat_map(|&r| starts[r]..starts[r] + self.counts[r]);
-        let attribute = |a: &Attribute| {
-            let values = match a.domain {
-                Domain::Strand => each_kind!(&a.values, v => of(v, rows.iter().copied())),
-                Domain::Point => each_kind!(&a.values, v => of(v, points())),
-            };
-            Attribute { values, ..a.clone() }
-        };
-        Self {
-            counts: rows.iter().map(|&r| self.counts[r]).collect(),
-            points: of(&self.points, points()),
-            diameters: if self.diameters.is_empty() {
-                Vec::new()
-            } else {
-                of(&self.diameters, points())
-            },
-            attributes: self.attributes.iter().map(attribute).collect(),
-            colour: self.colour,
-        }
+        Self { curves: self.curves.picked(rows), colour: self.colour }
     }
 
     /// The points on its curves, where these are control points.
     pub(super) fn evaluated(&self, stencils: &[Vec<Stencil>]) -> Self {
-        let starts = self.starts();
+        let Curves { points, diameters, attributes, .. } = &self.curves;
+        let starts = self.curves.starts();
         let places: Vec<(usize, Stencil)> = stencils
             .iter()
             .zip(&starts)
@@ -98,38 +48,34 @@ impl Part {
             Domain::Strand => a.clone(),
             Domain::Point => Attribute { values: mixed_values(&a.values, &places), ..a.clone() },
         };
-        Self {
+        let diameter = |place| mixed_of(|i| [diameters[i]], place)[0];
+        let curves = Curves {
             counts: stencils.iter().map(Vec::len).collect(),
-            points: places.iter().map(|place| mixed(&self.points, place)).collect(),
-            diameters: if self.diameters.is_empty() {
+            points: places.iter().map(|place| mixed(points, place)).collect(),
+            diameters: if diameters.is_empty() {
                 Vec::new()
             } else {
-                let one = |i: usize| [self.diameters[i]];
-                places.iter().map(|place| mixed_of(one, place)[0]).collect()
+                places.iter().map(diameter).collect()
             },
-            attributes: self.attributes.iter().map(attribute).collect(),
-            colour: self.colour,
-        }
+            attributes: attributes.iter().map(attribute).collect(),
+        };
+        Self { curves, colour: self.colour }
     }
+}
 
-    /// What every reader hands over, with directions in our axes.
-    pub(super) fn curves(self, frame: Frame) -> Curves {
-        let Self { counts, points, diameters, mut attributes, .. } = self;
-        for attribute in &mut attributes {
-            if let (names::DIRECTOR, AttributeValues::F32x3(directions)) =
-                (attribute.name.as_str(), &mut attribute.values)
-            {
-                for d in directions {
-                    *d = frame.direction_from_file(Vec3::from_array(*d)).to_array();
-                }
-            }
-        }
-        let mut diameters = diameters;
-        // What has no width has the usual one, in the unit of the file.
-        let usual = (2.0 * f64::from(USUAL_RADIUS) / frame.metres) as f32;
-        diameters.iter_mut().filter(|d| d.is_nan()).for_each(|d| *d = usual);
-        Curves { counts, points, diameters, attributes }
+/// Diameter of what has no width, in the unit of the file.
+pub(super) fn usual_diameter(frame: Frame) -> f32 {
+    (2.0 * f64::from(USUAL_RADIUS) / frame.metres) as f32
+}
+
+/// The curves with directions in our axes, and a diameter for what has none.
+pub(super) fn finished(mut curves: Curves, frame: Frame) -> Curves {
+    for attribute in &mut curves.attributes {
+        names::turn_directions(attribute, |d| frame.direction_from_file(d));
     }
+    let usual = usual_diameter(frame);
+    curves.diameters.iter_mut().filter(|d| d.is_nan()).for_each(|d| *d = usual);
+    curves
 }
 
 fn mixed<const N: usize>(values: &[[f32; N]], place: &(usize, Stencil)) -> [f32; N] {
@@ -153,22 +99,14 @@ fn mixed_values(values: &AttributeValues, places: &[(usize, Stencil)]) -> Attrib
         let weights = stencil.weights.iter().enumerate();
         from + weights.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(k, _)| k)
     };
+    let places = places.iter();
     match values {
-        AttributeValues::U32(v) => {
-            AttributeValues::U32(places.iter().map(|p| v[heaviest(p)]).collect())
-        }
-        AttributeValues::U32x3(v) => {
-            AttributeValues::U32x3(places.iter().map(|p| v[heaviest(p)]).collect())
-        }
+        AttributeValues::U32(_) | AttributeValues::U32x3(_) => values.picked(places.map(heaviest)),
         AttributeValues::F32(v) => {
-            AttributeValues::F32(places.iter().map(|p| mixed_of(|i| [v[i]], p)[0]).collect())
+            AttributeValues::F32(places.map(|p| mixed_of(|i| [v[i]], p)[0]).collect())
         }
-        AttributeValues::F32x2(v) => {
-            AttributeValues::F32x2(places.iter().map(|p| mixed(v, p)).collect())
-        }
-        AttributeValues::F32x3(v) => {
-            AttributeValues::F32x3(places.iter().map(|p| mixed(v, p)).collect())
-        }
+        AttributeValues::F32x2(v) => AttributeValues::F32x2(places.map(|p| mixed(v, p)).collect()),
+        AttributeValues::F32x3(v) => AttributeValues::F32x3(places.map(|p| mixed(v, p)).collect()),
     }
 }
 
@@ -180,47 +118,21 @@ pub(super) fn shared_colour(parts: &mut [Part]) -> Option<[f32; 3]> {
     }
     for part in parts {
         if let Some(colour) = part.colour
-            && part.attributes.iter().all(|a| a.name != names::COLOUR)
+            && part.curves.attributes.iter().all(|a| a.name != names::COLOUR)
         {
-            let values = AttributeValues::F32x3(vec![colour; part.counts.len()]);
+            let values = AttributeValues::F32x3(vec![colour; part.curves.counts.len()]);
             let name = names::COLOUR.into();
-            part.attributes.push(Attribute { name, domain: Domain::Strand, values });
+            part.curves.attributes.push(Attribute { name, domain: Domain::Strand, values });
         }
     }
     None
 }
 
-/// Parts as one, with the attributes that all of them have.
-pub(super) fn joined(mut parts: Vec<Part>) -> Part {
-    if parts.len() < 2 {
-        return parts.pop().unwrap_or_default();
-    }
-    let some_have_width = parts.iter().any(|p| !p.diameters.is_empty());
-    let mut all = Part { attributes: std::mem::take(&mut parts[0].attributes), ..Part::default() };
-    for (i, part) in parts.into_iter().enumerate() {
-        if some_have_width && part.diameters.is_empty() {
-            all.diameters.extend(std::iter::repeat_n(f32::NAN, part.points.len()));
-        }
-        all.counts.extend(part.counts);
-        all.points.extend(part.points);
-        all.diameters.extend(part.diameters);
-        if i > 0 {
-            let mut rest = part.attributes;
-            all.attributes.retain_mut(|a| {
-                let of = |b: &Attribute| b.name == a.name && b.domain == a.domain;
-                let Some(at) = rest.iter().position(of) else { return false };
-                a.values.append(&rest.swap_remove(at).values)
-            });
-        }
-    }
-    all
-}
-
 /// Parts as one: hairs that were put into groups in the order of their numbers, if each has its own.
-pub(super) fn joined_by_id(parts: Vec<Part>) -> Part {
+pub(super) fn joined_by_id(parts: Vec<Part>, usual: f32) -> Curves {
     let several = parts.len() > 1;
-    let all = joined(parts);
-    let Some(ids) = all.whole(names::ID).filter(|_| several) else { return all };
+    let all = Curves::joined(parts.into_iter().map(|part| part.curves), usual);
+    let Some(ids) = whole(&all, names::ID).filter(|_| several) else { return all };
     let mut rows: Vec<usize> = (0..ids.len()).collect();
     rows.sort_by_key(|&row| ids[row]);
     if rows.windows(2).any(|w| ids[w[0]] == ids[w[1]]) {
@@ -229,22 +141,20 @@ pub(super) fn joined_by_id(parts: Vec<Part>) -> Part {
     all.picked(&rows)
 }
 
-impl Part {
-    /// A whole number for each strand.
-    fn whole(&self, name: &str) -> Option<&[u32]> {
-        self.attributes.iter().find_map(|a| match (&a.values, a.domain) {
-            (AttributeValues::U32(v), Domain::Strand) if a.name == name => Some(&v[..]),
-            _ => None,
-        })
-    }
+/// A whole number for each strand.
+fn whole<'a>(curves: &'a Curves, name: &str) -> Option<&'a [u32]> {
+    curves.attributes.iter().find_map(|a| match (&a.values, a.domain) {
+        (AttributeValues::U32(v), Domain::Strand) if a.name == name => Some(&v[..]),
+        _ => None,
+    })
 }
 
 /// Turns the numbers of the guides that hairs follow into their indices. What names no guide has no weight.
-pub(super) fn follow(hairs: &mut Part, guides: &Part) {
+pub(super) fn follow(hairs: &mut Curves, guides: &Curves) {
     if guides.counts.is_empty() {
         return;
     }
-    let ids = guides.whole(names::ID);
+    let ids = whole(guides, names::ID);
     let mut order: Vec<usize> = (0..guides.counts.len()).collect();
     if let Some(ids) = ids {
         order.sort_by_key(|&row| ids[row]);
@@ -256,7 +166,7 @@ pub(super) fn follow(hairs: &mut Part, guides: &Part) {
         None => (id as usize).lt(&guides.counts.len()).then_some(id),
     };
     let mut missing = Vec::new();
-    let at = |hairs: &Part, name: &str| hairs.attributes.iter().position(|a| a.name == name);
+    let at = |hairs: &Curves, name: &str| hairs.attributes.iter().position(|a| a.name == name);
     if let Some(i) = at(hairs, names::CLOSEST_GUIDES)
         && let AttributeValues::U32x3(closest) = &mut hairs.attributes[i].values
     {

@@ -1,7 +1,7 @@
 //! A groom from the curves of an Alembic file: the first sample of all that move.
 
 use frisure_look::Melanin;
-use frisure_strands::{Attribute, AttributeValues, Domain};
+use frisure_strands::{Attribute, Domain};
 use glam::{DMat4, DVec3, Vec3};
 
 use super::super::attributes as names;
@@ -9,6 +9,7 @@ use super::curves::{Stencil, bezier, spline};
 use super::names::{FRAME, KNOWN, OURS, UNREAL};
 use super::part::{self, Part};
 use super::write::fits;
+use crate::groom::curves::Curves;
 use crate::groom::data::{Groom, HairColour};
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
 use frisure_ogawa::parameter::{Numbers, Parameter, Scope};
@@ -52,17 +53,18 @@ struct Found {
 
 impl Found {
     fn groom(self, frame: Frame) -> Result<Groom, String> {
-        let (mut hairs, guides) = (self.hairs, part::joined(self.guides));
+        let usual = part::usual_diameter(frame);
+        let guides = Curves::joined(self.guides.into_iter().map(|part| part.curves), usual);
+        let mut hairs = self.hairs;
         let colour = part::shared_colour(&mut hairs);
-        let mut hairs = part::joined_by_id(hairs);
+        let mut hairs = part::joined_by_id(hairs, usual);
         part::follow(&mut hairs, &guides);
         let melanin = self.melanin;
         let colour = self.colour.or(colour).map(|colour| HairColour { melanin, colour });
         Ok(Groom {
             name: self.name.unwrap_or_default(),
-            hairs: hairs.curves(frame).strands(frame)?,
-            guides: guides
-                .curves(frame)
+            hairs: part::finished(hairs, frame).strands(frame)?,
+            guides: part::finished(guides, frame)
                 .strands(frame)
                 .map_err(|e| format!("of its guides, {e}"))?,
             head: None,
@@ -209,7 +211,7 @@ fn curves<'a>(
         return Ok(None);
     };
     let Some(stencils) = basis(archive, geometry, &counts)? else { return Ok(None) };
-    let mut part = Part { counts, points, ..Part::default() };
+    let mut part = Part { curves: Curves { counts, points, ..Curves::default() }, colour: None };
     let parameters = match named(geometry, ".arbGeomParams") {
         Some(compound) => archive.parts(&compound)?,
         None => Vec::new(),
@@ -217,24 +219,25 @@ fn curves<'a>(
     // Some programs write the width as a parameter of Unreal's only.
     if let Some(width) = named(geometry, "width").or(named(&parameters, "groom_width"))
         && let Some(Parameter { scope, extent: 1, values: Numbers::Real(values) }) =
-            archive.parameter(&width, part.counts.len(), part.points.len())?
+            archive.parameter(&width, part.curves.counts.len(), part.curves.points.len())?
     {
         let scale = placed.determinant().abs().cbrt();
         let scaled: Vec<f32> = values.iter().map(|w| (f64::from(*w) * scale) as f32).collect();
-        part.diameters = part.per_point(scope, &scaled);
+        part.curves.diameters = part.per_point(scope, &scaled);
     }
-    let mut guides = vec![false; part.counts.len()];
+    let mut guides = vec![false; part.curves.counts.len()];
     for property in &parameters {
         parameter(archive, property, placed, &mut part, &mut guides)?;
     }
     // Texture coordinates of strands are those of their roots.
-    let has_roots = part.attributes.iter().any(|a| a.name == names::ROOT_UV);
+    let has_roots = part.curves.attributes.iter().any(|a| a.name == names::ROOT_UV);
     if let Some(uv) = named(geometry, "uv").filter(|_| !has_roots)
-        && let Some(found) = archive.parameter(&uv, part.counts.len(), part.points.len())?
-        && let Some(uv) = attribute(names::ROOT_UV, found, part.counts.len())
+        && let Some(found) =
+            archive.parameter(&uv, part.curves.counts.len(), part.curves.points.len())?
+        && let Some(uv) = attribute(names::ROOT_UV, found, part.curves.counts.len())
         && fits(&uv.name, uv.domain, &uv.values)
     {
-        part.attributes.push(uv);
+        part.curves.attributes.push(uv);
     }
     if let Some(stencils) = stencils {
         part = part.evaluated(&stencils);
@@ -364,7 +367,7 @@ fn parameter<'a>(
     let Some(name) = unreal.and_then(known).or(ours).or(is_guide.then_some("")) else {
         return Ok(());
     };
-    let (strands, points) = (part.counts.len(), part.points.len());
+    let (strands, points) = (part.curves.counts.len(), part.curves.points.len());
     let Some(found) = archive.parameter(property, strands, points)? else { return Ok(()) };
     if is_guide {
         if let Numbers::Whole(flags) = found.values {
@@ -393,17 +396,16 @@ fn parameter<'a>(
     {
         return Ok(());
     }
-    if let (names::DIRECTOR, AttributeValues::F32x3(directions)) = (name, &mut attribute.values) {
-        for d in directions {
-            let turned = placed.transform_vector3(Vec3::from_array(*d).as_dvec3());
-            *d = turned.normalize_or_zero().as_vec3().to_array();
-        }
-    }
-    match part.attributes.iter().position(|a| a.name == attribute.name) {
+    names::turn_directions(&mut attribute, |d| {
+        placed.transform_vector3(d.as_dvec3()).normalize_or_zero().as_vec3()
+    });
+    match part.curves.attributes.iter().position(|a| a.name == attribute.name) {
         // Ours say it better where there are both: groups are changed for Unreal.
-        Some(at) if ours.is_some() => part.attributes[at] = attribute,
+        Some(at) if ours.is_some() => part.curves.attributes[at] = attribute,
         Some(_) => {}
-        None if part.attributes.len() < MOST_ATTRIBUTES => part.attributes.push(attribute),
+        None if part.curves.attributes.len() < MOST_ATTRIBUTES => {
+            part.curves.attributes.push(attribute)
+        }
         None => return Err(format!("it has more than {MOST_ATTRIBUTES} attributes")),
     }
     Ok(())
@@ -417,17 +419,14 @@ fn is_plain(name: &str) -> bool {
 
 /// An attribute; what an object has one of is each strand's.
 fn attribute(name: &str, found: Parameter, strands: usize) -> Option<Attribute> {
-    fn spread<T: Clone>(values: &[T], scope: Scope, strands: usize) -> Vec<T> {
-        if scope == Scope::Constant { vec![values[0].clone(); strands] } else { values.to_vec() }
+    fn spread<T: Copy>(values: Vec<T>, found: (Scope, usize), strands: usize) -> Vec<T> {
+        let (scope, extent) = found;
+        if scope == Scope::Constant { values[..extent].repeat(strands) } else { values }
     }
     let Parameter { scope, extent, values } = found;
-    let values = match (&values, extent) {
-        (Numbers::Whole(v), 1) => AttributeValues::U32(spread(v, scope, strands)),
-        (Numbers::Whole(v), 3) => AttributeValues::U32x3(spread(v.as_chunks().0, scope, strands)),
-        (Numbers::Real(v), 1) => AttributeValues::F32(spread(v, scope, strands)),
-        (Numbers::Real(v), 2) => AttributeValues::F32x2(spread(v.as_chunks().0, scope, strands)),
-        (Numbers::Real(v), 3) => AttributeValues::F32x3(spread(v.as_chunks().0, scope, strands)),
-        _ => return None,
+    let values = match values {
+        Numbers::Whole(v) => names::whole_values(spread(v, (scope, extent), strands), extent)?,
+        Numbers::Real(v) => names::real_values(spread(v, (scope, extent), strands), extent)?,
     };
     let domain = if scope == Scope::Varying { Domain::Point } else { Domain::Strand };
     Some(Attribute { name: name.into(), domain, values })

@@ -8,28 +8,13 @@ use glam::Vec3;
 
 use super::super::attributes as names;
 use super::names::{CURVES, GROUPS, KNOWN, OURS, UNREAL, XFORM};
-use crate::groom::attributes::{indices, of_strands};
+use crate::groom::attributes::{indices, of_strands, push};
 use crate::groom::data::{Groom, HairColour};
-use frisure_files::frame::{Frame, UpAxis};
+use frisure_files::frame::Frame;
 use frisure_ogawa::parameter::Scope;
 use frisure_ogawa::write::{Object, Pod, Property, Sample, write_archive};
 
-/// Checks that the format has room: two points a strand, since Unreal refuses fewer, and counts that are signed.
-pub(super) fn check(groom: &Groom) -> Result<(), String> {
-    for (what, strands) in [("strand", &groom.hairs), ("guide", &groom.guides)] {
-        if let Some(i) = (0..strands.len()).find(|&i| strands.strand(i).points.len() < 2) {
-            let points = strands.strand(i).points.len();
-            return Err(format!("{what} {i} of {points} points: a curve has at least 2"));
-        }
-        let points = strands.points().len();
-        if i32::try_from(points).is_err() {
-            return Err(format!("{points} points"));
-        }
-    }
-    Ok(())
-}
-
-/// Writes what [`check`] has passed.
+/// Writes what the check has passed.
 pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     let of_guides = with_extras(&groom.guides, guide_extras(&groom.guides));
     let of_hairs = with_extras(&groom.hairs, hair_extras(groom));
@@ -87,7 +72,7 @@ fn group_of_hairs(groom: &Groom) -> Option<Vec<u32>> {
     Some(own.iter().zip(guide).map(group).collect())
 }
 
-/// What Unreal wants to know of each hair.
+/// Attributes that Unreal needs for each hair.
 fn hair_extras(groom: &Groom) -> Vec<Attribute> {
     let hairs = &groom.hairs;
     let mut extras = Vec::new();
@@ -295,7 +280,6 @@ impl Part<'_> {
         let known = known.filter(|_| !lost || self.has_guides);
         // A colour for each point is all that the specification has.
         let spread = *domain == Domain::Strand && known.is_some() && name == names::COLOUR;
-        let is_direction = name == names::DIRECTOR;
         let at = move |each: &mut dyn FnMut(usize)| match domain {
             Domain::Strand if spread => {
                 self.rows.iter().zip(self.ranges()).for_each(|(&row, r)| r.for_each(|_| each(row)));
@@ -305,25 +289,15 @@ impl Part<'_> {
         };
         let per_point = spread || *domain == Domain::Point;
         let count = if per_point { self.points() } else { self.rows.len() };
-        let whole = if known.is_some() { Pod::I32 } else { Pod::U32 };
-        let (pod, extent) = match values {
-            AttributeValues::U32(_) => (whole, 1),
-            AttributeValues::U32x3(_) => (whole, 3),
-            AttributeValues::F32(_) => (Pod::F32, 1),
-            AttributeValues::F32x2(_) => (Pod::F32, 2),
-            AttributeValues::F32x3(_) => (Pod::F32, 3),
+        let (is_whole, extent) = names::layout(values);
+        let pod = match (is_whole, known) {
+            (false, _) => Pod::F32,
+            (true, Some(_)) => Pod::I32,
+            (true, None) => Pod::U32,
         };
-        let filled = Sample::of(pod, extent, count, move |out| {
-            at(&mut |i| match values {
-                AttributeValues::U32(v) => out.extend(v[i].to_le_bytes()),
-                AttributeValues::U32x3(v) => out.extend(v[i].map(u32::to_le_bytes).as_flattened()),
-                AttributeValues::F32(v) => push(out, [v[i]]),
-                AttributeValues::F32x2(v) => push(out, v[i]),
-                AttributeValues::F32x3(v) if is_direction => {
-                    push(out, frame.direction_to_file(Vec3::from_array(v[i])).to_array());
-                }
-                AttributeValues::F32x3(v) => push(out, v[i]),
-            });
+        let turned = names::in_file_axes(attribute, frame);
+        let filled = Sample::of(pod, extent as u8, count, move |out| {
+            at(&mut |row| names::push_value(out, &turned.values, row));
         });
         let meaning = match (name.as_str(), extent) {
             (names::COLOUR, 3) if pod == Pod::F32 => "rgb",
@@ -353,10 +327,6 @@ pub(super) fn fits(name: &str, domain: Domain, values: &AttributeValues) -> bool
         names::COLOUR => matches!(values, AttributeValues::F32x3(_)),
         _ => false,
     }
-}
-
-fn push<const N: usize>(out: &mut Vec<u8>, values: [f32; N]) {
-    out.extend_from_slice(values.map(f32::to_le_bytes).as_flattened());
 }
 
 fn bytes(bytes: &[u8; 4]) -> Sample<'static> {
@@ -396,10 +366,7 @@ fn object_name(name: &str) -> String {
 /// The top transform, which moves nothing and says what the groom is.
 fn transform(groom: &Groom, frame: Frame) -> Property<'static> {
     let short = |n: i16| Sample::of(Pod::I16, 1, 1, move |out| out.extend(n.to_le_bytes()));
-    let up = match frame.up {
-        UpAxis::Y => "y",
-        UpAxis::Z => "z",
-    };
+    let up = frame.up.name();
     let metres = frame.metres;
     let unit = Sample::of(Pod::F64, 1, 1, move |out| out.extend(metres.to_le_bytes()));
     let mut user = vec![

@@ -8,7 +8,7 @@ const FOLDER: &str = "/groom/materials";
 /// Diffuse reflectance of a head (linear): the matte plastic of a training head, as pictures have it.
 pub(super) const SKIN: [f32; 3] = [0.40, 0.29, 0.235];
 
-/// Roughness of the preview's highlight on hair and on skin: a preview knows no fibres.
+/// Roughness of the preview's highlight on hair and on skin: a preview has no fibres.
 const ROUGHNESS: [(&str, f32); 2] = [("hair", 0.4), ("skin", 0.6)];
 
 /// Materials by name and colour.

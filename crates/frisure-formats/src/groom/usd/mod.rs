@@ -17,22 +17,21 @@ use std::io::{self, Cursor, Write};
 use zip::CompressionMethod;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
+use super::checked::check_curves;
 use super::data::Groom;
 use super::format::Declaration;
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::{Frame, FrameChoice};
 use frisure_usd as usd;
 
-use write::check;
-
 /// What the format declares.
 pub(super) static USDC: Declaration = Declaration {
     extensions: &["usdc", "usd"],
     title: "Universal Scene Description, binary",
     frame: Frame::METRES_Z,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
-    check,
+    check: check_curves,
     write: encode_binary,
     read: Some(decode),
 };
@@ -42,9 +41,9 @@ pub(super) static USDA: Declaration = Declaration {
     extensions: &["usda"],
     title: "Universal Scene Description, text",
     frame: Frame::METRES_Z,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
-    check,
+    check: check_curves,
     write: encode_text,
     read: Some(decode),
 };
@@ -54,24 +53,24 @@ pub(super) static USDZ: Declaration = Declaration {
     extensions: &["usdz"],
     title: "Universal Scene Description, package",
     frame: Frame::METRES_Z,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
-    check,
+    check: check_curves,
     write: encode_package,
     read: Some(decode),
 };
 
-/// Writes what [`check`] has passed, as text.
+/// Writes what [`check_curves`] has passed, as text.
 fn encode_text(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     usd::write_text(out, &write::layer(groom, frame))
 }
 
-/// Writes what [`check`] has passed, in binary.
+/// Writes what [`check_curves`] has passed, in binary.
 fn encode_binary(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     usd::write_binary(out, &write::layer(groom, frame))
 }
 
-/// Writes what [`check`] has passed, in binary and as a package.
+/// Writes what [`check_curves`] has passed, in binary and as a package.
 fn encode_package(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     // Where layers are read as they lie in the archive, they have to lie so.
     let options = SimpleFileOptions::default()

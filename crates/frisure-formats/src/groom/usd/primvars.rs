@@ -1,13 +1,13 @@
 //! Values on curves: constant, for each curve, for each vertex, and between.
 
-use frisure_strands::{Attribute, AttributeValues, Domain};
-use glam::{DMat4, DVec3};
+use frisure_strands::{Attribute, Domain};
+use glam::{DMat4, DVec3, Vec3};
 
-use super::super::attributes::{COLOUR, DIRECTOR};
+use super::super::attributes::{COLOUR, real_values, turn_directions, whole_values};
 use super::basis::{Tap, Taps};
 use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
 use frisure_files::frame::Frame;
-use frisure_usd::{self as usd, Data, Kind, StagePrim, Value};
+use frisure_usd::{self as usd, Data, StagePrim, Value, ValueType};
 
 /// Attributes that have no name inside, at most: a constant is small in a file, and one value for each strand
 /// here.
@@ -61,11 +61,8 @@ pub(super) fn given(
     let several = attribute.meta("elementSize").and_then(Value::number).unwrap_or(1.0);
     let several = [1, 2, 3].into_iter().find(|&n| f64::from(n) == several);
     let Some(several) = several else { return Ok(None) };
-    let width = value.kind.width() * several as usize;
-    let mut data = value.data.clone();
-    if let Some(indices) = place.prim.value(&format!("{name}:indices")) {
-        data = picked(&data, width, indices).map_err(|e| format!("`{name}` {e}"))?;
-    }
+    let width = value.ty.width() * several as usize;
+    let data = place.prim.resolved(attribute, value, width)?;
     let found = data.len() / width;
     let mut per = Per::of(attribute, usual);
     // Single widths are often given without a word.
@@ -82,27 +79,6 @@ pub(super) fn given(
         return Ok(Some(Given { per, width, data }));
     }
     Err(format!("`{name}` has {found} values where {expected} are needed"))
-}
-
-/// The values that indices name.
-fn picked(data: &Data, width: usize, indices: &Value) -> Result<Data, String> {
-    let count = data.len() / width;
-    let mut places = Vec::new();
-    for i in indices.to_integers().ok_or("has indices that are none")? {
-        let i = usize::try_from(i).ok().filter(|&i| i < count);
-        places.push(i.ok_or("has an index of no value")?);
-    }
-    Ok(match data {
-        Data::I32(v) => Data::I32(pick(v, width, &places)),
-        Data::I64(v) => Data::I64(pick(v, width, &places)),
-        Data::F32(v) => Data::F32(pick(v, width, &places)),
-        Data::F64(v) => Data::F64(pick(v, width, &places)),
-        Data::Words(v) => Data::Words(pick(v, width, &places)),
-    })
-}
-
-fn pick<T: Clone>(values: &[T], width: usize, places: &[usize]) -> Vec<T> {
-    places.iter().flat_map(|&i| values[i * width..(i + 1) * width].iter().cloned()).collect()
 }
 
 impl Given {
@@ -172,22 +148,11 @@ impl Given {
         })
     }
 
-    /// As an attribute of strands; none of what is none of theirs.
+    /// As an attribute of strands, if strands have attributes of this type.
     fn attribute(&self, name: &str, taps: &Taps) -> Option<Attribute> {
-        let values = if let Some(whole) = self.integers(taps) {
-            match self.width {
-                1 => AttributeValues::U32(whole),
-                3 => AttributeValues::U32x3(whole.as_chunks().0.to_vec()),
-                _ => return None,
-            }
-        } else {
-            let all = self.spread(&floats(&self.data)?, taps);
-            match self.width {
-                1 => AttributeValues::F32(all),
-                2 => AttributeValues::F32x2(all.as_chunks().0.to_vec()),
-                3 => AttributeValues::F32x3(all.as_chunks().0.to_vec()),
-                _ => return None,
-            }
+        let values = match self.integers(taps) {
+            Some(whole) => whole_values(whole, self.width)?,
+            None => real_values(self.spread(&floats(&self.data)?, taps), self.width)?,
         };
         Some(Attribute { name: name.into(), domain: self.per.domain(), values })
     }
@@ -217,7 +182,7 @@ pub(super) fn attributes(
     frame: Frame,
 ) -> Result<Vec<Attribute>, String> {
     let mut found: Vec<Attribute> = Vec::new();
-    let mut add = |name: &str, primvar: &str, kind: Option<Kind>| -> Result<(), String> {
+    let mut add = |name: &str, primvar: &str, ty: Option<ValueType>| -> Result<(), String> {
         if found.iter().any(|a| a.name == name) {
             return Ok(());
         }
@@ -226,9 +191,9 @@ pub(super) fn attributes(
         if given.per == Per::Prim && name == COLOUR {
             return Ok(());
         }
-        let fits = kind.is_none_or(|k| {
-            let whole = matches!(Data::empty(k.base), Data::I32(_));
-            k.width() == given.width && whole == floats(&given.data).is_none()
+        let fits = ty.is_none_or(|ty| {
+            let whole = matches!(Data::empty(ty.scalar), Data::I32(_));
+            ty.width() == given.width && whole == floats(&given.data).is_none()
         });
         found.extend(given.attribute(name, taps).filter(|_| fits));
         Ok(())
@@ -237,12 +202,12 @@ pub(super) fn attributes(
     // In the order of the file, so that a groom goes round unchanged.
     for attribute in &place.prim.attributes {
         let primvar = attribute.name.as_str();
-        if let Some((name, _, kind)) = PRIMVARS.iter().find(|(_, p, _)| *p == primvar) {
+        if let Some((name, _, ty)) = PRIMVARS.iter().find(|(_, p, _)| *p == primvar) {
             // Of several of one name the first of the table.
             let others = PRIMVARS.iter().filter(|(n, ..)| n == name);
             let first = others.map(|(_, p, _)| *p).find(|p| place.prim.value(p).is_some());
             if first == Some(primvar) {
-                add(name, primvar, Kind::of(kind).map(|(kind, _)| kind))?;
+                add(name, primvar, ValueType::of(ty).map(|(ty, _)| ty))?;
             }
         } else if let Some(name) = primvar.strip_prefix(OURS).filter(|name| !name.contains(':'))
             && !PIGMENTS.contains(&primvar)
@@ -254,24 +219,18 @@ pub(super) fn attributes(
             add(name, primvar, None)?;
         }
     }
-    for attribute in found.iter_mut().filter(|a| a.name == DIRECTOR) {
-        turn(attribute, &place.world, frame);
+    for attribute in &mut found {
+        turn_directions(attribute, |d| frame.direction_from_file(turned(d, &place.world)));
     }
     Ok(found)
 }
 
-/// Turns directions of a prim into our axes.
-fn turn(attribute: &mut Attribute, world: &DMat4, frame: Frame) {
-    let AttributeValues::F32x3(all) = &mut attribute.values else { return };
+/// A direction of a prim in the axes of the stage.
+fn turned(direction: Vec3, world: &DMat4) -> Vec3 {
     if *world == DMat4::IDENTITY {
-        all.iter_mut().for_each(|d| *d = frame.direction_from_file((*d).into()).to_array());
-        return;
+        return direction;
     }
-    for d in all {
-        let turned = world.transform_vector3(DVec3::from_array(d.map(f64::from)));
-        let turned = turned.try_normalize().unwrap_or(DVec3::ZERO).as_vec3();
-        *d = frame.direction_from_file(turned).to_array();
-    }
+    world.transform_vector3(direction.as_dvec3()).try_normalize().unwrap_or(DVec3::ZERO).as_vec3()
 }
 
 /// Whether each curve is a guide; none where nothing is said.

@@ -1,10 +1,10 @@
 //! A stage as a groom.
 
 use frisure_look::Melanin;
-use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
+use frisure_strands::{Strands, Surface};
 use glam::{DMat4, Vec3};
 
-use super::super::checked::Curves;
+use super::super::curves::Curves;
 use super::super::data::{Groom, HairColour};
 use super::basis::{self, Taps};
 use super::names::PIGMENTS;
@@ -20,12 +20,12 @@ pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
     let (mut hairs, mut guides) = (Vec::new(), Vec::new());
     let mut found = false;
     let (mut colour, mut coloured) = (None, false);
-    for place in &stage.places {
+    for place in &stage.prims {
         let described = |e: String| stage.fault(place, &e);
         let Some(taps) = taps(place).map_err(described)? else { continue };
         found = true;
-        let part = Part::of(place, &taps, frame).map_err(described)?;
-        let (own_hairs, own_guides) = part.divided(place, &taps).map_err(described)?;
+        let curves = curves(place, &taps, frame).map_err(described)?;
+        let (own_hairs, own_guides) = divided(curves, place, &taps).map_err(described)?;
         // That of the first prim with hairs.
         if !coloured && !own_hairs.counts.is_empty() {
             (colour, coloured) = (self::colour(place, &taps, stage), true);
@@ -47,7 +47,7 @@ pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
 
 /// What people call it.
 fn name(stage: &Stage) -> Option<String> {
-    let named = stage.places.iter().find_map(|p| p.prim.meta("displayName"));
+    let named = stage.prims.iter().find_map(|p| p.prim.meta("displayName"));
     named?.word().map(str::to_owned)
 }
 
@@ -85,87 +85,42 @@ fn taps(place: &StagePrim) -> Result<Option<Taps>, String> {
 }
 
 /// The curves of one prim.
-#[derive(Default)]
-struct Part {
-    counts: Vec<usize>,
-    points: Vec<[f32; 3]>,
-    /// Empty where the file has none.
-    diameters: Vec<f32>,
-    attributes: Vec<Attribute>,
+fn curves(place: &StagePrim, taps: &Taps, frame: Frame) -> Result<Curves, String> {
+    let positions = place.prim.value("points").and_then(Value::to_floats).unwrap_or_default();
+    if positions.len() != 3 * taps.vertices {
+        return Err("its points have not three coordinates each".into());
+    }
+    let positions: &[[f32; 3]] = positions.as_chunks().0;
+    let widths = given(place, "widths", Per::Vertex, taps)?;
+    let mut diameters = widths.and_then(|w| w.at_points(taps)).unwrap_or_default();
+    let size = scale(&place.world);
+    if size != 1.0 {
+        diameters.iter_mut().for_each(|d| *d *= size);
+    }
+    let points = taps
+        .taps
+        .iter()
+        .map(|tap| std::array::from_fn(|axis| mixed(tap, |i| positions[i as usize][axis])));
+    Ok(Curves {
+        counts: taps.counts.clone(),
+        points: placed(points.collect(), &place.world),
+        diameters,
+        attributes: primvars::attributes(place, taps, frame)?,
+    })
 }
 
-impl Part {
-    fn of(place: &StagePrim, taps: &Taps, frame: Frame) -> Result<Self, String> {
-        let positions = place.prim.value("points").and_then(Value::to_floats).unwrap_or_default();
-        if positions.len() != 3 * taps.vertices {
-            return Err("its points have not three coordinates each".into());
+/// Hairs and guides of the curves of a prim.
+fn divided(curves: Curves, place: &StagePrim, taps: &Taps) -> Result<(Curves, Curves), String> {
+    let is_guide = match primvars::guides(place, taps)? {
+        Some(all) if all.iter().any(|&g| g != all[0]) => {
+            let (guides, hairs): (Vec<_>, Vec<_>) = (0..all.len()).partition(|&i| all[i]);
+            return Ok((curves.picked(&hairs), curves.picked(&guides)));
         }
-        let positions: &[[f32; 3]] = positions.as_chunks().0;
-        let widths = given(place, "widths", Per::Vertex, taps)?;
-        let mut diameters = widths.and_then(|w| w.at_points(taps)).unwrap_or_default();
-        let size = scale(&place.world);
-        if size != 1.0 {
-            diameters.iter_mut().for_each(|d| *d *= size);
-        }
-        let points = taps
-            .taps
-            .iter()
-            .map(|tap| std::array::from_fn(|axis| mixed(tap, |i| positions[i as usize][axis])));
-        Ok(Self {
-            counts: taps.counts.clone(),
-            points: placed(points.collect(), &place.world),
-            diameters,
-            attributes: primvars::attributes(place, taps, frame)?,
-        })
-    }
-
-    /// Hairs and guides.
-    fn divided(self, place: &StagePrim, taps: &Taps) -> Result<(Self, Self), String> {
-        let is_guide = match primvars::guides(place, taps)? {
-            Some(all) if all.iter().any(|&g| g != all[0]) => {
-                let no_guide: Vec<bool> = all.iter().map(|g| !g).collect();
-                return Ok((self.of_those(&no_guide), self.of_those(&all)));
-            }
-            Some(all) => all.first() == Some(&true),
-            None => place.is_guide || place.prim.name.to_lowercase().contains("guide"),
-        };
-        let none = Self::default();
-        Ok(if is_guide { (none, self) } else { (self, none) })
-    }
-
-    /// Those curves that are taken.
-    fn of_those(&self, taken: &[bool]) -> Self {
-        let of_points: Vec<bool> =
-            self.counts.iter().zip(taken).flat_map(|(&n, &t)| std::iter::repeat_n(t, n)).collect();
-        let attributes = self.attributes.iter().map(|attribute| {
-            let which = if attribute.domain == Domain::Strand { taken } else { &of_points };
-            Attribute { values: sieved(&attribute.values, which), ..attribute.clone() }
-        });
-        Self {
-            counts: those(&self.counts, taken),
-            points: those(&self.points, &of_points),
-            diameters: if self.diameters.is_empty() {
-                vec![]
-            } else {
-                those(&self.diameters, &of_points)
-            },
-            attributes: attributes.collect(),
-        }
-    }
-}
-
-fn those<T: Copy>(values: &[T], taken: &[bool]) -> Vec<T> {
-    values.iter().zip(taken).filter(|(_, taken)| **taken).map(|(value, _)| *value).collect()
-}
-
-fn sieved(values: &AttributeValues, taken: &[bool]) -> AttributeValues {
-    match values {
-        AttributeValues::U32(v) => AttributeValues::U32(those(v, taken)),
-        AttributeValues::U32x3(v) => AttributeValues::U32x3(those(v, taken)),
-        AttributeValues::F32(v) => AttributeValues::F32(those(v, taken)),
-        AttributeValues::F32x2(v) => AttributeValues::F32x2(those(v, taken)),
-        AttributeValues::F32x3(v) => AttributeValues::F32x3(those(v, taken)),
-    }
+        Some(all) => all.first() == Some(&true),
+        None => place.is_guide || place.prim.name.to_lowercase().contains("guide"),
+    };
+    let none = Curves::default();
+    Ok(if is_guide { (none, curves) } else { (curves, none) })
 }
 
 /// Points in the space of the stage.
@@ -187,39 +142,11 @@ fn scale(world: &DMat4) -> f32 {
     if (size - 1.0).abs() < 1e-6 { 1.0 } else { size as f32 }
 }
 
-/// Strands of several prims; attributes that not all have are left out.
-fn joined(parts: Vec<Part>, frame: Frame) -> Result<Strands, String> {
-    let mut parts = parts.into_iter().filter(|part| !part.counts.is_empty());
-    let Some(first) = parts.next() else { return Ok(Strands::new()) };
-    let mut all = first;
-    for part in parts {
-        if all.diameters.is_empty() != part.diameters.is_empty() {
-            fill(&mut all, frame);
-        }
-        let mut part = part;
-        if all.diameters.is_empty() != part.diameters.is_empty() {
-            fill(&mut part, frame);
-        }
-        all.diameters.extend(part.diameters);
-        all.counts.extend(part.counts);
-        all.points.extend(part.points);
-        all.attributes.retain_mut(|attribute| {
-            let other = part.attributes.iter().find(|other| other.name == attribute.name);
-            other.is_some_and(|other| {
-                other.domain == attribute.domain && attribute.values.append(&other.values)
-            })
-        });
-    }
-    let Part { counts, points, diameters, attributes } = all;
-    Curves { counts, points, diameters, attributes }.strands(frame)
-}
-
-/// Gives a part without widths the usual ones.
+/// Strands of several prims.
 #[expect(clippy::cast_possible_truncation, reason = "a thickness")]
-fn fill(part: &mut Part, frame: Frame) {
-    if part.diameters.is_empty() {
-        part.diameters = vec![(USUAL_DIAMETER / frame.metres) as f32; part.points.len()];
-    }
+fn joined(parts: Vec<Curves>, frame: Frame) -> Result<Strands, String> {
+    let parts = parts.into_iter().filter(|part| !part.counts.is_empty());
+    Curves::joined(parts, (USUAL_DIAMETER / frame.metres) as f32).strands(frame)
 }
 
 /// The colour of a prim's hair: that of its material, or one for all its curves.
@@ -249,7 +176,7 @@ fn diffuse(place: &StagePrim, stage: &Stage) -> Option<Vec<f32>> {
 
 /// The head, where the stage has exactly one mesh.
 fn head(stage: &Stage, frame: Frame) -> Result<Option<Surface>, String> {
-    let mut meshes = stage.places.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
+    let mut meshes = stage.prims.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
     let (Some(place), None) = (meshes.next(), meshes.next()) else { return Ok(None) };
     let mesh = place.mesh().map_err(|e| stage.fault(place, &e))?;
     let metres = |p: &[f64; 3]| frame.position_from_file((*p).into());

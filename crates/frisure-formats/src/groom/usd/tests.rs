@@ -55,7 +55,7 @@ fn whole() -> Groom {
 }
 
 fn bytes(groom: &Groom, frame: Frame, binary: bool) -> Vec<u8> {
-    check(groom).unwrap();
+    check_curves(groom).unwrap();
     let mut out = Vec::new();
     let encode = if binary { encode_binary } else { encode_text };
     encode(&mut out, groom, frame).unwrap();
@@ -146,8 +146,8 @@ fn no_groom_and_guides_alone() {
 
 #[test]
 fn curves_have_two_points() {
-    assert!(check(&Groom::of(strands(2, 2))).is_ok());
-    let error = check(&Groom::of(strands(2, 1))).unwrap_err();
+    assert!(check_curves(&Groom::of(strands(2, 2))).is_ok());
+    let error = check_curves(&Groom::of(strands(2, 1))).unwrap_err();
     assert_eq!(error, "hair 0 of 1 points: a curve has at least 2");
 }
 

@@ -3,28 +3,14 @@
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::Vec3;
 
-use super::super::attributes::{COLOUR, DIRECTOR};
+use super::super::attributes::{COLOUR, DIRECTOR, in_file_axes};
 use super::super::data::{Groom, HairColour};
 use super::look;
 use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
-use frisure_files::frame::{Frame, UpAxis};
+use frisure_files::frame::Frame;
 use frisure_usd::{Data, Layer, Prim, Value};
 
-/// Checks that a stage has room for a groom: curves have at least two points.
-pub(super) fn check(groom: &Groom) -> Result<(), String> {
-    for (kind, strands) in [("hair", &groom.hairs), ("guide", &groom.guides)] {
-        if let Some(i) = strands.iter().position(|strand| strand.points.len() < 2) {
-            let points = strands.strand(i).points.len();
-            return Err(format!("{kind} {i} of {points} points: a curve has at least 2"));
-        }
-        if i32::try_from(strands.points().len()).is_err() {
-            return Err(format!("{} points of {kind}s", strands.points().len()));
-        }
-    }
-    Ok(())
-}
-
-/// The stage of a groom that [`check`] has passed.
+/// The stage of a groom that the check has passed.
 pub(super) fn layer(groom: &Groom, frame: Frame) -> Layer {
     let mut root = Prim::new("Xform", "groom");
     root.metadata.push(("kind".into(), Value::token("component")));
@@ -62,20 +48,17 @@ pub(super) fn layer(groom: &Groom, frame: Frame) -> Layer {
 }
 
 fn metadata(frame: Frame) -> Vec<(String, Value)> {
-    let up = match frame.up {
-        UpAxis::Y => "Y",
-        UpAxis::Z => "Z",
-    };
+    let up = frame.up.name().to_uppercase();
     let all = [
         ("defaultPrim", Value::token("groom")),
         ("documentation", Value::string("A groom by frisure")),
         ("metersPerUnit", Value::double(frame.metres)),
-        ("upAxis", Value::token(up)),
+        ("upAxis", Value::token(&up)),
     ];
     all.into_iter().map(|(key, value)| (key.into(), value)).collect()
 }
 
-/// The colour that all hair has in a preview: as told, or the mean of what the strands have.
+/// The colour that all hair has in a preview: that of the groom, or the mean of those of the strands.
 fn colour(groom: &Groom) -> Option<[f32; 3]> {
     let mean = || match &groom.strands().attribute(COLOUR)?.values {
         AttributeValues::F32x3(all) if !all.is_empty() => {
@@ -138,7 +121,7 @@ fn identifier(name: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
 }
 
-/// Writes three integers for each as three values: Blender knows no other.
+/// Writes three integers for each as three values: Blender reads no others.
 fn threes(prim: &mut Prim, primvar: &str, value: &Value, per: &str) {
     let Data::I32(all) = &value.data else { return };
     prim.primvar("int[]", primvar, Value::ints(all.clone()), per);
@@ -148,7 +131,7 @@ fn threes(prim: &mut Prim, primvar: &str, value: &Value, per: &str) {
 
 /// The values in the axes of the file, and the type of those without a role.
 fn values(attribute: &Attribute, frame: Frame) -> (Value, &'static str) {
-    match &attribute.values {
+    match &in_file_axes(attribute, frame).values {
         AttributeValues::U32(v) => (Value::ints(v.iter().map(|&x| signed(x)).collect()), "int[]"),
         AttributeValues::U32x3(v) => {
             let v: Vec<_> = v.iter().map(|t| t.map(signed)).collect();
@@ -157,8 +140,7 @@ fn values(attribute: &Attribute, frame: Frame) -> (Value, &'static str) {
         AttributeValues::F32(v) => (Value::floats(v.clone()), "float[]"),
         AttributeValues::F32x2(v) => (Value::float_tuples(v), "float2[]"),
         AttributeValues::F32x3(v) if attribute.name == DIRECTOR => {
-            let turn = |d: &[f32; 3]| frame.direction_to_file(Vec3::from_array(*d));
-            (triples(&v.iter().map(turn).collect::<Vec<_>>()), "vector3f[]")
+            (Value::float_tuples(v), "vector3f[]")
         }
         AttributeValues::F32x3(v) => (Value::float_tuples(v), "float3[]"),
     }
@@ -170,13 +152,13 @@ fn signed(x: u32) -> i32 {
 }
 
 /// Colour, pigments and material.
-fn dress(prim: &mut Prim, told: Option<&HairColour>, colour: Option<[f32; 3]>) {
+fn dress(prim: &mut Prim, shared: Option<&HairColour>, colour: Option<[f32; 3]>) {
     let Some(colour) = colour else { return };
     if prim.attribute("primvars:displayColor").is_none() {
         let value = Value::float_tuples(&[colour]);
         prim.primvar("color3f[]", "primvars:displayColor", value, "constant");
     }
-    if let Some(melanin) = told.and_then(|c| c.melanin) {
+    if let Some(melanin) = shared.and_then(|c| c.melanin) {
         let pigments = [melanin.eumelanin, melanin.pheomelanin];
         for (name, amount) in PIGMENTS.into_iter().zip(pigments) {
             prim.primvar("float", name, Value::float(amount), "constant");
