@@ -55,7 +55,7 @@ impl PictureSpec<'_> {
     /// The scene seen from a camera; a floor is under all of `framed`, of which `strands` may be a part.
     ///
     /// # Errors
-    /// [`InvalidLight`], for a lamp that cannot be where it is asked for.
+    /// [`InvalidLight`], for a lamp at an impossible position.
     pub fn scene<'s>(
         &self,
         camera: Camera,

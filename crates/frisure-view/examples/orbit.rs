@@ -55,9 +55,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let start = Instant::now();
         gpu.draw(&mut canvas, &frame);
-        let told = start.elapsed().as_secs_f64();
+        let submitted = start.elapsed().as_secs_f64();
         gpu.wait();
-        (told, start.elapsed().as_secs_f64())
+        (submitted, start.elapsed().as_secs_f64())
     };
     let (_, begun) = draw(0);
     let times: Vec<(f64, f64)> = (0..frames).map(&mut draw).collect();
@@ -66,14 +66,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     writeln!(out, "{} ({}, {})", info.name, info.backend, info.driver_info)?;
     writeln!(out, "{} strands, {} vertices, made in {made:.2} s", hair.strands(), hair.vertices())?;
     let sum = |of: fn(&(f64, f64)) -> f64| times.iter().map(of).sum::<f64>();
-    let (told, all) = (sum(|t| t.0), sum(|t| t.1));
+    let (submitted, all) = (sum(|t| t.0), sum(|t| t.1));
     let n = f64::from(frames.max(1));
     writeln!(
         out,
         "first {begun:.3} s, then {:.1} frames/s: {:.1} ms each, {:.1} ms of them before the device",
         n / all,
         1e3 * all / n,
-        1e3 * told / n
+        1e3 * submitted / n
     )?;
     Ok(())
 }

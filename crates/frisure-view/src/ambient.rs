@@ -35,9 +35,9 @@ impl AmbientVolume {
     ) -> Self {
         let (strands, factor) = hair.map_or((0, 1.0), |hair| hair.some(PIECES));
         let occluders = hair.into_iter().flat_map(|hair| hair.occluders(strands, factor));
-        let taken = hair.map_or(Vec3::ONE, Hair::taken);
+        let extinction = hair.map_or(Vec3::ONE, Hair::extinction);
         let light =
-            AmbientLight::new(occluders, skin.map(Skin::surface), environment, taken, CELLS);
+            AmbientLight::new(occluders, skin.map(Skin::surface), environment, extinction, CELLS);
         let (low, cell, size) = light.grid();
         let nodes: Vec<[u16; 4]> =
             light.nodes().iter().map(|n| gpu::halves([n.x, n.y, n.z, 0.0])).collect();
@@ -72,11 +72,10 @@ impl AmbientVolume {
     }
 }
 
-/// Texels across and down of a picture of the environment_map.
+/// Texels across and down of the environment map.
 const AROUND_SIZE: [u32; 2] = [512, 256];
 
-/// The environment_map as a picture: a turn about the vertical across, from above to below down. One texel
-/// without them.
+/// The environment light as an equirectangular texture. One texel without a light.
 pub(crate) fn environment_texture(
     device: &Device,
     queue: &Queue,

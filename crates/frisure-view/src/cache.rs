@@ -1,4 +1,4 @@
-//! What was computed for the last picture and may be right for the next.
+//! Results of the last picture that the next one can use.
 
 use frisure_look::{Background, EnvironmentLight, Lights};
 use frisure_render::preview;
@@ -56,7 +56,7 @@ impl FrameCache {
             (buffer, group)
         });
         let at_point = self.at_point(frame);
-        let of_hair = frame.hair.map(|hair| (hair.shape(), hair.taken()));
+        let of_hair = frame.hair.map(|hair| (hair.shape(), hair.extinction()));
         let key = (of_hair, frame.skin.map(crate::skin::Skin::version), at_point.environment);
         if self.environment.as_ref().is_none_or(|(known, _)| *known != key) {
             let things = (frame.hair, frame.skin);
@@ -83,7 +83,7 @@ impl FrameCache {
         }
     }
 
-    /// The lights in at_point numbers.
+    /// The lights at the middle of the picture, computed again only where they changed.
     fn at_point(&mut self, frame: &Frame<'_>) -> DirectionalLights {
         let place = middle(frame);
         if let Some((lights, of, at_point)) = &self.lights

@@ -1,12 +1,12 @@
 //! Interactive pictures of hair on a GPU, for a window or a page. No GUI toolkit is in it: a [`Renderer`] draws a
-//! [`Frame`] into a [`Canvas`], and shows that in somebody else's pass.
+//! [`Frame`] into a [`Canvas`], and shows that in a pass of the caller.
 //!
 //! The picture is that of [`frisure_render::preview`], drawn again for each camera: materials, the environment's light,
 //! widths, lobes and numbers are the same code or the same formulas, and tests compare the two.
 //!
 //! In the order in which a picture is drawn:
 //!
-//! 1. **ShadowMaps of each lamp.** `shaders/density.wgsl` adds pieces of hair up in layers behind one another: the
+//! 1. **Shadow maps of each lamp.** `shaders/density.wgsl` adds pieces of hair up in layers behind one another: the
 //!    light-oriented density map of Bertails, Ménier & Cani 2005, "A practical self-shadowing algorithm for
 //!    interactive hair animation". Their slices are planes across the light, evenly spaced; ours begin at the
 //!    first hair of each texel, as in Yuksel & Keyser 2008, "Deep opacity maps", and are the farther apart the

@@ -265,7 +265,7 @@ fn skin_depth(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipe
 
 fn hair(device: &Device, l: &Layouts) -> RenderPipeline {
     let shader = module(device, "hair", &[COMMON, RIBBON, include_str!("shaders/hair.wgsl")]);
-    // What comes later lies behind what is there.
+    // Pieces are drawn from front to back.
     let under = blend(BlendFactor::OneMinusDstAlpha, BlendFactor::One, BlendOperation::Add);
     PipelineSpec {
         fragment: Some("paint"),

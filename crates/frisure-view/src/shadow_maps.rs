@@ -1,4 +1,4 @@
-//! ShadowMaps of what keeps the lamps' light out: hair by density, the head by depth.
+//! Shadow maps of the lamps: of hair by density, of the head by depth.
 
 use bytemuck::cast_slice;
 use wgpu::{

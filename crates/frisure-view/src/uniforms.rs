@@ -68,11 +68,11 @@ fn materials(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 6] {
     let surface = frame.look.hair.surface;
     let shape =
         LobeShape::of(surface.longitudinal_roughness, surface.azimuthal_roughness, surface.tilt);
-    let (taken, reflected) =
-        frame.hair.map_or((Vec3::ONE, Vec3::ZERO), |hair| (hair.taken(), hair.reflected()));
+    let (extinction, reflected) =
+        frame.hair.map_or((Vec3::ONE, Vec3::ZERO), |hair| (hair.extinction(), hair.reflected()));
     let skin = frame.look.skin;
     [
-        four(taken, vertices as f32),
+        four(extinction, vertices as f32),
         four(reflected, constants::ENVIRONMENT_GLOSS),
         [shape.width, shape.tilt, shape.azimuthal_width, constants::OVERLAP],
         [

@@ -49,7 +49,7 @@ impl SceneBvh {
     /// nowhere; the result is the same on any number of threads.
     ///
     /// # Errors
-    /// [`AccelError`], if a coordinate, a radius or an option is none.
+    /// [`AccelError`], if a coordinate, a radius or an option is out of range.
     pub fn new(
         strands: &Strands,
         head: Option<&Surface>,

@@ -47,19 +47,19 @@ pub struct AmbientLight {
     mean: Vec<Vec3>,
     /// Radiance of the environment in each direction.
     environment: [Vec3; DIRECTION_COUNT],
-    /// Part of the light that each hair takes.
-    taken: Vec3,
+    /// Extinction per hair.
+    extinction: Vec3,
 }
 
 impl AmbientLight {
-    /// Measures an environment light ([`super::DirectionalLights::environment`]) around occluders and head; each hair on
-    /// the way absorbs the part `taken` of it. The grid has at most `cells` cells along a side.
+    /// Measures an environment light ([`super::DirectionalLights::environment`]) around occluders and head; its light falls
+    /// by the factor exp(−`extinction`) for each hair on the way. The grid has at most `cells` cells along a side.
     #[must_use]
     pub fn new(
         hair: impl Iterator<Item = Occluder>,
         head: Option<&Surface>,
         environment: [Vec3; DIRECTION_COUNT],
-        taken: Vec3,
+        extinction: Vec3,
         cells: f32,
     ) -> Self {
         let vertex = |Occluder { position, half_width, strand }| Vertex {
@@ -69,7 +69,7 @@ impl AmbientLight {
             ..NOWHERE
         };
         let curves = Curves { vertices: hair.map(vertex).collect() };
-        Self::around(&curves, head.map(Head::new).as_ref(), environment, taken, cells)
+        Self::around(&curves, head.map(Head::new).as_ref(), environment, extinction, cells)
     }
 
     /// Lowest corner of the grid (m), distance between its nodes (m), and nodes along each side.
@@ -89,7 +89,7 @@ impl AmbientLight {
         curves: &Curves,
         head: Option<&Head>,
         environment: [Vec3; DIRECTION_COUNT],
-        taken: Vec3,
+        extinction: Vec3,
         cells: f32,
     ) -> Self {
         let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -104,7 +104,7 @@ impl AmbientLight {
         let low = low - Vec3::splat(1.5 * cell);
         let size = ((high - low) / cell).ceil().as_uvec3() + UVec3::splat(2);
         let mut ambient =
-            Self { low, cell, size, met: Vec::new(), mean: Vec::new(), environment, taken };
+            Self { low, cell, size, met: Vec::new(), mean: Vec::new(), environment, extinction };
         let hair = ambient.hair_density(curves);
         let shell = ambient.shell(head);
         ambient.met = DIRECTIONS
@@ -154,7 +154,7 @@ impl AmbientLight {
 
     /// Part of the light that `hairs` hairs let pass.
     fn passed(&self, hairs: f32) -> Vec3 {
-        (-hairs * self.taken).exp()
+        (-hairs * self.extinction).exp()
     }
 
     fn index(&self, p: UVec3) -> usize {

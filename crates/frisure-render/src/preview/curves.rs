@@ -122,7 +122,7 @@ impl Curves {
     }
 }
 
-/// Some hair that is taken as one point.
+/// Several points of hair as one.
 #[derive(Default)]
 struct Lump {
     amount: f32,

@@ -28,8 +28,8 @@ const SHEEN: f32 = 0.04;
 const PRIMARY: f32 = 0.9;
 /// What goes through once mostly meets another hair, which a preview does not follow.
 const TRANSMISSION: f32 = 0.6;
-/// Points of the hair whose mean says what a hair takes away from light.
-const TAKEN_SAMPLES: usize = 4096;
+/// Points of the hair whose mean is the extinction per hair; chosen.
+const EXTINCTION_SAMPLES: usize = 4096;
 /// Deviation of the white highlight's strength from strand to strand, as a power of e.
 const GLITTER_STRENGTH: f32 = 0.35;
 /// Deviation of the highlights' place from strand to strand (rad).
@@ -89,12 +89,12 @@ impl Materials {
         self.pigments.vary_along()
     }
 
-    /// Part of the light that a hair takes away from what goes on past it: the mean over some of the
+    /// Extinction per hair, the part of the light that does not pass it: the mean over some of the
     /// places (strand, points from its root), of which there are `count`.
     #[must_use]
-    pub fn taken(&self, count: usize, places: impl Iterator<Item = (u32, f32)>) -> Vec3 {
+    pub fn extinction(&self, count: usize, places: impl Iterator<Item = (u32, f32)>) -> Vec3 {
         let (mut through, mut visited) = (Vec3::ZERO, 0.0);
-        for (strand, place) in places.step_by(count / TAKEN_SAMPLES + 1) {
+        for (strand, place) in places.step_by(count / EXTINCTION_SAMPLES + 1) {
             through += self.at(strand, place).transmitted;
             visited += 1.0;
         }

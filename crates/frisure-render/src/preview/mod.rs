@@ -3,9 +3,9 @@
 //! In the order of the computation: `curves` makes each strand smooth on the screen; `density` and
 //! `ambient` measure how much hair lies between any point and each lamp or the environment, and `shadow` whether
 //! the head does; `tiles` sorts the pieces of hair into small squares of the picture, and `composite`
-//! lays them over the rasterised `head` from front to back, asking `shading` only for hair that is
-//! seen. Lamps at a place are taken as far away in the direction in which the middle of the head sees
-//! them, and an environment light as its brightest spots and the mean of the rest by direction. Lamps follow
+//! lays them over the rasterised `head` from front to back; `shading` computes only hair that is visible.
+//! A lamp at a finite distance becomes a distant light in its direction from the middle of the head, and an environment
+//! light becomes its brightest spots and the mean of the rest by direction. Shading follows
 //! Kajiya & Kay 1989 with the lobes of Marschner et al. 2003; self-shadowing is the light-oriented density map of
 //! Bertails, Ménier & Cani 2005.
 //!

@@ -35,8 +35,8 @@ pub(super) struct Shader {
     lamps: Vec<Lamp>,
     ambient: AmbientLight,
     materials: Materials,
-    /// Part of the light that a hair takes away from what goes on past it.
-    taken: Vec3,
+    /// Extinction per hair.
+    extinction: Vec3,
     shape: LobeShape,
     skin: SkinLook,
 }
@@ -49,7 +49,7 @@ impl Shader {
         head: Option<&mut Head>,
     ) -> Self {
         let shared = head.as_deref();
-        let taken = materials.taken(curves.vertices.len(), curves.places());
+        let extinction = materials.extinction(curves.vertices.len(), curves.places());
         let place = head_centre(scene.strands, scene.surface);
         let DirectionalLights { lamps: lit, environment } =
             DirectionalLights::new(&scene.lights, place);
@@ -64,7 +64,7 @@ impl Shader {
                 .collect()
         };
         let ambient =
-            || AmbientLight::around(curves, shared, environment, taken, ambient::MAX_CELLS);
+            || AmbientLight::around(curves, shared, environment, extinction, ambient::MAX_CELLS);
         let (lamps, ambient) = rayon::join(lamps, ambient);
         if let Some(head) = head {
             head.set_ambient(|point, normal| ambient.on_surface(point, normal));
@@ -75,7 +75,7 @@ impl Shader {
             lamps,
             ambient,
             materials,
-            taken,
+            extinction,
             shape: LobeShape::of(
                 surface.longitudinal_roughness,
                 surface.azimuthal_roughness,
@@ -106,16 +106,16 @@ impl Shader {
         let mut radiance = environment * (diffuse + ENVIRONMENT_GLOSS * reflected + returned);
         for lamp in &self.lamps {
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(vertex.position));
-            // e^(−7.6) of the light that is taken least: no colour of it is left.
-            if hairs * self.taken.min_element() > DARK {
+            // e^(−7.6) of the light of the smallest extinction: no colour of it is left.
+            if hairs * self.extinction.min_element() > DARK {
                 continue;
             }
             let head = lamp.head.as_ref().map_or(1.0, |m| m.lit(vertex.position, HAIR_BIAS));
             if head <= 0.0 {
                 continue;
             }
-            // Beer's law over the hairs in between: by what each takes of a colour, and of light that meets none at all.
-            let passed = (-hairs * self.taken).exp();
+            // Beer's law over the hairs in between: the extinction per hair of each colour, and light that meets no hair.
+            let passed = (-hairs * self.extinction).exp();
             let straight = (-hairs).exp();
             let mut angles = Angles::new(vertex.tangent, lamp.to_light, eye);
             angles.theta_eye += shift;
@@ -150,7 +150,7 @@ impl Shader {
             let head =
                 lamp.head.as_ref().map_or(1.0, |m| m.softly_lit(lifted, SKIN_BIAS, SKIN_PENUMBRA));
             let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(lifted));
-            let passed = head * (-hairs * self.taken).exp();
+            let passed = head * (-hairs * self.extinction).exp();
             let half = (lamp.to_light + eye).normalize_or_zero();
             let gloss = self.skin.gloss * normal.dot(half).max(0.0).powi(SKIN_GLOSS);
             radiance += passed

@@ -61,7 +61,7 @@ impl ShadowMap {
         map
     }
 
-    /// Part of the lamp (0 to 1) that is seen from `point`, which is taken `bias` (m) nearer to it.
+    /// Part of the lamp (0 to 1) that is seen from `point`, moved towards it by `bias` (m).
     pub(super) fn lit(&self, point: Vec3, bias: f32) -> f32 {
         let p = self.project(point);
         let g = p.truncate() - Vec2::splat(1.5);

@@ -8,10 +8,10 @@ use rayon::prelude::*;
 use super::ranks::ranks;
 
 /// Greatest turn within a piece (rad) and greatest length of one (m): the first that gives few enough
-/// vertices is taken. Chosen by eye.
+/// vertices applies. Chosen by eye.
 const DETAIL: [(f32, f32); 6] =
     [(0.15, 0.014), (0.2, 0.016), (0.25, 0.02), (0.33, 0.025), (0.45, 0.03), (0.6, 0.04)];
-/// Vertices that a device can well draw many times a second, and those that one can which is none.
+/// Most vertices on a graphics device and on a software renderer, for many pictures a second.
 pub(super) const VERTICES: [usize; 2] = [1_800_000, 250_000];
 /// Most vertices, whatever the detail; fewer strands are kept where there are more. Chosen; a guard on memory.
 pub(super) const MOST: usize = if cfg!(target_arch = "wasm32") { 3_000_000 } else { 6_000_000 };

@@ -29,7 +29,7 @@ pub struct Hair {
     /// Changes with the shape.
     shape: u64,
     box_: (Vec3, Vec3),
-    taken: Vec3,
+    extinction: Vec3,
     reflected: Vec3,
     varies: bool,
     marked: bool,
@@ -38,7 +38,7 @@ pub struct Hair {
     group: wgpu::BindGroup,
 }
 
-/// Hides what nobody wants to read.
+/// Leaves the buffers out.
 struct CurvesOnce(Curves);
 
 impl std::fmt::Debug for CurvesOnce {
@@ -79,7 +79,7 @@ impl Hair {
             box_: enclosing(&curves),
             curves: CurvesOnce(curves),
             shape,
-            taken: Vec3::ONE,
+            extinction: Vec3::ONE,
             reflected: Vec3::ZERO,
             varies: false,
             marked: false,
@@ -114,7 +114,7 @@ impl Hair {
         self.marked = any;
     }
 
-    /// Strands that are on the device; some of those asked for may not be.
+    /// Strands that are on the device; it may have no room for all.
     #[must_use]
     pub fn strands(&self) -> usize {
         self.curves.0.strands.len()
@@ -130,8 +130,8 @@ impl Hair {
         self.shape
     }
 
-    pub(crate) fn taken(&self) -> Vec3 {
-        self.taken
+    pub(crate) fn extinction(&self) -> Vec3 {
+        self.extinction
     }
 
     pub(crate) fn reflected(&self) -> Vec3 {
@@ -213,7 +213,7 @@ impl Hair {
         }
         let strand = |vertex: usize| curves.strands[curves.traits[vertex][2] as usize];
         let places = (0..curves.places.len()).map(|i| (strand(i), curves.along[i]));
-        self.taken = materials.taken(curves.places.len(), places.clone());
+        self.extinction = materials.extinction(curves.places.len(), places.clone());
         self.reflected = materials.reflected();
         let texels: Vec<[[u16; 4]; 3]> = if varies {
             places.map(|(strand, place)| texels(&materials.at(strand, place), strand)).collect()

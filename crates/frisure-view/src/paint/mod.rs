@@ -41,7 +41,7 @@ impl Renderer {
         job.compose(encoder, canvas);
     }
 
-    /// Draws the finished picture over the whole viewport of somebody else's pass.
+    /// Draws the finished picture over the whole viewport of a pass of the caller.
     pub fn show(&self, device: &Device, pass: &mut RenderPass<'_>, canvas: &Canvas) {
         let view = gpu::whole(&canvas.targets.picture);
         let sampler = BindingResource::Sampler(&self.sampler);

@@ -41,8 +41,8 @@ struct Picture {
     up: vec4<f32>,
     // Into the picture; w: factor on the width of hairs.
     forward: vec4<f32>,
-    // Part of light that a hair takes; w: vertices of hair.
-    taken: vec4<f32>,
+    // Extinction per hair; w: vertices of hair.
+    extinction: vec4<f32>,
     // Energy reflected at a hair's surface; w: share of the environment mirrored.
     reflected: vec4<f32>,
     // Deviation along the fibre, tilt, deviation around the fibre; w: share lost to other hair that is seen.

@@ -59,7 +59,7 @@ fn from_lamp(at: Point, lamp: Lamp) -> vec3<f32> {
     // Hairs on the way take a part of the light each: `passed` by colour, `straight` of light that meets none.
     let met = hairs_met(lamp, at.p, picture.hair.z, picture.hair.w);
     let head = past_head(lamp, at.p, picture.room_size.w);
-    let passed = exp(-met.before * picture.taken.rgb);
+    let passed = exp(-met.before * picture.extinction.rgb);
     let straight = exp(-met.before);
 
     // The lobes of `frisure_optics::lobes`: inclinations from the plane across the fibre, and the azimuth between light and
@@ -91,7 +91,7 @@ fn from_lamp(at: Point, lamp: Lamp) -> vec3<f32> {
 fn shade(in: Rows) -> @location(0) vec4<f32> {
     let where_ = vec2<i32>(in.at.xy);
     let index = u32(where_.y) * ROW + u32(where_.x);
-    if index >= u32(picture.taken.w) {
+    if index >= u32(picture.extinction.w) {
         return vec4<f32>(0.0);
     }
     let own = textureLoad(traits, where_, 0);

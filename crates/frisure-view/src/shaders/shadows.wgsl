@@ -42,7 +42,7 @@ fn hairs_met(lamp: Lamp, p: vec3<f32>, lift: f32, half_cell: f32) -> Met {
     return Met(before, max(around, 0.0));
 }
 
-// Part of the lamp that the head does not hide from a point, which is taken `bias` (m) nearer to it.
+// Part of the lamp that the head does not hide from a point, moved towards it by `bias` (m).
 fn past_head(lamp: Lamp, p: vec3<f32>, bias: f32) -> f32 {
     let m = in_maps(lamp, p);
     let size = lamp.head.w;

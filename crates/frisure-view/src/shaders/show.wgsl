@@ -1,4 +1,4 @@
-// The finished picture in somebody else's pass.
+// The finished picture in a pass of the caller.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 @group(0) @binding(1) var smooth_sampler: sampler;
@@ -14,7 +14,7 @@ fn whole(@builtin(vertex_index) corner: u32) -> Shown {
     return Shown(vec4<f32>(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, 0.0, 1.0), uv);
 }
 
-// For targets that keep bytes as a screen wants them.
+// For targets in sRGB.
 @fragment
 fn show_encoded(in: Shown) -> @location(0) vec4<f32> {
     let c = textureSampleLevel(picture, smooth_sampler, in.uv, 0.0);

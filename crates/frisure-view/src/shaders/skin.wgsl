@@ -71,7 +71,7 @@ fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, pl
     let lifted = place + bias * normal;
     let open = past_head_from(lamp, lifted, bias, picture.skin_shape.z, places);
     let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
-    let passed = open * exp(-met.before * picture.taken.rgb);
+    let passed = open * exp(-met.before * picture.extinction.rgb);
     let half = normalize(lamp.towards.xyz + eye);
     let gloss = picture.skin.a * pow(max(dot(normal, half), 0.0), picture.skin_shape.w);
     return passed * lamp.light.rgb / PI * (facing * picture.skin.rgb + min(facing, 1.0) * gloss);
