@@ -91,7 +91,7 @@ fn shadow_rays(bencher: Bencher<'_, '_>) {
     occluded(bencher, &WORLD.scene, &WORLD.rays.shadow);
 }
 
-/// Without AVX2.
+/// With the instructions that every machine has.
 mod portable {
     use super::{Bencher, LazyLock, SceneBvh, WORLD, closest, occluded};
 

@@ -8,6 +8,8 @@
 //!
 //! Lengths are metres, angles radians, z is up, the face looks towards −y; colours are linear sRGB.
 
+#![forbid(unsafe_code)]
+
 pub mod accel;
 mod film;
 mod hash;

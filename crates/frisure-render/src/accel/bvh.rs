@@ -1,14 +1,13 @@
 //! The bounding volume hierarchy (BVH), eight children to a node, and its traversal.
 
+use fearless_simd::{Level, Simd, SimdBase, SimdFloat, dispatch, f32x8};
 use glam::{DVec3, Vec3};
 
 use super::Ray;
 use super::aabb::Aabb;
 use super::build;
 use super::node::{LEAF, Leaf, Node, Primitive, WideRay};
-#[cfg(target_arch = "x86_64")]
-use super::simd::Avx2;
-use super::simd::{LANES, Lanes, Portable, Simd, Vectors, Wide3};
+use super::simd::{LANES, Wide3, bits};
 
 /// An 8-wide BVH with leaves of type `L`.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,25 +15,6 @@ pub(super) struct Bvh<L> {
     bounds: Aabb,
     nodes: Vec<Node>,
     leaves: Vec<L>,
-}
-
-/// The instruction set for traversal.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum SimdLevel {
-    Portable,
-    #[cfg(target_arch = "x86_64")]
-    Avx2(Avx2),
-}
-
-impl SimdLevel {
-    /// The best that this processor supports.
-    pub(super) fn best() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = Avx2::detect() {
-            return Self::Avx2(avx2);
-        }
-        Self::Portable
-    }
 }
 
 /// The closest hit: a lane of a leaf.
@@ -69,35 +49,20 @@ impl<L: Leaf> Bvh<L> {
     /// The closest hit before `t_max` (m).
     pub(super) fn closest_hit(
         &self,
-        level: SimdLevel,
+        level: Level,
         ray: &Ray,
         t_max: f32,
     ) -> Option<LeafHit<'_, L>> {
         let (ray, skipped) = self.enter(ray, t_max)?;
-        let found = match level {
-            SimdLevel::Portable => traverse::<_, L, false>(Portable, self, &ray, t_max - skipped),
-            // SAFETY: an `Avx2` exists only where the machine has AVX2 and FMA.
-            #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx2(simd) => unsafe {
-                traverse_avx2::<L, false>(simd, self, &ray, t_max - skipped)
-            },
-        };
+        let found =
+            dispatch!(level, simd => traverse::<_, L, false>(simd, self, &ray, t_max - skipped));
         found.map(|found| LeafHit { t: found.t + skipped, ..found })
     }
 
     /// Whether the ray hits anything before `t_max` (m): a shadow ray.
-    pub(super) fn occluded(&self, level: SimdLevel, ray: &Ray, t_max: f32) -> bool {
+    pub(super) fn occluded(&self, level: Level, ray: &Ray, t_max: f32) -> bool {
         let Some((ray, skipped)) = self.enter(ray, t_max) else { return false };
-        match level {
-            SimdLevel::Portable => {
-                traverse::<_, L, true>(Portable, self, &ray, t_max - skipped).is_some()
-            }
-            // SAFETY: an `Avx2` exists only where the machine has AVX2 and FMA.
-            #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx2(simd) => unsafe {
-                traverse_avx2::<L, true>(simd, self, &ray, t_max - skipped).is_some()
-            },
-        }
+        dispatch!(level, simd => traverse::<_, L, true>(simd, self, &ray, t_max - skipped).is_some())
     }
 
     /// The ray, moved to just before it enters the AABB of everything, and the distance moved (m); `None` if it misses,
@@ -151,17 +116,6 @@ struct StackEntry {
     child: u32,
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn traverse_avx2<'a, L: Leaf, const ANY: bool>(
-    simd: Avx2,
-    bvh: &'a Bvh<L>,
-    ray: &ClippedRay,
-    t_max: f32,
-) -> Option<LeafHit<'a, L>> {
-    traverse::<Avx2, L, ANY>(simd, bvh, ray, t_max)
-}
-
 /// Traverses the BVH, nearest child first. With `ANY` it returns the first hit found (shadow rays).
 #[inline(always)]
 fn traverse<'a, S: Simd, L: Leaf, const ANY: bool>(
@@ -171,7 +125,10 @@ fn traverse<'a, S: Simd, L: Leaf, const ANY: bool>(
     mut t_max: f32,
 ) -> Option<LeafHit<'a, L>> {
     let slabs = Slabs::new(simd, ray);
-    let wide = WideRay { origin: simd.splat3(ray.origin), direction: simd.splat3(ray.direction) };
+    let wide = WideRay {
+        origin: Wide3::splat(simd, ray.origin),
+        direction: Wide3::splat(simd, ray.direction),
+    };
     let mut found = None;
     let mut stack = [StackEntry { near: 0.0, child: 0 }; STACK];
     let mut height = usize::from(!bvh.nodes.is_empty());
@@ -184,7 +141,7 @@ fn traverse<'a, S: Simd, L: Leaf, const ANY: bool>(
         let mut child = visit.child;
         while child & LEAF == 0 {
             let node = &bvh.nodes[child as usize];
-            let (near, bits) = slabs.enter(simd, node, t_max);
+            let (near, bits) = slabs.enter(node, t_max);
             match nearest(node, &near, bits, &mut stack, &mut height) {
                 Some(next) => child = next,
                 None => break,
@@ -196,7 +153,7 @@ fn traverse<'a, S: Simd, L: Leaf, const ANY: bool>(
         let leaf = &bvh.leaves[(child & !LEAF) as usize];
         let (t, bits) = leaf.intersect(simd, &wide, t_max);
         if bits != 0 {
-            let (lane, t) = first(&simd.store(t), bits);
+            let (lane, t) = first(t.as_array(), bits);
             // Subtrees that begin behind the hit are skipped from here on.
             t_max = t;
             found = Some(LeafHit { t, leaf, lane });
@@ -210,13 +167,13 @@ fn traverse<'a, S: Simd, L: Leaf, const ANY: bool>(
 
 /// The lane of the smallest distance among those in the bit mask, and that distance.
 #[inline(always)]
-fn first(t: &Lanes, mut bits: u32) -> (usize, f32) {
+fn first(t: &[f32; LANES], mut bits: u32) -> (usize, f32) {
     let mut best = (0, f32::INFINITY);
     while bits != 0 {
         let lane = bits.trailing_zeros() as usize & (LANES - 1);
         bits &= bits - 1;
-        if t.0[lane] < best.1 {
-            best = (lane, t.0[lane]);
+        if t[lane] < best.1 {
+            best = (lane, t[lane]);
         }
     }
     best
@@ -226,7 +183,7 @@ fn first(t: &Lanes, mut bits: u32) -> (usize, f32) {
 #[inline(always)]
 fn nearest(
     node: &Node,
-    near: &Lanes,
+    near: &[f32; LANES],
     mut bits: u32,
     stack: &mut [StackEntry; STACK],
     height: &mut usize,
@@ -237,7 +194,7 @@ fn nearest(
     let mut take = || {
         let lane = bits.trailing_zeros() as usize & (LANES - 1);
         bits &= bits - 1;
-        (StackEntry { near: near.0[lane], child: node.child[lane].0 }, bits != 0)
+        (StackEntry { near: near[lane], child: node.child[lane].0 }, bits != 0)
     };
     // Insertion sort of the children above `floor`: the stack stays sorted by distance, the nearest on top.
     let (mut best, mut more) = take();
@@ -258,40 +215,51 @@ fn nearest(
 }
 
 /// A ray prepared for the slab test (Kay & Kajiya 1986).
-struct Slabs<F> {
-    inverse: Wide3<F>,
+struct Slabs<S: Simd> {
+    simd: S,
+    inverse: Wide3<S>,
     /// −origin × inverse
-    offset: Wide3<F>,
+    offset: Wide3<S>,
     backward: [bool; 3],
 }
 
-impl<F: Copy> Slabs<F> {
+impl<S: Simd> Slabs<S> {
     #[inline(always)]
-    fn new<S: Simd<F = F>>(simd: S, ray: &ClippedRay) -> Self {
+    fn new(simd: S, ray: &ClippedRay) -> Self {
         Self {
-            inverse: simd.splat3(ray.inverse),
-            offset: simd.splat3(-ray.origin * ray.inverse),
+            simd,
+            inverse: Wide3::splat(simd, ray.inverse),
+            offset: Wide3::splat(simd, -ray.origin * ray.inverse),
             backward: ray.inverse.to_array().map(|i| i < 0.0),
         }
     }
 
     /// Distance at which the ray enters each AABB, and a bit mask of those that it enters before `t_max`.
     #[inline(always)]
-    fn enter<S: Simd<F = F>>(&self, simd: S, node: &Node, t_max: f32) -> (Lanes, u32) {
-        let at = |axis: usize, inverse: F, offset: F| {
-            let (mut near, mut far) = (&node.low[axis], &node.high[axis]);
-            if self.backward[axis] {
-                std::mem::swap(&mut near, &mut far);
-            }
-            let [near, far] = [near, far].map(|x| simd.mul_add(simd.load(x), inverse, offset));
-            (near, far)
-        };
-        let (x0, x1) = at(0, self.inverse.x, self.offset.x);
-        let (y0, y1) = at(1, self.inverse.y, self.offset.y);
-        let (z0, z1) = at(2, self.inverse.z, self.offset.z);
+    fn enter(&self, node: &Node, t_max: f32) -> ([f32; LANES], u32) {
+        let (x0, x1) = self.slab(node, 0, self.inverse.x, self.offset.x);
+        let (y0, y1) = self.slab(node, 1, self.inverse.y, self.offset.y);
+        let (z0, z1) = self.slab(node, 2, self.inverse.z, self.offset.z);
         // t = x/d − o/d at both slabs of each axis: inside from the last entry to the first exit.
-        let near = simd.max(simd.max(x0, y0), simd.max(z0, simd.splat(0.0)));
-        let far = simd.min(simd.min(x1, y1), simd.min(z1, simd.splat(t_max)));
-        (simd.store(near), simd.bits(simd.at_most(near, far)))
+        let near = x0.max(y0).max(z0.max(0.0));
+        let far = x1.min(y1).min(z1.min(t_max));
+        (near.to_array(), bits(near.simd_le(far)))
+    }
+
+    /// Distances at which the ray enters and leaves the AABBs along an axis.
+    #[inline(always)]
+    fn slab(
+        &self,
+        node: &Node,
+        axis: usize,
+        inverse: f32x8<S>,
+        offset: f32x8<S>,
+    ) -> (f32x8<S>, f32x8<S>) {
+        let (mut near, mut far) = (&node.low[axis], &node.high[axis]);
+        if self.backward[axis] {
+            std::mem::swap(&mut near, &mut far);
+        }
+        let near = near.load(self.simd).mul_add(inverse, offset);
+        (near, far.load(self.simd).mul_add(inverse, offset))
     }
 }

@@ -1,10 +1,11 @@
 //! Intersection of a ray with eight pieces of hair at once.
 
+use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8};
 use glam::{DVec3, Vec3, Vec4};
 
 use super::curves::{Curves, Piece, PieceName, REACH};
 use super::node::{Leaf, Primitive, WideRay};
-use super::simd::{LANES, Simd, Vectors, Wide3};
+use super::simd::{LANES, Wide3, bits, from_u16, sub_mul};
 
 /// Up to eight pieces, side by side, on a grid of their own; unused lanes have no radius.
 ///
@@ -63,64 +64,55 @@ impl Leaf for HairLeaf {
     /// Most rays pass by all pieces: their distance from the axes made endless, (x·n)²/n² with n square to
     /// both, says so without a division and whatever the length of the axes.
     #[inline(always)]
-    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
-        // 1. Whether the ray comes near any axis made endless: (x·n)² < r² |n|² with n = d × axis. No division.
+    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S>, t_max: f32) -> (f32x8<S>, u32) {
         let d = ray.direction;
-        let x0 = simd.sub3(ray.origin, simd.splat3(self.low.into()));
-        let middle = simd.sub(simd.splat(0.0), simd.dot(x0, d));
-        let start = simd.wide3(self.start.each_ref().map(|x| simd.load_u16(x)));
-        let x = simd.against3(simd.along(x0, middle, d), simd.splat3(self.step.into()), start);
-        let axis = simd.wide3(self.axis.each_ref().map(|x| simd.load_i16(x)));
-        let n = simd.cross(d, axis);
-        let apart = simd.dot(x, n);
+        let x0 = ray.origin - Wide3::splat(simd, self.low.into());
+        let middle = 0.0 - x0.dot(d);
+        let start = Wide3::from_u16(simd, &self.start);
+        let x = x0.along(middle, d).sub_mul(Wide3::splat(simd, self.step.into()), start);
+        let axis = Wide3::from_i16(simd, &self.axis);
+        // 1. Whether the ray comes near any axis made endless: (x·n)² < r² |n|² with n = d × axis. No division.
+        let n = d.cross(axis);
+        let apart = x.dot(n);
         // The thickest radius of the leaf, and a thousandth for rounding.
         let thick = self.radius_step * (1.001 * f32::from(u16::MAX));
-        let allowed = simd.mul(simd.dot(n, n), simd.splat(thick * thick));
-        if simd.bits(simd.less(simd.mul(apart, apart), allowed)) == 0 {
+        if bits((apart * apart).simd_lt(n.dot(n) * (thick * thick))) == 0 {
             return (middle, 0);
         }
-
         // 2. The closest approach: parts of x and d across the axis, the ray's distance to it, and the axis's fraction s.
-        let axis_step = simd.splat(self.axis_step);
-        let axis = simd.scale3(Wide3 { x: axis_step, y: axis_step, z: axis_step }, axis);
-        let square = simd.dot(axis, axis);
-        let inverse = simd.div(simd.splat(1.0), square);
-        let s0 = simd.mul(simd.dot(x, axis), inverse);
-        let s1 = simd.mul(simd.dot(d, axis), inverse);
-        let x_across = simd.against(x, s0, axis);
-        let d_across = simd.against(d, s1, axis);
-        let dd = simd.max(simd.dot(d_across, d_across), simd.splat(1e-12));
-        let to_closest = simd.div(simd.sub(simd.splat(0.0), simd.dot(x_across, d_across)), dd);
-        let q = simd.along(x_across, to_closest, d_across);
-        let q2 = simd.dot(q, q);
-        let s = simd.mul_add(s1, to_closest, s0);
-        let radii = self.radius.each_ref().map(|r| simd.load_u16(r));
-        let [radius0, radius1] = radii.map(|r| simd.mul(r, simd.splat(self.radius_step)));
-        let widening = simd.sub(radius1, radius0);
-        let r = simd.mul_add(widening, s, radius0);
-        let inside = simd.sub(simd.mul(r, r), q2);
-        let passes = simd.less(simd.splat(0.0), inside);
-        if simd.bits(passes) == 0 {
+        let axis = axis * self.axis_step;
+        let square = axis.dot(axis);
+        let inverse = 1.0 / square;
+        let (s0, s1) = (x.dot(axis) * inverse, d.dot(axis) * inverse);
+        let (x_across, d_across) = (x.against(s0, axis), d.against(s1, axis));
+        let dd = d_across.dot(d_across).max(1e-12);
+        let to_closest = (0.0 - x_across.dot(d_across)) / dd;
+        let q = x_across.along(to_closest, d_across);
+        let q2 = q.dot(q);
+        let s = s1.mul_add(to_closest, s0);
+        let radius0 = from_u16(simd, &self.radius[0]) * self.radius_step;
+        let radius1 = from_u16(simd, &self.radius[1]) * self.radius_step;
+        let widening = radius1 - radius0;
+        let r = widening.mul_add(s, radius0);
+        let inside = r * r - q2;
+        let passes = inside.simd_gt(0.0);
+        if bits(passes) == 0 {
             return (q2, 0);
         }
-
         // 3. Entry: (|d⊥|² − κ²) τ² − 2 r κ τ − (r² − q²) = 0, the smaller root.
-        let kappa = simd.mul(widening, s1);
-        let a = simd.sub_mul(dd, kappa, kappa);
-        let rk = simd.mul(r, kappa);
-        let root = simd.sqrt(simd.mul_add(rk, rk, simd.mul(a, inside)));
-        let tau = simd.div(simd.sub(rk, root), a);
-        let s = simd.mul_add(s1, tau, s);
-        let t = simd.add(middle, simd.add(to_closest, tau));
+        let kappa = widening * s1;
+        let a = sub_mul(dd, kappa, kappa);
+        let rk = r * kappa;
+        let root = rk.mul_add(rk, a * inside).sqrt();
+        let tau = (rk - root) / a;
+        let s = s1.mul_add(tau, s);
+        let t = middle + (to_closest + tau);
         // 4. Along the piece, or beyond its ends by the squared distance allowed; and ahead of the ray's start.
-        let beyond = simd.max(simd.sub(simd.splat(0.0), s), simd.sub(s, simd.splat(1.0)));
-        let beyond = simd.max(beyond, simd.splat(0.0));
-        let beyond = simd.mul(simd.mul(beyond, beyond), square);
-        let reach = simd.mul(radius0, simd.splat(REACH));
-        let along = simd.at_most(beyond, simd.mul(reach, reach));
-        let ahead = simd.both(simd.at_most(simd.splat(0.0), t), simd.less(t, simd.splat(t_max)));
-        let hit = simd.both(simd.both(passes, along), ahead);
-        (t, simd.bits(hit))
+        let beyond = (0.0 - s).max(s - 1.0).max(0.0);
+        let reach = radius0 * REACH;
+        let along = (beyond * beyond * square).simd_le(reach * reach);
+        let ahead = t.simd_ge(0.0) & t.simd_lt(t_max);
+        (t, bits(passes & along & ahead))
     }
 }
 

@@ -1,9 +1,10 @@
 //! What a BVH is made of: primitives, leaves of up to eight of them, nodes of eight children.
 
+use fearless_simd::{Simd, f32x8};
 use glam::Vec3A;
 
 use super::aabb::Aabb;
-use super::simd::{LANES, Lanes, Simd, Wide3};
+use super::simd::{LANES, Lanes, Wide3};
 
 /// A primitive: its AABB, its index and a number of its own.
 #[derive(Clone, Copy, Debug)]
@@ -48,13 +49,13 @@ pub(super) trait Leaf: Copy + Send + Sync {
     fn new(all: &Self::Primitives, primitives: &[Primitive]) -> Self;
     /// Intersects the ray: distances along it (m), and a bit mask of the primitives that are hit before `t_max`. The
     /// ray starts at or before the leaf's AABB.
-    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32);
+    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S>, t_max: f32) -> (f32x8<S>, u32);
 }
 
 /// A ray in all eight lanes.
-pub(super) struct WideRay<F> {
-    pub(super) origin: Wide3<F>,
-    pub(super) direction: Wide3<F>,
+pub(super) struct WideRay<S: Simd> {
+    pub(super) origin: Wide3<S>,
+    pub(super) direction: Wide3<S>,
 }
 
 /// A node: the AABBs of eight children.

@@ -1,10 +1,11 @@
 //! The BVHs of a scene: hair and head, ready for rays.
 
+use fearless_simd::Level;
 use frisure_strands::{Strands, Surface};
 use glam::Vec3;
 
 use super::aabb::Aabb;
-use super::bvh::{Bvh, LeafHit, SimdLevel};
+use super::bvh::{Bvh, LeafHit};
 use super::curves::Curves;
 use super::error::FARTHEST;
 use super::hair::{HairLeaf, entry};
@@ -14,8 +15,8 @@ use super::{AccelError, CurveOptions, HairHit, Hit, Ray, SkinHit};
 
 /// Hair and head in two BVHs, ready for rays.
 ///
-/// Tracing uses AVX2 and FMA where the machine has them; without them, the same hits are found to
-/// rounding, at about half the speed.
+/// Tracing uses the best instructions that the machine has (AVX-512, AVX2 with FMA, SSE, NEON, SIMD of WebAssembly); all
+/// find the same hits to rounding.
 ///
 /// ```
 /// use frisure_render::accel::{CurveOptions, Hit, Ray, SceneBvh};
@@ -41,7 +42,7 @@ pub struct SceneBvh {
     faces: Vec<[u32; 3]>,
     corners: Vec<Vec3>,
     normals: Vec<Vec3>,
-    level: SimdLevel,
+    level: Level,
 }
 
 impl SceneBvh {
@@ -63,7 +64,7 @@ impl SceneBvh {
             faces: Vec::new(),
             corners: Vec::new(),
             normals: Vec::new(),
-            level: SimdLevel::best(),
+            level: Level::new(),
         };
         if let Some(head) = head {
             scene.put_head(head)?;
@@ -74,7 +75,7 @@ impl SceneBvh {
     /// The same scene without the instructions that only some machines have: to compare.
     #[must_use]
     pub fn portable(mut self) -> Self {
-        self.level = SimdLevel::Portable;
+        self.level = Level::baseline();
         self
     }
 

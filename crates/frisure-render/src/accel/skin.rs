@@ -1,11 +1,12 @@
 //! Intersection of a ray with eight triangles of the head at once.
 
+use fearless_simd::{Simd, SimdBase, f32x8};
 use frisure_strands::Surface;
 use glam::{DVec3, Vec3};
 
 use super::aabb::Aabb;
 use super::node::{Leaf, Primitive, WideRay};
-use super::simd::{LANES, Lanes, Simd, Vectors};
+use super::simd::{LANES, Lanes, Wide3, bits};
 
 /// A triangle: a corner, and the ways to the two others (m).
 #[derive(Clone, Copy, Debug)]
@@ -60,21 +61,18 @@ impl Leaf for SkinLeaf {
     /// Möller & Trumbore 1997, both sides. Without area the determinant is 0 and its inverse
     /// infinite: no comparison then holds.
     #[inline(always)]
-    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S::F>, t_max: f32) -> (S::F, u32) {
-        let [e1, e2] = [simd.load3(&self.edges[0]), simd.load3(&self.edges[1])];
-        let p = simd.cross(ray.direction, e2);
-        let inverse = simd.div(simd.splat(1.0), simd.dot(e1, p));
-        let x = simd.sub3(ray.origin, simd.load3(&self.corner));
-        let u = simd.mul(simd.dot(x, p), inverse);
-        let q = simd.cross(x, e1);
-        let v = simd.mul(simd.dot(ray.direction, q), inverse);
-        let t = simd.mul(simd.dot(e2, q), inverse);
-        let within = simd.both(
-            simd.at_most(simd.splat(-OVERLAP), simd.min(u, v)),
-            simd.at_most(simd.add(u, v), simd.splat(1.0 + OVERLAP)),
-        );
-        let ahead = simd.both(simd.at_most(simd.splat(0.0), t), simd.less(t, simd.splat(t_max)));
-        (t, simd.bits(simd.both(within, ahead)))
+    fn intersect<S: Simd>(&self, simd: S, ray: &WideRay<S>, t_max: f32) -> (f32x8<S>, u32) {
+        let [e1, e2] = [Wide3::load(simd, &self.edges[0]), Wide3::load(simd, &self.edges[1])];
+        let p = ray.direction.cross(e2);
+        let inverse = 1.0 / e1.dot(p);
+        let x = ray.origin - Wide3::load(simd, &self.corner);
+        let u = x.dot(p) * inverse;
+        let q = x.cross(e1);
+        let v = ray.direction.dot(q) * inverse;
+        let t = e2.dot(q) * inverse;
+        let within = u.min(v).simd_ge(-OVERLAP) & (u + v).simd_le(1.0 + OVERLAP);
+        let ahead = t.simd_ge(0.0) & t.simd_lt(t_max);
+        (t, bits(within & ahead))
     }
 }
 
