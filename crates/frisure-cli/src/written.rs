@@ -19,7 +19,7 @@ impl Grooms {
     pub(crate) fn new(outputs: &[PathBuf], writing: Writing) -> Result<Self, Failure> {
         for path in outputs {
             let format = Format::of(path).map_err(|e| Failure::wrong(&e, hint_of(path)))?;
-            if writing.content == Some(Content::Both) && !format.holds_guides() {
+            if writing.content == Some(Content::Both) && !format.tells_guides() {
                 let what = "both guides and hairs: it does not tell them apart".into();
                 let error = GroomError::CannotHold { format: format.extension(), what };
                 return Err(Failure::wrong(

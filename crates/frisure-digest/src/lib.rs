@@ -107,9 +107,7 @@ impl Digest {
     /// The first half of the digest of the fields so far.
     #[must_use]
     pub fn key(&self) -> u64 {
-        #[expect(clippy::cast_possible_truncation, reason = "half of the bits are wanted")]
-        let half = self.0.finish_128() as u64;
-        half
+        self.0.finish_128() as u64
     }
 
     fn raw(&mut self, tag: u8, bytes: &[u8]) {

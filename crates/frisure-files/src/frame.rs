@@ -90,7 +90,7 @@ impl Frame {
     }
 }
 
-/// What is said about a file's unit and axes, in place of what its format is taken to have.
+/// Unit and axes of a file that take precedence over those of its format.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameChoice {
     /// Metres per unit.

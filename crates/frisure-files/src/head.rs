@@ -11,21 +11,21 @@ pub struct HeadFile {
     pub path: PathBuf,
     /// Unit and axes, where the scene says them.
     pub frame: FrameChoice,
-    /// Where hair grows.
+    /// The part on which hair grows.
     pub scalp: ScalpSource,
 }
 
-/// Where on a mesh hair grows.
+/// The part of a mesh on which hair grows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ScalpSource {
-    /// To be guessed from the shape.
+    /// A guess from the shape.
     Guess,
-    /// On a group of faces, by name.
+    /// A group of faces, by name.
     Group(String),
-    /// By what is painted on the vertices: `red`, `green`, `blue`, `alpha`, `brightness`, or another name that the file has.
+    /// Weights from numbers at the vertices: `red`, `green`, `blue`, `alpha`, `brightness`, or another name in the file.
     Colour(String),
-    /// Where a PNG over the texture coordinates is white.
+    /// The white part of a PNG over the texture coordinates.
     Mask(PathBuf),
-    /// As a text file says, a number per vertex.
+    /// Weights from a text file, a number per vertex.
     Weights(PathBuf),
 }

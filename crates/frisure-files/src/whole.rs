@@ -48,7 +48,7 @@ pub enum ReadError {
     Io {
         /// The path given.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
 }
@@ -95,7 +95,7 @@ pub enum WriteError {
     Io {
         /// The path given.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
 }
@@ -286,7 +286,7 @@ pub fn check_destination(path: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// What a path to write leads to.
+/// The destination of a path.
 enum Destination {
     /// A device or a pipe, to be written as it is: renaming over it would replace it.
     Device,

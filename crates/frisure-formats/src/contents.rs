@@ -14,7 +14,7 @@ use frisure_files::{Files, ReadError};
 #[cfg(feature = "usd")]
 use frisure_usd::{self as usd, Stage};
 
-/// What a file can be used for.
+/// Whether a file has a head and hair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Contents {
     /// It has a mesh that can be a head.

@@ -2,7 +2,7 @@
 //!
 //! Source of the format: Greg Turk, "The PLY Polygon File Format" (1994).
 
-/// What a number of the file is.
+/// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     I8,
@@ -67,11 +67,11 @@ impl Kind {
 pub(crate) struct Property {
     pub(crate) name: String,
     pub(crate) kind: Kind,
-    /// Of a list, what its number is.
+    /// The type of the length of a list; none for a single number.
     pub(crate) list: Option<Kind>,
 }
 
-/// Things of one kind, such as vertices.
+/// An element, such as the vertices.
 pub(crate) struct Element {
     pub(crate) name: String,
     pub(crate) count: usize,
@@ -85,7 +85,7 @@ enum Order {
     Big,
 }
 
-/// What a file has, in its order, and the numbers themselves.
+/// The elements of a file in their order, and its numbers.
 pub(crate) fn open(bytes: &[u8]) -> Result<(Vec<Element>, Body<'_>), String> {
     let mut rest = bytes;
     let mut order = None;
@@ -160,7 +160,6 @@ impl Body<'_> {
     /// The number of a list, which what is left of the file has to hold.
     pub(crate) fn count(&mut self, kind: Kind) -> Result<usize, String> {
         let count = self.number(kind)?;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         if count >= 0.0 && count <= self.rest.len() as f64 {
             Ok(count as usize)
         } else {

@@ -24,7 +24,7 @@ pub struct HairLook {
     pub roots: Fade,
     /// Pigment at the tips.
     pub tips: Fade,
-    /// What is on top of the pigment.
+    /// Dye on top of the pigment.
     pub dye: Option<Dye>,
     /// Surface and shape of the fibre, for light.
     pub surface: HairSurface,

@@ -25,7 +25,7 @@ pub struct Look {
     pub hair: HairLook,
     /// The head it grows on.
     pub skin: SkinLook,
-    /// What is behind.
+    /// The background.
     pub background: Background,
     /// A floor under the head; drawn by the path tracer alone.
     pub floor: Option<Floor>,
@@ -62,7 +62,7 @@ pub struct Floor {
 }
 digest_fields!(Floor { centre, radius, colour });
 
-/// What is behind the scene.
+/// The background of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Background {
     /// Nothing: the picture's alpha is the coverage.
@@ -74,7 +74,7 @@ pub enum Background {
         /// Radiance at the corners.
         corner: Vec3,
     },
-    /// What is around the scene and lights it, as the direction has it.
+    /// The environment light, by direction.
     Environment,
 }
 digest_fields!(Background: Transparent, Gradient { centre, corner }, Environment);
@@ -107,13 +107,13 @@ pub struct LookSpec {
     pub hair: HairLook,
     /// The head.
     pub skin: SkinLook,
-    /// What is behind the head.
+    /// The background.
     pub backdrop: Backdrop,
     /// Diffuse reflectance of a floor under the head, linear sRGB.
     pub floor: Option<Vec3>,
 }
 
-/// What is behind the head.
+/// The description of a background, before its lights are known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Backdrop {
     /// The studio's wall, as bright as the lights make it.

@@ -12,9 +12,9 @@ use crate::pigment::Melanin;
 /// A colour that natural hair has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shade {
-    /// What scenes call it.
+    /// Its name in scenes.
     pub name: &'static str,
-    /// What that is, in a few words.
+    /// A description in a few words.
     pub description: &'static str,
     /// Its pigments.
     pub melanin: Melanin,

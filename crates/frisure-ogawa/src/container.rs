@@ -13,7 +13,7 @@ const BLOCK: u64 = 1 << 63;
 
 const HEADER: usize = 16;
 
-/// What appends bytes.
+/// A function that appends bytes.
 type Fill<'a> = Box<dyn Fn(&mut Vec<u8>) + 'a>;
 
 /// A node of a file to be written.
@@ -40,7 +40,7 @@ impl Node<'_> {
     }
 }
 
-/// Where a node stands in the file.
+/// The position of a node in the file.
 struct Place {
     reference: u64,
     children: Vec<Place>,

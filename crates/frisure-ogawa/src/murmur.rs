@@ -59,7 +59,7 @@ fn mixed(mut h: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// As the Alembic library 1.8.12 wrote them.
+    /// Digests in files of the Alembic library 1.8.12.
     #[test]
     fn digests_are_those_of_the_library() {
         let hex = |bytes: &[u8]| murmur3(bytes).map(|b| format!("{b:02x}")).concat();

@@ -5,9 +5,9 @@ use super::read::{Archive, Kind, Property};
 /// Values, whatever their width in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Numbers {
-    /// Of whole kinds; those below 0 wrap round, as -1 is written for nothing.
+    /// Integers; those below 0 wrap round, as -1 is written for nothing.
     Whole(Vec<u32>),
-    /// Of the others.
+    /// Real numbers.
     Real(Vec<f32>),
 }
 
@@ -20,7 +20,7 @@ impl Numbers {
     }
 }
 
-/// What has one value each (`geoScope`).
+/// The scope of values (`geoScope`): one for each of these.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// The whole object.
@@ -33,7 +33,7 @@ pub enum Scope {
 
 /// A parameter of curves.
 pub struct Parameter {
-    /// What has one value each.
+    /// Its scope.
     pub scope: Scope,
     /// How many numbers make one value.
     pub extent: usize,
@@ -124,7 +124,7 @@ fn picked(values: &Numbers, extent: usize, indices: &[u32]) -> Result<Numbers, S
     found.ok_or_else(|| "an index leads beyond its values".into())
 }
 
-/// What the values are for: as it is said, where their number allows it.
+/// The scope of values: as stated, if their number fits it.
 fn scope(said: Option<&[u8]>, count: usize, curves: usize, points: usize) -> Option<Scope> {
     let order = match said {
         Some(b"con") => [Scope::Constant, Scope::Uniform, Scope::Varying],

@@ -39,7 +39,7 @@ pub enum Kind {
     Compound,
     /// Values of a type of number.
     Values {
-        /// As [`crate::write::Pod`] numbers them.
+        /// The number of a [`crate::write::Pod`].
         pod: u8,
         /// How many make one.
         extent: u8,
@@ -113,7 +113,7 @@ impl<'a> Archive<'a> {
         Object { name: String::new(), metadata: &[], reference: self.top }
     }
 
-    /// What is under an object.
+    /// The children of an object.
     ///
     /// # Errors
     /// What is wrong with the file.

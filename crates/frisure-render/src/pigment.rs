@@ -15,7 +15,7 @@ const DYE_EDGE: f32 = 0.01;
 
 /// The absorption of all hair.
 pub(crate) struct Pigments {
-    /// Of a hair of the mean colour, per mean radius.
+    /// Absorption of a hair of the mean colour, per mean radius.
     natural: Vec3,
     /// Factor on the natural absorption of each strand; white hairs have 0.
     factors: Vec<f32>,
@@ -64,7 +64,7 @@ impl Pigments {
 }
 
 impl Along {
-    /// Nothing where hair is the same from root to tip.
+    /// `None` where hair is the same from root to tip.
     fn new(strands: &Strands, look: &HairLook) -> Option<Self> {
         let HairLook { roots, tips, dye, .. } = *look;
         let plain = |fade: Fade| fade.factor == 1.0 || !(fade.length > 0.0);

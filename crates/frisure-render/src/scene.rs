@@ -17,11 +17,11 @@ pub struct Scene<'a> {
     pub strands: &'a Strands,
     /// The head, which hides hair and is hidden by it; none draws hair alone.
     pub surface: Option<&'a Surface>,
-    /// Where it is seen from.
+    /// The camera.
     pub camera: Camera,
-    /// What lights it.
+    /// The lights.
     pub lights: Lights,
-    /// What it looks like.
+    /// The materials.
     pub look: Look,
 }
 

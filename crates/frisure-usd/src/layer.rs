@@ -8,7 +8,7 @@ pub const MAX_DEPTH: usize = 200;
 /// Properties that a prim may have: they are looked for one by one.
 const MOST_PROPERTIES: usize = 10_000;
 
-/// What one file holds.
+/// The contents of one file.
 ///
 /// ```
 /// use frisure_usd::{Layer, Prim, Value, read, write_text};
@@ -36,7 +36,7 @@ pub struct Layer {
 pub struct Prim {
     /// Its name.
     pub name: String,
-    /// Such as `BasisCurves`; empty where it is left open.
+    /// Its type, such as `BasisCurves`; empty where the layer does not state it.
     pub type_name: String,
     /// Whether it is defined here.
     pub specifier: Specifier,
@@ -67,7 +67,7 @@ pub enum Specifier {
 }
 
 impl Specifier {
-    /// All of them, as numbered in binary layers.
+    /// All specifiers, in the order of their numbers in binary layers.
     pub const ALL: [Self; 3] = [Self::Def, Self::Over, Self::Class];
 
     /// The word of the text format.
@@ -85,7 +85,7 @@ impl Specifier {
 pub struct Attribute {
     /// Its name.
     pub name: String,
-    /// With its role, such as `point3f[]`.
+    /// Its type with its role, such as `point3f[]`.
     pub type_name: String,
     /// Whether it never changes in time.
     pub uniform: bool,

@@ -16,9 +16,9 @@ pub struct Mesh {
     pub positions: Vec<[f64; 3]>,
     /// Counter-clockwise seen from outside; polygons are cut into fans.
     pub triangles: Vec<[u32; 3]>,
-    /// Of each triangle, the face that it is of.
+    /// Index of the face of each triangle.
     pub faces: Vec<usize>,
-    /// Of each triangle's corners, their places among all corners of the file.
+    /// Indices of each triangle's corners among all corners of the file.
     pub corners: Vec<[usize; 3]>,
     /// How many corners the file has.
     pub corner_count: usize,

@@ -34,7 +34,7 @@ pub struct Stage<'a> {
     arcs: Vec<&'a str>,
 }
 
-/// What a prim has of those that it is in.
+/// Properties that a prim inherits from the prims above it.
 #[derive(Clone, Copy)]
 struct Above {
     world: DMat4,
@@ -109,7 +109,7 @@ impl<'a> Stage<'a> {
         Some(prim)
     }
 
-    /// Said where nothing is found: what is in other files is not read.
+    /// A hint for an error that nothing was found: composition arcs are not followed.
     pub fn hint(&self) -> String {
         if self.arcs.is_empty() {
             return String::new();
@@ -119,7 +119,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// What moves a prim, and whether it leaves out what moves those that it is in.
+/// The transform of a prim, and whether it resets those of the prims above.
 fn transform(prim: &Prim) -> Result<(DMat4, bool), String> {
     let mut all = DMat4::IDENTITY;
     let mut resets = false;

@@ -147,15 +147,15 @@ fn without_role(name: &str) -> Cow<'_, str> {
 /// Numbers or words, all values one after another.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Data {
-    /// Of `bool`, `uchar` and `int`.
+    /// Values of `bool`, `uchar` and `int`.
     I32(Vec<i32>),
-    /// Of the wider integers; of `uint64` the same bits.
+    /// Values of the wider integers; of `uint64` the same bits.
     I64(Vec<i64>),
-    /// Of `half` and `float`.
+    /// Values of `half` and `float`.
     F32(Vec<f32>),
-    /// Of `double` and `timecode`.
+    /// Values of `double` and `timecode`.
     F64(Vec<f64>),
-    /// Of `string`, `token` and `asset`.
+    /// Values of `string`, `token` and `asset`.
     Words(Vec<String>),
 }
 
@@ -205,7 +205,6 @@ impl Data {
     pub fn numbers(&self) -> Option<Vec<f64>> {
         Some(match self {
             Self::I32(v) => v.iter().map(|&x| f64::from(x)).collect(),
-            #[expect(clippy::cast_precision_loss, reason = "as near as may be")]
             Self::I64(v) => v.iter().map(|&x| x as f64).collect(),
             Self::F32(v) => v.iter().map(|&x| f64::from(x)).collect(),
             Self::F64(v) => v.clone(),
@@ -320,7 +319,6 @@ impl Value {
     }
 
     /// Numbers as `f32`; none of words.
-    #[expect(clippy::cast_possible_truncation, reason = "bulk data are of single precision")]
     pub fn to_floats(&self) -> Option<Vec<f32>> {
         match &self.data {
             Data::F32(v) => Some(v.clone()),

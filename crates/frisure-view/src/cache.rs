@@ -16,7 +16,7 @@ use crate::ribbons::{Shaded, Sorted};
 use crate::shadow_maps::ShadowMaps;
 use crate::uniforms;
 
-/// All of it.
+/// Results of the last picture.
 #[derive(Debug, Default)]
 pub(crate) struct FrameCache {
     pub(crate) numbers: Option<(Buffer, BindGroup)>,
@@ -28,7 +28,7 @@ pub(crate) struct FrameCache {
     pub(crate) sorted: Option<Sorted>,
 }
 
-/// What the environment's light depends on.
+/// The key of the environment's light.
 type AmbientKey = (Option<(u64, Vec3)>, Option<u64>, [Vec3; preview::DIRECTION_COUNT]);
 
 impl FrameCache {
@@ -106,7 +106,7 @@ impl FrameCache {
     }
 }
 
-/// What lamps are aimed at.
+/// The point at which lamps are aimed.
 fn middle(frame: &Frame<'_>) -> DVec3 {
     match (frame.skin, frame.hair) {
         (Some(skin), _) => skin.middle(),

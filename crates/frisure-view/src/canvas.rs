@@ -1,4 +1,4 @@
-//! Where a picture is drawn.
+//! The textures on which a picture is drawn.
 
 use std::future::Future as _;
 
@@ -18,7 +18,7 @@ pub struct Canvas {
     pub(crate) cache: FrameCache,
 }
 
-/// What is drawn on.
+/// Render targets.
 #[derive(Debug)]
 pub(crate) struct Targets {
     pub(crate) hair: Texture,
@@ -123,7 +123,7 @@ impl Canvas {
     }
 }
 
-/// What is in a buffer, once all work is done.
+/// The bytes of a buffer, once all work is done.
 fn mapped(device: &Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ViewError> {
     let (send, receive) = std::sync::mpsc::channel();
     buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {

@@ -6,7 +6,7 @@ use crate::frame::Frame;
 use crate::lamps::Lamp;
 use crate::renderer::Renderer;
 
-/// What is known while one frame is drawn.
+/// The device, the frame and what was prepared for it, while it is drawn.
 pub(crate) struct FrameContext<'a> {
     pub(crate) renderer: &'a Renderer,
     pub(crate) device: &'a Device,

@@ -1,4 +1,4 @@
-//! What a view can refuse.
+//! Errors of the view.
 
 use thiserror::Error;
 
@@ -18,7 +18,7 @@ pub enum ViewError {
     /// More than the device can hold at once.
     #[error("{what} needs {needed} bytes, and this device holds {most} at once")]
     TooLarge {
-        /// What.
+        /// The name of the object.
         what: &'static str,
         /// Bytes.
         needed: u64,

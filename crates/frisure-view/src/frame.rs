@@ -1,4 +1,4 @@
-//! What is drawn, and how.
+//! The description of a frame.
 
 use frisure_look::{Camera, Lights, Look, ToneCurve};
 use glam::Vec3;
@@ -10,11 +10,11 @@ use crate::skin::Skin;
 /// One picture.
 #[derive(Clone, Debug)]
 pub struct Frame<'a> {
-    /// Where it is seen from.
+    /// The camera.
     pub camera: Camera,
-    /// What lights it.
+    /// The lights.
     pub lights: &'a Lights,
-    /// What skin, hair's surface and background are; the hair's colours are those it was made with.
+    /// Materials of skin, hair's surface and background; the hair's colours are in [`Hair`].
     pub look: &'a Look,
     /// The hair.
     pub hair: Option<&'a Hair>,
@@ -32,12 +32,12 @@ pub struct Frame<'a> {
     pub tone: ToneCurve,
     /// How much lighter the picture is, in factors of two.
     pub stops: f32,
-    /// What marks look like.
+    /// Colours of marks.
     pub mark_colours: MarkColours,
 }
 
 impl<'a> Frame<'a> {
-    /// Nothing yet, in these lights and this look.
+    /// A frame without hair and head, in these lights and this look.
     #[must_use]
     pub fn new(camera: Camera, lights: &'a Lights, look: &'a Look) -> Self {
         Self {
@@ -72,9 +72,9 @@ pub enum Shadows {
 /// A straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Where it begins (m).
+    /// Start (m).
     pub from: Vec3,
-    /// Where it ends (m).
+    /// End (m).
     pub to: Vec3,
     /// Its width (pixels).
     pub width: f32,

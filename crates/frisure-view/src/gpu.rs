@@ -14,7 +14,7 @@ pub(crate) const LIGHT: TextureFormat = TextureFormat::Rgba16Float;
 /// Format of depths that are compared by the hardware.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
-/// What a shader is given.
+/// The type of a binding.
 #[derive(Clone, Copy)]
 pub(crate) enum Slot {
     Uniform,
@@ -119,7 +119,7 @@ pub(crate) fn texture(
     texture_of(device, label, [width, height, depth], TextureDimension::D2, format, usage)
 }
 
-/// The same, of any dimension.
+/// A texture of any dimension that shaders read.
 pub(crate) fn texture_of(
     device: &Device,
     label: &str,
@@ -180,7 +180,7 @@ pub(crate) fn buffer(
     buffer
 }
 
-/// What a pipeline is made of.
+/// The description of a render pipeline.
 pub(crate) struct PipelineSpec<'a> {
     pub(crate) label: &'a str,
     pub(crate) shader: &'a ShaderModule,

@@ -22,7 +22,7 @@ pub(crate) struct Lamp {
     shadowed: bool,
 }
 
-/// What a map shows: a square seen from the lamp.
+/// The extent of a map: a square as seen from the lamp.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Square {
     centre: Vec2,
@@ -65,7 +65,7 @@ impl Lamp {
         Self { towards, irradiance, right, down, hair, head, shadowed }
     }
 
-    /// What decides about the lamp's maps.
+    /// The part of the lamp on which its maps depend.
     pub(crate) fn place(&self) -> Self {
         Self { irradiance: Vec3::ZERO, ..*self }
     }
@@ -90,7 +90,7 @@ impl Lamp {
 }
 
 impl Square {
-    /// What holds a box, seen along the last of three axes, with two texels around it.
+    /// The square that holds a box, seen along the last of three axes, with two texels around it.
     fn around((low, high): (Vec3, Vec3), axes: [Vec3; 3], texels: u32) -> Self {
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         let [u, v, w] = axes.map(|axis| (axis.dot(centre), axis.abs().dot(half)));

@@ -1,6 +1,6 @@
 //! Marks on strands.
 
-/// What is special about one strand.
+/// A mark on a strand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
     /// Drawn towards the colour of what is chosen.
@@ -10,13 +10,13 @@ pub struct Mark {
 }
 
 impl Default for Mark {
-    /// Nothing.
+    /// No mark.
     fn default() -> Self {
         Self { chosen: false, falls_from: 1.0 }
     }
 }
 
-/// What marks look like, as on the screen (sRGB, 0 to 1).
+/// Colours of marks, as on the screen (sRGB, 0 to 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarkColours {
     /// Chosen hair.

@@ -33,7 +33,7 @@ pub(crate) struct Layouts {
     pub(crate) show: BindGroupLayout,
 }
 
-/// What draws.
+/// Render pipelines.
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) first: RenderPipeline,

@@ -18,7 +18,7 @@ use crate::skin::Skin;
 const PIECES: [usize; 2] = [250_000, 50_000];
 /// Layers of a density map over numbers in a texel.
 const QUARTERS: u32 = 4;
-/// Where there is no hair (m), as far as 16 bits can say.
+/// Depth of texels without hair (m), near the largest number of 16 bits.
 const FAR: f64 = 60_000.0;
 
 /// The maps of all lamps.
@@ -72,7 +72,7 @@ impl ShadowMaps {
         }
     }
 
-    /// What shaders read.
+    /// The bind group of the shaders.
     pub(crate) fn group(&self) -> &BindGroup {
         &self.shadows
     }
@@ -139,7 +139,7 @@ impl ShadowMaps {
         }
     }
 
-    /// Where hair begins.
+    /// Draws the depth of the first hair from a lamp.
     fn draw_first(
         &self,
         job: &FrameContext<'_>,

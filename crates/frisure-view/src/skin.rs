@@ -73,7 +73,7 @@ impl Skin {
         self.positions.iter().copied().zip(self.normals.iter().copied())
     }
 
-    /// What lamps are aimed at (m).
+    /// The point at which lamps are aimed (m).
     pub(crate) fn middle(&self) -> DVec3 {
         self.middle
     }

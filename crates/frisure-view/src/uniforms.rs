@@ -23,7 +23,7 @@ fn four(v: Vec3, w: f32) -> [f32; 4] {
     [v.x, v.y, v.z, w]
 }
 
-/// All of them, in order.
+/// All numbers, in their order.
 pub(crate) fn packed(
     frame: &Frame<'_>,
     [width, height]: [u32; 2],

@@ -34,12 +34,12 @@ pub enum EnvironmentError {
         /// The path given.
         path: PathBuf,
     },
-    /// It is not what its name says, or not an environment.
+    /// The file is of another format, or no environment map.
     #[error("`{}` {problem}", path.display())]
     Broken {
         /// The path given.
         path: PathBuf,
-        /// What is wrong with it, to follow its name.
+        /// The fault, as words that follow the file's name.
         problem: String,
     },
 }

@@ -1,4 +1,4 @@
-//! What a groom holds, whatever its format.
+//! A groom, in memory.
 
 use frisure_look::Melanin;
 use frisure_strands::{Strands, Surface};
@@ -21,7 +21,7 @@ use frisure_strands::{Strands, Surface};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Groom {
-    /// What it is called; may be empty.
+    /// Its name; may be empty.
     pub name: String,
     /// The hairs, with attributes of the names in [`super::attributes`]; may be empty.
     pub hairs: Strands,

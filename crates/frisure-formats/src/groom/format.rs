@@ -7,8 +7,11 @@ use frisure_files::frame::{Frame, FrameChoice};
 
 use super::data::Groom;
 
-/// Turns the bytes of a file into a groom, or says what is wrong with them.
-pub(super) type Read = fn(&[u8], FrameChoice) -> Result<Groom, String>;
+/// Reads a groom from the bytes of a file, or returns what is wrong with them.
+pub(super) type Reader = fn(&[u8], FrameChoice) -> Result<Groom, String>;
+
+/// Writes a groom that has been checked.
+pub(super) type Writer = fn(&mut dyn Write, &Groom, Frame) -> io::Result<()>;
 
 /// A groom format; help, error messages and lists derive from it.
 pub(super) struct Declaration {
@@ -19,15 +22,15 @@ pub(super) struct Declaration {
     /// Unit and axes that it has by convention, where neither file nor person says anything else.
     pub(super) frame: Frame,
     /// Whether a file can hold guides beside hairs.
-    pub(super) holds_guides: bool,
+    pub(super) tells_guides: bool,
     /// How many points its readers expect of a strand, where they require a number.
     pub(super) usual_points: Option<usize>,
     /// Checks that it has room for a groom.
     pub(super) check: fn(&Groom) -> Result<(), String>,
     /// Writes what `check` has passed.
-    pub(super) write: fn(&mut dyn Write, &Groom, Frame) -> io::Result<()>,
+    pub(super) write: Writer,
     /// Reads a groom; none where the format is only written.
-    pub(super) read: Option<Read>,
+    pub(super) read: Option<Reader>,
 }
 
 /// A groom format, one of [`Format::ALL`].
@@ -37,7 +40,7 @@ pub(super) struct Declaration {
 ///
 /// let format = Format::of("curls.npz".as_ref())?;
 /// assert_eq!(format.extensions(), ["npz"]);
-/// assert!(format.is_read() && format.holds_guides());
+/// assert!(format.is_read() && format.tells_guides());
 /// # Ok::<(), frisure_formats::groom::GroomError>(())
 /// ```
 #[derive(Clone, Copy)]
@@ -84,8 +87,8 @@ impl Format {
 
     /// Whether a file can hold guides beside hairs.
     #[must_use]
-    pub const fn holds_guides(self) -> bool {
-        self.0.holds_guides
+    pub const fn tells_guides(self) -> bool {
+        self.0.tells_guides
     }
 
     /// How many points its readers expect of a strand, where they require a number.

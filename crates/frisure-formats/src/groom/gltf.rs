@@ -16,19 +16,19 @@ use super::data::Groom;
 use super::format::Declaration;
 use frisure_files::frame::Frame;
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["glb"],
     title: "glTF lines for the web",
     frame: Frame::METRES_Y,
-    holds_guides: true,
+    tells_guides: true,
     usual_points: None,
     check,
     write: encode,
     read: None,
 };
 
-/// Of hair of which nothing is known: a brown.
+/// Colour of hair without a colour: brown.
 const BROWN: [f32; 3] = [0.1, 0.05, 0.025];
 
 /// Checks that the format has room: lines, in a buffer of 4 GiB.
@@ -43,7 +43,7 @@ fn check(groom: &Groom) -> Result<(), String> {
     Ok(())
 }
 
-/// What has lines, by name.
+/// Strands that have lines, with their names.
 fn parts(groom: &Groom) -> impl Iterator<Item = (&'static str, &Strands)> {
     let all = [("hair", &groom.hairs), ("guides", &groom.guides)];
     all.into_iter().filter(|(_, strands)| lines(strands) > 0)

@@ -16,12 +16,12 @@ use super::data::Groom;
 use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice};
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["hair"],
     title: "Cem Yuksel's hair file",
     frame: Frame::CENTIMETRES_Z,
-    holds_guides: false,
+    tells_guides: false,
     usual_points: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
@@ -37,7 +37,7 @@ const THICKNESS: u32 = 4;
 const TRANSPARENCY: u32 = 8;
 const COLOUR: u32 = 16;
 
-/// What the header says for people: at most 88 bytes.
+/// The text in the header: at most 88 bytes.
 fn info(frame: Frame) -> String {
     let up = frame.up.name();
     // Exactly a centimetre is what nearly all files have.
@@ -69,7 +69,6 @@ fn check(strands: &Strands) -> Result<(), String> {
 }
 
 /// Writes what [`check`] has passed.
-#[expect(clippy::cast_possible_truncation, reason = "counts were checked to fit")]
 fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let segments = |i: usize| strands.offsets()[i + 1] - strands.offsets()[i] - 1;
     let first = if strands.is_empty() { 0 } else { segments(0) };

@@ -12,12 +12,12 @@ use super::checked::check_strands;
 use super::format::Declaration;
 use frisure_files::frame::Frame;
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["txt"],
     title: "curves for Mitsuba 3",
     frame: Frame::METRES_Y,
-    holds_guides: false,
+    tells_guides: false,
     usual_points: None,
     check: |groom| check_strands("strand", groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

@@ -83,7 +83,7 @@ fn known(which: impl Fn(Format) -> bool) -> String {
 }
 
 impl Format {
-    /// All of them; a new format is its own file, and its line here.
+    /// All formats; a new format is a file of its own and a line here.
     pub const ALL: &[Self] = &[
         Self(&hair::FORMAT),
         Self(&obj::FORMAT),

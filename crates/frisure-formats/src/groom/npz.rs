@@ -25,19 +25,19 @@ use super::data::{Groom, HairColour};
 use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["npz"],
     title: "arrays for NumPy",
     frame: Frame::METRES_Z,
-    holds_guides: true,
+    tells_guides: true,
     usual_points: None,
     check: |_| Ok(()),
     write: encode,
     read: Some(decode),
 };
 
-/// In front of the names of arrays of guides.
+/// Prefix of the names of arrays of guides.
 const GUIDE: &str = "guide_";
 
 /// How much larger arrays can be than the file that they are packed in, and what they can have in any case.
@@ -308,7 +308,7 @@ fn attribute(
     Some(attribute)
 }
 
-/// What an array has values for, and how many make one.
+/// The domain of an array, and how many numbers make one value.
 fn meaning(name: &str, shape: &[usize], strands: usize, points: usize) -> Option<(Domain, usize)> {
     let small = |extent: usize| (1..=3).contains(&extent).then_some(extent);
     let of_strands = || match *shape {

@@ -13,12 +13,12 @@ use super::format::Declaration;
 use super::lines::Lines;
 use frisure_files::frame::{Frame, FrameChoice};
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["obj"],
     title: "Wavefront polylines",
     frame: Frame::METRES_Y,
-    holds_guides: false,
+    tells_guides: false,
     usual_points: None,
     check: |_| Ok(()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
@@ -62,7 +62,6 @@ fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()
 
 /// A coordinate with seven decimals, a thousandth of a hair's diameter; the general formatter takes
 /// most of the time of such a file.
-#[expect(clippy::cast_possible_truncation, reason = "coordinates of heads are far below 10^11 m")]
 fn push_decimal(line: &mut Vec<u8>, value: f32) {
     if !value.is_finite() || value.abs() > 1e9 {
         line.extend_from_slice(value.to_string().as_bytes());

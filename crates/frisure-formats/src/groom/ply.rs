@@ -13,12 +13,12 @@ use super::lines::Lines;
 use crate::ply::open;
 use frisure_files::frame::{Frame, FrameChoice};
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["ply"],
     title: "Stanford points and edges",
     frame: Frame::METRES_Z,
-    holds_guides: false,
+    tells_guides: false,
     usual_points: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
@@ -35,7 +35,6 @@ fn check(strands: &Strands) -> Result<(), String> {
 }
 
 /// Writes what [`check`] has passed.
-#[expect(clippy::cast_possible_truncation, reason = "counts were checked to fit")]
 fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()> {
     let up = frame.up.name();
     let points = strands.points().len();

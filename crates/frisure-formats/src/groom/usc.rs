@@ -16,12 +16,12 @@ use super::data::Groom;
 use super::format::Declaration;
 use frisure_files::frame::{Frame, FrameChoice};
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["data"],
     title: "hairstyles of USC-HairSalon",
     frame: Frame::METRES_Y,
-    holds_guides: false,
+    tells_guides: false,
     usual_points: Some(100),
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

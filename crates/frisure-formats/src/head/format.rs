@@ -19,7 +19,7 @@ pub(super) struct MeshFormat {
     pub(super) read: fn(&[u8], Beside<'_>) -> Result<Mesh, Problem>,
 }
 
-/// What is wrong with a file.
+/// A fault of a file.
 #[derive(Debug, PartialEq)]
 pub(super) struct Problem {
     /// The line, from 1, where it has one.

@@ -16,7 +16,7 @@ use super::mesh::{Mesh, vertex_index};
 use super::source::MAX_SIZE;
 use frisure_files::frame::Frame;
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: MeshFormat = MeshFormat {
     extensions: &["glb", "gltf"],
     expected: "a glTF mesh",
@@ -107,7 +107,7 @@ struct Sparse {
     values: Span,
 }
 
-/// Where numbers begin.
+/// The start of numbers.
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct Span {
@@ -382,14 +382,9 @@ impl Reader<'_> {
             let rows = self.span((buffer_view, byte_offset, component_type), 1, *count)?;
             let values = self.span(at(values.buffer_view, values.byte_offset), width, *count)?;
             for (&row, value) in rows.iter().zip(values.chunks_exact(width)) {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "other numbers than indices are beyond the end"
-                )]
-                let slot = all.chunks_exact_mut(width).nth(row as usize);
-                let slot = slot.filter(|_| row >= 0.0);
-                slot.ok_or("a sparse value is beyond its end")?.copy_from_slice(value);
+                let row = vertex_index(row, accessor.count);
+                let row = row.ok_or("a sparse value is beyond its end")? as usize;
+                all[row * width..][..width].copy_from_slice(value);
             }
         }
         let scale = if accessor.normalized { size_and_full(kind)?.1 } else { 1.0 };

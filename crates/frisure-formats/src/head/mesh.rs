@@ -38,7 +38,7 @@ pub(super) struct Mesh {
     pub(super) groups: BTreeMap<String, Group>,
     /// Numbers that the file has for each vertex, such as `red`, by name.
     pub(super) channels: BTreeMap<String, Vec<f64>>,
-    /// Of each vertex of the file, the vertex that it became; empty where they are the same.
+    /// Index of the vertex that each vertex of the file became; empty where they are the same.
     pub(super) joined: Vec<u32>,
 }
 
@@ -148,7 +148,6 @@ fn mean(colour: &[f64]) -> f64 {
 }
 
 /// A number of a file as the index of a vertex, if it is one of `count`.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
 pub(super) fn vertex_index(number: f64, count: usize) -> Option<u32> {
     let is_index = number >= 0.0 && number < count as f64 && number <= f64::from(u32::MAX);
     is_index.then_some(number as u32)

@@ -7,7 +7,7 @@ use super::format::{MeshFormat, Problem};
 use super::mesh::{MAX_CORNERS, Mesh};
 use frisure_files::frame::Frame;
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: MeshFormat = MeshFormat {
     extensions: &["obj"],
     expected: "an OBJ mesh",

@@ -7,7 +7,7 @@ use super::mesh::{COLOURS, MAX_CORNERS, Mesh, vertex_index};
 use crate::ply::{Body, Element, Property, open};
 use frisure_files::frame::Frame;
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: MeshFormat = MeshFormat {
     extensions: &["ply"],
     expected: "a PLY mesh",
@@ -32,7 +32,7 @@ fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-/// What Blender writes into the header of its files, which have z up as it has itself.
+/// A line in the header of Blender's files, which have z up.
 const BLENDER: &str = "comment Created in Blender";
 
 /// The format says no axes: y is up, but in files of a program that always has z.

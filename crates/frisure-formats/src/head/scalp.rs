@@ -1,4 +1,4 @@
-//! Where on a mesh hair grows, as a density from 0 to 1 at each vertex.
+//! The scalp: density of hair at each vertex of a mesh, from 0 to 1.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -136,7 +136,6 @@ impl Mask {
     }
 
     /// Brightness between the four nearest pixels; `v` grows upwards, and the picture repeats.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "wrapped to 0..1")]
     fn at(&self, [u, v]: [f64; 2]) -> f64 {
         let wrap = |t: f64, n: usize| {
             let x = t.rem_euclid(1.0) * n as f64 - 0.5;

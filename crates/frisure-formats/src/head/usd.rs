@@ -6,7 +6,7 @@ use crate::stage_frame::stage_frame;
 use frisure_files::frame::FrameChoice;
 use frisure_usd::{self as usd, Prim, Stage, StagePrim, Value};
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: MeshFormat = MeshFormat {
     extensions: &["usd", "usda", "usdc", "usdz"],
     expected: "a USD stage with meshes",

@@ -177,7 +177,7 @@ impl EnvironmentMap {
     }
 }
 
-/// Where a unit direction is in the picture, as parts of its width and height.
+/// The position of a unit direction in the picture, as fractions of its width and height.
 fn place(towards: Vec3) -> [f32; 2] {
     let u = 0.5 + (-towards.x).atan2(-towards.y) / TAU;
     // The arc cosine of what is near 1 has lost its digits.

@@ -124,7 +124,7 @@ impl PointLight {
         Ok(Self { position, intensity: amount("the lamp's intensity", intensity)? })
     }
 
-    /// Where it is (m).
+    /// Position (m).
     #[must_use]
     pub fn position(&self) -> DVec3 {
         self.position
@@ -140,7 +140,7 @@ impl PointLight {
 /// Least and greatest size of an area light (m); chosen.
 const SIZES: (f64, f64) = (1e-4, 1e3);
 
-/// The same in words.
+/// [`SIZES`] in words.
 const SIZE: &str = "between 0.1 mm and 1 km";
 
 impl AreaLight {
@@ -192,13 +192,13 @@ impl AreaLight {
         Ok(Self { shape, centre, arms, facing, radiance, shown: false })
     }
 
-    /// The same lamp, seen in the picture or not; made, it is not.
+    /// The same lamp, visible in the picture or not; a new lamp is not.
     #[must_use]
     pub fn shown(self, shown: bool) -> Self {
         Self { shown, ..self }
     }
 
-    /// Whether it is seen in the picture.
+    /// Whether it is visible in the picture.
     #[must_use]
     pub fn is_shown(&self) -> bool {
         self.shown

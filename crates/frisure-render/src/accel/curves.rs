@@ -187,7 +187,7 @@ impl Curves {
         [name, self.after(name)].map(|name| self.vertex(&range, name))
     }
 
-    /// Where a piece begins, with its radius; a tip has a name, too.
+    /// The start of a piece, with its radius; a tip has a name, too.
     fn vertex(&self, range: &Range<usize>, name: PieceName) -> Vec4 {
         let point = name.point as usize;
         let count = f32::from(self.pieces[point]);

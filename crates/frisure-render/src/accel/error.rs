@@ -1,4 +1,4 @@
-//! What cannot be traced.
+//! Errors of the BVH.
 
 use glam::{DVec3, Vec3};
 use thiserror::Error;
@@ -19,7 +19,7 @@ pub enum AccelError {
         strand: usize,
         /// Index of the point in its strand.
         point: usize,
-        /// Where it is (m).
+        /// Position (m).
         position: Vec3,
     },
     /// A radius that a fibre cannot have.
@@ -47,7 +47,7 @@ pub enum AccelError {
     Vertex {
         /// Index of the vertex.
         vertex: usize,
-        /// Where it is (m).
+        /// Position (m).
         position: DVec3,
     },
     /// More pieces than can be counted.

@@ -11,7 +11,7 @@ pub enum Hit {
     Skin(SkinHit),
 }
 
-/// Where a ray enters a strand.
+/// The hit of a ray on a strand.
 ///
 /// A fibre is met where a ray enters it, never where it leaves it: what a fibre does to the light
 /// inside is its scattering's business. A ray that starts inside a fibre does not meet that fibre;
@@ -45,7 +45,7 @@ pub struct HairHit {
     pub axis: Vec3,
 }
 
-/// Where a ray meets the head, from either side.
+/// The hit of a ray on the head, from either side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkinHit {
     /// Distance (m).
@@ -54,7 +54,7 @@ pub struct SkinHit {
     pub face: u32,
     /// Weights of its three corners; they sum to 1.
     pub barycentric: [f32; 3],
-    /// Where it is (m).
+    /// Position (m).
     pub position: Vec3,
     /// Unit normal of the face, outwards.
     pub normal: Vec3,

@@ -1,4 +1,4 @@
-//! What a BVH is made of: primitives, leaves of up to eight of them, nodes of eight children.
+//! Parts of a BVH: primitives, leaves of up to eight primitives, nodes of eight children.
 
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3A;

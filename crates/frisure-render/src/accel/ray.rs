@@ -18,7 +18,7 @@ impl Ray {
         Self { origin, direction }
     }
 
-    /// Where it starts (m).
+    /// Origin (m).
     #[must_use]
     pub fn origin(&self) -> Vec3 {
         self.origin

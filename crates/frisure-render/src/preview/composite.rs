@@ -17,7 +17,7 @@ use frisure_look::{Background, EnvironmentLight};
 
 /// Least softening (pixels): a line that is nearly level would show where it changes row. Chosen by eye.
 const SOFTNESS: f32 = 0.35;
-/// What a pixel lets through when it counts as finished: half a step of an 8-bit picture.
+/// Transmittance below which a pixel is finished: half a step of an 8-bit picture.
 const FINISHED: f32 = 1.0 / 512.0;
 
 /// Paints tiles.

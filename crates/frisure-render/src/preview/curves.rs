@@ -31,7 +31,7 @@ pub(super) struct Vertex {
     pub(super) wetness: f32,
     /// Index of the strand it belongs to.
     pub(super) strand: u32,
-    /// Where on it, in points from its root.
+    /// Position on it, in points from its root.
     pub(super) place: f32,
 }
 
@@ -79,7 +79,7 @@ impl Curves {
         Self { vertices }
     }
 
-    /// Where each vertex is: its strand, and points from the root.
+    /// Strand and position (points from the root) of each vertex.
     pub(super) fn places(&self) -> impl Iterator<Item = (u32, f32)> {
         let drawn = self.vertices.iter().filter(|v| v.strand != u32::MAX);
         drawn.map(|v| (v.strand, v.place))

@@ -16,7 +16,7 @@ pub(super) struct Head {
     environment: Vec<Vec3>,
 }
 
-/// What a pixel sees of the head, averaged over its samples.
+/// The part of the head in a pixel, averaged over its samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HeadPixel {
     /// Covered part of the pixel, 0 to 1.

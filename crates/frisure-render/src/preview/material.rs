@@ -1,4 +1,4 @@
-//! What light makes of the hair at each place.
+//! The material of hair at each place of a strand, as colours and energies of the preview's shading.
 
 use frisure_look::apparent_colour;
 use frisure_optics::{FibreEnergy, fibre_energy};
@@ -26,7 +26,7 @@ const SHEEN: f32 = 0.04;
 /// Part of the light reflected at a surface that the lobes should have, which have more in the middle of
 /// a highlight than the traced ones.
 const PRIMARY: f32 = 0.9;
-/// What goes through once mostly meets another hair, which a preview does not follow.
+/// Factor on light that passes a hair: most of it meets another hair, which a preview does not follow.
 const TRANSMISSION: f32 = 0.6;
 /// Points of the hair whose mean is the extinction per hair; chosen.
 const EXTINCTION_SAMPLES: usize = 4096;
@@ -35,7 +35,7 @@ const GLITTER_STRENGTH: f32 = 0.35;
 /// Deviation of the highlights' place from strand to strand (rad).
 const GLITTER_SHIFT: f32 = 0.05;
 
-/// What light makes of the hair at one place.
+/// The material at one place of a strand.
 #[derive(Clone, Copy, Debug)]
 pub struct Material {
     /// Colour of light scattered by this hair and its neighbours.
@@ -57,7 +57,7 @@ pub struct Materials {
 }
 
 impl Materials {
-    /// Of all strands, in a look.
+    /// The materials of all strands in a look.
     #[must_use]
     pub fn new(strands: &Strands, look: &HairLook) -> Self {
         let pigments = Pigments::new(strands, look);

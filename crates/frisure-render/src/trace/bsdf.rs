@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::rough_plastic::RoughPlastic;
 use super::sampler::Sampler;
 
-/// What scatters light at a hit, in world directions.
+/// The BSDF of a hit, in world directions.
 pub(super) enum Bsdf<'a> {
     /// A fibre, in its frame.
     Hair { frame: FibreFrame, bsdf: HairBsdf<'a> },

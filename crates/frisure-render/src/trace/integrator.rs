@@ -47,7 +47,7 @@ pub(super) struct PathSample {
     pub(super) primary_hit: Option<PrimaryHit>,
 }
 
-/// What a camera ray hits first.
+/// The first hit of a camera ray.
 pub(super) struct PrimaryHit {
     /// Distance (m).
     pub(super) t: f32,

@@ -80,7 +80,7 @@ pub enum TraceError {
     /// The camera is inside the head.
     #[error("the camera is inside the head, at {eye} m")]
     Inside {
-        /// Where it is (m).
+        /// Position (m).
         eye: DVec3,
     },
     /// Strands or head cannot be put into a BVH.

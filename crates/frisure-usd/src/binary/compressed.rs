@@ -129,9 +129,8 @@ pub(super) fn unpack_integers(
         rest = tail;
         value = value.wrapping_add(if code == 0 { common } else { signed(difference) });
         if !is_wide {
-            #[expect(clippy::cast_possible_truncation, reason = "it wraps, as its writer did")]
-            let narrow = value as i32;
-            value = i64::from(narrow);
+            // It wraps, as in its writer.
+            value = i64::from(value as i32);
         }
         integers.push(value);
     }

@@ -57,7 +57,7 @@ impl ValueRep {
     }
 }
 
-/// What values are, beyond the plain ones of [`super::value::TYPES`].
+/// Types of values beside the plain ones of [`super::value::TYPES`].
 mod code {
     pub(super) const TOKEN_LIST_OP: u8 = 32;
     pub(super) const PATH_LIST_OP: u8 = 34;
@@ -67,7 +67,7 @@ mod code {
     pub(super) const TIME_SAMPLES: u8 = 46;
 }
 
-/// What specs are.
+/// Types of specs.
 mod spec {
     pub(super) const ATTRIBUTE: u32 = 1;
     pub(super) const PRIM: u32 = 6;

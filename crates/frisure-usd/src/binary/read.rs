@@ -18,7 +18,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Layer, String> {
     reader.layer()
 }
 
-/// What is known of paths.
+/// The tree of paths.
 struct Tree {
     /// The spec of each path: where its set of fields begins, what it is.
     specs: Vec<Option<(u32, u32)>>,
@@ -103,7 +103,7 @@ impl Reader<'_> {
         Ok(metadata)
     }
 
-    /// What is in a path, in the order that a field has.
+    /// The children of a path, in the order of a field.
     fn inside(&self, path: u32, properties: bool, order: &[String]) -> Result<Vec<u32>, String> {
         let structure = &self.source.structure;
         let mut named = BTreeMap::new();

@@ -4,7 +4,7 @@ use super::compressed::{unpack, unpack_integers};
 use super::{HEAD, MAGIC, ValueRep};
 use crate::layer::MAX_DEPTH;
 
-/// What may be unpacked from a file, for each of its bytes, and besides.
+/// Bytes that may be unpacked for each byte of a file, and beside them.
 const MOST: (usize, usize) = (16, 256 << 20);
 
 /// Bytes to be read one after another.
@@ -53,7 +53,7 @@ impl<'a> Bytes<'a> {
         Ok(())
     }
 
-    /// As many indices as it says there are.
+    /// A list of indices, with its length before it.
     pub(super) fn indices(&mut self) -> Result<Vec<u32>, String> {
         let n = self.u64()?;
         let bytes = self.take(n.saturating_mul(4))?;
@@ -100,7 +100,7 @@ pub(super) struct Node {
     known: bool,
 }
 
-/// What is where, without its values.
+/// The sections of a file, without values.
 #[derive(Default)]
 pub(super) struct Structure {
     /// The middle number of the version: all differences follow from it.
@@ -198,10 +198,7 @@ fn integers(bytes: &mut Bytes, budget: &mut Budget) -> Result<Vec<u32>, String> 
 fn some_integers(bytes: &mut Bytes, count: u64, budget: &mut Budget) -> Result<Vec<u32>, String> {
     let packed = bytes.sized()?;
     let count = budget.take(count, 4)?;
-    let all = unpack_integers(packed, count, false)?;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "of 32 bits")]
-    let narrow = |&x: &i64| x as u32;
-    Ok(all.iter().map(narrow).collect())
+    Ok(unpack_integers(packed, count, false)?.iter().map(|&x| x as u32).collect())
 }
 
 fn fields(bytes: &mut Bytes, budget: &mut Budget) -> Result<Vec<(u32, ValueRep)>, String> {

@@ -76,7 +76,7 @@ impl Source<'_> {
         Ok(paths)
     }
 
-    /// What a change to a list has in it, but for what it takes out.
+    /// The items of a list edit, without those that it deletes.
     fn list(&self, rep: ValueRep) -> Result<Vec<u32>, String> {
         let mut here = Bytes::new(self.bytes, rep.payload())?;
         let flags = here.u8()?;
@@ -93,7 +93,6 @@ impl Source<'_> {
         Ok(all)
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "the low bytes of the payload")]
     fn inlined(&mut self, rep: ValueRep, ty: ValueType) -> Result<Data, String> {
         let payload = rep.payload() as u32;
         let bytes = payload.to_le_bytes();
@@ -221,11 +220,6 @@ impl Source<'_> {
         }
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "as its type has it"
-    )]
     fn packed_integers(
         &mut self,
         here: &mut Bytes,
@@ -244,7 +238,6 @@ impl Source<'_> {
     }
 
     /// Numbers that are integers, or of which few differ.
-    #[expect(clippy::cast_precision_loss, reason = "they are floats")]
     fn packed_floats(
         &mut self,
         here: &mut Bytes,

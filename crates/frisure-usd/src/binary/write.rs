@@ -261,7 +261,6 @@ impl Crate {
     }
 
     /// A single number or word of at most 4 bytes.
-    #[expect(clippy::cast_possible_truncation, reason = "exactly, or as the type has it")]
     fn short(&mut self, value: &Value) -> Option<u32> {
         if value.ty.shape != Shape::One {
             return None;
@@ -310,11 +309,6 @@ impl Crate {
     }
 
     /// All numbers or words, one after another.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "as the type has it"
-    )]
     fn raw(&mut self, value: &Value) {
         let quaternions = value.ty.shape == Shape::Quaternion;
         match &value.data {
@@ -473,7 +467,6 @@ fn real_last<T: Copy>(values: &[T], quaternions: bool) -> std::borrow::Cow<'_, [
 }
 
 /// An index in the file's own width: a layer has fewer entries than that.
-#[expect(clippy::cast_possible_truncation, reason = "entries are counted in thousands")]
 fn index(i: usize) -> u32 {
     i as u32
 }

@@ -40,7 +40,7 @@ fn start(text: &str) -> String {
 pub(super) struct Lexer<'a> {
     text: &'a str,
     at: usize,
-    /// What was looked at and not yet taken, and where it ended.
+    /// The token after the current position, where it was looked at, and its end.
     ahead: Option<(Token<'a>, usize)>,
 }
 

@@ -93,7 +93,7 @@ impl<'a> Reader<'a> {
         Ok(prim)
     }
 
-    /// What is in a prim, to its closing brace.
+    /// Reads the contents of a prim, to its closing brace.
     fn body(&mut self, prim: &mut Prim) -> Result<(), String> {
         loop {
             match self.lexer.next()? {

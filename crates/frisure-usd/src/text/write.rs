@@ -224,7 +224,6 @@ impl Text<'_> {
                 self.word(if v[at] == 0 { "false" } else { "true" });
             }
             Data::I32(v) => self.integer(i64::from(v[at])),
-            #[expect(clippy::cast_sign_loss, reason = "the same bits")]
             Data::I64(v) if scalar == ScalarType::UInt64 => self.word(&(v[at] as u64).to_string()),
             Data::I64(v) => self.integer(v[at]),
             Data::F32(v) => self.float(v[at]),
@@ -252,12 +251,11 @@ impl Text<'_> {
         self.buffer.extend_from_slice(&digits[first..]);
     }
 
-    /// With as few digits as it takes to read the same number back.
+    /// Writes the shortest text that reads back as the same number.
     fn float(&mut self, x: f32) {
         if x == 0.0 {
             self.word(if x.is_sign_negative() { "-0" } else { "0" });
         } else if x == x.trunc() && x.abs() < 1e6 {
-            #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
             self.integer(x as i64);
         } else if x.is_finite() {
             let mut digits = zmij::Buffer::new();

@@ -1,5 +1,7 @@
 //! Strands as chains of vertices, smooth enough for a screen.
 
+use std::fmt;
+
 use frisure_render::preview::{Wetness, smooth};
 use frisure_strands::Strands;
 use glam::{Vec2, Vec2Swizzles as _, Vec3};
@@ -31,7 +33,7 @@ pub(super) struct Curves {
     pub(super) places: Vec<Place>,
     /// Tangent, wetness and part of the length, strand's rank, nothing.
     pub(super) traits: Vec<[u32; 4]>,
-    /// Where each vertex is on its strand, in points from the root.
+    /// Position of each vertex on its strand, in points from the root.
     pub(super) along: Vec<f32>,
     /// Strand of each rank in the input.
     pub(super) strands: Vec<u32>,
@@ -39,6 +41,13 @@ pub(super) struct Curves {
     pub(super) firsts: Vec<u32>,
     /// Strands that could have been drawn, of which there may be more than were kept.
     pub(super) drawable: usize,
+}
+
+impl fmt::Debug for Curves {
+    /// Without the buffers.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} vertices", self.places.len())
+    }
 }
 
 impl Curves {

@@ -25,26 +25,17 @@ pub(crate) const ROW: u32 = 2048;
 #[derive(Debug)]
 pub struct Hair {
     strands: Strands,
-    curves: CurvesOnce,
+    curves: Curves,
     /// Changes with the shape.
     shape: u64,
-    box_: (Vec3, Vec3),
+    bounds: (Vec3, Vec3),
     extinction: Vec3,
     reflected: Vec3,
     varies: bool,
     marked: bool,
     textures: Textures,
-    /// What shaders are given.
+    /// The bind group of the shaders.
     group: wgpu::BindGroup,
-}
-
-/// Leaves the buffers out.
-struct CurvesOnce(Curves);
-
-impl std::fmt::Debug for CurvesOnce {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} vertices", self.0.places.len())
-    }
 }
 
 #[derive(Debug)]
@@ -76,8 +67,8 @@ impl Hair {
         let shape = gpu::version();
         let mut hair = Self {
             strands: strands.clone(),
-            box_: enclosing(&curves),
-            curves: CurvesOnce(curves),
+            bounds: enclosing(&curves),
+            curves,
             shape,
             extinction: Vec3::ONE,
             reflected: Vec3::ZERO,
@@ -86,19 +77,8 @@ impl Hair {
             textures,
             group,
         };
-        hair.paint(renderer, device, queue, look);
+        hair.recolour(renderer, device, queue, look);
         hair
-    }
-
-    /// Gives the same strands the colours of another look.
-    pub fn recolour(
-        &mut self,
-        renderer: &Renderer,
-        device: &Device,
-        queue: &Queue,
-        look: &HairLook,
-    ) {
-        self.paint(renderer, device, queue, look);
     }
 
     /// Marks strands, one mark for each of those that the hair was made of; those without one have none.
@@ -107,7 +87,7 @@ impl Hair {
         let any = marks.iter().any(special);
         if any || self.marked {
             let of = |&strand: &u32| marks.get(strand as usize).copied().unwrap_or_default();
-            let values = self.curves.0.strands.iter().map(of);
+            let values = self.curves.strands.iter().map(of);
             let bytes = padded(values.map(texel_of), ROW as usize, [0.0, NEVER]);
             gpu::fill(queue, &self.textures.marks, ROW as usize * 8, cast_slice(&bytes));
         }
@@ -117,13 +97,13 @@ impl Hair {
     /// Strands that are on the device; it may have no room for all.
     #[must_use]
     pub fn strands(&self) -> usize {
-        self.curves.0.strands.len()
+        self.curves.strands.len()
     }
 
     /// Vertices that are on the device.
     #[must_use]
     pub fn vertices(&self) -> usize {
-        self.curves.0.places.len()
+        self.curves.places.len()
     }
 
     pub(crate) fn shape(&self) -> u64 {
@@ -144,12 +124,12 @@ impl Hair {
 
     /// Smallest and largest corner (m).
     pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
-        self.box_
+        self.bounds
     }
 
     /// Strands of a share (0 to 1), and the factor on the width of each.
     pub(crate) fn shared(&self, share: f32) -> (usize, f32) {
-        let (kept, all) = (self.strands(), self.curves.0.drawable);
+        let (kept, all) = (self.strands(), self.curves.drawable);
         let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 };
         let drawn = ((kept as f32 * share).ceil() as usize).min(kept);
         (drawn, chosen_width(all) * all as f32 / drawn.max(1) as f32)
@@ -157,27 +137,27 @@ impl Hair {
 
     /// Strands of which there are at most `pieces` pieces, and the factor on the width of each.
     pub(crate) fn some(&self, pieces: usize) -> (usize, f32) {
-        let drawn = self.curves.0.firsts.partition_point(|&f| f as usize <= pieces).max(2) - 1;
-        let (kept, all) = (self.strands(), self.curves.0.drawable);
+        let drawn = self.curves.firsts.partition_point(|&f| f as usize <= pieces).max(2) - 1;
+        let (kept, all) = (self.strands(), self.curves.drawable);
         let drawn = drawn.min(kept);
         (drawn, chosen_width(all) * all as f32 / drawn.max(1) as f32)
     }
 
     /// Vertices of the first strands.
     pub(crate) fn vertices_of(&self, strands: usize) -> usize {
-        self.curves.0.firsts[strands.min(self.strands())] as usize
+        self.curves.firsts[strands.min(self.strands())] as usize
     }
 
     /// First vertices of the pieces of the first strands.
     pub(crate) fn pieces_of(&self, strands: usize) -> Vec<u32> {
-        let firsts = &self.curves.0.firsts;
+        let firsts = &self.curves.firsts;
         let strands = strands.min(self.strands());
         firsts[..=strands].windows(2).flat_map(|ends| ends[0]..ends[1].max(1) - 1).collect()
     }
 
     /// The pieces of the first strands by depth.
     pub(crate) fn nearest(&self, strands: usize, eye: Vec3, forward: Vec3) -> Nearest {
-        let Curves { places, firsts, .. } = &self.curves.0;
+        let Curves { places, firsts, .. } = &self.curves;
         Nearest::new(places, firsts, strands, eye, forward)
     }
 
@@ -185,13 +165,13 @@ impl Hair {
     pub(crate) fn occluders(&self, strands: usize, factor: f32) -> impl Iterator<Item = Occluder> {
         let end = self.vertices_of(strands);
         (0..end).map(move |i| Occluder {
-            position: self.curves.0.position(i),
-            half_width: self.curves.0.places[i][3] * factor,
-            strand: self.curves.0.traits[i][2],
+            position: self.curves.position(i),
+            half_width: self.curves.places[i][3] * factor,
+            strand: self.curves.traits[i][2],
         })
     }
 
-    /// What shaders read.
+    /// The bind group of the shaders.
     pub(crate) fn group(&self) -> &wgpu::BindGroup {
         &self.group
     }
@@ -200,10 +180,16 @@ impl Hair {
         gpu::whole(&self.textures.places)
     }
 
-    /// Computes colours and sends them.
-    fn paint(&mut self, renderer: &Renderer, device: &Device, queue: &Queue, look: &HairLook) {
+    /// Gives the strands the colours of a look.
+    pub fn recolour(
+        &mut self,
+        renderer: &Renderer,
+        device: &Device,
+        queue: &Queue,
+        look: &HairLook,
+    ) {
         let materials = Materials::new(&self.strands, look);
-        let curves = &self.curves.0;
+        let curves = &self.curves;
         let varies = materials.vary_along();
         if varies != self.varies {
             let count = if varies { curves.places.len() } else { curves.strands.len() };

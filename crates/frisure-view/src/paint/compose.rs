@@ -1,4 +1,4 @@
-//! All of it together, developed, and lines over it.
+//! Composition of hair, head and background, tone mapping, and lines over them.
 
 use bytemuck::cast_slice;
 use wgpu::{BindingResource, BufferUsages, CommandEncoder};

@@ -54,7 +54,7 @@ impl Renderer {
 }
 
 impl FrameCache {
-    /// What is to be drawn, its numbers on the device.
+    /// The context of a frame, with its numbers on the device.
     fn job<'a>(
         &self,
         renderer: &'a Renderer,

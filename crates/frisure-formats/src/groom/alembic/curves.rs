@@ -3,7 +3,7 @@
 //! Catmull-Rom curves run through their points, which are taken as they are, the first and last too. Of Bézier
 //! curves and B-splines, points on the curve are taken.
 
-/// Where a point of a strand comes from: up to four values, each with its part.
+/// The weights of a point of a strand on up to four values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stencil {
     /// The first of the values.

@@ -16,12 +16,12 @@ mod write;
 use super::checked::check_curves;
 use super::format::Declaration;
 
-/// What the format declares.
+/// The declaration of the format.
 pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["abc"],
     title: "Alembic curves for Unreal, Blender, Houdini and Maya",
     frame: names::FRAME,
-    holds_guides: true,
+    tells_guides: true,
     usual_points: None,
     check: check_curves,
     write: write::encode,

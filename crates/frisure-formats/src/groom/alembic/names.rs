@@ -24,6 +24,6 @@ pub(super) const KNOWN: [(&str, &str); 6] = [
 /// Names of the parts of the scalp, by their number.
 pub(super) const GROUPS: [&str; 6] = ["fringe", "top", "crown", "sides", "back", "nape"];
 
-/// What marks curves and transforms among objects.
+/// Schemas of curves and of transforms.
 pub(super) const CURVES: &str = "AbcGeom_Curve_v2";
 pub(super) const XFORM: &str = "AbcGeom_Xform_v3";

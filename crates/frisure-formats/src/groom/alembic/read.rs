@@ -39,10 +39,10 @@ pub(super) fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String>
     found.groom(choice.or(usual))
 }
 
-/// What a file has.
+/// The contents of a file.
 #[derive(Default)]
 struct Found {
-    /// Of the first transform.
+    /// Name of the first transform.
     name: Option<String>,
     frame: Option<Frame>,
     colour: Option<[f32; 3]>,
@@ -116,7 +116,7 @@ fn named<'a>(properties: &[Property<'a>], name: &str) -> Option<Property<'a>> {
     properties.iter().find(|p| p.name == name.as_bytes()).copied()
 }
 
-/// What frisure writes about a file as a whole.
+/// Reads the properties that frisure writes for a whole file.
 fn said<'a>(
     archive: &Archive<'a>,
     transform: &[Property<'a>],
@@ -145,7 +145,7 @@ fn said<'a>(
     Ok(())
 }
 
-/// Where the children of a transform are.
+/// The matrix of the children of a transform.
 fn transformed<'a>(
     archive: &Archive<'a>,
     transform: &[Property<'a>],

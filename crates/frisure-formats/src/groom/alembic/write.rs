@@ -225,7 +225,7 @@ impl Part<'_> {
         })
     }
 
-    /// What Unreal reads, and attributes of ours that it passes over.
+    /// Parameters that Unreal reads, and attributes of ours, which it ignores.
     fn parameters(&self, frame: Frame, colour: Option<HairColour>) -> Vec<Property<'_>> {
         let guide = [u8::from(self.is_guide), 0];
         let guide = Sample::of(Pod::I16, 1, 1, move |out| out.extend_from_slice(&guide));

@@ -9,7 +9,7 @@ pub(super) struct Array {
     kind: Kind,
     /// Header and numbers.
     bytes: Vec<u8>,
-    /// Where the numbers begin.
+    /// Index of the first byte of the numbers.
     start: usize,
 }
 
@@ -59,7 +59,7 @@ impl Kind {
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// What stands before the numbers: of a kind such as `<f4`, with their lengths.
+/// The header of an array: its type, such as `<f4`, and its lengths.
 pub(super) fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|n| format!("{n}, ")).collect();
     // A single length keeps its comma.
@@ -154,7 +154,7 @@ impl Array {
     }
 }
 
-/// What follows a key.
+/// The text after a key.
 fn value<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let at = text.find(&format!("'{key}'")).or_else(|| text.find(&format!("\"{key}\"")))?;
     let rest = text[at + key.len() + 2..].trim_start();

@@ -130,7 +130,7 @@ impl Taps {
         self.varying += varying;
     }
 
-    /// Where two pieces of a B-spline meet.
+    /// Adds the point at which two pieces of a B-spline meet.
     fn knot(&mut self, [before, at, after]: [usize; 3], varying: usize) {
         let sixth = 1.0 / 6.0;
         self.tap(&[(before, sixth), (at, 4.0 * sixth), (after, sixth)], varying);
@@ -185,7 +185,6 @@ fn at_least(count: usize, least: usize) -> Result<(), &'static str> {
 }
 
 /// Vertices were counted to be fewer than that.
-#[expect(clippy::cast_possible_truncation, reason = "checked before")]
 fn index(i: usize) -> u32 {
     i as u32
 }
@@ -221,7 +220,7 @@ pub(super) fn nurbs_curves(prim: &Prim, counts: &[usize]) -> Result<Taps, String
 }
 
 impl Taps {
-    /// As many points as vertices, evenly in the parameter.
+    /// Adds as many points as there are vertices, evenly spaced in the parameter.
     fn nurbs(&mut self, knots: &[f64], order: usize, count: usize, importance: &[f64]) {
         let before = self.taps.len();
         let (from, to) = (knots[order - 1], knots[count]);
@@ -242,20 +241,13 @@ impl Taps {
                 }
             }
             let sum: f64 = weights.iter().sum();
-            #[expect(clippy::cast_possible_truncation, reason = "weights of points")]
             let parts: Vec<_> =
                 (0..order).map(|j| (first + j, (weights[j] / sum) as f32)).collect();
             let place = t * (varying - 1) as f64;
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a part of them"
-            )]
             let before = (place as usize).min(varying - 1);
             self.tap(&parts, before);
             let last = self.taps.len() - 1;
             self.taps[last].varying[1] = index(self.varying + (before + 1).min(varying - 1));
-            #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
             let part = (place - before as f64) as f32;
             self.taps[last].part = part;
         }

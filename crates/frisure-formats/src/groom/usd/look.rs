@@ -2,7 +2,7 @@
 
 use frisure_usd::{Prim, Value};
 
-/// Where materials are.
+/// Path of the materials.
 const FOLDER: &str = "/groom/materials";
 
 /// Diffuse reflectance of a head (linear): the matte plastic of a training head, as pictures have it.

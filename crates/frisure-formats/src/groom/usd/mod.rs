@@ -19,46 +19,35 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 
 use super::checked::check_curves;
 use super::data::Groom;
-use super::format::Declaration;
+use super::format::{Declaration, Writer};
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::{Frame, FrameChoice};
 use frisure_usd as usd;
 
-/// What the format declares.
-pub(super) static USDC: Declaration = Declaration {
-    extensions: &["usdc", "usd"],
-    title: "Universal Scene Description, binary",
-    frame: Frame::METRES_Z,
-    holds_guides: true,
-    usual_points: None,
-    check: check_curves,
-    write: encode_binary,
-    read: Some(decode),
-};
+/// The declarations of the formats.
+pub(super) static USDC: Declaration =
+    declaration(&["usdc", "usd"], "Universal Scene Description, binary", encode_binary);
+pub(super) static USDA: Declaration =
+    declaration(&["usda"], "Universal Scene Description, text", encode_text);
+pub(super) static USDZ: Declaration =
+    declaration(&["usdz"], "Universal Scene Description, package", encode_package);
 
-/// What the format declares.
-pub(super) static USDA: Declaration = Declaration {
-    extensions: &["usda"],
-    title: "Universal Scene Description, text",
-    frame: Frame::METRES_Z,
-    holds_guides: true,
-    usual_points: None,
-    check: check_curves,
-    write: encode_text,
-    read: Some(decode),
-};
-
-/// What the format declares.
-pub(super) static USDZ: Declaration = Declaration {
-    extensions: &["usdz"],
-    title: "Universal Scene Description, package",
-    frame: Frame::METRES_Z,
-    holds_guides: true,
-    usual_points: None,
-    check: check_curves,
-    write: encode_package,
-    read: Some(decode),
-};
+const fn declaration(
+    extensions: &'static [&'static str],
+    title: &'static str,
+    write: Writer,
+) -> Declaration {
+    Declaration {
+        extensions,
+        title,
+        frame: Frame::METRES_Z,
+        tells_guides: true,
+        usual_points: None,
+        check: check_curves,
+        write,
+        read: Some(decode),
+    }
+}
 
 /// Writes what [`check_curves`] has passed, as text.
 fn encode_text(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {

@@ -1,4 +1,4 @@
-//! What our attributes are called in a stage.
+//! Names of attributes in a stage.
 
 use super::super::attributes as inside;
 

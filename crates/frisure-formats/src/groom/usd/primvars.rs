@@ -13,7 +13,7 @@ use frisure_usd::{self as usd, Data, StagePrim, Value, ValueType};
 /// here.
 const MOST_OWN: usize = 32;
 
-/// What there is one value for.
+/// The interpolation of values: one for each of these.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Per {
     Prim,
@@ -126,11 +126,6 @@ impl Given {
 
     /// Whole numbers for each curve or for each point, from the nearest.
     fn integers(&self, taps: &Taps) -> Option<Vec<u32>> {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "the same bits"
-        )]
         let values: Vec<u32> = match &self.data {
             Data::I32(v) => v.iter().map(|x| x.cast_unsigned()).collect(),
             Data::I64(v) => v.iter().map(|&x| x as u32).collect(),
@@ -158,7 +153,7 @@ impl Given {
     }
 }
 
-/// What a point takes of the vertices; the very value of one, if it is that one.
+/// The weighted sum of values at vertices; exact where the point is a vertex.
 pub(super) fn mixed(tap: &Tap, value: impl Fn(u32) -> f32) -> f32 {
     if tap.weights[0] == 1.0 {
         return value(tap.vertices[0]);
@@ -166,7 +161,6 @@ pub(super) fn mixed(tap: &Tap, value: impl Fn(u32) -> f32) -> f32 {
     (0..4).map(|k| tap.weights[k] * value(tap.vertices[k])).sum()
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "bulk data are of single precision")]
 fn floats(data: &Data) -> Option<Vec<f32>> {
     match data {
         Data::F32(v) => Some(v.clone()),

@@ -45,7 +45,7 @@ pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
     })
 }
 
-/// What people call it.
+/// The name for people.
 fn name(stage: &Stage) -> Option<String> {
     let named = stage.prims.iter().find_map(|p| p.prim.meta("displayName"));
     named?.word().map(str::to_owned)
@@ -135,7 +135,6 @@ fn placed(mut points: Vec<[f32; 3]>, world: &DMat4) -> Vec<[f32; 3]> {
 }
 
 /// How much larger lengths become, in the mean of all directions.
-#[expect(clippy::cast_possible_truncation, reason = "of a thickness")]
 fn scale(world: &DMat4) -> f32 {
     let size = world.determinant().abs().cbrt();
     // Turns leave a trace of rounding.
@@ -143,7 +142,6 @@ fn scale(world: &DMat4) -> f32 {
 }
 
 /// Strands of several prims.
-#[expect(clippy::cast_possible_truncation, reason = "a thickness")]
 fn joined(parts: Vec<Curves>, frame: Frame) -> Result<Strands, String> {
     let parts = parts.into_iter().filter(|part| !part.counts.is_empty());
     Curves::joined(parts, (USUAL_DIAMETER / frame.metres) as f32).strands(frame)

@@ -26,7 +26,7 @@ const PIXEL: usize = 21 * 4;
 /// Why bytes are no checkpoint.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum AccumulatorError {
-    /// They are something else, or of another version.
+    /// The bytes are of another format or version.
     #[error("it is not an unfinished picture of version {VERSION}")]
     Magic,
     /// Cut off, or changed.
@@ -80,7 +80,7 @@ fn write(bytes: &mut Vec<u8>, pixel: &Pixel) {
     bytes.extend(lead.to_le_bytes());
 }
 
-/// What is left to read; `None` where it ends too early.
+/// The bytes left to read; methods return `None` at their end.
 struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {
