@@ -65,7 +65,7 @@ fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
         array(&mut zip, HAIR_COLOUR, "<f4", &[3], 12, |out| names::push(out, colour))?;
         if let Some(Melanin { eumelanin, pheomelanin }) = melanin {
             array(&mut zip, MELANIN, "<f4", &[2], 8, |out| {
-                names::push(out, [eumelanin, pheomelanin])
+                names::push(out, [eumelanin, pheomelanin]);
             })?;
         }
     }

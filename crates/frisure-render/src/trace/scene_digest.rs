@@ -2,6 +2,7 @@
 
 use frisure_digest::Digest;
 use frisure_strands::{AttributeValues, Strands};
+use glam::{DVec3, Vec3};
 
 use super::options::TraceOptions;
 use crate::scene::Scene;
@@ -13,7 +14,7 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
     let Scene { strands, surface, look, camera: _, lights: _ } = scene;
     add_strands(&mut digest, strands);
     if let Some(surface) = surface {
-        let positions = surface.positions().iter().flat_map(|p| p.to_array());
+        let positions = surface.positions().iter().flat_map(DVec3::to_array);
         digest.packed("positions", positions.map(f64::to_le_bytes));
         let corners = surface.triangles().iter().flatten();
         digest.packed("triangles", corners.map(|corner| corner.to_le_bytes()));
@@ -26,7 +27,7 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
 
 fn add_strands(digest: &mut Digest, strands: &Strands) {
     digest.packed("lengths", strands.iter().map(|s| (s.points.len() as u64).to_le_bytes()));
-    let points = strands.points().iter().flat_map(|p| p.to_array());
+    let points = strands.points().iter().flat_map(Vec3::to_array);
     digest.packed("points", points.map(f32::to_le_bytes));
     digest.packed("radii", strands.radii().iter().map(|radius| radius.to_le_bytes()));
     for attribute in strands.attributes() {

@@ -404,7 +404,7 @@ fn parameter<'a>(
         Some(at) if ours.is_some() => part.curves.attributes[at] = attribute,
         Some(_) => {}
         None if part.curves.attributes.len() < MOST_ATTRIBUTES => {
-            part.curves.attributes.push(attribute)
+            part.curves.attributes.push(attribute);
         }
         None => return Err(format!("it has more than {MOST_ATTRIBUTES} attributes")),
     }
