@@ -2,8 +2,8 @@
 
 use wgpu::{
     BindGroupLayout, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction,
-    Device, RenderPipeline, Sampler, ShaderModule, TextureFormat, VertexBufferLayout, VertexFormat,
-    VertexStepMode,
+    Device, RenderPipeline, Sampler, ShaderModule, TextureFormat, VertexAttribute,
+    VertexBufferLayout, VertexStepMode, vertex_attr_array,
 };
 
 use crate::gpu::{self, LIGHT, PipelineSpec, Slot};
@@ -108,45 +108,35 @@ fn blend(a: BlendFactor, b: BlendFactor, operation: BlendOperation) -> Option<Bl
     Some(BlendState { color: part, alpha: part })
 }
 
+type Buffer = Option<VertexBufferLayout<'static>>;
+
+const fn buffer(
+    array_stride: u64,
+    step_mode: VertexStepMode,
+    attributes: &'static [VertexAttribute],
+) -> Buffer {
+    Some(VertexBufferLayout { array_stride, step_mode, attributes })
+}
+
 /// One number per copy of a shape.
-const PIECE: Option<VertexBufferLayout<'static>> = Some(VertexBufferLayout {
-    array_stride: 4,
-    step_mode: VertexStepMode::Instance,
-    attributes: &wgpu::vertex_attr_array![0 => Uint32],
-});
-const LEVEL: Option<VertexBufferLayout<'static>> = Some(VertexBufferLayout {
-    array_stride: 4,
-    step_mode: VertexStepMode::Instance,
-    attributes: &wgpu::vertex_attr_array![0 => Float32],
-});
-const STROKE: Option<VertexBufferLayout<'static>> = Some(VertexBufferLayout {
-    array_stride: 48,
-    step_mode: VertexStepMode::Instance,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4],
-});
-const POSITION: Option<VertexBufferLayout<'static>> = Some(VertexBufferLayout {
-    array_stride: 24,
-    step_mode: VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-});
-const SKIN: Option<VertexBufferLayout<'static>> = Some(VertexBufferLayout {
-    array_stride: 24,
-    step_mode: VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3],
-});
-const ROOM: Option<VertexBufferLayout<'static>> = Some(VertexBufferLayout {
-    array_stride: 12,
-    step_mode: VertexStepMode::Vertex,
-    attributes: &[wgpu::VertexAttribute {
-        format: VertexFormat::Float32x3,
-        offset: 0,
-        shader_location: 2,
-    }],
-});
+const PIECE: Buffer = buffer(4, VertexStepMode::Instance, &vertex_attr_array![0 => Uint32]);
+const LEVEL: Buffer = buffer(4, VertexStepMode::Instance, &vertex_attr_array![0 => Float32]);
+const STROKE: Buffer = buffer(
+    48,
+    VertexStepMode::Instance,
+    &vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4],
+);
+/// Positions of a buffer of positions and normals.
+const POSITION: Buffer = buffer(24, VertexStepMode::Vertex, &vertex_attr_array![0 => Float32x3]);
+const SKIN: Buffer =
+    buffer(24, VertexStepMode::Vertex, &vertex_attr_array![0 => Float32x3, 1 => Float32x3]);
+/// Ambient light at the vertices of the head.
+const ROOM: Buffer = buffer(12, VertexStepMode::Vertex, &vertex_attr_array![2 => Float32x3]);
 
 impl Pipelines {
     fn new(device: &Device, l: &Layouts, output: TextureFormat, samples: u32) -> Self {
-        let density = density_module(device);
+        let own = include_str!("shaders/density.wgsl");
+        let density = module(device, "density", &[COMMON, LAYERS, RIBBON, own]);
         let surface = module(device, "surface", &[COMMON, include_str!("shaders/surface.wgsl")]);
         let lines = module(device, "lines", &[COMMON, include_str!("shaders/lines.wgsl")]);
         let stroke = |label, depth| stroke(device, l, &lines, label, depth);
@@ -167,7 +157,7 @@ impl Pipelines {
     }
 }
 
-/// A recipe with everything left out.
+/// A pipeline without groups, buffers, targets and depth.
 fn plain<'a>(label: &'a str, shader: &'a ShaderModule, vertex: &'a str) -> PipelineSpec<'a> {
     PipelineSpec {
         label,
@@ -181,11 +171,6 @@ fn plain<'a>(label: &'a str, shader: &'a ShaderModule, vertex: &'a str) -> Pipel
         samples: 1,
         strip: false,
     }
-}
-
-fn density_module(device: &Device) -> ShaderModule {
-    let own = include_str!("shaders/density.wgsl");
-    module(device, "density", &[COMMON, LAYERS, RIBBON, own])
 }
 
 fn first(device: &Device, l: &Layouts, shader: &ShaderModule) -> RenderPipeline {
