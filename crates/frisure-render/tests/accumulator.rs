@@ -1,4 +1,4 @@
-//! Pictures that grow: put away, exposed further, good enough, and what they know beside light.
+//! Accumulators: checkpoints, resuming, noise, and layers beside light.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -54,17 +54,17 @@ fn scene<'a>(strands: &'a Strands, surface: Option<&'a Surface>) -> Scene<'a> {
     scene
 }
 
-fn expose(tracer: &Tracer) -> Accumulator {
+fn accumulate(tracer: &Tracer) -> Accumulator {
     let mut accumulator = tracer.accumulator();
     assert!(tracer.accumulate(&mut accumulator, &()).is_ok());
     accumulator
 }
 
 #[test]
-fn a_picture_put_away_anywhere_goes_on_to_the_same_bytes() {
+fn a_picture_stopped_anywhere_resumes_to_the_same_bytes() {
     let strands = curtain(0.0);
     let tracer = Tracer::new(&scene(&strands, None), &SMALL).unwrap();
-    let whole = expose(&tracer);
+    let whole = accumulate(&tracer);
     let mut accumulator = tracer.accumulator();
     let mut stops = 0;
     loop {
@@ -111,11 +111,11 @@ fn progress_ends_at_the_whole_and_never_goes_back() {
 }
 
 #[test]
-fn bytes_that_were_cut_off_or_changed_are_no_exposure() {
+fn bytes_that_were_cut_off_or_changed_are_no_checkpoint() {
     let strands = curtain(0.0);
     let options = TraceOptions { width: 5, height: 3, samples: 1, ..SMALL };
     let tracer = Tracer::new(&scene(&strands, None), &options).unwrap();
-    let bytes = expose(&tracer).to_bytes();
+    let bytes = accumulate(&tracer).to_bytes();
     assert!(Accumulator::from_bytes(&bytes).is_ok());
     for length in 0..bytes.len() {
         assert!(Accumulator::from_bytes(&bytes[..length]).is_err(), "{length}");
@@ -129,7 +129,7 @@ fn bytes_that_were_cut_off_or_changed_are_no_exposure() {
 }
 
 #[test]
-fn another_picture_is_not_exposed_further() {
+fn another_picture_is_not_resumed() {
     let (strands, other) = (curtain(0.0), curtain(1e-4));
     let tracer =
         |strands: &'_ Strands, options| Tracer::new(&scene(strands, None), &options).unwrap();
@@ -153,7 +153,7 @@ fn noise_falls_with_the_root_of_the_paths_and_is_what_two_pictures_differ_by() {
     let strands = curtain(0.0);
     let with = |samples, seed| {
         let options = TraceOptions { samples, seed, ..SMALL };
-        expose(&Tracer::new(&scene(&strands, None), &options).unwrap())
+        accumulate(&Tracer::new(&scene(&strands, None), &options).unwrap())
     };
     let (few, many) = (with(16, 1).noise(), with(256, 1).noise());
     assert!(many < 0.4 * few && many > 0.1 * few, "{few} {many}");
@@ -173,7 +173,7 @@ fn noise_falls_with_the_root_of_the_paths_and_is_what_two_pictures_differ_by() {
 fn tiles_that_are_good_enough_get_no_more_paths() {
     let strands = curtain(0.0);
     let options = TraceOptions { samples: 400, noise: Some(0.02), ..SMALL };
-    let accumulator = expose(&Tracer::new(&scene(&strands, None), &options).unwrap());
+    let accumulator = accumulate(&Tracer::new(&scene(&strands, None), &options).unwrap());
     assert!(accumulator.noise() <= 0.02, "{}", accumulator.noise());
     assert!(accumulator.mean_samples() < 390.0, "{}", accumulator.mean_samples());
     // Nothing but wall in the corner: there is no noise to wait for.
@@ -186,7 +186,7 @@ fn layers_tell_what_is_seen() {
     let strands = curtain(0.0);
     let mut scene = scene(&strands, None);
     scene.look.background = Background::Transparent;
-    let accumulator = expose(&Tracer::new(&scene, &SMALL).unwrap());
+    let accumulator = accumulate(&Tracer::new(&scene, &SMALL).unwrap());
     let Layers { albedo, normal, tangent, depth, hair, wisp, samples } = accumulator.layers();
     let at = |x: usize, y: usize| y * SMALL.width + x;
     // The picture is 6 cm high and 7.3 cm wide: the curtain covers its middle.
@@ -217,7 +217,7 @@ fn a_lens_blurs_what_is_not_in_its_focus() {
         if let Some(aperture) = aperture {
             scene.camera = scene.camera.with_aperture(aperture).unwrap();
         }
-        let image = expose(&Tracer::new(&scene, &SMALL).unwrap()).image();
+        let image = accumulate(&Tracer::new(&scene, &SMALL).unwrap()).image();
         (8..12).map(|x| image.pixel(x, 16)[3]).sum::<f32>()
     };
     assert!(beside(None) < 1e-3);
@@ -250,12 +250,12 @@ fn a_floor_under_the_hair_catches_its_shadow() {
         let mut scene = Scene { strands: if hair { &strands } else { &nothing }, ..scene.clone() };
         scene.look.floor = Some(Floor { centre: middle, radius: reach, colour });
         let options = TraceOptions { samples: 64, ..SMALL };
-        expose(&Tracer::new(&scene, &options).unwrap()).image()
+        accumulate(&Tracer::new(&scene, &options).unwrap()).image()
     };
     let sum = |image: &frisure_render::Image| image.pixels().iter().map(|p| p[1]).sum::<f32>();
     let (empty, shaded) = (light(5.0, false), light(5.0, true));
     assert!(sum(&shaded) < 0.99 * sum(&empty));
-    // A floor that nobody sees leaves the wall.
+    // A floor outside the picture leaves the wall.
     let lost = light(1e-6, false);
     let wall = scene.look.background;
     let Background::Gradient { corner, .. } = wall else { unreachable!() };

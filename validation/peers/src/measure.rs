@@ -33,7 +33,9 @@ pub(crate) struct Measured {
     /// Number of the computed hairs, of those without the certificate of a minimum, and of those in another
     /// equilibrium.
     hairs: usize,
+    /// Number of them without a certificate of a minimum.
     failed: usize,
+    /// Number of them at another equilibrium.
     elsewhere: usize,
     /// Distance of each tip from the true one (m).
     errors: Vec<f64>,

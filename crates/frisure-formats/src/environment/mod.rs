@@ -1,4 +1,4 @@
-//! Pictures of surroundings with all of their light: Radiance `.hdr` and OpenEXR `.exr`.
+//! Environment maps with all of their light: Radiance `.hdr` and OpenEXR `.exr`.
 
 mod map;
 #[cfg(feature = "exr")]
