@@ -108,15 +108,14 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(Vec<Element>, Body<'_>), String> {
                 let count = count.parse().map_err(|_| bad())?;
                 elements.push(Element { name: name.into(), count, properties: Vec::new() });
             }
-            ["property", "list", count, kind, name] => {
-                let (list, kind) = (Kind::of(count), Kind::of(kind).ok_or_else(bad)?);
-                let property =
-                    Property { name: name.into(), kind, list: Some(list.ok_or_else(bad)?) };
-                elements.last_mut().ok_or_else(bad)?.properties.push(property);
-            }
-            ["property", kind, name] => {
-                let kind = Kind::of(kind).ok_or_else(bad)?;
-                let property = Property { name: name.into(), kind, list: None };
+            ["property", .., kind, name] => {
+                let known = |word| Kind::of(word).ok_or_else(bad);
+                let list = match words[1..words.len() - 2] {
+                    [] => None,
+                    ["list", count] => Some(known(count)?),
+                    _ => return Err(bad()),
+                };
+                let property = Property { name: name.into(), kind: known(kind)?, list };
                 elements.last_mut().ok_or_else(bad)?.properties.push(property);
             }
             _ => return Err(bad()),

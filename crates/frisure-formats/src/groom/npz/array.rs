@@ -13,46 +13,22 @@ pub(super) struct Array {
     start: usize,
 }
 
-/// Kinds of values.
+/// The type of values: a letter and a size in bytes, as in `f4`. Text has four bytes for each letter.
 #[derive(Clone, Copy)]
-enum Kind {
-    F4,
-    F8,
-    I1,
-    U1,
-    I2,
-    U2,
-    I4,
-    U4,
-    I8,
-    /// So many letters of four bytes.
-    Text(usize),
+struct Kind {
+    letter: char,
+    size: usize,
 }
 
 impl Kind {
     fn of(descr: &str) -> Option<Self> {
-        Some(match descr.trim_start_matches(['<', '|', '=']) {
-            "f4" => Self::F4,
-            "f8" => Self::F8,
-            "i1" => Self::I1,
-            "u1" | "b1" => Self::U1,
-            "i2" => Self::I2,
-            "u2" => Self::U2,
-            "i4" => Self::I4,
-            "u4" => Self::U4,
-            "i8" | "u8" => Self::I8,
-            text => Self::Text(text.strip_prefix('U')?.parse().ok()?),
-        })
-    }
-
-    /// Bytes of one.
-    fn width(self) -> usize {
-        match self {
-            Self::I1 | Self::U1 => 1,
-            Self::I2 | Self::U2 => 2,
-            Self::F4 | Self::I4 | Self::U4 => 4,
-            Self::F8 | Self::I8 => 8,
-            Self::Text(letters) => letters.saturating_mul(4),
+        let mut rest = descr.trim_start_matches(['<', '|', '=']).chars();
+        let letter = rest.next()?;
+        let size = rest.as_str().parse().ok()?;
+        match (letter, size) {
+            ('f', 4 | 8) | ('i' | 'u', 1 | 2 | 4 | 8) | ('b', 1) => Some(Self { letter, size }),
+            ('U', letters) => Some(Self { letter, size: letters.saturating_mul(4) }),
+            _ => None,
         }
     }
 }
@@ -102,7 +78,7 @@ impl Array {
             return Err(format!("its order is Fortran's, and only C's is read ({hint})"));
         }
         let Some(kind) = Kind::of(descr) else { return Ok(None) };
-        let expected = shape.iter().try_fold(kind.width(), |n, &m| n.checked_mul(m));
+        let expected = shape.iter().try_fold(kind.size, |n, &m| n.checked_mul(m));
         if expected != Some(numbers.len()) {
             return Err(format!("{} bytes are not {shape:?} of `{descr}`", numbers.len()));
         }
@@ -116,39 +92,41 @@ impl Array {
 
     /// Its numbers, where they are real ones.
     pub(super) fn real(&self) -> Option<Vec<f32>> {
-        Some(match self.kind {
-            Kind::F4 => self.words().map(|w| f32::from_le_bytes(*w)).collect(),
-            Kind::F8 => self.words().map(|w| f64::from_le_bytes(*w) as f32).collect(),
+        Some(match (self.kind.letter, self.kind.size) {
+            ('f', 4) => self.words().map(|w| f32::from_le_bytes(*w)).collect(),
+            ('f', 8) => self.words().map(|w| f64::from_le_bytes(*w) as f32).collect(),
             _ => return None,
         })
     }
 
     /// Its numbers, where they are whole ones, as something else.
     pub(super) fn whole<T>(&self, to: impl Fn(i64) -> T) -> Option<Vec<T>> {
-        Some(match self.kind {
-            Kind::I1 => self.words().map(|&[b]| to(i64::from(b as i8))).collect(),
-            Kind::U1 => self.words().map(|&[b]| to(i64::from(b))).collect(),
-            Kind::I2 => self.words().map(|w| to(i64::from(i16::from_le_bytes(*w)))).collect(),
-            Kind::U2 => self.words().map(|w| to(i64::from(u16::from_le_bytes(*w)))).collect(),
-            Kind::I4 => self.words().map(|w| to(i64::from(i32::from_le_bytes(*w)))).collect(),
-            Kind::U4 => self.words().map(|w| to(i64::from(u32::from_le_bytes(*w)))).collect(),
-            Kind::I8 => self.words().map(|w| to(i64::from_le_bytes(*w))).collect(),
+        Some(match (self.kind.letter, self.kind.size) {
+            ('i', 1) => self.words().map(|&[b]| to(i64::from(b as i8))).collect(),
+            ('u' | 'b', 1) => self.words().map(|&[b]| to(i64::from(b))).collect(),
+            ('i', 2) => self.words().map(|w| to(i64::from(i16::from_le_bytes(*w)))).collect(),
+            ('u', 2) => self.words().map(|w| to(i64::from(u16::from_le_bytes(*w)))).collect(),
+            ('i', 4) => self.words().map(|w| to(i64::from(i32::from_le_bytes(*w)))).collect(),
+            ('u', 4) => self.words().map(|w| to(i64::from(u32::from_le_bytes(*w)))).collect(),
+            ('i' | 'u', 8) => self.words().map(|w| to(i64::from_le_bytes(*w))).collect(),
             _ => return None,
         })
     }
 
     /// A single real number, to its last bit.
     pub(super) fn number(&self) -> Option<f64> {
-        match (self.kind, &self.shape[..]) {
-            (Kind::F8, [] | [1]) => self.words().next().map(|w| f64::from_le_bytes(*w)),
-            (Kind::F4, [] | [1]) => self.words().next().map(|w| f64::from(f32::from_le_bytes(*w))),
+        match (self.kind.letter, self.kind.size, &self.shape[..]) {
+            ('f', 8, [] | [1]) => self.words().next().map(|w| f64::from_le_bytes(*w)),
+            ('f', 4, [] | [1]) => self.words().next().map(|w| f64::from(f32::from_le_bytes(*w))),
             _ => None,
         }
     }
 
     /// Its text, where it is one.
     pub(super) fn text(&self) -> Option<String> {
-        let Kind::Text(_) = self.kind else { return None };
+        if self.kind.letter != 'U' {
+            return None;
+        }
         let letters = self.words().map(|w| u32::from_le_bytes(*w)).take_while(|c| *c != 0);
         Some(letters.filter_map(char::from_u32).take(1000).collect())
     }
