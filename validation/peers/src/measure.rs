@@ -30,8 +30,7 @@ pub(crate) struct Measured {
     error_one: f64,
     /// Processor time (s) of the one hair alone.
     seconds_one: f64,
-    /// Number of the computed hairs, of those without the certificate of a minimum, and of those in another
-    /// equilibrium.
+    /// Number of hairs.
     hairs: usize,
     /// Number of them without a certificate of a minimum.
     failed: usize,
