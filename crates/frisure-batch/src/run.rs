@@ -3,21 +3,21 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure::files::{WriteError, check_destination, write_atomically};
 use frisure::progress::{Cancelled, Progress};
 use frisure::scene::batch::Batch;
-use frisure_engine::HeadCache;
+use frisure_engine::{Error, HeadCache};
 use rayon::prelude::*;
-use thiserror::Error;
 
 use crate::head::{self, Row};
 use crate::parquet::{self, Found};
 use crate::{Part, Shard};
 
 /// Why a run cannot be, or did not end.
-#[derive(Debug, Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum BatchError {
     /// The progress said to stop; parts that were written stay.
     #[error("cancelled")]
@@ -80,6 +80,18 @@ impl BatchError {
     }
 }
 
+impl From<BatchError> for Error {
+    fn from(error: BatchError) -> Self {
+        match &error {
+            BatchError::Cancelled => Self::Cancelled(Cancelled),
+            BatchError::Other { .. } | BatchError::NoPart { .. } | BatchError::Beyond { .. } => {
+                Self::because(&error, error.hint())
+            }
+            error => Self::failed(error, ""),
+        }
+    }
+}
+
 /// What a run has done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Done {
@@ -97,7 +109,7 @@ pub struct Run {
     batch: Batch,
     folder: PathBuf,
     shard: Shard,
-    heads: HeadCache,
+    heads: Arc<HeadCache>,
 }
 
 impl Run {
@@ -108,7 +120,7 @@ impl Run {
     pub fn new(batch: Batch, folder: &Path, shard: Shard) -> Result<Self, BatchError> {
         let fail = |source| BatchError::Folder { path: folder.into(), source };
         fs::create_dir_all(folder).map_err(fail)?;
-        let run = Self { batch, folder: folder.into(), shard, heads: HeadCache::default() };
+        let run = Self { batch, folder: folder.into(), shard, heads: Arc::default() };
         let mut known: Option<(usize, PathBuf)> = None;
         for entry in fs::read_dir(folder).map_err(fail)? {
             let entry = entry.map_err(fail)?;
@@ -189,7 +201,7 @@ impl Run {
         progress: &dyn Progress,
         each: &(dyn Fn() + Sync),
     ) -> Result<Vec<Row>, Cancelled> {
-        head::prepare(&self.batch, &self.heads, part.first);
+        head::load_head(&self.batch, &self.heads, part.first);
         let one = |index: usize| {
             if progress.is_cancelled() {
                 return Err(Cancelled);

@@ -2,35 +2,37 @@
 
 use std::io::{self, ErrorKind, Write};
 
-use crate::failure::Failure;
+use frisure_engine::Error;
 
-/// Writes text to standard output. A reader that has gone away (`frisure presets | head -1`) has
-/// what it wanted.
-pub(crate) fn print(text: &str) -> Result<(), Failure> {
+use crate::diagnostics::render;
+
+/// Writes text to standard output. A closed pipe (`frisure presets | head -1`) is no error.
+pub(crate) fn print(text: &str) -> Result<(), Error> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::failed(&error)),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::failed(&error, "")),
         _ => Ok(()),
     }
 }
 
-/// A line on standard error of how far work is.
-pub(crate) fn tell(text: &str) {
+/// Writes a line about progress to standard error.
+#[cfg(feature = "validate")]
+pub(crate) fn progress_line(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// Tells on standard error what a person should know, though nothing failed.
+/// Writes to standard error what a person should know, though nothing failed.
 pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "note: {text}");
 }
 
-/// Shows why a command failed. If standard error is closed there is nobody to tell.
-pub(crate) fn complain(failure: &Failure) {
+/// Writes why a command failed to standard error, if that is open.
+pub(crate) fn show_error(error: &Error) {
     // Removes colours where they are not wanted: in files, with NO_COLOR.
     let mut err = anstream::stderr().lock();
-    let _ = match failure {
-        Failure::Failed(report) | Failure::Wrong(report) => writeln!(err, "{}", report.render()),
-        Failure::Interrupted => writeln!(err, "interrupted"),
-        Failure::Paused(what) => writeln!(err, "interrupted: {what}"),
+    let _ = match error {
+        Error::Cancelled(_) => writeln!(err, "interrupted"),
+        Error::Paused(how) => writeln!(err, "interrupted: {how}"),
+        error => writeln!(err, "{}", render(error)),
     };
 }

@@ -1,24 +1,25 @@
-//! Ctrl-C (and a request to terminate): a flag that long work looks at, and a way out for work that does not.
+//! Ctrl-C (and a request to terminate): a flag for long work, and a way out of work that does not read it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::failure::Failure;
+use frisure::progress::Cancelled;
+use frisure_engine::{Error, catch_panic};
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// How often the flag is looked at.
+/// Time between two reads of the flag.
 const POLL: Duration = Duration::from_millis(20);
 
-/// How long work is given to notice the flag itself.
+/// Time in which work can stop by itself.
 const GRACE: Duration = Duration::from_millis(500);
 
 /// Catches Ctrl-C and termination from here on.
-pub(crate) fn install() -> Result<(), Failure> {
+pub(crate) fn install() -> Result<(), Error> {
     ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed))
-        .map_err(|e| Failure::failed(&e))
+        .map_err(|e| Error::failed(&e, ""))
 }
 
 /// Whether Ctrl-C was pressed.
@@ -27,22 +28,22 @@ pub(crate) fn interrupted() -> bool {
 }
 
 /// An error if Ctrl-C was pressed.
-pub(crate) fn check() -> Result<(), Failure> {
-    if interrupted() { Err(Failure::Interrupted) } else { Ok(()) }
+pub(crate) fn check() -> Result<(), Error> {
+    if interrupted() { Err(Cancelled.into()) } else { Ok(()) }
 }
 
-/// Computes on a thread of its own and waits for it, or for Ctrl-C.
+/// Runs work on another thread and waits for it, or for Ctrl-C.
 ///
-/// Work that does not look at the flag is left behind when the process ends. It must not write
-/// files: those are written by the main thread, which always finishes or cleans up the one it is at. Only what may end
-/// anywhere is written here ([`frisure_engine::CheckpointFile`]).
-pub(crate) fn computing<T: Send + 'static>(
-    work: impl FnOnce() -> Result<T, Failure> + Send + 'static,
-) -> Result<T, Failure> {
+/// Work that does not read the flag is left behind when the process ends. It must not write files: the main thread does,
+/// and finishes or removes the file at hand. The exception is a file that may end anywhere
+/// ([`frisure_engine::checkpoint::HairCheckpoint`]).
+pub(crate) fn compute<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Error> + Send + 'static,
+) -> Result<T, Error> {
     let (sender, receiver) = mpsc::channel();
-    let worker = thread::spawn(move || {
+    thread::spawn(move || {
         // The receiver is gone if Ctrl-C was pressed.
-        let _ = sender.send(work());
+        let _ = sender.send(catch_panic(work));
     });
     let mut since: Option<Instant> = None;
     loop {
@@ -50,19 +51,13 @@ pub(crate) fn computing<T: Send + 'static>(
             Ok(result) => return check().and(result),
             Err(RecvTimeoutError::Timeout) if interrupted() => {
                 if since.get_or_insert_with(Instant::now).elapsed() > GRACE {
-                    return Err(Failure::Interrupted);
+                    return Err(Cancelled.into());
                 }
             }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {
-                // It panicked, and the panic told its story.
-                let _ = worker.join();
-                return Err(Failure::failed(&InternalError));
+                return Err(Error::Internal("the thread ended without a result".into()));
             }
         }
     }
 }
-
-#[derive(Debug, thiserror::Error)]
-#[error("internal error; please report the message above")]
-struct InternalError;

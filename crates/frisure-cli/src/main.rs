@@ -5,37 +5,38 @@
 mod args;
 mod commands;
 mod console;
-mod exposing;
-mod failure;
+mod diagnostics;
+mod grooms;
+mod hair_checkpoint;
 mod interrupt;
-mod keeping;
 mod outputs;
+mod pictures;
 mod progress;
-mod written;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
 use args::{Arguments, Command};
-use failure::{Done, Failure};
+use diagnostics::{ExitStatus, exit_code};
+use frisure_engine::Error;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match run(arguments) {
-        Ok(done) => done.code(),
-        Err(failure) => {
-            console::complain(&failure);
-            failure.code()
+        Ok(status) => status.into(),
+        Err(error) => {
+            console::show_error(&error);
+            exit_code(&error)
         }
     }
 }
 
-fn run(arguments: Arguments) -> Result<Done, Failure> {
+fn run(arguments: Arguments) -> Result<ExitStatus, Error> {
     interrupt::install()?;
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build_global().map_err(|e| Failure::failed(&e))?;
+        pool.build_global().map_err(|e| Error::failed(&e, ""))?;
     }
     let quiet = arguments.quiet;
     match arguments.command {

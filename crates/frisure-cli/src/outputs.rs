@@ -1,17 +1,15 @@
-//! Files to be written: checked before the work, so that nobody waits for a result that has no
-//! place.
+//! Output files: checked before the work, so that no result is computed that cannot be written.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use frisure::files::{self, WriteError};
-
-use crate::failure::Failure;
+use frisure_engine::Error;
 
 /// Checks that all `outputs` are different files, that none is one of the `inputs`, and that each
-/// can be written; makes their folders.
-pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Failure> {
+/// can be written; creates their folders.
+pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Error> {
     let read: BTreeSet<PathBuf> = inputs.iter().map(|path| resolved(path)).collect();
     let mut asked = BTreeSet::new();
     for path in outputs {
@@ -19,21 +17,21 @@ pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Failure
         let overwritten = read.contains(&whole);
         if !asked.insert(whole) {
             let message = format!("`{}` is asked for twice", path.display());
-            return Err(Failure::wrong_because(message, "give each output a name of its own"));
+            return Err(Error::invalid(message, "give each output a name of its own"));
         }
         if overwritten {
             let message = format!("`{}` is read and would be overwritten", path.display());
-            return Err(Failure::wrong_because(message, "give the output another name"));
+            return Err(Error::invalid(message, "give the output another name"));
         }
     }
     for path in outputs {
         if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
             fs::create_dir_all(folder).map_err(|source| {
                 let path = folder.to_path_buf();
-                Failure::failed(&WriteError::Io { path, source })
+                Error::failed(&WriteError::Io { path, source }, "")
             })?;
         }
-        files::check_destination(path).map_err(|e| Failure::failed(&e))?;
+        files::check_destination(path).map_err(|e| Error::failed(&e, ""))?;
     }
     Ok(())
 }
@@ -47,5 +45,29 @@ fn resolved(path: &Path) -> PathBuf {
     match (absolute.parent(), absolute.file_name()) {
         (Some(folder), Some(name)) => resolved(folder).join(name),
         _ => absolute,
+    }
+}
+
+/// A path with a number before the extension: `out/hair.png` is `out/hair-07.png`.
+pub(crate) fn numbered(path: &Path, number: usize, count: usize) -> PathBuf {
+    let digits = count.saturating_sub(1).to_string().len().max(2);
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number:0digits$}"));
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_go_before_the_extension() {
+        let name = |path: &str, number, count| numbered(Path::new(path), number, count);
+        assert_eq!(name("out/hair.png", 7, 12), Path::new("out/hair-07.png"));
+        assert_eq!(name("hair", 7, 1200), Path::new("hair-0007"));
     }
 }

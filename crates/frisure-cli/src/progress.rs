@@ -1,4 +1,4 @@
-//! How far long work is.
+//! The progress bar.
 
 use std::io::IsTerminal;
 use std::time::Duration;
@@ -8,12 +8,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::interrupt;
 
-/// Progress of a long computation on standard error, if a person is looking.
+/// Progress of a long computation on standard error, if that is a terminal.
 #[derive(Clone)]
 pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
-    /// A bar, or nothing where standard error is no terminal or `quiet` is asked for.
+    /// A bar; hidden where standard error is no terminal, and with `quiet`.
     pub(crate) fn new(quiet: bool) -> Self {
         let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
         if quiet || !std::io::stderr().is_terminal() {
@@ -29,12 +29,12 @@ impl Bar {
         Self(bar)
     }
 
-    /// Does something that prints, with the bar out of its way.
-    pub(crate) fn aside<T>(&self, print: impl FnOnce() -> T) -> T {
+    /// Hides the bar while `print` runs.
+    pub(crate) fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
         self.0.suspend(print)
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.0.finish_and_clear();
     }

@@ -1,16 +1,15 @@
-//! Why a computation has no result, and the same as plain data for a person.
+//! Why a computation has no result, and the one place where a panic becomes such a reason.
 
 use std::any::Any;
 use std::error::Error as StdError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use frisure::files::ReadError;
 use frisure::hairstyle::styling::StyleError;
 use frisure::hairstyle::{HistoryError, PredictError};
 use frisure::progress::Cancelled;
 use frisure::scene::{Scene, SceneError};
 use thiserror::Error;
-
-use crate::response::{Diagnostic, Response};
 
 /// Why a computation has no result.
 #[derive(Debug, Error)]
@@ -18,6 +17,9 @@ pub enum Error {
     /// [`frisure::progress::Progress::is_cancelled`] returned true.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// The same, and the work can be resumed; the text says how.
+    #[error("{0}")]
+    Paused(String),
     /// The scene, or a file that it names, is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -29,13 +31,18 @@ pub enum Error {
         /// What to do; may be empty.
         hint: String,
     },
+    /// The request is possible, and something else failed, such as a disk.
+    #[error("{problem}")]
+    Failed {
+        /// What is wrong.
+        problem: String,
+        /// What to do; may be empty.
+        hint: String,
+    },
     /// A panic in the computation: a mistake in this program.
     #[error("internal error: {0}")]
     Internal(String),
 }
-
-/// What to do about a panic.
-pub(crate) const REPORT: &str = "please report it, with the scene";
 
 impl Error {
     /// An impossible request; `hint` may be empty.
@@ -48,9 +55,24 @@ impl Error {
         Self::invalid(message(error), hint)
     }
 
-    /// The error of a prediction, at the key of the scene that has to change.
+    /// A failure of something else than the request, with the message of an error and of its causes; `hint` may be
+    /// empty.
+    pub fn failed(error: &dyn StdError, hint: &str) -> Self {
+        Self::Failed { problem: message(error), hint: hint.to_owned() }
+    }
+
+    /// What to do; may be empty. The hint of a [`Self::Scene`] is in it.
     #[must_use]
-    pub fn of_prediction(error: &PredictError, scene: &Scene) -> Self {
+    pub fn hint(&self) -> &str {
+        match self {
+            Self::Invalid { hint, .. } | Self::Failed { hint, .. } => hint,
+            Self::Internal(_) => "please report it, with the scene",
+            Self::Cancelled(_) | Self::Paused(_) | Self::Scene(_) => "",
+        }
+    }
+
+    /// The error of a prediction, at the key of the scene that has to change.
+    pub(crate) fn of_prediction(error: &PredictError, scene: &Scene) -> Self {
         Self::Scene(match error {
             PredictError::Cancelled(cancelled) => return Self::Cancelled(*cancelled),
             PredictError::Quantity(error) => scene.blame(error),
@@ -64,8 +86,7 @@ impl Error {
     }
 
     /// The error of a styling step (from 0), at the key of the scene that has to change.
-    #[must_use]
-    pub fn of_step(step: usize, error: &StyleError, scene: &Scene) -> Self {
+    pub(crate) fn of_step(step: usize, error: &StyleError, scene: &Scene) -> Self {
         match error {
             StyleError::Cancelled(cancelled) => Self::Cancelled(*cancelled),
             error => Self::Scene(scene.step_fault(step, error)),
@@ -75,6 +96,12 @@ impl Error {
     /// The same of a list of steps.
     pub(crate) fn of_history(error: &HistoryError, scene: &Scene) -> Self {
         Self::of_step(error.step, &error.error, scene)
+    }
+}
+
+impl From<ReadError> for Error {
+    fn from(error: ReadError) -> Self {
+        Self::because(&error, "")
     }
 }
 
@@ -92,8 +119,9 @@ fn text(panic: &(dyn Any + Send)) -> String {
     message.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }
 
-/// The message of an error with those of its causes.
-fn message(error: &dyn StdError) -> String {
+/// The message of an error with those of its causes in one sentence: "cannot write `x`: no space left".
+#[must_use]
+pub fn message(error: &dyn StdError) -> String {
     let mut message = error.to_string();
     let mut cause = error.source();
     while let Some(error) = cause {
@@ -101,34 +129,4 @@ fn message(error: &dyn StdError) -> String {
         cause = error.source();
     }
     message
-}
-
-impl From<&SceneError> for Diagnostic {
-    fn from(error: &SceneError) -> Self {
-        match error.fault() {
-            None => Self { problem: message(error), ..Self::default() },
-            Some(fault) => Self {
-                problem: fault.message(),
-                key: fault.key.clone(),
-                line: fault.line,
-                hint: fault.hint.clone(),
-            },
-        }
-    }
-}
-
-impl From<Error> for Response {
-    fn from(error: Error) -> Self {
-        let diagnostic = |problem, hint: &str| Diagnostic {
-            problem,
-            hint: hint.to_owned(),
-            ..Diagnostic::default()
-        };
-        Self::Failed(match &error {
-            Error::Cancelled(_) => return Self::Cancelled,
-            Error::Invalid { problem, hint } => diagnostic(problem.clone(), hint),
-            Error::Internal(_) => diagnostic(error.to_string(), REPORT),
-            Error::Scene(error) => error.into(),
-        })
-    }
 }

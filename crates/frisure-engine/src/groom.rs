@@ -9,8 +9,7 @@ use frisure::strands::Strands;
 
 /// The groom of a hairstyle: `hairs`, which are all its drawn hairs, its guides, its head and its colour.
 /// With `fibres`, each hair has the directors and natural strains of its fibre too, as guides always have.
-#[must_use]
-pub fn groom(
+pub(crate) fn groom(
     scene: &Scene,
     hairstyle: &Hairstyle,
     head: &Head,

@@ -17,10 +17,10 @@ use frisure::hairstyle::{
 use frisure::progress::Progress;
 use frisure::scene::{GroomFile, Scene};
 
-use crate::adoption::AdoptionReport;
 use crate::error::Error;
 use crate::initial::initial_hairstyle;
-use crate::{preview, request};
+use crate::quality::Quality;
+use crate::report::AdoptionReport;
 
 /// Most descriptions in the cache, each with its history; chosen.
 const CAPACITY: usize = 4;
@@ -217,7 +217,7 @@ impl HairstyleCache {
         let like = self.draft.as_ref().and_then(|before| before.after(index, &steps[index]));
         let done = if like.is_some() { index + 1 } else { steps.len() };
         let effort = effort(steps, done, input);
-        let stride = preview::stride(draft.last(), request::Quality::Coarse);
+        let stride = Quality::Coarse.stride(draft.last());
         let options = StyleOptions {
             draft: Some(hairstyle::Draft { effort, stride, like }),
             ..StyleOptions::default()

@@ -1,12 +1,12 @@
 //! The heads of scenes, each loaded once.
 
-use crate::inputs::{head_mesh, head_note};
-use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use frisure::files::{Files, Stamp};
 use frisure::hairstyle::head::{Head, ScalpSource};
-use frisure::scene::{HeadSource, ScalpSource as ScalpFile, Scene, SceneError};
+use frisure::scene::{HeadSource, Scene, SceneError};
+
+use crate::inputs::{head_files, head_mesh, head_note};
 
 /// Most heads in the cache, some megabytes each; chosen.
 const CAPACITY: usize = 8;
@@ -84,10 +84,5 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
 
 fn stamps(source: &HeadSource, files: &Files) -> Vec<Option<Stamp>> {
     let HeadSource::Mesh(file) = source else { return Vec::new() };
-    let scalp = match &file.scalp {
-        ScalpFile::Mask(path) | ScalpFile::Weights(path) => Some(path.as_path()),
-        ScalpFile::Guess | ScalpFile::Group(_) | ScalpFile::Colour(_) => None,
-    };
-    let paths: [Option<&Path>; 2] = [Some(&file.path), scalp];
-    paths.into_iter().flatten().map(|path| files.stamp(path)).collect()
+    head_files(file).map(|path| files.stamp(path)).collect()
 }

@@ -17,7 +17,7 @@ use crate::inputs::scene_groom;
 ///
 /// # Errors
 /// [`Error`], at the key of the scene that has to change.
-pub fn initial_hairstyle(
+pub(crate) fn initial_hairstyle(
     scene: &Scene,
     spec: &HairstyleSpec,
     head: &Head,

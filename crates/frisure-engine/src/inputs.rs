@@ -1,7 +1,6 @@
 //! The files that a scene names, read: head, groom and environment map.
 
-use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use frisure::files::Files;
 use frisure::formats::environment;
@@ -9,6 +8,29 @@ use frisure::formats::groom::{self, Format, Groom, GroomError};
 use frisure::formats::head::{self, HeadFile, HeadFileError, HeadMesh, ScalpSource};
 use frisure::look::EnvironmentMap;
 use frisure::scene::{GroomFile, HeadSource, Scene, SceneError};
+
+use crate::error::message;
+
+/// The files that a scene names, beside itself.
+#[must_use]
+pub fn input_files(scene: &Scene) -> Vec<&Path> {
+    let mut inputs: Vec<&Path> = Vec::new();
+    if let HeadSource::Mesh(file) = &scene.head {
+        inputs.extend(head_files(file));
+    }
+    inputs.extend(scene.groom.iter().map(|file| file.path.as_path()));
+    inputs.extend(scene.environment.iter().map(PathBuf::as_path));
+    inputs
+}
+
+/// The files of a head: its mesh, and its scalp where that is another file.
+pub(crate) fn head_files(head: &HeadFile) -> impl Iterator<Item = &Path> {
+    let scalp = match &head.scalp {
+        ScalpSource::Mask(path) | ScalpSource::Weights(path) => Some(path.as_path()),
+        ScalpSource::Guess | ScalpSource::Group(_) | ScalpSource::Colour(_) => None,
+    };
+    [Some(head.path.as_path()), scalp].into_iter().flatten()
+}
 
 /// The mesh of the scene's head, or `None` for the built-in mannequin.
 ///
@@ -21,7 +43,7 @@ pub fn head_mesh(scene: &Scene, files: &Files) -> Result<Option<HeadMesh>, Scene
             HeadFileError::Size { .. } => "`unit` and `up` of `[head]` say what it is in",
             _ => "",
         };
-        scene.fault(key(&e, file), with_cause(&e), hint)
+        scene.fault(key(&e, file), message(&e), hint)
     })
 }
 
@@ -43,15 +65,15 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
             GroomError::Malformed { .. } => "`unit` and `up` of `[groom]` say what it is in",
             _ => "",
         };
-        scene.fault("groom.file", with_cause(&e), hint)
+        scene.fault("groom.file", message(&e), hint)
     };
     let format = Format::of(path).map_err(wrong)?;
     let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
     let bytes = bytes.map_err(|e| wrong(e.into()))?;
     let groom = groom::decode(format, &bytes, path, *frame).map_err(wrong)?;
     if groom.strands().is_empty() {
-        let message = format!("`{}` has no strands", path.display());
-        return Err(scene.fault("groom.file", message, ""));
+        let problem = format!("`{}` has no strands", path.display());
+        return Err(scene.fault("groom.file", problem, ""));
     }
     Ok(Some(groom))
 }
@@ -62,18 +84,10 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
 /// [`SceneError`] at the key that names what cannot be used.
 pub fn environment_map(scene: &Scene, files: &Files) -> Result<Option<EnvironmentMap>, SceneError> {
     let Some(path) = &scene.environment else { return Ok(None) };
-    let wrong = |message, hint| scene.fault("light.environment", message, hint);
-    let read = environment::read(path, files).map_err(|e| wrong(with_cause(&e), e.hint()))?;
+    let wrong = |problem, hint| scene.fault("light.environment", problem, hint);
+    let read = environment::read(path, files).map_err(|e| wrong(message(&e), e.hint()))?;
     let map = EnvironmentMap::new(read.width, read.height, read.pixels);
     map.map(Some).map_err(|e| wrong(e.to_string(), ""))
-}
-
-/// A message with its cause, such as what the system said, in one sentence.
-fn with_cause(error: &dyn Error) -> String {
-    match error.source() {
-        Some(cause) => format!("{error}: {cause}"),
-        None => error.to_string(),
-    }
 }
 
 /// The key of a scene that has to change.

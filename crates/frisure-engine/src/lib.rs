@@ -1,7 +1,9 @@
-//! From a scene to a hairstyle, strands and a picture, for every program alike.
+//! Computes the hairstyle, the strands and the picture of a scene, for every program alike.
 //!
-//! A [`Session`] executes a [`Request`] about a scene and returns a [`Response`], both plain data; it
-//! caches heads, hairstyles and strands, so that the next request computes only what changed.
+//! A [`Runner`] computes hairstyles and strands of scenes and caches them, so that the next scene costs only what
+//! changed. [`picture`] makes pictures of them, [`report`] measures them, and [`checkpoint`] saves long work on the way.
+//! A [`Session`] is a runner behind plain data that can pass between threads: it executes a [`Request`] about a scene
+//! and returns a [`Response`].
 //!
 //! ```
 //! use frisure_engine::{Quality, Request, Response, SceneRef, Session};
@@ -15,29 +17,38 @@
 
 #![forbid(unsafe_code)]
 
-mod accumulate;
-mod adoption;
 mod bytes;
-mod checkpoint_file;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod checkpoint;
+mod diagnostic;
 mod error;
 mod groom;
 mod hairstyles;
 mod heads;
 mod initial;
 mod inputs;
+mod metrics;
 pub mod picture;
 mod preview;
+mod quality;
+pub mod report;
 mod request;
 mod response;
+mod runner;
 mod session;
+mod steps;
+mod strand_cache;
 
-pub use adoption::AdoptionReport;
-pub use checkpoint_file::CheckpointFile;
-pub use error::{Error, catch_panic};
-pub use groom::groom;
+pub use diagnostic::Diagnostic;
+pub use error::{Error, catch_panic, message};
 pub use heads::{HeadCache, LoadedHead};
-pub use initial::initial_hairstyle;
-pub use inputs::{environment_map, head_mesh, scene_groom};
-pub use request::{Quality, Request, SceneRef, Viewpoint};
-pub use response::{Diagnostic, GuideData, HeadData, Numbers, Preview, Response, StrandsData};
+pub use inputs::{environment_map, head_mesh, input_files, scene_groom};
+pub use metrics::HairstyleMetrics;
+pub use picture::Viewpoint;
+pub use quality::Quality;
+pub use report::AdoptionReport;
+pub use request::{Request, SceneRef};
+pub use response::{GuideData, HeadData, Numbers, Preview, Response, StrandsData};
+pub use runner::{LoadedScene, Runner};
 pub use session::Session;
+pub use steps::{StyledScene, stage_count};

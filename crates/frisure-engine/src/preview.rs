@@ -1,80 +1,36 @@
 //! A hairstyle as plain data to look at.
 
-use std::sync::Arc;
-
+use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Hairstyle, StrandOptions, settling_report, strands};
-use frisure::progress::{Cancelled, Progress};
 use frisure::rod::Stability;
 use frisure::scene::Scene;
 use frisure::strands::{AttributeValues, Strands};
 use glam::{DVec3, Vec3};
 
 use crate::error::Error;
-use crate::request::Quality;
+use crate::metrics::HairstyleMetrics;
+use crate::quality::Quality;
 use crate::response::{GuideData, HeadData, Numbers, Preview, StrandsData};
+use crate::runner::LoadedScene;
 
-/// Points of a coarse preview, per thread: as many as a slider leaves time for; chosen by trial.
-const COARSE_POINTS: usize = 70_000;
-
-/// Most points of a preview: a page in a browser has 4 GiB in all.
-const MOST_POINTS: usize = 16_000_000;
-
-/// The stride between the hairs that are drawn.
-pub(crate) fn stride(hairstyle: &Hairstyle, quality: Quality) -> usize {
-    let points = hairstyle.drawn().saturating_mul(hairstyle.spec().wisps.points);
-    let most = match quality {
-        Quality::Coarse => MOST_POINTS.min(COARSE_POINTS * rayon::current_num_threads()),
-        Quality::Exact => MOST_POINTS,
-    };
-    points.div_ceil(most).max(1)
-}
-
-/// The strands that were drawn last, so that another light does not draw them again.
-#[derive(Debug, Default)]
-pub(crate) struct StrandCache {
-    last: Option<(Arc<Hairstyle>, usize, Arc<Strands>)>,
-}
-
-impl StrandCache {
-    /// Every `stride`-th hair.
-    pub(crate) fn strands(
-        &mut self,
-        hairstyle: &Arc<Hairstyle>,
-        head: &Head,
-        stride: usize,
-        progress: &dyn Progress,
-    ) -> Result<Arc<Strands>, Cancelled> {
-        if let Some((of, step, strands)) = &self.last
-            && Arc::ptr_eq(of, hairstyle)
-            && *step == stride
-        {
-            return Ok(strands.clone());
-        }
-        let options = StrandOptions { stride, ..StrandOptions::default() };
-        let strands = Arc::new(strands(hairstyle, head, options, progress)?.strands);
-        self.last = Some((hairstyle.clone(), stride, strands.clone()));
-        Ok(strands)
-    }
-}
-
-/// The preview of a hairstyle, without its head.
+/// The preview of a scene of which every `stride`-th hair is drawn, without its head.
 pub(crate) fn preview(
     quality: Quality,
-    hairstyle: &Hairstyle,
-    head: &Head,
-    (strands, stride): (&Strands, usize),
+    loaded: &LoadedScene,
+    strands: &Strands,
+    stride: usize,
 ) -> Preview {
+    let hairstyle = &loaded.hairstyle;
     let root = |position: DVec3| position.as_vec3().to_array();
     Preview {
         quality,
         strands: plain(strands),
         stride,
         head: None,
-        numbers: numbers(hairstyle, head, strands.len()),
+        numbers: numbers(&loaded.metrics(), strands.len()),
         roots: hairstyle.guides().iter().map(|guide| root(guide.root.position)).collect(),
         wetness: hairstyle.wisps().iter().map(|wisp| wisp.wetness as f32).collect(),
-        adoption: None,
+        adoption: loaded.adoption.clone(),
     }
 }
 
@@ -106,20 +62,18 @@ pub(crate) fn head_data(head: &Head, note: Option<&String>) -> HeadData {
     }
 }
 
-fn numbers(hairstyle: &Hairstyle, head: &Head, drawn: usize) -> Numbers {
-    let settling = settling_report(hairstyle, head);
-    let count = settling.guides.max(1) as f64;
-    let mean = |sum: f64| sum / count;
+fn numbers(metrics: &HairstyleMetrics, drawn: usize) -> Numbers {
+    let settling = &metrics.settling;
     Numbers {
         wisps: settling.guides,
         stable: settling.stable,
         unstable: settling.saddles,
         moving: settling.not_converged,
-        hairs: hairstyle.grown(),
+        hairs: metrics.hairs,
         drawn,
-        mass: hairstyle.mass(),
-        length: mean(hairstyle.guides().iter().map(|guide| guide.rod.length()).sum()),
-        tips: mean(hairstyle.equilibria().iter().map(|rest| rest.tip().z).sum()),
+        mass: metrics.mass,
+        length: metrics.length,
+        tips: metrics.tip_height,
         seconds: 0.0,
     }
 }
@@ -167,25 +121,7 @@ pub(crate) fn file_name(scene: &Scene, extension: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use frisure::hairstyle::{PredictOptions, predict};
-
     use super::*;
-
-    #[test]
-    fn a_preview_of_a_million_hairs_leaves_some_out() {
-        let text = "[hair]\nlength = '5 cm'\n[wisps]\ncount = 4\nhairs = 1_000_000\npoints = 32";
-        let scene = Scene::parse("a", text, "".as_ref()).unwrap();
-        let hair = predict(
-            &scene.hairstyle_spec().unwrap(),
-            &Head::mannequin(),
-            PredictOptions::default(),
-            &(),
-        )
-        .unwrap();
-        assert_eq!(hair.drawn(), 1_000_000);
-        assert_eq!(stride(&hair, Quality::Exact), 2);
-        assert!(stride(&hair, Quality::Coarse) > 2);
-    }
 
     #[test]
     fn file_names_are_plain() {

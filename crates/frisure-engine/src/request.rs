@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::picture::Viewpoint;
+use crate::quality::Quality;
 #[cfg(doc)]
 use crate::response::Response;
 
@@ -16,27 +18,6 @@ pub struct SceneRef {
     pub folder: String,
     /// How many of its steps are applied; the rest are undone.
     pub done: usize,
-}
-
-/// The quality of a hairstyle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Quality {
-    /// While a slider moves: few sweeps from the last hairstyle, and only some of the hairs.
-    Coarse,
-    /// In equilibrium, with all hairs.
-    #[default]
-    Exact,
-}
-
-/// The camera of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Viewpoint {
-    /// Position of the camera (m).
-    pub eye: [f64; 3],
-    /// The point that it looks at (m).
-    pub target: [f64; 3],
-    /// Vertical field of view (rad).
-    pub field_of_view: f64,
 }
 
 /// A request to a [`crate::Session`].

@@ -3,8 +3,10 @@
 use frisure::formats::contents::Contents;
 use serde::{Deserialize, Serialize};
 
-use crate::adoption::AdoptionReport;
-use crate::request::Quality;
+use crate::diagnostic::Diagnostic;
+use crate::error::Error;
+use crate::quality::Quality;
+use crate::report::AdoptionReport;
 
 /// The response to a [`crate::Request`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,17 +62,13 @@ impl Response {
     }
 }
 
-/// Why a request cannot be executed, for a person.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Diagnostic {
-    /// What is wrong, with the value and the allowed range.
-    pub problem: String,
-    /// The key of the scene that is wrong, such as `hair.length`; may be empty.
-    pub key: String,
-    /// Line of the scene's text, from 1; 0 for none.
-    pub line: usize,
-    /// What to do; may be empty.
-    pub hint: String,
+impl From<Error> for Response {
+    fn from(error: Error) -> Self {
+        match &error {
+            Error::Cancelled(_) | Error::Paused(_) => Self::Cancelled,
+            error => Self::Failed(error.into()),
+        }
+    }
 }
 
 /// Hair to look at.

@@ -1,58 +1,42 @@
-//! The session: executes requests and caches their intermediate results.
+//! The session: executes requests and returns responses.
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
-use frisure::files::Files;
 use frisure::files::frame::FrameChoice;
 use frisure::formats::contents;
 use frisure::formats::groom::{self, Format};
+use frisure::formats::picture::png;
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Hairstyle, add_sections, selected};
-use frisure::progress::Progress;
-use frisure::scene::{Scene, parse_step};
+use frisure::hairstyle::{add_sections, selected};
+use frisure::progress::{Progress, Silent};
+use frisure::render::trace::{Accumulator, TraceOptions};
+use frisure::scene::{Output, Scene, parse_step};
 use frisure::strands::Strands;
 use web_time::Instant;
 
-use crate::accumulate::{Sampling, Subject, check_turntable};
-use crate::adoption::AdoptionReport;
 use crate::error::{Error, catch_panic};
-use crate::hairstyles::{HairstyleCache, Input};
-use crate::heads::{HeadCache, LoadedHead};
 use crate::inputs::environment_map;
-use crate::preview::{self, StrandCache};
-use crate::request::{Quality, Request, SceneRef, Viewpoint};
+use crate::picture::{self, Pauses, Subject, Viewpoint, accumulate};
+use crate::preview;
+use crate::quality::Quality;
+use crate::request::{Request, SceneRef};
 use crate::response::Response;
+use crate::runner::{LoadedScene, Runner};
 
 /// The name in errors of a step that is not in a scene.
 const STEP: &str = "step";
 
-/// Most points of a groom in a browser, where there are 4 GiB of memory in all.
-const MOST_POINTS_OF_A_PAGE: usize = 32_000_000;
+/// When partial pictures are sent: every second, and for at most a tenth of the time; chosen.
+const PAUSES: Pauses = Pauses { every: Duration::from_secs(1), spacing: 10 };
 
-/// Executes requests, one after the other; each computes only what differs from those before.
-///
-/// A response at [`Quality::Exact`] depends on the request alone, to the last bit: it is the result of
-/// [`frisure::hairstyle::predict`] and of each step after it. A response at [`Quality::Coarse`] is an
-/// approximation that continues from the last preview.
+/// Executes requests with a [`Runner`], one after the other; each computes only what differs from those before.
 #[derive(Debug, Default)]
 pub struct Session {
-    files: Files,
-    heads: HeadCache,
-    hairstyles: HairstyleCache,
-    strands: StrandCache,
+    runner: Runner,
     /// The head in the last preview.
     sent_head: Option<Arc<Head>>,
-}
-
-/// A scene with its head and its hairstyle.
-struct LoadedScene {
-    scene: Scene,
-    head: Arc<Head>,
-    /// What was guessed of the head.
-    note: Option<String>,
-    hairstyle: Arc<Hairstyle>,
-    adoption: Option<AdoptionReport>,
 }
 
 impl Session {
@@ -79,7 +63,8 @@ impl Session {
         let response = catch_panic(|| self.response(request, progress, partial));
         if let Err(Error::Internal(_)) = &response {
             // The caches may be half changed.
-            *self = Self { files: std::mem::take(&mut self.files), ..Self::default() };
+            self.runner.clear();
+            self.sent_head = None;
         }
         response.unwrap_or_else(Response::from)
     }
@@ -92,7 +77,7 @@ impl Session {
     ) -> Result<Response, Error> {
         match request {
             Request::ProvideFile { path, bytes } => {
-                self.files.provide(path.as_str(), bytes.as_slice());
+                self.runner.provide_file(path, bytes);
                 Ok(Response::FileProvided)
             }
             Request::Contents { path } => self.contents(path),
@@ -101,8 +86,16 @@ impl Session {
             Request::Guide { scene, wisp, points } => self.guide(scene, *wisp, *points, progress),
             Request::Groom { scene, format } => self.groom(scene, format, progress),
             Request::Picture { scene, viewpoint, size, paths, noise } => {
-                let sampling = Sampling { size: *size, paths: *paths, noise: *noise };
-                self.picture(scene, *viewpoint, sampling, progress, partial)
+                let [width, height] = *size;
+                let noise = Some(*noise as f32).filter(|noise| *noise != 0.0);
+                let options = TraceOptions {
+                    width,
+                    height,
+                    samples: *paths,
+                    noise,
+                    ..TraceOptions::default()
+                };
+                self.picture(scene, *viewpoint, options, progress, partial)
             }
             Request::Turntable { scene, viewpoint, size, frames } => {
                 self.turntable(scene, *viewpoint, (*size, *frames), progress)
@@ -111,7 +104,7 @@ impl Session {
     }
 
     fn contents(&self, path: &str) -> Result<Response, Error> {
-        let found = contents::of(Path::new(path), &self.files);
+        let found = contents::of(Path::new(path), self.runner.files());
         Ok(Response::Contents(found.map_err(|e| Error::because(&e, ""))?))
     }
 
@@ -122,14 +115,13 @@ impl Session {
         progress: &dyn Progress,
     ) -> Result<Response, Error> {
         let since = Instant::now();
-        let LoadedScene { head, note, hairstyle, adoption, .. } =
-            self.load(scene, quality, progress)?;
-        let stride = preview::stride(&hairstyle, quality);
-        let strands = self.strands.strands(&hairstyle, &head, stride, progress)?;
-        let mut preview = preview::preview(quality, &hairstyle, &head, (&strands, stride));
+        let loaded = self.load(scene, quality, progress)?;
+        let stride = quality.stride(&loaded.hairstyle);
+        let strands = self.runner.strands(&loaded, stride, progress)?;
+        let mut preview = preview::preview(quality, &loaded, &strands, stride);
+        let LoadedScene { head, note, .. } = loaded;
         let sent = self.sent_head.as_ref().is_some_and(|sent| Arc::ptr_eq(sent, &head));
         preview.head = (!sent).then(|| preview::head_data(&head, note.as_ref()));
-        preview.adoption = adoption;
         preview.numbers.seconds = since.elapsed().as_secs_f64();
         self.sent_head = Some(head);
         Ok(Response::Preview(Box::new(preview)))
@@ -172,10 +164,8 @@ impl Session {
         let path = format!("hair.{format}");
         let format = Format::of(Path::new(&path)).map_err(|e| Error::because(&e, ""))?;
         let loaded = self.load(scene, Quality::Exact, progress)?;
-        let strands = self.all_strands(&loaded, progress)?;
-        let hairs = Strands::clone(&*strands);
-        let groom =
-            crate::groom::groom(&loaded.scene, &loaded.hairstyle, &loaded.head, hairs, false);
+        let strands = self.runner.strands(&loaded, 1, progress)?;
+        let groom = loaded.groom(Strands::clone(&strands), false);
         let groom = match format.usual_points() {
             Some(points) => groom.resampled(points).0,
             None => groom,
@@ -190,23 +180,44 @@ impl Session {
         &mut self,
         scene: &SceneRef,
         viewpoint: Option<Viewpoint>,
-        sampling: Sampling,
+        options: TraceOptions,
         progress: &dyn Progress,
         partial: &mut dyn FnMut(Response),
     ) -> Result<Response, Error> {
         let loaded = self.load(scene, Quality::Exact, progress)?;
-        let options = sampling.options(&loaded.scene)?;
-        let environment = environment_map(&loaded.scene, &self.files)?;
-        let mut strands = Strands::clone(&*self.all_strands(&loaded, progress)?);
-        add_sections(&mut strands, &loaded.hairstyle, &loaded.head);
-        let bytes = Subject {
-            scene: &loaded.scene,
+        let LoadedScene { scene, head, hairstyle, .. } = &loaded;
+        // The cast takes the low bits, which is as good a seed.
+        let options = TraceOptions { seed: scene.look.hair.seed, ..options };
+        options.check().map_err(|e| Error::because(&e, ""))?;
+        let environment = environment_map(scene, self.runner.files())?;
+        let mut strands = Strands::clone(&*self.runner.strands(&loaded, 1, progress)?);
+        add_sections(&mut strands, hairstyle, head);
+        let subject = Subject {
+            scene,
             strands: &strands,
-            head: &loaded.head,
+            framed: &strands,
+            surface: Some(head.surface()),
             environment: environment.as_ref(),
-        }
-        .trace(viewpoint, &options, progress, partial)?;
-        Ok(Response::File { name: preview::file_name(&loaded.scene, "png"), bytes })
+        };
+        progress.report("preparing the light", 0.0);
+        let tracer = subject.tracer(viewpoint, &options)?;
+        let mut accumulator = tracer.accumulator();
+        accumulate(
+            &tracer,
+            &mut accumulator,
+            PAUSES,
+            &Silent(progress),
+            &mut |so_far, fraction| {
+                progress.check()?;
+                partial(partial_picture(so_far, fraction, &scene.output));
+                Ok(())
+            },
+        )?;
+        let rgba = picture::developed(&accumulator.image(), &scene.output);
+        // Both sides are at most 16384.
+        let bytes = png::encode(options.width as u32, options.height as u32, &rgba);
+        let bytes = bytes.map_err(|e| Error::because(&e, ""))?;
+        Ok(Response::File { name: preview::file_name(scene, "png"), bytes })
     }
 
     fn turntable(
@@ -216,17 +227,18 @@ impl Session {
         (size, frames): ([usize; 2], usize),
         progress: &dyn Progress,
     ) -> Result<Response, Error> {
-        check_turntable(size, frames)?;
+        picture::check_turntable(size, frames)?;
         let loaded = self.load(scene, Quality::Exact, progress)?;
-        let environment = environment_map(&loaded.scene, &self.files)?;
-        let strands = self.all_strands(&loaded, progress)?;
-        let bytes = Subject {
+        let environment = environment_map(&loaded.scene, self.runner.files())?;
+        let strands = self.runner.strands(&loaded, 1, progress)?;
+        let subject = Subject {
             scene: &loaded.scene,
             strands: &strands,
-            head: &loaded.head,
+            framed: &strands,
+            surface: Some(loaded.head.surface()),
             environment: environment.as_ref(),
-        }
-        .turntable(viewpoint, size, frames, progress)?;
+        };
+        let bytes = picture::turntable(&subject, viewpoint, size, frames, progress)?;
         Ok(Response::File { name: preview::file_name(&loaded.scene, "png"), bytes })
     }
 
@@ -236,34 +248,17 @@ impl Session {
         quality: Quality,
         progress: &dyn Progress,
     ) -> Result<LoadedScene, Error> {
-        let (scene, done) = (parse(scene)?, scene.done);
-        let spec = scene.hairstyle_spec()?;
-        let LoadedHead { head, note } = self.heads.load(&scene, &self.files)?;
-        let input = Input { scene: &scene, spec, head: &head, done, files: &self.files };
-        let hairstyle = match quality {
-            Quality::Coarse => self.hairstyles.coarse(&input, progress)?,
-            Quality::Exact => self.hairstyles.exact(&input, progress)?,
-        };
-        let adoption = self.hairstyles.adoption(&input);
-        Ok(LoadedScene { scene, head, note, hairstyle, adoption })
-    }
-
-    /// All hairs, for a file or a picture.
-    fn all_strands(
-        &mut self,
-        loaded: &LoadedScene,
-        progress: &dyn Progress,
-    ) -> Result<Arc<Strands>, Error> {
-        let hairstyle = &loaded.hairstyle;
-        let points = hairstyle.drawn().saturating_mul(hairstyle.spec().wisps.points);
-        if cfg!(target_arch = "wasm32") && points > MOST_POINTS_OF_A_PAGE {
-            let problem = format!("{points} points of hair are more than a page has memory for");
-            return Err(Error::invalid(problem, "lower `wisps.density` or `wisps.points`"));
-        }
-        Ok(self.strands.strands(hairstyle, &loaded.head, 1, progress)?)
+        let SceneRef { name, text, folder, done } = scene;
+        let scene = Scene::parse(name, text.as_str(), Path::new(folder))?;
+        self.runner.load(&Arc::new(scene), *done, quality, progress)
     }
 }
 
-fn parse(scene: &SceneRef) -> Result<Scene, Error> {
-    Ok(Scene::parse(&scene.name, scene.text.as_str(), Path::new(&scene.folder))?)
+fn partial_picture(accumulator: &Accumulator, fraction: f32, output: &Output) -> Response {
+    Response::PartialPicture {
+        size: [accumulator.width(), accumulator.height()],
+        rgba: picture::developed(&accumulator.image(), output),
+        fraction,
+        noise: accumulator.noise(),
+    }
 }

@@ -2,9 +2,10 @@
 
 mod common;
 
+use std::sync::Arc;
+
 use common::{CURLY, Counted, asked, exact, failed};
-use frisure_engine::Session;
-use frisure_engine::{Diagnostic, Quality, Request, Response, Viewpoint};
+use frisure_engine::{Diagnostic, LoadedScene, Quality, Request, Response, Session, Viewpoint};
 
 fn file(answer: Response) -> (String, Vec<u8>) {
     match answer {
@@ -80,7 +81,9 @@ fn a_groom_is_what_the_command_line_writes() {
         let hair = predict(&scene.hairstyle_spec().unwrap(), &head, PredictOptions::default(), &())
             .unwrap();
         let strands = strands(&hair, &head, StrandOptions::default(), &()).unwrap().strands;
-        let groom = frisure_engine::groom(&scene, &hair, &head, strands, false);
+        let (scene, head, hairstyle) = (Arc::new(scene), Arc::new(head), Arc::new(hair));
+        let loaded = LoadedScene { scene, head, note: None, hairstyle, adoption: None };
+        let groom = loaded.groom(strands, false);
         frisure::formats::groom::write_groom(&path, &groom, Default::default()).unwrap();
         assert_eq!(std::fs::read(path).unwrap(), bytes);
     }

@@ -10,10 +10,11 @@ use frisure::files;
 use frisure::progress::Progress;
 use frisure::scene::SceneError;
 use frisure::scene::edit::EditError;
-use frisure_batch::{Batch as Heads, BatchError, Part, Row, Run, Sample, Shard, Value};
+use frisure_batch::{Batch as Heads, Part, Row, Run, Sample, Shard, Value};
+use frisure_engine::Error;
 
 use crate::args::Batch;
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
 use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
 
@@ -21,9 +22,9 @@ use crate::{console, interrupt, outputs};
 const LISTED: usize = 256;
 
 /// Computes a shard of a batch, or tells what is in it.
-pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<ExitStatus, Error> {
     let path = arguments.spec.clone();
-    let heads = interrupt::computing(move || Ok(Heads::read(&path)?))?;
+    let heads = interrupt::compute(move || Ok(Heads::read(&path)?))?;
     if let Some(index) = arguments.scene {
         return one_scene(arguments, &heads, index);
     }
@@ -32,26 +33,13 @@ pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<Done, Failure> {
     }
     let Some(folder) = &arguments.output else {
         let hint = "`-o DIR` says where the heads go; `--list` tells what they would be";
-        return Err(Failure::wrong_because("there is no folder to write to", hint));
+        return Err(Error::invalid("there is no folder to write to", hint));
     };
     compute(heads, folder, arguments.shard, quiet)
 }
 
-impl From<BatchError> for Failure {
-    fn from(error: BatchError) -> Self {
-        match &error {
-            BatchError::Cancelled => Self::Interrupted,
-            BatchError::Other { .. } | BatchError::NoPart { .. } | BatchError::Beyond { .. } => {
-                Self::wrong(&error, error.hint())
-            }
-            BatchError::Write(error) => Self::failed(error),
-            error => Self::failed(error),
-        }
-    }
-}
-
 /// Computes what is not there yet. Files are written by this thread, which always ends the one it is at.
-fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Done, Failure> {
+fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<ExitStatus, Error> {
     let all = heads.heads();
     let work = Arc::new(Run::new(heads, folder, shard)?);
     let missing = work.missing()?;
@@ -70,11 +58,11 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Don
         ended.add(&rows);
         let (parts, failed) = (missing.len(), failures(&rows));
         let line = format!("{} of {parts}: {}{failed}\n", place + 1, path.display());
-        progress.aside(|| if quiet { Ok(()) } else { console::print(&line) })
+        progress.suspend(|| if quiet { Ok(()) } else { console::print(&line) })
     });
     progress.finish();
     result.map_err(|failure| match failure {
-        Failure::Interrupted => Failure::Paused(format!(
+        Error::Cancelled(_) => Error::Paused(format!(
             "{} of {own} heads are in `{}`; the same command goes on",
             own - to_do + ended.heads,
             folder.display()
@@ -84,7 +72,7 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Don
     if !quiet {
         console::print(&ended.told(own))?;
     }
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
 }
 
 /// The heads of a part, on a thread that can be left.
@@ -94,15 +82,15 @@ fn part_of(
     progress: &Bar,
     done: &Arc<AtomicUsize>,
     all: usize,
-) -> Result<Vec<Row>, Failure> {
+) -> Result<Vec<Row>, Error> {
     let (work, progress, done) = (work.clone(), progress.clone(), done.clone());
     progress.report("heads", done.load(Ordering::Relaxed) as f64 / all as f64);
-    interrupt::computing(move || {
+    interrupt::compute(move || {
         let each = || {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.report("heads", done as f64 / all as f64);
         };
-        work.compute(part, &progress, &each).map_err(|_| Failure::Interrupted)
+        Ok(work.compute(part, &progress, &each)?)
     })
 }
 
@@ -133,7 +121,9 @@ impl Ended {
         self.heads += rows.len();
         for row in rows {
             match &row.outcome {
-                Ok(measured) => self.moving += usize::from(measured.guides[3] > 0),
+                Ok(measured) => {
+                    self.moving += usize::from(measured.metrics.settling.not_converged > 0);
+                }
                 Err(why) => {
                     self.failed += 1;
                     self.first.get_or_insert_with(|| format!("head {}: {why}", row.index));
@@ -164,7 +154,7 @@ fn failures(rows: &[Row]) -> String {
 }
 
 /// What the heads of a shard would be, as a table with commas.
-fn list(heads: &Heads, shard: Shard) -> Result<Done, Failure> {
+fn list(heads: &Heads, shard: Shard) -> Result<ExitStatus, Error> {
     let mut out = String::from("index,seed");
     let seeds: Vec<bool> = heads.parameters().map(|(key, _)| key == "seed").collect();
     for (key, _) in heads.parameters().filter(|(key, _)| *key != "seed") {
@@ -192,7 +182,7 @@ fn list(heads: &Heads, shard: Shard) -> Result<Done, Failure> {
         }
     }
     console::print(&out)?;
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
 }
 
 /// A text as a cell of such a table.
@@ -205,24 +195,24 @@ fn cell(text: &str) -> String {
 }
 
 /// The scene of one head.
-fn one_scene(arguments: &Batch, heads: &Heads, index: usize) -> Result<Done, Failure> {
+fn one_scene(arguments: &Batch, heads: &Heads, index: usize) -> Result<ExitStatus, Error> {
     if index >= heads.heads() {
         let message = format!("there is no head {index}; the batch has {}", heads.heads());
         let hint = format!("heads are numbered from 0 to {}", heads.heads() - 1);
-        return Err(Failure::wrong_because(message, &hint));
+        return Err(Error::invalid(message, &hint));
     }
     let text = heads.scene_elsewhere(index).map_err(|error| match error {
         EditError::Scene(SceneError::Fault(fault)) => SceneError::Fault(fault).into(),
-        error => Failure::wrong(&error, ""),
+        error => Error::because(&error, ""),
     })?;
     let Some(path) = arguments.output.as_deref().filter(|path| *path != Path::new("-")) else {
         console::print(&text)?;
-        return Ok(Done::Well);
+        return Ok(ExitStatus::Success);
     };
     let mut inputs = heads.inputs();
     inputs.push(&arguments.spec);
     outputs::prepare(&[path], &inputs)?;
     let write = |out: &mut dyn io::Write| out.write_all(text.as_bytes());
-    files::write_atomically(path, write).map_err(|e| Failure::failed(&e))?;
-    Ok(Done::Well)
+    files::write_atomically(path, write).map_err(|e| Error::failed(&e, ""))?;
+    Ok(ExitStatus::Success)
 }

@@ -4,24 +4,25 @@ use std::path::Path;
 
 use frisure::formats::groom::Groom;
 use frisure::progress::Progress;
+use frisure_engine::Error;
 
 use super::read_groom;
 use crate::args::{Axes, Convert};
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
+use crate::grooms::GroomWriter;
 use crate::progress::Bar;
-use crate::written::Grooms;
 use crate::{console, interrupt, outputs};
 
 /// Reads the groom and writes it where the arguments say.
-pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<ExitStatus, Error> {
     let Convert { groom: path, outputs: asked, writing, from_unit, from_up } = arguments;
     let from = Axes { unit: from_unit, up: from_up };
-    let grooms = Grooms::new(&asked, writing)?;
+    let grooms = GroomWriter::new(&asked, writing)?;
     let names: Vec<&Path> = asked.iter().map(AsRef::as_ref).collect();
     outputs::prepare(&names, &[&path])?;
     let progress = Bar::new(quiet);
     let told = progress.clone();
-    let read = interrupt::computing(move || {
+    let read = interrupt::compute(move || {
         told.report("reading", 0.0);
         read_groom(&path, from, "`--from-unit` and `--from-up` say what it has")
     });
@@ -36,5 +37,5 @@ pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<Done, Failure> {
         let lines: String = written.iter().map(|line| format!("wrote {line}\n")).collect();
         console::print(&format!("read {hairs} hairs, {guides} guides\n{lines}"))?;
     }
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
 }

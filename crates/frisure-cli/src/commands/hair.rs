@@ -3,11 +3,12 @@
 use std::fmt::Write;
 
 use frisure::rod::{Equilibrium, Stability, equilibrium};
+use frisure_engine::Error;
 use serde::Serialize;
 
 use super::read_scene;
 use crate::args::Hair;
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
 use crate::{console, interrupt};
 
 /// What is printed; SI units.
@@ -44,20 +45,20 @@ struct Energies {
 }
 
 /// Computes and prints the hair of a scene.
-pub(crate) fn run(arguments: &Hair) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
     let hair = read_scene(&arguments.scene)?.single_hair()?;
-    let rest = interrupt::computing(move || Ok(equilibrium(&hair.rod, &[], &hair.options)))?;
+    let rest = interrupt::compute(move || Ok(equilibrium(&hair.rod, &[], &hair.options)))?;
     let report = report(&rest, arguments.points);
     let text = if arguments.json {
-        let json = serde_json::to_string_pretty(&report).map_err(|e| Failure::failed(&e))?;
+        let json = serde_json::to_string_pretty(&report).map_err(|e| Error::failed(&e, ""))?;
         format!("{json}\n")
     } else {
         table(&report, rest.certificate.stability)
     };
     console::print(&text)?;
     Ok(match rest.certificate.stability {
-        Stability::NotConverged => Done::NotConverged,
-        Stability::Stable | Stability::Saddle => Done::Well,
+        Stability::NotConverged => ExitStatus::NotConverged,
+        Stability::Stable | Stability::Saddle => ExitStatus::Success,
     })
 }
 

@@ -5,21 +5,22 @@ use std::path::Path;
 use frisure::files;
 use frisure::hairstyle::preset;
 use frisure::scene::measurements::{Choices, Steepness, measured};
+use frisure_engine::Error;
 
 use super::parse_scene;
 use crate::args::Measured;
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
 use crate::{console, interrupt, outputs};
 
 /// Reads the tables and writes the scene, with notes on what they do not tell.
-pub(crate) fn run(arguments: &Measured, quiet: bool) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: &Measured, quiet: bool) -> Result<ExitStatus, Error> {
     let tables = arguments.tables.clone();
     let read: Vec<&Path> = tables.iter().map(AsRef::as_ref).collect();
     outputs::prepare(&arguments.output.iter().map(AsRef::as_ref).collect::<Vec<_>>(), &read)?;
     let choices = choices(arguments);
-    let estimate = interrupt::computing(move || {
+    let estimate = interrupt::compute(move || {
         let read: Vec<&Path> = tables.iter().map(AsRef::as_ref).collect();
-        measured(&read, &choices).map_err(|e| Failure::wrong(&e, &e.hint()))
+        measured(&read, &choices).map_err(|e| Error::because(&e, &e.hint()))
     })?;
     let text = estimate.scene();
     let name = arguments.output.as_deref().unwrap_or(Path::new("measured.toml"));
@@ -28,14 +29,14 @@ pub(crate) fn run(arguments: &Measured, quiet: bool) -> Result<Done, Failure> {
     match &arguments.output {
         Some(path) => {
             let written = files::write_atomically(path, |out| out.write_all(text.as_bytes()));
-            written.map_err(|e| Failure::failed(&e))?;
+            written.map_err(|e| Error::failed(&e, ""))?;
         }
         None => console::print(&text)?,
     }
     if !quiet {
         estimate.notes.iter().for_each(|note| console::note(note));
     }
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
 }
 
 fn choices(arguments: &Measured) -> Choices {

@@ -20,9 +20,9 @@ use std::path::Path;
 use frisure::files;
 use frisure::formats::groom::{self, Groom, GroomError};
 use frisure::scene::{MAX_SIZE, Scene};
+use frisure_engine::Error;
 
 use crate::args::Axes;
-use crate::failure::Failure;
 use crate::interrupt;
 
 /// What a scene is called in errors about its size.
@@ -30,29 +30,29 @@ const WHAT: &str = "a scene";
 
 /// The error of a command that this build does not have.
 #[cfg(not(all(feature = "batch", feature = "validate")))]
-pub(crate) fn not_built(name: &str) -> Failure {
+pub(crate) fn not_built(name: &str) -> Error {
     let hint = format!("build with `--features {name}`");
-    Failure::wrong_because(format!("this build has no `{name}`"), &hint)
+    Error::invalid(format!("this build has no `{name}`"), &hint)
 }
 
 /// The scene in a file, or on standard input for `-`.
-fn read_scene(path: &Path) -> Result<Scene, Failure> {
+fn read_scene(path: &Path) -> Result<Scene, Error> {
     parse_scene(path, read_text(path)?)
 }
 
 /// The scene of the text that was read at a path.
-fn parse_scene(path: &Path, text: String) -> Result<Scene, Failure> {
+fn parse_scene(path: &Path, text: String) -> Result<Scene, Error> {
     let folder = path.parent().unwrap_or(Path::new(""));
     Ok(Scene::parse(&name(path), text, folder)?)
 }
 
 /// The text of a scene in a file, or on standard input for `-`; Ctrl-C ends the wait for it.
-fn read_text(path: &Path) -> Result<String, Failure> {
+fn read_text(path: &Path) -> Result<String, Error> {
     let path = path.to_owned();
-    interrupt::computing(move || text_of(&path))
+    interrupt::compute(move || text_of(&path))
 }
 
-fn text_of(path: &Path) -> Result<String, Failure> {
+fn text_of(path: &Path) -> Result<String, Error> {
     if path != Path::new("-") {
         return Ok(files::read_text(path, MAX_SIZE, WHAT)?);
     }
@@ -60,7 +60,7 @@ fn text_of(path: &Path) -> Result<String, Failure> {
     let path = Path::new(&name);
     let mut bytes = Vec::new();
     let input = std::io::stdin().lock();
-    input.take(MAX_SIZE + 1).read_to_end(&mut bytes).map_err(|e| Failure::failed(&e))?;
+    input.take(MAX_SIZE + 1).read_to_end(&mut bytes).map_err(|e| Error::failed(&e, ""))?;
     if bytes.len() as u64 > MAX_SIZE {
         let (path, limit) = (path.into(), MAX_SIZE);
         return Err(files::ReadError::TooLarge { path, limit, what: WHAT }.into());
@@ -69,10 +69,10 @@ fn text_of(path: &Path) -> Result<String, Failure> {
 }
 
 /// The groom in a file; `hint` names the flags that say what it has.
-fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Failure> {
+fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Error> {
     groom::read_groom(path, axes.choice()).map_err(|e| match e {
-        GroomError::Malformed { .. } => Failure::wrong(&e, hint),
-        _ => Failure::wrong(&e, ""),
+        GroomError::Malformed { .. } => Error::because(&e, hint),
+        _ => Error::because(&e, ""),
     })
 }
 

@@ -3,14 +3,15 @@
 use std::fmt::Write;
 
 use frisure::hairstyle::{HairType, PRESETS, Preset, Wetting, preset};
+use frisure_engine::Error;
 use serde::Serialize;
 
 use crate::args::Presets;
 use crate::console;
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
 
 /// Prints a table of the hair types, or all numbers of one.
-pub(crate) fn run(arguments: &Presets) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: &Presets) -> Result<ExitStatus, Error> {
     let one = arguments.hair_type.as_deref().map(named).transpose()?;
     let text = match (one, arguments.json) {
         (None, false) => table(),
@@ -19,13 +20,13 @@ pub(crate) fn run(arguments: &Presets) -> Result<Done, Failure> {
         (Some(preset), true) => json(&Described::new(preset))?,
     };
     console::print(&text)?;
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
 }
 
-fn named(name: &str) -> Result<&'static Preset, Failure> {
+fn named(name: &str) -> Result<&'static Preset, Error> {
     preset(name).ok_or_else(|| {
         let message = format!("there is no hair type `{name}`");
-        Failure::wrong_because(message, "`frisure presets` lists them")
+        Error::invalid(message, "`frisure presets` lists them")
     })
 }
 
@@ -109,8 +110,8 @@ fn wetting(wet: &Wetting) -> String {
     )
 }
 
-fn json<T: Serialize>(value: &T) -> Result<String, Failure> {
-    let json = serde_json::to_string_pretty(value).map_err(|e| Failure::failed(&e))?;
+fn json<T: Serialize>(value: &T) -> Result<String, Error> {
+    let json = serde_json::to_string_pretty(value).map_err(|e| Error::failed(&e, ""))?;
     Ok(format!("{json}\n"))
 }
 

@@ -3,40 +3,40 @@
 use std::path::Path;
 
 use frisure::files::Files;
+use frisure::formats::groom::Format as GroomFormat;
 use frisure::formats::picture::Format;
 use frisure::hairstyle::head::Head;
-use frisure::look::InvalidLight;
 use frisure::progress::Progress;
-use frisure::render::trace::Tracer;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
+use frisure_engine::picture::{FrameSet, Subject};
+use frisure_engine::{Error, HeadCache, environment_map, input_files};
 
-use super::predict::{self, Turntable};
+use super::predict;
 use super::{read_groom, read_scene};
 use crate::args::{Axes, Predict, Quality, Render, Writing};
-use crate::exposing::{self, Shot};
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
+use crate::pictures::{self, Turntable, noise_filter};
 use crate::progress::Bar;
-use crate::{console, interrupt, outputs};
-use frisure_engine::{environment_map, picture};
+use crate::{console, interrupt};
 
-/// Predicts the scene, or reads the groom, and follows the light in it.
-pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
+/// Predicts the scene, or reads the groom, and traces its picture.
+pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
     let turntable = turntable(&arguments)?;
-    if is_groom(&arguments.scene) {
-        return groom(&arguments, turntable, quiet);
+    if GroomFormat::of(&arguments.scene).is_ok() {
+        return groom(arguments, turntable, quiet);
     }
     if let Some(look) = &arguments.look {
         let message = format!("`--look {}` is for grooms", look.display());
         let hint = "a scene has its own look; change it there";
-        return Err(Failure::wrong_because(message, hint));
+        return Err(Error::invalid(message, hint));
     }
     if arguments.axes.is_given() {
         let message = "`--unit` and `--up` are for grooms";
         let hint = "of a scene's files, `[head]` and `[groom]` say them";
-        return Err(Failure::wrong_because(message, hint));
+        return Err(Error::invalid(message, hint));
     }
-    let scene = seen(&arguments, read_scene(&arguments.scene)?);
+    let scene = with_view(&arguments, read_scene(&arguments.scene)?);
     let Render { scene: path, output, tracing, .. } = arguments;
     let arguments = Predict {
         scene: path,
@@ -52,22 +52,18 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<Done, Failure> {
     predict::run_scene(arguments, scene, turntable, quiet)
 }
 
-fn is_groom(path: &Path) -> bool {
-    frisure::formats::groom::Format::of(path).is_ok()
-}
-
-fn turntable(arguments: &Render) -> Result<Option<Turntable>, Failure> {
+fn turntable(arguments: &Render) -> Result<Option<Turntable>, Error> {
     let Some(frames) = arguments.turntable else { return Ok(None) };
-    let from = arguments.from;
-    if from >= frames {
-        let message = format!("frame {from} is none of a turntable of {frames}");
-        return Err(Failure::wrong_because(message, "frames are numbered from 0"));
+    let first = arguments.from;
+    if first >= frames {
+        let message = format!("frame {first} is none of a turntable of {frames}");
+        return Err(Error::invalid(message, "frames are numbered from 0"));
     }
-    Ok(Some(Turntable { frames, from }))
+    Ok(Some(Turntable { frames, first }))
 }
 
-/// The scene with the size and the camera that were asked for.
-fn seen(arguments: &Render, mut scene: Scene) -> Scene {
+/// The scene with the size and the camera of the arguments.
+fn with_view(arguments: &Render, mut scene: Scene) -> Scene {
     if let Some((width, height)) = arguments.size {
         (scene.output.width, scene.output.height) = (width, height);
     }
@@ -78,65 +74,69 @@ fn seen(arguments: &Render, mut scene: Scene) -> Scene {
 }
 
 /// The hairs of a groom, or its guides where it has no others.
-fn strands(path: &Path, axes: Axes) -> Result<Strands, Failure> {
+fn strands(path: &Path, axes: Axes) -> Result<Strands, Error> {
     let groom = read_groom(path, axes, "`--unit` and `--up` say what it has")?;
     Ok(if groom.hairs.is_empty() { groom.guides } else { groom.hairs })
 }
 
-fn groom(arguments: &Render, turntable: Option<Turntable>, quiet: bool) -> Result<Done, Failure> {
+fn groom(
+    arguments: Render,
+    turntable: Option<Turntable>,
+    quiet: bool,
+) -> Result<ExitStatus, Error> {
     let look = match &arguments.look {
         Some(path) => read_scene(path)?,
         None => Scene::parse("", "", Path::new(""))?,
     };
-    let scene = seen(arguments, look);
-    Format::of(&arguments.output).map_err(|e| Failure::wrong(&e, ""))?;
-    let options = arguments.tracing.options(&scene);
-    options.check().map_err(|e| Failure::wrong(&e, ""))?;
-    let names = exposing::names(&arguments.output, arguments.turntable);
-    let parts = exposing::parts(&arguments.output, arguments.turntable);
-    let names: Vec<&Path> = names.iter().chain(&parts).map(AsRef::as_ref).collect();
-    let mut inputs = predict::read_by(&scene);
-    inputs.extend(
-        [Some(&arguments.scene), arguments.look.as_ref()]
-            .into_iter()
-            .flatten()
-            .map(AsRef::<Path>::as_ref),
-    );
-    outputs::prepare(&names, &inputs)?;
-    exposing::check_parts(&parts)?;
-    let environment = environment_map(&scene, &Files::default())?;
-
-    let denoiser = exposing::denoiser(arguments.tracing.denoise)?;
+    let scene = with_view(&arguments, look);
+    Format::of(&arguments.output).map_err(|e| Error::because(&e, ""))?;
+    arguments.tracing.options(&scene).check().map_err(|e| Error::because(&e, ""))?;
+    let mut inputs = input_files(&scene);
+    inputs.push(&arguments.scene);
+    inputs.extend(arguments.look.as_deref());
+    pictures::prepare(&pictures::paths(&arguments.output, turntable), &[], &inputs)?;
+    let output = arguments.output.clone();
     let progress = Bar::new(quiet);
-    let (path, output, has_head) =
-        (arguments.scene.clone(), scene.output, arguments.look.is_some());
-    let (ready, axes) = (progress.clone(), arguments.axes);
-    let shot = interrupt::computing(move || {
-        ready.report("strands", 0.0);
-        let strands = strands(&path, axes)?;
-        let head = if has_head { Some(predict::head(&scene)?) } else { None };
-        let surface = head.as_deref().map(Head::surface);
-        let wrong = |e: InvalidLight| Failure::wrong(&e, "");
-        let (spec, aspect) = (picture::spec(&scene, environment.as_ref()), picture::aspect(&scene));
-        let drawn = spec.framed_scene(&strands, &strands, surface, aspect).map_err(wrong)?;
-        let named = |e| Failure::wrong_because(format!("`{}`: {e}", path.display()), "");
-        let tracer = Tracer::new(&drawn, &options).map_err(named)?;
-        let (views, from) = match turntable {
-            Some(Turntable { frames, from }) => {
-                let views = spec.turntable(&strands, surface, frames, aspect);
-                (views.map_err(wrong)?, from)
-            }
-            None => (Vec::new(), 0),
-        };
-        Ok(Shot { tracer, views, from, denoiser })
+    let worker = progress.clone();
+    let frames = interrupt::compute(move || {
+        worker.report("strands", 0.0);
+        groom_frames(&arguments, &scene, turntable)
     });
-    let exposed =
-        shot.and_then(|shot| exposing::shoot(shot, &arguments.output, &output, &progress));
+    let lines = frames.and_then(|frames| pictures::trace(frames, &output, turntable, &progress));
     progress.finish();
-    let exposed = exposed?;
+    let lines = lines?;
     if !quiet {
-        let lines: String = exposed.iter().map(|picture| format!("wrote {picture}\n")).collect();
-        console::print(&lines)?;
+        console::print(&lines.iter().map(|line| format!("wrote {line}\n")).collect::<String>())?;
     }
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
+}
+
+/// The pictures of a groom with the look of a scene; with the scene's head if the scene was given.
+fn groom_frames(
+    arguments: &Render,
+    scene: &Scene,
+    turntable: Option<Turntable>,
+) -> Result<FrameSet, Error> {
+    let (path, files) = (&arguments.scene, Files::default());
+    let environment = environment_map(scene, &files)?;
+    let filter = noise_filter(arguments.tracing.denoise)?;
+    let strands = strands(path, arguments.axes)?;
+    let head = arguments.look.as_ref().map(|_| HeadCache::default().load(scene, &files));
+    let head = head.transpose()?.map(|loaded| loaded.head);
+    let subject = Subject {
+        scene,
+        strands: &strands,
+        framed: &strands,
+        surface: head.as_deref().map(Head::surface),
+        environment: environment.as_ref(),
+    };
+    let turntable = turntable.map(|turntable| turntable.frames);
+    FrameSet::new(&subject, &arguments.tracing.options(scene), turntable, filter).map_err(|e| {
+        match e {
+            Error::Invalid { problem, hint } => {
+                Error::invalid(format!("`{}`: {problem}", path.display()), &hint)
+            }
+            e => e,
+        }
+    })
 }

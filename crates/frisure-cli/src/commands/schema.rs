@@ -1,12 +1,13 @@
 //! `frisure schema`: what a scene can say.
 
 use frisure::scene::schema;
+use frisure_engine::Error;
 
 use crate::console;
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
 
 /// Prints the JSON Schema of scenes.
-pub(crate) fn run() -> Result<Done, Failure> {
+pub(crate) fn run() -> Result<ExitStatus, Error> {
     console::print(&format!("{:#}\n", schema()))?;
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
 }

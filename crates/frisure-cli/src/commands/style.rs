@@ -9,24 +9,25 @@ use frisure::files::{self, WriteError};
 use frisure::hairstyle::styling::Operation;
 use frisure::scene::edit::{self, EditError};
 use frisure::scene::{parse_step, write_step};
+use frisure_engine::Error;
 
 use super::{parse_scene, read_text};
 use crate::args::Style;
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
 use crate::{console, interrupt};
 
 /// What steps on the command line are called in errors.
 const STEP: &str = "--step";
 
 /// Changes the steps of a scene as the arguments say, or lists them.
-pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
     let _turn = turn(&arguments.scene)?;
     let text = read_text(&arguments.scene)?;
     // What is wrong with the scene itself is said with its name and line.
     let scene = parse_scene(&arguments.scene, text.clone())?;
     if arguments.list {
         console::print(&list(scene.steps()))?;
-        return Ok(Done::Well);
+        return Ok(ExitStatus::Success);
     }
     let read = |step: &String| parse_step(STEP, step.as_str());
     let steps = arguments.steps.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -41,12 +42,12 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<Done, Failure> {
         let left = arguments.remove.map_or(0, |_| 1);
         console::print(&summary(output, scene.steps().len() + steps.len() - left))?;
     }
-    Ok(Done::Well)
+    Ok(ExitStatus::Success)
 }
 
 /// Waits until no other `frisure style` is at a scene of this folder, where folders can be locked:
 /// two at once would lose each other's steps.
-fn turn(scene: &Path) -> Result<Option<File>, Failure> {
+fn turn(scene: &Path) -> Result<Option<File>, Error> {
     let folder = scene.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = File::open(folder.unwrap_or(Path::new("."))).ok().filter(|_| !is_standard(scene));
     while let Some(Err(TryLockError::WouldBlock)) = folder.as_ref().map(File::try_lock) {
@@ -57,14 +58,14 @@ fn turn(scene: &Path) -> Result<Option<File>, Failure> {
 }
 
 /// Refuses to write over what is no file, or what somebody else has written meanwhile.
-fn untouched(path: &Path, before: &str) -> Result<(), Failure> {
+fn untouched(path: &Path, before: &str) -> Result<(), Error> {
     if !path.is_file() {
         let message = format!("`{}` cannot be written back: it is no file", path.display());
-        return Err(Failure::wrong_because(message, "write to another one with `-o`"));
+        return Err(Error::invalid(message, "write to another one with `-o`"));
     }
     if read_text(path)? != before {
         let message = format!("`{}` was changed by another program meanwhile", path.display());
-        return Err(Failure::wrong_because(message, "run the same command again"));
+        return Err(Error::invalid(message, "run the same command again"));
     }
     Ok(())
 }
@@ -78,7 +79,7 @@ fn edited(text: &str, arguments: &Style, steps: &[Operation]) -> Result<String, 
     }
 }
 
-fn refuse(error: EditError) -> Failure {
+fn refuse(error: EditError) -> Error {
     let hint = match &error {
         EditError::NoSuchStep { .. } => "`frisure style SCENE --list` numbers the steps",
         EditError::Scattered => "edit the scene by hand",
@@ -86,7 +87,7 @@ fn refuse(error: EditError) -> Failure {
     };
     match error {
         EditError::Scene(error) => error.into(),
-        error => Failure::wrong(&error, hint),
+        error => Error::because(&error, hint),
     }
 }
 
@@ -111,11 +112,11 @@ fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
+fn write(path: &Path, text: &str) -> Result<(), Error> {
     if is_standard(path) {
         return console::print(text);
     }
-    let failed = |e: WriteError| Failure::failed(&e);
+    let failed = |e: WriteError| Error::failed(&e, "");
     files::write_atomically(path, |out| out.write_all(text.as_bytes())).map_err(failed)
 }
 

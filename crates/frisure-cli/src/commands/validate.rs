@@ -6,19 +6,20 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use frisure_engine::Error;
 use frisure_evidence::report::{Book, in_the_way};
 use frisure_evidence::{EXPERIMENTS, Effort, Experiment, Finding, Progress, Stopped};
 
 use crate::args::Validate;
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
 use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
 
 /// Runs the experiments and writes the report, also where a verdict fails.
-pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<ExitStatus, Error> {
     if arguments.list {
         console::print(&list())?;
-        return Ok(Done::Well);
+        return Ok(ExitStatus::Success);
     }
     let Validate { experiments: names, full, output, .. } = arguments;
     let effort = if full { Effort::Full } else { Effort::Quick };
@@ -39,11 +40,11 @@ pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<Done, Failure> {
         // Minutes of work are not lost with the disk: the verdicts are told in any case.
         console::print(&summary(&book))?;
     }
-    let page = written.map_err(|e| Failure::failed(&e))?;
+    let page = written.map_err(|e| Error::failed(&e, ""))?;
     if !quiet {
         console::print(&format!("wrote {}\n", page.display()))?;
     }
-    Ok(if book.holds() { Done::Well } else { Done::NotHeld })
+    Ok(if book.holds() { ExitStatus::Success } else { ExitStatus::CriterionFailed })
 }
 
 /// The folders on the way to a folder that are not there, the deepest first.
@@ -53,10 +54,10 @@ fn missing(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Checks that the report can be written: the two files, and what already has the name of a picture.
-fn prepare(folder: &Path, chosen: &[&Experiment]) -> Result<(), Failure> {
+fn prepare(folder: &Path, chosen: &[&Experiment]) -> Result<(), Error> {
     if folder.exists() && !folder.is_dir() {
         let message = format!("`{}` is not a folder", folder.display());
-        return Err(Failure::wrong_because(message, "name a folder"));
+        return Err(Error::invalid(message, "name a folder"));
     }
     let mut files = vec![folder.join("index.html"), folder.join("report.md")];
     files.extend(in_the_way(folder, chosen));
@@ -68,14 +69,14 @@ fn compute(
     chosen: Vec<&'static Experiment>,
     effort: Effort,
     quiet: bool,
-) -> Result<Book<'static>, Failure> {
+) -> Result<Book<'static>, Error> {
     let progress = Bar::new(quiet);
     let teller = Teller {
         progress: progress.clone(),
         lines: !quiet && !std::io::stderr().is_terminal(),
         count: chosen.len(),
     };
-    let found = interrupt::computing(move || teller.all(&chosen, effort));
+    let found = interrupt::compute(move || teller.all(&chosen, effort));
     progress.finish();
     Ok(Book { effort, chapters: found? })
 }
@@ -112,7 +113,7 @@ impl Progress for ExperimentProgress<'_> {
 type Chapter = (&'static Experiment, Finding);
 
 impl Teller {
-    fn all(&self, chosen: &[&'static Experiment], effort: Effort) -> Result<Vec<Chapter>, Failure> {
+    fn all(&self, chosen: &[&'static Experiment], effort: Effort) -> Result<Vec<Chapter>, Error> {
         chosen.iter().enumerate().map(|(i, &e)| Ok((e, self.one(i + 1, e, effort)?))).collect()
     }
 
@@ -122,7 +123,7 @@ impl Teller {
         number: usize,
         experiment: &'static Experiment,
         effort: Effort,
-    ) -> Result<Finding, Failure> {
+    ) -> Result<Finding, Error> {
         interrupt::check()?;
         let name = experiment.name;
         let shown = format!("{number} of {} {name}", self.count);
@@ -130,13 +131,17 @@ impl Teller {
         progress.report(name, 0.0);
         let start = Instant::now();
         let finding = match (experiment.run)(effort, &progress) {
-            Err(Stopped::Cancelled(_)) => return Err(Failure::Interrupted),
+            Err(Stopped::Cancelled(cancelled)) => return Err(cancelled.into()),
             Err(error) => Finding::failed(&error),
             Ok(finding) => finding,
         };
         if self.lines {
             let seconds = start.elapsed().as_secs_f64();
-            console::tell(&format!("{}: {} ({seconds:.1} s)", progress.shown, finding.verdict()));
+            console::progress_line(&format!(
+                "{}: {} ({seconds:.1} s)",
+                progress.shown,
+                finding.verdict()
+            ));
         }
         Ok(finding)
     }

@@ -1,57 +1,46 @@
 //! `frisure predict`: a whole head of hair, from a scene to files.
 
-mod numbers;
-mod steps;
+mod files;
+mod summary;
 
-use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use frisure::files::Files;
 use frisure::formats::groom::Groom;
 use frisure::formats::{picture, report};
-use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
-    Adoption, Checkpoint, Hairstyle, HairstyleSpec, Simulation, StrandOptions, add_sections,
-    guide_strands, penetration, strands, volume,
+    Checkpoint, DrawnHair, StrandOptions, add_sections, guide_strands, penetration,
 };
 use frisure::look::EnvironmentMap;
 use frisure::progress::Progress;
-use frisure::render::preview::{self, PreviewError, PreviewOptions};
-use frisure::render::trace::Tracer;
-use frisure::render::{self, Image};
-use frisure::scene::{self, HeadSource, Scene};
+use frisure::render::Image;
+use frisure::render::preview::PreviewOptions;
+use frisure::scene::{Output, Scene};
 use frisure::strands::Strands;
-use frisure_engine::CheckpointFile;
-use frisure_engine::picture as seen;
-use frisure_engine::{
-    AdoptionReport, HeadCache, LoadedHead, environment_map, groom, initial_hairstyle,
-};
+use frisure_engine::checkpoint::HairCheckpoint;
+use frisure_engine::picture::{self as pictures, FrameSet, Subject};
+use frisure_engine::report::HairstyleReport;
+use frisure_engine::{Error, LoadedScene, Runner, StyledScene, environment_map};
 
 use super::read_scene;
 use crate::args::{Predict, Quality};
-use crate::exposing::{self, Shot};
-use crate::failure::{Done, Failure};
+use crate::diagnostics::ExitStatus;
+use crate::grooms::GroomWriter;
+use crate::pictures::{Turntable, noise_filter, trace};
 use crate::progress::Bar;
-use crate::written::Grooms;
-use crate::{console, interrupt, keeping, outputs};
+use crate::{console, hair_checkpoint, interrupt};
 
-use numbers::{Numbers, litres, numbers, summary};
-use steps::Styled;
+use files::StageFiles;
+use summary::summary;
+
+/// Points of each guide by which the camera of several pictures is placed; chosen.
+const FRAMED: usize = 24;
 
 /// Computes what the arguments ask for, and writes it.
-pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<Done, Failure> {
+pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<ExitStatus, Error> {
     let scene = read_scene(&arguments.scene)?;
     run_scene(arguments, scene, None, quiet)
-}
-
-/// Pictures from all around.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Turntable {
-    /// How many.
-    pub(crate) frames: usize,
-    /// The first that is drawn.
-    pub(crate) from: usize,
 }
 
 /// The same for a scene that was read already, with a turntable of its final picture, if wanted.
@@ -60,318 +49,236 @@ pub(crate) fn run_scene(
     scene: Scene,
     turntable: Option<Turntable>,
     quiet: bool,
-) -> Result<Done, Failure> {
+) -> Result<ExitStatus, Error> {
     let spec = scene.hairstyle_spec()?;
-    check_outputs(&arguments, &scene, &spec, turntable)?;
-
+    check_arguments(&arguments, &scene)?;
+    let stages = files::stages(&arguments, &scene, &spec);
+    files::prepare(&arguments, &scene, &stages, turntable)?;
     let environment = match arguments.image {
         Some(_) => environment_map(&scene, &Files::default())?,
         None => None,
     };
     let progress = Bar::new(quiet);
-    let work = Arc::new(Work { arguments, scene, turntable, environment, progress });
-    let result = all(&work, spec);
-    work.progress.finish();
-    let (numbers, written) = result?;
-
+    let scene = Arc::new(scene);
+    let prediction = Arc::new(Prediction { arguments, scene, turntable, environment, progress });
+    let result = write_all(&prediction, stages);
+    prediction.progress.finish();
+    let Written { report, note, lines } = result?;
     if !quiet {
-        console::print(&summary(&numbers, &written))?;
+        console::print(&summary(&report, note.as_deref(), &lines))?;
     }
-    let rested = numbers.guides.not_converged == 0;
-    Ok(if rested { Done::Well } else { Done::NotConverged })
+    let converged = report.guides.not_converged == 0;
+    Ok(if converged { ExitStatus::Success } else { ExitStatus::NotConverged })
 }
 
-/// Computes on a thread that can be left, and writes on this one, which always ends what it is at;
-/// gives the numbers of the last hairstyle, and what was written.
-fn all(work: &Arc<Work>, spec: HairstyleSpec) -> Result<(Numbers, Vec<String>), Failure> {
-    let mine = work.clone();
-    let hair = Arc::new(interrupt::computing(move || mine.hair(&spec))?);
-    let frames = hair.styled.hairstyles.len();
-    let mut written = Vec::new();
-    let mut last = None;
-    for frame in 0..frames {
-        let (mine, all) = (work.clone(), hair.clone());
-        let drawn = interrupt::computing(move || mine.draw(&all, frame)).map_err(|failure| {
-            let spec = hair.styled.hairstyles[frame].spec();
-            keeping::interrupted(failure, kept(&work.arguments, spec, frame, frames).as_deref())
-        });
-        let mut drawn = drawn?;
-        let kept = drawn.kept.take();
-        last = work.write(drawn, frame, frames, &mut written)?;
-        keeping::done(kept);
-    }
-    let mut numbers = last.expect("the last hairstyle has its numbers");
-    numbers.groom = hair.adoption.as_ref().map(AdoptionReport::of);
-    numbers.head_note.clone_from(&hair.note);
-    numbers.steps.clone_from(&hair.styled.steps);
-    if let Some(path) = &work.arguments.report {
-        interrupt::check()?;
-        report::write(path, &numbers).map_err(|e| Failure::failed(&e))?;
-        written.push(path.display().to_string());
-    }
-    Ok((numbers, written))
-}
-
-/// Everything that can be known to be wrong before the work.
-fn check_outputs(
-    arguments: &Predict,
-    scene: &Scene,
-    spec: &HairstyleSpec,
-    turntable: Option<Turntable>,
-) -> Result<(), Failure> {
-    Grooms::new(&arguments.outputs, arguments.writing)?;
+/// Checks what the files are asked to hold.
+fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
+    GroomWriter::new(&arguments.outputs, arguments.writing)?;
     if arguments.tracing.is_given() && arguments.quality == Quality::Preview {
         let message = "`--paths`, `--noise`, `--bounces` and `--denoise` are for final pictures";
-        return Err(Failure::wrong_because(message, "add `--quality final`"));
+        return Err(Error::invalid(message, "add `--quality final`"));
     }
     if let Some(path) = &arguments.image {
-        picture::Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
+        picture::Format::of(path).map_err(|e| Error::because(&e, ""))?;
         if arguments.quality == Quality::Final {
             let options = arguments.tracing.options(scene);
-            options.check().map_err(|e| Failure::wrong(&e, ""))?;
-            exposing::denoiser(arguments.tracing.denoise)?;
+            options.check().map_err(|e| Error::because(&e, ""))?;
+            noise_filter(arguments.tracing.denoise)?;
         }
     }
-    let frames = if arguments.each_step { steps::count(scene) } else { 1 };
-    let named = |path: &PathBuf| -> Vec<PathBuf> {
-        (0..frames).map(|frame| name_of(arguments, path, frame, frames).into_owned()).collect()
-    };
-    let mut all: Vec<PathBuf> =
-        arguments.outputs.iter().chain(&arguments.image).flat_map(named).collect();
-    if let (Some(path), Some(turntable)) = (&arguments.image, turntable) {
-        all = exposing::names(path, Some(turntable.frames));
-    }
-    all.extend(arguments.report.clone());
-    let pictures = arguments.image.iter().filter(|_| arguments.quality == Quality::Final);
-    let parts = pictures.flat_map(|path| match turntable {
-        Some(turntable) => exposing::parts(path, Some(turntable.frames)),
-        None => named(path).iter().map(|path| exposing::part(path)).collect(),
-    });
-    let parts: Vec<PathBuf> = parts.collect();
-    let mut inputs = read_by(scene);
-    inputs.push(&arguments.scene);
-    let all: Vec<&Path> = all.iter().chain(&parts).map(AsRef::as_ref).collect();
-    outputs::prepare(&all, &inputs)?;
-    exposing::check_parts(&parts)?;
-    let kept: Vec<PathBuf> =
-        (0..frames).filter_map(|frame| kept(arguments, spec, frame, frames)).collect();
-    keeping::check(&kept)
+    Ok(())
 }
 
-/// Where the simulated hairs of a frame are kept until it is written.
-fn kept(arguments: &Predict, spec: &HairstyleSpec, frame: usize, frames: usize) -> Option<PathBuf> {
-    let Predict { outputs, image, report, .. } = arguments;
-    let output = outputs.first().or(image.as_ref()).or(report.as_ref())?;
-    keeping::part(spec, &name_of(arguments, output, frame, frames))
-}
-
-/// The files that a scene reads, beside itself.
-pub(crate) fn read_by(scene: &Scene) -> Vec<&Path> {
-    let mut inputs: Vec<&Path> = Vec::new();
-    if let HeadSource::Mesh(file) = &scene.head {
-        inputs.push(&file.path);
-        match &file.scalp {
-            scene::ScalpSource::Mask(path) | scene::ScalpSource::Weights(path) => inputs.push(path),
-            scene::ScalpSource::Guess
-            | scene::ScalpSource::Group(_)
-            | scene::ScalpSource::Colour(_) => {}
-        }
-    }
-    inputs.extend(scene.groom.iter().map(|file| file.path.as_path()));
-    inputs.extend(scene.environment.iter().map(PathBuf::as_path));
-    inputs
-}
-
-/// Where an output of a frame goes.
-fn name_of<'a>(arguments: &Predict, path: &'a Path, frame: usize, frames: usize) -> Cow<'a, Path> {
-    match arguments.each_step {
-        true => Cow::Owned(exposing::numbered(path, frame, frames)),
-        false => Cow::Borrowed(path),
-    }
-}
-
-/// The work that is asked for.
-struct Work {
+/// A prediction with its arguments.
+struct Prediction {
     arguments: Predict,
-    scene: Scene,
+    scene: Arc<Scene>,
     turntable: Option<Turntable>,
-    /// What the scene's file of surroundings shows.
     environment: Option<EnvironmentMap>,
     progress: Bar,
 }
 
-/// All hairstyles that are asked for.
-struct Hair {
-    head: Arc<Head>,
-    /// What had to be guessed of the head.
-    note: Option<String>,
-    styled: Styled,
-    /// What is to be in every picture, if there are several.
-    shown: Option<Strands>,
-    /// How well the scene's groom was held.
-    adoption: Option<Adoption>,
+/// The hairstyles of a prediction.
+struct Hairstyles {
+    styled: StyledScene,
+    /// What every picture has to show, if there are several.
+    framed: Option<Strands>,
 }
 
-/// One of them, drawn.
+/// A hairstyle with its hairs.
 struct Drawn {
-    groom: Groom,
+    groom: Option<Groom>,
     picture: Option<Picture>,
-    /// Of the last.
-    numbers: Option<Numbers>,
-    /// Its hairs so far, until it is written.
-    kept: Option<CheckpointFile>,
+    /// Of the last hairstyle.
+    report: Option<HairstyleReport>,
+    /// The simulated hairs so far, until they are written.
+    checkpoint: Option<HairCheckpoint>,
 }
 
-/// A picture, or what it is made with.
 enum Picture {
     Preview(Image),
-    Final(Box<Shot>),
+    Final(Box<FrameSet>),
 }
 
-impl Work {
-    fn hair(&self, spec: &HairstyleSpec) -> Result<Hair, Failure> {
+/// What was written.
+struct Written {
+    /// Of the last hairstyle.
+    report: HairstyleReport,
+    note: Option<String>,
+    /// A line about each file.
+    lines: Vec<String>,
+}
+
+/// Computes on threads that can be left behind, and writes on this one, which always finishes the file at hand.
+fn write_all(prediction: &Arc<Prediction>, stages: Vec<StageFiles>) -> Result<Written, Error> {
+    let worker = prediction.clone();
+    let hairstyles = Arc::new(interrupt::compute(move || worker.hairstyles())?);
+    let mut lines = Vec::new();
+    let mut report = None;
+    for (stage, files) in stages.into_iter().enumerate() {
+        let (worker, hairstyles) = (prediction.clone(), hairstyles.clone());
+        let checkpoint = files.hair_checkpoint.clone();
+        let drawn =
+            interrupt::compute(move || worker.draw(&hairstyles, stage, checkpoint.as_deref()));
+        let drawn =
+            drawn.map_err(|e| hair_checkpoint::resumable(e, files.hair_checkpoint.as_deref()))?;
+        lines.extend(prediction.write(drawn.groom, drawn.picture, &files)?);
+        hair_checkpoint::remove(drawn.checkpoint);
+        report = drawn.report;
+    }
+    let report = report.expect("the last hairstyle has a report");
+    if let Some(path) = &prediction.arguments.report {
+        interrupt::check()?;
+        report::write(path, &report).map_err(|e| Error::failed(&e, ""))?;
+        lines.push(path.display().to_string());
+    }
+    let note = hairstyles.styled.stages[0].note.clone();
+    Ok(Written { report, note, lines })
+}
+
+impl Prediction {
+    fn hairstyles(&self) -> Result<Hairstyles, Error> {
         self.progress.report("head", 0.0);
-        let watch = &self.progress;
-        let files = Files::default();
-        let LoadedHead { head, note } = HeadCache::default().load(&self.scene, &files)?;
-        let (start, adoption) = initial_hairstyle(&self.scene, spec, &head, &files, watch)?;
-        let styled = steps::all(&self.scene, &head, start, self.arguments.each_step, watch)?;
-        let several = self.arguments.image.is_some() && styled.hairstyles.len() > 1;
-        let shown = several.then(|| swept(&styled.hairstyles));
-        Ok(Hair { head, note, styled, shown, adoption })
+        let all = self.arguments.each_step;
+        let styled = Runner::default().load_stages(&self.scene, all, &self.progress)?;
+        let several = self.arguments.image.is_some() && styled.stages.len() > 1;
+        let framed = several.then(|| all_guides(&styled.stages));
+        Ok(Hairstyles { styled, framed })
     }
 
-    fn draw(&self, hair: &Hair, frame: usize) -> Result<Drawn, Failure> {
-        let (hairstyle, head) = (&hair.styled.hairstyles[frame], &hair.head);
-        let mut keep = None;
-        let (mut strands, simulation) = match self.draws() {
-            true => {
-                let watch = &self.progress;
-                let frames = hair.styled.hairstyles.len();
-                let part = kept(&self.arguments, hairstyle.spec(), frame, frames);
-                keep = keeping::open(part, hairstyle, head, watch)?;
-                let checkpoint = keep.as_ref().map(|keep| keep as &dyn Checkpoint);
-                let options = StrandOptions { checkpoint, ..StrandOptions::default() };
-                let drawn = strands(hairstyle, head, options, watch);
-                let drawn = drawn.map_err(|_| Failure::Interrupted)?;
-                (drawn.strands, drawn.simulation)
+    fn draw(
+        &self,
+        hairstyles: &Hairstyles,
+        stage: usize,
+        checkpoint: Option<&Path>,
+    ) -> Result<Drawn, Error> {
+        let Hairstyles { styled: StyledScene { stages, steps }, framed } = hairstyles;
+        let (loaded, arguments) = (&stages[stage], &self.arguments);
+        let checkpoint = checkpoint.filter(|_| self.draws_hairs());
+        let checkpoint = hair_checkpoint::open(checkpoint, loaded, &self.progress)?;
+        let hairs = self.draws_hairs().then(|| self.hairs(loaded, checkpoint.as_ref()));
+        let hairs = hairs.transpose()?;
+        let picture = match (&arguments.image, &hairs) {
+            (Some(_), Some(hairs)) => {
+                let strands = &hairs.strands;
+                Some(self.picture(loaded, strands, framed.as_ref().unwrap_or(strands))?)
             }
-            false => Default::default(),
+            _ => None,
         };
-        if self.arguments.image.is_some() && self.arguments.quality == Quality::Final {
-            add_sections(&mut strands, hairstyle, head);
-        }
-        let shown = hair.shown.as_ref().unwrap_or(&strands);
-        let picture = self.arguments.image.as_ref().map(|_| self.picture(&strands, shown, head));
-        let picture = picture.transpose()?;
-        let is_last = frame + 1 == hair.styled.hairstyles.len();
-        let numbers = is_last.then(|| self.numbers(hairstyle, head, (&strands, simulation)));
-        let groom = match self.arguments.outputs.is_empty() {
-            true => Groom::of(strands),
-            false => groom(&self.scene, hairstyle, head, strands, self.arguments.fibres),
-        };
-        Ok(Drawn { groom, picture, numbers, kept: keep })
+        let report = (stage + 1 == stages.len()).then(|| {
+            let steps = steps.clone();
+            HairstyleReport { steps, ..self.report(loaded, hairs.as_ref()) }
+        });
+        let groom = hairs.filter(|_| !arguments.outputs.is_empty());
+        let groom = groom.map(|hairs| loaded.groom(hairs.strands, arguments.fibres));
+        Ok(Drawn { groom, picture, report, checkpoint })
     }
 
-    /// Whether hairs have to be drawn.
-    fn draws(&self) -> bool {
+    /// Whether hairs are needed between the guides.
+    fn draws_hairs(&self) -> bool {
         let Predict { outputs, image, report, .. } = &self.arguments;
         !outputs.is_empty() || image.is_some() || report.is_some()
     }
 
-    fn numbers(
+    fn hairs(
         &self,
-        hairstyle: &Hairstyle,
-        head: &Head,
-        (strands, simulation): (&Strands, Simulation),
-    ) -> Numbers {
-        let mut numbers = numbers(&self.scene, hairstyle, head, (strands, simulation));
-        numbers.volume = self.draws().then(|| litres(&volume(strands, head, hairstyle.grown())));
-        let measured = self.arguments.report.is_some();
-        numbers.hair_penetration = measured.then(|| penetration(strands, head));
-        numbers
-    }
-
-    /// A picture of strands, framed so that others would be in it, too.
-    fn picture(&self, strands: &Strands, shown: &Strands, head: &Head) -> Result<Picture, Failure> {
-        let (surface, aspect) = (Some(head.surface()), seen::aspect(&self.scene));
-        let spec = seen::spec(&self.scene, self.environment.as_ref());
-        let drawn = spec
-            .framed_scene(strands, shown, surface, aspect)
-            .map_err(|e| Failure::wrong(&e, ""))?;
-        if self.arguments.quality == Quality::Preview {
-            return self.preview(&drawn).map(Picture::Preview);
+        loaded: &LoadedScene,
+        checkpoint: Option<&HairCheckpoint>,
+    ) -> Result<DrawnHair, Error> {
+        let checkpoint = checkpoint.map(|checkpoint| checkpoint as &dyn Checkpoint);
+        let options = StrandOptions { checkpoint, ..StrandOptions::default() };
+        let mut hairs = loaded.draw(options, &self.progress)?;
+        if self.arguments.image.is_some() && self.arguments.quality == Quality::Final {
+            add_sections(&mut hairs.strands, &loaded.hairstyle, &loaded.head);
         }
-        self.progress.report("strands", 1.0);
-        let options = self.arguments.tracing.options(&self.scene);
-        let tracer = Tracer::new(&drawn, &options).map_err(|e| Failure::wrong(&e, ""))?;
-        let Turntable { frames, from } = self.turntable.unwrap_or(Turntable { frames: 0, from: 0 });
-        let views = match self.turntable {
-            Some(_) => spec
-                .turntable(strands, surface, frames, aspect)
-                .map_err(|e| Failure::wrong(&e, ""))?,
-            None => Vec::new(),
-        };
-        let denoiser = exposing::denoiser(self.arguments.tracing.denoise)?;
-        Ok(Picture::Final(Box::new(Shot { tracer, views, from, denoiser })))
+        Ok(hairs)
     }
 
-    fn preview(&self, drawn: &render::Scene<'_>) -> Result<Image, Failure> {
-        let scene::Output { width, height, samples, .. } = self.scene.output;
-        let options = PreviewOptions { width, height, samples, ..Default::default() };
-        preview::render(drawn, &options, &self.progress).map_err(|e| match e {
-            PreviewError::Cancelled => Failure::Interrupted,
-            PreviewError::Size { .. } => Failure::wrong(&e, ""),
-        })
+    fn report(&self, loaded: &LoadedScene, hairs: Option<&DrawnHair>) -> HairstyleReport {
+        let mut report = loaded.report(hairs);
+        if let (Some(_), Some(hairs)) = (&self.arguments.report, hairs) {
+            report.hair_penetration = Some(penetration(&hairs.strands, &loaded.head));
+        }
+        report
     }
 
-    /// Writes what is asked for of one hairstyle, and gives its numbers back.
+    /// The picture of strands, with a camera that has `framed` in it.
+    fn picture(
+        &self,
+        loaded: &LoadedScene,
+        strands: &Strands,
+        framed: &Strands,
+    ) -> Result<Picture, Error> {
+        let scene = &*self.scene;
+        let (surface, environment) = (Some(loaded.head.surface()), self.environment.as_ref());
+        let subject = Subject { scene, strands, framed, surface, environment };
+        if self.arguments.quality == Quality::Preview {
+            let Output { width, height, samples, .. } = scene.output;
+            let options = PreviewOptions { width, height, samples, ..PreviewOptions::default() };
+            return subject.preview(&options, &self.progress).map(Picture::Preview);
+        }
+        let tracing = &self.arguments.tracing;
+        let turntable = self.turntable.map(|turntable| turntable.frames);
+        let filter = noise_filter(tracing.denoise)?;
+        let frames = FrameSet::new(&subject, &tracing.options(scene), turntable, filter)?;
+        Ok(Picture::Final(Box::new(frames)))
+    }
+
+    /// Writes the files of one hairstyle; returns a line about each.
     fn write(
         &self,
-        drawn: Drawn,
-        frame: usize,
-        frames: usize,
-        written: &mut Vec<String>,
-    ) -> Result<Option<Numbers>, Failure> {
-        let Drawn { groom, picture, numbers, kept: _ } = drawn;
-        let name = |path: &PathBuf| name_of(&self.arguments, path, frame, frames).into_owned();
-        let paths: Vec<PathBuf> = self.arguments.outputs.iter().map(name).collect();
-        let grooms = Grooms::new(&paths, self.arguments.writing)?;
-        written.extend(grooms.write(groom, &paths)?);
-        let Some((path, picture)) = self.arguments.image.as_ref().zip(picture) else {
-            return Ok(numbers);
-        };
-        interrupt::check()?;
-        let (path, output) = (name_of(&self.arguments, path, frame, frames), &self.scene.output);
-        match picture {
-            Picture::Preview(image) => {
-                exposing::write(&path, &image, output).map_err(|e| Failure::failed(&e))?;
-                written.push(path.display().to_string());
-            }
-            Picture::Final(shot) => {
-                let all = exposing::shoot(*shot, &path, output, &self.progress)?;
-                written.extend(all.iter().map(ToString::to_string));
+        groom: Option<Groom>,
+        picture: Option<Picture>,
+        files: &StageFiles,
+    ) -> Result<Vec<String>, Error> {
+        let mut lines = Vec::new();
+        if let Some(groom) = groom {
+            let writer = GroomWriter::new(&files.grooms, self.arguments.writing)?;
+            lines.extend(writer.write(groom, &files.grooms)?);
+        }
+        if let (Some(path), Some(picture)) = (&files.image, picture) {
+            interrupt::check()?;
+            match picture {
+                Picture::Preview(image) => {
+                    pictures::write(path, &image, &self.scene.output)?;
+                    lines.push(path.display().to_string());
+                }
+                Picture::Final(frames) => {
+                    lines.extend(trace(*frames, path, self.turntable, &self.progress)?);
+                }
             }
         }
-        Ok(numbers)
+        Ok(lines)
     }
 }
 
-/// Points of each guide by which a film is framed.
-const FRAMED: usize = 24;
-
-/// The guides of all hairstyles of a film, so that all its pictures are taken from one place.
-fn swept(hairstyles: &[Hairstyle]) -> Strands {
+/// The guides of all hairstyles, so that all pictures have one camera.
+fn all_guides(stages: &[LoadedScene]) -> Strands {
     let mut all = Strands::new();
-    for hairstyle in hairstyles {
-        for guide in guide_strands(hairstyle, FRAMED).iter() {
+    for stage in stages {
+        for guide in guide_strands(&stage.hairstyle, FRAMED).iter() {
             all.push(guide.points, guide.radii);
         }
     }
     all
-}
-
-/// The head of a scene.
-pub(crate) fn head(scene: &Scene) -> Result<Arc<Head>, Failure> {
-    Ok(HeadCache::default().load(scene, &Files::default())?.head)
 }

@@ -1,10 +1,10 @@
-//! The picture that a scene asks for.
+//! What a scene says about its picture.
 
 use frisure::look::EnvironmentMap;
 use frisure::render::{Image, PictureSpec};
 use frisure::scene::{Output, Scene};
 
-/// How the picture of a scene is taken, with the scene's environment map ([`crate::environment_map`]).
+/// Camera, light and look of a scene, with the scene's environment map ([`crate::environment_map`]).
 #[must_use]
 pub fn spec<'a>(scene: &'a Scene, environment: Option<&'a EnvironmentMap>) -> PictureSpec<'a> {
     let Scene { camera, light, look, .. } = scene;

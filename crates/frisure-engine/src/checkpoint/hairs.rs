@@ -1,45 +1,87 @@
-//! A checkpoint file: parts of long work in a file that grows, so that interrupted work goes on.
+//! The checkpoint of simulated hairs: parts of them in a file that grows.
 //!
 //! `FRISKEPT`, the key of the work (u64), then records: the number of a part and its length (u32 each), its digest
 //! (16 bytes), and its bytes; all little-endian, in the order in which parts were done. Where a record is broken, as
 //! the last can be, the file ends.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use frisure::files::{ReadError, read_bytes};
-use frisure::hairstyle::Checkpoint;
+use frisure::hairstyle::{Checkpoint, HairModel, HairstyleSpec, simulation_key};
 use frisure_digest::checksum;
 
-/// What such a file begins with.
-const MARK: &[u8; 8] = b"FRISKEPT";
+use super::{first_bytes, foreign, with_suffix};
+use crate::error::Error;
+use crate::runner::LoadedScene;
 
-/// The mark and the key (bytes), and the head of a record.
+/// The first bytes of such a file.
+const MAGIC: &[u8; 8] = b"FRISKEPT";
+
+/// Size of the magic and the key (bytes).
 const HEADER: usize = 16;
+
+/// Size of a record before its bytes (bytes).
 const RECORD: usize = 24;
 
 /// Largest file that is read (bytes).
 const LARGEST: u64 = 64 << 30;
 
-/// The parts of one work that are done, in a file.
+/// Fewer hairs than this get no file: they take seconds. Chosen.
+const MANY: usize = 50_000;
+
+/// The simulated hairs of an output that have come to rest, in a file from which the same work resumes.
 #[derive(Debug)]
-pub struct CheckpointFile {
+pub struct HairCheckpoint {
     path: PathBuf,
     bytes: Vec<u8>,
-    /// Where in the bytes each part is that there was.
+    /// Where in the bytes each part is that was found.
     found: Vec<Option<(usize, usize)>>,
-    /// None: it could not be written to.
+    /// An error if a part could not be written.
     file: Mutex<Result<File, io::Error>>,
 }
 
-impl CheckpointFile {
-    /// Opens the file of the work with a key, or begins it. What is there of another work is given up.
+impl HairCheckpoint {
+    /// The file of an output, such as `curls.hair.hairs.part`; none for hairs that are interpolated, and for devices.
+    #[must_use]
+    pub fn path_for(output: &Path, spec: &HairstyleSpec) -> Option<PathBuf> {
+        let device = std::fs::metadata(output).is_ok_and(|found| !found.is_file());
+        let simulated = spec.wisps.strands == HairModel::Simulated;
+        (simulated && !device).then(|| with_suffix(output, ".hairs.part"))
+    }
+
+    /// Checks that a file is a checkpoint, as little of one as a crash leaves, or missing.
     ///
     /// # Errors
-    /// [`ReadError`], if there is a file that cannot be read.
-    pub fn open(path: &Path, key: u64) -> Result<Self, ReadError> {
+    /// [`Error::Invalid`].
+    pub fn check(path: &Path) -> Result<(), Error> {
+        match first_bytes(path) {
+            Ok(None) => Ok(()),
+            Ok(Some(bytes)) if MAGIC.starts_with(&bytes) => Ok(()),
+            _ => Err(foreign(
+                path,
+                "it keeps no hairs",
+                "simulated hairs so far are kept under that name; move the file away",
+            )),
+        }
+    }
+
+    /// Opens the checkpoint of the hairs of a scene; none if there are so few that they take seconds.
+    ///
+    /// # Errors
+    /// [`Error::Failed`], for a file that cannot be read.
+    pub fn open(path: &Path, loaded: &LoadedScene) -> Result<Option<Self>, Error> {
+        if loaded.hairstyle.drawn() < MANY {
+            return Ok(None);
+        }
+        let key = simulation_key(&loaded.hairstyle, &loaded.head);
+        key.map(|key| Self::with_key(path, key)).transpose().map_err(|e| Error::failed(&e, ""))
+    }
+
+    /// Opens the file of the work with a key, or begins it. A file of other work is overwritten.
+    fn with_key(path: &Path, key: u64) -> Result<Self, ReadError> {
         let mut bytes = match read_bytes(path, LARGEST, "a checkpoint of simulated hairs") {
             Err(ReadError::Missing { .. }) => Vec::new(),
             found => found?,
@@ -53,34 +95,24 @@ impl CheckpointFile {
         Ok(Self { path: path.into(), bytes, found, file: Mutex::new(file) })
     }
 
-    /// How many parts there were.
+    /// The number of parts that were found.
     #[must_use]
     pub fn found(&self) -> usize {
         self.found.iter().flatten().count()
     }
 
-    /// Takes the file away: the work is done.
+    /// Removes the file: the hairs are written.
     ///
     /// # Errors
-    /// What the system said, now or when a part could not be written.
+    /// The error of the system, now or when a part could not be written.
     pub fn remove(self) -> io::Result<()> {
         let file = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
         std::fs::remove_file(&self.path)?;
         file.map(drop)
     }
-
-    /// Whether a file is of this kind, or as little of one as a crash leaves, so that it may be written to.
-    ///
-    /// # Errors
-    /// What the system said.
-    pub fn is_one(path: &Path) -> io::Result<bool> {
-        let mut mark = Vec::new();
-        File::open(path)?.take(MARK.len() as u64).read_to_end(&mut mark)?;
-        Ok(MARK.starts_with(&mark))
-    }
 }
 
-impl Checkpoint for CheckpointFile {
+impl Checkpoint for HairCheckpoint {
     fn find(&self, part: usize) -> Option<&[u8]> {
         let (from, to) = (*self.found.get(part)?)?;
         self.bytes.get(from..to)
@@ -93,7 +125,7 @@ impl Checkpoint for CheckpointFile {
         record.extend(checksum(bytes));
         record.extend(bytes);
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        // After a record that is broken no other would be found.
+        // No record after a broken one would be found.
         if let Ok(open) = &mut *file
             && let Err(error) = open.write_all(&record)
         {
@@ -104,7 +136,7 @@ impl Checkpoint for CheckpointFile {
 
 fn header(key: u64) -> [u8; HEADER] {
     let mut header = [0; HEADER];
-    header[..8].copy_from_slice(MARK);
+    header[..8].copy_from_slice(MAGIC);
     header[8..].copy_from_slice(&key.to_le_bytes());
     header
 }
@@ -119,7 +151,7 @@ fn begin(path: &Path, key: u64, end: usize) -> io::Result<File> {
     Ok(file)
 }
 
-/// Where the parts are, and where what is whole ends.
+/// The range of each part, and the end of the last whole record.
 fn parts(bytes: &[u8]) -> (Vec<Option<(usize, usize)>>, usize) {
     let mut found = Vec::new();
     if bytes.is_empty() {
@@ -127,11 +159,11 @@ fn parts(bytes: &[u8]) -> (Vec<Option<(usize, usize)>>, usize) {
     }
     let mut end = HEADER;
     while let Some(head) = bytes[end..].first_chunk::<RECORD>() {
-        let (numbers, told) = head.split_at(8);
+        let (numbers, digest) = head.split_at(8);
         let (numbers, _) = numbers.as_chunks::<4>();
         let [part, length] = [0, 1].map(|i| u32::from_le_bytes(numbers[i]) as usize);
         let (from, to) = (end + RECORD, end + RECORD + length);
-        let whole = bytes.get(from..to).is_some_and(|bytes| checksum(bytes) == told);
+        let whole = bytes.get(from..to).is_some_and(|bytes| checksum(bytes) == digest);
         if !whole || part > bytes.len() {
             break;
         }
@@ -150,13 +182,13 @@ mod tests {
     fn what_is_whole_is_found_again() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("curls.hair.hairs.part");
-        let checkpoint = CheckpointFile::open(&path, 7).unwrap();
+        let checkpoint = HairCheckpoint::with_key(&path, 7).unwrap();
         assert_eq!(checkpoint.found(), 0);
         checkpoint.save(3, b"three");
         checkpoint.save(0, b"");
         drop(checkpoint);
         let whole = std::fs::read(&path).unwrap();
-        assert!(CheckpointFile::is_one(&path).unwrap());
+        HairCheckpoint::check(&path).unwrap();
         // A part that a crash left unfinished, and one that a disk changed.
         for spoilt in [[&whole[..], b"\x01\0\0\0\x09\0\0\0rest"].concat(), {
             let mut more = whole.clone();
@@ -165,7 +197,7 @@ mod tests {
             more
         }] {
             std::fs::write(&path, &spoilt).unwrap();
-            let checkpoint = CheckpointFile::open(&path, 7).unwrap();
+            let checkpoint = HairCheckpoint::with_key(&path, 7).unwrap();
             assert_eq!(
                 (checkpoint.find(3), checkpoint.find(0)),
                 (Some(&b"three"[..]), Some(&b""[..]))
@@ -179,13 +211,13 @@ mod tests {
         }
         for left in [0, 5, HEADER - 1] {
             std::fs::write(&path, &whole[..left]).unwrap();
-            assert!(CheckpointFile::is_one(&path).unwrap());
-            assert_eq!(CheckpointFile::open(&path, 7).unwrap().found(), 0);
+            HairCheckpoint::check(&path).unwrap();
+            assert_eq!(HairCheckpoint::with_key(&path, 7).unwrap().found(), 0);
         }
         std::fs::write(&path, b"letters").unwrap();
-        assert!(!CheckpointFile::is_one(&path).unwrap());
+        assert!(HairCheckpoint::check(&path).is_err());
         // Another work begins anew.
-        let other = CheckpointFile::open(&path, 8).unwrap();
+        let other = HairCheckpoint::with_key(&path, 8).unwrap();
         assert_eq!(other.found(), 0);
         other.remove().unwrap();
         assert!(!path.exists());

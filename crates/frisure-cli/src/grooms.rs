@@ -1,28 +1,28 @@
-//! Grooms that are written: what of them, with how many points, in which unit.
+//! Files of grooms: which strands, with how many points, in which unit.
 
 use std::path::PathBuf;
 
 use frisure::formats::groom::{Format, Groom, GroomError, write_groom};
 use frisure::strands::Strands;
+use frisure_engine::Error;
 
 use crate::args::{Content, Writing};
-use crate::failure::Failure;
 use crate::interrupt;
 
-/// How grooms are to be written.
-pub(crate) struct Grooms {
+/// Writes grooms as the arguments say.
+pub(crate) struct GroomWriter {
     writing: Writing,
 }
 
-impl Grooms {
-    /// Checks that every output can hold what is asked for.
-    pub(crate) fn new(outputs: &[PathBuf], writing: Writing) -> Result<Self, Failure> {
+impl GroomWriter {
+    /// A writer, if the format of every output can hold the content.
+    pub(crate) fn new(outputs: &[PathBuf], writing: Writing) -> Result<Self, Error> {
         for path in outputs {
-            let format = Format::of(path).map_err(|e| Failure::wrong(&e, hint_of(path)))?;
+            let format = Format::of(path).map_err(|e| Error::because(&e, hint_of(path)))?;
             if writing.content == Some(Content::Both) && !format.tells_guides() {
                 let what = "both guides and hairs: it does not tell them apart".into();
                 let error = GroomError::CannotHold { format: format.extension(), what };
-                return Err(Failure::wrong(
+                return Err(Error::because(
                     &error,
                     "write each with `--content` to a file of its own",
                 ));
@@ -31,8 +31,8 @@ impl Grooms {
         Ok(Self { writing })
     }
 
-    /// Writes a groom to each path; gives a line for each, for people.
-    pub(crate) fn write(&self, groom: Groom, paths: &[PathBuf]) -> Result<Vec<String>, Failure> {
+    /// Writes a groom to each path; returns a line about each.
+    pub(crate) fn write(&self, groom: Groom, paths: &[PathBuf]) -> Result<Vec<String>, Error> {
         let Writing { content, points, axes } = self.writing;
         let groom = chosen(groom, content);
         // Formats of the same number of points share what was resampled.
@@ -40,7 +40,7 @@ impl Grooms {
         let mut lines = Vec::new();
         for path in paths {
             interrupt::check()?;
-            let format = Format::of(path).map_err(|e| Failure::wrong(&e, ""))?;
+            let format = Format::of(path).map_err(|e| Error::because(&e, ""))?;
             let mut line = path.display().to_string();
             // What has as many points as its readers expect stays as it is.
             let strands = || groom.hairs.iter().chain(groom.guides.iter());
@@ -61,8 +61,8 @@ impl Grooms {
                 }
             };
             write_groom(path, shown, axes.choice()).map_err(|e| match e {
-                GroomError::CannotHold { .. } => Failure::wrong(&e, ""),
-                _ => Failure::failed(&e),
+                GroomError::CannotHold { .. } => Error::because(&e, ""),
+                _ => Error::failed(&e, ""),
             })?;
             lines.push(line);
         }

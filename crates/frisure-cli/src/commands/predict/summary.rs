@@ -1,0 +1,80 @@
+//! The summary of `frisure predict`.
+
+use std::fmt::Write;
+
+use frisure_engine::report::{HairstyleReport, SimulationReport, StepReport};
+
+/// The summary of a prediction; `note` is what was guessed of the head, and `written` has a line about each file.
+pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[String]) -> String {
+    let guides = &report.guides;
+    let name = if report.scene.is_empty() { report.hair_type } else { &report.scene };
+    let mut out = String::new();
+    // Writing to a String cannot fail.
+    if let Some(note) = note {
+        let _ = writeln!(out, "{note}");
+    }
+    let _ = write!(out, "{name}: {} of {} guides at rest", guides.stable, guides.count);
+    if guides.saddles > 0 {
+        let _ = write!(out, ", {} on a saddle", guides.saddles);
+    }
+    if guides.not_converged > 0 {
+        let _ = write!(out, ", {} not converged", guides.not_converged);
+    }
+    if written.is_empty() {
+        let hint = "add `-o hair.hair`, `--image hair.png` or `--report hair.json`";
+        let _ = writeln!(out, "\nnothing was written: {hint}");
+        return out;
+    }
+    let _ = write!(out, "; {} hairs of {} points in all", report.hairs, report.points);
+    if let Some(volume) = &report.volume {
+        let _ = write!(out, ", {:.1} litres of hair", volume.region * 1e3);
+    }
+    out.push('\n');
+    if let Some(SimulationReport { hairs, stable, .. }) = &report.simulated {
+        let _ = writeln!(out, "simulated: {stable} of {hairs} hairs at rest");
+    }
+    if let Some(groom) = &report.groom {
+        let _ = writeln!(out, "groom: {groom}");
+    }
+    for step in &report.steps {
+        out += &step_line(step);
+    }
+    for path in written {
+        let _ = writeln!(out, "wrote {path}");
+    }
+    out
+}
+
+/// A line about a step.
+fn step_line(step: &StepReport) -> String {
+    let StepReport { operation, wisps, changed, .. } = step;
+    let mut out = String::new();
+    // Writing to a String cannot fail.
+    let _ = match changed {
+        0 => write!(out, "{operation}: nothing changed"),
+        n if n < wisps => write!(out, "{operation}: {n} of {wisps} wisps"),
+        _ => write!(out, "{operation}: {wisps} wisps"),
+    };
+    if *operation == "cut" && *changed > 0 {
+        let _ = write!(out, ", {:.1} g fell", -step.mass_change * 1e3);
+    }
+    if let Some(cut) = step.cut.as_ref().filter(|_| *changed > 0) {
+        let _ = write!(
+            out,
+            "; tips {} the line, {} at the end",
+            beside(cut.above_when_cut),
+            beside(cut.above_at_the_end)
+        );
+    }
+    if let Some(short) = step.short.filter(|short| *short > 0) {
+        let _ = write!(out, ", {short} of which do not reach the clip");
+    }
+    out.push('\n');
+    out
+}
+
+/// A height above something, in words.
+fn beside(height: f64) -> String {
+    let side = if height < 0.0 { "below" } else { "above" };
+    format!("{:.1} cm {side}", height.abs() * 1e2)
+}

@@ -1,0 +1,42 @@
+//! A hairstyle in numbers.
+
+use frisure::hairstyle::head::Head;
+use frisure::hairstyle::{Hairstyle, SettlingReport, settling_report};
+
+/// Measures of a hairstyle and its guides; SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HairstyleMetrics {
+    /// How the guides came to rest.
+    pub settling: SettlingReport,
+    /// Number of hairs that grow on the head.
+    pub hairs: f64,
+    /// Mass of all hair that grows on the head, with the water in it (kg).
+    pub mass: f64,
+    /// Mean length along the guides (m).
+    pub length: f64,
+    /// Mean height of the tips of the guides (m).
+    pub tip_height: f64,
+    /// Mean height of roots over tips, each over the length of its guide: 1 hangs straight down.
+    pub drop: f64,
+}
+
+impl HairstyleMetrics {
+    /// Measures a hairstyle on its head.
+    #[must_use]
+    pub fn of(hairstyle: &Hairstyle, head: &Head) -> Self {
+        let count = hairstyle.guides().len();
+        let mean =
+            |of: &dyn Fn(usize) -> f64| (0..count).map(of).sum::<f64>() / count.max(1) as f64;
+        let length = |i: usize| hairstyle.guides()[i].rod.length();
+        let tip = |i: usize| hairstyle.equilibria()[i].tip().z;
+        let root = |i: usize| hairstyle.equilibria()[i].rod.root().position().z;
+        Self {
+            settling: settling_report(hairstyle, head),
+            hairs: hairstyle.grown(),
+            mass: hairstyle.mass(),
+            length: mean(&length),
+            tip_height: mean(&tip),
+            drop: mean(&|i| (root(i) - tip(i)) / length(i)),
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Final pictures: traced into files, with a checkpoint of each.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use frisure::files::WriteError;
+use frisure::look::{Camera, Lights};
+use frisure::progress::Progress;
+use frisure::render::trace::{Accumulator, TraceOptions, Tracer};
+use frisure::scene::Output;
+
+use super::accumulate::{Pauses, accumulate};
+use super::denoise::NoiseFilter;
+use super::file::write_traced;
+use super::subject::Subject;
+use crate::checkpoint::{PictureCheckpoint, ResumedPicture};
+use crate::error::Error;
+
+/// When the picture so far is saved: every minute, and for at most a twentieth of the time; chosen.
+const PAUSES: Pauses = Pauses { every: Duration::from_mins(1), spacing: 20 };
+
+/// The final pictures of a subject: one, or those from all around the head.
+pub struct FrameSet {
+    tracer: Tracer,
+    /// What differs between the frames of a turntable; empty for one picture.
+    views: Vec<(Camera, Lights)>,
+    output: Output,
+    filter: Option<NoiseFilter>,
+}
+
+/// A final picture on its way into a file.
+pub struct FinalPicture<'a> {
+    frames: &'a FrameSet,
+    path: PathBuf,
+    checkpoint: PictureCheckpoint,
+    accumulator: Accumulator,
+    resumed: f64,
+    moved_to: Option<PathBuf>,
+}
+
+/// How the tracing of a picture ends.
+#[derive(Debug)]
+pub enum TraceEnd {
+    /// The picture is written.
+    Finished,
+    /// The picture so far is written, and its samples are in the checkpoint, unless that failed.
+    Cancelled(Result<(), WriteError>),
+}
+
+impl FrameSet {
+    /// Prepares the picture from the scene's camera, or `turntable` pictures around the head.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`].
+    pub fn new(
+        subject: &Subject<'_>,
+        options: &TraceOptions,
+        turntable: Option<usize>,
+        filter: Option<NoiseFilter>,
+    ) -> Result<Self, Error> {
+        let tracer = subject.tracer(None, options)?;
+        let aspect = options.width as f64 / options.height as f64;
+        let views = turntable.map(|frames| subject.views(None, frames, aspect)).transpose()?;
+        let views = views.unwrap_or_default();
+        Ok(Self { tracer, views, output: subject.scene.output, filter })
+    }
+
+    /// The indices of the frames.
+    #[must_use]
+    pub fn indices(&self) -> Range<usize> {
+        0..self.views.len().max(1)
+    }
+
+    /// Begins the picture of a frame, or resumes it from its checkpoint.
+    ///
+    /// # Errors
+    /// [`Error`], for a frame with impossible light and for a checkpoint that cannot be read.
+    pub fn open(&mut self, frame: usize, path: &Path) -> Result<FinalPicture<'_>, Error> {
+        if let Some((camera, lights)) = self.views.get(frame) {
+            self.tracer.look_from(camera, lights).map_err(|e| Error::because(&e, ""))?;
+        }
+        let checkpoint = PictureCheckpoint::of(path);
+        let ResumedPicture { accumulator, moved_to } = checkpoint.resume(&self.tracer)?;
+        let accumulator = accumulator.unwrap_or_else(|| self.tracer.accumulator());
+        let resumed = accumulator.mean_samples();
+        Ok(FinalPicture {
+            frames: self,
+            path: path.into(),
+            checkpoint,
+            accumulator,
+            resumed,
+            moved_to,
+        })
+    }
+}
+
+impl FinalPicture<'_> {
+    /// Traces and writes the picture; saves picture and checkpoint on the way, and after a cancellation.
+    ///
+    /// # Errors
+    /// [`Error::Failed`], if the picture cannot be written.
+    pub fn trace(&mut self, progress: &dyn Progress) -> Result<TraceEnd, Error> {
+        let Self { frames, path, checkpoint, accumulator, .. } = self;
+        let mut saved = Ok(());
+        let end = accumulate(&frames.tracer, accumulator, PAUSES, progress, &mut |so_far, _| {
+            frames.write(path, so_far)?;
+            // A checkpoint that cannot be saved now may be at the next time.
+            saved = checkpoint.save(so_far);
+            Ok(())
+        });
+        match end {
+            Ok(()) => {
+                frames.write(path, accumulator)?;
+                checkpoint.remove();
+                Ok(TraceEnd::Finished)
+            }
+            Err(Error::Cancelled(_)) => Ok(TraceEnd::Cancelled(saved)),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The file of the picture.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The checkpoint.
+    #[must_use]
+    pub fn checkpoint(&self) -> &PictureCheckpoint {
+        &self.checkpoint
+    }
+
+    /// The new name of the checkpoint of another picture that was in the way.
+    #[must_use]
+    pub fn moved_to(&self) -> Option<&Path> {
+        self.moved_to.as_deref()
+    }
+
+    /// Mean number of paths per pixel.
+    #[must_use]
+    pub fn paths(&self) -> f64 {
+        self.accumulator.mean_samples()
+    }
+
+    /// Mean number of paths per pixel that were in the checkpoint.
+    #[must_use]
+    pub fn resumed_paths(&self) -> f64 {
+        self.resumed
+    }
+
+    /// Noise (standard error as a fraction of a display's scale); not finite for very few paths.
+    #[must_use]
+    pub fn noise(&self) -> f32 {
+        self.accumulator.noise()
+    }
+}
+
+impl FrameSet {
+    fn write(&self, path: &Path, accumulator: &Accumulator) -> Result<(), Error> {
+        let (image, layers) = (accumulator.image(), accumulator.layers());
+        let denoised = self.filter.map(|filter| filter.apply(&image, &layers)).transpose()?;
+        let images = (&image, denoised.as_ref());
+        write_traced(path, images, layers, accumulator.mean_samples(), &self.output)
+    }
+}

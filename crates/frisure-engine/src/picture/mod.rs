@@ -1,0 +1,24 @@
+//! Pictures of a scene: what is in them, how they are traced, and their files.
+
+mod accumulate;
+#[cfg(not(target_arch = "wasm32"))]
+mod denoise;
+#[cfg(not(target_arch = "wasm32"))]
+mod file;
+#[cfg(not(target_arch = "wasm32"))]
+mod frames;
+mod options;
+mod subject;
+mod turntable;
+
+#[cfg(not(target_arch = "wasm32"))]
+pub use denoise::NoiseFilter;
+#[cfg(not(target_arch = "wasm32"))]
+pub use file::write;
+#[cfg(not(target_arch = "wasm32"))]
+pub use frames::{FinalPicture, FrameSet, TraceEnd};
+pub use options::{aspect, developed, spec};
+pub use subject::{Subject, Viewpoint};
+
+pub(crate) use accumulate::{Pauses, accumulate};
+pub(crate) use turntable::{check_turntable, turntable};

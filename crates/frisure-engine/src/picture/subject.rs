@@ -1,0 +1,124 @@
+//! What is in a picture, and the scene of the renderers.
+
+use frisure::look::{Camera, EnvironmentMap, Lights};
+use frisure::progress::{Cancelled, Progress};
+use frisure::render::preview::{self, PreviewError, PreviewOptions};
+use frisure::render::trace::{TraceError, TraceOptions, Tracer};
+use frisure::render::{self, Image};
+use frisure::scene::Scene;
+use frisure::strands::{Strands, Surface};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::options::spec;
+use crate::error::Error;
+
+/// The camera of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Viewpoint {
+    /// Position of the camera (m).
+    pub eye: [f64; 3],
+    /// The point that it looks at (m).
+    pub target: [f64; 3],
+    /// Vertical field of view (rad).
+    pub field_of_view: f64,
+}
+
+/// What is in a picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// Camera, light and look.
+    pub scene: &'a Scene,
+    /// The hairs.
+    pub strands: &'a Strands,
+    /// The hairs that the camera is placed for, of which `strands` may be a part.
+    pub framed: &'a Strands,
+    /// The head.
+    pub surface: Option<&'a Surface>,
+    /// The scene's environment map ([`crate::environment_map`]).
+    pub environment: Option<&'a EnvironmentMap>,
+}
+
+impl<'a> Subject<'a> {
+    /// The tracer of the picture from a viewpoint; without one, from the scene's camera.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`].
+    pub fn tracer(
+        &self,
+        viewpoint: Option<Viewpoint>,
+        options: &TraceOptions,
+    ) -> Result<Tracer, Error> {
+        let aspect = options.width as f64 / options.height as f64;
+        let scene = self.render_scene(self.camera(viewpoint, aspect)?)?;
+        Tracer::new(&scene, options).map_err(|e| match e {
+            TraceError::Cancelled => Error::Cancelled(Cancelled),
+            e => Error::because(&e, ""),
+        })
+    }
+
+    /// The picture from the scene's camera in seconds, by projection.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] and [`Error::Invalid`].
+    pub fn preview(
+        &self,
+        options: &PreviewOptions,
+        progress: &dyn Progress,
+    ) -> Result<Image, Error> {
+        let aspect = options.width as f64 / options.height as f64;
+        project(&self.render_scene(self.camera(None, aspect)?)?, options, progress)
+    }
+
+    /// The cameras and lights of `frames` pictures around the head; the first is from the viewpoint, or from the direction of
+    /// the scene's camera. `aspect` is width over height.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`].
+    pub fn views(
+        &self,
+        viewpoint: Option<Viewpoint>,
+        frames: usize,
+        aspect: f64,
+    ) -> Result<Vec<(Camera, Lights)>, Error> {
+        let spec = spec(self.scene, self.environment);
+        let (strands, surface) = (self.strands, self.surface);
+        let views = match viewpoint {
+            Some(_) => {
+                let first = self.camera(viewpoint, aspect)?;
+                spec.turntable_from(first, strands, surface, frames)
+            }
+            None => spec.turntable(strands, surface, frames, aspect),
+        };
+        views.map_err(|e| Error::because(&e, ""))
+    }
+
+    /// The scene of the renderers from a camera.
+    pub(super) fn render_scene(&self, camera: Camera) -> Result<render::Scene<'a>, Error> {
+        let spec = spec(self.scene, self.environment);
+        let scene = spec.scene(camera, self.strands, self.framed, self.surface);
+        scene.map_err(|e| Error::because(&e, ""))
+    }
+
+    fn camera(&self, viewpoint: Option<Viewpoint>, aspect: f64) -> Result<Camera, Error> {
+        let Some(Viewpoint { eye, target, field_of_view }) = viewpoint else {
+            let spec = spec(self.scene, self.environment);
+            return Ok(spec.frame(self.framed, self.surface, aspect));
+        };
+        let [eye, target] = [eye, target].map(DVec3::from_array);
+        let camera = self.scene.camera.at(eye, target, field_of_view, aspect);
+        camera.map_err(|e| Error::because(&e, "look from somewhere else"))
+    }
+}
+
+/// Renders a scene by projection.
+pub(super) fn project(
+    scene: &render::Scene<'_>,
+    options: &PreviewOptions,
+    progress: &dyn Progress,
+) -> Result<Image, Error> {
+    preview::render(scene, options, progress).map_err(|e| match e {
+        PreviewError::Cancelled => Error::Cancelled(Cancelled),
+        e @ PreviewError::Size { .. } => Error::because(&e, ""),
+    })
+}

@@ -1,0 +1,224 @@
+//! The report of a hairstyle and its drawn hairs.
+
+use frisure::hairstyle::contact::Thickness;
+use frisure::hairstyle::{Body, DrawnHair, HairContact, Hairstyle, SettlingReport, Volume};
+use frisure::rod::Energy;
+use frisure::scene::Scene;
+use serde::Serialize;
+
+use super::{AdoptionReport, StepReport};
+use crate::metrics::HairstyleMetrics;
+
+/// A hairstyle and its drawn hairs in numbers; SI units. No time and no machine: the same scene gives the same bytes.
+#[derive(Clone, Debug, Serialize)]
+pub struct HairstyleReport {
+    /// Name of the scene; may be empty.
+    pub scene: String,
+    /// Name of the hair type.
+    pub hair_type: &'static str,
+    /// Seed of all randomness.
+    pub seed: u64,
+    /// How the guides came to rest.
+    pub guides: GuideReport,
+    /// How well the scene's groom keeps its shape; none without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub groom: Option<AdoptionReport>,
+    /// The models of contact.
+    pub contact: ContactReport,
+    /// Means over wisps, half-way along.
+    pub thickness: ThicknessReport,
+    /// Energies of all guides.
+    pub energy: EnergyReport,
+    /// Number of drawn hairs.
+    pub hairs: usize,
+    /// Points of the drawn hairs.
+    pub points: usize,
+    /// How the drawn hairs came to rest; none if they are interpolated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulated: Option<SimulationReport>,
+    /// Deepest that a drawn hair is inside the head (m), if it was measured.
+    pub hair_penetration: Option<f64>,
+    /// Space that the drawn hairs take, if it was measured.
+    pub volume: Option<VolumeReport>,
+    /// Smallest and largest corner of the box around the hair (m); none without hairs.
+    pub bounds: Option<[[f32; 3]; 2]>,
+    /// Mass of all hair that grows on the head, with the water in it (kg).
+    pub mass: f64,
+    /// The steps in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub steps: Vec<StepReport>,
+}
+
+/// How guides came to rest.
+#[derive(Clone, Debug, Serialize)]
+pub struct GuideReport {
+    /// Number of guides.
+    pub count: usize,
+    /// Those at a minimum of their energy.
+    pub stable: usize,
+    /// Those at a saddle of their energy.
+    pub saddles: usize,
+    /// Those that did not converge.
+    pub not_converged: usize,
+    /// Elements of all guides.
+    pub elements: usize,
+    /// Iterations of the minimiser of all guides.
+    pub iterations: usize,
+    /// Sweeps over all guides in which wisps made way for each other.
+    pub sweeps: usize,
+    /// Largest relative gradient.
+    pub gradient_norm: f64,
+    /// The relative gradient at which guides in contact count as converged.
+    pub tolerance: f64,
+    /// Deepest that a guide is inside the head (m).
+    pub penetration: f64,
+}
+
+/// The models of contact, as scenes name them.
+#[derive(Clone, Debug, Serialize)]
+pub struct ContactReport {
+    /// Hair against the body.
+    pub body: &'static str,
+    /// Hair against hair.
+    pub hair: &'static str,
+}
+
+/// The cross section of wisps.
+#[derive(Clone, Debug, Serialize)]
+pub struct ThicknessReport {
+    /// Packed radius (m).
+    pub radius: f64,
+    /// Fraction of a wisp that is hair.
+    pub packing: f64,
+}
+
+/// Energies (J).
+#[derive(Clone, Debug, Serialize)]
+pub struct EnergyReport {
+    /// Elastic energy.
+    pub elastic: f64,
+    /// Energy of gravity.
+    pub gravity: f64,
+    /// Energy of contact.
+    pub contact: f64,
+    /// Their sum.
+    pub total: f64,
+}
+
+/// How simulated hairs came to rest.
+#[derive(Clone, Debug, Serialize)]
+pub struct SimulationReport {
+    /// Number of hairs.
+    pub hairs: usize,
+    /// Those at a minimum of their energy.
+    pub stable: usize,
+    /// Elements of all hairs.
+    pub elements: usize,
+    /// Iterations of the minimiser of all hairs.
+    pub iterations: usize,
+}
+
+/// Space that drawn hairs take.
+#[derive(Clone, Debug, Serialize)]
+pub struct VolumeReport {
+    /// The region that they occupy, air between hairs included (m³).
+    pub region: f64,
+    /// The hairs themselves, for as many as grow (m³).
+    pub hair: f64,
+    /// Side of the cells over which hair was averaged (m).
+    pub cell: f64,
+}
+
+impl HairstyleReport {
+    /// The report of a hairstyle without its drawn hairs.
+    pub(crate) fn new(scene: &Scene, hairstyle: &Hairstyle, metrics: &HairstyleMetrics) -> Self {
+        let spec = hairstyle.spec();
+        Self {
+            scene: scene.name.clone(),
+            hair_type: scene.hair_type,
+            seed: spec.seed,
+            guides: GuideReport::new(&metrics.settling, spec.equilibrium.tolerance),
+            groom: None,
+            contact: ContactReport { body: body(spec.contact.body), hair: hair(spec.contact.hair) },
+            thickness: thickness(hairstyle),
+            energy: EnergyReport::from(metrics.settling.energy),
+            hairs: 0,
+            points: 0,
+            simulated: None,
+            hair_penetration: None,
+            volume: None,
+            bounds: None,
+            mass: metrics.mass,
+            steps: Vec::new(),
+        }
+    }
+
+    /// Adds the drawn hairs and the space that they take.
+    pub(crate) fn add_hairs(&mut self, drawn: &DrawnHair, volume: &Volume) {
+        let DrawnHair { strands, simulation } = drawn;
+        self.hairs = strands.len();
+        self.points = strands.points().len();
+        self.simulated = (simulation.hairs > 0).then_some(SimulationReport {
+            hairs: simulation.hairs,
+            stable: simulation.at_rest,
+            elements: simulation.elements,
+            iterations: simulation.iterations,
+        });
+        let Volume { region, hair, cell } = *volume;
+        self.volume = Some(VolumeReport { region, hair, cell });
+        self.bounds = strands.bounds().map(|(low, high)| [low.to_array(), high.to_array()]);
+    }
+}
+
+impl GuideReport {
+    fn new(settling: &SettlingReport, tolerance: f64) -> Self {
+        Self {
+            count: settling.guides,
+            stable: settling.stable,
+            saddles: settling.saddles,
+            not_converged: settling.not_converged,
+            elements: settling.elements,
+            iterations: settling.iterations,
+            sweeps: settling.sweeps,
+            gradient_norm: settling.gradient_norm,
+            tolerance,
+            penetration: settling.penetration,
+        }
+    }
+}
+
+impl From<Energy> for EnergyReport {
+    fn from(energy: Energy) -> Self {
+        Self {
+            elastic: energy.elastic,
+            gravity: energy.gravity,
+            contact: energy.external,
+            total: energy.total(),
+        }
+    }
+}
+
+fn body(body: Body) -> &'static str {
+    match body {
+        Body::None => "none",
+        Body::Spheres => "spheres",
+        Body::SignedDistance => "signed-distance",
+    }
+}
+
+fn hair(hair: HairContact) -> &'static str {
+    match hair {
+        HairContact::None => "none",
+        HairContact::Layers => "layers",
+        HairContact::Wisps => "wisps",
+    }
+}
+
+fn thickness(hairstyle: &Hairstyle) -> ThicknessReport {
+    let guides = hairstyle.guides();
+    let mean = |of: fn(&Thickness, f64) -> f64| {
+        let sum: f64 = guides.iter().map(|g| of(&g.thickness, 0.5 * g.rod.length())).sum();
+        sum / guides.len().max(1) as f64
+    };
+    ThicknessReport { radius: mean(Thickness::packed), packing: mean(Thickness::packing) }
+}

@@ -1,0 +1,168 @@
+//! The runner: loads the head of a scene, computes its hairstyle and draws its hairs, and caches all three.
+
+use std::sync::Arc;
+
+use frisure::files::Files;
+use frisure::formats::groom::Groom;
+use frisure::hairstyle::head::Head;
+use frisure::hairstyle::{DrawnHair, Hairstyle, StrandOptions, strands, volume};
+use frisure::progress::Progress;
+use frisure::scene::Scene;
+use frisure::strands::Strands;
+
+use crate::error::Error;
+use crate::groom::groom;
+use crate::hairstyles::{HairstyleCache, Input};
+use crate::heads::{HeadCache, LoadedHead};
+use crate::metrics::HairstyleMetrics;
+use crate::quality::{Quality, points};
+use crate::report::{AdoptionReport, HairstyleReport};
+use crate::strand_cache::StrandCache;
+
+/// Most points of a groom in a browser, where there are 4 GiB of memory in all.
+const MOST_POINTS_OF_A_PAGE: usize = 32_000_000;
+
+/// Computes what scenes describe, one scene after the other; each computes only what differs from those before.
+///
+/// A hairstyle of [`Quality::Exact`] depends on the scene alone, to the last bit: it is the result of
+/// [`frisure::hairstyle::predict`] and of each step after it. A hairstyle of [`Quality::Coarse`] is an approximation that
+/// continues from the last one.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use frisure::scene::Scene;
+/// use frisure_engine::{Quality, Runner};
+///
+/// let text = "[hair]\nlength = '3 cm'\n[wisps]\ncount = 3\nhairs = 30\n[[step]]\nwet = {}\n";
+/// let scene = Arc::new(Scene::parse("short", text, "".as_ref())?);
+/// let mut runner = Runner::default();
+/// let dry = runner.load(&scene, 0, Quality::Exact, &())?;
+/// let wet = runner.load(&scene, 1, Quality::Exact, &())?;
+/// assert!(wet.metrics().mass > dry.metrics().mass);
+/// # Ok::<(), frisure_engine::Error>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct Runner {
+    files: Files,
+    heads: Arc<HeadCache>,
+    hairstyles: HairstyleCache,
+    strands: StrandCache,
+}
+
+/// A scene with its head and its hairstyle.
+#[derive(Clone, Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// Its head.
+    pub head: Arc<Head>,
+    /// What was guessed of the head, for a person.
+    pub note: Option<String>,
+    /// Its hairstyle.
+    pub hairstyle: Arc<Hairstyle>,
+    /// How well the groom of another program keeps its shape; none for hair that was predicted.
+    pub adoption: Option<AdoptionReport>,
+}
+
+impl Runner {
+    /// A runner that shares a cache of heads with others.
+    #[must_use]
+    pub fn new(heads: Arc<HeadCache>) -> Self {
+        Self { heads, ..Self::default() }
+    }
+
+    /// The files that were provided, and those of the file system.
+    #[must_use]
+    pub fn files(&self) -> &Files {
+        &self.files
+    }
+
+    /// Provides a file that scenes name, where there is no file system: by its path, or by its name alone.
+    pub fn provide_file(&mut self, path: &str, bytes: &[u8]) {
+        self.files.provide(path, bytes);
+    }
+
+    /// Empties the caches; files that were provided stay.
+    pub fn clear(&mut self) {
+        *self = Self { files: std::mem::take(&mut self.files), ..Self::default() };
+    }
+
+    /// Loads a scene with the hairstyle after `done` of its steps; at most all.
+    ///
+    /// # Errors
+    /// [`Error`], at the key of the scene that has to change. The caches are still valid.
+    pub fn load(
+        &mut self,
+        scene: &Arc<Scene>,
+        done: usize,
+        quality: Quality,
+        progress: &dyn Progress,
+    ) -> Result<LoadedScene, Error> {
+        let spec = scene.hairstyle_spec()?;
+        let LoadedHead { head, note } = self.heads.load(scene, &self.files)?;
+        let input = Input { scene, spec, head: &head, done, files: &self.files };
+        let hairstyle = match quality {
+            Quality::Coarse => self.hairstyles.coarse(&input, progress)?,
+            Quality::Exact => self.hairstyles.exact(&input, progress)?,
+        };
+        let adoption = self.hairstyles.adoption(&input);
+        Ok(LoadedScene { scene: scene.clone(), head, note, hairstyle, adoption })
+    }
+
+    /// Every `stride`-th hair of a scene; the last strands are cached.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`], and [`Error::Invalid`] for more points than a browser has memory for.
+    pub fn strands(
+        &mut self,
+        loaded: &LoadedScene,
+        stride: usize,
+        progress: &dyn Progress,
+    ) -> Result<Arc<Strands>, Error> {
+        let points = points(&loaded.hairstyle);
+        if cfg!(target_arch = "wasm32") && stride == 1 && points > MOST_POINTS_OF_A_PAGE {
+            let problem = format!("{points} points of hair are more than a page has memory for");
+            return Err(Error::invalid(problem, "lower `wisps.density` or `wisps.points`"));
+        }
+        Ok(self.strands.strands(&loaded.hairstyle, &loaded.head, stride, progress)?)
+    }
+}
+
+impl LoadedScene {
+    /// Draws the hairs.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn draw(
+        &self,
+        options: StrandOptions<'_>,
+        progress: &dyn Progress,
+    ) -> Result<DrawnHair, Error> {
+        Ok(strands(&self.hairstyle, &self.head, options, progress)?)
+    }
+
+    /// A groom of `hairs`, which are all drawn hairs, with guides, head and colour. With `fibres`, each hair has the
+    /// directors and natural strains of its fibre too, as guides always have.
+    #[must_use]
+    pub fn groom(&self, hairs: Strands, fibres: bool) -> Groom {
+        groom(&self.scene, &self.hairstyle, &self.head, hairs, fibres)
+    }
+
+    /// Measures the hairstyle.
+    #[must_use]
+    pub fn metrics(&self) -> HairstyleMetrics {
+        HairstyleMetrics::of(&self.hairstyle, &self.head)
+    }
+
+    /// The report of the hairstyle, and of its drawn hairs if there are some.
+    #[must_use]
+    pub fn report(&self, drawn: Option<&DrawnHair>) -> HairstyleReport {
+        let mut report = HairstyleReport::new(&self.scene, &self.hairstyle, &self.metrics());
+        report.groom.clone_from(&self.adoption);
+        if let Some(drawn) = drawn {
+            report.add_hairs(drawn, &volume(&drawn.strands, &self.head, self.hairstyle.grown()));
+        }
+        report
+    }
+}
