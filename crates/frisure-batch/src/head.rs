@@ -12,21 +12,21 @@ use frisure_engine::{
     Error, HairstyleMetrics, HeadCache, LoadedScene, Quality, Runner, catch_panic,
 };
 
-/// Hairs that are drawn at most to measure the space that all take.
+/// Most hairs that are drawn to measure the space of all; chosen.
 const HAIRS: usize = 10_000;
 
 /// A head of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Its number in the batch.
+    /// Its index in the batch.
     pub index: usize,
-    /// What drives the randomness of its scene.
+    /// The seed of its scene.
     pub seed: u64,
-    /// What it has of each of [`Batch::parameters`]; SI units.
+    /// The value of each of [`Batch::parameters`]; SI units.
     pub values: Vec<Value>,
     /// The text of its scene, if there is one.
     pub scene: Option<String>,
-    /// What was computed, or why nothing was.
+    /// Its measures, or the message of an error.
     pub outcome: Result<Measured, String>,
 }
 

@@ -1,10 +1,9 @@
-//! Batches: tens of thousands of heads as data.
+//! Computes batches of heads and writes them as Parquet.
 //!
 //! A [`Batch`] says what varies; a [`Run`] computes one [`Shard`] of it into a folder, part by part. A part
-//! is a Parquet file of neighbouring heads. It is written aside and renamed, so that it is whole or not
-//! there; a run leaves what is there already, and so goes on where another was killed. Which heads are in a
-//! part, and every byte of it, follow from the batch alone, whatever the shards and threads. A head that
-//! cannot be is a row that says why.
+//! is a Parquet file of neighbouring heads, written atomically. A run skips the parts that exist, and so resumes a run that
+//! was killed. The bytes of a part follow from the batch alone, on any number of shards and threads. A head that fails is a
+//! row with the message of the error.
 //!
 //! ```
 //! use frisure_batch::{Batch, Run, Shard};

@@ -1,20 +1,20 @@
-//! Parts: the files of a batch.
+//! Parts: the files of a batch, each with neighbouring heads.
 
 use std::ops::Range;
 
 /// Neighbouring heads in one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Its number, from 0.
+    /// Index of the part.
     pub number: usize,
-    /// The first head.
+    /// Index of the first head.
     pub first: usize,
-    /// How many heads.
+    /// Number of heads.
     pub heads: usize,
 }
 
 impl Part {
-    /// All parts of so many heads, `rows` in each but the last.
+    /// All parts of `heads` heads, with `rows` in each but the last.
     pub(crate) fn all(heads: usize, rows: usize) -> impl Iterator<Item = Self> {
         (0..heads.div_ceil(rows)).map(move |number| {
             let first = number * rows;
@@ -22,19 +22,19 @@ impl Part {
         })
     }
 
-    /// Its heads.
+    /// The indices of its heads.
     #[must_use]
     pub fn range(self) -> Range<usize> {
         self.first..self.first + self.heads
     }
 
-    /// The name of its file: `part-000000120.parquet` begins with head 120.
+    /// The name of its file, such as `part-000000120.parquet` for the part that begins with head 120.
     #[must_use]
     pub fn name(self) -> String {
         format!("part-{:09}.parquet", self.first)
     }
 
-    /// The first head of the part that a file's name is of.
+    /// The first head of the part with a file name; none for other names.
     pub(crate) fn first_of(name: &str) -> Option<usize> {
         let digits = name.strip_prefix("part-")?.strip_suffix(".parquet")?;
         digits.bytes().all(|b| b.is_ascii_digit()).then(|| digits.parse().ok())?

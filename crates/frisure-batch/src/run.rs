@@ -1,4 +1,4 @@
-//! The work on a shard.
+//! The run of one shard into a folder.
 
 use std::fs;
 use std::io;
@@ -13,22 +13,22 @@ use frisure_engine::{Error, HeadCache};
 use rayon::prelude::*;
 
 use crate::head::{self, Row};
-use crate::parquet::{self, Found};
+use crate::parquet::{self, PartMetadata};
 use crate::{Part, Shard};
 
-/// Why a run cannot be, or did not end.
+/// Why a run fails.
 #[derive(Debug, thiserror::Error)]
 pub enum BatchError {
-    /// The progress said to stop; parts that were written stay.
+    /// [`Progress::is_cancelled`] returned true; parts that were written stay.
     #[error("cancelled")]
     Cancelled,
-    /// The folder has parts of something else.
+    /// The folder has parts of another batch.
     #[error("`{}` belongs to another batch", path.display())]
     Other {
         /// The part.
         path: PathBuf,
     },
-    /// A file has the name of a part and is none.
+    /// A file with the name of a part is no part.
     #[error("`{}` is no part of a batch: {problem}", path.display())]
     NoPart {
         /// The file.
@@ -36,34 +36,34 @@ pub enum BatchError {
         /// What is wrong.
         problem: String,
     },
-    /// The folder has heads that the batch has not.
+    /// The folder has heads that are not in the batch.
     #[error("`{}` begins with head {first}; the batch has {heads}", path.display())]
     Beyond {
         /// The part.
         path: PathBuf,
         /// Its first head.
         first: usize,
-        /// How many heads there are.
+        /// Number of heads of the batch.
         heads: usize,
     },
-    /// The folder cannot be read or made.
+    /// The folder cannot be read or created.
     #[error("cannot use the folder `{}`", path.display())]
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// A part cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A part cannot be made.
+    /// A part cannot be encoded.
     #[error("heads cannot be encoded: {0}")]
     Encode(String),
 }
 
 impl BatchError {
-    /// What a person may try; empty if the message says it.
+    /// What to do; may be empty.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
@@ -92,18 +92,18 @@ impl From<BatchError> for Error {
     }
 }
 
-/// What a run has done.
+/// Counts of a finished run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Done {
     /// Heads of the shard.
     pub heads: usize,
-    /// Those that were there already.
+    /// Those that earlier runs wrote.
     pub before: usize,
-    /// Of those that were computed now, how many could not be.
+    /// Those of this run that failed.
     pub failed: usize,
 }
 
-/// One shard of a batch, on its way into a folder.
+/// Computes one shard of a batch into a folder.
 #[derive(Debug)]
 pub struct Run {
     batch: Batch,
@@ -113,10 +113,10 @@ pub struct Run {
 }
 
 impl Run {
-    /// A run into a folder, which is made if it is not there. Nothing in it is touched.
+    /// A run into a folder, which is created if it is missing. Files in it stay.
     ///
     /// # Errors
-    /// [`BatchError`], if the folder cannot be used, or holds something else.
+    /// [`BatchError`], if the folder cannot be used or has other content.
     pub fn new(batch: Batch, folder: &Path, shard: Shard) -> Result<Self, BatchError> {
         let fail = |source| BatchError::Folder { path: folder.into(), source };
         fs::create_dir_all(folder).map_err(fail)?;
@@ -130,7 +130,7 @@ impl Run {
                 let heads = run.batch.heads();
                 return Err(BatchError::Beyond { path: entry.path(), first, heads });
             }
-            // The order of a folder is no order.
+            // Folders list their files in any order.
             if known.as_ref().is_none_or(|(least, _)| first < *least) {
                 known = Some((first, entry.path()));
             }
@@ -157,21 +157,21 @@ impl Run {
         all.filter(move |part| shard.has(part.number))
     }
 
-    /// Where a part is, or will be.
+    /// The path of a part.
     #[must_use]
     pub fn path(&self, part: Part) -> PathBuf {
         self.folder.join(part.name())
     }
 
-    /// The parts of the shard that are not there yet.
+    /// The parts of the shard that are missing.
     ///
     /// # Errors
-    /// [`BatchError`], if one that is there is of something else.
+    /// [`BatchError`], if one of the others is of another batch.
     pub fn missing(&self) -> Result<Vec<Part>, BatchError> {
         let mut missing = Vec::new();
         for part in self.parts() {
             let path = self.path(part);
-            // The last part of a batch that was shorter once has too few.
+            // The last part of an earlier, shorter batch has too few heads.
             if !path.exists() || self.check(&path)? != part.heads {
                 missing.push(part);
             }
@@ -179,11 +179,11 @@ impl Run {
         Ok(missing)
     }
 
-    /// How many heads are in a part that is there; it must be of this batch.
+    /// Checks that a file is a part of this batch; returns the number of its heads.
     fn check(&self, path: &Path) -> Result<usize, BatchError> {
-        let found = parquet::find(path);
+        let found = parquet::read_metadata(path);
         let no_part = |problem: String| BatchError::NoPart { path: path.into(), problem };
-        let Found { digest, heads } = found.map_err(no_part)?;
+        let PartMetadata { digest, heads } = found.map_err(no_part)?;
         if digest == self.batch.digest() {
             Ok(heads)
         } else {
@@ -194,7 +194,7 @@ impl Run {
     /// Computes the heads of a part, on all threads. `each` is called after each of them.
     ///
     /// # Errors
-    /// [`Cancelled`], if the progress says to stop.
+    /// [`Cancelled`].
     pub fn compute(
         &self,
         part: Part,
@@ -210,11 +210,11 @@ impl Run {
             each();
             row
         };
-        // By number, one at a time: heads differ in what they cost.
+        // One at a time, since heads differ in cost.
         part.range().into_par_iter().with_max_len(1).map(one).collect()
     }
 
-    /// Writes a part, all of it or nothing.
+    /// Writes a part atomically; returns its path.
     ///
     /// # Errors
     /// [`BatchError`].
@@ -225,7 +225,7 @@ impl Run {
         Ok(path)
     }
 
-    /// Computes and writes all that is not there yet.
+    /// Computes and writes all missing parts.
     ///
     /// # Errors
     /// [`BatchError`].

@@ -1,51 +1,51 @@
-//! Which parts of a batch are one program's.
+//! Shards: equal shares of a batch, each for one program or machine.
 
 use std::fmt;
 use std::str::FromStr;
 
 use thiserror::Error;
 
-/// Most shards.
+/// Most shards; chosen.
 const MOST: usize = 1_000_000;
 
 /// One of several equal shares of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// From 0.
-    number: usize,
-    of: usize,
+    /// Index from 0.
+    index: usize,
+    count: usize,
 }
 
-/// Why a text names no shard.
+/// Why a text is no shard.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum ShardError {
     /// It is not two numbers.
     #[error("it must be two whole numbers with `/` between, such as 3/8, the third of eight")]
     NotTwoNumbers,
-    /// It counts from 0.
+    /// The number is 0.
     #[error("shards are numbered from 1, as in 1/{of}; where a number counts from 0, add 1 to it")]
     Zero {
-        /// How many there are.
+        /// Number of shards.
         of: usize,
     },
-    /// There is no such shard.
+    /// The number is above that of the last shard.
     #[error("there is no shard {number} of {of}; the last is {of}/{of}")]
     Beyond {
-        /// The number asked for.
+        /// The number.
         number: usize,
-        /// How many there are.
+        /// Number of shards.
         of: usize,
     },
-    /// There are too many or none.
+    /// The number of shards is out of range.
     #[error("there may be 1 to {MOST} shards")]
     Count,
 }
 
 impl Shard {
-    /// All of a batch.
-    pub const WHOLE: Self = Self { number: 0, of: 1 };
+    /// The whole batch.
+    pub const WHOLE: Self = Self { index: 0, count: 1 };
 
-    /// The shard of a number, from 1, of so many.
+    /// Shard `number`, from 1, of `of` shards.
     ///
     /// # Errors
     /// [`ShardError`].
@@ -54,15 +54,15 @@ impl Shard {
             _ if !(1..=MOST).contains(&of) => Err(ShardError::Count),
             0 => Err(ShardError::Zero { of }),
             number if number > of => Err(ShardError::Beyond { number, of }),
-            number => Ok(Self { number: number - 1, of }),
+            number => Ok(Self { index: number - 1, count: of }),
         }
     }
 
-    /// Whether a part is its, by the part's number from 0. Shards take turns, since the heads of a grid
-    /// grow dearer from its one end to the other.
+    /// Whether a part, by its index from 0, belongs to the shard. Shards take turns, since the cost of heads
+    /// grows along a grid.
     #[must_use]
     pub fn has(self, part: usize) -> bool {
-        part % self.of == self.number
+        part % self.count == self.index
     }
 }
 
@@ -78,7 +78,7 @@ impl FromStr for Shard {
 
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.number + 1, self.of)
+        write!(f, "{}/{}", self.index + 1, self.count)
     }
 }
 

@@ -6,7 +6,7 @@ use frisure::denoise::{Denoiser, VARIABLE};
 use frisure::files::WriteError;
 use frisure::progress::SubStage;
 use frisure_engine::Error;
-use frisure_engine::checkpoint::PictureCheckpoint;
+use frisure_engine::checkpoint::picture as checkpoint;
 use frisure_engine::picture::{FinalPicture, FrameSet, NoiseFilter, TraceEnd};
 
 use crate::console;
@@ -52,12 +52,12 @@ pub(crate) fn prepare(
     others: &[&Path],
     inputs: &[&Path],
 ) -> Result<(), Error> {
-    let checkpoints: Vec<_> = pictures.iter().map(|path| PictureCheckpoint::of(path)).collect();
+    let checkpoints: Vec<_> = pictures.iter().map(|path| checkpoint::path_for(path)).collect();
     let mut all = others.to_vec();
     all.extend(pictures.iter().map(PathBuf::as_path));
-    all.extend(checkpoints.iter().map(PictureCheckpoint::path));
+    all.extend(checkpoints.iter().map(PathBuf::as_path));
     outputs::prepare(&all, inputs)?;
-    checkpoints.iter().try_for_each(PictureCheckpoint::check)
+    checkpoints.iter().try_for_each(|path| checkpoint::check(path))
 }
 
 /// Traces and writes the pictures; returns a line about each.
@@ -76,8 +76,9 @@ pub(crate) fn trace(
         };
         let stage = SubStage { progress, stage: &name, range: [0.0, 1.0] };
         let mut picture = frames.open(frame, path)?;
-        if let Some(old) = picture.moved_to() {
-            let (path, old) = (picture.checkpoint().path().display(), old.display());
+        if let Some(old) = &picture.moved_to {
+            let (path, old) = (checkpoint::path_for(path), old.display());
+            let path = path.display();
             console::note(&format!(
                 "`{path}` is of another picture, or damaged; it is now `{old}`"
             ));
@@ -99,9 +100,10 @@ pub(crate) fn trace(
 
 /// A line about a finished picture.
 fn summary(picture: &FinalPicture<'_>) -> String {
-    let (path, before, noise) = (picture.path(), picture.resumed_paths(), picture.noise());
-    let mut line = format!("{}: {:.0} paths per pixel", path.display(), picture.paths());
-    if before > 0.0 {
+    let FinalPicture { accumulator, path, resumed_paths: before, .. } = picture;
+    let (paths, noise) = (accumulator.mean_samples(), accumulator.noise());
+    let mut line = format!("{}: {paths:.0} paths per pixel", path.display());
+    if *before > 0.0 {
         line += &format!(", {before:.0} of them from before");
     }
     if noise.is_finite() {
@@ -112,7 +114,7 @@ fn summary(picture: &FinalPicture<'_>) -> String {
 
 /// What an interrupted picture has, and how to resume it.
 fn interruption(picture: &FinalPicture<'_>, unsaved: Option<&WriteError>) -> String {
-    let (path, paths) = (picture.path().display(), picture.paths());
+    let (path, paths) = (picture.path.display(), picture.accumulator.mean_samples());
     let so_far = format!("`{path}` is what there is so far, {paths:.0} paths per pixel;");
     match unsaved {
         None => format!("{so_far} the same command goes on from there."),

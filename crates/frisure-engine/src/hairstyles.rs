@@ -17,10 +17,10 @@ use frisure::hairstyle::{
 use frisure::progress::Progress;
 use frisure::scene::{GroomFile, Scene};
 
+use crate::adoption::AdoptionReport;
 use crate::error::Error;
 use crate::initial::initial_hairstyle;
 use crate::quality::Quality;
-use crate::report::AdoptionReport;
 
 /// Most descriptions in the cache, each with its history; chosen.
 const CAPACITY: usize = 4;

@@ -17,6 +17,7 @@
 
 #![forbid(unsafe_code)]
 
+mod adoption;
 mod bytes;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod checkpoint;
@@ -37,8 +38,8 @@ mod response;
 mod runner;
 mod session;
 mod steps;
-mod strand_cache;
 
+pub use adoption::AdoptionReport;
 pub use diagnostic::Diagnostic;
 pub use error::{Error, catch_panic, message};
 pub use heads::{HeadCache, LoadedHead};
@@ -46,7 +47,6 @@ pub use inputs::{environment_map, head_mesh, input_files, scene_groom};
 pub use metrics::HairstyleMetrics;
 pub use picture::Viewpoint;
 pub use quality::Quality;
-pub use report::AdoptionReport;
 pub use request::{Request, SceneRef};
 pub use response::{GuideData, HeadData, Numbers, Preview, Response, StrandsData};
 pub use runner::{LoadedScene, Runner};

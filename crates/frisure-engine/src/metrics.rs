@@ -1,7 +1,8 @@
 //! A hairstyle in numbers.
 
-use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{Hairstyle, SettlingReport, settling_report};
+use frisure::hairstyle::{SettlingReport, settling_report};
+
+use crate::runner::LoadedScene;
 
 /// Measures of a hairstyle and its guides; SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,18 +21,19 @@ pub struct HairstyleMetrics {
     pub drop: f64,
 }
 
-impl HairstyleMetrics {
-    /// Measures a hairstyle on its head.
+impl LoadedScene {
+    /// Measures the hairstyle.
     #[must_use]
-    pub fn of(hairstyle: &Hairstyle, head: &Head) -> Self {
+    pub fn metrics(&self) -> HairstyleMetrics {
+        let hairstyle = &self.hairstyle;
         let count = hairstyle.guides().len();
         let mean =
             |of: &dyn Fn(usize) -> f64| (0..count).map(of).sum::<f64>() / count.max(1) as f64;
         let length = |i: usize| hairstyle.guides()[i].rod.length();
         let tip = |i: usize| hairstyle.equilibria()[i].tip().z;
         let root = |i: usize| hairstyle.equilibria()[i].rod.root().position().z;
-        Self {
-            settling: settling_report(hairstyle, head),
+        HairstyleMetrics {
+            settling: settling_report(hairstyle, &self.head),
             hairs: hairstyle.grown(),
             mass: hairstyle.mass(),
             length: mean(&length),

@@ -53,12 +53,12 @@ fn plain(strands: &Strands) -> StrandsData {
 }
 
 /// The surface of a head, and what was guessed of it.
-pub(crate) fn head_data(head: &Head, note: Option<&String>) -> HeadData {
+pub(crate) fn head_data(head: &Head, note: Option<String>) -> HeadData {
     let surface = head.surface();
     HeadData {
         positions: surface.positions().iter().flat_map(DVec3::to_array).collect(),
         triangles: surface.triangles().to_vec(),
-        note: note.cloned().unwrap_or_default(),
+        note: note.unwrap_or_default(),
     }
 }
 

@@ -3,10 +3,10 @@
 use frisure::formats::contents::Contents;
 use serde::{Deserialize, Serialize};
 
+use crate::adoption::AdoptionReport;
 use crate::diagnostic::Diagnostic;
 use crate::error::Error;
 use crate::quality::Quality;
-use crate::report::AdoptionReport;
 
 /// The response to a [`crate::Request`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

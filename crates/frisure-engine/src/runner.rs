@@ -3,21 +3,17 @@
 use std::sync::Arc;
 
 use frisure::files::Files;
-use frisure::formats::groom::Groom;
 use frisure::hairstyle::head::Head;
-use frisure::hairstyle::{DrawnHair, Hairstyle, StrandOptions, strands, volume};
+use frisure::hairstyle::{DrawnHair, Hairstyle, StrandOptions, strands};
 use frisure::progress::Progress;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
 
+use crate::adoption::AdoptionReport;
 use crate::error::Error;
-use crate::groom::groom;
 use crate::hairstyles::{HairstyleCache, Input};
 use crate::heads::{HeadCache, LoadedHead};
-use crate::metrics::HairstyleMetrics;
 use crate::quality::{Quality, points};
-use crate::report::{AdoptionReport, HairstyleReport};
-use crate::strand_cache::StrandCache;
 
 /// Most points of a groom in a browser, where there are 4 GiB of memory in all.
 const MOST_POINTS_OF_A_PAGE: usize = 32_000_000;
@@ -47,7 +43,8 @@ pub struct Runner {
     files: Files,
     heads: Arc<HeadCache>,
     hairstyles: HairstyleCache,
-    strands: StrandCache,
+    /// The strands that were drawn last, with their hairstyle and stride.
+    strands: Option<(Arc<Hairstyle>, usize, Arc<Strands>)>,
 }
 
 /// A scene with its head and its hairstyle.
@@ -110,7 +107,7 @@ impl Runner {
         Ok(LoadedScene { scene: scene.clone(), head, note, hairstyle, adoption })
     }
 
-    /// Every `stride`-th hair of a scene; the last strands are cached.
+    /// Every `stride`-th hair of a scene; the last strands are cached, so that another light does not draw them again.
     ///
     /// # Errors
     /// [`Error::Cancelled`], and [`Error::Invalid`] for more points than a browser has memory for.
@@ -125,7 +122,16 @@ impl Runner {
             let problem = format!("{points} points of hair are more than a page has memory for");
             return Err(Error::invalid(problem, "lower `wisps.density` or `wisps.points`"));
         }
-        Ok(self.strands.strands(&loaded.hairstyle, &loaded.head, stride, progress)?)
+        if let Some((of, step, strands)) = &self.strands
+            && Arc::ptr_eq(of, &loaded.hairstyle)
+            && *step == stride
+        {
+            return Ok(strands.clone());
+        }
+        let options = StrandOptions { stride, ..StrandOptions::default() };
+        let strands = Arc::new(loaded.draw(options, progress)?.strands);
+        self.strands = Some((loaded.hairstyle.clone(), stride, strands.clone()));
+        Ok(strands)
     }
 }
 
@@ -140,29 +146,5 @@ impl LoadedScene {
         progress: &dyn Progress,
     ) -> Result<DrawnHair, Error> {
         Ok(strands(&self.hairstyle, &self.head, options, progress)?)
-    }
-
-    /// A groom of `hairs`, which are all drawn hairs, with guides, head and colour. With `fibres`, each hair has the
-    /// directors and natural strains of its fibre too, as guides always have.
-    #[must_use]
-    pub fn groom(&self, hairs: Strands, fibres: bool) -> Groom {
-        groom(&self.scene, &self.hairstyle, &self.head, hairs, fibres)
-    }
-
-    /// Measures the hairstyle.
-    #[must_use]
-    pub fn metrics(&self) -> HairstyleMetrics {
-        HairstyleMetrics::of(&self.hairstyle, &self.head)
-    }
-
-    /// The report of the hairstyle, and of its drawn hairs if there are some.
-    #[must_use]
-    pub fn report(&self, drawn: Option<&DrawnHair>) -> HairstyleReport {
-        let mut report = HairstyleReport::new(&self.scene, &self.hairstyle, &self.metrics());
-        report.groom.clone_from(&self.adoption);
-        if let Some(drawn) = drawn {
-            report.add_hairs(drawn, &volume(&drawn.strands, &self.head, self.hairstyle.grown()));
-        }
-        report
     }
 }

@@ -11,14 +11,14 @@ use frisure::formats::picture::png;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{add_sections, selected};
 use frisure::progress::{Progress, Silent};
-use frisure::render::trace::{Accumulator, TraceOptions};
+use frisure::render::trace::{TraceOptions, Tracer};
 use frisure::scene::{Output, Scene, parse_step};
 use frisure::strands::Strands;
 use web_time::Instant;
 
 use crate::error::{Error, catch_panic};
 use crate::inputs::environment_map;
-use crate::picture::{self, Pauses, Subject, Viewpoint, accumulate};
+use crate::picture::{self, Pauses, Viewpoint, accumulate};
 use crate::preview;
 use crate::quality::Quality;
 use crate::request::{Request, SceneRef};
@@ -37,6 +37,14 @@ pub struct Session {
     runner: Runner,
     /// The head in the last preview.
     sent_head: Option<Arc<Head>>,
+}
+
+/// The execution of one request.
+struct Execution<'a> {
+    session: &'a mut Session,
+    progress: &'a dyn Progress,
+    /// Receives partial pictures.
+    partial: &'a mut dyn FnMut(Response),
 }
 
 impl Session {
@@ -60,7 +68,8 @@ impl Session {
         progress: &dyn Progress,
         partial: &mut dyn FnMut(Response),
     ) -> Response {
-        let response = catch_panic(|| self.response(request, progress, partial));
+        let mut execution = Execution { session: &mut *self, progress, partial };
+        let response = catch_panic(|| execution.response(request));
         if let Err(Error::Internal(_)) = &response {
             // The caches may be half changed.
             self.runner.clear();
@@ -68,73 +77,71 @@ impl Session {
         }
         response.unwrap_or_else(Response::from)
     }
+}
 
-    fn response(
-        &mut self,
-        request: &Request,
-        progress: &dyn Progress,
-        partial: &mut dyn FnMut(Response),
-    ) -> Result<Response, Error> {
+impl Execution<'_> {
+    fn response(&mut self, request: &Request) -> Result<Response, Error> {
         match request {
             Request::ProvideFile { path, bytes } => {
-                self.runner.provide_file(path, bytes);
+                self.session.runner.provide_file(path, bytes);
                 Ok(Response::FileProvided)
             }
             Request::Contents { path } => self.contents(path),
-            Request::Preview { scene, quality } => self.preview(scene, *quality, progress),
-            Request::Select { scene, step } => self.select(scene, step, progress),
-            Request::Guide { scene, wisp, points } => self.guide(scene, *wisp, *points, progress),
-            Request::Groom { scene, format } => self.groom(scene, format, progress),
-            Request::Picture { scene, viewpoint, size, paths, noise } => {
-                let [width, height] = *size;
-                let noise = Some(*noise as f32).filter(|noise| *noise != 0.0);
+            Request::Preview { scene, quality } => self.preview(scene, *quality),
+            Request::Select { scene, step } => self.select(scene, step),
+            Request::Guide { scene, wisp, points } => {
+                let LoadedScene { hairstyle, .. } = self.load(scene, Quality::Coarse)?;
+                Ok(Response::Guide(Box::new(preview::guide(&hairstyle, *wisp, *points)?)))
+            }
+            Request::Groom { scene, format } => self.groom(scene, format),
+            Request::Picture { scene, viewpoint, size: [width, height], paths, noise } => {
                 let options = TraceOptions {
-                    width,
-                    height,
+                    width: *width,
+                    height: *height,
                     samples: *paths,
-                    noise,
+                    noise: Some(*noise as f32).filter(|noise| *noise != 0.0),
                     ..TraceOptions::default()
                 };
-                self.picture(scene, *viewpoint, options, progress, partial)
+                self.picture(scene, *viewpoint, options)
             }
             Request::Turntable { scene, viewpoint, size, frames } => {
-                self.turntable(scene, *viewpoint, (*size, *frames), progress)
+                self.turntable(scene, *viewpoint, *size, *frames)
             }
         }
     }
 
+    fn load(&mut self, scene: &SceneRef, quality: Quality) -> Result<LoadedScene, Error> {
+        let SceneRef { name, text, folder, done } = scene;
+        let scene = Arc::new(Scene::parse(name, text.as_str(), Path::new(folder))?);
+        self.session.runner.load(&scene, *done, quality, self.progress)
+    }
+
+    fn strands(&mut self, loaded: &LoadedScene, stride: usize) -> Result<Arc<Strands>, Error> {
+        self.session.runner.strands(loaded, stride, self.progress)
+    }
+
     fn contents(&self, path: &str) -> Result<Response, Error> {
-        let found = contents::of(Path::new(path), self.runner.files());
+        let found = contents::of(Path::new(path), self.session.runner.files());
         Ok(Response::Contents(found.map_err(|e| Error::because(&e, ""))?))
     }
 
-    fn preview(
-        &mut self,
-        scene: &SceneRef,
-        quality: Quality,
-        progress: &dyn Progress,
-    ) -> Result<Response, Error> {
+    fn preview(&mut self, scene: &SceneRef, quality: Quality) -> Result<Response, Error> {
         let since = Instant::now();
-        let loaded = self.load(scene, quality, progress)?;
+        let loaded = self.load(scene, quality)?;
         let stride = quality.stride(&loaded.hairstyle);
-        let strands = self.runner.strands(&loaded, stride, progress)?;
+        let strands = self.strands(&loaded, stride)?;
         let mut preview = preview::preview(quality, &loaded, &strands, stride);
         let LoadedScene { head, note, .. } = loaded;
-        let sent = self.sent_head.as_ref().is_some_and(|sent| Arc::ptr_eq(sent, &head));
-        preview.head = (!sent).then(|| preview::head_data(&head, note.as_ref()));
+        let sent = self.session.sent_head.as_ref().is_some_and(|sent| Arc::ptr_eq(sent, &head));
+        preview.head = (!sent).then(|| preview::head_data(&head, note));
         preview.numbers.seconds = since.elapsed().as_secs_f64();
-        self.sent_head = Some(head);
+        self.session.sent_head = Some(head);
         Ok(Response::Preview(Box::new(preview)))
     }
 
-    fn select(
-        &mut self,
-        scene: &SceneRef,
-        step: &str,
-        progress: &dyn Progress,
-    ) -> Result<Response, Error> {
+    fn select(&mut self, scene: &SceneRef, step: &str) -> Result<Response, Error> {
         let operation = parse_step(STEP, step)?;
-        let LoadedScene { head, hairstyle, .. } = self.load(scene, Quality::Coarse, progress)?;
+        let LoadedScene { head, hairstyle, .. } = self.load(scene, Quality::Coarse)?;
         let wisps = match operation.selection() {
             None => vec![true; hairstyle.guides().len()],
             Some(selection) => {
@@ -144,27 +151,11 @@ impl Session {
         Ok(Response::Selected(wisps))
     }
 
-    fn guide(
-        &mut self,
-        scene: &SceneRef,
-        wisp: usize,
-        points: usize,
-        progress: &dyn Progress,
-    ) -> Result<Response, Error> {
-        let LoadedScene { hairstyle, .. } = self.load(scene, Quality::Coarse, progress)?;
-        Ok(Response::Guide(Box::new(preview::guide(&hairstyle, wisp, points)?)))
-    }
-
-    fn groom(
-        &mut self,
-        scene: &SceneRef,
-        format: &str,
-        progress: &dyn Progress,
-    ) -> Result<Response, Error> {
-        let path = format!("hair.{format}");
-        let format = Format::of(Path::new(&path)).map_err(|e| Error::because(&e, ""))?;
-        let loaded = self.load(scene, Quality::Exact, progress)?;
-        let strands = self.runner.strands(&loaded, 1, progress)?;
+    fn groom(&mut self, scene: &SceneRef, extension: &str) -> Result<Response, Error> {
+        let format = Format::of(Path::new(&format!("hair.{extension}")));
+        let format = format.map_err(|e| Error::because(&e, ""))?;
+        let loaded = self.load(scene, Quality::Exact)?;
+        let strands = self.strands(&loaded, 1)?;
         let groom = loaded.groom(Strands::clone(&strands), false);
         let groom = match format.usual_points() {
             Some(points) => groom.resampled(points).0,
@@ -172,7 +163,7 @@ impl Session {
         };
         let bytes = groom::encode(format, &groom, FrameChoice::default())
             .map_err(|e| Error::because(&e, ""))?;
-        let extension = path.rsplit('.').next().unwrap_or_default();
+        let extension = extension.rsplit('.').next().unwrap_or_default();
         Ok(Response::File { name: preview::file_name(&loaded.scene, extension), bytes })
     }
 
@@ -181,84 +172,60 @@ impl Session {
         scene: &SceneRef,
         viewpoint: Option<Viewpoint>,
         options: TraceOptions,
-        progress: &dyn Progress,
-        partial: &mut dyn FnMut(Response),
     ) -> Result<Response, Error> {
-        let loaded = self.load(scene, Quality::Exact, progress)?;
+        let loaded = self.load(scene, Quality::Exact)?;
         let LoadedScene { scene, head, hairstyle, .. } = &loaded;
         // The cast takes the low bits, which is as good a seed.
         let options = TraceOptions { seed: scene.look.hair.seed, ..options };
         options.check().map_err(|e| Error::because(&e, ""))?;
-        let environment = environment_map(scene, self.runner.files())?;
-        let mut strands = Strands::clone(&*self.runner.strands(&loaded, 1, progress)?);
+        let environment = environment_map(scene, self.session.runner.files())?;
+        let mut strands = Strands::clone(&*self.strands(&loaded, 1)?);
         add_sections(&mut strands, hairstyle, head);
-        let subject = Subject {
-            scene,
-            strands: &strands,
-            framed: &strands,
-            surface: Some(head.surface()),
-            environment: environment.as_ref(),
-        };
-        progress.report("preparing the light", 0.0);
-        let tracer = subject.tracer(viewpoint, &options)?;
-        let mut accumulator = tracer.accumulator();
-        accumulate(
-            &tracer,
-            &mut accumulator,
-            PAUSES,
-            &Silent(progress),
-            &mut |so_far, fraction| {
-                progress.check()?;
-                partial(partial_picture(so_far, fraction, &scene.output));
-                Ok(())
-            },
-        )?;
-        let rgba = picture::developed(&accumulator.image(), &scene.output);
+        self.progress.report("preparing the light", 0.0);
+        let subject = loaded.subject(&strands, environment.as_ref());
+        let rgba = self.trace(&subject.tracer(viewpoint, &options)?, &scene.output)?;
         // Both sides are at most 16384.
         let bytes = png::encode(options.width as u32, options.height as u32, &rgba);
         let bytes = bytes.map_err(|e| Error::because(&e, ""))?;
         Ok(Response::File { name: preview::file_name(scene, "png"), bytes })
     }
 
+    /// The developed picture of a tracer.
+    fn trace(&mut self, tracer: &Tracer, output: &Output) -> Result<Vec<u8>, Error> {
+        let Self { progress, partial, .. } = self;
+        let mut accumulator = tracer.accumulator();
+        accumulate(
+            tracer,
+            &mut accumulator,
+            PAUSES,
+            &Silent(*progress),
+            &mut |so_far, fraction| {
+                progress.check()?;
+                partial(Response::PartialPicture {
+                    size: [so_far.width(), so_far.height()],
+                    rgba: picture::developed(&so_far.image(), output),
+                    fraction,
+                    noise: so_far.noise(),
+                });
+                Ok(())
+            },
+        )?;
+        Ok(picture::developed(&accumulator.image(), output))
+    }
+
     fn turntable(
         &mut self,
         scene: &SceneRef,
         viewpoint: Option<Viewpoint>,
-        (size, frames): ([usize; 2], usize),
-        progress: &dyn Progress,
+        size: [usize; 2],
+        frames: usize,
     ) -> Result<Response, Error> {
         picture::check_turntable(size, frames)?;
-        let loaded = self.load(scene, Quality::Exact, progress)?;
-        let environment = environment_map(&loaded.scene, self.runner.files())?;
-        let strands = self.runner.strands(&loaded, 1, progress)?;
-        let subject = Subject {
-            scene: &loaded.scene,
-            strands: &strands,
-            framed: &strands,
-            surface: Some(loaded.head.surface()),
-            environment: environment.as_ref(),
-        };
-        let bytes = picture::turntable(&subject, viewpoint, size, frames, progress)?;
+        let loaded = self.load(scene, Quality::Exact)?;
+        let environment = environment_map(&loaded.scene, self.session.runner.files())?;
+        let strands = self.strands(&loaded, 1)?;
+        let subject = loaded.subject(&strands, environment.as_ref());
+        let bytes = picture::turntable(&subject, viewpoint, size, frames, self.progress)?;
         Ok(Response::File { name: preview::file_name(&loaded.scene, "png"), bytes })
-    }
-
-    fn load(
-        &mut self,
-        scene: &SceneRef,
-        quality: Quality,
-        progress: &dyn Progress,
-    ) -> Result<LoadedScene, Error> {
-        let SceneRef { name, text, folder, done } = scene;
-        let scene = Scene::parse(name, text.as_str(), Path::new(folder))?;
-        self.runner.load(&Arc::new(scene), *done, quality, progress)
-    }
-}
-
-fn partial_picture(accumulator: &Accumulator, fraction: f32, output: &Output) -> Response {
-    Response::PartialPicture {
-        size: [accumulator.width(), accumulator.height()],
-        rgba: picture::developed(&accumulator.image(), output),
-        fraction,
-        noise: accumulator.noise(),
     }
 }

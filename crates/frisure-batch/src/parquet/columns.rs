@@ -5,7 +5,7 @@ use std::sync::Arc;
 use frisure::scene::batch::{Batch, Kind, Value};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{
-    BoolType, ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type,
+    BoolType, ByteArrayType, DataType, DoubleType, FloatType, Int32Type, Int64Type,
 };
 use parquet::errors::Result;
 use parquet::file::writer::SerializedColumnWriter;
@@ -19,7 +19,7 @@ pub(super) struct Column {
     values: Values,
 }
 
-/// Values; a row that has none has no head.
+/// Values; failed rows have none.
 enum Values {
     Whole(Vec<Option<i64>>),
     Count(Vec<Option<i32>>),
@@ -108,7 +108,7 @@ fn parameter(key: &str, kind: Kind, rows: &[Row], place: usize) -> Column {
 }
 
 impl Column {
-    /// What the schema says of it.
+    /// Its entry in the schema.
     pub(super) fn field(&self) -> Result<TypePtr> {
         let plain = |name: &str, kind: Physical, repetition: Repetition| {
             let text = (kind == Physical::BYTE_ARRAY).then_some(LogicalType::String);
@@ -140,47 +140,35 @@ impl Column {
     /// Writes all values.
     pub(super) fn write(&self, writer: &mut SerializedColumnWriter<'_>) -> Result<()> {
         match &self.values {
-            Values::Whole(values) => {
-                let (there, levels) = split(values, |x| *x);
-                writer.typed::<Int64Type>().write_batch(&there, Some(&levels), None)?;
-            }
-            Values::Count(values) => {
-                let (there, levels) = split(values, |x| *x);
-                writer.typed::<Int32Type>().write_batch(&there, Some(&levels), None)?;
-            }
-            Values::Number(values) => {
-                let (there, levels) = split(values, |x| *x);
-                writer.typed::<DoubleType>().write_batch(&there, Some(&levels), None)?;
-            }
-            Values::Flag(values) => {
-                let (there, levels) = split(values, |x| *x);
-                writer.typed::<BoolType>().write_batch(&there, Some(&levels), None)?;
-            }
+            Values::Whole(values) => write_values::<Int64Type, _>(writer, values, |x| *x),
+            Values::Count(values) => write_values::<Int32Type, _>(writer, values, |x| *x),
+            Values::Number(values) => write_values::<DoubleType, _>(writer, values, |x| *x),
+            Values::Flag(values) => write_values::<BoolType, _>(writer, values, |x| *x),
             Values::Text(values) => {
-                let (there, levels) = split(values, |text| ByteArray::from(text.as_str()));
-                writer.typed::<ByteArrayType>().write_batch(&there, Some(&levels), None)?;
+                write_values::<ByteArrayType, _>(writer, values, |text| text.as_str().into())
             }
             Values::Lists(lists) => {
                 let (values, defined, repeated) = flattened(lists);
-                writer.typed::<FloatType>().write_batch(
-                    &values,
-                    Some(&defined),
-                    Some(&repeated),
-                )?;
+                let writer = writer.typed::<FloatType>();
+                writer.write_batch(&values, Some(&defined), Some(&repeated)).map(drop)
             }
         }
-        Ok(())
     }
 }
 
-/// The values that are there, and for each row whether it has one.
-fn split<T, U>(values: &[Option<T>], of: impl Fn(&T) -> U) -> (Vec<U>, Vec<i16>) {
-    let levels = values.iter().map(|value| i16::from(value.is_some())).collect();
-    (values.iter().flatten().map(of).collect(), levels)
+/// Writes the values of the rows that have one.
+fn write_values<D: DataType, T>(
+    writer: &mut SerializedColumnWriter<'_>,
+    values: &[Option<T>],
+    of: impl Fn(&T) -> D::T,
+) -> Result<()> {
+    let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+    let present: Vec<D::T> = values.iter().flatten().map(of).collect();
+    writer.typed::<D>().write_batch(&present, Some(&levels), None).map(drop)
 }
 
-/// Lists one after the other, with the levels of Dremel: what is there (0 no list, 1 an empty one, 2 a value),
-/// and whether it goes on with the list (1) or begins another (0).
+/// Lists one after the other, with the definition levels of Dremel (0 no list, 1 an empty one, 2 a value) and its
+/// repetition levels (1 continues a list, 0 begins another).
 fn flattened(lists: &[Option<Vec<f32>>]) -> (Vec<f32>, Vec<i16>, Vec<i16>) {
     let (mut defined, mut repeated) = (Vec::new(), Vec::new());
     for list in lists {

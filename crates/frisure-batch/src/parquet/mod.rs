@@ -17,32 +17,32 @@ use parquet::file::writer::SerializedFileWriter;
 use crate::head::Row;
 use columns::columns;
 
-/// Under which name a part tells of which batch it is.
+/// The key of the batch's digest in the metadata of a part.
 const DIGEST: &str = "frisure.batch";
 
-/// What a part tells of itself.
-pub(crate) struct Found {
-    /// Of its batch.
+/// The metadata of a part.
+pub(crate) struct PartMetadata {
+    /// The digest of its batch.
     pub(crate) digest: String,
     pub(crate) heads: usize,
 }
 
 /// The bytes of a part.
 pub(crate) fn encode(batch: &Batch, rows: &[Row]) -> Result<Vec<u8>, String> {
-    written(batch, rows).map_err(|e| e.to_string())
+    try_encode(batch, rows).map_err(|e| e.to_string())
 }
 
-fn written(batch: &Batch, rows: &[Row]) -> Result<Vec<u8>> {
+fn try_encode(batch: &Batch, rows: &[Row]) -> Result<Vec<u8>> {
     let columns = columns(batch, rows);
     let fields = columns.iter().map(columns::Column::field).collect::<Result<Vec<_>>>()?;
     let schema = parquet::schema::types::Type::group_type_builder("head").with_fields(fields);
-    let told = vec![
+    let metadata = vec![
         KeyValue::new(DIGEST.into(), batch.digest()),
         KeyValue::new("frisure.version".into(), env!("CARGO_PKG_VERSION").to_owned()),
     ];
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
-        .set_key_value_metadata(Some(told))
+        .set_key_value_metadata(Some(metadata))
         .build();
     let mut bytes = Vec::new();
     let mut file =
@@ -58,14 +58,14 @@ fn written(batch: &Batch, rows: &[Row]) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// What a file tells of itself, if it is a part.
-pub(crate) fn find(path: &Path) -> Result<Found, String> {
+/// Reads the metadata of a part; an error for another file.
+pub(crate) fn read_metadata(path: &Path) -> Result<PartMetadata, String> {
     let file = File::open(path).map_err(|e| e.to_string())?;
     let reader = SerializedFileReader::new(file).map_err(|e| e.to_string())?;
     let about = reader.metadata().file_metadata();
-    let told = about.key_value_metadata().into_iter().flatten();
-    let digest = told.filter(|told| told.key == DIGEST).find_map(|told| told.value.clone());
+    let mut pairs = about.key_value_metadata().into_iter().flatten();
+    let digest = pairs.find(|pair| pair.key == DIGEST).and_then(|pair| pair.value.clone());
     let digest = digest.ok_or("it does not say of which batch it is")?;
     let heads = usize::try_from(about.num_rows()).map_err(|e| e.to_string())?;
-    Ok(Found { digest, heads })
+    Ok(PartMetadata { digest, heads })
 }

@@ -1,4 +1,4 @@
-//! `frisure batch`: many heads of one scene, as data.
+//! `frisure batch`: many heads of one scene as Parquet.
 
 use std::fmt::Write;
 use std::io;
@@ -18,10 +18,10 @@ use crate::diagnostics::ExitStatus;
 use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
 
-/// Heads that are listed before they are printed.
+/// Rows of a list that are printed at once; chosen.
 const LISTED: usize = 256;
 
-/// Computes a shard of a batch, or tells what is in it.
+/// Computes a shard of a batch, lists it, or prints the scene of one head.
 pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<ExitStatus, Error> {
     let path = arguments.spec.clone();
     let heads = interrupt::compute(move || Ok(Heads::read(&path)?))?;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<ExitStatus, Error> {
     compute(heads, folder, arguments.shard, quiet)
 }
 
-/// Computes what is not there yet. Files are written by this thread, which always ends the one it is at.
+/// Computes the missing parts of a shard. This thread writes them, and always finishes the file at hand.
 fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<ExitStatus, Error> {
     let all = heads.heads();
     let work = Arc::new(Run::new(heads, folder, shard)?);
@@ -47,15 +47,15 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Exi
     let own = work.parts().map(|part| part.heads).sum::<usize>();
     let to_do = count(&missing);
     if !quiet {
-        console::print(&beginning(shard, own, all, own - to_do))?;
+        console::print(&header(shard, own, all, own - to_do))?;
     }
     let progress = Bar::new(quiet);
     let done = Arc::new(AtomicUsize::new(0));
-    let mut ended = Ended::default();
+    let mut totals = Totals::default();
     let result = missing.iter().enumerate().try_for_each(|(place, part)| {
         let rows = part_of(&work, *part, &progress, &done, to_do)?;
         let path = work.write(*part, &rows)?;
-        ended.add(&rows);
+        totals.add(&rows);
         let (parts, failed) = (missing.len(), failures(&rows));
         let line = format!("{} of {parts}: {}{failed}\n", place + 1, path.display());
         progress.suspend(|| if quiet { Ok(()) } else { console::print(&line) })
@@ -64,18 +64,18 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Exi
     result.map_err(|failure| match failure {
         Error::Cancelled(_) => Error::Paused(format!(
             "{} of {own} heads are in `{}`; the same command goes on",
-            own - to_do + ended.heads,
+            own - to_do + totals.heads,
             folder.display()
         )),
         failure => failure,
     })?;
     if !quiet {
-        console::print(&ended.told(own))?;
+        console::print(&totals.summary(own))?;
     }
     Ok(ExitStatus::Success)
 }
 
-/// The heads of a part, on a thread that can be left.
+/// Computes the heads of a part on a thread that can be left behind.
 fn part_of(
     work: &Arc<Run>,
     part: Part,
@@ -94,7 +94,8 @@ fn part_of(
     })
 }
 
-fn beginning(shard: Shard, own: usize, all: usize, before: usize) -> String {
+/// A line about the work before it begins.
+fn header(shard: Shard, own: usize, all: usize, before: usize) -> String {
     let mut out = match shard {
         Shard::WHOLE => format!("{all} heads"),
         shard => format!("shard {shard}: {own} of {all} heads"),
@@ -106,23 +107,23 @@ fn beginning(shard: Shard, own: usize, all: usize, before: usize) -> String {
     out
 }
 
-/// What came of it.
+/// Counts of the heads of this run.
 #[derive(Default)]
-struct Ended {
+struct Totals {
     heads: usize,
     failed: usize,
-    moving: usize,
-    /// Why the first failed that did.
+    not_converged: usize,
+    /// The first head that failed, and why.
     first: Option<String>,
 }
 
-impl Ended {
+impl Totals {
     fn add(&mut self, rows: &[Row]) {
         self.heads += rows.len();
         for row in rows {
             match &row.outcome {
                 Ok(measured) => {
-                    self.moving += usize::from(measured.metrics.settling.not_converged > 0);
+                    self.not_converged += usize::from(measured.metrics.settling.not_converged > 0);
                 }
                 Err(why) => {
                     self.failed += 1;
@@ -132,11 +133,11 @@ impl Ended {
         }
     }
 
-    fn told(&self, own: usize) -> String {
-        let Self { heads, failed, moving, first } = self;
+    fn summary(&self, own: usize) -> String {
+        let Self { heads, failed, not_converged, first } = self;
         let mut out = format!("{own} heads are there, {heads} of them new");
-        if *moving > 0 {
-            let _ = write!(out, "; {moving} have guides that did not converge");
+        if *not_converged > 0 {
+            let _ = write!(out, "; {not_converged} have guides that did not converge");
         }
         if let Some(first) = first {
             let _ = write!(out, "; {failed} failed, the first as {first}");
@@ -153,7 +154,7 @@ fn failures(rows: &[Row]) -> String {
     }
 }
 
-/// What the heads of a shard would be, as a table with commas.
+/// Prints the parameters of the heads of a shard as comma-separated values.
 fn list(heads: &Heads, shard: Shard) -> Result<ExitStatus, Error> {
     let mut out = String::from("index,seed");
     let seeds: Vec<bool> = heads.parameters().map(|(key, _)| key == "seed").collect();
@@ -185,7 +186,7 @@ fn list(heads: &Heads, shard: Shard) -> Result<ExitStatus, Error> {
     Ok(ExitStatus::Success)
 }
 
-/// A text as a cell of such a table.
+/// A text as a comma-separated value.
 fn cell(text: &str) -> String {
     if text.contains([',', '"', '\n']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -194,7 +195,7 @@ fn cell(text: &str) -> String {
     }
 }
 
-/// The scene of one head.
+/// Writes the scene of one head.
 fn one_scene(arguments: &Batch, heads: &Heads, index: usize) -> Result<ExitStatus, Error> {
     if index >= heads.heads() {
         let message = format!("there is no head {index}; the batch has {}", heads.heads());

@@ -9,27 +9,26 @@ use frisure_engine::Error;
 use super::read_groom;
 use crate::args::{Axes, Convert};
 use crate::diagnostics::ExitStatus;
-use crate::grooms::GroomWriter;
 use crate::progress::Bar;
-use crate::{console, interrupt, outputs};
+use crate::{console, grooms, interrupt, outputs};
 
 /// Reads the groom and writes it where the arguments say.
 pub(crate) fn run(arguments: Convert, quiet: bool) -> Result<ExitStatus, Error> {
     let Convert { groom: path, outputs: asked, writing, from_unit, from_up } = arguments;
     let from = Axes { unit: from_unit, up: from_up };
-    let grooms = GroomWriter::new(&asked, writing)?;
+    grooms::check(&asked, writing)?;
     let names: Vec<&Path> = asked.iter().map(AsRef::as_ref).collect();
     outputs::prepare(&names, &[&path])?;
     let progress = Bar::new(quiet);
-    let told = progress.clone();
+    let worker = progress.clone();
     let read = interrupt::compute(move || {
-        told.report("reading", 0.0);
+        worker.report("reading", 0.0);
         read_groom(&path, from, "`--from-unit` and `--from-up` say what it has")
     });
     let result = read.and_then(|groom: Groom| {
         progress.report("writing", 0.0);
         let counts = (groom.hairs.len(), groom.guides.len());
-        Ok((counts, grooms.write(groom, &asked)?))
+        Ok((counts, grooms::write(groom, &asked, writing)?))
     });
     progress.finish();
     let ((hairs, guides), written) = result?;

@@ -1,9 +1,10 @@
-//! `frisure hair`: one hair, its energies, and what vouches for them.
+//! `frisure hair`: one hair, its energies and its stability certificate.
 
 use std::fmt::Write;
 
 use frisure::rod::{Equilibrium, Stability, equilibrium};
 use frisure_engine::Error;
+use frisure_engine::report::EnergyReport;
 use serde::Serialize;
 
 use super::read_scene;
@@ -11,7 +12,7 @@ use crate::args::Hair;
 use crate::diagnostics::ExitStatus;
 use crate::{console, interrupt};
 
-/// What is printed; SI units.
+/// The JSON report; SI units.
 #[derive(Debug, Serialize)]
 struct Report {
     /// Length (m).
@@ -20,7 +21,7 @@ struct Report {
     elements: usize,
     /// Tip relative to the root (m).
     tip: [f64; 3],
-    energy: Energies,
+    energy: EnergyReport,
     /// Relative gradient of the energy.
     gradient_norm: f64,
     /// Smallest eigenvalue of the second variation relative to the elastic one.
@@ -33,15 +34,6 @@ struct Report {
     /// The centre line relative to the root (m).
     #[serde(skip_serializing_if = "Option::is_none")]
     points: Option<Vec<[f64; 3]>>,
-}
-
-/// Energies (J).
-#[derive(Debug, Serialize)]
-struct Energies {
-    elastic: f64,
-    gravity: f64,
-    contact: f64,
-    total: f64,
 }
 
 /// Computes and prints the hair of a scene.
@@ -69,12 +61,7 @@ fn report(rest: &Equilibrium, points: Option<usize>) -> Report {
         length: rest.rod.length(),
         elements: rest.elements,
         tip: rest.tip().to_array(),
-        energy: Energies {
-            elastic: rest.energy.elastic,
-            gravity: rest.energy.gravity,
-            contact: rest.energy.external,
-            total: rest.energy.total(),
-        },
+        energy: EnergyReport::from(rest.energy),
         gradient_norm: certificate.gradient_norm,
         min_eigenvalue: certificate.min_eigenvalue,
         stable: certificate.stability == Stability::Stable,

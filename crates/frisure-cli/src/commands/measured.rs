@@ -12,7 +12,7 @@ use crate::args::Measured;
 use crate::diagnostics::ExitStatus;
 use crate::{console, interrupt, outputs};
 
-/// Reads the tables and writes the scene, with notes on what they do not tell.
+/// Reads the tables and writes the scene, with notes on what was not measured.
 pub(crate) fn run(arguments: &Measured, quiet: bool) -> Result<ExitStatus, Error> {
     let tables = arguments.tables.clone();
     let read: Vec<&Path> = tables.iter().map(AsRef::as_ref).collect();
@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &Measured, quiet: bool) -> Result<ExitStatus, Error
     })?;
     let text = estimate.scene();
     let name = arguments.output.as_deref().unwrap_or(Path::new("measured.toml"));
-    // Numbers that are well each for itself may make no hair together.
+    // Numbers that are each in range may be impossible together.
     parse_scene(name, text.clone())?.hairstyle_spec()?;
     match &arguments.output {
         Some(path) => {

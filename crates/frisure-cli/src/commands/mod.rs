@@ -25,7 +25,7 @@ use frisure_engine::Error;
 use crate::args::Axes;
 use crate::interrupt;
 
-/// What a scene is called in errors about its size.
+/// The name of a scene in errors about its size.
 const WHAT: &str = "a scene";
 
 /// The error of a command that this build does not have.
@@ -40,13 +40,13 @@ fn read_scene(path: &Path) -> Result<Scene, Error> {
     parse_scene(path, read_text(path)?)
 }
 
-/// The scene of the text that was read at a path.
+/// Parses the text of a scene file.
 fn parse_scene(path: &Path, text: String) -> Result<Scene, Error> {
     let folder = path.parent().unwrap_or(Path::new(""));
     Ok(Scene::parse(&name(path), text, folder)?)
 }
 
-/// The text of a scene in a file, or on standard input for `-`; Ctrl-C ends the wait for it.
+/// The text of a scene in a file, or on standard input for `-`; stops at Ctrl-C.
 fn read_text(path: &Path) -> Result<String, Error> {
     let path = path.to_owned();
     interrupt::compute(move || text_of(&path))
@@ -68,7 +68,7 @@ fn text_of(path: &Path) -> Result<String, Error> {
     Ok(files::to_text(bytes, path)?)
 }
 
-/// The groom in a file; `hint` names the flags that say what it has.
+/// The groom in a file; `hint` names the flags for its unit and axes.
 fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Error> {
     groom::read_groom(path, axes.choice()).map_err(|e| match e {
         GroomError::Malformed { .. } => Error::because(&e, hint),
@@ -76,7 +76,7 @@ fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Error> {
     })
 }
 
-/// What errors call a scene.
+/// The name of a scene in errors.
 fn name(path: &Path) -> String {
     if path == Path::new("-") { "<stdin>".into() } else { path.display().to_string() }
 }

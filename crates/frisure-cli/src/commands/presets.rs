@@ -1,4 +1,4 @@
-//! `frisure presets`: what a scene can start from.
+//! `frisure presets`: the hair types that a scene can start from.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! `frisure schema`: what a scene can say.
+//! `frisure schema`: the JSON Schema of scenes.
 
 use frisure::scene::schema;
 use frisure_engine::Error;

@@ -1,4 +1,4 @@
-//! `frisure style`: the steps of a scene, put in, taken out and listed.
+//! `frisure style`: adds, removes and lists the steps of a scene.
 
 use std::fmt::Write as _;
 use std::fs::{File, TryLockError};
@@ -16,14 +16,14 @@ use crate::args::Style;
 use crate::diagnostics::ExitStatus;
 use crate::{console, interrupt};
 
-/// What steps on the command line are called in errors.
+/// The name of steps of the command line in errors.
 const STEP: &str = "--step";
 
 /// Changes the steps of a scene as the arguments say, or lists them.
 pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
-    let _turn = turn(&arguments.scene)?;
+    let _lock = lock_folder(&arguments.scene)?;
     let text = read_text(&arguments.scene)?;
-    // What is wrong with the scene itself is said with its name and line.
+    // An error in the scene itself is shown with its name and line.
     let scene = parse_scene(&arguments.scene, text.clone())?;
     if arguments.list {
         console::print(&list(scene.steps()))?;
@@ -32,10 +32,10 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
     let read = |step: &String| parse_step(STEP, step.as_str());
     let steps = arguments.steps.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let before = text;
-    let text = edited(&before, arguments, &steps).map_err(refuse)?;
+    let text = edited(&before, arguments, &steps).map_err(edit_error)?;
     let output = arguments.output.as_deref().unwrap_or(&arguments.scene);
     if output == arguments.scene && !is_standard(output) {
-        untouched(output, &before)?;
+        check_unchanged(output, &before)?;
     }
     write(output, &text)?;
     if !quiet && !is_standard(output) {
@@ -45,9 +45,9 @@ pub(crate) fn run(arguments: &Style, quiet: bool) -> Result<ExitStatus, Error> {
     Ok(ExitStatus::Success)
 }
 
-/// Waits until no other `frisure style` is at a scene of this folder, where folders can be locked:
-/// two at once would lose each other's steps.
-fn turn(scene: &Path) -> Result<Option<File>, Error> {
+/// Waits until no other `frisure style` edits a scene of this folder, where folders can be locked:
+/// two at once would lose steps.
+fn lock_folder(scene: &Path) -> Result<Option<File>, Error> {
     let folder = scene.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = File::open(folder.unwrap_or(Path::new("."))).ok().filter(|_| !is_standard(scene));
     while let Some(Err(TryLockError::WouldBlock)) = folder.as_ref().map(File::try_lock) {
@@ -57,8 +57,8 @@ fn turn(scene: &Path) -> Result<Option<File>, Error> {
     Ok(folder)
 }
 
-/// Refuses to write over what is no file, or what somebody else has written meanwhile.
-fn untouched(path: &Path, before: &str) -> Result<(), Error> {
+/// Checks that the scene is a file that no other program has changed since it was read.
+fn check_unchanged(path: &Path, before: &str) -> Result<(), Error> {
     if !path.is_file() {
         let message = format!("`{}` cannot be written back: it is no file", path.display());
         return Err(Error::invalid(message, "write to another one with `-o`"));
@@ -79,7 +79,7 @@ fn edited(text: &str, arguments: &Style, steps: &[Operation]) -> Result<String, 
     }
 }
 
-fn refuse(error: EditError) -> Error {
+fn edit_error(error: EditError) -> Error {
     let hint = match &error {
         EditError::NoSuchStep { .. } => "`frisure style SCENE --list` numbers the steps",
         EditError::Scattered => "edit the scene by hand",
@@ -91,7 +91,7 @@ fn refuse(error: EditError) -> Error {
     }
 }
 
-/// Steps as they are written, with their numbers.
+/// The steps as text, numbered.
 fn list(steps: &[Operation]) -> String {
     if steps.is_empty() {
         return "the scene has no steps\n".into();

@@ -1,4 +1,4 @@
-//! `frisure validate`: experiments, and the report of what they found.
+//! `frisure validate`: runs experiments and writes their report.
 
 use std::fmt::Write;
 use std::fs;
@@ -15,7 +15,7 @@ use crate::diagnostics::ExitStatus;
 use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
 
-/// Runs the experiments and writes the report, also where a verdict fails.
+/// Runs the experiments and writes the report, also where a criterion fails.
 pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<ExitStatus, Error> {
     if arguments.list {
         console::print(&list())?;
@@ -31,13 +31,13 @@ pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<ExitStatus, Error>
     let made = missing(&output);
     let book = prepare(&output, &chosen).and_then(|()| compute(chosen, effort, quiet));
     if book.is_err() {
-        // Only what is empty goes.
+        // Only empty folders can be removed.
         made.iter().for_each(|folder| drop(fs::remove_dir(folder)));
     }
     let book = book?;
     let written = book.write(&output);
     if !quiet {
-        // Minutes of work are not lost with the disk: the verdicts are told in any case.
+        // Even if the report cannot be written, the result of minutes of work is printed.
         console::print(&summary(&book))?;
     }
     let page = written.map_err(|e| Error::failed(&e, ""))?;
@@ -47,13 +47,13 @@ pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<ExitStatus, Error>
     Ok(if book.holds() { ExitStatus::Success } else { ExitStatus::CriterionFailed })
 }
 
-/// The folders on the way to a folder that are not there, the deepest first.
+/// A folder and its parents that do not exist, the deepest first.
 fn missing(folder: &Path) -> Vec<PathBuf> {
     let named = folder.ancestors().filter(|f| !f.as_os_str().is_empty());
     named.take_while(|f| !f.exists()).map(Path::to_path_buf).collect()
 }
 
-/// Checks that the report can be written: the two files, and what already has the name of a picture.
+/// Checks that the report can be written: its two files, and files with the names of its pictures.
 fn prepare(folder: &Path, chosen: &[&Experiment]) -> Result<(), Error> {
     if folder.exists() && !folder.is_dir() {
         let message = format!("`{}` is not a folder", folder.display());
@@ -71,20 +71,20 @@ fn compute(
     quiet: bool,
 ) -> Result<Book<'static>, Error> {
     let progress = Bar::new(quiet);
-    let teller = Teller {
+    let runs = Runs {
         progress: progress.clone(),
         lines: !quiet && !std::io::stderr().is_terminal(),
         count: chosen.len(),
     };
-    let found = interrupt::compute(move || teller.all(&chosen, effort));
+    let found = interrupt::compute(move || runs.all(&chosen, effort));
     progress.finish();
     Ok(Book { effort, chapters: found? })
 }
 
-/// Tells how far the experiments are.
-struct Teller {
+/// Runs experiments and shows their progress.
+struct Runs {
     progress: Bar,
-    /// A line for each that is finished, where nobody sees a bar.
+    /// Whether to print a line for each finished experiment, where there is no bar.
     lines: bool,
     count: usize,
 }
@@ -93,13 +93,13 @@ struct Teller {
 struct ExperimentProgress<'a> {
     progress: &'a Bar,
     name: &'static str,
-    /// `2 of 11 buckling`.
+    /// The stage in the bar, such as `2 of 11 buckling`.
     shown: String,
 }
 
 impl Progress for ExperimentProgress<'_> {
     fn report(&self, stage: &str, fraction: f64) {
-        // What an experiment calls has stages of its own, each from nothing to all.
+        // Functions that the experiment calls report stages of their own.
         if stage == self.name {
             self.progress.report(&self.shown, fraction);
         }
@@ -112,12 +112,12 @@ impl Progress for ExperimentProgress<'_> {
 
 type Chapter = (&'static Experiment, Finding);
 
-impl Teller {
+impl Runs {
     fn all(&self, chosen: &[&'static Experiment], effort: Effort) -> Result<Vec<Chapter>, Error> {
         chosen.iter().enumerate().map(|(i, &e)| Ok((e, self.one(i + 1, e, effort)?))).collect()
     }
 
-    /// What an experiment found, or that it could not be run.
+    /// The finding of an experiment, or that it failed.
     fn one(
         &self,
         number: usize,

@@ -1,10 +1,9 @@
 //! Checkpoints: files from which interrupted work resumes.
 
 mod hairs;
-mod picture;
+pub mod picture;
 
 pub use hairs::HairCheckpoint;
-pub use picture::{PictureCheckpoint, ResumedPicture};
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};

@@ -1,10 +1,9 @@
 //! Final pictures: traced into files, with a checkpoint of each.
 
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use frisure::files::WriteError;
+use frisure::files::{WriteError, write_atomically};
 use frisure::look::{Camera, Lights};
 use frisure::progress::Progress;
 use frisure::render::trace::{Accumulator, TraceOptions, Tracer};
@@ -14,7 +13,7 @@ use super::accumulate::{Pauses, accumulate};
 use super::denoise::NoiseFilter;
 use super::file::write_traced;
 use super::subject::Subject;
-use crate::checkpoint::{PictureCheckpoint, ResumedPicture};
+use crate::checkpoint::picture as checkpoint;
 use crate::error::Error;
 
 /// When the picture so far is saved: every minute, and for at most a twentieth of the time; chosen.
@@ -29,14 +28,17 @@ pub struct FrameSet {
     filter: Option<NoiseFilter>,
 }
 
-/// A final picture on its way into a file.
+/// A final picture and its file.
 pub struct FinalPicture<'a> {
     frames: &'a FrameSet,
-    path: PathBuf,
-    checkpoint: PictureCheckpoint,
-    accumulator: Accumulator,
-    resumed: f64,
-    moved_to: Option<PathBuf>,
+    /// The samples so far.
+    pub accumulator: Accumulator,
+    /// The file.
+    pub path: PathBuf,
+    /// Mean number of paths per pixel that were in the checkpoint.
+    pub resumed_paths: f64,
+    /// The new name of the checkpoint of another picture that was in the way.
+    pub moved_to: Option<PathBuf>,
 }
 
 /// How the tracing of a picture ends.
@@ -66,12 +68,6 @@ impl FrameSet {
         Ok(Self { tracer, views, output: subject.scene.output, filter })
     }
 
-    /// The indices of the frames.
-    #[must_use]
-    pub fn indices(&self) -> Range<usize> {
-        0..self.views.len().max(1)
-    }
-
     /// Begins the picture of a frame, or resumes it from its checkpoint.
     ///
     /// # Errors
@@ -80,18 +76,17 @@ impl FrameSet {
         if let Some((camera, lights)) = self.views.get(frame) {
             self.tracer.look_from(camera, lights).map_err(|e| Error::because(&e, ""))?;
         }
-        let checkpoint = PictureCheckpoint::of(path);
-        let ResumedPicture { accumulator, moved_to } = checkpoint.resume(&self.tracer)?;
-        let accumulator = accumulator.unwrap_or_else(|| self.tracer.accumulator());
-        let resumed = accumulator.mean_samples();
-        Ok(FinalPicture {
-            frames: self,
-            path: path.into(),
-            checkpoint,
-            accumulator,
-            resumed,
-            moved_to,
-        })
+        let (found, moved_to) = checkpoint::resume(&checkpoint::path_for(path), &self.tracer)?;
+        let accumulator = found.unwrap_or_else(|| self.tracer.accumulator());
+        let resumed_paths = accumulator.mean_samples();
+        Ok(FinalPicture { frames: self, accumulator, path: path.into(), resumed_paths, moved_to })
+    }
+
+    fn write(&self, path: &Path, accumulator: &Accumulator) -> Result<(), Error> {
+        let (image, layers) = (accumulator.image(), accumulator.layers());
+        let denoised = self.filter.map(|filter| filter.apply(&image, &layers)).transpose()?;
+        let images = (&image, denoised.as_ref());
+        write_traced(path, images, layers, accumulator.mean_samples(), &self.output)
     }
 }
 
@@ -101,67 +96,24 @@ impl FinalPicture<'_> {
     /// # Errors
     /// [`Error::Failed`], if the picture cannot be written.
     pub fn trace(&mut self, progress: &dyn Progress) -> Result<TraceEnd, Error> {
-        let Self { frames, path, checkpoint, accumulator, .. } = self;
+        let Self { frames, path, accumulator, .. } = self;
+        let checkpoint = checkpoint::path_for(path);
         let mut saved = Ok(());
         let end = accumulate(&frames.tracer, accumulator, PAUSES, progress, &mut |so_far, _| {
             frames.write(path, so_far)?;
             // A checkpoint that cannot be saved now may be at the next time.
-            saved = checkpoint.save(so_far);
+            saved = write_atomically(&checkpoint, |out| out.write_all(&so_far.to_bytes()));
             Ok(())
         });
         match end {
             Ok(()) => {
                 frames.write(path, accumulator)?;
-                checkpoint.remove();
+                // A checkpoint that cannot be removed does no harm.
+                let _ = std::fs::remove_file(checkpoint);
                 Ok(TraceEnd::Finished)
             }
             Err(Error::Cancelled(_)) => Ok(TraceEnd::Cancelled(saved)),
             Err(error) => Err(error),
         }
-    }
-
-    /// The file of the picture.
-    #[must_use]
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// The checkpoint.
-    #[must_use]
-    pub fn checkpoint(&self) -> &PictureCheckpoint {
-        &self.checkpoint
-    }
-
-    /// The new name of the checkpoint of another picture that was in the way.
-    #[must_use]
-    pub fn moved_to(&self) -> Option<&Path> {
-        self.moved_to.as_deref()
-    }
-
-    /// Mean number of paths per pixel.
-    #[must_use]
-    pub fn paths(&self) -> f64 {
-        self.accumulator.mean_samples()
-    }
-
-    /// Mean number of paths per pixel that were in the checkpoint.
-    #[must_use]
-    pub fn resumed_paths(&self) -> f64 {
-        self.resumed
-    }
-
-    /// Noise (standard error as a fraction of a display's scale); not finite for very few paths.
-    #[must_use]
-    pub fn noise(&self) -> f32 {
-        self.accumulator.noise()
-    }
-}
-
-impl FrameSet {
-    fn write(&self, path: &Path, accumulator: &Accumulator) -> Result<(), Error> {
-        let (image, layers) = (accumulator.image(), accumulator.layers());
-        let denoised = self.filter.map(|filter| filter.apply(&image, &layers)).transpose()?;
-        let images = (&image, denoised.as_ref());
-        write_traced(path, images, layers, accumulator.mean_samples(), &self.output)
     }
 }

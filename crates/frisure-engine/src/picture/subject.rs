@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::options::spec;
 use crate::error::Error;
+use crate::runner::LoadedScene;
 
 /// The camera of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +38,19 @@ pub struct Subject<'a> {
     pub surface: Option<&'a Surface>,
     /// The scene's environment map ([`crate::environment_map`]).
     pub environment: Option<&'a EnvironmentMap>,
+}
+
+impl LoadedScene {
+    /// The subject of strands on the scene's head, with the scene's environment map.
+    #[must_use]
+    pub fn subject<'a>(
+        &'a self,
+        strands: &'a Strands,
+        environment: Option<&'a EnvironmentMap>,
+    ) -> Subject<'a> {
+        let surface = Some(self.head.surface());
+        Subject { scene: &self.scene, strands, framed: strands, surface, environment }
+    }
 }
 
 impl<'a> Subject<'a> {

@@ -1,13 +1,16 @@
 //! The report of a hairstyle and its drawn hairs.
 
 use frisure::hairstyle::contact::Thickness;
-use frisure::hairstyle::{Body, DrawnHair, HairContact, Hairstyle, SettlingReport, Volume};
+use frisure::hairstyle::{
+    Body, DrawnHair, HairContact, Hairstyle, SettlingReport, Simulation, Volume, volume,
+};
 use frisure::rod::Energy;
-use frisure::scene::Scene;
+use frisure::strands::Strands;
 use serde::Serialize;
 
-use super::{AdoptionReport, StepReport};
-use crate::metrics::HairstyleMetrics;
+use super::StepReport;
+use crate::adoption::AdoptionReport;
+use crate::runner::LoadedScene;
 
 /// A hairstyle and its drawn hairs in numbers; SI units. No time and no machine: the same scene gives the same bytes.
 #[derive(Clone, Debug, Serialize)]
@@ -129,44 +132,38 @@ pub struct VolumeReport {
     pub cell: f64,
 }
 
-impl HairstyleReport {
-    /// The report of a hairstyle without its drawn hairs.
-    pub(crate) fn new(scene: &Scene, hairstyle: &Hairstyle, metrics: &HairstyleMetrics) -> Self {
-        let spec = hairstyle.spec();
-        Self {
-            scene: scene.name.clone(),
-            hair_type: scene.hair_type,
+impl LoadedScene {
+    /// The report of the hairstyle, and of its drawn hairs if there are some.
+    #[must_use]
+    pub fn report(&self, drawn: Option<&DrawnHair>) -> HairstyleReport {
+        let (spec, metrics) = (self.hairstyle.spec(), self.metrics());
+        let strands = drawn.map(|drawn| &drawn.strands);
+        let bounds = strands.and_then(Strands::bounds);
+        let simulation = drawn.map(|drawn| drawn.simulation).filter(|s| s.hairs > 0);
+        HairstyleReport {
+            scene: self.scene.name.clone(),
+            hair_type: self.scene.hair_type,
             seed: spec.seed,
             guides: GuideReport::new(&metrics.settling, spec.equilibrium.tolerance),
-            groom: None,
+            groom: self.adoption.clone(),
             contact: ContactReport { body: body(spec.contact.body), hair: hair(spec.contact.hair) },
-            thickness: thickness(hairstyle),
+            thickness: thickness(&self.hairstyle),
             energy: EnergyReport::from(metrics.settling.energy),
-            hairs: 0,
-            points: 0,
-            simulated: None,
+            hairs: strands.map_or(0, Strands::len),
+            points: strands.map_or(0, |strands| strands.points().len()),
+            simulated: simulation.map(|Simulation { hairs, at_rest, elements, iterations }| {
+                SimulationReport { hairs, stable: at_rest, elements, iterations }
+            }),
             hair_penetration: None,
-            volume: None,
-            bounds: None,
+            volume: strands.map(|strands| {
+                let Volume { region, hair, cell } =
+                    volume(strands, &self.head, self.hairstyle.grown());
+                VolumeReport { region, hair, cell }
+            }),
+            bounds: bounds.map(|(low, high)| [low.to_array(), high.to_array()]),
             mass: metrics.mass,
             steps: Vec::new(),
         }
-    }
-
-    /// Adds the drawn hairs and the space that they take.
-    pub(crate) fn add_hairs(&mut self, drawn: &DrawnHair, volume: &Volume) {
-        let DrawnHair { strands, simulation } = drawn;
-        self.hairs = strands.len();
-        self.points = strands.points().len();
-        self.simulated = (simulation.hairs > 0).then_some(SimulationReport {
-            hairs: simulation.hairs,
-            stable: simulation.at_rest,
-            elements: simulation.elements,
-            iterations: simulation.iterations,
-        });
-        let Volume { region, hair, cell } = *volume;
-        self.volume = Some(VolumeReport { region, hair, cell });
-        self.bounds = strands.bounds().map(|(low, high)| [low.to_array(), high.to_array()]);
     }
 }
 

@@ -26,10 +26,9 @@ use frisure_engine::{Error, LoadedScene, Runner, StyledScene, environment_map};
 use super::read_scene;
 use crate::args::{Predict, Quality};
 use crate::diagnostics::ExitStatus;
-use crate::grooms::GroomWriter;
 use crate::pictures::{Turntable, noise_filter, trace};
 use crate::progress::Bar;
-use crate::{console, hair_checkpoint, interrupt};
+use crate::{console, grooms, hair_checkpoint, interrupt};
 
 use files::StageFiles;
 use summary::summary;
@@ -73,7 +72,7 @@ pub(crate) fn run_scene(
 
 /// Checks what the files are asked to hold.
 fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
-    GroomWriter::new(&arguments.outputs, arguments.writing)?;
+    grooms::check(&arguments.outputs, arguments.writing)?;
     if arguments.tracing.is_given() && arguments.quality == Quality::Preview {
         let message = "`--paths`, `--noise`, `--bounces` and `--denoise` are for final pictures";
         return Err(Error::invalid(message, "add `--quality final`"));
@@ -229,18 +228,17 @@ impl Prediction {
         strands: &Strands,
         framed: &Strands,
     ) -> Result<Picture, Error> {
-        let scene = &*self.scene;
-        let (surface, environment) = (Some(loaded.head.surface()), self.environment.as_ref());
-        let subject = Subject { scene, strands, framed, surface, environment };
+        let subject = loaded.subject(strands, self.environment.as_ref());
+        let subject = Subject { framed, ..subject };
         if self.arguments.quality == Quality::Preview {
-            let Output { width, height, samples, .. } = scene.output;
+            let Output { width, height, samples, .. } = self.scene.output;
             let options = PreviewOptions { width, height, samples, ..PreviewOptions::default() };
             return subject.preview(&options, &self.progress).map(Picture::Preview);
         }
         let tracing = &self.arguments.tracing;
         let turntable = self.turntable.map(|turntable| turntable.frames);
         let filter = noise_filter(tracing.denoise)?;
-        let frames = FrameSet::new(&subject, &tracing.options(scene), turntable, filter)?;
+        let frames = FrameSet::new(&subject, &tracing.options(&self.scene), turntable, filter)?;
         Ok(Picture::Final(Box::new(frames)))
     }
 
@@ -253,8 +251,7 @@ impl Prediction {
     ) -> Result<Vec<String>, Error> {
         let mut lines = Vec::new();
         if let Some(groom) = groom {
-            let writer = GroomWriter::new(&files.grooms, self.arguments.writing)?;
-            lines.extend(writer.write(groom, &files.grooms)?);
+            lines.extend(grooms::write(groom, &files.grooms, self.arguments.writing)?);
         }
         if let (Some(path), Some(picture)) = (&files.image, picture) {
             interrupt::check()?;
