@@ -3,11 +3,11 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::files::frame::{Frame, FrameChoice, UpAxis};
 use frisure::formats::groom::Format;
-use frisure::hairstyle::PRESETS;
+use frisure::hairstyle::{PRESETS, Preset, preset};
 use frisure::render::trace::TraceOptions;
 use frisure::scene::Scene;
 use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
@@ -231,7 +231,7 @@ pub(crate) struct Tracing {
 }
 
 impl Tracing {
-    /// Whether any of them is.
+    /// Whether any of them is given.
     pub(crate) fn is_given(self) -> bool {
         let Self { paths, noise, bounces, denoise } = self;
         paths.is_some() || noise.is_some() || bounces.is_some() || denoise.is_some()
@@ -285,8 +285,8 @@ pub(crate) struct Render {
     pub(crate) size: Option<(usize, usize)>,
 
     /// Where it is taken from, instead of the scene's place.
-    #[arg(long, value_enum, value_name = "CAMERA")]
-    pub(crate) camera: Option<CameraName>,
+    #[arg(long, value_parser = named(&CAMERAS), value_name = "CAMERA")]
+    pub(crate) camera: Option<f64>,
 
     /// So many pictures from all around, numbered, in the studio's light; the head turns to its right.
     #[arg(long, value_name = "FRAMES", value_parser = frames)]
@@ -306,31 +306,13 @@ pub(crate) struct Render {
     pub(crate) axes: Axes,
 }
 
-/// A place to take a picture from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CameraName {
-    /// In front of the face.
-    Front,
-    /// Between front and left side.
-    ThreeQuarter,
-    /// The head's left side.
-    Side,
-    /// Behind.
-    Back,
-}
-
-impl CameraName {
-    /// Angle around the head (rad), from the face to its left.
-    pub(crate) fn azimuth(self) -> f64 {
-        let degrees: f64 = match self {
-            Self::Front => 0.0,
-            Self::ThreeQuarter => 35.0,
-            Self::Side => 90.0,
-            Self::Back => 180.0,
-        };
-        degrees.to_radians()
-    }
-}
+/// Directions of the camera, as angles around the head (degrees) from the face to its left.
+const CAMERAS: [(&str, &str, f64); 4] = [
+    ("front", "In front of the face", 0.0),
+    ("three-quarter", "Between front and left side", 35.0),
+    ("side", "The head's left side", 90.0),
+    ("back", "Behind", 180.0),
+];
 
 /// What is in a groom file, and how.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -353,28 +335,24 @@ pub(crate) struct Writing {
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct Axes {
     /// The unit of the groom's positions and widths, instead of its own or its format's.
-    #[arg(long, value_enum, value_name = "UNIT")]
-    pub(crate) unit: Option<Unit>,
+    #[arg(long, value_parser = named(&UNITS), value_name = "UNIT")]
+    pub(crate) unit: Option<f64>,
 
     /// The axis that points up in the groom, instead of its own or its format's: y (the face looks along z)
     /// or z (along -y).
-    #[arg(long, value_enum, value_name = "AXIS")]
-    pub(crate) up: Option<Up>,
+    #[arg(long, value_parser = named(&UP_AXES), value_name = "AXIS")]
+    pub(crate) up: Option<UpAxis>,
 }
 
 impl Axes {
-    /// Whether any of them is said.
+    /// Whether any of them is given.
     pub(crate) fn is_given(self) -> bool {
         self.unit.is_some() || self.up.is_some()
     }
 
-    /// What is said.
+    /// The choice of a frame.
     pub(crate) fn choice(self) -> FrameChoice {
-        let up = self.up.map(|up| match up {
-            Up::Y => UpAxis::Y,
-            Up::Z => UpAxis::Z,
-        });
-        FrameChoice { metres: self.unit.map(Unit::metres), up }
+        FrameChoice { metres: self.unit, up: self.up }
     }
 }
 
@@ -389,42 +367,17 @@ pub(crate) enum Content {
     Both,
 }
 
-/// A unit of length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Unit {
-    /// Metres.
-    M,
-    /// Decimetres.
-    Dm,
-    /// Centimetres.
-    Cm,
-    /// Millimetres.
-    Mm,
-    /// Inches.
-    In,
-}
+/// Units of length (m).
+const UNITS: [(&str, &str, f64); 5] = [
+    ("m", "Metres", 1.0),
+    ("dm", "Decimetres", 0.1),
+    ("cm", "Centimetres", 0.01),
+    ("mm", "Millimetres", 0.001),
+    ("in", "Inches", 0.0254),
+];
 
-impl Unit {
-    /// Metres per unit.
-    fn metres(self) -> f64 {
-        match self {
-            Self::M => 1.0,
-            Self::Dm => 0.1,
-            Self::Cm => 0.01,
-            Self::Mm => 0.001,
-            Self::In => 0.0254,
-        }
-    }
-}
-
-/// An axis that can point up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Up {
-    /// y.
-    Y,
-    /// z.
-    Z,
-}
+/// Axes that can point up.
+const UP_AXES: [(&str, &str, UpAxis); 2] = [("y", "y", UpAxis::Y), ("z", "z", UpAxis::Z)];
 
 const CONVERT_EXAMPLES: &str = "\
 Examples:
@@ -447,12 +400,12 @@ pub(crate) struct Convert {
     pub(crate) writing: Writing,
 
     /// The unit of the groom that is read, instead of its own or its format's.
-    #[arg(long, value_enum, value_name = "UNIT")]
-    pub(crate) from_unit: Option<Unit>,
+    #[arg(long, value_parser = named(&UNITS), value_name = "UNIT")]
+    pub(crate) from_unit: Option<f64>,
 
     /// The axis that points up in the groom that is read, instead of its own or its format's.
-    #[arg(long, value_enum, value_name = "AXIS")]
-    pub(crate) from_up: Option<Up>,
+    #[arg(long, value_parser = named(&UP_AXES), value_name = "AXIS")]
+    pub(crate) from_up: Option<UpAxis>,
 }
 
 /// Examples, and the formats.
@@ -511,8 +464,8 @@ comes from is told in docs/hair-types.md.";
 pub(crate) struct Presets {
     /// One hair type: print all its numbers.
     #[arg(value_name = "TYPE", hide_possible_values = true)]
-    #[arg(value_parser = PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)))]
-    pub(crate) hair_type: Option<String>,
+    #[arg(value_parser = hair_type())]
+    pub(crate) hair_type: Option<&'static Preset>,
 
     /// Print JSON instead of a table.
     #[arg(long)]
@@ -523,9 +476,8 @@ pub(crate) struct Presets {
 #[derive(Args, Debug)]
 pub(crate) struct New {
     /// The hair type; `frisure presets` describes them.
-    #[arg(value_parser = PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)))]
-    #[arg(default_value = "caucasian-wavy")]
-    pub(crate) hair_type: String,
+    #[arg(value_parser = hair_type(), default_value = "caucasian-wavy")]
+    pub(crate) hair_type: &'static Preset,
 }
 
 const MEASURED_EXAMPLES: &str = "\
@@ -559,8 +511,8 @@ pub(crate) struct Measured {
 
     /// The hair type that everything else comes from. By default the one with the nearest curl.
     #[arg(long = "type", value_name = "TYPE", hide_possible_values = true)]
-    #[arg(value_parser = PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)))]
-    pub(crate) hair_type: Option<String>,
+    #[arg(value_parser = hair_type())]
+    pub(crate) hair_type: Option<&'static Preset>,
 
     /// Read a column as if it had another heading: 'D1=max diameter (um)'. May be repeated.
     #[arg(long = "column", value_name = "COLUMN=HEADING", value_parser = pair)]
@@ -595,7 +547,23 @@ pub(crate) struct Measured {
     pub(crate) turns: Option<f64>,
 }
 
-/// Two texts with a sign between.
+/// Reads the name of a hair type.
+fn hair_type() -> impl TypedValueParser<Value = &'static Preset> {
+    let known = "the parser accepts the names of presets alone";
+    PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)).map(|n| preset(&n).expect(known))
+}
+
+/// Reads the name of one of some values, each with a name and a description.
+fn named<T: Copy + Send + Sync>(
+    values: &'static [(&'static str, &'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let known = "the parser accepts these names alone";
+    let possible = values.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help));
+    PossibleValuesParser::new(possible)
+        .map(|name| values.iter().find(|value| value.0 == name).expect(known).2)
+}
+
+/// Reads two texts with `=` between.
 fn pair(text: &str) -> Result<(String, String), String> {
     let (left, right) = text.split_once('=').ok_or("it must be two texts with `=` between")?;
     Ok((left.trim().to_owned(), right.trim().to_owned()))

@@ -3,6 +3,7 @@
 use std::io::{self, ErrorKind, Write};
 
 use frisure_engine::Error;
+use serde::Serialize;
 
 use crate::diagnostics::render;
 
@@ -13,6 +14,12 @@ pub(crate) fn print(text: &str) -> Result<(), Error> {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::failed(&error, "")),
         _ => Ok(()),
     }
+}
+
+/// Indented JSON with a line break at the end.
+pub(crate) fn json(value: &impl Serialize) -> Result<String, Error> {
+    let json = serde_json::to_string_pretty(value).map_err(|e| Error::failed(&e, ""))?;
+    Ok(format!("{json}\n"))
 }
 
 /// Writes a line about progress to standard error.

@@ -40,7 +40,8 @@ const MOST_POINTS_OF_A_PAGE: usize = 32_000_000;
 /// ```
 #[derive(Debug, Default)]
 pub struct Runner {
-    files: Files,
+    /// The files that scenes name: of the file system, or provided where there is none.
+    pub files: Files,
     heads: Arc<HeadCache>,
     hairstyles: HairstyleCache,
     /// The strands that were drawn last, with their hairstyle and stride.
@@ -67,17 +68,6 @@ impl Runner {
     #[must_use]
     pub fn new(heads: Arc<HeadCache>) -> Self {
         Self { heads, ..Self::default() }
-    }
-
-    /// The files that were provided, and those of the file system.
-    #[must_use]
-    pub fn files(&self) -> &Files {
-        &self.files
-    }
-
-    /// Provides a file that scenes name, where there is no file system: by its path, or by its name alone.
-    pub fn provide_file(&mut self, path: &str, bytes: &[u8]) {
-        self.files.provide(path, bytes);
     }
 
     /// Empties the caches; files that were provided stay.

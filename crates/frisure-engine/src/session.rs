@@ -83,7 +83,7 @@ impl Execution<'_> {
     fn response(&mut self, request: &Request) -> Result<Response, Error> {
         match request {
             Request::ProvideFile { path, bytes } => {
-                self.session.runner.provide_file(path, bytes);
+                self.session.runner.files.provide(path.as_str(), bytes.as_slice());
                 Ok(Response::FileProvided)
             }
             Request::Contents { path } => self.contents(path),
@@ -121,7 +121,7 @@ impl Execution<'_> {
     }
 
     fn contents(&self, path: &str) -> Result<Response, Error> {
-        let found = contents::of(Path::new(path), self.session.runner.files());
+        let found = contents::of(Path::new(path), &self.session.runner.files);
         Ok(Response::Contents(found.map_err(|e| Error::because(&e, ""))?))
     }
 
@@ -178,7 +178,7 @@ impl Execution<'_> {
         // The cast takes the low bits, which is as good a seed.
         let options = TraceOptions { seed: scene.look.hair.seed, ..options };
         options.check().map_err(|e| Error::because(&e, ""))?;
-        let environment = environment_map(scene, self.session.runner.files())?;
+        let environment = environment_map(scene, &self.session.runner.files)?;
         let mut strands = Strands::clone(&*self.strands(&loaded, 1)?);
         add_sections(&mut strands, hairstyle, head);
         self.progress.report("preparing the light", 0.0);
@@ -222,7 +222,7 @@ impl Execution<'_> {
     ) -> Result<Response, Error> {
         picture::check_turntable(size, frames)?;
         let loaded = self.load(scene, Quality::Exact)?;
-        let environment = environment_map(&loaded.scene, self.session.runner.files())?;
+        let environment = environment_map(&loaded.scene, &self.session.runner.files)?;
         let strands = self.strands(&loaded, 1)?;
         let subject = loaded.subject(&strands, environment.as_ref());
         let bytes = picture::turntable(&subject, viewpoint, size, frames, self.progress)?;

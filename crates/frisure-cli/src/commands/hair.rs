@@ -41,11 +41,9 @@ pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
     let hair = read_scene(&arguments.scene)?.single_hair()?;
     let rest = interrupt::compute(move || Ok(equilibrium(&hair.rod, &[], &hair.options)))?;
     let report = report(&rest, arguments.points);
-    let text = if arguments.json {
-        let json = serde_json::to_string_pretty(&report).map_err(|e| Error::failed(&e, ""))?;
-        format!("{json}\n")
-    } else {
-        table(&report, rest.certificate.stability)
+    let text = match arguments.json {
+        true => console::json(&report)?,
+        false => table(&report, rest.certificate.stability),
     };
     console::print(&text)?;
     Ok(match rest.certificate.stability {

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use frisure::files;
-use frisure::hairstyle::preset;
 use frisure::scene::measurements::{Choices, Steepness, measured};
 use frisure_engine::Error;
 
@@ -48,7 +47,7 @@ fn choices(arguments: &Measured) -> Choices {
         rows: arguments.rows.clone(),
         window: arguments.window,
         shape_only: arguments.shape_only,
-        hair_type: arguments.hair_type.as_deref().and_then(preset),
+        hair_type: arguments.hair_type,
         steepness: steepness.or(arguments.turns.map(Steepness::Turns)),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use frisure::hairstyle::{HairType, PRESETS, Preset, Wetting, preset};
+use frisure::hairstyle::{HairType, PRESETS, Preset, Wetting};
 use frisure_engine::Error;
 use serde::Serialize;
 
@@ -12,22 +12,14 @@ use crate::diagnostics::ExitStatus;
 
 /// Prints a table of the hair types, or all numbers of one.
 pub(crate) fn run(arguments: &Presets) -> Result<ExitStatus, Error> {
-    let one = arguments.hair_type.as_deref().map(named).transpose()?;
-    let text = match (one, arguments.json) {
+    let text = match (arguments.hair_type, arguments.json) {
         (None, false) => table(),
         (Some(preset), false) => sheet(preset),
-        (None, true) => json(&PRESETS.iter().map(Described::new).collect::<Vec<_>>())?,
-        (Some(preset), true) => json(&Described::new(preset))?,
+        (None, true) => console::json(&PRESETS.iter().map(Described::new).collect::<Vec<_>>())?,
+        (Some(preset), true) => console::json(&Described::new(preset))?,
     };
     console::print(&text)?;
     Ok(ExitStatus::Success)
-}
-
-fn named(name: &str) -> Result<&'static Preset, Error> {
-    preset(name).ok_or_else(|| {
-        let message = format!("there is no hair type `{name}`");
-        Error::invalid(message, "`frisure presets` lists them")
-    })
 }
 
 fn table() -> String {
@@ -108,11 +100,6 @@ fn wetting(wet: &Wetting) -> String {
         "E x {:.2}, G x {:.2}, diameter x {:.3}, length x {:.3}, wisps x {:.1}",
         wet.youngs_modulus, wet.shear_modulus, wet.diameter, wet.length, wet.wisp
     )
-}
-
-fn json<T: Serialize>(value: &T) -> Result<String, Error> {
-    let json = serde_json::to_string_pretty(value).map_err(|e| Error::failed(&e, ""))?;
-    Ok(format!("{json}\n"))
 }
 
 /// A type for programs; SI units.

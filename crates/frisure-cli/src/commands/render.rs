@@ -68,7 +68,7 @@ fn with_view(arguments: &Render, mut scene: Scene) -> Scene {
         (scene.output.width, scene.output.height) = (width, height);
     }
     if let Some(camera) = arguments.camera {
-        scene.camera.azimuth = camera.azimuth();
+        scene.camera.azimuth = camera.to_radians();
     }
     scene
 }
