@@ -6,6 +6,7 @@ use frisure_engine::Error;
 use serde::Serialize;
 
 use crate::diagnostics::render;
+use crate::interrupt;
 
 /// Writes text to standard output. A closed pipe (`frisure presets | head -1`) is no error.
 pub(crate) fn print(text: &str) -> Result<(), Error> {
@@ -38,8 +39,10 @@ pub(crate) fn show_error(error: &Error) {
     // Removes colours where they are not wanted: in files, with NO_COLOR.
     let mut err = anstream::stderr().lock();
     let _ = match error {
-        Error::Cancelled(_) => writeln!(err, "interrupted"),
-        Error::Paused(how) => writeln!(err, "interrupted: {how}"),
+        Error::Cancelled(_) => match interrupt::resume() {
+            Some(how) => writeln!(err, "interrupted: {how}"),
+            None => writeln!(err, "interrupted"),
+        },
         error => writeln!(err, "{}", render(error)),
     };
 }

@@ -36,7 +36,7 @@ pub(crate) fn exit_code(error: &Error) -> ExitCode {
         Error::Failed { .. } | Error::Internal(_) => ExitCode::FAILURE,
         Error::Scene(_) | Error::Invalid { .. } => ExitCode::from(2),
         // As shells report a death by SIGINT.
-        Error::Cancelled(_) | Error::Paused(_) => ExitCode::from(130),
+        Error::Cancelled(_) => ExitCode::from(130),
     }
 }
 

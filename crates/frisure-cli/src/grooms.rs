@@ -55,7 +55,8 @@ pub(crate) fn write(
             line += &format!(" ({points} points each, within {error:.3} mm of what they were)");
             written = groom;
         }
-        write_groom(path, written, writing.axes.choice()).map_err(|e| match e {
+        let write = || write_groom(path, written, writing.axes.choice());
+        interrupt::writing(write).map_err(|e| match e {
             GroomError::CannotHold { .. } => Error::because(&e, ""),
             _ => Error::failed(&e, ""),
         })?;

@@ -23,9 +23,10 @@ use frisure_engine::Error;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    match run(arguments) {
+    match interrupt::run(move || run(arguments)) {
         Ok(status) => status.into(),
         Err(error) => {
+            outputs::remove_empty_folders();
             console::show_error(&error);
             exit_code(&error)
         }
@@ -33,28 +34,27 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<ExitStatus, Error> {
-    interrupt::install()?;
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().map_err(|e| Error::failed(&e, ""))?;
     }
     let quiet = arguments.quiet;
     match arguments.command {
-        Command::Predict(predict) => commands::predict::run(predict, quiet),
+        Command::Predict(predict) => commands::predict::run(&predict, quiet),
         #[cfg(feature = "batch")]
         Command::Batch(batch) => commands::batch::run(&batch, quiet),
         #[cfg(not(feature = "batch"))]
         Command::Batch(_) => Err(commands::not_built("batch")),
         Command::Style(style) => commands::style::run(&style, quiet),
         Command::Render(render) => commands::render::run(render, quiet),
-        Command::Convert(convert) => commands::convert::run(convert, quiet),
+        Command::Convert(convert) => commands::convert::run(&convert, quiet),
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),
         Command::Measured(measured) => commands::measured::run(&measured, quiet),
         Command::Schema => commands::schema::run(),
         #[cfg(feature = "validate")]
-        Command::Validate(validate) => commands::validate::run(validate, quiet),
+        Command::Validate(validate) => commands::validate::run(&validate, quiet),
         #[cfg(not(feature = "validate"))]
         Command::Validate(_) => Err(commands::not_built("validate")),
     }

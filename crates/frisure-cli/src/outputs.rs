@@ -1,11 +1,17 @@
 //! Output files: checked before the work, so that no result is computed that cannot be written.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::{fs, io};
 
 use frisure::files::{self, WriteError};
 use frisure_engine::Error;
+
+use crate::interrupt;
+
+/// The folders that were created, the deepest first of each path.
+static CREATED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Checks that all `outputs` are different files, that none is one of the `inputs`, and that each
 /// can be written; creates their folders.
@@ -26,6 +32,7 @@ pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Error> 
     }
     for path in outputs {
         if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
+            CREATED.lock().unwrap_or_else(PoisonError::into_inner).extend(missing(folder));
             fs::create_dir_all(folder).map_err(|source| {
                 let path = folder.to_path_buf();
                 Error::failed(&WriteError::Io { path, source }, "")
@@ -34,6 +41,26 @@ pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Error> 
         files::check_destination(path).map_err(|e| Error::failed(&e, ""))?;
     }
     Ok(())
+}
+
+/// A folder and its parents that do not exist, the deepest first.
+fn missing(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let named = folder.ancestors().filter(|f| !f.as_os_str().is_empty());
+    named.take_while(|f| !f.exists()).map(Path::to_path_buf)
+}
+
+/// Removes the folders that [`prepare`] created and that are still empty.
+pub(crate) fn remove_empty_folders() {
+    for folder in CREATED.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+        // Folders with files cannot be removed.
+        let _ = fs::remove_dir(folder);
+    }
+}
+
+/// Writes a text; the file is complete or as before.
+pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Error> {
+    let write = |out: &mut dyn io::Write| out.write_all(text.as_bytes());
+    interrupt::writing(|| files::write_atomically(path, write)).map_err(|e| Error::failed(&e, ""))
 }
 
 /// The path with as much of it as exists made absolute, links followed.

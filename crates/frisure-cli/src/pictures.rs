@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use frisure::denoise::{Denoiser, VARIABLE};
 use frisure::files::WriteError;
-use frisure::progress::SubStage;
+use frisure::progress::{Cancelled, SubStage};
 use frisure_engine::Error;
 use frisure_engine::checkpoint::picture as checkpoint;
 use frisure_engine::picture::{FinalPicture, FrameSet, NoiseFilter, TraceEnd};
 
-use crate::console;
 use crate::outputs::{self, numbered};
 use crate::progress::Bar;
+use crate::{console, interrupt};
 
 /// Pictures from all around the head.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +83,7 @@ pub(crate) fn trace(
                 "`{path}` is of another picture, or damaged; it is now `{old}`"
             ));
         }
-        match picture.trace(&stage)? {
+        match interrupt::writing(|| picture.trace(&stage))? {
             TraceEnd::Finished => lines.push(summary(&picture)),
             TraceEnd::Cancelled(saved) => {
                 let mut text = interruption(&picture, saved.err().as_ref());
@@ -91,7 +91,8 @@ pub(crate) fn trace(
                     text +=
                         &format!(" With `--from {frame}` the frames before are not drawn again.");
                 }
-                return Err(Error::Paused(text));
+                interrupt::set_resume(Some(text));
+                return Err(Cancelled.into());
             }
         }
     }

@@ -9,7 +9,6 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use crate::interrupt;
 
 /// Progress of a long computation on standard error, if that is a terminal.
-#[derive(Clone)]
 pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
@@ -33,9 +32,11 @@ impl Bar {
     pub(crate) fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
         self.0.suspend(print)
     }
+}
 
-    /// Removes the bar.
-    pub(crate) fn finish(&self) {
+/// Removes the bar.
+impl Drop for Bar {
+    fn drop(&mut self) {
         self.0.finish_and_clear();
     }
 }

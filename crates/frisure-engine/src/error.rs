@@ -17,9 +17,6 @@ pub enum Error {
     /// [`frisure::progress::Progress::is_cancelled`] returned true.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The same, and the work can be resumed; the text says how.
-    #[error("{0}")]
-    Paused(String),
     /// The scene, or a file that it names, is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -67,7 +64,7 @@ impl Error {
         match self {
             Self::Invalid { hint, .. } | Self::Failed { hint, .. } => hint,
             Self::Internal(_) => "please report it, with the scene",
-            Self::Cancelled(_) | Self::Paused(_) | Self::Scene(_) => "",
+            Self::Cancelled(_) | Self::Scene(_) => "",
         }
     }
 

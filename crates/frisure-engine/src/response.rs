@@ -65,7 +65,7 @@ impl Response {
 impl From<Error> for Response {
     fn from(error: Error) -> Self {
         match &error {
-            Error::Cancelled(_) | Error::Paused(_) => Self::Cancelled,
+            Error::Cancelled(_) => Self::Cancelled,
             error => Self::Failed(error.into()),
         }
     }

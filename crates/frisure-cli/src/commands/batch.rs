@@ -1,16 +1,13 @@
 //! `frisure batch`: many heads of one scene as Parquet.
 
 use std::fmt::Write;
-use std::io;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use frisure::files;
 use frisure::progress::Progress;
 use frisure::scene::SceneError;
 use frisure::scene::edit::EditError;
-use frisure_batch::{Batch as Heads, Part, Row, Run, Sample, Shard, Value};
+use frisure_batch::{Batch as Heads, Row, Run, Sample, Shard, Value};
 use frisure_engine::Error;
 
 use crate::args::Batch;
@@ -23,8 +20,7 @@ const LISTED: usize = 256;
 
 /// Computes a shard of a batch, lists it, or prints the scene of one head.
 pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<ExitStatus, Error> {
-    let path = arguments.spec.clone();
-    let heads = interrupt::compute(move || Ok(Heads::read(&path)?))?;
+    let heads = Heads::read(&arguments.spec)?;
     if let Some(index) = arguments.scene {
         return one_scene(arguments, &heads, index);
     }
@@ -38,60 +34,43 @@ pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<ExitStatus, Error> {
     compute(heads, folder, arguments.shard, quiet)
 }
 
-/// Computes the missing parts of a shard. This thread writes them, and always finishes the file at hand.
+/// Computes and writes the missing parts of a shard.
 fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<ExitStatus, Error> {
     let all = heads.heads();
-    let work = Arc::new(Run::new(heads, folder, shard)?);
-    let missing = work.missing()?;
-    let count = |parts: &[Part]| parts.iter().map(|part| part.heads).sum::<usize>();
-    let own = work.parts().map(|part| part.heads).sum::<usize>();
-    let to_do = count(&missing);
+    let run = Run::new(heads, folder, shard)?;
+    let missing = run.missing()?;
+    let own = run.parts().map(|part| part.heads).sum::<usize>();
+    let to_do = missing.iter().map(|part| part.heads).sum::<usize>();
+    let before = own - to_do;
     if !quiet {
-        console::print(&header(shard, own, all, own - to_do))?;
+        console::print(&header(shard, own, all, before))?;
     }
     let progress = Bar::new(quiet);
-    let done = Arc::new(AtomicUsize::new(0));
+    let done = AtomicUsize::new(0);
+    let each = || {
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.report("heads", done as f64 / to_do as f64);
+    };
+    progress.report("heads", 0.0);
     let mut totals = Totals::default();
-    let result = missing.iter().enumerate().try_for_each(|(place, part)| {
-        let rows = part_of(&work, *part, &progress, &done, to_do)?;
-        let path = work.write(*part, &rows)?;
+    for (place, part) in missing.iter().enumerate() {
+        interrupt::set_resume(Some(format!(
+            "{} of {own} heads are in `{}`; the same command goes on",
+            before + totals.heads,
+            folder.display()
+        )));
+        let rows = run.compute(*part, &progress, &each)?;
+        let path = interrupt::writing(|| run.write(*part, &rows))?;
         totals.add(&rows);
         let (parts, failed) = (missing.len(), failures(&rows));
         let line = format!("{} of {parts}: {}{failed}\n", place + 1, path.display());
-        progress.suspend(|| if quiet { Ok(()) } else { console::print(&line) })
-    });
-    progress.finish();
-    result.map_err(|failure| match failure {
-        Error::Cancelled(_) => Error::Paused(format!(
-            "{} of {own} heads are in `{}`; the same command goes on",
-            own - to_do + totals.heads,
-            folder.display()
-        )),
-        failure => failure,
-    })?;
+        progress.suspend(|| if quiet { Ok(()) } else { console::print(&line) })?;
+    }
+    drop(progress);
     if !quiet {
         console::print(&totals.summary(own))?;
     }
     Ok(ExitStatus::Success)
-}
-
-/// Computes the heads of a part on a thread that can be left behind.
-fn part_of(
-    work: &Arc<Run>,
-    part: Part,
-    progress: &Bar,
-    done: &Arc<AtomicUsize>,
-    all: usize,
-) -> Result<Vec<Row>, Error> {
-    let (work, progress, done) = (work.clone(), progress.clone(), done.clone());
-    progress.report("heads", done.load(Ordering::Relaxed) as f64 / all as f64);
-    interrupt::compute(move || {
-        let each = || {
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress.report("heads", done as f64 / all as f64);
-        };
-        Ok(work.compute(part, &progress, &each)?)
-    })
 }
 
 /// A line about the work before it begins.
@@ -213,7 +192,6 @@ fn one_scene(arguments: &Batch, heads: &Heads, index: usize) -> Result<ExitStatu
     let mut inputs = heads.inputs();
     inputs.push(&arguments.spec);
     outputs::prepare(&[path], &inputs)?;
-    let write = |out: &mut dyn io::Write| out.write_all(text.as_bytes());
-    files::write_atomically(path, write).map_err(|e| Error::failed(&e, ""))?;
+    outputs::write_text(path, &text)?;
     Ok(ExitStatus::Success)
 }

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use super::read_scene;
 use crate::args::Hair;
+use crate::console;
 use crate::diagnostics::ExitStatus;
-use crate::{console, interrupt};
 
 /// The JSON report; SI units.
 #[derive(Debug, Serialize)]
@@ -39,7 +39,7 @@ struct Report {
 /// Computes and prints the hair of a scene.
 pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
     let hair = read_scene(&arguments.scene)?.single_hair()?;
-    let rest = interrupt::compute(move || Ok(equilibrium(&hair.rod, &[], &hair.options)))?;
+    let rest = equilibrium(&hair.rod, &[], &hair.options);
     let report = report(&rest, arguments.points);
     let text = match arguments.json {
         true => console::json(&report)?,

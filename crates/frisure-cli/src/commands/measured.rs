@@ -2,34 +2,26 @@
 
 use std::path::Path;
 
-use frisure::files;
 use frisure::scene::measurements::{Choices, Steepness, measured};
 use frisure_engine::Error;
 
 use super::parse_scene;
 use crate::args::Measured;
 use crate::diagnostics::ExitStatus;
-use crate::{console, interrupt, outputs};
+use crate::{console, outputs};
 
 /// Reads the tables and writes the scene, with notes on what was not measured.
 pub(crate) fn run(arguments: &Measured, quiet: bool) -> Result<ExitStatus, Error> {
-    let tables = arguments.tables.clone();
-    let read: Vec<&Path> = tables.iter().map(AsRef::as_ref).collect();
-    outputs::prepare(&arguments.output.iter().map(AsRef::as_ref).collect::<Vec<_>>(), &read)?;
-    let choices = choices(arguments);
-    let estimate = interrupt::compute(move || {
-        let read: Vec<&Path> = tables.iter().map(AsRef::as_ref).collect();
-        measured(&read, &choices).map_err(|e| Error::because(&e, &e.hint()))
-    })?;
+    let tables: Vec<&Path> = arguments.tables.iter().map(AsRef::as_ref).collect();
+    outputs::prepare(&arguments.output.iter().map(AsRef::as_ref).collect::<Vec<_>>(), &tables)?;
+    let estimate = measured(&tables, &choices(arguments));
+    let estimate = estimate.map_err(|e| Error::because(&e, &e.hint()))?;
     let text = estimate.scene();
     let name = arguments.output.as_deref().unwrap_or(Path::new("measured.toml"));
     // Numbers that are each in range may be impossible together.
     parse_scene(name, text.clone())?.hairstyle_spec()?;
     match &arguments.output {
-        Some(path) => {
-            let written = files::write_atomically(path, |out| out.write_all(text.as_bytes()));
-            written.map_err(|e| Error::failed(&e, ""))?;
-        }
+        Some(path) => outputs::write_text(path, &text)?,
         None => console::print(&text)?,
     }
     if !quiet {

@@ -23,7 +23,6 @@ use frisure::scene::{MAX_SIZE, Scene};
 use frisure_engine::Error;
 
 use crate::args::Axes;
-use crate::interrupt;
 
 /// The name of a scene in errors about its size.
 const WHAT: &str = "a scene";
@@ -46,13 +45,8 @@ fn parse_scene(path: &Path, text: String) -> Result<Scene, Error> {
     Ok(Scene::parse(&name(path), text, folder)?)
 }
 
-/// The text of a scene in a file, or on standard input for `-`; stops at Ctrl-C.
+/// The text of a scene in a file, or on standard input for `-`.
 fn read_text(path: &Path) -> Result<String, Error> {
-    let path = path.to_owned();
-    interrupt::compute(move || text_of(&path))
-}
-
-fn text_of(path: &Path) -> Result<String, Error> {
     if path != Path::new("-") {
         return Ok(files::read_text(path, MAX_SIZE, WHAT)?);
     }

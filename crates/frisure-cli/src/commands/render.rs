@@ -15,16 +15,16 @@ use frisure_engine::{Error, HeadCache, environment_map, input_files};
 use super::predict;
 use super::{read_groom, read_scene};
 use crate::args::{Axes, Predict, Quality, Render, Writing};
+use crate::console;
 use crate::diagnostics::ExitStatus;
 use crate::pictures::{self, Turntable, noise_filter};
 use crate::progress::Bar;
-use crate::{console, interrupt};
 
 /// Predicts the scene, or reads the groom, and traces its picture.
 pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
     let turntable = turntable(&arguments)?;
     if GroomFormat::of(&arguments.scene).is_ok() {
-        return groom(arguments, turntable, quiet);
+        return groom(&arguments, turntable, quiet);
     }
     if let Some(look) = &arguments.look {
         let message = format!("`--look {}` is for grooms", look.display());
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
         writing: Writing::default(),
         fibres: false,
     };
-    predict::run_scene(arguments, scene, turntable, quiet)
+    predict::run_scene(&arguments, scene, turntable, quiet)
 }
 
 fn turntable(arguments: &Render) -> Result<Option<Turntable>, Error> {
@@ -80,7 +80,7 @@ fn strands(path: &Path, axes: Axes) -> Result<Strands, Error> {
 }
 
 fn groom(
-    arguments: Render,
+    arguments: &Render,
     turntable: Option<Turntable>,
     quiet: bool,
 ) -> Result<ExitStatus, Error> {
@@ -88,23 +88,18 @@ fn groom(
         Some(path) => read_scene(path)?,
         None => Scene::parse("", "", Path::new(""))?,
     };
-    let scene = with_view(&arguments, look);
+    let scene = with_view(arguments, look);
     Format::of(&arguments.output).map_err(|e| Error::because(&e, ""))?;
     arguments.tracing.options(&scene).check().map_err(|e| Error::because(&e, ""))?;
     let mut inputs = input_files(&scene);
     inputs.push(&arguments.scene);
     inputs.extend(arguments.look.as_deref());
     pictures::prepare(&pictures::paths(&arguments.output, turntable), &[], &inputs)?;
-    let output = arguments.output.clone();
     let progress = Bar::new(quiet);
-    let worker = progress.clone();
-    let frames = interrupt::compute(move || {
-        worker.report("strands", 0.0);
-        groom_frames(&arguments, &scene, turntable)
-    });
-    let lines = frames.and_then(|frames| pictures::trace(frames, &output, turntable, &progress));
-    progress.finish();
-    let lines = lines?;
+    progress.report("strands", 0.0);
+    let frames = groom_frames(arguments, &scene, turntable)?;
+    let lines = pictures::trace(frames, &arguments.output, turntable, &progress)?;
+    drop(progress);
     if !quiet {
         console::print(&lines.iter().map(|line| format!("wrote {line}\n")).collect::<String>())?;
     }

@@ -5,7 +5,6 @@ use std::fs::{File, TryLockError};
 use std::path::Path;
 use std::time::Duration;
 
-use frisure::files::{self, WriteError};
 use frisure::hairstyle::styling::Operation;
 use frisure::scene::edit::{self, EditError};
 use frisure::scene::{parse_step, write_step};
@@ -14,7 +13,7 @@ use frisure_engine::Error;
 use super::{parse_scene, read_text};
 use crate::args::Style;
 use crate::diagnostics::ExitStatus;
-use crate::{console, interrupt};
+use crate::{console, interrupt, outputs};
 
 /// The name of steps of the command line in errors.
 const STEP: &str = "--step";
@@ -116,8 +115,7 @@ fn write(path: &Path, text: &str) -> Result<(), Error> {
     if is_standard(path) {
         return console::print(text);
     }
-    let failed = |e: WriteError| Error::failed(&e, "");
-    files::write_atomically(path, |out| out.write_all(text.as_bytes())).map_err(failed)
+    outputs::write_text(path, text)
 }
 
 fn summary(path: &Path, count: usize) -> String {

@@ -1,7 +1,6 @@
 //! `frisure validate`: runs experiments and writes their report.
 
 use std::fmt::Write;
-use std::fs;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -16,26 +15,25 @@ use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
 
 /// Runs the experiments and writes the report, also where a criterion fails.
-pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<ExitStatus, Error> {
+pub(crate) fn run(arguments: &Validate, quiet: bool) -> Result<ExitStatus, Error> {
     if arguments.list {
         console::print(&list())?;
         return Ok(ExitStatus::Success);
     }
     let Validate { experiments: names, full, output, .. } = arguments;
-    let effort = if full { Effort::Full } else { Effort::Quick };
+    let effort = if *full { Effort::Full } else { Effort::Quick };
     let chosen: Vec<&'static Experiment> = EXPERIMENTS
         .iter()
         .copied()
         .filter(|e| names.is_empty() || names.iter().any(|name| name == e.name))
         .collect();
-    let made = missing(&output);
-    let book = prepare(&output, &chosen).and_then(|()| compute(chosen, effort, quiet));
-    if book.is_err() {
-        // Only empty folders can be removed.
-        made.iter().for_each(|folder| drop(fs::remove_dir(folder)));
-    }
-    let book = book?;
-    let written = book.write(&output);
+    prepare(output, &chosen)?;
+    let progress = Bar::new(quiet);
+    let lines = !quiet && !std::io::stderr().is_terminal();
+    let chapters = Runs { progress: &progress, lines, count: chosen.len() }.all(&chosen, effort)?;
+    drop(progress);
+    let book = Book { effort, chapters };
+    let written = interrupt::writing(|| book.write(output));
     if !quiet {
         // Even if the report cannot be written, the result of minutes of work is printed.
         console::print(&summary(&book))?;
@@ -45,12 +43,6 @@ pub(crate) fn run(arguments: Validate, quiet: bool) -> Result<ExitStatus, Error>
         console::print(&format!("wrote {}\n", page.display()))?;
     }
     Ok(if book.holds() { ExitStatus::Success } else { ExitStatus::CriterionFailed })
-}
-
-/// A folder and its parents that do not exist, the deepest first.
-fn missing(folder: &Path) -> Vec<PathBuf> {
-    let named = folder.ancestors().filter(|f| !f.as_os_str().is_empty());
-    named.take_while(|f| !f.exists()).map(Path::to_path_buf).collect()
 }
 
 /// Checks that the report can be written: its two files, and files with the names of its pictures.
@@ -65,25 +57,9 @@ fn prepare(folder: &Path, chosen: &[&Experiment]) -> Result<(), Error> {
     outputs::prepare(&files, &[])
 }
 
-fn compute(
-    chosen: Vec<&'static Experiment>,
-    effort: Effort,
-    quiet: bool,
-) -> Result<Book<'static>, Error> {
-    let progress = Bar::new(quiet);
-    let runs = Runs {
-        progress: progress.clone(),
-        lines: !quiet && !std::io::stderr().is_terminal(),
-        count: chosen.len(),
-    };
-    let found = interrupt::compute(move || runs.all(&chosen, effort));
-    progress.finish();
-    Ok(Book { effort, chapters: found? })
-}
-
 /// Runs experiments and shows their progress.
-struct Runs {
-    progress: Bar,
+struct Runs<'a> {
+    progress: &'a Bar,
     /// Whether to print a line for each finished experiment, where there is no bar.
     lines: bool,
     count: usize,
@@ -112,7 +88,7 @@ impl Progress for ExperimentProgress<'_> {
 
 type Chapter = (&'static Experiment, Finding);
 
-impl Runs {
+impl Runs<'_> {
     fn all(&self, chosen: &[&'static Experiment], effort: Effort) -> Result<Vec<Chapter>, Error> {
         chosen.iter().enumerate().map(|(i, &e)| Ok((e, self.one(i + 1, e, effort)?))).collect()
     }
@@ -127,7 +103,7 @@ impl Runs {
         interrupt::check()?;
         let name = experiment.name;
         let shown = format!("{number} of {} {name}", self.count);
-        let progress = ExperimentProgress { progress: &self.progress, name, shown };
+        let progress = ExperimentProgress { progress: self.progress, name, shown };
         progress.report(name, 0.0);
         let start = Instant::now();
         let finding = match (experiment.run)(effort, &progress) {

@@ -7,7 +7,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use frisure::files::Files;
-use frisure::formats::groom::Groom;
 use frisure::formats::{picture, report};
 use frisure::hairstyle::{
     Checkpoint, DrawnHair, StrandOptions, add_sections, guide_strands, penetration,
@@ -37,32 +36,30 @@ use summary::summary;
 const FRAMED: usize = 24;
 
 /// Computes what the arguments ask for, and writes it.
-pub(crate) fn run(arguments: Predict, quiet: bool) -> Result<ExitStatus, Error> {
-    let scene = read_scene(&arguments.scene)?;
-    run_scene(arguments, scene, None, quiet)
+pub(crate) fn run(arguments: &Predict, quiet: bool) -> Result<ExitStatus, Error> {
+    run_scene(arguments, read_scene(&arguments.scene)?, None, quiet)
 }
 
 /// The same for a scene that was read already, with a turntable of its final picture, if wanted.
 pub(crate) fn run_scene(
-    arguments: Predict,
+    arguments: &Predict,
     scene: Scene,
     turntable: Option<Turntable>,
     quiet: bool,
 ) -> Result<ExitStatus, Error> {
     let spec = scene.hairstyle_spec()?;
-    check_arguments(&arguments, &scene)?;
-    let stages = files::stages(&arguments, &scene, &spec);
-    files::prepare(&arguments, &scene, &stages, turntable)?;
+    check_arguments(arguments, &scene)?;
+    let files = files::stages(arguments, &scene, &spec);
+    files::prepare(arguments, &scene, &files, turntable)?;
     let environment = match arguments.image {
         Some(_) => environment_map(&scene, &Files::default())?,
         None => None,
     };
     let progress = Bar::new(quiet);
-    let scene = Arc::new(scene);
-    let prediction = Arc::new(Prediction { arguments, scene, turntable, environment, progress });
-    let result = write_all(&prediction, stages);
-    prediction.progress.finish();
-    let Written { report, note, lines } = result?;
+    let prediction = Prediction { arguments, turntable, environment, progress };
+    let written = prediction.execute(&Arc::new(scene), &files);
+    drop(prediction);
+    let Written { report, note, lines } = written?;
     if !quiet {
         console::print(&summary(&report, note.as_deref(), &lines))?;
     }
@@ -89,29 +86,21 @@ fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
 }
 
 /// A prediction with its arguments.
-struct Prediction {
-    arguments: Predict,
-    scene: Arc<Scene>,
+struct Prediction<'a> {
+    arguments: &'a Predict,
     turntable: Option<Turntable>,
     environment: Option<EnvironmentMap>,
     progress: Bar,
 }
 
-/// The hairstyles of a prediction.
-struct Hairstyles {
-    styled: StyledScene,
-    /// What every picture has to show, if there are several.
-    framed: Option<Strands>,
-}
-
-/// A hairstyle with its hairs.
-struct Drawn {
-    groom: Option<Groom>,
-    picture: Option<Picture>,
+/// What was written.
+struct Written {
     /// Of the last hairstyle.
-    report: Option<HairstyleReport>,
-    /// The simulated hairs so far, until they are written.
-    checkpoint: Option<HairCheckpoint>,
+    report: HairstyleReport,
+    /// What was guessed of the head.
+    note: Option<String>,
+    /// A line about each file.
+    lines: Vec<String>,
 }
 
 enum Picture {
@@ -119,83 +108,43 @@ enum Picture {
     Final(Box<FrameSet>),
 }
 
-/// What was written.
-struct Written {
-    /// Of the last hairstyle.
-    report: HairstyleReport,
-    note: Option<String>,
-    /// A line about each file.
-    lines: Vec<String>,
-}
-
-/// Computes on threads that can be left behind, and writes on this one, which always finishes the file at hand.
-fn write_all(prediction: &Arc<Prediction>, stages: Vec<StageFiles>) -> Result<Written, Error> {
-    let worker = prediction.clone();
-    let hairstyles = Arc::new(interrupt::compute(move || worker.hairstyles())?);
-    let mut lines = Vec::new();
-    let mut report = None;
-    for (stage, files) in stages.into_iter().enumerate() {
-        let (worker, hairstyles) = (prediction.clone(), hairstyles.clone());
-        let checkpoint = files.hair_checkpoint.clone();
-        let drawn =
-            interrupt::compute(move || worker.draw(&hairstyles, stage, checkpoint.as_deref()));
-        let drawn =
-            drawn.map_err(|e| hair_checkpoint::resumable(e, files.hair_checkpoint.as_deref()))?;
-        lines.extend(prediction.write(drawn.groom, drawn.picture, &files)?);
-        hair_checkpoint::remove(drawn.checkpoint);
-        report = drawn.report;
-    }
-    let report = report.expect("the last hairstyle has a report");
-    if let Some(path) = &prediction.arguments.report {
-        interrupt::check()?;
-        report::write(path, &report).map_err(|e| Error::failed(&e, ""))?;
-        lines.push(path.display().to_string());
-    }
-    let note = hairstyles.styled.stages[0].note.clone();
-    Ok(Written { report, note, lines })
-}
-
-impl Prediction {
-    fn hairstyles(&self) -> Result<Hairstyles, Error> {
+impl Prediction<'_> {
+    /// Computes all hairstyles and writes their files.
+    fn execute(&self, scene: &Arc<Scene>, files: &[StageFiles]) -> Result<Written, Error> {
         self.progress.report("head", 0.0);
         let all = self.arguments.each_step;
-        let styled = Runner::default().load_stages(&self.scene, all, &self.progress)?;
-        let several = self.arguments.image.is_some() && styled.stages.len() > 1;
-        let framed = several.then(|| all_guides(&styled.stages));
-        Ok(Hairstyles { styled, framed })
-    }
-
-    fn draw(
-        &self,
-        hairstyles: &Hairstyles,
-        stage: usize,
-        checkpoint: Option<&Path>,
-    ) -> Result<Drawn, Error> {
-        let Hairstyles { styled: StyledScene { stages, steps }, framed } = hairstyles;
-        let (loaded, arguments) = (&stages[stage], &self.arguments);
-        let checkpoint = checkpoint.filter(|_| self.draws_hairs());
-        let checkpoint = hair_checkpoint::open(checkpoint, loaded, &self.progress)?;
-        let hairs = self.draws_hairs().then(|| self.hairs(loaded, checkpoint.as_ref()));
-        let hairs = hairs.transpose()?;
-        let picture = match (&arguments.image, &hairs) {
-            (Some(_), Some(hairs)) => {
-                let strands = &hairs.strands;
-                Some(self.picture(loaded, strands, framed.as_ref().unwrap_or(strands))?)
+        let styled = Runner::default().load_stages(scene, all, &self.progress)?;
+        let StyledScene { stages, steps } = styled;
+        let several = self.arguments.image.is_some() && stages.len() > 1;
+        let framed = several.then(|| all_guides(&stages));
+        let mut lines = Vec::new();
+        let mut report = None;
+        for (stage, (loaded, files)) in stages.iter().zip(files).enumerate() {
+            let checkpoint = files.hair_checkpoint.as_deref().filter(|_| self.draws_hairs());
+            let checkpoint = hair_checkpoint::open(checkpoint, loaded, &self.progress)?;
+            let hairs = self.hairs(loaded, checkpoint.as_ref())?;
+            if stage + 1 == stages.len() {
+                report = Some(self.report(loaded, hairs.as_ref()));
             }
-            _ => None,
-        };
-        let report = (stage + 1 == stages.len()).then(|| {
-            let steps = steps.clone();
-            HairstyleReport { steps, ..self.report(loaded, hairs.as_ref()) }
-        });
-        let groom = hairs.filter(|_| !arguments.outputs.is_empty());
-        let groom = groom.map(|hairs| loaded.groom(hairs.strands, arguments.fibres));
-        Ok(Drawn { groom, picture, report, checkpoint })
+            if let Some(hairs) = hairs {
+                lines.extend(self.write(loaded, hairs, framed.as_ref(), files)?);
+            }
+            hair_checkpoint::remove(checkpoint);
+        }
+        let report = report.expect("the last hairstyle has a report");
+        let report = HairstyleReport { steps, ..report };
+        if let Some(path) = &self.arguments.report {
+            interrupt::check()?;
+            let write = || report::write(path, &report);
+            interrupt::writing(write).map_err(|e| Error::failed(&e, ""))?;
+            lines.push(path.display().to_string());
+        }
+        Ok(Written { report, note: stages[0].note.clone(), lines })
     }
 
     /// Whether hairs are needed between the guides.
     fn draws_hairs(&self) -> bool {
-        let Predict { outputs, image, report, .. } = &self.arguments;
+        let Predict { outputs, image, report, .. } = self.arguments;
         !outputs.is_empty() || image.is_some() || report.is_some()
     }
 
@@ -203,14 +152,17 @@ impl Prediction {
         &self,
         loaded: &LoadedScene,
         checkpoint: Option<&HairCheckpoint>,
-    ) -> Result<DrawnHair, Error> {
+    ) -> Result<Option<DrawnHair>, Error> {
+        if !self.draws_hairs() {
+            return Ok(None);
+        }
         let checkpoint = checkpoint.map(|checkpoint| checkpoint as &dyn Checkpoint);
         let options = StrandOptions { checkpoint, ..StrandOptions::default() };
         let mut hairs = loaded.draw(options, &self.progress)?;
         if self.arguments.image.is_some() && self.arguments.quality == Quality::Final {
             add_sections(&mut hairs.strands, &loaded.hairstyle, &loaded.head);
         }
-        Ok(hairs)
+        Ok(Some(hairs))
     }
 
     fn report(&self, loaded: &LoadedScene, hairs: Option<&DrawnHair>) -> HairstyleReport {
@@ -221,51 +173,67 @@ impl Prediction {
         report
     }
 
-    /// The picture of strands, with a camera that has `framed` in it.
+    /// Writes the grooms and the picture of a hairstyle; returns a line about each. The camera of the picture has
+    /// `framed` in it.
+    fn write(
+        &self,
+        loaded: &LoadedScene,
+        hairs: DrawnHair,
+        framed: Option<&Strands>,
+        files: &StageFiles,
+    ) -> Result<Vec<String>, Error> {
+        let Predict { writing, fibres, .. } = self.arguments;
+        let strands = hairs.strands;
+        let picture = match &files.image {
+            Some(path) => Some((path, self.picture(loaded, &strands, framed)?)),
+            None => None,
+        };
+        let mut lines = match files.grooms.is_empty() {
+            true => Vec::new(),
+            false => grooms::write(loaded.groom(strands, *fibres), &files.grooms, *writing)?,
+        };
+        if let Some((path, picture)) = picture {
+            interrupt::check()?;
+            lines.extend(self.write_picture(path, picture, &loaded.scene.output)?);
+        }
+        Ok(lines)
+    }
+
+    /// The picture of strands, or its tracer.
     fn picture(
         &self,
         loaded: &LoadedScene,
         strands: &Strands,
-        framed: &Strands,
+        framed: Option<&Strands>,
     ) -> Result<Picture, Error> {
+        let scene = &loaded.scene;
         let subject = loaded.subject(strands, self.environment.as_ref());
-        let subject = Subject { framed, ..subject };
+        let subject = Subject { framed: framed.unwrap_or(strands), ..subject };
         if self.arguments.quality == Quality::Preview {
-            let Output { width, height, samples, .. } = self.scene.output;
+            let Output { width, height, samples, .. } = scene.output;
             let options = PreviewOptions { width, height, samples, ..PreviewOptions::default() };
             return subject.preview(&options, &self.progress).map(Picture::Preview);
         }
         let tracing = &self.arguments.tracing;
         let turntable = self.turntable.map(|turntable| turntable.frames);
         let filter = noise_filter(tracing.denoise)?;
-        let frames = FrameSet::new(&subject, &tracing.options(&self.scene), turntable, filter)?;
+        let frames = FrameSet::new(&subject, &tracing.options(scene), turntable, filter)?;
         Ok(Picture::Final(Box::new(frames)))
     }
 
-    /// Writes the files of one hairstyle; returns a line about each.
-    fn write(
+    fn write_picture(
         &self,
-        groom: Option<Groom>,
-        picture: Option<Picture>,
-        files: &StageFiles,
+        path: &Path,
+        picture: Picture,
+        output: &Output,
     ) -> Result<Vec<String>, Error> {
-        let mut lines = Vec::new();
-        if let Some(groom) = groom {
-            lines.extend(grooms::write(groom, &files.grooms, self.arguments.writing)?);
-        }
-        if let (Some(path), Some(picture)) = (&files.image, picture) {
-            interrupt::check()?;
-            match picture {
-                Picture::Preview(image) => {
-                    pictures::write(path, &image, &self.scene.output)?;
-                    lines.push(path.display().to_string());
-                }
-                Picture::Final(frames) => {
-                    lines.extend(trace(*frames, path, self.turntable, &self.progress)?);
-                }
+        match picture {
+            Picture::Preview(image) => {
+                interrupt::writing(|| pictures::write(path, &image, output))?;
+                Ok(vec![path.display().to_string()])
             }
+            Picture::Final(frames) => trace(*frames, path, self.turntable, &self.progress),
         }
-        Ok(lines)
     }
 }
 
