@@ -127,3 +127,16 @@ pub fn message(error: &dyn StdError) -> String {
     }
     message
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_internal_error() {
+        let failed = catch_panic::<()>(|| panic!("no element {}", 7)).unwrap_err();
+        assert_eq!(failed.to_string(), "internal error: no element 7");
+        assert_eq!(failed.hint(), "please report it, with the scene");
+        assert_eq!(catch_panic(|| Ok(1)).unwrap(), 1);
+    }
+}

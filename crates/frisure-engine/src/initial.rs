@@ -53,52 +53,51 @@ const NEARER: f64 = 0.25;
 /// Factors between the units that are tried for a suggestion.
 const SIZES: [f64; 8] = [0.001, 0.01, 0.0254, 0.1, 10.0, 1.0 / 0.0254, 100.0, 1000.0];
 
-/// An error if the groom is not on the head; it suggests another axis or unit where that fits.
+/// An axis that may point up in a groom, and where it takes a point.
+type Turn = (&'static str, fn(DVec3) -> DVec3);
+
+/// The groom as it is, and with another axis up.
+const TURNS: [Turn; 3] =
+    [("", |p| p), ("y", |p| DVec3::new(p.x, -p.z, p.y)), ("z", |p| DVec3::new(p.x, p.z, -p.y))];
+
+/// Checks that the groom is on the head; the error suggests another axis or unit if that fits.
 fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), SceneError> {
     let roots: Vec<DVec3> = guides.iter().map(|strand| strand.points[0].as_dvec3()).collect();
-    let median = |turned: &dyn Fn(DVec3) -> DVec3| {
-        let distance = |root: &DVec3| head.signed_distance().value(turned(*root)).abs();
+    // Median distance (m) of turned and scaled roots from the skin.
+    let median = |turn: fn(DVec3) -> DVec3, size: f64| {
+        let distance = |root: &DVec3| head.signed_distance().value(turn(*root * size)).abs();
         let mut distances: Vec<f64> = roots.iter().map(distance).collect();
         let half = distances.len() / 2;
         *distances.select_nth_unstable_by(half, f64::total_cmp).1
     };
-    let distance = median(&|root| root);
-    // A head is so round that roots which were turned over may come to lie near its skin again.
-    let up_y = |p: DVec3| DVec3::new(p.x, -p.z, p.y);
-    let up_z = |p: DVec3| DVec3::new(p.x, p.z, -p.y);
-    let ways: [(&str, &dyn Fn(DVec3) -> DVec3); 2] = [("y", &up_y), ("z", &up_z)];
-    let fits = |turned| median(turned) < NEARER * distance;
-    let other = ways.iter().find(|(_, turned)| distance > SURE && fits(*turned));
-    if distance <= MOST_DISTANCE && other.is_none() {
+    let distance = median(TURNS[0].1, 1.0);
+    // A head is so round that turned roots may be near its skin again.
+    let fits = |turn| distance > SURE && median(turn, 1.0) < NEARER * distance;
+    let turned = TURNS[1..].iter().find(|(_, turn)| fits(*turn));
+    if distance <= MOST_DISTANCE && turned.is_none() {
         return Ok(());
     }
-    let possible = if distance > MOST_DISTANCE { "; 1 cm is possible" } else { "" };
-    let larger = || {
-        let as_it_is: (&str, &dyn Fn(DVec3) -> DVec3) = ("", &|p| p);
-        let near = |size: f64, turned: &dyn Fn(DVec3) -> DVec3| {
-            median(&|p| turned(p * size)) < NEARER * MOST_DISTANCE
-        };
-        let sized = |(up, turned): &(&'static str, &dyn Fn(DVec3) -> DVec3)| {
-            let size = SIZES.into_iter().find(|size| near(*size, turned))?;
-            let up = if up.is_empty() { String::new() } else { format!(" and with {up} up") };
-            Some(format!(", but {} times as large{up} they fit", short(size)))
-        };
-        [as_it_is, ways[0], ways[1]].iter().find_map(sized)
+    let scaled = |(up, turn): &Turn| {
+        let near = |size: &f64| median(*turn, *size) < NEARER * MOST_DISTANCE;
+        let size = short(SIZES.into_iter().find(near)?);
+        let up = if up.is_empty() { String::new() } else { format!(" and with {up} up") };
+        Some(format!(", but {size} times as large{up} they fit"))
     };
-    let other = match other {
+    let suggestion = match turned {
         Some((up, _)) => format!(", but with {up} up they fit"),
-        None => larger().unwrap_or_default(),
+        None => TURNS.iter().find_map(scaled).unwrap_or_default(),
     };
-    let message = format!(
-        "half of the groom's strands are rooted more than {:.1} cm from the skin of the head{possible}{other}",
+    let possible = if distance > MOST_DISTANCE { "; 1 cm is possible" } else { "" };
+    let problem = format!(
+        "half of the groom's strands are rooted more than {:.1} cm from the skin of the head{possible}{suggestion}",
         1e2 * distance
     );
     let hint = "`unit` and `up` of `[groom]` say what it is in, those of `[head]` what the head is in; `mesh` is the head that \
                 it was made on";
-    Err(scene.fault("groom.file", message, hint))
+    Err(scene.fault("groom.file", problem, hint))
 }
 
-/// A number of at most three digits.
+/// A number with at most four decimals, or as a fraction.
 fn short(x: f64) -> String {
     if x < 1.0 {
         format!("1/{:.3}", 1.0 / x).trim_end_matches('0').trim_end_matches('.').into()
@@ -107,7 +106,7 @@ fn short(x: f64) -> String {
     }
 }
 
-/// At most `most` of the strands, evenly chosen.
+/// At most `most` of the strands, at equal intervals.
 fn evenly(strands: &Strands, most: usize) -> Strands {
     let count = strands.len().min(most);
     let mut chosen = Strands::new();

@@ -3,14 +3,18 @@
 use std::sync::Arc;
 
 use frisure::hairstyle::styling::{Cut, CutLine, Operation, StyleError};
-use frisure::hairstyle::{StyleOptions, selected, style};
+use frisure::hairstyle::{StyleOptions, guide_strands, selected, style};
 use frisure::progress::Progress;
 use frisure::scene::Scene;
+use frisure::strands::Strands;
 
 use crate::error::Error;
 use crate::quality::Quality;
 use crate::report::StepReport;
 use crate::runner::{LoadedScene, Runner};
+
+/// Points of each guide by which the camera of several pictures is placed; chosen.
+const FRAMED_POINTS: usize = 24;
 
 /// A scene after its steps.
 #[derive(Debug)]
@@ -29,6 +33,20 @@ pub fn stage_count(scene: &Scene) -> usize {
         _ => 1,
     };
     1 + scene.steps().iter().map(stages).sum::<usize>()
+}
+
+impl StyledScene {
+    /// The guides of all stages, so that the pictures of all have one camera.
+    #[must_use]
+    pub fn all_guides(&self) -> Strands {
+        let mut all = Strands::new();
+        for stage in &self.stages {
+            for guide in guide_strands(&stage.hairstyle, FRAMED_POINTS).iter() {
+                all.push(guide.points, guide.radii);
+            }
+        }
+        all
+    }
 }
 
 impl Runner {

@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &Batch, quiet: bool) -> Result<ExitStatus, Error> {
         return list(&heads, arguments.shard);
     }
     let Some(folder) = &arguments.output else {
-        let hint = "`-o DIR` says where the heads go; `--list` tells what they would be";
+        let hint = "`-o DIR` names the folder; `--list` prints the heads without computing them";
         return Err(Error::invalid("there is no folder to write to", hint));
     };
     compute(heads, folder, arguments.shard, quiet)

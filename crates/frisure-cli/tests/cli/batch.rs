@@ -172,7 +172,7 @@ fn heads_are_listed_and_made_again() {
 fn wrong_batches_and_arguments_are_told() {
     let room = Room::new().with("a.toml", spec(5)).with("b.toml", spec(5).replace("6 cm", "6 m"));
     for (arguments, part) in [
-        (&["a.toml"][..], "`-o DIR` says where"),
+        (&["a.toml"][..], "`-o DIR` names the folder"),
         (&["a.toml", "-o", "x", "--shard", "0/3"], "numbered from 1"),
         (&["a.toml", "-o", "x", "--shard", "4/3"], "the last is 3/3"),
         (&["a.toml", "-o", "x", "--shard", "one"], "such as 3/8"),

@@ -1,4 +1,4 @@
-//! Pictures of a scene: what is in them, how they are traced, and their files.
+//! Pictures of a scene: their subject, the accumulation of samples, turntables and files.
 
 mod accumulate;
 #[cfg(not(target_arch = "wasm32"))]

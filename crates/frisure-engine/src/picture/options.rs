@@ -1,4 +1,4 @@
-//! What a scene says about its picture.
+//! Camera, light, look and size of the picture of a scene.
 
 use frisure::look::EnvironmentMap;
 use frisure::render::{Image, PictureSpec};

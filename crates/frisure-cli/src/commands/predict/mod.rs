@@ -8,9 +8,7 @@ use std::sync::Arc;
 
 use frisure::files::Files;
 use frisure::formats::{picture, report};
-use frisure::hairstyle::{
-    Checkpoint, DrawnHair, StrandOptions, add_sections, guide_strands, penetration,
-};
+use frisure::hairstyle::{Checkpoint, DrawnHair, StrandOptions, add_sections, penetration};
 use frisure::look::EnvironmentMap;
 use frisure::progress::Progress;
 use frisure::render::Image;
@@ -31,9 +29,6 @@ use crate::{console, grooms, hair_checkpoint, interrupt};
 
 use files::StageFiles;
 use summary::summary;
-
-/// Points of each guide by which the camera of several pictures is placed; chosen.
-const FRAMED: usize = 24;
 
 /// Computes what the arguments ask for, and writes it.
 pub(crate) fn run(arguments: &Predict, quiet: bool) -> Result<ExitStatus, Error> {
@@ -114,9 +109,9 @@ impl Prediction<'_> {
         self.progress.report("head", 0.0);
         let all = self.arguments.each_step;
         let styled = Runner::default().load_stages(scene, all, &self.progress)?;
+        let several = self.arguments.image.is_some() && styled.stages.len() > 1;
+        let framed = several.then(|| styled.all_guides());
         let StyledScene { stages, steps } = styled;
-        let several = self.arguments.image.is_some() && stages.len() > 1;
-        let framed = several.then(|| all_guides(&stages));
         let mut lines = Vec::new();
         let mut report = None;
         for (stage, (loaded, files)) in stages.iter().zip(files).enumerate() {
@@ -235,15 +230,4 @@ impl Prediction<'_> {
             Picture::Final(frames) => trace(*frames, path, self.turntable, &self.progress),
         }
     }
-}
-
-/// The guides of all hairstyles, so that all pictures have one camera.
-fn all_guides(stages: &[LoadedScene]) -> Strands {
-    let mut all = Strands::new();
-    for stage in stages {
-        for guide in guide_strands(&stage.hairstyle, FRAMED).iter() {
-            all.push(guide.points, guide.radii);
-        }
-    }
-    all
 }
