@@ -23,6 +23,9 @@ const POLL: Duration = Duration::from_millis(20);
 /// Time in which work can stop by itself.
 const GRACE: Duration = Duration::from_millis(500);
 
+/// Size of the stack of a command (bytes), as large as that of a main thread on Linux.
+const STACK: usize = 8 << 20;
+
 /// Whether Ctrl-C was pressed.
 pub(crate) fn interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
@@ -63,10 +66,12 @@ pub(crate) fn run<T: Send + 'static>(
     ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed))
         .map_err(|e| Error::failed(&e, ""))?;
     let (sender, receiver) = mpsc::channel();
-    thread::spawn(move || {
+    let command = move || {
         // The receiver is gone if the command was left behind.
         let _ = sender.send(catch_panic(command));
-    });
+    };
+    let thread = thread::Builder::new().name("command".into()).stack_size(STACK).spawn(command);
+    thread.map_err(|e| Error::failed(&e, ""))?;
     let mut since = None;
     loop {
         match receiver.recv_timeout(POLL) {

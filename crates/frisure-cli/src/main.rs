@@ -26,6 +26,7 @@ fn main() -> ExitCode {
     match interrupt::run(move || run(arguments)) {
         Ok(status) => status.into(),
         Err(error) => {
+            progress::clear();
             outputs::remove_empty_folders();
             console::show_error(&error);
             exit_code(&error)

@@ -1,6 +1,7 @@
 //! The progress bar.
 
 use std::io::IsTerminal;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use frisure::progress::Progress;
@@ -25,6 +26,7 @@ impl Bar {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(200));
+        *shown() = Some(bar.clone());
         Self(bar)
     }
 
@@ -34,10 +36,22 @@ impl Bar {
     }
 }
 
-/// Removes the bar.
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        clear();
+    }
+}
+
+/// The bar that is shown.
+fn shown() -> MutexGuard<'static, Option<ProgressBar>> {
+    static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
+    SHOWN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes the bar, also that of work that was left behind.
+pub(crate) fn clear() {
+    if let Some(bar) = shown().take() {
+        bar.finish_and_clear();
     }
 }
 
