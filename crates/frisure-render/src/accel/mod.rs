@@ -23,7 +23,8 @@
 //! - An area heuristic that counts pieces instead of leaves: 0.92 / 0.79 / 0.89. Leaves of 4 pieces:
 //!   0.80 / 0.72 / 0.76. Leaves of 4 strips of two pieces, which share their joints and take a
 //!   third less memory: 0.72 / 0.67 / 0.84.
-//! - Without AVX2 and FMA, in plain Rust: about half.
+//! - Without AVX2 and FMA, in plain Rust: about half. With the vectors of `fearless_simd`, 1.3 times the rate of our own
+//!   AVX2, on a machine with AVX-512; triangles with SSE2 only: 0.9 of that.
 //!
 //! Untried: nodes on a grid, oriented boxes, sorted bounces.
 

@@ -47,6 +47,7 @@ impl Accumulator {
             bytes.extend(tile.samples.to_le_bytes());
             tile.pixels.iter().for_each(|pixel| write(&mut bytes, pixel));
         }
+        // A digest of all that stands before it, so that a file which was cut off is not taken for a picture.
         let sum = checksum(&bytes);
         bytes.extend(sum);
         bytes
