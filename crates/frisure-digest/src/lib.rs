@@ -252,6 +252,48 @@ macro_rules! digest_fields {
     };
 }
 
+/// Declares structs that implement [`Digestible`] by all of their fields.
+///
+/// `field: Type => function` adds a field of a type that does not implement it by `function(&mut Digest, &Type)`.
+///
+/// ```
+/// use frisure_digest::{Digest, digestible};
+///
+/// digestible! {
+///     struct Fibre {
+///         length: f64,
+///         kind: Option<char> => |digest: &mut Digest, kind: &Option<char>| {
+///             digest.field("kind", &kind.map(u32::from));
+///         },
+///     }
+/// }
+/// let key = |length| Digest::new("fibre").with("fibre", &Fibre { length, kind: None }).key();
+/// assert_ne!(key(1.0), key(2.0));
+/// ```
+#[macro_export]
+macro_rules! digestible {
+    ($(
+        $(#[$meta:meta])*
+        $vis:vis struct $Name:ident {
+            $($(#[$field_meta:meta])* $field_vis:vis $field:ident: $Type:ty $(=> $add:expr)?),* $(,)?
+        }
+    )*) => {$(
+        $(#[$meta])*
+        $vis struct $Name {
+            $($(#[$field_meta])* $field_vis $field: $Type),*
+        }
+
+        impl $crate::Digestible for $Name {
+            fn add_to(&self, digest: &mut $crate::Digest) {
+                let Self { $($field),* } = self;
+                $($crate::digestible!(@add digest, $field $(, $add)?);)*
+            }
+        }
+    )*};
+    (@add $digest:ident, $field:ident) => { $digest.field(stringify!($field), $field) };
+    (@add $digest:ident, $field:ident, $add:expr) => { ($add)($digest, $field) };
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
