@@ -239,6 +239,19 @@ pub struct CameraSpec {
     pub focus: Option<f64>,
 }
 
+impl Default for CameraSpec {
+    /// In front of the head, to its left, with a portrait lens.
+    fn default() -> Self {
+        Self {
+            azimuth: 30_f64.to_radians(),
+            elevation: 5_f64.to_radians(),
+            field_of_view: 24_f64.to_radians(),
+            f_number: None,
+            focus: None,
+        }
+    }
+}
+
 impl CameraSpec {
     /// The camera that is as near as it can be with all points (m) in a picture of `aspect` width/height.
     #[must_use]
