@@ -46,9 +46,9 @@ pub struct Measured {
 /// The message of an error in a row: with the line of the scene and the hint.
 fn message(error: &Error) -> String {
     match error {
-        Error::Scene(SceneError::Fault(fault)) => {
-            let place = format!("line {}: {}", fault.line, fault.message());
-            if fault.hint.is_empty() { place } else { format!("{place} ({})", fault.hint) }
+        Error::Scene(SceneError::Invalid(found)) => {
+            let place = format!("line {}: {}", found.line, found.message());
+            if found.hint.is_empty() { place } else { format!("{place} ({})", found.hint) }
         }
         error => error.to_string(),
     }

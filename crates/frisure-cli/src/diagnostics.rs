@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use frisure::scene::Fault;
+use frisure::scene::Diagnostic;
 use frisure_engine::{Error, message};
 
 /// How a command ends that has a result.
@@ -42,20 +42,20 @@ pub(crate) fn exit_code(error: &Error) -> ExitCode {
 
 /// An error as text of several lines, with the line of the scene and with colours as escape sequences.
 pub(crate) fn render(error: &Error) -> String {
-    let fault = if let Error::Scene(error) = error { error.fault() } else { None };
-    let message = fault.map_or_else(|| message(error), Fault::message);
-    let labels = fault.map(labels).unwrap_or_default();
+    let diagnostic = if let Error::Scene(error) = error { error.diagnostic() } else { None };
+    let message = diagnostic.map_or_else(|| message(error), Diagnostic::message);
+    let labels = diagnostic.map(labels).unwrap_or_default();
     let mut group = Group::with_title(Level::ERROR.primary_title(message.as_str()));
-    if let Some(fault) = fault {
+    if let Some(diagnostic) = diagnostic {
         let kinds =
             iter::once(AnnotationKind::Primary).chain(iter::repeat(AnnotationKind::Context));
         let annotations = labels.iter().zip(kinds);
         let annotations =
             annotations.map(|((span, label), kind)| kind.span(span.clone()).label(label.as_str()));
-        let snippet = Snippet::source(fault.text.as_str()).path(fault.file.as_str());
+        let snippet = Snippet::source(diagnostic.text.as_str()).path(diagnostic.file.as_str());
         group = group.element(snippet.annotations(annotations));
     }
-    let hint = fault.map_or(error.hint(), |fault| &fault.hint);
+    let hint = diagnostic.map_or(error.hint(), |diagnostic| &diagnostic.hint);
     if !hint.is_empty() {
         group = group.element(Level::HELP.message(hint));
     }
@@ -63,18 +63,18 @@ pub(crate) fn render(error: &Error) -> String {
     renderer.render(&[group])
 }
 
-/// What is said about places in the scene; the first is where the error is.
-fn labels(fault: &Fault) -> Vec<(Range<usize>, String)> {
-    let label = if fault.allowed.is_empty() || !fault.problem.is_empty() {
+/// The labels of places in the scene; the first is that of the error.
+fn labels(diagnostic: &Diagnostic) -> Vec<(Range<usize>, String)> {
+    let label = if diagnostic.allowed.is_empty() || !diagnostic.problem.is_empty() {
         // A message about a file does not name the key that has the file.
-        let message = fault.message();
-        let name = fault.key.rsplit('.').next().unwrap_or_default();
-        let named = message.contains(&fault.key) || message.contains(&format!("`{name}`"));
-        if named { "here".to_owned() } else { format!("`{}`", fault.key) }
+        let message = diagnostic.message();
+        let name = diagnostic.key.rsplit('.').next().unwrap_or_default();
+        let named = message.contains(&diagnostic.key) || message.contains(&format!("`{name}`"));
+        if named { "here".to_owned() } else { format!("`{}`", diagnostic.key) }
     } else {
-        format!("must be {}", fault.allowed)
+        format!("must be {}", diagnostic.allowed)
     };
-    let mut labels = vec![(fault.span.clone(), label)];
-    labels.extend(fault.related.iter().cloned());
+    let mut labels = vec![(diagnostic.span.clone(), label)];
+    labels.extend(diagnostic.related.iter().cloned());
     labels
 }

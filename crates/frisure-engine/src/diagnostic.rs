@@ -20,13 +20,13 @@ pub struct Diagnostic {
 
 impl From<&SceneError> for Diagnostic {
     fn from(error: &SceneError) -> Self {
-        match error.fault() {
+        match error.diagnostic() {
             None => Self { problem: message(error), ..Self::default() },
-            Some(fault) => Self {
-                problem: fault.message(),
-                key: fault.key.clone(),
-                line: fault.line,
-                hint: fault.hint.clone(),
+            Some(found) => Self {
+                problem: found.message(),
+                key: found.key.clone(),
+                line: found.line,
+                hint: found.hint.clone(),
             },
         }
     }

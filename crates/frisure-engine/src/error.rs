@@ -72,13 +72,13 @@ impl Error {
     pub(crate) fn of_prediction(error: &PredictError, scene: &Scene) -> Self {
         Self::Scene(match error {
             PredictError::Cancelled(cancelled) => return Self::Cancelled(*cancelled),
-            PredictError::Quantity(error) => scene.blame(error),
+            PredictError::Quantity(error) => scene.quantity_error(error),
             PredictError::Parting(e) => {
                 let key = format!("implantation.partings[{}].line[{}]", e.index, e.place);
-                scene.fault(&key, e.to_string(), "")
+                scene.error_at(&key, e.to_string(), "")
             }
-            PredictError::Crowded(e) => scene.fault("wisps.count", e.to_string(), ""),
-            PredictError::Spec(error) => scene.out_of_range(error),
+            PredictError::Crowded(e) => scene.error_at("wisps.count", e.to_string(), ""),
+            PredictError::Spec(error) => scene.spec_error(error),
         })
     }
 
@@ -86,7 +86,7 @@ impl Error {
     pub(crate) fn of_step(step: usize, error: &StyleError, scene: &Scene) -> Self {
         match error {
             StyleError::Cancelled(cancelled) => Self::Cancelled(*cancelled),
-            error => Self::Scene(scene.step_fault(step, error)),
+            error => Self::Scene(scene.step_error(step, error)),
         }
     }
 

@@ -78,7 +78,7 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
     let note = head_note(scene, &mesh);
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
     let head = Head::from_surface(mesh.surface, scalp);
-    let head = head.map_err(|e| scene.fault("head.mesh", e.to_string(), ""))?;
+    let head = head.map_err(|e| scene.error_at("head.mesh", e.to_string(), ""))?;
     Ok(LoadedHead { head: Arc::new(head), note })
 }
 

@@ -36,7 +36,7 @@ pub(crate) fn initial_hairstyle(
     adopt(spec, head, &guides, &groom.hairs, progress)
         .map(|(hairstyle, adoption)| (hairstyle, Some(adoption)))
         .map_err(|e| match e {
-            PredictError::Quantity(e) => scene.fault("groom.file", e.to_string(), "").into(),
+            PredictError::Quantity(e) => scene.error_at("groom.file", e.to_string(), "").into(),
             e => Error::of_prediction(&e, scene),
         })
 }
@@ -94,7 +94,7 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
     );
     let hint = "`unit` and `up` of `[groom]` say what it is in, those of `[head]` what the head is in; `mesh` is the head that \
                 it was made on";
-    Err(scene.fault("groom.file", problem, hint))
+    Err(scene.error_at("groom.file", problem, hint))
 }
 
 /// A number with at most four decimals, or as a fraction.

@@ -43,7 +43,7 @@ pub fn head_mesh(scene: &Scene, files: &Files) -> Result<Option<HeadMesh>, Scene
             HeadFileError::Size { .. } => "`unit` and `up` of `[head]` say what it is in",
             _ => "",
         };
-        scene.fault(key(&e, file), message(&e), hint)
+        scene.error_at(key(&e, file), message(&e), hint)
     })
 }
 
@@ -65,7 +65,7 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
             GroomError::Malformed { .. } => "`unit` and `up` of `[groom]` say what it is in",
             _ => "",
         };
-        scene.fault("groom.file", message(&e), hint)
+        scene.error_at("groom.file", message(&e), hint)
     };
     let format = Format::of(path).map_err(wrong)?;
     let bytes = files.read_bytes(path, groom::MAX_SIZE, "a groom");
@@ -73,7 +73,7 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
     let groom = groom::decode(format, &bytes, path, *frame).map_err(wrong)?;
     if groom.strands().is_empty() {
         let problem = format!("`{}` has no strands", path.display());
-        return Err(scene.fault("groom.file", problem, ""));
+        return Err(scene.error_at("groom.file", problem, ""));
     }
     Ok(Some(groom))
 }
@@ -84,7 +84,7 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
 /// [`SceneError`] at the key that names what cannot be used.
 pub fn environment_map(scene: &Scene, files: &Files) -> Result<Option<EnvironmentMap>, SceneError> {
     let Some(path) = &scene.environment else { return Ok(None) };
-    let wrong = |problem, hint| scene.fault("light.environment", problem, hint);
+    let wrong = |problem, hint| scene.error_at("light.environment", problem, hint);
     let read = environment::read(path, files).map_err(|e| wrong(message(&e), e.hint()))?;
     let map = EnvironmentMap::new(read.width, read.height, read.pixels);
     map.map(Some).map_err(|e| wrong(e.to_string(), ""))

@@ -2,25 +2,29 @@
 
 use std::f64::consts::TAU;
 
+use frisure_digest::digestible;
 use frisure_rod::{InvalidQuantity, Material, Section, TorsionConstant};
 use glam::DVec3;
 
 use crate::random::Stream;
+use crate::rod_digest::{add_material, add_section, add_torsion};
 
-/// Section and material of the fibres of a head.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fibre {
-    /// Elliptical section.
-    pub section: Section,
-    /// Elastic moduli and density.
-    pub material: Material,
-    /// Which torsion constant the section is given.
-    pub torsion: TorsionConstant,
-    /// Standard deviation of the diameter between guides, as a fraction of the mean.
-    pub variation: f64,
-    /// Standard deviation between guides of what the axis ratio exceeds 1 by, as a fraction of the
-    /// mean: a circle stays one.
-    pub axis_ratio_variation: f64,
+digestible! {
+    /// Section and material of the fibres of a head.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Fibre {
+        /// Elliptical section.
+        pub section: Section => add_section,
+        /// Elastic moduli and density.
+        pub material: Material => add_material,
+        /// Which torsion constant the section is given.
+        pub torsion: TorsionConstant => add_torsion,
+        /// Standard deviation of the diameter between guides, as a fraction of the mean.
+        pub variation: f64,
+        /// Standard deviation between guides of what the axis ratio exceeds 1 by, as a fraction of the
+        /// mean: a circle stays one.
+        pub axis_ratio_variation: f64,
+    }
 }
 
 impl Fibre {
@@ -49,19 +53,21 @@ pub enum Handedness {
     AsGiven,
 }
 
-/// The natural curl of the wisps of a head, and how it varies along a hair and between wisps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Curl {
-    /// Mean natural strain (κ1⁰, κ2⁰, τ⁰) (rad/m), in the material frame.
-    pub strain: DVec3,
-    /// Which way curls turn.
-    pub handedness: Handedness,
-    /// Standard deviation of the strain's magnitude between wisps, as a fraction of the mean.
-    pub variation_between: f64,
-    /// Standard deviation of the strain along a hair, as a fraction of its magnitude.
-    pub variation_along: f64,
-    /// Correlation length of the variation along a hair (m).
-    pub variation_scale: f64,
+digestible! {
+    /// The natural curl of the wisps of a head, and how it varies along a hair and between wisps.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Curl {
+        /// Mean natural strain (κ1⁰, κ2⁰, τ⁰) (rad/m), in the material frame.
+        pub strain: DVec3,
+        /// Which way curls turn.
+        pub handedness: Handedness,
+        /// Standard deviation of the strain's magnitude between wisps, as a fraction of the mean.
+        pub variation_between: f64,
+        /// Standard deviation of the strain along a hair, as a fraction of its magnitude.
+        pub variation_along: f64,
+        /// Correlation length of the variation along a hair (m).
+        pub variation_scale: f64,
+    }
 }
 
 impl Curl {
@@ -93,22 +99,24 @@ impl Curl {
     }
 }
 
-/// The factors of the wet law: what full wetting makes of each property of a hair (swelling, softening, lengthening).
-///
-/// `styling/wet_law.rs` applies them; [`Moisture`](crate::presets::Moisture) has the shares of them that humid air does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wetting {
-    /// Factor on Young's modulus.
-    pub youngs_modulus: f64,
-    /// Factor on the shear modulus.
-    pub shear_modulus: f64,
-    /// Factor on the diameter.
-    pub diameter: f64,
-    /// Factor on the length.
-    pub length: f64,
-    /// Factor on the radius of wisps, and on the distances that contact keeps: a film of water draws
-    /// hairs together.
-    pub wisp: f64,
+digestible! {
+    /// The factors of the wet law: what full wetting makes of each property of a hair (swelling, softening, lengthening).
+    ///
+    /// `styling/wet_law.rs` applies them; [`Moisture`](crate::presets::Moisture) has the shares of them that humid air does.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Wetting {
+        /// Factor on Young's modulus.
+        pub youngs_modulus: f64,
+        /// Factor on the shear modulus.
+        pub shear_modulus: f64,
+        /// Factor on the diameter.
+        pub diameter: f64,
+        /// Factor on the length.
+        pub length: f64,
+        /// Factor on the radius of wisps, and on the distances that contact keeps: a film of water draws
+        /// hairs together.
+        pub wisp: f64,
+    }
 }
 
 impl Wetting {

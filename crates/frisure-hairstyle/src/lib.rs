@@ -25,6 +25,7 @@
 
 mod math;
 mod random;
+mod rod_digest;
 
 mod fibre;
 pub mod head;
@@ -67,8 +68,8 @@ pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset,
 pub use random::Draws;
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec,
-    Implantation, InvalidSpec, Length, Level, Lift, Parting, Place, RANGES, Range, RegionLength,
-    RegionStyle, Settling, Turn, Whorls, Wisps, range_of,
+    Implantation, InvalidSpec, Length, Level, Lift, Number, Parting, Place, Range, RegionLength,
+    RegionStyle, Scalar, Settling, Turn, Whorls, Wisps, number,
 };
 pub use strands::{
     Checkpoint, DrawnHair, Simulation, StrandOptions, add_natural_strains, add_sections, describe,

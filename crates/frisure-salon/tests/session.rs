@@ -98,12 +98,12 @@ fn a_dragged_slider_shows_coarse_hair_and_makes_one_edit() {
 fn every_slider_sets_the_value_it_shows() {
     let mut world = World::new();
     world.salon.run(Command::Begin("wavy".into()));
-    for control in CONTROLS {
+    for control in CONTROLS.iter() {
         let (low, high) = control.range;
         let value = control.clean(low + 0.37 * (high - low));
         world.salon.run(Command::Set(control.key, value));
         let parsed = world.salon.scene.as_ref().unwrap();
-        let shown = control.value(&parsed.scene, &parsed.spec);
+        let shown = control.value(&parsed.scene);
         let near = 10_f64.powi(-(control.decimals as i32)).max(1e-6 * value.abs());
         assert!((shown - value).abs() <= near, "{}: {value} became {shown}", control.key);
         world.salon.run(Command::Reset(control.key));

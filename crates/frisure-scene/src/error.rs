@@ -3,11 +3,11 @@
 use std::fmt;
 use std::ops::Range;
 
+use frisure_files::ReadError;
+use frisure_hairstyle::InvalidSpec;
 use thiserror::Error;
 
-use super::bare;
-use super::source::Source;
-use frisure_files::ReadError;
+use crate::similar::nearest;
 
 /// Why a scene cannot be used.
 #[derive(Debug, Error)]
@@ -17,23 +17,26 @@ pub enum SceneError {
     Read(#[from] ReadError),
     /// Something in it is wrong.
     #[error(transparent)]
-    Fault(Box<Fault>),
+    Invalid(Box<Diagnostic>),
 }
+
+/// A result with an error about a scene.
+pub(crate) type Result<T, E = SceneError> = std::result::Result<T, E>;
 
 impl SceneError {
     /// What is wrong in the text, if the text could be read.
     #[must_use]
-    pub fn fault(&self) -> Option<&Fault> {
+    pub fn diagnostic(&self) -> Option<&Diagnostic> {
         match self {
             Self::Read(_) => None,
-            Self::Fault(fault) => Some(fault),
+            Self::Invalid(diagnostic) => Some(diagnostic),
         }
     }
 }
 
 /// Something wrong at one place of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Fault {
+pub struct Diagnostic {
     /// Name of the file, as it was asked for.
     pub file: String,
     /// The whole text of the file.
@@ -46,7 +49,7 @@ pub struct Fault {
     pub span: Range<usize>,
     /// Path of the key, such as `hair.curl.radius`; empty if the text is not TOML.
     pub key: String,
-    /// The value as it is written; empty for a fault that is not in a value.
+    /// The value as it is written; empty for a diagnostic that is not in a value.
     pub value: String,
     /// What is wrong, in words, when it is not that the value is outside what is allowed.
     pub problem: String,
@@ -58,44 +61,32 @@ pub struct Fault {
     pub related: Vec<(Range<usize>, String)>,
 }
 
-impl Fault {
+impl Diagnostic {
     /// What is wrong, in words.
-    pub(super) fn new(problem: impl Into<String>) -> Self {
+    pub(crate) fn new(problem: impl Into<String>) -> Self {
         Self { problem: problem.into(), ..Self::default() }
     }
 
     /// A value outside what is allowed.
-    pub(super) fn outside(allowed: impl Into<String>) -> Self {
+    pub(crate) fn outside(allowed: impl Into<String>) -> Self {
         Self { allowed: allowed.into(), ..Self::default() }
     }
 
-    pub(super) fn key(self, key: impl Into<String>) -> Self {
+    pub(crate) fn key(self, key: impl Into<String>) -> Self {
         Self { key: key.into(), ..self }
     }
 
-    pub(super) fn value(self, value: impl Into<String>) -> Self {
+    pub(crate) fn value(self, value: impl Into<String>) -> Self {
         Self { value: value.into(), ..self }
     }
 
-    pub(super) fn hint(self, hint: impl Into<String>) -> Self {
+    pub(crate) fn hint(self, hint: impl Into<String>) -> Self {
         Self { hint: hint.into(), ..self }
     }
 
-    pub(super) fn related(mut self, span: Range<usize>, what: impl Into<String>) -> Self {
+    pub(crate) fn related(mut self, span: Range<usize>, what: impl Into<String>) -> Self {
         self.related.push((span, what.into()));
         self
-    }
-
-    /// The fault at a place of a text.
-    pub(super) fn at(self, source: &Source, span: Range<usize>) -> SceneError {
-        let (line, column) = source.position(span.start);
-        let (file, text) = (source.name.clone(), source.text.clone());
-        let hint = match (self.hint.is_empty(), self.problem.is_empty()) {
-            // A number out of range may be one in another unit.
-            (true, true) => bare::hint(&self.key, source.slice(span.clone())).unwrap_or_default(),
-            _ => self.hint,
-        };
-        SceneError::Fault(Box::new(Self { file, text, line, column, span, hint, ..self }))
     }
 
     /// What is wrong in one sentence, without the place and the hint.
@@ -109,7 +100,7 @@ impl Fault {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}: {}", self.file, self.line, self.column, self.message())?;
         if !self.hint.is_empty() {
@@ -119,4 +110,66 @@ impl fmt::Display for Fault {
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for Diagnostic {}
+
+/// A value that is not of its kind.
+#[derive(Default)]
+pub(crate) struct ValueError {
+    /// What would be allowed, in words.
+    pub(crate) allowed: String,
+    /// What to try; may be empty.
+    pub(crate) hint: String,
+    /// What is wrong, where it is not that the value is outside what is allowed.
+    pub(crate) problem: String,
+    /// What stands there in other words, where the text itself would be long.
+    pub(crate) value: Option<Box<str>>,
+    /// Path inside the value, such as `.plane.normal` or `[1]`, to what is wrong.
+    pub(crate) inside: Box<str>,
+    /// Whether it is the key that is wrong, not its value.
+    pub(crate) in_key: bool,
+}
+
+impl ValueError {
+    pub(crate) fn new(allowed: impl Into<String>) -> Self {
+        Self { allowed: allowed.into(), ..Self::default() }
+    }
+
+    /// What is wrong, in words.
+    pub(crate) fn because(problem: impl Into<String>) -> Self {
+        Self { problem: problem.into(), ..Self::default() }
+    }
+
+    /// A key of a table that has none of that name.
+    pub(crate) fn unknown_key(name: &str, known: &[&str]) -> Self {
+        let hint = match nearest(name, known.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("known keys: {}", known.join(", ")),
+        };
+        let unknown = Self::because(format!("unknown key `{name}`")).hint(hint);
+        Self { in_key: true, ..unknown }.inside(&format!(".{name}"))
+    }
+
+    /// A number that a hairstyle refuses, in a part of the value.
+    pub(crate) fn out_of_range(error: &InvalidSpec, inside: &str) -> Self {
+        let value = Some(error.value.as_str().into());
+        Self { value, ..Self::new(error.allowed).inside(inside) }
+    }
+
+    pub(crate) fn hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: hint.into(), ..self }
+    }
+
+    pub(crate) fn has_hint(&self) -> bool {
+        !self.hint.is_empty()
+    }
+
+    /// The same, where something else is allowed too.
+    pub(crate) fn or(self, also: &str) -> Self {
+        Self { allowed: format!("{}, {also}", self.allowed), ..self }
+    }
+
+    /// The same, of a part of the value that is read.
+    pub(crate) fn inside(self, part: &str) -> Self {
+        Self { inside: format!("{part}{}", self.inside).into(), ..self }
+    }
+}

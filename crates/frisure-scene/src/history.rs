@@ -10,8 +10,10 @@ use std::path::Path;
 use frisure_hairstyle::styling::Operation;
 use thiserror::Error;
 
+use crate::error::SceneError;
+use crate::record::{Record, parse_record};
 use crate::scene;
-use crate::{Record, SceneError, WriteStepError, parse_record, write_step};
+use crate::write::{WriteStepError, write_step};
 use frisure_files::{self as files, ReadError, WriteError};
 
 /// The version of the files written, and the newest that is read.
@@ -103,7 +105,7 @@ pub enum ReadHistoryError {
     },
     /// Something in it is wrong.
     #[error(transparent)]
-    Fault(#[from] SceneError),
+    Diagnostic(#[from] SceneError),
 }
 
 /// Why a history cannot be written.

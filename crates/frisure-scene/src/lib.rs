@@ -9,39 +9,50 @@
 //! | [`measurements`] | tables of measured hair (`.csv`) | a scene of that hair |
 //! | [`quantity`] | numbers with units, such as `25 cm` | the same |
 //!
-//! A scene is read in three steps, each with the position of what is wrong: keys that do not exist
-//! (`shape`), values of the wrong kind (`key`), and values that mean nothing together or are out
-//! of range (`resolve`). `file` lists the keys and is their reference; the JSON Schema is made from
-//! it.
+//! [`keys`] declares every key of a scene once. The JSON Schema, the reference in `docs/scene.md`, error messages, batch keys and
+//! the controls of programs follow from it, and `operation` does the same for the operations of steps. A scene is read in four
+//! steps, each of which reports the position of an error: keys that do not exist (`unknown_keys`), numbers (`document`), keys that
+//! exclude each other (`exclusive`), and the rest (`read`). Ranges that depend on the use of a scene are checked by `check`.
 
 #![forbid(unsafe_code)]
 
-mod bare;
 pub mod batch;
-mod blame;
+mod check;
+mod choice;
+mod control;
+mod declaration;
+mod document;
 pub mod edit;
 mod error;
 mod exclusive;
-mod file;
 pub mod history;
-mod key;
-mod light;
+pub mod key_groups;
+mod key_location;
+pub mod keys;
+mod keywords;
+mod kind;
 pub mod measurements;
+mod operation;
 pub mod quantity;
-mod resolve;
+mod read;
+mod record;
 mod scene;
 mod schema;
-mod shape;
+mod similar;
 mod source;
 mod step;
 mod template;
-mod words;
+mod unit_hint;
+mod unknown_keys;
+mod write;
 
-pub use error::{Fault, SceneError};
+pub use control::{OptionList, Panel, Slider, Unit};
+pub use declaration::Declaration;
+pub use error::{Diagnostic, SceneError};
 pub use frisure_files::head::{HeadFile, ScalpSource};
-use scene::without_mark;
+pub use operation::Button;
 pub use scene::*;
-pub use schema::{NumberKey, number_key, schema};
-pub use step::{Button, WriteStepError, buttons, parse_step, write_step};
-pub(crate) use step::{Record, parse_record};
+pub use schema::{options, schema};
+pub use step::{buttons, parse_step};
 pub use template::template;
+pub use write::{WriteStepError, write_step};

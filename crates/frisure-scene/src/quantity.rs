@@ -249,7 +249,7 @@ impl Dimension {
     /// A number written without a unit, in the first unit but SI's own in which it is within `least`
     /// and `most` (SI); the unit of the example comes first. Of pure numbers only fractions are meant
     /// in per cent.
-    pub(crate) fn meant(&self, number: &str, least: f64, most: f64) -> Option<String> {
+    pub(crate) fn in_range(&self, number: &str, least: f64, most: f64) -> Option<String> {
         if self.si.is_empty() && most > 1.0 {
             return None;
         }
@@ -421,17 +421,17 @@ mod tests {
 
     #[test]
     fn a_bare_number_is_meant_in_the_first_unit_that_fits() {
-        let meant = |d: &Dimension, number, least, most| d.meant(number, least, most);
+        let in_range = |d: &Dimension, number, least, most| d.in_range(number, least, most);
         let text = |text: &str| Some(text.to_owned());
-        assert_eq!(meant(&ANGLE, "45", 0.0, PI), text("45 deg"));
-        assert_eq!(meant(&ANGLE, "1000", 0.0, PI), None);
-        assert_eq!(meant(&LENGTH, "8", 1e-3, 3.0), text("8 cm"));
-        assert_eq!(meant(&LENGTH, "15", 1e-3, 0.1), text("15 mm"));
-        assert_eq!(meant(&LENGTH, "70", 1e-5, 1e-3), text("70 um"));
-        assert_eq!(meant(&RATIO, "50", 0.0, 1.0), text("50 %"));
-        assert_eq!(meant(&RATIO, "50", 0.0, 0.4), None);
+        assert_eq!(in_range(&ANGLE, "45", 0.0, PI), text("45 deg"));
+        assert_eq!(in_range(&ANGLE, "1000", 0.0, PI), None);
+        assert_eq!(in_range(&LENGTH, "8", 1e-3, 3.0), text("8 cm"));
+        assert_eq!(in_range(&LENGTH, "15", 1e-3, 0.1), text("15 mm"));
+        assert_eq!(in_range(&LENGTH, "70", 1e-5, 1e-3), text("70 um"));
+        assert_eq!(in_range(&RATIO, "50", 0.0, 1.0), text("50 %"));
+        assert_eq!(in_range(&RATIO, "50", 0.0, 0.4), None);
         // Months are no fraction.
-        assert_eq!(meant(&RATIO, "300", 0.0, 240.0), None);
+        assert_eq!(in_range(&RATIO, "300", 0.0, 240.0), None);
         for d in ALL {
             assert_eq!(Dimension::of_si(d.si), Some(d));
         }

@@ -1,19 +1,16 @@
 //! A scene whose every value was understood.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use frisure_hairstyle::styling::{Operation, StyleError};
-use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
+use frisure_hairstyle::HairstyleSpec;
+use frisure_hairstyle::styling::Operation;
 use frisure_look::{CameraSpec, LightSpec, LookSpec, ToneCurve};
-use frisure_rod::{Branch, InvalidQuantity, Options, Rod, StrainProfile};
+use frisure_rod::{Branch, Options, Rod, StrainProfile};
 
-use frisure_files as files;
 use frisure_files::frame::FrameChoice;
 use frisure_files::head::HeadFile;
 
-use crate::error::{Fault, SceneError};
 use crate::source::Source;
-use crate::{blame, resolve, step};
 
 /// Largest scene that is read (bytes).
 pub const MAX_SIZE: u64 = 16 << 20;
@@ -94,37 +91,15 @@ pub struct Output {
     pub tone: ToneCurve,
 }
 
+impl Default for Output {
+    fn default() -> Self {
+        let tone = ToneCurve::default();
+        Self { width: 900, height: 1100, samples: 4, exposure: 0.0, tone }
+    }
+}
+
 impl Scene {
-    /// Reads a scene file.
-    ///
-    /// # Errors
-    /// [`SceneError`].
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
-        let text = files::read_text(path, MAX_SIZE, "a scene")?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&path.display().to_string(), text, folder)
-    }
-
-    /// Understands the text of a scene; `name` is what errors call it, and paths in it are relative
-    /// to `folder`.
-    ///
-    /// # Errors
-    /// [`SceneError`].
-    pub fn parse(name: &str, text: impl Into<String>, folder: &Path) -> Result<Self, SceneError> {
-        let text = without_mark(text.into());
-        resolve::scene(Source { name: name.to_owned(), text }, folder)
-    }
-
-    /// The whole head of hair that the scene describes, with every number in range.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a number out of range, and for natural strains along a hair: a head's
-    /// wisps vary by chance, not as given.
-    pub fn hairstyle_spec(&self) -> Result<HairstyleSpec, SceneError> {
-        resolve::hairstyle(self)
-    }
-
-    /// What is done to the hair, in this order.
+    /// The operations of the steps, in order.
     #[must_use]
     pub fn steps(&self) -> &[Operation] {
         &self.steps
@@ -135,52 +110,4 @@ impl Scene {
     pub fn text(&self) -> &str {
         &self.source.text
     }
-
-    /// Why a step, counted from 0, cannot be done, at the step or at the key in it that says what
-    /// cannot be.
-    #[must_use]
-    pub fn step_fault(&self, index: usize, error: &StyleError) -> SceneError {
-        let operation = self.steps.get(index).map_or("", Operation::name);
-        step::fault(index, operation, error, &self.source)
-    }
-
-    /// The single hair that the scene describes, without variation.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a number out of range.
-    pub fn single_hair(&self) -> Result<SingleHair, SceneError> {
-        resolve::single_hair(self)
-    }
-
-    /// An error found later in what `key` says, such as a mesh at `head.mesh` that is no head;
-    /// `hint` may be empty.
-    #[must_use]
-    pub fn fault(
-        &self,
-        key: &str,
-        problem: impl Into<String>,
-        hint: impl Into<String>,
-    ) -> SceneError {
-        let span = self.source.locate(key);
-        let value = self.source.slice(span.clone()).to_owned();
-        Fault::new(problem).key(key).value(value).hint(hint).at(&self.source, span)
-    }
-
-    /// A quantity that was refused later, at the key that it comes from.
-    #[must_use]
-    pub fn blame(&self, error: &InvalidQuantity) -> SceneError {
-        blame::blame(error, &self.source)
-    }
-
-    /// A number that was refused later, such as one that only a head shows to be too large, at the
-    /// key that it comes from.
-    #[must_use]
-    pub fn out_of_range(&self, error: &InvalidSpec) -> SceneError {
-        blame::out_of_range(error, &self.source)
-    }
-}
-
-/// A text without the byte order mark that editors on some systems begin it with; TOML has none.
-pub(crate) fn without_mark(text: String) -> String {
-    text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)
 }

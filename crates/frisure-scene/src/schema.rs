@@ -1,25 +1,32 @@
-//! The JSON Schema of scenes, made from the structs that read them.
+//! The JSON Schema of scenes, made from the declarations of their keys.
 
 use std::sync::LazyLock;
 
-use frisure_hairstyle::{Range, range_of};
-use schemars::generate::SchemaSettings;
-use serde_json::Value;
+use schemars::Schema;
+use serde_json::{Value, json};
 
-use super::file::File;
-use super::{bare, step};
+use crate::declaration::{Declaration, ValueKind, add_range};
+use crate::keys::KEYS;
+use crate::operation::{WHERE, where_schema};
 use crate::quantity::Dimension;
 
+const DESCRIPTION: &str = "A scene: hair, the head it grows on, and how to look at it.\n\n\
+    Every key has a default. Quantities are texts with a unit (\"25 cm\", \"70 um\", \"2.5 GPa\",\n\
+    \"80 deg\") or bare numbers in SI units.";
+
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
-    let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
-    let mut schema = settings.into_generator().into_root_schema_for::<File>().to_value();
-    // A choice of wisps can hold others: the one part that has to be named to be described.
-    add_ranges(&mut schema, "");
-    schema["$defs"][step::WHERE] = step::where_schema().to_value();
+    let mut schema = table(DESCRIPTION);
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
+    schema["title"] = "Scene".into();
+    for declared in KEYS.iter() {
+        insert(&mut schema, declared);
+    }
+    // A selection of wisps can hold others: the one part that needs a name.
+    schema["$defs"][WHERE] = where_schema().to_value();
     schema
 });
 
-/// The JSON Schema of a scene: every key with its description, unit (`x-unit`), range and words.
+/// The JSON Schema of a scene: every key with its description, unit (`x-unit`), range and keywords.
 ///
 /// Ranges are of bare numbers in SI units; texts with units are checked when a scene is read.
 #[must_use]
@@ -27,55 +34,93 @@ pub fn schema() -> &'static Value {
     &SCHEMA
 }
 
-/// Adds the ranges of what a hairstyle checks, and puts them into the descriptions.
-fn add_ranges(schema: &mut Value, path: &str) {
-    let keys = schema.get_mut("properties").and_then(Value::as_object_mut);
-    for (key, inner) in keys.into_iter().flatten() {
-        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-        if let Some(range) = range_of(&path) {
-            write_range(inner, range);
+fn table(description: &str) -> Value {
+    json!({
+        "type": "object", "additionalProperties": false, "description": description,
+        "properties": {},
+    })
+}
+
+/// Adds a key to the table that it is in.
+fn insert(root: &mut Value, declared: &Declaration) {
+    let (tables, name) = declared.path.rsplit_once('.').unwrap_or(("", declared.path));
+    let parts = tables.split('.').filter(|part| !part.is_empty());
+    let parent = parts.fold(root, |table, part| match part.strip_suffix("[]") {
+        Some(list) => &mut table["properties"][list]["items"],
+        None => &mut table["properties"][part],
+    });
+    let (name, schema) = match name.strip_suffix("[]") {
+        Some(list) => {
+            let items = table(&format!("One of `[[{}]]`.", declared.path.replace("[]", "")));
+            (list, json!({ "type": "array", "description": declared.doc, "items": items }))
         }
-        match inner.get_mut("items") {
-            Some(items) => add_ranges(items, &path),
-            None => add_ranges(inner, &path),
+        None => (name, of_value(declared)),
+    };
+    parent["properties"][name] = schema;
+}
+
+fn of_value(declared: &Declaration) -> Value {
+    let described = |mut schema: Schema| {
+        schema.insert("description".into(), declared.doc.as_str().into());
+        schema
+    };
+    match &declared.value {
+        ValueKind::Table => table(&declared.doc),
+        ValueKind::Other(schema, _) => described(schema()).to_value(),
+        ValueKind::Number(number) => {
+            let mut schema = described((number.schema)());
+            if let Some((range, _)) = number.range {
+                add_range(&mut schema, range);
+            }
+            schema.to_value()
         }
     }
 }
 
-/// Adds a range to the schema of a number that has none of its own.
-fn write_range(schema: &mut Value, range: &Range) {
-    let allowed = range.allowed.replace('²', "^2");
-    let (_, between) = allowed.split_once("between ").unwrap_or(("", &allowed));
-    if let Some(doc) = schema["description"].as_str() {
-        schema["description"] = doc.replace("{}", &between.replacen(" and ", " to ", 1)).into();
-    }
-    let whole = schema["type"] == "integer";
-    if schema["type"].is_null() || schema["type"] == "array" || schema.get("maximum").is_some() {
-        return;
-    }
-    let bound = |x: f64| if whole { Value::from(x as i64) } else { Value::from(x) };
-    schema["minimum"] = bound(range.min);
-    schema["maximum"] = bound(range.max);
+/// What the schema says about a key that takes a quantity.
+pub(crate) struct Quantity {
+    pub(crate) dimension: &'static Dimension,
+    pub(crate) min: Option<f64>,
+    pub(crate) max: Option<f64>,
 }
 
-/// A key of a scene that takes a number, as programs offer it.
-#[derive(Debug)]
-pub struct NumberKey {
-    /// What it means.
-    pub doc: &'static str,
-    /// The dimension of the number; none if it is a whole number.
-    pub dimension: Option<&'static Dimension>,
-    /// The range (SI units), where it has one.
-    pub range: Option<[f64; 2]>,
-}
-
-/// The key with a path, such as `wisps.clumping`, if it takes a number.
-#[must_use]
-pub fn number_key(path: &str) -> Option<NumberKey> {
-    let key = path.split('.').try_fold(schema(), |table, name| table["properties"].get(name))?;
-    let dimension = bare::quantity(schema(), path).map(|quantity| quantity.dimension);
+/// The quantity that the key at a path takes, if it takes one; `root` is the schema of the path's first table.
+pub(crate) fn quantity(root: &'static Value, path: &str) -> Option<Quantity> {
+    let key = path.split('.').try_fold(root, inside)?;
+    // A list of quantities has their unit.
+    let single = |schema: &&&Value| schema["type"] != "array";
+    let unit = alternatives(key).iter().filter(single).find_map(|schema| schema["x-unit"].as_str());
+    let unit = if unit? == "a pure number" { "" } else { unit? };
     let bound = |name: &str| key[name].as_f64();
-    let range = bound("minimum").zip(bound("maximum")).map(|(least, most)| [least, most]);
-    let is_number = dimension.is_some() || key["type"] == "integer";
-    is_number.then_some(NumberKey { doc: key["description"].as_str()?, dimension, range })
+    let (min, max) = (bound("minimum"), bound("maximum"));
+    Some(Quantity { dimension: Dimension::of_si(unit)?, min, max })
+}
+
+/// The schema of a part of a path such as `plane` or `any[1]`.
+fn inside(schema: &'static Value, part: &str) -> Option<&'static Value> {
+    let (name, indices) = part.split_once('[').unwrap_or((part, ""));
+    let key = alternatives(schema).into_iter().find_map(|one| one["properties"].get(name))?;
+    let item =
+        |list: &'static Value| alternatives(list).into_iter().find_map(|one| one.get("items"));
+    indices.matches(']').try_fold(key, |list, _| item(list))
+}
+
+/// A schema, or each of those that it is any of.
+pub(crate) fn alternatives(schema: &'static Value) -> Vec<&'static Value> {
+    if let Some(name) = schema["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/")) {
+        return alternatives(&self::schema()["$defs"][name]);
+    }
+    match schema["anyOf"].as_array() {
+        Some(any) => any.iter().flat_map(alternatives).collect(),
+        None => vec![schema],
+    }
+}
+
+/// The keywords of a key with their titles.
+pub fn options(declared: &Declaration) -> Vec<(&'static str, &'static str)> {
+    let parts = declared.path.split('.');
+    let Some(key) = parts.clone().try_fold(schema(), inside) else { return Vec::new() };
+    let words = alternatives(key).into_iter().filter_map(|schema| schema["oneOf"].as_array());
+    let option = |word: &'static Value| Some((word["const"].as_str()?, word["title"].as_str()?));
+    words.flatten().filter_map(option).collect()
 }

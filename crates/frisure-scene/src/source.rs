@@ -5,23 +5,30 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Fault, SceneError};
+use crate::error::{Diagnostic, SceneError, ValueError};
 
 /// The text of a scene with its name, kept to point at lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Source {
-    pub(super) name: String,
-    pub(super) text: String,
+pub(crate) struct Source {
+    pub(crate) name: String,
+    pub(crate) text: String,
 }
 
 impl Source {
+    /// A text with its name, without the byte order mark that some editors begin it with; TOML has none.
+    pub(crate) fn new(name: &str, text: impl Into<String>) -> Self {
+        let text = text.into();
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        Self { name: name.to_owned(), text }
+    }
+
     /// The document, with the place of each key and value.
-    pub(super) fn document(&self) -> Result<Spanned<DeTable<'_>>, SceneError> {
+    pub(crate) fn document(&self) -> Result<Spanned<DeTable<'_>>, SceneError> {
         DeTable::parse(&self.text).map_err(|e| self.syntax(&e))
     }
 
     /// An error of the TOML reader; `key` is unknown then.
-    pub(super) fn syntax(&self, error: &toml::de::Error) -> SceneError {
+    pub(crate) fn syntax(&self, error: &toml::de::Error) -> SceneError {
         let span = error.span().unwrap_or(0..0);
         let mut message = error.message().to_owned();
         // The reader puts what it expected on lines of their own.
@@ -29,7 +36,7 @@ impl Source {
             message = format!("{first} ({})", rest.replace('\n', ", "));
         }
         let hint = self.after_a_header(span.start).unwrap_or_default();
-        Fault::new(message).hint(hint).at(self, span)
+        Diagnostic::new(message).hint(hint).at(self, span)
     }
 
     /// What to try where something stands behind the header of a table.
@@ -41,7 +48,7 @@ impl Source {
     }
 
     /// Line and column of a byte, both from 1; columns count characters.
-    pub(super) fn position(&self, byte: usize) -> (usize, usize) {
+    pub(crate) fn position(&self, byte: usize) -> (usize, usize) {
         let mut byte = byte.min(self.text.len());
         while !self.text.is_char_boundary(byte) {
             byte -= 1;
@@ -52,24 +59,24 @@ impl Source {
     }
 
     /// The text of a span.
-    pub(super) fn slice(&self, span: Range<usize>) -> &str {
+    pub(crate) fn slice(&self, span: Range<usize>) -> &str {
         self.text.get(span).unwrap_or("")
     }
 
     /// Where the value at a path such as `hair.curl.radius` or `region[1].length` stands, or the
     /// nearest thing around it that is written down; the empty span at the start if nothing is.
-    pub(super) fn locate(&self, path: &str) -> Range<usize> {
+    pub(crate) fn locate(&self, path: &str) -> Range<usize> {
         self.follow(path).last.map_or(0..0, |found| found.value)
     }
 
     /// The same of the key, where it has one.
-    pub(super) fn locate_key(&self, path: &str) -> Range<usize> {
+    pub(crate) fn locate_key(&self, path: &str) -> Range<usize> {
         self.follow(path).last.map_or(0..0, |found| found.key)
     }
 
     /// Where the value at a path stands, if it is written, and whether it is a single value: no
     /// table and no list.
-    pub(super) fn find(&self, path: &str) -> Option<(Range<usize>, bool)> {
+    pub(crate) fn find(&self, path: &str) -> Option<(Range<usize>, bool)> {
         let way = self.follow(path);
         way.last.filter(|_| way.whole).map(|found| (found.value, found.single))
     }
@@ -101,7 +108,7 @@ impl Source {
     }
 
     /// Path of the value that stands at exactly this span.
-    pub(super) fn path_at(&self, span: &Range<usize>) -> String {
+    pub(crate) fn path_at(&self, span: &Range<usize>) -> String {
         let mut path = String::new();
         if let Ok(document) = self.document() {
             find_in_table(document.get_ref(), span, &mut path);
@@ -161,5 +168,26 @@ fn find(value: &Spanned<DeValue<'_>>, span: &Range<usize>, path: &mut String) ->
             }) || here
         }
         _ => here,
+    }
+}
+
+impl Diagnostic {
+    /// The error about a span of a text.
+    pub(crate) fn at(self, source: &Source, span: Range<usize>) -> SceneError {
+        let (line, column) = source.position(span.start);
+        let (file, text) = (source.name.clone(), source.text.clone());
+        SceneError::Invalid(Box::new(Self { file, text, line, column, span, ..self }))
+    }
+}
+
+impl ValueError {
+    /// The error about the value at a path such as `step[1].cut.below`.
+    pub(crate) fn at_path(self, path: &str, source: &Source) -> SceneError {
+        let Self { allowed, hint, problem, value, inside, in_key } = self;
+        let key = format!("{path}{inside}");
+        let span = if in_key { source.locate_key(&key) } else { source.locate(&key) };
+        let value = value.map_or_else(|| source.slice(span.clone()).to_owned(), String::from);
+        let diagnostic = Diagnostic { problem, ..Diagnostic::outside(allowed) };
+        diagnostic.hint(hint).key(key).value(value).at(source, span)
     }
 }

@@ -22,10 +22,13 @@ fn use_scene(text: &str) {
             let _ = scene.single_hair();
         }
         Err(error) => {
-            let fault = error.fault().expect("the text was read");
-            assert!(fault.span.start <= fault.span.end && fault.span.end <= fault.text.len());
-            assert!(fault.line >= 1 && fault.column >= 1);
-            assert!(!fault.to_string().is_empty());
+            let diagnostic = error.diagnostic().expect("the text was read");
+            assert!(
+                diagnostic.span.start <= diagnostic.span.end
+                    && diagnostic.span.end <= diagnostic.text.len()
+            );
+            assert!(diagnostic.line >= 1 && diagnostic.column >= 1);
+            assert!(!diagnostic.to_string().is_empty());
         }
     }
 }

@@ -223,9 +223,9 @@ fn faults_name_place_value_range_and_hint() {
     for (text, line, column, parts) in cases {
         let whole = format!("samples = 2\n{text}\n");
         let error = Batch::parse("batch", whole, Path::new("")).map(|b| b.heads()).unwrap_err();
-        let fault = error.fault().unwrap_or_else(|| panic!("{text}: {error}"));
+        let diagnostic = error.diagnostic().unwrap_or_else(|| panic!("{text}: {error}"));
         let told = error.to_string();
-        assert_eq!((fault.line, fault.column), (*line, *column), "{text}: {told}");
+        assert_eq!((diagnostic.line, diagnostic.column), (*line, *column), "{text}: {told}");
         for part in *parts {
             assert!(told.contains(part), "{text}: {part}: {told}");
         }
@@ -258,6 +258,6 @@ fn what_is_wrong_in_the_scene_is_told_there() {
     std::fs::write(&scene, "[hair]\nlength = '5 m'").unwrap();
     let text = "scene = 'a.toml'\nsamples = 1";
     let error = Batch::parse("batch", text, folder.path()).map(|b| b.heads()).unwrap_err();
-    let fault = error.fault().expect("a fault");
-    assert_eq!((fault.file.as_str(), fault.line), (scene.to_str().unwrap(), 2));
+    let diagnostic = error.diagnostic().expect("a diagnostic");
+    assert_eq!((diagnostic.file.as_str(), diagnostic.line), (scene.to_str().unwrap(), 2));
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::fault;
+use common::diagnostic;
 use frisure_scene::Scene;
 
 /// Text, line, column, key, value, and parts of the sentence with its hint.
@@ -365,16 +365,16 @@ fn faults_name_place_value_range_and_hint() {
         ("name = \"a\u{0}\"", 1, 10, "", "", &[]),
     ];
     for &(text, line, column, key, value, parts) in cases {
-        let fault = fault(text);
-        let whole = fault.to_string();
-        let facts = (fault.line, fault.column, fault.key.as_str());
+        let diagnostic = diagnostic(text);
+        let whole = diagnostic.to_string();
+        let facts = (diagnostic.line, diagnostic.column, diagnostic.key.as_str());
         assert_eq!(facts, (line, column, key), "{whole}\n{text}");
-        assert!(value.is_empty() || fault.value == value, "{value}: {fault:?}");
+        assert!(value.is_empty() || diagnostic.value == value, "{value}: {diagnostic:?}");
         for part in parts {
             assert!(whole.contains(part), "{part}: {whole}");
         }
         assert!(whole.starts_with(&format!("scene.toml:{line}:{column}: ")), "{whole}");
-        assert!(fault.span.end <= text.len());
+        assert!(diagnostic.span.end <= text.len());
     }
 }
 
@@ -393,7 +393,7 @@ fn a_bare_number_out_of_range_is_told_its_unit() {
         ("hair.length = '25 m'", ""),
         ("wisps.count = 0", ""),
     ] {
-        assert_eq!(fault(text).hint, meant, "{text}");
+        assert_eq!(diagnostic(text).hint, meant, "{text}");
     }
 }
 
@@ -405,14 +405,14 @@ fn a_key_of_another_table_is_told_where_it_belongs() {
         ("[head]\nflayaways = 0.1", "did you mean `wisps.flyaways`?"),
         ("ligth = {}", "did you mean `light`?"),
     ] {
-        assert_eq!(fault(text).hint, place, "{text}");
+        assert_eq!(diagnostic(text).hint, place, "{text}");
     }
 }
 
 #[test]
 fn columns_count_characters() {
-    let fault = fault("name = \"é\"\n[hair]\ntype = \"é\" # é");
-    assert_eq!((fault.line, fault.column, fault.value.as_str()), (3, 8, "\"é\""));
+    let diagnostic = diagnostic("name = \"é\"\n[hair]\ntype = \"é\" # é");
+    assert_eq!((diagnostic.line, diagnostic.column, diagnostic.value.as_str()), (3, 8, "\"é\""));
 }
 
 #[test]
@@ -447,11 +447,11 @@ fn faults_of_partings_and_regions_name_their_place() {
         ("at = \"9 cm\"", "implantation.partings[0].at", "within 6 cm"),
     ];
     for (text, key, words) in cases {
-        let f = fault(&format!("{parting}{text}"));
+        let f = diagnostic(&format!("{parting}{text}"));
         assert_eq!((f.line, f.key.contains(key)), (2, true), "{f}");
         assert!(f.to_string().contains(words), "{f}");
     }
-    assert!(fault(parting).to_string().contains("`at` or `line`"));
+    assert!(diagnostic(parting).to_string().contains("`at` or `line`"));
     for (text, line, words) in [
         ("where = \"frige\"", 2, "did you mean \"fringe\"?"),
         ("where = [\"top\", \"knape\"]", 2, "did you mean \"nape\"?"),
@@ -461,7 +461,7 @@ fn faults_of_partings_and_regions_name_their_place() {
         ("where = \"top\"\nlift = \"91 deg\"", 3, "90 deg"),
         ("where = \"top\"\nlength = 1\ndown_to = \"ears\"", 4, "says again"),
     ] {
-        let f = fault(&format!("[[region]]\n{text}"));
+        let f = diagnostic(&format!("[[region]]\n{text}"));
         assert_eq!(f.line, line, "{f}");
         assert!(f.to_string().contains(words), "{f}");
     }

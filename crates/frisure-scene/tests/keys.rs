@@ -156,17 +156,17 @@ fn only_what_was_set_changes_where_strains_give_way_to_a_helix() {
 
 #[test]
 fn what_cannot_be_said_is_refused_with_its_place() {
-    let fault = |text: &str, key: &str, value: &str| match set_key(text, key, value) {
-        Err(EditError::Scene(error)) => error.fault().unwrap().clone(),
+    let diagnostic = |text: &str, key: &str, value: &str| match set_key(text, key, value) {
+        Err(EditError::Scene(error)) => error.diagnostic().unwrap().clone(),
         other => panic!("{other:?}"),
     };
-    let unit = fault(SCENE, "hair.length", "\"20 kg\"");
+    let unit = diagnostic(SCENE, "hair.length", "\"20 kg\"");
     assert!(unit.key == "hair.length" && unit.line > 0);
-    let range = fault(SCENE, "hair.length", "\"90 m\"");
+    let range = diagnostic(SCENE, "hair.length", "\"90 m\"");
     assert!(range.key == "hair.length" && range.allowed.contains("3 m"), "{range:?}");
-    assert!(fault(SCENE, "hair.lenght", "1").hint.contains("length"));
-    assert!(fault(SCENE, "wisps.hairs", "0").line > 0);
-    assert!(fault("[hair\n", "seed", "1").line == 1);
+    assert!(diagnostic(SCENE, "hair.lenght", "1").hint.contains("length"));
+    assert!(diagnostic(SCENE, "wisps.hairs", "0").line > 0);
+    assert!(diagnostic("[hair\n", "seed", "1").line == 1);
     assert!(matches!(set_key(SCENE, "hair.length", "20 cm"), Err(EditError::Value { .. })));
     assert!(matches!(set_key(SCENE, "hair", "1"), Err(EditError::NoPlace { .. })));
     assert!(matches!(set_key(SCENE, "", "1"), Err(EditError::NoPlace { .. })));

@@ -4,7 +4,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{fault, good};
+use common::{diagnostic, good};
 use frisure_files::frame::{FrameChoice, UpAxis};
 use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
 use frisure_look::{
@@ -250,10 +250,10 @@ fn strains_along_one_hair() {
     let scene = good(text);
     let hair = scene.single_hair().unwrap();
     assert!((hair.rod.natural().at(0.05).x - 20.0).abs() < 1e-12);
-    let refused = fault(text);
+    let refused = diagnostic(text);
     assert_eq!(refused.key, "hair.curl.along");
     assert!(refused.problem.contains("one hair"), "{refused}");
-    let back = fault("hair.curl.along = [{ s = 0.1 }, { s = 0.05, kappa1 = 3 }]");
+    let back = diagnostic("hair.curl.along = [{ s = 0.1 }, { s = 0.05, kappa1 = 3 }]");
     assert_eq!((back.key.as_str(), back.value.as_str()), ("hair.curl.along[1].s", "0.05"));
 }
 
@@ -314,8 +314,8 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                 format!("{rest}{path} = {x}")
             };
             let step = (limit.abs() * 0.01).max(if key["type"] == "integer" { 1.0 } else { 1e-9 });
-            let fault = fault(&text(limit + outwards * step));
-            assert_eq!(fault.key, path, "{fault}");
+            let diagnostic = diagnostic(&text(limit + outwards * step));
+            assert_eq!(diagnostic.key, path, "{diagnostic}");
             // Inside; a limit that is itself excluded has the inside right beside it.
             let inside = text(limit - outwards * step);
             // Lengths and moduli above zero are bounded again by what can be computed.

@@ -9,14 +9,14 @@ use frisure_hairstyle::styling::{
 };
 use frisure_hairstyle::{Comb as Word, Level, Parting, Place, preset};
 use frisure_scene::edit::{self, EditError};
-use frisure_scene::{Fault, Scene, WriteStepError, parse_step, schema, write_step};
+use frisure_scene::{Diagnostic, Scene, WriteStepError, parse_step, schema, write_step};
 use glam::DVec3;
 use proptest::prelude::*;
 use serde_json::Value;
 
-fn parse(text: &str) -> Result<Scene, Box<Fault>> {
+fn parse(text: &str) -> Result<Scene, Box<Diagnostic>> {
     Scene::parse("scene.toml", text, Path::new(""))
-        .map_err(|e| Box::new(e.fault().unwrap().clone()))
+        .map_err(|e| Box::new(e.diagnostic().unwrap().clone()))
 }
 
 fn steps(text: &str) -> Vec<Operation> {
@@ -30,7 +30,7 @@ fn one(text: &str) -> Operation {
     parsed
 }
 
-fn fault(text: &str) -> Fault {
+fn diagnostic(text: &str) -> Diagnostic {
     *parse(text).err().unwrap_or_else(|| panic!("this should be refused:\n{text}"))
 }
 
@@ -162,8 +162,9 @@ fn growth_and_wetting_of_a_type_can_be_changed() {
     assert_eq!(spec("hair.wetting = 'measured'").wetting, hair.wetting);
     let fast = spec("hair.growth_rate = '0.864 mm/day'").length.growth_rate;
     assert!((fast - 1e-8).abs() < 1e-22, "{fast}");
-    let fault = parse("hair.growth_rate = '30 cm/month'").unwrap().hairstyle_spec().unwrap_err();
-    assert!(fault.to_string().contains("between 0 and 26 cm a month"), "{fault}");
+    let diagnostic =
+        parse("hair.growth_rate = '30 cm/month'").unwrap().hairstyle_spec().unwrap_err();
+    assert!(diagnostic.to_string().contains("between 0 and 26 cm a month"), "{diagnostic}");
 }
 
 /// Step, column of what is wrong, its key, and parts of the sentence with its hint.
@@ -292,7 +293,7 @@ fn faults_name_place_value_range_and_hint() {
     ];
     for (text, column, key, parts) in cases {
         let scene = format!("[[step]]\nwet = {{}}\n[[step]]\n{text}\n");
-        let found = fault(&scene);
+        let found = diagnostic(&scene);
         let path = if key.is_empty() { "step[1]".into() } else { format!("step[1].{key}") };
         assert_eq!(found.key, path, "{found}");
         let sentence = found.to_string();
@@ -302,19 +303,19 @@ fn faults_name_place_value_range_and_hint() {
         if *column > 0 {
             assert_eq!((found.line, found.column), (4, *column), "{sentence}");
             // The same step by itself.
-            let alone = parse_step("--step", *text).unwrap_err().fault().unwrap().clone();
+            let alone = parse_step("--step", *text).unwrap_err().diagnostic().unwrap().clone();
             assert_eq!((alone.line, alone.column), (1, *column), "{alone}");
             assert_eq!((alone.key.as_str(), alone.file.as_str()), (*key, "--step"));
         }
     }
-    assert_eq!(fault("step = 3").allowed, "a list of tables");
-    assert_eq!(fault("step = [3]").key, "step[0]");
+    assert_eq!(diagnostic("step = 3").allowed, "a list of tables");
+    assert_eq!(diagnostic("step = [3]").key, "step[0]");
 }
 
 /// The hint for a step by itself, which is the same in a scene.
 fn hint(text: &str) -> String {
-    let alone = parse_step("--step", text).expect_err(text).fault().unwrap().clone();
-    assert_eq!(fault(&format!("[[step]]\n{text}\n")).hint, alone.hint, "{text}");
+    let alone = parse_step("--step", text).expect_err(text).diagnostic().unwrap().clone();
+    assert_eq!(diagnostic(&format!("[[step]]\n{text}\n")).hint, alone.hint, "{text}");
     alone.hint
 }
 
@@ -366,8 +367,8 @@ fn other_words_lead_to_those_that_there_are() {
     let months = hint("grow = { months = '12 months' }");
     assert_eq!(months, "with a unit it is `time = \"12 months\"`");
     // A region has no table of choices.
-    assert_eq!(fault("[[region]]\nwhere = 'left-back'").hint, "");
-    assert_eq!(fault("[[region]]\nwhere = 'bangs'").hint, "did you mean \"fringe\"?");
+    assert_eq!(diagnostic("[[region]]\nwhere = 'left-back'").hint, "");
+    assert_eq!(diagnostic("[[region]]\nwhere = 'bangs'").hint, "did you mean \"fringe\"?");
 }
 
 #[test]
@@ -410,11 +411,11 @@ fn a_text_that_is_no_single_step_is_told_what_is() {
         ("wet = {", ""),
         ("", "a step has one of wet, dry"),
     ] {
-        let fault = parse_step("--step", text).unwrap_err().fault().unwrap().clone();
-        assert!(fault.hint.starts_with(told), "{text}: {}", fault.hint);
+        let diagnostic = parse_step("--step", text).unwrap_err().diagnostic().unwrap().clone();
+        assert!(diagnostic.hint.starts_with(told), "{text}: {}", diagnostic.hint);
     }
     let header = "what follows `[[step]]` begins on a line of its own";
-    assert_eq!(fault("seed = 1\n[[step]] wet = {}\n").hint, header);
+    assert_eq!(diagnostic("seed = 1\n[[step]] wet = {}\n").hint, header);
 }
 
 #[test]
@@ -454,31 +455,32 @@ fn a_step_that_cannot_be_done_is_shown() {
          [step.cut]\nlength = 1\n",
     )
     .unwrap();
-    let fault = |index, error: &StyleError| scene.step_fault(index, error).fault().unwrap().clone();
-    let nothing = fault(1, &StyleError::NothingSelected);
+    let diagnostic =
+        |index, error: &StyleError| scene.step_error(index, error).diagnostic().unwrap().clone();
+    let nothing = diagnostic(1, &StyleError::NothingSelected);
     assert_eq!((nothing.line, nothing.column), (4, 33));
     assert_eq!(nothing.key, "step[1].cut.where");
-    let above = fault(1, &StyleError::AboveRoot { wisps: vec![3, 4], selected: 9 });
+    let above = diagnostic(1, &StyleError::AboveRoot { wisps: vec![3, 4], selected: 9 });
     assert_eq!((above.line, above.column, above.key.as_str()), (4, 7, "step[1].cut"));
     assert!(above.to_string().contains("2 of 9 wisps: 3, 4") && above.hint.contains("cut lower"));
     let left_out = "where = { all = ['nape', { above = 'eyes' }] }";
     assert!(above.hint.contains(left_out), "{}", above.hint);
     // What is proposed can be said.
     one(&format!("release = {{ {left_out} }}"));
-    let all = fault(2, &StyleError::AboveRoot { wisps: vec![0], selected: 1 }).hint;
+    let all = diagnostic(2, &StyleError::AboveRoot { wisps: vec![0], selected: 1 }).hint;
     assert!(all.ends_with("`where = { not = { wisps = [0] } }`"), "{all}");
     // Nothing says which wisps; the header of the table stands for it.
-    let none = fault(2, &StyleError::NoSuchWisp { wisp: 7, count: 5 });
+    let none = diagnostic(2, &StyleError::NoSuchWisp { wisp: 7, count: 5 });
     assert_eq!((none.line, none.column, none.key.as_str()), (6, 1, "step[2]"));
     let length = frisure_hairstyle::InvalidSpec {
         field: "cut.length",
         value: "1".into(),
         allowed: "less than this",
     };
-    let length = fault(2, &length.into());
+    let length = diagnostic(2, &length.into());
     assert_eq!((length.line, length.key.as_str()), (7, "step[2].cut.length"));
     // Of a step that there is not.
-    let _ = fault(9, &StyleError::NothingSelected);
+    let _ = diagnostic(9, &StyleError::NothingSelected);
 }
 
 /// The keys of a table in the schema, with those of the tables in it.
@@ -517,8 +519,8 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                 format!("{rest}\n{path} = {x}")
             };
             let outside = parse_step("--step", text(limit + outwards * by));
-            let fault = outside.unwrap_err().fault().unwrap().clone();
-            assert_eq!(fault.key, path, "{fault}");
+            let diagnostic = outside.unwrap_err().diagnostic().unwrap().clone();
+            assert_eq!(diagnostic.key, path, "{diagnostic}");
             refused += 1;
             let inside = text(limit - outwards * by);
             parse_step("--step", inside).unwrap_or_else(|e| panic!("{e}"));

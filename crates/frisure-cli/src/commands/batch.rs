@@ -182,7 +182,7 @@ fn one_scene(arguments: &Batch, heads: &Heads, index: usize) -> Result<ExitStatu
         return Err(Error::invalid(message, &hint));
     }
     let text = heads.scene_elsewhere(index).map_err(|error| match error {
-        EditError::Scene(SceneError::Fault(fault)) => SceneError::Fault(fault).into(),
+        EditError::Scene(SceneError::Invalid(found)) => SceneError::Invalid(found).into(),
         error => Error::because(&error, ""),
     })?;
     let Some(path) = arguments.output.as_deref().filter(|path| *path != Path::new("-")) else {

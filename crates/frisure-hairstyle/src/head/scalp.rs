@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use frisure_digest::digestible;
 use frisure_strands::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,17 +10,19 @@ use rayon::prelude::*;
 use super::landmarks::Landmarks;
 use crate::random::{Purpose, Stream};
 
-/// The edge of the hair; lengths are distances from the usual line on the skin (m).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hairline {
-    /// Standard deviation of the line from a smooth curve.
-    pub irregularity: f64,
-    /// How much higher the line over the forehead is than usual.
-    pub height: f64,
-    /// How far it recedes at the temples.
-    pub recession: f64,
-    /// How far it comes forward to a point in the middle.
-    pub widows_peak: f64,
+digestible! {
+    /// The edge of the hair; lengths are distances from the usual line on the skin (m).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Hairline {
+        /// Standard deviation of the line from a smooth curve.
+        pub irregularity: f64,
+        /// How much higher the line over the forehead is than usual.
+        pub height: f64,
+        /// How far it recedes at the temples.
+        pub recession: f64,
+        /// How far it comes forward to a point in the middle.
+        pub widows_peak: f64,
+    }
 }
 
 impl Hairline {

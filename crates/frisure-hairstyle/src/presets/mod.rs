@@ -5,11 +5,7 @@ mod hair_type;
 mod humidity;
 mod styles;
 
-use frisure_rod::{ElementKind, Resolution};
-
-use crate::spec::{
-    Body, Contact, HairModel, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps,
-};
+use crate::spec::{Contact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps};
 pub use hair_type::{Ellipticity, HairType, NaturalCurl};
 pub use humidity::Moisture;
 use styles::Style;
@@ -151,8 +147,8 @@ impl Preset {
             wetting: hair.paper_wetting,
             length: Length {
                 mean: style.length,
-                variation_between: 0.05,
                 growth_rate: hair.growth_rate,
+                ..Length::default()
             },
             implantation: Implantation {
                 flow: style.flow,
@@ -163,18 +159,8 @@ impl Preset {
             },
             regions: Vec::new(),
             wisps: style.wisps(Hairs::Density(hair.density)),
-            contact: Contact {
-                body: Body::SignedDistance,
-                hair: style.contact,
-                stiffness: 2000.0,
-                hair_stiffness: 0.5,
-                volume: 1.0,
-            },
-            equilibrium: Settling {
-                resolution: Resolution::Accuracy(5e-4),
-                element: ElementKind::default(),
-                tolerance: 3e-2,
-            },
+            contact: Contact { hair: style.contact, ..Contact::default() },
+            equilibrium: Settling::default(),
             gravity: 9.81,
         }
     }
@@ -186,14 +172,12 @@ impl Style {
             count: self.count,
             hairs,
             clumping: self.clumping,
-            profile: [1.0; 3],
             splits: self.splits,
             fuzziness: self.fuzziness,
-            length_variation: 0.06,
             flyaways: self.flyaways,
             blending: self.blending,
             points: self.points,
-            strands: HairModel::Interpolated,
+            ..Wisps::default()
         }
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use frisure::scene::{Scene, edit};
 use frisure_engine::Diagnostic;
 
-use super::controls::{CONTROLS, Control, choices, control_of};
+use super::controls::{CONTROLS, Control, choice_of, control_of};
 use super::document::Document;
 use super::gallery::card;
 use super::salon::{ParsedScene, Salon, Tool, parse};
@@ -91,7 +91,7 @@ impl Salon {
     /// Sets a key to an option of its choice, as TOML.
     pub(super) fn set_option(&mut self, key: &'static str, value: &str) {
         let Some(base) = self.base() else { return };
-        let label = choices().into_iter().find(|choice| choice.key == key).and_then(|choice| {
+        let label = choice_of(key).and_then(|choice| {
             let (_, title) = choice.options.iter().find(|(written, _)| written == value)?;
             Some(format!("{}: {}", choice.label, title.to_lowercase()))
         });
@@ -103,7 +103,7 @@ impl Salon {
     pub(super) fn reset(&mut self, key: &'static str) {
         let Some(base) = self.base() else { return };
         let text = edit::unset_key(base, key);
-        let label = match choices().into_iter().find(|choice| choice.key == key) {
+        let label = match choice_of(key) {
             Some(choice) => format!("{}: {}", choice.label, choice.default),
             None => {
                 let name = control_of(key).map_or(key, |control| control.label);
@@ -146,9 +146,9 @@ fn label(control: &Control, value: f64) -> String {
 /// The label of a dragged slider: that of the first control whose value differs between two scenes.
 fn changed(before: &str, now: &ParsedScene) -> Option<String> {
     let before = Scene::parse("before", before, Path::new("")).ok()?;
-    let spec = before.hairstyle_spec().ok()?;
+    before.hairstyle_spec().ok()?;
     CONTROLS.iter().find_map(|control| {
-        let (old, new) = (control.value(&before, &spec), control.value(&now.scene, &now.spec));
+        let (old, new) = (control.value(&before), control.value(&now.scene));
         (control.clean(old) != control.clean(new)).then(|| label(control, new))
     })
 }

@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use frisure::formats::contents::{self, Contents};
+use frisure::scene::key_groups::{GROOM, HEAD, PATHS};
 use frisure::scene::{HeadSource, edit};
 use frisure_engine::{Request, Response, SceneRef};
 use toml_edit::{DocumentMut, Value};
@@ -15,24 +16,6 @@ use super::selection::Selected;
 
 /// Hair type of a new scene that starts from a head.
 const DEFAULT_HAIR_TYPE: &str = "caucasian-wavy";
-
-/// The keys that describe a head's file; those after the first do not apply to another file.
-const HEAD: [&str; 8] = [
-    "head.mesh",
-    "head.up",
-    "head.unit",
-    "head.scale",
-    "head.scalp_group",
-    "head.scalp_colour",
-    "head.scalp_mask",
-    "head.scalp_weights",
-];
-/// The keys that describe a groom's file.
-const GROOM: [&str; 3] = ["groom.file", "groom.up", "groom.unit"];
-
-/// The keys of scenes that hold paths.
-const PATHS: [&str; 5] =
-    ["head.mesh", "head.scalp_mask", "head.scalp_weights", "groom.file", "light.environment"];
 
 impl Salon {
     /// Queues an opened or dropped file, to find out what it has.
@@ -198,7 +181,7 @@ fn keys(written: &str, contents: Contents) -> Vec<(&'static str, Option<&str>)> 
         all.filter(|_| wanted).collect::<Vec<_>>()
     };
     // `groom.guides` applies to any groom and stays.
-    [of(&HEAD, contents.head), of(&GROOM, contents.groom)].concat()
+    [of(&HEAD, contents.head), of(&GROOM[..3], contents.groom)].concat()
 }
 
 fn file_name(path: &str) -> String {

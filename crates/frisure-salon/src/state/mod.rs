@@ -24,7 +24,7 @@ mod styling;
 mod update;
 
 pub use command::Command;
-pub use controls::{CONTROLS, Choice, Control, FILES_PANEL, Panel, choices, control_of};
+pub use controls::{CHOICES, CONTROLS, Choice, Control, FILES_PANEL, choice_of, control_of};
 pub use cut_plane::{CutHold, CutPlane, CutPreview};
 pub use document::{Document, Edit};
 pub use gallery::{Card, SCENES, TYPES, card};

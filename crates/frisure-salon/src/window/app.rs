@@ -16,7 +16,7 @@ use super::dialogs::Dialogs;
 use super::platform::{InputFile, Platform};
 use super::viewport::{self, Viewport};
 use super::{automation, gallery, keys, panels, renderer, theme, toolbars, widgets};
-use crate::state::{Choice, Command, Document, Effect, Queue, Salon, choices};
+use crate::state::{Command, Document, Effect, Queue, Salon};
 use crate::work::{Wake, Worker};
 
 /// A callback that repaints a window.
@@ -34,7 +34,6 @@ pub struct App {
     viewport: Viewport,
     dialogs: Dialogs,
     pictures: gallery::Pictures,
-    choices: Vec<Choice>,
     start: Instant,
     aspect: f64,
     has_renderer: bool,
@@ -71,7 +70,6 @@ impl App {
             viewport: Viewport::new(samples == 1),
             dialogs: Dialogs::default(),
             pictures: gallery::Pictures::default(),
-            choices: choices(),
             start: Instant::now(),
             aspect: 1.0,
             has_renderer,
@@ -256,7 +254,7 @@ impl App {
                 panels::history(ui, &self.salon, out);
             });
             CentralPanel::default().show(ui, |ui| {
-                panels::show(ui, &self.salon, &self.choices, out);
+                panels::show(ui, &self.salon, out);
             });
         });
         let frame = egui::Frame::NONE.fill(egui::Color32::from_gray(40));

@@ -4,21 +4,21 @@ use std::path::Path;
 
 use eframe::egui::{CollapsingHeader, ComboBox, RichText, Role, ScrollArea, Ui, WidgetInfo};
 use frisure::formats::contents::Contents;
-use frisure::scene::HeadSource;
+use frisure::scene::{HeadSource, Panel};
 
 use super::widgets;
-use crate::state::{CONTROLS, Choice, Command, Control, Panel, ParsedScene, Salon};
+use crate::state::{CHOICES, CONTROLS, Choice, Command, Control, ParsedScene, Salon};
 
 /// Shows the panels.
-pub(super) fn show(ui: &mut Ui, salon: &Salon, choices: &[Choice], out: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let Some(parsed) = &salon.scene else { return };
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         for panel in Panel::ALL {
             let open = matches!(panel, Panel::Files | Panel::Fibre | Panel::Curl | Panel::Length);
             let header = CollapsingHeader::new(RichText::new(panel.title()).strong());
             header.default_open(open).show(ui, |ui| match panel {
-                Panel::Files => files(ui, salon, parsed, choices, out),
-                panel => controls(ui, salon, parsed, panel, choices, out),
+                Panel::Files => files(ui, salon, parsed, out),
+                panel => controls(ui, salon, parsed, panel, out),
             });
         }
     });
@@ -30,7 +30,6 @@ fn controls(
     salon: &Salon,
     parsed: &ParsedScene,
     panel: Panel,
-    choices: &[Choice],
     out: &mut Vec<Command>,
 ) {
     let groom = salon.files().groom;
@@ -38,10 +37,10 @@ fn controls(
     let (used, unused): (Vec<&Control>, Vec<&Control>) =
         all.partition(|control| !groom || control.applies_to_groom());
     if unused.is_empty() {
-        choices.iter().filter(|c| c.panel == panel).for_each(|c| options(ui, salon, c, out));
+        CHOICES.iter().filter(|c| c.panel == panel).for_each(|c| options(ui, salon, c, out));
     }
     for control in used {
-        widgets::slider(ui, control, control.value(&parsed.scene, &parsed.spec), out);
+        widgets::slider(ui, control, control.value(&parsed.scene), out);
     }
     if !unused.is_empty() {
         ui.weak("The groom determines the other parameters.");
@@ -52,7 +51,7 @@ fn controls(
 fn options(ui: &mut Ui, salon: &Salon, choice: &Choice, out: &mut Vec<Command>) {
     let current = salon.document.as_ref().and_then(|d| string_of(d.text(), choice.key));
     let selected = choice.options.iter().find(|(written, _)| Some(written) == current.as_ref());
-    let title = selected.map_or(choice.default, |(_, title)| title.as_str());
+    let title = selected.map_or(choice.default, |(_, title)| *title);
     ui.horizontal(|ui| {
         let label = ui.label(choice.label).on_hover_text(choice.help);
         let list = ComboBox::from_id_salt(choice.key).selected_text(title).width(150.0);
@@ -63,7 +62,7 @@ fn options(ui: &mut Ui, salon: &Salon, choice: &Choice, out: &mut Vec<Command>) 
             }
             for (written, title) in &choice.options {
                 let on = Some(written) == current.as_ref();
-                if ui.selectable_label(on, title).clicked() && !on {
+                if ui.selectable_label(on, *title).clicked() && !on {
                     out.push(Command::SetOption(choice.key, written.clone()));
                 }
             }
@@ -80,15 +79,9 @@ fn string_of(text: &str, key: &str) -> Option<String> {
 }
 
 /// The files of the head and the groom.
-fn files(
-    ui: &mut Ui,
-    salon: &Salon,
-    parsed: &ParsedScene,
-    choices: &[Choice],
-    out: &mut Vec<Command>,
-) {
+fn files(ui: &mut Ui, salon: &Salon, parsed: &ParsedScene, out: &mut Vec<Command>) {
     let units = |ui: &mut Ui, table: &str, out: &mut Vec<Command>| {
-        let own = choices.iter().filter(|choice| choice.key.starts_with(table));
+        let own = CHOICES.iter().filter(|choice| choice.key.starts_with(table));
         own.for_each(|choice| options(ui, salon, choice, out));
     };
     if let HeadSource::Mesh(file) = &parsed.scene.head {

@@ -62,12 +62,13 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64, out: &m
     let (low, high) = control.range;
     let mut now = value.clamp(low, high);
     ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH).max(60.0);
-    let space = if control.unit.is_empty() { "" } else { " " };
+    let unit = control.unit.displayed;
+    let space = if unit.is_empty() { "" } else { " " };
     let slider = Slider::new(&mut now, low..=high)
         .logarithmic(control.logarithmic)
         .smallest_positive(0.01)
         .max_decimals(control.decimals)
-        .suffix(format!("{space}{}", control.unit));
+        .suffix(format!("{space}{unit}"));
     let response = ui.add(slider).on_hover_text(control.help);
     response.widget_info(|| WidgetInfo::slider(true, value, control.label));
     // The slider reports a change when it rounds the value, too.

@@ -2,13 +2,13 @@
 
 use serde_json::Value;
 
-use crate::key::nearest;
 use crate::quantity::Dimension;
-use crate::{bare, schema};
+use crate::schema::{alternatives, quantity, schema};
+use crate::similar::nearest;
 
 /// What a key takes.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Nature {
+pub(super) enum ValueType {
     /// A number with a unit.
     Quantity(&'static Dimension),
     /// A whole number.
@@ -17,7 +17,7 @@ pub(super) enum Nature {
     Other,
 }
 
-impl Nature {
+impl ValueType {
     /// The dimension of its numbers.
     pub(super) fn dimension(self) -> Option<&'static Dimension> {
         match self {
@@ -34,13 +34,15 @@ pub(super) struct NoKey {
 }
 
 /// What the key at a path takes.
-pub(super) fn nature(path: &str) -> Result<Nature, NoKey> {
+pub(super) fn value_type(path: &str) -> Result<ValueType, NoKey> {
     let mut here = schema();
     let mut so_far = String::new();
     for part in path.split('.') {
         let (name, indices) = part.split_once('[').unwrap_or((part, ""));
-        let tables: Vec<_> =
-            bare::ways(here).into_iter().filter_map(|way| way["properties"].as_object()).collect();
+        let tables: Vec<_> = alternatives(here)
+            .into_iter()
+            .filter_map(|way| way["properties"].as_object())
+            .collect();
         let found = tables.iter().find_map(|keys| keys.get(name));
         let known = tables.iter().flat_map(|keys| keys.keys()).map(String::as_str);
         here = found.ok_or_else(|| match is_list(here) {
@@ -49,11 +51,11 @@ pub(super) fn nature(path: &str) -> Result<Nature, NoKey> {
         })?;
         so_far = if so_far.is_empty() { part.to_owned() } else { format!("{so_far}.{part}") };
         for _ in indices.matches(']') {
-            let item = bare::ways(here).into_iter().find_map(|way| way.get("items"));
+            let item = alternatives(here).into_iter().find_map(|way| way.get("items"));
             here = item.ok_or_else(|| no_list(&so_far))?;
         }
     }
-    let ways = bare::ways(here);
+    let ways = alternatives(here);
     let keys = || ways.iter().find(|way| way.get("properties").is_some());
     if ways.len() == 1 && keys().is_some() {
         return Err(no_value(path, here));
@@ -61,11 +63,11 @@ pub(super) fn nature(path: &str) -> Result<Nature, NoKey> {
     if is_list(here) {
         return Err(a_list(path));
     }
-    if let Some(quantity) = bare::quantity(schema(), path) {
-        return Ok(Nature::Quantity(quantity.dimension));
+    if let Some(quantity) = quantity(schema(), path) {
+        return Ok(ValueType::Quantity(quantity.dimension));
     }
     let is_whole = ways.iter().any(|way| way["type"] == "integer");
-    Ok(if is_whole { Nature::Whole } else { Nature::Other })
+    Ok(if is_whole { ValueType::Whole } else { ValueType::Other })
 }
 
 fn unknown(name: &str, table: &str, known: Vec<&'static str>) -> NoKey {
@@ -95,7 +97,7 @@ fn elsewhere(name: &str, schema: &'static Value, path: &str) -> Option<String> {
 
 /// Whether something is a list of tables.
 fn is_list(schema: &'static Value) -> bool {
-    bare::ways(schema).iter().any(|way| way["items"].get("properties").is_some())
+    alternatives(schema).iter().any(|way| way["items"].get("properties").is_some())
 }
 
 fn no_list(path: &str) -> NoKey {

@@ -7,14 +7,15 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::names::{self, Nature};
+use super::heads::{Batch, MOST_HEADS};
+use super::names::{self, ValueType};
 use super::sheet::{Column, Sheet};
-use super::way::{Parameter, Scale, Way, Written, kind_of, word};
-use super::{Batch, Kind, MOST_HEADS};
-use crate::error::Fault;
-use crate::key::{nearest, read_quantity};
+use super::way::{Kind, Parameter, Scale, Value, Way, Written, kind_of, word};
+use crate::error::{Diagnostic, SceneError};
+use crate::kind::read_quantity;
+use crate::scene::Scene;
+use crate::similar::nearest;
 use crate::source::Source;
-use crate::{Scene, SceneError};
 
 /// Keys of a batch.
 const KEYS: [&str; 10] =
@@ -80,7 +81,7 @@ pub(super) fn batch(source: Source, folder: &Path) -> Result<Batch> {
         let problem = format!("these are more than {MOST_HEADS} heads");
         let place = fields.get("grid").or(fields.get("samples"));
         let span = place.map_or(0..0, |field| field.key.clone());
-        return Err(Fault::new(problem)
+        return Err(Diagnostic::new(problem)
             .hint("a grid is the product of all its lists")
             .at(&source, span));
     }
@@ -126,8 +127,9 @@ impl<'a> Reader<'a> {
                     None => format!("known keys: {}", known.join(", ")),
                 };
                 let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
-                let fault = Fault::new(format!("unknown key `{name}`")).hint(hint).key(path);
-                return Err(fault.at(self.source, key.span()));
+                let diagnostic =
+                    Diagnostic::new(format!("unknown key `{name}`")).hint(hint).key(path);
+                return Err(diagnostic.at(self.source, key.span()));
             }
             fields.insert(name.to_owned(), Field { key: key.span(), value });
         }
@@ -145,15 +147,15 @@ impl<'a> Reader<'a> {
         value: &Spanned<DeValue<'_>>,
         allowed: impl Into<String>,
     ) -> SceneError {
-        let fault = Fault::outside(allowed).key(key).value(self.text(value));
-        fault.at(self.source, value.span())
+        let diagnostic = Diagnostic::outside(allowed).key(key).value(self.text(value));
+        diagnostic.at(self.source, value.span())
     }
 
     fn whole(&self, fields: &Fields<'_>, key: &str, least: i64, most: i64) -> Result<Option<i64>> {
         let Some(field) = fields.get(key) else { return Ok(None) };
         let whole = Written::literal(self.text(field.value), None).value;
         match whole {
-            super::Value::Whole(x) if (least..=most).contains(&x) => Ok(Some(x)),
+            Value::Whole(x) if (least..=most).contains(&x) => Ok(Some(x)),
             _ if most == i64::MAX => {
                 Err(self.refuse(key, field.value, format!("a whole number, {least} or more")))
             }
@@ -185,11 +187,12 @@ impl<'a> Reader<'a> {
         let path = self.folder.join(&name);
         let scene = Scene::read(&path).map_err(|error| match error {
             SceneError::Read(error) => {
-                let fault = Fault::new(error.to_string()).key("scene").value(name.as_str());
+                let diagnostic =
+                    Diagnostic::new(error.to_string()).key("scene").value(name.as_str());
                 let hint = "the scene's path is relative to the batch";
-                fault.hint(hint).at(self.source, fields["scene"].value.span())
+                diagnostic.hint(hint).at(self.source, fields["scene"].value.span())
             }
-            fault => fault,
+            diagnostic => diagnostic,
         })?;
         scene.hairstyle_spec()?;
         let folder = path.parent().unwrap_or(Path::new("")).into();
@@ -202,10 +205,10 @@ impl<'a> Reader<'a> {
             Some(samples) => Ok(samples as usize),
             None if has_grid => Ok(1),
             None => {
-                let fault = Fault::new("`samples` is missing").key("samples");
+                let diagnostic = Diagnostic::new("`samples` is missing").key("samples");
                 let hint =
                     "`samples = 1000` at the top is a thousand heads; only a `[grid]` needs none";
-                Err(fault.hint(hint).at(self.source, 0..0))
+                Err(diagnostic.hint(hint).at(self.source, 0..0))
             }
         }
     }
@@ -250,16 +253,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn nature(&self, entry: &Entry<'_>) -> Result<Nature> {
-        names::nature(&entry.path).map_err(|no_key| {
-            let fault = Fault::new(no_key.problem).hint(no_key.hint).key(entry.path.as_str());
-            fault.at(self.source, entry.field.key.clone())
+    fn value_type(&self, entry: &Entry<'_>) -> Result<ValueType> {
+        names::value_type(&entry.path).map_err(|no_key| {
+            let diagnostic =
+                Diagnostic::new(no_key.problem).hint(no_key.hint).key(entry.path.as_str());
+            diagnostic.at(self.source, entry.field.key.clone())
         })
     }
 
     fn fixed<'b>(&self, fields: &Fields<'b>) -> Result<Vec<Entry<'b>>> {
         let entries = self.entries(fields, "set", |_, _| false)?;
-        entries.iter().try_for_each(|entry| self.nature(entry).map(drop))?;
+        entries.iter().try_for_each(|entry| self.value_type(entry).map(drop))?;
         Ok(entries)
     }
 
@@ -269,19 +273,19 @@ impl<'a> Reader<'a> {
     }
 
     fn grid_key(&self, entry: &Entry<'_>) -> Result<Varied> {
-        let nature = self.nature(entry)?;
+        let value_type = self.value_type(entry)?;
         let choices = match entry.field.value.get_ref() {
-            DeValue::Array(_) => self.list(&entry.path, entry.field.value, nature)?,
+            DeValue::Array(_) => self.list(&entry.path, entry.field.value, value_type)?,
             DeValue::Table(table) => {
                 let fields = self.fields(table, &entry.path, &WAYS)?;
                 match fields.get("values") {
                     Some(list) => {
                         self.only(entry, &fields, &["values"])?;
-                        self.list(&entry.path, list.value, nature)?
+                        self.list(&entry.path, list.value, value_type)?
                     }
                     None => {
                         self.only(entry, &fields, &["from", "to", "steps", "log"])?;
-                        self.steps(entry, &fields, nature)?
+                        self.steps(entry, &fields, value_type)?
                     }
                 }
             }
@@ -294,9 +298,10 @@ impl<'a> Reader<'a> {
     }
 
     fn one_value(&self, entry: &Entry<'_>, allowed: &str) -> SceneError {
-        let fault = Fault::outside(allowed).key(entry.path.as_str()).value(entry.text.as_str());
+        let diagnostic =
+            Diagnostic::outside(allowed).key(entry.path.as_str()).value(entry.text.as_str());
         let hint = "`[set]` gives all heads one value";
-        fault.hint(hint).at(self.source, entry.field.value.span())
+        diagnostic.hint(hint).at(self.source, entry.field.value.span())
     }
 
     /// The values of a grid from one number to another.
@@ -304,9 +309,9 @@ impl<'a> Reader<'a> {
         &self,
         entry: &Entry<'_>,
         fields: &Fields<'_>,
-        nature: Nature,
+        value_type: ValueType,
     ) -> Result<Vec<Written>> {
-        let [from, to] = self.range(entry, fields, nature)?;
+        let [from, to] = self.range(entry, fields, value_type)?;
         let scale = self.scale(entry, fields, from)?;
         let steps = self.whole(fields, "steps", 2, MOST_STEPS)?;
         let steps = steps.ok_or_else(|| self.missing(entry, "steps"))?;
@@ -320,7 +325,7 @@ impl<'a> Reader<'a> {
                 if scale == Scale::Log { x.exp() } else { x }
             }
         };
-        let is_whole = matches!(nature, Nature::Whole);
+        let is_whole = matches!(value_type, ValueType::Whole);
         let mut all: Vec<Written> = (0..steps)
             .map(|i| if is_whole { Written::whole(at(i)) } else { Written::number(at(i)) })
             .collect();
@@ -329,8 +334,8 @@ impl<'a> Reader<'a> {
     }
 
     fn missing(&self, entry: &Entry<'_>, key: &str) -> SceneError {
-        let fault = Fault::new(format!("`{}` has no `{key}`", entry.path));
-        fault.key(entry.path.as_str()).at(self.source, entry.field.value.span())
+        let diagnostic = Diagnostic::new(format!("`{}` has no `{key}`", entry.path));
+        diagnostic.key(entry.path.as_str()).at(self.source, entry.field.value.span())
     }
 
     /// Refuses a table that says two things.
@@ -341,7 +346,7 @@ impl<'a> Reader<'a> {
                 let with = allowed.join("`, `");
                 let problem = format!("`{name}` does not go with the rest: it would be `{with}`");
                 let path = format!("{}.{name}", entry.path);
-                Err(Fault::new(problem).key(path).at(self.source, field.key.clone()))
+                Err(Diagnostic::new(problem).key(path).at(self.source, field.key.clone()))
             }
         }
     }
@@ -351,18 +356,23 @@ impl<'a> Reader<'a> {
         &self,
         path: &str,
         value: &Spanned<DeValue<'_>>,
-        nature: Nature,
+        value_type: ValueType,
     ) -> Result<Vec<Written>> {
         let items = value.get_ref().as_array().filter(|items| !items.is_empty());
         let items = items.ok_or_else(|| self.refuse(path, value, "a list of values"))?;
-        let written = |item| Written::literal(self.text(item), nature.dimension());
+        let written = |item| Written::literal(self.text(item), value_type.dimension());
         Ok(items.iter().map(written).collect())
     }
 
     /// `from` and `to`, in order.
-    fn range(&self, entry: &Entry<'_>, fields: &Fields<'_>, nature: Nature) -> Result<[f64; 2]> {
-        let from = self.number(entry, fields, "from", nature)?;
-        let to = self.number(entry, fields, "to", nature)?;
+    fn range(
+        &self,
+        entry: &Entry<'_>,
+        fields: &Fields<'_>,
+        value_type: ValueType,
+    ) -> Result<[f64; 2]> {
+        let from = self.number(entry, fields, "from", value_type)?;
+        let to = self.number(entry, fields, "to", value_type)?;
         let from = from.ok_or_else(|| self.missing(entry, "from"))?;
         let to = to.ok_or_else(|| self.missing(entry, "to"))?;
         self.in_order(entry, fields, from, to)?;
@@ -397,10 +407,11 @@ impl<'a> Reader<'a> {
         entry: &Entry<'_>,
         fields: &Fields<'_>,
         name: &str,
-        nature: Nature,
+        value_type: ValueType,
     ) -> Result<Option<f64>> {
         let Some(field) = fields.get(name) else { return Ok(None) };
-        self.quantity(&format!("{}.{name}", entry.path), &entry.path, field.value, nature).map(Some)
+        self.quantity(&format!("{}.{name}", entry.path), &entry.path, field.value, value_type)
+            .map(Some)
     }
 
     /// A number that a key may have, SI units; `path` is where it stands.
@@ -409,22 +420,23 @@ impl<'a> Reader<'a> {
         path: &str,
         key: &str,
         value: &Spanned<DeValue<'_>>,
-        nature: Nature,
+        value_type: ValueType,
     ) -> Result<f64> {
-        match nature {
-            Nature::Quantity(dimension) => {
+        match value_type {
+            ValueType::Quantity(dimension) => {
                 let toml = super::way::understood(self.text(value));
                 let toml = toml.ok_or_else(|| self.refuse(path, value, "a number"))?;
-                read_quantity(&toml, dimension).map_err(|e| e.at(value.span(), self.source))
+                read_quantity(&toml, dimension)
+                    .map_err(|e| e.at_path(&self.source.path_at(&value.span()), self.source))
             }
-            Nature::Whole => match Written::literal(self.text(value), None).value {
-                super::Value::Whole(x) => Ok(x as f64),
+            ValueType::Whole => match Written::literal(self.text(value), None).value {
+                Value::Whole(x) => Ok(x as f64),
                 _ => Err(self.refuse(path, value, "a whole number")),
             },
-            Nature::Other => {
-                let fault = Fault::new(format!("`{key}` has no numbers between two"));
-                let fault = fault.key(path).hint("list what it may be: `values = [...]`");
-                Err(fault.at(self.source, value.span()))
+            ValueType::Other => {
+                let diagnostic = Diagnostic::new(format!("`{key}` has no numbers between two"));
+                let diagnostic = diagnostic.key(path).hint("list what it may be: `values = [...]`");
+                Err(diagnostic.at(self.source, value.span()))
             }
         }
     }
@@ -434,7 +446,7 @@ impl<'a> Reader<'a> {
         let mut sheets: Vec<Sheet> = Vec::new();
         let mut all = Vec::new();
         for entry in &entries {
-            let nature = self.nature(entry)?;
+            let value_type = self.value_type(entry)?;
             let Some(table) = entry.field.value.get_ref().as_table() else {
                 let list = entry.field.value.get_ref().as_array().map(|_| ());
                 if list.is_none() {
@@ -442,12 +454,12 @@ impl<'a> Reader<'a> {
                                    { from = ..., to = ... }";
                     return Err(self.one_value(entry, allowed));
                 }
-                let choices = self.list(&entry.path, entry.field.value, nature)?;
+                let choices = self.list(&entry.path, entry.field.value, value_type)?;
                 all.push(chosen(entry, choices, None));
                 continue;
             };
             let fields = self.fields(table, &entry.path, &WAYS)?;
-            all.push(self.way(entry, &fields, nature, &mut sheets)?);
+            all.push(self.way(entry, &fields, value_type, &mut sheets)?);
         }
         for sheet in &mut sheets {
             let cells = sheet.settle(self.source)?;
@@ -467,39 +479,42 @@ impl<'a> Reader<'a> {
         &self,
         entry: &Entry<'_>,
         fields: &Fields<'_>,
-        nature: Nature,
+        value_type: ValueType,
         sheets: &mut Vec<Sheet>,
     ) -> Result<Varied> {
         let is = |name: &str| fields.contains_key(name);
         if is("values") {
             self.only(entry, fields, &["values", "weights"])?;
-            let choices = self.list(&entry.path, fields["values"].value, nature)?;
+            let choices = self.list(&entry.path, fields["values"].value, value_type)?;
             let weights = self.weights(entry, fields, choices.len())?;
             return Ok(chosen(entry, choices, weights));
         }
         if is("table") {
             self.only(entry, fields, &["table", "column", "unit"])?;
-            let sheet = self.column(entry, fields, nature, sheets)?;
+            let sheet = self.column(entry, fields, value_type, sheets)?;
             return Ok(varied(entry, Kind::Text, Way::Column { sheet, cells: Vec::new() }));
         }
-        let whole = matches!(nature, Nature::Whole);
+        let whole = matches!(value_type, ValueType::Whole);
         let kind = if whole { Kind::Whole } else { Kind::Number };
         for (name, scale) in [("normal", Scale::Linear), ("lognormal", Scale::Log)] {
             if is(name) {
                 self.only(entry, fields, &[name, "from", "to"])?;
-                let way = self.normal(entry, fields, name, nature, scale)?;
+                let way = self.normal(entry, fields, name, value_type, scale)?;
                 return Ok(varied(entry, kind, way));
             }
         }
         if is("from") || is("to") {
             self.only(entry, fields, &["from", "to", "log"])?;
-            let range = self.range(entry, fields, nature)?;
+            let range = self.range(entry, fields, value_type)?;
             let scale = self.scale(entry, fields, range[0])?;
             return Ok(varied(entry, kind, Way::Uniform { range, scale, whole }));
         }
-        let fault = Fault::new(format!("nothing says how `{}` varies", entry.path));
+        let diagnostic = Diagnostic::new(format!("nothing says how `{}` varies", entry.path));
         let hint = format!("one of `{}` does", FIRST.join("`, `"));
-        Err(fault.key(entry.path.as_str()).hint(hint).at(self.source, entry.field.value.span()))
+        Err(diagnostic
+            .key(entry.path.as_str())
+            .hint(hint)
+            .at(self.source, entry.field.value.span()))
     }
 
     /// Sums of weights, all of the list's length.
@@ -518,8 +533,8 @@ impl<'a> Reader<'a> {
         let mut sums = Vec::with_capacity(count);
         for item in items.ok_or_else(refuse)? {
             let weight = match Written::literal(self.text(item), None).value {
-                super::Value::Number(x) => x,
-                super::Value::Whole(i) => i as f64,
+                Value::Number(x) => x,
+                Value::Whole(i) => i as f64,
                 _ => return Err(refuse()),
             };
             if !(weight >= 0.0 && weight.is_finite()) {
@@ -536,7 +551,7 @@ impl<'a> Reader<'a> {
         entry: &Entry<'_>,
         fields: &Fields<'_>,
         name: &str,
-        nature: Nature,
+        value_type: ValueType,
         scale: Scale,
     ) -> Result<Way> {
         let is_log = scale == Scale::Log;
@@ -548,9 +563,9 @@ impl<'a> Reader<'a> {
         };
         let items = list.get_ref().as_array().filter(|items| items.len() == 2);
         let items = items.ok_or_else(|| self.refuse(&path, list, allowed))?;
-        let centre = self.quantity(&path, &entry.path, &items[0], nature)?;
-        let ratio = Nature::Quantity(&crate::quantity::RATIO);
-        let nature_of_deviation = if is_log { ratio } else { nature };
+        let centre = self.quantity(&path, &entry.path, &items[0], value_type)?;
+        let ratio = ValueType::Quantity(&crate::quantity::RATIO);
+        let nature_of_deviation = if is_log { ratio } else { value_type };
         let deviation = self.quantity(&path, &entry.path, &items[1], nature_of_deviation)?;
         if is_log && centre <= 0.0 {
             return Err(self.refuse(&path, &items[0], "more than 0"));
@@ -559,8 +574,8 @@ impl<'a> Reader<'a> {
             return Err(self.refuse(&path, &items[1], "more than 0"));
         }
         let lowest = if is_log { 0.0 } else { f64::NEG_INFINITY };
-        let from = self.number(entry, fields, "from", nature)?.unwrap_or(lowest);
-        let to = self.number(entry, fields, "to", nature)?.unwrap_or(f64::INFINITY);
+        let from = self.number(entry, fields, "from", value_type)?.unwrap_or(lowest);
+        let to = self.number(entry, fields, "to", value_type)?.unwrap_or(f64::INFINITY);
         if is_log && from < 0.0 {
             let path = format!("{}.from", entry.path);
             return Err(self.refuse(&path, fields["from"].value, "0 or more, with `lognormal`"));
@@ -577,7 +592,7 @@ impl<'a> Reader<'a> {
                 return Err(self.refuse(&path, fields[end].value, allowed));
             }
         }
-        let whole = matches!(nature, Nature::Whole);
+        let whole = matches!(value_type, ValueType::Whole);
         Ok(Way::Normal { centre, deviation, limits: [from, to], scale, whole })
     }
 
@@ -586,7 +601,7 @@ impl<'a> Reader<'a> {
         &self,
         entry: &Entry<'_>,
         fields: &Fields<'_>,
-        nature: Nature,
+        value_type: ValueType,
         sheets: &mut Vec<Sheet>,
     ) -> Result<usize> {
         let name = self.word(fields, "table")?.expect("it is there");
@@ -596,16 +611,16 @@ impl<'a> Reader<'a> {
             Some(place) => place,
             None => {
                 let sheet = Sheet::read(&name, self.folder).map_err(|error| {
-                    let fault = Fault::new(error.to_string()).hint(error.hint());
-                    let fault = fault.key(format!("{}.table", entry.path));
-                    fault.at(self.source, fields["table"].value.span())
+                    let diagnostic = Diagnostic::new(error.to_string()).hint(error.hint());
+                    let diagnostic = diagnostic.key(format!("{}.table", entry.path));
+                    diagnostic.at(self.source, fields["table"].value.span())
                 })?;
                 sheets.push(sheet);
                 sheets.len() - 1
             }
         };
         let span = fields["column"].value.span();
-        let wanted = Column { key: entry.path.clone(), heading: column, unit, nature, span };
+        let wanted = Column { key: entry.path.clone(), heading: column, unit, value_type, span };
         sheets[place].take(wanted, self.source)?;
         Ok(place)
     }
@@ -617,8 +632,8 @@ impl<'a> Reader<'a> {
         let mut said: BTreeMap<&str, Range<usize>> = BTreeMap::new();
         for (path, place) in fixed.chain(varied) {
             if let Some(first) = said.insert(path, place.clone()) {
-                let fault = Fault::new(format!("`{path}` is said twice")).key(path);
-                return Err(fault.related(first, "here first").at(self.source, place));
+                let diagnostic = Diagnostic::new(format!("`{path}` is said twice")).key(path);
+                return Err(diagnostic.related(first, "here first").at(self.source, place));
             }
         }
         Ok(())
@@ -628,7 +643,7 @@ impl<'a> Reader<'a> {
 /// Whether a table at a path says how a key varies, and does not hold keys itself.
 fn is_way(path: &str, table: &DeTable<'_>) -> bool {
     let says = |name: &str| table.get(name).is_some_and(|value| !value.get_ref().is_table());
-    names::nature(path).is_ok() || WAYS.iter().any(|name| says(name))
+    names::value_type(path).is_ok() || WAYS.iter().any(|name| says(name))
 }
 
 fn varied(entry: &Entry<'_>, kind: Kind, way: Way) -> Varied {

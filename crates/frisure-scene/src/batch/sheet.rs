@@ -6,15 +6,14 @@ use std::path::Path;
 
 use frisure_hairstyle::Draws;
 
-use super::names::Nature;
+use super::names::ValueType;
 use super::way::Written;
-use crate::SceneError;
-use crate::error::Fault;
-use crate::key::nearest;
+use crate::error::{Diagnostic, SceneError};
 use crate::measurements::MeasurementError;
 use crate::measurements::heading::{brackets, unit_of};
 use crate::measurements::table::{Row, Table};
 use crate::quantity::{Dimension, QuantityError};
+use crate::similar::nearest;
 use crate::source::Source;
 
 /// A table, and which of its rows count.
@@ -37,7 +36,7 @@ pub(super) struct Column {
     pub(super) heading: String,
     /// The unit of its numbers, where the batch says it.
     pub(super) unit: Option<String>,
-    pub(super) nature: Nature,
+    pub(super) value_type: ValueType,
     /// Where the batch names it.
     pub(super) span: Range<usize>,
 }
@@ -61,8 +60,9 @@ impl Sheet {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("it has: {}", headings.join(", ")),
             };
-            let fault = Fault::new(problem).hint(hint).key(format!("{}.column", column.key));
-            return Err(fault.at(source, column.span));
+            let diagnostic =
+                Diagnostic::new(problem).hint(hint).key(format!("{}.column", column.key));
+            return Err(diagnostic.at(source, column.span));
         };
         self.columns.push((place, column));
         Ok(())
@@ -88,8 +88,8 @@ impl Sheet {
         if rows.is_empty() {
             let (_, column) = &self.columns[0];
             let problem = format!("no row of `{}` has all of the columns that are used", self.name);
-            let fault = Fault::new(problem).key(format!("{}.table", column.key));
-            return Err(fault.at(source, column.span.clone()));
+            let diagnostic = Diagnostic::new(problem).key(format!("{}.table", column.key));
+            return Err(diagnostic.at(source, column.span.clone()));
         }
         let cells = |(place, column): &(usize, Column)| {
             let read = |row: &&Row| self.cell(row, *place, column, source);
@@ -110,13 +110,15 @@ impl Sheet {
         let number = self.table.number(row, place).ok().flatten();
         let refuse = |problem: String, hint: String| {
             let at = self.table.place(row, place);
-            let fault = Fault::new(format!("{at} is {text}: {problem}")).hint(hint);
-            fault.key(format!("{}.column", column.key)).at(source, column.span.clone())
+            let diagnostic = Diagnostic::new(format!("{at} is {text}: {problem}")).hint(hint);
+            diagnostic.key(format!("{}.column", column.key)).at(source, column.span.clone())
         };
-        match (column.nature, number) {
-            (Nature::Whole, Some(x)) if x.fract() == 0.0 && x.abs() < 1e15 => Ok(Written::whole(x)),
-            (Nature::Whole, _) => Err(refuse("it must be a whole number".into(), String::new())),
-            (Nature::Quantity(dimension), number) => {
+        match (column.value_type, number) {
+            (ValueType::Whole, Some(x)) if x.fract() == 0.0 && x.abs() < 1e15 => {
+                Ok(Written::whole(x))
+            }
+            (ValueType::Whole, _) => Err(refuse("it must be a whole number".into(), String::new())),
+            (ValueType::Quantity(dimension), number) => {
                 let heading = &self.table.headings[place];
                 let unit = column.unit.clone().or_else(|| unit_of(heading));
                 let read = match number {
@@ -144,7 +146,7 @@ impl Sheet {
                     }
                 }
             }
-            (Nature::Other, _) => Ok(match text {
+            (ValueType::Other, _) => Ok(match text {
                 "true" | "false" => Written::literal(text, None),
                 text => Written::word(text),
             }),

@@ -4,11 +4,13 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use super::way::Written;
-use super::{Batch, SEED};
+use frisure_files::head::ScalpSource;
+
+use super::heads::{Batch, SEED};
+use super::way::{self, Value, Written};
 use crate::edit::EditError;
-use crate::error::Fault;
-use crate::{HeadSource, ScalpSource, Scene, SceneError};
+use crate::error::{Diagnostic, SceneError};
+use crate::scene::{HeadSource, Scene};
 
 /// How many heads are tried to find one that can be.
 const TRIED: usize = 16;
@@ -81,9 +83,9 @@ fn scene_of(batch: &Batch, index: usize, literals: &[String]) -> Result<Scene, E
 /// Whether an error is about a key.
 fn own(error: &EditError, key: &str) -> bool {
     match error {
-        EditError::Scene(error) => error.fault().is_some_and(|fault| {
-            fault.key == key
-                || fault.key.strip_prefix(key).is_some_and(|rest| rest.starts_with(['.', '[']))
+        EditError::Scene(error) => error.diagnostic().is_some_and(|diagnostic| {
+            diagnostic.key == key
+                || diagnostic.key.strip_prefix(key).is_some_and(|rest| rest.starts_with(['.', '[']))
         }),
         EditError::Value { key: other, .. } | EditError::NoPlace { key: other } => other == key,
         _ => false,
@@ -94,23 +96,23 @@ fn own(error: &EditError, key: &str) -> bool {
 fn told(batch: &Batch, key: &str, written: Option<&Written>, error: &EditError) -> SceneError {
     let span = place(batch, key, written);
     let here = batch.source.slice(span.clone()).to_owned();
-    let fault = match error {
-        EditError::Scene(SceneError::Fault(inner)) => {
+    let diagnostic = match error {
+        EditError::Scene(SceneError::Invalid(inner)) => {
             // The value as it is written here, if it is, or else as it would be in the scene.
             let value =
                 if here.contains(['{', '[']) || here.is_empty() { &inner.value } else { &here };
-            let fault = Fault { allowed: inner.allowed.clone(), ..Fault::default() };
+            let diagnostic = Diagnostic { allowed: inner.allowed.clone(), ..Diagnostic::default() };
             // Lines that it names are those of the scene with all its keys set, which nobody sees.
             let problem = inner.problem.split(" on line ").next().unwrap_or_default();
-            let fault = Fault { problem: problem.to_owned(), ..fault };
-            let fault = fault.key(inner.key.as_str()).value(value.as_str());
+            let diagnostic = Diagnostic { problem: problem.to_owned(), ..diagnostic };
+            let diagnostic = diagnostic.key(inner.key.as_str()).value(value.as_str());
             // What is said of bare numbers is not of what is written here.
             let bare = inner.problem.is_empty() && written.is_some_and(Written::is_number);
-            if bare { fault } else { fault.hint(inner.hint.as_str()) }
+            if bare { diagnostic } else { diagnostic.hint(inner.hint.as_str()) }
         }
-        error => Fault::new(error.to_string()).key(key),
+        error => Diagnostic::new(error.to_string()).key(key),
     };
-    fault.at(&batch.source, span)
+    diagnostic.at(&batch.source, span)
 }
 
 /// Where a value of a key is said in the batch, or at least the key.
@@ -164,9 +166,9 @@ fn narrow(batch: &Batch, tree: &Tree<'_>, written: &Written, found: &mut Range<u
 
 /// Whether a text is the number, in whatever unit.
 fn same_number(text: &str, written: &Written) -> bool {
-    let super::Value::Number(x) = written.value else { return false };
+    let Value::Number(x) = written.value else { return false };
     let units = crate::quantity::Dimension::all();
-    let word = super::way::word(text);
+    let word = way::word(text);
     word.is_some_and(|word| units.iter().any(|unit| unit.parse(&word) == Ok(x)))
         || text.parse() == Ok(x)
 }

@@ -5,7 +5,7 @@ use frisure_hairstyle::Draws;
 use serde_spanned::Spanned;
 use toml::Value as Toml;
 
-use crate::key::read_quantity;
+use crate::kind::read_quantity;
 use crate::quantity::Dimension;
 
 /// What kind of values a varied key has.

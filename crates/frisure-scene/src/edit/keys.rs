@@ -11,10 +11,10 @@ use toml::Spanned;
 use toml::de::DeValue;
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
-use super::EditError;
-use super::ways::{beside, rivals};
+use super::dependent::{dependents, supplement};
+use super::error::EditError;
+use crate::scene::Scene;
 use crate::source::Source;
-use crate::{Scene, without_mark};
 
 type Result<T, E = EditError> = std::result::Result<T, E>;
 
@@ -46,34 +46,33 @@ pub fn unset_key(text: &str, key: &str) -> Result<String> {
 /// # Errors
 /// As [`set_key`].
 pub fn set_keys(text: &str, changes: &[(&str, Option<&str>)]) -> Result<String> {
-    let whole = without_mark(text.to_owned());
-    let mark = &text[..text.len() - whole.len()];
-    let before = Source { name: NAME.into(), text: whole };
+    let before = Source::new(NAME, text);
+    let mark = &text[..text.len() - before.text.len()];
     before.document()?;
     let scene = Scene::parse(NAME, before.text.as_str(), Path::new("")).ok();
     let mut now = before.text.clone();
     let mut touched: Vec<String> = Vec::new();
     for (key, value) in changes {
         let word = value.map(|value| value.trim().trim_matches(['"', '\'']));
-        let mut gone = rivals(key, word, |key| written(&now, key));
-        gone.retain(|rival| {
-            !changes.iter().any(|(key, value)| key == rival && value.is_some())
-                && is_there(&now, rival)
+        let mut gone = dependents(key, word, |key| written(&now, key));
+        gone.retain(|other| {
+            !changes.iter().any(|(key, value)| key == other && value.is_some())
+                && is_there(&now, other)
         });
-        for rival in &gone {
-            now = taken_out(&now, rival)?;
+        for other in &gone {
+            now = removed(&now, other)?;
         }
         let given = |other: &&(&str, String)| !changes.iter().any(|(key, _)| *key == other.0);
         let other = scene.as_ref().filter(|_| value.is_some());
         if let Some((other, value)) =
-            other.and_then(|s| beside(key, s, &gone)).as_ref().filter(given)
+            other.and_then(|s| supplement(key, s, &gone)).as_ref().filter(given)
         {
-            now = put(&now, other, value)?;
+            now = inserted(&now, other, value)?;
             touched.push((*other).to_owned());
         }
         now = match value {
-            Some(value) => put(&now, key, value)?,
-            None => taken_out(&now, key)?,
+            Some(value) => inserted(&now, key, value)?,
+            None => removed(&now, key)?,
         };
         touched.extend(gone);
         touched.push((*key).to_owned());
@@ -139,7 +138,7 @@ fn written(text: &str, key: &str) -> Option<String> {
 }
 
 /// The text with a key and its value.
-fn put(text: &str, key: &str, value: &str) -> Result<String> {
+fn inserted(text: &str, key: &str, value: &str) -> Result<String> {
     let value: Value = value.trim().parse().map_err(|e: toml_edit::TomlError| {
         EditError::Value { key: key.to_owned(), problem: e.message().to_owned() }
     })?;
@@ -288,7 +287,7 @@ fn set(table: &mut dyn TableLike, bracketed: bool, name: &str, mut value: Value)
 }
 
 /// The text without a key; as it is, if it has none.
-fn taken_out(text: &str, key: &str) -> Result<String> {
+fn removed(text: &str, key: &str) -> Result<String> {
     let source = source(text);
     let document = source.document()?;
     let Some(found) = Found::at(&DeValue::Table(document.get_ref().clone()), key, text) else {

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use frisure_scene::{Fault, Scene, SceneError};
+use frisure_scene::{Diagnostic, Scene, SceneError};
 
 pub(crate) fn parse(text: &str) -> Result<Scene, SceneError> {
     Scene::parse("scene.toml", text, Path::new("scenes"))
@@ -15,7 +15,7 @@ pub(crate) fn good(text: &str) -> Scene {
 }
 
 /// What is wrong with a scene, for a whole head or for one hair.
-pub(crate) fn fault(text: &str) -> Fault {
+pub(crate) fn diagnostic(text: &str) -> Diagnostic {
     let error = match parse(text) {
         Err(error) => error,
         Ok(scene) => match (scene.hairstyle_spec(), scene.single_hair()) {
@@ -23,5 +23,5 @@ pub(crate) fn fault(text: &str) -> Fault {
             _ => panic!("this should be refused:\n{text}"),
         },
     };
-    error.fault().unwrap_or_else(|| panic!("{error}")).clone()
+    error.diagnostic().unwrap_or_else(|| panic!("{error}")).clone()
 }

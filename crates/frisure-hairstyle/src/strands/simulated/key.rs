@@ -1,19 +1,17 @@
 //! The key of a checkpoint: a digest of all that simulated hairs depend on.
 
 use frisure_digest::{Digest, Digestible, digest_fields};
-use frisure_rod::{
-    ElementKind, Material, NaturalStrain, Resolution, RodSpec, Root as Clamp, Section,
-    TorsionConstant,
-};
+use frisure_rod::{NaturalStrain, RodSpec, Root as Clamp};
 
-use crate::fibre::{Curl, Fibre, Handedness, Wetting};
+use crate::fibre::Handedness;
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
-use crate::head::{Hairline, Head, Region};
+use crate::head::{Head, Region};
 use crate::implantation::Root;
+use crate::rod_digest::{add_material, add_section, add_torsion};
 use crate::spec::{
-    Body, Comb, Contact, Flow, HairContact, HairModel, Hairs, HairstyleSpec, Implantation, Length,
-    Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn, Whorls, Wisps,
+    Body, Comb, Flow, HairContact, HairModel, Hairs, Level, Lift, Parting, Place, RegionLength,
+    Turn,
 };
 
 /// What the hairs of this hairstyle depend on, for the same version: if it is the same, so are the hairs.
@@ -29,38 +27,9 @@ pub(crate) fn key(hairstyle: &Hairstyle, head: &Head, roots: &[(usize, Root)]) -
     digest.key()
 }
 
-digest_fields!(HairstyleSpec {
-    seed,
-    fibre,
-    wetting,
-    curl,
-    length,
-    implantation,
-    regions,
-    wisps,
-    contact,
-    equilibrium,
-    gravity,
-});
-digest_fields!(Wetting { youngs_modulus, shear_modulus, diameter, length, wisp });
-digest_fields!(Curl { strain, handedness, variation_between, variation_along, variation_scale });
 digest_fields!(Handedness: Random, AsGiven);
-digest_fields!(Length { mean, variation_between, growth_rate });
-digest_fields!(Implantation {
-    flow,
-    whorls,
-    partings,
-    lift,
-    jitter,
-    density,
-    hairline,
-    baby_hairs,
-});
-digest_fields!(Whorls { count, offset, turn });
 digest_fields!(Turn: Clockwise, Anticlockwise);
 digest_fields!(Parting: Straight { offset }, Zigzag { offset }, Through(points));
-digest_fields!(Hairline { irregularity, height, recession, widows_peak });
-digest_fields!(RegionStyle { places, length, comb, lift, curl });
 digest_fields!(Place: Region(region), LeftOf(region), RightOf(region), Left, Right, Everywhere);
 digest_fields!(Region: Fringe, Top, Crown, Sides, Back, Nape);
 digest_fields!(RegionLength: Mean(length), DownTo(level));
@@ -68,51 +37,11 @@ digest_fields!(Level: Brows, Eyes, Ears, Chin, Nape);
 digest_fields!(Comb: Forward, Back, Down, Left, Right);
 digest_fields!(Flow: Whorl, Parted { offset }, SweptBack);
 digest_fields!(Lift: Regional { scale }, Uniform(lift));
-digest_fields!(Wisps {
-    count,
-    hairs,
-    clumping,
-    profile,
-    splits,
-    fuzziness,
-    length_variation,
-    flyaways,
-    blending,
-    points,
-    strands,
-});
 digest_fields!(HairModel: Interpolated, Simulated);
 digest_fields!(Hairs: Count(n), PerWisp(n), Density(density));
-digest_fields!(Contact { body, hair, stiffness, hair_stiffness, volume });
 digest_fields!(Body: None, Spheres, SignedDistance);
 digest_fields!(HairContact: None, Layers, Wisps);
 digest_fields!(Root { position, normal });
-
-impl Digestible for Fibre {
-    fn add_to(&self, digest: &mut Digest) {
-        let Self { section, material, torsion, variation, axis_ratio_variation } = self;
-        add_section(digest, section);
-        add_material(digest, material);
-        digest.field("torsion", torsion_name(*torsion)).field("variation", variation);
-        digest.field("axis_ratio_variation", axis_ratio_variation);
-    }
-}
-
-impl Digestible for Settling {
-    fn add_to(&self, digest: &mut Digest) {
-        let Self { resolution, element, tolerance } = self;
-        match resolution {
-            Resolution::Elements(n) => digest.field("elements", n),
-            Resolution::Accuracy(accuracy) => digest.field("accuracy", accuracy),
-        };
-        let element = match element {
-            ElementKind::Auto => "auto",
-            ElementKind::Jointed => "jointed",
-            ElementKind::Helix => "helix",
-        };
-        digest.field("element", element).field("tolerance", tolerance);
-    }
-}
 
 impl Digestible for Guide {
     fn add_to(&self, digest: &mut Digest) {
@@ -130,7 +59,7 @@ fn add_rod(digest: &mut Digest, rod: &RodSpec) {
     digest.field("length", length);
     add_section(digest, section);
     add_material(digest, material);
-    digest.field("torsion", torsion_name(*torsion));
+    add_torsion(digest, torsion);
     match natural {
         NaturalStrain::Uniform(strain) => digest.field("strain", strain),
         NaturalStrain::Varying(profile) => digest.field("strains", profile.knots()),
@@ -143,20 +72,4 @@ fn add_clamp(digest: &mut Digest, root: &Clamp) {
     let frame = root.frame();
     digest.field("position", &root.position());
     digest.field("frame", &[frame.x_axis, frame.y_axis, frame.z_axis]);
-}
-
-fn add_section(digest: &mut Digest, section: &Section) {
-    digest.field("semi-axes", &[section.a(), section.b()]);
-}
-
-fn add_material(digest: &mut Digest, material: &Material) {
-    let moduli = [material.youngs_modulus(), material.shear_modulus(), material.density()];
-    digest.field("moduli, density", &moduli);
-}
-
-fn torsion_name(torsion: TorsionConstant) -> &'static str {
-    match torsion {
-        TorsionConstant::SaintVenant => "Saint-Venant",
-        TorsionConstant::Polar => "polar",
-    }
 }

@@ -1,73 +1,21 @@
-//! Keys that say the same thing in different ways: who sets one takes the others away.
+//! Keys that an edit of another key removes or adds.
 
-use crate::Scene;
+use crate::exclusive::others;
+use crate::key_groups::{ENVIRONMENT, GROOM, HEAD, MAIN_LAMP, SUN};
 use crate::quantity::LENGTH;
+use crate::scene::Scene;
 
-/// Ways to say one thing, each of some keys.
-type Ways = &'static [&'static [&'static str]];
-
-/// `[]` stands for the number of an item in a list.
-const WAYS: [Ways; 15] = [
-    &[
-        &["hair.fibre.diameter"],
-        &["hair.fibre.mean_radius"],
-        &["hair.fibre.semi_axis_a", "hair.fibre.semi_axis_b"],
-    ],
-    &[
-        &["hair.fibre.eccentricity"],
-        &["hair.fibre.axis_ratio"],
-        &["hair.fibre.semi_axis_a", "hair.fibre.semi_axis_b"],
-        &["hair.ellipticity"],
-    ],
-    &[&["hair.fibre.shear_modulus"], &["hair.fibre.poisson_ratio"]],
-    &[
-        &["hair.curl.radius", "hair.curl.pitch"],
-        &["hair.curl.kappa1", "hair.curl.kappa2", "hair.curl.tau"],
-        &["hair.curl.along"],
-    ],
-    &[&["wisps.density"], &["wisps.hairs"], &["wisps.hairs_per_wisp"]],
-    &[&["implantation.parting"], &["implantation.partings"]],
-    &[&["implantation.partings[].at"], &["implantation.partings[].line"]],
-    &[&["implantation.lift"], &["implantation.lift_scale"]],
-    &[&["head.scalp_group"], &["head.scalp_colour"], &["head.scalp_mask"], &["head.scalp_weights"]],
-    &[&["head.unit"], &["head.scale"]],
-    &[&["region[].length"], &["region[].down_to"]],
-    &[&["equilibrium.elements"], &["equilibrium.accuracy"]],
-    &[
-        &["look.colour", "look.eumelanin", "look.pheomelanin"],
-        &["look.reflectance"],
-        &["look.absorption"],
-    ],
-    &[&["light.lamp[].colour"], &["light.lamp[].temperature"]],
-    &[
-        &["light.lamp[].azimuth", "light.lamp[].elevation", "light.lamp[].distance"],
-        &["light.lamp[].position"],
-    ],
-];
-
-const SUN: [&str; 3] = ["light.sun_azimuth", "light.sun_elevation", "light.turbidity"];
-const MAIN_LAMP: [&str; 3] = ["light.azimuth", "light.elevation", "light.size"];
-const ENVIRONMENT: [&str; 2] = ["light.environment", "light.rotation"];
-
-/// The keys that have to go where one is given another value, or is taken away. `word` is the value
-/// without its quotes; `now` gives the values of keys so far, in the same way.
-pub(super) fn rivals(
+/// The keys to remove when a key is set, or removed if `word` is none. `word` is its value without
+/// quotes; `now` returns the values of keys before the edit, in the same way.
+pub(super) fn dependents(
     key: &str,
     word: Option<&str>,
     now: impl Fn(&str) -> Option<String>,
 ) -> Vec<String> {
     let (general, index) = without_index(key);
-    let mut rivals: Vec<&'static str> = Vec::new();
-    if word.is_some() {
-        for ways in WAYS {
-            let own = |way: &&&[&str]| way.contains(&general.as_str());
-            if ways.iter().any(|way| own(&way)) {
-                rivals.extend(ways.iter().filter(|way| !own(way)).copied().flatten());
-            }
-        }
-    }
-    rivals.extend(said_by(&general, word, &now));
-    rivals.into_iter().map(|rival| rival.replace("[]", &index)).collect()
+    let exclusive = word.into_iter().flat_map(|_| others(&general));
+    let dependent = dependent_on_value(&general, word, &now);
+    exclusive.chain(dependent).map(|other| other.replace("[]", &index)).collect()
 }
 
 /// A path with empty brackets for the number in it, and that number in brackets.
@@ -81,8 +29,8 @@ fn without_index(key: &str) -> (String, String) {
     }
 }
 
-/// What goes for what the value itself says.
-fn said_by(
+/// The keys that have no effect with a value of another key.
+fn dependent_on_value(
     key: &str,
     word: Option<&str>,
     now: &impl Fn(&str) -> Option<String>,
@@ -96,18 +44,10 @@ fn said_by(
         ("look.colour", Some(_)) => vec!["look.eumelanin", "look.pheomelanin", "look.white_share"],
         ("look.dye.colour", None) => vec!["look.dye.strength", "look.dye.regrowth"],
         ("camera.f_number", None) => vec!["camera.focus"],
-        ("head.mesh", None) => vec![
-            "head.up",
-            "head.unit",
-            "head.scale",
-            "head.scalp_group",
-            "head.scalp_colour",
-            "head.scalp_mask",
-            "head.scalp_weights",
-        ],
-        ("groom.file", None) => vec!["groom.up", "groom.unit", "groom.guides"],
+        ("head.mesh", None) => HEAD[1..].to_vec(),
+        ("groom.file", None) => GROOM[1..].to_vec(),
         ("equilibrium.branch", None | Some("gravity")) => vec!["equilibrium.starts"],
-        ("light.environment", None) => vec!["light.rotation"],
+        ("light.environment", None) => ENVIRONMENT[1..].to_vec(),
         ("light.environment", Some(_)) => {
             let sky = setup().is_some_and(|s| s == "daylight" || s == "overcast");
             let mut gone = SUN.to_vec();
@@ -125,13 +65,10 @@ fn said_by(
             let setup = other.then_some("light.setup");
             [&MAIN_LAMP[..2], &ENVIRONMENT].concat().into_iter().chain(setup).collect()
         }
-        ("light.lamp[].angle", Some(_)) => vec![
-            "light.lamp[].size",
-            "light.lamp[].shown",
-            "light.lamp[].distance",
-            "light.lamp[].position",
-        ],
-        ("light.lamp[].size" | "light.lamp[].distance" | "light.lamp[].position", Some(_)) => {
+        ("light.lamp[].angle", Some(_)) => {
+            vec!["light.lamp[].shown", "light.lamp[].distance", "light.lamp[].position"]
+        }
+        ("light.lamp[].distance" | "light.lamp[].position", Some(_)) => {
             vec!["light.lamp[].angle"]
         }
         ("light.lamp[].size", None) => vec!["light.lamp[].shown"],
@@ -139,7 +76,7 @@ fn said_by(
     }
 }
 
-/// The keys of lamps, sun and surroundings that a setup does not have.
+/// The keys about lamps, sun and environment that a setup does not have.
 fn without_lamps(setup: &str) -> Vec<&'static str> {
     match setup {
         "daylight" => [&MAIN_LAMP[..2], &ENVIRONMENT].concat(),
@@ -149,10 +86,13 @@ fn without_lamps(setup: &str) -> Vec<&'static str> {
     }
 }
 
-/// What is to be said beside a key so that only what it says changes, where the other way to say it said
-/// more: the pitch beside a radius that takes the place of strains, the shape of a section beside its
-/// size.
-pub(super) fn beside(key: &str, scene: &Scene, gone: &[String]) -> Option<(&'static str, String)> {
+/// A key to add beside one that replaces others, so that nothing else changes: the pitch beside a radius
+/// that replaces strains, the shape of a section beside its size.
+pub(super) fn supplement(
+    key: &str,
+    scene: &Scene,
+    gone: &[String],
+) -> Option<(&'static str, String)> {
     let was = |key: &str| gone.iter().any(|gone| gone == key);
     let strains = ["hair.curl.kappa1", "hair.curl.kappa2", "hair.curl.tau"].into_iter().any(was);
     let axes = was("hair.fibre.semi_axis_a") || was("hair.fibre.semi_axis_b");

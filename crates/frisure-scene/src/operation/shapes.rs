@@ -6,9 +6,10 @@ use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::{Table, Value};
 
-use super::declare::table_text;
-use crate::key::{Choice, Kind, Length, OneOf, Point, Ratio, Refusal, Time, ToText, Vector};
-use crate::words::Which;
+use crate::choice::{Choice, OneOf};
+use crate::error::ValueError;
+use crate::keywords::{Keyword, keywords};
+use crate::kind::{Kind, Length, Point, Ratio, Time, ToText, Vector, table_text};
 
 /// The keys of a table that is a value.
 pub(super) struct Fields<'a>(&'a Table);
@@ -19,23 +20,23 @@ impl<'a> Fields<'a> {
         value: &'a Value,
         known: &[&str],
         allowed: &'static str,
-    ) -> Result<Self, Refusal> {
-        let table = value.as_table().ok_or_else(|| Refusal::new(allowed))?;
+    ) -> Result<Self, ValueError> {
+        let table = value.as_table().ok_or_else(|| ValueError::new(allowed))?;
         match table.keys().find(|key| !known.contains(&key.as_str())) {
-            Some(key) => Err(Refusal::unknown_key(key, known)),
+            Some(key) => Err(ValueError::unknown_key(key, known)),
             None => Ok(Self(table)),
         }
     }
 
     /// The value of a key, if it is written.
-    pub(super) fn get<K: Kind>(&self, key: &str) -> Result<Option<K::Value>, Refusal> {
+    pub(super) fn get<K: Kind>(&self, key: &str) -> Result<Option<K::Value>, ValueError> {
         let read = |value| K::read(value).map_err(|e| e.inside(&format!(".{key}")));
         self.0.get(key).map(read).transpose()
     }
 
     /// The value of a key that has to be written.
-    pub(super) fn need<K: Kind>(&self, key: &str) -> Result<K::Value, Refusal> {
-        let missing = || Refusal::because(format!("`{key}` is missing here"));
+    pub(super) fn need<K: Kind>(&self, key: &str) -> Result<K::Value, ValueError> {
+        let missing = || ValueError::because(format!("`{key}` is missing here"));
         self.get::<K>(key)?.ok_or_else(missing)
     }
 }
@@ -46,7 +47,7 @@ pub(super) struct Plane;
 impl Kind for Plane {
     type Value = (DVec3, DVec3);
 
-    fn read(value: &Value) -> Result<(DVec3, DVec3), Refusal> {
+    fn read(value: &Value) -> Result<(DVec3, DVec3), ValueError> {
         let allowed = "a plane, such as { point = [0, 0, \"5 cm\"], normal = [0, 0, -1] }";
         let fields = Fields::new(value, &["point", "normal"], allowed)?;
         Ok((fields.need::<Point>("point")?, fields.need::<Vector>("normal")?))
@@ -79,7 +80,7 @@ pub(super) struct Sphere;
 impl Kind for Sphere {
     type Value = (DVec3, f64);
 
-    fn read(value: &Value) -> Result<(DVec3, f64), Refusal> {
+    fn read(value: &Value) -> Result<(DVec3, f64), ValueError> {
         let allowed = "a sphere, such as { centre = [0, 0, \"5 cm\"], radius = \"20 cm\" }";
         let fields = Fields::new(value, &["centre", "radius"], allowed)?;
         Ok((fields.need::<Point>("centre")?, fields.need::<Length>("radius")?))
@@ -118,12 +119,10 @@ pub(super) fn bounded(schema: &Schema, least: f64, most: f64, description: &str)
     schema
 }
 
-impl Choice for Which<Held> {
-    fn words() -> Vec<(&'static str, &'static str, Self)> {
-        vec![
-            ("down", "combed straight down from its root, as in the paper", Self(Held::Down)),
-            ("hanging", "as it hangs", Self(Held::Hanging)),
-        ]
+keywords! {
+    Keyword<Held> {
+        "down" => Self(Held::Down), "combed straight down from its root, as in the paper";
+        "hanging" => Self(Held::Hanging), "as it hangs";
     }
 }
 
@@ -138,17 +137,17 @@ pub(super) struct Below;
 impl Kind for Below {
     type Value = Height;
 
-    fn read(value: &Value) -> Result<Height, Refusal> {
+    fn read(value: &Value) -> Result<Height, ValueError> {
         if is_word(value) {
-            let height = |refusal: Refusal| refusal.or("or a height such as \"4 cm\"");
-            let Which(level) = OneOf::<Which<Level>>::read(value).map_err(height)?;
+            let height = |error: ValueError| error.or("or a height such as \"4 cm\"");
+            let Keyword(level) = OneOf::<Keyword<Level>>::read(value).map_err(height)?;
             return Ok(Height::Above(level, 0.0));
         }
         Length::read(value).map(Height::At)
     }
 
     fn schema() -> Schema {
-        json_schema!({ "anyOf": [OneOf::<Which<Level>>::schema(), Length::schema()] })
+        json_schema!({ "anyOf": [OneOf::<Keyword<Level>>::schema(), Length::schema()] })
     }
 }
 
@@ -156,7 +155,7 @@ impl ToText for Below {
     fn text(height: &Height) -> String {
         match height {
             Height::At(z) => Length::text(z),
-            Height::Above(level, _) => OneOf::<Which<Level>>::text(&Which(*level)),
+            Height::Above(level, _) => OneOf::<Keyword<Level>>::text(&Keyword(*level)),
         }
     }
 }
@@ -167,12 +166,12 @@ pub(super) struct Months;
 impl Kind for Months {
     type Value = f64;
 
-    fn read(value: &Value) -> Result<f64, Refusal> {
-        Ratio::read(value).map_err(|refusal| match value.as_str() {
+    fn read(value: &Value) -> Result<f64, ValueError> {
+        Ratio::read(value).map_err(|error| match value.as_str() {
             Some(text) if Time::read(value).is_ok() => {
-                refusal.hint(format!("with a unit it is `time = \"{text}\"`"))
+                error.hint(format!("with a unit it is `time = \"{text}\"`"))
             }
-            _ => refusal,
+            _ => error,
         })
     }
 
@@ -193,23 +192,23 @@ pub(super) struct Towards;
 impl Kind for Towards {
     type Value = Direction;
 
-    fn read(value: &Value) -> Result<Direction, Refusal> {
+    fn read(value: &Value) -> Result<Direction, ValueError> {
         if value.is_str() {
-            return OneOf::<Which<Comb>>::read(value).map(|Which(word)| Direction::Named(word));
+            return OneOf::<Keyword<Comb>>::read(value).map(|Keyword(word)| Direction::Named(word));
         }
         let hint = "or a word: \"forward\", \"back\", \"down\", \"left\", \"right\"";
         Vector::read(value).map(Direction::Along).map_err(|e| e.hint(hint))
     }
 
     fn schema() -> Schema {
-        json_schema!({ "anyOf": [OneOf::<Which<Comb>>::schema(), Vector::schema()] })
+        json_schema!({ "anyOf": [OneOf::<Keyword<Comb>>::schema(), Vector::schema()] })
     }
 }
 
 impl ToText for Towards {
     fn text(towards: &Direction) -> String {
         match towards {
-            Direction::Named(comb) => OneOf::<Which<Comb>>::text(&Which(*comb)),
+            Direction::Named(comb) => OneOf::<Keyword<Comb>>::text(&Keyword(*comb)),
             Direction::Along(direction) => Vector::text(direction),
         }
     }

@@ -5,32 +5,33 @@ use frisure_hairstyle::styling::Operation;
 use schemars::{Schema, json_schema};
 use toml::Value;
 
-use super::blame::{self, join};
 use super::selection::Where;
-use crate::error::{Fault, SceneError};
-use crate::exclusive::one_way;
-use crate::key::{Kind, Refusal, ToText};
+use crate::declaration::{add_range, in_prose};
+use crate::error::ValueError;
+use crate::error::{Diagnostic, SceneError};
+use crate::exclusive::check_given;
+use crate::kind::{Kind, ToText, table_text};
 use crate::source::Source;
 
 /// How an operation is written in a scene.
-pub(super) struct Declaration {
-    pub(super) name: &'static str,
+pub(crate) struct Declaration {
+    pub(crate) name: &'static str,
     /// What it does.
-    pub(super) doc: String,
+    pub(crate) doc: String,
     /// A step with it.
-    pub(super) example: &'static str,
+    pub(crate) example: &'static str,
     /// The key that a value means which is written in place of the table; none if the operation is written
     /// as that value.
-    pub(super) main: Option<&'static str>,
+    pub(crate) main: Option<&'static str>,
     /// Other names for it.
-    pub(super) synonyms: &'static [&'static str],
+    pub(crate) synonyms: &'static [&'static str],
     /// How a program offers it for hair that is selected.
-    pub(super) button: Option<Button>,
+    pub(crate) button: Option<Button>,
     /// Keys that exclude each other.
-    pub(super) groups: &'static [Group],
-    pub(super) keys: Vec<StepKey>,
+    pub(crate) groups: &'static [Group],
+    pub(crate) keys: Vec<StepKey>,
     /// The operation with its default values.
-    pub(super) start: fn() -> Operation,
+    pub(crate) start: fn() -> Operation,
 }
 
 /// A button for an operation on selected hair.
@@ -42,31 +43,23 @@ pub struct Button {
     pub step: &'static str,
 }
 
-impl Button {
-    /// Returns the operation of its step, on all hair.
-    #[must_use]
-    pub fn operation(&self) -> Operation {
-        super::parse_step(self.label, self.step).expect("the declared steps are tested")
-    }
-}
-
 /// Keys of which at most one is written.
-pub(super) struct Group {
-    pub(super) keys: &'static [&'static str],
+pub(crate) struct Group {
+    pub(crate) keys: &'static [&'static str],
     /// What is wrong if none of them is written, after the name of the operation, and what to try; none if
     /// none is needed.
-    pub(super) needed: Option<(&'static str, &'static str)>,
+    pub(crate) needed: Option<(&'static str, &'static str)>,
 }
 
 /// A key of an operation.
-pub(super) struct StepKey {
-    pub(super) name: &'static str,
-    pub(super) schema: Schema,
+pub(crate) struct StepKey {
+    pub(crate) name: &'static str,
+    pub(crate) schema: Schema,
     /// An example, if the key has to be written.
-    pub(super) needed: Option<&'static str>,
-    pub(super) read: fn(&mut Operation, &Value) -> Result<(), Refusal>,
+    pub(crate) needed: Option<&'static str>,
+    pub(crate) read: fn(&mut Operation, &Value) -> Result<(), ValueError>,
     /// The value as a scene writes it; none if the operation does not have the key.
-    pub(super) write: fn(&Operation) -> Option<String>,
+    pub(crate) write: fn(&Operation) -> Option<String>,
 }
 
 /// The text of a doc comment, with the range of the value in place of `{}`.
@@ -78,20 +71,11 @@ pub(super) fn doc(lines: &[&str], range: Option<Range>) -> String {
     }
 }
 
-/// "between 1 mm and 3 m" as "1 mm to 3 m".
-fn in_prose(allowed: &str) -> String {
-    let (_, between) = allowed.split_once("between ").unwrap_or(("", allowed));
-    between.replacen(" and ", " to ", 1)
-}
-
 /// The schema of a key with its description and range.
-pub(super) fn schema_of<K: Kind>(doc: String, range: Option<Range>) -> Schema {
+pub(crate) fn schema_of<K: Kind>(doc: String, range: Option<Range>) -> Schema {
     let mut schema = K::schema();
-    let whole = schema.get("type").is_some_and(|kind| kind == "integer");
-    if let Some(Range { min, max, .. }) = range.filter(|_| schema.get("type").is_some()) {
-        let bound = |x: f64| if whole { (x as i64).into() } else { x.into() };
-        schema.insert("minimum".into(), bound(min));
-        schema.insert("maximum".into(), bound(max));
+    if let Some(range) = range.filter(|_| schema.get("type").is_some()) {
+        add_range(&mut schema, range);
     }
     schema.insert("description".into(), doc.into());
     schema
@@ -127,7 +111,7 @@ macro_rules! keys {
         $key:ident: $Kind:ty
         $(, in $range:expr)?
         $(, needed $example:literal)?
-        $(, unless |$it:ident| $refusal:expr)?
+        $(, unless |$it:ident| $error:expr)?
         $(, set |$to:ident, $value:ident| $set:expr, get |$of:ident| $get:expr)?;
     )*) => {
         vec![$({
@@ -146,8 +130,8 @@ macro_rules! keys {
                     let value = <$Kind as Kind>::read(written)?;
                     $(
                         let $it = &*operation;
-                        if let Some(refusal) = $refusal {
-                            return Err(refusal);
+                        if let Some(error) = $error {
+                            return Err(error);
                         }
                     )?
                     keys!(@set operation, value, $key $(, $to, $value, $set)?);
@@ -185,7 +169,7 @@ macro_rules! operations {
         $name:ident: $Type:ident { $($field:ident: $value:expr),* $(,)? } keys { $($keys:tt)* }
     )*) => {
         /// All operations.
-        pub(super) static ALL: LazyLock<Vec<Declaration>> = LazyLock::new(|| vec![$({
+        pub(crate) static ALL: LazyLock<Vec<Declaration>> = LazyLock::new(|| vec![$({
             let mut declared = Declaration {
                 name: stringify!($name),
                 doc: doc(&[$($doc),+], None),
@@ -198,7 +182,7 @@ macro_rules! operations {
         }),*]);
 
         /// How an operation is written.
-        pub(super) fn declaration(operation: &Operation) -> &'static Declaration {
+        pub(crate) fn declaration(operation: &Operation) -> &'static Declaration {
             // An operation that is not declared fails to compile here.
             let name = match operation {
                 $(Operation::$Type(_) => stringify!($name),)*
@@ -234,7 +218,7 @@ impl Declaration {
     }
 
     /// The schema of the operation's key.
-    pub(super) fn schema(&self) -> Schema {
+    pub(crate) fn schema(&self) -> Schema {
         if self.main.is_none() {
             return self.keys[0].schema.clone();
         }
@@ -246,14 +230,14 @@ impl Declaration {
     }
 
     /// Reads the operation from its value, which stands at `path`.
-    pub(super) fn read(
+    pub(crate) fn read(
         &self,
         value: &Value,
         path: &str,
         source: &Source,
     ) -> Result<Operation, SceneError> {
         let mut operation = (self.start)();
-        let refuse = |refusal: Refusal, path: &str| refusal.at_path(path, source);
+        let refuse = |error: ValueError, path: &str| error.at_path(path, source);
         if self.main.is_none() {
             let read = (self.keys[0].read)(&mut operation, value);
             return read.map(|()| operation).map_err(|e| refuse(e, path));
@@ -261,15 +245,15 @@ impl Declaration {
         let empty = toml::Table::new();
         let table = value.as_table().unwrap_or(&empty);
         for group in self.groups {
-            // Positions are looked up in the whole text, so only the keys that are there are compared.
             let given = group.keys.iter().filter(|key| table.contains_key(**key));
-            let paths: Vec<_> = given.map(|key| join(path, key)).collect();
-            one_way(source, &paths.iter().map(std::slice::from_ref).collect::<Vec<_>>())?;
+            let given: Vec<_> = given.map(|key| vec![join(path, key)]).collect();
+            check_given(source, &given)?;
             if let Some((problem, hint)) = group.needed
                 && !group.keys.iter().any(|key| table.contains_key(*key))
             {
-                let fault = Fault::new(format!("`{path}` {problem}")).key(path).hint(hint);
-                return Err(fault.at(source, source.locate(path)));
+                let diagnostic =
+                    Diagnostic::new(format!("`{path}` {problem}")).key(path).hint(hint);
+                return Err(diagnostic.at(source, source.locate(path)));
             }
         }
         for key in &self.keys {
@@ -277,7 +261,7 @@ impl Declaration {
                 (Some(value), _) => (key.read)(&mut operation, value)
                     .map_err(|e| refuse(e, &join(path, key.name)))?,
                 (None, Some(example)) => {
-                    return Err(blame::missing(key.name, example, path, source));
+                    return Err(missing(key.name, example, path, source));
                 }
                 (None, None) => {}
             }
@@ -286,7 +270,7 @@ impl Declaration {
     }
 
     /// The value of the operation's key, on one line.
-    pub(super) fn write(&self, operation: &Operation) -> String {
+    pub(crate) fn write(&self, operation: &Operation) -> String {
         let written = self.keys.iter().filter_map(|key| Some((key.name, (key.write)(operation)?)));
         if self.main.is_none() {
             return written.map(|(_, text)| text).collect();
@@ -295,9 +279,13 @@ impl Declaration {
     }
 }
 
-/// A table on one line.
-pub(crate) fn table_text<'a>(entries: impl IntoIterator<Item = (&'a str, String)>) -> String {
-    let entries: Vec<_> =
-        entries.into_iter().map(|(key, value)| format!("{key} = {value}")).collect();
-    if entries.is_empty() { "{}".into() } else { format!("{{ {} }}", entries.join(", ")) }
+/// The path of a key in a table.
+pub(crate) fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+/// The error about an operation without a key that it needs.
+fn missing(key: &str, example: &str, here: &str, source: &Source) -> SceneError {
+    let diagnostic = Diagnostic::new(format!("`{here}` needs `{key}`")).key(here);
+    diagnostic.hint(format!("write for example `{example}`")).at(source, source.locate(here))
 }

@@ -1,36 +1,35 @@
-//! The shape of a scene: keys that do not exist (and the nearest that does), and values where
-//! tables belong.
+//! Keys that do not exist, with the most similar that does, and values where tables belong.
 
 use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Fault, SceneError};
-use super::key::near;
-use super::source::Source;
-use super::step;
+use crate::error::{Diagnostic, SceneError};
+use crate::operation;
+use crate::similar::near;
+use crate::source::Source;
 
 /// Refuses the first key that the schema does not know, and the first value that is not a table
 /// where the schema has one.
-pub(super) fn check(
+pub(crate) fn check(
     source: &Source,
     document: &DeTable<'_>,
     schema: &Value,
 ) -> Result<(), SceneError> {
-    let mut walk = Walk { source, root: schema, faults: Vec::new() };
+    let mut walk = Walk { source, root: schema, diagnostics: Vec::new() };
     walk.table(document, schema, "");
     // Tables are sorted by name; the first in the text is the one to mend first.
-    let first = walk.faults.into_iter().min_by_key(|f| f.span.start);
-    first.map_or(Ok(()), |fault| {
-        let span = fault.span.clone();
-        Err(fault.at(source, span))
+    let first = walk.diagnostics.into_iter().min_by_key(|f| f.span.start);
+    first.map_or(Ok(()), |diagnostic| {
+        let span = diagnostic.span.clone();
+        Err(diagnostic.at(source, span))
     })
 }
 
 struct Walk<'a> {
     source: &'a Source,
     root: &'a Value,
-    faults: Vec<Fault>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl Walk<'_> {
@@ -40,8 +39,8 @@ impl Walk<'_> {
             if let Some(inner) = schema["properties"].get(name) {
                 self.value(value, inner, &join(path, name));
             } else {
-                let fault = self.unknown(name, path, schema);
-                self.faults.push(Fault { span: key.span(), ..fault });
+                let diagnostic = self.unknown(name, path, schema);
+                self.diagnostics.push(Diagnostic { span: key.span(), ..diagnostic });
             }
         }
     }
@@ -63,10 +62,10 @@ impl Walk<'_> {
 
     fn not(&mut self, value: &Spanned<DeValue<'_>>, path: &str, allowed: &str) {
         let written = self.source.slice(value.span());
-        let hint = self.operation(path).and_then(|name| step::in_full(name, written));
-        let fault = Fault::outside(allowed).key(path).value(written);
-        let fault = fault.hint(hint.unwrap_or_default());
-        self.faults.push(Fault { span: value.span(), ..fault });
+        let hint = self.operation(path).and_then(|name| operation::in_full(name, written));
+        let diagnostic = Diagnostic::outside(allowed).key(path).value(written);
+        let diagnostic = diagnostic.hint(hint.unwrap_or_default());
+        self.diagnostics.push(Diagnostic { span: value.span(), ..diagnostic });
     }
 
     /// The key of a step at a path, if it is one.
@@ -83,10 +82,11 @@ impl Walk<'_> {
         }
     }
 
-    fn unknown(&self, name: &str, path: &str, schema: &Value) -> Fault {
+    fn unknown(&self, name: &str, path: &str, schema: &Value) -> Diagnostic {
         let place = if path.is_empty() { String::new() } else { format!(" in `[{path}]`") };
-        let fault = Fault::new(format!("unknown key `{name}`{place}")).key(join(path, name));
-        fault.hint(self.instead(name, path, schema))
+        let diagnostic =
+            Diagnostic::new(format!("unknown key `{name}`{place}")).key(join(path, name));
+        diagnostic.hint(self.instead(name, path, schema))
     }
 
     /// What to try instead of a key that does not exist.
@@ -106,7 +106,8 @@ impl Walk<'_> {
         if let Some(places) = elsewhere() {
             return places;
         }
-        match here.map(|(_, near)| near).or_else(|| step::meant(name).filter(|_| is_step)) {
+        match here.map(|(_, near)| near).or_else(|| operation::suggestion(name).filter(|_| is_step))
+        {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("known keys: {}", known().cloned().collect::<Vec<_>>().join(", ")),
         }

@@ -13,11 +13,12 @@ use frisure_hairstyle::{Parting, Range};
 
 use super::declare::{Button, Declaration, Group, StepKey, doc, keys, operations, schema_of};
 use super::shapes::{Below, Months, Plane, Sphere, Towards};
-use crate::key::{
-    Angle, Count, Flag, Kind, Length, OneOf, Point, Points, Ratio, Refusal, Time, ToText, nearest,
-};
+use crate::choice::OneOf;
+use crate::error::ValueError;
+use crate::keywords::{Keyword, PartingPlace};
+use crate::kind::{Angle, Count, Flag, Kind, Length, Point, Points, Ratio, Time, ToText};
 use crate::quantity::MONTH;
-use crate::words::{PartingPlace, Which};
+use crate::similar::nearest;
 
 operations! {
     /// Wets hair.
@@ -82,7 +83,7 @@ operations! {
         /// How much higher than a level of the head; {}. Default 0.
         raise: Length, in Cut::RAISE,
             unless |cut| (!matches!(cut.line, CutLine::Below(Height::Above(..)))).then(|| {
-                Refusal::because("only a level of the head is raised")
+                ValueError::because("only a level of the head is raised")
                     .hint("write `below = \"brows\"` or another level beside it")
             }),
             set |cut, by| if let CutLine::Below(Height::Above(_, above)) = &mut cut.line {
@@ -129,10 +130,10 @@ operations! {
                 _ => None,
             };
         /// How the hair is held meanwhile, unless it is cut to a length or gathered. Default "down".
-        held: OneOf<Which<Held>>,
+        held: OneOf<Keyword<Held>>,
             unless |cut| held_for_nothing(cut),
             set |cut, held| cut.held = held.0,
-            get |cut| (cut.held == Held::Hanging).then_some(Which(cut.held));
+            get |cut| (cut.held == Held::Hanging).then_some(Keyword(cut.held));
         /// Instead of `held`: straight out from the root at this angle, 0 (down along the skin) to 180
         /// deg; 45 deg graduates, 90 deg makes layers.
         elevation: Angle, in Cut::ELEVATION,
@@ -306,11 +307,11 @@ operations! {
 }
 
 /// Why hair that is cut to a length or gathered is not held in some way.
-fn held_for_nothing(cut: &Cut) -> Option<Refusal> {
+fn held_for_nothing(cut: &Cut) -> Option<ValueError> {
     matches!(cut.line, CutLine::Length(_) | CutLine::Gathered(_)).then(|| {
         let problem =
             "how the hair is held changes nothing where it is cut to a length or gathered";
-        Refusal::because(problem).hint("take it away")
+        ValueError::because(problem).hint("take it away")
     })
 }
 
@@ -328,8 +329,8 @@ pub(super) fn find(name: &str) -> Option<&'static Declaration> {
     ALL.iter().find(|declared| declared.name == name)
 }
 
-/// The operation that a word means which is the name of none.
-pub(crate) fn meant(word: &str) -> Option<&'static str> {
+/// The operation that a word stands for which is the name of none.
+pub(crate) fn suggestion(word: &str) -> Option<&'static str> {
     let word = word.to_lowercase().replace('-', "_");
     let synonym = ALL.iter().find(|declared| declared.synonyms.contains(&word.as_str()));
     let near = || nearest(&word, ALL.iter().map(|declared| declared.name));

@@ -1,25 +1,15 @@
-//! Steps that cannot be done, brought back to what is written.
+//! Errors about steps, at the keys that they come from.
 
 use frisure_hairstyle::InvalidSpec;
 use frisure_hairstyle::styling::StyleError;
 
+use super::declare::join;
 use super::operations::find;
-use crate::error::{Fault, SceneError};
+use crate::error::{Diagnostic, SceneError};
 use crate::source::Source;
 
-/// A path and a key in it.
-pub(super) fn join(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
-}
-
-/// An operation without a key that it needs.
-pub(super) fn missing(key: &str, example: &str, here: &str, source: &Source) -> SceneError {
-    let fault = Fault::new(format!("`{here}` needs `{key}`")).key(here);
-    fault.hint(format!("write for example `{example}`")).at(source, source.locate(here))
-}
-
-/// A number that an operation refuses, at the key of the step at `here` that it is written in.
-pub(super) fn out_of_range(
+/// The error about a number that an operation refuses, at the key that gives it in the step at `here`.
+pub(crate) fn spec_error(
     error: &InvalidSpec,
     here: &str,
     operation: &str,
@@ -46,12 +36,11 @@ pub(super) fn out_of_range(
     });
     let (key, span, single) = inside;
     let value = if single { source.slice(span.clone()) } else { &error.value };
-    Fault::outside(error.allowed).key(key).value(value).at(source, span)
+    Diagnostic::outside(error.allowed).key(key).value(value).at(source, span)
 }
 
-/// Why the step with a number cannot be done, at the step or at the key in it that says what cannot
-/// be.
-pub(crate) fn fault(
+/// The error about a step that cannot be done, at the step or at the key in it that is wrong.
+pub(crate) fn step_error(
     index: usize,
     operation: &str,
     error: &StyleError,
@@ -59,7 +48,7 @@ pub(crate) fn fault(
 ) -> SceneError {
     let here = format!("step[{index}]");
     if let StyleError::Invalid(error) = error {
-        return out_of_range(error, &here, operation, source);
+        return spec_error(error, &here, operation, source);
     }
     let step = join(&here, operation);
     let place = join(&step, "where");
@@ -76,11 +65,10 @@ pub(crate) fn fault(
     let span = source.locate(&key);
     // The key is only named if it is written.
     let key = if source.find(&key).is_some() { key } else { here };
-    Fault::new(error.to_string()).key(key).hint(hint).at(source, span)
+    Diagnostic::new(error.to_string()).key(key).hint(hint).at(source, span)
 }
 
-/// What to try; `chosen` is what the step says about which wisps, `below` about a height that it cuts
-/// at.
+/// What to try; `chosen` is the value of `where` in the step, `below` that of the height that it cuts at.
 fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String {
     match error {
         StyleError::NothingSelected => {

@@ -1,7 +1,11 @@
 //! Scenes edited as text: steps, and single keys; every other byte stays as it was.
 
+mod dependent;
+mod error;
 mod keys;
-mod ways;
+mod layout;
+mod steps;
 
-pub use super::step::edit::{EditError, append, insert, remove, replace};
+pub use error::EditError;
 pub use keys::{set_key, set_keys, unset_key};
+pub use steps::{append, insert, remove, replace};

@@ -8,11 +8,11 @@ use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::Value;
 
-use super::declare::table_text;
 use super::shapes::{Below, Fields, Plane, bounded, described};
-use crate::key::{
-    Angle, Choice, Count, Flag, Kind, Length, OneOf, Pair, Point, Ratio, Refusal, ToText,
-    list_text, two_words,
+use crate::choice::{Choice, OneOf, two_words};
+use crate::error::ValueError;
+use crate::kind::{
+    Angle, Count, Flag, Kind, Length, Pair, Point, Ratio, ToText, list_text, table_text,
 };
 
 /// Name of the schema of `where`, which refers to itself.
@@ -22,7 +22,7 @@ pub(crate) const WHERE: &str = "where";
 const DEEPEST: usize = 32;
 
 /// What a table can say, one of these.
-const WAYS: [&str; 8] = ["above", "wisps", "plane", "brush", "lasso", "any", "all", "not"];
+const KEYS: [&str; 8] = ["above", "wisps", "plane", "brush", "lasso", "any", "all", "not"];
 
 /// A choice of wisps: a word, a list of words, or a table.
 pub(super) struct Where;
@@ -35,8 +35,8 @@ enum Word {
 }
 
 impl Choice for Word {
-    fn words() -> Vec<(&'static str, &'static str, Self)> {
-        let places = Place::words().into_iter().map(|(word, what, p)| (word, what, Self::Of(p)));
+    fn keywords() -> Vec<(&'static str, &'static str, Self)> {
+        let places = Place::keywords().into_iter().map(|(word, what, p)| (word, what, Self::Of(p)));
         let everything = ("everything", "all wisps, as without `where`", Self::Everything);
         places.chain([everything]).collect()
     }
@@ -49,7 +49,7 @@ impl Choice for Word {
 impl Kind for Where {
     type Value = Selection;
 
-    fn read(value: &Value) -> Result<Selection, Refusal> {
+    fn read(value: &Value) -> Result<Selection, ValueError> {
         selection(value, 0)
     }
 
@@ -100,18 +100,18 @@ fn lasso_text(lasso: &Lasso) -> String {
     table_text([("camera", camera), ("polygon", polygon)].into_iter().chain(through))
 }
 
-fn selection(value: &Value, depth: usize) -> Result<Selection, Refusal> {
+fn selection(value: &Value, depth: usize) -> Result<Selection, ValueError> {
     if depth > DEEPEST {
-        return Err(Refusal::because(format!(
+        return Err(ValueError::because(format!(
             "this is a choice of choices more than {DEEPEST} deep"
         )));
     }
     match value {
-        Value::Array(words) if words.is_empty() => Err(Refusal::new("one place or more")),
+        Value::Array(words) if words.is_empty() => Err(ValueError::new("one place or more")),
         Value::Array(words) => union_of_words(words),
         Value::Table(_) => table(value, depth),
         Value::String(_) => word(value),
-        _ => Err(Refusal::new(
+        _ => Err(ValueError::new(
             "a part of the scalp such as \"fringe\", a list of parts, or a table such as \
              { not = \"fringe\" }",
         )),
@@ -119,17 +119,17 @@ fn selection(value: &Value, depth: usize) -> Result<Selection, Refusal> {
 }
 
 /// A word by itself, where a table might stand as well.
-fn word(value: &Value) -> Result<Selection, Refusal> {
+fn word(value: &Value) -> Result<Selection, ValueError> {
     let both = |[one, other]: [&str; 2]| format!("{{ all = [\"{one}\", \"{other}\"] }}");
     one_word(value, |words| format!("for wisps in both write {}", both(words)))
 }
 
 /// A word; `of_two` is what to try where it is two of them together.
-fn one_word(value: &Value, of_two: impl Fn([&str; 2]) -> String) -> Result<Selection, Refusal> {
-    let place = OneOf::<Word>::read(value).map_err(|refusal| {
+fn one_word(value: &Value, of_two: impl Fn([&str; 2]) -> String) -> Result<Selection, ValueError> {
+    let place = OneOf::<Word>::read(value).map_err(|error| {
         match value.as_str().and_then(two_words::<Word>) {
-            Some(words) if !refusal.has_hint() => refusal.hint(of_two(words)),
-            _ => refusal,
+            Some(words) if !error.has_hint() => error.hint(of_two(words)),
+            _ => error,
         }
     })?;
     Ok(match place {
@@ -138,7 +138,7 @@ fn one_word(value: &Value, of_two: impl Fn([&str; 2]) -> String) -> Result<Selec
     })
 }
 
-fn union_of_words(words: &[Value]) -> Result<Selection, Refusal> {
+fn union_of_words(words: &[Value]) -> Result<Selection, ValueError> {
     let both = |[one, other]: [&str; 2]| {
         let both = format!("{{ all = [\"{one}\", \"{other}\"] }}");
         format!(
@@ -149,44 +149,47 @@ fn union_of_words(words: &[Value]) -> Result<Selection, Refusal> {
 }
 
 /// Every value of a list, understood.
-fn each<T>(list: &[Value], read: impl Fn(&Value) -> Result<T, Refusal>) -> Result<Vec<T>, Refusal> {
-    let item = |(i, value)| read(value).map_err(|e: Refusal| e.inside(&format!("[{i}]")));
+fn each<T>(
+    list: &[Value],
+    read: impl Fn(&Value) -> Result<T, ValueError>,
+) -> Result<Vec<T>, ValueError> {
+    let item = |(i, value)| read(value).map_err(|e: ValueError| e.inside(&format!("[{i}]")));
     list.iter().enumerate().map(item).collect()
 }
 
-fn table(value: &Value, depth: usize) -> Result<Selection, Refusal> {
+fn table(value: &Value, depth: usize) -> Result<Selection, ValueError> {
     let allowed = "a table with one of its keys";
-    Fields::new(value, &WAYS, allowed)?;
+    Fields::new(value, &KEYS, allowed)?;
     let entries: Vec<_> = value.as_table().into_iter().flatten().collect();
     let (way, value) = match entries.as_slice() {
-        [] => return Err(Refusal::because(format!("this says nothing: {}", one_of_the_ways()))),
+        [] => return Err(ValueError::because(format!("this says nothing: {}", one_of_the_keys()))),
         [(way, value)] => (way.as_str(), *value),
         [(one, _), (other, _), ..] => {
             let problem = format!("`{one}` and `{other}` are two choices of wisps in one table");
             let hint =
                 "for wisps in both write { all = [{ … }, { … }] }, in either { any = [ … ] }";
-            return Err(Refusal::because(problem).hint(hint));
+            return Err(ValueError::because(problem).hint(hint));
         }
     };
-    let inside = |e: Refusal| e.inside(&format!(".{way}"));
+    let inside = |e: ValueError| e.inside(&format!(".{way}"));
     let chosen = one_way(way, value, depth + 1).map_err(inside)?;
     // What is joined was checked when it was read.
     if !matches!(chosen, Selection::Any(_) | Selection::All(_) | Selection::Not(_)) {
         chosen.check().map_err(|error| {
             let place = error.field.strip_prefix(WHERE).unwrap_or("");
-            Refusal::out_of_range(&error, place)
+            ValueError::out_of_range(&error, place)
         })?;
     }
     Ok(chosen)
 }
 
-fn one_of_the_ways() -> String {
-    format!("it needs one of {}", WAYS.join(", "))
+fn one_of_the_keys() -> String {
+    format!("it needs one of {}", KEYS.join(", "))
 }
 
-fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, Refusal> {
+fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, ValueError> {
     let joined = || {
-        let list = value.as_array().ok_or_else(|| Refusal::new("a list of choices of wisps"))?;
+        let list = value.as_array().ok_or_else(|| ValueError::new("a list of choices of wisps"))?;
         each(list, |item| selection(item, depth))
     };
     Ok(match way {
@@ -204,19 +207,19 @@ fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, Refusal>
     })
 }
 
-fn wisps(value: &Value) -> Result<Vec<usize>, Refusal> {
+fn wisps(value: &Value) -> Result<Vec<usize>, ValueError> {
     let allowed = "a list of numbers of wisps, such as [0, 12]";
-    each(value.as_array().ok_or_else(|| Refusal::new(allowed))?, Count::read)
+    each(value.as_array().ok_or_else(|| ValueError::new(allowed))?, Count::read)
 }
 
-fn brush(value: &Value) -> Result<Selection, Refusal> {
+fn brush(value: &Value) -> Result<Selection, ValueError> {
     let allowed = "a brush, such as { at = [[\"2 cm\", \"5 cm\"]], radius = \"2 cm\" }";
     let fields = Fields::new(value, &["at", "radius"], allowed)?;
     let (spots, radius) = (fields.need::<Spots>("at")?, fields.need::<Length>("radius")?);
     Ok(Selection::Brush { spots, radius })
 }
 
-fn lasso(value: &Value) -> Result<Lasso, Refusal> {
+fn lasso(value: &Value) -> Result<Lasso, ValueError> {
     let allowed = "a lasso, which has a `camera` and a `polygon`";
     let fields = Fields::new(value, &["camera", "polygon", "through"], allowed)?;
     let (view, polygon) = (fields.need::<Camera>("camera")?, fields.need::<Polygon>("polygon")?);
@@ -229,10 +232,10 @@ struct Spots;
 impl Kind for Spots {
     type Value = Vec<Spot>;
 
-    fn read(value: &Value) -> Result<Vec<Spot>, Refusal> {
+    fn read(value: &Value) -> Result<Vec<Spot>, ValueError> {
         let allowed = "a list of points [[x, y, z], …] or of places on the skin \
                        [[\"2 cm\", \"5 cm\"], …]";
-        let list = value.as_array().ok_or_else(|| Refusal::new(allowed))?;
+        let list = value.as_array().ok_or_else(|| ValueError::new(allowed))?;
         // One place is a list of one.
         if list.first().is_some_and(|first| !first.is_array()) {
             return spot(value).map(|spot| vec![spot]);
@@ -249,11 +252,11 @@ impl Kind for Spots {
     }
 }
 
-fn spot(value: &Value) -> Result<Spot, Refusal> {
+fn spot(value: &Value) -> Result<Spot, ValueError> {
     match value.as_array().map(Vec::len) {
         Some(2) => Pair::read(value).map(Spot::Tape),
         Some(3) => Point::read(value).map(Spot::At),
-        _ => Err(Refusal::new("a point [x, y, z], or a place on the skin [across, back]")),
+        _ => Err(ValueError::new("a point [x, y, z], or a place on the skin [across, back]")),
     }
 }
 
@@ -263,11 +266,11 @@ struct Camera;
 impl Kind for Camera {
     type Value = View;
 
-    fn read(value: &Value) -> Result<View, Refusal> {
+    fn read(value: &Value) -> Result<View, ValueError> {
         let allowed = "a camera, which has `eye`, `target`, `field_of_view` and `aspect`";
         let known = ["eye", "target", "field_of_view", "aspect"];
         let fields = Fields::new(value, &known, allowed)?;
-        let point = |key| -> Result<DVec3, Refusal> { fields.need::<Point>(key) };
+        let point = |key| -> Result<DVec3, ValueError> { fields.need::<Point>(key) };
         Ok(View {
             eye: point("eye")?,
             target: point("target")?,
@@ -297,12 +300,12 @@ struct Polygon;
 impl Kind for Polygon {
     type Value = Vec<[f64; 2]>;
 
-    fn read(value: &Value) -> Result<Vec<[f64; 2]>, Refusal> {
+    fn read(value: &Value) -> Result<Vec<[f64; 2]>, ValueError> {
         let allowed = "a list of corners [[u, v], …], from -1 to 1 across the picture and up";
-        let list = value.as_array().ok_or_else(|| Refusal::new(allowed))?;
+        let list = value.as_array().ok_or_else(|| ValueError::new(allowed))?;
         each(list, |corner| match corner.as_array().map(Vec::as_slice) {
             Some([u, v]) => Ok([Ratio::read(u)?, Ratio::read(v)?]),
-            _ => Err(Refusal::new("a corner of two numbers, such as [0.5, -0.5]")),
+            _ => Err(ValueError::new("a corner of two numbers, such as [0.5, -0.5]")),
         })
     }
 

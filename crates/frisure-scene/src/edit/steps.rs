@@ -6,51 +6,18 @@
 //! meant, or nothing is changed.
 
 use std::ops::Range;
+use std::path::Path;
 
 use frisure_hairstyle::styling::Operation;
-use thiserror::Error;
 use toml::de::DeTable;
 
+use super::error::EditError;
 use super::layout::{Inline, Layout, Tables};
-use super::operations::declaration;
-use super::write::{WriteStepError, write_step};
-use super::{SceneError, Source, parse_steps, without_mark};
-
-/// Why the steps of a text cannot be edited.
-#[derive(Debug, Error)]
-pub enum EditError {
-    /// The text is no scene to begin with.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A step that cannot be written.
-    #[error(transparent)]
-    Step(#[from] WriteStepError),
-    /// There is no such step.
-    #[error("there is no step {}; the scene has {count}", index + 1)]
-    NoSuchStep {
-        /// The number asked for, from 0.
-        index: usize,
-        /// How many steps the scene has.
-        count: usize,
-    },
-    /// A value that is none.
-    #[error("`{key}` cannot be set: {problem}")]
-    Value {
-        /// The key that was to have it.
-        key: String,
-        /// What is wrong with it.
-        problem: String,
-    },
-    /// There is no such place.
-    #[error("`{key}` is no place for a value in this scene")]
-    NoPlace {
-        /// The path asked for.
-        key: String,
-    },
-    /// The text does not say afterwards what was meant.
-    #[error("the steps of this scene are too mixed with the rest to be edited one by one")]
-    Scattered,
-}
+use crate::error::SceneError;
+use crate::operation::declaration;
+use crate::scene::Scene;
+use crate::source::Source;
+use crate::write::write_step;
 
 type Result<T, E = EditError> = std::result::Result<T, E>;
 
@@ -124,9 +91,8 @@ fn edited(
     steps: &[Operation],
     edit: impl FnOnce(&str, Layout) -> Result<String>,
 ) -> Result<String> {
-    let whole = without_mark(text.to_owned());
-    let mark = &text[..text.len() - whole.len()];
-    let source = Source { name: "scene".into(), text: whole };
+    let source = Source::new("scene", text);
+    let mark = &text[..text.len() - source.text.len()];
     let document = source.document()?;
     let layout = Layout::of(document.get_ref(), &source.text);
     let edited = edit(&source.text, layout)?;
@@ -269,4 +235,9 @@ impl Layout {
             None => Self::Tables(Tables::of(document, text)),
         }
     }
+}
+
+/// The operations of the text of a scene.
+fn parse_steps(name: &str, text: &str) -> Result<Vec<Operation>, SceneError> {
+    Scene::parse(name, text, Path::new("")).map(|scene| scene.steps)
 }

@@ -1,12 +1,12 @@
-//! Refusals from below, brought back to the keys that they come from.
+//! Errors about quantities and descriptions, at the keys that these come from.
 
 use std::ops::Range;
 
 use frisure_hairstyle::InvalidSpec;
 use frisure_rod::InvalidQuantity;
 
-use super::error::{Fault, SceneError};
-use super::source::Source;
+use crate::error::{Diagnostic, SceneError};
+use crate::source::Source;
 
 /// The keys that a quantity of the rod comes from, the likeliest first.
 fn keys_of(quantity: &str) -> &'static [&'static str] {
@@ -35,29 +35,31 @@ fn keys_of(quantity: &str) -> &'static [&'static str] {
     }
 }
 
-/// The first of some keys that is written, its place, and whether it is a single value; or the
-/// nearest table around the first of them.
-pub(super) fn place(keys: &[&'static str], source: &Source) -> (&'static str, Range<usize>, bool) {
+/// The first of some keys that is written, its span, and whether it is a single value; or the nearest table around the first of them.
+pub(crate) fn locate_any(
+    keys: &[&'static str],
+    source: &Source,
+) -> (&'static str, Range<usize>, bool) {
     let written = |&key: &&'static str| source.find(key).map(|(span, single)| (key, span, single));
     let first = keys.first().copied().unwrap_or("");
     keys.iter().find_map(written).unwrap_or_else(|| (first, source.locate(first), false))
 }
 
-/// A quantity that the rod refuses, at the key it comes from.
-pub(super) fn blame(error: &InvalidQuantity, source: &Source) -> SceneError {
-    let (key, span, single) = place(keys_of(error.quantity), source);
-    let fault = if single {
-        Fault::outside(error.allowed).value(source.slice(span.clone()))
+/// The error about a quantity that the rod refuses, at the key it comes from.
+pub(crate) fn quantity_error(error: &InvalidQuantity, source: &Source) -> SceneError {
+    let (key, span, single) = locate_any(keys_of(error.quantity), source);
+    let diagnostic = if single {
+        Diagnostic::outside(error.allowed).value(source.slice(span.clone()))
     } else {
-        // No one key is wrong: the sentence must name the quantity itself.
-        Fault { allowed: error.allowed.into(), ..Fault::new(error.to_string()) }
+        // No single key is wrong: the sentence must name the quantity itself.
+        Diagnostic { allowed: error.allowed.into(), ..Diagnostic::new(error.to_string()) }
             .value(format!("{} {}", error.value, error.unit).trim())
     };
-    fault.key(key).at(source, span)
+    diagnostic.key(key).at(source, span)
 }
 
-/// A number that a hairstyle refuses, at the key it comes from.
-pub(super) fn out_of_range(error: &InvalidSpec, source: &Source) -> SceneError {
+/// The error about a number that a hairstyle refuses, at the key it comes from.
+pub(crate) fn spec_error(error: &InvalidSpec, source: &Source) -> SceneError {
     let keys: &[&'static str] = match error.field {
         "hair.curl" => {
             &["hair.curl.radius", "hair.curl.kappa1", "hair.curl.kappa2", "hair.curl.tau"]
@@ -67,7 +69,7 @@ pub(super) fn out_of_range(error: &InvalidSpec, source: &Source) -> SceneError {
         "equilibrium" => &["equilibrium.elements", "equilibrium.accuracy"],
         _ => std::slice::from_ref(&error.field),
     };
-    let (key, span, single) = place(keys, source);
+    let (key, span, single) = locate_any(keys, source);
     let value = if single { source.slice(span.clone()) } else { &error.value };
-    Fault::outside(error.allowed).key(key).value(value).at(source, span)
+    Diagnostic::outside(error.allowed).key(key).value(value).at(source, span)
 }

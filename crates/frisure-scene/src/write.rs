@@ -4,7 +4,8 @@ use frisure_hairstyle::InvalidSpec;
 use frisure_hairstyle::styling::Operation;
 use thiserror::Error;
 
-use super::operations::declaration;
+use crate::operation::declaration;
+use crate::step::parse_step;
 
 /// Why an operation cannot be written as a step.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -29,7 +30,7 @@ pub fn write_step(operation: &Operation) -> Result<String, WriteStepError> {
     operation.check()?;
     let name = operation.name();
     let text = format!("{name} = {}\n", declaration(operation).write(operation));
-    match super::parse_step(name, text.as_str()) {
+    match parse_step(name, text.as_str()) {
         Ok(read) if read == *operation => Ok(format!("[[step]]\n{text}")),
         _ => Err(WriteStepError::Unsaid { operation: name }),
     }

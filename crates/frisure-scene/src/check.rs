@@ -1,0 +1,105 @@
+//! What a scene describes, with every number in range; and errors that are found later.
+
+use frisure_hairstyle::styling::{Operation, StyleError};
+use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
+use frisure_rod::{InvalidQuantity, NaturalStrain, Options, Rod, RodSpec, Root};
+use glam::DVec3;
+
+use crate::error::{Diagnostic, SceneError};
+use crate::key_location::{locate_any, quantity_error, spec_error};
+use crate::operation::step_error;
+use crate::scene::{Scene, SingleHair};
+use crate::unit_hint;
+
+/// Largest weight against elasticity, ρ S g L³ / EI. A hair of a metre has some ten thousand; beyond
+/// this a unit was mistaken, and a head would take hours.
+const MAX_HEAVINESS: f64 = 1e8;
+
+impl Scene {
+    /// The whole head of hair that the scene describes, with every number in range.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range, and for natural strains along a hair: the wisps of a head vary at random.
+    pub fn hairstyle_spec(&self) -> Result<HairstyleSpec, SceneError> {
+        if self.along.is_some() {
+            let problem = "natural strains along the hair are for one hair (`frisure hair`)";
+            let hint = "give a whole head `radius` and `pitch`, and let it vary by \
+                        `variation_along` and `variation_between`";
+            return Err(self.error_at("hair.curl.along", problem, hint));
+        }
+        self.spec.check().map_err(|e| self.spec_error(&e))?;
+        // A fibre that cannot be is refused whichever way it leaves the scalp.
+        self.single_hair()?;
+        Ok(self.spec.clone())
+    }
+
+    /// The single hair that the scene describes, without variation; its root is at the origin.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range.
+    pub fn single_hair(&self) -> Result<SingleHair, SceneError> {
+        let spec = &self.spec;
+        let [d1, d2, t] = self.frame;
+        let refuse = |e: InvalidQuantity| self.quantity_error(&e);
+        let rod = RodSpec {
+            length: spec.length.mean,
+            section: spec.fibre.section,
+            material: spec.fibre.material,
+            torsion: spec.fibre.torsion,
+            natural: match &self.along {
+                Some(profile) => NaturalStrain::Varying(profile.clone()),
+                None => NaturalStrain::Uniform(spec.curl.strain),
+            },
+            root: Root::new(DVec3::ZERO, d1, d2, t).map_err(refuse)?,
+            gravity: spec.gravity,
+        };
+        let rod = Rod::new(rod).map_err(refuse)?;
+        if !(rod.heaviness() <= MAX_HEAVINESS) {
+            let (key, span, _) = locate_any(&["hair.fibre", "hair.length"], &self.source);
+            let problem = format!(
+                "the hair is too limp to compute: rho S g L^3 / EI is {:.0e}, and may be {MAX_HEAVINESS:.0e}",
+                rod.heaviness()
+            );
+            let hint = "check the units of length, diameter, moduli and density";
+            return Err(Diagnostic::new(problem).key(key).hint(hint).at(&self.source, span));
+        }
+        let (resolution, element) = (spec.equilibrium.resolution, spec.equilibrium.element);
+        let branch = self.branch;
+        Ok(SingleHair {
+            rod,
+            options: Options { resolution, element, branch, ..Options::default() },
+        })
+    }
+
+    /// The error about what `key` says, such as a mesh at `head.mesh` that is no head; `hint` may be empty.
+    #[must_use]
+    pub fn error_at(
+        &self,
+        key: &str,
+        problem: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> SceneError {
+        let span = self.source.locate(key);
+        let value = self.source.slice(span.clone()).to_owned();
+        Diagnostic::new(problem).key(key).value(value).hint(hint).at(&self.source, span)
+    }
+
+    /// The error about a quantity that is refused, at the key that it comes from.
+    #[must_use]
+    pub fn quantity_error(&self, error: &InvalidQuantity) -> SceneError {
+        unit_hint::add(quantity_error(error, &self.source))
+    }
+
+    /// The error about a number of the description that is refused, at the key that it comes from.
+    #[must_use]
+    pub fn spec_error(&self, error: &InvalidSpec) -> SceneError {
+        unit_hint::add(spec_error(error, &self.source))
+    }
+
+    /// The error about a step, counted from 0, at the step or at the key in it that is wrong.
+    #[must_use]
+    pub fn step_error(&self, index: usize, error: &StyleError) -> SceneError {
+        let operation = self.steps.get(index).map_or("", Operation::name);
+        unit_hint::add(step_error(index, operation, error, &self.source))
+    }
+}

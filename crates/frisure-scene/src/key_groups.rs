@@ -1,0 +1,29 @@
+//! Groups of keys about the same thing.
+
+/// The keys about the file of the head, its path first; without it, the others have no effect.
+pub const HEAD: [&str; 8] = [
+    "head.mesh",
+    "head.up",
+    "head.unit",
+    "head.scale",
+    "head.scalp_group",
+    "head.scalp_colour",
+    "head.scalp_mask",
+    "head.scalp_weights",
+];
+
+/// The keys about the file of the groom, its path first; without it, the others have no effect.
+pub const GROOM: [&str; 4] = ["groom.file", "groom.up", "groom.unit", "groom.guides"];
+
+/// The keys whose values are paths.
+pub const PATHS: [&str; 5] =
+    ["head.mesh", "head.scalp_mask", "head.scalp_weights", "groom.file", "light.environment"];
+
+/// The keys about the sun of daylight.
+pub(crate) const SUN: [&str; 3] = ["light.sun_azimuth", "light.sun_elevation", "light.turbidity"];
+
+/// The keys about the main lamp of a setup.
+pub(crate) const MAIN_LAMP: [&str; 3] = ["light.azimuth", "light.elevation", "light.size"];
+
+/// The keys about an environment map, its path first.
+pub(crate) const ENVIRONMENT: [&str; 2] = ["light.environment", "light.rotation"];

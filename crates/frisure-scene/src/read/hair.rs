@@ -1,0 +1,151 @@
+//! Reading `[hair]` and `[wisps]`.
+
+use frisure_hairstyle::{Curl, Fibre, Hairs, HairstyleSpec, Preset};
+use frisure_rod::{InvalidQuantity, Material, Section, StrainProfile};
+use glam::DVec3;
+
+use crate::choice::OneOf;
+use crate::document::Document;
+use crate::error::{Result, SceneError};
+use crate::key_location::quantity_error;
+use crate::keywords::Keyword;
+use crate::kind::Vector;
+
+/// Largest ratio of a section's axes; measured hair reaches 3.
+const MAX_AXIS_RATIO: f64 = 20.0;
+
+/// The fibre, whose variations are [numbers](Document::set_fields).
+pub(super) fn fibre(document: &Document<'_>, preset: &Preset, default: Fibre) -> Result<Fibre> {
+    let refuse = |e: InvalidQuantity| quantity_error(&e, document.source);
+    let base = match document.get::<OneOf<Keyword<_>>>("hair.ellipticity")? {
+        Some(Keyword(ellipticity)) => preset.hair_type().fibre(ellipticity).map_err(refuse)?,
+        None => default,
+    };
+    let section = section(document, base.section)?;
+    let value = section.axis_ratio();
+    if value > MAX_AXIS_RATIO {
+        let (quantity, allowed) = ("axis ratio", "at most 20; that of hair is between 1 and 3");
+        return Err(refuse(InvalidQuantity { quantity, value, unit: "", allowed }));
+    }
+    Ok(Fibre {
+        section,
+        material: material(document, base.material).map_err(refuse)?,
+        torsion: document.keyword("hair.fibre.torsion", base.torsion)?,
+        ..base
+    })
+}
+
+fn section(document: &Document<'_>, preset: Section) -> Result<Section> {
+    let number = |key: &str| document.number(&format!("hair.fibre.{key}"));
+    let missing = |given: &str, other| document.missing(&format!("hair.fibre.{given}"), other);
+    let section = match (number("semi_axis_a"), number("semi_axis_b")) {
+        (Some(a), Some(b)) => Section::from_semi_axes(a, b),
+        (Some(_), None) => return Err(missing("semi_axis_a", "semi_axis_b")),
+        (None, Some(_)) => return Err(missing("semi_axis_b", "semi_axis_a")),
+        (None, None) => {
+            let (eccentricity, ratio) = (number("eccentricity"), number("axis_ratio"));
+            let (diameter, radius) = (number("diameter"), number("mean_radius"));
+            if [eccentricity, ratio, diameter, radius].iter().all(Option::is_none) {
+                return Ok(preset);
+            }
+            let diameter = diameter.or(radius.map(|r| 2.0 * r));
+            let diameter = diameter.unwrap_or(2.0 * preset.mean_radius());
+            match eccentricity {
+                Some(eccentricity) => {
+                    Section::from_mean_radius(radius.unwrap_or(0.5 * diameter), eccentricity)
+                }
+                None => Section::from_diameter(diameter, ratio.unwrap_or(preset.axis_ratio())),
+            }
+        }
+    };
+    section.map_err(|e| quantity_error(&e, document.source))
+}
+
+fn material(document: &Document<'_>, preset: Material) -> Result<Material, InvalidQuantity> {
+    let number = |key: &str| document.number(&format!("hair.fibre.{key}"));
+    let youngs = number("youngs_modulus").unwrap_or(preset.youngs_modulus());
+    let shear = number("shear_modulus").unwrap_or(preset.shear_modulus());
+    let density = number("density").unwrap_or(preset.density());
+    match number("poisson_ratio") {
+        Some(ratio) => Material::isotropic(youngs, ratio, density),
+        None => Material::new(youngs, shear, density),
+    }
+}
+
+/// Reads the natural curl, whose variations are [numbers](Document::set_fields).
+pub(super) fn curl(document: &Document<'_>, curl: &mut Curl) -> Result<()> {
+    curl.handedness = document.keyword("hair.curl.handedness", curl.handedness)?;
+    let number = |key: &str| document.number(&format!("hair.curl.{key}"));
+    let (radius, pitch) = (number("radius"), number("pitch"));
+    if ["kappa1", "kappa2", "tau"].into_iter().any(|key| number(key).is_some()) {
+        curl.strain = strain(document, "hair.curl");
+    } else if radius.is_some() || pitch.is_some() {
+        let preset = curl.radius_pitch().unwrap_or_default();
+        let helix = Curl::helix(radius.unwrap_or(preset.0), pitch.unwrap_or(preset.1));
+        curl.strain = helix.map_err(|e| quantity_error(&e, document.source))?.strain;
+    }
+    Ok(())
+}
+
+/// The strains of a table; those that it does not have are 0.
+fn strain(document: &Document<'_>, table: &str) -> DVec3 {
+    let number = |key: &str| document.number(&format!("{table}.{key}")).unwrap_or(0.0);
+    DVec3::new(number("kappa1"), number("kappa2"), number("tau"))
+}
+
+/// The natural strains along a hair, if they are given.
+pub(super) fn along(document: &Document<'_>) -> Result<Option<StrainProfile>> {
+    let mut knots: Vec<(f64, DVec3)> = Vec::new();
+    for i in 0..document.count_items("hair.curl.along") {
+        let knot = format!("hair.curl.along[{i}]");
+        let path = format!("{knot}.s");
+        let s = document.number(&path).unwrap_or(0.0);
+        if knots.last().is_some_and(|last| s <= last.0) {
+            let path = if document.has(&path) { path } else { knot };
+            let allowed = "greater than the one before: knots go from root to tip";
+            return Err(document.outside(&path, allowed));
+        }
+        knots.push((s, strain(document, &knot)));
+    }
+    if knots.is_empty() {
+        return Ok(None);
+    }
+    StrainProfile::new(knots).map(Some).map_err(|e| quantity_error(&e, document.source))
+}
+
+/// The material frame at the root of a single hair.
+pub(super) fn frame(document: &Document<'_>) -> Result<[DVec3; 3]> {
+    let vector = |key| document.get::<Vector>(key);
+    let missing = |given: &str, other| -> Result<[DVec3; 3], SceneError> {
+        Err(document.missing(given, other))
+    };
+    match (vector("hair.root.d1")?, vector("hair.root.d2")?, vector("hair.root.t")?) {
+        (None, None, None) => Ok([DVec3::Y, DVec3::Z, DVec3::X]),
+        (Some(d1), Some(d2), t) => Ok([d1, d2, t.unwrap_or(d1.cross(d2))]),
+        (Some(d1), None, Some(t)) => Ok([d1, t.cross(d1), t]),
+        (None, Some(d2), Some(t)) => Ok([d2.cross(t), d2, t]),
+        (Some(_), None, None) => missing("hair.root.d1", "t"),
+        (None, Some(_), None) => missing("hair.root.d2", "t"),
+        (None, None, Some(_)) => missing("hair.root.t", "d1"),
+    }
+}
+
+/// Reads the number of drawn hairs and the profile of wisps; the rest are [numbers](Document::set_fields).
+pub(super) fn wisps(document: &Document<'_>, spec: &mut HairstyleSpec) -> Result<()> {
+    let wisps = &mut spec.wisps;
+    if let Some(count) = document.number("wisps.hairs") {
+        wisps.hairs = Hairs::Count(count as usize);
+    }
+    if let Some(each) = document.number("wisps.hairs_per_wisp") {
+        wisps.hairs = Hairs::PerWisp(each as usize);
+    }
+    if let Some(density) = document.number("wisps.density") {
+        wisps.hairs = Hairs::Density(density);
+        spec.implantation.density = density;
+    }
+    if let Some(profile) = document.get::<Vector>("wisps.profile")? {
+        wisps.profile = profile.to_array();
+    }
+    wisps.strands = document.keyword("wisps.strands", wisps.strands)?;
+    Ok(())
+}

@@ -1,0 +1,72 @@
+//! Reading `[head]` and `[groom]`.
+
+use std::path::Path;
+
+use frisure_files::frame::FrameChoice;
+use frisure_files::head::{HeadFile, ScalpSource};
+
+use crate::choice::OneOf;
+use crate::document::Document;
+use crate::error::Result;
+use crate::key_groups::{GROOM, HEAD};
+use crate::keywords::{Keyword, UnitWord};
+use crate::kind::Text;
+use crate::scene::{GroomFile, HeadSource};
+
+/// Most guides of a groom, if the scene gives no number.
+const GROOM_GUIDES: f64 = 300.0;
+
+/// The head; paths are relative to `folder`.
+pub(super) fn head(document: &Document<'_>, folder: &Path) -> Result<HeadSource> {
+    let Some(mesh) = document.get::<Text>(HEAD[0])? else {
+        return match document.first(&HEAD[1..]) {
+            None => Ok(HeadSource::Mannequin),
+            Some(key) => {
+                let problem = format!("`{key}` is about a mesh, and the scene has none");
+                Err(document.error(key, problem, "add `mesh = \"head.obj\"` to `[head]`"))
+            }
+        };
+    };
+    let scale = document.number("head.scale");
+    if scale.is_some_and(|scale| scale <= 0.0) {
+        return Err(document.outside("head.scale", "greater than zero (metres per unit)"));
+    }
+    let text = |key: &str| document.get::<Text>(key);
+    let scalp = if let Some(group) = text("head.scalp_group")? {
+        ScalpSource::Group(group)
+    } else if let Some(name) = text("head.scalp_colour")? {
+        ScalpSource::Colour(name)
+    } else if let Some(mask) = text("head.scalp_mask")? {
+        ScalpSource::Mask(folder.join(mask))
+    } else if let Some(weights) = text("head.scalp_weights")? {
+        ScalpSource::Weights(folder.join(weights))
+    } else {
+        ScalpSource::Guess
+    };
+    let frame = frame(document, "head")?;
+    let frame = FrameChoice { metres: scale.or(frame.metres), ..frame };
+    Ok(HeadSource::Mesh(HeadFile { path: folder.join(mesh), frame, scalp }))
+}
+
+/// Unit and axes of a file, where its table gives them.
+fn frame(document: &Document<'_>, table: &str) -> Result<FrameChoice> {
+    let unit = document.get::<OneOf<UnitWord>>(&format!("{table}.unit"))?;
+    let up = document.get::<OneOf<Keyword<_>>>(&format!("{table}.up"))?;
+    Ok(FrameChoice { metres: unit.map(|unit| unit.0), up: up.map(|Keyword(up)| up) })
+}
+
+/// The groom, if there is one; its path is relative to `folder`.
+pub(super) fn groom(document: &Document<'_>, folder: &Path) -> Result<Option<GroomFile>> {
+    let Some(path) = document.get::<Text>(GROOM[0])? else {
+        return match document.first(&GROOM[1..]) {
+            None => Ok(None),
+            Some(key) => {
+                let problem = format!("`{key}` is about a groom, and the scene has none");
+                Err(document.error(key, problem, "add `file = \"hair.usd\"` to `[groom]`"))
+            }
+        };
+    };
+    let guides = document.number("groom.guides").unwrap_or(GROOM_GUIDES) as usize;
+    let frame = frame(document, "groom")?;
+    Ok(Some(GroomFile { path: folder.join(path), frame, guides }))
+}

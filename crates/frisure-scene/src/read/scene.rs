@@ -1,0 +1,142 @@
+//! Reading a scene.
+
+use std::path::Path;
+
+use frisure_files::read_text;
+use frisure_hairstyle::{HairModel, HairstyleSpec, Wetting, preset};
+use frisure_look::{CameraSpec, ToneCurve};
+use frisure_rod::{Branch, Resolution};
+
+use super::{hair, head, implantation, light, look};
+use crate::choice::OneOf;
+use crate::document::Document;
+use crate::error::{Result, SceneError};
+use crate::keywords::{BranchKind, HairType, WettingWord};
+use crate::kind::{Count, Text};
+use crate::scene::{MAX_SIZE, Output, Scene};
+use crate::schema::schema;
+use crate::source::Source;
+use crate::{key_location, step, unit_hint, unknown_keys};
+
+/// The hair type of a scene that names none.
+const DEFAULT_TYPE: &str = "caucasian-straight";
+
+/// Starting shapes of `branch = "lowest"`, if the scene gives no number.
+const DEFAULT_STARTS: f64 = 16.0;
+
+impl Scene {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = read_text(path, MAX_SIZE, "a scene")?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), text, folder)
+    }
+
+    /// Reads the text of a scene; errors call it `name`, and paths in it are relative to `folder`.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn parse(name: &str, text: impl Into<String>, folder: &Path) -> Result<Self, SceneError> {
+        scene(&Source::new(name, text), folder).map_err(unit_hint::add)
+    }
+}
+
+fn scene(source: &Source, folder: &Path) -> Result<Scene> {
+    unknown_keys::check(source, source.document()?.get_ref(), schema())?;
+    let document = Document::read(source)?;
+    document.check_exclusive()?;
+    let default = HairType(preset(DEFAULT_TYPE).expect("the default is a preset"));
+    let HairType(preset) = document.get_or::<OneOf<HairType>>("hair.type", default)?;
+    let mut spec = preset.spec();
+    if let Some(seed) = document.get::<Count>("seed")? {
+        spec.seed = seed as u64;
+    }
+    spec.fibre = hair::fibre(&document, preset, spec.fibre)?;
+    spec.wetting = wetting(&document, preset.hair_type(), spec.wetting)?;
+    hair::curl(&document, &mut spec.curl)?;
+    hair::wisps(&document, &mut spec)?;
+    implantation::implantation(&document, &mut spec.implantation)?;
+    spec.regions = implantation::regions(&document)?;
+    let contact = &mut spec.contact;
+    contact.body = document.keyword("contact.body", contact.body)?;
+    contact.hair = document.keyword("contact.hair", contact.hair)?;
+    let branch = equilibrium(&document, &mut spec)?;
+    let (light, environment) = light::light(&document, folder)?;
+    let groom = head::groom(&document, folder)?;
+    if groom.is_some() && spec.wisps.strands == HairModel::Simulated {
+        let problem =
+            "the hairs of a groom have shapes of their own, and cannot be simulated one by one";
+        let hint = "leave out `strands`, or `[groom]`";
+        return Err(document.error("wisps.strands", problem, hint));
+    }
+    let backdrop = light::backdrop(&light, environment.is_some());
+    let mut scene = Scene {
+        name: document.get_or::<Text>("name", String::new())?,
+        hair_type: preset.name,
+        head: head::head(&document, folder)?,
+        groom,
+        look: look::look(&document, spec.seed, backdrop)?,
+        camera: camera(&document)?,
+        light,
+        environment,
+        output: Output {
+            tone: document.get_or::<OneOf<ToneCurve>>("output.tone", ToneCurve::default())?,
+            ..Output::default()
+        },
+        along: hair::along(&document)?,
+        frame: hair::frame(&document)?,
+        branch,
+        spec,
+        steps: step::operations(&document)?,
+        source: source.clone(),
+    };
+    document.set_fields(&mut scene);
+    Ok(scene)
+}
+
+fn wetting(
+    document: &Document<'_>,
+    hair: &frisure_hairstyle::HairType,
+    default: Wetting,
+) -> Result<Wetting> {
+    let word = document.get::<OneOf<WettingWord>>("hair.wetting")?;
+    Ok(word.map_or(default, |word| word.of(hair)))
+}
+
+fn equilibrium(document: &Document<'_>, spec: &mut HairstyleSpec) -> Result<Branch> {
+    let settings = &mut spec.equilibrium;
+    settings.element = document.keyword("equilibrium.element", settings.element)?;
+    if let Some(elements) = document.number("equilibrium.elements") {
+        settings.resolution = Resolution::Elements(elements as usize);
+    }
+    if let Some(accuracy) = document.number("equilibrium.accuracy") {
+        settings.resolution = Resolution::Accuracy(accuracy);
+    }
+    settings.resolution.check().map_err(|e| key_location::quantity_error(&e, document.source))?;
+    let starts = document.number("equilibrium.starts");
+    let branch = document.get_or::<OneOf<BranchKind>>("equilibrium.branch", BranchKind::Gravity)?;
+    match (branch, starts) {
+        (BranchKind::Gravity, None) => Ok(Branch::Gravity),
+        (BranchKind::Gravity, Some(_)) => {
+            let problem = "only the lowest branch is searched from several starts";
+            Err(document.error("equilibrium.starts", problem, "add `branch = \"lowest\"`"))
+        }
+        (BranchKind::Lowest, starts) => {
+            let starts = starts.unwrap_or(DEFAULT_STARTS) as u32;
+            Ok(Branch::Lowest { starts, seed: spec.seed })
+        }
+    }
+}
+
+/// The camera, whose angles are [numbers](Document::set_fields).
+fn camera(document: &Document<'_>) -> Result<CameraSpec> {
+    let f_number = document.number("camera.f_number");
+    let focus = document.number("camera.focus");
+    if f_number.is_none() && focus.is_some() {
+        return Err(document.missing("camera.focus", "f_number"));
+    }
+    Ok(CameraSpec { f_number, focus, ..CameraSpec::default() })
+}
