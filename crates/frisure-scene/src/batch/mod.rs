@@ -10,7 +10,9 @@ mod heads;
 mod names;
 mod read;
 mod sheet;
+mod table;
 mod trial;
+mod variation;
 mod way;
 
 use std::path::Path;
