@@ -71,7 +71,7 @@ impl Scene {
         })
     }
 
-    /// The error about what `key` says, such as a mesh at `head.mesh` that is no head; `hint` may be empty.
+    /// The error about the value of `key`, such as a mesh at `head.mesh` that is no head; `hint` may be empty.
     #[must_use]
     pub fn error_at(
         &self,

@@ -72,7 +72,7 @@ fn title<C: Choice>(word: &str) -> String {
     title
 }
 
-/// Returns the keyword that a word may stand for which is none.
+/// Returns the keyword that is a synonym of a word or similar to it.
 fn suggestion<C: Choice>(word: &str) -> Option<&'static str> {
     let word = word.to_lowercase();
     let known = || C::keywords().into_iter().map(|w| w.0);

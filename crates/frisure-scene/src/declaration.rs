@@ -1,8 +1,6 @@
 //! Declarations of scene keys: reading, error messages, the JSON Schema, `docs/scene.md`, batch keys and the controls of programs
 //! follow from them.
 
-use std::fmt;
-
 use frisure_hairstyle::{Range, Scalar};
 use schemars::Schema;
 use toml::Value;
@@ -23,6 +21,7 @@ pub struct Declaration {
 }
 
 /// What a key takes.
+#[derive(Debug)]
 pub(crate) enum ValueKind {
     /// A table of keys, or a list of such tables.
     Table,
@@ -32,18 +31,8 @@ pub(crate) enum ValueKind {
     Other(fn() -> Schema, Option<OptionList>),
 }
 
-impl fmt::Debug for ValueKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Table => "Table",
-            Self::Number(_) => "Number",
-            Self::Other(..) => "Other",
-        })
-    }
-}
-
 /// A key that takes a number.
-#[derive(Clone)]
+#[derive(Debug)]
 pub(crate) struct Number {
     pub(crate) read: fn(&Value) -> Result<f64, ValueError>,
     pub(crate) schema: fn() -> Schema,
@@ -54,7 +43,7 @@ pub(crate) struct Number {
 }
 
 /// Where the number of a key is in a scene.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Access {
     /// In several fields, or in none: code reads it. The function returns what a slider displays.
     Code(fn(&Scene) -> f64),
@@ -220,6 +209,17 @@ impl Declaration {
 pub(crate) fn in_prose(allowed: &str) -> String {
     let (_, between) = allowed.split_once("between ").unwrap_or(("", allowed));
     between.replacen(" and ", " to ", 1).replace('²', "^2")
+}
+
+/// Splits a path into the path of its declaration, with `[]`, and the index in brackets.
+pub(crate) fn without_index(key: &str) -> (String, String) {
+    let brackets = key.find('[').zip(key.find(']')).filter(|(start, end)| start < end);
+    match brackets {
+        Some((start, end)) => {
+            (format!("{}[]{}", &key[..start], &key[end + 1..]), key[start..=end].to_owned())
+        }
+        None => (key.to_owned(), String::new()),
+    }
 }
 
 /// Adds the range of a number to its schema (SI units).

@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::Value;
 
 use crate::choice::{Choice, OneOf};
-use crate::declaration::Number;
+use crate::declaration::{Number, without_index};
 use crate::error::{Diagnostic, Result, SceneError};
 use crate::exclusive::{GROUPS, check_given};
 use crate::keys::KEYS;
@@ -122,6 +122,8 @@ impl<'a> Document<'a> {
 
     /// The number at a path, if it is given (SI units).
     pub(crate) fn number(&self, path: &str) -> Option<f64> {
+        let declared = || KEYS.iter().any(|declared| declared.path == without_index(path).0);
+        debug_assert!(declared(), "`{path}` is not declared");
         self.numbers.get(path).copied()
     }
 

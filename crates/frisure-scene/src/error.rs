@@ -1,4 +1,4 @@
-//! What is wrong with a scene, and where.
+//! Errors about scenes, with their positions.
 
 use std::fmt;
 use std::ops::Range;
@@ -34,10 +34,10 @@ impl SceneError {
     }
 }
 
-/// Something wrong at one place of a scene.
+/// An error at one position of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagnostic {
-    /// Name of the file, as it was asked for.
+    /// Name of the file.
     pub file: String,
     /// The whole text of the file.
     pub text: String,
@@ -49,7 +49,7 @@ pub struct Diagnostic {
     pub span: Range<usize>,
     /// Path of the key, such as `hair.curl.radius`; empty if the text is not TOML.
     pub key: String,
-    /// The value as it is written; empty for a diagnostic that is not in a value.
+    /// The value as it is written; empty if the error is not in a value.
     pub value: String,
     /// What is wrong, in words, when it is not that the value is outside what is allowed.
     pub problem: String,
@@ -57,7 +57,7 @@ pub struct Diagnostic {
     pub allowed: String,
     /// What to try.
     pub hint: String,
-    /// Other places that are part of it: bytes, and what stands there.
+    /// Other places that are part of it: spans, and labels for them.
     pub related: Vec<(Range<usize>, String)>,
 }
 
@@ -112,7 +112,7 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// A value that is not of its kind.
+/// The error about a value that is not of its kind.
 #[derive(Default)]
 pub(crate) struct ValueError {
     /// What would be allowed, in words.
@@ -121,7 +121,7 @@ pub(crate) struct ValueError {
     pub(crate) hint: String,
     /// What is wrong, where it is not that the value is outside what is allowed.
     pub(crate) problem: String,
-    /// What stands there in other words, where the text itself would be long.
+    /// A short form of the value, where the text itself would be long.
     pub(crate) value: Option<Box<str>>,
     /// Path inside the value, such as `.plane.normal` or `[1]`, to what is wrong.
     pub(crate) inside: Box<str>,
@@ -134,12 +134,12 @@ impl ValueError {
         Self { allowed: allowed.into(), ..Self::default() }
     }
 
-    /// What is wrong, in words.
+    /// The error about another problem than the kind of the value.
     pub(crate) fn because(problem: impl Into<String>) -> Self {
         Self { problem: problem.into(), ..Self::default() }
     }
 
-    /// A key of a table that has none of that name.
+    /// The error about a key that a table does not have.
     pub(crate) fn unknown_key(name: &str, known: &[&str]) -> Self {
         let hint = match nearest(name, known.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
@@ -149,7 +149,7 @@ impl ValueError {
         Self { in_key: true, ..unknown }.inside(&format!(".{name}"))
     }
 
-    /// A number that a hairstyle refuses, in a part of the value.
+    /// The error about a number out of range, in a part of the value.
     pub(crate) fn out_of_range(error: &InvalidSpec, inside: &str) -> Self {
         let value = Some(error.value.as_str().into());
         Self { value, ..Self::new(error.allowed).inside(inside) }

@@ -1,4 +1,4 @@
-//! Keys that exclude each other: reading refuses two of them, and editing takes out the others.
+//! Keys that exclude each other: reading refuses two of them, and editing removes the others.
 
 use std::ops::Range;
 

@@ -89,18 +89,18 @@ pub enum ReadHistoryError {
         /// The file.
         name: String,
     },
-    /// It says that more steps are done than it has, or has other than it counts.
+    /// It has fewer steps than are done, or another number than it counts.
     #[error(
         "`{name}` contradicts itself: {done} of {count} steps are done, and {promised} counted"
     )]
     Contradicts {
         /// The file.
         name: String,
-        /// How many steps are said to be done.
+        /// How many steps are done, as it counts.
         done: usize,
         /// How many steps there are.
         count: usize,
-        /// How many there are said to be.
+        /// How many there are, as it counts.
         promised: usize,
     },
     /// Something in it is wrong.
@@ -145,7 +145,7 @@ impl HistoryFile {
         Self::parse(&path.display().to_string(), &text)
     }
 
-    /// Understands the text of a history; `name` is what errors call it.
+    /// Reads the text of a history; errors call it `name`.
     ///
     /// # Errors
     /// [`ReadHistoryError`].
@@ -215,7 +215,7 @@ pub fn recover(path: &Path) -> Result<Recovered, ReadHistoryError> {
     recover_text(&path.display().to_string(), &text)
 }
 
-/// The same of a text; `name` is what errors call it.
+/// The same of a text; errors call it `name`.
 ///
 /// # Errors
 /// [`ReadHistoryError`].
@@ -281,7 +281,7 @@ fn check_version(name: &str, text: &str) -> Result<(), ReadHistoryError> {
 
 /// The last line of a history.
 struct End<'a> {
-    /// All that stands before it.
+    /// The text before it.
     body: &'a str,
     steps: usize,
     checksum: u64,

@@ -515,12 +515,6 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
     }
 });
 
-/// Returns the key at a path such as `wisps.clumping`, if there is one.
-#[must_use]
-pub fn key(path: &str) -> Option<&'static Declaration> {
-    KEYS.iter().find(|declared| declared.path == path)
-}
-
 /// The radius and pitch (m) of the natural helix; straight hair has the largest radius of the slider.
 fn helix(spec: &HairstyleSpec) -> [f64; 2] {
     let strain = spec.curl.strain;

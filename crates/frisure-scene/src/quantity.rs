@@ -17,7 +17,7 @@ pub struct Dimension {
     units: &'static [(&'static str, f64)],
 }
 
-/// Why a text is not a quantity of the dimension asked for.
+/// Why a text is not a quantity of a dimension.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum QuantityError {
     /// It does not start with a number.
@@ -34,7 +34,7 @@ pub enum QuantityError {
     UnknownUnit {
         /// The unit as written.
         unit: String,
-        /// The dimension asked for, such as `a length`.
+        /// The expected dimension, such as `a length`.
         of: &'static str,
         /// The dimension that the unit does belong to.
         belongs_to: Option<&'static str>,

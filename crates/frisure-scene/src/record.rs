@@ -13,7 +13,7 @@ use crate::{step, unit_hint, unknown_keys};
 pub(crate) struct Record {
     /// How many steps are done.
     pub(crate) done: usize,
-    /// How many steps it says that it has.
+    /// How many steps it has, as it counts.
     pub(crate) promised: usize,
     /// The text of the scene.
     pub(crate) scene: String,

@@ -1,4 +1,4 @@
-//! A scene whose every value was understood.
+//! A scene as it is read: plain data.
 
 use std::path::PathBuf;
 
@@ -15,9 +15,9 @@ use crate::source::Source;
 /// Largest scene that is read (bytes).
 pub const MAX_SIZE: u64 = 16 << 20;
 
-/// A scene whose every value was understood; numbers are SI.
+/// A scene as it is read; numbers are in SI units.
 ///
-/// What a number may be depends on what it is for: [`Self::hairstyle_spec`] and
+/// The range of a number depends on its use: [`Self::hairstyle_spec`] and
 /// [`Self::single_hair`] check the ranges.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -70,7 +70,7 @@ pub enum HeadSource {
 pub struct GroomFile {
     /// The groom.
     pub path: PathBuf,
-    /// Unit and axes, where the scene says them.
+    /// Unit and axes, where the scene gives them.
     pub frame: FrameChoice,
     /// How many strands become guides at most.
     pub guides: usize,

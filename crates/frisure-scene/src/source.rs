@@ -1,4 +1,4 @@
-//! The text of a scene, and where in it things are.
+//! The text of a scene, and the positions of its keys and values.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::{Diagnostic, SceneError, ValueError};
 
-/// The text of a scene with its name, kept to point at lines.
+/// The text of a scene with its name, for errors with positions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Source {
     pub(crate) name: String,
@@ -39,7 +39,7 @@ impl Source {
         Diagnostic::new(message).hint(hint).at(self, span)
     }
 
-    /// What to try where something stands behind the header of a table.
+    /// A hint about text behind the header of a table.
     fn after_a_header(&self, byte: usize) -> Option<String> {
         let before = self.text.get(..byte)?;
         let header = before[before.rfind('\n').map_or(0, |i| i + 1)..].trim();
@@ -63,7 +63,7 @@ impl Source {
         self.text.get(span).unwrap_or("")
     }
 
-    /// Where the value at a path such as `hair.curl.radius` or `region[1].length` stands, or the
+    /// The span of the value at a path such as `hair.curl.radius` or `region[1].length`, or of the
     /// nearest thing around it that is written down; the empty span at the start if nothing is.
     pub(crate) fn locate(&self, path: &str) -> Range<usize> {
         self.follow(path).last.map_or(0..0, |found| found.value)
@@ -74,7 +74,7 @@ impl Source {
         self.follow(path).last.map_or(0..0, |found| found.key)
     }
 
-    /// Where the value at a path stands, if it is written, and whether it is a single value: no
+    /// The span of the value at a path, if it is written, and whether it is a single value: no
     /// table and no list.
     pub(crate) fn find(&self, path: &str) -> Option<(Range<usize>, bool)> {
         let way = self.follow(path);
@@ -107,7 +107,7 @@ impl Source {
         way
     }
 
-    /// Path of the value that stands at exactly this span.
+    /// The path of the value with exactly this span.
     pub(crate) fn path_at(&self, span: &Range<usize>) -> String {
         let mut path = String::new();
         if let Ok(document) = self.document() {
@@ -123,7 +123,7 @@ struct Way {
     whole: bool,
 }
 
-/// A value, and where it stands.
+/// The spans of a value and its key.
 struct Found {
     key: Range<usize>,
     value: Range<usize>,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use frisure_hairstyle::Preset;
 
-/// A commented scene that says nothing but the hair type, with the type's own numbers beside the
+/// A commented scene that sets nothing but the hair type, with the type's own numbers beside the
 /// keys that would change them.
 #[must_use]
 pub fn template(preset: &Preset) -> String {

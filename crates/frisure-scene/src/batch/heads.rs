@@ -66,13 +66,13 @@ impl Batch {
         self.rows
     }
 
-    /// Points of each guide, where it is said.
+    /// Points of each guide, if the batch gives a number.
     #[must_use]
     pub fn points(&self) -> Option<usize> {
         self.points
     }
 
-    /// Whether the space that the hair takes is to be measured.
+    /// Whether the volume of the hair is measured.
     #[must_use]
     pub fn volume(&self) -> bool {
         self.volume
@@ -97,7 +97,7 @@ impl Batch {
         self.parameters.iter().map(|parameter| (parameter.key.as_str(), parameter.kind))
     }
 
-    /// Tells this batch from every other: 32 hexadecimal digits over its meaning, its scene, the files that
+    /// A digest of this batch: 32 hexadecimal digits over its parameters, its scene, the files that
     /// this reads, and the version of this program. How many heads there are does not count, since the others
     /// stay the same.
     #[must_use]
@@ -174,7 +174,7 @@ impl Batch {
         set_keys(self.base.text(), &changes)
     }
 
-    /// The seed that is drawn for a head, where the batch does not say it.
+    /// The seed that is drawn for a head, if the batch does not give it.
     fn own_seed(&self, index: usize) -> Option<u64> {
         let said = self.fixed.iter().any(|(key, _)| key == SEED)
             || self.parameters.iter().any(|parameter| parameter.key == SEED);

@@ -34,7 +34,7 @@ pub(super) struct Column {
     /// The key.
     pub(super) key: String,
     pub(super) heading: String,
-    /// The unit of its numbers, where the batch says it.
+    /// The unit of its numbers, if the batch gives it.
     pub(super) unit: Option<String>,
     pub(super) value_type: ValueType,
     /// Where the batch names it.

@@ -29,9 +29,9 @@ pub(super) fn all(batch: &Batch) -> Result<Vec<Vec<u8>>, SceneError> {
             match scene_of(batch, index, &literals) {
                 Ok(scene) => files.extend(files_of(&scene)),
                 Err(error) if own(&error, &parameter.key) => {
-                    return Err(told(batch, &parameter.key, Some(&end), &error));
+                    return Err(error_in_batch(batch, &parameter.key, Some(&end), &error));
                 }
-                // It does not go with something else that this head has: some heads will fail.
+                // It is impossible with another value of this head: some heads will fail.
                 Err(_) => {}
             }
             literals[place] = kept;
@@ -42,7 +42,7 @@ pub(super) fn all(batch: &Batch) -> Result<Vec<Vec<u8>>, SceneError> {
     }
     let what = "a file that a scene reads";
     let read = |path: &PathBuf| frisure_files::read_bytes(path, LARGEST, what);
-    // What is not there is told where it is used.
+    // A file that is missing is reported where it is used.
     Ok(files.iter().filter_map(|path| read(path).ok()).collect())
 }
 
@@ -64,13 +64,13 @@ fn start(batch: &Batch) -> Start {
     heads.find(|start| start.scene.is_ok()).unwrap_or_else(|| head(0))
 }
 
-/// Why no head can be, at the key that says it.
+/// The error that no head is possible, at the key that it comes from.
 fn impossible(batch: &Batch, drawn: &[Written], error: &EditError) -> SceneError {
     let keys = batch.fixed.iter().map(|(key, _)| (key.as_str(), None));
     let varied = batch.parameters.iter().zip(drawn).map(|(p, w)| (p.key.as_str(), Some(w)));
-    let blamed = keys.chain(varied).find(|(key, _)| own(error, key));
-    let (key, written) = blamed.unwrap_or(("", None));
-    told(batch, key, written, error)
+    let located = keys.chain(varied).find(|(key, _)| own(error, key));
+    let (key, written) = located.unwrap_or(("", None));
+    error_in_batch(batch, key, written, error)
 }
 
 fn scene_of(batch: &Batch, index: usize, literals: &[String]) -> Result<Scene, EditError> {
@@ -92,8 +92,13 @@ fn own(error: &EditError, key: &str) -> bool {
     }
 }
 
-/// What is wrong with a value, where the batch says it.
-fn told(batch: &Batch, key: &str, written: Option<&Written>, error: &EditError) -> SceneError {
+/// The error about a value, at its position in the batch.
+fn error_in_batch(
+    batch: &Batch,
+    key: &str,
+    written: Option<&Written>,
+    error: &EditError,
+) -> SceneError {
     let span = place(batch, key, written);
     let here = batch.source.slice(span.clone()).to_owned();
     let diagnostic = match error {
@@ -102,11 +107,11 @@ fn told(batch: &Batch, key: &str, written: Option<&Written>, error: &EditError) 
             let value =
                 if here.contains(['{', '[']) || here.is_empty() { &inner.value } else { &here };
             let diagnostic = Diagnostic { allowed: inner.allowed.clone(), ..Diagnostic::default() };
-            // Lines that it names are those of the scene with all its keys set, which nobody sees.
+            // Its line numbers are those of the scene with all keys set, which is no file.
             let problem = inner.problem.split(" on line ").next().unwrap_or_default();
             let diagnostic = Diagnostic { problem: problem.to_owned(), ..diagnostic };
             let diagnostic = diagnostic.key(inner.key.as_str()).value(value.as_str());
-            // What is said of bare numbers is not of what is written here.
+            // A hint about a bare number is not about what is written here.
             let bare = inner.problem.is_empty() && written.is_some_and(Written::is_number);
             if bare { diagnostic } else { diagnostic.hint(inner.hint.as_str()) }
         }
@@ -115,7 +120,7 @@ fn told(batch: &Batch, key: &str, written: Option<&Written>, error: &EditError) 
     diagnostic.at(&batch.source, span)
 }
 
-/// Where a value of a key is said in the batch, or at least the key.
+/// The span of a value of a key in the batch, or of the key.
 fn place(batch: &Batch, key: &str, written: Option<&Written>) -> Range<usize> {
     let Ok(document) = batch.source.document() else { return 0..0 };
     let mut found = 0..0;
@@ -146,7 +151,7 @@ fn search(tree: &Tree<'_>, path: &str, key: &str, found: &mut dyn FnMut(Range<us
     }
 }
 
-/// Goes to the part that says just this value.
+/// Narrows a span to the part that is just this value.
 fn narrow(batch: &Batch, tree: &Tree<'_>, written: &Written, found: &mut Range<usize>) {
     let values: Vec<&Tree<'_>> = match tree.get_ref() {
         toml::de::DeValue::Table(table) => table.iter().map(|(_, value)| value).collect(),

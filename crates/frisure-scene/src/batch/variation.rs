@@ -45,7 +45,7 @@ pub(super) struct Entry<'a> {
     pub(super) field: Field<'a>,
 }
 
-/// A key that varies, and where that is said.
+/// A key that varies, and its position in the batch.
 pub(super) struct Varied {
     pub(super) parameter: Parameter,
     pub(super) place: Range<usize>,

@@ -64,7 +64,7 @@ pub(super) enum Way {
     Column { sheet: usize, cells: Vec<Written> },
 }
 
-/// On what scale differences are meant.
+/// The scale of differences.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scale {
     /// As they are.
@@ -197,7 +197,7 @@ impl Way {
         }
     }
 
-    /// Values that tell whether the scene can have all of them: the ends of a range, every choice, and of a
+    /// Values to try on the scene: the ends of a range, every choice, and of a
     /// column the extremes and the words.
     pub(super) fn ends(&self) -> Vec<Written> {
         let number =
@@ -245,7 +245,7 @@ fn extremes(all: &[Written]) -> Vec<Written> {
 /// Width (deviations) below which a range is hit more often by trying all of it than by trying the curve.
 const NARROW: f64 = 2.5;
 
-/// Most tries; what is asked for is never so rare.
+/// Most tries; the ranges that are accepted are never so rare.
 const MOST_TRIES: usize = 1_000_000;
 
 /// Standard normal between two limits, by rejection.

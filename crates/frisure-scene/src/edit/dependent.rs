@@ -1,5 +1,6 @@
 //! Keys that an edit of another key removes or adds.
 
+use crate::declaration::without_index;
 use crate::exclusive::others;
 use crate::key_groups::{ENVIRONMENT, GROOM, HEAD, MAIN_LAMP, SUN};
 use crate::quantity::LENGTH;
@@ -18,17 +19,6 @@ pub(super) fn dependents(
     exclusive.chain(dependent).map(|other| other.replace("[]", &index)).collect()
 }
 
-/// A path with empty brackets for the number in it, and that number in brackets.
-fn without_index(key: &str) -> (String, String) {
-    let brackets = key.find('[').zip(key.find(']')).filter(|(start, end)| start < end);
-    match brackets {
-        Some((start, end)) => {
-            (format!("{}[]{}", &key[..start], &key[end + 1..]), key[start..=end].to_owned())
-        }
-        None => (key.to_owned(), String::new()),
-    }
-}
-
 /// The keys that have no effect with a value of another key.
 fn dependent_on_value(
     key: &str,
@@ -40,7 +30,7 @@ fn dependent_on_value(
     match (key, word) {
         ("implantation.parting", Some(_)) if !parted() => vec!["implantation.flow"],
         ("implantation.flow", Some(flow)) if flow != "parted" => vec!["implantation.parting"],
-        // A name stands for all of a colour.
+        // A name sets all of a colour.
         ("look.colour", Some(_)) => vec!["look.eumelanin", "look.pheomelanin", "look.white_share"],
         ("look.dye.colour", None) => vec!["look.dye.strength", "look.dye.regrowth"],
         ("camera.f_number", None) => vec!["camera.focus"],

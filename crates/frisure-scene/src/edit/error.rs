@@ -17,7 +17,7 @@ pub enum EditError {
     /// There is no such step.
     #[error("there is no step {}; the scene has {count}", index + 1)]
     NoSuchStep {
-        /// The number asked for, from 0.
+        /// The index of the step, from 0.
         index: usize,
         /// How many steps the scene has.
         count: usize,
@@ -33,10 +33,10 @@ pub enum EditError {
     /// There is no such place.
     #[error("`{key}` is no place for a value in this scene")]
     NoPlace {
-        /// The path asked for.
+        /// The path.
         key: String,
     },
-    /// The text does not say afterwards what was meant.
+    /// The edited text does not have the intended values.
     #[error("the steps of this scene are too mixed with the rest to be edited one by one")]
     Scattered,
 }

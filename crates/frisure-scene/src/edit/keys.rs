@@ -1,7 +1,7 @@
-//! Single keys put into the text of a scene and taken out.
+//! Setting and removing single keys in the text of a scene.
 //!
 //! The edit is made on the document, so that a key goes where keys of its table are; of the text that
-//! comes out only the part that differs is taken over. Keys that are taken out are cut out of the text
+//! comes out only the part that differs is taken over. Keys that are removed are cut out of the text
 //! with their line, so that comments stay.
 
 use std::ops::Range;
@@ -23,11 +23,11 @@ const NAME: &str = "scene";
 
 /// The text with a key (`hair.curl.radius`, `region[1].length`) set to a value, written as in a scene
 /// (`"9 mm"` with its quotes, `0.5`, `[1, 2]`). Tables that are missing are made; the number after the
-/// last of a list makes another item. Keys that say the same thing in another way are taken out.
+/// last of a list makes another item. Keys that the key excludes are removed.
 ///
 /// # Errors
 /// [`EditError`], also where the scene would mean nothing then, or a number would be out of range; the
-/// error says why, with the place in the text as it would be.
+/// error has the position in the edited text.
 pub fn set_key(text: &str, key: &str, value: &str) -> Result<String> {
     set_keys(text, &[(key, Some(value))])
 }
@@ -40,7 +40,7 @@ pub fn unset_key(text: &str, key: &str) -> Result<String> {
     set_keys(text, &[(key, None)])
 }
 
-/// The text with several keys set, or taken out where the value is `None`, in this order: for values that
+/// The text with several keys set, or removed where the value is `None`, in this order: for values that
 /// mean something only together.
 ///
 /// # Errors
@@ -261,7 +261,7 @@ fn child(parent: &dyn TableLike, list: bool, passing: bool) -> Item {
     Item::Table(table)
 }
 
-/// Sets a value, with what stands around the old one.
+/// Sets a value, with the white space and comments of the old one.
 fn set(table: &mut dyn TableLike, bracketed: bool, name: &str, mut value: Value) -> Option<()> {
     match table.get_mut(name) {
         Some(Item::Value(old)) => {
@@ -315,7 +315,7 @@ fn lines(text: &str, place: &Range<usize>) -> Range<usize> {
     start..end
 }
 
-/// What stands at a path.
+/// The text of a key.
 struct Found {
     /// Keys with their values, and headers.
     entries: Vec<Range<usize>>,

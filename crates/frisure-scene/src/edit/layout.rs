@@ -1,4 +1,4 @@
-//! Where in a text the steps of a scene stand.
+//! Positions of the steps of a scene in its text.
 
 use std::ops::Range;
 
@@ -82,7 +82,7 @@ impl Tables {
         }
     }
 
-    /// Where the lines of comment begin that stand directly above a header; the comment that begins a
+    /// Where the lines of comment directly above a header begin; the comment that begins a
     /// text is about all of it.
     pub(super) fn attached(&self, text: &str, header: usize) -> usize {
         let line_start = |place: usize| text[..place].rfind('\n').map_or(0, |i| i + 1);
@@ -100,7 +100,7 @@ impl Tables {
         own
     }
 
-    /// Where the body of a step ends; none if tables of something else stand within it.
+    /// Where the body of a step ends; none if other tables are within it.
     pub(super) fn end_of(&self, index: usize) -> Option<usize> {
         let step = &self.steps[index];
         let next = self.steps.get(index + 1).map(|next| next.header);

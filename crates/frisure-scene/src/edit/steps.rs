@@ -1,4 +1,4 @@
-//! Steps put into the text of a scene, replaced and taken out, with every other byte as it was.
+//! Inserting, replacing and removing steps in the text of a scene, with every other byte unchanged.
 //!
 //! The text is spliced at places that the TOML reader gives, never written anew: layout, line endings
 //! and comments stay because nothing touches them. Comments directly above a step belong to it; those
@@ -85,7 +85,7 @@ pub fn remove(text: &str, index: usize) -> Result<String> {
     })
 }
 
-/// Edits a text, and checks that it has the steps then that are meant, and else all that it had.
+/// Edits a text, and checks that it has the intended steps then, and otherwise all that it had.
 fn edited(
     text: &str,
     steps: &[Operation],
@@ -227,7 +227,6 @@ fn inline_removed(text: &str, inline: &Inline, index: usize) -> String {
     spliced(text, gap, "")
 }
 
-/// Kept apart from the reading of layouts, which knows no operation.
 impl Layout {
     fn of(document: &DeTable<'_>, text: &str) -> Self {
         match Inline::of(document, text) {

@@ -229,7 +229,7 @@ impl Declaration {
         })
     }
 
-    /// Reads the operation from its value, which stands at `path`.
+    /// Reads the operation from its value at `path`.
     pub(crate) fn read(
         &self,
         value: &Value,

@@ -54,7 +54,7 @@ pub(crate) fn step_error(
     let place = join(&step, "where");
     let chosen = source.find(&place).map(|(span, _)| source.slice(span));
     let written = |place: &str| source.find(place).map(|(span, _)| source.slice(span));
-    // A level that is raised cannot be said in one word.
+    // A raised level has no keyword.
     let raised = written(&join(&step, "raise")).is_some();
     let below = written(&join(&step, "below")).filter(|_| !raised);
     let hint = hint(error, chosen, below);

@@ -6,6 +6,7 @@ mod hint;
 mod operations;
 mod selection;
 mod shapes;
+mod tables;
 
 use schemars::{Schema, json_schema};
 use toml::{Table, Value};

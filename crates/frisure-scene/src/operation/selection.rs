@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use frisure_hairstyle::Place;
 use frisure_hairstyle::styling::{Lasso, Selection, Spot, View};
-use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::Value;
 
-use super::shapes::{Below, Fields, Plane, bounded, described};
+use super::shapes::{Below, Plane};
+use super::tables::{Fields, described, tables};
 use crate::choice::{Choice, OneOf, two_words};
 use crate::error::ValueError;
 use crate::kind::{
@@ -72,12 +72,7 @@ impl ToText for Where {
             Selection::Wisps(wisps) => one("wisps", list_text(wisps, ToString::to_string)),
             Selection::Beyond { point, normal } => one("plane", Plane::text(&(*point, *normal))),
             Selection::Brush { spots, radius } => {
-                let spot = |spot: &Spot| match spot {
-                    Spot::At(p) => Point::text(p),
-                    Spot::Tape(place) => Pair::text(place),
-                };
-                let at = list_text(spots, spot);
-                one("brush", table_text([("at", at), ("radius", Length::text(radius))]))
+                one("brush", Brush::text(&(spots.clone(), *radius)))
             }
             Selection::Lasso(lasso) => one("lasso", lasso_text(lasso)),
             Selection::Any(parts) => one("any", list_text(parts, Self::text)),
@@ -88,13 +83,7 @@ impl ToText for Where {
 }
 
 fn lasso_text(lasso: &Lasso) -> String {
-    let view = lasso.view;
-    let camera = table_text([
-        ("eye", Point::text(&view.eye)),
-        ("target", Point::text(&view.target)),
-        ("field_of_view", Angle::text(&view.field_of_view)),
-        ("aspect", Ratio::text(&view.aspect)),
-    ]);
+    let camera = Camera::text(&lasso.view);
     let polygon = list_text(&lasso.polygon, |corner| list_text(corner, Ratio::text));
     let through = lasso.through.then(|| ("through", "true".to_owned()));
     table_text([("camera", camera), ("polygon", polygon)].into_iter().chain(through))
@@ -118,7 +107,7 @@ fn selection(value: &Value, depth: usize) -> Result<Selection, ValueError> {
     }
 }
 
-/// A word by itself, where a table might stand as well.
+/// A keyword outside of a list.
 fn word(value: &Value) -> Result<Selection, ValueError> {
     let both = |[one, other]: [&str; 2]| format!("{{ all = [\"{one}\", \"{other}\"] }}");
     one_word(value, |words| format!("for wisps in both write {}", both(words)))
@@ -148,7 +137,7 @@ fn union_of_words(words: &[Value]) -> Result<Selection, ValueError> {
     each(words, |value| one_word(value, both)).map(Selection::Any)
 }
 
-/// Every value of a list, understood.
+/// Reads every value of a list.
 fn each<T>(
     list: &[Value],
     read: impl Fn(&Value) -> Result<T, ValueError>,
@@ -199,7 +188,10 @@ fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, ValueErr
             let (point, normal) = Plane::read(value)?;
             Selection::Beyond { point, normal }
         }
-        "brush" => brush(value)?,
+        "brush" => {
+            let (spots, radius) = Brush::read(value)?;
+            Selection::Brush { spots, radius }
+        }
         "lasso" => Selection::Lasso(lasso(value)?),
         "any" => Selection::Any(joined()?),
         "all" => Selection::All(joined()?),
@@ -210,13 +202,6 @@ fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, ValueErr
 fn wisps(value: &Value) -> Result<Vec<usize>, ValueError> {
     let allowed = "a list of numbers of wisps, such as [0, 12]";
     each(value.as_array().ok_or_else(|| ValueError::new(allowed))?, Count::read)
-}
-
-fn brush(value: &Value) -> Result<Selection, ValueError> {
-    let allowed = "a brush, such as { at = [[\"2 cm\", \"5 cm\"]], radius = \"2 cm\" }";
-    let fields = Fields::new(value, &["at", "radius"], allowed)?;
-    let (spots, radius) = (fields.need::<Spots>("at")?, fields.need::<Length>("radius")?);
-    Ok(Selection::Brush { spots, radius })
 }
 
 fn lasso(value: &Value) -> Result<Lasso, ValueError> {
@@ -260,37 +245,32 @@ fn spot(value: &Value) -> Result<Spot, ValueError> {
     }
 }
 
-/// A pinhole camera.
-struct Camera;
-
-impl Kind for Camera {
-    type Value = View;
-
-    fn read(value: &Value) -> Result<View, ValueError> {
-        let allowed = "a camera, which has `eye`, `target`, `field_of_view` and `aspect`";
-        let known = ["eye", "target", "field_of_view", "aspect"];
-        let fields = Fields::new(value, &known, allowed)?;
-        let point = |key| -> Result<DVec3, ValueError> { fields.need::<Point>(key) };
-        Ok(View {
-            eye: point("eye")?,
-            target: point("target")?,
-            field_of_view: fields.need::<Angle>("field_of_view")?,
-            aspect: fields.need::<Ratio>("aspect")?,
+impl ToText for Spots {
+    fn text(spots: &Vec<Spot>) -> String {
+        list_text(spots, |spot| match spot {
+            Spot::At(p) => Point::text(p),
+            Spot::Tape(place) => Pair::text(place),
         })
     }
+}
 
-    fn schema() -> Schema {
-        let field = "From the picture's bottom to its top, 0.1 to 179 deg.";
-        json_schema!({
-            "type": "object", "additionalProperties": false,
-            "properties": {
-                "eye": described(&Point::schema(), "Its place: a point in the head's frame (m), within 100 m of the origin."),
-                "target": described(&Point::schema(), "The point it looks at, in the same frame; apart from the eye."),
-                "field_of_view": bounded(&Angle::schema(), 0.1 * PI / 180.0, 179.0 * PI / 180.0, field),
-                "aspect": described(&Ratio::schema(), "Width over height; 0.001 to 1000."),
-            },
-            "required": ["eye", "target", "field_of_view", "aspect"],
-        })
+tables! {
+    /// A brush: its places and its radius (m).
+    Brush: (Vec<Spot>, f64) as [(at, radius)],
+    "a brush, such as { at = [[\"2 cm\", \"5 cm\"]], radius = \"2 cm\" }" {
+        at: Spots, "Where it was: points [x, y, z] in the head's frame, or places [across, back] on the \
+            skin as in a parting's `line`; one, or a list.";
+        radius: Length, "0.1 mm to 1 m.", 1e-4 => 1.0;
+    }
+
+    /// A pinhole camera.
+    Camera: View as [View { eye, target, field_of_view, aspect }],
+    "a camera, which has `eye`, `target`, `field_of_view` and `aspect`" {
+        eye: Point, "Its place: a point in the head's frame (m), within 100 m of the origin.";
+        target: Point, "The point it looks at, in the same frame; apart from the eye.";
+        field_of_view: Angle, "From the picture's bottom to its top, 0.1 to 179 deg.",
+            0.1 * PI / 180.0 => 179.0 * PI / 180.0;
+        aspect: Ratio, "Width over height; 0.001 to 1000.";
     }
 }
 
@@ -323,17 +303,6 @@ pub(crate) fn where_schema() -> Schema {
     let list = json_schema!({ "type": "array", "items": one });
     let word = OneOf::<Word>::schema();
     let wisps = json_schema!({ "type": "array", "items": Count::schema() });
-    let brush = json_schema!({
-        "type": "object", "additionalProperties": false, "required": ["at", "radius"],
-        "properties": {
-            "at": described(
-                &Spots::schema(),
-                "Where it was: points [x, y, z] in the head's frame, or places [across, back] on the \
-                 skin as in a parting's `line`; one, or a list.",
-            ),
-            "radius": bounded(&Length::schema(), 1e-4, 1.0, "0.1 mm to 1 m."),
-        },
-    });
     let lasso = json_schema!({
         "type": "object", "additionalProperties": false, "required": ["camera", "polygon"],
         "properties": {
@@ -362,7 +331,7 @@ pub(crate) fn where_schema() -> Schema {
             "wisps": of(&wisps, "By number."),
             "plane": of(&Plane::schema(), "Rooted on the side of a plane that its normal points to."),
             "brush": of(
-                &brush,
+                &Brush::schema(),
                 "Rooted under a brush drawn over the scalp, such as { at = [[0, \"-4 cm\", \"9 cm\"]], \
                  radius = \"2 cm\" }.",
             ),

@@ -4,119 +4,28 @@ use frisure_hairstyle::styling::{Direction, Height, Held};
 use frisure_hairstyle::{Comb, Level};
 use glam::DVec3;
 use schemars::{Schema, json_schema};
-use toml::{Table, Value};
+use toml::Value;
 
+use super::tables::tables;
 use crate::choice::{Choice, OneOf};
 use crate::error::ValueError;
 use crate::keywords::{Keyword, keywords};
-use crate::kind::{Kind, Length, Point, Ratio, Time, ToText, Vector, table_text};
+use crate::kind::{Kind, Length, Point, Ratio, Time, ToText, Vector};
 
-/// The keys of a table that is a value.
-pub(super) struct Fields<'a>(&'a Table);
-
-impl<'a> Fields<'a> {
-    /// The table, if it has none but the known keys.
-    pub(super) fn new(
-        value: &'a Value,
-        known: &[&str],
-        allowed: &'static str,
-    ) -> Result<Self, ValueError> {
-        let table = value.as_table().ok_or_else(|| ValueError::new(allowed))?;
-        match table.keys().find(|key| !known.contains(&key.as_str())) {
-            Some(key) => Err(ValueError::unknown_key(key, known)),
-            None => Ok(Self(table)),
-        }
+tables! {
+    /// A plane: a point of it (m) and its normal.
+    Plane: (DVec3, DVec3) as [(point, normal)],
+    "a plane, such as { point = [0, 0, \"5 cm\"], normal = [0, 0, -1] }" {
+        point: Point, "A point of it, within 100 m of the origin.";
+        normal: Vector, "Towards the side that is meant; any length but zero.";
     }
 
-    /// The value of a key, if it is written.
-    pub(super) fn get<K: Kind>(&self, key: &str) -> Result<Option<K::Value>, ValueError> {
-        let read = |value| K::read(value).map_err(|e| e.inside(&format!(".{key}")));
-        self.0.get(key).map(read).transpose()
+    /// A sphere: its centre and radius (m).
+    Sphere: (DVec3, f64) as [(centre, radius)],
+    "a sphere, such as { centre = [0, 0, \"5 cm\"], radius = \"20 cm\" }" {
+        centre: Point, "Within 100 m of the origin.";
+        radius: Length, "1 mm to 100 m.";
     }
-
-    /// The value of a key that has to be written.
-    pub(super) fn need<K: Kind>(&self, key: &str) -> Result<K::Value, ValueError> {
-        let missing = || ValueError::because(format!("`{key}` is missing here"));
-        self.get::<K>(key)?.ok_or_else(missing)
-    }
-}
-
-/// A plane: a point of it (m) and its normal.
-pub(super) struct Plane;
-
-impl Kind for Plane {
-    type Value = (DVec3, DVec3);
-
-    fn read(value: &Value) -> Result<(DVec3, DVec3), ValueError> {
-        let allowed = "a plane, such as { point = [0, 0, \"5 cm\"], normal = [0, 0, -1] }";
-        let fields = Fields::new(value, &["point", "normal"], allowed)?;
-        Ok((fields.need::<Point>("point")?, fields.need::<Vector>("normal")?))
-    }
-
-    fn schema() -> Schema {
-        json_schema!({
-            "type": "object", "additionalProperties": false,
-            "properties": {
-                "point": described(&Point::schema(), "A point of it, within 100 m of the origin."),
-                "normal": described(
-                    &Vector::schema(),
-                    "Towards the side that is meant; any length but zero.",
-                ),
-            },
-            "required": ["point", "normal"],
-        })
-    }
-}
-
-impl ToText for Plane {
-    fn text((point, normal): &(DVec3, DVec3)) -> String {
-        table_text([("point", Point::text(point)), ("normal", Vector::text(normal))])
-    }
-}
-
-/// A sphere: its centre and radius (m).
-pub(super) struct Sphere;
-
-impl Kind for Sphere {
-    type Value = (DVec3, f64);
-
-    fn read(value: &Value) -> Result<(DVec3, f64), ValueError> {
-        let allowed = "a sphere, such as { centre = [0, 0, \"5 cm\"], radius = \"20 cm\" }";
-        let fields = Fields::new(value, &["centre", "radius"], allowed)?;
-        Ok((fields.need::<Point>("centre")?, fields.need::<Length>("radius")?))
-    }
-
-    fn schema() -> Schema {
-        json_schema!({
-            "type": "object", "additionalProperties": false,
-            "properties": {
-                "centre": described(&Point::schema(), "Within 100 m of the origin."),
-                "radius": described(&Length::schema(), "1 mm to 100 m."),
-            },
-            "required": ["centre", "radius"],
-        })
-    }
-}
-
-impl ToText for Sphere {
-    fn text((centre, radius): &(DVec3, f64)) -> String {
-        table_text([("centre", Point::text(centre)), ("radius", Length::text(radius))])
-    }
-}
-
-/// A schema with a description.
-pub(super) fn described(schema: &Schema, description: &str) -> Schema {
-    let mut schema = schema.clone();
-    schema.insert("description".into(), description.into());
-    schema
-}
-
-/// The same, of a number within bounds (SI).
-pub(super) fn bounded(schema: &Schema, least: f64, most: f64, description: &str) -> Schema {
-    let mut schema = described(schema, description);
-    schema.insert("minimum".into(), least.into());
-    schema.insert("maximum".into(), most.into());
-    schema
 }
 
 keywords! {

@@ -33,11 +33,11 @@ pub(super) fn light(
     folder: &Path,
 ) -> Result<(LightSpec, Option<PathBuf>)> {
     let environment = document.get::<Text>(ENVIRONMENT[0])?.map(|name| folder.join(name));
-    let default = match (&environment, document.first(&SUN)) {
+    let default = match (&environment, SUN.iter().any(|key| document.has(key))) {
         (Some(_), _) => Setup::Dark,
         // Keys about the sun mean daylight.
-        (None, Some(_)) => Setup::Daylight(Daylight::default()),
-        (None, None) => Setup::Studio,
+        (None, true) => Setup::Daylight(Daylight::default()),
+        (None, false) => Setup::Studio,
     };
     let setup = document.keyword("light.setup", default)?;
     check_setup(document, setup)?;

@@ -37,8 +37,8 @@ pub(super) fn look(document: &Document<'_>, seed: u64, backdrop: Backdrop) -> Re
         None => absorption(document)?,
     };
     let dye_colour = colour("look.dye.colour")?;
-    if let Some(key) = document.first(&["look.dye.strength", "look.dye.regrowth"])
-        && dye_colour.is_none()
+    if dye_colour.is_none()
+        && let Some(key) = document.first(&["look.dye.strength", "look.dye.regrowth"])
     {
         return Err(document.missing(key, "colour"));
     }
