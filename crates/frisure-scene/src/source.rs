@@ -77,34 +77,34 @@ impl Source {
     /// The span of the value at a path, if it is written, and whether it is a single value: no
     /// table and no list.
     pub(crate) fn find(&self, path: &str) -> Option<(Range<usize>, bool)> {
-        let way = self.follow(path);
-        way.last.filter(|_| way.whole).map(|found| (found.value, found.single))
+        let followed = self.follow(path);
+        followed.last.filter(|_| followed.whole).map(|found| (found.value, found.single))
     }
 
     /// Goes along a path as far as it is written.
-    fn follow(&self, path: &str) -> Way {
-        let mut way = Way { last: None, whole: false };
-        let Ok(document) = self.document() else { return way };
+    fn follow(&self, path: &str) -> Followed {
+        let mut followed = Followed { last: None, whole: false };
+        let Ok(document) = self.document() else { return followed };
         let mut table = document.get_ref();
         let mut steps = path.split('.').peekable();
         while let Some(step) = steps.next() {
             let (name, indices) = step.split_once('[').unwrap_or((step, ""));
-            let Some((key, mut value)) = table.get_key_value(name) else { return way };
+            let Some((key, mut value)) = table.get_key_value(name) else { return followed };
             let key = key.span();
-            way.last = Some(Found::new(key.clone(), value));
+            followed.last = Some(Found::new(key.clone(), value));
             for index in indices.split(['[', ']']).filter_map(|i| i.parse::<usize>().ok()) {
-                let Some(item) = value.get_ref().get(index) else { return way };
+                let Some(item) = value.get_ref().get(index) else { return followed };
                 value = item;
-                way.last = Some(Found::new(key.clone(), value));
+                followed.last = Some(Found::new(key.clone(), value));
             }
             match value.get_ref() {
                 DeValue::Table(inner) => table = inner,
-                _ if steps.peek().is_some() => return way,
+                _ if steps.peek().is_some() => return followed,
                 _ => {}
             }
         }
-        way.whole = true;
-        way
+        followed.whole = true;
+        followed
     }
 
     /// The path of the value with exactly this span.
@@ -118,7 +118,7 @@ impl Source {
 }
 
 /// How far a path is written.
-struct Way {
+struct Followed {
     last: Option<Found>,
     whole: bool,
 }

@@ -41,7 +41,7 @@ pub(super) fn value_type(path: &str) -> Result<ValueType, NoKey> {
         let (name, indices) = part.split_once('[').unwrap_or((part, ""));
         let tables: Vec<_> = alternatives(here)
             .into_iter()
-            .filter_map(|way| way["properties"].as_object())
+            .filter_map(|schema| schema["properties"].as_object())
             .collect();
         let found = tables.iter().find_map(|keys| keys.get(name));
         let known = tables.iter().flat_map(|keys| keys.keys()).map(String::as_str);
@@ -51,13 +51,13 @@ pub(super) fn value_type(path: &str) -> Result<ValueType, NoKey> {
         })?;
         so_far = if so_far.is_empty() { part.to_owned() } else { format!("{so_far}.{part}") };
         for _ in indices.matches(']') {
-            let item = alternatives(here).into_iter().find_map(|way| way.get("items"));
+            let item = alternatives(here).into_iter().find_map(|schema| schema.get("items"));
             here = item.ok_or_else(|| no_list(&so_far))?;
         }
     }
-    let ways = alternatives(here);
-    let keys = || ways.iter().find(|way| way.get("properties").is_some());
-    if ways.len() == 1 && keys().is_some() {
+    let schemas = alternatives(here);
+    let keys = || schemas.iter().find(|schema| schema.get("properties").is_some());
+    if schemas.len() == 1 && keys().is_some() {
         return Err(no_value(path, here));
     }
     if is_list(here) {
@@ -66,7 +66,7 @@ pub(super) fn value_type(path: &str) -> Result<ValueType, NoKey> {
     if let Some(quantity) = quantity(schema(), path) {
         return Ok(ValueType::Quantity(quantity.dimension));
     }
-    let is_whole = ways.iter().any(|way| way["type"] == "integer");
+    let is_whole = schemas.iter().any(|schema| schema["type"] == "integer");
     Ok(if is_whole { ValueType::Whole } else { ValueType::Other })
 }
 
@@ -97,7 +97,7 @@ fn elsewhere(name: &str, schema: &'static Value, path: &str) -> Option<String> {
 
 /// Whether something is a list of tables.
 fn is_list(schema: &'static Value) -> bool {
-    alternatives(schema).iter().any(|way| way["items"].get("properties").is_some())
+    alternatives(schema).iter().any(|schema| schema["items"].get("properties").is_some())
 }
 
 fn no_list(path: &str) -> NoKey {

@@ -150,9 +150,9 @@ fn table(value: &Value, depth: usize) -> Result<Selection, ValueError> {
     let allowed = "a table with one of its keys";
     Fields::new(value, &KEYS, allowed)?;
     let entries: Vec<_> = value.as_table().into_iter().flatten().collect();
-    let (way, value) = match entries.as_slice() {
+    let (key, value) = match entries.as_slice() {
         [] => return Err(ValueError::because(format!("this says nothing: {}", one_of_the_keys()))),
-        [(way, value)] => (way.as_str(), *value),
+        [(key, value)] => (key.as_str(), *value),
         [(one, _), (other, _), ..] => {
             let problem = format!("`{one}` and `{other}` are two choices of wisps in one table");
             let hint =
@@ -160,8 +160,8 @@ fn table(value: &Value, depth: usize) -> Result<Selection, ValueError> {
             return Err(ValueError::because(problem).hint(hint));
         }
     };
-    let inside = |e: ValueError| e.inside(&format!(".{way}"));
-    let chosen = one_way(way, value, depth + 1).map_err(inside)?;
+    let inside = |e: ValueError| e.inside(&format!(".{key}"));
+    let chosen = of_key(key, value, depth + 1).map_err(inside)?;
     // What is joined was checked when it was read.
     if !matches!(chosen, Selection::Any(_) | Selection::All(_) | Selection::Not(_)) {
         chosen.check().map_err(|error| {
@@ -176,12 +176,12 @@ fn one_of_the_keys() -> String {
     format!("it needs one of {}", KEYS.join(", "))
 }
 
-fn one_way(way: &str, value: &Value, depth: usize) -> Result<Selection, ValueError> {
+fn of_key(key: &str, value: &Value, depth: usize) -> Result<Selection, ValueError> {
     let joined = || {
         let list = value.as_array().ok_or_else(|| ValueError::new("a list of choices of wisps"))?;
         each(list, |item| selection(item, depth))
     };
-    Ok(match way {
+    Ok(match key {
         "above" => Selection::Above(Below::read(value)?),
         "wisps" => Selection::Wisps(wisps(value)?),
         "plane" => {
@@ -297,13 +297,8 @@ impl Kind for Polygon {
     }
 }
 
-/// The JSON Schema of `where`.
-pub(crate) fn where_schema() -> Schema {
-    let one = Where::schema();
-    let list = json_schema!({ "type": "array", "items": one });
-    let word = OneOf::<Word>::schema();
-    let wisps = json_schema!({ "type": "array", "items": Count::schema() });
-    let lasso = json_schema!({
+fn lasso_schema() -> Schema {
+    json_schema!({
         "type": "object", "additionalProperties": false, "required": ["camera", "polygon"],
         "properties": {
             "camera": described(
@@ -322,9 +317,17 @@ pub(crate) fn where_schema() -> Schema {
                 "Whether it also takes hair that the head hides. Default false.",
             ),
         },
-    });
+    })
+}
+
+/// The JSON Schema of `where`.
+pub(crate) fn where_schema() -> Schema {
+    let one = Where::schema();
+    let list = json_schema!({ "type": "array", "items": one });
+    let word = OneOf::<Word>::schema();
+    let wisps = json_schema!({ "type": "array", "items": Count::schema() });
     let of = described;
-    let ways = json_schema!({
+    let tables = json_schema!({
         "type": "object", "additionalProperties": false, "minProperties": 1, "maxProperties": 1,
         "properties": {
             "above": of(&Below::schema(), "Rooted above a level of the head, or a height (m)."),
@@ -335,7 +338,7 @@ pub(crate) fn where_schema() -> Schema {
                 "Rooted under a brush drawn over the scalp, such as { at = [[0, \"-4 cm\", \"9 cm\"]], \
                  radius = \"2 cm\" }.",
             ),
-            "lasso": of(&lasso, "Mostly seen inside a polygon drawn on a picture."),
+            "lasso": of(&lasso_schema(), "Mostly seen inside a polygon drawn on a picture."),
             "any": of(&list, "In any of these."),
             "all": of(&list, "In all of these."),
             "not": of(&one, "Not in this one."),
@@ -344,6 +347,6 @@ pub(crate) fn where_schema() -> Schema {
     json_schema!({
         "description": "Which wisps: a part of the scalp as in `[[region]]`, or \"everything\"; a list \
                         of parts; or a table with one key. Without it: everything.",
-        "anyOf": [word, { "type": "array", "items": word, "minItems": 1 }, ways],
+        "anyOf": [word, { "type": "array", "items": word, "minItems": 1 }, tables],
     })
 }
