@@ -56,8 +56,8 @@
 //! | contact of hair with hair | `crates/frisure-hairstyle/src/contact/neighbours.rs`, solved by `crates/frisure-hairstyle/src/equilibrium/head_solver.rs` |
 //! | the wet law: water, swelling, softening, humidity | `crates/frisure-hairstyle/src/styling/wet_law.rs`, [`hairstyle::Wetting`], [`hairstyle::Moisture`] |
 //! | sampling of the elliptical fibre | [`optics::scattering::HairBsdf::sample`], `crates/frisure-optics/src/scattering` |
-//! | the declaration of a scene key: unit, range, text | `crates/frisure-scene/src/file.rs`; how to add one: `CONTRIBUTING.md`, "Add a scene key with a slider" |
-//! | the declaration of a styling operation | `crates/frisure-scene/src/step/operations.rs`; `CONTRIBUTING.md`, "Add an operation" |
+//! | the declaration of a scene key: unit, range, text | [`scene::keys`], `crates/frisure-scene/src/keys.rs`; how to add one: `CONTRIBUTING.md`, "Add a scene key with a slider" |
+//! | the declaration of a styling operation | `crates/frisure-scene/src/operation/operations.rs`; `CONTRIBUTING.md`, "Add an operation" |
 //! | the groom formats | [`formats::groom::Format`], `crates/frisure-formats/src/groom`; `CONTRIBUTING.md`, "Add a groom format" |
 //! | the equations and their sources | `docs/theory.md` |
 //!

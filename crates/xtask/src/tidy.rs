@@ -110,28 +110,43 @@ fn module_circles(root: &Path) -> Result<Vec<String>> {
     Ok(broken)
 }
 
-/// Links in Markdown, and paths of the tree between backquotes, to files that are not there.
+/// Links in Markdown, and paths of the tree between backquotes in Markdown and comments, to files that are not there.
 fn links(root: &Path) -> Result<Vec<String>> {
-    const FOLDERS: [&str; 6] = [".ci/", ".github/", "crates/", "docs/", "scenes/", "validation/"];
     let mut broken = Vec::new();
-    for (file, text) in texts(root)?.iter().filter(|(name, _)| name.ends_with(".md")) {
-        let folder = root.join(file).parent().map(Path::to_owned).unwrap_or_default();
+    for (file, text) in texts(root)? {
+        let markdown = file.ends_with(".md") && file != "CHANGELOG.md";
+        let folder = root.join(&file).parent().map(Path::to_owned).unwrap_or_default();
         for (number, line) in (1..).zip(text.lines()) {
-            let links = line.split("](").skip(1).filter_map(|rest| rest.split(')').next());
-            let local = links.filter(|link| !link.contains(':') && !link.starts_with('#'));
-            let local = local.map(|link| folder.join(link.split('#').next().unwrap_or(link)));
-            let quoted = line.split('`').skip(1).step_by(2).filter(|text| {
-                FOLDERS.iter().any(|folder| text.starts_with(folder))
-                    && !text.contains([' ', '*', '{', '<', '…'])
-            });
-            for path in local.chain(quoted.map(|path| root.join(path))) {
-                if !path.exists() && file != "CHANGELOG.md" {
-                    broken.push(format!("{file}:{number}: there is no {}", path.display()));
-                }
+            let mut paths = Vec::new();
+            if markdown {
+                paths.extend(local_links(line).map(|link| folder.join(link)));
             }
+            if markdown || (file.ends_with(".rs") && line.trim_start().starts_with("//")) {
+                paths.extend(quoted_paths(line).map(|path| root.join(path)));
+            }
+            let missing = paths.iter().filter(|path| !path.exists());
+            broken.extend(
+                missing.map(|path| format!("{file}:{number}: there is no {}", path.display())),
+            );
         }
     }
     Ok(broken)
+}
+
+/// The files that a line of Markdown links to, from the folder of its file.
+fn local_links(line: &str) -> impl Iterator<Item = &str> {
+    let links = line.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let local = links.filter(|link| !link.contains(':') && !link.starts_with('#'));
+    local.map(|link| link.split('#').next().unwrap_or(link))
+}
+
+/// The paths of the tree that a line has between backquotes, from the root.
+fn quoted_paths(line: &str) -> impl Iterator<Item = &str> {
+    const FOLDERS: [&str; 6] = [".ci/", ".github/", "crates/", "docs/", "scenes/", "validation/"];
+    line.split('`').skip(1).step_by(2).filter(|text| {
+        FOLDERS.iter().any(|folder| text.starts_with(folder))
+            && !text.contains([' ', '*', '{', '<', '…'])
+    })
 }
 
 fn short_readme(root: &Path) -> Result<Vec<String>> {
