@@ -59,6 +59,7 @@
 //! | gradient of the whole energy (adjoint sweep) | `minimise/linearise.rs` |
 //! | Hessian, its factorisation (Riccati sweep, LDLᵀ) | `minimise/riccati.rs`, `minimise/block.rs` |
 //! | damping (Levenberg–Marquardt), line search, saddle points | `minimise/newton.rs`; in lanes `batch/newton.rs` |
+//! | Hessian as an operator: products, solutions | `minimise/second_variation.rs` |
 //! | stability, smallest eigenvalue | `minimise/certificate.rs` |
 //! | gravity's branch, refinement, Richardson extrapolation | `equilibrium/` |
 //! | contact of rods in a batch | `batch/contact.rs`, `batch/contact_sweep.rs` |

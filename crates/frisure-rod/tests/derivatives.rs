@@ -39,7 +39,7 @@ fn bent(chain: &Chain<'_>) -> Vec<DVec3> {
 }
 
 /// Runs a check for both elements and for no, one and several further potentials.
-fn for_each_problem(n: usize, check: impl Fn(&str, &Chain<'_>, &[&dyn Potential])) {
+fn for_each_problem(n: usize, mut check: impl FnMut(&str, &Chain<'_>, &[&dyn Potential])) {
     let rod = Rod::new(curl()).unwrap();
     let wrench = wrench(&rod, n);
     for kind in KINDS {
@@ -151,4 +151,75 @@ fn convergence_is_quadratic() {
         }
         assert!(norms[5] < 1e-13, "{name}: {norms:?}");
     });
+}
+
+/// Differences of a function of the controls along a step, per unit of the step.
+fn difference(
+    controls: &[DVec3],
+    step: &[DVec3],
+    of: impl Fn(Vec<DVec3>) -> Vec<DVec3>,
+) -> Vec<DVec3> {
+    let h = 1e-5;
+    let at = |h: f64| of(controls.iter().zip(step).map(|(c, x)| *c + *x * h).collect());
+    at(h).into_iter().zip(at(-h)).map(|(a, b)| (a - b) / (2.0 * h)).collect()
+}
+
+fn dot(a: &[DVec3], b: &[DVec3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum()
+}
+
+fn size(a: &[DVec3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn gap(a: &[DVec3], b: &[DVec3]) -> f64 {
+    size(&a.iter().zip(b).map(|(a, b)| *a - *b).collect::<Vec<_>>()) / size(b)
+}
+
+#[test]
+fn the_second_variation_times_a_step_is_the_derivative_of_the_gradient() {
+    let mut random = Random(5);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let controls = bent(chain);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let found = problem.second_variation(&chain.shape(controls.clone()), 1).apply(&step);
+        let exact = difference(&controls, &step, |c| problem.gradient(&chain.shape(c)));
+        assert!(gap(&found, &exact) < 1e-7, "{name}: {}", gap(&found, &exact));
+    });
+}
+
+#[test]
+fn the_factors_of_the_second_variation_solve_it() {
+    let mut random = Random(6);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let operator = problem.second_variation(&chain.shape(bent(chain)), 1);
+        let x: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let stiffness = chain.rod().stiffness() * (6.0 / chain.rod().length());
+        let factor = operator.factor(30.0).expect("elasticity thirty times over is positive");
+        let right: Vec<DVec3> =
+            operator.apply(&x).iter().zip(&x).map(|(y, x)| *y + stiffness * *x * 30.0).collect();
+        let found = factor.solve(&right);
+        assert!(gap(&found, &x) < 1e-10, "{name}: {}", gap(&found, &x));
+    });
+}
+
+#[test]
+fn displacements_are_the_derivative_of_sample_points_and_their_transpose_that_of_energies() {
+    let mut random = Random(7);
+    for kind in KINDS {
+        let rod = Rod::new(curl()).unwrap();
+        let chain = Chain::uniform(&rod, kind, 6);
+        let problem = Problem::new(&chain, &[]);
+        let controls = bent(&chain);
+        let operator = problem.second_variation(&chain.shape(controls.clone()), 3);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let moved = operator.displacements(&step);
+        let exact = difference(&controls, &step, |c| chain.sample_points(&chain.shape(c), 3));
+        assert!(gap(&moved, &exact) < 1e-8, "{kind:?}: {}", gap(&moved, &exact));
+        let forces: Vec<DVec3> = (0..18).map(|_| random.cube()).collect();
+        let (work, same) = (dot(&forces, &moved), dot(&operator.by_controls(&forces), &step));
+        assert!((work - same).abs() < 1e-12 * work.abs(), "{kind:?}: {work} {same}");
+    }
 }

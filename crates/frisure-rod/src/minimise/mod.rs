@@ -5,7 +5,8 @@
 //!
 //! The files in the order of the computation: `problem` (the energy), `linearise` (gradient and Hessian blocks of each
 //! element), `riccati` (backward sweep: the Hessian factorised), `rollout` (forward: the step applied), `newton`
-//! (damping, line search, saddle points), `certificate` (gradient norm, smallest eigenvalue).
+//! (damping, line search, saddle points), `certificate` (gradient norm, smallest eigenvalue). [`SecondVariation`] keeps the
+//! Hessian as an operator for callers with many right-hand sides.
 
 mod block;
 mod certificate;
@@ -16,6 +17,7 @@ mod newton;
 mod problem;
 mod riccati;
 mod rollout;
+mod second_variation;
 
 pub use lbfgs::Lbfgs;
 pub use minimiser::{Minimiser, Minimum, Stability, StoppingCriteria};
@@ -23,3 +25,4 @@ pub use newton::{Newton, NewtonStep};
 pub use problem::{Energy, Problem};
 #[cfg(test)]
 pub(crate) use rollout::damped_step;
+pub use second_variation::{SecondVariation, SecondVariationFactor};

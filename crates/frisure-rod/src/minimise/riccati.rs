@@ -47,16 +47,16 @@ pub(super) struct FailedPivot {
 /// V: quadratic model of the energy beyond a node, by its frame (η) and position (ξ), with all later controls
 /// eliminated. (M2)
 #[derive(Clone, Copy)]
-struct ValueFunction {
-    rotation: DVec3,
-    position: DVec3,
-    rotation_rotation: DMat3,
-    rotation_position: DMat3,
-    position_position: DMat3,
+pub(super) struct ValueFunction {
+    pub(super) rotation: DVec3,
+    pub(super) position: DVec3,
+    pub(super) rotation_rotation: DMat3,
+    pub(super) rotation_position: DMat3,
+    pub(super) position_position: DMat3,
 }
 
 impl ValueFunction {
-    const ZERO: Self = Self {
+    pub(super) const ZERO: Self = Self {
         rotation: DVec3::ZERO,
         position: DVec3::ZERO,
         rotation_rotation: DMat3::ZERO,
@@ -134,7 +134,7 @@ impl Stage<'_> {
     /// The end moves by `η⁺ = Qᵀη + J x + ½ (Qᵀη)×(J x) + ½ D(x, x)` and
     /// `ξ⁺ = ξ + R (exp[η] p(c + x) − p)`, to second order. (M1)
     #[inline]
-    fn model<const POSITION: bool>(&self, value: &ValueFunction) -> Derivatives {
+    pub(super) fn model<const POSITION: bool>(&self, value: &ValueFunction) -> Derivatives {
         let (q, j) = (&self.rotation, &self.turning);
         let qt = q.transpose();
         let jt = j.transpose();
