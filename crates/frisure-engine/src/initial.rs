@@ -92,8 +92,7 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
         "half of the groom's strands are rooted more than {:.1} cm from the skin of the head{possible}{suggestion}",
         1e2 * distance
     );
-    let hint = "`unit` and `up` of `[groom]` say what it is in, those of `[head]` what the head is in; `mesh` is the head that \
-                it was made on";
+    let hint = "set `unit` and `up` of `[groom]` and of `[head]`; `mesh` of `[head]` is the head that the groom was made on";
     Err(scene.error_at("groom.file", problem, hint))
 }
 

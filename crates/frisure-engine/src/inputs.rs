@@ -40,18 +40,18 @@ pub fn head_mesh(scene: &Scene, files: &Files) -> Result<Option<HeadMesh>, Scene
     let HeadSource::Mesh(file) = &scene.head else { return Ok(None) };
     head::read(file, files).map(Some).map_err(|e| {
         let hint = match e {
-            HeadFileError::Size { .. } => "`unit` and `up` of `[head]` say what it is in",
+            HeadFileError::Size { .. } => "set `unit` and `up` of `[head]`",
             _ => "",
         };
         scene.error_at(key(&e, file), message(&e), hint)
     })
 }
 
-/// What the reader guessed about the head's mesh, for people.
+/// Returns a note about the unit that the reader assumed for the head's mesh.
 pub(crate) fn head_note(scene: &Scene, mesh: &HeadMesh) -> Option<String> {
     let HeadSource::Mesh(file) = &scene.head else { return None };
     let (path, unit) = (file.path.display(), mesh.guessed_unit?);
-    Some(format!("{path} says no unit and is taken to be in {unit}: `head.unit` says another"))
+    Some(format!("{path} states no unit; {unit} is assumed: set `head.unit` to change it"))
 }
 
 /// The groom that the scene names, if it names one.
@@ -62,7 +62,7 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
     let Some(GroomFile { path, frame, .. }) = &scene.groom else { return Ok(None) };
     let wrong = |e: GroomError| {
         let hint = match e {
-            GroomError::Malformed { .. } => "`unit` and `up` of `[groom]` say what it is in",
+            GroomError::Malformed { .. } => "set `unit` and `up` of `[groom]`",
             _ => "",
         };
         scene.error_at("groom.file", message(&e), hint)

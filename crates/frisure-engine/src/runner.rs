@@ -15,10 +15,11 @@ use crate::hairstyles::{HairstyleCache, Input};
 use crate::heads::{HeadCache, LoadedHead};
 use crate::quality::{Quality, points};
 
-/// Most points of a groom in a browser, where there are 4 GiB of memory in all.
-const MOST_POINTS_OF_A_PAGE: usize = 32_000_000;
+/// Most points of drawn hairs in a browser, which has 4 GiB of memory in all. Chosen with room for a copy.
+const MOST_POINTS_IN_BROWSER: usize = 32_000_000;
 
-/// Computes what scenes describe, one scene after the other; each computes only what differs from those before.
+/// Loads scenes and computes their hairstyles and strands; a scene that differs little from an earlier one takes its
+/// unchanged parts from the caches.
 ///
 /// A hairstyle of [`Quality::Exact`] depends on the scene alone, to the last bit: it is the result of
 /// [`frisure::hairstyle::predict`] and of each step after it. A hairstyle of [`Quality::Coarse`] is an approximation that
@@ -70,7 +71,7 @@ impl Runner {
         Self { heads, ..Self::default() }
     }
 
-    /// Empties the caches; files that were provided stay.
+    /// Replaces the caches with empty ones of its own; files that were provided stay.
     pub fn clear(&mut self) {
         *self = Self { files: std::mem::take(&mut self.files), ..Self::default() };
     }
@@ -108,7 +109,7 @@ impl Runner {
         progress: &dyn Progress,
     ) -> Result<Arc<Strands>, Error> {
         let points = points(&loaded.hairstyle);
-        if cfg!(target_arch = "wasm32") && stride == 1 && points > MOST_POINTS_OF_A_PAGE {
+        if cfg!(target_arch = "wasm32") && stride == 1 && points > MOST_POINTS_IN_BROWSER {
             let problem = format!("{points} points of hair are more than a page has memory for");
             return Err(Error::invalid(problem, "lower `wisps.density` or `wisps.points`"));
         }

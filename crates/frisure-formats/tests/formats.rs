@@ -87,7 +87,7 @@ fn what_is_written_is_read() {
         let back = read(format, &written(format, &groom)).unwrap();
         let name = format.extension();
         assert!(apart(&back.hairs, &groom.hairs) < 1e-7, "{name}");
-        if format.tells_guides() {
+        if format.holds_guides() {
             assert!(apart(&back.guides, &groom.guides) < 1e-7, "{name}");
             assert_eq!(names::indices(&back.guides, names::GROUP), Some(&[5, 0][..]), "{name}");
             assert_eq!(back.colour, groom.colour, "{name}");
@@ -115,7 +115,7 @@ fn any_format_becomes_any_other() {
             let pairs = twice.hairs.radii().iter().zip(groom.hairs.radii());
             assert!(pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max) < 1e-10, "{names}");
         }
-        if first.tells_guides() && second.tells_guides() {
+        if first.holds_guides() && second.holds_guides() {
             assert!(apart(&twice.guides, &groom.guides) < 2e-7, "{names}");
             assert_eq!(twice.colour, groom.colour, "{names}");
             for attribute in groom.hairs.attributes() {

@@ -3,7 +3,7 @@
 //! A hair is a thin elastic rod, clamped in the scalp at one end and free at the other. It bends
 //! about the two axes of its elliptical section, twists about its own, and neither stretches nor
 //! shears. Its natural shape may be a curl. Given its length, section, material, natural strain and
-//! root, this crate finds the shape in which it hangs, and says how far that answer can be trusted.
+//! root, this crate computes the shape in which it hangs, a certificate of its stability and an estimate of its error.
 //!
 //! ```
 //! use frisure_rod::{
@@ -76,8 +76,8 @@
 //! - The section is the same all along. The natural strain may vary, linearly between knots.
 //! - Where several equilibria exist it follows gravity's branch, or searches from random starts; it
 //!   does not enumerate them all, and no method proves the lowest.
-//! - Beyond hair (Γ above 1e5, or dozens of turns with one stiffness many times the other) answers
-//!   take seconds instead of a millisecond. They still say what they are.
+//! - Beyond hair (Γ above 1e5, or dozens of turns with one stiffness many times the other) an
+//!   equilibrium takes seconds instead of a millisecond. Its certificate is still valid.
 
 #![forbid(unsafe_code)]
 

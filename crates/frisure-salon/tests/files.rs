@@ -155,7 +155,7 @@ fn head_and_groom_can_be_opened_in_any_order() {
         let files = world.salon.files();
         assert!(files.head && files.groom && is_held(&world), "{:?}", world.salon.messages);
         assert!(errors(&world).is_empty(), "{:?}", errors(&world));
-        let unit = world.salon.messages.iter().find(|m| m.text.contains("taken to be in cm"));
+        let unit = world.salon.messages.iter().find(|m| m.text.contains("cm is assumed"));
         assert!(unit.is_some_and(|m| m.hint.contains(FILES_PANEL)), "{:?}", world.salon.messages);
     }
 }

@@ -45,7 +45,7 @@ macro_rules! keys {
 /// All keys of a scene; a table is declared before its keys.
 pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
     keys! {
-        /// A name for people.
+        /// A name of the scene, for reports and file names.
         "name" => value::<Text>();
         /// Drives all randomness: the same scene and seed give the same bytes. Default 1.
         "seed" => value::<Count>();
@@ -89,7 +89,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Longer over shorter axis, at constant mean radius; at least 1 (a circle).
         "hair.fibre.axis_ratio" => number::<Ratio>().bounds(1.0, f64::INFINITY)
             .slider(Panel::Fibre, "Ellipticity", TO_ONE, (1.0, 3.0), 2,
-                "Longer over shorter axis of the section. A flat hair bends one way only, and curls more regularly.")
+                "Longer over shorter axis of the section. A flat hair bends more easily about its longer axis.")
             .shows(|scene| scene.spec.fibre.section.axis_ratio());
         /// Young's modulus; more than 0. Default 3.9 GPa.
         "hair.fibre.youngs_modulus" => number::<Modulus>().bounds(0.0, f64::INFINITY)
@@ -176,11 +176,12 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "head" => table();
         /// Path of a mesh (OBJ, USD, glTF or PLY), relative to the scene. Left out, the built-in mannequin.
         "head.mesh" => value::<Text>();
-        /// Unit of the mesh. Default that of the file or format; of OBJ and PLY, which say none, "m", or as the size shows.
+        /// Unit of the mesh. Default: the unit that the file or its format states. OBJ and PLY state none: "m", or a guess from
+        /// the size of the mesh.
         "head.unit" => value::<OneOf<UnitWord>>()
             .options(Panel::Files, "Unit of the head", "What the mesh is in.");
-        /// Which axis of the mesh points up; the face looks along +z or -y then. Default that of the file or format, "y" of
-        /// most.
+        /// Which axis of the mesh points up; the face looks along +z or -y then. Default: the axis that the file or its format states, mostly
+        /// "y".
         "head.up" => value::<OneOf<Keyword<UpAxis>>>()
             .options(Panel::Files, "Up in the head", "The axis of the mesh that points up.");
         /// Metres per unit of the mesh, instead of `unit`; more than 0.
@@ -194,9 +195,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "head.scalp_mask" => value::<Text>();
         /// Path of a text file with one density from 0 to 1 per vertex, in the order of the mesh.
         "head.scalp_weights" => value::<Text>();
-        /// Hair from another program instead of predicted hair: its strands, or those that it calls guides, become guides with the
-        /// fibre of `[hair]`, so curled that they hang as they were modelled, and can be wetted, cut and grown. They carry the other
-        /// strands. Length and curl of `[hair]` count for nothing then.
+        /// Hair from another program instead of predicted hair. The guides of the groom, or its strands if it has none, become guides
+        /// with the fibre of `[hair]`; frisure computes the natural curl with which they hang in the shape of the groom. Steps apply to
+        /// them. The other strands follow the guides. Length and curl of `[hair]` have no effect then.
         "groom" => table();
         /// Path of the groom, relative to the scene: .hair, .obj, .ply, .usd, .abc, .data or .npz. It is rooted on the head of `[head]`.
         "groom.file" => value::<Text>();
@@ -283,7 +284,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Number of wisps, each with one computed guide; {}.
         "wisps.count" => number::<Count>()
             .slider(Panel::Wisps, "Wisps", NUMBER, (20.0, 1500.0), 0,
-                "Number of guides, the hairs that are simulated. The others follow them.")
+                "Number of wisps, each with one computed guide. The other hairs follow the guides.")
             .logarithmic();
         /// Drawn hairs per area of scalp, instead of `hairs`; {}. Default that of the hair
         /// type.
@@ -321,11 +322,11 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "wisps.points" => number::<Count>();
         /// What drawn hairs are. Default "interpolated".
         "wisps.strands" => value::<OneOf<Keyword<HairModel>>>();
-        /// Hair against the head and against hair.
+        /// Contact of hair with the head and with hair.
         "contact" => table();
-        /// What the hair lies on. Default "signed-distance".
+        /// Model of the head in contact. Default "signed-distance".
         "contact.body" => value::<OneOf<Keyword<Body>>>();
-        /// What a wisp makes of the other wisps. Default "wisps".
+        /// Model of the contact between wisps. Default "wisps".
         "contact.hair" => value::<OneOf<Keyword<HairContact>>>();
         /// Stiffness of skin per length of hair; {}. Default 2000 Pa.
         "contact.stiffness" => number::<Modulus>();
@@ -341,8 +342,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Instead of `elements`: as many as it takes to be this near to the exact shape; more than 0.
         /// Default 0.5 mm.
         "equilibrium.accuracy" => number::<Length>().bounds(0.0, f64::INFINITY);
-        /// Slope, relative to the weight of a hair, at which wisps that make way for each other are at
-        /// rest; {}. Default 0.03, which friction would hold ten times over.
+        /// Largest gradient of a guide, relative to the moment of its weight, at which wisps in contact count as at rest;
+        /// {}. Default 0.03, a tenth of what friction between hairs would hold.
         "equilibrium.tolerance" => number::<Ratio>();
         /// The curve that an element can take. Default "auto".
         "equilibrium.element" => value::<OneOf<Keyword<ElementKind>>>();
@@ -361,7 +362,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "look.eumelanin" => number::<Ratio>().range(0.0, 100.0, "between 0 and 100")
             .field(field!(look.hair.melanin.eumelanin))
             .slider(Panel::Look, "Eumelanin", NUMBER, (0.0, 10.0), 2,
-                "The brown pigment: about 0.1 in blond hair, 0.8 in brown, 8 in black.");
+                "The brown pigment: about 0.1 in blond hair, 0.8 in brown, 3 in black.");
         /// Concentration of the red pigment; {}.
         "look.pheomelanin" => number::<Ratio>().range(0.0, 100.0, "between 0 and 100")
             .field(field!(look.hair.melanin.pheomelanin))

@@ -52,9 +52,9 @@
 //! | --- | --- |
 //! | the elastic energy of a rod, its gradient and Hessian | [`rod::potential::Elastic`], `crates/frisure-rod/src/potential/elastic.rs` |
 //! | the Newton step: Hessian, factorisation, line search | [`rod::minimise::Newton`], `crates/frisure-rod/src/minimise` |
-//! | contact of hair with the head | `crates/frisure-hairstyle/src/contact/body.rs`, on the signed distance of `crates/frisure-hairstyle/src/head/distance.rs` |
+//! | contact (collision) of hair with the head | `crates/frisure-hairstyle/src/contact/body.rs`, on the signed distance of `crates/frisure-hairstyle/src/head/distance.rs` |
 //! | contact of hair with hair | `crates/frisure-hairstyle/src/contact/neighbours.rs`, solved by `crates/frisure-hairstyle/src/equilibrium/head_solver.rs` |
-//! | the wet law: water, swelling, softening, humidity | `crates/frisure-hairstyle/src/styling/wet_law.rs`, [`hairstyle::Wetting`], [`hairstyle::Moisture`] |
+//! | the wet law: water, swelling, softening, humidity | `crates/frisure-hairstyle/src/styling/wet_law.rs`, [`hairstyle::Wetting`], [`hairstyle::Moisture`]; the look of wet hair: `crates/frisure-optics/src/scattering/film.rs` |
 //! | sampling of the elliptical fibre | [`optics::scattering::HairBsdf::sample`], `crates/frisure-optics/src/scattering` |
 //! | the declaration of a scene key: unit, range, text | [`scene::keys`], `crates/frisure-scene/src/keys.rs`; how to add one: `CONTRIBUTING.md`, "Add a scene key with a slider" |
 //! | the declaration of a styling operation | `crates/frisure-scene/src/operation/operations.rs`; `CONTRIBUTING.md`, "Add an operation" |

@@ -25,7 +25,7 @@ use frisure_engine::Error;
 use crate::args::Axes;
 
 /// The name of a scene in errors about its size.
-const WHAT: &str = "a scene";
+const SCENE_FILE: &str = "a scene";
 
 /// The error of a command that this build does not have.
 #[cfg(not(all(feature = "batch", feature = "validate")))]
@@ -48,7 +48,7 @@ fn parse_scene(path: &Path, text: String) -> Result<Scene, Error> {
 /// The text of a scene in a file, or on standard input for `-`.
 fn read_text(path: &Path) -> Result<String, Error> {
     if path != Path::new("-") {
-        return Ok(files::read_text(path, MAX_SIZE, WHAT)?);
+        return Ok(files::read_text(path, MAX_SIZE, SCENE_FILE)?);
     }
     let name = name(path);
     let path = Path::new(&name);
@@ -57,7 +57,7 @@ fn read_text(path: &Path) -> Result<String, Error> {
     input.take(MAX_SIZE + 1).read_to_end(&mut bytes).map_err(|e| Error::failed(&e, ""))?;
     if bytes.len() as u64 > MAX_SIZE {
         let (path, limit) = (path.into(), MAX_SIZE);
-        return Err(files::ReadError::TooLarge { path, limit, what: WHAT }.into());
+        return Err(files::ReadError::TooLarge { path, limit, what: SCENE_FILE }.into());
     }
     Ok(files::to_text(bytes, path)?)
 }

@@ -17,15 +17,15 @@ pub(super) type Writer = fn(&mut dyn Write, &Groom, Frame) -> io::Result<()>;
 pub(super) struct Declaration {
     /// The extensions that name it, without a dot; the first is the one to show.
     pub(super) extensions: &'static [&'static str],
-    /// Its name for people.
+    /// The name that programs show.
     pub(super) title: &'static str,
-    /// Unit and axes that it has by convention, where neither file nor person says anything else.
+    /// Unit and axes by convention, for files that state none.
     pub(super) frame: Frame,
-    /// Whether a file can hold guides beside hairs.
-    pub(super) tells_guides: bool,
-    /// How many points its readers expect of a strand, where they require a number.
+    /// Whether a file can hold guides besides hairs.
+    pub(super) holds_guides: bool,
+    /// The number of points per strand that its readers require, if they require one.
     pub(super) usual_points: Option<usize>,
-    /// Checks that it has room for a groom.
+    /// Checks that the format can hold a groom.
     pub(super) check: fn(&Groom) -> Result<(), String>,
     /// Writes what `check` has passed.
     pub(super) write: Writer,
@@ -40,7 +40,7 @@ pub(super) struct Declaration {
 ///
 /// let format = Format::of("curls.npz".as_ref())?;
 /// assert_eq!(format.extensions(), ["npz"]);
-/// assert!(format.is_read() && format.tells_guides());
+/// assert!(format.is_read() && format.holds_guides());
 /// # Ok::<(), frisure_formats::groom::GroomError>(())
 /// ```
 #[derive(Clone, Copy)]
@@ -73,7 +73,7 @@ impl Format {
         self.0.extensions[0]
     }
 
-    /// Its name for people.
+    /// The name that programs show.
     #[must_use]
     pub const fn title(self) -> &'static str {
         self.0.title
@@ -85,19 +85,19 @@ impl Format {
         self.0.read.is_some()
     }
 
-    /// Whether a file can hold guides beside hairs.
+    /// Whether a file can hold guides besides hairs.
     #[must_use]
-    pub const fn tells_guides(self) -> bool {
-        self.0.tells_guides
+    pub const fn holds_guides(self) -> bool {
+        self.0.holds_guides
     }
 
-    /// How many points its readers expect of a strand, where they require a number.
+    /// The number of points per strand that its readers require, if they require one.
     #[must_use]
     pub const fn usual_points(self) -> Option<usize> {
         self.0.usual_points
     }
 
-    /// Unit and axes that it has by convention, where neither file nor person says anything else.
+    /// Unit and axes by convention, for files that state none.
     #[must_use]
     pub const fn frame(self) -> Frame {
         self.0.frame

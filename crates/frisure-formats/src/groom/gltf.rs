@@ -21,7 +21,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["glb"],
     title: "glTF lines for the web",
     frame: Frame::METRES_Y,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
     check,
     write: encode,

@@ -21,7 +21,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["hair"],
     title: "Cem Yuksel's hair file",
     frame: Frame::CENTIMETRES_Z,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

@@ -17,7 +17,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["txt"],
     title: "curves for Mitsuba 3",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |groom| check_strands("strand", groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

@@ -1,8 +1,8 @@
 //! Grooms: hair in the files of other programs.
 //!
-//! One module per format, with its declaration: to add one, write its file and
-//! name it in [`Format::ALL`]; help, error messages and lists derive from the declaration.
-//! [`Format`] says what each can hold, and `docs/formats.md` describes every byte that matters. What is read has been checked: counts, sizes, widths, points that are nowhere.
+//! Each format is one module with its declaration. To add a format, write its module and name it in [`Format::ALL`]; help, error
+//! messages and lists derive from the declaration. [`Format`] selects a format by its extension, and `docs/formats.md` describes
+//! their bytes. Readers check counts, sizes and widths, and that all points are finite.
 
 #[cfg(feature = "alembic")]
 mod alembic;

@@ -30,7 +30,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["npz"],
     title: "arrays for NumPy",
     frame: Frame::METRES_Z,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
     check: |_| Ok(()),
     write: encode,

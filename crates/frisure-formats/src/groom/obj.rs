@@ -18,7 +18,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["obj"],
     title: "Wavefront polylines",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |_| Ok(()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

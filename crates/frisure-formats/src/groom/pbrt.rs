@@ -19,7 +19,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["pbrt"],
     title: "curves for pbrt-v4",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |groom| check_strands("strand", groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

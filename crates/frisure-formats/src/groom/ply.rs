@@ -18,7 +18,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["ply"],
     title: "Stanford points and edges",
     frame: Frame::METRES_Z,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

@@ -21,7 +21,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["data"],
     title: "hairstyles of USC-HairSalon",
     frame: Frame::METRES_Y,
-    tells_guides: false,
+    holds_guides: false,
     usual_points: Some(100),
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),

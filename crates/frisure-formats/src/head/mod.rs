@@ -52,7 +52,7 @@ pub struct HeadMesh {
     pub surface: Surface,
     /// Density of hair at each vertex, 0 to 1; `None` where the scalp is to be guessed.
     pub scalp: Option<Vec<f64>>,
-    /// The unit that it was taken to be in, where neither file nor scene said one and it cannot be metres.
+    /// The unit that the reader assumed, if neither file nor scene states one and it cannot be metres.
     pub guessed_unit: Option<&'static str>,
 }
 

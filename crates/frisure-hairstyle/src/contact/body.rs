@@ -1,4 +1,4 @@
-//! The penalty energy of the body.
+//! Contact (collision) of hair with the head: the penalty energy of skin and of the hair on it.
 
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
@@ -13,7 +13,7 @@ use crate::spec::Body;
 /// The body under a guide: hard skin, and on it the soft thickness of the guide's own wisp and of
 /// the hair beneath it.
 ///
-/// At the distance D from the skin a length of hair pays `½ k_skin d²` for the depth d = −D in the
+/// At the distance D from the skin the energy per length of hair is `½ k_skin d²` for the depth d = −D in the
 /// skin (\[paper\] §3.1), and `k_hair e³/6K` for the depth e = K − D in hair, which is as thick as the
 /// radius of its wisp and the bed it lies on together, K. Hair is soft at first and stiffens as it
 /// is pressed (van Wyk 1946).
@@ -31,13 +31,13 @@ pub struct BodyContact<'a> {
     pub thickness: Thickness,
     /// Hair beneath the wisp.
     pub layer: Layer,
-    /// What a groom shows of it, instead of thickness and layer.
+    /// Height of the hair beneath a guide that comes from a groom; it replaces thickness and layer.
     pub bed: Option<&'a Bed>,
 }
 
 impl BodyContact<'_> {
     /// Distance (m) from the skin at which the contact energy begins, at arc length `s` (m).
-    fn keep(&self, s: f64) -> f64 {
+    fn clearance(&self, s: f64) -> f64 {
         match self.bed {
             Some(bed) => bed.at(s),
             None => self.thickness.at(s) + self.layer.at(s),
@@ -45,13 +45,13 @@ impl BodyContact<'_> {
     }
 
     /// Calls `touch` with the distance (m), its gradient and its Hessian (1/m), for each part of the
-    /// body nearer than `keep` (m).
-    fn for_each_near(&self, keep: f64, p: DVec3, mut touch: impl FnMut(f64, DVec3, DMat3)) {
+    /// body nearer than `clearance` (m).
+    fn for_each_near(&self, clearance: f64, p: DVec3, mut touch: impl FnMut(f64, DVec3, DMat3)) {
         match self.body {
             Body::None => {}
             Body::Spheres => {
                 for sphere in self.head.spheres() {
-                    if let Some((distance, gradient, hessian)) = near(sphere, keep, p) {
+                    if let Some((distance, gradient, hessian)) = near(sphere, clearance, p) {
                         touch(distance, gradient, hessian);
                     }
                 }
@@ -59,7 +59,7 @@ impl BodyContact<'_> {
             Body::SignedDistance => {
                 // Most points are far from the skin: the value alone costs a fraction of the derivatives.
                 let field = self.head.signed_distance();
-                if field.value(p) < keep {
+                if field.value(p) < clearance {
                     let (distance, gradient, hessian) = field.value_gradient_hessian(p);
                     touch(distance, gradient, hessian);
                 }
@@ -68,10 +68,10 @@ impl BodyContact<'_> {
     }
 
     /// Energy per length (J/m) at a distance (m), and its first two derivatives.
-    fn penalty(&self, keep: f64, distance: f64) -> [f64; 3] {
+    fn penalty(&self, clearance: f64, distance: f64) -> [f64; 3] {
         // e = K − D and d = −D, docs/theory.md, "Hair on the body"; derivatives by D, hence the sign of the slope.
-        let (soft, hard) = ((keep - distance).max(0.0), (-distance).max(0.0));
-        let hair = if soft > 0.0 && keep > 0.0 { self.hair * soft / keep } else { 0.0 };
+        let (soft, hard) = ((clearance - distance).max(0.0), (-distance).max(0.0));
+        let hair = if soft > 0.0 && clearance > 0.0 { self.hair * soft / clearance } else { 0.0 };
         let skin = if hard > 0.0 { self.skin } else { 0.0 };
         [
             hair * soft * soft / 6.0 + 0.5 * skin * hard * hard,
@@ -81,12 +81,12 @@ impl BodyContact<'_> {
     }
 }
 
-/// Distance of a point to a sphere with derivatives, if it is less than `keep` (m).
-fn near(sphere: &Sphere, keep: f64, p: DVec3) -> Option<(f64, DVec3, DMat3)> {
+/// Distance of a point to a sphere with derivatives, if it is less than `clearance` (m).
+fn near(sphere: &Sphere, clearance: f64, p: DVec3) -> Option<(f64, DVec3, DMat3)> {
     let away = p - sphere.centre;
     let reach = away.length();
     let distance = reach - sphere.radius;
-    if !(distance < keep && reach > 0.0) {
+    if !(distance < clearance && reach > 0.0) {
         return None;
     }
     // φ = |r − o| − ρ: gradient n, Hessian (I − n nᵀ)/|r − o|. docs/theory.md, "Contact with the body"
@@ -96,20 +96,22 @@ fn near(sphere: &Sphere, keep: f64, p: DVec3) -> Option<(f64, DVec3, DMat3)> {
 
 impl Field for BodyContact<'_> {
     fn energy(&self, s: f64, p: DVec3) -> f64 {
-        let keep = self.keep(s);
+        let clearance = self.clearance(s);
         if self.body == Body::SignedDistance {
-            return self.penalty(keep, self.head.signed_distance().value(p))[0];
+            return self.penalty(clearance, self.head.signed_distance().value(p))[0];
         }
         let mut energy = 0.0;
-        self.for_each_near(keep, p, |distance, _, _| energy += self.penalty(keep, distance)[0]);
+        self.for_each_near(clearance, p, |distance, _, _| {
+            energy += self.penalty(clearance, distance)[0]
+        });
         energy
     }
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
-        let keep = self.keep(s);
+        let clearance = self.clearance(s);
         let mut sum: Option<(DVec3, DMat3)> = None;
-        self.for_each_near(keep, p, |distance, gradient, hessian| {
-            let [_, slope, bend] = self.penalty(keep, distance);
+        self.for_each_near(clearance, p, |distance, gradient, hessian| {
+            let [_, slope, bend] = self.penalty(clearance, distance);
             let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
             // E(D(r)): ∇E = E′ ∇D and ∇²E = E″ ∇D ∇Dᵀ + E′ ∇²D; |∇D| is 1 but for the smoothing of the distance.
             *force += gradient * slope;

@@ -22,7 +22,7 @@ pub struct Fibre {
 }
 
 impl Fibre {
-    /// Checks and prepares.
+    /// Checks the description and computes what all hits on the fibre share.
     ///
     /// # Errors
     ///
@@ -44,13 +44,13 @@ impl Fibre {
         })
     }
 
-    /// What it was made of.
+    /// Returns the description.
     #[must_use]
     pub fn spec(&self) -> &FibreSpec {
         &self.spec
     }
 
-    /// The same fibre of another absorption, which hardly costs anything: hairs differ in pigment.
+    /// Returns the same fibre with another absorption, at little cost: hairs differ in pigment.
     ///
     /// # Errors
     ///

@@ -1,6 +1,6 @@
-//! The hair BSDF: how one fibre scatters light, for the final picture.
+//! The hair BSDF (also BCSDF): scattering of light by one elliptical fibre, for the final picture.
 //!
-//! Near-field: where across the fibre's width a ray meets it is known. Light leaves by reflection
+//! It is a near-field model: the offset of the ray across the fibre's width is known. Light leaves by reflection
 //! (R), straight through (TT), after one reflection inside (TRT), or later (the rest, spread evenly
 //! around the fibre). Each lobe p has an energy A, a spread M along the fibre and N around it,
 //!

@@ -156,7 +156,7 @@ impl Newton {
                 }
                 iterations += 1;
                 let step = self.step(&at, &shape, energy, &mut damping);
-                // A step whose decrease drowns in rounding is judged by the gradient: quadratic convergence at least halves it.
+                // A step whose decrease drowns in rounding is checked by the gradient: quadratic convergence at least halves it.
                 let rounded = step.as_ref().is_none_or(|s| s.below_rounding);
                 stalled =
                     if rounded && gradient_norm > 0.5 * last_gradient { stalled + 1 } else { 0 };

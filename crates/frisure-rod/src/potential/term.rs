@@ -97,28 +97,28 @@ impl ElementState<'_> {
 /// Gradient and Hessian of an energy by frame (η), position (ξ) and control (x).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Derivatives {
-    /// By η (J).
+    /// Gradient by η (J).
     pub rotation: DVec3,
-    /// By ξ (J/m).
+    /// Gradient by ξ (J/m).
     pub position: DVec3,
-    /// By x (J).
+    /// Gradient by x (J).
     pub control: DVec3,
-    /// By η twice (J); symmetric.
+    /// Hessian block by η and η (J); symmetric.
     pub rotation_rotation: DMat3,
-    /// By η (rows) and ξ (columns) (J/m).
+    /// Hessian block by η (rows) and ξ (columns) (J/m).
     pub rotation_position: DMat3,
-    /// By ξ twice (J/m²); symmetric.
+    /// Hessian block by ξ and ξ (J/m²); symmetric.
     pub position_position: DMat3,
-    /// By η (rows) and x (columns) (J).
+    /// Hessian block by η (rows) and x (columns) (J).
     pub rotation_control: DMat3,
-    /// By ξ (rows) and x (columns) (J/m).
+    /// Hessian block by ξ (rows) and x (columns) (J/m).
     pub position_control: DMat3,
-    /// By x twice (J); symmetric.
+    /// Hessian block by x and x (J); symmetric.
     pub control_control: DMat3,
 }
 
 impl Derivatives {
-    /// Everything zero: where sums start.
+    /// All derivatives zero, the start of a sum.
     pub const ZERO: Self = Self {
         rotation: DVec3::ZERO,
         position: DVec3::ZERO,

@@ -21,7 +21,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     extensions: &["abc"],
     title: "Alembic curves for Unreal, Blender, Houdini and Maya",
     frame: names::FRAME,
-    tells_guides: true,
+    holds_guides: true,
     usual_points: None,
     check: check_curves,
     write: write::encode,

@@ -41,7 +41,7 @@ const fn declaration(
         extensions,
         title,
         frame: Frame::METRES_Z,
-        tells_guides: true,
+        holds_guides: true,
         usual_points: None,
         check: check_curves,
         write,

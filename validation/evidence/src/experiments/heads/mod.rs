@@ -43,16 +43,16 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     progress.report("heads", 0.0);
     let head = mannequin();
     finding.table(sentences::table());
-    first(&mut finding, head, effort, progress)?;
+    figure_1(&mut finding, head, effort, progress)?;
     collisions::on_a_sphere(&mut finding)?;
     collisions::on_heads(&mut finding, head, effort, progress)?;
     styled::cut_wet(&mut finding, head, effort, progress)?;
-    kinds(&mut finding, head, effort, progress)?;
+    figure_7(&mut finding, head, effort, progress)?;
     Ok(finding)
 }
 
 /// Figure 1: a hair, its wisp, the head.
-fn first(
+fn figure_1(
     finding: &mut Finding,
     head: &Head,
     effort: Effort,
@@ -115,7 +115,7 @@ fn check_order(finding: &mut Finding, drops: &[f64], fills: &[f64]) {
 }
 
 /// Figure 7: straight, curly, frizzy.
-fn kinds(
+fn figure_7(
     finding: &mut Finding,
     head: &Head,
     effort: Effort,
