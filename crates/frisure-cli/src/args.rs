@@ -90,7 +90,7 @@ pub(crate) enum Command {
     Measured(Measured),
     /// Print the JSON Schema of scenes: every key, its unit and its range.
     Schema,
-    /// Hold frisure against independent physics and the paper, and write the book of evidence.
+    /// Compare frisure with independent physics and the paper, and write the validation report.
     Validate(Validate),
 }
 
@@ -102,12 +102,12 @@ Examples:
   frisure predict scenes/curly.toml --image curly.png --quality final
   frisure predict scenes/growth.toml --each-step --image out/growth.png
 
-Folders of outputs are made. Paths in a scene are relative to the scene, or to the current folder
-if it comes from standard input.
+The command creates the folders of its outputs. Paths in a scene are relative to the scene, or to
+the current folder if the scene comes from standard input.
 
-Of 50 000 and more simulated hairs ([wisps] strands = \"simulated\") those that have come to rest are
-kept in OUTPUT.hairs.part until the output is written: after Ctrl-C or a crash the same command goes
-on from there.";
+With 50 000 or more simulated hairs ([wisps] strands = \"simulated\") the command saves a checkpoint,
+OUTPUT.hairs.part, until the output is written: after Ctrl-C or a crash the same command resumes
+from it.";
 
 /// Arguments of `frisure predict`.
 #[derive(Args, Debug)]
@@ -160,11 +160,10 @@ Examples:
   frisure style mine.toml --remove 3 --at 3 --step 'dry = {}'
   frisure style mine.toml --step 'grow = { months = 3 }' -o later.toml
 
-The scene is written back in one piece, and nothing but the steps changes in it: comments and layout
-stay. If a step cannot be understood or a number in it is out of range, the scene stays as it is.
-What only the hair itself can tell, such as whether a cut passes above roots or a wisp exists, is
-found by `frisure predict`. Steps are numbered from 1; `--remove` comes before `--at`. What a step
-can say is told in docs/scene.md.";
+The command replaces the scene atomically and changes only its steps: comments and layout stay. If a
+step is invalid or a number in it is out of range, the scene stays unchanged. `frisure predict`
+reports errors that depend on the hair, such as a cut above all roots or a wisp that does not exist.
+Steps are numbered from 1; `--remove` applies before `--at`. docs/scene.md lists the keys of steps.";
 
 /// Arguments of `frisure style`.
 #[derive(Args, Debug)]
@@ -259,10 +258,9 @@ Examples:
   frisure render mine.hair -o mine.png --look scenes/curly.toml
   frisure render scan.ply --unit mm --up y -o scan.png
 
-While it works, the picture so far is saved every minute, and at Ctrl-C; the same command then goes on
-where it was, as long as PICTURE.part lies beside the picture. PNG is what a screen shows (sRGB); EXR
-is the light itself with layers for compositors and denoisers: albedo, normal, tangent, depth, hair,
-wisp.";
+The command saves the picture and a checkpoint, PICTURE.part, every minute and at Ctrl-C; the same
+command then resumes from the checkpoint. PNG has display colours (sRGB); EXR has linear light with
+layers for compositors and denoisers: albedo, normal, tangent, depth, hair, wisp.";
 
 /// Arguments of `frisure render`.
 #[derive(Args, Debug)]
@@ -317,12 +315,12 @@ const CAMERAS: [(&str, &str, f64); 4] = [
 /// What is in a groom file, and how.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct Writing {
-    /// What a groom holds. By default both, in formats that tell guides from hairs, and hairs in others.
+    /// The content of a groom. By default both, in formats that distinguish guides from hairs, and hairs in others.
     #[arg(long, value_enum, value_name = "CONTENT")]
     pub(crate) content: Option<Content>,
 
-    /// Give each strand so many points, evenly spaced along it: 2 to 65536. How far the strands are from what
-    /// they were is told.
+    /// Resample each strand to this number of points, evenly spaced along it: 2 to 65536. The command prints the
+    /// largest distance from the original strands.
     #[arg(long, value_name = "N", value_parser = groom_points)]
     pub(crate) points: Option<usize>,
 
@@ -363,7 +361,7 @@ pub(crate) enum Content {
     Hairs,
     /// The guides.
     Guides,
-    /// Both, told apart.
+    /// Both, as separate groups.
     Both,
 }
 
@@ -419,7 +417,7 @@ fn after_convert() -> String {
         let how = if format.is_read() { "" } else { "; written only" };
         let _ = writeln!(text, "  {:16}{} ({unit}, {up} up{how})", names.join(" "), format.title());
     }
-    text.push_str("\nWhat each holds is told in docs/formats.md.");
+    text.push_str("\ndocs/formats.md describes the content of each.");
     text
 }
 
@@ -428,7 +426,7 @@ Examples:
   frisure hair scenes/curly.toml
   frisure hair scenes/curly.toml --json --points 200 > hair.json
 
-The hair is that of `[hair]`, without variation, clamped at the origin as `[hair.root]` says.
+The hair is that of `[hair]`, without variation, clamped at the origin in the frame of `[hair.root]`.
 JSON is in SI units: `length`, `elements`, `tip`, `energy` (`elastic`, `gravity`, `contact`,
 `total`), `gradient_norm` (relative), `min_eigenvalue` (1 without load, 0 where stability is
 lost), `stable`, `iterations`, `error_estimate`, and with --points also `points`.";
@@ -444,7 +442,7 @@ pub(crate) struct Hair {
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Also print the centre line, as so many points evenly spaced from root to tip; 2 to 1000000.
+    /// Also print the centre line as N points, evenly spaced from root to tip; 2 to 1000000.
     #[arg(long, value_name = "N", value_parser = points)]
     pub(crate) points: Option<usize>,
 }
@@ -455,8 +453,8 @@ Examples:
   frisure presets african-coily
   frisure presets --json > types.json
 
-JSON is in SI units, one object per type, or the one object of the type named. Where each number
-comes from is told in docs/hair-types.md.";
+JSON is in SI units, one object per type, or one object for the named type. docs/hair-types.md has
+the source of each number.";
 
 /// Arguments of `frisure presets`.
 #[derive(Args, Debug)]
@@ -487,14 +485,14 @@ Examples:
   frisure measured lab.csv --column 'D1=max diameter (um)' --column 'D2=min diameter (um)'
   frisure measured people.csv --rows 'texture=curly'
 
-What fibermorph writes is known. Columns of other tables are known by their headings, with a unit:
+The command reads the tables of fibermorph, and columns of other tables with these headings and a unit:
   diameter (um), min diameter (um), max diameter (um), area (um^2), axis ratio, eccentricity,
   curvature (1/mm), curve diameter (mm), curl radius (mm), curl diameter (mm), pitch (mm),
   curl index, turns (1/cm), hair length (cm), Young's modulus (GPa), shear modulus (GPa),
   density (g/cm^3)
-`hair` tells rows of one hair, as windows along it; `n` says how many hairs a row stands for; names
-with mean, median or sd are of many hairs. The scene says where each number is from, and what was not
-measured. docs/measurements.md tells how.";
+A column `hair` groups the rows of one hair, such as windows along it; `n` is the number of hairs of a
+row; headings with mean, median or sd are for many hairs. Comments in the scene give the source of each
+number and what was not measured. docs/measurements.md describes the method.";
 
 /// Arguments of `frisure measured`.
 #[derive(Args, Debug)]
@@ -509,7 +507,7 @@ pub(crate) struct Measured {
     #[arg(long, short, value_name = "SCENE")]
     pub(crate) output: Option<PathBuf>,
 
-    /// The hair type that everything else comes from. By default the one with the nearest curl.
+    /// The hair type for all other numbers. By default the type with the nearest curl.
     #[arg(long = "type", value_name = "TYPE", hide_possible_values = true)]
     #[arg(value_parser = hair_type())]
     pub(crate) hair_type: Option<&'static Preset>,
@@ -518,19 +516,19 @@ pub(crate) struct Measured {
     #[arg(long = "column", value_name = "COLUMN=HEADING", value_parser = pair)]
     pub(crate) columns: Vec<(String, String)>,
 
-    /// Take only rows with this text in that column; a star stands for any text. May be repeated.
+    /// Use only rows with this text in that column; `*` matches any text. May be repeated.
     #[arg(long = "rows", value_name = "COLUMN=TEXT", value_parser = pair)]
     pub(crate) rows: Vec<(String, String)>,
 
-    /// Of curvatures measured with windows of several lengths, this one. [default: the longest]
+    /// The length of the window, for curvatures measured with several. [default: the longest]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(crate) window: Option<f64>,
 
-    /// Take the shape of sections and not their size: micrographs without a scale.
+    /// Use the shape of sections and not their size, for micrographs without a scale.
     #[arg(long)]
     pub(crate) shape_only: bool,
 
-    /// How far the curl without weight advances in a turn, such as '24 mm': the curvature does not tell.
+    /// The pitch of the curl without weight, such as '24 mm': the curvature does not determine it.
     #[arg(long, value_name = "LENGTH", value_parser = length, group = "steepness")]
     pub(crate) pitch: Option<f64>,
 

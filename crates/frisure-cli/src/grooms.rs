@@ -14,7 +14,7 @@ pub(crate) fn check(outputs: &[PathBuf], writing: Writing) -> Result<(), Error> 
     for path in outputs {
         let format = Format::of(path).map_err(|e| Error::because(&e, hint_of(path)))?;
         if writing.content == Some(Content::Both) && !format.holds_guides() {
-            let what = "both guides and hairs: it does not tell them apart".into();
+            let what = "both guides and hairs: it does not distinguish them".into();
             let error = GroomError::CannotHold { format: format.extension(), what };
             return Err(Error::because(&error, "write each with `--content` to a file of its own"));
         }

@@ -22,7 +22,7 @@ pub(crate) fn open(
         progress.suspend(|| console::note(&text));
     }
     interrupt::set_resume(path.exists().then(|| {
-        format!("hairs that have come to rest are kept in `{shown}`; the same command goes on from there")
+        format!("the hairs that have converged are in the checkpoint `{shown}`; the same command resumes from it")
     }));
     Ok(checkpoint)
 }

@@ -22,7 +22,7 @@ pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Error> 
         let whole = resolved(path);
         let overwritten = read.contains(&whole);
         if !asked.insert(whole) {
-            let message = format!("`{}` is asked for twice", path.display());
+            let message = format!("`{}` is given twice", path.display());
             return Err(Error::invalid(message, "give each output a name of its own"));
         }
         if overwritten {

@@ -118,7 +118,7 @@ fn interruption(picture: &FinalPicture<'_>, unsaved: Option<&WriteError>) -> Str
     let (path, paths) = (picture.path.display(), picture.accumulator.mean_samples());
     let so_far = format!("`{path}` is what there is so far, {paths:.0} paths per pixel;");
     match unsaved {
-        None => format!("{so_far} the same command goes on from there."),
+        None => format!("{so_far} the same command resumes from there."),
         Some(error) => format!("{so_far} it cannot go on from there: {error}."),
     }
 }

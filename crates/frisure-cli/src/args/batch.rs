@@ -12,14 +12,14 @@ Examples:
   frisure batch people.toml --list > heads.csv
   frisure batch people.toml --scene 4711 -o head.toml && frisure predict head.toml -o head.abc
 
-The batch (TOML) names a scene, keys of it, and how they differ from head to head: over a [grid], or
-drawn from ranges, distributions and tables of measured people in [vary]. docs/batch.md tells how,
-and what the columns are.
+The batch (TOML) names a scene and the keys of it that differ between heads: over a [grid], or drawn
+from ranges, distributions and tables of measured people in [vary]. docs/batch.md describes the keys
+and the columns.
 
-Heads are written in parts of some rows, each whole or not there. The same command leaves those
-that are there and computes the others; it may be killed at any time. What a head is follows from
-the batch and its number alone, whatever the shards and threads. A head that cannot be is a row
-that says why, and no error.";
+The command writes heads in parts of some rows; each part is complete or absent. The same command
+keeps existing parts and computes the others; it can be killed at any time. A head depends only on
+the batch and its index, not on shards and threads. A head that cannot be computed is a row with a
+message, not an error of the command.";
 
 /// Arguments of `frisure batch`.
 #[derive(Args, Debug)]
@@ -32,17 +32,17 @@ pub(crate) struct Batch {
     #[arg(long, short, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Only the i-th of N equal shares, from 1/N to N/N: for as many programs or machines at a time,
-    /// into one folder.
+    /// Compute only the i-th of N equal shares, from 1/N to N/N: for N programs or machines that write into
+    /// one folder.
     #[arg(long, value_name = "i/N", default_value_t = Shard::WHOLE)]
     pub(crate) shard: Shard,
 
-    /// Print what the heads would be, with commas between, SI units, and compute nothing.
+    /// Print the parameters of all heads as CSV in SI units, and compute nothing.
     #[arg(long, conflicts_with = "output")]
     pub(crate) list: bool,
 
     /// Write the scene of the head with this number, from 0, to standard output or to the file of -o:
-    /// `frisure predict` makes all its hairs again.
+    /// `frisure predict` then computes all its hairs.
     #[arg(long, value_name = "INDEX", conflicts_with_all = ["list", "shard"])]
     pub(crate) scene: Option<usize>,
 }

@@ -12,9 +12,8 @@ Examples:
   frisure validate elastica buckling -o out/physics
   frisure validate --full
 
-Writes index.html, which opens offline with everything inside, and report.md with its pictures
-beside it. An earlier report in the folder is replaced. What each experiment asks, and what came
-out, is told in docs/validation.md.";
+The command writes index.html, which opens offline, and report.md with its pictures. It replaces an
+earlier report in the folder. docs/validation.md has the questions and results of the experiments.";
 
 /// Arguments of `frisure validate`.
 #[derive(Args, Debug)]
@@ -37,7 +36,7 @@ pub(crate) struct Validate {
     #[arg(long, short, value_name = "FOLDER", default_value = "out/validation")]
     pub(crate) output: PathBuf,
 
-    /// Print the experiments and what each asks, and run none.
+    /// Print the experiments with their questions, and run none.
     #[arg(long, conflicts_with_all = ["experiments", "quick", "full", "output"])]
     pub(crate) list: bool,
 }

@@ -55,7 +55,7 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Exi
     let mut totals = Totals::default();
     for (place, part) in missing.iter().enumerate() {
         interrupt::set_resume(Some(format!(
-            "{} of {own} heads are in `{}`; the same command goes on",
+            "{} of {own} heads are in `{}`; the same command resumes",
             before + totals.heads,
             folder.display()
         )));

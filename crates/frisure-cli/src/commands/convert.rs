@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &Convert, quiet: bool) -> Result<ExitStatus, Error>
     outputs::prepare(&paths.iter().map(AsRef::as_ref).collect::<Vec<_>>(), &[path])?;
     let progress = Bar::new(quiet);
     progress.report("reading", 0.0);
-    let groom = read_groom(path, from, "`--from-unit` and `--from-up` say what it has")?;
+    let groom = read_groom(path, from, "set `--from-unit` and `--from-up`")?;
     progress.report("writing", 0.0);
     let read = format!("read {} hairs, {} guides\n", groom.hairs.len(), groom.guides.len());
     let written = grooms::write(groom, paths, *writing)?;

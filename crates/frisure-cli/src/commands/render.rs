@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
     }
     if arguments.axes.is_given() {
         let message = "`--unit` and `--up` are for grooms";
-        let hint = "of a scene's files, `[head]` and `[groom]` say them";
+        let hint = "for the files of a scene, set them in `[head]` and `[groom]`";
         return Err(Error::invalid(message, hint));
     }
     let scene = with_view(&arguments, read_scene(&arguments.scene)?);
@@ -75,7 +75,7 @@ fn with_view(arguments: &Render, mut scene: Scene) -> Scene {
 
 /// The hairs of a groom, or its guides where it has no others.
 fn strands(path: &Path, axes: Axes) -> Result<Strands, Error> {
-    let groom = read_groom(path, axes, "`--unit` and `--up` say what it has")?;
+    let groom = read_groom(path, axes, "set `--unit` and `--up`")?;
     Ok(if groom.hairs.is_empty() { groom.guides } else { groom.hairs })
 }
 

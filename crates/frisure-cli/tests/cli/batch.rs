@@ -88,7 +88,7 @@ fn what_was_killed_goes_on_to_the_same_bytes() {
     let output = child.wait_with_output().unwrap();
     let err = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{err}");
-    assert!(err.contains("of 20 heads are in `cut`; the same command goes on"), "{err}");
+    assert!(err.contains("of 20 heads are in `cut`; the same command resumes"), "{err}");
 
     let out = well(&room, &["a.toml", "-o", "cut"]);
     assert!(out.contains("of which are there already"), "{out}");
