@@ -102,7 +102,7 @@ impl Field for BodyContact<'_> {
         }
         let mut energy = 0.0;
         self.for_each_near(clearance, p, |distance, _, _| {
-            energy += self.penalty(clearance, distance)[0]
+            energy += self.penalty(clearance, distance)[0];
         });
         energy
     }
