@@ -178,7 +178,7 @@ fn gap(a: &[DVec3], b: &[DVec3]) -> f64 {
 
 #[test]
 fn the_second_variation_times_a_step_is_the_derivative_of_the_gradient() {
-    let mut random = Random(5);
+    let mut random = SplitMix64(5);
     for_each_problem(6, |name, chain, external| {
         let problem = Problem::new(chain, external);
         let controls = bent(chain);
@@ -191,7 +191,7 @@ fn the_second_variation_times_a_step_is_the_derivative_of_the_gradient() {
 
 #[test]
 fn the_factors_of_the_second_variation_solve_it() {
-    let mut random = Random(6);
+    let mut random = SplitMix64(6);
     for_each_problem(6, |name, chain, external| {
         let problem = Problem::new(chain, external);
         let operator = problem.second_variation(&chain.shape(bent(chain)), 1);
@@ -207,7 +207,7 @@ fn the_factors_of_the_second_variation_solve_it() {
 
 #[test]
 fn displacements_are_the_derivative_of_sample_points_and_their_transpose_that_of_energies() {
-    let mut random = Random(7);
+    let mut random = SplitMix64(7);
     for kind in KINDS {
         let rod = Rod::new(curl()).unwrap();
         let chain = Chain::uniform(&rod, kind, 6);
