@@ -60,14 +60,14 @@ pub use contact::Pull;
 pub use equilibrium::{Effort, SettlingReport, settling_report};
 pub use fibre::{Curl, Fibre, Handedness, Wetting};
 pub use guides::Guide;
-pub use hairstyle::{Crowded, Hairstyle};
+pub use hairstyle::{Crowded, Hairstyle, JointCertificate};
 pub use history::{History, HistoryError};
 pub use implantation::{PartingError, Root, scalp_area};
 pub use predict::{PredictError, PredictOptions, Start, predict, redrawn};
 pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset, preset};
 pub use random::Draws;
 pub use spec::{
-    Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec,
+    Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec, HeadMethod,
     Implantation, InvalidSpec, Length, Level, Lift, Number, Parting, Place, Range, RegionLength,
     RegionStyle, Scalar, Settling, Turn, Whorls, Wisps, number,
 };

@@ -18,6 +18,7 @@ pub(crate) enum Purpose {
     GrownCurl,
     HairFibre,
     Batch,
+    Lanczos,
 }
 
 /// A stream of random numbers.

@@ -4,7 +4,8 @@ use std::sync::OnceLock;
 
 use frisure_hairstyle::head::{Head, ScalpSource};
 use frisure_hairstyle::{
-    Body, HairContact, Hairstyle, HairstyleSpec, PredictOptions, predict, preset, settling_report,
+    Body, HairContact, Hairstyle, HairstyleSpec, HeadMethod, PredictOptions, Start, predict,
+    preset, settling_report,
 };
 use frisure_strands::Surface;
 use glam::{DQuat, DVec3};
@@ -127,4 +128,77 @@ fn wisps_keep_apart_without_a_body_and_on_spheres() {
         // A crease between spheres can hold a guide that does not come to rest.
         assert!(report.stable >= 29, "{body:?}: {report:?}");
     }
+}
+
+/// A head that comes to rest by continuation, of few guides of few elements.
+fn together() -> HairstyleSpec {
+    let mut spec = spec(HairContact::Wisps);
+    spec.wisps.count = 30;
+    spec.equilibrium.resolution = frisure_rod::Resolution::Elements(16);
+    spec.equilibrium.method = HeadMethod::Continuation;
+    spec
+}
+
+/// Largest distance (m) between the same points of two hairstyles, guide by guide, in order.
+fn moves(a: &Hairstyle, b: &Hairstyle) -> Vec<f64> {
+    let line = |style: &Hairstyle, i: usize| style.equilibria()[i].centre_line(40);
+    let of_guide = |i: usize| {
+        let (a, b) = (line(a, i), line(b, i));
+        a.iter().zip(&b).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max)
+    };
+    let mut moves: Vec<f64> = (0..a.guides().len()).map(of_guide).collect();
+    moves.sort_by(f64::total_cmp);
+    moves
+}
+
+#[test]
+fn a_head_together_is_at_a_certified_minimum() {
+    let style = predict(&together(), head(), PredictOptions::default(), &()).unwrap();
+    let report = settling_report(&style, head());
+    let joint = report.joint.expect("settled together");
+    assert!(joint.stable && joint.gradient_norm <= 1e-8, "{joint:?}");
+    let lowest = joint.lowest_eigenvalue.expect("each guide is at a minimum");
+    // Contact makes a head softer in some direction than its guides are one by one.
+    assert!(lowest > joint.eigenvalue_error && lowest < 1.0, "{joint:?}");
+    assert_eq!((report.stable, report.not_converged), (30, 0));
+    // A minimum of the same energy as that of sweeps, and in a valley of about the same height.
+    let mut sweeps = together();
+    sweeps.equilibrium.method = HeadMethod::Sweeps;
+    sweeps.equilibrium.tolerance = 1e-4;
+    let sweeps = predict(&sweeps, head(), PredictOptions::default(), &()).unwrap();
+    let other = settling_report(&sweeps, head());
+    assert_eq!(other.joint, None);
+    let (found, expected) = (report.energy.total(), other.energy.total());
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    // From there on it stays where it is.
+    let options = PredictOptions {
+        previous: Some(&style),
+        start: Start::Previous,
+        ..PredictOptions::default()
+    };
+    let again = predict(&together(), head(), options, &()).unwrap();
+    assert!(moves(&style, &again)[29] < 1e-6, "{:?}", moves(&style, &again));
+}
+
+#[test]
+fn a_head_together_hardly_moves_for_a_millionth_of_its_length() {
+    let style = |factor: f64| {
+        let mut spec = together();
+        spec.length.mean *= factor;
+        predict(&spec, head(), PredictOptions::default(), &()).unwrap()
+    };
+    let moves = moves(&style(1.0), &style(1.0 + 1e-6));
+    assert!(moves[15] < 5e-5 && moves[28] < 5e-4, "{moves:?}");
+}
+
+#[test]
+fn a_head_together_is_the_same_whatever_the_number_of_threads() {
+    let positions = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let style =
+            pool.install(|| predict(&together(), head(), PredictOptions::default(), &()).unwrap());
+        let shapes = style.equilibria().iter();
+        shapes.flat_map(|rest| rest.shape.positions.clone()).collect::<Vec<DVec3>>()
+    };
+    assert_eq!(positions(1), positions(3));
 }

@@ -223,3 +223,38 @@ fn displacements_are_the_derivative_of_sample_points_and_their_transpose_that_of
         assert!((work - same).abs() < 1e-12 * work.abs(), "{kind:?}: {work} {same}");
     }
 }
+
+#[test]
+fn one_pass_gives_the_product_and_the_forces_by_the_controls() {
+    let mut random = SplitMix64(8);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let operator = problem.second_variation(&chain.shape(bent(chain)), 2);
+        assert_eq!(operator.sample_count(), 12);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let forces: Vec<DVec3> = (0..12).map(|_| random.cube()).collect();
+        let changes = operator.node_changes(&step);
+        let found = operator.apply_with(&step, &changes, &forces);
+        let apart = operator.apply(&step).into_iter().zip(operator.by_controls(&forces));
+        let sum: Vec<DVec3> = apart.map(|(product, by_control)| product + by_control).collect();
+        assert!(gap(&found, &sum) < 1e-14, "{name}: {}", gap(&found, &sum));
+        assert_eq!(operator.displacements(&step), operator.displacements_with(&step, &changes));
+    });
+}
+
+#[test]
+fn the_gradient_of_the_second_variation_is_that_of_the_energy() {
+    let mut random = SplitMix64(9);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let controls = bent(chain);
+        let operator = problem.second_variation(&chain.shape(controls.clone()), 1);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let exact = difference(&controls, &step, |c| {
+            vec![DVec3::X * problem.energy(&chain.shape(c)).total()]
+        })[0]
+            .x;
+        let found = dot(operator.gradient(), &step);
+        assert!((found - exact).abs() < 1e-6 * exact.abs(), "{name}: {found} {exact}");
+    });
+}

@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 
 use frisure_files::frame::UpAxis;
 use frisure_hairstyle::{
-    Body, Comb, Ellipticity, HairContact, HairModel, Hairs, HairstyleSpec, Handedness, Level, Lift,
-    Scalar, Turn,
+    Body, Comb, Ellipticity, HairContact, HairModel, Hairs, HairstyleSpec, Handedness, HeadMethod,
+    Level, Lift, Scalar, Turn,
 };
 use frisure_look::{Setup, ToneCurve};
 use frisure_rod::{ElementKind, TorsionConstant};
@@ -345,6 +345,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Largest gradient of a guide, relative to the moment of its weight, at which wisps in contact count as at rest;
         /// {}. Default 0.03, a tenth of what friction between hairs would hold.
         "equilibrium.tolerance" => number::<Ratio>();
+        /// How wisps that make way for each other come to rest; for `contact.hair = "wisps"`. Default "sweeps".
+        "equilibrium.method" => value::<OneOf<Keyword<HeadMethod>>>();
         /// The curve that an element can take. Default "auto".
         "equilibrium.element" => value::<OneOf<Keyword<ElementKind>>>();
         /// Which equilibrium, where there are several; for `frisure hair`. Default "gravity".

@@ -3,8 +3,8 @@
 use frisure_files::frame::UpAxis;
 use frisure_hairstyle::head::Region;
 use frisure_hairstyle::{
-    Body, Comb, Ellipticity, HairContact, HairModel, Handedness, Level, PRESETS, Parting, Place,
-    Preset, Turn, Wetting,
+    Body, Comb, Ellipticity, HairContact, HairModel, Handedness, HeadMethod, Level, PRESETS,
+    Parting, Place, Preset, Turn, Wetting,
 };
 use frisure_look::{Backdrop, Daylight, SHADES, Setup, Shade, ToneCurve, linear_from_srgb};
 use frisure_rod::{ElementKind, TorsionConstant};
@@ -298,6 +298,11 @@ keywords! {
         "none" => Self(HairContact::None), "wisps pass through each other";
         "layers" => Self(HairContact::Layers), "a bed of hair by the altitude of the root, as in the paper";
         "wisps" => Self(HairContact::Wisps), "wisps repel each other where they overlap";
+    }
+
+    Keyword<HeadMethod> {
+        "sweeps" => Self(HeadMethod::Sweeps), "one after the other, to `tolerance`: fast, but a small change of the scene can move wisps by centimetres";
+        "continuation" => Self(HeadMethod::Continuation), "all together while their hardness grows: several times slower, with a certificate of the whole head, and a small change of the scene moves wisps little";
     }
 
     Keyword<Body> {

@@ -2,7 +2,8 @@
 
 use frisure::hairstyle::contact::Thickness;
 use frisure::hairstyle::{
-    Body, DrawnHair, HairContact, Hairstyle, SettlingReport, Simulation, Volume, volume,
+    Body, DrawnHair, HairContact, Hairstyle, JointCertificate, SettlingReport, Simulation, Volume,
+    volume,
 };
 use frisure::rod::Energy;
 use frisure::strands::Strands;
@@ -75,6 +76,24 @@ pub struct GuideReport {
     pub tolerance: f64,
     /// Deepest that a guide is inside the head (m).
     pub penetration: f64,
+    /// What was checked of all guides together, with `equilibrium.method = "continuation"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<JointReport>,
+}
+
+/// What was checked of all guides of a head together.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointReport {
+    /// Whether they are at rest at a minimum of the energy of the head.
+    pub stable: bool,
+    /// Largest derivative of the energy of the head, relative to the moment scale of its guide.
+    pub gradient_norm: f64,
+    /// Lowest eigenvalue of the second variation of the head, relative to that of its guides one by one; none if a guide is
+    /// at no minimum by itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lowest_eigenvalue: Option<f64>,
+    /// Residual of that eigenvalue.
+    pub eigenvalue_error: f64,
 }
 
 /// The models of contact, as scenes name them.
@@ -180,6 +199,18 @@ impl GuideReport {
             gradient_norm: settling.gradient_norm,
             tolerance,
             penetration: settling.penetration,
+            joint: settling.joint.map(JointReport::from),
+        }
+    }
+}
+
+impl From<JointCertificate> for JointReport {
+    fn from(certificate: JointCertificate) -> Self {
+        Self {
+            stable: certificate.stable,
+            gradient_norm: certificate.gradient_norm,
+            lowest_eigenvalue: certificate.lowest_eigenvalue,
+            eigenvalue_error: certificate.eigenvalue_error,
         }
     }
 }

@@ -21,6 +21,6 @@ pub use bed::Bed;
 pub use body::BodyContact;
 pub use layers::Layer;
 pub use neighbours::Neighbours;
-pub(crate) use neighbours::{ContactPairs, Samples};
+pub(crate) use neighbours::{Contact, ContactPairs, Samples};
 pub use pull::Pull;
 pub use thickness::Thickness;

@@ -103,6 +103,28 @@ impl GridLevel {
     }
 }
 
+/// Two points that touch, seen from the guide of the first, and the second derivative of their energy by the separation
+/// of the two, which is `a aᵀ − s I`: that by both points themselves, and minus that by one and the other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    /// Index of the own point.
+    pub(crate) point: u32,
+    /// The other guide, and the index of its point.
+    pub(crate) other: (u32, u32),
+    /// a (√(N/m)).
+    along: DVec3,
+    /// s (N/m).
+    across: f64,
+}
+
+impl Contact {
+    /// The second derivative times a relative displacement (m): a change of force (N).
+    #[inline]
+    pub(crate) fn apply(&self, displacement: DVec3) -> DVec3 {
+        self.along * self.along.dot(displacement) - displacement * self.across
+    }
+}
+
 /// A point of one guide, and guide and point of what it may touch.
 type Touch = (u32, (u32, u32));
 
@@ -238,6 +260,37 @@ impl ContactPairs {
         self.nearby[guide].guides.iter().map(|&g| g as usize)
     }
 
+    /// Sets the stiffness of hair per length of hair (Pa).
+    pub(crate) fn set_stiffness(&mut self, stiffness: f64) {
+        self.stiffness = stiffness;
+    }
+
+    /// The contacts of one guide, in the order of its points.
+    pub(crate) fn contacts(&self, guide: usize) -> Vec<Contact> {
+        let (own, near) = (&self.samples[guide], &self.nearby[guide]);
+        let mut contacts = Vec::new();
+        for (k, other) in near.iter() {
+            let samples = &self.samples[other.0 as usize];
+            let (here, there) = (k as usize, other.1 as usize);
+            let away = own.positions[here] - samples.positions[there];
+            let reach = own.radii[here] + samples.radii[there];
+            let square = 1.0 / (reach * reach);
+            let overlap = 1.0 - away.length_squared() * square;
+            if overlap > 0.0 {
+                // ∇²E of [`Neighbours::derivatives`], integrated along both guides.
+                let length = own.weight(here) * samples.weight(there);
+                let scale = 0.75 * self.stiffness * length / reach * overlap;
+                contacts.push(Contact {
+                    point: k,
+                    other,
+                    along: away * (4.0 * scale * square).sqrt(),
+                    across: scale * overlap,
+                });
+            }
+        }
+        contacts
+    }
+
     /// The contact energy of one guide with the others.
     pub(crate) fn around(&self, guide: usize) -> Neighbours<'_> {
         Neighbours { pairs: self, guide, share: 1.0 }
@@ -345,6 +398,21 @@ mod tests {
         let pairs = pairs(3e-3);
         let p = DVec3::new(0.0501, 3e-4, -4e-4);
         agrees_with_differences(&pairs.around(0), 0.05, p);
+    }
+
+    #[test]
+    fn contacts_add_up_to_the_second_derivative() {
+        let pairs = pairs(3e-3);
+        let (own, k) = (&pairs.samples[0], 49);
+        let (_, hessian) = pairs.around(0).derivatives(0.05, own.positions[k]).unwrap();
+        let displacement = DVec3::new(0.3, -0.5, 0.2);
+        let contacts = pairs.contacts(0);
+        let at_point = contacts.iter().filter(|contact| contact.point == k as u32);
+        let sum: DVec3 = at_point.map(|contact| contact.apply(displacement)).sum();
+        let expected = hessian * displacement * own.weight(k);
+        assert!(sum.distance(expected) < 1e-12 * expected.length(), "{sum} {expected}");
+        // From either side the same pairs.
+        assert_eq!(contacts.len(), pairs.contacts(1).len());
     }
 
     #[test]

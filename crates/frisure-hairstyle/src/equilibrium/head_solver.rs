@@ -19,7 +19,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::fields::body;
-use super::wisp::{Settled, Wisp};
+use super::wisp::{Settled, Wisp, rest_among};
 use crate::contact::{ContactPairs, Layer};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
@@ -335,7 +335,7 @@ impl HeadSolver<'_> {
 
     /// Energy of the head (J).
     fn energy(&self) -> f64 {
-        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.pairs, i);
+        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.pairs, i, None);
         // Summed in order, so that it does not depend on threads.
         self.wisps.par_iter().enumerate().map(share).collect::<Vec<f64>>().iter().sum()
     }
@@ -344,17 +344,7 @@ impl HeadSolver<'_> {
         let count = self.wisps.len();
         // The lists without margins: certificates count what touches now, nothing else.
         self.pairs.update_neighbours(&vec![0.0; count], &vec![true; count]);
-        let pairs = &self.pairs;
-        let overlap_energy =
-            self.wisps.iter().enumerate().map(|(i, w)| w.overlap_energy(pairs, i)).sum::<f64>()
-                * 0.5;
-        let guides = self
-            .wisps
-            .par_iter()
-            .enumerate()
-            .map(|(i, w)| w.equilibrium(pairs, i, self.tolerance))
-            .collect();
-        Rest { guides, overlap_energy, sweeps }
+        Rest { sweeps, ..rest_among(&self.wisps, &self.pairs, self.tolerance) }
     }
 }
 

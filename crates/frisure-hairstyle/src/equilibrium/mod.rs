@@ -3,6 +3,7 @@
 mod fields;
 mod guide_solver;
 mod head_solver;
+mod joint;
 mod report;
 mod start;
 mod wisp;
@@ -14,7 +15,7 @@ pub(crate) use start::{Change, GuideStart};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
-use crate::spec::{HairContact, HairstyleSpec};
+use crate::spec::{HairContact, HairstyleSpec, HeadMethod};
 use frisure_progress::{Cancelled, Progress};
 
 /// How much work is done at most; what does not fit is left for the next call, which starts warm.
@@ -71,6 +72,9 @@ pub(crate) fn settle(
     };
     if !wisps_repel || effort.sweeps == 0 {
         return Ok(Rest::apart(alone));
+    }
+    if spec.equilibrium.method == HeadMethod::Continuation && effort == Effort::FULL {
+        return joint::settle(spec, head, guides, &alone, warm, progress);
     }
     // Sweeps decide which wisp lies on which; a warm start has decided it.
     let sweep_first = effort == Effort::FULL && !warm;

@@ -4,7 +4,7 @@ use frisure_rod::Stability;
 use rayon::prelude::*;
 
 use super::fields::depth;
-use crate::hairstyle::{Hairstyle, Rest};
+use crate::hairstyle::{Hairstyle, JointCertificate, Rest};
 use crate::head::Head;
 
 /// How a set of guides came to rest.
@@ -30,14 +30,20 @@ pub struct SettlingReport {
     pub penetration: f64,
     /// Energies of all guides (J). What a pair of wisps pays for overlapping is counted once.
     pub energy: frisure_rod::Energy,
+    /// What was checked of all guides together; none where each was settled while the others held still.
+    pub joint: Option<JointCertificate>,
 }
 
 /// Reports how the guides of a hairstyle came to rest on its head.
 #[must_use]
 pub fn settling_report(hairstyle: &Hairstyle, head: &Head) -> SettlingReport {
-    let Rest { guides, overlap_energy, sweeps } = &hairstyle.rest;
-    let mut report =
-        SettlingReport { guides: guides.len(), sweeps: *sweeps, ..SettlingReport::default() };
+    let Rest { guides, overlap_energy, sweeps, joint } = &hairstyle.rest;
+    let mut report = SettlingReport {
+        guides: guides.len(),
+        sweeps: *sweeps,
+        joint: *joint,
+        ..SettlingReport::default()
+    };
     for guide in guides {
         let c = &guide.certificate;
         match c.stability {

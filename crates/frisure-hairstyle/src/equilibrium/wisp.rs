@@ -1,13 +1,17 @@
 //! One guide among others that hold still.
 
-use frisure_rod::minimise::{Minimiser, Minimum, Newton, NewtonStep, Problem, StoppingCriteria};
+use frisure_rod::minimise::{
+    Minimiser, Minimum, Newton, NewtonStep, Problem, SecondVariation, StoppingCriteria,
+};
 use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{Chain, Equilibrium, Rod, Shape};
 use glam::{DMat3, DVec3};
+use rayon::prelude::*;
 
 use super::fields::{along, samples};
-use crate::contact::{BodyContact, ContactPairs, Samples};
+use crate::contact::{BodyContact, ContactPairs, Layer, Samples};
 use crate::guides::Guide;
+use crate::hairstyle::Rest;
 
 /// Iterations of one guide in one sweep: the others will move, too. Chosen by trial; not measured further.
 const ITERATIONS: usize = 1;
@@ -82,6 +86,31 @@ impl<'a> Wisp<'a> {
         let elements = self.chain.len() as f64;
         let spacing = self.guide.rod.length() / (elements * f64::from(self.resolution));
         Samples::new(self.points(), spacing, &self.guide.thickness)
+    }
+
+    /// Sets the bed of hair that the guide lies on besides the other wisps.
+    pub(super) fn set_layer(&mut self, layer: Layer) {
+        self.body.layer = layer;
+    }
+
+    /// Where the guide is, with a tether of a share of the stiffness at which it would move by [`FIRST_SAG`].
+    pub(super) fn anchor(&self, share: f64) -> Anchor {
+        let stiffness = share * firmness(&self.guide.rod);
+        Anchor { stiffness, from: self.settled.shape.clone() }
+    }
+
+    /// Gradient and second variation of the energy while all others hold still, held by a tether.
+    pub(super) fn second_variation(
+        &self,
+        pairs: &ContactPairs,
+        index: usize,
+        anchor: Option<&Anchor>,
+    ) -> SecondVariation {
+        let around = pairs.around(index);
+        let around = FieldPotential::new(&around, self.resolution);
+        self.held(&around, anchor, |problem| {
+            problem.second_variation(&self.settled.shape, self.resolution)
+        })
     }
 
     /// Some steps downhill while all others hold still, by at most `reach` (m).
@@ -170,6 +199,20 @@ impl<'a> Wisp<'a> {
         self.feeling(&around, tether, act)
     }
 
+    /// Calls `act` with the energy of this guide in the body, in what pulls at it, in one more and in a tether.
+    fn held<T>(
+        &self,
+        around: &dyn Potential,
+        anchor: Option<&Anchor>,
+        act: impl FnOnce(&Problem<'_>) -> T,
+    ) -> T {
+        let Some(Anchor { stiffness, from }) = anchor else {
+            return self.feeling(around, None, act);
+        };
+        let tether = Tether { stiffness: *stiffness, spacing: self.chain.arc()[1], from };
+        self.feeling(around, Some(&FieldPotential::new(&tether, 1)), act)
+    }
+
     /// Calls `act` with the energy of this guide in the body, in what pulls at it and in more.
     fn feeling<T>(
         &self,
@@ -191,11 +234,11 @@ impl<'a> Wisp<'a> {
         self.chain.energy(&self.settled.shape, &FieldPotential::new(&around, self.resolution))
     }
 
-    /// What the guide adds to the energy of the head (J): half of what it shares with others.
-    pub(super) fn share(&self, pairs: &ContactPairs, index: usize) -> f64 {
+    /// What the guide adds to the energy of the head (J): half of what it shares with others, and its tether.
+    pub(super) fn share(&self, pairs: &ContactPairs, index: usize, anchor: Option<&Anchor>) -> f64 {
         let around = pairs.shared(index);
         let around = FieldPotential::new(&around, self.resolution);
-        self.feeling(&around, None, |problem| problem.energy(&self.settled.shape).total())
+        self.held(&around, anchor, |problem| problem.energy(&self.settled.shape).total())
     }
 
     /// The guide as an equilibrium.
@@ -216,6 +259,17 @@ impl<'a> Wisp<'a> {
     }
 }
 
+/// Guides among each other as they are, each certified to a relative gradient of `tolerance` while the others hold still.
+pub(super) fn rest_among(wisps: &[Wisp<'_>], pairs: &ContactPairs, tolerance: f64) -> Rest {
+    let overlaps = wisps.iter().enumerate().map(|(i, wisp)| wisp.overlap_energy(pairs, i));
+    // Each pair counts on both sides.
+    let overlap_energy = overlaps.sum::<f64>() * 0.5;
+    let guides = (wisps.par_iter().enumerate())
+        .map(|(i, wisp)| wisp.equilibrium(pairs, i, tolerance))
+        .collect();
+    Rest { overlap_energy, ..Rest::apart(guides) }
+}
+
 /// Stiffness (Pa) that holds a guide in its first sweep: its weight and its elasticity move it by
 /// about [`FIRST_SAG`] against it.
 fn firmness(rod: &Rod) -> f64 {
@@ -227,6 +281,13 @@ fn firmness(rod: &Rod) -> f64 {
 fn farthest(a: &Shape, b: &Shape) -> f64 {
     let moves = a.positions.iter().zip(&b.positions);
     moves.map(|(p, q)| p.distance_squared(*q)).fold(0.0, f64::max).sqrt()
+}
+
+/// Where a tether holds a guide.
+pub(super) struct Anchor {
+    /// Stiffness of the tether (Pa).
+    stiffness: f64,
+    from: Shape,
 }
 
 /// Holds a guide near where it was, `½ c |r − r₀|²` per length.

@@ -14,6 +14,7 @@ use crate::spec::HairstyleSpec;
 
 pub use placement::Crowded;
 pub(crate) use placement::RootPlacement;
+pub use rest::JointCertificate;
 pub(crate) use rest::Rest;
 pub use wisp_state::WispState;
 pub(crate) use wisp_state::{DRAWN, Ends, Grip, Lay, Mould, ROOM, Styling, strain_of};

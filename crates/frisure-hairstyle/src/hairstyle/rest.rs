@@ -8,13 +8,29 @@ pub(crate) struct Rest {
     pub(crate) guides: Vec<Equilibrium>,
     /// Energy of wisps that overlap (J), each pair counted once.
     pub(crate) overlap_energy: f64,
-    /// Sweeps over the guides.
+    /// Sweeps over the guides, or steps of all together.
     pub(crate) sweeps: usize,
+    /// The certificate of all guides together, if they were settled together.
+    pub(crate) joint: Option<JointCertificate>,
+}
+
+/// What was checked of all guides of a head together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointCertificate {
+    /// Largest derivative of the energy of the head by any control, relative to the moment scale EI/L + ρSgL² of its guide.
+    pub gradient_norm: f64,
+    /// Lowest eigenvalue of the second variation of the head, relative to that of each guide while the others hold still: 1
+    /// without contact, positive at a minimum. `None` if a guide is at no minimum by itself. docs/theory.md (H4)
+    pub lowest_eigenvalue: Option<f64>,
+    /// Residual of that eigenvalue: an eigenvalue lies within it.
+    pub eigenvalue_error: f64,
+    /// Whether the gradient is below the tolerance, and the lowest eigenvalue above zero by more than its residual.
+    pub stable: bool,
 }
 
 impl Rest {
     /// Guides that do not touch each other.
     pub(crate) fn apart(guides: Vec<Equilibrium>) -> Self {
-        Self { guides, overlap_energy: 0.0, sweeps: 0 }
+        Self { guides, overlap_energy: 0.0, sweeps: 0, joint: None }
     }
 }

@@ -404,13 +404,33 @@ digestible! {
         pub element: frisure_rod::ElementKind => add_element,
         /// Relative gradient of each guide at which wisps that make way for each other are at rest.
         /// Friction between hairs, of which the energy knows nothing, would hold a hundred times 1e-3.
+        /// Only for [`HeadMethod::Sweeps`].
         pub tolerance: f64,
+        /// How wisps that make way for each other come to rest.
+        pub method: HeadMethod,
     }
+}
+
+/// How wisps that make way for each other come to rest together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HeadMethod {
+    /// One after the other and along conjugate directions, until the gradient is below a tolerance: fast. Which wisp lies on
+    /// which depends on where the iteration stops, so that a small change of the input can move guides by centimetres.
+    #[default]
+    Sweeps,
+    /// All together, while their hardness grows: several times slower, to a gradient of 1e-8 and with a certificate of the
+    /// head. A small change of the input moves guides little, except where a wisp snaps past another.
+    Continuation,
 }
 
 impl Default for Settling {
     fn default() -> Self {
         let resolution = frisure_rod::Resolution::Accuracy(5e-4);
-        Self { resolution, element: frisure_rod::ElementKind::default(), tolerance: 3e-2 }
+        Self {
+            resolution,
+            element: frisure_rod::ElementKind::default(),
+            tolerance: 3e-2,
+            method: HeadMethod::default(),
+        }
     }
 }

@@ -9,8 +9,9 @@ mod ranges;
 
 pub use crate::head::Hairline;
 pub use description::{
-    Body, Comb, Contact, Flow, HairContact, HairModel, Hairs, HairstyleSpec, Implantation, Length,
-    Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn, Whorls, Wisps,
+    Body, Comb, Contact, Flow, HairContact, HairModel, Hairs, HairstyleSpec, HeadMethod,
+    Implantation, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn,
+    Whorls, Wisps,
 };
 pub use numbers::{Number, Scalar, number};
 pub(crate) use ranges::range;

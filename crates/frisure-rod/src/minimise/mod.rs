@@ -25,4 +25,4 @@ pub use newton::{Newton, NewtonStep};
 pub use problem::{Energy, Problem};
 #[cfg(test)]
 pub(crate) use rollout::damped_step;
-pub use second_variation::{SecondVariation, SecondVariationFactor};
+pub use second_variation::{NodeChanges, SecondVariation, SecondVariationFactor};

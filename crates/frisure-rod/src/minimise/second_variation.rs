@@ -29,7 +29,13 @@ pub struct SecondVariation {
     samples_per_element: usize,
     /// K/h of each element (N m), the unit of damping.
     stiffness: Vec<DVec3>,
+    gradient: Vec<DVec3>,
 }
+
+/// How a step of the controls changes the state at each node of a rod, to first order.
+/// See [`SecondVariation::node_changes`].
+#[derive(Clone, Debug)]
+pub struct NodeChanges(Vec<State>);
 
 /// How one element moves its end, and the second derivatives of its own energy. docs/theory.md (M1)
 #[derive(Clone, Copy, Debug)]
@@ -177,14 +183,40 @@ impl SecondVariation {
             samples: points,
             samples_per_element,
             stiffness: at.stages.iter().map(|stage| stage.element.stiffness).collect(),
+            gradient: at.gradient.clone(),
         }
+    }
+
+    /// Derivative of the energy by each element's control (N m) at the same shape.
+    #[must_use]
+    pub fn gradient(&self) -> &[DVec3] {
+        &self.gradient
+    }
+
+    /// Number of sample points, see [`Self::displacements`].
+    #[must_use]
+    pub fn sample_count(&self) -> usize {
+        self.samples.len()
     }
 
     /// H x (N m) for a step x (rad) of the controls.
     #[must_use]
     pub fn apply(&self, step: &[DVec3]) -> Vec<DVec3> {
+        self.apply_with(step, &self.node_changes(step), &[])
+    }
+
+    /// H x + Jᵀ f (N m) in one pass, as the Hessian of several rods in contact needs it: what [`Self::apply`] and
+    /// [`Self::by_controls`] give for the step x (rad) and the forces f (N) on the sample points. `changes` are those of the
+    /// step; without forces `forces` is empty.
+    #[must_use]
+    pub fn apply_with(
+        &self,
+        step: &[DVec3],
+        changes: &NodeChanges,
+        forces: &[DVec3],
+    ) -> Vec<DVec3> {
         // 1. The states at all nodes, from root to tip. (M7)
-        let states = self.states(step);
+        let states = &changes.0;
         // 2. Derivatives by states and steps, from tip to root. (M7)
         let mut product = vec![DVec3::ZERO; self.elements.len()];
         let mut beyond = State::default();
@@ -202,6 +234,9 @@ impl SecondVariation {
                 + own.rotation_control.transpose() * rotation
                 + own.position_control.transpose() * position
                 + own.control_control * x;
+            if !forces.is_empty() {
+                product[i] += self.add_forces(i, forces, &mut start);
+            }
             start.rotation += own.rotation_rotation * rotation
                 + own.rotation_position * position
                 + own.rotation_control * x;
@@ -213,8 +248,22 @@ impl SecondVariation {
         product
     }
 
-    /// The change of the state at each node for a step of the controls; the root's is zero.
-    fn states(&self, step: &[DVec3]) -> Vec<State> {
+    /// Adds the forces (N) on the sample points of element `i` to the derivatives by the state at its start, and gives the
+    /// derivative by its control (N m).
+    fn add_forces(&self, i: usize, forces: &[DVec3], start: &mut State) -> DVec3 {
+        let points = i * self.samples_per_element..(i + 1) * self.samples_per_element;
+        let mut by_step = DVec3::ZERO;
+        for (force, sample) in forces[points.clone()].iter().zip(&self.samples[points]) {
+            start.position += *force;
+            start.rotation += sample.lever.transpose() * *force;
+            by_step += sample.advance.transpose() * *force;
+        }
+        by_step
+    }
+
+    /// The change of the state at each node for a step (rad) of the controls; the root's is zero.
+    #[must_use]
+    pub fn node_changes(&self, step: &[DVec3]) -> NodeChanges {
         let mut states = Vec::with_capacity(self.elements.len() + 1);
         let mut state = State::default();
         states.push(state);
@@ -222,14 +271,20 @@ impl SecondVariation {
             state = element.forward(state, *x);
             states.push(state);
         }
-        states
+        NodeChanges(states)
     }
 
     /// How a step x (rad) moves each sample point (m), to first order. The points are those of
     /// [`crate::Chain::sample_points`].
     #[must_use]
     pub fn displacements(&self, step: &[DVec3]) -> Vec<DVec3> {
-        let states = self.states(step);
+        self.displacements_with(step, &self.node_changes(step))
+    }
+
+    /// [`Self::displacements`] of a step whose changes at the nodes are known.
+    #[must_use]
+    pub fn displacements_with(&self, step: &[DVec3], changes: &NodeChanges) -> Vec<DVec3> {
+        let states = &changes.0;
         let moved = |(k, sample): (usize, &SampleBlocks)| {
             let i = k / self.samples_per_element;
             states[i].position + sample.lever * states[i].rotation + sample.advance * step[i]
@@ -244,14 +299,8 @@ impl SecondVariation {
         let mut sum = vec![DVec3::ZERO; self.elements.len()];
         let mut beyond = State::default();
         for (i, element) in self.elements.iter().enumerate().rev() {
-            let (mut start, mut by_step) = element.backward(beyond);
-            let points = i * self.samples_per_element..(i + 1) * self.samples_per_element;
-            for (force, sample) in forces[points.clone()].iter().zip(&self.samples[points]) {
-                start.position += *force;
-                start.rotation += sample.lever.transpose() * *force;
-                by_step += sample.advance.transpose() * *force;
-            }
-            sum[i] = by_step;
+            let (mut start, by_step) = element.backward(beyond);
+            sum[i] = by_step + self.add_forces(i, forces, &mut start);
             beyond = start;
         }
         sum

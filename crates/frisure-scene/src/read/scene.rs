@@ -109,6 +109,7 @@ fn wetting(
 fn equilibrium(document: &Document<'_>, spec: &mut HairstyleSpec) -> Result<Branch> {
     let settings = &mut spec.equilibrium;
     settings.element = document.keyword("equilibrium.element", settings.element)?;
+    settings.method = document.keyword("equilibrium.method", settings.method)?;
     if let Some(elements) = document.number("equilibrium.elements") {
         settings.resolution = Resolution::Elements(elements as usize);
     }

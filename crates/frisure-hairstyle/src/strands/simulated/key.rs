@@ -10,8 +10,8 @@ use crate::head::{Head, Region};
 use crate::implantation::Root;
 use crate::rod_digest::{add_material, add_section, add_torsion};
 use crate::spec::{
-    Body, Comb, Flow, HairContact, HairModel, Hairs, Level, Lift, Parting, Place, RegionLength,
-    Turn,
+    Body, Comb, Flow, HairContact, HairModel, Hairs, HeadMethod, Level, Lift, Parting, Place,
+    RegionLength, Turn,
 };
 
 /// What the hairs of this hairstyle depend on, for the same version: if it is the same, so are the hairs.
@@ -41,6 +41,7 @@ digest_fields!(HairModel: Interpolated, Simulated);
 digest_fields!(Hairs: Count(n), PerWisp(n), Density(density));
 digest_fields!(Body: None, Spheres, SignedDistance);
 digest_fields!(HairContact: None, Layers, Wisps);
+digest_fields!(HeadMethod: Sweeps, Continuation);
 digest_fields!(Root { position, normal });
 
 impl Digestible for Guide {

@@ -1,0 +1,123 @@
+//! The second variation of the energy of a whole head, and the preconditioner of its equations.
+//!
+//! By guides it is `H = diag(H_i) − Σ J_iᵀ K_kl J_j` over the pairs of points k and l of guides i and j that touch, with the
+//! displacements `J_i x_i` of points and the second derivative K_kl of a pair's energy by its separation; H_i contains the sum
+//! of K_kl over what guide i touches. It is never formed: H_i is applied in linear time, K_kl is three by three.
+//! docs/theory.md, "All guides at once" (H1)
+
+use frisure_rod::minimise::{NodeChanges, SecondVariation, SecondVariationFactor};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::contact::Contact;
+
+/// One vector for each element of each guide.
+pub(super) type Controls = Vec<Vec<DVec3>>;
+
+/// The second variation at one state of the head.
+pub(super) struct JointHessian {
+    /// H_i of each guide while the others hold still.
+    pub(super) guides: Vec<SecondVariation>,
+    /// What each guide touches.
+    pub(super) contacts: Vec<Vec<Contact>>,
+}
+
+impl JointHessian {
+    /// Derivative of the energy by every control (N m).
+    pub(super) fn gradient(&self) -> Controls {
+        self.guides.iter().map(|guide| guide.gradient().to_vec()).collect()
+    }
+
+    /// H x (N m) for a step x (rad). (H1)
+    pub(super) fn apply(&self, step: &Controls) -> Controls {
+        let moved: Vec<(NodeChanges, Vec<DVec3>)> = (self.guides.par_iter().zip(step))
+            .map(|(guide, x)| {
+                let changes = guide.node_changes(x);
+                let moved = guide.displacements_with(x, &changes);
+                (changes, moved)
+            })
+            .collect();
+        (self.guides.par_iter().zip(step).enumerate())
+            .map(|(i, (guide, x))| {
+                let mut forces = vec![DVec3::ZERO; guide.sample_count()];
+                for contact in &self.contacts[i] {
+                    let (other, point) = contact.other;
+                    let displacement = moved[other as usize].1[point as usize];
+                    forces[contact.point as usize] -= contact.apply(displacement);
+                }
+                guide.apply_with(x, &moved[i].0, &forces)
+            })
+            .collect()
+    }
+}
+
+/// Damping of a guide's second variation that is not positive definite, as a fraction of its elastic stiffness: the first
+/// try, and the factor from one to the next. Chosen by trial, as in Newton's method for one rod.
+const FIRST_DAMPING: f64 = 0.3;
+const DAMPING_GROWTH: f64 = 4.0;
+
+/// Damping above which numbers are too large for any step.
+const LARGEST_DAMPING: f64 = 1e12;
+
+/// The factors of each guide's own second variation, damped where it is not positive definite: `M = diag(H_i + σ_i K/h)`.
+pub(super) struct Preconditioner<'a> {
+    factors: Vec<SecondVariationFactor<'a>>,
+    /// Whether no guide is damped.
+    pub(super) exact: bool,
+}
+
+impl<'a> Preconditioner<'a> {
+    /// `None` if a guide's numbers are so large that no damping makes them positive definite.
+    pub(super) fn new(hessian: &'a JointHessian) -> Option<Self> {
+        let factor = |guide: &'a SecondVariation| {
+            let mut damping = 0.0;
+            loop {
+                match guide.factor(damping) {
+                    Some(factor) => return Some((factor, damping == 0.0)),
+                    None if damping > LARGEST_DAMPING => return None,
+                    None => damping = FIRST_DAMPING.max(damping * DAMPING_GROWTH),
+                }
+            }
+        };
+        let factors: Option<Vec<_>> = hessian.guides.par_iter().map(factor).collect();
+        let (factors, exact): (Vec<_>, Vec<bool>) = factors?.into_iter().unzip();
+        Some(Self { factors, exact: !exact.contains(&false) })
+    }
+
+    /// M⁻¹ r (rad) for a residual r (N m).
+    pub(super) fn solve(&self, residual: &Controls) -> Controls {
+        self.factors.par_iter().zip(residual).map(|(factor, r)| factor.solve(r)).collect()
+    }
+}
+
+/// xᵀ y, summed guide by guide in their order, so that it does not depend on threads.
+pub(super) fn dot(x: &Controls, y: &Controls) -> f64 {
+    let of_guide = |(x, y): (&Vec<DVec3>, &Vec<DVec3>)| -> f64 {
+        x.iter().zip(y).map(|(a, b)| a.dot(*b)).sum()
+    };
+    x.iter().zip(y).map(of_guide).sum()
+}
+
+/// x ← x + factor · y.
+pub(super) fn add(x: &mut Controls, factor: f64, y: &Controls) {
+    for (a, b) in x.iter_mut().flatten().zip(y.iter().flatten()) {
+        *a += *b * factor;
+    }
+}
+
+/// x ← y + factor · x.
+pub(super) fn add_scaled(x: &mut Controls, factor: f64, y: &Controls) {
+    for (a, b) in x.iter_mut().flatten().zip(y.iter().flatten()) {
+        *a = *b + *a * factor;
+    }
+}
+
+/// −x.
+pub(super) fn negative(x: &Controls) -> Controls {
+    x.iter().map(|guide| guide.iter().map(|v| -*v).collect()).collect()
+}
+
+/// Zero, of the size of x.
+pub(super) fn zero(x: &Controls) -> Controls {
+    x.iter().map(|guide| vec![DVec3::ZERO; guide.len()]).collect()
+}

@@ -1,0 +1,195 @@
+//! All guides of a head at rest together, by continuation in the hardness of hair.
+//!
+//! From guides that rest alone on the bed of hair, which stands for the others, the bed is exchanged for the other wisps step
+//! by step: each step is an implicit step of an overdamped motion, solved by Newton's method for all guides together. So the
+//! answer is a continuous function of the input, as long as no wisp snaps past another: what decides which wisp lies on
+//! which is the way there, not where an iteration stops. docs/theory.md, "All guides at once"
+
+mod certificate;
+mod hessian;
+mod newton;
+mod state;
+
+use frisure_progress::{Cancelled, Progress, StageCounter};
+use frisure_rod::{Equilibrium, Stability};
+
+use self::certificate::lowest_eigenvalue;
+use self::hessian::Preconditioner;
+use self::newton::minimise;
+use self::state::HeadState;
+use crate::guides::Guide;
+use crate::hairstyle::{JointCertificate, Rest};
+use crate::head::Head;
+use crate::spec::HairstyleSpec;
+
+/// Share of the stiffness of hair at the first stage, and the number of stages from there to the whole, each by the same
+/// factor. Chosen: at a thousandth wisps hardly move each other. With 8 stages some straight hair is no longer continuous.
+const FIRST_SHARE: f64 = 1e-3;
+const HARDENING_STAGES: i32 = 20;
+
+/// Stiffness of the tethers at the first share and at the last, as shares of the stiffness at which a guide's weight moves it
+/// by 4 mm, so that a stage moves it by about a centimetre. Chosen by trial: with 0.06 at the last, Newton's method does
+/// not come to rest in some stages.
+const TETHERS: (f64, f64) = (0.6, 0.3);
+
+/// Factor on the tethers from one stage to the next at full hardness, and the stiffness below which they are let go: there a
+/// stage moves no guide by a micrometre.
+const LOOSENING: f64 = 0.5;
+const LOOSEST: f64 = 1e-4;
+
+/// Relative gradient at which a step ends. Chosen: with 1e-4 the way is no longer continuous.
+const STEP_TOLERANCE: f64 = 1e-6;
+
+/// Steps of Newton's method after which tethers are made firmer, by a factor, where the guides are then; how often that is
+/// tried; and the first stiffness where there was none. Chosen: most stages take 3 to 40 steps.
+const MOST_STEPS: usize = 60;
+const FIRMER: f64 = 4.0;
+const MOST_TRIES: usize = 8;
+const FIRST_TETHER: f64 = 1e-3;
+
+/// Relative gradient of the head at rest, and the most steps that it takes without tethers: three from [`STEP_TOLERANCE`].
+const TOLERANCE: f64 = 1e-8;
+const MOST_LAST_STEPS: usize = 100;
+
+/// Relative gradient below which the head counts as at rest where rounding forbids [`TOLERANCE`]: 1e-5 of EI/L + ρSgL² moves
+/// no tip by a hundredth of a millimetre.
+const CERTIFIED: f64 = 1e-5;
+
+/// One stage of the continuation: an implicit step of the overdamped motion.
+#[derive(Clone, Copy, Debug)]
+struct Stage {
+    /// Share of the stiffness of hair.
+    share: f64,
+    /// Stiffness of the tethers, as a share of the guides' firmness.
+    tether: f64,
+}
+
+/// The stages of the continuation; where the guides rested among each other before, those at full hardness.
+fn stages(among_each_other: bool) -> Vec<Stage> {
+    let (first, last) = TETHERS;
+    let hardening = (0..=HARDENING_STAGES).map(|k| {
+        let done = f64::from(k) / f64::from(HARDENING_STAGES);
+        Stage { share: FIRST_SHARE.powf(1.0 - done), tether: first * (last / first).powf(done) }
+    });
+    let looser = std::iter::successors(Some(last * LOOSENING), |tether| Some(tether * LOOSENING));
+    let loosening = looser.take_while(|tether| *tether > LOOSEST).chain([0.0]);
+    let loosening = loosening.map(|tether| Stage { share: 1.0, tether });
+    if among_each_other { loosening.collect() } else { hardening.chain(loosening).collect() }
+}
+
+/// Brings guides to rest together, from where they are in `start`: alone on the bed of hair, or `among_each_other`.
+///
+/// # Errors
+/// [`Cancelled`], if the work is cancelled.
+pub(super) fn settle(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guides: &[Guide],
+    start: &[Equilibrium],
+    among_each_other: bool,
+    progress: &dyn Progress,
+) -> Result<Rest, Cancelled> {
+    let counter = StageCounter::new(progress, "wisps making way", 1);
+    let mut state = HeadState::new(spec, head, guides, start);
+    let stages = stages(among_each_other);
+    let mut steps = 0;
+    for (k, stage) in stages.iter().enumerate() {
+        state.harden(stage.share);
+        steps += settle_stage(&mut state, stage.tether, &counter)?;
+        counter.at((k + 1) as f64 / stages.len() as f64);
+    }
+    let mut rest = state.rest(CERTIFIED);
+    let joint = certificate(&state, spec.seed);
+    if !joint.stable {
+        // A guide at a minimum while the others hold still is not at rest if they do not.
+        let stability = if joint.gradient_norm > CERTIFIED {
+            Stability::NotConverged
+        } else {
+            Stability::Saddle
+        };
+        for guide in &mut rest.guides {
+            guide.certificate.stability = stability;
+        }
+    }
+    Ok(Rest { sweeps: steps, joint: Some(joint), ..rest })
+}
+
+/// Brings the guides to rest on tethers of a given stiffness; returns the steps taken.
+fn settle_stage(
+    state: &mut HeadState<'_>,
+    tether: f64,
+    counter: &StageCounter<'_>,
+) -> Result<usize, Cancelled> {
+    let mut steps = 0;
+    let mut firmness = tether;
+    for _ in 0..MOST_TRIES {
+        state.hold(firmness);
+        let free = firmness == 0.0;
+        let (tolerance, most) =
+            if free { (TOLERANCE, MOST_LAST_STEPS) } else { (STEP_TOLERANCE, MOST_STEPS) };
+        let descent = minimise(state, tolerance, most, counter)?;
+        steps += descent.steps;
+        if descent.at_rest && firmness == tether {
+            break;
+        }
+        // Not at rest: shorter steps of the motion from where the guides are now, then back to the length asked for.
+        firmness = if descent.at_rest { tether } else { (FIRMER * firmness).max(FIRST_TETHER) };
+    }
+    Ok(steps)
+}
+
+/// What holds of all guides together.
+fn certificate(state: &HeadState<'_>, seed: u64) -> JointCertificate {
+    let hessian = state.hessian();
+    let gradient_norm = state.relative(&hessian.gradient());
+    // A guide that has to be damped has a direction in which the energy curves downwards.
+    let lowest = Preconditioner::new(&hessian)
+        .filter(|preconditioner| preconditioner.exact)
+        .map(|preconditioner| lowest_eigenvalue(&hessian, &preconditioner, seed));
+    let positive = lowest.is_some_and(|lowest| lowest.value > lowest.error);
+    JointCertificate {
+        gradient_norm,
+        lowest_eigenvalue: lowest.map(|lowest| lowest.value),
+        eigenvalue_error: lowest.map_or(0.0, |lowest| lowest.error),
+        stable: positive && gradient_norm <= CERTIFIED,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hessian::{Controls, add, dot, negative, zero};
+    use super::*;
+    use crate::random::{Purpose, Stream};
+    use crate::{PredictOptions, preset};
+    use glam::DVec3;
+
+    #[test]
+    fn the_joint_hessian_is_the_derivative_of_the_joint_gradient() {
+        let head = Head::mannequin();
+        let mut spec = preset("caucasian-curly").unwrap().spec();
+        spec.wisps.count = 40;
+        spec.equilibrium.resolution = frisure_rod::Resolution::Elements(10);
+        let style = crate::predict(&spec, &head, PredictOptions::default(), &()).unwrap();
+        let mut state = HeadState::new(&spec, &head, &style.guides, &style.rest.guides);
+        state.hold(0.1);
+        let hessian = state.hessian();
+        assert!(hessian.contacts.iter().map(Vec::len).sum::<usize>() > 1000);
+        let mut random = Stream::new(1, Purpose::Lanczos, 1);
+        let mut step = zero(&hessian.gradient());
+        step.iter_mut().flatten().for_each(|x| *x = DVec3::splat(random.gaussian()) * 1e-4);
+        state.make_room(&state.lengths(&step));
+        let from = state.shapes();
+        let mut gradient = |fraction: f64| -> Controls {
+            state.go(&from, &step, fraction);
+            state.hessian().gradient()
+        };
+        // Central differences; the energy is twice differentiable, so that they are exact to first order only.
+        let mut expected = gradient(0.1);
+        add(&mut expected, -1.0, &gradient(-0.1));
+        expected.iter_mut().flatten().for_each(|g| *g /= 0.2);
+        let mut gap = hessian.apply(&step);
+        let size = dot(&gap, &gap).sqrt();
+        add(&mut gap, 1.0, &negative(&expected));
+        assert!(dot(&gap, &gap).sqrt() < 1e-4 * size, "{} of {size}", dot(&gap, &gap).sqrt());
+    }
+}
