@@ -48,6 +48,7 @@ Exit status:
   1    a file could not be written, or something else failed
   2    the command line, the scene or the head is wrong
   3    computed and written, but some equilibrium did not converge, or a verdict fails
+  4    computed and written, but some equilibrium misses the requested accuracy
   130  interrupted; no file is left half-written";
 
 /// Predicts how natural hair falls, from the physics of its fibres.
@@ -429,7 +430,8 @@ Examples:
 The hair is that of `[hair]`, without variation, clamped at the origin in the frame of `[hair.root]`.
 JSON is in SI units: `length`, `elements`, `tip`, `energy` (`elastic`, `gravity`, `contact`,
 `total`), `gradient_norm` (relative), `min_eigenvalue` (1 without load, 0 where stability is
-lost), `stable`, `iterations`, `error_estimate`, and with --points also `points`.";
+lost), `stable`, `iterations`, `error_estimate`, `requested_accuracy` and `accuracy_met` (null if
+`[equilibrium]` has a number of elements), and with --points also `points`.";
 
 /// Arguments of `frisure hair`.
 #[derive(Args, Debug)]

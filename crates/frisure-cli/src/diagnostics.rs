@@ -16,6 +16,8 @@ pub(crate) enum ExitStatus {
     Success,
     /// Some equilibrium of the result did not converge.
     NotConverged,
+    /// Every equilibrium converged, but some misses the requested accuracy.
+    AccuracyMissed,
     /// Some criterion of the report fails.
     #[cfg_attr(not(feature = "validate"), expect(dead_code, reason = "of `frisure validate`"))]
     CriterionFailed,
@@ -26,6 +28,7 @@ impl From<ExitStatus> for ExitCode {
         match status {
             ExitStatus::Success => Self::SUCCESS,
             ExitStatus::NotConverged | ExitStatus::CriterionFailed => Self::from(3),
+            ExitStatus::AccuracyMissed => Self::from(4),
         }
     }
 }

@@ -101,7 +101,9 @@ mod stumpff;
 
 pub use centre_line::{Node, centre_line};
 pub use chain::{Chain, Shape};
-pub use equilibrium::{Branch, Certificate, Equilibrium, Options, equilibrium, equilibrium_from};
+pub use equilibrium::{
+    AccuracyStatus, Branch, Certificate, Equilibrium, Options, equilibrium, equilibrium_from,
+};
 pub use error::InvalidQuantity;
 pub use material::Material;
 pub use minimise::{Energy, Stability};

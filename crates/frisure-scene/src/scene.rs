@@ -105,6 +105,16 @@ impl Scene {
         &self.steps
     }
 
+    /// Whether the scene itself has an accuracy (`equilibrium.accuracy`), not the default one.
+    #[must_use]
+    pub fn requests_accuracy(&self) -> bool {
+        // The text was read without errors before.
+        self.source.document().is_ok_and(|document| {
+            let settings = document.get_ref().get("equilibrium");
+            settings.is_some_and(|settings| settings.get_ref().get("accuracy").is_some())
+        })
+    }
+
     /// The text that the scene was read from.
     #[must_use]
     pub fn text(&self) -> &str {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use frisure::rod::{Equilibrium, Stability, equilibrium};
+use frisure::rod::{AccuracyStatus, Equilibrium, Resolution, Stability, equilibrium};
 use frisure_engine::Error;
 use frisure_engine::report::EnergyReport;
 use serde::Serialize;
@@ -31,6 +31,10 @@ struct Report {
     iterations: usize,
     /// Largest distance of the centre line from the exact one (m), estimated.
     error_estimate: Option<f64>,
+    /// The requested accuracy (m); none where a number of elements was given.
+    requested_accuracy: Option<f64>,
+    /// Whether it is met.
+    accuracy_met: Option<bool>,
     /// The centre line relative to the root (m).
     #[serde(skip_serializing_if = "Option::is_none")]
     points: Option<Vec<[f64; 3]>>,
@@ -40,19 +44,24 @@ struct Report {
 pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
     let hair = read_scene(&arguments.scene)?.single_hair()?;
     let rest = equilibrium(&hair.rod, &[], &hair.options);
-    let report = report(&rest, arguments.points);
+    let requested = match hair.options.resolution {
+        Resolution::Accuracy(accuracy) => Some(accuracy),
+        Resolution::Elements(_) => None,
+    };
+    let report = report(&rest, requested, arguments.points);
     let text = match arguments.json {
         true => console::json(&report)?,
         false => table(&report, rest.certificate.stability),
     };
     console::print(&text)?;
-    Ok(match rest.certificate.stability {
-        Stability::NotConverged => ExitStatus::NotConverged,
-        Stability::Stable | Stability::Saddle => ExitStatus::Success,
+    Ok(match (rest.certificate.stability, rest.certificate.accuracy) {
+        (Stability::NotConverged, _) => ExitStatus::NotConverged,
+        (_, AccuracyStatus::Missed) => ExitStatus::AccuracyMissed,
+        (_, AccuracyStatus::Met | AccuracyStatus::NotRequested) => ExitStatus::Success,
     })
 }
 
-fn report(rest: &Equilibrium, points: Option<usize>) -> Report {
+fn report(rest: &Equilibrium, requested: Option<f64>, points: Option<usize>) -> Report {
     let certificate = &rest.certificate;
     let line = |n| rest.centre_line(n).into_iter().map(Into::into).collect();
     Report {
@@ -65,6 +74,8 @@ fn report(rest: &Equilibrium, points: Option<usize>) -> Report {
         stable: certificate.stability == Stability::Stable,
         iterations: certificate.iterations,
         error_estimate: rest.error_estimate,
+        requested_accuracy: requested,
+        accuracy_met: requested.map(|_| certificate.accuracy == AccuracyStatus::Met),
         points: points.map(line),
     }
 }
@@ -97,6 +108,10 @@ fn table(report: &Report, stability: Stability) -> String {
     row("gradient", format!("{:.1e} of the moments at work", report.gradient_norm));
     row("eigenvalue", optional(report.min_eigenvalue, |x| format!("{x:.4} (1 without load)")));
     row("accuracy", optional(report.error_estimate, |x| format!("{:.1e} mm", 1e3 * x)));
+    if let (Some(requested), Some(met)) = (report.requested_accuracy, report.accuracy_met) {
+        let verdict = if met { "met" } else { "MISSED" };
+        row("requested", format!("{:.1e} mm: {verdict}", 1e3 * requested));
+    }
     for [x, y, z] in report.points.iter().flatten().map(|p| p.map(|c| 100.0 * c)) {
         let _ = writeln!(out, "{x:>12.5} {y:>12.5} {z:>12.5} cm");
     }

@@ -99,6 +99,27 @@ fn what_is_no_equilibrium_says_so_in_its_exit_code() {
 }
 
 #[test]
+fn a_missed_accuracy_has_an_exit_code_of_its_own() {
+    // An atom's breadth, which rounding allows no number of elements to show.
+    let text = format!("{BEAM}[equilibrium]\naccuracy = 1e-18\n");
+    let ran = Room::new().feed(&["hair", "-", "--json"], text.as_bytes());
+    assert_eq!((ran.code, ran.err.as_str()), (Some(4), ""));
+    let report: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!((&report["accuracy_met"], &report["stable"]), (&false.into(), &true.into()));
+    assert!(report["error_estimate"].as_f64() > report["requested_accuracy"].as_f64());
+    let table = Room::new().feed(&["hair", "-"], text.as_bytes());
+    assert!(table.code == Some(4) && table.out.contains("1.0e-15 mm: MISSED"), "{}", table.out);
+    // Met, by default too; no question for a number of elements.
+    let default = json(BEAM, &[]);
+    assert_eq!(
+        (&default["accuracy_met"], &default["requested_accuracy"]),
+        (&true.into(), &5e-4.into())
+    );
+    let given = json(&format!("{BEAM}[equilibrium]\nelements = 12\n"), &[]);
+    assert!(given["accuracy_met"].is_null() && given["requested_accuracy"].is_null());
+}
+
+#[test]
 fn every_scene_of_the_repository_has_a_hair() {
     for entry in std::fs::read_dir(scene("")).unwrap() {
         let path = entry.unwrap().path();

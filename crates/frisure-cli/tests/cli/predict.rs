@@ -60,6 +60,30 @@ fn everything_is_written_the_same_each_time_on_any_number_of_threads() {
     assert_eq!((&report["hairs"], &report["scene"]), (&60.into(), &"Quick".into()));
 }
 
+#[test]
+fn a_missed_accuracy_is_counted_and_has_an_exit_code_of_its_own() {
+    let run = |accuracy: &str| {
+        let text = QUICK.replace("elements = 12", &format!("accuracy = {accuracy}"));
+        let text = format!("{text}[contact]\nhair = \"none\"\nbody = \"none\"\n");
+        let room = Room::new().with("quick.toml", text);
+        let ran = room.run(&["predict", "quick.toml", "--report", "a.json"]);
+        let report = fs::read(room.path("a.json")).unwrap();
+        (
+            ran,
+            serde_json::from_slice::<Value>(&report).unwrap()["guides"]["accuracy_missed"].clone(),
+        )
+    };
+    let (ran, missed) = run("1e-15");
+    assert_eq!((ran.code, missed), (Some(4), 6.into()), "{}", ran.err);
+    assert!(
+        ran.out.contains("6 of 6 guides at rest, 6 less accurate than requested"),
+        "{}",
+        ran.out
+    );
+    let (ran, missed) = run("1e-4");
+    assert_eq!((ran.code, missed), (Some(0), 0.into()), "{}", ran.err);
+}
+
 /// Everything that can be done, on few hairs.
 const STEPS: &str = "\
 [[step]]

@@ -64,6 +64,8 @@ pub struct GuideReport {
     pub saddles: usize,
     /// Those that did not converge.
     pub not_converged: usize,
+    /// Those whose division misses a requested accuracy, measured without contact.
+    pub accuracy_missed: usize,
     /// Elements of all guides.
     pub elements: usize,
     /// Iterations of the minimiser of all guides.
@@ -193,6 +195,7 @@ impl GuideReport {
             stable: settling.stable,
             saddles: settling.saddles,
             not_converged: settling.not_converged,
+            accuracy_missed: settling.accuracy_missed,
             elements: settling.elements,
             iterations: settling.iterations,
             sweeps: settling.sweeps,

@@ -1,7 +1,9 @@
 //! Each guide by itself, on the body and on the bed of hair.
 
 use frisure_rod::potential::Potential;
-use frisure_rod::{Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from};
+use frisure_rod::{
+    AccuracyStatus, Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from,
+};
 use rayon::prelude::*;
 
 use super::fields::{MAX_ITERATIONS, MOST_ELEMENTS, along, body, depth, options};
@@ -109,7 +111,7 @@ fn resettle_one(
     if spec.contact.body == Body::None && alone {
         return equilibrium_from(&guide.rod, &[], &options(spec), before);
     }
-    let elements = division(spec, guide);
+    let (elements, accuracy) = division(spec, guide);
     let options = Options { resolution: Resolution::Elements(elements), ..options(spec) };
     let body = body(spec, head, guide, layer(spec, guide));
     let body = along(&body, guide, elements);
@@ -129,7 +131,8 @@ fn resettle_one(
         }
     };
     let first = settle(pulls[0], before);
-    let rest = pulls[1..].iter().fold(first, |rest, &pull| settle(pull, &rest));
+    let mut rest = pulls[1..].iter().fold(first, |rest, &pull| settle(pull, &rest));
+    rest.certificate.accuracy = accuracy;
     // 3. It may have been pushed into the body, or have been there when it was held: then it comes down
     // from its root again.
     let deep = depth(head, &rest);
@@ -162,7 +165,8 @@ fn settle_one_from(
     let pull = guide.pull.as_ref().map(|pull| along(pull, guide, elements));
     let mut felt: Vec<&dyn Potential> = vec![&body];
     felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
-    let rest = equilibrium_from(&guide.rod, &felt, &options, before);
+    let mut rest = equilibrium_from(&guide.rod, &felt, &options, before);
+    rest.certificate.accuracy = before.certificate.accuracy;
     // It may have been pushed into the body: then it comes down from its root again. One that lay deep before stays.
     let deep = depth(head, &rest);
     if deep > DEEPEST && deep > depth(head, before) + DEEPEST {
@@ -185,6 +189,7 @@ pub(super) fn in_shapes_of(
             let mut transferred =
                 equilibrium_from(&guide.rod, &[], &Options { resolution, ..options }, before);
             transferred.certificate.iterations = 0;
+            transferred.certificate.accuracy = before.certificate.accuracy;
             transferred
         })
         .collect()
@@ -209,42 +214,57 @@ fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     if alone && spec.contact.hair != HairContact::Wisps {
         return equilibrium(&guide.rod, &[], &options);
     }
-    let elements = division(spec, guide);
+    let (elements, accuracy) = division(spec, guide);
     let options = Options { resolution: Resolution::Elements(elements), ..options };
-    if alone {
-        return equilibrium(&guide.rod, &[], &options);
-    }
+    let mut rest = match alone {
+        true => equilibrium(&guide.rod, &[], &options),
+        false => settle_on_body(spec, head, guide, &options),
+    };
+    rest.certificate.accuracy = accuracy;
+    rest
+}
+
+/// Brings a guide to rest on the body, with the number of elements of the options.
+fn settle_on_body(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guide: &Guide,
+    options: &Options,
+) -> Equilibrium {
     // 1. On a soft body the branch of gravity is followed in a fifth of the iterations; from one
     // hardness to the next the answer is near.
-    let rest = harden(spec, head, guide, &options, &HARDNESS);
+    let rest = harden(spec, head, guide, options, &HARDNESS);
     if depth(head, &rest) <= DEEPEST {
         return rest;
     }
     // 2. But hair can sink into a soft ear and stay there: on the hard body from the start.
-    let hard = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
+    let hard = harden(spec, head, guide, options, &HARDNESS[HARDNESS.len() - 1..]);
     let rest = if depth(head, &hard) < depth(head, &rest) { hard } else { rest };
     if depth(head, &rest) <= DEEPEST {
         return rest;
     }
     // 3. Its natural shape is in the body: of several random starts the one that is not in it has the least energy.
     let branch = Branch::Lowest { starts: STARTS, seed: spec.seed };
-    let options = Options { branch, ..options };
+    let options = Options { branch, ..*options };
     let freed = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
     if depth(head, &freed) < depth(head, &rest) { freed } else { rest }
 }
 
-/// The division of a guide. Extrapolation needs a smooth answer, and contact comes and goes: the
-/// division that the accuracy takes without contact is taken over.
-fn division(spec: &HairstyleSpec, guide: &Guide) -> usize {
+/// The division of a guide, and whether it meets a requested accuracy. Extrapolation needs a smooth answer, and
+/// contact comes and goes: the division that the accuracy takes without contact is taken over.
+fn division(spec: &HairstyleSpec, guide: &Guide) -> (usize, AccuracyStatus) {
     match spec.equilibrium.resolution {
-        Resolution::Elements(n) => n,
+        Resolution::Elements(n) => (n, AccuracyStatus::NotRequested),
         // An accuracy takes at least two doublings of the first division: more than that is not worth the search.
         Resolution::Accuracy(_)
             if 4 * spec.equilibrium.element.resolving_elements(&guide.rod) > MOST_ELEMENTS =>
         {
-            MOST_ELEMENTS
+            (MOST_ELEMENTS, AccuracyStatus::Missed)
         }
-        Resolution::Accuracy(_) => equilibrium(&guide.rod, &[], &options(spec)).elements,
+        Resolution::Accuracy(_) => {
+            let alone = equilibrium(&guide.rod, &[], &options(spec));
+            (alone.elements, alone.certificate.accuracy)
+        }
     }
 }
 

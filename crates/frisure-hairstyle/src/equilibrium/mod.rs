@@ -78,5 +78,11 @@ pub(crate) fn settle(
     }
     // Sweeps decide which wisp lies on which; a warm start has decided it.
     let sweep_first = effort == Effort::FULL && !warm;
-    head_solver::settle(spec, head, guides, &alone, sweep_first, effort.sweeps, progress)
+    let mut rest =
+        head_solver::settle(spec, head, guides, &alone, sweep_first, effort.sweeps, progress)?;
+    // Among wisps a guide has the division that it has alone.
+    for (guide, alone) in rest.guides.iter_mut().zip(&alone) {
+        guide.certificate.accuracy = alone.certificate.accuracy;
+    }
+    Ok(rest)
 }

@@ -1,6 +1,6 @@
 //! How the guides came to rest, in numbers.
 
-use frisure_rod::Stability;
+use frisure_rod::{AccuracyStatus, Stability};
 use rayon::prelude::*;
 
 use super::fields::depth;
@@ -18,6 +18,8 @@ pub struct SettlingReport {
     pub saddles: usize,
     /// Those that did not come to rest.
     pub not_converged: usize,
+    /// Those whose division misses a requested accuracy, measured without contact.
+    pub accuracy_missed: usize,
     /// Iterations of the minimiser, of all guides.
     pub iterations: usize,
     /// Sweeps over all guides in which wisps made way for each other.
@@ -51,6 +53,7 @@ pub fn settling_report(hairstyle: &Hairstyle, head: &Head) -> SettlingReport {
             Stability::Saddle => report.saddles += 1,
             Stability::NotConverged => report.not_converged += 1,
         }
+        report.accuracy_missed += usize::from(c.accuracy == AccuracyStatus::Missed);
         report.iterations += c.iterations;
         report.elements += guide.elements;
         report.gradient_norm = report.gradient_norm.max(c.gradient_norm);

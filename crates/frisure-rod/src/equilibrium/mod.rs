@@ -11,4 +11,4 @@ mod warm_start;
 
 pub use options::{Branch, Options};
 pub use search::{equilibrium, equilibrium_from};
-pub use solution::{Certificate, Equilibrium};
+pub use solution::{AccuracyStatus, Certificate, Equilibrium};

@@ -7,7 +7,7 @@ use super::options::{Branch, Options};
 use super::richardson::{
     Correction, corrections, every, extrapolate, extrapolate_energy, largest_gap,
 };
-use super::solution::{Certificate, Equilibrium};
+use super::solution::{AccuracyStatus, Certificate, Equilibrium};
 use super::warm_start::warm_start;
 use crate::chain::{Chain, Shape};
 use crate::minimise::{Energy, Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria};
@@ -341,6 +341,16 @@ impl Search<'_> {
         }
     }
 
+    /// Whether an estimate of the error (m) is within the requested accuracy.
+    fn accuracy(&self, stability: Stability, estimate: Option<f64>) -> AccuracyStatus {
+        let Resolution::Accuracy(accuracy) = self.options.resolution else {
+            return AccuracyStatus::NotRequested;
+        };
+        // A shape that is not known to be stable may be far from the one at rest, however alike two divisions are.
+        let met = stability == Stability::Stable && estimate.is_some_and(|e| e <= accuracy);
+        if met { AccuracyStatus::Met } else { AccuracyStatus::Missed }
+    }
+
     fn equilibrium(
         &self,
         level: Level,
@@ -362,7 +372,13 @@ impl Search<'_> {
             elements: level.elements,
             shape,
             energy,
-            certificate: Certificate { gradient_norm, min_eigenvalue, stability, iterations },
+            certificate: Certificate {
+                gradient_norm,
+                min_eigenvalue,
+                stability,
+                iterations,
+                accuracy: self.accuracy(stability, error_estimate),
+            },
             error_estimate,
             correction,
         }

@@ -8,7 +8,19 @@ use crate::minimise::{Energy, Minimum, Problem, Stability};
 use crate::resolution::ElementKind;
 use crate::rod::Rod;
 
-/// The evidence for an equilibrium: gradient, stability, smallest eigenvalue.
+/// Whether the centre line is as near to the exact equilibrium as was asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum AccuracyStatus {
+    /// No accuracy was asked for: a number of elements was given.
+    #[default]
+    NotRequested,
+    /// The shape is stable, and the estimate of its error is within the requested accuracy.
+    Met,
+    /// It is not, with as many elements as were allowed, or that is not known.
+    Missed,
+}
+
+/// The evidence for an equilibrium: gradient, stability, smallest eigenvalue, accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
     /// Relative gradient, see [`Problem::gradient_norm`].
@@ -20,6 +32,8 @@ pub struct Certificate {
     pub stability: Stability,
     /// Iterations of the minimiser in all.
     pub iterations: usize,
+    /// Whether a requested accuracy was met.
+    pub accuracy: AccuracyStatus,
 }
 
 /// A rod at rest.
@@ -85,7 +99,13 @@ impl Equilibrium {
             elements: chain.len(),
             shape,
             energy,
-            certificate: Certificate { gradient_norm, min_eigenvalue: None, stability, iterations },
+            certificate: Certificate {
+                gradient_norm,
+                min_eigenvalue: None,
+                stability,
+                iterations,
+                accuracy: AccuracyStatus::NotRequested,
+            },
             error_estimate: None,
             correction: None,
         }

@@ -43,6 +43,7 @@ pub(crate) fn run_scene(
     quiet: bool,
 ) -> Result<ExitStatus, Error> {
     let spec = scene.hairstyle_spec()?;
+    let requested = scene.requests_accuracy();
     check_arguments(arguments, &scene)?;
     let files = files::stages(arguments, &scene, &spec);
     files::prepare(arguments, &scene, &files, turntable)?;
@@ -58,8 +59,13 @@ pub(crate) fn run_scene(
     if !quiet {
         console::print(&summary(&report, note.as_deref(), &lines))?;
     }
-    let converged = report.guides.not_converged == 0;
-    Ok(if converged { ExitStatus::Success } else { ExitStatus::NotConverged })
+    // The default accuracy is what most guides reach in little time, and nothing that was asked for.
+    let missed = requested && report.guides.accuracy_missed > 0;
+    Ok(match report.guides.not_converged {
+        0 if missed => ExitStatus::AccuracyMissed,
+        0 => ExitStatus::Success,
+        _ => ExitStatus::NotConverged,
+    })
 }
 
 /// Checks what the files are asked to hold.

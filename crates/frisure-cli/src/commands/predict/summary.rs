@@ -20,6 +20,9 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
     if guides.not_converged > 0 {
         let _ = write!(out, ", {} not converged", guides.not_converged);
     }
+    if guides.accuracy_missed > 0 {
+        let _ = write!(out, ", {} less accurate than requested", guides.accuracy_missed);
+    }
     if written.is_empty() {
         let hint = "add `-o hair.hair`, `--image hair.png` or `--report hair.json`";
         let _ = writeln!(out, "\nnothing was written: {hint}");
