@@ -429,8 +429,9 @@ Examples:
 
 The hair is that of `[hair]`, without variation, clamped at the origin in the frame of `[hair.root]`.
 JSON is in SI units: `length`, `elements`, `tip`, `energy` (`elastic`, `gravity`, `contact`,
-`total`), `gradient_norm` (relative), `min_eigenvalue` (1 without load, 0 where stability is
-lost), `stable`, `iterations`, `error_estimate`, `requested_accuracy` and `accuracy_met` (null if
+`total`), `gradient_norm` (relative), `min_eigenvalue` (1 without load, 0 where stability is lost)
+and its `eigenvalue_error`, `stable`, `stability` (`stable`, `unstable`, `undecided`,
+`not converged`), `iterations`, `error_estimate`, `requested_accuracy` and `accuracy_met` (null if
 `[equilibrium]` has a number of elements), and with --points also `points`.";
 
 /// Arguments of `frisure hair`.

@@ -67,7 +67,7 @@ fn numbers(metrics: &HairstyleMetrics, drawn: usize) -> Numbers {
     Numbers {
         wisps: settling.guides,
         stable: settling.stable,
-        unstable: settling.saddles,
+        unstable: settling.saddles + settling.undecided,
         moving: settling.not_converged,
         hairs: metrics.hairs,
         drawn,
@@ -104,6 +104,7 @@ pub(crate) fn guide(hairstyle: &Hairstyle, wisp: usize, points: usize) -> Result
         stability: match rest.certificate.stability {
             Stability::Stable => "stable",
             Stability::Saddle => "saddle",
+            Stability::Undecided => "undecided",
             Stability::NotConverged => "moving",
         }
         .to_owned(),

@@ -7,7 +7,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use common::{accuracy, elements, straight};
 use frisure_rod::minimise::Problem;
-use frisure_rod::{Chain, ElementKind, Stability, equilibrium};
+use frisure_rod::{
+    AccuracyStatus, Chain, ElementKind, Material, NaturalStrain, Options, Rod, RodSpec, Root,
+    Section, Stability, TorsionConstant, equilibrium,
+};
 use glam::{DVec2, DVec3};
 
 /// The load, ρSgL³/EI: j² · 9/4 with j the first zero of the Bessel function J of order −1/3.
@@ -152,4 +155,116 @@ fn a_light_cantilever_is_the_linear_beam() {
     let (_, frame) = *found.sample(2).last().unwrap();
     let angle = FRAC_PI_2 - frame.z_axis.angle_between(DVec3::NEG_Z);
     assert!((angle / (gamma / 6.0) - 1.0).abs() < 1e-4, "{angle}");
+}
+
+#[test]
+fn just_beyond_the_load_the_lean_is_that_of_the_exact_rod() {
+    // Next to the load (lean/L)² = ε (A + B ε) with ε = Γ/Γ_c − 1, by the two states of the table above that are nearest.
+    let square = |(gamma, radial, _): (f64, f64, f64)| {
+        let excess = gamma / GREENHILL - 1.0;
+        (excess, radial * radial / excess)
+    };
+    let (one, other) = (square(POST_BUCKLED[0]), square(POST_BUCKLED[1]));
+    let slope = (other.1 - one.1) / (other.0 - one.0);
+    for excess in [1e-3, 1e-4, 1e-5, 1e-6] {
+        let rod = straight(GREENHILL * (1.0 + excess), DVec3::Z);
+        let found = equilibrium(&rod, &[], &accuracy(&rod, 1e-6));
+        let (certificate, lean) = (found.certificate, found.tip().truncate().length());
+        assert_eq!(certificate.stability, Stability::Stable, "{excess}: {certificate:?}");
+        assert_eq!(certificate.accuracy, AccuracyStatus::Met, "{excess}: {certificate:?}");
+        let expected = (excess * (one.1 + slope * (excess - one.0))).sqrt();
+        let error = lean / rod.length() / expected - 1.0;
+        assert!(error.abs() < 1e-3, "{excess}: {lean} {expected}");
+    }
+}
+
+#[test]
+fn the_stability_is_that_of_the_exact_rod() {
+    // λ of the upright rod is 1 − Γ/Γ_c.
+    for excess in [-1e-2_f64, -1e-4, -1e-6, -1e-9, 0.0, 1e-9] {
+        let rod = straight(GREENHILL * (1.0 + excess), DVec3::Z);
+        let found = equilibrium(&rod, &[], &accuracy(&rod, 1e-6));
+        let (certificate, told) = (found.certificate, excess.abs() > 1e-8);
+        let expected = match told {
+            true => (Stability::Stable, AccuracyStatus::Met),
+            false => (Stability::Undecided, AccuracyStatus::Missed),
+        };
+        let says = (certificate.stability, certificate.accuracy);
+        assert_eq!(says, expected, "{excess}: {certificate:?}");
+        let (least, error) =
+            (certificate.min_eigenvalue.unwrap(), certificate.eigenvalue_error.unwrap());
+        assert!((least + excess).abs() < error, "{excess}: {certificate:?}");
+        assert!(found.tip().truncate().length() < 1e-12);
+    }
+}
+
+#[test]
+fn few_elements_do_not_make_an_unstable_rod_stable() {
+    // 48 elements buckle at 1.00013 of the load: the rod stands, and is reported as what it is. 24 cannot tell.
+    for excess in [1e-4, 1e-5] {
+        let rod = straight(GREENHILL * (1.0 + excess), DVec3::Z);
+        for (most, expected) in [(48, Stability::Saddle), (24, Stability::Undecided)] {
+            let options = Options { max_elements: most, ..accuracy(&rod, 1e-3) };
+            let found = equilibrium(&rod, &[], &options);
+            let (certificate, radial) = (found.certificate, found.tip().truncate().length());
+            assert!(found.elements == most && radial < 1e-12);
+            assert_eq!(certificate.stability, expected, "{excess}: {certificate:?}");
+            assert_eq!(certificate.accuracy, AccuracyStatus::Missed);
+            // The same without the eigenvalue.
+            let plain = equilibrium(&rod, &[], &Options { eigenvalue: false, ..options });
+            assert_eq!(plain.certificate.stability, expected);
+            assert_eq!(plain.certificate.min_eigenvalue, None);
+        }
+    }
+}
+
+#[test]
+fn what_has_fallen_is_no_saddle_by_rounding() {
+    // Its free turn about the vertical has an eigenvalue of zero, which is as far off as the gradient is.
+    // A rod that was a saddle with 158 joints.
+    let rod = straight(50.936_871_701_296_19, DVec3::Z);
+    let material = Material::new(3e9, 1e9, 1300.0).unwrap();
+    let rod = Rod::new(RodSpec { material, ..rod.spec().clone() }).unwrap();
+    for kind in [ElementKind::Helix, ElementKind::Jointed] {
+        for n in 140..180 {
+            let found = equilibrium(&rod, &[], &elements(n, kind));
+            let certificate = found.certificate;
+            assert_eq!(certificate.stability, Stability::Stable, "{kind:?} {n}: {certificate:?}");
+        }
+    }
+}
+
+/// ρSgL³/EI at which a straight hair with half axes of 0.3 to 1, clamped horizontally and on edge, twists out of its
+/// vertical plane; by Jacobi's condition on Kirchhoff's equations (`frisure-evidence`, `reference`), to ten digits.
+const BEND_TWIST: f64 = 1.196_038_244_6;
+
+/// That hair at a multiple of the load.
+fn on_edge(multiple: f64) -> Rod {
+    let root = 0.3_f64.sqrt();
+    let section = Section::from_semi_axes(40e-6 * root, 40e-6 / root).unwrap();
+    let bend = 3e9 * section.i1();
+    Rod::new(RodSpec {
+        length: 0.1,
+        section,
+        material: Material::new(3e9, 3e9 * 0.9 / 3.9, 1300.0).unwrap(),
+        torsion: TorsionConstant::SaintVenant,
+        natural: NaturalStrain::STRAIGHT,
+        root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y).unwrap(),
+        gravity: multiple * BEND_TWIST * bend / (1300.0 * section.area() * 1e-3),
+    })
+    .unwrap()
+}
+
+#[test]
+fn a_hair_on_edge_twists_just_beyond_its_load() {
+    for excess in [-1e-3, -1e-5, 1e-5, 1e-4, 1e-3] {
+        let rod = on_edge(1.0 + excess);
+        let found = equilibrium(&rod, &[], &accuracy(&rod, 1e-6));
+        let (certificate, out) = (found.certificate, found.tip().y.abs() / rod.length());
+        assert_eq!(certificate.stability, Stability::Stable, "{excess}: {certificate:?}");
+        assert_eq!(certificate.accuracy, AccuracyStatus::Met, "{excess}: {certificate:?}");
+        // The square root of the excess times 1.065, of the boundary-value problem at 1e-4.
+        let expected = 1.065 * f64::max(excess, 0.0).sqrt();
+        assert!((out - expected).abs() <= 0.01 * expected, "{excess}: {out} {expected}");
+    }
 }

@@ -60,6 +60,7 @@ fn measured(rows: &[Row]) -> Vec<Column> {
         count("guide_count", |m| m.metrics.settling.guides),
         count("guides_stable", |m| m.metrics.settling.stable),
         count("guides_saddle", |m| m.metrics.settling.saddles),
+        count("guides_undecided", |m| m.metrics.settling.undecided),
         count("guides_not_converged", |m| m.metrics.settling.not_converged),
         count("guides_accuracy_missed", |m| m.metrics.settling.accuracy_missed),
         number("length", |m| Some(m.metrics.length)),

@@ -26,8 +26,12 @@ struct Report {
     gradient_norm: f64,
     /// Smallest eigenvalue of the second variation relative to the elastic one.
     min_eigenvalue: Option<f64>,
+    /// Its error, estimated.
+    eigenvalue_error: Option<f64>,
     /// Whether it is a minimum.
     stable: bool,
+    /// `stable`, `unstable`, `undecided` or `not converged`.
+    stability: &'static str,
     iterations: usize,
     /// Largest distance of the centre line from the exact one (m), estimated.
     error_estimate: Option<f64>,
@@ -71,12 +75,30 @@ fn report(rest: &Equilibrium, requested: Option<f64>, points: Option<usize>) -> 
         energy: EnergyReport::from(rest.energy),
         gradient_norm: certificate.gradient_norm,
         min_eigenvalue: certificate.min_eigenvalue,
+        eigenvalue_error: certificate.eigenvalue_error,
         stable: certificate.stability == Stability::Stable,
+        stability: match certificate.stability {
+            Stability::Stable => "stable",
+            Stability::Saddle => "unstable",
+            Stability::Undecided => "undecided",
+            Stability::NotConverged => "not converged",
+        },
         iterations: certificate.iterations,
         error_estimate: rest.error_estimate,
         requested_accuracy: requested,
         accuracy_met: requested.map(|_| certificate.accuracy == AccuracyStatus::Met),
         points: points.map(line),
+    }
+}
+
+/// The smallest eigenvalue, with digits as its error has them.
+fn eigenvalue(report: &Report) -> String {
+    match (report.min_eigenvalue, report.eigenvalue_error) {
+        (Some(least), Some(error)) if least.abs() < 1e-3 => {
+            format!("{least:.1e}, within {error:.0e} (1 without load)")
+        }
+        (Some(least), _) => format!("{least:.4} (1 without load)"),
+        (None, _) => "not known".into(),
     }
 }
 
@@ -102,11 +124,14 @@ fn table(report: &Report, stability: Stability) -> String {
     let verdict = match stability {
         Stability::Stable => "stable equilibrium",
         Stability::Saddle => "unstable equilibrium",
+        Stability::Undecided => {
+            "equilibrium, stable or not: its eigenvalue is zero within its error,"
+        }
         Stability::NotConverged => "NOT CONVERGED",
     };
     row("result", format!("{verdict} after {} iterations", report.iterations));
     row("gradient", format!("{:.1e} of the moments at work", report.gradient_norm));
-    row("eigenvalue", optional(report.min_eigenvalue, |x| format!("{x:.4} (1 without load)")));
+    row("eigenvalue", eigenvalue(report));
     row("accuracy", optional(report.error_estimate, |x| format!("{:.1e} mm", 1e3 * x)));
     if let (Some(requested), Some(met)) = (report.requested_accuracy, report.accuracy_met) {
         let verdict = if met { "met" } else { "MISSED" };

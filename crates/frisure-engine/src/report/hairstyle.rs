@@ -62,6 +62,8 @@ pub struct GuideReport {
     pub stable: usize,
     /// Those at a saddle of their energy.
     pub saddles: usize,
+    /// Those at a minimum or a saddle, which their divisions cannot tell apart.
+    pub undecided: usize,
     /// Those that did not converge.
     pub not_converged: usize,
     /// Those whose division misses a requested accuracy, measured without contact.
@@ -194,6 +196,7 @@ impl GuideReport {
             count: settling.guides,
             stable: settling.stable,
             saddles: settling.saddles,
+            undecided: settling.undecided,
             not_converged: settling.not_converged,
             accuracy_missed: settling.accuracy_missed,
             elements: settling.elements,

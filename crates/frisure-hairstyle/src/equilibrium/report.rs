@@ -16,6 +16,8 @@ pub struct SettlingReport {
     pub stable: usize,
     /// Those at a saddle.
     pub saddles: usize,
+    /// Those at a minimum or a saddle, which their divisions cannot tell apart.
+    pub undecided: usize,
     /// Those that did not come to rest.
     pub not_converged: usize,
     /// Those whose division misses a requested accuracy, measured without contact.
@@ -51,6 +53,7 @@ pub fn settling_report(hairstyle: &Hairstyle, head: &Head) -> SettlingReport {
         match c.stability {
             Stability::Stable => report.stable += 1,
             Stability::Saddle => report.saddles += 1,
+            Stability::Undecided => report.undecided += 1,
             Stability::NotConverged => report.not_converged += 1,
         }
         report.accuracy_missed += usize::from(c.accuracy == AccuracyStatus::Missed);

@@ -3,10 +3,12 @@
 //! The files in the order of the computation: `options`, `search` (gravity's branch, refinement), `warm_start` (from the
 //! shape of another rod), `richardson` (extrapolation and the estimate of the error), `solution`.
 
+mod free_turn;
 mod options;
 mod richardson;
 mod search;
 mod solution;
+mod stability;
 mod warm_start;
 
 pub use options::{Branch, Options};

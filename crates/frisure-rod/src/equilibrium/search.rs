@@ -1,13 +1,17 @@
 //! The search for an equilibrium: gravity's branch with few elements, then refinement, docs/theory.md, "Which
 //! equilibrium".
 
+use std::cell::OnceCell;
+
 use glam::DVec3;
 
+use super::free_turn::{is_off_the_vertical, turned_towards, turns_freely};
 use super::options::{Branch, Options};
 use super::richardson::{
     Correction, corrections, every, extrapolate, extrapolate_energy, largest_gap,
 };
 use super::solution::{AccuracyStatus, Certificate, Equilibrium};
+use super::stability::LeastEigenvalue;
 use super::warm_start::warm_start;
 use crate::chain::{Chain, Shape};
 use crate::minimise::{Energy, Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria};
@@ -75,6 +79,17 @@ struct Level {
     elements: usize,
     minimum: Minimum,
     energy: Energy,
+    /// Smallest eigenvalue, once it was needed.
+    least: OnceCell<f64>,
+}
+
+/// What divisions say of the stability of the exact rod.
+struct Verdict {
+    stability: Stability,
+    /// Smallest eigenvalue, where it was computed.
+    least: Option<LeastEigenvalue>,
+    /// Whether a finer division could say more.
+    refinable: bool,
 }
 
 /// Factor on gravity from one step of the branch to the next: a hanging rod's shape changes with the logarithm of its
@@ -94,6 +109,9 @@ const HALVINGS_IN_CONTACT: usize = 6;
 /// the division are larger.
 const ON_THE_WAY: f64 = 1e-4;
 const PART_OF_THE_WEIGHT: f64 = 1e-3;
+
+/// Relative gradient to reach where the smallest eigenvalue is not clearly positive: rounding ends the descent before.
+const NEAR_A_THRESHOLD: f64 = 1e-14;
 
 /// Share of the elastic energy by which a start carried over by moments may exceed the shape that it is from; above it
 /// frames are carried instead. Chosen by trial.
@@ -169,7 +187,7 @@ impl Search<'_> {
         let problem = Problem::new(chain, self.external);
         let minimum = Newton::default().minimise(&problem, start, self.stopping(tolerance));
         let energy = problem.energy(&minimum.shape);
-        Level { elements: chain.len(), minimum, energy }
+        Level { elements: chain.len(), minimum, energy, least: OnceCell::new() }
     }
 
     /// Carries a level to more elements by its internal moments, and settles it there.
@@ -199,8 +217,16 @@ impl Search<'_> {
             let frame = |&s: &f64| from.point(&level.minimum.shape, s).1;
             to.shape_through(&to.arc().iter().map(frame).collect::<Vec<_>>())
         };
+        // 3. Near a loss of stability the shape is as far off as the gradient over a small eigenvalue.
+        // Contact has kinks, at which rounding would be waited for in vain.
+        let near = !level.minimum.clear && self.external.is_empty();
+        let tolerance = if near { tolerance.min(NEAR_A_THRESHOLD) } else { tolerance };
         let mut next = self.settle(&to, start, tolerance);
         next.minimum.iterations += level.minimum.iterations;
+        // 4. Divisions are compared in the same vertical plane.
+        if self.may_turn(level) && self.may_turn(&next) {
+            next.minimum.shape = turned_towards(&to, next.minimum.shape, &level.minimum.shape);
+        }
         next
     }
 
@@ -259,7 +285,7 @@ impl Search<'_> {
             if next >= 1.0 {
                 minimum.iterations = iterations;
                 let energy = Problem::new(chain, self.external).energy(&minimum.shape);
-                return Level { elements: chain.len(), minimum, energy };
+                return Level { elements: chain.len(), minimum, energy, least: OnceCell::new() };
             }
             if next >= jump {
                 jump = f64::INFINITY;
@@ -298,23 +324,34 @@ impl Search<'_> {
         best
     }
 
-    fn with_elements(&self, level: Level) -> Equilibrium {
-        let estimate = self.options.estimate_error.then(|| {
-            let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
-            // Second order: the finer shape has a quarter of the error.
-            let gap = every(&finer.minimum.shape.positions, 2);
-            4.0 / 3.0 * largest_gap(&gap, &level.minimum.shape.positions)
-        });
-        let energy = level.energy;
-        self.equilibrium(level, energy, None, estimate)
+    /// Whether the shape of a level turns about the vertical at no cost.
+    fn may_turn(&self, level: &Level) -> bool {
+        self.external.is_empty()
+            && !level.minimum.clear
+            && turns_freely(self.rod)
+            && is_off_the_vertical(self.rod, &level.minimum.shape)
     }
 
-    /// Doubles the elements until two extrapolations agree.
+    fn with_elements(&self, level: Level) -> Equilibrium {
+        let energy = level.energy;
+        if !self.options.estimate_error {
+            let verdict = self.verdict_of_division(&level);
+            return self.equilibrium(level, verdict, energy, None, None);
+        }
+        let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
+        // Second order: the finer shape has a quarter of the error.
+        let gap = every(&finer.minimum.shape.positions, 2);
+        let estimate = 4.0 / 3.0 * largest_gap(&gap, &level.minimum.shape.positions);
+        let verdict = self.verdict(None, &level, &finer);
+        self.equilibrium(level, verdict, energy, None, Some(estimate))
+    }
+
+    /// Doubles the elements until two extrapolations agree and the stability is known.
     fn refine(&self, first: Level, accuracy: f64) -> Equilibrium {
         if 2 * first.elements > self.most_elements() {
             return self.with_elements(first);
         }
-        let mut level = first;
+        let (mut before, mut level): (Option<Level>, Level) = (None, first);
         let mut previous: Option<Vec<DVec3>> = None;
         loop {
             let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
@@ -325,20 +362,84 @@ impl Search<'_> {
                 0.25 * largest_gap(&every(&table, 2), p)
             });
             let met = estimate.is_some_and(|e| e <= accuracy);
-            if met {
-                let correction = corrections(&level.minimum.shape, &finer.minimum.shape);
-                let energy = extrapolate_energy(&level.energy, &finer.energy);
-                return self.equilibrium(finer, energy, Some(correction), estimate);
+            let last = 2 * finer.elements > self.most_elements();
+            if met || last {
+                let verdict = self.verdict(before.as_ref(), &level, &finer);
+                if met && (last || !verdict.refinable) {
+                    let correction = corrections(&level.minimum.shape, &finer.minimum.shape);
+                    let energy = extrapolate_energy(&level.energy, &finer.energy);
+                    return self.equilibrium(finer, verdict, energy, Some(correction), estimate);
+                }
+                if last {
+                    // What does not converge must not be extrapolated.
+                    let fine = every(&finer.minimum.shape.positions, 2);
+                    let gap = largest_gap(&fine, &level.minimum.shape.positions);
+                    let energy = finer.energy;
+                    return self.equilibrium(finer, verdict, energy, None, Some(gap));
+                }
             }
-            if 2 * finer.elements > self.most_elements() {
-                // What does not converge must not be extrapolated.
-                let fine = every(&finer.minimum.shape.positions, 2);
-                let gap = largest_gap(&fine, &level.minimum.shape.positions);
-                let energy = finer.energy;
-                return self.equilibrium(finer, energy, None, Some(gap));
-            }
-            (level, previous) = (finer, Some(table));
+            (before, level, previous) = (Some(level), finer, Some(table));
         }
+    }
+
+    /// The stability of the exact rod, from two divisions or three.
+    fn verdict(&self, before: Option<&Level>, coarse: &Level, fine: &Level) -> Verdict {
+        let division = fine.minimum.stability;
+        let converged = [coarse, fine].map(|l| l.minimum.stability != Stability::NotConverged);
+        if converged != [true; 2] {
+            return Verdict { stability: division, least: None, refinable: false };
+        }
+        // 1. Far from a loss of stability no eigenvalue is needed.
+        let clear = coarse.minimum.clear && fine.minimum.clear;
+        if clear && !self.options.eigenvalue {
+            return Verdict { stability: division, least: None, refinable: false };
+        }
+        // 2. The eigenvalue of the exact rod.
+        let rounding =
+            [coarse, fine].map(|level| self.rounding(level)).into_iter().fold(0.0, f64::max);
+        let [of_coarse, of_fine] = [coarse, fine].map(|level| self.least(level));
+        let free = self.may_turn(coarse) && self.may_turn(fine);
+        if free && of_coarse.abs().max(of_fine.abs()) <= rounding {
+            let least = Some(LeastEigenvalue::neutral(rounding));
+            return Verdict { stability: division, least, refinable: false };
+        }
+        let before = before.map(|level| self.least(level));
+        let least = LeastEigenvalue::extrapolated(before, of_coarse, of_fine, rounding);
+        let stability = if clear { division } else { least.stability() };
+        // 3. A finer division tells more, or falls off a shape that is stable with these elements alone.
+        let refinable = match stability {
+            Stability::Undecided => least.is_refinable(),
+            told => told != division,
+        };
+        Verdict { stability, least: Some(least), refinable }
+    }
+
+    /// What one division says of itself.
+    fn verdict_of_division(&self, level: &Level) -> Verdict {
+        let stability = level.minimum.stability;
+        let converged = stability != Stability::NotConverged;
+        let least = (converged && self.options.eigenvalue).then(|| {
+            let (least, rounding) = (self.least(level), self.rounding(level));
+            // A direction that costs nothing, as round the vertical for a round straight hair, is
+            // zero only to rounding.
+            let least = if stability == Stability::Stable { least.max(0.0) } else { least };
+            LeastEigenvalue::extrapolated(None, least, least, rounding)
+        });
+        Verdict { stability, least, refinable: false }
+    }
+
+    /// Smallest eigenvalue of a division.
+    fn least(&self, level: &Level) -> f64 {
+        *level.least.get_or_init(|| {
+            let chain = self.chain(level.elements);
+            Problem::new(&chain, self.external).min_eigenvalue(&level.minimum.shape)
+        })
+    }
+
+    /// The eigenvalue of a division that is zero but for rounding.
+    fn rounding(&self, level: &Level) -> f64 {
+        let chain = self.chain(level.elements);
+        Problem::new(&chain, self.external).neutral_eigenvalue(level.minimum.gradient_norm)
     }
 
     /// Whether an estimate of the error (m) is within the requested accuracy.
@@ -354,18 +455,14 @@ impl Search<'_> {
     fn equilibrium(
         &self,
         level: Level,
+        verdict: Verdict,
         energy: Energy,
         correction: Option<Vec<Correction>>,
         error_estimate: Option<f64>,
     ) -> Equilibrium {
-        let Minimum { shape, gradient_norm, iterations, stability } = level.minimum;
-        let min_eigenvalue = self.options.eigenvalue.then(|| {
-            let chain = self.chain(level.elements);
-            let least = Problem::new(&chain, self.external).min_eigenvalue(&shape);
-            // A direction that costs nothing, as round the vertical for a round straight hair, is
-            // zero only to rounding.
-            if stability == Stability::Stable { least.max(0.0) } else { least }
-        });
+        let Minimum { shape, gradient_norm, iterations, .. } = level.minimum;
+        let stability = verdict.stability;
+        let least = verdict.least.filter(|_| self.options.eigenvalue);
         Equilibrium {
             rod: self.rod.clone(),
             element: self.kind,
@@ -374,7 +471,8 @@ impl Search<'_> {
             energy,
             certificate: Certificate {
                 gradient_norm,
-                min_eigenvalue,
+                min_eigenvalue: least.map(|least| least.value),
+                eigenvalue_error: least.map(|least| least.error),
                 stability,
                 iterations,
                 accuracy: self.accuracy(stability, error_estimate),

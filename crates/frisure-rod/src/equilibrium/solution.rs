@@ -26,9 +26,15 @@ pub struct Certificate {
     /// Relative gradient, see [`Problem::gradient_norm`].
     pub gradient_norm: f64,
     /// Smallest λ in `H x = λ M x`, H the second variation of the energy and M that of the elastic
-    /// energy: 1 without loads, 0 where stability is lost. `None` unless [`Options::eigenvalue`](crate::Options::eigenvalue) is set.
+    /// energy: 1 without loads, 0 where stability is lost. `None` unless [`Options::eigenvalue`](crate::Options::eigenvalue) is set,
+    /// and where the gradient does not vanish.
+    ///
+    /// That of the exact rod, extrapolated, where the error is estimated too; otherwise that of the division.
     pub min_eigenvalue: Option<f64>,
-    /// Minimum, saddle or neither.
+    /// Estimate of its error, or of its rounding error if it is that of the division.
+    pub eigenvalue_error: Option<f64>,
+    /// Minimum, saddle point, not known or neither: of the exact rod, where the error is estimated; otherwise of the
+    /// division.
     pub stability: Stability,
     /// Iterations of the minimiser in all.
     pub iterations: usize,
@@ -92,7 +98,7 @@ impl Equilibrium {
     pub fn from_minimum(problem: &Problem<'_>, minimum: Minimum) -> Self {
         let chain = problem.chain();
         let energy = problem.energy(&minimum.shape);
-        let Minimum { shape, gradient_norm, iterations, stability } = minimum;
+        let Minimum { shape, gradient_norm, iterations, stability, .. } = minimum;
         Self {
             rod: chain.rod().clone(),
             element: chain.kind(),
@@ -102,6 +108,7 @@ impl Equilibrium {
             certificate: Certificate {
                 gradient_norm,
                 min_eigenvalue: None,
+                eigenvalue_error: None,
                 stability,
                 iterations,
                 accuracy: AccuracyStatus::NotRequested,

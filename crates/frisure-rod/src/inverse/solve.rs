@@ -7,7 +7,9 @@ use super::support;
 use crate::chain::{Chain, Shape};
 use crate::equilibrium::{Equilibrium, Options, equilibrium_from};
 use crate::error::InvalidQuantity;
-use crate::minimise::{Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria};
+use crate::minimise::{
+    CLEAR_EIGENVALUE, Minimiser, Minimum, Newton, Problem, Stability, StoppingCriteria,
+};
 use crate::potential::{Field, FieldPotential, Potential};
 use crate::resolution::ElementKind;
 use crate::rod::{Rod, RodSpec, Root};
@@ -157,8 +159,9 @@ impl FittedCurve {
         let gradient_norm = problem.gradient_norm(&self.target);
         let least = problem.min_eigenvalue(&self.target);
         let stability = if least > 0.0 { Stability::Stable } else { Stability::Saddle };
+        let clear = least > CLEAR_EIGENVALUE;
         let minimum =
-            Minimum { shape: self.target.clone(), gradient_norm, iterations: 0, stability };
+            Minimum { shape: self.target.clone(), gradient_norm, iterations: 0, stability, clear };
         let start = Equilibrium::from_minimum(&problem, minimum);
         let equilibrium = equilibrium_from(&rod, external, options, &start);
         let error = largest_distance(&self.line, &equilibrium);

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use glam::DVec3;
 
-use super::minimiser::{Minimiser, Minimum, Stability, StoppingCriteria};
+use super::minimiser::{CLEAR_EIGENVALUE, Minimiser, Minimum, Stability, StoppingCriteria};
 use super::problem::Problem;
 use crate::chain::Shape;
 
@@ -90,14 +90,16 @@ impl Minimiser for Lbfgs {
         }
         let gradient_norm = norm(&gradient);
         // A relative gradient of 1e-6 (chosen) counts as zero where first derivatives alone get no farther.
+        let least = problem.min_eigenvalue(&shape);
         let stability = if gradient_norm > stopping.tolerance.max(1e-6) {
             Stability::NotConverged
-        } else if problem.min_eigenvalue(&shape) > -problem.neutral_eigenvalue() {
+        } else if least > -problem.neutral_eigenvalue(gradient_norm) {
             Stability::Stable
         } else {
             Stability::Saddle
         };
-        Minimum { shape, gradient_norm, iterations, stability }
+        let clear = least > CLEAR_EIGENVALUE;
+        Minimum { shape, gradient_norm, iterations, stability, clear }
     }
 }
 

@@ -20,7 +20,7 @@ mod rollout;
 mod second_variation;
 
 pub use lbfgs::Lbfgs;
-pub use minimiser::{Minimiser, Minimum, Stability, StoppingCriteria};
+pub use minimiser::{CLEAR_EIGENVALUE, Minimiser, Minimum, Stability, StoppingCriteria};
 pub use newton::{Newton, NewtonStep};
 pub use problem::{Energy, Problem};
 #[cfg(test)]

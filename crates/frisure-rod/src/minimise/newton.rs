@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use super::block::lowest_eigenpair;
 use super::linearise::Linearisation;
-use super::minimiser::{Minimiser, Minimum, Stability, StoppingCriteria};
-use super::problem::Problem;
+use super::minimiser::{CLEAR_EIGENVALUE, Minimiser, Minimum, Stability, StoppingCriteria};
+use super::problem::{Problem, ROUNDED_GRADIENT};
 use super::riccati::{FailedPivot, FeedbackLaw};
 use super::rollout::{rollout, rollout_steps};
 use crate::chain::Shape;
@@ -32,8 +32,9 @@ impl Default for Newton {
     }
 }
 
-/// A relative gradient that may be the smallest that rounding allows. Chosen by trial.
-const ROUNDED_GRADIENT: f64 = 1e-6;
+/// A relative gradient below which damping grows from rounding by this factor. Chosen: seven trials reach `first_damping`.
+const NEAR_REST: f64 = 1e-4;
+const GROWTH_NEAR_REST: f64 = 16.0;
 
 /// Steps whose decrease is below rounding and that do not halve the gradient, after which the descent ends.
 const MOST_STALLED: usize = 3;
@@ -115,7 +116,7 @@ impl Newton {
             }
         };
         let step = rollout_steps::<POSITION>(problem, shape, &laws);
-        let positive_definite = damping == 0.0 || at.negative_pivot().is_none();
+        let positive_definite = damping == 0.0 || at.negative_pivot(f64::INFINITY).is_none();
         NewtonStep { gradient: at.gradient, step, positive_definite }
     }
 
@@ -147,6 +148,7 @@ impl Newton {
                 gradient_norm,
                 iterations,
                 stability,
+                clear: false,
             };
             let mut at_rest = gradient_norm <= stopping.tolerance;
             // 1. Not stationary: one Newton step.
@@ -174,7 +176,15 @@ impl Newton {
             // 2. Stationary: a minimum, or a saddle point to leave.
             if at_rest {
                 // A vanishing gradient alone is not a minimum: the pivots decide. docs/theory.md, "Saddles", "Certificates"
-                let Some(failed) = at.negative_pivot() else {
+                // Most rods are far from a loss of stability: then one sweep shows both.
+                if at.sweep(-CLEAR_EIGENVALUE).is_ok() {
+                    let minimum = end(shape, iterations, Stability::Stable);
+                    return Minimum { clear: true, ..minimum };
+                }
+                // On the way to a finer division the gradient is far from rounding.
+                let last = stopping.tolerance <= ROUNDED_GRADIENT;
+                let rounded = if last { gradient_norm } else { f64::INFINITY };
+                let Some(failed) = at.negative_pivot(rounded) else {
                     return end(shape, iterations, Stability::Stable);
                 };
                 escapes += 1;
@@ -198,10 +208,20 @@ impl Newton {
         energy: f64,
         damping: &mut f64,
     ) -> Option<Step> {
+        let near_rest = at.largest_gradient() <= NEAR_REST * at.problem.chain.rod().moment_scale();
+        let stronger = |damping: f64| match damping {
+            // The least that makes the pivots positive: more of it slows down every soft direction, and beside a saddle
+            // that is nearly flat a step would be its negative eigenvalue over the damping.
+            d if near_rest && d < self.first_damping => {
+                let neutral = at.problem.neutral_eigenvalue(f64::INFINITY);
+                neutral.max(GROWTH_NEAR_REST * d).min(self.first_damping)
+            }
+            d => self.stronger(d),
+        };
         while *damping < LARGEST_DAMPING {
             // 1. Damping: until every pivot is positive definite.
             let Ok(sweep) = at.sweep(*damping) else {
-                *damping = self.stronger(*damping);
+                *damping = stronger(*damping);
                 continue;
             };
             // Near the minimum the decrease is below rounding; there the gradient decides.
@@ -232,7 +252,7 @@ impl Newton {
                 }
                 fraction *= 0.5;
             }
-            *damping = self.stronger(*damping);
+            *damping = stronger(*damping);
         }
         None
     }

@@ -9,6 +9,9 @@ use crate::potential::{Derivatives, Elastic, ElementState, Gravity, Potential};
 /// Chosen: far above the rounding of pivots (1e-13), and a rod that is this near to buckling is at its limit anyway.
 const NEUTRAL_EIGENVALUE: f64 = 1e-8;
 
+/// A relative gradient that may be the smallest that rounding allows. Chosen by trial.
+pub(super) const ROUNDED_GRADIENT: f64 = 1e-6;
+
 /// An energy to minimise: a divided rod in its own weight and in other potentials.
 pub struct Problem<'a> {
     pub(crate) chain: &'a Chain<'a>,
@@ -64,13 +67,21 @@ impl<'a> Problem<'a> {
         self.chain
     }
 
-    /// The eigenvalue that is zero but for rounding, on the scale of [`Self::min_eigenvalue`]: a
-    /// rod clamped upright that fell over may turn about the vertical freely.
-    pub(crate) fn neutral_eigenvalue(&self) -> f64 {
+    /// The eigenvalue that is zero but for rounding, on the scale of [`Self::min_eigenvalue`], at a shape with this
+    /// relative gradient: a rod clamped upright that fell over may turn about the vertical freely.
+    pub(crate) fn neutral_eigenvalue(&self, gradient_norm: f64) -> f64 {
         // 1e-8, or 1e-8 (EI/L + ρSgL²)/(K/h) where that is more. docs/theory.md, "Certificates"
         let rod = self.chain.rod();
-        let stiffness = rod.stiffness().min_element() * self.chain.len() as f64 / rod.length();
-        NEUTRAL_EIGENVALUE * (rod.moment_scale() / stiffness).max(1.0)
+        let (stiffness, scale) = (rod.stiffness().min_element(), rod.moment_scale());
+        let rounding = NEUTRAL_EIGENVALUE
+            * (scale * rod.length() / (stiffness * self.chain.len() as f64)).max(1.0);
+        // Off equilibrium the second variation along a free turn is −g·c″, with c″ that of the controls by the turn, about
+        // as large as a bend of one radian: g (EI/L + ρSgL²)/(K/L).
+        if gradient_norm <= ROUNDED_GRADIENT {
+            rounding + gradient_norm * scale * rod.length() / stiffness
+        } else {
+            rounding
+        }
     }
 
     #[inline]

@@ -120,11 +120,12 @@ impl<const POSITION: bool> Linearisation<'_, POSITION> {
         Ok(BackwardSweep { laws, decrease })
     }
 
-    /// The pivot that shows a direction of negative curvature beyond rounding, if there is one.
-    pub(super) fn negative_pivot(&self) -> Option<FailedPivot> {
+    /// The pivot that shows a direction of negative curvature beyond rounding, if there is one; `gradient_norm` as of
+    /// [`super::Problem::neutral_eigenvalue`].
+    pub(super) fn negative_pivot(&self, gradient_norm: f64) -> Option<FailedPivot> {
         // An eigenvalue that is zero but for rounding may fail the undamped sweep; it does not fail that of H + σM.
         let failed = self.sweep(0.0).err()?;
-        self.sweep(self.problem.neutral_eigenvalue()).is_err().then_some(failed)
+        self.sweep(self.problem.neutral_eigenvalue(gradient_norm)).is_err().then_some(failed)
     }
 }
 

@@ -17,6 +17,9 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
     if guides.saddles > 0 {
         let _ = write!(out, ", {} on a saddle", guides.saddles);
     }
+    if guides.undecided > 0 {
+        let _ = write!(out, ", {} perhaps on a saddle", guides.undecided);
+    }
     if guides.not_converged > 0 {
         let _ = write!(out, ", {} not converged", guides.not_converged);
     }
