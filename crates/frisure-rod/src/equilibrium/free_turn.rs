@@ -1,87 +1,114 @@
-//! The turn about the vertical that costs a rod nothing: a round straight one, clamped upright or upside down.
+//! The turn that costs a rod nothing: a round straight one in loads that are the same all around its root's tangent, such
+//! as its weight if it is clamped upright.
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use crate::chain::{Chain, Shape};
+use crate::minimise::Problem;
 use crate::rod::Rod;
 use crate::strain::NaturalStrain;
 
-/// Relative difference up to which stiffnesses, and directions, are the same: a hundred times the rounding of f64.
-const SAME: f64 = 1e-14;
+/// Relative difference up to which stiffnesses are the same: a hundred times the rounding of f64.
+const SAME_STIFFNESS: f64 = 1e-14;
 
-/// Distance of the tip from the vertical through the root, over the length, below which a rod is upright: a turn leaves it
-/// where it is. Chosen: above rounding, below any accuracy.
-const UPRIGHT: f64 = 1e-9;
+/// Relative difference up to which energies are the same: rounding of a sum over elements, as in the minimiser, times a
+/// hundred.
+const SAME_ENERGY: f64 = 1e-12;
 
-/// Whether a rod in its weight may turn about the vertical through its root freely.
-pub(super) fn turns_freely(rod: &Rod) -> bool {
+/// Distance of the tip from the axis over the length, below which a turn leaves a rod where it is. Chosen: above
+/// rounding, below any accuracy.
+const STRAIGHT: f64 = 1e-9;
+
+/// Turn (rad) at which the energy is compared. Chosen: no simple part of a whole turn.
+const TRIAL: f64 = 1.0;
+
+/// Whether a shape may turn about the tangent of its root freely, and is moved by it.
+pub(super) fn turns_freely(problem: &Problem<'_>, shape: &Shape) -> bool {
+    let (chain, rod) = (problem.chain(), problem.chain().rod());
     let stiffness = rod.stiffness();
-    let round = (stiffness.x - stiffness.y).abs() <= SAME * stiffness.x;
-    let tangent = rod.root().frame().z_axis;
-    let vertical = tangent.x.abs().max(tangent.y.abs()) <= SAME;
+    let round = (stiffness.x - stiffness.y).abs() <= SAME_STIFFNESS * stiffness.x;
     // A natural torsion turns the section alone, which is round.
     let straight = match rod.natural() {
         NaturalStrain::Uniform(strain) => strain.x == 0.0 && strain.y == 0.0,
         NaturalStrain::Varying(_) => false,
     };
-    round && vertical && straight
+    if !round || !straight || across(rod, shape).length() <= STRAIGHT * rod.length() {
+        return false;
+    }
+    let (here, there) = (problem.energy(shape), problem.energy(&turned(chain, shape, TRIAL)));
+    let scale = here.elastic.abs() + here.gravity.abs() + here.external.abs();
+    (here.total() - there.total()).abs() <= SAME_ENERGY * scale
 }
 
-/// Whether a shape of such a rod is off the vertical, so that a turn moves it.
-pub(super) fn is_off_the_vertical(rod: &Rod, shape: &Shape) -> bool {
-    away(rod, shape).truncate().length() > UPRIGHT * rod.length()
+/// From the axis to the tip (m), in the root's section.
+fn across(rod: &Rod, shape: &Shape) -> DVec2 {
+    let tip = shape.positions[shape.positions.len() - 1] - rod.root().position();
+    (rod.root().frame().transpose() * tip).truncate()
 }
 
-/// From root to tip (m).
-fn away(rod: &Rod, shape: &Shape) -> DVec3 {
-    shape.positions[shape.positions.len() - 1] - rod.root().position()
-}
-
-/// A shape turned freely until its tip is in the same vertical plane as that of another division.
-pub(super) fn turned_towards(chain: &Chain<'_>, shape: Shape, other: &Shape) -> Shape {
-    let (from, to) = (away(chain.rod(), &shape).truncate(), away(chain.rod(), other).truncate());
-    let angle = from.perp_dot(to).atan2(from.dot(to));
-    // Upside down the tangent at the root is −z.
-    let angle = angle * chain.rod().root().frame().z_axis.z.signum();
-    // All directors turn about the vertical, and back about their tangents, so that the root stays clamped: the strain
-    // κ1, κ2 turns in the section.
+/// A shape turned about the tangent of its root by an angle (rad).
+fn turned(chain: &Chain<'_>, shape: &Shape, angle: f64) -> Shape {
+    // All directors turn about the axis, and back about their tangents, so that the root stays clamped: the strain κ1, κ2
+    // turns in the section.
     let turn = DQuat::from_rotation_z(angle);
-    chain.shape(shape.controls.into_iter().map(|control| turn * control).collect())
+    let turned = |control: &DVec3| turn * *control;
+    chain.shape(shape.controls.iter().map(turned).collect())
+}
+
+/// A shape turned freely until its tip is on the same side of the axis as that of another division.
+pub(super) fn turned_towards(chain: &Chain<'_>, shape: &Shape, other: &Shape) -> Shape {
+    let (from, to) = (across(chain.rod(), shape), across(chain.rod(), other));
+    turned(chain, shape, from.perp_dot(to).atan2(from.dot(to)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::minimise::Problem;
     use crate::{ElementKind, Material, RodSpec, Root, Section, TorsionConstant};
 
+    fn rod(tangent: DVec3, natural: DVec3) -> Rod {
+        Rod::new(RodSpec {
+            length: 0.15,
+            section: Section::circular(35e-6).unwrap(),
+            material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
+            torsion: TorsionConstant::SaintVenant,
+            natural: NaturalStrain::Uniform(natural),
+            root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.6, 0.8, 0.0)).unwrap(),
+            gravity: 9.81,
+        })
+        .unwrap()
+    }
+
     #[test]
-    fn a_free_turn_costs_nothing() {
+    fn a_round_straight_rod_turns_freely_about_the_vertical() {
         for (up, twist) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 30.0)] {
-            let rod = Rod::new(RodSpec {
-                length: 0.15,
-                section: Section::circular(35e-6).unwrap(),
-                material: Material::new(3.9e9, 0.9e9, 1300.0).unwrap(),
-                torsion: TorsionConstant::SaintVenant,
-                natural: NaturalStrain::Uniform(DVec3::Z * twist),
-                root: Root::from_tangent(DVec3::ZERO, DVec3::Z * up, DVec3::new(0.6, 0.8, 0.0))
-                    .unwrap(),
-                gravity: 9.81,
-            })
-            .unwrap();
-            assert!(turns_freely(&rod));
+            let rod = rod(DVec3::Z * up, DVec3::Z * twist);
             for kind in [ElementKind::Helix, ElementKind::Jointed] {
                 let chain = Chain::uniform(&rod, kind, 5);
-                let bent = |x, y| chain.shape(vec![DVec3::new(x, y, 0.15 * twist / 5.0); 5]);
+                let problem = Problem::new(&chain, &[]);
+                // The control of a joint has no natural part.
+                let own = chain.natural_shape().controls[0];
+                let bent = |x, y| chain.shape(vec![own + DVec3::new(x, y, 0.0); 5]);
                 let (one, other) = (bent(0.2, -0.1), bent(-0.05, 0.12));
-                let turned = turned_towards(&chain, one.clone(), &other);
-                let energy = |shape: &Shape| Problem::new(&chain, &[]).energy(shape).total();
+                assert!(turns_freely(&problem, &one));
+                assert!(!turns_freely(&problem, &chain.natural_shape()));
+                let turned = turned_towards(&chain, &one, &other);
+                let [a, b] = [&turned, &other].map(|shape| across(&rod, shape));
+                assert!(a.perp_dot(b).abs() < 1e-15 && a.dot(b) > 0.0);
+                let energy = |shape: &Shape| problem.energy(shape).total();
                 assert!((energy(&turned) / energy(&one) - 1.0).abs() < 1e-12);
-                let (a, b) = (away(&rod, &turned), away(&rod, &other));
-                assert!((a.z - away(&rod, &one).z).abs() < 1e-15);
-                assert!(a.truncate().perp_dot(b.truncate()).abs() < 1e-15);
-                assert!(a.truncate().dot(b.truncate()) > 0.0);
             }
+        }
+    }
+
+    #[test]
+    fn a_leaning_or_curled_rod_does_not() {
+        let leaning = rod(DVec3::new(1e-6, 0.0, 1.0), DVec3::ZERO);
+        let curled = rod(DVec3::Z, DVec3::X * 1e-3);
+        for rod in [leaning, curled] {
+            let chain = Chain::uniform(&rod, ElementKind::Helix, 5);
+            let bent = chain.shape(vec![DVec3::new(0.2, -0.1, 0.0); 5]);
+            assert!(!turns_freely(&Problem::new(&chain, &[]), &bent));
         }
     }
 }

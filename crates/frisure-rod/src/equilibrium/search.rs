@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 
 use glam::DVec3;
 
-use super::free_turn::{is_off_the_vertical, turned_towards, turns_freely};
+use super::free_turn::{turned_towards, turns_freely};
 use super::options::{Branch, Options};
 use super::richardson::{
     Correction, corrections, every, extrapolate, extrapolate_energy, largest_gap,
@@ -223,9 +223,9 @@ impl Search<'_> {
         let tolerance = if near { tolerance.min(NEAR_A_THRESHOLD) } else { tolerance };
         let mut next = self.settle(&to, start, tolerance);
         next.minimum.iterations += level.minimum.iterations;
-        // 4. Divisions are compared in the same vertical plane.
+        // 4. Divisions are compared on the same side of the root.
         if self.may_turn(level) && self.may_turn(&next) {
-            next.minimum.shape = turned_towards(&to, next.minimum.shape, &level.minimum.shape);
+            next.minimum.shape = turned_towards(&to, &next.minimum.shape, &level.minimum.shape);
         }
         next
     }
@@ -324,12 +324,12 @@ impl Search<'_> {
         best
     }
 
-    /// Whether the shape of a level turns about the vertical at no cost.
+    /// Whether the shape of a level turns about the tangent of its root at no cost.
     fn may_turn(&self, level: &Level) -> bool {
-        self.external.is_empty()
-            && !level.minimum.clear
-            && turns_freely(self.rod)
-            && is_off_the_vertical(self.rod, &level.minimum.shape)
+        let chain = self.chain(level.elements);
+        // Where it does, no eigenvalue is clearly positive.
+        !level.minimum.clear
+            && turns_freely(&Problem::new(&chain, self.external), &level.minimum.shape)
     }
 
     fn with_elements(&self, level: Level) -> Equilibrium {
