@@ -126,10 +126,11 @@ impl Geometry {
                 let turn = jointed.before * c / self.length;
                 let whole = jointed.smooth(turn, self.length, self.length).1;
                 let (rotation, advance) = jointed.smooth(turn, self.length, from);
-                // To third order in h the smooth curve ends where the joint's does.
-                // That remainder is spread linearly, so that the drawn line is continuous at the node.
+                // To third order in h the smooth curve ends where the joint's does. That remainder is spread so that the
+                // drawn line is continuous at the node, and has the tangent of the node's frame there.
                 let rest = self.motion(c).advance() - whole;
-                (rotation, advance + rest * (from / self.length))
+                let x = from / self.length;
+                (rotation, advance + rest * (x * x * (3.0 - 2.0 * x)))
             }
         }
     }

@@ -339,9 +339,11 @@ impl Search<'_> {
             return self.equilibrium(level, verdict, energy, None, None);
         }
         let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
-        // Second order: the finer shape has a quarter of the error.
-        let gap = every(&finer.minimum.shape.positions, 2);
-        let estimate = 4.0 / 3.0 * largest_gap(&gap, &level.minimum.shape.positions);
+        // Second order: the finer shape has a quarter of the error. Its nodes are those of the coarser one and their middles.
+        let (chain, arc) = (self.chain(level.elements), self.chain(finer.elements).arc().to_vec());
+        let line: Vec<DVec3> =
+            arc.iter().map(|&s| chain.point(&level.minimum.shape, s).0).collect();
+        let estimate = 4.0 / 3.0 * largest_gap(&finer.minimum.shape.positions, &line);
         let verdict = self.verdict(None, &level, &finer);
         self.equilibrium(level, verdict, energy, None, Some(estimate))
     }
@@ -355,11 +357,11 @@ impl Search<'_> {
         let mut previous: Option<Vec<DVec3>> = None;
         loop {
             let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
-            // Fourth order at the nodes of the coarser division.
-            let table = extrapolate(&level.minimum.shape, &finer.minimum.shape);
+            // Fourth order at all nodes.
+            let line = extrapolate(&level.minimum.shape, &finer.minimum.shape);
             let estimate = previous.as_ref().map(|p| {
                 // Fourth order leaves a fifteenth of the gap; a quarter is the cautious reading.
-                0.25 * largest_gap(&every(&table, 2), p)
+                0.25 * largest_gap(&every(&line, 2), p)
             });
             let met = estimate.is_some_and(|e| e <= accuracy);
             let last = 2 * finer.elements > self.most_elements();
@@ -378,7 +380,7 @@ impl Search<'_> {
                     return self.equilibrium(finer, verdict, energy, None, Some(gap));
                 }
             }
-            (before, level, previous) = (Some(level), finer, Some(table));
+            (before, level, previous) = (Some(level), finer, Some(line));
         }
     }
 

@@ -88,7 +88,7 @@ pub struct Equilibrium {
     pub certificate: Certificate,
     /// Estimate of the largest distance (m) of the centre line from the exact equilibrium.
     pub error_estimate: Option<f64>,
-    /// What extrapolation adds to every second node.
+    /// What extrapolation adds to every node.
     pub(super) correction: Option<Vec<Correction>>,
 }
 
@@ -139,13 +139,13 @@ impl Equilibrium {
     fn correction_at(&self, node: f64) -> (DVec3, DVec3) {
         let Some(table) = &self.correction else { return (DVec3::ZERO, DVec3::ZERO) };
         let last = table.len() - 1;
-        // Corrections are known at every second node of the fine division, the nodes of the coarse one.
-        let x = (0.5 * node).clamp(0.0, last as f64);
+        let x = node.clamp(0.0, last as f64);
         let i = (x as usize).min(last.saturating_sub(1));
         let (from, to) = (&table[i], &table[(i + 1).min(last)]);
         let x = x - i as f64;
         let step = self.rod.length() / last as f64;
-        // Hermite: cubic, with the slopes at both ends.
+        // Hermite: cubic, with the slopes at both ends. Within an element both lines are smooth, so that what is left is of
+        // fourth order.
         let (rise, y) = (x * x * (3.0 - 2.0 * x), 1.0 - x);
         let bends = (from.slope * y - to.slope * x) * (x * y * step);
         // Frames are of second order within an element anyway: linear is enough for them.
