@@ -102,6 +102,10 @@ impl StrainProfile {
     }
 }
 
+/// Part of the largest strain by which a jump changes it. Chosen: profiles that are sampled finely change by less
+/// between neighbouring knots.
+const JUMP: f64 = 0.1;
+
 impl NaturalStrain {
     /// A straight fibre.
     pub const STRAIGHT: Self = Self::Uniform(DVec3::ZERO);
@@ -163,6 +167,20 @@ impl NaturalStrain {
                 inside
                     .map(|k| k.1.length())
                     .fold(p.at(0.0).length().max(p.at(length).length()), f64::max)
+            }
+        }
+    }
+
+    /// Whether the strain changes within less than a `length` (m), an element, by so much that no element resolves it.
+    pub(crate) fn jumps_within(&self, length: f64) -> bool {
+        match self {
+            Self::Uniform(_) => false,
+            Self::Varying(p) => {
+                let most = p.knots.iter().map(|k| k.1.length()).fold(0.0, f64::max);
+                p.knots.windows(2).any(|pair| {
+                    let [(from, before), (to, after)] = [pair[0], pair[1]];
+                    to - from < length && before.distance(after) > JUMP * most
+                })
             }
         }
     }

@@ -4,8 +4,11 @@ mod common;
 
 use std::path::Path;
 
-use common::{Case, accuracy, elements, reference_cases, straight};
-use frisure_rod::{ElementKind, Equilibrium, Options, Stability, equilibrium};
+use common::{Case, accuracy, curl, elements, reference_cases, straight};
+use frisure_rod::{
+    ElementKind, Equilibrium, NaturalStrain, Options, Rod, RodSpec, Root, Stability, StrainProfile,
+    equilibrium,
+};
 use glam::DVec3;
 
 /// Distance of the tip from the reference, over the length.
@@ -208,4 +211,46 @@ fn the_line_between_nodes_is_that_of_the_elastica() {
             }
         }
     }
+}
+
+/// A weightless planar rod whose natural curvature jumps at the part `s` of its length, and its exact line: two arcs of
+/// circles.
+fn with_a_jump(s: f64) -> (Rod, impl Fn(f64) -> DVec3) {
+    let (length, before, after) = (0.1, 60.0, 15.0);
+    let knots =
+        vec![(s * length, DVec3::X * before), (s * length * (1.0 + 1e-9), DVec3::X * after)];
+    let natural = NaturalStrain::Varying(StrainProfile::new(knots).unwrap());
+    let root = Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y).unwrap();
+    let rod = Rod::new(RodSpec { length, natural, gravity: 0.0, root, ..curl() }).unwrap();
+    // κ1 turns about d1 = +y, from +x downwards.
+    let arc = |curvature: f64, angle: f64, s: f64| {
+        let to = angle + curvature * s;
+        (DVec3::new(to.sin() - angle.sin(), 0.0, to.cos() - angle.cos()) / curvature, to)
+    };
+    let line = move |x: f64| {
+        let (corner, angle) = arc(before, 0.0, s.min(x) * length);
+        corner + arc(after, angle, (x - s).max(0.0) * length).0
+    };
+    (rod, line)
+}
+
+#[test]
+fn a_jump_of_the_natural_strain_is_within_the_accuracy_and_mostly_the_estimate() {
+    let (mut above, mut all) = (0, 0);
+    for i in 0..40 {
+        let (rod, exact) = with_a_jump(0.1 + 0.02 * f64::from(i) + 1e-3);
+        for element in [ElementKind::Helix, ElementKind::Jointed] {
+            for request in [1e-3, 1e-4, 1e-5] {
+                let options = Options { element, ..accuracy(&rod, request) };
+                let found = equilibrium(&rod, &[], &options);
+                let line = found.centre_line(1001);
+                let gap = |(i, p): (usize, &DVec3)| p.distance(exact(i as f64 / 1000.0));
+                let error = line.iter().enumerate().map(gap).fold(0.0, f64::max);
+                assert!(error < request * rod.length(), "{element:?} {i} {request}: {error}");
+                above += usize::from(error > found.error_estimate.unwrap());
+                all += 1;
+            }
+        }
+    }
+    assert!(above * 20 <= all, "{above} of {all}");
 }

@@ -19,6 +19,7 @@ use crate::potential::Potential;
 use crate::random::SplitMix64;
 use crate::resolution::{ElementKind, MAX_ELEMENTS, Resolution};
 use crate::rod::Rod;
+use crate::strain::NaturalStrain;
 
 /// The equilibrium of a rod in its own weight and in other potentials.
 ///
@@ -355,14 +356,22 @@ impl Search<'_> {
         }
         let (mut before, mut level): (Option<Level>, Level) = (None, first);
         let mut previous: Option<Vec<DVec3>> = None;
+        let mut last_gap = 0.0;
         loop {
             let finer = self.finer(&level, 2 * level.elements, self.options.tolerance);
             // Fourth order at all nodes.
             let line = extrapolate(&level.minimum.shape, &finer.minimum.shape);
-            let estimate = previous.as_ref().map(|p| {
+            let gap = previous.as_ref().map(|p| largest_gap(&every(&line, 2), p));
+            let h = self.rod.length() / level.elements as f64;
+            let estimate = gap.map(|gap| match self.rod.natural() {
+                // Second order at best, with a factor that depends on where in an element the jump is.
+                natural if natural.jumps_within(h) => gap.max(0.25 * last_gap),
+                // Third order at best, for the same reason: the strain has kinks.
+                NaturalStrain::Varying(_) => 0.5 * gap,
                 // Fourth order leaves a fifteenth of the gap; a quarter is the cautious reading.
-                0.25 * largest_gap(&every(&line, 2), p)
+                NaturalStrain::Uniform(_) => 0.25 * gap,
             });
+            last_gap = gap.unwrap_or(0.0);
             let met = estimate.is_some_and(|e| e <= accuracy);
             let last = 2 * finer.elements > self.most_elements();
             if met || last {
