@@ -124,9 +124,7 @@ fn table(report: &Report, stability: Stability) -> String {
     let verdict = match stability {
         Stability::Stable => "stable equilibrium",
         Stability::Saddle => "unstable equilibrium",
-        Stability::Undecided => {
-            "equilibrium, stable or not: its eigenvalue is zero within its error,"
-        }
+        Stability::Undecided => "equilibrium, UNDECIDED whether stable,",
         Stability::NotConverged => "NOT CONVERGED",
     };
     row("result", format!("{verdict} after {} iterations", report.iterations));

@@ -345,7 +345,7 @@ impl Search<'_> {
         let line: Vec<DVec3> =
             arc.iter().map(|&s| chain.point(&level.minimum.shape, s).0).collect();
         let estimate = 4.0 / 3.0 * largest_gap(&finer.minimum.shape.positions, &line);
-        let verdict = self.verdict(None, &level, &finer);
+        let verdict = self.verdict(level.minimum.stability, None, &level, &finer);
         self.equilibrium(level, verdict, energy, None, Some(estimate))
     }
 
@@ -375,7 +375,8 @@ impl Search<'_> {
             let met = estimate.is_some_and(|e| e <= accuracy);
             let last = 2 * finer.elements > self.most_elements();
             if met || last {
-                let verdict = self.verdict(before.as_ref(), &level, &finer);
+                let verdict =
+                    self.verdict(finer.minimum.stability, before.as_ref(), &level, &finer);
                 if met && (last || !verdict.refinable) {
                     let correction = corrections(&level.minimum.shape, &finer.minimum.shape);
                     let energy = extrapolate_energy(&level.energy, &finer.energy);
@@ -393,9 +394,14 @@ impl Search<'_> {
         }
     }
 
-    /// The stability of the exact rod, from two divisions or three.
-    fn verdict(&self, before: Option<&Level>, coarse: &Level, fine: &Level) -> Verdict {
-        let division = fine.minimum.stability;
+    /// The stability of the exact rod, from two divisions or three; `division` is that of the one that is returned.
+    fn verdict(
+        &self,
+        division: Stability,
+        before: Option<&Level>,
+        coarse: &Level,
+        fine: &Level,
+    ) -> Verdict {
         let converged = [coarse, fine].map(|l| l.minimum.stability != Stability::NotConverged);
         if converged != [true; 2] {
             return Verdict { stability: division, least: None, refinable: false };
