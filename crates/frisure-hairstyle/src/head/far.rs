@@ -116,16 +116,24 @@ impl Coarse {
 
     /// Signed distance (m) at node `at3` of the fine grid, cubic in the coarse values.
     pub(crate) fn interpolate(&self, at3: [usize; 3]) -> f32 {
-        let [x, y, z] = at3.map(|n| if n % 2 == 0 { &ON_NODE[..] } else { &BETWEEN[..] });
-        let tap = |axis: usize, (offset, weight): (isize, f32)| {
-            let n = (at3[axis] / 2).saturating_add_signed(offset).min(self.size[axis] - 1);
-            (n, weight)
-        };
+        if at3.iter().all(|n| n.is_multiple_of(2)) {
+            return self.values[self.at(at3.map(|n| n / 2))];
+        }
+        let strides = [1, self.size[0], self.size[0] * self.size[1]];
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            let taps = if at3[axis].is_multiple_of(2) { &ON_NODE[..] } else { &BETWEEN[..] };
+            let mut placed = [(0, 0.0); 4];
+            for (tap, (offset, weight)) in placed.iter_mut().zip(taps) {
+                let n = (at3[axis] / 2).saturating_add_signed(*offset).min(self.size[axis] - 1);
+                *tap = (n * strides[axis], *weight);
+            }
+            (placed, taps.len())
+        });
         let mut sum = 0.0;
-        for (k, wz) in z.iter().map(|&t| tap(2, t)) {
-            for (j, wy) in y.iter().map(|&t| tap(1, t)) {
-                for (i, wx) in x.iter().map(|&t| tap(0, t)) {
-                    sum += wx * wy * wz * self.values[self.at([i, j, k])];
+        for &(k, wz) in &z.0[..z.1] {
+            for &(j, wy) in &y.0[..y.1] {
+                for &(i, wx) in &x.0[..x.1] {
+                    sum += wx * wy * wz * self.values[i + j + k];
                 }
             }
         }

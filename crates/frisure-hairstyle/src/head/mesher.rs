@@ -13,8 +13,6 @@ pub(crate) struct Lattice {
     pub(crate) axes: [Vec<f64>; 3],
 }
 
-/// Nodes along the edge of a block that is skipped where it is far from the surface. Chosen; no result depends on it.
-const BLOCK: usize = 8;
 /// Rounds of smoothing along the surface. Chosen by eye.
 const ROUNDS: usize = 3;
 
@@ -38,54 +36,90 @@ impl Lattice {
     }
 }
 
-/// The surface where `field` (m, about a distance, positive outside) is zero.
+/// The surface where `field` (m, about a distance, positive outside) is zero: the piece on top of the middle, without
+/// bubbles that carving may leave inside.
 ///
 /// # Panics
-/// If the field has no zero on the lattice.
+/// If the field has no zero in the middle of the lattice.
 pub(crate) fn mesh(lattice: &Lattice, field: impl Fn(DVec3) -> f64 + Sync) -> Surface {
-    let values = evaluate(lattice, &field);
-    let (positions, triangles) = nets(lattice, &values);
-    let (mut positions, triangles) = largest_piece(&positions, &triangles);
+    let (mut positions, triangles) = nets(lattice, &Passed::follow(lattice, &field));
     for _ in 0..ROUNDS {
         positions = smoothed(&positions, &triangles);
         positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
     }
     positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
-    Surface::new(positions, triangles).expect("the field has a zero on the lattice")
+    Surface::new(positions, triangles).expect("the field has a zero in the middle")
 }
 
-/// The field at the nodes; where a whole block is far from the surface, at its middle.
-fn evaluate(lattice: &Lattice, field: &(impl Fn(DVec3) -> f64 + Sync)) -> Vec<f64> {
-    let [nx, ny, nz] = lattice.size();
-    let mut values = vec![0.0; nx * ny * nz];
-    values.par_chunks_mut(nx * ny * BLOCK).enumerate().for_each(|(slab, values)| {
-        let k0 = slab * BLOCK;
-        for j0 in (0..ny).step_by(BLOCK) {
-            for i0 in (0..nx).step_by(BLOCK) {
-                let end = [i0, j0, k0].map(|o| o + BLOCK);
-                let last = [(nx, end[0]), (ny, end[1]), (nz, end[2])].map(|(n, e)| n.min(e) - 1);
-                let low = lattice.position([i0, j0, k0]);
-                let high = lattice.position(last);
-                let middle = field(0.5 * (low + high));
-                // The field may overstate distances; half of it is safe.
-                let far = 0.5 * middle.abs() > 0.5 * (high - low).length() + 2e-3;
-                for k in k0..=last[2] {
-                    for j in j0..=last[1] {
-                        for i in i0..=last[0] {
-                            let value =
-                                if far { middle } else { field(lattice.position([i, j, k])) };
-                            values[((k - k0) * ny + j) * nx + i] = value;
-                        }
-                    }
+/// The cells that the surface passes, and the field at their corners; not a number at other nodes.
+struct Passed {
+    values: Vec<f64>,
+    cells: Vec<bool>,
+}
+
+impl Passed {
+    /// Follows the surface from cell to cell (Wyvill et al. 1986, doi:10.1007/BF01900346), from the highest place below the
+    /// middle of the lattice's top.
+    ///
+    /// The field is evaluated nowhere else. Every cell of the piece is found: the pieces of surface in two cells are
+    /// connected exactly if an edge of both crosses it, and the cells around each such edge are visited.
+    fn follow(lattice: &Lattice, field: &impl Fn(DVec3) -> f64) -> Self {
+        let size = lattice.size();
+        let strides = [1, size[0], size[0] * size[1]];
+        let count = size.iter().product();
+        let mut passed = Self { values: vec![f64::NAN; count], cells: vec![false; count] };
+        let Some(first) = top(lattice, field) else { return passed };
+        let mut open = vec![first];
+        while let Some(cell) = open.pop() {
+            let at = (0..3).map(|a| cell[a] * strides[a]).sum::<usize>();
+            if std::mem::replace(&mut passed.cells[at], true) {
+                continue;
+            }
+            let inside: [bool; 8] = std::array::from_fn(|c| {
+                let step = [0, 1, 2].map(|a| c >> a & 1);
+                let value =
+                    &mut passed.values[at + (0..3).map(|a| step[a] * strides[a]).sum::<usize>()];
+                if value.is_nan() {
+                    *value = field(lattice.position([0, 1, 2].map(|a| cell[a] + step[a])));
+                }
+                *value < 0.0
+            });
+            for (c, axis) in (0..8).flat_map(|c| (0..3).map(move |axis| (c, axis))) {
+                if c >> axis & 1 == 0 && inside[c] != inside[c | 1 << axis] {
+                    open.extend(around(cell, c, axis, size));
                 }
             }
         }
-    });
-    values
+        passed
+    }
+}
+
+/// The highest cell that the surface passes in the column of nodes in the middle.
+fn top(lattice: &Lattice, field: &impl Fn(DVec3) -> f64) -> Option<[usize; 3]> {
+    let [nx, ny, nz] = lattice.size();
+    let inside = |k: usize| field(lattice.position([nx / 2, ny / 2, k])) < 0.0;
+    (0..nz).rev().find(|&k| inside(k)).filter(|&k| k + 1 < nz).map(|k| [nx / 2, ny / 2, k])
+}
+
+/// The cells around the edge along `axis` from corner `c` of a cell, but for those beyond the lattice.
+fn around(
+    cell: [usize; 3],
+    c: usize,
+    axis: usize,
+    size: [usize; 3],
+) -> impl Iterator<Item = [usize; 3]> {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let node = [0, 1, 2].map(|a| cell[a] + (c >> a & 1));
+    [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().filter_map(move |(du, dv)| {
+        let mut next = node;
+        (next[u], next[v]) = (node[u].checked_sub(du)?, node[v].checked_sub(dv)?);
+        (0..3).all(|a| next[a] + 1 < size[a]).then_some(next)
+    })
 }
 
 /// One vertex in each cell that the surface passes, one quad around each edge that crosses it.
-fn nets(lattice: &Lattice, values: &[f64]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+fn nets(lattice: &Lattice, passed: &Passed) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let values = &passed.values;
     let [nx, ny, nz] = lattice.size();
     let strides = [1, nx, nx * ny];
     let mut cells = vec![u32::MAX; values.len()];
@@ -94,9 +128,10 @@ fn nets(lattice: &Lattice, values: &[f64]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         for j in 0..ny - 1 {
             for i in 0..nx - 1 {
                 let at = (k * ny + j) * nx + i;
-                let Some(p) = cell_vertex(lattice, values, [i, j, k], at, strides) else {
+                if !passed.cells[at] {
                     continue;
-                };
+                }
+                let p = cell_vertex(lattice, values, [i, j, k], at, strides);
                 cells[at] = positions.len() as u32;
                 positions.push(p);
                 quads(&cells, values, [i, j, k], at, strides, &mut triangles);
@@ -107,19 +142,15 @@ fn nets(lattice: &Lattice, values: &[f64]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (positions, faces)
 }
 
-/// Mean of the crossings on the twelve edges of a cell, if there are any.
+/// Mean of the crossings on the twelve edges of a cell that the surface passes.
 fn cell_vertex(
     lattice: &Lattice,
     values: &[f64],
     cell: [usize; 3],
     at: usize,
     strides: [usize; 3],
-) -> Option<DVec3> {
+) -> DVec3 {
     let corner = |c: usize| at + (0..3).map(|a| (c >> a & 1) * strides[a]).sum::<usize>();
-    let inside = (0..8).filter(|&c| values[corner(c)] < 0.0).count();
-    if inside == 0 || inside == 8 {
-        return None;
-    }
     let place = |c: usize| lattice.position([0, 1, 2].map(|a| cell[a] + (c >> a & 1)));
     let (mut sum, mut count) = (DVec3::ZERO, 0.0);
     for c in 0..8 {
@@ -133,7 +164,7 @@ fn cell_vertex(
             }
         }
     }
-    Some(sum / count)
+    sum / count
 }
 
 /// The quads around those edges of a cell's first corner that cross the surface.
@@ -165,40 +196,6 @@ fn quads(
 fn split(positions: &[DVec3], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     let length = |i: u32, j: u32| positions[i as usize].distance_squared(positions[j as usize]);
     if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
-}
-
-/// The piece with the most vertices: carving may leave bubbles inside.
-fn largest_piece(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let mut parent: Vec<u32> = (0..positions.len() as u32).collect();
-    for &[a, b, c] in triangles {
-        for v in [b, c] {
-            let (x, y) = (root(&mut parent, a), root(&mut parent, v));
-            parent[x.max(y) as usize] = x.min(y);
-        }
-    }
-    let roots: Vec<u32> = (0..parent.len() as u32).map(|v| root(&mut parent, v)).collect();
-    let mut counts = vec![0_u32; roots.len()];
-    for &r in &roots {
-        counts[r as usize] += 1;
-    }
-    let best = (0..counts.len()).rev().max_by_key(|&r| counts[r]).map_or(0, |r| r as u32);
-    let mut renumbered = vec![0; roots.len()];
-    let mut kept = Vec::new();
-    for v in (0..roots.len()).filter(|&v| roots[v] == best) {
-        renumbered[v] = kept.len() as u32;
-        kept.push(positions[v]);
-    }
-    let whole = triangles.iter().filter(|t| roots[t[0] as usize] == best);
-    (kept, whole.map(|t| t.map(|v| renumbered[v as usize])).collect())
-}
-
-/// The first vertex of a piece; shortens the way there.
-fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        parent[v as usize] = parent[parent[v as usize] as usize];
-        v = parent[v as usize];
-    }
-    v
 }
 
 /// Moves each vertex half-way to the mean of its neighbours.

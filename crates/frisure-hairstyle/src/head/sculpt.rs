@@ -21,6 +21,7 @@ pub(crate) fn turned(p: DVec3, centre: DVec3, radii: DVec3, pitch: f64, yaw: f64
 }
 
 /// Two balls and the cone that touches both.
+#[inline]
 pub(crate) fn cone(p: DVec3, a: DVec3, b: DVec3, ra: f64, rb: f64) -> f64 {
     let ba = b - a;
     let l2 = ba.length_squared();
@@ -44,14 +45,19 @@ pub(crate) fn cone(p: DVec3, a: DVec3, b: DVec3, ra: f64, rb: f64) -> f64 {
 }
 
 /// A chain of cones through balls `(centre, radius)`.
+#[inline]
 pub(crate) fn chain(p: DVec3, balls: &[(DVec3, f64)]) -> f64 {
     balls.windows(2).map(|w| cone(p, w[0].0, w[1].0, w[0].1, w[1].1)).fold(f64::INFINITY, f64::min)
 }
 
 /// The union, with a fillet of width about `k`.
 pub(crate) fn join(a: f64, b: f64, k: f64) -> f64 {
-    // Where the two are within k of each other a fillet is added, k/6 at most.
-    let h = (k - (a - b).abs()).max(0.0) / k;
+    // Where the two are within k of each other a fillet is added, k/6 at most; mostly they are not.
+    let room = k - (a - b).abs();
+    if room <= 0.0 {
+        return a.min(b);
+    }
+    let h = room / k;
     // Cubic, so that curvature does not jump where the fillet begins.
     a.min(b) - h * h * h * k / 6.0
 }

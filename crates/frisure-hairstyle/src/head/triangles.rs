@@ -5,6 +5,14 @@ use std::collections::BTreeMap;
 use frisure_strands::Surface;
 use glam::DVec3;
 
+/// Corners in front of a plane by no more than this, times the distance from `p` (m²), may be in it: above the rounding of
+/// both on a bust, which is 1e-17. Chosen; no result depends on it.
+const LEVEL: f64 = 1e-15;
+/// Corners farther behind a plane than this, times the distance from `p` (m²), are not in it. Chosen; no result depends on it.
+const DEEP: f64 = 1e-10;
+/// Squared distance (m²) beyond which a corner is not the nearest point. Chosen; no result depends on it.
+const APART: f64 = 1e-10;
+
 /// Triangles over welded corners: vertices at the same place are one.
 pub(crate) struct Soup {
     positions: Vec<DVec3>,
@@ -76,8 +84,11 @@ impl Soup {
     /// Distance (m) from `p` to the face nearest to it that is reached from `face` by going to a
     /// nearer neighbour again and again.
     pub(crate) fn descend(&self, around: &Rows, mut face: u32, p: DVec3) -> f64 {
-        let measure = |f: u32| p.distance_squared(closest_point(p, self.corners(f as usize)));
-        let mut best = measure(face);
+        let measure = |f: u32| {
+            let foot = closest_point(p, self.corners(f as usize));
+            (p.distance_squared(foot), foot)
+        };
+        let (mut best, mut foot) = measure(face);
         loop {
             let from = face;
             let corners = self.triangles[from as usize];
@@ -87,9 +98,12 @@ impl Soup {
                     if self.triangles[f as usize].iter().any(|u| corners[..n].contains(u)) {
                         continue;
                     }
-                    let d = measure(f);
+                    if self.behind(f, p, foot) {
+                        continue;
+                    }
+                    let (d, q) = measure(f);
                     if d < best {
-                        (best, face) = (d, f);
+                        (best, foot, face) = (d, q, f);
                     }
                 }
             }
@@ -97,6 +111,24 @@ impl Soup {
                 return best.sqrt();
             }
         }
+    }
+
+    /// Whether a face is farther from `p` than `foot` is, by more than rounding; false also for some that are.
+    fn behind(&self, face: u32, p: DVec3, foot: DVec3) -> bool {
+        // |p − x|² = |p − q|² − 2h + |x − q|² with q the foot and h = (x − q)·(p − q): where h ≤ 0 at all corners, it is at
+        // all points of the face. It vanishes at most at one corner. If that one is apart from q, −2h or |x − q|² exceeds the
+        // rounding at each point of the face; if it is q, to the bit, `closest_point` finds it there, which is as far.
+        let away = p - foot;
+        let mut level = 0;
+        for v in self.triangles[face as usize] {
+            let x = self.positions[v as usize] - foot;
+            let h = x.dot(away);
+            if h > LEVEL || (h > -DEEP && x != DVec3::ZERO && x.length_squared() < APART) {
+                return false;
+            }
+            level += usize::from(h > -DEEP);
+        }
+        level <= 1
     }
 
     /// For each vertex, the faces that meet there.
@@ -228,4 +260,33 @@ pub(crate) fn closest_point(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     }
     let scale = (va + vb + vc).recip();
     a + ab * (vb * scale) + ac * (vc * scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::head::test_shapes::ball;
+
+    #[test]
+    fn a_face_behind_the_nearest_point_is_no_nearer() {
+        let soup = Soup::closed(&ball(0.08, 16));
+        let (mut behind, mut in_front) = (0, 0);
+        for i in 0..80 {
+            let a = f64::from(i);
+            let p = DVec3::new(a.sin(), (1.7 * a).cos(), (0.3 * a).sin()) * (0.002 * a);
+            // The foot in a face, on its edge or at its corner, as it comes.
+            let own = (37 * i as usize) % soup.len();
+            let foot = closest_point(p, soup.corners(own));
+            for face in 0..soup.len() {
+                let distance = p.distance_squared(closest_point(p, soup.corners(face)));
+                if soup.behind(face as u32, p, foot) {
+                    assert!(distance >= p.distance_squared(foot), "{face} is nearer to {p}");
+                    behind += 1;
+                } else {
+                    in_front += usize::from(distance < p.distance_squared(foot));
+                }
+            }
+        }
+        assert!(behind > 1000 && in_front > 1000, "{behind} {in_front}");
+    }
 }

@@ -34,6 +34,9 @@ const BAND: f64 = 1.8;
 const CLEARANCE: f64 = 1.0;
 /// Steps from a node with clearance to one near the skin. Chosen: more than the clearance along each axis.
 const SHORE: usize = 4;
+/// What the rounding of distances may add up to (m): `f32` distances within the band have steps below 1 nm, and bounds
+/// in `f64` err by far less.
+const SLACK: f64 = 1e-8;
 /// Layers of nodes that one task fills. Chosen; no result depends on it.
 const SLAB: usize = 8;
 /// The signed distance to `surface` (m), positive outside, on a grid around it.
@@ -112,6 +115,7 @@ impl Grid {
     ) {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a).normalize_or_zero();
+        let (middle, radius) = bounding_ball(corners);
         let low = self.first(a.min(b).min(c) - DVec3::splat(reach));
         let high = self.last(a.max(b).max(c) + DVec3::splat(reach));
         let top = (base + nodes.len() / self.layer() - 1).min(high[2]);
@@ -120,13 +124,18 @@ impl Grid {
                 let row = ((k - base) * self.size[1] + j) * self.size[0];
                 for i in low[0]..=high[0] {
                     let p = self.position([i, j, k]);
-                    // The plane of the face alone rules most nodes of its box out.
-                    if (p - a).dot(normal).abs() > reach {
+                    let node = &mut nodes[row + i];
+                    // The face matters to a node if it is nearer than the nearest yet, or may cross an edge. Its plane and a
+                    // ball around it rule most nodes out: no point of the face is nearer than either. SLACK is above rounding.
+                    let near = reach.min(node.distance.into()).max(1.001 * self.spacing) + SLACK;
+                    let outer = near + radius;
+                    if (p - a).dot(normal).abs() > near
+                        || p.distance_squared(middle) > outer * outer
+                    {
                         continue;
                     }
                     let q = closest_point(p, corners);
                     let distance = p.distance(q) as f32;
-                    let node = &mut nodes[row + i];
                     if distance < node.distance && f64::from(distance) <= reach {
                         (node.distance, node.face) = (distance, face);
                     }
@@ -201,6 +210,13 @@ impl Grid {
         };
         nodes.par_iter().enumerate().map(measure).collect()
     }
+}
+
+/// The middle of a triangle (m), and how far it reaches from there (m).
+fn bounding_ball(corners: [DVec3; 3]) -> (DVec3, f64) {
+    let middle = corners.iter().sum::<DVec3>() / 3.0;
+    let radius = corners.iter().map(|c| c.distance_squared(middle)).fold(0.0, f64::max);
+    (middle, radius.sqrt())
 }
 
 /// Bit a is set where the triangle meets the segment of length `h` from `p` along axis a.
