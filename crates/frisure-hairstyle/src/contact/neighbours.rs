@@ -46,11 +46,22 @@ pub(crate) struct ContactPairs {
 struct Nearby {
     /// Where the touches of each point begin; one more than points.
     starts: Vec<u32>,
-    /// Guide and point.
-    touches: Vec<(u32, u32)>,
+    /// Guides pass each other along a piece, not at a point: runs of points take a tenth of a list of them.
+    touches: Vec<Run>,
     /// The guides among them, in order.
     guides: Vec<u32>,
 }
+
+/// Points `first` to `end − 1` of a guide.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    guide: u32,
+    first: u32,
+    end: u32,
+}
+
+/// Own points, with another guide that each of them may touch, and which point of that one.
+type Met = (Run, u32);
 
 /// A point while neighbours are looked for.
 #[derive(Clone, Copy)]
@@ -69,7 +80,19 @@ struct GridLevel {
     grid: Grid,
     /// In the order of the grid.
     points: Vec<Point>,
+    /// Around each [`BLOCK`] of them.
+    blocks: Vec<Block>,
 }
+
+/// A box around some points (m), and their largest reach (m).
+struct Block {
+    low: DVec3,
+    high: DVec3,
+    reach: f64,
+}
+
+/// Points of a block: about those of one guide in a cell. Chosen; no result depends on it.
+const BLOCK: usize = 8;
 
 /// Levels, each for half the reach of the one before; the last for all that is less. No result depends on it.
 const LEVELS: usize = 3;
@@ -90,15 +113,23 @@ impl GridLevel {
         let reach = points.iter().map(|p| p.reach).fold(0.0, f64::max);
         let positions: Vec<DVec3> = points.iter().map(|p| p.position).collect();
         let grid = Grid::new(&positions, 2.0 * reach);
-        let points = grid.order().iter().map(|&i| points[i as usize]).collect();
-        Self { reach, grid, points }
+        let points: Vec<Point> = grid.order().iter().map(|&i| points[i as usize]).collect();
+        let blocks = points.chunks(BLOCK).map(Block::around).collect();
+        Self { reach, grid, points, blocks }
     }
 
     /// Calls `found` with those that may be within reach of a point.
     fn for_each_near(&self, p: &Point, mut found: impl FnMut(&Point)) {
         let rings = self.grid.rings(p.reach + self.reach);
         for row in self.grid.rows(p.position, rings) {
-            self.points[row].iter().for_each(&mut found);
+            let mut from = row.start;
+            while from < row.end {
+                let to = row.end.min((from / BLOCK + 1) * BLOCK);
+                if self.blocks[from / BLOCK].may_touch(p) {
+                    self.points[from..to].iter().for_each(&mut found);
+                }
+                from = to;
+            }
         }
     }
 }
@@ -125,59 +156,107 @@ impl Contact {
     }
 }
 
+impl Block {
+    fn around(points: &[Point]) -> Self {
+        let of = points.iter();
+        Self {
+            low: of.clone().map(|p| p.position).fold(DVec3::INFINITY, DVec3::min),
+            high: of.clone().map(|p| p.position).fold(DVec3::NEG_INFINITY, DVec3::max),
+            reach: of.map(|p| p.reach).fold(0.0, f64::max),
+        }
+    }
+
+    /// False only if no point of the block is within reach of `p`.
+    fn may_touch(&self, p: &Point) -> bool {
+        // No point is nearer than the box, none reaches farther than the farthest; the factor is far above rounding.
+        let reach = (p.reach + self.reach) * (1.0 + 1e-9);
+        p.position.clamp(self.low, self.high).distance_squared(p.position) <= reach * reach
+    }
+}
+
 /// A point of one guide, and guide and point of what it may touch.
 type Touch = (u32, (u32, u32));
 
 impl Nearby {
     /// What the points `own` of one guide may touch.
     fn search(own: &[Point], levels: &[GridLevel]) -> Self {
-        let mut found = Vec::new();
+        let mut near = Self::default();
         for p in own {
+            near.begin_point();
             for level in levels {
                 level.for_each_near(p, |q| {
                     let reach = p.reach + q.reach;
                     // Radii and margins of both: neither can come to touch the other before its margin is used up.
-                    let near = q.position.distance_squared(p.position) < reach * reach;
-                    if near && q.guide != p.guide {
-                        found.push((p.index, (q.guide, q.index)));
+                    let touches = q.position.distance_squared(p.position) < reach * reach;
+                    if touches && q.guide != p.guide {
+                        near.add(Run { guide: q.guide, first: q.index, end: q.index + 1 });
                     }
                 });
             }
         }
-        Self::new(found, own.len())
+        near.finish()
     }
 
-    fn new(mut found: Vec<Touch>, points: usize) -> Self {
-        // Of runs that are in order already.
-        found.sort_by_key(|t| t.0);
-        let start = |k: usize| found.partition_point(|t| (t.0 as usize) < k) as u32;
-        let starts = (0..=points).map(start).collect();
-        let touches: Vec<(u32, u32)> = found.into_iter().map(|t| t.1).collect();
-        let mut guides: Vec<u32> = touches.iter().map(|t| t.0).collect();
-        guides.sort_unstable();
-        guides.dedup();
-        Self { starts, touches, guides }
+    /// What is added from now on is near the next point.
+    fn begin_point(&mut self) {
+        self.starts.push(self.touches.len() as u32);
+    }
+
+    /// Adds to what the last point may touch.
+    fn add(&mut self, run: Run) {
+        let begins = self.starts.last().is_none_or(|&start| self.touches.len() == start as usize);
+        match self.touches.last_mut() {
+            Some(last) if !begins && last.guide == run.guide && last.end == run.first => {
+                last.end = run.end;
+            }
+            _ => self.touches.push(run),
+        }
+    }
+
+    fn finish(mut self) -> Self {
+        self.begin_point();
+        self.touches.shrink_to_fit();
+        self.guides = self.touches.iter().map(|run| run.guide).collect();
+        self.guides.sort_unstable();
+        self.guides.dedup();
+        self.guides.shrink_to_fit();
+        self
     }
 
     fn points(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
-    fn of_point(&self, k: usize) -> &[(u32, u32)] {
+    /// What point `k` may touch; the order is that of the sums over it.
+    fn of_point(&self, k: usize) -> &[Run] {
         &self.touches[self.starts[k] as usize..self.starts[k + 1] as usize]
     }
 
-    fn iter(&self) -> impl Iterator<Item = Touch> {
-        (0..self.points()).flat_map(|k| self.of_point(k).iter().map(move |t| (k as u32, *t)))
+    /// Each point with what it may touch.
+    fn iter(&self) -> impl Iterator<Item = (u32, &Run)> {
+        (0..self.points()).flat_map(|k| self.of_point(k).iter().map(move |run| (k as u32, run)))
     }
 
     /// The same, but for what it may touch of those guides that were looked at again.
-    fn amended(self, met: Vec<Touch>, again: &[bool]) -> Self {
+    fn amended(self, met: &[Met], again: &[bool]) -> Self {
         if met.is_empty() && !self.guides.iter().any(|&g| again[g as usize]) {
             return self;
         }
-        let stays = |t: &Touch| !again[t.1.0 as usize];
-        Self::new(self.iter().filter(stays).chain(met).collect(), self.points())
+        let each = |&(run, k): &Met| (run.first..run.end).map(move |own| (own, (run.guide, k)));
+        let mut met: Vec<Touch> = met.iter().flat_map(each).collect();
+        // Of runs that are in order already.
+        met.sort_by_key(|t| t.0);
+        let mut met = met.into_iter().peekable();
+        let mut near = Self::default();
+        for k in 0..self.points() {
+            near.begin_point();
+            let stays = self.of_point(k).iter().filter(|run| !again[run.guide as usize]);
+            stays.for_each(|run| near.add(*run));
+            while let Some((_, (guide, point))) = met.next_if(|t| t.0 as usize == k) {
+                near.add(Run { guide, first: point, end: point + 1 });
+            }
+        }
+        near.finish()
     }
 }
 
@@ -198,6 +277,10 @@ impl ContactPairs {
     /// Finds which points can touch while each guide moves by at most its margin (m) from where it
     /// is now, of guides that are looked at again, or from where it was when it last was.
     pub(crate) fn update_neighbours(&mut self, margins: &[f64], again: &[bool]) {
+        // Old lists go before new ones are made: both are the largest part of the memory.
+        for (near, _) in self.nearby.iter_mut().zip(again).filter(|(_, again)| **again) {
+            *near = Nearby::default();
+        }
         let points = self.points(margins);
         let levels = GridLevel::sort(&points);
         let found: Vec<Option<Nearby>> = points
@@ -206,11 +289,11 @@ impl ContactPairs {
             .collect();
         // A touch belongs to both guides: what a search found is entered with those that were not searched, too. So the
         // energy of a pair is the same from either side.
-        let mut met: Vec<Vec<Touch>> = vec![Vec::new(); found.len()];
+        let mut met: Vec<Vec<Met>> = vec![Vec::new(); found.len()];
         for (guide, near) in found.iter().enumerate() {
-            for (k, (other, point)) in near.iter().flat_map(Nearby::iter) {
-                if !again[other as usize] {
-                    met[other as usize].push((point, (guide as u32, k)));
+            for (k, run) in near.iter().flat_map(Nearby::iter) {
+                if !again[run.guide as usize] {
+                    met[run.guide as usize].push((Run { guide: guide as u32, ..*run }, k));
                 }
             }
         }
@@ -218,7 +301,7 @@ impl ContactPairs {
         before.resize_with(found.len(), Nearby::default);
         let kept = found.into_par_iter().zip(before).zip(met);
         self.nearby = kept
-            .map(|((found, before), met)| found.unwrap_or_else(|| before.amended(met, again)))
+            .map(|((found, before), met)| found.unwrap_or_else(|| before.amended(&met, again)))
             .collect();
     }
 
@@ -269,23 +352,25 @@ impl ContactPairs {
     pub(crate) fn contacts(&self, guide: usize) -> Vec<Contact> {
         let (own, near) = (&self.samples[guide], &self.nearby[guide]);
         let mut contacts = Vec::new();
-        for (k, other) in near.iter() {
-            let samples = &self.samples[other.0 as usize];
-            let (here, there) = (k as usize, other.1 as usize);
-            let away = own.positions[here] - samples.positions[there];
-            let reach = own.radii[here] + samples.radii[there];
-            let square = 1.0 / (reach * reach);
-            let overlap = 1.0 - away.length_squared() * square;
-            if overlap > 0.0 {
-                // ∇²E of [`Neighbours::derivatives`], integrated along both guides.
-                let length = own.weight(here) * samples.weight(there);
-                let scale = 0.75 * self.stiffness * length / reach * overlap;
-                contacts.push(Contact {
-                    point: k,
-                    other,
-                    along: away * (4.0 * scale * square).sqrt(),
-                    across: scale * overlap,
-                });
+        for (point, run) in near.iter() {
+            let samples = &self.samples[run.guide as usize];
+            let here = point as usize;
+            for there in run.first as usize..run.end as usize {
+                let away = own.positions[here] - samples.positions[there];
+                let reach = own.radii[here] + samples.radii[there];
+                let square = 1.0 / (reach * reach);
+                let overlap = 1.0 - away.length_squared() * square;
+                if overlap > 0.0 {
+                    // ∇²E of [`Neighbours::derivatives`], integrated along both guides.
+                    let length = own.weight(here) * samples.weight(there);
+                    let scale = 0.75 * self.stiffness * length / reach * overlap;
+                    contacts.push(Contact {
+                        point,
+                        other: (run.guide, there as u32),
+                        along: away * (4.0 * scale * square).sqrt(),
+                        across: scale * overlap,
+                    });
+                }
             }
         }
         contacts
@@ -332,13 +417,14 @@ impl Neighbours<'_> {
         // The field is evaluated at these points alone: rounding finds the one at s. Point 0 is one spacing from the root.
         let k = ((s / own.spacing).round() as usize).clamp(1, own.positions.len()) - 1;
         let radius = own.radii[k];
-        for &(guide, point) in near.of_point(k) {
-            let other = &self.pairs.samples[guide as usize];
-            let point = point as usize;
-            let reach = radius + other.radii[point];
-            let away = p - other.positions[point];
-            if away.length_squared() < reach * reach {
-                touch(away, reach, self.share * other.weight(point));
+        for run in near.of_point(k) {
+            let other = &self.pairs.samples[run.guide as usize];
+            for point in run.first as usize..run.end as usize {
+                let reach = radius + other.radii[point];
+                let away = p - other.positions[point];
+                if away.length_squared() < reach * reach {
+                    touch(away, reach, self.share * other.weight(point));
+                }
             }
         }
     }
@@ -438,5 +524,66 @@ mod tests {
         assert_eq!(energy(&apart, 0), 0.0);
         assert_eq!(apart.groups(&[0, 1]), [vec![0, 1]]);
         assert_eq!(pairs(3e-3).groups(&[1, 0]), [vec![1], vec![0]]);
+    }
+
+    /// A guide that winds among the others.
+    fn winding(guide: u32, turn: f64) -> Samples {
+        let (a, b) = (1.7 * f64::from(guide), 0.9 * f64::from(guide));
+        let at = |k: u32| {
+            let s = f64::from(k) * 2e-3;
+            let away = DVec3::new(0.0, (a + 30.0 * s + turn).sin(), (b - 20.0 * s).cos());
+            DVec3::X * s + 0.012 * away
+        };
+        Samples::new((1..=60).map(at).collect(), 2e-3, &wisp())
+    }
+
+    /// Guide and point of what a point may touch.
+    fn found(pairs: &ContactPairs, guide: usize, k: usize) -> Vec<(u32, u32)> {
+        let runs = pairs.nearby[guide].of_point(k).iter();
+        let mut found: Vec<_> =
+            runs.flat_map(|run| (run.first..run.end).map(|p| (run.guide, p))).collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// The same, by comparing with all points where they were.
+    fn compared(seen: &[Samples], margins: &[f64], guide: usize, k: usize) -> Vec<(u32, u32)> {
+        let own = &seen[guide];
+        let near = |other: usize, point: usize| {
+            let s = &seen[other];
+            let reach = own.radii[k] + s.radii[point] + margins[guide] + margins[other];
+            other != guide && own.positions[k].distance(s.positions[point]) < reach
+        };
+        let points = (0..seen.len()).flat_map(|g| (0..seen[g].radii.len()).map(move |p| (g, p)));
+        points.filter(|&(g, p)| near(g, p)).map(|(g, p)| (g as u32, p as u32)).collect()
+    }
+
+    #[test]
+    fn what_may_touch_is_what_comparing_all_points_finds() {
+        let guides: Vec<Samples> = (0..24).map(|g| winding(g, 0.0)).collect();
+        let margins: Vec<f64> = (0..24).map(|g| 1e-3 * f64::from(g % 5)).collect();
+        let mut pairs = ContactPairs::new(guides.clone(), 1.0);
+        pairs.update_neighbours(&margins, &[true; 24]);
+        for (guide, k) in (0..24).flat_map(|g| (0..60).map(move |k| (g, k))) {
+            assert_eq!(found(&pairs, guide, k), compared(&guides, &margins, guide, k));
+        }
+        // A third of the guides moves and is looked at again; the lists of the others keep what they have of each other.
+        let again: Vec<bool> = (0..24).map(|g| g % 3 == 0).collect();
+        let moved: Vec<Samples> =
+            (0..24).map(|g| winding(g, if g % 3 == 0 { 0.4 } else { 0.0 })).collect();
+        for guide in (0..24).step_by(3) {
+            pairs.place(guide, moved[guide].positions.clone());
+        }
+        pairs.update_neighbours(&margins, &again);
+        for (guide, k) in (0..24).flat_map(|g| (0..60).map(move |k| (g, k))) {
+            assert_eq!(found(&pairs, guide, k), compared(&moved, &margins, guide, k));
+        }
+    }
+
+    #[test]
+    fn points_in_a_row_are_kept_as_one_run() {
+        let near = &pairs(3e-3).nearby[0];
+        let points: u32 = near.iter().map(|(_, run)| run.end - run.first).sum();
+        assert!(near.touches.len() <= 2 * near.points() && points > 5 * 100, "{points}");
     }
 }
