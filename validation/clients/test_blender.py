@@ -6,6 +6,7 @@ import pathlib
 import bpy
 import numpy as np
 import pytest
+from pxr import Usd, UsdGeom
 
 KINDS = ("usda", "usdc")
 
@@ -60,6 +61,16 @@ def test_hair_and_head_are_imported(head, kind, hair_of):
     index = np.zeros(len(counts), np.int32)
     curves.attributes["guide_curve_index"].data.foreach_get("value", index)
     assert 0 <= index.min() and index.max() < len(guides.curves)
+    # Each of the three guides and weights, as Pixar's library reads them.
+    primvars = UsdGeom.PrimvarsAPI(Usd.Stage.Open(path).GetPrimAtPath("/groom/hairs"))
+    closest = np.array(primvars.GetPrimvar("groom_closest_guides").Get()).reshape(-1, 3)
+    weights = np.array(primvars.GetPrimvar("groom_guide_weights").Get())
+    assert closest.max() > 0 and (closest[:, 0] == index).all()
+    for k in range(3):
+        single = np.zeros(len(counts), np.int32)
+        curves.attributes[f"groom_closest_guide_{k}"].data.foreach_get("value", single)
+        assert (single == closest[:, k]).all()
+        assert (values(curves.attributes[f"groom_guide_weight_{k}"], "value", 1) == weights[:, k]).all()
     skin = bpy.data.objects["head"].data.materials[0]
     colour = next(n for n in skin.node_tree.nodes if n.type == "BSDF_PRINCIPLED").inputs["Base Color"]
     assert np.allclose(colour.default_value[:3], [0.40, 0.29, 0.235])

@@ -22,6 +22,13 @@ pub(super) const PRIMVARS: [(&str, &str, &str); 10] = [
     (inside::DIRECTOR, "primvars:frisure:d1", "vector3f"),
 ];
 
+/// Name inside of three values, and the primvars of one value each that repeat them, ending in 0, 1, 2: Blender 5.0
+/// reads zeros where an integer primvar has an `elementSize`, and its nodes have no attribute of three integers.
+pub(super) const SINGLES: [(&str, &str); 2] = [
+    (inside::CLOSEST_GUIDES, "primvars:groom_closest_guide_"),
+    (inside::GUIDE_WEIGHTS, "primvars:groom_guide_weight_"),
+];
+
 /// 1 on guides, 0 on hairs.
 pub(super) const IS_GUIDE: &str = "primvars:groom_guide";
 

@@ -109,6 +109,20 @@ fn a_groom_comes_back_with_all_it_has() {
 }
 
 #[test]
+fn each_of_three_guides_is_a_number_of_its_own() {
+    let layer = write::layer(&whole(), Frame::METRES_Z);
+    let hairs = layer.prims[0].children.iter().find(|prim| prim.name == "hairs").unwrap();
+    let of = |name: &str| hairs.attribute(name).unwrap().value.clone().unwrap();
+    // The three of each hair in `whole`, by columns.
+    for (k, column) in [[1, 0, 0], [0, 1, 1], [0, 1, 0]].into_iter().enumerate() {
+        let guides = of(&format!("primvars:groom_closest_guide_{k}"));
+        assert_eq!(guides, usd::Value::ints(column.to_vec()));
+        let weights = of(&format!("primvars:groom_guide_weight_{k}"));
+        assert_eq!(weights, usd::Value::floats(vec![[0.5, 0.25, 0.25][k]; 3]));
+    }
+}
+
+#[test]
 fn other_units_and_axes_come_back_as_they_were() {
     for binary in [false, true] {
         let frame = Frame { metres: 0.01, up: UpAxis::Y };

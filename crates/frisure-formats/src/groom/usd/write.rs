@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::super::attributes::{COLOUR, DIRECTOR, in_file_axes};
 use super::super::data::{Groom, HairColour};
 use super::look;
-use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS};
+use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS, SINGLES};
 use frisure_files::frame::Frame;
 use frisure_usd::{Data, Layer, Prim, Value};
 
@@ -108,6 +108,9 @@ fn put(prim: &mut Prim, attribute: &Attribute, frame: Frame) {
             prim.primvar(&format!("{kind}[]"), primvar, value.clone(), per);
         }
     }
+    if let Some((_, prefix)) = SINGLES.iter().find(|(name, _)| *name == attribute.name) {
+        singles(prim, prefix, attribute, per);
+    }
     let own = format!("{OURS}{}", identifier(&attribute.name));
     if !known && prim.attribute(&own).is_none() {
         prim.primvar(usual, &own, value, per);
@@ -127,6 +130,22 @@ fn threes(prim: &mut Prim, primvar: &str, value: &Value, per: &str) {
     prim.primvar("int[]", primvar, Value::ints(all.clone()), per);
     let attribute = prim.attributes.last_mut().expect("it was just added");
     attribute.metadata.push(("elementSize".into(), Value::int(3)));
+}
+
+/// Writes each of three values as a primvar of its own.
+fn singles(prim: &mut Prim, prefix: &str, attribute: &Attribute, per: &str) {
+    for k in 0..3 {
+        let (kind, value) = match &attribute.values {
+            AttributeValues::U32x3(v) => {
+                ("int[]", Value::ints(v.iter().map(|three| signed(three[k])).collect()))
+            }
+            AttributeValues::F32x3(v) => {
+                ("float[]", Value::floats(v.iter().map(|three| three[k]).collect()))
+            }
+            _ => return,
+        };
+        prim.primvar(kind, &format!("{prefix}{k}"), value, per);
+    }
 }
 
 /// The values in the axes of the file, and the type of those without a role.
