@@ -8,6 +8,8 @@ use frisure_strands::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::fans::part_sheets;
+
 /// Coordinates of the nodes along each axis (m), increasing.
 pub(crate) struct Lattice {
     pub(crate) axes: [Vec<f64>; 3],
@@ -42,12 +44,13 @@ impl Lattice {
 /// # Panics
 /// If the field has no zero in the middle of the lattice.
 pub(crate) fn mesh(lattice: &Lattice, field: impl Fn(DVec3) -> f64 + Sync) -> Surface {
-    let (mut positions, triangles) = nets(lattice, &Passed::follow(lattice, &field));
+    let (mut positions, mut triangles) = nets(lattice, &Passed::follow(lattice, &field));
     for _ in 0..ROUNDS {
         positions = smoothed(&positions, &triangles);
         positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
     }
     positions.par_iter_mut().for_each(|p| *p = projected(*p, &field));
+    part_sheets(&mut positions, &mut triangles);
     Surface::new(positions, triangles).expect("the field has a zero in the middle")
 }
 

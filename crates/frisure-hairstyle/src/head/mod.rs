@@ -4,6 +4,7 @@
 //! metres, z up; the face looks towards −y and the head's left is +x.
 
 mod distance;
+mod fans;
 mod far;
 mod guess;
 mod landmarks;
