@@ -62,7 +62,8 @@ def test_hair_and_head_are_imported(head, kind, hair_of):
     curves.attributes["guide_curve_index"].data.foreach_get("value", index)
     assert 0 <= index.min() and index.max() < len(guides.curves)
     # Each of the three guides and weights, as Pixar's library reads them.
-    primvars = UsdGeom.PrimvarsAPI(Usd.Stage.Open(path).GetPrimAtPath("/groom/hairs"))
+    stage = Usd.Stage.Open(path)
+    primvars = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/groom/hairs"))
     closest = np.array(primvars.GetPrimvar("groom_closest_guides").Get()).reshape(-1, 3)
     weights = np.array(primvars.GetPrimvar("groom_guide_weights").Get())
     assert closest.max() > 0 and (closest[:, 0] == index).all()
