@@ -9,7 +9,10 @@ use frisure_engine::Error;
 use crate::args::{Content, Writing};
 use crate::interrupt;
 
-/// Checks that the format of every output can hold the content.
+/// The hint for an output whose format prescribes a unit and axes.
+const FRAME_HINT: &str = "write it in a run of its own, without `--unit` and `--up`";
+
+/// Checks that the format of every output can hold the content, in the unit and axes chosen.
 pub(crate) fn check(outputs: &[PathBuf], writing: Writing) -> Result<(), Error> {
     for path in outputs {
         let format = Format::of(path).map_err(|e| Error::because(&e, hint_of(path)))?;
@@ -18,6 +21,7 @@ pub(crate) fn check(outputs: &[PathBuf], writing: Writing) -> Result<(), Error> 
             let error = GroomError::CannotHold { format: format.extension(), what };
             return Err(Error::because(&error, "write each with `--content` to a file of its own"));
         }
+        format.check_frame(writing.axes.choice()).map_err(|e| Error::because(&e, FRAME_HINT))?;
     }
     Ok(())
 }
@@ -58,6 +62,7 @@ pub(crate) fn write(
         let write = || write_groom(path, written, writing.axes.choice());
         interrupt::writing(write).map_err(|e| match e {
             GroomError::CannotHold { .. } => Error::because(&e, ""),
+            GroomError::Frame { .. } => Error::because(&e, FRAME_HINT),
             _ => Error::failed(&e, ""),
         })?;
         lines.push(line);

@@ -17,10 +17,16 @@ static CREATED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// can be written; creates their folders.
 pub(crate) fn prepare(outputs: &[&Path], inputs: &[&Path]) -> Result<(), Error> {
     let read: BTreeSet<PathBuf> = inputs.iter().map(|path| resolved(path)).collect();
-    let mut asked = BTreeSet::new();
+    let mut asked: BTreeSet<PathBuf> = BTreeSet::new();
     for path in outputs {
         let whole = resolved(path);
         let overwritten = read.contains(&whole);
+        let linked = asked.iter().find(|other| same_file(other, &whole));
+        if let Some(other) = linked {
+            let (path, other) = (path.display(), other.display());
+            let message = format!("`{path}` and `{other}` are one file, by a hard link");
+            return Err(Error::invalid(message, "give each output a file of its own"));
+        }
         if !asked.insert(whole) {
             let message = format!("`{}` is given twice", path.display());
             return Err(Error::invalid(message, "give each output a name of its own"));
@@ -63,16 +69,42 @@ pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), Error> {
     interrupt::writing(|| files::write_atomically(path, write)).map_err(|e| Error::failed(&e, ""))
 }
 
-/// The path with as much of it as exists made absolute, links followed.
+/// Links that are followed one after another, as many as Linux follows (`path_resolution(7)`).
+const MOST_LINKS: usize = 40;
+
+/// The path with as much of it as exists made absolute, links followed, also those to files that do not exist yet.
 fn resolved(path: &Path) -> PathBuf {
+    resolved_within(path, MOST_LINKS)
+}
+
+fn resolved_within(path: &Path, links: usize) -> PathBuf {
     if let Ok(whole) = fs::canonicalize(path) {
         return whole;
     }
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.into());
-    match (absolute.parent(), absolute.file_name()) {
-        (Some(folder), Some(name)) => resolved(folder).join(name),
-        _ => absolute,
+    let (Some(folder), Some(name)) = (absolute.parent(), absolute.file_name()) else {
+        return absolute;
+    };
+    let folder = resolved_within(folder, links);
+    match fs::read_link(&absolute) {
+        Ok(target) if links > 0 => resolved_within(&folder.join(target), links - 1),
+        _ => folder.join(name),
     }
+}
+
+/// Whether two different paths are hard links to one file that exists.
+#[cfg(unix)]
+fn same_file(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let of = |path: &Path| fs::metadata(path).ok().filter(fs::Metadata::is_file);
+    let known = of(a).zip(of(b));
+    a != b && known.is_some_and(|(a, b)| (a.dev(), a.ino()) == (b.dev(), b.ino()))
+}
+
+/// Whether two different paths are hard links to one file that exists: the standard library does not tell here.
+#[cfg(not(unix))]
+fn same_file(_: &Path, _: &Path) -> bool {
+    false
 }
 
 /// A path with a number before the extension: `out/hair.png` is `out/hair-07.png`.
@@ -90,6 +122,36 @@ pub(crate) fn numbered(path: &Path, number: usize, count: usize) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn two_outputs_through_one_link_are_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("old"), "old").unwrap();
+        fs::hard_link(path("old"), path("hard")).unwrap();
+        std::os::unix::fs::symlink("old", path("soft")).unwrap();
+        // Its target does not exist yet.
+        std::os::unix::fs::symlink("new", path("early")).unwrap();
+        // A link to itself has an end.
+        std::os::unix::fs::symlink("round", path("round")).unwrap();
+        let fault = |a: &str, b: &str| {
+            let (a, b) = (path(a), path(b));
+            prepare(&[&a, &b], &[]).err().map(|e| e.to_string())
+        };
+        for (a, b, expected) in [
+            ("old", "hard", "by a hard link"),
+            ("hard", "soft", "by a hard link"),
+            ("old", "soft", "is given twice"),
+            ("new", "early", "is given twice"),
+            ("early", "new", "is given twice"),
+        ] {
+            let fault = fault(a, b).unwrap_or_default();
+            assert!(fault.contains(expected), "{a}, {b}: {fault}");
+        }
+        assert_eq!(fault("old", "new"), None);
+        assert_eq!(resolved(&path("round")).file_name(), path("round").file_name());
+    }
 
     #[test]
     fn numbers_go_before_the_extension() {

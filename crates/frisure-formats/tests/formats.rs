@@ -226,6 +226,20 @@ fn any_unit_and_axes_come_back() {
     }
 }
 
+/// glTF 2.0, section 3.4: "The units for all linear distances are meters", y is up.
+#[test]
+fn gltf_is_in_metres_with_y_up() {
+    let frame = named("glb").frame();
+    let usual = FrameChoice { metres: Some(frame.metres), up: Some(frame.up) };
+    assert_eq!((frame.metres, frame.up), (1.0, UpAxis::Y));
+    assert_eq!(encode(named("glb"), &groom(), usual).unwrap(), written(named("glb"), &groom()));
+    let centimetres = FrameChoice { metres: Some(0.01), up: None };
+    for choice in [centimetres, FrameChoice { metres: None, up: Some(UpAxis::Z) }] {
+        let error = encode(named("glb"), &groom(), choice).unwrap_err().to_string();
+        assert_eq!(error, "a .glb file is in metres, y up, by its specification");
+    }
+}
+
 #[test]
 fn files_cut_short_are_told_or_read_in_part() {
     for format in readable() {

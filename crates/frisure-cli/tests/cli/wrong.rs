@@ -121,6 +121,8 @@ fn outputs_are_checked_before_the_work() {
         (&["--image", "a.jpg"], 2, "pictures are written as `.png`"),
         (&["-o", "a.hair", "-o", "a.hair"], 2, "`a.hair` is given twice"),
         (&["-o", "a.hair", "-o", "./x/../a.hair"], 2, "is given twice"),
+        (&["-o", "a.glb", "--unit", "cm"], 2, "a .glb file is in metres, y up"),
+        (&["-o", "a.glb", "--up", "z"], 2, "without `--unit` and `--up`"),
         (&["-o", "a.ply", "--report", "a.ply"], 2, "`a.ply` is given twice"),
         (&["--report", "quick.toml"], 2, "`quick.toml` is read and would be overwritten"),
         (&["-o", "old.hair"], 1, "`old.hair` is read-only"),

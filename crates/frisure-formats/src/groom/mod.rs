@@ -59,6 +59,14 @@ pub enum GroomError {
         /// What it has no room for.
         what: String,
     },
+    /// The specification of the format prescribes another unit or up axis than those chosen.
+    #[error("a .{format} file is in metres, {up} up, by its specification")]
+    Frame {
+        /// The extension of the format.
+        format: &'static str,
+        /// The up axis that it prescribes.
+        up: &'static str,
+    },
     /// The file is not what its name says, or is damaged.
     #[error("`{}` is not a usable .{format} file: {what}", path.display())]
     Malformed {
@@ -110,6 +118,18 @@ impl Format {
         Self::ALL.iter().find(names).copied()
     }
 
+    /// Checks that a file of the format can have the unit and axes of `choice`: glTF prescribes metres with y up.
+    ///
+    /// # Errors
+    /// [`GroomError::Frame`].
+    pub fn check_frame(self, choice: FrameChoice) -> Result<(), GroomError> {
+        // Only glTF prescribes both; other formats state them in the file, or leave them to their readers.
+        if self.0.extensions != gltf::FORMAT.extensions || choice.or(self.frame()) == self.frame() {
+            return Ok(());
+        }
+        Err(GroomError::Frame { format: self.extension(), up: self.frame().up.name() })
+    }
+
     /// The format that a path's extension names.
     ///
     /// # Errors
@@ -127,7 +147,7 @@ impl Format {
 /// [`GroomError`].
 pub fn write_groom(path: &Path, groom: &Groom, choice: FrameChoice) -> Result<(), GroomError> {
     let format = Format::of(path)?;
-    check(format, groom)?;
+    check(format, groom, choice)?;
     write_atomically(path, |out| (format.0.write)(out, groom, choice.or(format.frame())))?;
     Ok(())
 }
@@ -135,9 +155,9 @@ pub fn write_groom(path: &Path, groom: &Groom, choice: FrameChoice) -> Result<()
 /// The bytes of a groom file, the same that [`write_groom`] writes.
 ///
 /// # Errors
-/// [`GroomError::CannotHold`].
+/// [`GroomError::CannotHold`], [`GroomError::Frame`].
 pub fn encode(format: Format, groom: &Groom, choice: FrameChoice) -> Result<Vec<u8>, GroomError> {
-    check(format, groom)?;
+    check(format, groom, choice)?;
     let mut bytes = Vec::new();
     // Memory takes all bytes.
     (format.0.write)(&mut bytes, groom, choice.or(format.frame()))
@@ -145,8 +165,9 @@ pub fn encode(format: Format, groom: &Groom, choice: FrameChoice) -> Result<Vec<
     Ok(bytes)
 }
 
-/// Checks that a format has room for a groom.
-fn check(format: Format, groom: &Groom) -> Result<(), GroomError> {
+/// Checks that a format has room for a groom, and has the unit and axes.
+fn check(format: Format, groom: &Groom, choice: FrameChoice) -> Result<(), GroomError> {
+    format.check_frame(choice)?;
     let checked = (format.0.check)(groom);
     checked.map_err(|what| GroomError::CannotHold { format: format.extension(), what })
 }

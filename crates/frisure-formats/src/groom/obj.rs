@@ -123,6 +123,9 @@ fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
             _ => {}
         }
     }
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        return Err("it is empty".into());
+    }
     if lines.is_empty() && !points.is_empty() {
         return Err("it has points, but no lines (`l`)".into());
     }
@@ -165,7 +168,9 @@ mod tests {
         let groom = decode(text.as_bytes(), FrameChoice::default()).unwrap();
         assert_eq!(groom.hairs.offsets(), [0, 3, 6]);
         assert_eq!(groom.hairs.strand(1).points[0], Vec3::NEG_Y);
-        for wrong in ["l 1 2", "v 0 0 0\nl 1 0", "v 0 0\n", "v 0 0 x", "v 0 0 0", "curv 0 1 1 2"] {
+        for wrong in
+            ["l 1 2", "v 0 0 0\nl 1 0", "v 0 0\n", "v 0 0 x", "v 0 0 0", "curv 0 1 1 2", "", "\r\n"]
+        {
             assert!(decode(wrong.as_bytes(), FrameChoice::default()).is_err(), "{wrong}");
         }
         assert!(decode(b"v 0 0 0\nv 0 1 0\nl -3 1", FrameChoice::default()).is_err());
