@@ -42,7 +42,8 @@ fn everything_is_written_the_same_each_time_on_any_number_of_threads() {
         let room = Room::new().with("quick.toml", QUICK);
         let ran = room.run(&[EVERYTHING, &["--threads", threads]].concat());
         assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
-        assert!(ran.out.starts_with("Quick: 6 of 6 guides at rest; 60 hairs"), "{}", ran.out);
+        assert!(ran.out.starts_with("Quick: 6 of 6 guides at rest within "), "{}", ran.out);
+        assert!(ran.out.contains(" % of the moment of their weight; 60 hairs"), "{}", ran.out);
         assert!(ran.out.contains("wrote out/b/a.obj\n"));
         files.map(|f| fs::read(room.path(f)).unwrap())
     };
@@ -58,6 +59,24 @@ fn everything_is_written_the_same_each_time_on_any_number_of_threads() {
     assert_eq!(report["guides"]["count"], 6);
     assert_eq!(report["guides"]["not_converged"], 0);
     assert_eq!((&report["hairs"], &report["scene"]), (&60.into(), &"Quick".into()));
+}
+
+#[test]
+fn a_head_settled_together_has_its_certificate_in_the_report() {
+    let with = |method: &str| QUICK.replace("= 12\n", &format!("= 12\nmethod = \"{method}\"\n"));
+    let room = Room::new().with("quick.toml", with("continuation"));
+    let ran = room.run(&["predict", "quick.toml", "--report", "a.json"]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+    assert!(ran.out.starts_with("Quick: 6 of 6 guides at rest, all together; "), "{}", ran.out);
+    let report: Value = serde_json::from_slice(&fs::read(room.path("a.json")).unwrap()).unwrap();
+    let joint = &report["guides"]["joint"];
+    assert_eq!(joint["stable"], true);
+    assert!(joint["gradient_norm"].as_f64().unwrap() <= 1e-8, "{joint}");
+    assert!(joint["lowest_eigenvalue"].as_f64().unwrap() > 0.0, "{joint}");
+    let room = Room::new().with("quick.toml", with("newton"));
+    let ran = room.run(&["predict", "quick.toml", "--report", "a.json"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("continuation") && ran.err.contains("quick.toml:"), "{}", ran.err);
 }
 
 #[test]

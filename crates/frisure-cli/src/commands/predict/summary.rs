@@ -14,6 +14,16 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
         let _ = writeln!(out, "{note}");
     }
     let _ = write!(out, "{name}: {} of {} guides at rest", guides.stable, guides.count);
+    if guides.joint.as_ref().is_some_and(|joint| joint.stable) {
+        out += ", all together";
+    } else if guides.sweeps > 0 {
+        // Each was settled while the others held still, to a gradient that can be seen: the summary does not claim more.
+        let _ = write!(
+            out,
+            " within {:.1} % of the moment of their weight",
+            guides.gradient_norm * 100.0
+        );
+    }
     if guides.saddles > 0 {
         let _ = write!(out, ", {} on a saddle", guides.saddles);
     }
