@@ -302,7 +302,7 @@ keywords! {
 
     Keyword<HeadMethod> {
         "sweeps" => Self(HeadMethod::Sweeps), "one after the other, to `tolerance`: fast, but a small change of the scene can move wisps by centimetres";
-        "continuation" => Self(HeadMethod::Continuation), "all together while their hardness grows: several times slower, with a certificate of the whole head, and a small change of the scene moves wisps little";
+        "continuation" => Self(HeadMethod::Continuation), "all together while their hardness grows: several times slower, with a certificate of the whole head, and a small change of the scene mostly moves wisps little";
     }
 
     Keyword<Body> {

@@ -419,7 +419,7 @@ pub enum HeadMethod {
     #[default]
     Sweeps,
     /// All together, while their hardness grows: several times slower, to a gradient of 1e-8 and with a certificate of the
-    /// head. A small change of the input moves guides little, except where a wisp snaps past another.
+    /// head. A small change of the input mostly moves guides little; sometimes a wisp still snaps past another.
     Continuation,
 }
 

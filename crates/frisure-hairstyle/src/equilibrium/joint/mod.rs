@@ -1,9 +1,9 @@
 //! All guides of a head at rest together, by continuation in the hardness of hair.
 //!
 //! From guides that rest alone on the bed of hair, which stands for the others, the bed is exchanged for the other wisps step
-//! by step: each step is an implicit step of an overdamped motion, solved by Newton's method for all guides together. So the
-//! answer is a continuous function of the input, as long as no wisp snaps past another: what decides which wisp lies on
-//! which is the way there, not where an iteration stops. docs/theory.md, "All guides at once"
+//! by step: each step is an implicit step of an overdamped motion, solved by Newton's method for all guides together. So
+//! which wisp lies on which is decided by the way there, not by where an iteration stops, and a small change of the input
+//! moves guides little, as long as no wisp snaps past another. docs/theory.md, "All guides at once"
 
 mod certificate;
 mod hessian;
@@ -37,8 +37,9 @@ const TETHERS: (f64, f64) = (0.6, 0.3);
 const LOOSENING: f64 = 0.5;
 const LOOSEST: f64 = 1e-4;
 
-/// Relative gradient at which a step ends. Chosen: with 1e-4 the way is no longer continuous.
-const STEP_TOLERANCE: f64 = 1e-6;
+/// Relative gradient at which a stage ends. Chosen: what is left is amplified by later stages; with 1e-4 and 1e-6 more small
+/// changes of the input end in another minimum.
+const STEP_TOLERANCE: f64 = 1e-8;
 
 /// Steps of Newton's method after which tethers are made firmer, by a factor, where the guides are then; how often that is
 /// tried; and the first stiffness where there was none. Chosen: most stages take 3 to 40 steps.
@@ -47,7 +48,7 @@ const FIRMER: f64 = 4.0;
 const MOST_TRIES: usize = 8;
 const FIRST_TETHER: f64 = 1e-3;
 
-/// Relative gradient of the head at rest, and the most steps that it takes without tethers: three from [`STEP_TOLERANCE`].
+/// Relative gradient of the head at rest, and the most steps that it takes without tethers: a guard, one or two are usual.
 const TOLERANCE: f64 = 1e-8;
 const MOST_LAST_STEPS: usize = 100;
 
