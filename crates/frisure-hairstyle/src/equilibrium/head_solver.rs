@@ -18,9 +18,8 @@ use frisure_rod::minimise::NewtonStep;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::fields::body;
-use super::wisp::{Settled, Wisp, rest_among};
-use crate::contact::{ContactPairs, Layer};
+use super::wisp::{Settled, Wisp, rest_among, wisps_with_pairs};
+use crate::contact::ContactPairs;
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -121,10 +120,7 @@ impl<'a> HeadSolver<'a> {
         guides: &'a [Guide],
         alone: &'a [Equilibrium],
     ) -> Self {
-        let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
-        let wisps: Vec<Wisp<'_>> = guides.iter().zip(alone).map(wisp).collect();
-        let samples = wisps.iter().map(Wisp::samples).collect();
-        let pairs = ContactPairs::new(samples, spec.contact.hair_stiffness);
+        let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone);
         let mut order: Vec<usize> = (0..guides.len()).collect();
         // Hair rooted lower lies lower: it is the first to be pushed out of the way.
         let height = |i: usize| guides[i].root.position.z;

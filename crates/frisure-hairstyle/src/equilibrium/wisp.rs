@@ -8,10 +8,12 @@ use frisure_rod::{Chain, Equilibrium, Rod, Shape};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::fields::{along, samples};
+use super::fields::{along, body, samples};
 use crate::contact::{BodyContact, ContactPairs, Layer, Samples};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
+use crate::head::Head;
+use crate::spec::HairstyleSpec;
 
 /// Iterations of one guide in one sweep: the others will move, too. Chosen by trial; not measured further.
 const ITERATIONS: usize = 1;
@@ -257,6 +259,19 @@ impl<'a> Wisp<'a> {
             Equilibrium::from_minimum(problem, minimum)
         })
     }
+}
+
+/// All guides of a head where they rest alone, without the bed of hair that stands for the others, and their pairs.
+pub(super) fn wisps_with_pairs<'a>(
+    spec: &HairstyleSpec,
+    head: &'a Head,
+    guides: &'a [Guide],
+    alone: &'a [Equilibrium],
+) -> (Vec<Wisp<'a>>, ContactPairs) {
+    let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
+    let wisps: Vec<Wisp<'a>> = guides.iter().zip(alone).map(wisp).collect();
+    let samples = wisps.iter().map(Wisp::samples).collect();
+    (wisps, ContactPairs::new(samples, spec.contact.hair_stiffness))
 }
 
 /// Guides among each other as they are, each certified to a relative gradient of `tolerance` while the others hold still.

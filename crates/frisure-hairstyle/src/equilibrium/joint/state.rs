@@ -3,8 +3,7 @@
 use frisure_rod::Equilibrium;
 use rayon::prelude::*;
 
-use super::super::fields::body;
-use super::super::wisp::{Anchor, Settled, Wisp, rest_among};
+use super::super::wisp::{Anchor, Settled, Wisp, rest_among, wisps_with_pairs};
 use super::hessian::{Controls, JointHessian};
 use crate::contact::{ContactPairs, Layer};
 use crate::guides::Guide;
@@ -42,15 +41,12 @@ impl<'a> HeadState<'a> {
         guides: &'a [Guide],
         alone: &'a [Equilibrium],
     ) -> Self {
-        let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
-        let wisps: Vec<Wisp<'_>> = guides.iter().zip(alone).map(wisp).collect();
-        let stiffness = spec.contact.hair_stiffness;
-        let pairs = ContactPairs::new(wisps.iter().map(Wisp::samples).collect(), stiffness);
+        let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone);
         let count = wisps.len();
         let mut state = Self {
             wisps,
             pairs,
-            stiffness,
+            stiffness: spec.contact.hair_stiffness,
             layers: guides.iter().map(|guide| guide.layer).collect(),
             anchors: (0..count).map(|_| None).collect(),
             reach: vec![LEAST_REACH; count],
