@@ -144,9 +144,8 @@ pub fn redrawn(hairstyle: &Hairstyle, spec: &HairstyleSpec) -> Option<Hairstyle>
     let baby_hairs = hairstyle.spec.implantation.baby_hairs;
     let implantation = Implantation { baby_hairs, ..spec.implantation.clone() };
     let same = HairstyleSpec { wisps, implantation, ..spec.clone() } == hairstyle.spec;
-    let unstyled = || hairstyle.styling.is_none(&hairstyle.guides);
     let possible =
         || spec.check().is_ok() && spec.wisps.check_size(hairstyle.placement.area()).is_ok();
-    (same && unstyled() && possible())
+    (same && !hairstyle.is_styled() && possible())
         .then(|| Hairstyle { spec: spec.clone(), ..hairstyle.clone() })
 }

@@ -335,6 +335,11 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Factor on the thickness of wisps, which follows from their hairs; {}. Default 1.
         "contact.volume" => number::<Ratio>()
             .slider(Panel::Wisps, "Volume", TIMES, (0.0, 4.0), 2, "Factor on how much room wisps take from each other.");
+        /// Coefficient of friction of hair against hair, which holds what was combed; {}. Default 0: hair slides freely.
+        "contact.friction" => number::<Ratio>()
+            .slider(Panel::Wisps, "Friction", PERCENT, (0.0, 100.0), 0, "How well hair holds on hair after it was combed.");
+        /// The same against skin; {}. Default 0.
+        "contact.skin_friction" => number::<Ratio>();
         /// How the equilibrium of each guide is computed.
         "equilibrium" => table();
         /// Number of elements per hair; 1 to 10000, at most 1000 on a head.

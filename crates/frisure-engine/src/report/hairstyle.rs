@@ -2,8 +2,8 @@
 
 use frisure::hairstyle::contact::Thickness;
 use frisure::hairstyle::{
-    Body, DrawnHair, HairContact, Hairstyle, JointCertificate, SettlingReport, Simulation, Volume,
-    volume,
+    Body, Contact, DrawnHair, HairContact, Hairstyle, JointCertificate, SettlingReport, Simulation,
+    Volume, volume,
 };
 use frisure::rod::Energy;
 use frisure::strands::Strands;
@@ -83,6 +83,23 @@ pub struct GuideReport {
     /// What was checked of all guides together, with `equilibrium.method = "continuation"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<JointReport>,
+    /// What friction holds; none if hair slides freely.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionReport>,
+}
+
+/// What friction holds. With friction, where hair rests depends on how it got there.
+#[derive(Clone, Debug, Serialize)]
+pub struct FrictionReport {
+    /// Coefficient of hair against hair.
+    pub hair: f64,
+    /// Coefficient of hair against skin.
+    pub skin: f64,
+    /// Largest friction of any contact over the most that its normal force allows: 1 where it slips, more by what normal
+    /// forces and shapes do not agree.
+    pub largest_ratio: f64,
+    /// How the hair came to where it rests.
+    pub history: &'static str,
 }
 
 /// What was checked of all guides of a head together.
@@ -167,7 +184,10 @@ impl LoadedScene {
             scene: self.scene.name.clone(),
             hair_type: self.scene.hair_type,
             seed: spec.seed,
-            guides: GuideReport::new(&metrics.settling, spec.equilibrium.tolerance),
+            guides: GuideReport {
+                friction: friction(&self.hairstyle, metrics.settling.friction),
+                ..GuideReport::new(&metrics.settling, spec.equilibrium.tolerance)
+            },
             groom: self.adoption.clone(),
             contact: ContactReport { body: body(spec.contact.body), hair: hair(spec.contact.hair) },
             thickness: thickness(&self.hairstyle),
@@ -206,8 +226,24 @@ impl GuideReport {
             tolerance,
             penetration: settling.penetration,
             joint: settling.joint.map(JointReport::from),
+            friction: None,
         }
     }
+}
+
+/// What friction holds of a hairstyle; none without friction.
+fn friction(hairstyle: &Hairstyle, largest_ratio: f64) -> Option<FrictionReport> {
+    let Contact { hair: model, friction: hair, skin_friction: skin, .. } = hairstyle.spec().contact;
+    let history = match model {
+        _ if hairstyle.is_styled() => {
+            "the prediction, then the steps in their order, each from where hair lay, held by friction"
+        }
+        HairContact::Wisps => {
+            "each guide alone, gravity turned on without friction; then all wisps pressed together, with friction"
+        }
+        HairContact::None | HairContact::Layers => "gravity turned on without friction",
+    };
+    (hair > 0.0 || skin > 0.0).then_some(FrictionReport { hair, skin, largest_ratio, history })
 }
 
 impl From<JointCertificate> for JointReport {

@@ -4,6 +4,7 @@ use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
 use super::bed::Bed;
+use super::friction::{FrictionSurface, Pressed};
 use super::layers::Layer;
 use super::thickness::Thickness;
 use crate::head::{Head, Sphere};
@@ -33,6 +34,25 @@ pub struct BodyContact<'a> {
     pub layer: Layer,
     /// Height of the hair beneath a guide that comes from a groom; it replaces thickness and layer.
     pub bed: Option<&'a Bed>,
+    /// Coefficients of friction.
+    pub friction: FrictionCoefficients,
+}
+
+/// Coefficients of friction of hair, tangential over normal force; 0 without friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrictionCoefficients {
+    /// Against skin.
+    pub skin: f64,
+    /// Against other hair.
+    pub hair: f64,
+}
+
+impl FrictionCoefficients {
+    /// Whether hair slides freely on everything.
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        self == Self::default()
+    }
 }
 
 impl BodyContact<'_> {
@@ -65,6 +85,18 @@ impl BodyContact<'_> {
                 }
             }
         }
+    }
+
+    /// Coefficient of friction of the soft contact at arc length `s` (m): the wisp lies on hair as far as the thickness
+    /// beneath it is that of other hair, and on skin as far as it is its own.
+    fn soft_friction(&self, s: f64) -> f64 {
+        let FrictionCoefficients { skin, hair } = self.friction;
+        if self.bed.is_some() {
+            return hair;
+        }
+        let (own, beneath) = (self.thickness.at(s), self.layer.at(s));
+        let share = if beneath > 0.0 { beneath / (own + beneath) } else { 0.0 };
+        skin + share * (hair - skin)
     }
 
     /// Energy per length (J/m) at a distance (m), and its first two derivatives.
@@ -121,6 +153,27 @@ impl Field for BodyContact<'_> {
     }
 }
 
+impl FrictionSurface for BodyContact<'_> {
+    fn pressed(&self, s: f64, p: DVec3) -> Option<Pressed> {
+        if self.friction.is_zero() {
+            return None;
+        }
+        let clearance = self.clearance(s);
+        let soft = self.soft_friction(s);
+        let (mut normal, mut limit) = (DVec3::ZERO, 0.0);
+        self.for_each_near(clearance.max(0.0), p, |distance, gradient, _| {
+            let [_, slope, _] = self.penalty(clearance, distance);
+            // λ_n = −E′ of the skin, and that of the hair: each has its own coefficient.
+            let on_skin = self.skin * (-distance).max(0.0);
+            let on_hair = (-slope - on_skin).max(0.0);
+            normal += gradient * -slope;
+            limit += self.friction.skin * on_skin + soft * on_hair;
+        });
+        let normal = normal.try_normalize()?;
+        (limit > 0.0).then_some(Pressed { normal, limit })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,6 +193,7 @@ mod tests {
                 thickness: wisp(),
                 layer,
                 bed: None,
+                friction: FrictionCoefficients::default(),
             };
             // In the hair over the skin, and in the skin.
             for out in [0.003, -0.004] {

@@ -10,15 +10,19 @@
 
 mod bed;
 mod body;
+mod friction;
 mod layers;
 mod neighbours;
 mod pull;
 #[cfg(test)]
 mod test_field;
 mod thickness;
+mod wisp_friction;
 
 pub use bed::Bed;
-pub use body::BodyContact;
+pub use body::{BodyContact, FrictionCoefficients};
+pub(crate) use friction::{Friction, FrictionGap};
+pub use friction::{FrictionSurface, Pressed};
 pub use layers::Layer;
 pub use neighbours::Neighbours;
 pub(crate) use neighbours::{Contact, ContactPairs, Samples};

@@ -4,7 +4,9 @@ use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use super::friction::FrictionGap;
 use super::thickness::Thickness;
+use super::wisp_friction::{Hold, Holds, Touching};
 use crate::math::{Grid, outer};
 
 /// The points of one guide at which contact is evaluated: evenly spaced, without the root.
@@ -39,6 +41,10 @@ pub(crate) struct ContactPairs {
     samples: Vec<Samples>,
     /// Per guide, what its points may touch.
     nearby: Vec<Nearby>,
+    /// Coefficient of friction between wisps; 0 without friction.
+    friction: f64,
+    /// Per guide, what sticks to its points; empty without friction.
+    holds: Vec<Holds>,
 }
 
 /// What the points of one guide may touch.
@@ -135,7 +141,7 @@ impl GridLevel {
 }
 
 /// Two points that touch, seen from the guide of the first, and the second derivative of their energy by the separation
-/// of the two, which is `a aᵀ − s I`: that by both points themselves, and minus that by one and the other.
+/// of the two, which is `a aᵀ − b bᵀ − s I`: that by both points themselves, and minus that by one and the other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
     /// Index of the own point.
@@ -146,13 +152,17 @@ pub(crate) struct Contact {
     along: DVec3,
     /// s (N/m).
     across: f64,
+    /// b (√(N/m)) of friction, which subtracts b bᵀ; zero but for what slips.
+    slip: DVec3,
 }
 
 impl Contact {
     /// The second derivative times a relative displacement (m): a change of force (N).
     #[inline]
     pub(crate) fn apply(&self, displacement: DVec3) -> DVec3 {
-        self.along * self.along.dot(displacement) - displacement * self.across
+        self.along * self.along.dot(displacement)
+            - self.slip * self.slip.dot(displacement)
+            - displacement * self.across
     }
 }
 
@@ -262,7 +272,41 @@ impl Nearby {
 
 impl ContactPairs {
     pub(crate) fn new(samples: Vec<Samples>, stiffness: f64) -> Self {
-        Self { stiffness, samples, nearby: Vec::new() }
+        Self { stiffness, samples, nearby: Vec::new(), friction: 0.0, holds: Vec::new() }
+    }
+
+    /// The same with a coefficient of friction between wisps.
+    pub(crate) fn with_friction(self, friction: f64) -> Self {
+        Self { friction, ..self }
+    }
+
+    /// Takes over how wisps are pressed together where they are now: what touches sticks, what slipped is followed by its
+    /// anchors. Returns how far each guide's forces of friction were from the law. docs/theory.md (F2), (F3)
+    pub(crate) fn press(&mut self) -> Vec<FrictionGap> {
+        let (holds, gaps) = self.pressed();
+        self.holds = holds;
+        gaps
+    }
+
+    /// How far each guide's forces of friction are from the law where wisps are now.
+    pub(crate) fn friction_gaps(&self) -> Vec<FrictionGap> {
+        self.pressed().1
+    }
+
+    fn pressed(&self) -> (Vec<Holds>, Vec<FrictionGap>) {
+        if self.friction == 0.0 {
+            return (Vec::new(), vec![FrictionGap::default(); self.samples.len()]);
+        }
+        let none = Holds::default();
+        (0..self.samples.len())
+            .into_par_iter()
+            .map(|guide| {
+                let (field, own) = (self.around(guide), &self.samples[guide]);
+                let touching = (0..own.positions.len()).map(|k| field.touching(k));
+                let before = self.holds.get(guide).unwrap_or(&none);
+                before.pressed(self.friction, touching, own.spacing)
+            })
+            .unzip()
     }
 
     /// Moves the points of a guide; who may touch whom stays until [`Self::update_neighbours`]. Gives the
@@ -369,11 +413,38 @@ impl ContactPairs {
                         other: (run.guide, there as u32),
                         along: away * (4.0 * scale * square).sqrt(),
                         across: scale * overlap,
+                        slip: DVec3::ZERO,
                     });
                 }
             }
         }
+        self.add_held_contacts(guide, &mut contacts);
         contacts
+    }
+
+    /// Adds those by which friction holds one guide.
+    fn add_held_contacts(&self, guide: usize, contacts: &mut Vec<Contact>) {
+        let Some(holds) = self.holds.get(guide) else { return };
+        let own = &self.samples[guide];
+        for here in 0..own.positions.len() {
+            for hold in holds.of_point(here) {
+                let away = own.positions[here] - self.position(hold.other);
+                let (s, b) = hold.stiffness(away);
+                let length = own.weight(here);
+                contacts.push(Contact {
+                    point: here as u32,
+                    other: hold.other,
+                    along: DVec3::ZERO,
+                    across: -s * length,
+                    slip: b * length.sqrt(),
+                });
+            }
+        }
+    }
+
+    /// Where a point of a guide is (m).
+    fn position(&self, (guide, point): (u32, u32)) -> DVec3 {
+        self.samples[guide as usize].positions[point as usize]
     }
 
     /// The contact energy of one guide with the others.
@@ -408,6 +479,38 @@ pub struct Neighbours<'a> {
 }
 
 impl Neighbours<'_> {
+    /// What touches own point `k` now.
+    fn touching(&self, k: usize) -> Vec<Touching> {
+        let (own, near) = (&self.pairs.samples[self.guide], &self.pairs.nearby[self.guide]);
+        let mut touching = Vec::new();
+        for run in near.of_point(k) {
+            let other = &self.pairs.samples[run.guide as usize];
+            for point in run.first as usize..run.end as usize {
+                let away = own.positions[k] - other.positions[point];
+                let reach = own.radii[k] + other.radii[point];
+                let overlap = 1.0 - away.length_squared() / (reach * reach);
+                if overlap > 0.0 {
+                    // |∇E| of [`Self::derivatives`].
+                    let scale = 0.75 * self.pairs.stiffness * other.weight(point) / reach;
+                    let force = scale * overlap * overlap * away.length();
+                    touching.push(((run.guide, point as u32), away, force));
+                }
+            }
+        }
+        touching
+    }
+
+    /// Calls `held` with the separation (m) of what sticks to the point at arc length `s`.
+    #[inline]
+    fn for_each_hold(&self, s: f64, p: DVec3, mut held: impl FnMut(DVec3, &Hold)) {
+        let Some(holds) = self.pairs.holds.get(self.guide) else { return };
+        let own = &self.pairs.samples[self.guide];
+        let k = ((s / own.spacing).round() as usize).clamp(1, own.positions.len()) - 1;
+        for hold in holds.of_point(k) {
+            held(p - self.pairs.position(hold.other), hold);
+        }
+    }
+
     /// Calls `touch` with the separation (m), the sum of radii (m) and the length (m) of what
     /// touches the point at arc length `s`.
     #[inline]
@@ -437,7 +540,9 @@ impl Field for Neighbours<'_> {
             let overlap = 1.0 - away.length_squared() / (reach * reach);
             sum += length * reach * overlap.powi(3);
         });
-        0.125 * self.pairs.stiffness * sum
+        let mut rubbing = 0.0;
+        self.for_each_hold(s, p, |away, hold| rubbing += self.share * hold.energy(away));
+        0.125 * self.pairs.stiffness * sum + rubbing
     }
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
@@ -451,6 +556,11 @@ impl Field for Neighbours<'_> {
             *force -= away * (scale * overlap);
             *stiffness += outer(away, away) * (4.0 * scale * square)
                 - DMat3::from_diagonal(DVec3::splat(scale * overlap));
+        });
+        self.for_each_hold(s, p, |away, hold| {
+            let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
+            *force += hold.force(away) * self.share;
+            *stiffness += hold.hessian(away) * self.share;
         });
         sum
     }

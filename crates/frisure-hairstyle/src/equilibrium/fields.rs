@@ -4,7 +4,7 @@ use frisure_rod::potential::{Field, FieldPotential};
 use frisure_rod::{Equilibrium, Options, Resolution, Rod};
 use glam::DVec3;
 
-use crate::contact::{Bed, BodyContact, Layer, Thickness};
+use crate::contact::{Bed, BodyContact, FrictionCoefficients, Layer, Thickness};
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::spec::HairstyleSpec;
@@ -53,6 +53,8 @@ pub(crate) fn held_up<'a>(
         thickness: Thickness::new(rod, DVec3::ZERO, 1.0, 1.0, 0.0, 0.0),
         layer: Layer::NONE,
         bed: Some(bed),
+        // What the groom shows is held up by normal forces alone.
+        friction: FrictionCoefficients::default(),
     }
 }
 
@@ -72,6 +74,11 @@ const BODY_SPACING: f64 = 3e-3;
 /// docs/theory.md, "Hair on the body".
 const BODY_TURN: f64 = 0.7;
 
+/// The coefficients of friction of a description.
+pub(super) fn friction(spec: &HairstyleSpec) -> FrictionCoefficients {
+    FrictionCoefficients { skin: spec.contact.skin_friction, hair: spec.contact.friction }
+}
+
 /// Contact of a guide with the body, on a bed of hair or without.
 pub(super) fn body<'a>(
     spec: &HairstyleSpec,
@@ -87,6 +94,7 @@ pub(super) fn body<'a>(
         thickness: guide.thickness,
         layer,
         bed: guide.bed.as_deref(),
+        friction: friction(spec),
     }
 }
 
@@ -96,12 +104,14 @@ pub(super) fn along<'a, F: Field>(
     guide: &Guide,
     elements: usize,
 ) -> FieldPotential<'a, F> {
+    FieldPotential::new(field, body_samples(guide, elements))
+}
+
+/// Points per element of a guide at which contact with the body is evaluated.
+pub(super) fn body_samples(guide: &Guide, elements: usize) -> u32 {
     let strain = guide.rod.natural().mean(0.0, guide.rod.length()).length();
     // The bound (rad/m) stands for straight hair, where the spacing alone decides.
-    FieldPotential::new(
-        field,
-        samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9))),
-    )
+    samples(guide, elements, BODY_SPACING.min(BODY_TURN / strain.max(1e-9)))
 }
 
 /// Most points per element: a guard on time for extreme scenes.

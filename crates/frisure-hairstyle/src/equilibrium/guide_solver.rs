@@ -6,7 +6,9 @@ use frisure_rod::{
 };
 use rayon::prelude::*;
 
-use super::fields::{MAX_ITERATIONS, MOST_ELEMENTS, along, body, depth, options};
+use super::fields::{MAX_ITERATIONS, MOST_ELEMENTS, along, body, body_samples, depth, options};
+use super::friction_solver::{Hold, Rested, Rubbing};
+use super::letting_go::LETTING_GO;
 use super::start::{Change, GuideStart};
 use crate::contact::Layer;
 use crate::contact::Pull;
@@ -30,7 +32,8 @@ const STARTS: u32 = 8;
 const WARM_TOLERANCE: f64 = 1e-5;
 
 /// Brings every guide to rest by itself, in at most `iterations` iterations from where it rested before. With
-/// fewer than [`MAX_ITERATIONS`] a changed guide that was not put into another shape comes nearer to rest.
+/// fewer than [`MAX_ITERATIONS`] a changed guide that was not put into another shape comes nearer to rest. A guide that lay
+/// among wisps and is `held_by_wisps` stays as it lay: it comes to rest with them.
 ///
 /// # Errors
 /// [`Cancelled`], if the work is cancelled.
@@ -40,15 +43,24 @@ pub(super) fn settle(
     guides: &[Guide],
     start: GuideStart<'_>,
     iterations: usize,
+    held_by_wisps: bool,
     progress: &dyn Progress,
-) -> Result<Vec<Equilibrium>, Cancelled> {
+) -> Result<Vec<Rested>, Cancelled> {
     let stage = StageCounter::new(progress, "settling guides", guides.len());
     let rest = |(index, guide): (usize, &Guide)| {
         stage.check()?;
         let rest = match start {
-            GuideStart::Natural => settle_one(spec, head, guide),
+            GuideStart::Natural => Rested::free(settle_one(spec, head, guide)),
             GuideStart::At(before) => {
-                settle_one_from(spec, head, guide, &before[index], iterations)
+                settle_one_from(spec, head, guide, &before[index], iterations, Hold::Free)
+            }
+            GuideStart::Like(before) => {
+                settle_one_from(spec, head, guide, &before[index], iterations, Hold::ByFriction)
+            }
+            GuideStart::Changed { before, changes }
+                if held_by_wisps && changes[index].leaves_it_lying(guide) =>
+            {
+                Rested::free(in_shape_of(spec, guide, &before[index]))
             }
             GuideStart::Changed { before, changes } => {
                 settle_changed(spec, head, guide, &before[index], changes[index], iterations)
@@ -68,59 +80,50 @@ fn settle_changed(
     before: &Equilibrium,
     change: Change,
     iterations: usize,
-) -> Equilibrium {
+) -> Rested {
     match change {
-        Change::None => before.clone(),
+        Change::None => Rested::free(before.clone()),
         Change::Changed | Change::LetGo(_) if iterations < MAX_ITERATIONS => {
-            settle_one_from(spec, head, guide, before, iterations)
+            settle_one_from(spec, head, guide, before, iterations, Hold::ByFriction)
         }
         Change::Changed => resettle_one(spec, head, guide, before, None),
         Change::LetGo(pull) => resettle_one(spec, head, guide, before, Some(pull)),
-        Change::Moulded => settle_one(spec, head, guide),
+        Change::Moulded => Rested::free(settle_one(spec, head, guide)),
         Change::Handled => handled(spec, head, guide, before),
     }
 }
 
 /// The lower of two rests: what lay looped over an ear does not stay so when it is cut.
-fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibrium) -> Equilibrium {
-    // Two minima of the same energy: downhill from where it lay, and along gravity's branch from its root.
+fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibrium) -> Rested {
+    // Two minima of the same energy: downhill from where it lay, and along gravity's branch from its root. A hand that lifts
+    // hair frees it of friction: what falls has none.
     let lying = resettle_one(spec, head, guide, before, None);
     let fallen = settle_one(spec, head, guide);
-    let lower = fallen.energy.total() < lying.energy.total();
-    if lower && depth(head, &fallen) <= DEEPEST { fallen } else { lying }
+    let lower = fallen.energy.total() < lying.rest.energy.total();
+    if lower && depth(head, &fallen) <= DEEPEST { Rested::free(fallen) } else { lying }
 }
 
 /// How hard a comb or a clip pulls, in steps: it does not tear hair through the head …
 /// Chosen by trial; not measured further.
 const PULLS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
 
-/// How hard a comb or clip pulls in steps while it lets go: hair sinks to where it is let go.
-/// Chosen by trial; not measured further.
-const LETTING_GO: [f64; 6] = [0.6, 0.35, 0.2, 0.1, 0.05, 0.02];
-
-/// Brings a guide to rest from where it lay; `gone` is a pull that has let go.
+/// Brings a guide to rest from where it lay, held by friction if there is any; `gone` is a pull that has let go.
 fn resettle_one(
     spec: &HairstyleSpec,
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
     gone: Option<Pull>,
-) -> Equilibrium {
+) -> Rested {
     // 1. Without a body and without a pull the rod's own search needs no steps.
     let alone = guide.pull.is_none() && gone.is_none();
     if spec.contact.body == Body::None && alone {
-        return equilibrium_from(&guide.rod, &[], &options(spec), before);
+        return Rested::free(equilibrium_from(&guide.rod, &[], &options(spec), before));
     }
     let (elements, accuracy) = division(spec, guide);
     let options = Options { resolution: Resolution::Elements(elements), ..options(spec) };
-    let body = body(spec, head, guide, layer(spec, guide));
-    let body = along(&body, guide, elements);
-    let settle = |pull: Option<Pull>, from: &Equilibrium| match &pull {
-        None => equilibrium_from(&guide.rod, &[&body], &options, from),
-        Some(pull) => {
-            equilibrium_from(&guide.rod, &[&body, &along(pull, guide, elements)], &options, from)
-        }
-    };
+    let surface = body(spec, head, guide, layer(spec, guide));
+    let body = along(&surface, guide, elements);
     // 2. The pull turned on, or off, in steps, each from the shape of the one before. docs/theory.md, "Styling"
     let pulls: Vec<Option<Pull>> = match (guide.pull, gone) {
         (None, None) => vec![None],
@@ -130,26 +133,47 @@ fn resettle_one(
             going.chain([None]).collect()
         }
     };
-    let first = settle(pulls[0], before);
-    let mut rest = pulls[1..].iter().fold(first, |rest, &pull| settle(pull, &rest));
-    rest.certificate.accuracy = accuracy;
+    let mut rested = if surface.friction.is_zero() {
+        let settle = |from: &Equilibrium, pull: &Option<Pull>| match pull {
+            None => equilibrium_from(&guide.rod, &[&body], &options, from),
+            Some(pull) => {
+                let pull = along(pull, guide, elements);
+                equilibrium_from(&guide.rod, &[&body, &pull], &options, from)
+            }
+        };
+        let first = settle(before, &pulls[0]);
+        Rested::free(pulls[1..].iter().fold(first, |rest, pull| settle(&rest, pull)))
+    } else {
+        let samples = body_samples(guide, elements);
+        let mut rubbing = Rubbing::new(&guide.rod, &surface, samples, options, before);
+        for pull in &pulls {
+            match pull {
+                None => rubbing.step(&[&body]),
+                Some(pull) => rubbing.step(&[&body, &along(pull, guide, elements)]),
+            }
+        }
+        rubbing.finish()
+    };
+    rested.rest.certificate.accuracy = accuracy;
     // 3. It may have been pushed into the body, or have been there when it was held: then it comes down
     // from its root again.
-    let deep = depth(head, &rest);
+    let deep = depth(head, &rested.rest);
     if deep <= DEEPEST {
-        return rest;
+        return rested;
     }
     let fallen = settle_one(spec, head, guide);
-    if depth(head, &fallen) < deep { fallen } else { rest }
+    if depth(head, &fallen) < deep { Rested::free(fallen) } else { rested }
 }
 
+/// Brings a guide nearer to rest from where it lay, in at most `iterations` iterations for each set of normal forces.
 fn settle_one_from(
     spec: &HairstyleSpec,
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
     iterations: usize,
-) -> Equilibrium {
+    hold: Hold,
+) -> Rested {
     let elements = elements_like(spec, before);
     let options = Options {
         resolution: Resolution::Elements(elements),
@@ -158,21 +182,28 @@ fn settle_one_from(
         ..options(spec)
     };
     if spec.contact.body == Body::None && guide.pull.is_none() {
-        return equilibrium_from(&guide.rod, &[], &options, before);
+        return Rested::free(equilibrium_from(&guide.rod, &[], &options, before));
     }
-    let body = body(spec, head, guide, layer(spec, guide));
-    let body = along(&body, guide, elements);
+    let surface = body(spec, head, guide, layer(spec, guide));
+    let body = along(&surface, guide, elements);
     let pull = guide.pull.as_ref().map(|pull| along(pull, guide, elements));
     let mut felt: Vec<&dyn Potential> = vec![&body];
     felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
-    let mut rest = equilibrium_from(&guide.rod, &felt, &options, before);
-    rest.certificate.accuracy = before.certificate.accuracy;
+    let mut rested = if hold == Hold::Free || surface.friction.is_zero() {
+        Rested::free(equilibrium_from(&guide.rod, &felt, &options, before))
+    } else {
+        let samples = body_samples(guide, elements);
+        let mut rubbing = Rubbing::new(&guide.rod, &surface, samples, options, before);
+        rubbing.step(&felt);
+        rubbing.finish()
+    };
+    rested.rest.certificate.accuracy = before.certificate.accuracy;
     // It may have been pushed into the body: then it comes down from its root again. One that lay deep before stays.
-    let deep = depth(head, &rest);
+    let deep = depth(head, &rested.rest);
     if deep > DEEPEST && deep > depth(head, before) + DEEPEST {
-        return settle_one(spec, head, guide);
+        return Rested::free(settle_one(spec, head, guide));
     }
-    rest
+    rested
 }
 
 /// Guides in the shapes of those before them.
@@ -181,18 +212,19 @@ pub(super) fn in_shapes_of(
     guides: &[Guide],
     before: &[Equilibrium],
 ) -> Vec<Equilibrium> {
+    let transfer = |(guide, before): (&Guide, &Equilibrium)| in_shape_of(spec, guide, before);
+    guides.par_iter().zip(before).map(transfer).collect()
+}
+
+/// A guide in the shape of the one before it.
+fn in_shape_of(spec: &HairstyleSpec, guide: &Guide, before: &Equilibrium) -> Equilibrium {
     // No iteration: the shape is transferred by its frames and stays as it is. docs/theory.md, "Warm starts"
-    let options = Options { max_iterations: 0, tolerance: 0.0, ..options(spec) };
-    (guides.par_iter().zip(before))
-        .map(|(guide, before)| {
-            let resolution = Resolution::Elements(elements_like(spec, before));
-            let mut transferred =
-                equilibrium_from(&guide.rod, &[], &Options { resolution, ..options }, before);
-            transferred.certificate.iterations = 0;
-            transferred.certificate.accuracy = before.certificate.accuracy;
-            transferred
-        })
-        .collect()
+    let resolution = Resolution::Elements(elements_like(spec, before));
+    let still = Options { max_iterations: 0, tolerance: 0.0, resolution, ..options(spec) };
+    let mut transferred = equilibrium_from(&guide.rod, &[], &still, before);
+    transferred.certificate.iterations = 0;
+    transferred.certificate.accuracy = before.certificate.accuracy;
+    transferred
 }
 
 /// The division of a guide: that of the one before it, if the description gives an accuracy.

@@ -18,8 +18,11 @@ use frisure_rod::minimise::NewtonStep;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::wisp::{Settled, Wisp, rest_among, wisps_with_pairs};
-use crate::contact::ContactPairs;
+use super::fields::friction;
+use super::friction_solver::Hold;
+use super::letting_go::loads;
+use super::wisp::{Settled, Wisp, friction_gaps, press, rest_among, wisps_with_pairs};
+use crate::contact::{ContactPairs, Pull};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -72,8 +75,22 @@ const FRACTIONS: (f64, f64) = (0.1, 2.0);
 /// Least and largest factor on a fraction after a failed trial. [Nocedal & Wright] §3.5: interpolation with safeguards.
 const BACKTRACKING: (f64, f64) = (0.1, 0.5);
 
-/// Lets wisps make way for each other from where the guides are in `start`: phase 1 if `sweep_first`, then at most
-/// `most` steps of phase 2.
+/// Most times that phase 2 is done again because friction has changed. A guard.
+const MOST_ROUNDS: usize = 40;
+
+/// How [`settle`] works.
+pub(super) struct SweepOptions {
+    /// Whether phase 1 comes first.
+    pub(super) sweep_first: bool,
+    /// Most steps of phase 2.
+    pub(super) most: usize,
+    /// Whether friction holds wisps near where they start.
+    pub(super) hold: Hold,
+}
+
+/// Lets wisps make way for each other from where the guides are in `start`. Friction, if there is any, lets them stick where
+/// they touch; limits and anchors follow the wisps after each sweep of phase 1, and after each round of phase 2 until both
+/// agree (docs/theory.md, "Friction"). `gone` is what lets go of each guide, in steps.
 ///
 /// # Errors
 /// [`Cancelled`], if the work is cancelled.
@@ -82,27 +99,41 @@ pub(super) fn settle(
     head: &Head,
     guides: &[Guide],
     start: &[Equilibrium],
-    sweep_first: bool,
-    most: usize,
+    gone: &[Option<Pull>],
+    SweepOptions { sweep_first, most, hold }: SweepOptions,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let stage = StageCounter::new(progress, "wisps making way", 1);
-    let mut solver = HeadSolver::new(spec, head, guides, start);
-    let sweeps = if sweep_first { solver.sweep_until_calm(&stage)? } else { 0 };
-    let steps = solver.converge(&stage, most)?;
-    Ok(solver.finish(sweeps + steps))
+    let mut solver = HeadSolver::new(spec, head, guides, start, hold);
+    if !sweep_first && solver.rubs {
+        solver.update_neighbours();
+        solver.press();
+    }
+    let mut sweeps = 0;
+    for share in loads(gone) {
+        for (wisp, gone) in solver.wisps.iter_mut().zip(gone) {
+            wisp.let_go(gone.as_ref().map(|gone| gone.scaled(share)));
+        }
+        sweeps += if sweep_first { solver.sweep_until_calm(&stage)? } else { 0 };
+        sweeps += solver.settle_with_friction(&stage, most)?;
+    }
+    Ok(solver.finish(sweeps))
 }
 
 /// All guides of a head on their way to rest.
 struct HeadSolver<'a> {
     /// Relative gradient of each guide at which the head is at rest.
     tolerance: f64,
+    /// Whether friction holds wisps.
+    rubs: bool,
     wisps: Vec<Wisp<'a>>,
     pairs: ContactPairs,
     /// The order in which guides move.
     order: Vec<usize>,
     /// Guides of which no two may touch, in that order.
     groups: Vec<Vec<usize>>,
+    /// How far a guide may move in a sweep (m).
+    largest: f64,
     /// How far a guide may move at once (m).
     farthest: f64,
     /// How far each guide may move (m) before its neighbours are searched again …
@@ -119,8 +150,9 @@ impl<'a> HeadSolver<'a> {
         head: &'a Head,
         guides: &'a [Guide],
         alone: &'a [Equilibrium],
+        hold: Hold,
     ) -> Self {
-        let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone);
+        let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
         let mut order: Vec<usize> = (0..guides.len()).collect();
         // Hair rooted lower lies lower: it is the first to be pushed out of the way.
         let height = |i: usize| guides[i].root.position.z;
@@ -132,10 +164,12 @@ impl<'a> HeadSolver<'a> {
         let largest = (LARGEST_MOVE * radius).clamp(LEAST_REACH, MOST_REACH);
         Self {
             tolerance: spec.equilibrium.tolerance,
+            rubs: hold == Hold::ByFriction && !friction(spec).is_zero(),
             wisps,
             pairs,
             order,
             groups: Vec::new(),
+            largest,
             farthest: largest,
             reach: vec![largest; count],
             drift: vec![f64::INFINITY; count],
@@ -148,8 +182,10 @@ impl HeadSolver<'_> {
     /// Phase 1: sweeps until half of the guides are calm. Returns the number of sweeps.
     fn sweep_until_calm(&mut self, stage: &StageCounter<'_>) -> Result<usize, Cancelled> {
         let everyone = vec![true; self.wisps.len()];
+        self.farthest = self.largest;
         for sweep in 1..=MOST_SWEEPS {
             self.update_neighbours();
+            self.press();
             self.sweep(stage, &everyone)?;
             // Symmetric sweeps (Gauss–Seidel): the same guides are not the first to move every time.
             self.order.reverse();
@@ -160,6 +196,33 @@ impl HeadSolver<'_> {
             }
         }
         Ok(MOST_SWEEPS)
+    }
+
+    /// Phase 2, again until friction agrees with where wisps are, in at most `most` steps; returns the number of steps.
+    fn settle_with_friction(
+        &mut self,
+        stage: &StageCounter<'_>,
+        most: usize,
+    ) -> Result<usize, Cancelled> {
+        let mut steps = 0;
+        for round in 0..MOST_ROUNDS {
+            let taken = self.converge(stage, most - steps)?;
+            steps += taken;
+            // At rest with the friction of where wisps are: the law holds there, (F3).
+            if steps >= most || (round > 0 && taken == 0) || !self.rubs {
+                break;
+            }
+            self.press();
+        }
+        Ok(steps)
+    }
+
+    /// Lets friction follow where wisps are.
+    fn press(&mut self) {
+        if !self.rubs {
+            return;
+        }
+        press(&mut self.wisps, &mut self.pairs);
     }
 
     /// Step 2.1: searches the neighbours of guides that have used up half of their reach.
@@ -200,7 +263,7 @@ impl HeadSolver<'_> {
 
     /// Phase 2: steps until no guide is active, at most `most`. Returns the number of steps.
     fn converge(&mut self, stage: &StageCounter<'_>, most: usize) -> Result<usize, Cancelled> {
-        self.farthest *= LARGEST_STEP;
+        self.farthest = LARGEST_STEP * self.largest;
         self.drift.fill(f64::INFINITY);
         let mut newton: Vec<Option<NewtonStep>> = vec![None; self.wisps.len()];
         let mut previous: Option<Direction> = None;
@@ -340,7 +403,9 @@ impl HeadSolver<'_> {
         let count = self.wisps.len();
         // The lists without margins: certificates count what touches now, nothing else.
         self.pairs.update_neighbours(&vec![0.0; count], &vec![true; count]);
-        Rest { sweeps, ..rest_among(&self.wisps, &self.pairs, self.tolerance) }
+        let gaps = friction_gaps(&self.wisps, &self.pairs);
+        let friction = gaps.iter().map(|gap| gap.ratio).collect();
+        Rest { sweeps, friction, ..rest_among(&self.wisps, &self.pairs, self.tolerance) }
     }
 }
 

@@ -1,17 +1,23 @@
 //! Guides coming to rest: each alone on the body, then all together among each other.
 
 mod fields;
+mod friction_solver;
 mod guide_solver;
 mod head_solver;
 mod joint;
+mod letting_go;
 mod report;
 mod start;
+mod tether;
 mod wisp;
 
 pub(crate) use fields::{held_up, holding};
 pub use report::{SettlingReport, settling_report};
 pub(crate) use start::{Change, GuideStart};
 
+use self::friction_solver::Hold;
+use self::head_solver::SweepOptions;
+use self::joint::JointOptions;
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -62,24 +68,40 @@ pub(crate) fn settle(
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let wisps_repel = spec.contact.hair == HairContact::Wisps;
-    let warm = matches!(start, GuideStart::At(_));
-    let alone = match start {
+    let hold = match start {
+        GuideStart::At(_) => Hold::Free,
+        GuideStart::Natural | GuideStart::Like(_) | GuideStart::Changed { .. } => Hold::ByFriction,
+    };
+    let warm = matches!(start, GuideStart::At(_) | GuideStart::Like(_));
+    let full = effort == Effort::FULL;
+    let gone = letting_go::among_wisps(spec, guides, start).filter(|_| full);
+    let among = gone.is_some();
+    let (alone, friction): (Vec<_>, Vec<_>) = match start {
         // Among wisps the guides go on from where the other wisps left them.
-        GuideStart::At(before) if effort == Effort::NONE || wisps_repel => {
-            guide_solver::in_shapes_of(spec, guides, before)
+        GuideStart::At(before) | GuideStart::Like(before)
+            if effort == Effort::NONE || wisps_repel =>
+        {
+            let shapes = guide_solver::in_shapes_of(spec, guides, before);
+            shapes.into_iter().map(|rest| (rest, 0.0)).unzip()
         }
-        _ => guide_solver::settle(spec, head, guides, start, effort.iterations, progress)?,
+        _ => guide_solver::settle(spec, head, guides, start, effort.iterations, among, progress)?
+            .into_iter()
+            .map(|rested| (rested.rest, rested.friction))
+            .unzip(),
     };
     if !wisps_repel || effort.sweeps == 0 {
-        return Ok(Rest::apart(alone));
+        return Ok(Rest { friction, ..Rest::apart(alone) });
     }
-    if spec.equilibrium.method == HeadMethod::Continuation && effort == Effort::FULL {
-        return joint::settle(spec, head, guides, &alone, warm, progress);
+    let gone = gone.unwrap_or_else(|| vec![None; guides.len()]);
+    if spec.equilibrium.method == HeadMethod::Continuation && full {
+        let among_each_other = warm || among;
+        let options = JointOptions { among_each_other, hold, gone: &gone };
+        return joint::settle(spec, head, guides, &alone, options, progress);
     }
     // Sweeps decide which wisp lies on which; a warm start has decided it.
-    let sweep_first = effort == Effort::FULL && !warm;
-    let mut rest =
-        head_solver::settle(spec, head, guides, &alone, sweep_first, effort.sweeps, progress)?;
+    let sweep_first = full && !warm;
+    let options = SweepOptions { sweep_first, most: effort.sweeps, hold };
+    let mut rest = head_solver::settle(spec, head, guides, &alone, &gone, options, progress)?;
     // Among wisps a guide has the division that it has alone.
     for (guide, alone) in rest.guides.iter_mut().zip(&alone) {
         guide.certificate.accuracy = alone.certificate.accuracy;

@@ -36,16 +36,20 @@ pub struct SettlingReport {
     pub energy: frisure_rod::Energy,
     /// What was checked of all guides together; none where each was settled while the others held still.
     pub joint: Option<JointCertificate>,
+    /// Largest |f_t| / μ f_n of any guide, friction over what the law allows: at most 1 but for the agreement of normal forces
+    /// and shape; 0 where no friction was felt. docs/theory.md (F3)
+    pub friction: f64,
 }
 
 /// Reports how the guides of a hairstyle came to rest on its head.
 #[must_use]
 pub fn settling_report(hairstyle: &Hairstyle, head: &Head) -> SettlingReport {
-    let Rest { guides, overlap_energy, sweeps, joint } = &hairstyle.rest;
+    let Rest { guides, overlap_energy, sweeps, joint, friction } = &hairstyle.rest;
     let mut report = SettlingReport {
         guides: guides.len(),
         sweeps: *sweeps,
         joint: *joint,
+        friction: friction.iter().copied().fold(0.0, f64::max),
         ..SettlingReport::default()
     };
     for guide in guides {

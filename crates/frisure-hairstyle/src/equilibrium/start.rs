@@ -3,14 +3,18 @@
 use frisure_rod::Equilibrium;
 
 use crate::contact::Pull;
+use crate::guides::Guide;
 
 /// Where each guide starts from.
 #[derive(Clone, Copy)]
 pub(crate) enum GuideStart<'a> {
     /// From its natural shape, while gravity is turned on.
     Natural,
-    /// From where the guide of the same index rested before.
+    /// From where the guide of the same index rested before. Friction does not hold it there: the rest of a description
+    /// does not depend on which description was there before.
     At(&'a [Equilibrium]),
+    /// From where it rested after nearly the same operation, held there by friction if there is any.
+    Like(&'a [Equilibrium]),
     /// From where it rested before, by what was done to it since.
     Changed {
         /// How guides rested before.
@@ -34,4 +38,11 @@ pub(crate) enum Change {
     Moulded,
     /// What pulled at it lets go, gently.
     LetGo(Pull),
+}
+
+impl Change {
+    /// Whether the guide lies where it lay, and nothing pulls at it any more.
+    pub(super) fn leaves_it_lying(self, guide: &Guide) -> bool {
+        matches!(self, Self::Changed | Self::LetGo(_)) && guide.pull.is_none()
+    }
 }

@@ -3,13 +3,15 @@
 use frisure_rod::minimise::{
     Minimiser, Minimum, Newton, NewtonStep, Problem, SecondVariation, StoppingCriteria,
 };
-use frisure_rod::potential::{Field, FieldPotential, Potential};
-use frisure_rod::{Chain, Equilibrium, Rod, Shape};
-use glam::{DMat3, DVec3};
+use frisure_rod::potential::{FieldPotential, Potential};
+use frisure_rod::{Chain, Equilibrium, Shape};
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::fields::{along, body, samples};
-use crate::contact::{BodyContact, ContactPairs, Layer, Samples};
+use super::fields::{along, body, body_samples, samples};
+use super::friction_solver::Hold;
+use super::tether::{Tether, farthest, firmness};
+use crate::contact::{BodyContact, ContactPairs, Friction, FrictionGap, Layer, Pull, Samples};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -17,10 +19,6 @@ use crate::spec::HairstyleSpec;
 
 /// Iterations of one guide in one sweep: the others will move, too. Chosen by trial; not measured further.
 const ITERATIONS: usize = 1;
-
-/// How far (m) its own weight pulls a guide against what holds it in its first sweep.
-/// Chosen by trial; not measured further.
-const FIRST_SAG: f64 = 4e-3;
 
 /// How often the tether of a guide that moves too far is made four times as stiff. A guard: 4⁴⁰ holds anything.
 const MOST_TETHERS: usize = 40;
@@ -51,6 +49,10 @@ pub(super) struct Wisp<'a> {
     /// Points per element at which contact with other wisps is evaluated.
     resolution: u32,
     settled: Settled,
+    /// Friction on skin, if there is any.
+    friction: Option<Friction>,
+    /// What pulls at the guide while it lets go.
+    letting_go: Option<Pull>,
 }
 
 /// Where a guide is, and how it got there.
@@ -70,9 +72,55 @@ impl<'a> Wisp<'a> {
         let settled = Settled {
             shape: alone.shape.clone(),
             iterations: alone.certificate.iterations,
-            tether: firmness(&guide.rod),
+            tether: firmness(&guide.rod, 0.0),
         };
-        Self { guide, chain: alone.chain(), body, resolution, settled }
+        Self {
+            guide,
+            chain: alone.chain(),
+            body,
+            resolution,
+            settled,
+            friction: None,
+            letting_go: None,
+        }
+    }
+
+    /// Sets what pulls at the guide, besides what holds it, while it lets go.
+    pub(super) fn let_go(&mut self, pull: Option<Pull>) {
+        self.letting_go = pull;
+    }
+
+    /// Lets the guide stick to the skin where it is, if the skin has friction.
+    fn stick(&mut self) {
+        if !self.body.friction.is_zero() {
+            let points = self.body_points();
+            let spacing = self.guide.rod.length() / points.len() as f64;
+            self.friction = Some(Friction::stuck_at(&points, spacing));
+        }
+    }
+
+    /// The points (m) at which contact with the body is evaluated.
+    fn body_points(&self) -> Vec<DVec3> {
+        let samples = body_samples(self.guide, self.chain.len());
+        self.chain.sample_points(&self.settled.shape, samples)
+    }
+
+    /// Takes over how the guide is pressed on skin where it is now, lets anchors follow what slipped, and returns how far
+    /// forces of friction were from the law. docs/theory.md (F2), (F3)
+    pub(super) fn press(&mut self) -> FrictionGap {
+        let points = self.friction.as_ref().map(|_| self.body_points());
+        let (Some(friction), Some(points)) = (&mut self.friction, points) else {
+            return FrictionGap::default();
+        };
+        let gap = friction.press(&self.body, &points);
+        friction.slip(&points);
+        gap
+    }
+
+    /// How far forces of friction on skin are from the law where the guide is now.
+    pub(super) fn friction_gap(&self) -> FrictionGap {
+        let gap = |friction: &Friction| friction.clone().press(&self.body, &self.body_points());
+        self.friction.as_ref().map_or_else(FrictionGap::default, gap)
     }
 
     pub(super) fn settled(&self) -> &Settled {
@@ -97,7 +145,7 @@ impl<'a> Wisp<'a> {
 
     /// Where the guide is, with a tether of a share of the stiffness at which it would move by [`FIRST_SAG`].
     pub(super) fn anchor(&self, share: f64) -> Anchor {
-        let stiffness = share * firmness(&self.guide.rod);
+        let stiffness = share * firmness(&self.guide.rod, 0.0);
         Anchor { stiffness, from: self.settled.shape.clone() }
     }
 
@@ -122,7 +170,7 @@ impl<'a> Wisp<'a> {
         // A trust region in space: the same step with a stiffer tether until no node moves farther than `reach`.
         let mut stiffness = self.settled.tether;
         for _ in 0..MOST_TETHERS {
-            let tether = Tether { stiffness, spacing: self.chain.arc()[1], from };
+            let tether = Tether::new(stiffness, &self.chain, from);
             // ½ c |r − r₀|² per length is a damping in space: the softest motions of a long hair are those that move it farthest.
             let tether = FieldPotential::new(&tether, 1);
             let found = self.among(pairs, index, Some(&tether), |problem| {
@@ -134,7 +182,7 @@ impl<'a> Wisp<'a> {
                 return Settled {
                     shape: found.shape,
                     iterations: found.iterations,
-                    tether: (stiffness * looser).max(LOOSEST * firmness(&self.guide.rod)),
+                    tether: (stiffness * looser).max(LOOSEST * firmness(&self.guide.rod, 0.0)),
                 };
             }
             stiffness *= TIGHTENING;
@@ -211,7 +259,7 @@ impl<'a> Wisp<'a> {
         let Some(Anchor { stiffness, from }) = anchor else {
             return self.feeling(around, None, act);
         };
-        let tether = Tether { stiffness: *stiffness, spacing: self.chain.arc()[1], from };
+        let tether = Tether::new(*stiffness, &self.chain, from);
         self.feeling(around, Some(&FieldPotential::new(&tether, 1)), act)
     }
 
@@ -223,8 +271,12 @@ impl<'a> Wisp<'a> {
         act: impl FnOnce(&Problem<'_>) -> T,
     ) -> T {
         let body = along(&self.body, self.guide, self.chain.len());
-        let pull = self.guide.pull.as_ref().map(|pull| along(pull, self.guide, self.chain.len()));
+        let pulls = self.guide.pull.iter().chain(&self.letting_go);
+        let pull: Vec<_> = pulls.map(|pull| along(pull, self.guide, self.chain.len())).collect();
+        let friction = self.friction.as_ref();
+        let friction = friction.map(|friction| along(friction, self.guide, self.chain.len()));
         let mut felt: Vec<&dyn Potential> = vec![&body, around];
+        felt.extend(friction.iter().map(|friction| friction as &dyn Potential));
         felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
         felt.extend(tether);
         act(&Problem::new(&self.chain, &felt))
@@ -261,17 +313,39 @@ impl<'a> Wisp<'a> {
     }
 }
 
-/// All guides of a head where they rest alone, without the bed of hair that stands for the others, and their pairs.
+/// All guides of a head where they rest alone, without the bed of hair that stands for the others, and their pairs; they
+/// stick to what they touch there if they are `held`.
 pub(super) fn wisps_with_pairs<'a>(
     spec: &HairstyleSpec,
     head: &'a Head,
     guides: &'a [Guide],
     alone: &'a [Equilibrium],
+    hold: Hold,
 ) -> (Vec<Wisp<'a>>, ContactPairs) {
     let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
-    let wisps: Vec<Wisp<'a>> = guides.iter().zip(alone).map(wisp).collect();
+    let mut wisps: Vec<Wisp<'a>> = guides.iter().zip(alone).map(wisp).collect();
     let samples = wisps.iter().map(Wisp::samples).collect();
-    (wisps, ContactPairs::new(samples, spec.contact.hair_stiffness))
+    let pairs = ContactPairs::new(samples, spec.contact.hair_stiffness);
+    if hold == Hold::Free {
+        return (wisps, pairs);
+    }
+    wisps.iter_mut().for_each(Wisp::stick);
+    (wisps, pairs.with_friction(spec.contact.friction))
+}
+
+/// Takes over how all wisps are pressed on skin and on each other; returns how far forces of friction were from the law.
+pub(super) fn press(wisps: &mut [Wisp<'_>], pairs: &mut ContactPairs) -> Vec<FrictionGap> {
+    let on_skin: Vec<FrictionGap> = wisps.par_iter_mut().map(Wisp::press).collect();
+    joined(on_skin, pairs.press())
+}
+
+/// How far forces of friction are from the law where wisps are now.
+pub(super) fn friction_gaps(wisps: &[Wisp<'_>], pairs: &ContactPairs) -> Vec<FrictionGap> {
+    joined(wisps.par_iter().map(Wisp::friction_gap).collect(), pairs.friction_gaps())
+}
+
+fn joined(on_skin: Vec<FrictionGap>, on_hair: Vec<FrictionGap>) -> Vec<FrictionGap> {
+    on_skin.into_iter().zip(on_hair).map(|(skin, hair)| skin.and(hair)).collect()
 }
 
 /// Guides among each other as they are, each certified to a relative gradient of `tolerance` while the others hold still.
@@ -285,50 +359,9 @@ pub(super) fn rest_among(wisps: &[Wisp<'_>], pairs: &ContactPairs, tolerance: f6
     Rest { overlap_energy, ..Rest::apart(guides) }
 }
 
-/// Stiffness (Pa) that holds a guide in its first sweep: its weight and its elasticity move it by
-/// about [`FIRST_SAG`] against it.
-fn firmness(rod: &Rod) -> f64 {
-    // The moment scale EI/L + ρSgL² over L² is a force per length (N/m); over a distance, a stiffness (Pa).
-    rod.moment_scale() / rod.length().powi(2) / FIRST_SAG
-}
-
-/// Largest distance (m) between nodes of two shapes.
-fn farthest(a: &Shape, b: &Shape) -> f64 {
-    let moves = a.positions.iter().zip(&b.positions);
-    moves.map(|(p, q)| p.distance_squared(*q)).fold(0.0, f64::max).sqrt()
-}
-
 /// Where a tether holds a guide.
 pub(super) struct Anchor {
     /// Stiffness of the tether (Pa).
     stiffness: f64,
     from: Shape,
-}
-
-/// Holds a guide near where it was, `½ c |r − r₀|²` per length.
-struct Tether<'a> {
-    /// c (Pa).
-    stiffness: f64,
-    /// Distance between nodes (m).
-    spacing: f64,
-    from: &'a Shape,
-}
-
-impl Tether<'_> {
-    fn away(&self, s: f64, p: DVec3) -> DVec3 {
-        // With one sample per element the field is evaluated at nodes alone; rounding finds the node again.
-        let node = ((s / self.spacing).round() as usize).min(self.from.positions.len() - 1);
-        p - self.from.positions[node]
-    }
-}
-
-impl Field for Tether<'_> {
-    fn energy(&self, s: f64, p: DVec3) -> f64 {
-        0.5 * self.stiffness * self.away(s, p).length_squared()
-    }
-
-    fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
-        let identity = DMat3::from_diagonal(DVec3::splat(self.stiffness));
-        Some((self.away(s, p) * self.stiffness, identity))
-    }
 }

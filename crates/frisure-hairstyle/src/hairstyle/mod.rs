@@ -43,6 +43,12 @@ impl Hairstyle {
         &self.styling.wisps
     }
 
+    /// Whether anything was done to it since it was predicted.
+    #[must_use]
+    pub fn is_styled(&self) -> bool {
+        !self.styling.is_none(&self.guides)
+    }
+
     /// Mass (kg) of all hair that grows on the head, with the water in it, each hair taken to be as
     /// long as its guide.
     #[must_use]

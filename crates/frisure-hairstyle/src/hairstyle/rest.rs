@@ -12,6 +12,8 @@ pub(crate) struct Rest {
     pub(crate) sweeps: usize,
     /// The certificate of all guides together, if they were settled together.
     pub(crate) joint: Option<JointCertificate>,
+    /// Largest |f_t| / μ f_n of each guide, friction over what the law allows; 0 where no friction was felt.
+    pub(crate) friction: Vec<f64>,
 }
 
 /// What was checked of all guides of a head together.
@@ -31,6 +33,7 @@ pub struct JointCertificate {
 impl Rest {
     /// Guides that do not touch each other.
     pub(crate) fn apart(guides: Vec<Equilibrium>) -> Self {
-        Self { guides, overlap_energy: 0.0, sweeps: 0, joint: None }
+        let friction = vec![0.0; guides.len()];
+        Self { guides, overlap_energy: 0.0, sweeps: 0, joint: None, friction }
     }
 }

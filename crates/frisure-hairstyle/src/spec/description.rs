@@ -379,6 +379,10 @@ digestible! {
         pub hair_stiffness: f64,
         /// Factor on the thickness of wisps.
         pub volume: f64,
+        /// Coefficient of friction of hair against hair: largest tangential over normal force. 0: hair slides freely.
+        pub friction: f64,
+        /// Coefficient of friction of hair against skin.
+        pub skin_friction: f64,
     }
 }
 
@@ -390,6 +394,8 @@ impl Default for Contact {
             stiffness: 2000.0,
             hair_stiffness: 0.5,
             volume: 1.0,
+            friction: 0.0,
+            skin_friction: 0.0,
         }
     }
 }

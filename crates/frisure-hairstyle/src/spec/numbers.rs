@@ -163,6 +163,8 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "contact.stiffness", field!(contact.stiffness), 1e-6, 1e5, "between 1e-6 and 1e5 Pa";
     "contact.hair_stiffness", field!(contact.hair_stiffness), 1e-6, 1e5, "between 1e-6 and 1e5 Pa";
     "contact.volume", field!(contact.volume), 0.0, 10.0, "between 0 and 10";
+    "contact.friction", field!(contact.friction), 0.0, 1.5, "between 0 and 1.5; measured on hair: 0.47 to 0.84";
+    "contact.skin_friction", field!(contact.skin_friction), 0.0, 1.5, "between 0 and 1.5";
     "gravity", field!(gravity), 0.0, 1000.0, "between 0 and 1000 m/s²";
     "equilibrium.elements", Access::Derived(elements), 1.0, 1000.0, "between 1 and 1000 on a head";
     "equilibrium.tolerance", field!(equilibrium.tolerance), 1e-8, 0.1, "between 1e-8 and 0.1";

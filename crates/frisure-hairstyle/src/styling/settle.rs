@@ -136,7 +136,15 @@ impl<'a> Act<'a> {
             }
         }
         let start = GuideStart::Changed { before: &before, changes: &changes };
-        self.settle(guides, SettleOptions { start, effort: Effort::FULL })
+        let mut rest = self.settle(guides, SettleOptions { start, effort: Effort::FULL })?;
+        // What did not move is held as before.
+        let held = self.before.rest.friction.iter().zip(&changes);
+        for (ratio, (before, change)) in rest.friction.iter_mut().zip(held) {
+            if *change == Change::None {
+                *ratio = ratio.max(*before);
+            }
+        }
+        Ok(rest)
     }
 
     /// Brings changed guides nearer to rest, from where they are likely to end.
@@ -147,7 +155,7 @@ impl<'a> Act<'a> {
         draft: DraftRest<'_>,
     ) -> Result<Rest, StyleError> {
         let start = match draft.like {
-            Some(like) => GuideStart::At(like),
+            Some(like) => GuideStart::Like(like),
             None => GuideStart::Changed { before: &self.before.rest.guides, changes },
         };
         self.settle(guides, SettleOptions { start, effort: draft.effort })

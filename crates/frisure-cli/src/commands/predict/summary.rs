@@ -24,6 +24,9 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
             guides.gradient_norm * 100.0
         );
     }
+    if guides.friction.is_some() {
+        out += ", held by friction";
+    }
     if guides.saddles > 0 {
         let _ = write!(out, ", {} on a saddle", guides.saddles);
     }

@@ -17,6 +17,9 @@ use self::certificate::lowest_eigenvalue;
 use self::hessian::Preconditioner;
 use self::newton::minimise;
 use self::state::HeadState;
+use super::friction_solver::Hold;
+use super::letting_go::loads;
+use crate::contact::Pull;
 use crate::guides::Guide;
 use crate::hairstyle::{JointCertificate, Rest};
 use crate::head::Head;
@@ -56,6 +59,9 @@ const MOST_LAST_STEPS: usize = 100;
 /// no tip by a hundredth of a millimetre.
 const CERTIFIED: f64 = 1e-5;
 
+/// Most times that the last stage is done again until friction agrees with where wisps are. A guard; five are usual.
+const MOST_ROUNDS: usize = 60;
+
 /// One stage of the continuation: an implicit step of the overdamped motion.
 #[derive(Clone, Copy, Debug)]
 struct Stage {
@@ -78,7 +84,17 @@ fn stages(among_each_other: bool) -> Vec<Stage> {
     if among_each_other { loosening.collect() } else { hardening.chain(loosening).collect() }
 }
 
-/// Brings guides to rest together, from where they are in `start`: alone on the bed of hair, or `among_each_other`.
+/// How [`settle`] works.
+pub(super) struct JointOptions<'a> {
+    /// Whether guides start where they rested among each other, not alone on the bed of hair.
+    pub(super) among_each_other: bool,
+    /// Whether friction holds guides near where they start.
+    pub(super) hold: Hold,
+    /// What lets go of each guide, in steps.
+    pub(super) gone: &'a [Option<Pull>],
+}
+
+/// Brings guides to rest together, from where they are in `start`. Friction, if there is any, follows them after each stage.
 ///
 /// # Errors
 /// [`Cancelled`], if the work is cancelled.
@@ -87,23 +103,39 @@ pub(super) fn settle(
     head: &Head,
     guides: &[Guide],
     start: &[Equilibrium],
-    among_each_other: bool,
+    JointOptions { among_each_other, hold, gone }: JointOptions<'_>,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let counter = StageCounter::new(progress, "wisps making way", 1);
-    let mut state = HeadState::new(spec, head, guides, start);
+    let mut state = HeadState::new(spec, head, guides, start, hold);
+    let loads = loads(gone);
     let stages = stages(among_each_other);
     let mut steps = 0;
-    for (k, stage) in stages.iter().enumerate() {
-        state.harden(stage.share);
-        steps += settle_stage(&mut state, stage.tether, &counter)?;
-        counter.at((k + 1) as f64 / stages.len() as f64);
+    for (l, load) in loads.iter().enumerate() {
+        state.let_go(gone, *load);
+        for (k, stage) in stages.iter().enumerate() {
+            state.harden(stage.share);
+            state.press();
+            steps += settle_stage(&mut state, stage.tether, &counter)?;
+            let done = l as f64 + (k + 1) as f64 / stages.len() as f64;
+            counter.at(done / loads.len() as f64);
+        }
+    }
+    let mut agrees = state.friction_agrees();
+    for _ in 0..MOST_ROUNDS {
+        if agrees {
+            break;
+        }
+        state.press();
+        steps += settle_stage(&mut state, 0.0, &counter)?;
+        agrees = state.friction_agrees();
     }
     let mut rest = state.rest(CERTIFIED);
-    let joint = certificate(&state, spec.seed);
+    let certificate = certificate(&state, spec.seed);
+    let joint = JointCertificate { stable: agrees && certificate.stable, ..certificate };
     if !joint.stable {
         // A guide at a minimum while the others hold still is not at rest if they do not.
-        let stability = if joint.gradient_norm > CERTIFIED {
+        let stability = if joint.gradient_norm > CERTIFIED || !agrees {
             Stability::NotConverged
         } else {
             Stability::Saddle
@@ -112,7 +144,8 @@ pub(super) fn settle(
             guide.certificate.stability = stability;
         }
     }
-    Ok(Rest { sweeps: steps, joint: Some(joint), ..rest })
+    let friction = state.friction_ratios();
+    Ok(Rest { sweeps: steps, joint: Some(joint), friction, ..rest })
 }
 
 /// Brings the guides to rest on tethers of a given stiffness; returns the steps taken.
@@ -171,7 +204,11 @@ mod tests {
         spec.wisps.count = 40;
         spec.equilibrium.resolution = frisure_rod::Resolution::Elements(10);
         let style = crate::predict(&spec, &head, PredictOptions::default(), &()).unwrap();
-        let mut state = HeadState::new(&spec, &head, &style.guides, &style.rest.guides);
+        // With friction: wisps stick, so that it is there on both sides of the differences.
+        spec.contact.friction = 0.3;
+        let (guides, rest) = (&style.guides, &style.rest.guides);
+        let mut state = HeadState::new(&spec, &head, guides, rest, Hold::ByFriction);
+        state.press();
         state.hold(0.1);
         let hessian = state.hessian();
         assert!(hessian.contacts.iter().map(Vec::len).sum::<usize>() > 1000);

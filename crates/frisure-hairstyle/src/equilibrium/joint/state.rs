@@ -3,9 +3,12 @@
 use frisure_rod::Equilibrium;
 use rayon::prelude::*;
 
-use super::super::wisp::{Anchor, Settled, Wisp, rest_among, wisps_with_pairs};
+use super::super::friction_solver::Hold;
+use super::super::wisp::{
+    Anchor, Settled, Wisp, friction_gaps, press, rest_among, wisps_with_pairs,
+};
 use super::hessian::{Controls, JointHessian};
-use crate::contact::{ContactPairs, Layer};
+use crate::contact::{ContactPairs, FrictionGap, Layer, Pull};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -17,6 +20,10 @@ const LEAST_REACH: f64 = 6e-4;
 /// Reach of a guide after a search, as a multiple of the move ahead: a longer one makes lists longer, a shorter one more
 /// searches. Chosen by trial: 3 takes a tenth more time.
 const MOVES_PER_SEARCH: f64 = 1.2;
+
+/// Change of the limits of friction, relative to them, and excess of friction over its limit, at which they agree with where
+/// wisps are. Asked of a certificate: |f_t| ≤ 1.001 μ f_n.
+const AGREEMENT: f64 = 1e-3;
 
 /// All guides of a head.
 pub(super) struct HeadState<'a> {
@@ -40,8 +47,9 @@ impl<'a> HeadState<'a> {
         head: &'a Head,
         guides: &'a [Guide],
         alone: &'a [Equilibrium],
+        hold: Hold,
     ) -> Self {
-        let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone);
+        let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
         let count = wisps.len();
         let mut state = Self {
             wisps,
@@ -63,6 +71,30 @@ impl<'a> HeadState<'a> {
         for (wisp, layer) in self.wisps.iter_mut().zip(&self.layers) {
             wisp.set_layer(layer.scaled(1.0 - share));
         }
+    }
+
+    /// Lets friction follow where wisps are: what touches sticks, what slipped is followed by its anchors.
+    pub(super) fn press(&mut self) {
+        press(&mut self.wisps, &mut self.pairs);
+    }
+
+    /// Whether the forces of friction agree with where wisps are. docs/theory.md (F3)
+    pub(super) fn friction_agrees(&self) -> bool {
+        let gaps = friction_gaps(&self.wisps, &self.pairs);
+        let all = gaps.into_iter().fold(FrictionGap::default(), FrictionGap::and);
+        all.change <= AGREEMENT * all.limit && all.ratio <= 1.0 + AGREEMENT
+    }
+
+    /// Sets what pulls at guides while they let go: a share of what is gone.
+    pub(super) fn let_go(&mut self, gone: &[Option<Pull>], share: f64) {
+        for (wisp, gone) in self.wisps.iter_mut().zip(gone) {
+            wisp.let_go(gone.map(|gone| gone.scaled(share)));
+        }
+    }
+
+    /// Largest |f_t| / μ f_n of each guide.
+    pub(super) fn friction_ratios(&self) -> Vec<f64> {
+        friction_gaps(&self.wisps, &self.pairs).iter().map(|gap| gap.ratio).collect()
     }
 
     /// Holds every guide where it is by a tether of a share of its firmness; with 0 lets go.

@@ -1,0 +1,118 @@
+//! Friction on a head: what was combed holds.
+
+use std::sync::LazyLock;
+
+use frisure_hairstyle::head::Head;
+use frisure_hairstyle::styling::{Comb, Direction, Operation};
+use frisure_hairstyle::{
+    HairContact, Hairs, Hairstyle, HairstyleSpec, HeadMethod, PredictOptions, StyleOptions,
+    predict, preset, settling_report, style,
+};
+use frisure_rod::Equilibrium;
+
+static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
+
+fn spec(name: &str, wisps: usize, contact: HairContact, friction: f64) -> HairstyleSpec {
+    let mut spec = preset(name).unwrap().spec();
+    spec.wisps.count = wisps;
+    spec.wisps.hairs = Hairs::Count(300);
+    spec.contact.hair = contact;
+    spec.contact.friction = friction;
+    spec.contact.skin_friction = friction;
+    spec
+}
+
+fn hairstyle(name: &str, wisps: usize, contact: HairContact, friction: f64) -> Hairstyle {
+    let spec = spec(name, wisps, contact, friction);
+    predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap()
+}
+
+fn combed(before: &Hairstyle, hold: bool) -> Hairstyle {
+    let towards = Direction::Named(frisure_hairstyle::Comb::Back);
+    let comb = Operation::Comb(Comb { towards, strength: 4.0, hold, ..Comb::default() });
+    style(before, &HEAD, &comb, StyleOptions::default(), &()).unwrap()
+}
+
+/// Median over guides of how much of the way that the comb moved their tips is left.
+fn retention(before: &Hairstyle, held: &Hairstyle, after: &Hairstyle) -> f64 {
+    let tips = |h: &Hairstyle| h.equilibria().iter().map(Equilibrium::tip).collect::<Vec<_>>();
+    let (before, held, after) = (tips(before), tips(held), tips(after));
+    let kept = |i: usize| {
+        let way = held[i] - before[i];
+        (after[i] - before[i]).dot(way) / way.length_squared()
+    };
+    // Less than 5 mm is no way.
+    let moved = (0..before.len()).filter(|&i| held[i].distance(before[i]) > 5e-3);
+    let mut kept: Vec<f64> = moved.map(kept).collect();
+    kept.sort_by(f64::total_cmp);
+    kept[kept.len() / 2]
+}
+
+/// Hair before, in and after the comb, and how much of its way it keeps.
+fn combed_and_let_go(contact: HairContact, friction: f64) -> (Hairstyle, f64) {
+    let before = hairstyle("caucasian-straight", 40, contact, friction);
+    let (held, after) = (combed(&before, true), combed(&before, false));
+    let kept = retention(&before, &held, &after);
+    (after, kept)
+}
+
+#[test]
+fn what_was_combed_holds_the_better_the_higher_the_friction() {
+    for contact in [HairContact::Layers, HairContact::Wisps] {
+        let mut last = 0.0;
+        for friction in [0.0, 0.1, 0.4] {
+            let (after, kept) = combed_and_let_go(contact, friction);
+            let report = settling_report(&after, &HEAD);
+            assert_eq!(report.stable, 40, "{contact:?} {friction}: {report:?}");
+            assert!(report.friction <= 1.001, "{contact:?} {friction}: {}", report.friction);
+            assert!(report.penetration < 3e-4, "{contact:?} {friction}: {}", report.penetration);
+            match friction {
+                0.0 => assert!(kept.abs() < 0.02, "{contact:?}: {kept} is kept without friction"),
+                _ => assert!(kept > last + 0.01, "{contact:?} {friction}: {kept} after {last}"),
+            }
+            last = kept;
+        }
+        // Neighbours hold what hangs free of the head; a bed holds what lies on it alone.
+        let least = if contact == HairContact::Wisps { 0.2 } else { 0.05 };
+        assert!(last > least, "{contact:?}: {last}");
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| combed_and_let_go(HairContact::Wisps, 0.3).0)
+    };
+    let (one, three) = (on(1), on(3));
+    for (a, b) in one.equilibria().iter().zip(three.equilibria()) {
+        assert_eq!(a.shape, b.shape);
+    }
+}
+
+#[test]
+fn all_wisps_together_agree_with_friction() {
+    let mut spec = spec("caucasian-wavy", 40, HairContact::Wisps, 0.3);
+    spec.equilibrium.method = HeadMethod::Continuation;
+    let together = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
+    let report = settling_report(&together, &HEAD);
+    let joint = report.joint.unwrap();
+    assert!(joint.stable && joint.gradient_norm < 1e-8, "{joint:?}");
+    assert!(report.friction <= 1.001, "{}", report.friction);
+    // A millionth of the length moves nothing that can be seen.
+    spec.length.mean *= 1.0 + 1e-6;
+    let longer = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
+    for (a, b) in together.equilibria().iter().zip(longer.equilibria()) {
+        assert!(a.tip().distance(b.tip()) < 5e-5);
+    }
+}
+
+#[test]
+fn coefficients_out_of_range_are_refused() {
+    for friction in [-0.1, 1.6, f64::NAN] {
+        let mut spec = spec("caucasian-straight", 10, HairContact::Layers, 0.0);
+        spec.contact.friction = friction;
+        let error = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap_err();
+        assert!(error.to_string().contains("between 0 and 1.5"), "{error}");
+    }
+}
