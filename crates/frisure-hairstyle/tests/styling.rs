@@ -5,7 +5,8 @@ use std::sync::LazyLock;
 use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::styling::{
     Clip, Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Humidity, Lasso,
-    Operation, Part, Release, Roll, Selection, Spot, StyleError, Twist, View, Wet,
+    Operation, Part, Release, Roll, Selection, Spot, StyleError, Tie, TiePlace, Twist, View, Wet,
+    WispState,
 };
 use frisure_hairstyle::{
     Body, Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place,
@@ -477,6 +478,53 @@ fn a_clip_holds_hair_where_it_is_put() {
     let distance = clipped.equilibria()[wisp].tip().distance(to);
     assert!(distance < 0.01, "{distance}");
     assert_eq!(settling_report(&clipped, &HEAD).not_converged, 0);
+}
+
+#[test]
+fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
+    let tie = |to: TiePlace| Operation::Tie(Tie { selection: Selection::Everything, to });
+    let mut long = spec("caucasian-straight", 40, HairContact::Layers);
+    long.length.mean = 0.4;
+    let before = predict(&long, &HEAD, PredictOptions::default(), &()).unwrap();
+    let centre = HEAD.landmarks().cranium_centre;
+    for to in [TiePlace::High, TiePlace::Middle, TiePlace::Low, TiePlace::Left] {
+        let tied = done(&before, &tie(to));
+        assert!(tied.wisps().iter().all(WispState::is_held), "{to:?}");
+        let report = settling_report(&tied, &HEAD);
+        assert_eq!(report.stable, 40, "{to:?}");
+        assert!(report.penetration < 2e-3, "{to:?}: {}", report.penetration);
+        // Wisps pass through a bundle of some centimetres off the head.
+        let lines: Vec<_> = tied.equilibria().iter().map(|e| e.centre_line(200)).collect();
+        let through = |p: glam::DVec3, reach: f64| {
+            lines.iter().filter(|line| line.iter().any(|q| q.distance(p) < reach)).count()
+        };
+        let middle = lines
+            .iter()
+            .flatten()
+            .copied()
+            .max_by(|a, b| through(*a, 0.02).cmp(&through(*b, 0.02)).then(a.x.total_cmp(&b.x)));
+        let middle = middle.unwrap();
+        // The head is in the way of a few, of more where hair comes from the other side; the report counts them.
+        let least = if to == TiePlace::Left { 32 } else { 38 };
+        assert!(through(middle, 0.035) >= least, "{to:?}: {}", through(middle, 0.035));
+        // Where it was asked for: behind the head, on the left …
+        let behind = (middle - centre).dot(HEAD.landmarks().face);
+        assert!(behind < 0.0, "{to:?}: {middle}");
+        if to == TiePlace::Left {
+            assert!(middle.x > 0.05, "{middle}");
+        }
+    }
+    let high = done(&before, &tie(TiePlace::High));
+    let free = done(&high, &Operation::Release(Release::default()));
+    assert!(!free.wisps().iter().any(WispState::is_held));
+    // Short hair does not reach it, and the error says what it takes.
+    let mut short = spec("caucasian-straight", 20, HairContact::Layers);
+    short.length.mean = 0.01;
+    let short = predict(&short, &HEAD, PredictOptions::default(), &()).unwrap();
+    let error = style(&short, &HEAD, &tie(TiePlace::High), StyleOptions::default(), &());
+    let error = error.map(|_| ()).unwrap_err();
+    let StyleError::NothingTied { needed, longest } = error else { panic!("{error}") };
+    assert!(longest < needed);
 }
 
 #[test]

@@ -5,7 +5,8 @@ use std::path::Path;
 use frisure_hairstyle::head::Region;
 use frisure_hairstyle::styling::{
     Braid, Clip, Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Humidity, Lasso,
-    Operation, Part, Release, Roll, Selection, Spot, Straighten, StyleError, Twist, View, Wet,
+    Operation, Part, Release, Roll, Selection, Spot, Straighten, StyleError, Tie, TiePlace, Twist,
+    View, Wet,
 };
 use frisure_hairstyle::{Comb as Word, Level, Parting, Place, preset};
 use frisure_scene::edit::{self, EditError};
@@ -103,6 +104,11 @@ fn every_operation_can_be_said() {
     let twist = Twist { selection: EVERYTHING, width: 0.02, pitch: 0.03 };
     assert_eq!(one("twist = { width = '2 cm' }"), twist.into());
     assert_eq!(one("twist = {}"), Twist::default().into());
+    let tie = Tie { selection: EVERYTHING, to: TiePlace::High };
+    assert_eq!(one("tie = { to = 'high' }"), tie.into());
+    assert_eq!(one("tie = {}"), Tie::default().into());
+    let tie = Tie { selection: EVERYTHING, to: TiePlace::At(DVec3::new(0.0, 0.12, 0.05)) };
+    assert_eq!(one("tie = { to = [0, '12 cm', '5 cm'] }"), tie.into());
     assert_eq!(one("straighten = {}"), Straighten { selection: EVERYTHING }.into());
     let clip = Clip { selection: EVERYTHING, at: 0.5, to: DVec3::new(0.0, -0.1, 0.2) };
     assert_eq!(one("clip = { at = 0.5, to = [0, '-10 cm', '20 cm'] }"), clip.into());
@@ -255,6 +261,8 @@ fn faults_name_place_value_range_and_hint() {
         ("twist = { pitch = '1 mm' }", 19, "twist.pitch", &["between 5 mm and 50 cm"]),
         ("clip = { at = 0, to = [0, 0, 0] }", 15, "clip.at", &["between 0.05 and 1"]),
         ("clip = { at = 1, to = [0, 0, 101] }", 23, "clip.to", &["within 100 m"]),
+        ("tie = { to = 'hihg' }", 14, "tie.to", &["did you mean \"high\"?"]),
+        ("tie = { to = [0, 0, 101] }", 14, "tie.to", &["within 100 m"]),
         ("release = { where = 'fringes' }", 21, "release.where", &["did you mean \"fringe\"?"]),
         ("release = { where = [] }", 21, "release.where", &["one place or more"]),
         ("release = { where = 3 }", 21, "release.where", &["a part of the scalp"]),
@@ -379,7 +387,7 @@ fn a_step_said_in_another_way_is_told_how() {
         ("trim = {}", "did you mean `cut`?"),
         ("shampoo = {}", "did you mean `wet`?"),
         ("wash = {}", "did you mean `wet`?"),
-        ("ponytail = {}", "did you mean `clip`?"),
+        ("ponytail = {}", "did you mean `tie`?"),
         ("rope = {}", "did you mean `twist`?"),
         ("twist = '2 cm'", "write `twist = { width = '2 cm' }`"),
         ("blow-dry = {}", "did you mean `dry`?"),
@@ -617,6 +625,17 @@ fn cut() -> impl Strategy<Value = Cut> {
     (selection(), how).prop_map(|(selection, (line, held))| Cut { selection, line, held })
 }
 
+fn tie_place() -> impl Strategy<Value = TiePlace> {
+    prop_oneof![
+        Just(TiePlace::High),
+        Just(TiePlace::Middle),
+        Just(TiePlace::Low),
+        Just(TiePlace::Left),
+        Just(TiePlace::Right),
+        point().prop_map(TiePlace::At),
+    ]
+}
+
 fn held_hair() -> impl Strategy<Value = Operation> {
     prop_oneof![
         (selection(), number(1e-3, 0.1), number(0.0, 0.1))
@@ -625,6 +644,7 @@ fn held_hair() -> impl Strategy<Value = Operation> {
             .prop_map(|(selection, width, pitch)| Braid { selection, width, pitch }.into()),
         (selection(), number(1e-3, 0.1), number(5e-3, 0.5))
             .prop_map(|(selection, width, pitch)| Twist { selection, width, pitch }.into()),
+        (selection(), tie_place()).prop_map(|(selection, to)| Tie { selection, to }.into()),
         selection().prop_map(|selection| Straighten { selection }.into()),
         (selection(), number(0.05, 1.0), point()).prop_map(|(selection, at, to)| Clip {
             selection,

@@ -1,7 +1,7 @@
 //! The report of a step.
 
 use frisure::hairstyle::Hairstyle;
-use frisure::hairstyle::styling::{Clip, Operation};
+use frisure::hairstyle::styling::{Operation, WispState};
 use frisure::rod::Equilibrium;
 use serde::Serialize;
 
@@ -79,12 +79,17 @@ fn changed(before: &Hairstyle, after: &Hairstyle) -> usize {
     rods.zip(states).filter(|(rod, state)| *rod || *state).count()
 }
 
-/// The number of wisps that a clip does not hold: they are too short for it, or the head is in the way.
+/// The number of wisps that a clip or a tie does not hold where it is: they are too short for it, or the head is in the way.
 fn short_of(operation: &Operation, after: &Hairstyle, selected: &[bool]) -> Option<usize> {
-    let Operation::Clip(Clip { at, to, .. }) = operation else { return None };
-    let away = |rest: &Equilibrium| rest.at(&rest.chain(), *at).0.distance(*to);
-    let wisps = after.equilibria().iter().zip(selected).filter(|(_, selected)| **selected);
-    Some(wisps.filter(|(rest, _)| away(rest) > AT_CLIP).count())
+    if !matches!(operation, Operation::Clip(_) | Operation::Tie(_)) {
+        return None;
+    }
+    let held = |(wisp, rest): (&WispState, &Equilibrium)| {
+        let clipped = wisp.clipped();
+        clipped.is_some_and(|(at, to)| rest.at(&rest.chain(), at).0.distance(to) <= AT_CLIP)
+    };
+    let wisps = after.wisps().iter().zip(after.equilibria()).zip(selected);
+    Some(wisps.filter(|(wisp, selected)| **selected && !held(*wisp)).count())
 }
 
 /// Mean height (m) of the tips of selected wisps.

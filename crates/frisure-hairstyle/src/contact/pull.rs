@@ -41,6 +41,18 @@ impl Pull {
     }
 }
 
+impl Pull {
+    /// A clip on its way to another place, of which it has gone the share 0 to 1; the other pull where either is no clip.
+    pub(crate) fn moved(self, other: Self, share: f64) -> Self {
+        let (Self::Clip { point: from, .. }, Self::Clip { piece, point: to, stiffness, most }) =
+            (self, other)
+        else {
+            return other;
+        };
+        Self::Clip { piece, point: from.lerp(to, share), stiffness, most }
+    }
+}
+
 impl Field for Pull {
     fn energy(&self, s: f64, p: DVec3) -> f64 {
         match *self {

@@ -24,6 +24,10 @@ const HARDNESS: [f64; 3] = [0.0016, 0.04, 1.0];
 /// Depth (m) in the body beyond which another way out is sought. docs/theory.md, "Contact with the body".
 const DEEPEST: f64 = 3e-4;
 
+/// The same (m) for a guide that is held at a point: drawn tight over an ear it presses harder, and what fell anew would not
+/// come there. Chosen: less than the hair on the skin is thick.
+const DEEPEST_HELD: f64 = 2e-3;
+
 /// Shapes that are tried for a guide that is still deeper. Chosen by trial; not measured further.
 const STARTS: u32 = 8;
 
@@ -83,21 +87,30 @@ fn settle_changed(
 ) -> Rested {
     match change {
         Change::None => Rested::free(before.clone()),
-        Change::Changed | Change::LetGo(_) if iterations < MAX_ITERATIONS => {
+        Change::Changed | Change::LetGo(_) | Change::HeldElsewhere(_)
+            if iterations < MAX_ITERATIONS =>
+        {
             settle_one_from(spec, head, guide, before, iterations, Hold::ByFriction)
         }
-        Change::Changed => resettle_one(spec, head, guide, before, None),
-        Change::LetGo(pull) => resettle_one(spec, head, guide, before, Some(pull)),
+        Change::Changed | Change::LetGo(_) | Change::HeldElsewhere(_) => {
+            resettle_one(spec, head, guide, before, &pulls(guide, change))
+        }
         Change::Moulded => Rested::free(settle_one(spec, head, guide)),
-        Change::Handled => handled(spec, head, guide, before),
+        Change::Handled => handled(spec, head, guide, before, change),
     }
 }
 
 /// The lower of two rests: what lay looped over an ear does not stay so when it is cut.
-fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibrium) -> Rested {
+fn handled(
+    spec: &HairstyleSpec,
+    head: &Head,
+    guide: &Guide,
+    before: &Equilibrium,
+    change: Change,
+) -> Rested {
     // Two minima of the same energy: downhill from where it lay, and along gravity's branch from its root. A hand that lifts
     // hair frees it of friction: what falls has none.
-    let lying = resettle_one(spec, head, guide, before, None);
+    let lying = resettle_one(spec, head, guide, before, &pulls(guide, change));
     let fallen = settle_one(spec, head, guide);
     let lower = fallen.energy.total() < lying.rest.energy.total();
     if lower && depth(head, &fallen) <= DEEPEST { Rested::free(fallen) } else { lying }
@@ -107,16 +120,34 @@ fn handled(spec: &HairstyleSpec, head: &Head, guide: &Guide, before: &Equilibriu
 /// Chosen by trial; not measured further.
 const PULLS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
 
-/// Brings a guide to rest from where it lay, held by friction if there is any; `gone` is a pull that has let go.
+/// How far a clip has come from one place to another in steps. Chosen: hair follows it around the head.
+const MOVING: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
+
+/// What pulls at a changed guide, in steps, each from the shape of the one before. docs/theory.md, "Styling"
+fn pulls(guide: &Guide, change: Change) -> Vec<Option<Pull>> {
+    match (guide.pull, change) {
+        (Some(pull), Change::HeldElsewhere(from)) => {
+            MOVING.iter().map(|&share| Some(from.moved(pull, share))).collect()
+        }
+        (Some(pull), _) => PULLS.iter().map(|&share| Some(pull.scaled(share))).collect(),
+        (None, Change::LetGo(gone)) => {
+            let going = LETTING_GO.iter().map(|&share| Some(gone.scaled(share)));
+            going.chain([None]).collect()
+        }
+        (None, _) => vec![None],
+    }
+}
+
+/// Brings a guide to rest from where it lay while `pulls` act one after the other, held by friction if there is any.
 fn resettle_one(
     spec: &HairstyleSpec,
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
-    gone: Option<Pull>,
+    pulls: &[Option<Pull>],
 ) -> Rested {
     // 1. Without a body and without a pull the rod's own search needs no steps.
-    let alone = guide.pull.is_none() && gone.is_none();
+    let alone = pulls.iter().all(Option::is_none);
     if spec.contact.body == Body::None && alone {
         return Rested::free(equilibrium_from(&guide.rod, &[], &options(spec), before));
     }
@@ -124,15 +155,7 @@ fn resettle_one(
     let options = Options { resolution: Resolution::Elements(elements), ..options(spec) };
     let surface = body(spec, head, guide, layer(spec, guide));
     let body = along(&surface, guide, elements);
-    // 2. The pull turned on, or off, in steps, each from the shape of the one before. docs/theory.md, "Styling"
-    let pulls: Vec<Option<Pull>> = match (guide.pull, gone) {
-        (None, None) => vec![None],
-        (Some(pull), _) => PULLS.iter().map(|&share| Some(pull.scaled(share))).collect(),
-        (None, Some(gone)) => {
-            let going = LETTING_GO.iter().map(|&share| Some(gone.scaled(share)));
-            going.chain([None]).collect()
-        }
-    };
+    // 2. The pulls, each from the shape of the one before.
     let mut rested = if surface.friction.is_zero() {
         let settle = |from: &Equilibrium, pull: &Option<Pull>| match pull {
             None => equilibrium_from(&guide.rod, &[&body], &options, from),
@@ -146,7 +169,7 @@ fn resettle_one(
     } else {
         let samples = body_samples(guide, elements);
         let mut rubbing = Rubbing::new(&guide.rod, &surface, samples, options, before);
-        for pull in &pulls {
+        for pull in pulls {
             match pull {
                 None => rubbing.step(&[&body]),
                 Some(pull) => rubbing.step(&[&body, &along(pull, guide, elements)]),
@@ -158,7 +181,8 @@ fn resettle_one(
     // 3. It may have been pushed into the body, or have been there when it was held: then it comes down
     // from its root again.
     let deep = depth(head, &rested.rest);
-    if deep <= DEEPEST {
+    let held = matches!(guide.pull, Some(Pull::Clip { .. }));
+    if deep <= if held { DEEPEST_HELD } else { DEEPEST } {
         return rested;
     }
     let fallen = settle_one(spec, head, guide);

@@ -38,6 +38,8 @@ pub(crate) enum Change {
     Moulded,
     /// What pulled at it lets go, gently.
     LetGo(Pull),
+    /// It was held by this and is held somewhere else now, without having been let go.
+    HeldElsewhere(Pull),
 }
 
 impl Change {

@@ -128,6 +128,11 @@ pub(crate) enum Mould {
 pub(crate) const DRAWN: f64 = 25.0;
 
 impl Grip {
+    /// Whether it presses hair on the skin harder than hair lies there.
+    pub(crate) fn presses(self) -> bool {
+        matches!(self, Self::Mould { .. } | Self::Clip { .. })
+    }
+
     /// Whether it gives hair another shape, rather than another place.
     pub(crate) fn moulds(self) -> bool {
         matches!(self, Self::Mould { .. })
@@ -164,6 +169,15 @@ impl WispState {
     #[must_use]
     pub fn is_held(&self) -> bool {
         self.grip.is_some()
+    }
+
+    /// Which place of the wisp, 0 (root) to 1 (tip), a clip or a tie holds, and at which point (m).
+    #[must_use]
+    pub fn clipped(&self) -> Option<(f64, DVec3)> {
+        match self.grip {
+            Some(Grip::Clip { at, to }) => Some((at, to)),
+            _ => None,
+        }
     }
 
     /// Wets the wisp, or lets it dry to some wetness; what water opens loses its set.

@@ -58,7 +58,8 @@ pub(super) fn guide(
     };
     let mut guide = planned.with_rod(spec, area, rod, &dry, factors.wisp);
     guide.pull = pull(&guide.rod, state.grip);
-    guide.firmness = if state.grip.is_some_and(Grip::moulds) { MOULD } else { 1.0 };
+    // What is drawn tight over the head presses on skin as what is held in a shape does.
+    guide.firmness = if state.grip.is_some_and(Grip::presses) { MOULD } else { 1.0 };
     Ok(guide)
 }
 

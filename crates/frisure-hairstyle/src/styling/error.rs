@@ -34,6 +34,17 @@ pub enum StyleError {
         /// How many are selected.
         selected: usize,
     },
+    /// No selected wisp is long enough to reach a hair tie.
+    #[error(
+        "the tie gathers nothing: the nearest wisp needs {:.1} cm to reach it, and the longest has {:.1} cm",
+        100.0 * needed, 100.0 * longest
+    )]
+    NothingTied {
+        /// Length (m) that the nearest wisp needs.
+        needed: f64,
+        /// Length (m) of the longest wisp.
+        longest: f64,
+    },
     /// Hair would become longer than can be computed.
     #[error("wisp {wisp} would grow to {length} m; at most {most} m can be computed")]
     TooLong {

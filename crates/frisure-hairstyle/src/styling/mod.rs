@@ -13,6 +13,7 @@ mod height;
 mod operations;
 mod selection;
 mod settle;
+mod taut;
 mod wet_law;
 
 pub use apply::{Draft, StyleOptions, selected, style};

@@ -176,6 +176,10 @@ impl<'a> Act<'a> {
                 _ if !changed => Change::None,
                 _ if replanted || moulded => Change::Moulded,
                 Some(pull) if new.is_none() => Change::LetGo(pull),
+                // The fibre may have changed, too: then it is held anew.
+                Some(pull) if new != old && matches!(new, Some(Grip::Clip { .. })) => {
+                    Change::HeldElsewhere(pull)
+                }
                 _ => otherwise,
             }
         };

@@ -7,12 +7,12 @@ use std::sync::LazyLock;
 
 use frisure_hairstyle::styling::{
     Braid, Clip, Comb, Cut, CutLine, Dry, Grow, Growth, Height, Held, Humidity, Operation, Part,
-    Release, Roll, Straighten, Twist, Wet,
+    Release, Roll, Straighten, Tie, TiePlace, Twist, Wet,
 };
 use frisure_hairstyle::{Parting, Range};
 
 use super::declare::{Button, Declaration, Group, StepKey, doc, keys, operations, schema_of};
-use super::shapes::{Below, Months, Plane, Sphere, Towards};
+use super::shapes::{Below, Months, Plane, Sphere, Tied, Towards};
 use crate::choice::OneOf;
 use crate::error::ValueError;
 use crate::keywords::{Keyword, PartingPlace};
@@ -291,12 +291,25 @@ operations! {
     clip: Clip {
         example: "clip = { at = 0.5, to = [0, \"-10 cm\", \"12 cm\"] }",
         main: Some("to"),
-        synonyms: &["ponytail", "bun", "pin"],
+        synonyms: &["bun", "pin"],
     } keys {
         /// Which place of each wisp; 0.05 (near the root) to 1 (the tip).
         at: Ratio, in Clip::AT, needed "at = 0.5";
         /// The point, within 100 m of the origin.
         to: Point, needed "to = [0, \"-10 cm\", \"12 cm\"]";
+    }
+
+    /// Gathers hair with a hair tie, and holds it: a ponytail. Hair that is too short to reach the tie stays out.
+    tie: Tie {
+        example: "tie = { to = \"high\" }",
+        main: Some("to"),
+        synonyms: &["ponytail", "gather", "elastic", "bunch"],
+        button: Some(Button { label: "In a tie", step: "tie = {}" }),
+    } keys {
+        /// Where the tie is: a word, or a point. Default "middle".
+        to: Tied,
+            set |tie, place| tie.to = place,
+            get |tie| (tie.to != TiePlace::Middle).then_some(tie.to);
     }
 
     /// Lets go of what is held.

@@ -1,6 +1,6 @@
 //! Lines, places and directions that a step can name.
 
-use frisure_hairstyle::styling::{Direction, Height, Held};
+use frisure_hairstyle::styling::{Direction, Height, Held, TiePlace};
 use frisure_hairstyle::{Comb, Level};
 use glam::DVec3;
 use schemars::{Schema, json_schema};
@@ -32,6 +32,16 @@ keywords! {
     Keyword<Held> {
         "down" => Self(Held::Down), "combed straight down from its root, as in the paper";
         "hanging" => Self(Held::Hanging), "as it hangs";
+    }
+}
+
+keywords! {
+    Keyword<TiePlace> {
+        "high" => Self(TiePlace::High), "at the back below the crown";
+        "middle" => Self(TiePlace::Middle), "in the middle of the back of the head";
+        "low" => Self(TiePlace::Low), "above the nape";
+        "left" => Self(TiePlace::Left), "behind the left ear";
+        "right" => Self(TiePlace::Right), "behind the right ear";
     }
 }
 
@@ -119,6 +129,34 @@ impl ToText for Towards {
         match towards {
             Direction::Named(comb) => OneOf::<Keyword<Comb>>::text(&Keyword(*comb)),
             Direction::Along(direction) => Vector::text(direction),
+        }
+    }
+}
+
+/// Where a hair tie is: a word, or a point.
+pub(super) struct Tied;
+
+impl Kind for Tied {
+    type Value = TiePlace;
+
+    fn read(value: &Value) -> Result<TiePlace, ValueError> {
+        if value.is_str() {
+            return OneOf::<Keyword<TiePlace>>::read(value).map(|Keyword(place)| place);
+        }
+        let hint = "or a word: \"high\", \"middle\", \"low\", \"left\", \"right\"";
+        Point::read(value).map(TiePlace::At).map_err(|error| error.hint(hint))
+    }
+
+    fn schema() -> Schema {
+        json_schema!({ "anyOf": [OneOf::<Keyword<TiePlace>>::schema(), Point::schema()] })
+    }
+}
+
+impl ToText for Tied {
+    fn text(place: &TiePlace) -> String {
+        match place {
+            TiePlace::At(point) => Point::text(point),
+            word => OneOf::<Keyword<TiePlace>>::text(&Keyword(*word)),
         }
     }
 }

@@ -92,6 +92,8 @@ operations! {
     straighten::Straighten(selection),
     /// Holds a place of each wisp at a point.
     clip::Clip(selection),
+    /// Gathers hair with a hair tie, and holds it.
+    tie::Tie(selection),
     /// Lets go of held hair.
     release::Release(selection),
 }
@@ -99,6 +101,7 @@ operations! {
 pub use comb::Direction;
 pub use cut_line::{CutLine, Held};
 pub use grow::Growth;
+pub use tie::TiePlace;
 
 impl Operation {
     /// Checks every number against its range.
