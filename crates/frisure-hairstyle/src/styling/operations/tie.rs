@@ -61,6 +61,9 @@ const CLEAR: f64 = 4e-3;
 /// Shortest tail (m) that a tie holds. Chosen: the width of an elastic.
 const SHORTEST_TAIL: f64 = 0.01;
 
+/// Farthest (m) that hair may be from its place in the tie. Chosen: within the bundle.
+const REACHED: f64 = 0.01;
+
 /// Shortest hair (m) between a root and the tie: what is rooted beneath the tie is bent no sharper. Chosen.
 const SHORTEST: f64 = 0.015;
 
@@ -199,7 +202,14 @@ impl Apply for Tie {
         let lifted = centre + (axis + DVec3::Z).normalize_or(DVec3::Z) * LIFTED;
         let alone = Effort { sweeps: 0, ..Effort::FULL };
         let hand = Act { draft: Some(DraftRest { effort: alone, stride: 1, like: None }), ..*act };
-        let in_hand = hand.with(before.styling.tied(places.iter().map(|&(i, _, at)| (i, lifted, at))))?;
-        act.on(&in_hand).with(before.styling.tied(places.into_iter()))
+        let up = places.iter().map(|&(i, _, at)| (i, lifted, at));
+        let in_hand = hand.with(before.styling.tied(up))?;
+        // 4. Hair that catches on an ear or the neck on its way stays out, rather than being held half-way.
+        let tried = hand.on(&in_hand).with(before.styling.tied(places.iter().copied()))?;
+        let reached = |&(i, to, at): &(usize, DVec3, f64)| {
+            let rest = &tried.rest.guides[i];
+            rest.at(&rest.chain(), at).0.distance(to) <= REACHED
+        };
+        act.on(&in_hand).with(before.styling.tied(places.into_iter().filter(reached)))
     }
 }
