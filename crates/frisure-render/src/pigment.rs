@@ -8,6 +8,8 @@ use crate::hash::mix;
 
 /// Relative deviation of the pigment from wisp to wisp, over that from strand to strand; chosen by eye.
 const WISP_PART: f32 = 0.6;
+/// Correlation of the whiteness of two hairs of one wisp: hair turns grey in patches, so that locks differ. Chosen by eye.
+const WHITE_CORRELATION: f32 = 0.15;
 /// Least and greatest factor on the pigment of a strand; chosen.
 const FACTORS: (f32, f32) = (0.25, 4.0);
 /// Length over which dye begins (m); chosen by eye.
@@ -40,8 +42,10 @@ impl Pigments {
             _ => varied(strands, look),
         };
         if look.white_share > 0.0 {
+            let guides = guides(strands);
+            let threshold = normal_quantile(look.white_share);
             for (strand, factor) in factors.iter_mut().enumerate() {
-                if is_white(strand as u32, look) {
+                if whiteness(strand as u32, guides.map(|g| g[strand]), look.seed) < threshold {
                     *factor = 0.0;
                 }
             }
@@ -131,10 +135,7 @@ fn values<'a>(strands: &'a Strands, name: &str) -> Option<&'a AttributeValues> {
 
 /// Factors that vary from strand to strand, and from wisp to wisp if wisps are known.
 fn varied(strands: &Strands, look: &HairLook) -> Vec<f32> {
-    let guide = match values(strands, "guide") {
-        Some(AttributeValues::U32(guide)) => Some(guide),
-        _ => None,
-    };
+    let guide = guides(strands);
     let variation = if look.variation.is_finite() { look.variation.max(0.0) } else { 0.0 };
     let seed = mix(look.seed);
     (0..strands.len())
@@ -147,11 +148,43 @@ fn varied(strands: &Strands, look: &HairLook) -> Vec<f32> {
         .collect()
 }
 
-/// Whether a strand is one of the white ones.
-fn is_white(strand: u32, look: &HairLook) -> bool {
-    let bits = mix(mix(strand ^ 0x51ed_270b) ^ look.seed);
-    // 24 bits are exact.
-    ((bits >> 8) as f32) < look.white_share * 16_777_216.0
+/// The wisp of each strand, if wisps are known.
+fn guides(strands: &Strands) -> Option<&[u32]> {
+    match values(strands, "guide") {
+        Some(AttributeValues::U32(guides)) => Some(guides),
+        _ => None,
+    }
+}
+
+/// A standard normal number of a strand; those whose number is below the quantile of the share of white hairs are white,
+/// so that a larger share keeps the same hairs white. Strands of one wisp have correlated numbers (a Gaussian copula): the
+/// share of the head is as asked for, and that of a wisp varies about it.
+fn whiteness(strand: u32, wisp: Option<u32>, seed: u32) -> f32 {
+    let own = normal_quantile(unit(mix(mix(strand ^ 0x51ed_270b) ^ seed)));
+    wisp.map_or(own, |wisp| {
+        let shared = normal_quantile(unit(mix(mix(wisp ^ 0x2545_f491) ^ seed)));
+        (1.0 - WHITE_CORRELATION).sqrt() * own + WHITE_CORRELATION.sqrt() * shared
+    })
+}
+
+/// A number between 0 and 1, neither of them, from random bits.
+fn unit(bits: u32) -> f32 {
+    // 23 bits and a half are exact.
+    ((bits >> 9) as f32 + 0.5) / 8_388_608.0
+}
+
+/// The standard normal number below which a share of all is: Abramowitz & Stegun, *Handbook of Mathematical Functions*,
+/// 26.2.23, to within 4.5e-4; infinite at 0 and 1.
+fn normal_quantile(share: f32) -> f32 {
+    let tail = share.min(1.0 - share);
+    if tail.is_nan() || tail <= 0.0 {
+        return if share > 0.5 { f32::INFINITY } else { f32::NEG_INFINITY };
+    }
+    let t = (-2.0 * tail.ln()).sqrt();
+    let above = t
+        - (2.515_517 + t * (0.802_853 + t * 0.010_328))
+            / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)));
+    if share < 0.5 { -above } else { above }
 }
 
 /// A factor on the pigment, such as it can be; not-a-number is 1.
@@ -170,6 +203,31 @@ pub(crate) fn deviate(index: u32, salt: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn normal_quantiles_are_those_of_the_table() {
+        for (share, x) in [(0.5, 0.0), (0.841_345, 1.0), (0.977_25, 2.0), (0.158_655, -1.0)] {
+            assert!((normal_quantile(share) - x).abs() < 1e-3, "{share}");
+        }
+        assert_eq!([0.0, 1.0].map(normal_quantile), [f32::NEG_INFINITY, f32::INFINITY]);
+    }
+
+    #[test]
+    fn the_head_has_the_share_of_white_hairs_and_wisps_differ() {
+        let (wisps, hairs) = (300, 400);
+        let threshold = normal_quantile(0.4);
+        let share = |wisp: u32| {
+            let white =
+                (0..hairs).filter(|h| whiteness(wisp * hairs + h, Some(wisp), 3) < threshold);
+            white.count() as f32 / hairs as f32
+        };
+        let shares: Vec<f32> = (0..wisps).map(share).collect();
+        let mean = shares.iter().sum::<f32>() / wisps as f32;
+        let variance = shares.iter().map(|s| (s - mean).powi(2)).sum::<f32>() / wisps as f32;
+        // Independent hairs would differ by √(0.24/400) = 0.024; a wisp whose shared number is one deviation off has 0.26 or 0.56.
+        assert!((mean - 0.4).abs() < 0.03, "{mean}");
+        assert!((0.11..0.19).contains(&variance.sqrt()), "{}", variance.sqrt());
+    }
 
     #[test]
     fn deviates_have_the_moments_they_should() {

@@ -362,7 +362,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "step" => value::<Steps>();
         /// Colours.
         "look" => table();
-        /// Colour of natural hair, by its name; the keys below override its numbers. Default "brown".
+        /// Colour of natural hair, by its name; the keys below override its numbers. Default: that of
+        /// the hair type.
         "look.colour" => value::<OneOf<ShadeWord>>()
             .options(Panel::Look, "Colour", "Natural colours by name.");
         /// Concentration of the brown pigment: about 0.1 blond, 0.8 brown, 3 black; {}.
@@ -419,7 +420,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Refractive index of the fibre; {}. Default 1.55.
         "look.index" => number::<Ratio>().range(1.05, 3.0, "between 1.05 and 3")
             .field(field!(look.hair.surface.index));
-        /// Colour of the skin (sRGB).
+        /// Colour of the skin (sRGB). Default: that of the hair type.
         "look.skin" => value::<Colour>();
         /// What is behind the head. Default "surroundings" where sky or an environment light it, else "wall".
         "look.background" => value::<BackdropKind>()

@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use frisure_hairstyle::Preset;
 
+use crate::natural_look::NaturalLook;
+
 /// A commented scene that sets nothing but the hair type, with the type's own numbers beside the
 /// keys that would change them.
 #[must_use]
@@ -11,6 +13,7 @@ pub fn template(preset: &Preset) -> String {
     let spec = preset.spec();
     let (section, wisps) = (spec.fibre.section, spec.wisps);
     let (radius, pitch) = spec.curl.radius_pitch().unwrap_or((0.0, 0.0));
+    let look = NaturalLook::of(preset);
     let mut out = String::new();
     // Writing to a String cannot fail.
     let _ = write!(
@@ -52,7 +55,8 @@ type = "{name}"  # {description}
 # fuzziness = {fuzziness:.2}
 
 [look]
-# colour = "brown"                # or "blond", "black", "red", "grey" ...; or pigments, or a dye
+# colour = "{colour}"{gap} # or "blond", "black", "red", "grey" ...; or pigments, or a dye
+# skin = "{skin}"
 
 [camera]
 # azimuth = "30 deg"              # 0 faces the face
@@ -82,6 +86,15 @@ type = "{name}"  # {description}
         density = preset.hair_type().density * 1e-4,
         clumping = wisps.clumping,
         fuzziness = wisps.fuzziness,
+        colour = look.colour.name,
+        gap = " ".repeat(20 - look.colour.name.len()),
+        skin = hexadecimal(look.skin),
     );
     out
+}
+
+/// An sRGB colour as scenes write it.
+fn hexadecimal(srgb: [f64; 3]) -> String {
+    let [red, green, blue] = srgb.map(|c| (c * 255.0).round() as u8);
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }

@@ -182,7 +182,18 @@ fn a_colour_of_hair_is_said_by_name_by_pigments_or_as_measured() {
         assert_eq!((hair.melanin, hair.absorption), (shade.melanin, None));
         assert_eq!(hair.white_share, shade.white_share);
     }
-    assert_eq!(of("").melanin, of("colour = \"brown\"").melanin);
+    // Without a word it is that of the type; one pigment by number leaves the other as in brown hair.
+    assert_eq!(of("").melanin, of("colour = \"dark-blond\"").melanin);
+    let given = of("eumelanin = 0.3").melanin;
+    assert_eq!(
+        (given.eumelanin, given.pheomelanin),
+        (0.3, of("colour = \"brown\"").melanin.pheomelanin)
+    );
+    let coily = good("[hair]\ntype = \"african-coily\"").look;
+    let overridden = good("[hair]\ntype = \"african-coily\"\n[look]\ncolour = \"dark-blond\"").look;
+    assert_eq!(coily.hair.melanin, of("colour = \"black\"").melanin);
+    assert_eq!(overridden.hair.melanin, of("").melanin);
+    assert_eq!(overridden.skin, coily.skin);
     assert_eq!(of("colour = \"auburn\"\neumelanin = 0.5").melanin.eumelanin, 0.5);
     let red = of("reflectance = \"#ff0000\"");
     let roughness = red.surface.azimuthal_roughness;

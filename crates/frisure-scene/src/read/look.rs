@@ -1,7 +1,8 @@
 //! Reading `[look]`.
 
 use frisure_look::{
-    Backdrop, Dye, Fade, HairLook, LookSpec, SkinLook, absorption_of_colour, linear_from_srgb,
+    Backdrop, Dye, Fade, HairLook, LookSpec, Melanin, SkinLook, absorption_of_colour,
+    linear_from_srgb,
 };
 use glam::Vec3;
 
@@ -10,12 +11,19 @@ use crate::document::Document;
 use crate::error::Result;
 use crate::keywords::{BackdropKind, ShadeWord};
 use crate::kind::{Colour, Vector};
+use crate::natural_look::NaturalLook;
 
 /// Distance over which the pigment of roots and tips fades, if the scene gives none (m).
 const FADE: f32 = 0.05;
 
-/// Materials, whose other fields are [numbers](Document::set_fields); `backdrop` is the default one.
-pub(super) fn look(document: &Document<'_>, seed: u64, backdrop: Backdrop) -> Result<LookSpec> {
+/// Materials, whose other fields are [numbers](Document::set_fields); `natural` has the colours of the hair type, and
+/// `backdrop` is the default background.
+pub(super) fn look(
+    document: &Document<'_>,
+    natural: &NaturalLook,
+    seed: u64,
+    backdrop: Backdrop,
+) -> Result<LookSpec> {
     let colour = |key: &str| -> Result<Option<Vec3>> {
         Ok(document.get::<Colour>(key)?.map(linear_from_srgb))
     };
@@ -24,8 +32,12 @@ pub(super) fn look(document: &Document<'_>, seed: u64, backdrop: Backdrop) -> Re
         tips: fade(document, "look.tips"),
         // The low bits of the seed are a seed, too.
         seed: seed as u32,
-        ..HairLook::default()
+        ..natural.hair()
     };
+    // One pigment by number is a colour of its own, not a change of the type's: the other is that of brown.
+    if document.first(&["look.eumelanin", "look.pheomelanin"]).is_some() {
+        (hair.melanin, hair.white_share) = (Melanin::default(), 0.0);
+    }
     if let Some(ShadeWord(shade)) = document.get::<OneOf<ShadeWord>>("look.colour")? {
         (hair.melanin, hair.white_share) = (shade.melanin, shade.white_share);
     }
@@ -48,7 +60,7 @@ pub(super) fn look(document: &Document<'_>, seed: u64, backdrop: Backdrop) -> Re
         strength: number("look.dye.strength", 1.0),
         regrowth: number("look.dye.regrowth", 0.0),
     });
-    let skin = SkinLook::default();
+    let skin = natural.skin();
     Ok(LookSpec {
         hair,
         skin: SkinLook { colour: colour("look.skin")?.unwrap_or(skin.colour), ..skin },

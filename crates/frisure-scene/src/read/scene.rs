@@ -13,6 +13,7 @@ use crate::document::Document;
 use crate::error::{Result, SceneError};
 use crate::keywords::{BranchKind, HairType, WettingWord};
 use crate::kind::{Count, Text};
+use crate::natural_look::NaturalLook;
 use crate::scene::{MAX_SIZE, Output, Scene};
 use crate::schema::schema;
 use crate::source::Source;
@@ -78,7 +79,7 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
         hair_type: preset.name,
         head: head::head(&document, folder)?,
         groom,
-        look: look::look(&document, spec.seed, backdrop)?,
+        look: look::look(&document, &NaturalLook::of(preset), spec.seed, backdrop)?,
         camera: camera(&document)?,
         light,
         environment,

@@ -1,0 +1,103 @@
+//! The colours of hair and skin that a hair type brings with it.
+
+use frisure_hairstyle::Preset;
+use frisure_look::{HairLook, Shade, SkinLook, linear_from_srgb};
+
+/// The colours of one hair type; a scene overrides them with `look.colour` and `look.skin`.
+///
+/// ```
+/// use frisure_hairstyle::preset;
+/// use frisure_scene::NaturalLook;
+///
+/// let of = |name| NaturalLook::of(preset(name).expect("a preset"));
+/// assert_eq!(of("asian-straight").colour.name, "black");
+/// assert_ne!(of("african-coily").skin, of("caucasian-straight").skin);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NaturalLook {
+    /// Colour of the hair.
+    pub colour: &'static Shade,
+    /// Diffuse reflectance of the skin, sRGB from 0 to 1.
+    pub skin: [f64; 3],
+}
+
+/// Skins (sRGB) from light to dark. Chosen: lightness falls in steps of about 10 CIELAB units from L* = 65 to L* = 37, with
+/// a* from 9 to 13 and b* from 15 to 19.
+const LIGHT: [f64; 3] = rgb(0xbb, 0x96, 0x84);
+const LIGHT_WARM: [f64; 3] = rgb(0xb8, 0x97, 0x82);
+const MEDIUM: [f64; 3] = rgb(0xa3, 0x7b, 0x63);
+const BROWN: [f64; 3] = rgb(0x8b, 0x64, 0x50);
+const DARK: [f64; 3] = rgb(0x70, 0x50, 0x3f);
+
+const fn rgb(red: u8, green: u8, blue: u8) -> [f64; 3] {
+    [red as f64 / 255.0, green as f64 / 255.0, blue as f64 / 255.0]
+}
+
+/// Hair type, colour of the hair, skin. What is chosen and why: `docs/hair-types.md`, "Colour and skin".
+const LOOKS: [(&str, &str, [f64; 3]); 21] = [
+    ("asian-straight", "black", LIGHT_WARM),
+    ("asian-wavy", "black", LIGHT_WARM),
+    ("caucasian-straight", "dark-blond", LIGHT),
+    ("caucasian-wavy", "light-brown", LIGHT),
+    ("caucasian-curly", "brown", LIGHT),
+    ("african-coily", "black", DARK),
+    ("african-kinky", "black", DARK),
+    ("straight", "brown", LIGHT),
+    ("wavy", "brown", LIGHT),
+    ("curly", "brown", LIGHT_WARM),
+    ("frizzy", "dark-brown", MEDIUM),
+    ("coily", "black", BROWN),
+    ("kinky", "black", DARK),
+    ("type-1", "black", LIGHT_WARM),
+    ("type-2", "dark-blond", LIGHT),
+    ("type-3", "light-brown", LIGHT),
+    ("type-4", "brown", LIGHT_WARM),
+    ("type-5", "dark-brown", MEDIUM),
+    ("type-6", "dark-brown", BROWN),
+    ("type-7", "black", BROWN),
+    ("type-8", "black", DARK),
+];
+
+impl NaturalLook {
+    /// The colours of a hair type.
+    ///
+    /// # Panics
+    /// Never: a test asks for every preset.
+    #[must_use]
+    pub fn of(preset: &Preset) -> Self {
+        let (_, colour, skin) =
+            LOOKS.iter().find(|look| look.0 == preset.name).expect("each preset has a look");
+        Self { colour: Shade::named(colour).expect("a shade of the list"), skin: *skin }
+    }
+
+    /// Hair of this colour.
+    #[must_use]
+    pub fn hair(&self) -> HairLook {
+        HairLook {
+            melanin: self.colour.melanin,
+            white_share: self.colour.white_share,
+            ..HairLook::default()
+        }
+    }
+
+    /// Skin of this colour.
+    #[must_use]
+    pub fn skin(&self) -> SkinLook {
+        SkinLook { colour: linear_from_srgb(self.skin), ..SkinLook::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frisure_hairstyle::PRESETS;
+
+    #[test]
+    fn every_hair_type_has_colours_and_no_other_name_has() {
+        for preset in PRESETS {
+            let look = NaturalLook::of(preset);
+            assert!(look.hair().natural().is_finite() && look.skin().colour.min_element() > 0.0);
+        }
+        assert_eq!(LOOKS.len(), PRESETS.len());
+    }
+}
