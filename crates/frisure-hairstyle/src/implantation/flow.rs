@@ -63,9 +63,7 @@ pub(crate) fn along_skin(
     let front = 1.0 - smooth_step(-0.4, 0.6, marks.normalized(root.position).y);
     let base = match flow {
         Flow::Whorl => natural(marks, whorls, root),
-        Flow::Parted { .. } => {
-            along(DVec3::new(0.0, 0.15, -1.0), normal).lerp(back(normal), 0.85 * front)
-        }
+        Flow::Parted { .. } => along(DVec3::new(0.0, 0.15, -1.0), normal).lerp(back(normal), front),
         Flow::SweptBack => swept(normal),
     };
     let base = gathered_at_nape(marks, base, root);
@@ -75,11 +73,16 @@ pub(crate) fn along_skin(
     // It fades into the rest over a few centimetres, more where the whole head is parted.
     let pull = (-(distance / reach).powi(2)).exp();
     // Beside the line hair leaves sideways, or it would fall back over it; farther off, and above the
-    // forehead, it is combed back out of the face.
-    let near = 0.1 + 0.5 * (1.0 - smooth_step(-0.85, -0.6, marks.normalized(root.position).y));
-    let combed =
-        if parted { near + (1.0 - near) * smooth_step(0.006, 0.035, distance) } else { 0.0 };
-    let away = shortened(away + back(normal) * (1.3 * combed * front));
+    // forehead, it is combed back out of the face. Shares and distances (m) are chosen by how much hair lies over the face.
+    let near = 0.5 + 0.4 * (1.0 - smooth_step(-0.85, -0.6, marks.normalized(root.position).y));
+    let combed = match parted {
+        true => {
+            let beyond = near + (1.0 - near) * smooth_step(0.003, 0.015, distance);
+            beyond * smooth_step(0.0, 0.006, distance)
+        }
+        false => 0.0,
+    };
+    let away = shortened(away + back(normal) * (1.9 * combed * front));
     base.lerp(away, pull)
 }
 

@@ -6,19 +6,23 @@ use crate::head::Landmarks;
 use crate::math::smooth_step;
 use crate::spec::Lift;
 
-/// The angle to the skin (rad) at a point (m) of it.
-pub(crate) fn angle(marks: &Landmarks, lift: Lift, p: DVec3) -> f64 {
+/// The angle to the skin (rad) at a point (m) of it,
+/// of which a comb has laid down a share of the hair, 0 to 1.
+pub(crate) fn angle(marks: &Landmarks, lift: Lift, p: DVec3, combed: f64) -> f64 {
     match lift {
         Lift::Uniform(angle) => angle,
         Lift::Regional { scale } => {
-            (regional_degrees(marks, p) * scale).clamp(0.0, 90.0).to_radians()
+            (regional_degrees(marks, p, combed) * scale).clamp(0.0, 90.0).to_radians()
         }
     }
 }
 
+/// Angle (degrees) at the forehead's hairline where hair is combed: the lower end of the measured range.
+const COMBED_HAIRLINE: f64 = 10.0;
+
 /// Measured implantation angles (degrees to the skin): hairline 10–20, temples 3–10, mid-scalp 30,
 /// rising to 60 at the crown (docs/theory.md, "Roots and implantation").
-fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
+fn regional_degrees(marks: &Landmarks, p: DVec3, combed: f64) -> f64 {
     // The means of the measured ranges, blended over distances in head widths that are chosen by eye.
     let up = marks.normalized(p).normalize_or(DVec3::Z).z;
     let reach = marks.width;
@@ -26,7 +30,8 @@ fn regional_degrees(marks: &Landmarks, p: DVec3) -> f64 {
     let front = 1.0 - smooth_step(0.05 * reach, 0.3 * reach, p.distance(marks.hairline));
     let sides_to_top = 7.0 + (30.0 - 7.0) * smooth_step(-0.2, 0.7, up);
     let with_crown = sides_to_top + (60.0 - sides_to_top) * crown;
-    with_crown + (15.0 - with_crown) * front
+    let hairline = 15.0 + (COMBED_HAIRLINE - 15.0) * combed;
+    with_crown + (hairline - with_crown) * front
 }
 
 /// Distance (m) from a parting up to which a comb lays hair on the skin. docs/theory.md, "Roots and implantation".

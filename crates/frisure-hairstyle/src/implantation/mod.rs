@@ -97,7 +97,7 @@ impl Layout {
 
     /// The angle to the skin (rad), before regions ask for theirs.
     fn angle(&self, root: &Root, combed: f64) -> f64 {
-        let grown = lift::angle(&self.marks, self.implantation.lift, root.position);
+        let grown = lift::angle(&self.marks, self.implantation.lift, root.position, combed);
         let Lift::Regional { .. } = self.implantation.lift else { return grown };
         let beside = self.partings.away(root.position, root.normal);
         let flat = beside.map_or(grown, |(_, distance)| lift::laid_flat(grown, distance));

@@ -17,6 +17,9 @@ const BEFORE: f64 = 6e-3;
 /// Width and period (m) of a zigzag. Chosen by eye; not measured.
 const ZIGZAG: (f64, f64) = (0.011, 0.026);
 
+/// Where a straight parting ends, as a share of the way to the whorl. Chosen by eye; not measured.
+const ENDING: f64 = 0.8;
+
 /// Farthest (m) from growing hair that a point of a parting may be. Chosen by trial; not measured further.
 const OFF: f64 = 0.015;
 
@@ -41,7 +44,7 @@ fn short(metres: f64) -> f64 {
 
 /// Width (m) of the strip beside a parting of which the drawn hair is gathered at the line.
 /// docs/theory.md, "Roots and implantation".
-const GATHERED: f64 = 8e-3;
+const GATHERED: f64 = 12e-3;
 
 /// Distance (m) from the line within which hair is not moved, so that it stays on its side.
 /// Chosen by trial; not measured further.
@@ -132,8 +135,8 @@ impl Partings {
         if distance >= GATHERED {
             return p;
         }
-        // d (d/8 mm)^1.5: continuous at the border of the strip, and never across the line.
-        let nearer = distance * (distance / GATHERED).powf(1.5);
+        // d (d/12 mm)^2.5: continuous at the border of the strip, and never across the line.
+        let nearer = distance * (distance / GATHERED).powf(2.5);
         on_line + (p - on_line).normalize_or_zero() * nearer.max(distance.min(SIDE))
     }
 
@@ -179,8 +182,8 @@ fn closest(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
 fn corners(parting: &Parting, crown: f64) -> Vec<[f64; 2]> {
     match parting {
         &Parting::Straight { offset } => {
-            // Towards the whorl, in which it ends.
-            vec![[offset, -BEFORE], [offset, 0.4 * crown], [0.5 * offset, crown]]
+            // Towards the whorl, and not into it: hair leaves both, and would leave bare skin where they meet.
+            vec![[offset, -BEFORE], [offset, 0.4 * crown], [0.6 * offset, ENDING * crown]]
         }
         &Parting::Zigzag { offset } => {
             let (width, period) = ZIGZAG;
