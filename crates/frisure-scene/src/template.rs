@@ -13,7 +13,6 @@ pub fn template(preset: &Preset) -> String {
     let spec = preset.spec();
     let (section, wisps) = (spec.fibre.section, spec.wisps);
     let (radius, pitch) = spec.curl.radius_pitch().unwrap_or((0.0, 0.0));
-    let look = NaturalLook::of(preset);
     let mut out = String::new();
     // Writing to a String cannot fail.
     let _ = write!(
@@ -55,8 +54,7 @@ type = "{name}"  # {description}
 # fuzziness = {fuzziness:.2}
 
 [look]
-# colour = "{colour}"{gap} # or "blond", "black", "red", "grey" ...; or pigments, or a dye
-# skin = "{skin}"
+{look}
 
 [camera]
 # azimuth = "30 deg"              # 0 faces the face
@@ -86,11 +84,19 @@ type = "{name}"  # {description}
         density = preset.hair_type().density * 1e-4,
         clumping = wisps.clumping,
         fuzziness = wisps.fuzziness,
-        colour = look.colour.name,
-        gap = " ".repeat(20 - look.colour.name.len()),
-        skin = hexadecimal(look.skin),
+        look = look_lines(preset),
     );
     out
+}
+
+/// The keys of colours, commented out, with those of the type.
+fn look_lines(preset: &Preset) -> String {
+    let NaturalLook { colour, skin } = NaturalLook::of(preset);
+    let colour = format!("# colour = \"{}\"", colour.name);
+    let skin = format!("# skin = \"{}\"", hexadecimal(skin));
+    format!(
+        "{colour:<34}# or \"blond\", \"black\", \"red\", \"grey\" ...; or pigments, or a dye\n{skin}"
+    )
 }
 
 /// An sRGB colour as scenes write it.
