@@ -2,7 +2,6 @@
 
 use std::iter;
 use std::ops::Range;
-use std::process::ExitCode;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
@@ -23,28 +22,38 @@ pub(crate) enum ExitStatus {
     CriterionFailed,
 }
 
-impl From<ExitStatus> for ExitCode {
+impl From<ExitStatus> for u8 {
     fn from(status: ExitStatus) -> Self {
         match status {
-            ExitStatus::Success => Self::SUCCESS,
-            ExitStatus::NotConverged | ExitStatus::CriterionFailed => Self::from(3),
-            ExitStatus::AccuracyMissed => Self::from(4),
+            ExitStatus::Success => 0,
+            ExitStatus::NotConverged | ExitStatus::CriterionFailed => 3,
+            ExitStatus::AccuracyMissed => 4,
         }
     }
 }
 
-/// The exit code of a command without a result.
-pub(crate) fn exit_code(error: &Error) -> ExitCode {
+/// The exit status of a command without a result.
+pub(crate) fn exit_code(error: &Error) -> u8 {
     match error {
-        Error::Failed { .. } | Error::Internal(_) => ExitCode::FAILURE,
-        Error::Scene(_) | Error::Invalid { .. } => ExitCode::from(2),
+        Error::Failed { .. } | Error::Internal(_) => 1,
+        Error::Scene(_) | Error::Invalid { .. } => 2,
         // As shells report a death by SIGINT.
-        Error::Cancelled(_) => ExitCode::from(130),
+        Error::Cancelled(_) => 130,
     }
 }
 
 /// An error as text of several lines, with the line of the scene and with colours as escape sequences.
 pub(crate) fn render(error: &Error) -> String {
+    rendered(error, &Renderer::styled())
+}
+
+/// An error as text of several lines, as a person reads it on a terminal, without colours.
+#[must_use]
+pub fn plain(error: &Error) -> String {
+    rendered(error, &Renderer::plain())
+}
+
+fn rendered(error: &Error, renderer: &Renderer) -> String {
     let diagnostic = if let Error::Scene(error) = error { error.diagnostic() } else { None };
     let message = diagnostic.map_or_else(|| message(error), Diagnostic::message);
     let labels = diagnostic.map(labels).unwrap_or_default();
@@ -62,7 +71,7 @@ pub(crate) fn render(error: &Error) -> String {
     if !hint.is_empty() {
         group = group.element(Level::HELP.message(hint));
     }
-    let renderer = Renderer::styled().decor_style(DecorStyle::Unicode).term_width(10_000);
+    let renderer = renderer.clone().decor_style(DecorStyle::Unicode).term_width(10_000);
     renderer.render(&[group])
 }
 

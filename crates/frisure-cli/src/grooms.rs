@@ -49,7 +49,7 @@ pub(crate) fn write(
         let format = Format::of(path).map_err(|e| Error::because(&e, ""))?;
         let mut line = path.display().to_string();
         let mut written = &groom;
-        if let Some(points) = writing.points.or(usual_points(format, &groom)) {
+        if let Some(points) = writing.points.or(groom.usual_points(format)) {
             let known = resampled.take().filter(|known| known.points == points);
             let Resampled { groom, error, .. } = resampled.insert(known.unwrap_or_else(|| {
                 let (groom, error) = groom.resampled(points);
@@ -68,12 +68,6 @@ pub(crate) fn write(
         lines.push(line);
     }
     Ok(lines)
-}
-
-/// The number of points that readers of a format expect, if some strand has another.
-fn usual_points(format: Format, groom: &Groom) -> Option<usize> {
-    let mut strands = groom.hairs.iter().chain(groom.guides.iter());
-    format.usual_points().filter(|n| strands.any(|strand| strand.points.len() != *n))
 }
 
 /// The groom with only the strands that are wanted.

@@ -1,62 +1,9 @@
-//! The `frisure` command: arguments in [`args`], then one file per command in [`commands`].
+//! The program `frisure`; the library of this crate has everything.
 
 #![forbid(unsafe_code)]
 
-mod args;
-mod commands;
-mod console;
-mod diagnostics;
-mod grooms;
-mod hair_checkpoint;
-mod interrupt;
-mod outputs;
-mod pictures;
-mod progress;
-
 use std::process::ExitCode;
 
-use clap::Parser;
-
-use args::{Arguments, Command};
-use diagnostics::{ExitStatus, exit_code};
-use frisure_engine::Error;
-
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match interrupt::run(move || run(arguments)) {
-        Ok(status) => status.into(),
-        Err(error) => {
-            progress::clear();
-            outputs::remove_empty_folders();
-            console::show_error(&error);
-            exit_code(&error)
-        }
-    }
-}
-
-fn run(arguments: Arguments) -> Result<ExitStatus, Error> {
-    if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build_global().map_err(|e| Error::failed(&e, ""))?;
-    }
-    let quiet = arguments.quiet;
-    match arguments.command {
-        Command::Predict(predict) => commands::predict::run(&predict, quiet),
-        #[cfg(feature = "batch")]
-        Command::Batch(batch) => commands::batch::run(&batch, quiet),
-        #[cfg(not(feature = "batch"))]
-        Command::Batch(_) => Err(commands::not_built("batch")),
-        Command::Style(style) => commands::style::run(&style, quiet),
-        Command::Render(render) => commands::render::run(render, quiet),
-        Command::Convert(convert) => commands::convert::run(&convert, quiet),
-        Command::Hair(hair) => commands::hair::run(&hair),
-        Command::Presets(arguments) => commands::presets::run(&arguments),
-        Command::New(new) => commands::new::run(&new),
-        Command::Measured(measured) => commands::measured::run(&measured, quiet),
-        Command::Schema => commands::schema::run(),
-        #[cfg(feature = "validate")]
-        Command::Validate(validate) => commands::validate::run(&validate, quiet),
-        #[cfg(not(feature = "validate"))]
-        Command::Validate(_) => Err(commands::not_built("validate")),
-    }
+    frisure_cli::run(std::env::args_os()).into()
 }

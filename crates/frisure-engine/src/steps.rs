@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use frisure::hairstyle::styling::{Cut, CutLine, Operation, StyleError};
-use frisure::hairstyle::{StyleOptions, guide_strands, selected, style};
+use frisure::hairstyle::styling::{Cut, CutLine, Operation};
+use frisure::hairstyle::{Hairstyle, StyleOptions, guide_strands, selected, style};
 use frisure::progress::Progress;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
@@ -49,6 +49,44 @@ impl StyledScene {
     }
 }
 
+/// The effects of steps, one by one.
+#[derive(Default)]
+struct StepReports {
+    reports: Vec<StepReport>,
+    /// Steps that cut below a height (m): their index, the wisps that they act on, the height.
+    cuts: Vec<(usize, Vec<bool>, f64)>,
+}
+
+impl StepReports {
+    /// Adds the next step of a scene, from the hairstyles before and after it.
+    fn add(
+        &mut self,
+        operation: &Operation,
+        before: &LoadedScene,
+        after: &Hairstyle,
+    ) -> Result<(), Error> {
+        let (index, head) = (self.reports.len(), &before.head);
+        let wisps = match operation.selection() {
+            Some(selection) => selected(&before.hairstyle, head, selection)
+                .map_err(|e| Error::of_step(index, &e, &before.scene))?,
+            None => vec![true; before.hairstyle.guides().len()],
+        };
+        self.reports.push(StepReport::new(operation, &before.hairstyle, after, &wisps));
+        if let Operation::Cut(Cut { line: CutLine::Below(height), .. }) = operation {
+            self.cuts.push((index, wisps, height.on(head)));
+        }
+        Ok(())
+    }
+
+    /// The reports, given the hairstyle after all steps.
+    fn finish(mut self, last: &Hairstyle) -> Vec<StepReport> {
+        for (index, wisps, line) in self.cuts {
+            self.reports[index].add_cut(line, last, &wisps);
+        }
+        self.reports
+    }
+}
+
 impl Runner {
     /// Executes all steps of a scene and reports the effect of each; keeps all stages, or the last alone.
     ///
@@ -61,35 +99,44 @@ impl Runner {
         progress: &dyn Progress,
     ) -> Result<StyledScene, Error> {
         let mut last = self.load(scene, 0, Quality::Exact, progress)?;
-        let mut styled = StyledScene { stages: Vec::new(), steps: Vec::new() };
-        let mut cuts: Vec<(usize, Vec<bool>, f64)> = Vec::new();
+        let mut kept = Vec::new();
+        let mut reports = StepReports::default();
         for (index, operation) in scene.steps().iter().enumerate() {
-            let failed = |e: StyleError| Error::of_step(index, &e, scene);
-            let (before, head) = (&last.hairstyle, &last.head);
-            let wisps = match operation.selection() {
-                Some(selection) => selected(before, head, selection).map_err(failed)?,
-                None => vec![true; before.guides().len()],
-            };
             let mut stages = Vec::new();
             let options =
                 StyleOptions { stages: all.then_some(&mut stages), ..StyleOptions::default() };
-            let after = style(before, head, operation, options, progress).map_err(failed)?;
-            styled.steps.push(StepReport::new(operation, before, &after, &wisps));
-            if let Operation::Cut(Cut { line: CutLine::Below(height), .. }) = operation {
-                cuts.push((index, wisps, height.on(head)));
-            }
+            let after = style(&last.hairstyle, &last.head, operation, options, progress)
+                .map_err(|e| Error::of_step(index, &e, scene))?;
+            reports.add(operation, &last, &after)?;
             for hairstyle in stages.into_iter().chain([after]) {
                 let next = LoadedScene { hairstyle: Arc::new(hairstyle), ..last.clone() };
                 let before = std::mem::replace(&mut last, next);
                 if all {
-                    styled.stages.push(before);
+                    kept.push(before);
                 }
             }
         }
-        for (index, wisps, line) in cuts {
-            styled.steps[index].add_cut(line, &last.hairstyle, &wisps);
+        let steps = reports.finish(&last.hairstyle);
+        kept.push(last);
+        Ok(StyledScene { stages: kept, steps })
+    }
+
+    /// Reports the effect of each step of a scene, as [`Self::load_stages`], from hairstyles that are cached as far as possible.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub fn step_reports(
+        &mut self,
+        scene: &Arc<Scene>,
+        progress: &dyn Progress,
+    ) -> Result<Vec<StepReport>, Error> {
+        let mut reports = StepReports::default();
+        let mut last = self.load(scene, 0, Quality::Exact, progress)?;
+        for (index, operation) in scene.steps().iter().enumerate() {
+            let after = self.load(scene, index + 1, Quality::Exact, progress)?;
+            reports.add(operation, &last, &after.hairstyle)?;
+            last = after;
         }
-        styled.stages.push(last);
-        Ok(styled)
+        Ok(reports.finish(&last.hairstyle))
     }
 }

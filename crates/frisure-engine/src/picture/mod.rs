@@ -9,6 +9,7 @@ mod file;
 mod frames;
 mod options;
 mod subject;
+mod traced;
 mod turntable;
 
 #[cfg(not(target_arch = "wasm32"))]

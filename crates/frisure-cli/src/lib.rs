@@ -1,0 +1,79 @@
+//! The `frisure` command: arguments in [`args`], then one file per command in [`commands`].
+//!
+//! The program `frisure` and the Python package call [`run`].
+
+#![forbid(unsafe_code)]
+
+mod args;
+mod commands;
+mod console;
+mod diagnostics;
+mod grooms;
+mod hair_checkpoint;
+mod interrupt;
+mod outputs;
+mod pictures;
+mod progress;
+
+use std::ffi::OsString;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use diagnostics::{ExitStatus, exit_code};
+use frisure_engine::Error;
+
+pub use diagnostics::plain;
+
+/// The exit status of a command line that cannot be read, if it does not fit a byte; clap has 2 for all of them.
+const USAGE: u8 = 2;
+
+/// Runs the command of a command line, whose first argument is the name of the program, and returns its exit status.
+///
+/// Prints to standard output and standard error, and takes over Ctrl-C: call it once in a process, which ends then.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Where standard output is closed, the exit status still says what happened.
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).unwrap_or(USAGE);
+        }
+    };
+    match interrupt::run(move || execute(arguments)) {
+        Ok(status) => status.into(),
+        Err(error) => {
+            progress::clear();
+            outputs::remove_empty_folders();
+            console::show_error(&error);
+            exit_code(&error)
+        }
+    }
+}
+
+fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build_global().map_err(|e| Error::failed(&e, ""))?;
+    }
+    let quiet = arguments.quiet;
+    match arguments.command {
+        Command::Predict(predict) => commands::predict::run(&predict, quiet),
+        #[cfg(feature = "batch")]
+        Command::Batch(batch) => commands::batch::run(&batch, quiet),
+        #[cfg(not(feature = "batch"))]
+        Command::Batch(_) => Err(commands::not_built("batch")),
+        Command::Style(style) => commands::style::run(&style, quiet),
+        Command::Render(render) => commands::render::run(render, quiet),
+        Command::Convert(convert) => commands::convert::run(&convert, quiet),
+        Command::Hair(hair) => commands::hair::run(&hair),
+        Command::Presets(arguments) => commands::presets::run(&arguments),
+        Command::New(new) => commands::new::run(&new),
+        Command::Measured(measured) => commands::measured::run(&measured, quiet),
+        Command::Schema => commands::schema::run(),
+        #[cfg(feature = "validate")]
+        Command::Validate(validate) => commands::validate::run(&validate, quiet),
+        #[cfg(not(feature = "validate"))]
+        Command::Validate(_) => Err(commands::not_built("validate")),
+    }
+}
