@@ -1,0 +1,39 @@
+"""frisure predicts how natural hair falls, from the physics of its fibres.
+
+>>> import frisure
+>>> hair = frisure.predict({"hair": {"type": "caucasian-curly", "length": "12 cm"},
+...                         "wisps": {"count": 12, "hairs": 100}})
+>>> hair.strands.points.shape[1]
+3
+>>> short = hair.wet().cut("chin").dry()
+>>> picture = short.render(300, 360)          # (360, 300, 3), uint8
+
+- `predict` makes a `Hairstyle` from a `Scene`: a file, a text in TOML, or a dict.
+- A `Hairstyle` has `strands` and `guides` as NumPy arrays, a `report`, and one method for each step of styling.
+- `frisure.presets` has a scene for each hair type.
+
+Lengths are metres, z points up, the face looks towards -y and its left is +x. Every error is a `FrisureError`; those
+about what was asked for are `ValueError`s, too.
+"""
+
+from frisure._frisure import __version__
+from frisure.errors import ArgumentError, FailedError, FrisureError, SceneError, SceneNotFoundError
+from frisure.hairstyle import Hairstyle, predict
+from frisure.presets import presets
+from frisure.scene import Scene, Section
+from frisure.strands import Strands
+
+__all__ = [
+    "ArgumentError",
+    "FailedError",
+    "FrisureError",
+    "Hairstyle",
+    "Scene",
+    "SceneError",
+    "SceneNotFoundError",
+    "Section",
+    "Strands",
+    "__version__",
+    "predict",
+    "presets",
+]

@@ -1,0 +1,260 @@
+"""Scenes: what hair is predicted, from text, and edited key by key."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import os
+import re
+import tomllib
+from collections.abc import Iterator, Mapping, MutableMapping
+from pathlib import Path
+from typing import Any, Union
+
+from frisure._frisure import SceneText, scene_keys
+
+SceneSource = Union["Scene", Mapping[str, Any], "os.PathLike[str]", str]
+"""What a scene is made from: another one, a dict, a path, or text in TOML (a str with a line break)."""
+
+
+@functools.cache
+def _keys() -> dict[str, str]:
+    """The declared keys with their documentation."""
+    return dict(scene_keys())
+
+
+def _parts(path: str) -> list[str | int]:
+    """The steps of a path such as `region[0].length`."""
+    parts: list[str | int] = []
+    for step in path.split("."):
+        name, *indices = re.split(r"[\[\]]+", step.rstrip("]"))
+        parts.append(name)
+        parts.extend(int(index) for index in indices)
+    return parts
+
+
+class Section(MutableMapping[str, Any]):
+    """A table of a scene, such as `scene.hair`; it reads and changes the scene.
+
+    `section.length` and `section["length"]` are what the scene says, as it is written: `"28 cm"`. A key that the scene
+    leaves out is `None` as an attribute and a `KeyError` as an item; `frisure.Scene.number` tells its value. Setting a
+    key checks it at once, and `None` removes it.
+    """
+
+    _scene: Scene
+    _path: str
+
+    def __init__(self, scene: Scene, path: str) -> None:
+        object.__setattr__(self, "_scene", scene)
+        object.__setattr__(self, "_path", path)
+
+    def _key(self, name: str) -> str:
+        return f"{self._path}.{name}" if self._path else name
+
+    def _given(self) -> Mapping[str, Any]:
+        """What the scene says of this table."""
+        found = self._scene._find(self._path)
+        return found if isinstance(found, dict) else {}
+
+    def _view(self, name: str, value: Any) -> Any:
+        return Section(self._scene, self._key(name)) if isinstance(value, dict) else value
+
+    def _names(self) -> list[str]:
+        """The keys that this table can have."""
+        start = self._key("")
+        keys = (key.removeprefix(start) for key in _keys() if key.startswith(start))
+        return list(dict.fromkeys(re.split(r"[.\[]", key)[0] for key in keys))
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        found = self._scene._find(self._key(name))
+        if found is not None:
+            return self._view(name, found)
+        names = self._names()
+        if name not in names:
+            where = f"`{self._path}`" if self._path else "a scene"
+            near = difflib.get_close_matches(name, names, 1)
+            hint = f"; did you mean `{near[0]}`?" if near else f"; its keys are {', '.join(names)}"
+            raise AttributeError(f"{where} has no key `{name}`{hint}")
+        start = self._key(name) + "."
+        return Section(self._scene, self._key(name)) if any(k.startswith(start) for k in _keys()) else None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name.startswith("_"):
+            object.__setattr__(self, name, value)
+        else:
+            self[name] = value
+
+    def __delattr__(self, name: str) -> None:
+        del self[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._names()]
+
+    def __getitem__(self, name: str) -> Any:
+        found = self._scene._find(self._key(name))
+        if found is None:
+            raise KeyError(self._key(name))
+        return self._view(name, found)
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        self._scene._change([(self._key(name), value)])
+
+    def __delitem__(self, name: str) -> None:
+        if self._scene._find(self._key(name)) is None:
+            raise KeyError(self._key(name))
+        self._scene._change([(self._key(name), None)])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(list(self._given()))
+
+    def __len__(self) -> int:
+        return len(self._given())
+
+    def update(self, *changes: Any, **keys: Any) -> None:
+        """Sets several keys at once, for values that mean something only together."""
+        merged = dict(*changes, **keys)
+        self._scene._change([(self._key(name), value) for name, value in merged.items()])
+
+    def to_dict(self) -> dict[str, Any]:
+        """What the scene says of this table, as plain values."""
+        return _plain(self._given())
+
+    def __repr__(self) -> str:
+        return f"<frisure.Section {self._path!r}: {self.to_dict()!r}>"
+
+
+def _plain(value: Any) -> Any:
+    """A copy of values of TOML."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, list) else value
+
+
+class Scene(Section):
+    """A scene: hair, head, steps, look; `docs/scene.md` has all keys.
+
+    It is made from another scene, a dict, a path (`os.PathLike`, or a str without a line break), or text in TOML.
+    Paths in a dict or a text are relative to `folder`, by default the working directory.
+
+    >>> scene = Scene({"hair": {"type": "caucasian-curly"}})
+    >>> scene.hair.length = "20 cm"
+    >>> scene["hair.length"], scene.number("hair.length")
+    ('20 cm', 0.2)
+    """
+
+    _core: SceneText
+    _data: dict[str, Any]
+
+    def __init__(
+        self, source: SceneSource, /, *, folder: str | os.PathLike[str] | None = None
+    ) -> None:
+        Section.__init__(self, self, "")
+        within = Path(folder) if folder is not None else Path()
+        if isinstance(source, Scene):
+            core = source._core
+        elif isinstance(source, Mapping):
+            core = SceneText.from_mapping(source, within)
+        elif isinstance(source, str) and "\n" in source:
+            core = SceneText.parse(source, "<text>", within)
+        elif isinstance(source, (str, os.PathLike)):
+            core = SceneText.read(Path(source))
+        else:
+            kind = type(source).__name__
+            raise TypeError(f"scene is of the type {kind}; it must be a Scene, a dict, a path or a text")
+        self._set(core)
+
+    @classmethod
+    def from_text(
+        cls,
+        text: str,
+        *,
+        file: str = "<text>",
+        folder: str | os.PathLike[str] | None = None,
+    ) -> Scene:
+        """The scene of a text in TOML; errors call it `file`."""
+        return cls._of(SceneText.parse(text, file, Path(folder) if folder is not None else Path()))
+
+    @classmethod
+    def _of(cls, core: SceneText) -> Scene:
+        scene = cls.__new__(cls)
+        Section.__init__(scene, scene, "")
+        scene._set(core)
+        return scene
+
+    def _set(self, core: SceneText) -> None:
+        self._core = core
+        self._data = tomllib.loads(core.text)
+
+    def _find(self, path: str) -> Any:
+        """What the scene says at a path; None if nothing."""
+        found: Any = self._data
+        for part in _parts(path) if path else []:
+            if isinstance(part, int):
+                found = found[part] if isinstance(found, list) and part < len(found) else None
+            else:
+                found = found.get(part) if isinstance(found, dict) else None
+            if found is None:
+                return None
+        return found
+
+    def _change(self, changes: list[tuple[str, Any]]) -> None:
+        self._set(self._core.with_values(changes))
+
+    @property
+    def text(self) -> str:
+        """The scene in TOML, with its comments."""
+        return self._core.text
+
+    @property
+    def file(self) -> str:
+        """What errors call the scene: the path of its file, if it has one."""
+        return self._core.name
+
+    @property
+    def folder(self) -> Path:
+        """The folder that paths in the scene are relative to."""
+        return Path(self._core.folder)
+
+    def number(self, key: str) -> float:
+        """The number of a key such as `hair.length`, in SI units (m, rad, Pa, kg/m³), given by the scene or not."""
+        number = self._core.number(key)
+        if number is None:
+            near = difflib.get_close_matches(key, _keys(), 1)
+            raise KeyError(f"{key!r} is no key with a number" + (f"; near it is {near[0]!r}" if near else ""))
+        return number
+
+    def with_step(self, operation: str, value: Any = None, /, **keys: Any) -> Scene:
+        """The scene with one more step: `scene.with_step("cut", below="chin")`."""
+        if value is not None and keys:
+            raise TypeError("give the value of the step or its keys, not both")
+        # A trailing underscore lets a key be a word of Python.
+        named = {key.removesuffix("_"): item for key, item in keys.items() if item is not None}
+        return Scene._of(self._core.with_step(operation, named if value is None else value))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the text to a file."""
+        Path(path).write_text(self.text, encoding="utf-8")
+
+    def copy(self) -> Scene:
+        """Another scene that is the same; changes of one do not change the other."""
+        return Scene(self)
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: object) -> Scene:
+        return Scene(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.text, self.file, os.fspath(self.folder))
+
+    def __repr__(self) -> str:
+        steps = self._core.step_count
+        told = f", {steps} step{'' if steps == 1 else 's'}" if steps else ""
+        return f"<frisure.Scene {self.file!r}: {self._core.hair_type}{told}>"
+
+
+def _restored(text: str, file: str, folder: str) -> Scene:
+    """A scene that was pickled."""
+    return Scene.from_text(text, file=file, folder=folder)

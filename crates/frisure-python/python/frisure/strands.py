@@ -1,0 +1,90 @@
+"""Strands as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Union, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from frisure._frisure import Memory, StrandData
+from frisure.errors import ArgumentError
+
+Float32 = NDArray[np.float32]
+UInt32 = NDArray[np.uint32]
+
+
+def _array(memory: Memory) -> NDArray[Any]:
+    """The array at some memory, without a copy."""
+    return np.asarray(memory)
+
+
+class Strands:
+    """Many curves from root to tip: the drawn hairs or the guides of a hairstyle.
+
+    With H strands of N points in all:
+
+    - `points` (N, 3) float32, metres, one strand after the other;
+    - `radii` (N,) float32, mean radius of the fibre at each point, metres;
+    - `offsets` (H + 1,) uint32: strand h has the points `offsets[h]` to `offsets[h + 1]`, without the last;
+    - `attributes`: arrays by name, (H,) or (H, k) for a value per strand, (N,) or (N, k) for a value per point.
+
+    `strands[h]` are the points of one strand, and `strands.curves` all of them as (H, P, 3), where every strand has P
+    points. No array is a copy, and none can be written to; `array.copy()` can.
+    """
+
+    def __init__(self, data: StrandData) -> None:
+        self._data = data
+        self.points: Float32 = _array(data.points())
+        self.radii: Float32 = _array(data.radii())
+        self.offsets: UInt32 = _array(data.offsets())
+        self.attributes: Mapping[str, Union[Float32, UInt32]] = {
+            name: self._attribute(name) for name, _ in data.attributes()
+        }
+        self.per_point: frozenset[str] = frozenset(n for n, point in data.attributes() if point)
+        """The names of the attributes with a value per point."""
+
+    def _attribute(self, name: str) -> NDArray[Any]:
+        memory = self._data.attribute(name)
+        assert memory is not None
+        return _array(memory)
+
+    @property
+    def counts(self) -> UInt32:
+        """Number of points of each strand, (H,) uint32."""
+        return np.diff(self.offsets)
+
+    @property
+    def curves(self) -> Float32:
+        """Points (m) as (H, P, 3) float32, if every strand has as many points P; `ArgumentError` otherwise."""
+        counts = self.counts
+        if counts.size and np.any(counts != counts[0]):
+            least, most = counts.min(), counts.max()
+            raise ArgumentError(
+                f"strands have {least} to {most} points each, and no array (H, P, 3); use `points` and `offsets`"
+            )
+        points = int(counts[0]) if counts.size else 0
+        return self.points.reshape(len(self), points, 3)
+
+    def __len__(self) -> int:
+        return int(self.offsets.size) - 1
+
+    @overload
+    def __getitem__(self, strand: int) -> Float32: ...
+    @overload
+    def __getitem__(self, strand: slice) -> list[Float32]: ...
+    def __getitem__(self, strand: int | slice) -> Float32 | list[Float32]:
+        if isinstance(strand, slice):
+            return [self[i] for i in range(*strand.indices(len(self)))]
+        index = strand + len(self) if strand < 0 else strand
+        if not 0 <= index < len(self):
+            raise IndexError(f"strand {strand} of {len(self)}")
+        return self.points[self.offsets[index] : self.offsets[index + 1]]
+
+    def __iter__(self) -> Iterator[Float32]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        names = ", ".join(self.attributes)
+        return f"<frisure.Strands: {len(self)} strands, {len(self.points)} points; {names}>"

@@ -1,0 +1,11 @@
+//! The command `frisure`.
+
+use std::ffi::OsString;
+
+use pyo3::prelude::*;
+
+/// Runs the command line, whose first argument is the name of the program, and returns its exit status.
+#[pyfunction]
+pub(crate) fn run_command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| frisure_cli::run(arguments))
+}

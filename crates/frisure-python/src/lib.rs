@@ -1,0 +1,48 @@
+//! The Python package `frisure`: this crate is its extension module `frisure._frisure`, and `python/frisure` the part
+//! written in Python, which has the documentation of what a user calls.
+//!
+//! The module has no solver and no file format of its own: `frisure_engine` computes, as for the other programs.
+//!
+//! | file | what it has |
+//! | --- | --- |
+//! | `array.rs` | memory of Rust as NumPy arrays, without copies |
+//! | `command.rs` | the command `frisure` |
+//! | `errors.rs` | errors as Python exceptions |
+//! | `hairstyle.rs` | hairstyles: predicted, styled, drawn, written |
+//! | `picture.rs` | pictures of hairstyles |
+//! | `scene.rs` | scenes: read, edited |
+//! | `strands.rs` | strands as arrays |
+//! | `values.rs` | Python values as TOML |
+//! | `work.rs` | long work on another thread, with progress and Ctrl-C |
+
+#![forbid(unsafe_code)]
+
+mod array;
+mod command;
+mod errors;
+mod hairstyle;
+mod picture;
+mod scene;
+mod strands;
+mod values;
+mod work;
+
+use pyo3::prelude::*;
+
+/// Makes the module.
+#[pymodule]
+fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<array::Memory>()?;
+    module.add_class::<scene::SceneText>()?;
+    module.add_class::<hairstyle::Prediction>()?;
+    module.add_class::<strands::StrandData>()?;
+    module.add_function(wrap_pyfunction!(picture::render, module)?)?;
+    module.add_function(wrap_pyfunction!(picture::render_png, module)?)?;
+    module.add_function(wrap_pyfunction!(picture::save_picture, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::preset_names, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::preset_text, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::operation_names, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::scene_keys, module)?)?;
+    module.add_function(wrap_pyfunction!(command::run_command, module)?)
+}
