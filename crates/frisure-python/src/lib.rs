@@ -10,6 +10,7 @@
 //! | `errors.rs` | errors as Python exceptions |
 //! | `hairstyle.rs` | hairstyles: predicted, styled, drawn, written |
 //! | `picture.rs` | pictures of hairstyles |
+//! | `rods` | many single rods at once, as arrays |
 //! | `scene.rs` | scenes: read, edited |
 //! | `strands.rs` | strands as arrays |
 //! | `values.rs` | Python values as TOML |
@@ -22,6 +23,7 @@ mod command;
 mod errors;
 mod hairstyle;
 mod picture;
+mod rods;
 mod scene;
 mod strands;
 mod values;
@@ -44,5 +46,7 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::preset_text, module)?)?;
     module.add_function(wrap_pyfunction!(scene::operation_names, module)?)?;
     module.add_function(wrap_pyfunction!(scene::scene_keys, module)?)?;
+    module.add_function(wrap_pyfunction!(rods::settle_rods, module)?)?;
+    module.add_function(wrap_pyfunction!(rods::inverse_rods, module)?)?;
     module.add_function(wrap_pyfunction!(command::run_command, module)?)
 }

@@ -10,12 +10,14 @@
 
 - `predict` makes a `Hairstyle` from a `Scene`: a file, a text in TOML, or a dict.
 - A `Hairstyle` has `strands` and `guides` as NumPy arrays, a `report`, and one method for each step of styling.
+- `frisure.rods` solves many single fibres at once.
 - `frisure.presets` has a scene for each hair type.
 
 Lengths are metres, z points up, the face looks towards -y and its left is +x. Every error is a `FrisureError`; those
 about what was asked for are `ValueError`s, too.
 """
 
+from frisure import rods
 from frisure._frisure import __version__
 from frisure.errors import ArgumentError, FailedError, FrisureError, SceneError, SceneNotFoundError
 from frisure.hairstyle import Hairstyle, predict
@@ -36,4 +38,5 @@ __all__ = [
     "__version__",
     "predict",
     "presets",
+    "rods",
 ]

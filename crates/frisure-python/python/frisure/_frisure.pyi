@@ -5,6 +5,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, final
 
+import numpy as np
+from numpy.typing import NDArray
+
 _Progress = Callable[[str, float], object]
 
 __version__: str
@@ -68,6 +71,33 @@ def render_png(prediction: Prediction, width: int, height: int) -> bytes: ...
 def save_picture(
     prediction: Prediction, path: str | os.PathLike[str], progress: _Progress | None
 ) -> None: ...
+def settle_rods(
+    count: int,
+    fibres: Mapping[str, NDArray[np.float64]],
+    clamped: Mapping[str, NDArray[np.float64] | None],
+    options: Mapping[str, int | float | bool],
+    progress: _Progress | None,
+) -> tuple[
+    NDArray[np.float64] | None,
+    NDArray[np.float64],
+    NDArray[np.bool_],
+    NDArray[np.float64],
+    NDArray[np.uint32],
+    NDArray[np.float64] | None,
+]: ...
+def inverse_rods(
+    points: NDArray[np.float64],
+    fibres: Mapping[str, NDArray[np.float64]],
+    accuracy: float,
+    progress: _Progress | None,
+) -> tuple[
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.bool_],
+    NDArray[np.float64],
+    NDArray[np.float64],
+]: ...
 def preset_names() -> list[tuple[str, str]]: ...
 def preset_text(name: str) -> str | None: ...
 def operation_names() -> list[str]: ...

@@ -1,0 +1,246 @@
+//! Rods from arrays of their properties, which are read where they are.
+
+use frisure::rod::{
+    InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, Root, Section, StrainProfile,
+    TorsionConstant,
+};
+use frisure_engine::Error;
+use glam::DVec3;
+use numpy::ndarray::{ArrayView1, ArrayView2, ArrayView3, Axis};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+/// Properties of rods: each has one row for all rods, or one for each. SI units.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Fibres<'py> {
+    diameter: PyReadonlyArray1<'py, f64>,
+    axis_ratio: PyReadonlyArray1<'py, f64>,
+    youngs_modulus: PyReadonlyArray1<'py, f64>,
+    shear_modulus: PyReadonlyArray1<'py, f64>,
+    density: PyReadonlyArray1<'py, f64>,
+    gravity: PyReadonlyArray1<'py, f64>,
+}
+
+/// How rods are clamped and what shape they have by nature, as [`Fibres`].
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Clamped<'py> {
+    length: PyReadonlyArray1<'py, f64>,
+    root: PyReadonlyArray2<'py, f64>,
+    tangent: PyReadonlyArray2<'py, f64>,
+    d1: PyReadonlyArray2<'py, f64>,
+    curl_radius: PyReadonlyArray1<'py, f64>,
+    curl_pitch: PyReadonlyArray1<'py, f64>,
+    /// Instead of a curl: the strain at knots that divide the length evenly; one knot is the same all along.
+    natural_strain: Option<PyReadonlyArray3<'py, f64>>,
+}
+
+/// The memory of [`Fibres`].
+pub(crate) struct FibreViews<'a> {
+    diameter: Numbers<'a>,
+    axis_ratio: Numbers<'a>,
+    youngs_modulus: Numbers<'a>,
+    shear_modulus: Numbers<'a>,
+    density: Numbers<'a>,
+    gravity: Numbers<'a>,
+}
+
+/// The memory of [`Clamped`].
+pub(crate) struct ClampViews<'a> {
+    length: Numbers<'a>,
+    root: Vectors<'a>,
+    tangent: Vectors<'a>,
+    d1: Vectors<'a>,
+    curl_radius: Numbers<'a>,
+    curl_pitch: Numbers<'a>,
+    natural_strain: Option<Profiles<'a>>,
+}
+
+impl Fibres<'_> {
+    pub(crate) fn views(&self) -> FibreViews<'_> {
+        FibreViews {
+            diameter: Numbers("diameter", self.diameter.as_array()),
+            axis_ratio: Numbers("axis_ratio", self.axis_ratio.as_array()),
+            youngs_modulus: Numbers("youngs_modulus", self.youngs_modulus.as_array()),
+            shear_modulus: Numbers("shear_modulus", self.shear_modulus.as_array()),
+            density: Numbers("density", self.density.as_array()),
+            gravity: Numbers("gravity", self.gravity.as_array()),
+        }
+    }
+}
+
+impl Clamped<'_> {
+    pub(crate) fn views(&self) -> ClampViews<'_> {
+        let profiles = self.natural_strain.as_ref();
+        ClampViews {
+            length: Numbers("length", self.length.as_array()),
+            root: Vectors("root", self.root.as_array()),
+            tangent: Vectors("tangent", self.tangent.as_array()),
+            d1: Vectors("d1", self.d1.as_array()),
+            curl_radius: Numbers("curl_radius", self.curl_radius.as_array()),
+            curl_pitch: Numbers("curl_pitch", self.curl_pitch.as_array()),
+            natural_strain: profiles.map(|p| Profiles(p.as_array())),
+        }
+    }
+}
+
+/// A number of each rod, and the name of the argument that has it.
+struct Numbers<'a>(&'static str, ArrayView1<'a, f64>);
+
+/// A vector of each rod.
+struct Vectors<'a>(&'static str, ArrayView2<'a, f64>);
+
+/// Natural strains (rad/m) of each rod at its knots.
+struct Profiles<'a>(ArrayView3<'a, f64>);
+
+/// Why a rod of arrays cannot be made.
+pub(crate) struct WrongRod {
+    /// The argument with its index, such as `length[3]`.
+    argument: String,
+    problem: InvalidQuantity,
+}
+
+/// The row of a rod in an array that has one for all rods, or one for each.
+fn row(rod: usize, rows: usize) -> usize {
+    if rows == 1 { 0 } else { rod }
+}
+
+impl Numbers<'_> {
+    fn at(&self, rod: usize) -> f64 {
+        self.1[row(rod, self.1.len())]
+    }
+
+    /// The error about this argument of a rod.
+    fn wrong(&self, rod: usize) -> impl FnOnce(InvalidQuantity) -> WrongRod {
+        wrong(self.0, row(rod, self.1.len()))
+    }
+}
+
+impl Vectors<'_> {
+    fn at(&self, rod: usize) -> DVec3 {
+        let vector = self.1.index_axis(Axis(0), row(rod, self.1.nrows()));
+        DVec3::new(vector[0], vector[1], vector[2])
+    }
+
+    fn wrong(&self, rod: usize) -> impl FnOnce(InvalidQuantity) -> WrongRod {
+        wrong(self.0, row(rod, self.1.nrows()))
+    }
+}
+
+impl Profiles<'_> {
+    fn at(&self, rod: usize, length: f64) -> Result<NaturalStrain, WrongRod> {
+        let index = row(rod, self.0.len_of(Axis(0)));
+        let knots = self.0.index_axis(Axis(0), index);
+        let strain = |knot: usize| DVec3::from_array([0, 1, 2].map(|k| knots[[knot, k]]));
+        if knots.nrows() == 1 && strain(0).is_finite() {
+            return Ok(NaturalStrain::Uniform(strain(0)));
+        }
+        let step = length / (knots.nrows().max(2) - 1) as f64;
+        let knots = (0..knots.nrows()).map(|knot| (step * knot as f64, strain(knot))).collect();
+        let profile = StrainProfile::new(knots).map_err(wrong("natural_strain", index))?;
+        Ok(NaturalStrain::Varying(profile))
+    }
+}
+
+fn wrong(argument: &str, index: usize) -> impl FnOnce(InvalidQuantity) -> WrongRod {
+    let argument = format!("{argument}[{index}]");
+    move |problem| WrongRod { argument, problem }
+}
+
+impl From<WrongRod> for Error {
+    fn from(wrong: WrongRod) -> Self {
+        let WrongRod { argument, problem } = wrong;
+        Self::invalid(format!("`{argument}` is wrong: {problem}"), "")
+    }
+}
+
+impl FibreViews<'_> {
+    /// The section and the material of a rod, and gravity.
+    pub(crate) fn at(&self, rod: usize) -> Result<(Section, Material, f64), WrongRod> {
+        let (diameter, axis_ratio) = (self.diameter.at(rod), self.axis_ratio.at(rod));
+        let section = Section::from_diameter(diameter, axis_ratio).map_err(|problem| {
+            // The section is checked as a whole; a diameter that is right is not the reason.
+            let one = Section::from_diameter(diameter, 1.0).is_ok();
+            if one {
+                self.axis_ratio.wrong(rod)(problem)
+            } else {
+                self.diameter.wrong(rod)(problem)
+            }
+        })?;
+        let (e, g, density) =
+            (self.youngs_modulus.at(rod), self.shear_modulus.at(rod), self.density.at(rod));
+        let material = Material::new(e, g, density).map_err(|problem| {
+            let argument = match problem.quantity {
+                "shear modulus" => &self.shear_modulus,
+                "density" => &self.density,
+                _ => &self.youngs_modulus,
+            };
+            argument.wrong(rod)(problem)
+        })?;
+        Ok((section, material, self.gravity.at(rod)))
+    }
+}
+
+impl<'a> ClampViews<'a> {
+    /// The rods, as many as `count`.
+    ///
+    /// # Errors
+    /// About the first rod that cannot be made.
+    pub(crate) fn rods(&self, fibres: &FibreViews<'a>, count: usize) -> Result<Vec<Rod>, WrongRod> {
+        let mut rods = Vec::with_capacity(count);
+        (0..count).into_par_iter().map(|rod| self.rod(fibres, rod)).collect_into_vec(&mut rods);
+        rods.into_iter().collect()
+    }
+
+    fn rod(&self, fibres: &FibreViews<'a>, rod: usize) -> Result<Rod, WrongRod> {
+        let (section, material, gravity) = fibres.at(rod)?;
+        let (tangent, d1) = (self.tangent.at(rod), self.d1.at(rod));
+        let root = Root::from_tangent(self.root.at(rod), tangent, d1).map_err(|problem| {
+            let argument = match problem.quantity {
+                "coordinate of the root" => &self.root,
+                "part of d1 at right angles to the tangent" => &self.d1,
+                _ => &self.tangent,
+            };
+            argument.wrong(rod)(problem)
+        })?;
+        let length = self.length.at(rod);
+        let spec = RodSpec {
+            length,
+            section,
+            material,
+            torsion: TorsionConstant::SaintVenant,
+            natural: NaturalStrain::STRAIGHT,
+            root,
+            gravity,
+        };
+        // Length and gravity are checked before the strain, whose knots need the length.
+        let straight = Rod::new(spec).map_err(|problem| {
+            let argument =
+                if problem.quantity == "gravity" { &fibres.gravity } else { &self.length };
+            argument.wrong(rod)(problem)
+        })?;
+        let natural = self.natural(rod, length)?;
+        if natural == NaturalStrain::STRAIGHT {
+            return Ok(straight);
+        }
+        let spec = RodSpec { natural, ..straight.spec().clone() };
+        Rod::new(spec).map_err(self.curl_radius.wrong(rod))
+    }
+
+    fn natural(&self, rod: usize, length: f64) -> Result<NaturalStrain, WrongRod> {
+        if let Some(profiles) = &self.natural_strain {
+            return profiles.at(rod, length);
+        }
+        let (radius, pitch) = (self.curl_radius.at(rod), self.curl_pitch.at(rod));
+        if radius == f64::INFINITY && pitch.is_finite() {
+            return Ok(NaturalStrain::STRAIGHT);
+        }
+        NaturalStrain::helix(radius, pitch).map_err(|problem| {
+            let argument =
+                if problem.quantity == "curl pitch" { &self.curl_pitch } else { &self.curl_radius };
+            argument.wrong(rod)(problem)
+        })
+    }
+}

@@ -1,0 +1,128 @@
+//! The natural strains of rods that hang in given shapes.
+
+use frisure::progress::{Progress, StageCounter};
+use frisure::rod::inverse::{InverseSolution, solve};
+use frisure::rod::{
+    InvalidQuantity, NaturalStrain, Options, Resolution, RodSpec, Root, Stability, TorsionConstant,
+};
+use frisure_engine::Error;
+use glam::DVec3;
+use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray3};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use super::fibres::{FibreViews, Fibres, WrongRod};
+use crate::errors::raise;
+use crate::work;
+
+/// A line, and the fibre that hangs in its shape.
+struct Given {
+    line: Vec<DVec3>,
+    fibre: RodSpec,
+}
+
+/// What is found of each line.
+struct Found {
+    length: f64,
+    /// Natural strains (rad/m) at as many knots as the line has points, which divide the length evenly.
+    strain: Vec<DVec3>,
+    /// Root frame: d1, d2 and the tangent.
+    frame: [DVec3; 3],
+    stable: bool,
+    error: f64,
+    stiffness_needed: f64,
+}
+
+impl Given {
+    fn new(line: Vec<DVec3>, fibres: &FibreViews<'_>, index: usize) -> Result<Self, WrongRod> {
+        let (section, material, gravity) = fibres.at(index)?;
+        // Length, natural strain and root are those of the line.
+        let root = Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y).expect("a frame");
+        let torsion = TorsionConstant::SaintVenant;
+        let natural = NaturalStrain::STRAIGHT;
+        let fibre = RodSpec { length: 1.0, section, material, torsion, natural, root, gravity };
+        Ok(Self { line, fibre })
+    }
+
+    fn solve(&self, options: &Options) -> Result<Found, InvalidQuantity> {
+        let InverseSolution { rod, equilibrium, error, stiffness_needed, .. } =
+            solve(&self.line, &self.fibre, &[], options)?;
+        let length = rod.length();
+        // The strain jumps between the elements of the rod: means over the part nearest to each knot.
+        let step = length / (self.line.len() - 1) as f64;
+        let between = |k: usize| (step * (k as f64 - 0.5)).clamp(0.0, length);
+        let strain =
+            (0..self.line.len()).map(|k| rod.natural().mean(between(k), between(k + 1))).collect();
+        let frame = rod.root().frame();
+        Ok(Found {
+            length,
+            strain,
+            frame: [frame.x_axis, frame.y_axis, frame.z_axis],
+            stable: stiffness_needed <= 1.0
+                && equilibrium.certificate.stability == Stability::Stable,
+            error,
+            stiffness_needed,
+        })
+    }
+}
+
+fn solve_all(given: &[Given], accuracy: f64, progress: &dyn Progress) -> Result<Vec<Found>, Error> {
+    let resolution = Resolution::Accuracy(accuracy);
+    let options = Options { resolution, ..Options::default() };
+    let stage = StageCounter::new(progress, "rods", given.len());
+    let found: Vec<Result<Found, Error>> = (given.par_iter().enumerate())
+        .map(|(i, given)| {
+            stage.check()?;
+            let found = given.solve(&options);
+            stage.advance();
+            found.map_err(|e| Error::invalid(format!("`points[{i}]` is wrong: {e}"), ""))
+        })
+        .collect();
+    // Of several errors the first is raised, whichever was met first.
+    progress.check()?;
+    found.into_iter().collect()
+}
+
+/// The inverse solutions as arrays: length, natural strain (H, P, 3), frame (H, 3, 3), stable, error, stiffness needed.
+type Arrays<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray1<bool>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
+/// The natural strains of rods that hang in the shapes of lines (H, P, 3).
+#[pyfunction]
+#[pyo3(signature = (points, fibres, accuracy, progress))]
+pub(crate) fn inverse_rods<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray3<'py, f64>,
+    fibres: Fibres<'py>,
+    accuracy: f64,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Arrays<'py>> {
+    let points = &points.as_array();
+    let (count, nodes, _) = points.dim();
+    let views = fibres.views();
+    let point = |i, k| DVec3::from_array([0, 1, 2].map(|c| points[[i, k, c]]));
+    let line = |i| (0..nodes).map(|k| point(i, k)).collect();
+    let given: Result<Vec<Given>, WrongRod> =
+        (0..count).map(|i| Given::new(line(i), &views, i)).collect();
+    let given = given.map_err(|e| raise(py, &e.into()))?;
+    let found = work::run(py, progress, move |p| solve_all(&given, accuracy, p))?;
+    let numbers = |of: fn(&Found) -> f64| PyArray1::from_iter(py, found.iter().map(of));
+    let vectors = |of: fn(&Found) -> &[DVec3], rows: usize| {
+        let values = found.iter().flat_map(of).flat_map(DVec3::to_array);
+        PyArray1::from_iter(py, values).reshape([count, rows, 3])
+    };
+    Ok((
+        numbers(|found| found.length),
+        vectors(|found| &found.strain, nodes)?,
+        vectors(|found| &found.frame, 3)?,
+        PyArray1::from_iter(py, found.iter().map(|found| found.stable)),
+        numbers(|found| found.error),
+        numbers(|found| found.stiffness_needed),
+    ))
+}

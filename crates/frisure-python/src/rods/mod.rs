@@ -1,0 +1,8 @@
+//! Many single rods at once, as arrays; `python/frisure/rods.py` has the shapes and units.
+
+mod fibres;
+mod inverse;
+mod settle;
+
+pub(crate) use inverse::inverse_rods;
+pub(crate) use settle::settle_rods;

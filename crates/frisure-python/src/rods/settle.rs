@@ -1,0 +1,178 @@
+//! The equilibria of many rods, by the solver in SIMD lanes.
+
+use frisure::progress::{Cancelled, Progress, StageCounter};
+use frisure::rod::batch::{Batch, Precision};
+use frisure::rod::{Rod, Stability};
+use frisure_engine::Error;
+use numpy::{PyArray1, PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use super::fibres::{Clamped, Fibres};
+use crate::errors::raise;
+use crate::work;
+
+/// Rods that one thread solves at a time. The result does not depend on it; chosen as in the benchmark `batch` of `frisure-rod`.
+const CHUNK: usize = 512;
+
+/// What is computed of rods.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Options {
+    elements: usize,
+    tolerance: f64,
+    single: bool,
+    /// Whether the nodes are wanted.
+    points: bool,
+    /// Whether the error of the nodes is estimated, for which the rods are solved with half as many elements, too.
+    error: bool,
+}
+
+/// Rods at rest: one value for each, and nodes and their coordinates one rod after the other.
+#[derive(Default)]
+struct Rest {
+    points: Vec<f64>,
+    energy: Vec<f64>,
+    stable: Vec<bool>,
+    gradient: Vec<f64>,
+    iterations: Vec<u32>,
+    error: Vec<f64>,
+}
+
+/// Where the results of a chunk of rods go.
+struct ChunkOfRest<'a> {
+    points: &'a mut [f64],
+    energy: &'a mut [f64],
+    stable: &'a mut [bool],
+    gradient: &'a mut [f64],
+    iterations: &'a mut [u32],
+    error: &'a mut [f64],
+}
+
+impl Options {
+    fn solve(&self, rods: &[Rod], progress: &dyn Progress) -> Result<Rest, Error> {
+        let values = if self.points { 3 * (self.elements + 1) } else { 0 };
+        let count = rods.len();
+        let mut rest = Rest {
+            points: vec![0.0; count * values],
+            energy: vec![0.0; count],
+            stable: vec![false; count],
+            gradient: vec![0.0; count],
+            iterations: vec![0; count],
+            error: vec![0.0; if self.error { count } else { 0 }],
+        };
+        let stage = StageCounter::new(progress, "rods", count.div_ceil(CHUNK));
+        rods.par_chunks(CHUNK).zip(rest.chunks(values)).try_for_each(|(rods, rest)| {
+            stage.check()?;
+            self.solve_chunk(rods, rest);
+            stage.advance();
+            Ok::<(), Cancelled>(())
+        })?;
+        Ok(rest)
+    }
+
+    fn solve_chunk(&self, rods: &[Rod], rest: ChunkOfRest<'_>) {
+        let batch = Batch {
+            elements: self.elements,
+            tolerance: self.tolerance,
+            precision: if self.single { Precision::Single } else { Precision::Double },
+            ..Batch::default()
+        };
+        let found = batch.solve(rods);
+        for (i, rod) in found.rods.iter().enumerate() {
+            rest.energy[i] = rod.energy;
+            rest.stable[i] = rod.stability == Stability::Stable;
+            rest.gradient[i] = rod.gradient_norm;
+            rest.iterations[i] = u32::try_from(rod.iterations).unwrap_or(u32::MAX);
+        }
+        if rest.points.is_empty() && rest.error.is_empty() {
+            return;
+        }
+        let coarse = (!rest.error.is_empty())
+            .then(|| Batch { elements: self.elements / 2, ..batch }.solve(rods));
+        for (i, rod) in rods.iter().enumerate() {
+            let fine = found.shape(rod, i).positions;
+            if !rest.points.is_empty() {
+                let points = &mut rest.points[i * 3 * fine.len()..(i + 1) * 3 * fine.len()];
+                for (point, node) in points.chunks_exact_mut(3).zip(&fine) {
+                    point.copy_from_slice(&node.to_array());
+                }
+            }
+            if let Some(coarse) = &coarse {
+                let coarse = coarse.shape(rod, i).positions;
+                let gaps = coarse.iter().zip(fine.iter().step_by(2));
+                // The first term of the error of jointed elements, which is of second order in their length
+                // (docs/theory.md, "Extrapolation, accuracy and the estimate of error").
+                rest.error[i] = gaps.map(|(a, b)| a.distance(*b) / 3.0).fold(0.0, f64::max);
+            }
+        }
+    }
+}
+
+impl Rest {
+    /// The results by chunks of rods, with `values` coordinates of each rod.
+    fn chunks(&mut self, values: usize) -> impl IndexedParallelIterator<Item = ChunkOfRest<'_>> {
+        let chunks = self.energy.len().div_ceil(CHUNK);
+        let points = split(&mut self.points, CHUNK * values, chunks);
+        let error = split(&mut self.error, CHUNK, chunks);
+        let numbers = self.energy.par_chunks_mut(CHUNK).zip(self.gradient.par_chunks_mut(CHUNK));
+        let counts = self.stable.par_chunks_mut(CHUNK).zip(self.iterations.par_chunks_mut(CHUNK));
+        (points.into_par_iter().zip(error)).zip(numbers.zip(counts)).map(
+            |((points, error), ((energy, gradient), (stable, iterations)))| ChunkOfRest {
+                points,
+                energy,
+                stable,
+                gradient,
+                iterations,
+                error,
+            },
+        )
+    }
+}
+
+/// The chunks of a list; as many empty ones of an empty list.
+fn split(values: &mut [f64], chunk: usize, chunks: usize) -> Vec<&mut [f64]> {
+    if values.is_empty() {
+        return (0..chunks).map(|_| &mut [][..]).collect();
+    }
+    values.chunks_mut(chunk).collect()
+}
+
+/// Rods at rest as arrays: nodes (H, P, 3) if they are wanted, energy, stable, gradient, iterations, and the error if it
+/// is wanted.
+type Arrays<'py> = (
+    Option<Bound<'py, PyArray3<f64>>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<bool>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<u32>>,
+    Option<Bound<'py, PyArray1<f64>>>,
+);
+
+/// The equilibria of `count` rods.
+#[pyfunction]
+#[pyo3(signature = (count, fibres, clamped, options, progress))]
+pub(crate) fn settle_rods<'py>(
+    py: Python<'py>,
+    count: usize,
+    fibres: Fibres<'py>,
+    clamped: Clamped<'py>,
+    options: Options,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Arrays<'py>> {
+    let (fibres, clamped) = (fibres.views(), clamped.views());
+    let rods = py.detach(|| clamped.rods(&fibres, count));
+    let rods = rods.map_err(|e| raise(py, &e.into()))?;
+    let shape = [count, options.elements + 1, 3];
+    let (points, error) = (options.points, options.error);
+    let rest = work::run(py, progress, move |p| options.solve(&rods, p))?;
+    let nodes = PyArray1::from_vec(py, rest.points);
+    Ok((
+        points.then(|| nodes.reshape(shape)).transpose()?,
+        PyArray1::from_vec(py, rest.energy),
+        PyArray1::from_vec(py, rest.stable),
+        PyArray1::from_vec(py, rest.gradient),
+        PyArray1::from_vec(py, rest.iterations),
+        error.then(|| PyArray1::from_vec(py, rest.error)),
+    ))
+}
