@@ -10,6 +10,24 @@ from numpy.typing import NDArray
 
 _Progress = Callable[[str, float], object]
 
+__all__ = [
+    "Memory",
+    "Prediction",
+    "SceneText",
+    "StrandData",
+    "__version__",
+    "inverse_rods",
+    "operation_names",
+    "preset_names",
+    "preset_text",
+    "render",
+    "render_png",
+    "run_command",
+    "save_picture",
+    "scene_keys",
+    "settle_rods",
+]
+
 __version__: str
 
 @final

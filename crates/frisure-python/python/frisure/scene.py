@@ -119,7 +119,7 @@ class Section(MutableMapping[str, Any]):
 
     def to_dict(self) -> dict[str, Any]:
         """What the scene says of this table, as plain values."""
-        return _plain(self._given())
+        return {key: _plain(value) for key, value in self._given().items()}
 
     def __repr__(self) -> str:
         return f"<frisure.Section {self._path!r}: {self.to_dict()!r}>"

@@ -12,8 +12,13 @@ use super::fibres::{Clamped, Fibres};
 use crate::errors::raise;
 use crate::work;
 
-/// Rods that one thread solves at a time. The result does not depend on it; chosen as in the benchmark `batch` of `frisure-rod`.
-const CHUNK: usize = 512;
+/// Elements of the rods that one thread solves at a time: a cancellation waits for them. 512 rods of 15 elements, as in
+/// the benchmark `batch` of `frisure-rod`.
+const CHUNK_ELEMENTS: usize = 512 * 15;
+
+/// Fewest and most rods that one thread solves at a time; the fewest fill the widest vector. The result does not depend on
+/// how many there are.
+const CHUNK: (usize, usize) = (8, 512);
 
 /// What is computed of rods.
 #[derive(FromPyObject)]
@@ -61,8 +66,9 @@ impl Options {
             iterations: vec![0; count],
             error: vec![0.0; if self.error { count } else { 0 }],
         };
-        let stage = StageCounter::new(progress, "rods", count.div_ceil(CHUNK));
-        rods.par_chunks(CHUNK).zip(rest.chunks(values)).try_for_each(|(rods, rest)| {
+        let chunk = (CHUNK_ELEMENTS / self.elements).clamp(CHUNK.0, CHUNK.1);
+        let stage = StageCounter::new(progress, "rods", count.div_ceil(chunk));
+        rods.par_chunks(chunk).zip(rest.chunks(chunk, values)).try_for_each(|(rods, rest)| {
             stage.check()?;
             self.solve_chunk(rods, rest);
             stage.advance();
@@ -110,13 +116,17 @@ impl Options {
 }
 
 impl Rest {
-    /// The results by chunks of rods, with `values` coordinates of each rod.
-    fn chunks(&mut self, values: usize) -> impl IndexedParallelIterator<Item = ChunkOfRest<'_>> {
-        let chunks = self.energy.len().div_ceil(CHUNK);
-        let points = split(&mut self.points, CHUNK * values, chunks);
-        let error = split(&mut self.error, CHUNK, chunks);
-        let numbers = self.energy.par_chunks_mut(CHUNK).zip(self.gradient.par_chunks_mut(CHUNK));
-        let counts = self.stable.par_chunks_mut(CHUNK).zip(self.iterations.par_chunks_mut(CHUNK));
+    /// The results by chunks of as many rods, with `values` coordinates of each rod.
+    fn chunks(
+        &mut self,
+        chunk: usize,
+        values: usize,
+    ) -> impl IndexedParallelIterator<Item = ChunkOfRest<'_>> {
+        let chunks = self.energy.len().div_ceil(chunk);
+        let points = split(&mut self.points, chunk * values, chunks);
+        let error = split(&mut self.error, chunk, chunks);
+        let numbers = self.energy.par_chunks_mut(chunk).zip(self.gradient.par_chunks_mut(chunk));
+        let counts = self.stable.par_chunks_mut(chunk).zip(self.iterations.par_chunks_mut(chunk));
         (points.into_par_iter().zip(error)).zip(numbers.zip(counts)).map(
             |((points, error), ((energy, gradient), (stable, iterations)))| ChunkOfRest {
                 points,

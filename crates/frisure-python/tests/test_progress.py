@@ -1,0 +1,96 @@
+"""Progress, exceptions of callbacks, and Ctrl-C."""
+
+from __future__ import annotations
+
+import _thread
+import signal
+import threading
+import time
+
+import frisure
+import pytest
+
+from conftest import SMALL
+
+LONG = {"hair": {"type": "caucasian-curly", "length": "25 cm"}}
+"""A head that takes many seconds."""
+
+
+def test_progress_is_reported_by_stage() -> None:
+    heard: list[tuple[str, float]] = []
+    frisure.predict({**SMALL, "seed": 2}, progress=lambda stage, done: heard.append((stage, done)))
+    assert heard and all(0 <= done <= 1 for _, done in heard)
+    assert len({stage for stage, _ in heard}) >= 2
+
+
+def test_an_exception_of_the_callback_ends_the_work() -> None:
+    class Enough(Exception):
+        pass
+
+    def stop(stage: str, done: float) -> None:
+        raise Enough(stage)
+
+    start = time.monotonic()
+    with pytest.raises(Enough):
+        frisure.predict(LONG, progress=stop)
+    with pytest.raises(TypeError):
+        frisure.predict(LONG, progress=lambda: None)  # type: ignore[arg-type, misc]
+    with pytest.raises(TypeError):
+        frisure.predict(LONG, progress=3)  # type: ignore[arg-type]
+    # No limit of speed: the whole work would take many times as long.
+    assert time.monotonic() - start < 30
+    assert len(frisure.predict(SMALL).strands) == 200
+
+
+def test_ctrl_c_ends_the_work_soon() -> None:
+    sent: list[float] = []
+
+    def press() -> None:
+        time.sleep(0.4)
+        sent.append(time.monotonic())
+        _thread.interrupt_main(signal.SIGINT)
+
+    for work in (
+        lambda: frisure.predict(LONG),
+        lambda: frisure.rods.settle([0.15] * 400_000, curl_radius=5e-3, elements=240),
+    ):
+        sent.clear()
+        thread = threading.Thread(target=press)
+        thread.start()
+        with pytest.raises(KeyboardInterrupt):
+            work()
+        waited = time.monotonic() - sent[0]
+        thread.join()
+        print(f"Ctrl-C after {waited:.3f} s")
+        # 0.2 s on a machine with nothing else to do; a loaded one may be late.
+        assert waited < 2
+
+
+def test_other_threads_run_meanwhile() -> None:
+    counted = 0
+    done = threading.Event()
+
+    def count() -> None:
+        nonlocal counted
+        while not done.is_set():
+            counted += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    frisure.predict({**SMALL, "seed": 3})
+    done.set()
+    thread.join()
+    assert counted > 10
+
+
+def test_hairstyles_can_be_made_in_several_threads() -> None:
+    made: list[frisure.Hairstyle] = []
+    hair = frisure.predict(SMALL)
+    work = [lambda: made.append(hair.wet()), lambda: made.append(hair.comb("left"))]
+    threads = [threading.Thread(target=one) for one in work]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(made) == 2

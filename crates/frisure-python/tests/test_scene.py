@@ -1,0 +1,128 @@
+"""Scenes: where they come from, their keys, their errors."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from pathlib import Path
+
+import frisure
+import numpy as np
+import pytest
+from frisure._frisure import scene_keys
+
+from conftest import SMALL
+
+TEXT = '[hair]\n# as measured\nlength = "12 cm"\n'
+
+
+def test_a_scene_comes_from_a_path_a_text_a_dict_or_a_scene(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(TEXT)
+    for scene in (
+        frisure.Scene(file),
+        frisure.Scene(str(file)),
+        frisure.Scene(TEXT),
+        frisure.Scene.from_text(TEXT),
+        frisure.Scene({"hair": {"length": "12 cm"}}),
+        frisure.Scene(frisure.Scene(TEXT)),
+    ):
+        assert scene.hair.length == "12 cm"
+        assert scene.number("hair.length") == 0.12
+    assert frisure.Scene(file).file == str(file)
+    assert frisure.Scene(file).folder == tmp_path
+
+
+def test_values_of_numpy_and_paths_are_values_of_a_scene(tmp_path: Path) -> None:
+    scene = frisure.Scene({"seed": np.int64(7), "wisps": {"count": np.uint8(9)}})
+    scene.wisps.hairs = np.int32(50)
+    scene.update({"camera.azimuth": np.float64(0.5)})
+    assert (scene.seed, scene.wisps.count, scene.wisps.hairs) == (7, 9, 50)
+    cut = scene.with_step("cut", plane={"point": np.zeros(3), "normal": [0, 0, -1]})
+    assert cut.to_dict()["step"][0]["cut"]["plane"]["normal"] == [0, 0, -1]
+
+
+def test_keys_are_attributes_and_items_and_comments_stay() -> None:
+    scene = frisure.Scene(TEXT)
+    scene.hair.length = "20 cm"
+    scene["hair.curl.radius"] = "9 mm"
+    assert "# as measured" in scene.text
+    assert scene["hair"]["curl"]["radius"] == scene.hair.curl.radius == "9 mm"
+    assert scene.hair.type is None and "type" not in scene.hair
+    assert list(scene.hair) == ["length", "curl"] and len(scene.hair) == 2
+    del scene.hair.curl
+    with pytest.raises(KeyError):
+        scene["hair.curl"]
+    scene.hair.length = None
+    assert scene.hair.length is None
+    assert "length" in dir(scene.hair)
+
+
+def test_a_copy_and_a_pickled_scene_are_the_same_and_apart() -> None:
+    scene = frisure.Scene(SMALL)
+    for other in (scene.copy(), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+        assert (other.text, other.file, other.folder) == (scene.text, scene.file, scene.folder)
+        other.seed = 5
+        assert scene.seed is None
+
+
+def test_no_key_is_hidden_by_an_attribute_of_the_class() -> None:
+    for path, _ in scene_keys():
+        name = path.split(".")[-1].removesuffix("[]")
+        owner = frisure.Section if "." in path else frisure.Scene
+        assert not hasattr(owner, name), path
+
+
+def test_errors_have_line_range_and_hint() -> None:
+    with pytest.raises(frisure.SceneError) as wrong:
+        frisure.Scene('[hair]\nlength = "-3 cm"\n')
+    error = wrong.value
+    assert isinstance(error, ValueError)
+    assert (error.line, error.column, error.key, error.value) == (2, 10, "hair.length", '"-3 cm"')
+    assert error.allowed == "between 1 mm and 3 m"
+    assert "<text>:2:10" in str(error) and "must be between 1 mm and 3 m" in str(error)
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.line) == (str(error), 2)
+
+    with pytest.raises(frisure.SceneError) as unknown:
+        frisure.Scene({"hair": {"lenght": "3 cm"}})
+    assert unknown.value.hint == "did you mean `length`?"
+    with pytest.raises(AttributeError, match="did you mean `length`"):
+        frisure.Scene(TEXT).hair.lenght
+    with pytest.raises(frisure.SceneError):
+        frisure.Scene(TEXT).hair.lenght = 3
+
+
+def test_a_wrong_value_leaves_the_scene_as_it_was() -> None:
+    scene = frisure.Scene(TEXT)
+    with pytest.raises(ValueError, match="hair.length"):
+        scene.hair.length = "3 km"
+    assert scene.text == TEXT
+
+
+def test_a_scene_that_does_not_exist_is_named() -> None:
+    with pytest.raises(FileNotFoundError, match="nowhere.toml") as missing:
+        frisure.Scene("nowhere.toml")
+    assert isinstance(missing.value, frisure.SceneError)
+    assert missing.value.file == "nowhere.toml"
+    assert str(pickle.loads(pickle.dumps(missing.value))) == str(missing.value)
+
+
+def test_values_that_no_scene_has_are_refused_by_name() -> None:
+    with pytest.raises(TypeError, match=r'scene\["hair"\]\["length"\].*object'):
+        frisure.Scene({"hair": {"length": object()}})
+    with pytest.raises(TypeError, match="is no text"):
+        frisure.Scene({3: 4})  # type: ignore[dict-item]
+    with pytest.raises(TypeError, match="scene is of the type int"):
+        frisure.predict(3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="64 bits"):
+        frisure.Scene({"seed": 2**70})
+
+
+def test_every_preset_is_a_scene() -> None:
+    assert "caucasian-curly" in frisure.presets and len(frisure.presets) > 10
+    for name, scene in frisure.presets.items():
+        assert scene.hair.type == name
+        assert frisure.presets.descriptions[name]
+    with pytest.raises(KeyError, match="there are"):
+        frisure.presets["purple"]
