@@ -46,6 +46,7 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             // The tests have built this one, with every feature.
             shell("FRISURE=target/debug/frisure validation/clients/run")
         })?;
+        gate.step("the Python package", || shell("crates/frisure-python/tests/run"))?;
         gate.step("every scene", every_scene)?;
     }
     gate.report();
