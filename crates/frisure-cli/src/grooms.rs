@@ -49,7 +49,7 @@ pub(crate) fn write(
         let format = Format::of(path).map_err(|e| Error::because(&e, ""))?;
         let mut line = path.display().to_string();
         let mut written = &groom;
-        if let Some(points) = writing.points.or(groom.usual_points(format)) {
+        if let Some(points) = writing.points.or(format.other_points(&groom)) {
             let known = resampled.take().filter(|known| known.points == points);
             let Resampled { groom, error, .. } = resampled.insert(known.unwrap_or_else(|| {
                 let (groom, error) = groom.resampled(points);

@@ -92,7 +92,7 @@ impl Hair {
             true => Arc::new(self.loaded.groom(self.drawn(progress)?.strands.clone(), true)),
             false => self.groom(progress)?,
         };
-        let resampled = groom.usual_points(format).map(|points| groom.resampled(points).0);
+        let resampled = format.other_points(&groom).map(|points| groom.resampled(points).0);
         progress.check()?;
         let written = resampled.as_ref().unwrap_or(&groom);
         write_groom(path, written, Default::default()).map_err(|e| Error::failed(&e, ""))

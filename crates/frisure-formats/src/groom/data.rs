@@ -3,8 +3,6 @@
 use frisure_look::Melanin;
 use frisure_strands::{Strands, Surface};
 
-use super::Format;
-
 /// The hair of a file, in metres, z up. Not every format holds all of it: see [`super::Format`].
 ///
 /// ```
@@ -60,13 +58,6 @@ impl Groom {
         let Self { name, head, colour, .. } = self;
         let (name, head, colour) = (name.clone(), head.clone(), *colour);
         (Self { name, hairs: hairs.strands, guides: guides.strands, head, colour }, error)
-    }
-
-    /// The number of points per strand that readers of a format expect, if some strand has another.
-    #[must_use]
-    pub fn usual_points(&self, format: Format) -> Option<usize> {
-        let mut strands = self.hairs.iter().chain(self.guides.iter());
-        format.usual_points().filter(|n| strands.any(|strand| strand.points.len() != *n))
     }
 
     /// The strands for a format that holds one kind: the hairs, or the guides where there are no hairs.

@@ -97,6 +97,13 @@ impl Format {
         self.0.usual_points
     }
 
+    /// That number, if some strand of a groom has another.
+    #[must_use]
+    pub fn other_points(self, groom: &Groom) -> Option<usize> {
+        let mut strands = groom.hairs.iter().chain(groom.guides.iter());
+        self.usual_points().filter(|n| strands.any(|strand| strand.points.len() != *n))
+    }
+
     /// Unit and axes by convention, for files that state none.
     #[must_use]
     pub const fn frame(self) -> Frame {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use numpy::ndarray::{ArrayView1, ArrayView2, ArrayView3, Axis};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
-use rayon::prelude::*;
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 /// Properties of rods: each has one row for all rods, or one for each. SI units.
 #[derive(FromPyObject)]

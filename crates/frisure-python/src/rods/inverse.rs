@@ -9,7 +9,7 @@ use frisure_engine::Error;
 use glam::DVec3;
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray3};
 use pyo3::prelude::*;
-use rayon::prelude::*;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::fibres::{FibreViews, Fibres, WrongRod};
 use crate::errors::raise;

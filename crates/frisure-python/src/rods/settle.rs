@@ -6,7 +6,8 @@ use frisure::rod::{Rod, Stability};
 use frisure_engine::Error;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
-use rayon::prelude::*;
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
 use super::fibres::{Clamped, Fibres};
 use crate::errors::raise;
