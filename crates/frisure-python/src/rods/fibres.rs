@@ -137,6 +137,10 @@ impl Profiles<'_> {
         if knots.nrows() == 1 && strain(0).is_finite() {
             return Ok(NaturalStrain::Uniform(strain(0)));
         }
+        if !(length.is_finite() && length > 0.0) {
+            // It has no knots; the rod's own check reports the length.
+            return Ok(NaturalStrain::STRAIGHT);
+        }
         let step = length / (knots.nrows().max(2) - 1) as f64;
         let knots = (0..knots.nrows()).map(|knot| (step * knot as f64, strain(knot))).collect();
         let profile = StrainProfile::new(knots).map_err(wrong("natural_strain", index))?;
@@ -206,27 +210,19 @@ impl<'a> ClampViews<'a> {
             argument.wrong(rod)(problem)
         })?;
         let length = self.length.at(rod);
-        let spec = RodSpec {
-            length,
-            section,
-            material,
-            torsion: TorsionConstant::SaintVenant,
-            natural: NaturalStrain::STRAIGHT,
-            root,
-            gravity,
-        };
-        // Length and gravity are checked before the strain, whose knots need the length.
-        let straight = Rod::new(spec).map_err(|problem| {
-            let argument =
-                if problem.quantity == "gravity" { &fibres.gravity } else { &self.length };
-            argument.wrong(rod)(problem)
-        })?;
         let natural = self.natural(rod, length)?;
-        if natural == NaturalStrain::STRAIGHT {
-            return Ok(straight);
-        }
-        let spec = RodSpec { natural, ..straight.spec().clone() };
-        Rod::new(spec).map_err(self.curl_radius.wrong(rod))
+        let torsion = TorsionConstant::SaintVenant;
+        let spec = RodSpec { length, section, material, torsion, natural, root, gravity };
+        Rod::new(spec).map_err(|problem| {
+            let argument = match problem.quantity {
+                "length" => &self.length,
+                "gravity" => &fibres.gravity,
+                "natural strain" => &self.curl_radius,
+                // Stiffness and weight, of a fibre that is too thin or too thick for numbers.
+                _ => &fibres.diameter,
+            };
+            argument.wrong(rod)(problem)
+        })
     }
 
     fn natural(&self, rod: usize, length: f64) -> Result<NaturalStrain, WrongRod> {
