@@ -208,6 +208,11 @@ class Hairstyle:
         """The hair held by a clip: the place `at` along it (0 to 1) is brought `to` a point."""
         return self.step("clip", progress=progress, to=to, **keys)
 
+    def tie(self, to: Any = None, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
+        """The hair gathered with a hair tie and held: `to` is `"high"`, `"middle"` (the default), `"low"`, `"left"`,
+        `"right"` or a point (m)."""
+        return self.step("tie", progress=progress, to=to, **keys)
+
     def release(self, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
         """The hair without what holds it."""
         return self.step("release", progress=progress, **keys)
