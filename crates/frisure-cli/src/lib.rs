@@ -1,4 +1,4 @@
-//! The `frisure` command: arguments in [`args`], then one file per command in [`commands`].
+//! The `frisure` command: arguments in `args`, then one file per command in `commands`.
 //!
 //! The program `frisure` and the Python package call [`run`].
 
