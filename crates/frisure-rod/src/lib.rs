@@ -51,6 +51,7 @@
 //!   with damping and a line search, in time proportional to the number of elements.
 //! - [`Equilibrium`] is the shape, its energies, and a [`Certificate`].
 //! - [`batch`] solves thousands of rods at once, side by side in the lanes of SIMD vectors.
+//! - [`derivatives`] has the derivatives of an equilibrium by fibre, load and clamp.
 //! - [`inverse`] solves the inverse problem: the natural strain of a fibre that hangs in a given shape.
 //!
 //! | to find | look in |
@@ -84,6 +85,7 @@
 pub mod batch;
 mod centre_line;
 mod chain;
+pub mod derivatives;
 mod element;
 mod equilibrium;
 mod error;
