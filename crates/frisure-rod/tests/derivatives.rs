@@ -1,301 +1,260 @@
-//! Derivatives of an equilibrium, against differences of the solver and closed forms.
+//! Gradients and Hessians against finite differences, for both elements, with and without
+//! positions; and the quadratic convergence that only exact Hessians give.
 
-use frisure_rod::derivatives::{
-    DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity,
-};
-use frisure_rod::minimise::Problem;
-use frisure_rod::{
-    Chain, ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    SplitMix64, TorsionConstant, equilibrium, equilibrium_from,
-};
-use glam::{DMat3, DQuat, DVec3};
+mod common;
 
-const ELEMENTS: usize = 24;
+use common::{Hold, Spring, TipWrench, Well, curl, dense_hessian, hair, smallest_eigenvalue};
+use frisure_rod::minimise::{Minimiser, Newton, Problem, StoppingCriteria};
+use frisure_rod::potential::{FieldPotential, Potential};
+use frisure_rod::{Chain, ElementKind, Rod, SplitMix64};
+use glam::{DMat3, DVec3};
 
-/// What a hair is made of.
-#[derive(Clone, Copy, Debug)]
-struct Hair {
-    length: f64,
-    diameter: f64,
-    axis_ratio: f64,
-    curl: [f64; 2],
-    /// Young's modulus, shear modulus, density.
-    material: [f64; 3],
-    frame: DMat3,
-    position: DVec3,
+const KINDS: [ElementKind; 2] = [ElementKind::Helix, ElementKind::Jointed];
+
+const SPRING: Spring = Spring { stiffness: 1e-3, anchor: DVec3::new(0.02, -0.01, 0.03) };
+
+const WELL: Well =
+    Well { stiffness: 1e-3, anchor: DVec3::new(0.03, 0.02, -0.05), breadth: 0.06, length: 0.15 };
+
+/// A force and a moment that are comparable with the weight and with EI/L.
+fn wrench(rod: &Rod, node: usize) -> TipWrench {
+    TipWrench {
+        node,
+        force: DVec3::new(0.3, -0.4, 0.8) * rod.weight() * rod.length(),
+        moment: DVec3::new(0.6, -0.5, 0.7) * rod.moment_scale(),
+        frame: DMat3::from_rotation_y(0.4) * DMat3::from_rotation_x(1.1),
+    }
 }
 
-impl Hair {
-    fn rod(&self) -> Rod {
-        let [young, shear, density] = self.material;
-        Rod::new(RodSpec {
-            length: self.length,
-            section: Section::from_diameter(self.diameter, self.axis_ratio).unwrap(),
-            material: Material::new(young, shear, density).unwrap(),
-            torsion: TorsionConstant::SaintVenant,
-            natural: NaturalStrain::helix(self.curl[0], self.curl[1]).unwrap(),
-            root: Root::from_tangent(self.position, self.frame.z_axis, self.frame.x_axis).unwrap(),
-            gravity: 9.81,
+fn bent(chain: &Chain<'_>) -> Vec<DVec3> {
+    let natural = chain.natural_shape().controls;
+    natural
+        .iter()
+        .enumerate()
+        .map(|(i, c)| {
+            let x = i as f64;
+            *c + DVec3::new((1.3 * x).sin(), (2.1 * x).cos(), (0.7 * x).sin()) * 0.2
         })
-        .unwrap()
-    }
+        .collect()
+}
 
-    fn random(random: &mut SplitMix64) -> Self {
-        let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
-        let turn = DQuat::from_scaled_axis(DVec3::new(
-            between(-2.0, 2.0),
-            between(-2.0, 2.0),
-            between(-2.0, 2.0),
-        ));
-        Self {
-            length: between(0.03, 0.15),
-            diameter: between(60e-6, 100e-6),
-            axis_ratio: between(1.0, 2.0),
-            curl: [between(0.005, 0.05), between(0.01, 0.06)],
-            material: [between(2e9, 5e9), between(0.5e9, 1.5e9), 1300.0],
-            frame: DMat3::from_quat(turn),
-            position: DVec3::new(between(-0.1, 0.1), 0.0, between(-0.1, 0.1)),
+/// Runs a check for both elements and for no, one and several further potentials.
+fn for_each_problem(n: usize, mut check: impl FnMut(&str, &Chain<'_>, &[&dyn Potential])) {
+    let rod = Rod::new(curl()).unwrap();
+    let wrench = wrench(&rod, n);
+    for kind in KINDS {
+        let chain = Chain::uniform(&rod, kind, n);
+        let (coarse, fine) = (FieldPotential::new(&WELL, 1), FieldPotential::new(&WELL, 5));
+        let cases: [&[&dyn Potential]; 6] =
+            [&[], &[&SPRING], &[&wrench], &[&SPRING, &wrench], &[&coarse], &[&fine, &wrench]];
+        for external in cases {
+            let name = format!("{kind:?}, {} further potentials", external.len());
+            check(&name, &chain, external);
         }
     }
 }
 
-fn options() -> Options {
-    Options {
-        resolution: Resolution::Elements(ELEMENTS),
-        element: ElementKind::Helix,
-        estimate_error: false,
-        eigenvalue: false,
-        ..Options::default()
+#[test]
+fn gradients_agree_with_differences() {
+    let n = 7;
+    for_each_problem(n, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let controls = bent(chain);
+        let gradient = problem.gradient(&chain.shape(controls.clone()));
+        let scale = chain.rod().moment_scale();
+        for i in 0..n {
+            for axis in 0..3 {
+                let energy = |h: f64| {
+                    let mut c = controls.clone();
+                    c[i][axis] += h;
+                    problem.energy(&chain.shape(c)).total()
+                };
+                let h = 1e-5;
+                let slope = (energy(h) - energy(-h)) / (2.0 * h);
+                let gap = (slope - gradient[i][axis]).abs();
+                assert!(gap < 1e-8 * scale, "{name} {i} {axis}: {slope} {}", gradient[i][axis]);
+            }
+        }
+    });
+}
+
+/// Compares the smallest eigenvalue at a shape that a dead load holds with that of the dense
+/// Hessian from differences of gradients. Every second-order term of rotations counts there.
+fn compare_second_variation(
+    name: &str,
+    chain: &Chain<'_>,
+    external: &[&dyn Potential],
+    controls: Vec<DVec3>,
+) {
+    let shape = chain.shape(controls.clone());
+    let hold = Hold { gradient: Problem::new(chain, external).gradient(&shape) };
+    let held: Vec<&dyn Potential> = external.iter().copied().chain([&hold as _]).collect();
+    let problem = Problem::new(chain, &held);
+    assert!(problem.gradient_norm(&shape) < 1e-14, "{name}");
+
+    let hessian = dense_hessian(&problem, &controls, chain.rod());
+    let size = hessian.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for (i, row) in hessian.iter().enumerate() {
+        for (j, x) in row.iter().enumerate() {
+            let gap = (x - hessian[j][i]).abs();
+            assert!(gap < 1e-7 * size, "{name}: not symmetric at {i} {j}");
+        }
     }
-}
-
-fn sensitivity(rod: &Rod, shape: frisure_rod::Shape) -> Result<Sensitivity, DerivativeError> {
-    let chain = Chain::uniform(rod, ElementKind::Helix, ELEMENTS);
-    Sensitivity::new(&Problem::new(&chain, &[]), shape)
-}
-
-/// The fourth-order central difference of a vector-valued function.
-fn difference(step: f64, f: &impl Fn(f64) -> Vec<DVec3>) -> Vec<DVec3> {
-    let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(|k| f(k * step));
-    let one = |i: usize| ((a[i] - b[i]) * 8.0 - (c[i] - d[i])) / (12.0 * step);
-    (0..a.len()).map(one).collect()
-}
-
-/// Largest distance of two lists, relative to the largest of the first.
-fn gap(exact: &[DVec3], found: &[DVec3]) -> f64 {
-    let size = exact.iter().map(|v| v.length()).fold(0.0, f64::max);
-    exact.iter().zip(found).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / size
-}
-
-/// How the nodes move with one number of the hair, by the product and by differences.
-fn compare(
-    hair: &Hair,
-    at: &Sensitivity,
-    change: &ParameterChange,
-    changed: impl Fn(f64) -> Hair,
-    step: f64,
-) -> f64 {
-    let before = equilibrium(&hair.rod(), &[], &options());
-    let nodes = |x: f64| {
-        let rod = changed(x).rod();
-        let rest = equilibrium_from(&rod, &[], &options(), &before);
-        sensitivity(&rod, rest.shape).unwrap().shape().positions.clone()
-    };
-    let exact = at.jvp(change).unwrap();
-    // A long step errs by truncation where the rod is near a loss of stability, a short one by rounding where the number
-    // hardly moves it: the better of them is the judge.
-    let gaps = [1.0, 0.2, 0.04].map(|share| gap(&exact, &difference(share * step, &nodes)));
-    gaps.into_iter().fold(f64::INFINITY, f64::min)
-}
-
-/// Uniform change of the strain along a derivative of curvature and twist.
-fn strain(by: DVec3) -> ParameterChange {
-    ParameterChange { natural_strain: vec![by; ELEMENTS], ..ParameterChange::default() }
-}
-
-/// Worst gap of all parameters of a hair.
-fn worst(hair: &Hair, at: &Sensitivity) -> f64 {
-    let rod = hair.rod();
-    let (k, [young, shear, density]) = (rod.stiffness(), hair.material);
-    let stiffness = |stiffness| ParameterChange { stiffness, ..ParameterChange::default() };
-    let with = |index: usize, factor: f64| {
-        let mut material = hair.material;
-        material[index] *= factor;
-        Hair { material, ..*hair }
-    };
-    let by_young = stiffness(DVec3::new(k.x, k.y, 0.0) / young);
-    let by_shear = stiffness(DVec3::Z * k.z / shear);
-    let load = DVec3::NEG_Z * rod.weight() / density;
-    let by_density = ParameterChange { load, ..ParameterChange::default() };
-    let h = 1e-3;
-    let mut gaps = vec![
-        compare(hair, at, &by_young, |x| with(0, 1.0 + x / young), h * young),
-        compare(hair, at, &by_shear, |x| with(1, 1.0 + x / shear), h * shear),
-        compare(hair, at, &by_density, |x| with(2, 1.0 + x / density), h * density),
-    ];
-    // Radius and pitch of the curl, by the chain rule of `ParameterGradient::curl`: its rows are these strains.
-    let unit = |v: DVec3| ParameterGradient {
-        natural_strain: vec![v],
-        stiffness: DVec3::ZERO,
-        load: DVec3::ZERO,
-        root_position: DVec3::ZERO,
-        root_rotation: DVec3::ZERO,
-    };
-    for index in 0..2 {
-        let [x, z] = [DVec3::X, DVec3::Z].map(|v| unit(v).curl(hair.curl[0], hair.curl[1])[index]);
-        let changed = |by: f64| {
-            let mut curl = hair.curl;
-            curl[index] += by;
-            Hair { curl, ..*hair }
-        };
-        let by_curl = strain(DVec3::new(x, 0.0, z));
-        gaps.push(compare(hair, at, &by_curl, changed, h * hair.curl[index]));
-    }
-    // The clamp: turned about an axis, and moved.
-    let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
-    let turned = |x: f64| Hair { frame: DMat3::from_axis_angle(axis, x) * hair.frame, ..*hair };
-    let by_turn = ParameterChange { root_rotation: axis, ..ParameterChange::default() };
-    gaps.push(compare(hair, at, &by_turn, turned, 1e-3));
-    let moved = |x: f64| Hair { position: hair.position + axis * x, ..*hair };
-    let by_move = ParameterChange { root_position: axis, ..ParameterChange::default() };
-    gaps.push(compare(hair, at, &by_move, moved, 1e-3));
-    gaps.into_iter().fold(0.0, f64::max)
-}
-
-/// Regular hairs of `count` random ones with their sensitivities.
-fn regular(count: usize, seed: u64) -> Vec<(Hair, Sensitivity)> {
-    let mut random = SplitMix64(seed);
-    let hairs = (0..count).map(|_| Hair::random(&mut random)).collect::<Vec<_>>();
-    let at_rest = |hair: Hair| {
-        let rod = hair.rod();
-        let shape = equilibrium(&rod, &[], &options()).shape;
-        sensitivity(&rod, shape).ok().map(|at| (hair, at))
-    };
-    let found = hairs.into_iter().filter_map(at_rest);
-    found.filter(|(_, at)| at.regularity() == Regularity::Regular).collect()
+    let exact = smallest_eigenvalue(hessian);
+    let found = problem.min_eigenvalue(&shape);
+    assert!((found - exact).abs() < 1e-7 * size, "{name}: {found} {exact}");
 }
 
 #[test]
-fn products_agree_with_differences_of_the_solver() {
-    let hairs = regular(150, 1);
-    assert!(hairs.len() > 140, "{}", hairs.len());
-    for (hair, at) in &hairs {
-        let worst = worst(hair, at);
-        assert!(worst < 1e-7, "{worst} {} {hair:?}", at.min_eigenvalue());
+fn second_variations_agree_with_differences_of_gradients() {
+    for n in [1, 2, 5] {
+        for_each_problem(n, |name, chain, external| {
+            compare_second_variation(name, chain, external, bent(chain));
+        });
     }
 }
 
 #[test]
-fn both_products_are_adjoint() {
-    let mut random = SplitMix64(2);
-    let mut vector = |size: f64| {
-        DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5) * size
-    };
-    for (hair, at) in regular(40, 3) {
-        let rod = hair.rod();
-        let loss: Vec<DVec3> = (0..=ELEMENTS).map(|_| vector(1.0)).collect();
-        let change = ParameterChange {
-            natural_strain: (0..ELEMENTS).map(|_| vector(10.0)).collect(),
-            stiffness: vector(1.0) * rod.stiffness(),
-            load: vector(rod.weight()),
-            root_position: vector(0.01),
-            root_rotation: vector(0.1),
-        };
-        let forward: f64 = at.jvp(&change).unwrap().iter().zip(&loss).map(|(x, g)| x.dot(*g)).sum();
-        let backward = at.vjp(&loss).unwrap().along(&change);
-        assert!(
-            (forward - backward).abs() < 1e-10 * forward.abs().max(1e-3),
-            "{forward} {backward}"
-        );
+fn random_second_variations_agree_with_differences_of_gradients() {
+    let mut random = SplitMix64(31);
+    for i in 0..40 {
+        let rod = Rod::new(hair(&mut random)).unwrap();
+        let wrench = wrench(&rod, 4);
+        let external: [&[&dyn Potential]; 3] = [&[], &[&SPRING], &[&wrench]];
+        let chain = Chain::uniform(&rod, KINDS[i % 2], 4);
+        let natural = chain.natural_shape().controls;
+        let controls = natural.iter().map(|c| *c + random.cube() * 0.7).collect();
+        compare_second_variation(&format!("rod {i}"), &chain, external[i % 3], controls);
     }
 }
 
 #[test]
-fn a_stiff_cantilever_sags_by_its_load_over_its_stiffness() {
-    // δ = w L⁴/8EI: dδ/dEI = −δ/EI, dδ/dw = δ/w, and a curvature κ lifts the tip by L²/2.
-    let hair = Hair {
-        length: 0.02,
-        diameter: 120e-6,
-        axis_ratio: 1.0,
-        curl: [10.0, 0.0],
-        material: [5e9, 2e9, 1300.0],
-        frame: DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
-        position: DVec3::ZERO,
-    };
-    let rod = hair.rod();
-    let at = sensitivity(&rod, equilibrium(&rod, &[], &options()).shape).unwrap();
-    let mut loss = vec![DVec3::ZERO; ELEMENTS + 1];
-    loss[ELEMENTS] = DVec3::NEG_Z;
-    let gradient = at.vjp(&loss).unwrap();
-    let (length, k) = (hair.length, rod.stiffness().x);
-    let sag = rod.weight() * length.powi(4) / (8.0 * k);
-    assert!((gradient.weight() * rod.weight() / sag - 1.0).abs() < 2e-3);
-    assert!(
-        (gradient.stiffness.x * k / -sag - 1.0).abs() < 2e-3,
-        "{}",
-        gradient.stiffness.x * k / sag
-    );
-    let lift = gradient.uniform_strain().length() / (0.5 * length * length);
-    assert!((lift - 1.0).abs() < 2e-3, "{lift}");
+fn convergence_is_quadratic() {
+    for_each_problem(12, |name, chain, external| {
+        let problem = &Problem::new(chain, external);
+        // From beside the minimum: the gradient after each iteration, to rounding.
+        let tight = StoppingCriteria { tolerance: 1e-13, max_iterations: 200 };
+        let minimum = Newton::default().minimise(problem, chain.natural_shape(), tight);
+        let beside: Vec<DVec3> = (minimum.shape.controls.iter().enumerate())
+            .map(|(i, c)| *c + DVec3::new(1.0, -1.0, 0.5) * 0.01 * (i as f64).cos())
+            .collect();
+        let norms: Vec<f64> = (0..6)
+            .map(|max_iterations| {
+                let stopping = StoppingCriteria { tolerance: 1e-15, max_iterations };
+                let start = chain.shape(beside.clone());
+                Newton::default().minimise(problem, start, stopping).gradient_norm
+            })
+            .collect();
+        for pair in norms.windows(2) {
+            // Each error is about the square of the one before, down to rounding.
+            assert!(pair[1] < 30.0 * pair[0] * pair[0] + 1e-14, "{name}: {norms:?}");
+        }
+        assert!(norms[5] < 1e-13, "{name}: {norms:?}");
+    });
+}
+
+/// Differences of a function of the controls along a step, per unit of the step.
+fn difference(
+    controls: &[DVec3],
+    step: &[DVec3],
+    of: impl Fn(Vec<DVec3>) -> Vec<DVec3>,
+) -> Vec<DVec3> {
+    let h = 1e-5;
+    let at = |h: f64| of(controls.iter().zip(step).map(|(c, x)| *c + *x * h).collect());
+    at(h).into_iter().zip(at(-h)).map(|(a, b)| (a - b) / (2.0 * h)).collect()
+}
+
+fn dot(a: &[DVec3], b: &[DVec3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum()
+}
+
+fn size(a: &[DVec3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn gap(a: &[DVec3], b: &[DVec3]) -> f64 {
+    size(&a.iter().zip(b).map(|(a, b)| *a - *b).collect::<Vec<_>>()) / size(b)
 }
 
 #[test]
-fn the_energy_at_rest_changes_as_the_envelope_theorem_says() {
-    for (hair, at) in regular(20, 5) {
-        let rod = hair.rod();
-        let energy = |factor: f64| {
-            let mut material = hair.material;
-            material[2] *= factor;
-            let heavier = Hair { material, ..hair }.rod();
-            let chain = Chain::uniform(&heavier, ElementKind::Helix, ELEMENTS);
-            let at = sensitivity(&heavier, at.shape().clone()).unwrap();
-            Problem::new(&chain, &[]).energy(at.shape()).total()
-        };
-        let h = 1e-4;
-        let found = (energy(1.0 + h) - energy(1.0 - h)) / (2.0 * h);
-        let exact = at.by_energy().weight() * rod.weight();
-        assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+fn the_second_variation_times_a_step_is_the_derivative_of_the_gradient() {
+    let mut random = SplitMix64(5);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let controls = bent(chain);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let found = problem.second_variation(&chain.shape(controls.clone()), 1).apply(&step);
+        let exact = difference(&controls, &step, |c| problem.gradient(&chain.shape(c)));
+        assert!(gap(&found, &exact) < 1e-7, "{name}: {}", gap(&found, &exact));
+    });
+}
+
+#[test]
+fn the_factors_of_the_second_variation_solve_it() {
+    let mut random = SplitMix64(6);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let operator = problem.second_variation(&chain.shape(bent(chain)), 1);
+        let x: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let stiffness = chain.rod().stiffness() * (6.0 / chain.rod().length());
+        let factor = operator.factor(30.0).expect("elasticity thirty times over is positive");
+        let right: Vec<DVec3> =
+            operator.apply(&x).iter().zip(&x).map(|(y, x)| *y + stiffness * *x * 30.0).collect();
+        let found = factor.solve(&right);
+        assert!(gap(&found, &x) < 1e-10, "{name}: {}", gap(&found, &x));
+    });
+}
+
+#[test]
+fn displacements_are_the_derivative_of_sample_points_and_their_transpose_that_of_energies() {
+    let mut random = SplitMix64(7);
+    for kind in KINDS {
+        let rod = Rod::new(curl()).unwrap();
+        let chain = Chain::uniform(&rod, kind, 6);
+        let problem = Problem::new(&chain, &[]);
+        let controls = bent(&chain);
+        let operator = problem.second_variation(&chain.shape(controls.clone()), 3);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let moved = operator.displacements(&step);
+        let exact = difference(&controls, &step, |c| chain.sample_points(&chain.shape(c), 3));
+        assert!(gap(&moved, &exact) < 1e-8, "{kind:?}: {}", gap(&moved, &exact));
+        let forces: Vec<DVec3> = (0..18).map(|_| random.cube()).collect();
+        let (work, same) = (dot(&forces, &moved), dot(&operator.by_controls(&forces), &step));
+        assert!((work - same).abs() < 1e-12 * work.abs(), "{kind:?}: {work} {same}");
     }
 }
 
 #[test]
-fn near_a_loss_of_stability_the_derivatives_say_so() {
-    // A straight hair upright, just below the load of Greenhill: Γ = 7.8373 with equal stiffnesses.
-    let hair = |length: f64| Hair {
-        length,
-        diameter: 80e-6,
-        axis_ratio: 1.0,
-        curl: [1e6, 0.0],
-        material: [3e9, 1e9, 1300.0],
-        frame: DMat3::IDENTITY,
-        position: DVec3::ZERO,
-    };
-    let upright = |share: f64| {
-        let unit = hair(1.0).rod();
-        let length = (share * 7.8373 / unit.heaviness()).cbrt();
-        let rod = Rod::new(RodSpec {
-            natural: NaturalStrain::STRAIGHT,
-            ..hair(length).rod().spec().clone()
-        })
-        .unwrap();
-        let shape = Chain::uniform(&rod, ElementKind::Helix, ELEMENTS).natural_shape();
-        sensitivity(&rod, shape)
-    };
-    assert_eq!(upright(0.5).unwrap().regularity(), Regularity::Regular);
-    assert_eq!(upright(0.9999).unwrap().regularity(), Regularity::IllConditioned);
-    assert_eq!(upright(1.2).unwrap_err(), DerivativeError::NotAMinimum);
+fn one_pass_gives_the_product_and_the_forces_by_the_controls() {
+    let mut random = SplitMix64(8);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let operator = problem.second_variation(&chain.shape(bent(chain)), 2);
+        assert_eq!(operator.sample_count(), 12);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let forces: Vec<DVec3> = (0..12).map(|_| random.cube()).collect();
+        let changes = operator.node_changes(&step);
+        let found = operator.apply_with(&step, &changes, &forces);
+        let apart = operator.apply(&step).into_iter().zip(operator.by_controls(&forces));
+        let sum: Vec<DVec3> = apart.map(|(product, by_control)| product + by_control).collect();
+        assert!(gap(&found, &sum) < 1e-14, "{name}: {}", gap(&found, &sum));
+        assert_eq!(operator.displacements(&step), operator.displacements_with(&step, &changes));
+    });
 }
 
 #[test]
-fn wrong_input_is_refused() {
-    let (hair, at) = regular(5, 7).swap_remove(0);
-    let few = at.vjp(&[DVec3::X; 3]).unwrap_err();
-    assert_eq!(few, DerivativeError::Nodes { given: 3, nodes: ELEMENTS + 1 });
-    let change = ParameterChange { natural_strain: vec![DVec3::X; 2], ..Default::default() };
-    let few = at.jvp(&change).unwrap_err();
-    assert_eq!(few, DerivativeError::Elements { given: 2, elements: ELEMENTS });
-    let rod = hair.rod();
-    let chain = Chain::uniform(&rod, ElementKind::Jointed, ELEMENTS);
-    let jointed = Sensitivity::new(&Problem::new(&chain, &[]), chain.natural_shape());
-    assert_eq!(jointed.unwrap_err(), DerivativeError::JointedElements);
+fn the_gradient_of_the_second_variation_is_that_of_the_energy() {
+    let mut random = SplitMix64(9);
+    for_each_problem(6, |name, chain, external| {
+        let problem = Problem::new(chain, external);
+        let controls = bent(chain);
+        let operator = problem.second_variation(&chain.shape(controls.clone()), 1);
+        let step: Vec<DVec3> = (0..6).map(|_| random.cube()).collect();
+        let exact = difference(&controls, &step, |c| {
+            vec![DVec3::X * problem.energy(&chain.shape(c)).total()]
+        })[0]
+            .x;
+        let found = dot(operator.gradient(), &step);
+        assert!((found - exact).abs() < 1e-6 * exact.abs(), "{name}: {found} {exact}");
+    });
 }

@@ -1,0 +1,338 @@
+//! Derivatives of an equilibrium, against differences of the solver and closed forms.
+
+use frisure_rod::derivatives::{
+    DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity,
+};
+use frisure_rod::minimise::Problem;
+use frisure_rod::potential::{Field, FieldPotential, Potential};
+use frisure_rod::{
+    Chain, ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+    SplitMix64, TorsionConstant, equilibrium, equilibrium_from,
+};
+use glam::{DMat3, DQuat, DVec3};
+
+const ELEMENTS: usize = 24;
+
+/// What a hair is made of.
+#[derive(Clone, Copy, Debug)]
+struct Hair {
+    length: f64,
+    diameter: f64,
+    axis_ratio: f64,
+    curl: [f64; 2],
+    /// Young's modulus, shear modulus, density.
+    material: [f64; 3],
+    frame: DMat3,
+    position: DVec3,
+}
+
+impl Hair {
+    fn rod(&self) -> Rod {
+        let [young, shear, density] = self.material;
+        Rod::new(RodSpec {
+            length: self.length,
+            section: Section::from_diameter(self.diameter, self.axis_ratio).unwrap(),
+            material: Material::new(young, shear, density).unwrap(),
+            torsion: TorsionConstant::SaintVenant,
+            natural: NaturalStrain::helix(self.curl[0], self.curl[1]).unwrap(),
+            root: Root::from_tangent(self.position, self.frame.z_axis, self.frame.x_axis).unwrap(),
+            gravity: 9.81,
+        })
+        .unwrap()
+    }
+
+    fn random(random: &mut SplitMix64) -> Self {
+        let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
+        let turn = DQuat::from_scaled_axis(DVec3::new(
+            between(-2.0, 2.0),
+            between(-2.0, 2.0),
+            between(-2.0, 2.0),
+        ));
+        Self {
+            length: between(0.03, 0.15),
+            diameter: between(60e-6, 100e-6),
+            axis_ratio: between(1.0, 2.0),
+            curl: [between(0.005, 0.05), between(0.01, 0.06)],
+            material: [between(2e9, 5e9), between(0.5e9, 1.5e9), 1300.0],
+            frame: DMat3::from_quat(turn),
+            position: DVec3::new(between(-0.1, 0.1), 0.0, between(-0.1, 0.1)),
+        }
+    }
+}
+
+fn options() -> Options {
+    Options {
+        resolution: Resolution::Elements(ELEMENTS),
+        element: ElementKind::Helix,
+        estimate_error: false,
+        eigenvalue: false,
+        ..Options::default()
+    }
+}
+
+fn sensitivity(rod: &Rod, shape: frisure_rod::Shape) -> Result<Sensitivity, DerivativeError> {
+    let chain = Chain::uniform(rod, ElementKind::Helix, ELEMENTS);
+    Sensitivity::new(&Problem::new(&chain, &[]), shape)
+}
+
+/// The fourth-order central difference of a vector-valued function.
+fn difference(step: f64, f: &impl Fn(f64) -> Vec<DVec3>) -> Vec<DVec3> {
+    let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(|k| f(k * step));
+    let one = |i: usize| ((a[i] - b[i]) * 8.0 - (c[i] - d[i])) / (12.0 * step);
+    (0..a.len()).map(one).collect()
+}
+
+/// Largest distance of two lists, relative to the largest of the first.
+fn gap(exact: &[DVec3], found: &[DVec3]) -> f64 {
+    let size = exact.iter().map(|v| v.length()).fold(0.0, f64::max);
+    exact.iter().zip(found).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / size
+}
+
+/// How the nodes move with one number of the hair, by the product and by differences.
+fn compare(
+    hair: &Hair,
+    at: &Sensitivity,
+    change: &ParameterChange,
+    changed: impl Fn(f64) -> Hair,
+    step: f64,
+) -> f64 {
+    let before = equilibrium(&hair.rod(), &[], &options());
+    let nodes = |x: f64| {
+        let rod = changed(x).rod();
+        let rest = equilibrium_from(&rod, &[], &options(), &before);
+        sensitivity(&rod, rest.shape).unwrap().shape().positions.clone()
+    };
+    let exact = at.jvp(change).unwrap();
+    // A long step errs by truncation where the rod is near a loss of stability, a short one by rounding where the number
+    // hardly moves it: the better of them is the judge.
+    let gaps = [1.0, 0.2, 0.04].map(|share| gap(&exact, &difference(share * step, &nodes)));
+    gaps.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Uniform change of the strain along a derivative of curvature and twist.
+fn strain(by: DVec3) -> ParameterChange {
+    ParameterChange { natural_strain: vec![by; ELEMENTS], ..ParameterChange::default() }
+}
+
+/// Worst gap of all parameters of a hair.
+fn worst(hair: &Hair, at: &Sensitivity) -> f64 {
+    let rod = hair.rod();
+    let (k, [young, shear, density]) = (rod.stiffness(), hair.material);
+    let stiffness = |stiffness| ParameterChange { stiffness, ..ParameterChange::default() };
+    let with = |index: usize, factor: f64| {
+        let mut material = hair.material;
+        material[index] *= factor;
+        Hair { material, ..*hair }
+    };
+    let by_young = stiffness(DVec3::new(k.x, k.y, 0.0) / young);
+    let by_shear = stiffness(DVec3::Z * k.z / shear);
+    let load = DVec3::NEG_Z * rod.weight() / density;
+    let by_density = ParameterChange { load, ..ParameterChange::default() };
+    let h = 1e-3;
+    let mut gaps = vec![
+        compare(hair, at, &by_young, |x| with(0, 1.0 + x / young), h * young),
+        compare(hair, at, &by_shear, |x| with(1, 1.0 + x / shear), h * shear),
+        compare(hair, at, &by_density, |x| with(2, 1.0 + x / density), h * density),
+    ];
+    // Radius and pitch of the curl, by the chain rule of `ParameterGradient::curl`: its rows are these strains.
+    let unit = |v: DVec3| ParameterGradient {
+        natural_strain: vec![v],
+        stiffness: DVec3::ZERO,
+        load: DVec3::ZERO,
+        root_position: DVec3::ZERO,
+        root_rotation: DVec3::ZERO,
+    };
+    for index in 0..2 {
+        let [x, z] = [DVec3::X, DVec3::Z].map(|v| unit(v).curl(hair.curl[0], hair.curl[1])[index]);
+        let changed = |by: f64| {
+            let mut curl = hair.curl;
+            curl[index] += by;
+            Hair { curl, ..*hair }
+        };
+        let by_curl = strain(DVec3::new(x, 0.0, z));
+        gaps.push(compare(hair, at, &by_curl, changed, h * hair.curl[index]));
+    }
+    // The clamp: turned about an axis, and moved.
+    let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
+    let turned = |x: f64| Hair { frame: DMat3::from_axis_angle(axis, x) * hair.frame, ..*hair };
+    let by_turn = ParameterChange { root_rotation: axis, ..ParameterChange::default() };
+    gaps.push(compare(hair, at, &by_turn, turned, 1e-3));
+    let moved = |x: f64| Hair { position: hair.position + axis * x, ..*hair };
+    let by_move = ParameterChange { root_position: axis, ..ParameterChange::default() };
+    gaps.push(compare(hair, at, &by_move, moved, 1e-3));
+    gaps.into_iter().fold(0.0, f64::max)
+}
+
+/// Regular hairs of `count` random ones with their sensitivities.
+fn regular(count: usize, seed: u64) -> Vec<(Hair, Sensitivity)> {
+    let mut random = SplitMix64(seed);
+    let hairs = (0..count).map(|_| Hair::random(&mut random)).collect::<Vec<_>>();
+    let at_rest = |hair: Hair| {
+        let rod = hair.rod();
+        let shape = equilibrium(&rod, &[], &options()).shape;
+        sensitivity(&rod, shape).ok().map(|at| (hair, at))
+    };
+    let found = hairs.into_iter().filter_map(at_rest);
+    found.filter(|(_, at)| at.regularity() == Regularity::Regular).collect()
+}
+
+#[test]
+fn products_agree_with_differences_of_the_solver() {
+    let hairs = regular(150, 1);
+    assert!(hairs.len() > 140, "{}", hairs.len());
+    for (hair, at) in &hairs {
+        let worst = worst(hair, at);
+        assert!(worst < 1e-7, "{worst} {} {hair:?}", at.min_eigenvalue());
+    }
+}
+
+#[test]
+fn both_products_are_adjoint() {
+    let mut random = SplitMix64(2);
+    let mut vector = |size: f64| {
+        DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5) * size
+    };
+    for (hair, at) in regular(40, 3) {
+        let rod = hair.rod();
+        let loss: Vec<DVec3> = (0..=ELEMENTS).map(|_| vector(1.0)).collect();
+        let change = ParameterChange {
+            natural_strain: (0..ELEMENTS).map(|_| vector(10.0)).collect(),
+            stiffness: vector(1.0) * rod.stiffness(),
+            load: vector(rod.weight()),
+            root_position: vector(0.01),
+            root_rotation: vector(0.1),
+        };
+        let forward: f64 = at.jvp(&change).unwrap().iter().zip(&loss).map(|(x, g)| x.dot(*g)).sum();
+        let backward = at.vjp(&loss).unwrap().along(&change);
+        assert!(
+            (forward - backward).abs() < 1e-10 * forward.abs().max(1e-3),
+            "{forward} {backward}"
+        );
+    }
+}
+
+#[test]
+fn a_stiff_cantilever_sags_by_its_load_over_its_stiffness() {
+    // δ = w L⁴/8EI: dδ/dEI = −δ/EI, dδ/dw = δ/w, and a curvature κ lifts the tip by L²/2.
+    let hair = Hair {
+        length: 0.02,
+        diameter: 120e-6,
+        axis_ratio: 1.0,
+        curl: [10.0, 0.0],
+        material: [5e9, 2e9, 1300.0],
+        frame: DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
+        position: DVec3::ZERO,
+    };
+    let rod = hair.rod();
+    let at = sensitivity(&rod, equilibrium(&rod, &[], &options()).shape).unwrap();
+    let mut loss = vec![DVec3::ZERO; ELEMENTS + 1];
+    loss[ELEMENTS] = DVec3::NEG_Z;
+    let gradient = at.vjp(&loss).unwrap();
+    let (length, k) = (hair.length, rod.stiffness().x);
+    let sag = rod.weight() * length.powi(4) / (8.0 * k);
+    assert!((gradient.weight() * rod.weight() / sag - 1.0).abs() < 2e-3);
+    assert!(
+        (gradient.stiffness.x * k / -sag - 1.0).abs() < 2e-3,
+        "{}",
+        gradient.stiffness.x * k / sag
+    );
+    let lift = gradient.uniform_strain().length() / (0.5 * length * length);
+    assert!((lift - 1.0).abs() < 2e-3, "{lift}");
+}
+
+#[test]
+fn the_energy_at_rest_changes_as_the_envelope_theorem_says() {
+    for (hair, at) in regular(20, 5) {
+        let rod = hair.rod();
+        let energy = |factor: f64| {
+            let mut material = hair.material;
+            material[2] *= factor;
+            let heavier = Hair { material, ..hair }.rod();
+            let chain = Chain::uniform(&heavier, ElementKind::Helix, ELEMENTS);
+            let at = sensitivity(&heavier, at.shape().clone()).unwrap();
+            Problem::new(&chain, &[]).energy(at.shape()).total()
+        };
+        let h = 1e-4;
+        let found = (energy(1.0 + h) - energy(1.0 - h)) / (2.0 * h);
+        let exact = at.by_energy().weight() * rod.weight();
+        assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+    }
+}
+
+#[test]
+fn near_a_loss_of_stability_the_derivatives_say_so() {
+    // A straight hair upright, just below the load of Greenhill: Γ = 7.8373 with equal stiffnesses.
+    let hair = |length: f64| Hair {
+        length,
+        diameter: 80e-6,
+        axis_ratio: 1.0,
+        curl: [1e6, 0.0],
+        material: [3e9, 1e9, 1300.0],
+        frame: DMat3::IDENTITY,
+        position: DVec3::ZERO,
+    };
+    let upright = |share: f64| {
+        let unit = hair(1.0).rod();
+        let length = (share * 7.8373 / unit.heaviness()).cbrt();
+        let rod = Rod::new(RodSpec {
+            natural: NaturalStrain::STRAIGHT,
+            ..hair(length).rod().spec().clone()
+        })
+        .unwrap();
+        let shape = Chain::uniform(&rod, ElementKind::Helix, ELEMENTS).natural_shape();
+        sensitivity(&rod, shape)
+    };
+    assert_eq!(upright(0.5).unwrap().regularity(), Regularity::Regular);
+    assert_eq!(upright(0.9999).unwrap().regularity(), Regularity::IllConditioned);
+    assert_eq!(upright(1.2).unwrap_err(), DerivativeError::NotAMinimum);
+}
+
+/// A spring along the whole rod to a point (m), of a stiffness (Pa).
+struct Spring(DVec3, f64);
+
+impl Field for Spring {
+    fn energy(&self, _: f64, p: DVec3) -> f64 {
+        0.5 * self.1 * p.distance_squared(self.0)
+    }
+
+    fn derivatives(&self, _: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
+        Some(((p - self.0) * self.1, DMat3::from_diagonal(DVec3::splat(self.1))))
+    }
+}
+
+#[test]
+fn a_head_that_is_turned_takes_what_holds_the_rod_along() {
+    let hair = Hair { length: 0.06, ..Hair::random(&mut SplitMix64(9)) };
+    let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
+    let held = |turn: f64| -> (Vec<DVec3>, Sensitivity) {
+        let turn = DMat3::from_axis_angle(axis, turn);
+        let rod = Hair { frame: turn * hair.frame, ..hair }.rod();
+        let away = turn * DVec3::new(0.02, 0.03, 0.01);
+        let spring = Spring(hair.position + away, 0.05 * rod.weight() / 0.01);
+        let spring = FieldPotential::new(&spring, 2);
+        let rest = equilibrium(&rod, &[&spring], &options());
+        let chain = Chain::uniform(&rod, ElementKind::Helix, ELEMENTS);
+        let felt: [&dyn Potential; 1] = [&spring];
+        let at = Sensitivity::new(&Problem::new(&chain, &felt), rest.shape).unwrap();
+        (at.shape().positions.clone(), at)
+    };
+    let at = held(0.0).1;
+    assert_eq!(at.regularity(), Regularity::Regular);
+    let by_turn = ParameterChange { root_rotation: axis, ..ParameterChange::default() };
+    let found = difference(1e-3, &|x| held(x).0);
+    assert!(gap(&at.jvp(&by_turn).unwrap(), &found) < 1e-7);
+}
+
+#[test]
+fn wrong_input_is_refused() {
+    let (hair, at) = regular(5, 7).swap_remove(0);
+    let few = at.vjp(&[DVec3::X; 3]).unwrap_err();
+    assert_eq!(few, DerivativeError::Nodes { given: 3, nodes: ELEMENTS + 1 });
+    let change = ParameterChange { natural_strain: vec![DVec3::X; 2], ..Default::default() };
+    let few = at.jvp(&change).unwrap_err();
+    assert_eq!(few, DerivativeError::Elements { given: 2, elements: ELEMENTS });
+    let rod = hair.rod();
+    let chain = Chain::uniform(&rod, ElementKind::Jointed, ELEMENTS);
+    let jointed = Sensitivity::new(&Problem::new(&chain, &[]), chain.natural_shape());
+    assert_eq!(jointed.unwrap_err(), DerivativeError::JointedElements);
+}
