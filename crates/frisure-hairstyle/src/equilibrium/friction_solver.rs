@@ -20,8 +20,10 @@ const LIGHT_AGREEMENT: f64 = 1e-5;
 /// Largest move (m) of the last shape that is sought: what slides is at rest then. A hundredth of the slip distance.
 const STILL: f64 = 5e-7;
 
-/// Most shapes that are sought for one step of the load. A guard; eight to thirty are usual.
-const MOST_UPDATES: usize = 300;
+/// Most iterations for one step of the load, and for one shape on the way: a shape that is not at rest yet goes on in the next.
+/// Guards: a hundred and ten are usual.
+const MOST_ITERATIONS: usize = 1500;
+const MOST_PER_SHAPE: usize = 60;
 
 /// First stiffness of the tether, in those at which its weight moves a guide by 4 mm: about half a millimetre. The tether is
 /// loosened by a factor while limits change by less than [`CALM`] of themselves, tightened while they change by more, and
@@ -90,21 +92,24 @@ impl<'a> Rubbing<'a> {
     /// Brings the guide to rest under one more step of the load, of which `felt` is all but friction.
     pub(super) fn step(&mut self, felt: &[&dyn Potential]) {
         let mut iterations = self.rest.certificate.iterations;
+        let most = iterations + MOST_ITERATIONS;
         let mut tether = FIRST_TETHER;
         let mut at_rest = false;
         let mut limit = self.friction.press(self.surface, &self.points()).limit;
-        for _ in 0..MOST_UPDATES {
+        while iterations < most {
             // An implicit step of an overdamped motion: the tether keeps the move small while normal forces follow.
             let firm = firmness(self.rod, limit);
             let found = self.sought(felt, tether * firm);
             let before = std::mem::replace(&mut self.rest, found);
-            iterations += self.rest.certificate.iterations;
+            // A shape takes at least one, so that this ends.
+            iterations += self.rest.certificate.iterations.max(1);
             let points = self.points();
             let gap = self.friction.press(self.surface, &points);
             self.friction.slip(&points);
             (self.ratio, limit) = (gap.ratio, gap.limit);
             let still = farthest(&self.rest.shape, &before.shape) <= STILL;
-            at_rest = tether == 0.0 && still && self.agrees(gap);
+            let converged = self.rest.certificate.stability != Stability::NotConverged;
+            at_rest = tether == 0.0 && still && converged && self.agrees(gap);
             if at_rest || (self.options.max_iterations == 0) {
                 break;
             }
@@ -141,7 +146,9 @@ impl<'a> Rubbing<'a> {
         if tether > 0.0 {
             felt.push(&tethered);
         }
-        equilibrium_from(self.rod, &felt, &self.options, &self.rest)
+        let most = self.options.max_iterations.min(MOST_PER_SHAPE);
+        let options = Options { max_iterations: most, ..self.options };
+        equilibrium_from(self.rod, &felt, &options, &self.rest)
     }
 
     /// Weight of the whole guide (N).

@@ -86,7 +86,7 @@ fn step_line(step: &StepReport) -> String {
         );
     }
     if let Some(short) = step.short.filter(|short| *short > 0) {
-        let _ = write!(out, ", {short} of which do not reach the clip");
+        let _ = write!(out, ", {short} of which do not reach the {operation}");
     }
     out.push('\n');
     out
