@@ -92,16 +92,17 @@ impl<'a> Rubbing<'a> {
     /// Brings the guide to rest under one more step of the load, of which `felt` is all but friction.
     pub(super) fn step(&mut self, felt: &[&dyn Potential]) {
         let mut iterations = self.rest.certificate.iterations;
-        let most = iterations + MOST_ITERATIONS;
+        // A draft has fewer: what is left then is done by the exact rest.
+        let most = iterations + self.options.max_iterations.min(MOST_ITERATIONS);
         let mut tether = FIRST_TETHER;
-        let mut at_rest = false;
+        let at_rest;
         let mut limit = self.friction.press(self.surface, &self.points()).limit;
-        while iterations < most {
+        loop {
             // An implicit step of an overdamped motion: the tether keeps the move small while normal forces follow.
             let firm = firmness(self.rod, limit);
             let found = self.sought(felt, tether * firm);
             let before = std::mem::replace(&mut self.rest, found);
-            // A shape takes at least one, so that this ends.
+            // Each counts one at least, so that this ends.
             iterations += self.rest.certificate.iterations.max(1);
             let points = self.points();
             let gap = self.friction.press(self.surface, &points);
@@ -109,8 +110,9 @@ impl<'a> Rubbing<'a> {
             (self.ratio, limit) = (gap.ratio, gap.limit);
             let still = farthest(&self.rest.shape, &before.shape) <= STILL;
             let converged = self.rest.certificate.stability != Stability::NotConverged;
-            at_rest = tether == 0.0 && still && converged && self.agrees(gap);
-            if at_rest || (self.options.max_iterations == 0) {
+            let rests = tether == 0.0 && still && converged && self.agrees(gap);
+            if rests || iterations >= most {
+                at_rest = rests;
                 break;
             }
             let calm = gap.change <= CALM * gap.limit + LIGHT_AGREEMENT * self.weight();
