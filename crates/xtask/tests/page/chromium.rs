@@ -23,6 +23,8 @@ pub(crate) struct Chromium {
     last: u64,
     /// What the page wrote to its console, and what it did not catch.
     pub(crate) console: Vec<String>,
+    /// The identifiers and names of downloads that began, and whether they are complete.
+    arrivals: Vec<(String, String, bool)>,
     folder: tempfile::TempDir,
 }
 
@@ -56,8 +58,8 @@ impl Chromium {
             .expect("a browser");
         let to = browser.stdin.take().expect("a pipe");
         let from = messages(browser.stdout.take().expect("a pipe"));
-        let (session, console) = (None, Vec::new());
-        let mut this = Self { browser, to, from, session, last: 0, console, folder };
+        let (session, console, arrivals) = (None, Vec::new(), Vec::new());
+        let mut this = Self { browser, to, from, session, last: 0, console, arrivals, folder };
         this.open_page([width, height]);
         this
     }
@@ -73,8 +75,10 @@ impl Chromium {
         let size =
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", &size);
-        let downloads = json!({ "behavior": "allow", "downloadPath": self.downloads() });
-        self.call("Page.setDownloadBehavior", &downloads);
+        let downloads = json!({
+            "behavior": "allow", "downloadPath": self.downloads(), "eventsEnabled": true
+        });
+        self.call_browser("Browser.setDownloadBehavior", &downloads);
     }
 
     /// Where downloads arrive.
@@ -82,21 +86,25 @@ impl Chromium {
         self.folder.path().join("downloads")
     }
 
-    /// A file in that folder, once it is complete.
+    /// The bytes of a file in that folder, once the browser says that it is complete: before that,
+    /// an empty file may already have the name.
     pub(crate) fn downloaded(&mut self, name: &str) -> Vec<u8> {
-        let path = self.downloads().join(name);
         let until = Instant::now() + PATIENCE;
         while Instant::now() < until {
-            // While it arrives, it has another name.
-            if let Ok(bytes) = std::fs::read(&path) {
-                return bytes;
+            if self.arrivals.iter().any(|(_, of, complete)| of == name && *complete) {
+                return std::fs::read(self.downloads().join(name)).expect("a download");
             }
-            std::thread::sleep(Duration::from_millis(100));
+            if let Ok(event) = self.from.recv_timeout(Duration::from_millis(100)) {
+                self.note(&event);
+            }
         }
         let there: Vec<_> = std::fs::read_dir(self.downloads())
             .map(|entries| entries.flatten().map(|e| e.file_name()).collect())
             .unwrap_or_default();
-        panic!("{name} did not arrive; there are {there:?}; console: {:#?}", self.console)
+        panic!(
+            "{name} did not arrive; there are {there:?}; begun: {:?}; console: {:#?}",
+            self.arrivals, self.console
+        )
     }
 
     /// Goes to an address.
@@ -245,7 +253,7 @@ impl Chromium {
         }
     }
 
-    /// Keeps what the page writes to its console.
+    /// Keeps what the page writes to its console, and what is downloaded.
     fn note(&mut self, event: &Value) {
         let params = &event["params"];
         match event["method"].as_str() {
@@ -268,6 +276,14 @@ impl Chromium {
             }
             Some("Runtime.exceptionThrown") => {
                 self.console.push(format!("uncaught: {}", params["exceptionDetails"]));
+            }
+            Some("Browser.downloadWillBegin") => {
+                let text = |key: &str| params[key].as_str().unwrap_or("").to_owned();
+                self.arrivals.push((text("guid"), text("suggestedFilename"), false));
+            }
+            Some("Browser.downloadProgress") if params["state"] == json!("completed") => {
+                let done = self.arrivals.iter_mut().filter(|(id, ..)| params["guid"] == json!(id));
+                done.for_each(|(.., complete)| *complete = true);
             }
             _ => {}
         }
