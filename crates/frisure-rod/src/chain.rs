@@ -110,6 +110,19 @@ impl<'a> Chain<'a> {
         if self.geometry.len() == 1 { &self.geometry[0] } else { &self.geometry[element] }
     }
 
+    /// The same rod with each jointed element as three, whose motions are its halves and its joint; `None` for helices. A
+    /// derivative by the natural strain of a half is one by the control of its piece.
+    pub(crate) fn in_pieces(&self) -> Option<Self> {
+        let mut arc = vec![self.arc[0]];
+        let mut geometry = Vec::with_capacity(3 * self.len());
+        for (i, ends) in self.arc.windows(2).enumerate() {
+            geometry.extend(self.geometry(i).pieces()?);
+            let middle = 0.5 * (ends[0] + ends[1]);
+            arc.extend([middle, middle, ends[1]]);
+        }
+        Some(Self { rod: self.rod, kind: self.kind, arc, geometry })
+    }
+
     /// The natural shape.
     #[must_use]
     pub fn natural_shape(&self) -> Shape {

@@ -76,6 +76,35 @@ impl Geometry {
         }
     }
 
+    /// A jointed element as three elements that move as it does: a helix of half the length, a joint alone of no length,
+    /// and the other helix. The helices have no stiffness, and at their natural controls each is its half of the element.
+    /// `None` for a helix.
+    pub(crate) fn pieces(&self) -> Option<[Self; 3]> {
+        let Curve::Jointed(jointed) = &self.curve else { return None };
+        let half = 0.5 * self.length;
+        let helix = |natural: DVec3| Self {
+            length: half,
+            rest: natural * half,
+            stiffness: DVec3::ZERO,
+            curve: Curve::Helix,
+        };
+        let alone = Jointed {
+            before: DMat3::IDENTITY,
+            after: DMat3::IDENTITY,
+            natural: [DVec3::ZERO; 2],
+            start: [DVec3::ZERO; 2],
+            end: [DVec3::ZERO; 2],
+        };
+        let joint = Self {
+            length: 0.0,
+            rest: self.rest,
+            stiffness: self.stiffness,
+            curve: Curve::Jointed(Box::new(alone)),
+        };
+        let [before, after] = jointed.natural.map(helix);
+        Some([before, joint, after])
+    }
+
     pub(crate) fn length(&self) -> f64 {
         self.length
     }

@@ -1,7 +1,9 @@
 //! Derivatives of an equilibrium, against differences of the solver and closed forms.
 
+#![expect(clippy::print_stderr, reason = "figures, for whoever reads a test's output")]
+
 use frisure_rod::derivatives::{
-    DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity,
+    DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity, ShapeChange,
 };
 use frisure_rod::minimise::Problem;
 use frisure_rod::potential::{Field, FieldPotential, Potential};
@@ -60,18 +62,24 @@ impl Hair {
     }
 }
 
-fn options() -> Options {
+const KINDS: [ElementKind; 2] = [ElementKind::Helix, ElementKind::Jointed];
+
+fn options(element: ElementKind) -> Options {
     Options {
         resolution: Resolution::Elements(ELEMENTS),
-        element: ElementKind::Helix,
+        element,
         estimate_error: false,
         eigenvalue: false,
         ..Options::default()
     }
 }
 
-fn sensitivity(rod: &Rod, shape: frisure_rod::Shape) -> Result<Sensitivity, DerivativeError> {
-    let chain = Chain::uniform(rod, ElementKind::Helix, ELEMENTS);
+fn sensitivity(
+    rod: &Rod,
+    kind: ElementKind,
+    shape: frisure_rod::Shape,
+) -> Result<Sensitivity, DerivativeError> {
+    let chain = Chain::uniform(rod, kind, ELEMENTS);
     Sensitivity::new(&Problem::new(&chain, &[]), shape)
 }
 
@@ -91,18 +99,27 @@ fn gap(exact: &[DVec3], found: &[DVec3]) -> f64 {
 /// How the nodes move with one number of the hair, by the product and by differences.
 fn compare(
     hair: &Hair,
+    kind: ElementKind,
     at: &Sensitivity,
     change: &ParameterChange,
     changed: impl Fn(f64) -> Hair,
     step: f64,
 ) -> f64 {
-    let before = equilibrium(&hair.rod(), &[], &options());
+    let before = equilibrium(&hair.rod(), &[], &options(kind));
+    // Positions (m), and the three axes of each frame in units of the length.
     let nodes = |x: f64| {
         let rod = changed(x).rod();
-        let rest = equilibrium_from(&rod, &[], &options(), &before);
-        sensitivity(&rod, rest.shape).unwrap().shape().positions.clone()
+        let rest = equilibrium_from(&rod, &[], &options(kind), &before);
+        let at = sensitivity(&rod, kind, rest.shape).unwrap();
+        let axes = |r: &DMat3| [r.x_axis, r.y_axis, r.z_axis].map(|v| v * hair.length);
+        let frames = at.shape().frames.iter().flat_map(axes);
+        at.shape().positions.iter().copied().chain(frames).collect::<Vec<_>>()
     };
-    let exact = at.jvp(change).unwrap();
+    let moved = at.jvp(change).unwrap();
+    let axes =
+        |(w, r): (&DVec3, &DMat3)| [r.x_axis, r.y_axis, r.z_axis].map(|v| w.cross(v) * hair.length);
+    let frames = moved.rotations.iter().zip(&at.shape().frames).flat_map(axes);
+    let exact: Vec<DVec3> = moved.positions.iter().copied().chain(frames).collect();
     // A long step errs by truncation where the rod is near a loss of stability, a short one by rounding where the number
     // hardly moves it: the better of them is the judge.
     let gaps = [1.0, 0.2, 0.04].map(|share| gap(&exact, &difference(share * step, &nodes)));
@@ -115,7 +132,7 @@ fn strain(by: DVec3) -> ParameterChange {
 }
 
 /// Worst gap of all parameters of a hair.
-fn worst(hair: &Hair, at: &Sensitivity) -> f64 {
+fn worst(hair: &Hair, kind: ElementKind, at: &Sensitivity) -> f64 {
     let rod = hair.rod();
     let (k, [young, shear, density]) = (rod.stiffness(), hair.material);
     let stiffness = |stiffness| ParameterChange { stiffness, ..ParameterChange::default() };
@@ -130,13 +147,14 @@ fn worst(hair: &Hair, at: &Sensitivity) -> f64 {
     let by_density = ParameterChange { load, ..ParameterChange::default() };
     let h = 1e-3;
     let mut gaps = vec![
-        compare(hair, at, &by_young, |x| with(0, 1.0 + x / young), h * young),
-        compare(hair, at, &by_shear, |x| with(1, 1.0 + x / shear), h * shear),
-        compare(hair, at, &by_density, |x| with(2, 1.0 + x / density), h * density),
+        compare(hair, kind, at, &by_young, |x| with(0, 1.0 + x / young), h * young),
+        compare(hair, kind, at, &by_shear, |x| with(1, 1.0 + x / shear), h * shear),
+        compare(hair, kind, at, &by_density, |x| with(2, 1.0 + x / density), h * density),
     ];
     // Radius and pitch of the curl, by the chain rule of `ParameterGradient::curl`: its rows are these strains.
     let unit = |v: DVec3| ParameterGradient {
         natural_strain: vec![v],
+        length: None,
         stiffness: DVec3::ZERO,
         load: DVec3::ZERO,
         root_position: DVec3::ZERO,
@@ -150,27 +168,49 @@ fn worst(hair: &Hair, at: &Sensitivity) -> f64 {
             Hair { curl, ..*hair }
         };
         let by_curl = strain(DVec3::new(x, 0.0, z));
-        gaps.push(compare(hair, at, &by_curl, changed, h * hair.curl[index]));
+        gaps.push(compare(hair, kind, at, &by_curl, changed, h * hair.curl[index]));
+    }
+    let longer = |x: f64| Hair { length: hair.length + x, ..*hair };
+    let by_length = ParameterChange { length: 1.0, ..ParameterChange::default() };
+    gaps.push(compare(hair, kind, at, &by_length, longer, h * hair.length));
+    // Mean diameter and axis ratio move stiffness and weight, by the rows of `ParameterGradient::diameter`.
+    for index in 0..2 {
+        let row = |stiffness: DVec3, load: DVec3| {
+            ParameterGradient { stiffness, load, ..unit(DVec3::ZERO) }.diameter(&rod)[index]
+        };
+        let stiffness = DVec3::new(
+            row(DVec3::X, DVec3::ZERO),
+            row(DVec3::Y, DVec3::ZERO),
+            row(DVec3::Z, DVec3::ZERO),
+        );
+        let load = DVec3::Z * row(DVec3::ZERO, DVec3::Z);
+        let changed = |by: f64| match index {
+            0 => Hair { diameter: hair.diameter + by, ..*hair },
+            _ => Hair { axis_ratio: hair.axis_ratio + by, ..*hair },
+        };
+        let size = [hair.diameter, 0.1][index];
+        let by_section = ParameterChange { stiffness, load, ..ParameterChange::default() };
+        gaps.push(compare(hair, kind, at, &by_section, changed, h * size));
     }
     // The clamp: turned about an axis, and moved.
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
     let turned = |x: f64| Hair { frame: DMat3::from_axis_angle(axis, x) * hair.frame, ..*hair };
     let by_turn = ParameterChange { root_rotation: axis, ..ParameterChange::default() };
-    gaps.push(compare(hair, at, &by_turn, turned, 1e-3));
+    gaps.push(compare(hair, kind, at, &by_turn, turned, 1e-3));
     let moved = |x: f64| Hair { position: hair.position + axis * x, ..*hair };
     let by_move = ParameterChange { root_position: axis, ..ParameterChange::default() };
-    gaps.push(compare(hair, at, &by_move, moved, 1e-3));
+    gaps.push(compare(hair, kind, at, &by_move, moved, 1e-3));
     gaps.into_iter().fold(0.0, f64::max)
 }
 
 /// Regular hairs of `count` random ones with their sensitivities.
-fn regular(count: usize, seed: u64) -> Vec<(Hair, Sensitivity)> {
+fn regular(kind: ElementKind, count: usize, seed: u64) -> Vec<(Hair, Sensitivity)> {
     let mut random = SplitMix64(seed);
     let hairs = (0..count).map(|_| Hair::random(&mut random)).collect::<Vec<_>>();
     let at_rest = |hair: Hair| {
         let rod = hair.rod();
-        let shape = equilibrium(&rod, &[], &options()).shape;
-        sensitivity(&rod, shape).ok().map(|at| (hair, at))
+        let shape = equilibrium(&rod, &[], &options(kind)).shape;
+        sensitivity(&rod, kind, shape).ok().map(|at| (hair, at))
     };
     let found = hairs.into_iter().filter_map(at_rest);
     found.filter(|(_, at)| at.regularity() == Regularity::Regular).collect()
@@ -178,11 +218,18 @@ fn regular(count: usize, seed: u64) -> Vec<(Hair, Sensitivity)> {
 
 #[test]
 fn products_agree_with_differences_of_the_solver() {
-    let hairs = regular(150, 1);
-    assert!(hairs.len() > 140, "{}", hairs.len());
-    for (hair, at) in &hairs {
-        let worst = worst(hair, at);
-        assert!(worst < 1e-7, "{worst} {} {hair:?}", at.min_eigenvalue());
+    // More of them for the figures of docs/theory.md.
+    let count = std::env::var("FRISURE_HAIRS").map_or(100, |n| n.parse().expect("a number"));
+    for kind in KINDS {
+        let hairs = regular(kind, count, 1);
+        assert!(hairs.len() * 10 > count * 9, "{kind:?}: {}", hairs.len());
+        let checked = hairs.iter().map(|(hair, at)| (worst(hair, kind, at), at, hair));
+        let bad: Vec<_> = checked.filter(|(worst, ..)| !(*worst < 1e-7)).collect();
+        for (worst, at, hair) in &bad {
+            eprintln!("{kind:?} {worst} {} {hair:?}", at.min_eigenvalue());
+        }
+        eprintln!("{kind:?}: {} of {} regular hairs disagree", bad.len(), hairs.len());
+        assert!(bad.is_empty(), "{kind:?}: {} of {} hairs", bad.len(), hairs.len());
     }
 }
 
@@ -192,17 +239,22 @@ fn both_products_are_adjoint() {
     let mut vector = |size: f64| {
         DVec3::new(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5) * size
     };
-    for (hair, at) in regular(40, 3) {
+    for (hair, at) in KINDS.into_iter().flat_map(|kind| regular(kind, 40, 3)) {
         let rod = hair.rod();
-        let loss: Vec<DVec3> = (0..=ELEMENTS).map(|_| vector(1.0)).collect();
+        let mut nodes = |size: f64| (0..=ELEMENTS).map(|_| vector(size)).collect::<Vec<_>>();
+        let loss = ShapeChange { positions: nodes(1.0), rotations: nodes(0.1) };
         let change = ParameterChange {
             natural_strain: (0..ELEMENTS).map(|_| vector(10.0)).collect(),
+            length: vector(0.1).x,
             stiffness: vector(1.0) * rod.stiffness(),
             load: vector(rod.weight()),
             root_position: vector(0.01),
             root_rotation: vector(0.1),
         };
-        let forward: f64 = at.jvp(&change).unwrap().iter().zip(&loss).map(|(x, g)| x.dot(*g)).sum();
+        let moved = at.jvp(&change).unwrap();
+        let dot = |a: &[DVec3], b: &[DVec3]| a.iter().zip(b).map(|(x, g)| x.dot(*g)).sum::<f64>();
+        let forward =
+            dot(&moved.positions, &loss.positions) + dot(&moved.rotations, &loss.rotations);
         let backward = at.vjp(&loss).unwrap().along(&change);
         assert!(
             (forward - backward).abs() < 1e-10 * forward.abs().max(1e-3),
@@ -224,10 +276,11 @@ fn a_stiff_cantilever_sags_by_its_load_over_its_stiffness() {
         position: DVec3::ZERO,
     };
     let rod = hair.rod();
-    let at = sensitivity(&rod, equilibrium(&rod, &[], &options()).shape).unwrap();
+    let kind = ElementKind::Helix;
+    let at = sensitivity(&rod, kind, equilibrium(&rod, &[], &options(kind)).shape).unwrap();
     let mut loss = vec![DVec3::ZERO; ELEMENTS + 1];
     loss[ELEMENTS] = DVec3::NEG_Z;
-    let gradient = at.vjp(&loss).unwrap();
+    let gradient = at.vjp(&loss.into()).unwrap();
     let (length, k) = (hair.length, rod.stiffness().x);
     let sag = rod.weight() * length.powi(4) / (8.0 * k);
     assert!((gradient.weight() * rod.weight() / sag - 1.0).abs() < 2e-3);
@@ -242,20 +295,40 @@ fn a_stiff_cantilever_sags_by_its_load_over_its_stiffness() {
 
 #[test]
 fn the_energy_at_rest_changes_as_the_envelope_theorem_says() {
-    for (hair, at) in regular(20, 5) {
-        let rod = hair.rod();
-        let energy = |factor: f64| {
-            let mut material = hair.material;
-            material[2] *= factor;
-            let heavier = Hair { material, ..hair }.rod();
-            let chain = Chain::uniform(&heavier, ElementKind::Helix, ELEMENTS);
-            let at = sensitivity(&heavier, at.shape().clone()).unwrap();
-            Problem::new(&chain, &[]).energy(at.shape()).total()
-        };
-        let h = 1e-4;
-        let found = (energy(1.0 + h) - energy(1.0 - h)) / (2.0 * h);
-        let exact = at.by_energy().weight() * rod.weight();
-        assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+    for kind in KINDS {
+        for (hair, at) in regular(kind, 20, 5) {
+            let rod = hair.rod();
+            let before = equilibrium(&rod, &[], &options(kind));
+            let energy = |hair: Hair| {
+                let rod = hair.rod();
+                let rest = equilibrium_from(&rod, &[], &options(kind), &before);
+                let at = sensitivity(&rod, kind, rest.shape).unwrap();
+                let chain = Chain::uniform(&rod, kind, ELEMENTS);
+                Problem::new(&chain, &[]).energy(at.shape()).total()
+            };
+            let slope = |changed: &dyn Fn(f64) -> Hair| {
+                let h = 1e-4;
+                (energy(changed(1.0 + h)) - energy(changed(1.0 - h))) / (2.0 * h)
+            };
+            let heavier = |x: f64| {
+                let [young, shear, density] = hair.material;
+                Hair { material: [young, shear, density * x], ..hair }
+            };
+            let longer = |x: f64| Hair { length: hair.length * x, ..hair };
+            let [radius, pitch] = hair.curl;
+            let wider = |x: f64| Hair { curl: [radius * x, pitch], ..hair };
+            let by = at.by_energy();
+            let pairs = [
+                (slope(&heavier), by.weight() * rod.weight()),
+                (slope(&longer), by.length.unwrap() * hair.length),
+                (slope(&wider), by.curl(radius, pitch)[0] * radius),
+            ];
+            let size = Problem::new(&Chain::uniform(&rod, kind, ELEMENTS), &[]).energy(at.shape());
+            let size = size.elastic + size.gravity.abs();
+            for (found, exact) in pairs {
+                assert!((found - exact).abs() < 1e-6 * size, "{kind:?} {found} {exact} {size}");
+            }
+        }
     }
 }
 
@@ -280,7 +353,7 @@ fn near_a_loss_of_stability_the_derivatives_say_so() {
         })
         .unwrap();
         let shape = Chain::uniform(&rod, ElementKind::Helix, ELEMENTS).natural_shape();
-        sensitivity(&rod, shape)
+        sensitivity(&rod, ElementKind::Helix, shape)
     };
     assert_eq!(upright(0.5).unwrap().regularity(), Regularity::Regular);
     assert_eq!(upright(0.9999).unwrap().regularity(), Regularity::IllConditioned);
@@ -300,39 +373,90 @@ impl Field for Spring {
     }
 }
 
+/// A hair that a spring holds, by the turn of both (rad) about an axis and the radius of its curl.
+fn held(
+    hair: Hair,
+    kind: ElementKind,
+    samples: u32,
+    turn: DMat3,
+    radius: f64,
+) -> Result<Sensitivity, DerivativeError> {
+    let hair = Hair { curl: [radius, hair.curl[1]], ..hair };
+    let rod = Hair { frame: turn * hair.frame, ..hair }.rod();
+    let away = turn * DVec3::new(0.02, 0.03, 0.01);
+    let spring = Spring(hair.position + away, 0.05 * rod.weight() / 0.01);
+    let spring = FieldPotential::new(&spring, samples);
+    let rest = equilibrium(&rod, &[&spring], &options(kind));
+    let chain = Chain::uniform(&rod, kind, ELEMENTS);
+    let felt: [&dyn Potential; 1] = [&spring];
+    Sensitivity::new(&Problem::new(&chain, &felt), rest.shape)
+}
+
 #[test]
 fn a_head_that_is_turned_takes_what_holds_the_rod_along() {
     let hair = Hair { length: 0.06, ..Hair::random(&mut SplitMix64(9)) };
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
-    let held = |turn: f64| -> (Vec<DVec3>, Sensitivity) {
-        let turn = DMat3::from_axis_angle(axis, turn);
-        let rod = Hair { frame: turn * hair.frame, ..hair }.rod();
-        let away = turn * DVec3::new(0.02, 0.03, 0.01);
-        let spring = Spring(hair.position + away, 0.05 * rod.weight() / 0.01);
-        let spring = FieldPotential::new(&spring, 2);
-        let rest = equilibrium(&rod, &[&spring], &options());
-        let chain = Chain::uniform(&rod, ElementKind::Helix, ELEMENTS);
-        let felt: [&dyn Potential; 1] = [&spring];
-        let at = Sensitivity::new(&Problem::new(&chain, &felt), rest.shape).unwrap();
-        (at.shape().positions.clone(), at)
-    };
-    let at = held(0.0).1;
-    assert_eq!(at.regularity(), Regularity::Regular);
-    let by_turn = ParameterChange { root_rotation: axis, ..ParameterChange::default() };
-    let found = difference(1e-3, &|x| held(x).0);
-    assert!(gap(&at.jvp(&by_turn).unwrap(), &found) < 1e-7);
+    for kind in KINDS {
+        let turned =
+            |x: f64| held(hair, kind, 2, DMat3::from_axis_angle(axis, x), hair.curl[0]).unwrap();
+        let at = turned(0.0);
+        assert_eq!(at.regularity(), Regularity::Regular);
+        let by_turn = ParameterChange { root_rotation: axis, ..ParameterChange::default() };
+        let found = difference(1e-3, &|x| turned(x).shape().positions.clone());
+        assert!(gap(&at.jvp(&by_turn).unwrap().positions, &found) < 1e-7);
+    }
+}
+
+#[test]
+fn natural_strain_counts_where_a_field_acts_between_the_nodes() {
+    let hair = Hair { length: 0.06, ..Hair::random(&mut SplitMix64(9)) };
+    let [radius, pitch] = hair.curl;
+    for (kind, samples) in [ElementKind::Helix, ElementKind::Jointed]
+        .into_iter()
+        .flat_map(|kind| [1, 2, 3, 4].map(|samples| (kind, samples)))
+    {
+        let curled = |x: f64| held(hair, kind, samples, DMat3::IDENTITY, radius + x).unwrap();
+        let at = curled(0.0);
+        assert_eq!(at.regularity(), Regularity::Regular);
+        let found = difference(1e-3 * radius, &|x| curled(x).shape().positions.clone());
+        // The tip along each axis, by the gradient.
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let mut loss = vec![DVec3::ZERO; ELEMENTS + 1];
+            loss[ELEMENTS] = axis;
+            let by = at.vjp(&loss.into()).unwrap();
+            assert_eq!(by.length, None);
+            let exact = by.curl(radius, pitch)[0];
+            let size = found[ELEMENTS].length();
+            let gap = (exact - found[ELEMENTS].dot(axis)).abs();
+            assert!(gap < 1e-7 * size, "{kind:?} {samples}: {gap} {size}");
+        }
+        let longer = ParameterChange { length: 0.001, ..ParameterChange::default() };
+        assert_eq!(at.jvp(&longer).unwrap_err(), DerivativeError::Length);
+    }
 }
 
 #[test]
 fn wrong_input_is_refused() {
-    let (hair, at) = regular(5, 7).swap_remove(0);
-    let few = at.vjp(&[DVec3::X; 3]).unwrap_err();
+    let (hair, at) = regular(ElementKind::Helix, 5, 7).swap_remove(0);
+    let few = at.vjp(&vec![DVec3::X; 3].into()).unwrap_err();
     assert_eq!(few, DerivativeError::Nodes { given: 3, nodes: ELEMENTS + 1 });
+    let rotations = vec![DVec3::X; 2];
+    let few = at.vjp(&ShapeChange { positions: vec![DVec3::X; ELEMENTS + 1], rotations });
+    assert_eq!(few.unwrap_err(), DerivativeError::Nodes { given: 2, nodes: ELEMENTS + 1 });
     let change = ParameterChange { natural_strain: vec![DVec3::X; 2], ..Default::default() };
     let few = at.jvp(&change).unwrap_err();
     assert_eq!(few, DerivativeError::Elements { given: 2, elements: ELEMENTS });
+    // A potential that is told nothing of the halves of jointed elements.
+    struct Still;
+    impl Potential for Still {
+        fn depends_on_position(&self) -> bool {
+            true
+        }
+    }
     let rod = hair.rod();
     let chain = Chain::uniform(&rod, ElementKind::Jointed, ELEMENTS);
-    let jointed = Sensitivity::new(&Problem::new(&chain, &[]), chain.natural_shape());
+    let felt: [&dyn Potential; 1] = [&Still];
+    let shape = equilibrium(&rod, &felt, &options(ElementKind::Jointed)).shape;
+    let jointed = Sensitivity::new(&Problem::new(&chain, &felt), shape);
     assert_eq!(jointed.unwrap_err(), DerivativeError::JointedElements);
 }

@@ -6,11 +6,12 @@
 //! the number of elements, whatever the number of parameters. docs/theory.md, "Derivatives of an equilibrium"
 
 mod parameters;
+mod pieces;
 mod sensitivity;
 
 use thiserror::Error;
 
-pub use parameters::{ParameterChange, ParameterGradient};
+pub use parameters::{ParameterChange, ParameterGradient, ShapeChange};
 pub use sensitivity::Sensitivity;
 
 /// Gradient, relative to the moment scale, above which a shape is not at rest. Chosen: far above rounding.
@@ -19,9 +20,13 @@ const AT_REST: f64 = 1e-9;
 /// Why an equilibrium has no derivatives.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum DerivativeError {
-    /// The natural strain of a jointed element is inside its two halves.
-    #[error("derivatives need helix elements; this rod has jointed ones")]
+    /// A potential that has no form for the halves of jointed elements, see
+    /// [`Potential::on_pieces`](crate::potential::Potential::on_pieces).
+    #[error("a potential has no derivatives with jointed elements; use helix elements")]
     JointedElements,
+    /// A change of the length, where other potentials act, which do not change with it.
+    #[error("the length has no derivative where other potentials than the weight act")]
+    Length,
     /// Newton's method does not come to rest from the shape.
     #[error(
         "the shape is not at rest: its relative gradient is {gradient}; it must be at most {AT_REST}"
@@ -34,7 +39,7 @@ pub enum DerivativeError {
     #[error("the shape is not a minimum: its second variation is not positive")]
     NotAMinimum,
     /// There is not one vector for each node.
-    #[error("there are {given} vectors; the rod has {nodes} nodes")]
+    #[error("there are {given} vectors; the rod has {nodes} nodes, the root's included")]
     Nodes {
         /// How many were given.
         given: usize,

@@ -1,14 +1,34 @@
-//! What an equilibrium is differentiated by.
+//! What an equilibrium is differentiated by, and what of it is differentiated.
 
 use glam::DVec3;
 
 use crate::rod::Rod;
+use crate::section::TorsionConstant;
+
+/// A change of the nodes of a rod, or the derivative of a number by one; one vector for each node, the root's first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShapeChange {
+    /// Of positions (m, world), or derivatives by them.
+    pub positions: Vec<DVec3>,
+    /// Rotations of material frames (rad, world), or derivatives by them; empty for none.
+    pub rotations: Vec<DVec3>,
+}
+
+impl From<Vec<DVec3>> for ShapeChange {
+    /// Of positions alone.
+    fn from(positions: Vec<DVec3>) -> Self {
+        Self { positions, rotations: Vec::new() }
+    }
+}
 
 /// A change of the parameters of a rod; zero by default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ParameterChange {
-    /// Change of the mean natural strain u⁰ (rad/m) of each element; empty for none.
+    /// Change of the natural strain u⁰ (rad/m) all along each element; empty for none.
     pub natural_strain: Vec<DVec3>,
+    /// Change of the length (m): all elements become longer in proportion, each with its natural strain. Only where no other
+    /// potentials than the weight act.
+    pub length: f64,
     /// Change of the stiffnesses E I1, E I2, μ J (N m²).
     pub stiffness: DVec3,
     /// Change of the load per length (N/m, world): weight is `−ρSg e_z`.
@@ -23,8 +43,10 @@ pub struct ParameterChange {
 /// [`ParameterChange`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterGradient {
-    /// By the mean natural strain of each element.
+    /// By the natural strain all along each element.
     pub natural_strain: Vec<DVec3>,
+    /// By the length; `None` where other potentials than the weight act.
+    pub length: Option<f64>,
     /// By the stiffnesses E I1, E I2, μ J.
     pub stiffness: DVec3,
     /// By the load per length.
@@ -41,6 +63,7 @@ impl ParameterGradient {
     pub fn along(&self, change: &ParameterChange) -> f64 {
         let strain = self.natural_strain.iter().zip(&change.natural_strain);
         strain.map(|(g, x)| g.dot(*x)).sum::<f64>()
+            + self.length.map_or(0.0, |by| by * change.length)
             + self.stiffness.dot(change.stiffness)
             + self.load.dot(change.load)
             + self.root_position.dot(change.root_position)
@@ -63,6 +86,37 @@ impl ParameterGradient {
             (self.stiffness.x * k.x + self.stiffness.y * k.y) / material.youngs_modulus(),
             self.stiffness.z * k.z / material.shear_modulus(),
         ]
+    }
+
+    /// By the semi-axes a and b (m) of the rod's section, with its moduli and density.
+    #[must_use]
+    pub fn section(&self, rod: &Rod) -> [f64; 2] {
+        let (section, k) = (rod.spec().section, rod.stiffness());
+        let (a, b) = (section.a(), section.b());
+        // S = πab, I1 = πab³/4, I2 = πa³b/4: d ln(S, I1, I2)/d ln(a, b) are their exponents.
+        let weight = self.weight() * rod.weight();
+        let [by_i1, by_i2] = [self.stiffness.x * k.x, self.stiffness.y * k.y];
+        // J = π a³b³/(a² + b²) has d ln J/d ln a = 3 − 2a²/(a² + b²); J = I1 + I2 has (I1 + 3 I2)/(I1 + I2) = 3 − 2b²/(a² + b²).
+        let part = a * a / (a * a + b * b);
+        let [by_a, by_b] = match rod.spec().torsion {
+            TorsionConstant::SaintVenant => [3.0 - 2.0 * part, 1.0 + 2.0 * part],
+            TorsionConstant::Polar => [1.0 + 2.0 * part, 3.0 - 2.0 * part],
+        };
+        let twist = self.stiffness.z * k.z;
+        [
+            (weight + by_i1 + 3.0 * by_i2 + by_a * twist) / a,
+            (weight + 3.0 * by_i1 + by_i2 + by_b * twist) / b,
+        ]
+    }
+
+    /// By the mean diameter 2√(ab) (m) and the axis ratio a/b of the rod's section.
+    #[must_use]
+    pub fn diameter(&self, rod: &Rod) -> [f64; 2] {
+        // a = d √q/2, b = d/(2√q).
+        let section = rod.spec().section;
+        let [by_a, by_b] = self.section(rod);
+        let (a, b) = (section.a() * by_a, section.b() * by_b);
+        [(a + b) / (2.0 * section.mean_radius()), 0.5 * (a - b) * section.b() / section.a()]
     }
 
     /// By a natural strain that is the same in all elements (rad/m).

@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 
-use super::{AT_REST, DerivativeError, ParameterChange, ParameterGradient, Regularity};
+use super::pieces::Pieces;
+use super::{
+    AT_REST, DerivativeError, ParameterChange, ParameterGradient, Regularity, ShapeChange,
+};
 use crate::chain::Shape;
-use crate::minimise::{Problem, SecondVariation};
+use crate::minimise::{Energy, NodeChanges, Problem, SecondVariation};
 use crate::potential::{Derivatives, ElementState, Potential};
-use crate::resolution::ElementKind;
 
 /// Smallest eigenvalue, relative to the elastic energy, below which derivatives are [`Regularity::IllConditioned`]. Chosen; of the
 /// hairs that were compared with differences some have 0.04.
@@ -21,7 +23,7 @@ const MOST_POLISHES: usize = 12;
 /// use frisure_rod::derivatives::Sensitivity;
 /// use frisure_rod::minimise::Problem;
 /// use frisure_rod::{
-///     Chain, ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+///     Chain, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
 ///     TorsionConstant, equilibrium,
 /// };
 /// use glam::DVec3;
@@ -35,16 +37,15 @@ const MOST_POLISHES: usize = 12;
 ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
 ///     gravity: 9.81,
 /// })?;
-/// let element = ElementKind::Helix;
-/// let options = Options { resolution: Resolution::Elements(30), element, ..Options::default() };
+/// let options = Options { resolution: Resolution::Elements(30), ..Options::default() };
 /// let rest = equilibrium(&rod, &[], &options);
-/// let chain = Chain::uniform(&rod, element, 30);
+/// let chain = Chain::uniform(&rod, rest.element, 30);
 /// let at_rest = Sensitivity::new(&Problem::new(&chain, &[]), rest.shape)?;
 ///
 /// // The height of the tip: a heavier fibre hangs lower, a stiffer one higher.
 /// let mut loss = vec![DVec3::ZERO; 31];
 /// loss[30] = DVec3::Z;
-/// let gradient = at_rest.vjp(&loss)?;
+/// let gradient = at_rest.vjp(&loss.into())?;
 /// let [by_density, by_youngs_modulus, _] = gradient.material(&rod);
 /// assert!(by_density < 0.0 && by_youngs_modulus > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -53,9 +54,17 @@ const MOST_POLISHES: usize = 12;
 pub struct Sensitivity {
     shape: Shape,
     variation: SecondVariation,
+    /// Of jointed elements.
+    pieces: Option<Pieces>,
+    /// Whether no other potentials act than the weight.
+    alone: bool,
+    energy: Energy,
+    length: f64,
     /// K (N m²) and length of an element (m).
     stiffness: DVec3,
     spacing: f64,
+    /// Mean natural strain of each element (rad/m).
+    natural: Vec<DVec3>,
     /// c − c⁰ of each element (rad).
     bent: Vec<DVec3>,
     /// Gradient by the controls of `∫ e_k·(r − r_root) ds`, for the axes k (m²).
@@ -96,12 +105,10 @@ impl Sensitivity {
     /// with all that holds the rod, while the load keeps its direction.
     ///
     /// # Errors
-    /// [`DerivativeError`], if the elements are jointed, or the shape is no minimum or does not come to rest.
+    /// [`DerivativeError`], if the shape is no minimum or does not come to rest, or if the elements are jointed and another
+    /// potential has no form for their halves.
     pub fn new(problem: &Problem<'_>, shape: Shape) -> Result<Self, DerivativeError> {
         let chain = problem.chain();
-        if chain.kind() != ElementKind::Helix {
-            return Err(DerivativeError::JointedElements);
-        }
         let (shape, variation, gradient_norm) = polished(problem, shape)?;
         let rod = chain.rod();
         let axis = |direction: DVec3| {
@@ -112,9 +119,20 @@ impl Sensitivity {
         let [(x, mx), (y, my), (z, mz)] = [DVec3::X, DVec3::Y, DVec3::Z].map(axis);
         let bent = |(i, c): (usize, &DVec3)| *c - chain.geometry(i).rest();
         let min_eigenvalue = problem.min_eigenvalue(&shape);
+        let pieces = Pieces::new(problem, &shape)?;
+        let spacing = rod.length() / chain.len() as f64;
+        let natural = |i: usize| chain.geometry(i).rest() / spacing;
         Ok(Self {
+            alone: problem.external.is_empty(),
+            energy: problem.energy(&shape),
+            length: rod.length(),
+            natural: match &pieces {
+                None => (0..chain.len()).map(natural).collect(),
+                Some(pieces) => pieces.natural().iter().map(|[a, b]| (*a + *b) * 0.5).collect(),
+            },
+            pieces,
             stiffness: rod.stiffness(),
-            spacing: rod.length() / chain.len() as f64,
+            spacing,
             bent: shape.controls.iter().enumerate().map(bent).collect(),
             moments: [x, y, z],
             first_moment: DVec3::new(mx, my, mz),
@@ -154,20 +172,27 @@ impl Sensitivity {
         }
     }
 
-    /// The derivative of a loss by all parameters, from that by the position of each node, the root first (loss per m, world).
-    /// docs/theory.md (D1), (D2)
+    /// The derivative of a loss by all parameters, from that by the nodes (loss per m and per rad). docs/theory.md (D1), (D2)
     ///
     /// # Errors
     /// [`DerivativeError::Nodes`], if there is not one vector for each node.
-    pub fn vjp(&self, by_nodes: &[DVec3]) -> Result<ParameterGradient, DerivativeError> {
-        let nodes = self.shape.positions.len();
-        if by_nodes.len() != nodes {
-            return Err(DerivativeError::Nodes { given: by_nodes.len(), nodes });
-        }
-        // 1. H a = (∂x/∂c)ᵀ ∂ℓ/∂x.
-        let a = self.solve(&self.variation.by_controls(&by_nodes[1..]))?;
-        // 2. −aᵀ ∂g/∂p of each parameter.
-        let natural_strain = a.iter().map(|a| self.stiffness * *a).collect();
+    pub fn vjp(&self, by_nodes: &ShapeChange) -> Result<ParameterGradient, DerivativeError> {
+        let positions = self.one_per_node(&by_nodes.positions)?;
+        let none = vec![DVec3::ZERO; positions.len()];
+        let rotations = match &by_nodes.rotations {
+            empty if empty.is_empty() => &none,
+            given => self.one_per_node(given)?,
+        };
+        // 1. H a = (∂x/∂c)ᵀ ∂ℓ/∂x, with rotations in material frames.
+        let inside = self.shape.frames.iter().zip(rotations).map(|(r, g)| r.transpose() * *g);
+        let by_nodes = NodeChanges::new(positions.iter().copied().zip(inside));
+        let a = self.solve(&self.variation.by_node_changes(&by_nodes))?;
+        // 2. −aᵀ ∂g/∂p of each parameter. (D3), (D4)
+        let halves = self.pieces.as_ref().map(|pieces| pieces.by_strain(&by_nodes, &a));
+        let natural_strain: Vec<DVec3> = match &halves {
+            None => a.iter().map(|a| self.stiffness * *a).collect(),
+            Some(halves) => halves.iter().map(|[a, b]| *a + *b).collect(),
+        };
         let bent = a.iter().zip(&self.bent).map(|(a, bent)| *a * *bent);
         let stiffness = -bent.sum::<DVec3>() / self.spacing;
         let along = |k: usize| -> f64 {
@@ -176,60 +201,125 @@ impl Sensitivity {
         let load = DVec3::new(along(0), along(1), along(2));
         // 3. The root moves all nodes; turned, it sees the load turned back.
         let root = self.shape.positions[0];
-        let lever = |(x, g): (&DVec3, &DVec3)| (*x - root).cross(*g);
-        let turned: DVec3 = self.shape.positions.iter().zip(by_nodes).map(lever).sum();
+        let arms = self.shape.positions.iter().map(|x| *x - root);
+        let lever = |(arm, g): (DVec3, &DVec3)| arm.cross(*g);
+        let turned: DVec3 = arms.clone().zip(positions).map(lever).sum();
+        let turned = turned + rotations.iter().sum::<DVec3>();
+        // 4. A longer rod is a larger picture of one of the same length with more strain and load. (D5)
+        let larger: f64 = arms.zip(positions).map(|(arm, g)| arm.dot(*g)).sum();
+        let stretched =
+            larger + self.by_scale(&natural_strain, halves.as_deref()) + 3.0 * self.load.dot(load);
         Ok(ParameterGradient {
             natural_strain,
+            length: self.alone.then_some(stretched / self.length),
             stiffness,
             load,
-            root_position: by_nodes.iter().sum(),
+            root_position: positions.iter().sum(),
             root_rotation: turned - self.load.cross(load),
         })
     }
 
-    /// How a change of the parameters moves each node, the root first (m, world), to first order. docs/theory.md (D1)
+    /// How a change of the parameters moves each node, to first order. docs/theory.md (D1)
     ///
     /// # Errors
-    /// [`DerivativeError::Elements`], if the change has natural strains, but not one for each element.
-    pub fn jvp(&self, change: &ParameterChange) -> Result<Vec<DVec3>, DerivativeError> {
+    /// [`DerivativeError::Elements`], if the change has natural strains, but not one for each element;
+    /// [`DerivativeError::Length`], if it has one of the length, and other potentials act.
+    pub fn jvp(&self, change: &ParameterChange) -> Result<ShapeChange, DerivativeError> {
         let elements = self.bent.len();
         let strain = &change.natural_strain;
         if !strain.is_empty() && strain.len() != elements {
             return Err(DerivativeError::Elements { given: strain.len(), elements });
         }
-        // 1. −∂g/∂p δp.
+        if change.length != 0.0 && !self.alone {
+            return Err(DerivativeError::Length);
+        }
+        // 1. −∂g/∂p δp of stiffness and load; a longer rod has more load. (D3), (D5)
+        let larger = change.length / self.length;
         let rotation = change.root_rotation;
-        let load = change.load - rotation.cross(self.load);
+        let load = change.load - rotation.cross(self.load) + self.load * (3.0 * larger);
         let mut right = vec![DVec3::ZERO; elements];
         for (i, right) in right.iter_mut().enumerate() {
             *right = -change.stiffness * self.bent[i] / self.spacing
                 + self.moments[0][i] * load.x
                 + self.moments[1][i] * load.y
                 + self.moments[2][i] * load.z;
-            if let Some(strain) = strain.get(i) {
-                *right += self.stiffness * *strain;
+        }
+        // 2. Of natural strain; halves also move what is beyond them by themselves. (D4)
+        let given = |i: usize| strain.get(i).copied().unwrap_or(DVec3::ZERO);
+        let by_halves = match &self.pieces {
+            None => {
+                for (i, right) in right.iter_mut().enumerate() {
+                    *right += self.stiffness * (given(i) + self.natural[i] * larger);
+                }
+                None
+            }
+            Some(pieces) => {
+                let both = |(i, u): (usize, &[DVec3; 2])| u.map(|u| given(i) + u * larger);
+                let natural = pieces.natural().iter().enumerate().map(both).collect::<Vec<_>>();
+                let (more, moved) = pieces.along(&natural);
+                right.iter_mut().zip(more).for_each(|(right, more)| *right += more);
+                Some(moved)
+            }
+        };
+        // 3. H δc = −∂g/∂p δp, and how that moves nodes.
+        let mut nodes: Vec<(DVec3, DVec3)> =
+            self.variation.node_changes(&self.solve(&right)?).iter().collect();
+        if let Some(moved) = by_halves {
+            for (node, (position, turn)) in nodes.iter_mut().zip(moved.iter()) {
+                *node = (node.0 + position, node.1 + turn);
             }
         }
-        // 2. H δc = −∂g/∂p δp, and how that moves nodes.
-        let moved = self.variation.displacements(&self.solve(&right)?);
         let root = self.shape.positions[0];
-        let rigid = |x: DVec3| change.root_position + rotation.cross(x - root);
-        let nodes = self.shape.positions.iter().zip(std::iter::once(DVec3::ZERO).chain(moved));
-        Ok(nodes.map(|(x, moved)| moved + rigid(*x)).collect())
+        let rigid = |x: DVec3| change.root_position + rotation.cross(x) + x * larger;
+        let positions = nodes.iter().zip(&self.shape.positions);
+        let rotations = nodes.iter().zip(&self.shape.frames);
+        Ok(ShapeChange {
+            positions: positions.map(|((moved, _), x)| *moved + rigid(*x - root)).collect(),
+            rotations: rotations.map(|((_, turn), frame)| rotation + *frame * *turn).collect(),
+        })
     }
 
     /// The derivative of the energy (J) at rest by all parameters: at rest the controls do not count (envelope theorem).
     #[must_use]
     pub fn by_energy(&self) -> ParameterGradient {
-        // E = Σ ½ (c − h u⁰)ᵀ K/h (c − h u⁰) − f·∫ (r − r_root) ds
+        // E = Σ ½ (c − h u⁰)ᵀ K/h (c − h u⁰) − f·∫ (r − r_root) ds; that of joints has u⁰ in r instead.
         let squares: DVec3 = self.bent.iter().map(|bent| *bent * *bent).sum();
         let moved = self.first_moment;
+        let halves = self.pieces.as_ref().map(Pieces::energy_by_strain);
+        let natural_strain: Vec<DVec3> = match &halves {
+            None => self.bent.iter().map(|bent| -self.stiffness * *bent).collect(),
+            Some(halves) => halves.iter().map(|[a, b]| *a + *b).collect(),
+        };
+        // Elastic energy is as 1/L, that of the weight as L², besides the natural strain. (D5)
+        let stretched = 2.0 * self.energy.gravity - self.energy.elastic
+            + self.by_scale(&natural_strain, halves.as_deref());
         ParameterGradient {
-            natural_strain: self.bent.iter().map(|bent| -self.stiffness * *bent).collect(),
+            natural_strain,
+            length: self.alone.then_some(stretched / self.length),
             stiffness: squares * (0.5 / self.spacing),
             load: -moved,
             root_position: DVec3::ZERO,
             root_rotation: -moved.cross(self.load),
+        }
+    }
+
+    /// The derivative by a factor of all natural strains, from those by each element's, or by each half's of jointed ones.
+    fn by_scale(&self, by_elements: &[DVec3], by_halves: Option<&[[DVec3; 2]]>) -> f64 {
+        match (&self.pieces, by_halves) {
+            (Some(pieces), Some(halves)) => {
+                let pairs = pieces.natural().iter().zip(halves);
+                pairs.map(|([u, v], [a, b])| u.dot(*a) + v.dot(*b)).sum()
+            }
+            _ => self.natural.iter().zip(by_elements).map(|(u, g)| u.dot(*g)).sum(),
+        }
+    }
+
+    fn one_per_node<'a>(&self, given: &'a [DVec3]) -> Result<&'a [DVec3], DerivativeError> {
+        let nodes = self.shape.positions.len();
+        if given.len() == nodes {
+            Ok(given)
+        } else {
+            Err(DerivativeError::Nodes { given: given.len(), nodes })
         }
     }
 

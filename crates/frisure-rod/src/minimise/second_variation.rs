@@ -37,6 +37,19 @@ pub struct SecondVariation {
 #[derive(Clone, Debug)]
 pub struct NodeChanges(Vec<State>);
 
+impl NodeChanges {
+    /// Changes of positions (m, world) and rotations of frames (rad, in each material frame), one for each node, the root's
+    /// first; or the derivatives of a number by them, see [`SecondVariation::by_node_changes`].
+    pub(crate) fn new(changes: impl Iterator<Item = (DVec3, DVec3)>) -> Self {
+        Self(changes.map(|(position, rotation)| State { rotation, position }).collect())
+    }
+
+    /// Change of the position (m, world) and rotation of the frame (rad, in the material frame) of each node.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        self.0.iter().map(|state| (state.position, state.rotation))
+    }
+}
+
 /// How one element moves its end, and the second derivatives of its own energy. docs/theory.md (M1)
 #[derive(Clone, Copy, Debug)]
 struct ElementBlocks {
@@ -272,6 +285,21 @@ impl SecondVariation {
             states.push(state);
         }
         NodeChanges(states)
+    }
+
+    /// The transpose of [`Self::node_changes`]: the derivative of a number by each control from those by the positions (per m,
+    /// world) and rotations (per rad, in each material frame) of the nodes. The root's do not count.
+    #[must_use]
+    pub fn by_node_changes(&self, by_nodes: &NodeChanges) -> Vec<DVec3> {
+        let mut sum = vec![DVec3::ZERO; self.elements.len()];
+        let mut beyond = State::default();
+        for (i, element) in self.elements.iter().enumerate().rev() {
+            let State { rotation, position } = by_nodes.0[i + 1];
+            beyond.rotation += rotation;
+            beyond.position += position;
+            (beyond, sum[i]) = element.backward(beyond);
+        }
+        sum
     }
 
     /// How a step x (rad) moves each sample point (m), to first order. The points are those of

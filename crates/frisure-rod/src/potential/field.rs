@@ -76,6 +76,70 @@ impl<F: Field + ?Sized> Potential for FieldPotential<'_, F> {
             sum.position_position += hessian * weight;
         }
     }
+
+    fn on_pieces(&self) -> Option<Box<dyn Potential + '_>> {
+        Some(Box::new(FieldOnPieces(FieldPotential { field: self.field, samples: self.samples })))
+    }
+}
+
+/// A [`FieldPotential`] on a rod whose jointed elements are in pieces, with the points and weights of the whole elements.
+struct FieldOnPieces<'a, F: ?Sized>(FieldPotential<'a, F>);
+
+impl<F: Field + ?Sized> FieldOnPieces<'_, F> {
+    /// Length (m) that each point inside a whole element stands for.
+    fn weight(&self, piece: &ElementState<'_>) -> f64 {
+        2.0 * piece.length / f64::from(self.0.samples)
+    }
+
+    /// Fraction of the piece, and arc length (m), of each point inside the whole element, the joint's own in the first half.
+    fn inside(&self, piece: &ElementState<'_>) -> impl Iterator<Item = (f64, f64)> {
+        let (samples, start, half) = (self.0.samples, piece.end - piece.length, piece.length);
+        let which = piece.index % 3;
+        (1..samples).filter_map(move |k| {
+            let x = 2.0 * f64::from(k) / f64::from(samples);
+            let x = match which {
+                0 if x <= 1.0 => x,
+                2 if x > 1.0 => x - 1.0,
+                _ => return None,
+            };
+            Some((x, start + x * half))
+        })
+    }
+
+    /// The node of the whole elements, with the length that it stands for (m): twice that of a node of halves.
+    fn whole(node: &NodeState) -> Option<NodeState> {
+        (node.index.is_multiple_of(3)).then_some(NodeState { weight: 2.0 * node.weight, ..*node })
+    }
+}
+
+impl<F: Field + ?Sized> Potential for FieldOnPieces<'_, F> {
+    fn depends_on_position(&self) -> bool {
+        true
+    }
+
+    fn element_energy(&self, piece: &ElementState<'_>) -> f64 {
+        let energy = |(x, s)| self.0.field.energy(s, piece.point(x));
+        self.inside(piece).map(energy).sum::<f64>() * self.weight(piece)
+    }
+
+    fn add_element_derivatives(&self, piece: &ElementState<'_>, sum: &mut Derivatives) {
+        let weight = self.weight(piece);
+        for (x, s) in self.inside(piece) {
+            if let Some((gradient, hessian)) = self.0.field.derivatives(s, piece.point(x)) {
+                piece.add_point_derivatives(x, gradient * weight, &(hessian * weight), sum);
+            }
+        }
+    }
+
+    fn node_energy(&self, node: &NodeState) -> f64 {
+        Self::whole(node).map_or(0.0, |node| self.0.node_energy(&node))
+    }
+
+    fn add_node_derivatives(&self, node: &NodeState, sum: &mut Derivatives) {
+        if let Some(node) = Self::whole(node) {
+            self.0.add_node_derivatives(&node, sum);
+        }
+    }
 }
 
 impl Chain<'_> {

@@ -27,6 +27,13 @@ pub trait Potential: Sync {
 
     /// Adds the derivatives of [`Self::node_energy`]; those by the control stay as they are.
     fn add_node_derivatives(&self, _node: &NodeState, _sum: &mut Derivatives) {}
+
+    /// The same energy on the rod with each jointed element as three elements: its first half, the joint, which has no length,
+    /// and its second half, so that node 3 i of that rod is node i of this one. The derivatives of an equilibrium by natural
+    /// strain need it; `None` where the energy has no such form.
+    fn on_pieces(&self) -> Option<Box<dyn Potential + '_>> {
+        None
+    }
 }
 
 /// A node of a rod: the boundary between two elements, the root or the tip.
