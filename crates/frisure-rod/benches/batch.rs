@@ -36,6 +36,7 @@ fn main() {
     against_elements(hairs);
     against_threads(hairs);
     warm(hairs);
+    derivatives(hairs);
 }
 
 /// Shortest time (s) of each, taking turns.
@@ -138,6 +139,37 @@ fn warm(hairs: usize) {
         let (few, fewer) =
             (iterations(&batch.solve(&rods)), iterations(&batch.solve_from(&rods, before.clone())));
         println!("| {name} | {cold:.1} ({few:.1}) | {warm:.1} ({fewer:.1}) | {:.2} |", warm / cold);
+    }
+}
+
+/// Rest alone, as by default and to the gradient that derivatives need, and with the derivatives of a loss of all nodes.
+fn derivatives(hairs: usize) {
+    println!("\nThousand hairs a second, 15 elements, threads: {}\n", rayon::current_num_threads());
+    println!("| curl | rest to 1e-8 | rest to 1e-10 | and derivatives | ratio | by themselves |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    let default = Batch::default();
+    let exact = Batch { tolerance: 1e-10, ..default };
+    for (name, turns) in CURLS {
+        let rods = heads(turns, 4 * hairs);
+        let loss = vec![DVec3::new(0.3, -0.2, 1.0); CHUNK * (exact.elements + 1)];
+        let with = |rods: &[Rod]| {
+            let found = exact.solve(rods);
+            let loss = &loss[..rods.len() * (exact.elements + 1)];
+            drop(black_box(exact.vjp(rods, &found, loss, &[])));
+        };
+        let seconds =
+            best([&mut || in_chunks(&rods, default), &mut || in_chunks(&rods, exact), &mut || {
+                rods.par_chunks(CHUNK).for_each(with);
+            }]);
+        let rates = seconds.map(|s| rate(rods.len(), s));
+        println!(
+            "| {name} | {:.0} | {:.0} | {:.0} | {:.2} | {:.0} |",
+            rates[0],
+            rates[1],
+            rates[2],
+            rates[2] / rates[1],
+            rate(rods.len(), seconds[2] - seconds[1]),
+        );
     }
 }
 

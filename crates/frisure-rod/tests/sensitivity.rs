@@ -2,6 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "figures, for whoever reads a test's output")]
 
+use frisure_rod::batch::Batch;
 use frisure_rod::derivatives::{
     DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity, ShapeChange,
 };
@@ -9,7 +10,7 @@ use frisure_rod::minimise::Problem;
 use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{
     Chain, ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    SplitMix64, TorsionConstant, equilibrium, equilibrium_from,
+    SplitMix64, StrainProfile, TorsionConstant, equilibrium, equilibrium_from,
 };
 use glam::{DMat3, DQuat, DVec3};
 
@@ -53,7 +54,7 @@ impl Hair {
         Self {
             length: between(0.03, 0.15),
             diameter: between(60e-6, 100e-6),
-            axis_ratio: between(1.0, 2.0),
+            axis_ratio: between(1.05, 2.0),
             curl: [between(0.005, 0.05), between(0.01, 0.06)],
             material: [between(2e9, 5e9), between(0.5e9, 1.5e9), 1300.0],
             frame: DMat3::from_quat(turn),
@@ -432,6 +433,84 @@ fn natural_strain_counts_where_a_field_acts_between_the_nodes() {
         }
         let longer = ParameterChange { length: 0.001, ..ParameterChange::default() };
         assert_eq!(at.jvp(&longer).unwrap_err(), DerivativeError::Length);
+    }
+}
+
+/// Hairs of which every third has a natural strain that varies, and one in seven has no weight.
+fn of_all_kinds(count: usize, seed: u64) -> Vec<Rod> {
+    let mut random = SplitMix64(seed);
+    let rod = |i: usize| {
+        let rod = Hair::random(&mut random).rod();
+        let spec = rod.spec().clone();
+        let strain = spec.natural.at(0.0);
+        let knots = [(0.0, 0.5), (0.3, 1.3), (0.7, 0.9), (1.0, 1.1)];
+        let knots = knots.map(|(s, x)| (s * rod.length(), strain * x)).to_vec();
+        let natural = match i % 3 {
+            0 => NaturalStrain::Varying(StrainProfile::new(knots).unwrap()),
+            _ => spec.natural.clone(),
+        };
+        let gravity = if i % 7 == 3 { 0.0 } else { 9.81 };
+        Rod::new(RodSpec { natural, gravity, ..spec }).unwrap()
+    };
+    (0..count).map(rod).collect()
+}
+
+#[test]
+fn lanes_give_what_one_rod_alone_gives() {
+    let rods = of_all_kinds(301, 21);
+    // Also all alike, where lanes share what they have of the natural helix.
+    let uniform: Vec<Rod> = rods
+        .iter()
+        .filter(|rod| matches!(rod.natural(), NaturalStrain::Uniform(_)))
+        .cloned()
+        .collect();
+    for (rods, tolerance) in [(&rods, 1e-10), (&uniform, 1e-10), (&uniform, 1e-4)] {
+        let batch = Batch { elements: ELEMENTS, tolerance, ..Batch::default() };
+        let found = batch.solve(rods);
+        let mut random = SplitMix64(22);
+        let mut vectors = |size: f64| -> Vec<DVec3> {
+            let mut one = || (random.unit() - 0.5) * size;
+            (0..rods.len() * (ELEMENTS + 1)).map(|_| DVec3::new(one(), one(), one())).collect()
+        };
+        let (positions, frames) = (vectors(1.0), vectors(0.05));
+        let gradient = batch.vjp(rods, &found, &positions, &frames);
+        let mut regular = 0;
+        for (i, rod) in rods.iter().enumerate() {
+            let nodes = i * (ELEMENTS + 1)..(i + 1) * (ELEMENTS + 1);
+            let loss = ShapeChange {
+                positions: positions[nodes.clone()].to_vec(),
+                rotations: frames[nodes].to_vec(),
+            };
+            let chain = Chain::uniform(rod, ElementKind::Jointed, ELEMENTS);
+            let at = Sensitivity::new(&Problem::new(&chain, &[]), found.shape(rod, i)).unwrap();
+            assert!(gradient.rods[i].eigenvalue_bound > at.min_eigenvalue() * (1.0 - 1e-6));
+            if at.regularity() == Regularity::IllConditioned {
+                continue;
+            }
+            assert_eq!(gradient.rods[i].regularity, Ok(Regularity::Regular));
+            regular += 1;
+            let (alone, lanes) = (at.vjp(&loss).unwrap(), gradient.of(i));
+            // All in units of the loss: stiffness and load by their sizes, strain by one turn in the length.
+            let turn = 1.0 / rod.length();
+            let sizes = |by: &ParameterGradient| -> Vec<DVec3> {
+                let numbers = [
+                    by.stiffness * rod.stiffness(),
+                    by.load * (rod.weight() + 1e-7),
+                    by.root_position * rod.length(),
+                    by.root_rotation,
+                    DVec3::X * (by.length.unwrap() * rod.length()),
+                ];
+                let strains = by.natural_strain.iter().map(|by| *by * turn);
+                numbers.into_iter().chain(strains).collect()
+            };
+            let (alone, lanes) = (sizes(&alone), sizes(&lanes));
+            let largest = alone.iter().map(|v| v.length()).fold(0.0, f64::max);
+            for (k, (a, b)) in alone.iter().zip(&lanes).enumerate() {
+                let (gap, size) = (a.distance(*b), a.length() + 1e-3 * largest);
+                assert!(gap < 1e-7 * size, "{i}, {k}: {a} {b} {}", at.min_eigenvalue());
+            }
+        }
+        assert!(regular > rods.len() * 9 / 10, "{regular}");
     }
 }
 

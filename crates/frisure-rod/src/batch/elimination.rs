@@ -90,8 +90,39 @@ impl<F: Lanes> Elimination<F> {
         let exact = jacobian.transpose_mul(value.exact_slope) + elastic;
         result.gradient = result.gradient.max(exact.dot(exact));
         result.turned = result.turned.max(c.dot(c));
+        Self::with_residue(c, (&table, rotation, jacobian), residue, stiffness, value, result)
+    }
+
+    /// As [`Self::new`] at rest, for a linear system with the Hessian: `right` is the turn of the frame after the joint
+    /// by which the right-hand side and later joints slope, with a minus sign. docs/theory.md (L11)
+    #[inline(always)]
+    pub(super) fn linear(
+        c: Vec3<F>,
+        stiffness: &Stiffness<F>,
+        value: &ValueFunction<F>,
+        right: Vec3<F>,
+        result: &mut SweepResult<F>,
+    ) -> Self {
+        let table = RotationTable::of(c);
+        let (rotation, jacobian) = (table.rotation(c), table.jacobian(c));
+        let exact = jacobian.transpose_mul(value.exact_slope) + stiffness.elastic.component_mul(c);
+        result.gradient = result.gradient.max(exact.dot(exact));
+        result.turned = result.turned.max(c.dot(c));
+        let residue = jacobian.transpose_mul(right);
+        Self::with_residue(c, (&table, rotation, jacobian), residue, stiffness, value, result)
+    }
+
+    #[inline(always)]
+    fn with_residue(
+        c: Vec3<F>,
+        (table, rotation, jacobian): (&RotationTable<F>, Mat3<F>, Mat3<F>),
+        residue: Vec3<F>,
+        stiffness: &Stiffness<F>,
+        value: &ValueFunction<F>,
+        result: &mut SweepResult<F>,
+    ) -> Self {
         // 3. Hessian blocks H = (1 + σ) K + Jᵀ P J + D(g) and M = Jᵀ (P + ½ [g]×). (L5)
-        let blocks = HessianBlocks::new(&table, c, jacobian, value);
+        let blocks = HessianBlocks::new(table, c, jacobian, value);
         // 4. Pivot: H = L D Lᵀ.
         let factor = BlockFactor::new(blocks.turn_turn.add_diagonal(stiffness.damped));
         result.pivot = result.pivot.min(factor.least);

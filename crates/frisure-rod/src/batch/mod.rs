@@ -38,14 +38,16 @@
 //! The files in the order of the computation: `solver` (options, precision), `newton` (damping, rods through the lanes),
 //! `division` (a rod into joints), `weight_lanes` and `contact_lanes` (rods into lanes), `weight_sweep` and
 //! `contact_sweep` (backward and forward over the joints), `elimination` (one joint: energy, gradient, Hessian block),
-//! `rotation`, `linear`, `lanes` (the numbers).
+//! `rotation`, `linear`, `lanes` (the numbers). Derivatives: `gradient` (rods into lanes) and `adjoint_sweep`.
 
+mod adjoint_sweep;
 mod contact;
 mod contact_lanes;
 mod contact_sweep;
 mod contact_term;
 mod division;
 mod elimination;
+mod gradient;
 mod lanes;
 mod linear;
 mod newton;
@@ -63,6 +65,7 @@ mod agreement;
 mod contact_tests;
 
 pub use contact::{ConfinementTube, Contact, ContactField};
+pub use gradient::{BatchGradient, RodGradient};
 pub use solution::{BatchSolution, RodSolution};
 pub use solver::{Batch, Precision};
 pub use start::{Frames, InitialShape};

@@ -173,7 +173,7 @@ impl Batch {
 }
 
 /// Whether each rod has the same rotation between all of its joints.
-fn uniform(rods: &[Rod]) -> bool {
+pub(super) fn uniform(rods: &[Rod]) -> bool {
     rods.iter().all(|rod| matches!(rod.natural(), NaturalStrain::Uniform(_)))
 }
 

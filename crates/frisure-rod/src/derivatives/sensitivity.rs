@@ -4,15 +4,12 @@ use glam::DVec3;
 
 use super::pieces::Pieces;
 use super::{
-    AT_REST, DerivativeError, ParameterChange, ParameterGradient, Regularity, ShapeChange,
+    AT_REST, DerivativeError, LEAST_EIGENVALUE, ParameterChange, ParameterGradient, Regularity,
+    ShapeChange,
 };
 use crate::chain::Shape;
 use crate::minimise::{Energy, NodeChanges, Problem, SecondVariation};
 use crate::potential::{Derivatives, ElementState, Potential};
-
-/// Smallest eigenvalue, relative to the elastic energy, below which derivatives are [`Regularity::IllConditioned`]. Chosen; of the
-/// hairs that were compared with differences some have 0.04.
-const LEAST_EIGENVALUE: f64 = 1e-3;
 
 /// Most steps of Newton's method that bring the shape to rest to rounding. A guard; two or three are usual.
 const MOST_POLISHES: usize = 12;

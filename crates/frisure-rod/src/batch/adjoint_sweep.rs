@@ -1,0 +1,325 @@
+//! Sweeps for the derivatives of rods at rest in their own weight: the linear system of the adjoint, and its products with the
+//! parameters. docs/theory.md, "Derivatives of an equilibrium" and "Rods in lanes", (L11) to (L13).
+
+use glam::{DMat3, DVec3};
+
+use super::elimination::{Elimination, Stiffness, SweepResult, ValueFunction};
+use super::lanes::Lanes;
+use super::linear::{Mat3, Sym3, Vec3};
+use super::rotation::RotationTable;
+use crate::rotation::{RotationSeries, right_jacobian};
+use crate::stumpff::stumpff;
+
+/// Half of an element, a piece of the natural helix, and how it moves with its natural strain.
+#[derive(Clone, Copy)]
+pub(super) struct Half<F> {
+    /// Rotation, advance (m) and first moment (m²).
+    turn: Mat3<F>,
+    advance: Vec3<F>,
+    moment: Vec3<F>,
+    /// By the turn c = u⁰ h/2 of the piece: the turn of its end frame in itself, the advance (m) and the first moment (m²).
+    turn_by: Mat3<F>,
+    advance_by: Mat3<F>,
+    moment_by: Mat3<F>,
+}
+
+/// [`Half`] of one rod.
+pub(super) struct HalfOfOne {
+    turn: DMat3,
+    advance: DVec3,
+    moment: DVec3,
+    turn_by: DMat3,
+    advance_by: DMat3,
+    moment_by: DMat3,
+}
+
+impl HalfOfOne {
+    /// A piece of the natural strain `strain` (rad/m) and the length `half` (m).
+    pub(super) fn new(strain: DVec3, half: f64) -> Self {
+        // h φ_1 e_3 is the advance and h² φ_2 e_3 the first moment. docs/theory.md, "Elements"
+        let c = strain * half;
+        let table = stumpff(c.length_squared());
+        let advance = RotationSeries::phi(1, &table, half, DVec3::Z);
+        let moment = RotationSeries::phi(2, &table, half * half, DVec3::Z);
+        Self {
+            turn: crate::rotation::exponential(c, &table),
+            advance: advance.value(c),
+            moment: moment.value(c),
+            turn_by: right_jacobian(c, &table),
+            advance_by: advance.jacobian(c),
+            moment_by: moment.jacobian(c),
+        }
+    }
+}
+
+impl<F: Lanes> Half<F> {
+    pub(super) fn zero(zero: F) -> Self {
+        let (v, m) = (Vec3::splat(zero), Mat3::splat(zero));
+        Self { turn: m, advance: v, moment: v, turn_by: m, advance_by: m, moment_by: m }
+    }
+
+    pub(super) fn set(&mut self, lane: usize, one: &HalfOfOne) {
+        self.turn.set(lane, &one.turn);
+        self.advance.set(lane, one.advance);
+        self.moment.set(lane, one.moment);
+        self.turn_by.set(lane, &one.turn_by);
+        self.advance_by.set(lane, &one.advance_by);
+        self.moment_by.set(lane, &one.moment_by);
+    }
+}
+
+/// One element of each rod.
+#[derive(Clone, Copy)]
+pub(super) struct AdjointJoint<F> {
+    /// a (N m), as in [`super::weight_sweep::Joint`].
+    pub(super) arm: Vec3<F>,
+    /// c (rad).
+    pub(super) control: Vec3<F>,
+    /// Derivatives of the loss by the node at the end of the element: its position (per m, world) and its frame (per rad, world).
+    pub(super) by_position: Vec3<F>,
+    pub(super) by_frame: Vec3<F>,
+    /// Frames before the element, before the joint and after it, and the right Jacobian of the joint.
+    start: Mat3<F>,
+    before: Mat3<F>,
+    after: Mat3<F>,
+    jacobian: Mat3<F>,
+    /// Positions of the joint and of the end, from the root (m).
+    at: Vec3<F>,
+    end: Vec3<F>,
+    /// First moment of what is beyond the joint, about it, and of what is beyond the end, about that (m², world).
+    moment: Vec3<F>,
+    end_moment: Vec3<F>,
+    /// Sums of the derivatives by all later nodes: by a shift, and by a rotation about the root.
+    force: Vec3<F>,
+    torque: Vec3<F>,
+    /// `H⁻¹ r` and the feedback, see [`Elimination`].
+    step: Vec3<F>,
+    gain: Mat3<F>,
+    /// Rotation of the frame after the joint by all joints up to it, and by it alone (rad, world).
+    turned: Vec3<F>,
+    turned_alone: Vec3<F>,
+    /// Derivative by the natural strain of both halves, before and after the joint (loss per rad/m).
+    pub(super) by_strain: [Vec3<F>; 2],
+}
+
+impl<F: Lanes> AdjointJoint<F> {
+    pub(super) fn zero(zero: F) -> Self {
+        let (v, m) = (Vec3::splat(zero), Mat3::splat(zero));
+        Self {
+            arm: v,
+            control: v,
+            by_position: v,
+            by_frame: v,
+            start: m,
+            before: m,
+            after: m,
+            jacobian: m,
+            at: v,
+            end: v,
+            moment: v,
+            end_moment: v,
+            force: v,
+            torque: v,
+            step: v,
+            gain: m,
+            turned: v,
+            turned_alone: v,
+            by_strain: [v; 2],
+        }
+    }
+}
+
+/// The derivatives of each rod that are sums over its elements.
+pub(super) struct AdjointSums<F> {
+    /// Σ of the derivatives by the nodes beyond the root: by a shift, by a rotation about the root, and by a magnification.
+    pub(super) force: Vec3<F>,
+    pub(super) torque: Vec3<F>,
+    pub(super) magnification: F,
+    /// By the load per length (loss m/N), and `−Σ a c` of the stiffness (loss).
+    pub(super) load: Vec3<F>,
+    pub(super) bent: Vec3<F>,
+    /// `aᵀ H a` and `aᵀ K a` of the adjoint a: their ratio is at least the smallest eigenvalue.
+    pub(super) curvature: F,
+    pub(super) elastic: F,
+}
+
+/// Rods side by side, each divided into the same number of elements.
+pub(super) struct AdjointBundle<F> {
+    pub(super) joints: Vec<AdjointJoint<F>>,
+    /// Two for each element, or one for all.
+    pub(super) halves: Vec<Half<F>>,
+    pub(super) root: Mat3<F>,
+    /// K (N m), weight per length (N/m) and length of an element (m).
+    pub(super) stiffness: Vec3<F>,
+    pub(super) weight: F,
+    pub(super) spacing: F,
+}
+
+/// The halves of an element, before and after its joint.
+fn both<F>(halves: &[Half<F>], element: usize) -> [&Half<F>; 2] {
+    match halves {
+        [same] => [same; 2],
+        halves => [&halves[2 * element], &halves[2 * element + 1]],
+    }
+}
+
+impl<F: Lanes> AdjointBundle<F> {
+    /// Solves `H a = (∂x/∂c)ᵀ ∂ℓ/∂x` of each rod and forms the products with the parameters.
+    #[inline(always)]
+    pub(super) fn solve(&mut self) -> (AdjointSums<F>, SweepResult<F>) {
+        self.shape();
+        let mut result = SweepResult::new(self.weight.splat(0.0));
+        let (force, torque, magnification) = self.backward(&mut result);
+        let (bent, elastic) = self.forward();
+        let load = self.products();
+        let curvature = result.decrease + result.decrease;
+        (AdjointSums { force, torque, magnification, load, bent, curvature, elastic }, result)
+    }
+
+    /// Frames and positions, from root to tip.
+    #[inline(always)]
+    fn shape(&mut self) {
+        let mut frame = self.root;
+        let mut position = Vec3::splat(self.weight.splat(0.0));
+        for i in 0..self.joints.len() {
+            let [first, second] = both(&self.halves, i);
+            let joint = &mut self.joints[i];
+            let table = RotationTable::of(joint.control);
+            joint.jacobian = table.jacobian(joint.control);
+            joint.start = frame;
+            joint.before = frame.mul_mat(first.turn);
+            joint.after = joint.before.mul_mat(table.rotation(joint.control));
+            joint.at = position + frame.mul_vec(first.advance);
+            joint.end = joint.at + joint.after.mul_vec(second.advance);
+            frame = joint.after.mul_mat(second.turn);
+            position = joint.end;
+        }
+    }
+
+    /// The Hessian eliminated from tip to root with the loss on its right-hand side. (L11)
+    #[inline(always)]
+    fn backward(&mut self, result: &mut SweepResult<F>) -> (Vec3<F>, Vec3<F>, F) {
+        let zero = self.weight.splat(0.0);
+        let stiffness = Stiffness::new(self.stiffness, zero);
+        let (half_length, half) = (zero.splat(0.5) * self.spacing, zero.splat(0.5));
+        let none = Vec3::splat(zero);
+        let (mut force, mut torque, mut magnification) = (none, none, zero);
+        let (mut slope, mut hessian, mut later) = (none, Sym3::splat(zero), none);
+        // First moment about the node and length beyond it.
+        let (mut moment, mut beyond) = (none, zero);
+        for i in (0..self.joints.len()).rev() {
+            let [first, second] = both(&self.halves, i);
+            let joint = &mut self.joints[i];
+            // 1. What later nodes ask of a shift and of a rotation about the root.
+            force = force + joint.by_position;
+            torque = torque + joint.end.cross(joint.by_position) + joint.by_frame;
+            magnification = magnification + joint.end.dot(joint.by_position);
+            (joint.force, joint.torque) = (force, torque);
+            // 2. First moments about the end, the joint and the start: that of a piece, and what is beyond it at its end.
+            joint.end_moment = moment;
+            let piece = second.advance.mul_add(beyond, second.moment);
+            joint.moment = moment + joint.after.mul_vec(piece);
+            beyond = beyond + half_length;
+            let piece = first.advance.mul_add(beyond, first.moment);
+            moment = joint.moment + joint.start.mul_vec(piece);
+            beyond = beyond + half_length;
+            // 3. The weight at the joint, and the joint eliminated. (L3) to (L6)
+            let up = Vec3::new(joint.after.x.z, joint.after.y.z, joint.after.z.z);
+            let weight = joint.arm.cross(up);
+            let bearing = slope + weight;
+            let value = ValueFunction {
+                slope: bearing,
+                exact_slope: bearing,
+                hessian: hessian
+                    .add_outer(joint.arm * half, up)
+                    .add_diagonal(Vec3::splat(-joint.arm.dot(up))),
+            };
+            let asked = joint.after.transpose_mul(torque - joint.at.cross(force));
+            let c = joint.control;
+            let eliminated = Elimination::linear(c, &stiffness, &value, later - asked, result);
+            joint.step = eliminated.step();
+            joint.gain = eliminated.feedback(eliminated.by_turn);
+            // 4. Into the frame after the joint before.
+            let frame = joint.after;
+            if i > 0 {
+                let before = self.joints[i - 1].after;
+                let back = Mat3 {
+                    x: before.transpose_mul(frame.x),
+                    y: before.transpose_mul(frame.y),
+                    z: before.transpose_mul(frame.z),
+                };
+                later = back.mul_vec(eliminated.reduce_slope(later, eliminated.by_turn));
+                slope = back.mul_vec(bearing);
+                let left = eliminated.reduce_hessian(value.hessian, eliminated.by_turn);
+                hessian = back.congruence(left);
+            }
+        }
+        (force, torque, magnification)
+    }
+
+    /// The adjoint a from root to tip, `−Σ a c` and `aᵀ K a`. (L12)
+    #[inline(always)]
+    fn forward(&mut self) -> (Vec3<F>, F) {
+        let zero = self.weight.splat(0.0);
+        let (mut turned, mut bent) = (Vec3::splat(zero), Vec3::splat(zero));
+        let mut elastic = zero;
+        for joint in &mut self.joints {
+            let seen = joint.after.transpose_mul(turned);
+            let a = Vec3::splat(zero) - (joint.step + joint.gain.transpose_mul(seen));
+            bent = bent - a.component_mul(joint.control);
+            elastic = elastic + a.dot(self.stiffness.component_mul(a));
+            joint.turned_alone = joint.after.mul_vec(joint.jacobian.mul_vec(a));
+            turned = turned + joint.turned_alone;
+            joint.turned = turned;
+        }
+        (bent, elastic)
+    }
+
+    /// Derivatives by natural strain, and by the load per length. (L13)
+    #[inline(always)]
+    fn products(&mut self) -> Vec3<F> {
+        let zero = self.weight.splat(0.0);
+        let (w, half_length) = (self.weight, zero.splat(0.5) * self.spacing);
+        // ∫ δr ds of what later joints move, and the length beyond.
+        let (mut moved, mut beyond) = (Vec3::splat(zero), zero);
+        // e_z × v.
+        let around = |v: Vec3<F>| Vec3::new(-v.y, v.x, zero);
+        for i in (0..self.joints.len()).rev() {
+            let [first, second] = both(&self.halves, i);
+            let earlier = match i {
+                0 => Vec3::splat(zero),
+                _ => self.joints[i - 1].turned,
+            };
+            let joint = &mut self.joints[i];
+            // A piece whose end is at `at` moves what is beyond: a rotation of that about the end, a shift of it, and the piece's
+            // own first moment; `about` is e_z × the rotation by the joints before the piece.
+            let by_piece = |piece: &Half<F>,
+                            frame: Mat3<F>,
+                            at: Vec3<F>,
+                            moment: Vec3<F>,
+                            moved: Vec3<F>,
+                            beyond: F,
+                            about: Vec3<F>| {
+                let rotation = joint.torque
+                    - at.cross(joint.force)
+                    - (moment.cross(about) - around(moved)) * w;
+                let shift = joint.force - about * (w * beyond);
+                let end = piece.turn.transpose_mul(frame.transpose_mul(rotation));
+                let by = piece.turn_by.transpose_mul(end)
+                    + piece.advance_by.transpose_mul(frame.transpose_mul(shift))
+                    - piece.moment_by.transpose_mul(frame.transpose_mul(about)) * w;
+                by * half_length
+            };
+            let about = around(joint.turned);
+            let after =
+                by_piece(second, joint.after, joint.end, joint.end_moment, moved, beyond, about);
+            moved = moved + joint.turned_alone.cross(joint.moment);
+            beyond = beyond + half_length;
+            let about = around(earlier);
+            let before = by_piece(first, joint.start, joint.at, joint.moment, moved, beyond, about);
+            beyond = beyond + half_length;
+            joint.by_strain = [before, after];
+        }
+        moved
+    }
+}

@@ -1,0 +1,315 @@
+//! Derivatives of many rods at rest, in lanes.
+
+use fearless_simd::{Level, dispatch};
+use glam::DVec3;
+
+use super::adjoint_sweep::{AdjointBundle, AdjointJoint, Half, HalfOfOne};
+use super::division::Joints;
+use super::lanes::Lanes;
+use super::linear::{Mat3, Vec3};
+use super::rotation::LARGEST_SQUARE;
+use super::solution::BatchSolution;
+use super::solver::{Batch, f64s, uniform};
+use crate::chain::Chain;
+use crate::derivatives::{
+    AT_REST, DerivativeError, LEAST_EIGENVALUE, ParameterGradient, Regularity, Sensitivity,
+    ShapeChange,
+};
+use crate::minimise::Problem;
+use crate::resolution::ElementKind;
+use crate::rod::Rod;
+use crate::strain::NaturalStrain;
+
+/// The derivatives of a loss by the parameters of one rod of a batch; units as in [`ParameterGradient`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RodGradient {
+    /// By the length.
+    pub length: f64,
+    /// By the stiffnesses E I1, E I2, μ J.
+    pub stiffness: DVec3,
+    /// By the load per length.
+    pub load: DVec3,
+    /// By the root's position.
+    pub root_position: DVec3,
+    /// By a rotation of the root's frame about the root.
+    pub root_rotation: DVec3,
+    /// At least the smallest eigenvalue of [`crate::Certificate::min_eigenvalue`], along what the loss asks of the shape: the
+    /// derivatives grow as one over it.
+    pub eigenvalue_bound: f64,
+    /// How far the derivatives can be relied on; where there are none, they are zero.
+    pub regularity: Result<Regularity, DerivativeError>,
+}
+
+/// The derivatives of a loss by the parameters of rods.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BatchGradient {
+    /// Elements of each rod.
+    pub elements: usize,
+    /// By the natural strain (rad/m) all along each element, those of a rod one after the other.
+    pub natural_strain: Vec<DVec3>,
+    /// One for each rod.
+    pub rods: Vec<RodGradient>,
+}
+
+impl RodGradient {
+    /// Of a rod that has no derivatives.
+    fn none(error: DerivativeError) -> Self {
+        Self {
+            length: 0.0,
+            stiffness: DVec3::ZERO,
+            load: DVec3::ZERO,
+            root_position: DVec3::ZERO,
+            root_rotation: DVec3::ZERO,
+            eigenvalue_bound: 0.0,
+            regularity: Err(error),
+        }
+    }
+}
+
+impl BatchGradient {
+    /// The gradient of one rod.
+    ///
+    /// # Panics
+    /// If there is no rod of that index.
+    #[must_use]
+    pub fn of(&self, index: usize) -> ParameterGradient {
+        let (n, rod) = (self.elements, &self.rods[index]);
+        ParameterGradient {
+            natural_strain: self.natural_strain[index * n..(index + 1) * n].to_vec(),
+            length: Some(rod.length),
+            stiffness: rod.stiffness,
+            load: rod.load,
+            root_position: rod.root_position,
+            root_rotation: rod.root_rotation,
+        }
+    }
+}
+
+/// Derivatives of a loss by the nodes of rods.
+#[derive(Clone, Copy)]
+struct Loss<'a> {
+    by_positions: &'a [DVec3],
+    /// Empty for none.
+    by_frames: &'a [DVec3],
+    /// Nodes of each rod.
+    nodes: usize,
+}
+
+impl Loss<'_> {
+    fn position(&self, rod: usize, node: usize) -> DVec3 {
+        self.by_positions[rod * self.nodes + node]
+    }
+
+    fn frame(&self, rod: usize, node: usize) -> DVec3 {
+        self.by_frames.get(rod * self.nodes + node).copied().unwrap_or(DVec3::ZERO)
+    }
+}
+
+impl Batch {
+    /// The derivatives of a loss of the nodes of rods at rest by the rods' parameters, computed on this thread: what
+    /// [`Sensitivity::vjp`] gives for each. docs/theory.md, "Rods in lanes", (L11) to (L13)
+    ///
+    /// `found` is what [`Self::solve`] gave for the same rods, best with a [`Self::tolerance`] of 1e-10: a rod farther from rest
+    /// than 1e-9 goes to [`Sensitivity`], which is slower. `by_positions` (loss per m) and `by_frames` (loss per rad, world; empty for
+    /// none) have one vector for each node, one more per rod than elements, those of a rod one after the other, the root first.
+    ///
+    /// ```
+    /// use frisure_rod::batch::Batch;
+    /// use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
+    /// use glam::DVec3;
+    ///
+    /// let rod = Rod::new(RodSpec {
+    ///     length: 0.1,
+    ///     section: Section::circular(35e-6)?,
+    ///     material: Material::new(3.9e9, 0.9e9, 1300.0)?,
+    ///     torsion: TorsionConstant::SaintVenant,
+    ///     natural: NaturalStrain::helix(0.01, 0.02)?,
+    ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
+    ///     gravity: 9.81,
+    /// })?;
+    /// let (rods, batch) = ([rod], Batch { tolerance: 1e-10, ..Batch::default() });
+    /// let found = batch.solve(&rods);
+    /// // The height of the tip grows with stiffness, and falls with weight.
+    /// let mut loss = vec![DVec3::ZERO; 16];
+    /// loss[15] = DVec3::Z;
+    /// let gradient = batch.vjp(&rods, &found, &loss, &[]).of(0);
+    /// let [by_density, by_youngs_modulus, _] = gradient.material(&rods[0]);
+    /// assert!(by_density < 0.0 && by_youngs_modulus > 0.0);
+    /// # Ok::<(), frisure_rod::InvalidQuantity>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If the rods are not as many as were solved, or there is not one vector for each node.
+    #[must_use]
+    pub fn vjp(
+        &self,
+        rods: &[Rod],
+        found: &BatchSolution,
+        by_positions: &[DVec3],
+        by_frames: &[DVec3],
+    ) -> BatchGradient {
+        let n = found.elements;
+        assert_eq!(rods.len(), found.rods.len(), "the rods that were solved");
+        assert_eq!(by_positions.len(), rods.len() * (n + 1), "one vector for each node");
+        let frames = by_frames.is_empty() || by_frames.len() == by_positions.len();
+        assert!(frames, "one vector for each node, or none");
+        let none = RodGradient::none(DerivativeError::NotAMinimum);
+        let mut gradient = BatchGradient {
+            elements: n,
+            natural_strain: vec![DVec3::ZERO; rods.len() * n],
+            rods: vec![none; rods.len()],
+        };
+        let loss = Loss { by_positions, by_frames, nodes: n + 1 };
+        dispatch!(Level::new(), simd => in_lanes(f64s(simd), rods, found, loss, &mut gradient));
+        gradient
+    }
+}
+
+#[inline(always)]
+fn in_lanes<F: Lanes>(
+    zero: F,
+    rods: &[Rod],
+    found: &BatchSolution,
+    loss: Loss<'_>,
+    gradient: &mut BatchGradient,
+) {
+    let n = found.elements;
+    let mut bundle = AdjointBundle {
+        joints: vec![AdjointJoint::zero(zero); n],
+        halves: vec![Half::zero(zero); if uniform(rods) { 1 } else { 2 * n }],
+        root: Mat3::splat(zero),
+        stiffness: Vec3::splat(zero.splat(1.0)),
+        weight: zero,
+        spacing: zero.splat(1.0),
+    };
+    let mut joints = Joints::default();
+    let mut strains = Vec::new();
+    for first in (0..rods.len()).step_by(F::LANES) {
+        let lanes = F::LANES.min(rods.len() - first);
+        // 1. Rods into lanes. A lane without a rod keeps the one before.
+        for (lane, rod) in (0..lanes).zip(first..) {
+            joints.divide(&rods[rod], n);
+            load(&mut bundle, lane, (&rods[rod], rod), &joints, found, loss);
+        }
+        // 2. The adjoint and its products.
+        let (sums, result) = bundle.solve();
+        // 3. Out of them.
+        for (lane, rod) in (0..lanes).zip(first..) {
+            let at_rest = result.gradient.get(lane).sqrt() <= AT_REST * rods[rod].moment_scale();
+            // NaN fails too.
+            let in_series = result.turned.get(lane) < LARGEST_SQUARE;
+            let natural_strain = &mut gradient.natural_strain[rod * n..(rod + 1) * n];
+            if !(at_rest && in_series && result.pivot.get(lane) > 0.0) {
+                gradient.rods[rod] = alone(&rods[rod], found, rod, loss, natural_strain);
+                continue;
+            }
+            half_strains(&rods[rod], n, &mut strains);
+            let mut by_scale = 0.0;
+            for (i, joint) in bundle.joints.iter().enumerate() {
+                let halves = joint.by_strain.map(|by| by.get(lane));
+                natural_strain[i] = halves[0] + halves[1];
+                by_scale += strains[2 * i].dot(halves[0]) + strains[2 * i + 1].dot(halves[1]);
+            }
+            // As [`Sensitivity::vjp`].
+            let weight = DVec3::NEG_Z * rods[rod].weight();
+            let load = sums.load.get(lane);
+            let turned = sums.torque.get(lane) + loss.frame(rod, 0);
+            let stretched = sums.magnification.get(lane) + by_scale + 3.0 * weight.dot(load);
+            let bound = sums.curvature.get(lane) / sums.elastic.get(lane);
+            // A loss that asks nothing has no adjoint: its derivatives are zero, whatever the stability.
+            let eigenvalue_bound = if bound.is_nan() { 1.0 } else { bound };
+            let regular = eigenvalue_bound >= LEAST_EIGENVALUE;
+            gradient.rods[rod] = RodGradient {
+                length: stretched / rods[rod].length(),
+                stiffness: sums.bent.get(lane) / bundle.spacing.get(lane),
+                load,
+                root_position: sums.force.get(lane) + loss.position(rod, 0),
+                root_rotation: turned - weight.cross(load),
+                eigenvalue_bound,
+                regularity: Ok(match regular {
+                    true => Regularity::Regular,
+                    false => Regularity::IllConditioned,
+                }),
+            };
+        }
+    }
+}
+
+/// The natural strain of both halves of each element (rad/m).
+fn half_strains(rod: &Rod, n: usize, strains: &mut Vec<DVec3>) {
+    strains.clear();
+    match rod.natural() {
+        NaturalStrain::Uniform(strain) => strains.resize(2 * n, *strain),
+        natural @ NaturalStrain::Varying(_) => {
+            strains.extend(natural.means(0.5 * rod.length() / n as f64).take(2 * n));
+        }
+    }
+}
+
+#[inline(always)]
+fn load<F: Lanes>(
+    bundle: &mut AdjointBundle<F>,
+    lane: usize,
+    (rod, index): (&Rod, usize),
+    joints: &Joints,
+    found: &BatchSolution,
+    loss: Loss<'_>,
+) {
+    let n = found.elements;
+    bundle.root.set(lane, &rod.root().frame());
+    bundle.stiffness.set(lane, joints.stiffness);
+    bundle.weight.set(lane, rod.weight());
+    bundle.spacing.set(lane, joints.h);
+    let half = 0.5 * joints.h;
+    match rod.natural() {
+        NaturalStrain::Uniform(strain) => {
+            let one = HalfOfOne::new(*strain, half);
+            bundle.halves.iter_mut().for_each(|place| place.set(lane, &one));
+        }
+        NaturalStrain::Varying(_) => {
+            for (place, strain) in bundle.halves.iter_mut().zip(rod.natural().means(half)) {
+                place.set(lane, &HalfOfOne::new(strain, half));
+            }
+        }
+    }
+    let controls = &found.controls[index * n..(index + 1) * n];
+    for (i, (joint, control)) in bundle.joints.iter_mut().zip(controls).enumerate() {
+        joint.arm.set(lane, joints.arms[i]);
+        joint.control.set(lane, *control);
+        joint.by_position.set(lane, loss.position(index, i + 1));
+        joint.by_frame.set(lane, loss.frame(index, i + 1));
+    }
+}
+
+/// A rod by itself: one that is not at rest to rounding, or has no derivatives.
+fn alone(
+    rod: &Rod,
+    found: &BatchSolution,
+    index: usize,
+    loss: Loss<'_>,
+    natural_strain: &mut [DVec3],
+) -> RodGradient {
+    let nodes = index * loss.nodes..(index + 1) * loss.nodes;
+    let by_nodes = ShapeChange {
+        positions: loss.by_positions[nodes.clone()].to_vec(),
+        rotations: loss.by_frames.get(nodes).map(<[DVec3]>::to_vec).unwrap_or_default(),
+    };
+    let chain = Chain::uniform(rod, ElementKind::Jointed, found.elements);
+    let at = Sensitivity::new(&Problem::new(&chain, &[]), found.shape(rod, index));
+    let both = at.and_then(|at| Ok((at.vjp(&by_nodes)?, at)));
+    match both {
+        Ok((by, at)) => {
+            natural_strain.copy_from_slice(&by.natural_strain);
+            RodGradient {
+                length: by.length.unwrap_or_default(),
+                stiffness: by.stiffness,
+                load: by.load,
+                root_position: by.root_position,
+                root_rotation: by.root_rotation,
+                eigenvalue_bound: at.min_eigenvalue(),
+                regularity: Ok(at.regularity()),
+            }
+        }
+        Err(error) => RodGradient::none(error),
+    }
+}
