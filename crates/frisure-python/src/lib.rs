@@ -39,6 +39,7 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scene::SceneText>()?;
     module.add_class::<hairstyle::Prediction>()?;
     module.add_class::<strands::StrandData>()?;
+    module.add_class::<rods::RodsAtRest>()?;
     module.add_function(wrap_pyfunction!(picture::render, module)?)?;
     module.add_function(wrap_pyfunction!(picture::render_png, module)?)?;
     module.add_function(wrap_pyfunction!(picture::save_picture, module)?)?;

@@ -13,6 +13,7 @@ _Progress = Callable[[str, float], object]
 __all__ = [
     "Memory",
     "Prediction",
+    "RodsAtRest",
     "SceneText",
     "StrandData",
     "__version__",
@@ -89,6 +90,22 @@ def render_png(prediction: Prediction, width: int, height: int) -> bytes: ...
 def save_picture(
     prediction: Prediction, path: str | os.PathLike[str], progress: _Progress | None
 ) -> None: ...
+@final
+class RodsAtRest:
+    def vjp(
+        self,
+        by_points: NDArray[np.float64],
+        by_frames: NDArray[np.float64] | None,
+        progress: _Progress | None,
+    ) -> tuple[
+        NDArray[np.float64],
+        list[NDArray[np.float64]],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        list[NDArray[np.float64]],
+        list[NDArray[np.bool_]],
+    ]: ...
+
 def settle_rods(
     count: int,
     fibres: Mapping[str, NDArray[np.float64]],
@@ -102,6 +119,7 @@ def settle_rods(
     NDArray[np.float64],
     NDArray[np.uint32],
     NDArray[np.float64] | None,
+    RodsAtRest | None,
 ]: ...
 def inverse_rods(
     points: NDArray[np.float64],

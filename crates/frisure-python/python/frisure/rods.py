@@ -15,22 +15,79 @@ weight; nothing else touches it. All arrays are float64 in SI units; z points up
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from frisure._frisure import inverse_rods, settle_rods
+from frisure._frisure import RodsAtRest, inverse_rods, settle_rods
 from frisure.errors import ArgumentError
 
-__all__ = ["Inverse", "Settled", "inverse", "settle"]
+__all__ = ["Gradient", "Inverse", "Settled", "inverse", "settle"]
 
 Float64 = NDArray[np.float64]
 Progress = Callable[[str, float], object]
 
 MAX_ELEMENTS = 10_000
 """Most elements of a rod."""
+
+EXACT = 1e-10
+"""Largest tolerance with derivatives: farther from rest they are slower to compute."""
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """The derivatives of a loss by what H rods are made of, one row for each rod, also where an argument of `settle` was
+    one for all: its derivative is then the sum of the rows. Units are those of the loss over those of the argument."""
+
+    length: Float64
+    """(H,); all elements become longer in proportion, each with its natural strain."""
+    diameter: Float64
+    axis_ratio: Float64
+    youngs_modulus: Float64
+    shear_modulus: Float64
+    density: Float64
+    gravity: Float64
+    """(H,)"""
+    curl_radius: Float64 | None
+    curl_pitch: Float64 | None
+    """(H,); None with `natural_strain`."""
+    natural_strain: Float64
+    """By the argument, (H, 3) or (H, K, 3); (H, 3) with a curl: by a strain that is the same all along."""
+    root: Float64
+    tangent: Float64
+    d1: Float64
+    """(H, 3)"""
+    root_rotation: Float64
+    """By a rotation of the clamp about the root (loss per rad, world), (H, 3)."""
+    half_strain: Float64
+    """By the natural strain of each half of an element, (H, 2 elements, 3)."""
+    eigenvalue_bound: Float64
+    """At least the smallest eigenvalue of the second variation over that of the elastic energy, 1 without loads and 0 where
+    stability is lost: the derivatives grow as one over it, (H,)."""
+    regular: NDArray[np.bool_]
+    """Whether that is at least 1e-3; nearer to a loss of stability derivatives are large and hold for tiny changes only, (H,)."""
+    exists: NDArray[np.bool_]
+    """Whether the shape is a minimum and has derivatives; where not, they are zero, (H,)."""
+
+    def __len__(self) -> int:
+        return len(self.length)
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """What the derivatives of settled rods need."""
+
+    at_rest: RodsAtRest
+    nodes: int
+    tangent: Float64
+    d1: Float64
+    curl_radius: Float64
+    curl_pitch: Float64
+    natural_strain: Float64 | None
+    knots: bool
+    """Whether the natural strain was given at knots, (H, K, 3)."""
 
 
 @dataclass(frozen=True)
@@ -49,9 +106,122 @@ class Settled:
     """Iterations of the solver, (H,)."""
     error: Float64 | None
     """Estimated largest error (m) of a node from the division into elements, (H,); None without `error=True`."""
+    _kept: _Kept | None = field(default=None, repr=False, compare=False)
 
     def __len__(self) -> int:
         return len(self.energy)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What derivatives need stays in this process.
+        return {**self.__dict__, "_kept": None}
+
+    def vjp(
+        self, by_points: ArrayLike, by_frames: ArrayLike | None = None, *, progress: Progress | None = None
+    ) -> Gradient:
+        """The derivatives of a loss by all arguments of `settle`, which was called with `derivatives=True`.
+
+        `by_points` are the derivatives of the loss by `points` (loss per m), (H, P, 3); `by_frames` those by rotations of the
+        frames at the nodes (loss per rad, world). They are exact to rounding: by the adjoint of the equilibrium, not by
+        differences.
+
+        >>> rest = settle(0.1, curl_radius=0.01, curl_pitch=0.02, derivatives=True)
+        >>> height_of_the_tip = np.zeros((1, 16, 3))
+        >>> height_of_the_tip[:, -1, 2] = 1
+        >>> bool(rest.vjp(height_of_the_tip).density[0] < 0)
+        True
+        """
+        kept = self._kept
+        if kept is None:
+            raise ArgumentError("there is nothing to differentiate; call settle(..., derivatives=True) in this process")
+        shape = (len(self), kept.nodes, 3)
+        loss = _loss("by_points", by_points, shape)
+        frames = None if by_frames is None else _loss("by_frames", by_frames, shape)
+        halves, vectors, material, section, numbers, flags = kept.at_rest.vjp(loss, frames, progress)
+        _, root, rotation, _ = vectors
+        length, gravity, bound = numbers
+        uniform = np.asarray(halves.sum(axis=1), dtype=np.float64)
+        strain, by_radius, by_pitch = uniform, None, None
+        if kept.natural_strain is None:
+            by_radius, by_pitch = _by_curl(uniform, kept.curl_radius, kept.curl_pitch)
+        elif kept.natural_strain.shape[1] > 1:
+            weights = _knot_weights(halves.shape[1], kept.natural_strain.shape[1])
+            strain = np.asarray(np.einsum("hnc,nk->hkc", halves, weights), dtype=np.float64)
+        elif kept.knots:
+            strain = uniform[:, np.newaxis]
+        tangent, d1 = _by_clamp(rotation, kept.tangent, kept.d1)
+        return Gradient(
+            length=length,
+            diameter=section[:, 0],
+            axis_ratio=section[:, 1],
+            youngs_modulus=material[:, 0],
+            shear_modulus=material[:, 1],
+            density=material[:, 2],
+            gravity=gravity,
+            curl_radius=by_radius,
+            curl_pitch=by_pitch,
+            natural_strain=strain,
+            root=root,
+            tangent=tangent,
+            d1=d1,
+            root_rotation=rotation,
+            half_strain=halves,
+            eigenvalue_bound=bound,
+            regular=flags[0],
+            exists=flags[1],
+        )
+
+
+def _loss(name: str, value: ArrayLike, shape: tuple[int, int, int]) -> Float64:
+    array = _array(name, value)
+    if array.shape != shape:
+        raise ArgumentError(f"{name} has the shape {array.shape}; it must be {shape}, as `points`")
+    if not np.isfinite(array).all():
+        index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        raise ArgumentError(f"{name}{list(index)} is {array[index]}; it must be finite")
+    return array
+
+
+def _by_curl(by_strain: Float64, radius: Float64, pitch: Float64) -> tuple[Float64, Float64]:
+    """The derivatives by radius and pitch of a helix, (H,), from those by its strain, (H, 3)."""
+    # kappa1 = R/(R² + p²) and tau = p/(R² + p²) with p = pitch/2π; infinitely far away nothing changes.
+    p = pitch / (2 * np.pi)
+    finite = np.isfinite(radius)
+    r = np.where(finite, radius, 1.0)
+    square = (r**2 + p**2) ** 2
+    away, twice = p**2 - r**2, 2 * r * p
+    by_radius = np.where(finite, (by_strain[:, 0] * away - by_strain[:, 2] * twice) / square, 0.0)
+    by_p = np.where(finite, (-by_strain[:, 0] * twice - by_strain[:, 2] * away) / square, 0.0)
+    return by_radius, by_p / (2 * np.pi)
+
+
+def _knot_weights(halves: int, knots: int) -> Float64:
+    """How much the mean natural strain of each half of an element has of each knot, (halves, knots)."""
+    # Linear between knots that divide the length evenly: integrals of the hat functions up to each end, in parts of the length.
+    x = np.linspace(0, 1, halves + 1) * (knots - 1)
+    segment = np.minimum(x.astype(int), knots - 2)
+    t = x - segment
+    index = np.arange(knots)
+    whole = np.where(index < segment[:, np.newaxis], 0.5, 0.0)
+    whole[:, 1:] += np.where(index[1:] <= segment[:, np.newaxis], 0.5, 0.0)
+    rows = np.arange(halves + 1)
+    whole[rows, segment] += t - t**2 / 2
+    whole[rows, segment + 1] += t**2 / 2
+    return np.asarray(np.diff(whole, axis=0) * halves / (knots - 1), dtype=np.float64)
+
+
+def _by_clamp(by_rotation: Float64, tangent: Float64, d1: Float64) -> tuple[Float64, Float64]:
+    """The derivatives by the tangent and by d1, (H, 3), from those by a rotation of the frame that they make."""
+    size = np.linalg.norm(tangent, axis=1, keepdims=True)
+    t = tangent / size
+    along = (d1 * t).sum(axis=1, keepdims=True)
+    side = d1 - along * t
+    width = np.linalg.norm(side, axis=1, keepdims=True)
+    e1 = side / width
+    e2 = np.cross(t, e1)
+    about = [(by_rotation * axis).sum(axis=1, keepdims=True) for axis in (e1, e2, t)]
+    # The tangent turns the frame about e1 and e2; d1, and the tangent by what of it d1 has, about the tangent.
+    by_tangent = (-about[0] * e2 + about[1] * e1 - about[2] * along / width * e2) / size
+    return by_tangent, np.broadcast_to(about[2] / width * e2, by_tangent.shape).copy()
 
 
 @dataclass(frozen=True)
@@ -162,6 +332,7 @@ def settle(
     precision: Literal["double", "single"] = "double",
     points: bool = True,
     error: bool = False,
+    derivatives: bool = False,
     progress: Progress | None = None,
 ) -> Settled:
     """The shapes in which H rods hang.
@@ -181,6 +352,7 @@ def settle(
     - `tolerance`: the `gradient_norm` at which a rod is at rest. `precision="single"` iterates in single precision first,
       to the same result within the tolerance.
     - `points=False` leaves out the nodes; `error=True` estimates their error from half as many elements.
+    - `derivatives=True` keeps the rods for `Settled.vjp`, and brings them to rest to 1e-10 at least.
 
     Raises `ArgumentError` with the argument and the index of the first rod that cannot be made.
     """
@@ -207,12 +379,25 @@ def settle(
         raise ArgumentError(f'precision is {precision!r}; it must be "double" or "single"')
     options = {
         "elements": int(elements),
-        "tolerance": float(tolerance),
+        "tolerance": min(float(tolerance), EXACT) if derivatives else float(tolerance),
         "single": precision == "single",
         "points": bool(points),
         "error": bool(error),
+        "derivatives": bool(derivatives),
     }
-    return Settled(*settle_rods(count, fibres, clamped, options, progress))
+    arrays = settle_rods(count, fibres, clamped, options, progress)
+    rods = arrays[-1]
+    kept = rods and _Kept(
+        rods,
+        elements + 1,
+        clamped["tangent"],
+        clamped["d1"],
+        clamped["curl_radius"],
+        clamped["curl_pitch"],
+        clamped["natural_strain"],
+        knots=np.ndim(natural_strain if natural_strain is not None else 0) == 3,
+    )
+    return Settled(*arrays[:-1], kept)
 
 
 def inverse(

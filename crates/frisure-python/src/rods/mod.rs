@@ -1,8 +1,10 @@
 //! Many single rods at once, as arrays; `python/frisure/rods.py` has the shapes and units.
 
 mod fibres;
+mod gradient;
 mod inverse;
 mod settle;
 
+pub(crate) use gradient::RodsAtRest;
 pub(crate) use inverse::inverse_rods;
 pub(crate) use settle::settle_rods;

@@ -1,7 +1,7 @@
 //! The equilibria of many rods, by the solver in SIMD lanes.
 
 use frisure::progress::{Cancelled, Progress, StageCounter};
-use frisure::rod::batch::{Batch, Precision};
+use frisure::rod::batch::{Batch, BatchSolution, Precision};
 use frisure::rod::{Rod, Stability};
 use frisure_engine::Error;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
@@ -10,6 +10,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterato
 use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
 use super::fibres::{Clamped, Fibres};
+use super::gradient::RodsAtRest;
 use crate::errors::raise;
 use crate::work;
 
@@ -32,6 +33,8 @@ pub(crate) struct Options {
     points: bool,
     /// Whether the error of the nodes is estimated, for which the rods are solved with half as many elements, too.
     error: bool,
+    /// Whether the rods are kept, for their derivatives.
+    derivatives: bool,
 }
 
 /// Rods at rest: one value for each, and nodes and their coordinates one rod after the other.
@@ -43,6 +46,8 @@ struct Rest {
     gradient: Vec<f64>,
     iterations: Vec<u32>,
     error: Vec<f64>,
+    /// The solutions of the chunks, for derivatives.
+    found: Vec<Option<BatchSolution>>,
 }
 
 /// Where the results of a chunk of rods go.
@@ -53,6 +58,7 @@ struct ChunkOfRest<'a> {
     gradient: &'a mut [f64],
     iterations: &'a mut [u32],
     error: &'a mut [f64],
+    found: &'a mut Option<BatchSolution>,
 }
 
 impl Options {
@@ -66,8 +72,10 @@ impl Options {
             gradient: vec![0.0; count],
             iterations: vec![0; count],
             error: vec![0.0; if self.error { count } else { 0 }],
+            found: Vec::new(),
         };
-        let chunk = (CHUNK_ELEMENTS / self.elements).clamp(CHUNK.0, CHUNK.1);
+        let chunk = self.chunk();
+        rest.found.resize_with(count.div_ceil(chunk), || None);
         let stage = StageCounter::new(progress, "rods", count.div_ceil(chunk));
         rods.par_chunks(chunk).zip(rest.chunks(chunk, values)).try_for_each(|(rods, rest)| {
             stage.check()?;
@@ -78,7 +86,17 @@ impl Options {
         Ok(rest)
     }
 
-    fn solve_chunk(&self, rods: &[Rod], rest: ChunkOfRest<'_>) {
+    /// Rods that one thread solves at a time.
+    fn chunk(&self) -> usize {
+        (CHUNK_ELEMENTS / self.elements).clamp(CHUNK.0, CHUNK.1)
+    }
+
+    fn solve_chunk(&self, rods: &[Rod], mut rest: ChunkOfRest<'_>) {
+        let found = self.rest_chunk(rods, &mut rest);
+        *rest.found = self.derivatives.then_some(found);
+    }
+
+    fn rest_chunk(&self, rods: &[Rod], rest: &mut ChunkOfRest<'_>) -> BatchSolution {
         let batch = Batch {
             elements: self.elements,
             tolerance: self.tolerance,
@@ -93,7 +111,7 @@ impl Options {
             rest.iterations[i] = u32::try_from(rod.iterations).unwrap_or(u32::MAX);
         }
         if rest.points.is_empty() && rest.error.is_empty() {
-            return;
+            return found;
         }
         let coarse = (!rest.error.is_empty())
             .then(|| Batch { elements: self.elements / 2, ..batch }.solve(rods));
@@ -113,6 +131,7 @@ impl Options {
                 rest.error[i] = gaps.map(|(a, b)| a.distance(*b) / 3.0).fold(0.0, f64::max);
             }
         }
+        found
     }
 }
 
@@ -128,14 +147,16 @@ impl Rest {
         let error = split(&mut self.error, chunk, chunks);
         let numbers = self.energy.par_chunks_mut(chunk).zip(self.gradient.par_chunks_mut(chunk));
         let counts = self.stable.par_chunks_mut(chunk).zip(self.iterations.par_chunks_mut(chunk));
-        (points.into_par_iter().zip(error)).zip(numbers.zip(counts)).map(
-            |((points, error), ((energy, gradient), (stable, iterations)))| ChunkOfRest {
+        let lists = points.into_par_iter().zip(error).zip(&mut self.found);
+        lists.zip(numbers.zip(counts)).map(
+            |(((points, error), found), ((energy, gradient), (stable, iterations)))| ChunkOfRest {
                 points,
                 energy,
                 stable,
                 gradient,
                 iterations,
                 error,
+                found,
             },
         )
     }
@@ -149,8 +170,8 @@ fn split(values: &mut [f64], chunk: usize, chunks: usize) -> Vec<&mut [f64]> {
     values.chunks_mut(chunk).collect()
 }
 
-/// Rods at rest as arrays: nodes (H, P, 3) if they are wanted, energy, stable, gradient, iterations, and the error if it
-/// is wanted.
+/// Rods at rest as arrays: nodes (H, P, 3) if they are wanted, energy, stable, gradient, iterations, the error if it is wanted, and
+/// the rods if derivatives are.
 type Arrays<'py> = (
     Option<Bound<'py, PyArray3<f64>>>,
     Bound<'py, PyArray1<f64>>,
@@ -158,6 +179,7 @@ type Arrays<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u32>>,
     Option<Bound<'py, PyArray1<f64>>>,
+    Option<Bound<'py, RodsAtRest>>,
 );
 
 /// The equilibria of `count` rods.
@@ -176,7 +198,13 @@ pub(crate) fn settle_rods<'py>(
     let rods = rods.map_err(|e| raise(py, &e.into()))?;
     let shape = [count, options.elements + 1, 3];
     let (points, error) = (options.points, options.error);
-    let rest = work::run(py, progress, move |p| options.solve(&rods, p))?;
+    let chunk = options.chunk();
+    let (rods, rest) = work::run(py, progress, move |p| {
+        let rest = options.solve(&rods, p)?;
+        Ok((rods, rest))
+    })?;
+    let found: Option<Vec<BatchSolution>> = rest.found.into_iter().collect();
+    let at_rest = found.map(|found| Bound::new(py, RodsAtRest::new(rods, chunk, found)));
     let nodes = PyArray1::from_vec(py, rest.points);
     Ok((
         points.then(|| nodes.reshape(shape)).transpose()?,
@@ -185,5 +213,6 @@ pub(crate) fn settle_rods<'py>(
         PyArray1::from_vec(py, rest.gradient),
         PyArray1::from_vec(py, rest.iterations),
         error.then(|| PyArray1::from_vec(py, rest.error)),
+        at_rest.transpose()?,
     ))
 }

@@ -45,8 +45,8 @@ pub struct RodGradient {
 pub struct BatchGradient {
     /// Elements of each rod.
     pub elements: usize,
-    /// By the natural strain (rad/m) all along each element, those of a rod one after the other.
-    pub natural_strain: Vec<DVec3>,
+    /// By the natural strain (rad/m) of both halves of each element, those of a rod one after the other.
+    pub natural_strain: Vec<[DVec3; 2]>,
     /// One for each rod.
     pub rods: Vec<RodGradient>,
 }
@@ -75,7 +75,10 @@ impl BatchGradient {
     pub fn of(&self, index: usize) -> ParameterGradient {
         let (n, rod) = (self.elements, &self.rods[index]);
         ParameterGradient {
-            natural_strain: self.natural_strain[index * n..(index + 1) * n].to_vec(),
+            natural_strain: self.natural_strain[index * n..(index + 1) * n]
+                .iter()
+                .map(|[before, after]| *before + *after)
+                .collect(),
             length: Some(rod.length),
             stiffness: rod.stiffness,
             load: rod.load,
@@ -156,7 +159,7 @@ impl Batch {
         let none = RodGradient::none(DerivativeError::NotAMinimum);
         let mut gradient = BatchGradient {
             elements: n,
-            natural_strain: vec![DVec3::ZERO; rods.len() * n],
+            natural_strain: vec![[DVec3::ZERO; 2]; rods.len() * n],
             rods: vec![none; rods.len()],
         };
         let loss = Loss { by_positions, by_frames, nodes: n + 1 };
@@ -207,7 +210,7 @@ fn in_lanes<F: Lanes>(
             let mut by_scale = 0.0;
             for (i, joint) in bundle.joints.iter().enumerate() {
                 let halves = joint.by_strain.map(|by| by.get(lane));
-                natural_strain[i] = halves[0] + halves[1];
+                natural_strain[i] = halves;
                 by_scale += strains[2 * i].dot(halves[0]) + strains[2 * i + 1].dot(halves[1]);
             }
             // As [`Sensitivity::vjp`].
@@ -287,7 +290,7 @@ fn alone(
     found: &BatchSolution,
     index: usize,
     loss: Loss<'_>,
-    natural_strain: &mut [DVec3],
+    natural_strain: &mut [[DVec3; 2]],
 ) -> RodGradient {
     let nodes = index * loss.nodes..(index + 1) * loss.nodes;
     let by_nodes = ShapeChange {
@@ -296,10 +299,10 @@ fn alone(
     };
     let chain = Chain::uniform(rod, ElementKind::Jointed, found.elements);
     let at = Sensitivity::new(&Problem::new(&chain, &[]), found.shape(rod, index));
-    let both = at.and_then(|at| Ok((at.vjp(&by_nodes)?, at)));
+    let both = at.and_then(|at| Ok((at.vjp_with_halves(&by_nodes)?, at)));
     match both {
-        Ok((by, at)) => {
-            natural_strain.copy_from_slice(&by.natural_strain);
+        Ok(((by, halves), at)) => {
+            natural_strain.copy_from_slice(&halves);
             RodGradient {
                 length: by.length.unwrap_or_default(),
                 stiffness: by.stiffness,

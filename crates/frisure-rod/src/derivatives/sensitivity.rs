@@ -174,6 +174,15 @@ impl Sensitivity {
     /// # Errors
     /// [`DerivativeError::Nodes`], if there is not one vector for each node.
     pub fn vjp(&self, by_nodes: &ShapeChange) -> Result<ParameterGradient, DerivativeError> {
+        self.vjp_with_halves(by_nodes).map(|(gradient, _)| gradient)
+    }
+
+    /// [`Self::vjp`], and the derivatives by the natural strain of both halves of each jointed element; of helix elements there are
+    /// none.
+    pub(crate) fn vjp_with_halves(
+        &self,
+        by_nodes: &ShapeChange,
+    ) -> Result<(ParameterGradient, Vec<[DVec3; 2]>), DerivativeError> {
         let positions = self.one_per_node(&by_nodes.positions)?;
         let none = vec![DVec3::ZERO; positions.len()];
         let rotations = match &by_nodes.rotations {
@@ -206,14 +215,15 @@ impl Sensitivity {
         let larger: f64 = arms.zip(positions).map(|(arm, g)| arm.dot(*g)).sum();
         let stretched =
             larger + self.by_scale(&natural_strain, halves.as_deref()) + 3.0 * self.load.dot(load);
-        Ok(ParameterGradient {
+        let gradient = ParameterGradient {
             natural_strain,
             length: self.alone.then_some(stretched / self.length),
             stiffness,
             load,
             root_position: positions.iter().sum(),
             root_rotation: turned - self.load.cross(load),
-        })
+        };
+        Ok((gradient, halves.unwrap_or_default()))
     }
 
     /// How a change of the parameters moves each node, to first order. docs/theory.md (D1)

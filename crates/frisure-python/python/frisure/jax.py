@@ -1,0 +1,89 @@
+"""Rods at rest for JAX: `settle` with gradients, also inside `jax.jit`. Needs `jax`, which frisure does not install.
+
+>>> import jax
+>>> import frisure.jax
+>>> def height_of_the_tip(radius):
+...     return frisure.jax.settle(0.15, curl_radius=radius, curl_pitch=1e-2, elements=30)[0, -1, 2]
+>>> bool(jax.grad(height_of_the_tip)(5e-3) > 0)          # a wider curl is shorter
+True
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import jax  # type: ignore[import-not-found, unused-ignore]
+import jax.numpy as jnp  # type: ignore[import-not-found, unused-ignore]
+import numpy as np
+
+from frisure import _autodiff
+
+__all__ = ["settle"]
+
+_Options = tuple[tuple[str, Any], ...]
+
+
+def _count(arguments: dict[str, jax.Array]) -> int:
+    """The number of rods H: the rows of arguments that have one for each."""
+    rows = [1]
+    for name, value in arguments.items():
+        single = 1 if name in ("root", "tangent", "d1", "natural_strain") else 0
+        if value.ndim > single:
+            rows.append(value.shape[0])
+    return max(rows)
+
+
+def _like(shape: tuple[int, ...], kind: Any) -> Any:
+    return jax.ShapeDtypeStruct(shape, kind)  # type: ignore[no-untyped-call, unused-ignore]
+
+
+@partial(jax.custom_vjp, nondiff_argnums=(0,))  # type: ignore[untyped-decorator, unused-ignore]
+def _points(options: _Options, arguments: dict[str, jax.Array]) -> jax.Array:
+    kind = jnp.result_type(*arguments.values())
+    shape = (_count(arguments), dict(options).get("elements", 15) + 1, 3)
+
+    def host(given: dict[str, Any]) -> Any:
+        settled = _autodiff.settle(given, dict(options), derivatives=False)
+        return _autodiff.points(settled).astype(kind)
+
+    found: jax.Array = jax.pure_callback(host, _like(shape, kind), arguments, vmap_method="sequential")
+    return found
+
+
+def _forward(options: _Options, arguments: dict[str, jax.Array]) -> tuple[jax.Array, dict[str, jax.Array]]:
+    return _points(options, arguments), arguments
+
+
+def _backward(
+    options: _Options, arguments: dict[str, jax.Array], by_points: jax.Array
+) -> tuple[dict[str, jax.Array]]:
+    shapes = {name: _like(value.shape, value.dtype) for name, value in arguments.items()}
+
+    def host(given: dict[str, Any], loss: Any) -> Any:
+        # The equilibria are computed again: JAX keeps arrays alone from one pass to the other.
+        settled = _autodiff.settle(given, dict(options), derivatives=True)
+        gradient = settled.vjp(np.asarray(loss, dtype=np.float64))
+        return {
+            name: _autodiff.derivative(gradient, name, shape.shape).astype(shape.dtype)
+            for name, shape in shapes.items()
+        }
+
+    found = jax.pure_callback(host, shapes, arguments, by_points, vmap_method="sequential")
+    return (found,)
+
+
+_points.defvjp(_forward, _backward)
+
+
+def settle(length: Any, **keywords: Any) -> jax.Array:
+    """The nodes of H rods at rest (m), (H, P, 3), with the arguments of `frisure.rods.settle`: `length`, `diameter`, `axis_ratio`,
+    `youngs_modulus`, `shear_modulus`, `density`, `gravity`, `curl_radius`, `curl_pitch`, `natural_strain`, `root`, `tangent`, `d1`
+    as arrays or numbers, and `elements` and `precision`.
+
+    Gradients go to all of them, once (no second derivatives). The computation is on the processor, in float64; the points have the
+    type of the arguments, float32 unless `jax_enable_x64` is set. Rods without derivatives (`rods.Gradient.exists`) get zeros.
+    """
+    arguments, options = _autodiff.split({"length": length, **keywords})
+    arrays = {name: jnp.asarray(value, dtype=float) for name, value in arguments.items()}
+    return _points(tuple(sorted(options.items())), arrays)

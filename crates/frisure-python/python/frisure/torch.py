@@ -1,0 +1,67 @@
+"""Rods at rest for PyTorch: `settle` with gradients. Needs `torch`, which frisure does not install.
+
+>>> import torch
+>>> import frisure.torch
+>>> radius = torch.tensor(5e-3, dtype=torch.float64, requires_grad=True)
+>>> points = frisure.torch.settle(0.15, curl_radius=radius, curl_pitch=1e-2, elements=30)
+>>> points[0, -1, 2].backward()               # the height of the tip
+>>> bool(radius.grad > 0)                     # a wider curl is shorter
+True
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import torch  # type: ignore[import-not-found, unused-ignore]
+
+from frisure import _autodiff, rods
+
+__all__ = ["settle"]
+
+
+class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
+    @staticmethod
+    def forward(
+        ctx: Any, keywords: dict[str, Any], options: dict[str, Any], names: list[str], *tensors: torch.Tensor
+    ) -> torch.Tensor:
+        arrays = {name: tensor.detach().cpu().numpy() for name, tensor in zip(names, tensors, strict=True)}
+        settled = _autodiff.settle(keywords | arrays, options, derivatives=any(ctx.needs_input_grad))
+        ctx.settled, ctx.names = settled, names
+        ctx.kinds = [(tensor.shape, tensor.dtype, tensor.device) for tensor in tensors]
+        kind = torch.result_type(tensors[0], tensors[-1]) if tensors else torch.float64
+        for tensor in tensors:
+            kind = torch.promote_types(kind, tensor.dtype)
+        device = tensors[0].device if tensors else None
+        return torch.as_tensor(_autodiff.points(settled), dtype=kind, device=device)
+
+    @staticmethod
+    @torch.autograd.function.once_differentiable  # type: ignore[untyped-decorator, unused-ignore]
+    def backward(ctx: Any, by_points: torch.Tensor) -> tuple[Any, ...]:
+        settled: rods.Settled = ctx.settled
+        gradient = settled.vjp(by_points.detach().cpu().numpy().astype(np.float64))
+        found: list[torch.Tensor | None] = []
+        for index, (name, (shape, dtype, device)) in enumerate(zip(ctx.names, ctx.kinds, strict=True)):
+            if ctx.needs_input_grad[3 + index]:
+                by = _autodiff.derivative(gradient, name, tuple(shape))
+                found.append(torch.as_tensor(by, dtype=dtype, device=device))
+            else:
+                found.append(None)
+        return (None, None, None, *found)
+
+
+def settle(length: Any, **keywords: Any) -> torch.Tensor:
+    """The nodes of H rods at rest (m), (H, P, 3), with the arguments of `frisure.rods.settle`: `length`, `diameter`, `axis_ratio`,
+    `youngs_modulus`, `shear_modulus`, `density`, `gravity`, `curl_radius`, `curl_pitch`, `natural_strain`, `root`, `tangent`, `d1`
+    as tensors, arrays or numbers, and `elements` and `precision`.
+
+    Gradients go to all tensors that require them, once (no second derivatives). The computation is on the processor, in float64;
+    the points have the tensors' widest type, and are on the device of the first. Rods without derivatives (`rods.Gradient.exists`)
+    get zeros.
+    """
+    arguments, options = _autodiff.split({"length": length, **keywords})
+    tensors = {name: value for name, value in arguments.items() if isinstance(value, torch.Tensor)}
+    others = {name: value for name, value in arguments.items() if name not in tensors}
+    found: torch.Tensor = _Settle.apply(others, options, list(tensors), *tensors.values())  # type: ignore[no-untyped-call, unused-ignore]
+    return found

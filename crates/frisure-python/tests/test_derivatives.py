@@ -1,0 +1,125 @@
+"""Derivatives of rods at rest, against differences of the solver."""
+
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import frisure
+import numpy as np
+import pytest
+from frisure import rods
+
+ANGLE = np.linspace(0, 2 * np.pi, 7, endpoint=False)
+RODS: dict[str, Any] = {
+    "length": np.linspace(0.05, 0.12, 7),
+    "diameter": np.linspace(60e-6, 90e-6, 7),
+    "axis_ratio": 1.4,
+    "youngs_modulus": 3.9e9,
+    "shear_modulus": np.full(7, 0.9e9),
+    "density": 1300.0,
+    "gravity": 9.81,
+    "root": np.random.default_rng(1).normal(size=(7, 3)) * 0.01,
+    "tangent": np.stack([2 * np.cos(ANGLE), 2 * np.sin(ANGLE), 0.3 + 0 * ANGLE], axis=1),
+    "d1": np.array([0.1, 0.2, 1.5]),
+}
+CURL: dict[str, Any] = {"curl_radius": np.linspace(5e-3, 2e-2, 7), "curl_pitch": 1.5e-2}
+KNOTS: dict[str, Any] = {"natural_strain": np.random.default_rng(2).normal(size=(7, 4, 3)) * 30 + [60.0, 0.0, 20.0]}
+OPTIONS: dict[str, Any] = {"elements": 20, "tolerance": 1e-12}
+
+
+def loss_of(points: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """A loss of each rod, and its derivative by the points."""
+    return (points * WEIGHTS).sum(axis=(1, 2))
+
+
+WEIGHTS = np.random.default_rng(3).normal(size=(7, 21, 3))
+
+
+def difference(arguments: dict[str, Any], name: str, index: tuple[int, ...]) -> np.ndarray[Any, Any]:
+    """By one number of each rod, (7,)."""
+    value = np.asarray(arguments[name], dtype=np.float64)
+    size = np.abs(value).max() if name not in ("root", "natural_strain") else {"root": 0.01, "natural_strain": 30.0}[name]
+    step = 1e-4 * size
+    values = []
+    for k in (-2, -1, 1, 2):
+        changed = value.copy()
+        changed[(..., *index)] += k * step
+        points = rods.settle(**{**arguments, name: changed}, **OPTIONS).points
+        assert points is not None
+        values.append(loss_of(points))
+    return np.asarray((values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * step))
+
+
+@pytest.mark.parametrize("natural", [CURL, KNOTS, {"natural_strain": np.array([50.0, 5.0, 20.0])}])
+def test_each_argument_has_the_derivative_that_differences_have(natural: dict[str, Any]) -> None:
+    arguments = RODS | natural
+    rest = rods.settle(**arguments, **OPTIONS, derivatives=True)
+    gradient = rest.vjp(WEIGHTS)
+    assert gradient.exists.all() and gradient.regular.all() and len(gradient) == 7
+    for name, value in arguments.items():
+        exact = getattr(gradient, name)
+        for index in np.ndindex(exact.shape[1:]):
+            found = difference(arguments, name, index)
+            size = np.abs(exact).max()
+            assert np.allclose(exact[(slice(None), *index)], found, rtol=1e-5, atol=1e-6 * size), (name, index)
+        assert np.ndim(value) <= exact.ndim
+    assert (gradient.curl_radius is None) == ("natural_strain" in natural)
+
+
+def test_frames_count_too() -> None:
+    arguments = RODS | CURL
+    rest = rods.settle(**arguments, **OPTIONS, derivatives=True)
+    zero = np.zeros((7, 21, 3))
+    # A turn of the clamp about the root turns all frames: their sum is its derivative, but for the weight.
+    frames = zero.copy()
+    frames[:, 0] = [1.0, 2.0, 3.0]
+    gradient = rest.vjp(zero, frames)
+    assert np.allclose(gradient.root_rotation, [1.0, 2.0, 3.0])
+    assert np.abs(gradient.half_strain).max() == 0.0
+    frames[:, -1] = [1.0, 2.0, 3.0]
+    assert np.abs(rest.vjp(zero, frames).half_strain).max() > 0.0
+
+
+def test_straight_hair_and_saddles_say_so() -> None:
+    gradient = rods.settle(0.05, derivatives=True).vjp(np.ones((1, 16, 3)))
+    assert gradient.curl_radius is not None and gradient.curl_radius[0] == 0.0
+    # Upright, at 0.9999 of the load at which it falls over (Greenhill: 7.8373).
+    fibre = 3e9 * np.pi * (40e-6) ** 4 / 4 / (1300 * 9.81 * np.pi * (40e-6) ** 2)
+    length = (0.9999 * 7.8373 * fibre) ** (1 / 3)
+    upright = {"diameter": 80e-6, "youngs_modulus": 3e9, "shear_modulus": 1e9, "tangent": [0, 0, 1], "elements": 24}
+    gradient = rods.settle([0.5 * length, length], **upright, derivatives=True).vjp(np.ones((2, 25, 3)))
+    assert gradient.exists.all()
+    assert gradient.regular.tolist() == [True, False]
+
+
+def test_what_cannot_be_differentiated_is_told() -> None:
+    rest = rods.settle(0.1)
+    with pytest.raises(frisure.ArgumentError, match="derivatives=True"):
+        rest.vjp(np.zeros((1, 16, 3)))
+    rest = rods.settle(0.1, derivatives=True)
+    with pytest.raises(frisure.ArgumentError, match="by_points has the shape"):
+        rest.vjp(np.zeros((1, 15, 3)))
+    with pytest.raises(frisure.ArgumentError, match="by_frames has the shape"):
+        rest.vjp(np.zeros((1, 16, 3)), np.zeros((2, 16, 3)))
+    bad = np.zeros((1, 16, 3))
+    bad[0, 3, 1] = np.nan
+    with pytest.raises(frisure.ArgumentError, match=r"by_points\[0, 3, 1\] is nan"):
+        rest.vjp(bad)
+    again = pickle.loads(pickle.dumps(rest))
+    assert np.array_equal(again.points, rest.points)
+    with pytest.raises(frisure.ArgumentError, match="in this process"):
+        again.vjp(np.zeros((1, 16, 3)))
+    strided = np.zeros((1, 32, 6))[:, ::2, ::2]
+    assert rest.vjp(strided).length.shape == (1,)
+    assert rest.vjp(strided.astype(np.float32)).length[0] == 0.0
+
+
+def test_the_result_does_not_depend_on_those_beside_it() -> None:
+    length = np.linspace(0.05, 0.2, 1500)
+    weights = np.random.default_rng(4).normal(size=(1500, 16, 3))
+    curl: dict[str, Any] = {"curl_radius": 0.01, "curl_pitch": 0.01, "derivatives": True}
+    together = rods.settle(length, **curl).vjp(weights)
+    alone = rods.settle(length[1300], **curl).vjp(weights[1300:1301])
+    assert together.length[1300] == alone.length[0]
+    assert np.array_equal(together.half_strain[1300], alone.half_strain[0])
