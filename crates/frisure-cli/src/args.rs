@@ -578,6 +578,9 @@ fn turns(text: &str) -> Result<f64, String> {
     positive(&STRAIN, text)
 }
 
+/// Most threads. Chosen: more than any machine that computes hair has processors.
+pub(crate) const MAX_THREADS: usize = 1024;
+
 fn curl_index(text: &str) -> Result<f64, String> {
     positive(&RATIO, text)
         .and_then(|x| if x > 1.0 { Ok(x) } else { Err("it must be more than 1".into()) })
@@ -590,7 +593,7 @@ fn positive(dimension: &Dimension, text: &str) -> Result<f64, String> {
 }
 
 fn threads(text: &str) -> Result<usize, String> {
-    number(text, 1, 1024)
+    number(text, 1, MAX_THREADS)
 }
 
 fn points(text: &str) -> Result<usize, String> {

@@ -1,12 +1,13 @@
 //! The checkpoint of simulated hairs, with what is printed about it.
 
+use std::io;
 use std::path::Path;
 
 use frisure_engine::checkpoint::HairCheckpoint;
 use frisure_engine::{Error, LoadedScene};
 
 use crate::progress::Bar;
-use crate::{console, interrupt};
+use crate::{console, interrupt, progress};
 
 /// Opens the checkpoint at a path, and notes which hairs are resumed.
 pub(crate) fn open(
@@ -15,7 +16,7 @@ pub(crate) fn open(
     progress: &Bar,
 ) -> Result<Option<HairCheckpoint>, Error> {
     let Some(path) = path else { return Ok(None) };
-    let checkpoint = HairCheckpoint::open(path, loaded)?;
+    let checkpoint = HairCheckpoint::open(path, loaded, failed)?;
     let shown = path.display();
     if checkpoint.as_ref().is_some_and(|checkpoint| checkpoint.found() > 0) {
         let text = format!("hairs that came to rest before are taken from `{shown}`");
@@ -31,6 +32,13 @@ pub(crate) fn open(
 pub(crate) fn remove(checkpoint: Option<HairCheckpoint>) {
     interrupt::set_resume(None);
     if let Some(Err(error)) = checkpoint.map(HairCheckpoint::remove) {
-        console::note(&format!("simulated hairs could not be kept for another time: {error}"));
+        console::note(&format!("the checkpoint of simulated hairs could not be removed: {error}"));
     }
+}
+
+/// Tells that hairs are no longer kept.
+fn failed(error: &io::Error) {
+    progress::suspend(|| {
+        console::note(&format!("simulated hairs cannot be kept for another time: {error}"));
+    });
 }

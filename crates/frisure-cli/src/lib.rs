@@ -19,7 +19,7 @@ use std::ffi::OsString;
 
 use clap::Parser;
 
-use args::{Arguments, Command};
+use args::{Arguments, Command, MAX_THREADS};
 use diagnostics::{ExitStatus, exit_code};
 use frisure_engine::Error;
 
@@ -51,11 +51,26 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {
-    if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build_global().map_err(|e| Error::failed(&e, ""))?;
+/// The environment's numbers of threads, the first of which that is a number `rayon` takes where it gets none.
+const THREADS: [&str; 2] = ["RAYON_NUM_THREADS", "RAYON_RS_NUM_CPUS"];
+
+/// Starts the threads that compute: as many as asked for on the command line, or by the environment.
+fn start_threads(asked: Option<usize>) -> Result<(), Error> {
+    let number = |name| Some((name, std::env::var(name).ok()?.parse().ok()?));
+    let by_environment = || THREADS.into_iter().find_map(number);
+    let asked = asked.map(|threads| ("--threads", threads));
+    let Some((by, threads)) = asked.or_else(by_environment) else { return Ok(()) };
+    // Each thread takes memory and time: the system would be busy with a million of them for ever.
+    if threads > MAX_THREADS {
+        let hint = format!("set it to at most {MAX_THREADS}, or leave it out");
+        return Err(Error::invalid(format!("`{by}` asks for {threads} threads"), &hint));
     }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build_global().map_err(|e| Error::failed(&e, "ask for fewer threads by `--threads`"))
+}
+
+fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {
+    start_threads(arguments.threads)?;
     let quiet = arguments.quiet;
     match arguments.command {
         Command::Predict(predict) => commands::predict::run(&predict, quiet),

@@ -48,6 +48,15 @@ fn shown() -> MutexGuard<'static, Option<ProgressBar>> {
     SHOWN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Hides the bar that is shown, if one is, while `print` runs.
+pub(crate) fn suspend<T>(print: impl FnOnce() -> T) -> T {
+    let bar = shown().clone();
+    match bar {
+        Some(bar) => bar.suspend(print),
+        None => print(),
+    }
+}
+
 /// Removes the bar, also that of work that was left behind.
 pub(crate) fn clear() {
     if let Some(bar) = shown().take() {

@@ -4,6 +4,8 @@
 
 pub mod frame;
 pub mod head;
+mod pipe;
+mod temporary;
 mod whole;
 
 pub use whole::*;

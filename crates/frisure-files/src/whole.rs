@@ -1,12 +1,14 @@
 //! Whole files, read with a limit and written all or not at all.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, Permissions};
-use std::io::{self, BufWriter, Read, Write};
+use std::fs::{self, File, Metadata};
+use std::io::{self, BufWriter, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
+
+use crate::{pipe, temporary};
 
 /// Why a file could not be read.
 #[derive(Debug, Error)]
@@ -210,19 +212,27 @@ impl Files {
 pub fn read_bytes(path: &Path, limit: u64, what: &'static str) -> Result<Vec<u8>, ReadError> {
     let fail = |source: io::Error| match source.kind() {
         // Where there is no file system, there is no file.
-        io::ErrorKind::NotFound | io::ErrorKind::Unsupported => {
-            ReadError::Missing { path: path.into() }
-        }
-        io::ErrorKind::IsADirectory => ReadError::Directory { path: path.into() },
+        ErrorKind::NotFound | ErrorKind::Unsupported => ReadError::Missing { path: path.into() },
+        ErrorKind::IsADirectory => ReadError::Directory { path: path.into() },
         _ => ReadError::Io { path: path.into(), source },
     };
     // Asked before opening: a folder opens on some systems and fails at the first read on others.
     if fs::metadata(path).map_err(fail)?.is_dir() {
         return Err(ReadError::Directory { path: path.into() });
     }
-    let mut bytes = Vec::new();
     // One byte more than allowed: devices and pipes have no size to ask for.
-    File::open(path).map_err(fail)?.take(limit + 1).read_to_end(&mut bytes).map_err(fail)?;
+    let bytes = match pipe::read(path, limit + 1).map_err(fail)? {
+        Some(bytes) => bytes,
+        None => {
+            let mut bytes = Vec::new();
+            File::open(path)
+                .map_err(fail)?
+                .take(limit + 1)
+                .read_to_end(&mut bytes)
+                .map_err(fail)?;
+            bytes
+        }
+    };
     if bytes.len() as u64 > limit {
         return Err(ReadError::TooLarge { path: path.into(), limit, what });
     }
@@ -253,11 +263,12 @@ pub fn to_text(bytes: Vec<u8>, path: &Path) -> Result<String, ReadError> {
 /// Writes a file so that it is either complete or as before: the bytes go to a hidden file in the
 /// same folder, which is flushed to the disk and renamed over the destination.
 ///
-/// An existing file keeps its permissions, a link keeps pointing at its target, and devices and
-/// pipes are written directly. Output is buffered.
+/// An existing file keeps its permissions and its owner, a link keeps pointing at its target, also one that does not
+/// exist yet, and devices and pipes are written directly. A file of another owner, which only its owner or root could
+/// give away, is written in place once all bytes are there. Output is buffered.
 ///
 /// # Errors
-/// [`WriteError`]; the destination is then untouched.
+/// [`WriteError`]; the destination is then untouched, unless the copy in place fails.
 pub fn write_atomically(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -291,7 +302,7 @@ enum Destination {
     /// A device or a pipe, to be written as it is: renaming over it would replace it.
     Device,
     /// A file that is or will be.
-    File { target: PathBuf, folder: PathBuf, existing: Option<Permissions> },
+    File { target: PathBuf, folder: PathBuf, existing: Option<Metadata> },
 }
 
 fn destination(path: &Path) -> Result<Destination, WriteError> {
@@ -299,21 +310,24 @@ fn destination(path: &Path) -> Result<Destination, WriteError> {
     if path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) {
         return Err(WriteError::Directory { path: path.into() });
     }
+    let fail = |source| WriteError::Io { path: path.into(), source };
     let existing = match fs::metadata(path) {
         Ok(m) if m.is_dir() => return Err(WriteError::Directory { path: path.into() }),
         Ok(m) if !m.is_file() => return Ok(Destination::Device),
-        Ok(m) if m.permissions().readonly() => {
-            return Err(WriteError::ReadOnly { path: path.into() });
-        }
-        Ok(m) => Some(m.permissions()),
-        Err(_) => None,
+        Ok(m) => Some(m),
+        // Where there is no file system, there is no file.
+        Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::Unsupported) => None,
+        // A name that is too long, links in a circle, a folder that may not be searched.
+        Err(e) => return Err(fail(e)),
     };
+    // The permissions of the folder decide whether a file can be replaced, those of the file whether it may be.
+    if existing.as_ref().is_some_and(|m| m.permissions().readonly() || !may_write(path)) {
+        return Err(WriteError::ReadOnly { path: path.into() });
+    }
     // Renaming over a link would replace the link instead of the file it points at.
     let target = match existing {
-        Some(_) => {
-            fs::canonicalize(path).map_err(|source| WriteError::Io { path: path.into(), source })?
-        }
-        None => path.into(),
+        Some(_) => fs::canonicalize(path).map_err(fail)?,
+        None => end_of_links(path),
     };
     let folder = match target.parent() {
         Some(p) if !p.as_os_str().is_empty() => p.to_path_buf(),
@@ -325,24 +339,45 @@ fn destination(path: &Path) -> Result<Destination, WriteError> {
     Ok(Destination::File { target, folder, existing })
 }
 
+/// Whether the system lets this user write a file that exists.
+fn may_write(path: &Path) -> bool {
+    let opened = File::options().write(true).open(path);
+    !opened.is_err_and(|e| e.kind() == ErrorKind::PermissionDenied)
+}
+
+/// Links that are followed one after another, as many as Linux follows (`path_resolution(7)`).
+const MOST_LINKS: usize = 40;
+
+/// The file that will be where a path leads, which links may lead to before it exists.
+fn end_of_links(path: &Path) -> PathBuf {
+    let mut end = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&end) {
+            // Relative to the folder of the link; an absolute target replaces it.
+            Ok(target) => end = end.parent().unwrap_or(Path::new("")).join(target),
+            Err(_) => break,
+        }
+    }
+    end
+}
+
 fn replace(
     target: &Path,
     folder: &Path,
-    existing: Option<Permissions>,
+    existing: Option<Metadata>,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".frisure-").suffix(".tmp");
-    // Temporary files are private by default; an output should be as any new file is.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
+    let mut file = temporary::create(folder)?;
     let mut buffer = BufWriter::with_capacity(1 << 18, file.as_file_mut());
     fill(&mut buffer)?;
     buffer.flush()?;
     drop(buffer);
-    if let Some(permissions) = existing {
-        file.as_file().set_permissions(permissions)?;
+    if let Some(existing) = existing {
+        if !keep_owner(file.as_file(), &existing) {
+            return copy_into(file.as_file_mut(), target);
+        }
+        // After the owner: a change of it clears bits of the mode (`chown(2)`).
+        file.as_file().set_permissions(existing.permissions())?;
     }
     file.as_file().sync_all()?;
     file.persist(target)?;
@@ -353,36 +388,26 @@ fn replace(
     Ok(())
 }
 
-/// Waits until a program reads a named pipe, and holds it open; none for other devices.
-#[cfg(any(target_os = "linux", target_os = "macos"))]
-fn await_reader(path: &Path) -> io::Result<Option<File>> {
-    use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
-    use std::time::{Duration, Instant};
-    // To open a pipe without a reader waits for ever, and cannot be interrupted.
-    const PATIENCE: Duration = Duration::from_secs(10);
-    // `O_NONBLOCK` and `ENXIO` of <fcntl.h> and <errno.h>; std has no names for them.
-    const NONBLOCK: i32 = if cfg!(target_os = "macos") { 0x4 } else { 0o4000 };
-    const NOBODY: i32 = 6;
-    if !fs::metadata(path)?.file_type().is_fifo() {
-        return Ok(None);
-    }
-    let start = Instant::now();
-    loop {
-        match File::options().write(true).custom_flags(NONBLOCK).open(path) {
-            Err(e) if e.raw_os_error() == Some(NOBODY) => {}
-            opened => return opened.map(Some),
-        }
-        if start.elapsed() > PATIENCE {
-            return Err(io::Error::new(io::ErrorKind::TimedOut, "nobody reads the named pipe"));
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
+/// Gives a file the owner and the group of another; whether it has them.
+#[cfg(unix)]
+fn keep_owner(file: &File, other: &Metadata) -> bool {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let same = |m: Metadata| (m.uid(), m.gid()) == (other.uid(), other.gid());
+    file.metadata().is_ok_and(same) || fchown(file, Some(other.uid()), Some(other.gid())).is_ok()
 }
 
-/// Other systems have none among files.
-#[cfg(not(any(target_os = "linux", target_os = "macos")))]
-fn await_reader(_: &Path) -> io::Result<Option<File>> {
-    Ok(None)
+/// Other systems give a file in a folder the owner that it should have.
+#[cfg(not(unix))]
+fn keep_owner(_: &File, _: &Metadata) -> bool {
+    true
+}
+
+/// Copies a whole file into one that exists, whose owner this user cannot give to another file.
+fn copy_into(file: &mut File, target: &Path) -> io::Result<()> {
+    file.rewind()?;
+    let mut out = File::options().write(true).truncate(true).open(target)?;
+    io::copy(file, &mut out)?;
+    out.sync_all()
 }
 
 fn write_directly(
@@ -390,7 +415,7 @@ fn write_directly(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     // Open until the file itself is: a reader without any writer would think that this was all.
-    let awaited = await_reader(path)?;
+    let awaited = pipe::await_reader(path)?;
     let mut buffer = BufWriter::new(File::options().write(true).open(path)?);
     drop(awaited);
     fill(&mut buffer)?;

@@ -126,6 +126,12 @@ fn bytes_that_were_cut_off_or_changed_are_no_checkpoint() {
         assert!(Accumulator::from_bytes(&changed).is_err(), "{place}");
     }
     assert_eq!(Accumulator::from_bytes(b"a picture"), Err(AccumulatorError::Magic));
+    // The header of the largest picture, with a good checksum, takes no memory for its pixels.
+    let mut header = bytes[..16].to_vec();
+    header.extend([8192_u32; 2].into_iter().flat_map(u32::to_le_bytes));
+    let sum = frisure_digest::checksum(&header);
+    header.extend(sum);
+    assert_eq!(Accumulator::from_bytes(&header), Err(AccumulatorError::Damaged));
 }
 
 #[test]

@@ -39,8 +39,10 @@ pub struct HairCheckpoint {
     bytes: Vec<u8>,
     /// Where in the bytes each part is that was found.
     found: Vec<Option<(usize, usize)>>,
-    /// An error if a part could not be written.
-    file: Mutex<Result<File, io::Error>>,
+    /// None since a part could not be written.
+    file: Mutex<Option<File>>,
+    /// Is called once, when the first part cannot be written.
+    failed: fn(&io::Error),
 }
 
 impl HairCheckpoint {
@@ -70,18 +72,27 @@ impl HairCheckpoint {
 
     /// Opens the checkpoint of the hairs of a scene; none if there are so few that they take seconds.
     ///
+    /// Hairs that cannot be kept, as on a full disk, are no reason to stop: `failed` is called once with the reason, when
+    /// it is found.
+    ///
     /// # Errors
     /// [`Error::Failed`], for a file that cannot be read.
-    pub fn open(path: &Path, loaded: &LoadedScene) -> Result<Option<Self>, Error> {
+    pub fn open(
+        path: &Path,
+        loaded: &LoadedScene,
+        failed: fn(&io::Error),
+    ) -> Result<Option<Self>, Error> {
         if loaded.hairstyle.drawn() < MANY {
             return Ok(None);
         }
         let key = simulation_key(&loaded.hairstyle, &loaded.head);
-        key.map(|key| Self::with_key(path, key)).transpose().map_err(|e| Error::failed(&e, ""))
+        key.map(|key| Self::with_key(path, key, failed))
+            .transpose()
+            .map_err(|e| Error::failed(&e, ""))
     }
 
     /// Opens the file of the work with a key, or begins it. A file of other work is overwritten.
-    fn with_key(path: &Path, key: u64) -> Result<Self, ReadError> {
+    fn with_key(path: &Path, key: u64, failed: fn(&io::Error)) -> Result<Self, ReadError> {
         let mut bytes = match read_bytes(path, LARGEST, "a checkpoint of simulated hairs") {
             Err(ReadError::Missing { .. }) => Vec::new(),
             found => found?,
@@ -91,8 +102,8 @@ impl HairCheckpoint {
         }
         let (found, end) = parts(&bytes);
         bytes.truncate(end);
-        let file = begin(path, key, end);
-        Ok(Self { path: path.into(), bytes, found, file: Mutex::new(file) })
+        let file = begin(path, key, end).inspect_err(failed).ok();
+        Ok(Self { path: path.into(), bytes, found, file: Mutex::new(file), failed })
     }
 
     /// The number of parts that were found.
@@ -104,11 +115,13 @@ impl HairCheckpoint {
     /// Removes the file: the hairs are written.
     ///
     /// # Errors
-    /// The error of the system, now or when a part could not be written.
+    /// The error of the system.
     pub fn remove(self) -> io::Result<()> {
-        let file = self.file.into_inner().unwrap_or_else(PoisonError::into_inner);
-        std::fs::remove_file(&self.path)?;
-        file.map(drop)
+        match std::fs::remove_file(&self.path) {
+            // It could not be begun.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            removed => removed,
+        }
     }
 }
 
@@ -126,10 +139,11 @@ impl Checkpoint for HairCheckpoint {
         record.extend(bytes);
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         // No record after a broken one would be found.
-        if let Ok(open) = &mut *file
+        if let Some(open) = &mut *file
             && let Err(error) = open.write_all(&record)
         {
-            *file = Err(error);
+            *file = None;
+            (self.failed)(&error);
         }
     }
 }
@@ -145,8 +159,12 @@ fn header(key: u64) -> [u8; HEADER] {
 fn begin(path: &Path, key: u64, end: usize) -> io::Result<File> {
     let mut file = OpenOptions::new().create(true).append(true).open(path)?;
     file.set_len(end as u64)?;
-    if end == 0 {
-        file.write_all(&header(key))?;
+    if end == 0
+        && let Err(error) = file.write_all(&header(key))
+    {
+        // An empty file would be found next time, and keeps nothing.
+        let _ = std::fs::remove_file(path);
+        return Err(error);
     }
     Ok(file)
 }
@@ -178,11 +196,15 @@ fn parts(bytes: &[u8]) -> (Vec<Option<(usize, usize)>>, usize) {
 mod tests {
     use super::*;
 
+    fn unexpected(error: &io::Error) {
+        panic!("{error}");
+    }
+
     #[test]
     fn what_is_whole_is_found_again() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("curls.hair.hairs.part");
-        let checkpoint = HairCheckpoint::with_key(&path, 7).unwrap();
+        let checkpoint = HairCheckpoint::with_key(&path, 7, unexpected).unwrap();
         assert_eq!(checkpoint.found(), 0);
         checkpoint.save(3, b"three");
         checkpoint.save(0, b"");
@@ -197,7 +219,7 @@ mod tests {
             more
         }] {
             std::fs::write(&path, &spoilt).unwrap();
-            let checkpoint = HairCheckpoint::with_key(&path, 7).unwrap();
+            let checkpoint = HairCheckpoint::with_key(&path, 7, unexpected).unwrap();
             assert_eq!(
                 (checkpoint.find(3), checkpoint.find(0)),
                 (Some(&b"three"[..]), Some(&b""[..]))
@@ -212,14 +234,41 @@ mod tests {
         for left in [0, 5, HEADER - 1] {
             std::fs::write(&path, &whole[..left]).unwrap();
             HairCheckpoint::check(&path).unwrap();
-            assert_eq!(HairCheckpoint::with_key(&path, 7).unwrap().found(), 0);
+            assert_eq!(HairCheckpoint::with_key(&path, 7, unexpected).unwrap().found(), 0);
         }
         std::fs::write(&path, b"letters").unwrap();
         assert!(HairCheckpoint::check(&path).is_err());
         // Another work begins anew.
-        let other = HairCheckpoint::with_key(&path, 8).unwrap();
+        let other = HairCheckpoint::with_key(&path, 8, unexpected).unwrap();
         assert_eq!(other.found(), 0);
         other.remove().unwrap();
         assert!(!path.exists());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_part_that_cannot_be_written_is_told_at_once_and_once() {
+        use std::sync::atomic::{AtomicUsize, Ordering};
+        static TOLD: AtomicUsize = AtomicUsize::new(0);
+        let told = || TOLD.load(Ordering::Relaxed);
+        let count: fn(&io::Error) = |_| {
+            TOLD.fetch_add(1, Ordering::Relaxed);
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curls.hair.hairs.part");
+        let checkpoint = HairCheckpoint::with_key(&path, 7, count).unwrap();
+        // The device of a disk that is full.
+        let full = OpenOptions::new().write(true).open("/dev/full").unwrap();
+        *checkpoint.file.lock().unwrap() = Some(full);
+        checkpoint.save(0, b"zero");
+        assert_eq!(told(), 1);
+        checkpoint.save(1, b"one");
+        assert_eq!(told(), 1);
+        checkpoint.remove().unwrap();
+        assert!(!path.exists());
+        // Nor one that cannot be begun.
+        let nowhere = folder.path().join("none/curls.hair.hairs.part");
+        HairCheckpoint::with_key(&nowhere, 7, count).unwrap().remove().unwrap();
+        assert_eq!(told(), 2);
     }
 }

@@ -21,6 +21,10 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
 /// The first bytes of a file, at most 8; none if there is no file.
 fn first_bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
+    // A named pipe would wait for a writer.
+    if std::fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(io::Error::other("not a file"));
+    }
     match File::open(path).and_then(|file| file.take(8).read_to_end(&mut bytes)) {
         Ok(_) => Ok(Some(bytes)),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),

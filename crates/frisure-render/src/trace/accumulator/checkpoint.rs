@@ -92,6 +92,10 @@ impl Reader<'_> {
         if sides.iter().any(|n| !(1..=MAX_SIZE).contains(n)) || width * height > MAX_PIXELS {
             return None;
         }
+        // Before memory is allocated for them: a tile has its number of samples besides.
+        if self.0.len() < width * height * PIXEL {
+            return None;
+        }
         let mut accumulator = Accumulator::new(width, height, digest);
         accumulator.tiles.iter_mut().try_for_each(|tile| self.tile(tile))?;
         self.0.is_empty().then_some(accumulator)
