@@ -56,15 +56,16 @@ pub fn plain(error: &Error) -> String {
 fn rendered(error: &Error, renderer: &Renderer) -> String {
     let diagnostic = if let Error::Scene(error) = error { error.diagnostic() } else { None };
     let message = diagnostic.map_or_else(|| message(error), Diagnostic::message);
-    let labels = diagnostic.map(labels).unwrap_or_default();
+    let excerpt = diagnostic.map(Excerpt::of);
     let mut group = Group::with_title(Level::ERROR.primary_title(message.as_str()));
-    if let Some(diagnostic) = diagnostic {
+    if let (Some(diagnostic), Some(excerpt)) = (diagnostic, &excerpt) {
         let kinds =
             iter::once(AnnotationKind::Primary).chain(iter::repeat(AnnotationKind::Context));
-        let annotations = labels.iter().zip(kinds);
+        let annotations = excerpt.labels.iter().zip(kinds);
         let annotations =
             annotations.map(|((span, label), kind)| kind.span(span.clone()).label(label.as_str()));
-        let snippet = Snippet::source(diagnostic.text.as_str()).path(diagnostic.file.as_str());
+        let snippet = Snippet::source(excerpt.text).line_start(excerpt.line);
+        let snippet = snippet.path(diagnostic.file.as_str());
         group = group.element(snippet.annotations(annotations));
     }
     let hint = diagnostic.map_or(error.hint(), |diagnostic| &diagnostic.hint);
@@ -73,6 +74,41 @@ fn rendered(error: &Error, renderer: &Renderer) -> String {
     }
     let renderer = renderer.clone().decor_style(DecorStyle::Unicode).term_width(10_000);
     renderer.render(&[group])
+}
+
+/// The part of a scene that is shown with an error.
+struct Excerpt<'a> {
+    text: &'a str,
+    /// Its first line, from 1.
+    line: usize,
+    /// Places in the text, and what is said about them.
+    labels: Vec<(Range<usize>, String)>,
+}
+
+/// Longest part of a scene that is annotated as it is (bytes); of a longer one, the beginning is shown. Chosen.
+const LONGEST_PLACE: usize = 1000;
+
+/// Characters shown of a place that is longer, or in a longer line. Chosen: two lines of a terminal.
+const SHOWN: usize = 200;
+
+impl<'a> Excerpt<'a> {
+    fn of(diagnostic: &'a Diagnostic) -> Self {
+        let text = diagnostic.text.as_str();
+        let labels = labels(diagnostic);
+        let long = |(span, _): &(Range<usize>, String)| {
+            let start = text[..span.start].rfind('\n').map_or(0, |i| i + 1);
+            let end = text[span.end..].find('\n').map_or(text.len(), |i| span.end + i);
+            end - start > LONGEST_PLACE
+        };
+        if !labels.iter().any(long) {
+            return Self { text, line: 1, labels };
+        }
+        let Range { start, end } = diagnostic.span.clone();
+        let shown = text[start..].char_indices().nth(SHOWN).map_or(text.len(), |(i, _)| start + i);
+        let label = labels.into_iter().next().map_or_else(String::new, |(_, label)| label);
+        let labels = vec![(0..end.min(shown) - start, label)];
+        Self { text: &text[start..shown], line: diagnostic.line, labels }
+    }
 }
 
 /// The labels of places in the scene; the first is that of the error.

@@ -1,8 +1,10 @@
 //! What a scene describes, with every number in range; and errors that are found later.
 
+use std::f64::consts::FRAC_PI_2;
+
 use frisure_hairstyle::styling::{Operation, StyleError};
-use frisure_hairstyle::{HairstyleSpec, InvalidSpec};
-use frisure_rod::{InvalidQuantity, NaturalStrain, Options, Rod, RodSpec, Root};
+use frisure_hairstyle::{Body, HairstyleSpec, InvalidSpec};
+use frisure_rod::{InvalidQuantity, NaturalStrain, Options, Resolution, Rod, RodSpec, Root};
 use glam::DVec3;
 
 use crate::error::{Diagnostic, SceneError};
@@ -14,6 +16,11 @@ use crate::unit_hint;
 /// Largest weight against elasticity, ρ S g L³ / EI. A hair of a metre has some ten thousand; beyond
 /// this a unit was mistaken, and a head would take hours.
 const MAX_HEAVINESS: f64 = 1e8;
+
+/// Most by which an element may turn with the natural curl (rad), where hair touches a head. Tuned on hair of 20 cm,
+/// frizzy, coily, kinky and curly, in 15 to 90 elements: above, guides were 1.0 to 4.1 mm inside the head, below
+/// 0.01 to 0.6 mm.
+const WIDEST_ELEMENT: f64 = FRAC_PI_2;
 
 impl Scene {
     /// The whole head of hair that the scene describes, with every number in range.
@@ -28,9 +35,30 @@ impl Scene {
             return Err(self.error_at("hair.curl.along", problem, hint));
         }
         self.spec.check().map_err(|e| self.spec_error(&e))?;
+        self.check_division()?;
         // A fibre that cannot be is refused whichever way it leaves the scalp.
         self.single_hair()?;
         Ok(self.spec.clone())
+    }
+
+    /// Refuses a number of elements that are too long for the curl to feel the head: curls would hang inside it.
+    fn check_division(&self) -> Result<(), SceneError> {
+        let spec = &self.spec;
+        let (Resolution::Elements(given), true) =
+            (spec.equilibrium.resolution, spec.contact.body != Body::None)
+        else {
+            return Ok(());
+        };
+        let angle = spec.curl.strain.length() * spec.length.mean;
+        let needed = (angle / WIDEST_ELEMENT).ceil() as usize;
+        if given >= needed {
+            return Ok(());
+        }
+        let problem = format!(
+            "`equilibrium.elements` is {given}; curls as tight as these touch the head with at least {needed}"
+        );
+        let hint = format!("write `elements = {needed}`, or `accuracy` instead");
+        Err(self.error_at("equilibrium.elements", problem, hint))
     }
 
     /// The single hair that the scene describes, without variation; its root is at the origin.

@@ -80,6 +80,19 @@ impl Diagnostic {
         Self { value: value.into(), ..self }
     }
 
+    /// The same with no text longer than a person reads; a scene may have megabytes in one word.
+    pub(crate) fn shortened(self) -> Self {
+        let Self { key, value, problem, allowed, hint, .. } = self;
+        Self {
+            key: shortened(key, LONGEST_QUOTE),
+            value: shortened(value, LONGEST_QUOTE),
+            problem: shortened(problem, LONGEST_SENTENCE),
+            allowed: shortened(allowed, LONGEST_SENTENCE),
+            hint: shortened(hint, LONGEST_SENTENCE),
+            ..self
+        }
+    }
+
     pub(crate) fn hint(self, hint: impl Into<String>) -> Self {
         Self { hint: hint.into(), ..self }
     }
@@ -98,6 +111,21 @@ impl Diagnostic {
         let Self { key, value, allowed, .. } = self;
         format!("`{key}` is {value}; it must be {allowed}")
     }
+}
+
+/// Most characters of what a scene has written that an error quotes. Chosen: two lines of a terminal.
+pub(crate) const LONGEST_QUOTE: usize = 200;
+
+/// Most characters of a sentence with quotes in it, above that of the longest list of keywords. Chosen.
+const LONGEST_SENTENCE: usize = 4000;
+
+/// The first characters of a text, and an ellipsis if there are more.
+pub(crate) fn shortened(mut text: String, most: usize) -> String {
+    if let Some((end, _)) = text.char_indices().nth(most) {
+        text.truncate(end);
+        text.push('…');
+    }
+    text
 }
 
 impl fmt::Display for Diagnostic {

@@ -66,6 +66,12 @@ pub(crate) fn spec_error(error: &InvalidSpec, source: &Source) -> SceneError {
         }
         // Whichever of the two makes too many points.
         "wisps.points" => &["wisps.points", "wisps.hairs", "wisps.hairs_per_wisp", "wisps.density"],
+        "hair.fibre.diameter" => &[
+            "hair.fibre.diameter",
+            "hair.fibre.mean_radius",
+            "hair.fibre.semi_axis_a",
+            "hair.fibre.semi_axis_b",
+        ],
         "equilibrium" => &["equilibrium.elements", "equilibrium.accuracy"],
         _ => std::slice::from_ref(&error.field),
     };

@@ -73,7 +73,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Section and material of a fibre. The section is said in one way: `diameter` or
         /// `mean_radius`, with `eccentricity` or `axis_ratio`; or both semi-axes.
         "hair.fibre" => table();
-        /// Mean diameter 2 sqrt(ab); more than 0.
+        /// Mean diameter 2 sqrt(ab); more than 0, between 5 um and 0.5 mm on a head.
         "hair.fibre.diameter" => number::<Length>().bounds(0.0, f64::INFINITY)
             .slider(Panel::Fibre, "Diameter", UM, (20.0, 200.0), 0,
                 "Mean diameter of a hair. Twice the diameter is sixteen times as stiff and four times as heavy.")
@@ -121,13 +121,13 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Natural curl, the shape without weight. It is said in one way: `radius` and `pitch`; or
         /// strains; or, for one hair, strains `along` it.
         "hair.curl" => table();
-        /// Radius of the natural helix; more than 0, at least 0.05 mm on a head.
-        "hair.curl.radius" => number::<Length>().bounds(0.0, f64::INFINITY)
+        /// Radius of the natural helix; more than 0, at most 100 m, at least 0.05 mm on a head.
+        "hair.curl.radius" => number::<Length>().bounds(0.0, 100.0)
             .slider(Panel::Curl, "Curl radius", MM, (0.5, 200.0), 1, "Radius of the curl that a hair would have without weight.")
             .logarithmic()
             .shows(|scene| helix(&scene.spec)[0]);
-        /// Advance of the natural helix per turn; negative turns it left-handed.
-        "hair.curl.pitch" => number::<Length>()
+        /// Advance of the natural helix per turn, at most 100 m; negative turns it left-handed.
+        "hair.curl.pitch" => number::<Length>().bounds(-100.0, 100.0)
             .slider(Panel::Curl, "Curl pitch", MM, (-500.0, 500.0), 1,
                 "How far a curl advances in a turn, without weight. A negative pitch reverses the handedness.")
             .logarithmic()

@@ -5,11 +5,18 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     near(word, known).map(|(_, known)| known)
 }
 
+/// Longest word that is compared (bytes); the longest known one has a third of it.
+const LONGEST: usize = 100;
+
 /// The same, with the Damerau–Levenshtein distance between the two.
 pub(crate) fn near<'a>(
     word: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<(usize, &'a str)> {
+    // The distance takes time and memory in proportion to both lengths.
+    if word.len() > LONGEST {
+        return None;
+    }
     known
         .into_iter()
         .map(|k| (strsim::damerau_levenshtein(word, k), k))

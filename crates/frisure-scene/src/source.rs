@@ -176,7 +176,7 @@ impl Diagnostic {
     pub(crate) fn at(self, source: &Source, span: Range<usize>) -> SceneError {
         let (line, column) = source.position(span.start);
         let (file, text) = (source.name.clone(), source.text.clone());
-        SceneError::Invalid(Box::new(Self { file, text, line, column, span, ..self }))
+        SceneError::Invalid(Box::new(Self { file, text, line, column, span, ..self.shortened() }))
     }
 }
 

@@ -1,10 +1,12 @@
 //! Keys that do not exist, with the most similar that does, and values where tables belong.
 
+use std::ops::Range;
+
 use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::{Diagnostic, SceneError};
+use crate::error::{Diagnostic, LONGEST_QUOTE, SceneError, shortened};
 use crate::operation;
 use crate::similar::near;
 use crate::source::Source;
@@ -16,37 +18,63 @@ pub(crate) fn check(
     document: &DeTable<'_>,
     schema: &Value,
 ) -> Result<(), SceneError> {
-    let mut walk = Walk { source, root: schema, diagnostics: Vec::new() };
+    let mut walk = Walk { source, root: schema, first: None };
     walk.table(document, schema, "");
-    // Tables are sorted by name; the first in the text is the one to mend first.
-    let first = walk.diagnostics.into_iter().min_by_key(|f| f.span.start);
-    first.map_or(Ok(()), |diagnostic| {
-        let span = diagnostic.span.clone();
-        Err(diagnostic.at(source, span))
-    })
+    let Some(Fault { span, path, kind }) = &walk.first else { return Ok(()) };
+    let diagnostic = match kind {
+        FaultKind::Unknown { name, schema } => walk.unknown(name, path, schema),
+        FaultKind::Not { allowed } => walk.not(span.clone(), path, allowed),
+    };
+    Err(diagnostic.at(source, span.clone()))
 }
 
 struct Walk<'a> {
     source: &'a Source,
     root: &'a Value,
-    diagnostics: Vec<Diagnostic>,
+    /// The first in the text: the one to mend first. Tables are sorted by name.
+    first: Option<Fault<'a>>,
 }
 
-impl Walk<'_> {
-    fn table(&mut self, table: &DeTable<'_>, schema: &Value, path: &str) {
+/// A mistake that is found; its error is made for the first alone, because hints take time.
+struct Fault<'a> {
+    span: Range<usize>,
+    path: String,
+    kind: FaultKind<'a>,
+}
+
+enum FaultKind<'a> {
+    /// A key that the table at the path does not have.
+    Unknown { name: String, schema: &'a Value },
+    /// The value at the path is none of these.
+    Not { allowed: &'static str },
+}
+
+impl<'a> Walk<'a> {
+    /// Keeps a mistake, if it is before those that were found.
+    fn found(&mut self, span: Range<usize>, fault: impl FnOnce() -> (String, FaultKind<'a>)) {
+        if self.first.as_ref().is_none_or(|first| span.start < first.span.start) {
+            let (path, kind) = fault();
+            self.first = Some(Fault { span, path, kind });
+        }
+    }
+
+    fn table(&mut self, table: &DeTable<'_>, schema: &'a Value, path: &str) {
         for (key, value) in table {
             let name: &str = key.get_ref();
             if let Some(inner) = schema["properties"].get(name) {
                 self.value(value, inner, &join(path, name));
             } else {
-                let diagnostic = self.unknown(name, path, schema);
-                self.diagnostics.push(Diagnostic { span: key.span(), ..diagnostic });
+                let kind = || FaultKind::Unknown { name: name.to_owned(), schema };
+                self.found(key.span(), || (path.to_owned(), kind()));
             }
         }
     }
 
-    fn value(&mut self, value: &Spanned<DeValue<'_>>, schema: &Value, path: &str) {
+    fn value(&mut self, value: &Spanned<DeValue<'_>>, schema: &'a Value, path: &str) {
         let items = &schema["items"];
+        let mut not = |allowed| {
+            self.found(value.span(), || (path.to_owned(), FaultKind::Not { allowed }));
+        };
         match value.get_ref() {
             DeValue::Table(table) if has_keys(schema) => self.table(table, schema, path),
             DeValue::Array(array) if has_keys(items) => {
@@ -54,18 +82,17 @@ impl Walk<'_> {
                     self.value(item, items, &format!("{path}[{i}]"));
                 }
             }
-            _ if has_keys(schema) => self.not(value, path, "a table of keys"),
-            _ if has_keys(items) => self.not(value, path, "a list of tables"),
+            _ if has_keys(schema) => not("a table of keys"),
+            _ if has_keys(items) => not("a list of tables"),
             _ => {}
         }
     }
 
-    fn not(&mut self, value: &Spanned<DeValue<'_>>, path: &str, allowed: &str) {
-        let written = self.source.slice(value.span());
+    fn not(&self, span: Range<usize>, path: &str, allowed: &str) -> Diagnostic {
+        let written = self.source.slice(span);
         let hint = self.operation(path).and_then(|name| operation::in_full(name, written));
         let diagnostic = Diagnostic::outside(allowed).key(path).value(written);
-        let diagnostic = diagnostic.hint(hint.unwrap_or_default());
-        self.diagnostics.push(Diagnostic { span: value.span(), ..diagnostic });
+        diagnostic.hint(hint.unwrap_or_default())
     }
 
     /// The key of a step at a path, if it is one.
@@ -84,8 +111,9 @@ impl Walk<'_> {
 
     fn unknown(&self, name: &str, path: &str, schema: &Value) -> Diagnostic {
         let place = if path.is_empty() { String::new() } else { format!(" in `[{path}]`") };
+        let quoted = shortened(name.to_owned(), LONGEST_QUOTE);
         let diagnostic =
-            Diagnostic::new(format!("unknown key `{name}`{place}")).key(join(path, name));
+            Diagnostic::new(format!("unknown key `{quoted}`{place}")).key(join(path, name));
         diagnostic.hint(self.instead(name, path, schema))
     }
 

@@ -267,6 +267,50 @@ fn a_scene_of_many_steps_is_read_in_time() {
 }
 
 #[test]
+fn a_scene_of_many_unknown_keys_is_refused_in_time() {
+    let text: String = (0..500_000).map(|i| format!("key{} = 1\n", 999_999 - i)).collect();
+    use_scene(&text);
+    use_scene(&"[[region]]\nwhere = \"top\"\n".repeat(100_000));
+    let long = "a".repeat(15 << 20);
+    for text in [format!("[hair]\ntype = \"{long}\""), format!("{long} = 1")] {
+        let error = Scene::parse("long", text, Path::new("")).unwrap_err();
+        assert!(error.to_string().len() < 5000);
+    }
+}
+
+#[test]
+fn elements_too_long_for_the_curl_are_refused_with_the_number_that_suffices() {
+    let spec = |elements: usize, more: &str| {
+        let hair = format!("[hair]\ntype = \"frizzy\"\nlength = \"20 cm\"\n{more}");
+        let text = format!("{hair}\n[equilibrium]\nelements = {elements}\n");
+        let scene = Scene::parse("frizzy", text, Path::new(""))?;
+        scene.hairstyle_spec()
+    };
+    let error = spec(15, "").unwrap_err().to_string();
+    assert!(error.contains("at least 27") && error.contains("`elements = 27`"), "{error}");
+    assert!(spec(26, "").is_err() && spec(27, "").is_ok());
+    // Without a head the elements are exact helices.
+    assert!(spec(1, "[contact]\nbody = \"none\"").is_ok());
+}
+
+#[test]
+fn numbers_of_no_hair_are_refused() {
+    for (text, key) in [
+        ("curl.pitch = -1e300", "hair.curl.pitch"),
+        ("curl.radius = \"1 km\"", "hair.curl.radius"),
+        ("fibre.diameter = \"70 mm\"", "hair.fibre.diameter"),
+        ("fibre.mean_radius = \"35 mm\"", "hair.fibre.mean_radius"),
+        ("fibre.diameter = \"70 nm\"", "hair.fibre.diameter"),
+    ] {
+        let scene = Scene::parse("hair", format!("[hair]\n{text}"), Path::new(""));
+        let error = scene.and_then(|scene| scene.hairstyle_spec()).unwrap_err();
+        assert_eq!(error.diagnostic().unwrap().key, key, "{error}");
+    }
+    let thick = Scene::parse("rod", "[hair]\nfibre.diameter = \"1 cm\"", Path::new(""));
+    assert!(thick.unwrap().single_hair().is_ok(), "one hair may be any rod");
+}
+
+#[test]
 fn a_scene_of_many_keys_is_read_in_time() {
     let mut text = "[hair.curl]\nalong = [\n".to_owned();
     for i in 0..20_000 {

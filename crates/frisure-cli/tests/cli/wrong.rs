@@ -32,6 +32,22 @@ fn a_fault_in_a_scene_is_shown_with_its_line() {
 }
 
 #[test]
+fn what_is_long_is_quoted_in_part() {
+    let long = "a".repeat(1 << 20);
+    for (scene, said) in [
+        (format!("[hair]\ntype = \"{long}\"\n"), "aaa…; it must be one of"),
+        (format!("seed = 1\n{long} = 1\n"), "aaa…`"),
+        (format!("seed = [\n{}]\n", "1,\n".repeat(1 << 18)), "…; it must be"),
+        (format!("name = {long}\n"), "TOML"),
+    ] {
+        let ran = room().with("a.toml", &scene).run(&["predict", "a.toml"]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.err.len() < 20_000, "{} bytes", ran.err.len());
+        assert!(ran.err.contains(said) || said == "TOML", "{}", ran.err);
+    }
+}
+
+#[test]
 fn commands_check_what_they_use() {
     let room = room().with("a.toml", "[hair]\nlength = 0\n");
     for command in ["predict", "hair"] {
@@ -63,6 +79,20 @@ fn scenes_that_are_no_files() {
     let ran = room.feed(&["hair", "-"], &[b'#'; (16 << 20) + 1]);
     assert_eq!(ran.code, Some(2));
     assert!(ran.err.contains("larger than 16777216 bytes"), "{}", ran.err);
+}
+
+#[test]
+fn more_threads_than_a_machine_has_are_refused() {
+    let room = room();
+    for (threads, code, part) in
+        [("999999", 2, "`RAYON_NUM_THREADS` asks for 999999 threads"), ("2", 0, "")]
+    {
+        let ran = room.command(&["hair", "quick.toml"]).env("RAYON_NUM_THREADS", threads).output();
+        let ran = ran.unwrap();
+        let err = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(code), "{err}");
+        assert!(err.contains(part), "{err}");
+    }
 }
 
 #[test]

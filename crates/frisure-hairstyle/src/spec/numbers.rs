@@ -121,6 +121,7 @@ macro_rules! numbers {
 pub(super) static NUMBERS: &[Number] = numbers! {
     "hair.length", field!(length.mean), 1e-3, 3.0, "between 1 mm and 3 m";
     "hair.length_variation", field!(length.variation_between), 0.0, 0.5, "0 to 0.5";
+    "hair.fibre.diameter", Access::Derived(|spec| vec![2.0 * spec.fibre.section.mean_radius()]), 5e-6, 5e-4, "between 5 um and 0.5 mm on a head; hair of the scalp has 40 to 120 um";
     "hair.fibre.variation", field!(fibre.variation), 0.0, 0.5, "between 0 and 0.5";
     "hair.growth_rate", field!(length.growth_rate), 0.0, 1e-7, "between 0 and 26 cm a month";
     "hair.wetting.youngs_modulus", field!(wetting.youngs_modulus), 0.01, 1.0, "between 0.01 and 1";

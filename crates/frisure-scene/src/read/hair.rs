@@ -14,6 +14,9 @@ use crate::kind::Vector;
 /// Largest ratio of a section's axes; measured hair reaches 3.
 const MAX_AXIS_RATIO: f64 = 20.0;
 
+/// Largest radius and pitch of a natural helix (m). Chosen: hair is straight long before, and a unit was mistaken.
+const WIDEST: f64 = 100.0;
+
 /// The fibre, whose variations are [numbers](Document::set_fields).
 pub(super) fn fibre(document: &Document<'_>, preset: &Preset, default: Fibre) -> Result<Fibre> {
     let refuse = |e: InvalidQuantity| quantity_error(&e, document.source);
@@ -81,6 +84,13 @@ pub(super) fn curl(document: &Document<'_>, curl: &mut Curl) -> Result<()> {
         curl.strain = strain(document, "hair.curl");
     } else if radius.is_some() || pitch.is_some() {
         let preset = curl.radius_pitch().unwrap_or_default();
+        for (quantity, value) in [("curl radius", radius), ("curl pitch", pitch)] {
+            if let Some(value) = value.filter(|value| value.abs() > WIDEST) {
+                let (unit, allowed) = ("m", "at most 100 m; leave it out for straight hair");
+                let error = InvalidQuantity { quantity, value, unit, allowed };
+                return Err(quantity_error(&error, document.source));
+            }
+        }
         let helix = Curl::helix(radius.unwrap_or(preset.0), pitch.unwrap_or(preset.1));
         curl.strain = helix.map_err(|e| quantity_error(&e, document.source))?.strain;
     }

@@ -72,8 +72,18 @@ fn parting(document: &Document<'_>, table: &str) -> Result<Parting> {
 }
 
 /// The regions with styles of their own.
+/// Most regions: the root of each hair looks at all of them. A guard on time.
+const MAX_REGIONS: usize = 1000;
+
 pub(super) fn regions(document: &Document<'_>) -> Result<Vec<RegionStyle>> {
-    (0..document.count_items("region")).map(|i| region(document, &format!("region[{i}]"))).collect()
+    let count = document.count_items("region");
+    if count > MAX_REGIONS {
+        let problem = format!("{count} regions; there are at most {MAX_REGIONS}");
+        let hint =
+            "one region can have several parts of the scalp, as in `where = [\"top\", \"nape\"]`";
+        return Err(document.error(&format!("region[{MAX_REGIONS}]"), problem, hint));
+    }
+    (0..count).map(|i| region(document, &format!("region[{i}]"))).collect()
 }
 
 fn region(document: &Document<'_>, table: &str) -> Result<RegionStyle> {
