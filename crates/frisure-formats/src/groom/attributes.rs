@@ -50,6 +50,19 @@ pub(super) fn real_values(all: Vec<f32>, width: usize) -> Option<AttributeValues
     })
 }
 
+/// Whether the values of an attribute are of the kind that its name stands for; other names stand for any.
+pub(super) fn is_as_named(attribute: &Attribute) -> bool {
+    let expected = match &*attribute.name {
+        GUIDE | ID | GROUP => (true, 1),
+        CLOSEST_GUIDES => (true, 3),
+        GUIDE_WEIGHTS | COLOUR | DIRECTOR | NATURAL_STRAIN => (false, 3),
+        ROOT_UV => (false, 2),
+        WETNESS | AXIS_RATIO => (false, 1),
+        _ => return true,
+    };
+    layout(&attribute.values) == expected
+}
+
 /// Turns the values of an attribute, if they are directions.
 pub(super) fn turn_directions(attribute: &mut Attribute, turn: impl Fn(Vec3) -> Vec3) {
     if let AttributeValues::F32x3(all) = &mut attribute.values

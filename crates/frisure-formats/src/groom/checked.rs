@@ -14,6 +14,9 @@ pub const MAX_STRANDS: usize = 10_000_000;
 /// Sizes (m) that hair can have, from one end of the groom to the other.
 const SENSIBLE: (f64, f64) = (2e-3, 5.0);
 
+/// Largest coordinate of a point (m). Chosen: beyond, coordinates of 32 bits are more than half a millimetre apart.
+const FARTHEST: f64 = 5e3;
+
 /// Largest radius of a fibre (m).
 const THICKEST: f32 = 0.01;
 
@@ -44,6 +47,10 @@ impl Curves {
             .map(|p| frame.position_from_file(Vec3::from_array(*p).as_dvec3()))
             .collect();
         check_size(&inside, frame, strand_of)?;
+        if let Some(i) = inside.iter().position(|p| p.abs().max_element() > FARTHEST) {
+            let strand = strand_of(i);
+            return Err(format!("point {i}, of strand {strand}, is more than {FARTHEST} m away"));
+        }
         let radii = radii(&diameters, points.len(), frame)?;
 
         let mut strands = Strands::with_capacity(counts.len(), points.len());
@@ -53,7 +60,8 @@ impl Curves {
             strands.push(&points[start..start + count], &radii[start..start + count]);
             start += count;
         }
-        for attribute in attributes {
+        // A value of another kind under a name of ours would be written as a file that no reader takes.
+        for attribute in attributes.into_iter().filter(names::is_as_named) {
             strands.set_attribute(attribute).map_err(|e| e.to_string())?;
         }
         Ok(strands)
@@ -212,6 +220,13 @@ mod tests {
         two.counts = vec![3, 3];
         let error = two.strands(Frame::METRES_Z).unwrap_err();
         assert!(error.starts_with("point 4, of strand 1, is 1.000e7 m"), "{error}");
+    }
+
+    #[test]
+    fn hair_beyond_the_horizon_is_refused() {
+        let away = LINE.map(|p| [1e9 + p[0], p[1] * 0.01, p[2] * 0.01]);
+        let error = curves(&away).strands(Frame::METRES_Z).unwrap_err();
+        assert!(error.starts_with("point 0, of strand 0, is more than 5000 m away"), "{error}");
     }
 
     #[test]

@@ -45,6 +45,10 @@ pub fn extensions() -> impl Iterator<Item = &'static str> {
 /// Sizes (m) that a head, with or without shoulders, can have.
 const SENSIBLE: (f64, f64) = (0.05, 3.0);
 
+/// Largest area of all faces, over the square of the longest side of the box around them. Chosen: heads have 1 to 5, and
+/// each layer of faces on each other makes the distance to the skin slower to compute.
+const MOST_LAYERS: f64 = 100.0;
+
 /// A head's mesh as it stands in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadMesh {
@@ -78,6 +82,12 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
     let size = extent(&positions, &mesh.triangles);
     if size > 0.0 && !(size >= SENSIBLE.0 && size <= SENSIBLE.1) {
         return Err(HeadFileError::Size { path: path.clone(), size, scale: frame.metres });
+    }
+    let area = total_area(&positions, &mesh.triangles);
+    if area > MOST_LAYERS * size * size {
+        let problem =
+            format!("its faces have {area:.3} m² within {size:.3} m: they lie on each other");
+        return Err(not_a_mesh(path, &problem));
     }
     let surface = Surface::new(positions, mesh.triangles.clone())
         .map_err(|source| HeadFileError::Surface { path: path.clone(), source })?;
@@ -147,6 +157,15 @@ fn extent(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = used.fold(nothing, |(low, high), p| (low.min(p), high.max(p)));
     (high - low).max_element()
+}
+
+/// The area of all faces (m²).
+fn total_area(positions: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+    let area = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|v| positions[v as usize]);
+        0.5 * (b - a).cross(c - a).length()
+    };
+    triangles.iter().map(area).sum()
 }
 
 /// Refuses a scalp on which no face has any hair.

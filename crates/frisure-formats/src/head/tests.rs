@@ -55,6 +55,19 @@ fn groups_and_lists_of_weights() {
 }
 
 #[test]
+fn faces_that_lie_on_each_other_are_refused() {
+    let faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    let text = |layers: usize| format!("{TETRAHEDRON}{}", faces.repeat(layers));
+    let error = head(text(4000), |_| {}).unwrap_err();
+    assert!(error.contains("within 0.200 m: they lie on each other"), "{error}");
+    assert!(head(text(10), |_| {}).is_ok());
+    // One face around and around.
+    let corners = " 1 2 3".repeat(330);
+    let error = head(format!("{TETRAHEDRON}f{corners}\n"), |_| {}).unwrap_err();
+    assert!(error.contains("they lie on each other"), "{error}");
+}
+
+#[test]
 fn what_cannot_be_a_head() {
     let fault = |text: &str| head(text, |_| {}).unwrap_err();
     assert_eq!(fault(""), "`head.obj` is not an OBJ mesh: it has no vertices");

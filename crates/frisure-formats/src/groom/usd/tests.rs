@@ -273,6 +273,25 @@ fn values_of_every_interpolation_and_with_indices() {
 }
 
 #[test]
+fn names_of_ours_have_values_of_their_kind() {
+    for (name, ty, value) in [
+        ("id", "vector3f[]", "[(1, 2, 3)]"),
+        ("group", "float[]", "[1]"),
+        ("guide", "int3[]", "[(1, 2, 3)]"),
+        ("closest_guides", "int[]", "[1]"),
+        ("guide_weights", "float[]", "[1]"),
+        ("root_uv", "float3[]", "[(1, 2, 3)]"),
+        ("color", "int[]", "[1]"),
+        ("wetness", "int[]", "[1]"),
+        ("d1", "float[]", "[1]"),
+    ] {
+        let ours = format!("{ty} primvars:frisure:{name} = {value} (interpolation = \"uniform\")");
+        let groom = text(&format!("def BasisCurves \"a\" {{ {CURVE} {ours} }}")).unwrap();
+        assert!(groom.hairs.attribute(name).is_none(), "{name}");
+    }
+}
+
+#[test]
 fn values_that_do_not_fit_are_told_with_their_prim() {
     let fault = |more: &str| {
         let curve = format!("def Scope \"s\" {{ def BasisCurves \"a\" {{ {CURVE} {more} }} }}");
