@@ -53,6 +53,10 @@ pub struct HairstyleReport {
     pub steps: Vec<StepReport>,
 }
 
+/// Depth in the head above which hair is inside it (m). Chosen: some hairs thick, as deep as contact that yields lets a
+/// guide sink.
+pub const DEEP: f64 = 5e-4;
+
 /// How guides came to rest.
 #[derive(Clone, Debug, Serialize)]
 pub struct GuideReport {
@@ -80,6 +84,9 @@ pub struct GuideReport {
     pub tolerance: f64,
     /// Deepest that a guide is inside the head (m).
     pub penetration: f64,
+    /// The worst of what is said above: `"not converged"`, `"accuracy missed"`, `"inside the head"` (a penetration above
+    /// [`DEEP`]), or `"at rest"`.
+    pub status: &'static str,
     /// What was checked of all guides together, with `equilibrium.method = "continuation"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<JointReport>,
@@ -225,9 +232,20 @@ impl GuideReport {
             gradient_norm: settling.gradient_norm,
             tolerance,
             penetration: settling.penetration,
+            status: status(settling),
             joint: settling.joint.map(JointReport::from),
             friction: None,
         }
+    }
+}
+
+/// The status of guides.
+fn status(settling: &SettlingReport) -> &'static str {
+    match settling {
+        SettlingReport { not_converged: 1.., .. } => "not converged",
+        SettlingReport { accuracy_missed: 1.., .. } => "accuracy missed",
+        settling if settling.penetration > DEEP => "inside the head",
+        _ => "at rest",
     }
 }
 

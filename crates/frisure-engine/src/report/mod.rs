@@ -4,7 +4,7 @@ mod hairstyle;
 mod step;
 
 pub use hairstyle::{
-    ContactReport, EnergyReport, GuideReport, HairstyleReport, SimulationReport, ThicknessReport,
-    VolumeReport,
+    ContactReport, DEEP, EnergyReport, GuideReport, HairstyleReport, SimulationReport,
+    ThicknessReport, VolumeReport,
 };
 pub use step::{CutReport, StepReport};

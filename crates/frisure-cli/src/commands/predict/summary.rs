@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use frisure_engine::report::{HairstyleReport, SimulationReport, StepReport};
+use frisure_engine::report::{DEEP, HairstyleReport, SimulationReport, StepReport};
 
 /// The summary of a prediction; `note` is what was guessed of the head, and `written` has a line about each file.
 pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[String]) -> String {
@@ -39,9 +39,19 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
     if guides.accuracy_missed > 0 {
         let _ = write!(out, ", {} less accurate than requested", guides.accuracy_missed);
     }
+    let depth = guides.penetration.max(report.hair_penetration.unwrap_or(0.0));
+    let buried = if depth > DEEP {
+        // What sinks in is mostly a curl between the nodes of a coarse division.
+        format!(
+            "warning: hair is {:.1} mm inside the head; a smaller `equilibrium.accuracy` may lift it\n",
+            depth * 1e3
+        )
+    } else {
+        String::new()
+    };
     if written.is_empty() {
         let hint = "add `-o hair.hair`, `--image hair.png` or `--report hair.json`";
-        let _ = writeln!(out, "\nnothing was written: {hint}");
+        let _ = writeln!(out, "\n{buried}nothing was written: {hint}");
         return out;
     }
     let _ = write!(out, "; {} hairs of {} points in all", report.hairs, report.points);
@@ -49,6 +59,7 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
         let _ = write!(out, ", {:.1} litres of hair", volume.region * 1e3);
     }
     out.push('\n');
+    out += &buried;
     if let Some(SimulationReport { hairs, stable, .. }) = &report.simulated {
         let _ = writeln!(out, "simulated: {stable} of {hairs} hairs at rest");
     }
