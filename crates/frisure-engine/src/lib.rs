@@ -28,6 +28,7 @@ mod hairstyles;
 mod heads;
 mod initial;
 mod inputs;
+pub mod memory;
 mod metrics;
 pub mod picture;
 mod preview;

@@ -9,6 +9,7 @@ use frisure::hairstyle::head::Head;
 use frisure::progress::Progress;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
+use frisure_engine::memory::{self, Work};
 use frisure_engine::picture::{FrameSet, Subject};
 use frisure_engine::{Error, HeadCache, environment_map, input_files};
 
@@ -91,6 +92,7 @@ fn groom(
     let scene = with_view(arguments, look);
     Format::of(&arguments.output).map_err(|e| Error::because(&e, ""))?;
     arguments.tracing.options(&scene).check().map_err(|e| Error::because(&e, ""))?;
+    memory::check_picture(Work::Traced(scene.output.width * scene.output.height))?;
     let mut inputs = input_files(&scene);
     inputs.push(&arguments.scene);
     inputs.extend(arguments.look.as_deref());

@@ -95,6 +95,27 @@ fn more_threads_than_a_machine_has_are_refused() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn what_has_no_room_in_memory_is_refused_before_the_work() {
+    let large = format!("{QUICK}width = 16384\nheight = 16384\n");
+    let large = large.replacen("width = 32\nheight = 32\n", "", 1);
+    let room = room().with("a.toml", large).with("quick.toml", QUICK);
+    for (limit, arguments, code) in [
+        (4_000_000, "predict a.toml --image a.png", 2),
+        (4_000_000, "render quick.toml --size 8192x8192 -o a.png", 2),
+        (4_000_000, "predict quick.toml --image a.png", 0),
+    ] {
+        let program = env!("CARGO_BIN_EXE_frisure");
+        let line = format!("ulimit -v {limit}; exec {program} --threads 2 {arguments}");
+        let mut shell = std::process::Command::new("sh");
+        let ran = shell.current_dir(room.path("")).args(["-c", &line]).output().unwrap();
+        let err = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(code), "{err}");
+        assert_eq!(err.contains("GB of memory"), code == 2, "{err}");
+    }
+}
+
 #[test]
 fn heads_that_are_none_point_at_their_key() {
     let cases: &[(&str, &str, &str, &str)] = &[

@@ -10,7 +10,7 @@ use crate::film::MAX_SIZE;
 /// Most samples per pixel. A guard on time.
 pub const MAX_SAMPLES: usize = 65_536;
 
-/// Most pixels of a picture: 8192 × 8192, which need 6 GiB of memory.
+/// Most pixels of a picture: 8192 × 8192, which need 10 GiB of memory.
 pub const MAX_PIXELS: usize = 1 << 26;
 
 /// Size and quality of a traced picture.

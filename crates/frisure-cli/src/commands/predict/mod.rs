@@ -16,6 +16,7 @@ use frisure::render::preview::PreviewOptions;
 use frisure::scene::{Output, Scene};
 use frisure::strands::Strands;
 use frisure_engine::checkpoint::HairCheckpoint;
+use frisure_engine::memory::{self, Work};
 use frisure_engine::picture::{self as pictures, FrameSet, Subject};
 use frisure_engine::report::HairstyleReport;
 use frisure_engine::{Error, LoadedScene, Runner, StyledScene, environment_map};
@@ -45,6 +46,7 @@ pub(crate) fn run_scene(
     let spec = scene.hairstyle_spec()?;
     let requested = scene.requests_accuracy();
     check_arguments(arguments, &scene)?;
+    memory::check(&spec, work(arguments, &scene))?;
     let files = files::stages(arguments, &scene, &spec);
     files::prepare(arguments, &scene, &files, turntable)?;
     let environment = match arguments.image {
@@ -66,6 +68,16 @@ pub(crate) fn run_scene(
         0 => ExitStatus::Success,
         _ => ExitStatus::NotConverged,
     })
+}
+
+/// What is made of the hairs, with the size of the picture.
+fn work(arguments: &Predict, scene: &Scene) -> Work {
+    let pixels = scene.output.width * scene.output.height;
+    match (&arguments.image, arguments.quality) {
+        (None, _) => Work::Hairs,
+        (Some(_), Quality::Preview) => Work::Preview(pixels),
+        (Some(_), Quality::Final) => Work::Traced(pixels),
+    }
 }
 
 /// Checks what the files are asked to hold.
