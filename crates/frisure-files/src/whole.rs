@@ -302,7 +302,7 @@ enum Destination {
     /// A device or a pipe, to be written as it is: renaming over it would replace it.
     Device,
     /// A file that is or will be.
-    File { target: PathBuf, folder: PathBuf, existing: Option<Metadata> },
+    File { target: PathBuf, folder: PathBuf, existing: Option<Box<Metadata>> },
 }
 
 fn destination(path: &Path) -> Result<Destination, WriteError> {
@@ -314,7 +314,7 @@ fn destination(path: &Path) -> Result<Destination, WriteError> {
     let existing = match fs::metadata(path) {
         Ok(m) if m.is_dir() => return Err(WriteError::Directory { path: path.into() }),
         Ok(m) if !m.is_file() => return Ok(Destination::Device),
-        Ok(m) => Some(m),
+        Ok(m) => Some(Box::new(m)),
         // Where there is no file system, there is no file.
         Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::Unsupported) => None,
         // A name that is too long, links in a circle, a folder that may not be searched.
@@ -364,7 +364,7 @@ fn end_of_links(path: &Path) -> PathBuf {
 fn replace(
     target: &Path,
     folder: &Path,
-    existing: Option<Metadata>,
+    existing: Option<Box<Metadata>>,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut file = temporary::create(folder)?;

@@ -3,7 +3,7 @@
 
 use std::fs::{self, File, Permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 use frisure_files::{WriteError, check_destination, write_atomically};
 
@@ -53,7 +53,8 @@ fn a_file_keeps_its_mode_and_its_owner() {
 fn what_a_killed_run_left_is_removed_and_what_is_being_written_is_not() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let past = SystemTime::now() - Duration::from_secs(3600);
+    let now = fs::metadata(folder.path()).unwrap().modified().unwrap();
+    let past = now - Duration::from_secs(3600);
     let old = |name: &str| {
         let file = File::create(path(name)).unwrap();
         file.set_modified(past).unwrap();

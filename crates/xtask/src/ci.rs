@@ -40,6 +40,10 @@ pub(crate) fn run(quick: bool) -> Result<()> {
         })?;
         gate.step("page", || page::build(false))?;
         gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
+        gate.step("mutated files", || {
+            // About two minutes; the tests have made a shorter run of it.
+            shell("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
+        })?;
         gate.step("examples", examples)?;
         gate.step("the README's main command", main_command)?;
         gate.step("programs that open grooms", || {

@@ -84,8 +84,8 @@ pub struct GuideReport {
     pub tolerance: f64,
     /// Deepest that a guide is inside the head (m).
     pub penetration: f64,
-    /// The worst of what is said above: `"not converged"`, `"accuracy missed"`, `"inside the head"` (a penetration above
-    /// [`DEEP`]), or `"at rest"`.
+    /// The first that holds of `"not converged"`, `"inside the head"` (a penetration above [`DEEP`]), `"accuracy missed"`
+    /// (the requested one, or the default) and `"at rest"`.
     pub status: &'static str,
     /// What was checked of all guides together, with `equilibrium.method = "continuation"`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -243,8 +243,8 @@ impl GuideReport {
 fn status(settling: &SettlingReport) -> &'static str {
     match settling {
         SettlingReport { not_converged: 1.., .. } => "not converged",
-        SettlingReport { accuracy_missed: 1.., .. } => "accuracy missed",
         settling if settling.penetration > DEEP => "inside the head",
+        SettlingReport { accuracy_missed: 1.., .. } => "accuracy missed",
         _ => "at rest",
     }
 }
