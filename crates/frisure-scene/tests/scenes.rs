@@ -88,7 +88,7 @@ fn every_key_arrives() {
         stiffness = "0.2 kPa"
         volume = 0.3
         [equilibrium]
-        elements = 21
+        elements = 210
         element = "helix"
         branch = "lowest"
         starts = 22
@@ -142,7 +142,7 @@ fn every_key_arrives() {
     assert_eq!((w.flyaways, w.blending), (0.16, 0.17));
     assert_eq!(spec.contact.body, Body::Spheres);
     assert_eq!((spec.contact.stiffness, spec.contact.volume), (200.0, 0.3));
-    assert_eq!(spec.equilibrium.resolution, Resolution::Elements(21));
+    assert_eq!(spec.equilibrium.resolution, Resolution::Elements(210));
     assert_eq!(spec.equilibrium.element, ElementKind::Helix);
 
     let hair = scene.single_hair().unwrap();
