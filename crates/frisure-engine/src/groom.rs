@@ -24,7 +24,7 @@ impl LoadedScene {
             hairstyle::add_natural_strains(&mut hairs, hairstyle);
         }
         let guides = hairstyle::described_guides(hairstyle, head, hairstyle.spec().wisps.points);
-        let head = Some(head.surface().clone());
+        let head = Some(hairstyle::head::textured(head));
         Groom { name: name(scene), hairs, guides, head, colour: Some(colour(scene)) }
     }
 }

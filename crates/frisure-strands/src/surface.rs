@@ -25,6 +25,7 @@ use thiserror::Error;
 pub struct Surface {
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
+    texture: Vec<[[f32; 2]; 3]>,
 }
 
 /// Why a mesh is not a [`Surface`].
@@ -51,6 +52,20 @@ pub enum SurfaceError {
         /// Its position.
         position: DVec3,
     },
+    /// Texture coordinates are not those of the faces.
+    #[error("there are texture coordinates for {given} faces, but there are {faces} faces")]
+    TextureCount {
+        /// Number of faces that have texture coordinates.
+        given: usize,
+        /// Number of faces.
+        faces: usize,
+    },
+    /// A texture coordinate is infinite or not a number.
+    #[error("face {face} has a texture coordinate that is not finite")]
+    TextureNotFinite {
+        /// Index of the face, from 0.
+        face: usize,
+    },
 }
 
 impl Surface {
@@ -68,8 +83,32 @@ impl Surface {
                 return Err(SurfaceError::Index { face, vertex, count });
             }
         }
-        let surface = Self { positions, triangles };
+        let surface = Self { positions, triangles, texture: Vec::new() };
         if surface.area() > 0.0 { Ok(surface) } else { Err(SurfaceError::NoFaces) }
+    }
+
+    /// The same mesh with texture coordinates (u, v) at the three corners of each face, v upwards.
+    ///
+    /// # Errors
+    /// [`SurfaceError::TextureCount`], if there is not one triple for each face;
+    /// [`SurfaceError::TextureNotFinite`], if a coordinate is not finite.
+    pub fn with_texture(mut self, texture: Vec<[[f32; 2]; 3]>) -> Result<Self, SurfaceError> {
+        let (given, faces) = (texture.len(), self.triangles.len());
+        if given != faces {
+            return Err(SurfaceError::TextureCount { given, faces });
+        }
+        let bad = |t: &[[f32; 2]; 3]| !t.as_flattened().iter().all(|x| x.is_finite());
+        if let Some(face) = texture.iter().position(bad) {
+            return Err(SurfaceError::TextureNotFinite { face });
+        }
+        self.texture = texture;
+        Ok(self)
+    }
+
+    /// Texture coordinates (u, v) at the corners of each face, v upwards; empty if the mesh has none.
+    #[must_use]
+    pub fn texture(&self) -> &[[[f32; 2]; 3]] {
+        &self.texture
     }
 
     /// Vertices (m).
@@ -149,6 +188,20 @@ mod tests {
             Surface::new(nan, vec![[0, 1, 2]]),
             Err(SurfaceError::NotFinite { vertex: 2, .. })
         ));
+    }
+
+    #[test]
+    fn bad_texture_coordinates_are_refused() {
+        let p = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let surface = Surface::new(p, vec![[0, 1, 2]]).unwrap();
+        assert!(surface.texture().is_empty());
+        let few = surface.clone().with_texture(vec![]);
+        assert_eq!(few, Err(SurfaceError::TextureCount { given: 0, faces: 1 }));
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, f32::NAN]];
+        let bad = surface.clone().with_texture(vec![corners]);
+        assert_eq!(bad, Err(SurfaceError::TextureNotFinite { face: 0 }));
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        assert_eq!(surface.with_texture(vec![corners]).unwrap().texture(), [corners]);
     }
 
     #[test]

@@ -136,6 +136,19 @@ impl Mesh {
         sums.into_iter().map(|(sum, n)| sum / f64::from(n.max(1))).collect()
     }
 
+    /// Texture coordinates at the corners of all triangles; none if a triangle has none or all are in one point.
+    pub(super) fn texture(&self) -> Option<Vec<[[f32; 2]; 3]>> {
+        let uv = |&i: &u32| self.uvs.get(i as usize).map(|uv| uv.map(|x| x as f32));
+        let corners = |t: &Option<[u32; 3]>| {
+            let [a, b, c] = t.as_ref()?;
+            Some([uv(a)?, uv(b)?, uv(c)?])
+        };
+        let all: Vec<_> = self.triangle_uvs.iter().map(corners).collect::<Option<_>>()?;
+        let first = all.first()?[0];
+        let spread = all.as_flattened().iter().any(|uv| *uv != first);
+        (spread && all.len() == self.triangles.len()).then_some(all)
+    }
+
     /// How many vertices the file has.
     pub(super) fn file_vertices(&self) -> usize {
         if self.joined.is_empty() { self.positions.len() } else { self.joined.len() }

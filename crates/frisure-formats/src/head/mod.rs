@@ -91,6 +91,10 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
     }
     let surface = Surface::new(positions, mesh.triangles.clone())
         .map_err(|source| HeadFileError::Surface { path: path.clone(), source })?;
+    let surface = match mesh.texture() {
+        Some(texture) => surface.clone().with_texture(texture).unwrap_or(surface),
+        None => surface,
+    };
     let scalp = match &head.scalp {
         ScalpSource::Guess => None,
         ScalpSource::Group(name) => Some(scalp::from_group(&mesh, name, path)?),

@@ -15,6 +15,7 @@ mod sculpt;
 mod spheres;
 #[cfg(test)]
 pub(crate) mod test_shapes;
+mod texture;
 mod triangles;
 mod voxel_grid;
 mod voxels;
@@ -28,6 +29,8 @@ pub use landmarks::{Landmarks, Region};
 pub(crate) use scalp::Edge;
 pub use scalp::Hairline;
 pub use spheres::Sphere;
+pub(crate) use texture::Texture;
+pub use texture::textured;
 
 /// A head that hair can be planted on.
 ///

@@ -5,20 +5,17 @@ use frisure_rod::Equilibrium;
 use frisure_strands::{AttributeValues, Domain, Strands, names};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 
 use super::attributes::put;
 use super::population::{Population, roots};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
-use crate::head::{Head, Landmarks, Region};
+use crate::head::{Head, Region, Texture};
 
 /// Adds to all drawn hairs of a hairstyle what programs that groom want to know: `closest_guides`,
 /// `guide_weights`, `id`, `group` and `root_uv`, as [`names`] has them.
 ///
-/// The texture coordinates of roots are a map of the head from above (azimuthal equidistant): (½, ½) is above
-/// the middle of the cranium, u grows to the head's left, v to the back, and the distance from the middle is
-/// the angle from the vertical over 2π.
+/// The texture coordinates of a root are those of the skin beneath it, of the mesh [`textured`](crate::head::textured).
 ///
 /// # Panics
 /// If they have been added before, or these are not all drawn hairs.
@@ -32,7 +29,8 @@ pub fn describe(strands: &mut Strands, hairstyle: &Hairstyle, head: &Head) {
     let group = |p: DVec3| group(marks.region(p));
     let ids = roots.iter().map(|(index, _)| *index as u32).collect();
     let groups = roots.iter().map(|(_, root)| group(root.position)).collect();
-    let uvs = roots.iter().map(|(_, root)| root_uv(marks, root.position)).collect();
+    let texture = Texture::new(head);
+    let uvs = roots.par_iter().map(|(_, root)| texture.at(root.position)).collect();
     put(strands, Domain::Strand, names::CLOSEST_GUIDES, AttributeValues::U32x3(closest));
     put(strands, Domain::Strand, names::GUIDE_WEIGHTS, AttributeValues::F32x3(weights));
     put(strands, Domain::Strand, names::ID, AttributeValues::U32(ids));
@@ -84,10 +82,10 @@ pub fn guide_strands(hairstyle: &Hairstyle, points: usize) -> Strands {
 pub fn described_guides(hairstyle: &Hairstyle, head: &Head, points: usize) -> Strands {
     let mut strands = guide_strands(hairstyle, points);
     let Hairstyle { guides, rest, .. } = hairstyle;
-    let marks = head.landmarks();
+    let texture = Texture::new(head);
     let of = |f: &dyn Fn(&Guide) -> u32| AttributeValues::U32(guides.iter().map(f).collect());
     let ids = AttributeValues::U32((0..guides.len() as u32).collect());
-    let uv = |g: &Guide| root_uv(marks, g.root.position);
+    let uv = |g: &Guide| texture.at(g.root.position);
     let uvs = AttributeValues::F32x2(guides.iter().map(uv).collect());
     let ratio = |g: &Guide| (g.rod.spec().section.a() / g.rod.spec().section.b()) as f32;
     let ratios = AttributeValues::F32(guides.iter().map(ratio).collect());
@@ -137,21 +135,13 @@ fn group(region: Region) -> u32 {
     Region::ALL.iter().position(|r| *r == region).unwrap_or(0) as u32
 }
 
-/// Where on the head a point is, as on a map drawn from above the cranium: its middle (½, ½) is above the
-/// centre, u grows to the head's left, v to the back, and the distance from the middle to the angle from the
-/// vertical, ½ being straight down (azimuthal equidistant projection).
-fn root_uv(marks: &Landmarks, p: DVec3) -> [f32; 2] {
-    let d = marks.normalized(p).normalize_or(DVec3::Z);
-    let around = d.x.hypot(d.y);
-    let radius = 0.5 * around.atan2(d.z) / PI;
-    let (x, y) = if around > 0.0 { (d.x / around, d.y / around) } else { (0.0, 0.0) };
-    [(0.5 + radius * x) as f32, (0.5 + radius * y) as f32]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::head::textured;
     use crate::{Hairs, PRESETS, PredictOptions, StrandOptions, predict, strands};
+    use frisure_strands::Surface;
+    use glam::DVec2;
 
     fn small() -> (Hairstyle, Head) {
         let mut spec = PRESETS[0].spec();
@@ -178,14 +168,50 @@ mod tests {
         }
     }
 
+    /// The points of the skin with these texture coordinates, each place once.
+    fn places(surface: &Surface, uv: [f32; 2]) -> Vec<DVec3> {
+        let uv = DVec2::new(uv[0].into(), uv[1].into());
+        let mut found: Vec<DVec3> = Vec::new();
+        for (face, corners) in surface.texture().iter().enumerate() {
+            let [a, b, c] = corners.map(|t| DVec2::new(t[0].into(), t[1].into()));
+            let area = (b - a).perp_dot(c - a);
+            let weights =
+                [(b - uv).perp_dot(c - uv), (c - uv).perp_dot(a - uv), (a - uv).perp_dot(b - uv)];
+            let weights = weights.map(|w| w / area);
+            // Up to the rounding of single precision: a root may be on an edge.
+            if area != 0.0 && weights.iter().all(|w| *w > -1e-4) {
+                let place = (0..3).map(|i| surface.corners(face)[i] * weights[i]).sum::<DVec3>();
+                if found.iter().all(|other| other.distance(place) > 2e-4) {
+                    found.push(place);
+                }
+            }
+        }
+        found
+    }
+
     #[test]
-    fn the_map_of_roots_has_its_directions() {
-        let head = Head::mannequin();
-        let marks = head.landmarks();
-        let at = |d: DVec3| root_uv(marks, marks.cranium_centre + d * marks.cranium_radii);
-        assert_eq!(at(DVec3::Z), [0.5, 0.5]);
-        assert_eq!(at(DVec3::X), [0.75, 0.5]);
-        assert_eq!(at(DVec3::Y), [0.5, 0.75]);
+    fn the_skin_at_the_texture_coordinates_of_a_root_is_beneath_the_root() {
+        let (hairstyle, head) = small();
+        let drawn = strands(&hairstyle, &head, StrandOptions::default(), &());
+        let mut strands = drawn.unwrap().strands;
+        describe(&mut strands, &hairstyle, &head);
+        let guides = described_guides(&hairstyle, &head, 9);
+        let surface = textured(&head);
+        // Where hair leaves the skin; the first points of drawn hairs are a little deeper, in the skin.
+        let own = roots(&hairstyle, &head, 1).into_iter().map(|(_, root)| root.position).collect();
+        let of_guides: Vec<DVec3> = hairstyle.guides().iter().map(|g| g.root.position).collect();
+        for (all, roots) in [(&strands, own), (&guides, of_guides)] {
+            let values = &all.attribute(names::ROOT_UV).unwrap().values;
+            let AttributeValues::F32x2(uvs) = values else { panic!() };
+            assert_eq!(uvs.len(), roots.len());
+            for (root, uv) in roots.into_iter().zip(uvs) {
+                let found = places(&surface, *uv);
+                assert_eq!(found.len(), 1, "{uv:?} is at {found:?}");
+                let gap = found[0].distance(root);
+                assert!(gap < 1e-4, "the root is {gap} m from the skin at {uv:?}");
+                assert!(uv.iter().all(|x| (0.0..=1.0).contains(x)), "{uv:?}");
+            }
+        }
     }
 
     #[test]

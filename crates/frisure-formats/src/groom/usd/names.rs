@@ -35,3 +35,9 @@ pub(super) const IS_GUIDE: &str = "primvars:groom_guide";
 /// Pigments of all hair; their unit is that of the scene's `look`.
 pub(super) const PIGMENTS: [&str; 2] =
     ["primvars:frisure:eumelanin", "primvars:frisure:pheomelanin"];
+
+/// Texture coordinates of the head, at the corners of its faces.
+pub(super) const TEXTURE: &str = "primvars:st";
+
+/// Positions of the head's vertices before anything moves them.
+pub(super) const REST_POSITION: &str = "primvars:rest_position";

@@ -7,10 +7,10 @@ use glam::{DMat4, Vec3};
 use super::super::curves::Curves;
 use super::super::data::{Groom, HairColour};
 use super::basis::{self, Taps};
-use super::names::PIGMENTS;
+use super::names::{PIGMENTS, TEXTURE};
 use super::primvars::{self, Per, given, mixed};
 use frisure_files::frame::Frame;
-use frisure_usd::{Stage, StagePrim, Value};
+use frisure_usd::{Mesh, Stage, StagePrim, Value};
 
 /// Diameter of fibres of a prim without widths, where others have some (m).
 const USUAL_DIAMETER: f64 = 70e-6;
@@ -176,10 +176,30 @@ fn diffuse(place: &StagePrim, stage: &Stage) -> Option<Vec<f32>> {
 fn head(stage: &Stage, frame: Frame) -> Result<Option<Surface>, String> {
     let mut meshes = stage.prims.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
     let (Some(place), None) = (meshes.next(), meshes.next()) else { return Ok(None) };
-    let mesh = place.mesh().map_err(|e| stage.fault(place, &e))?;
+    let mut mesh = place.mesh().map_err(|e| stage.fault(place, &e))?;
     let metres = |p: &[f64; 3]| frame.position_from_file((*p).into());
     let positions = mesh.positions.iter().map(metres).collect();
-    Surface::new(positions, mesh.triangles)
-        .map(Some)
-        .map_err(|e| stage.fault(place, &e.to_string()))
+    let triangles = std::mem::take(&mut mesh.triangles);
+    let texture = texture(place, &mesh, &triangles);
+    let surface =
+        Surface::new(positions, triangles).map_err(|e| stage.fault(place, &e.to_string()))?;
+    Ok(Some(match texture {
+        Some(texture) => surface.clone().with_texture(texture).unwrap_or(surface),
+        None => surface,
+    }))
+}
+
+/// The texture coordinates at the corners of triangles, where the mesh has them at corners or vertices.
+fn texture(place: &StagePrim, mesh: &Mesh, triangles: &[[u32; 3]]) -> Option<Vec<[[f32; 2]; 3]>> {
+    let attribute = place.prim.attribute(TEXTURE)?;
+    let value = attribute.value.as_ref().filter(|value| value.ty.width() == 2)?;
+    let numbers = place.prim.resolved(attribute, value, 2).ok()?.numbers()?;
+    let rows = numbers.as_chunks::<2>().0;
+    let row = |i: usize| rows.get(i).map(|uv| uv.map(|x| x as f32));
+    let three = |[a, b, c]: [usize; 3]| Some([row(a)?, row(b)?, row(c)?]);
+    match attribute.meta("interpolation").and_then(Value::word)? {
+        "faceVarying" => mesh.corners.iter().map(|corners| three(*corners)).collect(),
+        "vertex" | "varying" => triangles.iter().map(|t| three(t.map(|v| v as usize))).collect(),
+        _ => None,
+    }
 }

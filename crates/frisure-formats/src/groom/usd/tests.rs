@@ -44,12 +44,15 @@ fn whole() -> Groom {
     }
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].map(|p| p * 0.125).to_vec();
     let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    // With a seam: corners of one vertex differ.
+    let texture = (0..4u8).map(|f| [0u8, 1, 2].map(|c| [f32::from(f) * 0.25, f32::from(c * f)]));
+    let head = Surface::new(corners, faces).unwrap().with_texture(texture.collect()).unwrap();
     let melanin = Some(Melanin { eumelanin: 1.5, pheomelanin: 0.25 });
     Groom {
         name: "a \"groom\"\n".into(),
         hairs,
         guides: strands(2, 3),
-        head: Some(Surface::new(corners, faces).unwrap()),
+        head: Some(head),
         colour: Some(HairColour { melanin, colour: [0.5, 0.25, 0.125] }),
     }
 }

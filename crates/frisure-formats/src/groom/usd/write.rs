@@ -1,12 +1,14 @@
 //! A groom as a stage.
 
+use std::collections::BTreeMap;
+
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::Vec3;
 
 use super::super::attributes::{COLOUR, DIRECTOR, in_file_axes};
 use super::super::data::{Groom, HairColour};
 use super::look;
-use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS, SINGLES};
+use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS, REST_POSITION, SINGLES, TEXTURE};
 use frisure_files::frame::Frame;
 use frisure_usd::{Data, Layer, Prim, Value};
 
@@ -199,11 +201,32 @@ fn mesh(name: &str, surface: &Surface, frame: Frame) -> Prim {
     prim.varying("int[]", "faceVertexCounts", Value::ints(counts));
     prim.varying("int[]", "faceVertexIndices", Value::ints(corners));
     prim.varying("point3f[]", "points", triples(&points));
+    // Blender's nodes that move hair with a surface ask for both, by these names.
+    prim.primvar("float3[]", REST_POSITION, triples(&points), "vertex");
+    texture(&mut prim, surface);
     prim.primvar("normal3f[]", "normals", triples(&normals), "vertex");
     let colour = Value::float_tuples(&[look::SKIN]);
     prim.primvar("color3f[]", "primvars:displayColor", colour, "constant");
     look::bind(&mut prim, "skin");
     prim
+}
+
+/// Writes the texture coordinates of faces' corners, each value once.
+fn texture(prim: &mut Prim, surface: &Surface) {
+    if surface.texture().is_empty() {
+        return;
+    }
+    let (mut values, mut indices) = (Vec::new(), Vec::new());
+    let mut places = BTreeMap::new();
+    for uv in surface.texture().as_flattened() {
+        let place = *places.entry(uv.map(f32::to_bits)).or_insert_with(|| {
+            values.push(*uv);
+            (values.len() - 1) as u32
+        });
+        indices.push(signed(place));
+    }
+    prim.primvar("texCoord2f[]", TEXTURE, Value::float_tuples(&values), "faceVarying");
+    prim.varying("int[]", &format!("{TEXTURE}:indices"), Value::ints(indices));
 }
 
 fn triples(points: &[Vec3]) -> Value {
