@@ -94,6 +94,64 @@ def test_roots_are_on_the_head(head):
         assert found and (place - root).length < 1e-3
 
 
+def test_texture_coordinates_of_roots_are_those_of_the_head(head):
+    quietly(lambda: bpy.ops.wm.usd_import(filepath=str(head / "head.usdc")))
+    skin = bpy.data.objects["head"].data
+    vertices = np.zeros(len(skin.vertices) * 3, np.float32)
+    skin.vertices.foreach_get("co", vertices)
+    vertices = vertices.reshape(-1, 3)
+    rest = skin.attributes["rest_position"]
+    assert rest.domain == "POINT" and (values(rest, "vector", 3) == vertices).all()
+    corners = values(skin.uv_layers["st"], "uv", 2).reshape(-1, 3, 2).astype(float)
+    index = np.zeros(len(skin.loops), np.int32)
+    skin.loops.foreach_get("vertex_index", index)
+    places = vertices[index].reshape(-1, 3, 3).astype(float)
+
+    def cross(a, b):
+        return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    area = cross(b - a, c - a)
+    curves = bpy.data.objects["hairs"].data
+    uvs = values(curves.attributes["surface_uv_coordinate"], "vector", 2)
+    for curve, uv in list(zip(curves.curves, uvs))[::20]:
+        weights = np.stack([cross(b - uv, c - uv), cross(c - uv, a - uv), cross(a - uv, b - uv)], -1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            weights /= area[:, None]
+        inside = np.flatnonzero((weights > -1e-4).all(axis=1) & (area != 0))
+        found = (weights[inside, :, None] * places[inside]).sum(axis=1)
+        root = np.array(curves.points[curve.first_point_index].position)
+        # Drawn hairs begin 0.3 mm below the skin.
+        assert len(found) > 0 and np.linalg.norm(found - root, axis=1).max() < 4e-4
+
+
+@pytest.mark.parametrize("bound", [True, False])
+def test_hair_follows_the_head_as_it_deforms(head, bound):
+    """The node Deform Curves on Surface finds all that it asks for, and moves hair as its modifier moves the head."""
+    quietly(lambda: bpy.ops.wm.usd_import(filepath=str(head / "head.usdc")))
+    skin, hairs = bpy.data.objects["head"], bpy.data.objects["hairs"]
+    if not bound:
+        skin.data.uv_layers.remove(skin.data.uv_layers["st"])
+    hairs.data.surface = skin
+    hairs.data.surface_uv_map = "st"
+    before = values(hairs.data.attributes["position"], "vector", 3).copy()
+    lift = skin.modifiers.new("lift", "DISPLACE")
+    lift.direction, lift.mid_level, lift.strength = "Z", 0.0, 0.02
+    tree = bpy.data.node_groups.new("follow", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    deform = tree.nodes.new("GeometryNodeDeformCurvesOnSurface")
+    tree.links.new(start.outputs[0], deform.inputs[0])
+    tree.links.new(deform.outputs[0], end.inputs[0])
+    hairs.modifiers.new("follow", "NODES").node_group = tree
+    bpy.context.view_layer.update()
+    found = hairs.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    after = values(found.attributes["position"], "vector", 3)
+    moved = np.abs(after - before - [0, 0, 0.02 if bound else 0]).max()
+    assert moved < 1e-5, moved
+
+
 def make(kind):
     """Three curves of 4, 5 and 6 points, translated and rotated."""
     data = bpy.data.hair_curves.new(kind)
