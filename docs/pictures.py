@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Makes the pictures of README.md and docs/ again, with the command frisure.
+
+Usage: docs/pictures.py PATH/TO/frisure [--paths N] [NAME...]
+
+NAME is one of the groups below (heads, final, collisions, colours, looks, lights, wet, styling, grooms), or a
+picture of `final` such as final/afro; without a name all are made. N is the number of paths per pixel of a traced
+picture (24). FRISURE_OIDN names the library of Open Image Denoise if the system does not know it. Needs Pillow.
+
+Not made here: docs/pictures/fibre.jpg (`cargo run --release -p frisure-render --example fibre -- fibre.png`),
+docs/pictures/validation (`frisure evidence`), docs/pictures/grooms/blender.jpg
+(validation/clients/blender_picture.py), and docs/pictures/salon, which are photographs of the window.
+"""
+import argparse, math, pathlib, re, struct, subprocess, tempfile
+from PIL import Image, ImageDraw, ImageFont
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SCENES, OUT = ROOT / "scenes", ROOT / "docs/pictures"
+HEADS = """short-asian straight long-straight fringe parting bob wavy curly ringlets frizzy coils afro""".split()
+FINAL = HEADS + "collisions-none collisions obj-head fringe-cut growth rollers".split()
+CAPTION = 18  # pixels below a picture that has a caption
+STRAIGHT = '[hair]\ntype = "caucasian-straight"\nlength = "25 cm"\n[implantation]\nflow = "parted"\nparting = "2 cm"\n'
+BEHIND = '[camera]\nazimuth = "150 deg"\n'
+BOB = (
+    '[hair]\ntype = "asian-straight"\nlength = "33 cm"\n[look]\ncolour = "dark-brown"\n[camera]\nazimuth = "60 deg"\n'
+    '[[step]]\ncut = { below = "chin", held = "hanging" }\n'
+)
+LOOKS = [
+    ("dye, 5 cm grown", 'colour = "dark-brown"\ndye = { colour = "#a03040", strength = 0.9, regrowth = "5 cm" }'),
+    ("grey", 'colour = "grey"'),
+    ("salt-and-pepper", 'colour = "salt-and-pepper"'),
+    ("dark roots", 'colour = "blond"\nroots = { pigment = 10.0, fade = "14 cm" }'),
+    ("light tips", 'colour = "light-brown"\ntips = { pigment = 0.14, fade = "14 cm" }'),
+]
+SETUPS = "studio soft butterfly rembrandt rim daylight overcast".split()
+
+
+def without(text, table):
+    """The scene without one of its tables."""
+    return re.sub(rf"(?ms)^\[{table}\].*?(?=^\[|\Z)", "", text)
+
+
+class Maker:
+    """Runs frisure in a folder of its own and saves what comes out as JPEG."""
+
+    def __init__(self, program, paths, folder):
+        self.program, self.paths, self.folder = program, paths, pathlib.Path(folder)
+
+    def run(self, *arguments):
+        done = subprocess.run([self.program, *map(str, arguments)], cwd=SCENES, capture_output=True, text=True)
+        # A guide that has not converged ends with status 1, and the picture is there all the same.
+        if done.returncode not in (0, 1):
+            raise SystemExit(f"frisure {' '.join(map(str, arguments))}\n{done.stderr}")
+
+    def traced(self, hair, size, look=None, share=0.6):
+        """A scene, or a groom with the scene `look`, by the path tracer."""
+        out = self.folder / "traced.png"
+        out.unlink(missing_ok=True)
+        with_look = ["--look", look] if look else []
+        self.run("render", hair, "-o", out, "--size", f"{size[0]}x{size[1]}", "--noise", 0, "--paths", self.paths,
+                 f"--denoise={round(100 * share)}", "-q", *with_look)
+        return Image.open(out).convert("RGB")
+
+    def scene(self, text, name="scene"):
+        path = self.folder / f"{name}.toml"
+        path.write_text(text)
+        return path
+
+    def groom(self, text, name):
+        path = self.folder / f"{name}.hair"
+        self.run("predict", self.scene(text, name), "-o", path)
+        return path
+
+    def steps(self, text, size, name):
+        """Previews of a scene before its first step and after each."""
+        text = without(text, "output") + f"\n[output]\nwidth = {2 * size[0]}\nheight = {2 * size[1]}\n"
+        out = self.folder / f"{name}.png"
+        self.run("predict", self.scene(text, name), "--each-step", "--image", out)
+        pictures = sorted(self.folder.glob(f"{name}-*.png"))
+        return [Image.open(p).convert("RGB").resize(size, Image.LANCZOS) for p in pictures]
+
+    def save(self, image, name, quality=80):
+        image.save(OUT / f"{name}.jpg", "JPEG", quality=quality, optimize=True, progressive=True)
+        print(name, flush=True)
+
+
+def grid(pictures, columns, captions=None):
+    """Pictures of one size in rows, each with a caption below it."""
+    width, height = pictures[0].size
+    cell = height + (CAPTION if captions else 0)
+    sheet = Image.new("RGB", (columns * width, math.ceil(len(pictures) / columns) * cell), "white")
+    draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(12)
+    for i, picture in enumerate(pictures):
+        x, y = i % columns * width, i // columns * cell
+        sheet.paste(picture, (x, y))
+        if captions:
+            draw.text((x + width / 2, y + height + CAPTION / 2), captions[i], "#202020", font, "mm")
+    return sheet
+
+
+def heads(maker):
+    maker.save(grid([maker.traced(SCENES / f"{name}.toml", (360, 440)) for name in HEADS], 4), "heads")
+
+
+def final(maker, names=FINAL):
+    for name in names:
+        maker.save(maker.traced(SCENES / f"{name}.toml", (1024, 1024)), f"final/{name}")
+
+
+def collisions(maker):
+    text = (SCENES / "collisions-none.toml").read_text()
+    layers = maker.scene(re.sub(r'(?m)^hair = "none"', 'hair = "layers"', text))
+    scenes = [SCENES / "collisions-none.toml", layers, SCENES / "collisions.toml"]
+    maker.save(grid([maker.traced(scene, (360, 440)) for scene in scenes], 3), "collisions")
+
+
+def swatches(maker, looks, name):
+    """One straight head from behind in each of the looks, lines of `[look]`."""
+    hair = maker.groom(STRAIGHT, "straight")
+    scenes = [maker.scene(STRAIGHT + BEHIND + f"[look]\n{look}\n", f"look{i}") for i, (_, look) in enumerate(looks)]
+    pictures = [maker.traced(hair, (180, 216), scene, 1.0) for scene in scenes]
+    maker.save(grid(pictures, 5, [caption for caption, _ in looks]), name, 85)
+
+
+def colours(maker):
+    table = (ROOT / "docs/look.md").read_text().split("| name |")[1].split("\n\n")[0]
+    names = re.findall(r"(?m)^\| `([a-z-]+)`", table)
+    swatches(maker, [(name, f'colour = "{name}"') for name in names], "colours")
+
+
+def looks(maker):
+    swatches(maker, LOOKS, "looks")
+
+
+def window(path):
+    """A room with one bright window and a dark floor, as Radiance RGBE without compression."""
+    width, height = 128, 64
+
+    def light(x, y):
+        if 40 <= x < 52 and 18 <= y < 34:
+            return (14.0, 15.0, 17.0)
+        return (0.28, 0.26, 0.23) if y < 33 else (0.12, 0.10, 0.09)
+
+    def rgbe(colour):
+        exponent = math.frexp(max(colour))[1]
+        return struct.pack("4B", *(int(c * 256 / 2**exponent) for c in colour), exponent + 128)
+
+    head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode()
+    path.write_bytes(head + b"".join(rgbe(light(x, y)) for y in range(height) for x in range(width)))
+
+
+def lights(maker):
+    hair = maker.groom(STRAIGHT, "straight")
+    window(maker.folder / "window.hdr")
+    kinds = [(s, f'setup = "{s}"') for s in SETUPS] + [("environment (a window)", 'environment = "window.hdr"')]
+    scenes = [maker.scene(f"{STRAIGHT}[look]\ncolour = \"light-brown\"\n[light]\n{light}\n", f"light{i}")
+              for i, (_, light) in enumerate(kinds)]
+    pictures = [maker.traced(hair, (200, 240), scene, 1.0) for scene in scenes]
+    maker.save(grid(pictures, 4, [caption for caption, _ in kinds]), "lights", 85)
+
+
+def wet(maker):
+    dry = without((SCENES / "wavy.toml").read_text(), "look") + '\n[look]\ncolour = "light-brown"\n'
+    scenes = [maker.scene(dry, "dry"), maker.scene(dry + "\n[[step]]\nwet = {}\n", "wet")]
+    maker.save(grid([maker.traced(scene, (220, 264)) for scene in scenes], 2, ["dry", "wet"]), "wet", 85)
+
+
+def styling(maker):
+    def row(text, size, name, which=None):
+        pictures = maker.steps(text, size, name)
+        return grid([pictures[i] for i in which] if which else pictures, len(which or pictures))
+
+    def of(scene):
+        return (SCENES / f"{scene}.toml").read_text()
+
+    rows = [row(of("fringe-cut"), (400, 489), "fringe-cut"), row(of("growth"), (266, 325), "growth", (0, 2, 3, 5, 7, 11))]
+    last = [row(of("rollers"), (320, 391), "rollers", (0, 2, 4)), row(BOB, (320, 391), "bob", (0, 1))]
+    sheet = Image.new("RGB", (1600, 489 + 325 + 391), "white")
+    for picture, place in zip(rows + last, [(0, 0), (2, 489), (0, 814), (960, 814)]):
+        sheet.paste(picture, place)
+    maker.save(sheet, "styling", 77)
+
+
+def grooms(maker):
+    out = maker.folder / "predict.png"
+    text = without((SCENES / "curly.toml").read_text(), "output") + "\n[output]\nwidth = 500\nheight = 600\n"
+    maker.run("predict", maker.scene(text), "--image", out)
+    maker.save(Image.open(out).convert("RGB"), "grooms/predict", 85)
+
+
+GROUPS = [heads, collisions, colours, looks, lights, wet, styling, grooms, final]
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("frisure")
+    arguments.add_argument("--paths", type=int, default=24)
+    arguments.add_argument("names", nargs="*", metavar="NAME")
+    asked = arguments.parse_intermixed_args()
+    single = [name[6:] for name in asked.names if name.startswith("final/")]
+    groups = [g for g in GROUPS if not asked.names or g.__name__ in asked.names]
+    known = {g.__name__ for g in GROUPS} | {f"final/{name}" for name in FINAL}
+    for name in asked.names:
+        if name not in known:
+            arguments.error(f"no picture `{name}`: {', '.join(sorted(known))}")
+    program = pathlib.Path(asked.frisure).resolve()
+    with tempfile.TemporaryDirectory() as folder:
+        maker = Maker(program, asked.paths, folder)
+        for group in groups:
+            group(maker)
+        final(maker, single)
+
+
+if __name__ == "__main__":
+    main()
