@@ -31,8 +31,6 @@ pub struct Thickness {
     spread: f64,
     /// q² (1/m²).
     wave: f64,
-    /// κ q (1/m²).
-    slope: f64,
     /// 1/ℓ³ (1/m³).
     sag: f64,
     /// ℓ (m).
@@ -49,7 +47,6 @@ frisure_digest::digest_fields!(Thickness {
     fibre,
     spread,
     wave,
-    slope,
     sag,
     slack,
     length,
@@ -82,7 +79,6 @@ impl Thickness {
             fibre: rod.spec().section.mean_radius(),
             spread: spread * natural.truncate().length(),
             wave: natural.length_squared(),
-            slope: natural.truncate().length() * natural.length(),
             sag,
             // Without weight there is no tension, however far from the tip.
             slack: if sag > 0.0 { sag.cbrt().recip() } else { 0.0 },
@@ -98,39 +94,27 @@ impl Thickness {
         Self { volume, ..self }
     }
 
-    /// Cross-section that one hair takes (m²) across the axis of its wisp at arc length `s` (m), without the factor.
+    /// Cross-section that one hair takes (m²) at arc length `s` (m), without the factor.
     #[must_use]
     pub fn area_per_hair(&self, s: f64) -> f64 {
         let tube = self.tube(s);
-        // A hexagon about a circle of radius t has the area √12 t². The skin bounds it where a curl without pitch never rises.
-        (12.0_f64.sqrt() * tube * tube / self.rise(s)).min(self.ground)
-    }
-
-    /// How far (m) the axis of the curl rises per metre of hair at arc length `s` (m): cos ψ, 1 for straight hair.
-    #[must_use]
-    pub fn rise(&self, s: f64) -> f64 {
-        let sine = self.slope / (self.wave + self.tension(s)).max(1e-12);
-        (1.0 - sine * sine).max(0.0).sqrt()
-    }
-
-    /// T/EI (1/m²).
-    fn tension(&self, s: f64) -> f64 {
-        self.sag * (self.length - s).max(self.slack)
+        // A hexagon about a circle of radius t has the area √12 t².
+        (12.0_f64.sqrt() * tube * tube).min(self.ground)
     }
 
     /// Radius (m) of the tube that one hair has for itself at arc length `s` (m), `r + w/2`.
     #[must_use]
     pub fn tube(&self, s: f64) -> f64 {
-        // w = σκ/(q² + T/EI); the bound stands for straight hair without weight, where σκ is zero too.
-        let wander = self.spread / (self.wave + self.tension(s)).max(1e-12);
+        // T/EI (1/m²), and w = σκ/(q² + T/EI); the bound stands for straight hair without weight, where σκ is zero too.
+        let tension = self.sag * (self.length - s).max(self.slack);
+        let wander = self.spread / (self.wave + tension).max(1e-12);
         self.fibre + 0.5 * wander
     }
 
     /// Fraction of a wisp that is hair, at arc length `s` (m).
     #[must_use]
     pub fn packing(&self, s: f64) -> f64 {
-        // A section across the axis cuts a fibre in an ellipse of 1/cos ψ times its own section.
-        PI * self.fibre * self.fibre / (self.rise(s) * self.area_per_hair(s))
+        PI * self.fibre * self.fibre / self.area_per_hair(s)
     }
 
     /// Radius (m) of the wisp at arc length `s` (m), far from the root.
@@ -176,48 +160,15 @@ mod tests {
     fn hair_that_shares_its_curl_packs_like_wires() {
         let t = wisp(&rod(0.2, (0.01, 0.02), 9.81), 400.0, 0.0);
         assert!((t.packing(0.1) - PI / 12.0_f64.sqrt()).abs() < 1e-12);
-        let along = 400.0 / t.rise(0.1);
-        assert!((t.packed(0.1) - 35e-6 * (along / t.packing(0.1)).sqrt()).abs() < 1e-12);
+        assert!((t.packed(0.1) - 35e-6 * (400.0 / t.packing(0.1)).sqrt()).abs() < 1e-12);
     }
 
     #[test]
     fn without_weight_a_hair_wanders_by_its_own_curl() {
         // κ/q² is the radius of the natural helix.
         let t = wisp(&rod(0.2, (0.01, 0.02), 0.0), 1.0, 0.1);
-        let tube = t.tube(0.1);
+        let tube = (t.area_per_hair(0.1) / 12.0_f64.sqrt()).sqrt();
         assert!((tube - (35e-6 + 0.5 * 0.1 * 0.01)).abs() < 1e-12, "{tube}");
-    }
-
-    #[test]
-    fn a_section_across_the_axis_of_a_curl_has_room_for_its_hairs() {
-        // A helix of radius R that rises by P a turn is √((2πR)² + P²) of hair a turn: so many times the volume of its hairs.
-        for (radius, pitch) in [(0.010, 0.024), (0.005, 0.024), (0.0025, 0.024), (0.0015, 0.004)] {
-            let t = wisp(&rod(0.15, (radius, pitch), 0.0), 400.0, 0.0);
-            let turn = (2.0 * PI * radius).hypot(pitch);
-            let wires = 12.0_f64.sqrt() * 35e-6 * 35e-6;
-            let taken = t.area_per_hair(0.1) * pitch / turn;
-            assert!((taken / wires - 1.0).abs() < 1e-9, "{radius} {pitch}: {}", taken / wires);
-            assert!((t.packing(0.1) - PI / 12.0_f64.sqrt()).abs() < 1e-9);
-        }
-        // Under the same weight the slope is less, and straight hair has none.
-        let (curl, hangs) = (rod(0.15, (0.01, 0.024), 0.0), rod(0.15, (0.01, 0.024), 9.81));
-        assert!(wisp(&hangs, 1.0, 0.0).rise(0.0) > wisp(&curl, 1.0, 0.0).rise(0.0));
-        let straight = Thickness::new(&hangs, DVec3::ZERO, 400.0, 1.0, 0.05, 1.0);
-        assert_eq!(straight.rise(0.1), 1.0);
-        assert!(
-            (straight.area_per_hair(0.1) / (12.0_f64.sqrt() * 35e-6 * 35e-6) - 1.0).abs() < 1e-12
-        );
-    }
-
-    #[test]
-    fn coils_of_one_shape_take_more_room_per_length_of_hair_than_straight_hair() {
-        let hangs = rod(0.15, (0.01, 0.024), 9.81);
-        let straight = Thickness::new(&hangs, DVec3::ZERO, 1000.0, 1.0, 0.05, 1.0).packed(0.075);
-        for scale in [1.0, 0.5, 0.25, 0.125] {
-            let coil = wisp(&rod(0.15, (0.01 * scale, 0.024 * scale), 9.81), 1000.0, 0.05);
-            // The area by the length of the helix over its pitch, 2.8, less what its weight stretches the curl.
-            assert!(coil.packed(0.075) > 1.5 * straight, "{scale}: {}", coil.packed(0.075));
-        }
     }
 
     #[test]
