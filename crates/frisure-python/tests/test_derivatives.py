@@ -110,6 +110,8 @@ def test_what_cannot_be_differentiated_is_told() -> None:
     assert np.array_equal(again.points, rest.points)
     with pytest.raises(frisure.ArgumentError, match="in this process"):
         again.vjp(np.zeros((1, 16, 3)))
+    none = rods.settle(np.zeros(0), derivatives=True).vjp(np.zeros((0, 16, 3)))
+    assert none.half_strain.shape == (0, 30, 3) and len(none) == 0
     strided = np.zeros((1, 32, 6))[:, ::2, ::2]
     assert rest.vjp(strided).length.shape == (1,)
     assert rest.vjp(strided.astype(np.float32)).length[0] == 0.0

@@ -23,6 +23,7 @@ pub(crate) struct RodsAtRest(Arc<Kept>);
 
 struct Kept {
     rods: Vec<Rod>,
+    elements: usize,
     /// Rods of each solution but the last.
     chunk: usize,
     found: Vec<BatchSolution>,
@@ -42,9 +43,14 @@ type Arrays<'py> = (
 );
 
 impl RodsAtRest {
-    /// Rods that were solved `chunk` at a time.
-    pub(crate) fn new(rods: Vec<Rod>, chunk: usize, found: Vec<BatchSolution>) -> Self {
-        Self(Arc::new(Kept { rods, chunk, found }))
+    /// Rods of `elements` elements that were solved `chunk` at a time.
+    pub(crate) fn new(
+        rods: Vec<Rod>,
+        elements: usize,
+        chunk: usize,
+        found: Vec<BatchSolution>,
+    ) -> Self {
+        Self(Arc::new(Kept { rods, elements, chunk, found }))
     }
 }
 
@@ -60,7 +66,7 @@ impl RodsAtRest {
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Arrays<'py>> {
         let kept = Arc::clone(&self.0);
-        let (count, elements) = (kept.rods.len(), kept.found.first().map_or(0, |f| f.elements));
+        let (count, elements) = (kept.rods.len(), kept.elements);
         let by_points = vectors(by_points.as_array(), [count, elements + 1])?;
         let by_frames = by_frames.as_ref().map(|by| vectors(by.as_array(), [count, elements + 1]));
         let by_frames = by_frames.transpose()?.unwrap_or_default();
@@ -135,7 +141,7 @@ impl Kept {
         progress: &dyn Progress,
     ) -> Result<Vec<BatchGradient>, Error> {
         let stage = StageCounter::new(progress, "derivatives", self.found.len());
-        let nodes = self.chunk * self.found.first().map_or(0, |found| found.elements + 1);
+        let nodes = self.chunk * (self.elements + 1);
         let chunks = self.rods.par_chunks(self.chunk).zip(&self.found).enumerate();
         let gradients = chunks.map(|(i, (rods, found))| {
             stage.check()?;

@@ -198,13 +198,13 @@ pub(crate) fn settle_rods<'py>(
     let rods = rods.map_err(|e| raise(py, &e.into()))?;
     let shape = [count, options.elements + 1, 3];
     let (points, error) = (options.points, options.error);
-    let chunk = options.chunk();
+    let (elements, chunk) = (options.elements, options.chunk());
     let (rods, rest) = work::run(py, progress, move |p| {
         let rest = options.solve(&rods, p)?;
         Ok((rods, rest))
     })?;
     let found: Option<Vec<BatchSolution>> = rest.found.into_iter().collect();
-    let at_rest = found.map(|found| Bound::new(py, RodsAtRest::new(rods, chunk, found)));
+    let at_rest = found.map(|found| Bound::new(py, RodsAtRest::new(rods, elements, chunk, found)));
     let nodes = PyArray1::from_vec(py, rest.points);
     Ok((
         points.then(|| nodes.reshape(shape)).transpose()?,
