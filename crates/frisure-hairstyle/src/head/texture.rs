@@ -120,7 +120,7 @@ fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
 /// The map is drawn from above the cranium (azimuthal equidistant): (½, ½) is above its middle, u grows to the
 /// head's left, v to the back, and the distance from the middle is the angle from the vertical over 2π. Faces
 /// where no hair grows have the same map one further along u, from 1 to 2, so that ears and face do not cover the
-/// scalp; so have faces that the map turns over.
+/// scalp; so have faces that the map flips.
 #[must_use]
 pub fn textured(head: &Head) -> Surface {
     let surface = head.surface().clone();
