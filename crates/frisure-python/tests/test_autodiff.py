@@ -108,6 +108,9 @@ def test_wrong_arguments_are_told() -> None:
         frisure.torch.settle(torch.tensor(-0.1, dtype=torch.float64))
     points = frisure.torch.settle(0.1)
     assert points.shape == (1, 16, 3) and not points.requires_grad
+    # Whole numbers do not make the points whole.
+    points = frisure.torch.settle(0.1, gravity=torch.tensor(10))
+    assert points.dtype == torch.float64 and float(points[0, -1, 0]) > 0.0
 
 
 def test_vmap_and_single_precision_in_jax() -> None:

@@ -11,6 +11,7 @@ True
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -30,9 +31,8 @@ class _Settle(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
         settled = _autodiff.settle(keywords | arrays, options, derivatives=any(ctx.needs_input_grad))
         ctx.settled, ctx.names = settled, names
         ctx.kinds = [(tensor.shape, tensor.dtype, tensor.device) for tensor in tensors]
-        kind = torch.result_type(tensors[0], tensors[-1]) if tensors else torch.float64
-        for tensor in tensors:
-            kind = torch.promote_types(kind, tensor.dtype)
+        kinds = [tensor.dtype for tensor in tensors if tensor.is_floating_point()]
+        kind = reduce(torch.promote_types, kinds) if kinds else torch.float64
         device = tensors[0].device if tensors else None
         return torch.as_tensor(_autodiff.points(settled), dtype=kind, device=device)
 
