@@ -112,7 +112,7 @@ def collisions(maker):
     text = (SCENES / "collisions-none.toml").read_text()
     layers = maker.scene(re.sub(r'(?m)^hair = "none"', 'hair = "layers"', text))
     scenes = [SCENES / "collisions-none.toml", layers, SCENES / "collisions.toml"]
-    maker.save(grid([maker.traced(scene, (360, 440)) for scene in scenes], 3), "collisions")
+    maker.save(grid([maker.traced(scene, (360, 440), share=1.0) for scene in scenes], 3), "collisions")
 
 
 def swatches(maker, looks, name):
@@ -163,7 +163,7 @@ def lights(maker):
 def wet(maker):
     dry = without((SCENES / "wavy.toml").read_text(), "look") + '\n[look]\ncolour = "light-brown"\n'
     scenes = [maker.scene(dry, "dry"), maker.scene(dry + "\n[[step]]\nwet = {}\n", "wet")]
-    maker.save(grid([maker.traced(scene, (220, 264)) for scene in scenes], 2, ["dry", "wet"]), "wet", 85)
+    maker.save(grid([maker.traced(scene, (220, 264), share=1.0) for scene in scenes], 2, ["dry", "wet"]), "wet", 85)
 
 
 def styling(maker):

@@ -67,7 +67,8 @@ class Gradient:
     """At least the smallest eigenvalue of the second variation over that of the elastic energy, 1 without loads and 0 where
     stability is lost: the derivatives grow as one over it, (H,)."""
     regular: NDArray[np.bool_]
-    """Whether that is at least 1e-3; nearer to a loss of stability derivatives are large and hold for tiny changes only, (H,)."""
+    """Whether the smallest eigenvalue itself is at least 1e-3; nearer to a loss of stability derivatives are large and hold for tiny
+    changes only, (H,)."""
     exists: NDArray[np.bool_]
     """Whether the shape is a minimum and has derivatives; where not, they are zero, (H,)."""
 

@@ -165,15 +165,22 @@ fn both<F>(halves: &[Half<F>], element: usize) -> [&Half<F>; 2] {
 
 impl<F: Lanes> AdjointBundle<F> {
     /// Solves `H a = (∂x/∂c)ᵀ ∂ℓ/∂x` of each rod and forms the products with the parameters.
+    ///
+    /// The least pivot of `H − λ K/h` with λ = `least` is returned, too: it is positive if all eigenvalues are above λ.
     #[inline(always)]
-    pub(super) fn solve(&mut self) -> (AdjointSums<F>, SweepResult<F>) {
+    pub(super) fn solve(&mut self, least: f64) -> (AdjointSums<F>, SweepResult<F>, F) {
         self.shape();
-        let mut result = SweepResult::new(self.weight.splat(0.0));
-        let (force, torque, magnification) = self.backward(&mut result);
+        let zero = self.weight.splat(0.0);
+        // What this sweep leaves in the joints the next one replaces.
+        let mut shifted = SweepResult::new(zero);
+        self.backward(&mut shifted, zero.splat(-least));
+        let mut result = SweepResult::new(zero);
+        let (force, torque, magnification) = self.backward(&mut result, zero);
         let (bent, elastic) = self.forward();
         let load = self.products();
         let curvature = result.decrease + result.decrease;
-        (AdjointSums { force, torque, magnification, load, bent, curvature, elastic }, result)
+        let sums = AdjointSums { force, torque, magnification, load, bent, curvature, elastic };
+        (sums, result, shifted.pivot)
     }
 
     /// Frames and positions, from root to tip.
@@ -196,11 +203,11 @@ impl<F: Lanes> AdjointBundle<F> {
         }
     }
 
-    /// The Hessian eliminated from tip to root with the loss on its right-hand side. (L11)
+    /// The Hessian, with `damping` times the stiffness, eliminated from tip to root with the loss on its right-hand side. (L11)
     #[inline(always)]
-    fn backward(&mut self, result: &mut SweepResult<F>) -> (Vec3<F>, Vec3<F>, F) {
+    fn backward(&mut self, result: &mut SweepResult<F>, damping: F) -> (Vec3<F>, Vec3<F>, F) {
         let zero = self.weight.splat(0.0);
-        let stiffness = Stiffness::new(self.stiffness, zero);
+        let stiffness = Stiffness::new(self.stiffness, damping);
         let (half_length, half) = (zero.splat(0.5) * self.spacing, zero.splat(0.5));
         let none = Vec3::splat(zero);
         let (mut force, mut torque, mut magnification) = (none, none, zero);

@@ -195,7 +195,7 @@ fn in_lanes<F: Lanes>(
             load(&mut bundle, lane, (&rods[rod], rod), &joints, found, loss);
         }
         // 2. The adjoint and its products.
-        let (sums, result) = bundle.solve();
+        let (sums, result, above) = bundle.solve(LEAST_EIGENVALUE);
         // 3. Out of them.
         for (lane, rod) in (0..lanes).zip(first..) {
             let at_rest = result.gradient.get(lane).sqrt() <= AT_REST * rods[rod].moment_scale();
@@ -221,7 +221,6 @@ fn in_lanes<F: Lanes>(
             let bound = sums.curvature.get(lane) / sums.elastic.get(lane);
             // A loss that asks nothing has no adjoint: its derivatives are zero, whatever the stability.
             let eigenvalue_bound = if bound.is_nan() { 1.0 } else { bound };
-            let regular = eigenvalue_bound >= LEAST_EIGENVALUE;
             gradient.rods[rod] = RodGradient {
                 length: stretched / rods[rod].length(),
                 stiffness: sums.bent.get(lane) / bundle.spacing.get(lane),
@@ -229,7 +228,7 @@ fn in_lanes<F: Lanes>(
                 root_position: sums.force.get(lane) + loss.position(rod, 0),
                 root_rotation: turned - weight.cross(load),
                 eigenvalue_bound,
-                regularity: Ok(match regular {
+                regularity: Ok(match above.get(lane) > 0.0 {
                     true => Regularity::Regular,
                     false => Regularity::IllConditioned,
                 }),
