@@ -79,6 +79,24 @@ pub(super) fn friction(spec: &HairstyleSpec) -> FrictionCoefficients {
     FrictionCoefficients { skin: spec.contact.skin_friction, hair: spec.contact.friction }
 }
 
+/// How deep (m) a curl may press itself into the skin beside its root. Chosen: half of what the report calls inside the head.
+const CURL_DEPTH: f64 = 2.5e-4;
+
+/// Stiffest skin (Pa); the largest `contact.stiffness`.
+const HARDEST: f64 = 1e5;
+
+/// Stiffness of skin per length of hair (Pa): that of the description, or what the guide's own curl needs.
+///
+/// A curl that grows towards the skin presses on it with its natural moment M = EI κ. A long beam on an elastic foundation of
+/// the stiffness k, with the moment M at its end, has the depth 2Mβ²/k there, β⁴ = k/4EI (Hetényi 1946, *Beams on elastic
+/// foundation*, ch. 3): κ √(EI/k). docs/theory.md, "Hair on the body".
+fn skin_stiffness(spec: &HairstyleSpec, guide: &Guide) -> f64 {
+    let curvature = guide.rod.natural().mean(0.0, guide.rod.length()).truncate();
+    let bending = guide.rod.stiffness().truncate();
+    let needed = bending.min_element() * curvature.length_squared() / CURL_DEPTH.powi(2);
+    spec.contact.stiffness.max(needed.min(HARDEST))
+}
+
 /// Contact of a guide with the body, on a bed of hair or without.
 pub(super) fn body<'a>(
     spec: &HairstyleSpec,
@@ -89,7 +107,7 @@ pub(super) fn body<'a>(
     BodyContact {
         head,
         body: spec.contact.body,
-        skin: spec.contact.stiffness * guide.firmness,
+        skin: skin_stiffness(spec, guide) * guide.firmness,
         hair: spec.contact.hair_stiffness,
         thickness: guide.thickness,
         layer,

@@ -65,6 +65,15 @@ const ARMIJO: f64 = 1e-4;
 /// Relative rounding error of an energy: that of f64, 1.1e-16, times about a hundred for the sum over elements.
 const ENERGY_ROUNDING: f64 = 1e-14;
 
+/// Largest decrease, over the rounding error of an energy, of a step that the gradient may decide. Chosen: Armijo's condition asks
+/// for 1e-4 of the decrease, which is below rounding for these.
+const MOST_HIDDEN: f64 = 1e4;
+
+/// Lengths that are tried of a step that the gradient decides, each half of the one before; and the part of the gradient that it
+/// may leave. Chosen: a kink anywhere in the step is met to a few per cent.
+const GRADIENT_TRIALS: i32 = 6;
+const CLEARLY_SMALLER: f64 = 0.95;
+
 impl Minimiser for Newton {
     fn minimise(&self, problem: &Problem<'_>, start: Shape, stopping: StoppingCriteria) -> Minimum {
         if problem.with_position {
@@ -228,7 +237,7 @@ impl Newton {
             let noise = ENERGY_ROUNDING * energy.abs();
             // With damping besides, no step of any length shows a decrease: the caller ends or escapes.
             if sweep.decrease < noise && *damping > 1.0 {
-                return None;
+                return step_by_gradient(at, shape, energy);
             }
             // 2. Line search: backtracking by halves until Armijo's condition holds.
             let trials = if *damping == 0.0 { UNDAMPED_TRIALS } else { DAMPED_TRIALS };
@@ -254,8 +263,36 @@ impl Newton {
             }
             *damping = stronger(*damping);
         }
-        None
+        step_by_gradient(at, shape, energy)
     }
+}
+
+/// A step whose decrease is too near rounding for energies to show it: of several lengths of the undamped step the one that
+/// leaves the smallest gradient, if that is clearly smaller than here.
+///
+/// Where contact begins or ends within a step, the curvature jumps: the model's decrease is not reached, and halving and damping
+/// shorten the step until its decrease is below rounding, although the gradient is not. A Newton step that is measured by the
+/// gradient goes on there (semismooth Newton; [Nocedal & Wright] §11.2 on the norm of the gradient as a merit function).
+fn step_by_gradient<const POSITION: bool>(
+    at: &Linearisation<'_, POSITION>,
+    shape: &Shape,
+    energy: f64,
+) -> Option<Step> {
+    let noise = ENERGY_ROUNDING * energy.abs();
+    let sweep = at.sweep(0.0).ok()?;
+    if sweep.decrease > MOST_HIDDEN * noise {
+        return None;
+    }
+    let step = |fraction: f64| {
+        let (next, lowered) = rollout::<POSITION>(at.problem, shape, &sweep.laws, fraction);
+        let gradient = Linearisation::<POSITION>::new(at.problem, &next).largest_gradient();
+        (gradient, Step { shape: next, energy: lowered, below_rounding: true })
+    };
+    let (gradient, step) = (0..GRADIENT_TRIALS)
+        .map(|halvings| step(0.5_f64.powi(halvings)))
+        .filter(|(_, step)| step.energy <= energy + MOST_HIDDEN * noise)
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (gradient < CLEARLY_SMALLER * at.largest_gradient()).then_some(step)
 }
 
 /// An accepted step.
