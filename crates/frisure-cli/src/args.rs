@@ -139,6 +139,11 @@ pub(crate) struct Predict {
     #[arg(long, value_name = "JSON")]
     pub(crate) report: Option<PathBuf>,
 
+    /// Predict this many replicas more, whose lengths and curl are changed by up to a millionth, and tell
+    /// how far guides move: those that lie where they lie by chance jump. Each takes as long as the head.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) replicas: Option<u32>,
+
     /// How the picture is made.
     #[arg(long, value_enum, default_value_t = Quality::Preview, value_name = "QUALITY")]
     pub(crate) quality: Quality,

@@ -47,6 +47,7 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
         quality: Quality::Final,
         tracing,
         each_step: false,
+        replicas: None,
         writing: Writing::default(),
         fibres: false,
     };

@@ -452,3 +452,20 @@ fn a_groom_is_hair() {
     }
     assert!(!room.path("e.hair").exists());
 }
+
+#[test]
+fn replicas_tell_how_far_guides_move() {
+    let room = Room::new().with("quick.toml", QUICK);
+    let ran = room.run(&["predict", "quick.toml", "--report", "a.json", "--replicas", "2"]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+    assert!(ran.out.contains("\n2 replicas whose lengths"), "{}", ran.out);
+    let report: Value = serde_json::from_slice(&fs::read(room.path("a.json")).unwrap()).unwrap();
+    let replicas = &report["guides"]["replicas"];
+    let spread = replicas["spread"].as_array().unwrap();
+    assert_eq!(spread.len(), 6);
+    let largest = spread.iter().map(|s| s.as_f64().unwrap()).fold(0.0, f64::max);
+    assert!(largest > 0.0 && replicas["largest"] == largest, "{replicas}");
+
+    let refused = room.run(&["predict", "quick.toml", "--replicas", "0"]);
+    assert_eq!(refused.code, Some(2));
+}

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use super::StepReport;
 use crate::adoption::AdoptionReport;
+use crate::replicas::ReplicaReport;
 use crate::runner::LoadedScene;
 
 /// A hairstyle and its drawn hairs in numbers; SI units. No time and no machine: the same scene gives the same bytes.
@@ -93,6 +94,9 @@ pub struct GuideReport {
     /// What friction holds; none if hair slides freely.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionReport>,
+    /// How far guides move in replicas of the hairstyle, if any were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replicas: Option<ReplicaReport>,
 }
 
 /// What friction holds. With friction, where hair rests depends on how it got there.
@@ -235,6 +239,7 @@ impl GuideReport {
             status: status(settling),
             joint: settling.joint.map(JointReport::from),
             friction: None,
+            replicas: None,
         }
     }
 }

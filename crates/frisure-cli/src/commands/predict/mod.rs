@@ -126,7 +126,8 @@ impl Prediction<'_> {
     fn execute(&self, scene: &Arc<Scene>, files: &[StageFiles]) -> Result<Written, Error> {
         self.progress.report("head", 0.0);
         let all = self.arguments.each_step;
-        let styled = Runner::default().load_stages(scene, all, &self.progress)?;
+        let mut runner = Runner::default();
+        let styled = runner.load_stages(scene, all, &self.progress)?;
         let several = self.arguments.image.is_some() && styled.stages.len() > 1;
         let framed = several.then(|| styled.all_guides());
         let StyledScene { stages, steps } = styled;
@@ -137,7 +138,12 @@ impl Prediction<'_> {
             let checkpoint = hair_checkpoint::open(checkpoint, loaded, &self.progress)?;
             let hairs = self.hairs(loaded, checkpoint.as_ref())?;
             if stage + 1 == stages.len() {
-                report = Some(self.report(loaded, hairs.as_ref()));
+                let mut last = self.report(loaded, hairs.as_ref());
+                if let Some(count) = self.arguments.replicas {
+                    let replicas = runner.replicas(loaded, count as usize, &self.progress)?;
+                    last.guides.replicas = Some(replicas);
+                }
+                report = Some(last);
             }
             if let Some(hairs) = hairs {
                 lines.extend(self.write(loaded, hairs, framed.as_ref(), files)?);

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use frisure_engine::ReplicaReport;
 use frisure_engine::report::{DEEP, HairstyleReport, SimulationReport, StepReport};
 
 /// The summary of a prediction; `note` is what was guessed of the head, and `written` has a line about each file.
@@ -49,9 +50,10 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
     } else {
         String::new()
     };
+    let replicas = guides.replicas.as_ref().map(replicas_line).unwrap_or_default();
     if written.is_empty() {
         let hint = "add `-o hair.hair`, `--image hair.png` or `--report hair.json`";
-        let _ = writeln!(out, "\n{buried}nothing was written: {hint}");
+        let _ = writeln!(out, "\n{buried}{replicas}nothing was written: {hint}");
         return out;
     }
     let _ = write!(out, "; {} hairs of {} points in all", report.hairs, report.points);
@@ -60,6 +62,7 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
     }
     out.push('\n');
     out += &buried;
+    out += &replicas;
     if let Some(SimulationReport { hairs, stable, .. }) = &report.simulated {
         let _ = writeln!(out, "simulated: {stable} of {hairs} hairs at rest");
     }
@@ -73,6 +76,17 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
         let _ = writeln!(out, "wrote {path}");
     }
     out
+}
+
+/// A line about how far guides move in replicas.
+fn replicas_line(replicas: &ReplicaReport) -> String {
+    let ReplicaReport { count, median, percentile_99, largest, jumped, spread, .. } = replicas;
+    let [median, percentile_99, largest] = [median, percentile_99, largest].map(|x| x * 1e3);
+    format!(
+        "{count} replicas whose lengths and curl are changed by up to a millionth: guides move by {median:.3} mm (median), {percentile_99:.3} mm \
+         (99 %), {largest:.3} mm (the most); {jumped} of {} by more than 0.5 mm\n",
+        spread.len()
+    )
 }
 
 /// A line about a step.
