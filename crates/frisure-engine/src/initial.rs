@@ -6,12 +6,13 @@ use frisure::hairstyle::{
     Adoption, Hairstyle, HairstyleSpec, PredictError, PredictOptions, adopt, predict,
 };
 use frisure::progress::Progress;
-use frisure::scene::{Scene, SceneError};
+use frisure::scene::{Placement, Scene, SceneError};
 use frisure::strands::Strands;
 use glam::DVec3;
 
 use crate::error::Error;
 use crate::inputs::scene_groom;
+use crate::placement::{guess, lines, placed};
 
 /// The hairstyle before the first step: predicted from `[hair]`, or adopted from the groom of the scene.
 ///
@@ -30,10 +31,14 @@ pub(crate) fn initial_hairstyle(
         return Ok((predicted, None));
     };
     let most = scene.groom.as_ref().map_or(usize::MAX, |file| file.guides);
-    let guides = if groom.guides.is_empty() { &groom.hairs } else { &groom.guides };
-    let guides = evenly(guides, most);
+    let placement = scene.groom.as_ref().map(|file| file.placement).unwrap_or_default();
+    let hairs = placed(&groom.hairs, &placement);
+    let guides = match groom.guides.is_empty() {
+        true => evenly(&hairs, most),
+        false => placed(&evenly(&groom.guides, most), &placement),
+    };
     check_roots(scene, head, &guides)?;
-    adopt(spec, head, &guides, &groom.hairs, progress)
+    adopt(spec, head, &guides, &hairs, progress)
         .map(|(hairstyle, adoption)| (hairstyle, Some(adoption)))
         .map_err(|e| match e {
             PredictError::Quantity(e) => scene.error_at("groom.file", e.to_string(), "").into(),
@@ -92,6 +97,18 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
         "half of the groom's strands are rooted more than {:.1} cm from the skin of the head{possible}{suggestion}",
         1e2 * distance
     );
+    // An axis or a unit alone is the simpler mistake; a placement that the scene has already is not placed once more.
+    let placed = scene.groom.as_ref().is_some_and(|file| file.placement != Placement::default());
+    if suggestion.is_empty()
+        && !placed
+        && let Some(placement) = guess(head, &roots)
+    {
+        let hint = format!(
+            "it would lie on the head with these lines in `[groom]`:\n{}",
+            lines(&placement)
+        );
+        return Err(scene.error_at("groom.file", problem, hint));
+    }
     let hint = "set `unit` and `up` of `[groom]` and of `[head]`; `mesh` of `[head]` is the head that the groom was made on";
     Err(scene.error_at("groom.file", problem, hint))
 }

@@ -31,6 +31,7 @@ mod inputs;
 pub mod memory;
 mod metrics;
 pub mod picture;
+mod placement;
 mod preview;
 mod quality;
 mod replicas;

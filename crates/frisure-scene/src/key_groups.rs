@@ -13,7 +13,15 @@ pub const HEAD: [&str; 8] = [
 ];
 
 /// The keys about the file of the groom, its path first; without it, the others have no effect.
-pub const GROOM: [&str; 4] = ["groom.file", "groom.up", "groom.unit", "groom.guides"];
+pub const GROOM: [&str; 7] = [
+    "groom.file",
+    "groom.up",
+    "groom.unit",
+    "groom.scale",
+    "groom.turn",
+    "groom.move",
+    "groom.guides",
+];
 
 /// The keys whose values are paths.
 pub const PATHS: [&str; 5] =

@@ -207,6 +207,12 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Which axis of the groom points up; the face looks along +z or -y then. Default that of the file or format.
         "groom.up" => value::<OneOf<Keyword<UpAxis>>>()
             .options(Panel::Files, "Up in the groom", "The axis of the groom that points up.");
+        /// Factor on all lengths of the groom, after its unit; {}. Default 1.
+        "groom.scale" => number::<Ratio>().range(1e-6, 1e6, "between 1e-6 and 1e6");
+        /// Turns of the groom about the axes x, y and z of the head, one after the other, in degrees. Default none.
+        "groom.turn" => value::<Vector>();
+        /// Displacement of the groom after scale and turns, in the frame of the head: x to its left, y backwards, z up. Default none.
+        "groom.move" => value::<Point>();
         /// How many of its strands become guides at most, evenly chosen; these carry the others. {}. Default 300.
         "groom.guides" => number::<Count>().range(1.0, 100_000.0, "between 1 and 100000");
         /// How hair leaves the scalp.

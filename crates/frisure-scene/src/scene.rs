@@ -10,6 +10,7 @@ use frisure_rod::{Branch, Options, Rod, StrainProfile};
 use frisure_files::frame::FrameChoice;
 use frisure_files::head::HeadFile;
 
+use crate::placement::Placement;
 use crate::source::Source;
 
 /// Largest scene that is read (bytes).
@@ -72,6 +73,8 @@ pub struct GroomFile {
     pub path: PathBuf,
     /// Unit and axes, where the scene gives them.
     pub frame: FrameChoice,
+    /// Where it lies on the head.
+    pub placement: Placement,
     /// How many strands become guides at most.
     pub guides: usize,
 }

@@ -469,3 +469,37 @@ fn replicas_tell_how_far_guides_move() {
     let refused = room.run(&["predict", "quick.toml", "--replicas", "0"]);
     assert_eq!(refused.code, Some(2));
 }
+
+/// A public groom in another unit, on its side and away from the head is told where it belongs, in lines to copy.
+#[test]
+fn a_groom_that_lies_elsewhere_is_refused_with_the_lines_that_place_it() {
+    let room = Room::new().with("quick.toml", QUICK);
+    assert_eq!(room.run(&["predict", "quick.toml", "-o", "a.obj"]).code, Some(0));
+    let text = fs::read_to_string(room.path("a.obj")).unwrap();
+    // In inches, turned about the vertical and moved by metres.
+    let elsewhere = |line: &str| match line.strip_prefix("v ") {
+        None => line.to_owned(),
+        Some(numbers) => {
+            let p: Vec<f64> = numbers.split(' ').map(|x| x.parse().unwrap()).collect();
+            format!("v {} {} {}", 39.37 * p[2] + 70.0, 39.37 * p[1] - 120.0, -39.37 * p[0])
+        }
+    };
+    let moved: Vec<String> = text.lines().map(elsewhere).collect();
+    let scene = format!("{QUICK}[groom]\nfile = \"b.obj\"\n");
+    let room = room.with("b.obj", moved.join("\n")).with("huge.toml", &scene);
+    let huge = room.run(&["predict", "huge.toml", "-o", "c.hair"]);
+    assert!(huge.err.contains("is it in cm?"), "{}", huge.err);
+    let scene = format!("{scene}unit = \"cm\"\n");
+    let room = room.with("groomed.toml", &scene);
+    let refused = room.run(&["predict", "groomed.toml", "-o", "c.hair"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.err);
+    let is_line = |line: &&str| ["scale = ", "turn = ", "move = "].iter().any(|k| line.contains(k));
+    let lines: Vec<&str> = refused.err.lines().filter(is_line).map(str::trim).collect();
+    assert!(!lines.is_empty(), "{}", refused.err);
+    let room = room.with("placed.toml", format!("{scene}{}\n", lines.join("\n")));
+    let ran = room.run(&["predict", "placed.toml", "-o", "c.hair"]);
+    // A strand of so few points may not come to rest; all are where they were.
+    assert!(matches!(ran.code, Some(0 | 3)) && ran.err.is_empty(), "{lines:?}: {}", ran.err);
+    assert!(ran.out.contains("wrote c.hair"), "{}", ran.out);
+    assert_eq!(lines, ["scale = 2.54", "turn = [0, 0, -90]", "move = [0, 1.7783, 3.0483]"]);
+}

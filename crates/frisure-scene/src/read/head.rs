@@ -10,7 +10,8 @@ use crate::document::Document;
 use crate::error::Result;
 use crate::key_groups::{GROOM, HEAD};
 use crate::keywords::{Keyword, UnitWord};
-use crate::kind::Text;
+use crate::kind::{Point, Text, Vector};
+use crate::placement::Placement;
 use crate::scene::{GroomFile, HeadSource};
 
 /// Most guides of a groom, if the scene gives no number.
@@ -68,5 +69,23 @@ pub(super) fn groom(document: &Document<'_>, folder: &Path) -> Result<Option<Gro
     };
     let guides = document.number("groom.guides").unwrap_or(GROOM_GUIDES) as usize;
     let frame = frame(document, "groom")?;
-    Ok(Some(GroomFile { path: folder.join(path), frame, guides }))
+    let placement = placement(document)?;
+    Ok(Some(GroomFile { path: folder.join(path), frame, placement, guides }))
+}
+
+/// Largest displacement of a groom along an axis (m). Chosen: what is farther away has lost the precision of a hair.
+const FARTHEST: f64 = 1000.0;
+
+/// Where the groom lies on the head.
+fn placement(document: &Document<'_>) -> Result<Placement> {
+    let scale = document.number("groom.scale").unwrap_or(1.0);
+    let turn = document.get::<Vector>("groom.turn")?.unwrap_or_default();
+    if turn.abs().max_element() > 360.0 {
+        return Err(document.outside("groom.turn", "three angles between -360 and 360 degrees"));
+    }
+    let shift = document.get::<Point>("groom.move")?.unwrap_or_default();
+    if shift.abs().max_element() > FARTHEST {
+        return Err(document.outside("groom.move", "three lengths of at most 1 km"));
+    }
+    Ok(Placement { scale, turn: turn.map(f64::to_radians), shift })
 }
