@@ -21,8 +21,8 @@ fn check(name: &str, rod: &Rod, options: &Options) {
     assert_eq!(certificate.stability, Stability::Stable, "{name}: {certificate:?}");
     assert!(certificate.gradient_norm < 1e-9, "{name}: {certificate:?}");
     assert!(certificate.min_eigenvalue.unwrap() > -1e-7, "{name}: {certificate:?}");
-    // A branch that turns fast is followed in small steps: some dozens of a few iterations each.
-    assert!(certificate.iterations < 300, "{name}: {} iterations", certificate.iterations);
+    // A branch that turns fast is followed in small steps, some dozens of a few iterations each, with two divisions.
+    assert!(certificate.iterations < 600, "{name}: {} iterations", certificate.iterations);
     let root = rod.spec().root;
     let turn = glam::DMat3::from_rotation_y(2e-4) * glam::DMat3::from_rotation_x(1e-4);
     let frame = turn * root.frame();

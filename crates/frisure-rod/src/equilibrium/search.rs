@@ -84,6 +84,13 @@ struct Level {
     least: OnceCell<f64>,
 }
 
+/// The end of gravity's branch.
+struct Followed {
+    level: Level,
+    /// Whether the rod was far from a loss of stability at every step, and none was halved.
+    clear: bool,
+}
+
 /// What divisions say of the stability of the exact rod.
 struct Verdict {
     stability: Stability,
@@ -94,7 +101,7 @@ struct Verdict {
 }
 
 /// Factor on gravity from one step of the branch to the next: a hanging rod's shape changes with the logarithm of its
-/// heaviness. On 4 000 random hairs, steps of 1.3 end at the same equilibria (docs/theory.md, "Which equilibrium").
+/// heaviness. On 6 000 random hairs, steps of 1.02 end at the same equilibria (docs/theory.md, "Which equilibrium").
 const GRAVITY_FACTOR: f64 = 2.5;
 
 /// Factor on gravity below which a jump is taken: the branch itself ends there (a fold). Chosen by trial.
@@ -106,8 +113,13 @@ const HALVINGS: usize = 60;
 /// The same with external potentials, where hair snaps from one minimum to the next. Chosen by trial.
 const HALVINGS_IN_CONTACT: usize = 6;
 
-/// Relative gradient of a shape that only starts the next division, and of one at a part of the weight. Chosen: errors of
-/// the division are larger.
+/// How many times as many elements the branch is followed with again where a step came near a loss of stability: few
+/// elements lose it at another weight, or not at all. Tuned on 6 000 random hairs, of which 6 end on another branch with 1,
+/// 2 with 2, none with 4.
+const DIVIDED_NEAR_A_LOSS: usize = 4;
+
+/// Relative gradient of a shape that only starts the next division, and of one at a part of the weight, relative to the
+/// moments at that part. Chosen: errors of the division are larger.
 const ON_THE_WAY: f64 = 1e-4;
 const PART_OF_THE_WEIGHT: f64 = 1e-3;
 
@@ -125,6 +137,10 @@ const RANDOM_TURN: f64 = 4.0;
 /// Relative difference below which two energies are one and the same minimum. Chosen: above rounding, below any barrier.
 const SAME_ENERGY: f64 = 1e-9;
 
+/// Distance of two lines over the length, above which they are different equilibria. Chosen: above what a loose tolerance
+/// leaves; the same as in the count of minima of `validation/evidence`.
+const SAME_LINE: f64 = 1e-2;
+
 /// Least cosine of the turn of a tangent in a step along the branch; a step that turns one further (72°) is halved.
 /// Chosen by trial.
 const LARGEST_TURN_COSINE: f64 = 0.3;
@@ -134,12 +150,14 @@ impl Search<'_> {
         let coarse = self.kind.resolving_elements(self.rod);
         match self.options.resolution {
             Resolution::Elements(n) => {
-                let level = self.level(n.clamp(1, MAX_ELEMENTS), coarse, previous);
-                self.with_elements(level)
+                let n = n.clamp(1, MAX_ELEMENTS);
+                self.with_elements(self.level(n, coarse.min(n), n, previous))
             }
             Resolution::Accuracy(accuracy) => {
                 let first = coarse.min(self.most_elements());
-                self.refine(self.level(first, first, previous), accuracy)
+                // Two more doublings tell the error.
+                let most = self.most_elements() / 4;
+                self.refine(self.level(first, first, most, previous), accuracy)
             }
         }
     }
@@ -156,18 +174,19 @@ impl Search<'_> {
         self.options.max_elements.clamp(1, MAX_ELEMENTS)
     }
 
-    /// The equilibrium with `n` elements. The branch is followed with few, then refined; a shape
-    /// that is nearly right already is settled at once.
-    fn level(&self, n: usize, coarse: usize, previous: Option<&Equilibrium>) -> Level {
+    /// The equilibrium with `n` elements or more. The branch is followed with `coarse` elements, or up to `most` where
+    /// that matters, then refined; a shape that is nearly right already is settled at once.
+    fn level(&self, n: usize, coarse: usize, most: usize, previous: Option<&Equilibrium>) -> Level {
         // 1. An equilibrium with few elements: from the other shape, or along gravity's branch.
-        let first = if previous.is_some() { n } else { n.min(coarse) };
-        let chain = self.chain(first);
-        let tolerance = self.tolerance(first, n);
         let mut level = match previous {
-            Some(previous) => self.settle(&chain, warm_start(&chain, previous), tolerance),
-            None => self.follow_gravity(&chain, tolerance),
+            Some(previous) => {
+                let chain = self.chain(n);
+                self.settle(&chain, warm_start(&chain, previous), self.tolerance(n, n))
+            }
+            None => self.end_of_branch(coarse, most, n),
         };
         if let Branch::Lowest { starts, seed } = self.options.branch {
+            let chain = self.chain(level.elements);
             level = self.lowest(&chain, level, starts, seed);
         }
         // 2. Doubled to as many as are wanted.
@@ -231,15 +250,46 @@ impl Search<'_> {
         next
     }
 
+    /// The end of gravity's branch with `few` elements, or with more, up to `most`, where the branch comes near a loss of
+    /// stability: it may end, or go on, only because the elements are few. `last` are those that are wanted in the end.
+    fn end_of_branch(&self, few: usize, most: usize, last: usize) -> Level {
+        let follow = |n| self.follow_gravity(&self.chain(n), self.tolerance(n, last));
+        let Followed { level, clear } = follow(few);
+        let more = (DIVIDED_NEAR_A_LOSS * few).min(most);
+        // In contact hair snaps from one minimum to the next with any division.
+        if clear || more <= few || !self.external.is_empty() {
+            return level;
+        }
+        let again = follow(more).level;
+        let carried = self.finer(&level, more, self.tolerance(more, last));
+        let gap = largest_gap(&again.minimum.shape.positions, &carried.minimum.shape.positions);
+        let iterations = again.minimum.iterations + carried.minimum.iterations;
+        // The same equilibrium is refined from few elements, which is cheaper.
+        let mut end = if gap <= SAME_LINE * self.rod.length() { level } else { again };
+        end.minimum.iterations = iterations;
+        end
+    }
+
+    /// Relative gradient of a shape at a part of the weight.
+    fn part_tolerance(&self, load: f64) -> f64 {
+        // Moments of the body are not a part of their own.
+        if !self.external.is_empty() {
+            return PART_OF_THE_WEIGHT;
+        }
+        // At a small part the gradient would be within that of the whole weight without any step.
+        let heaviness = self.rod.heaviness();
+        PART_OF_THE_WEIGHT * (1.0 + load * heaviness) / (1.0 + heaviness)
+    }
+
     /// Turns gravity on slowly from the natural shape. A step that jumps is halved, so that the
     /// branch is left only where it ends.
-    fn follow_gravity(&self, chain: &Chain<'_>, last: f64) -> Level {
+    fn follow_gravity(&self, chain: &Chain<'_>, last: f64) -> Followed {
         let settle = |load: f64, start: Shape| {
             let problem = Problem::with_load(chain, self.external, load);
             // What is only on the way need not be exact.
             let stopping = match load {
                 l if l < 1.0 => StoppingCriteria {
-                    tolerance: last.max(PART_OF_THE_WEIGHT),
+                    tolerance: last.max(self.part_tolerance(l)),
                     max_iterations: self.options.max_iterations.div_ceil(4),
                 },
                 _ => self.stopping(last),
@@ -264,6 +314,7 @@ impl Search<'_> {
         // The least load known to be a jump away.
         let mut jump = f64::INFINITY;
         let mut halvings = 0;
+        let mut clear = true;
         loop {
             // 3. The next load: the next step of the schedule, or half the way (by logarithm) to a known jump.
             let step = match load {
@@ -277,16 +328,19 @@ impl Search<'_> {
             let next = step.min(1.0);
             let mut minimum = settle(next, shape.clone());
             iterations += minimum.iterations;
+            clear &= minimum.clear;
             // 4. A jump: the same step again, smaller.
             let halve = load > 0.0 && next < jump && halvings < most_halvings;
             if halve && self.jumped(&shape, &minimum.shape) {
-                (jump, halvings) = (next, halvings + 1);
+                (jump, halvings, clear) = (next, halvings + 1, false);
                 continue;
             }
             if next >= 1.0 {
                 minimum.iterations = iterations;
                 let energy = Problem::new(chain, self.external).energy(&minimum.shape);
-                return Level { elements: chain.len(), minimum, energy, least: OnceCell::new() };
+                let elements = chain.len();
+                let level = Level { elements, minimum, energy, least: OnceCell::new() };
+                return Followed { level, clear };
             }
             if next >= jump {
                 jump = f64::INFINITY;
