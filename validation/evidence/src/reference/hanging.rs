@@ -6,6 +6,9 @@ use frisure::rod::{NaturalStrain, RodSpec, TorsionConstant};
 use glam::{DMat3, DVec3};
 use thiserror::Error;
 
+use super::gauss::integrate;
+use super::natural::Natural;
+
 /// The solver could not increase the weight, or the natural strain, to its full value.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error("the boundary-value problem has no solution beyond {fraction} of the way on this branch")]
@@ -15,14 +18,14 @@ pub struct NoSolution {
 }
 
 /// A hanging rod in numbers without units.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Hanging {
     /// Weight per length times L³/EI, EI the stiffness about d1.
     pub weight: f64,
     /// Stiffness about d1, d2 and t over EI.
     pub stiffness: DVec3,
     /// Natural strain times L.
-    pub natural: DVec3,
+    pub natural: Natural,
     /// Directors d1, d2, t at the root, in columns.
     pub root: DMat3,
     /// Unit of length (m).
@@ -30,15 +33,9 @@ pub struct Hanging {
 }
 
 impl Hanging {
-    /// The numbers of a rod with uniform natural strain, from textbook formulas of sections.
-    ///
-    /// # Panics
-    /// If the natural strain varies.
+    /// The numbers of a rod, from textbook formulas of sections.
     #[must_use]
     pub fn new(spec: &RodSpec) -> Self {
-        let NaturalStrain::Uniform(natural) = spec.natural else {
-            panic!("the reference is for uniform natural strain")
-        };
         let (a, b, l) = (spec.section.a(), spec.section.b(), spec.length);
         let (e, g) = (spec.material.youngs_modulus(), spec.material.shear_modulus());
         let j = match spec.torsion {
@@ -48,18 +45,24 @@ impl Hanging {
         let bend = 0.25 * PI * a * b.powi(3) * e;
         let stiffness = DVec3::new(1.0, (a / b).powi(2), g * j / bend);
         let weight = spec.material.density() * PI * a * b * spec.gravity * l.powi(3) / bend;
-        Self { weight, stiffness, natural: natural * l, root: spec.root.frame(), length: l }
+        let natural = match &spec.natural {
+            NaturalStrain::Uniform(strain) => Natural::uniform(*strain * l),
+            NaturalStrain::Varying(profile) => {
+                Natural::varying(profile.knots().iter().map(|&(s, strain)| (s / l, strain * l)))
+            }
+        };
+        Self { weight, stiffness, natural, root: spec.root.frame(), length: l }
     }
 
     /// The same rod with another weight.
     #[must_use]
-    pub fn with_weight(self, weight: f64) -> Self {
-        Self { weight, ..self }
+    pub fn with_weight(&self, weight: f64) -> Self {
+        Self { weight, ..self.clone() }
     }
 
     /// The number of pieces of the rod, and of steps in each piece.
     pub(super) fn division(&self) -> (usize, usize) {
-        let turn = self.natural.length();
+        let turn = self.natural.largest();
         // Within a piece the fastest growth, exp(√Γ s), stays below e².
         let heavy = self.weight / self.stiffness.min_element().min(1.0);
         let pieces = (0.5 * heavy.sqrt()).max(0.5 * turn).ceil().clamp(16.0, 400.0);
@@ -85,14 +88,14 @@ pub(super) fn joined(zeta: DVec3, moment: DVec3) -> [f64; 6] {
 }
 
 impl Hanging {
-    pub(super) fn strain(&self, moment: DVec3) -> DVec3 {
-        self.natural + moment / self.stiffness
+    pub(super) fn strain(&self, s: f64, moment: DVec3) -> DVec3 {
+        self.natural.at(s) + moment / self.stiffness
     }
 
     /// ζ' and M'.
     pub(super) fn slope(&self, s: f64, y: &[f64]) -> [f64; 6] {
         let (zeta, moment) = halves(y);
-        let u = self.strain(moment);
+        let u = self.strain(s, moment);
         let load = DVec3::Z.cross(zeta) * (self.weight * (1.0 - s));
         joined(zeta.cross(u), moment.cross(u) + load)
     }
@@ -101,9 +104,22 @@ impl Hanging {
     pub(super) fn change(&self, s: f64, y: &[f64], by: &[f64]) -> [f64; 6] {
         let (zeta, moment) = halves(y);
         let (d_zeta, d_moment) = halves(by);
-        let (u, du) = (self.strain(moment), d_moment / self.stiffness);
+        let (u, du) = (self.strain(s, moment), d_moment / self.stiffness);
         let load = DVec3::Z.cross(d_zeta) * (self.weight * (1.0 - s));
         joined(d_zeta.cross(u) + zeta.cross(du), d_moment.cross(u) + moment.cross(du) + load)
+    }
+
+    /// The solution of `y' = f(s, y)` that starts from `y` at `from`, in equal steps between the knots of the natural strain,
+    /// at which f is not smooth.
+    pub(super) fn integrate<const N: usize>(
+        &self,
+        f: &impl Fn(f64, &[f64; N]) -> [f64; N],
+        (from, to): (f64, f64),
+        steps: usize,
+        y: [f64; N],
+    ) -> [f64; N] {
+        let cuts = self.natural.cuts(from, to);
+        cuts.windows(2).fold(y, |y, part| integrate(f, part[0], part[1], steps, y))
     }
 
     pub(super) fn root_zeta(&self) -> DVec3 {

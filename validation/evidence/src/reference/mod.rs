@@ -10,7 +10,7 @@
 //!
 //! with ζ the vertical in the material frame, M the internal moment, w the weight per length. Lengths are in
 //! units of L and moments of EI/L inside. The interval is divided into pieces, each is integrated by
-//! Gauss–Legendre collocation of order six (`gauss`), and Newton's method joins them (`shooting`): multiple
+//! Gauss–Legendre collocation of order six (`gauss`), cut at the kinks and jumps of the natural strain, and Newton's method joins them (`shooting`): multiple
 //! shooting, without any minimisation of energy. The weight increases in steps.
 //!
 //! A solution is stable if it satisfies Jacobi's condition: no neighbouring solution with a free tip
@@ -21,11 +21,13 @@ mod gauss;
 mod hanging;
 mod linear;
 mod morse;
+mod natural;
 mod shooting;
 mod solution;
 
 pub use hanging::{Hanging, NoSolution, POINTS};
 pub use linear::{anjyo, greenhill, prandtl_michell};
+pub use natural::Natural;
 pub use solution::Solution;
 
 #[cfg(test)]

@@ -4,7 +4,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::gauss::integrate;
 use super::hanging::{Hanging, Nodes, halves, joined};
 
 /// Morse's index: the number of independent directions in which the energy decreases. It is the number of points
@@ -52,7 +51,7 @@ fn looked(
         }
         slope
     };
-    let next = integrate(&f, from, to, steps, y);
+    let next = rod.integrate(&f, (from, to), steps, y);
     let (count, moved) = passed(phases_at(&y), phases_at(&next));
     if moved < 0.3 || halvings == 0 {
         return (next, count);

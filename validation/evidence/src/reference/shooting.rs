@@ -3,7 +3,6 @@
 use glam::{DMat3, DVec3};
 
 use super::banded::Banded;
-use super::gauss::integrate;
 use super::hanging::{Hanging, NoSolution, Nodes, halves, joined};
 use super::morse::index;
 
@@ -27,7 +26,7 @@ impl Hanging {
         for k in 0..6 {
             start[6 + 7 * k] = 1.0;
         }
-        integrate(&f, from, to, steps, start)
+        self.integrate(&f, (from, to), steps, start)
     }
 }
 
@@ -40,7 +39,7 @@ fn natural(rod: &Hanging, pieces: usize) -> Nodes {
     for i in 0..pieces {
         let f = |s: f64, y: &[f64; 6]| free.slope(s, y);
         let h = 1.0 / pieces as f64;
-        y = integrate(&f, i as f64 * h, (i + 1) as f64 * h, steps, y);
+        y = rod.integrate(&f, (i as f64 * h, (i + 1) as f64 * h), steps, y);
         nodes.push(y);
     }
     nodes
@@ -115,7 +114,10 @@ pub(super) fn follow(rod: &Hanging, stable: bool) -> Result<Nodes, NoSolution> {
 /// Increases the natural strain of a straight rod that hangs straight down, in steps.
 pub(super) fn curl(rod: &Hanging) -> Result<Nodes, NoSolution> {
     let straight = vec![joined(rod.root_zeta(), DVec3::ZERO); rod.division().0 + 1];
-    advance(straight, (0.1, 1.000_1), false, |part| Hanging { natural: rod.natural * part, ..*rod })
+    advance(straight, (0.1, 1.000_1), false, |part| Hanging {
+        natural: rod.natural.scaled(part),
+        ..rod.clone()
+    })
 }
 
 /// Continuation from 0 to 1: first to `first`, then in steps by a factor, which is never
@@ -192,7 +194,7 @@ pub(super) fn line(rod: &Hanging, nodes: &Nodes, each: usize) -> Vec<(DVec3, DMa
     let f = |s: f64, y: &[f64; 18]| {
         let mut slope = [0.0; 18];
         slope[..6].copy_from_slice(&rod.slope(s, y));
-        let u = rod.strain(halves(y).1);
+        let u = rod.strain(s, halves(y).1);
         let d = |k: usize| DVec3::new(y[6 + 3 * k], y[7 + 3 * k], y[8 + 3 * k]);
         let turning = d(0) * u.x + d(1) * u.y + d(2) * u.z;
         for k in 0..3 {
@@ -207,7 +209,7 @@ pub(super) fn line(rod: &Hanging, nodes: &Nodes, each: usize) -> Vec<(DVec3, DMa
         y[6..15].copy_from_slice(&at.1.to_cols_array());
         y[15..].copy_from_slice(&at.0.to_array());
         for k in i * each..(i + 1) * each {
-            y = integrate(&f, k as f64 * h, (k + 1) as f64 * h, steps, y);
+            y = rod.integrate(&f, (k as f64 * h, (k + 1) as f64 * h), steps, y);
             let frame: [f64; 9] = std::array::from_fn(|k| y[6 + k]);
             at = (DVec3::new(y[15], y[16], y[17]), DMat3::from_cols_array(&frame));
             points.push(at);

@@ -12,7 +12,7 @@ impl Hanging {
     /// # Errors
     /// [`NoSolution`], where that branch ends, loses its stability, or cannot be followed.
     pub fn solve(&self) -> Result<Solution, NoSolution> {
-        shooting::follow(self, true).map(|nodes| Solution { rod: *self, nodes })
+        shooting::follow(self, true).map(|nodes| Solution { rod: self.clone(), nodes })
     }
 
     /// The equilibrium reached in the same way, stable or not; a mirror-symmetric rod stays symmetric.
@@ -20,7 +20,7 @@ impl Hanging {
     /// # Errors
     /// [`NoSolution`], where that branch ends or cannot be followed.
     pub fn solve_symmetric(&self) -> Result<Solution, NoSolution> {
-        shooting::follow(self, false).map(|nodes| Solution { rod: *self, nodes })
+        shooting::follow(self, false).map(|nodes| Solution { rod: self.clone(), nodes })
     }
 
     /// The solution reached from a straight rod that hangs from a root that points straight down, as its natural strain
@@ -29,7 +29,7 @@ impl Hanging {
     /// # Errors
     /// [`NoSolution`], where that branch ends or cannot be followed.
     pub fn solve_curled(&self) -> Result<Solution, NoSolution> {
-        shooting::curl(self).map(|nodes| Solution { rod: *self, nodes })
+        shooting::curl(self).map(|nodes| Solution { rod: self.clone(), nodes })
     }
 
     /// The solution next to a given line, a function from arc length over length to the
@@ -39,7 +39,7 @@ impl Hanging {
     /// [`NoSolution`], where Newton's method finds none from there.
     pub fn solve_near(&self, frame: impl Fn(f64) -> DMat3) -> Result<Solution, NoSolution> {
         let start = shooting::of_frames(self, frame);
-        shooting::near(self, start).map(|nodes| Solution { rod: *self, nodes })
+        shooting::near(self, start).map(|nodes| Solution { rod: self.clone(), nodes })
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 use serde_json::Value;
 
-use super::{Hanging, greenhill, prandtl_michell};
+use super::{Hanging, Natural, greenhill, prandtl_michell};
 
 /// A straight rod with a section of a given axis ratio, its stiff axis along d2.
 fn straight(weight: f64, ratio: f64, tangent: DVec3, d1: DVec3) -> Hanging {
@@ -13,7 +13,7 @@ fn straight(weight: f64, ratio: f64, tangent: DVec3, d1: DVec3) -> Hanging {
     Hanging {
         weight,
         stiffness: DVec3::new(1.0, ratio * ratio, twist),
-        natural: DVec3::ZERO,
+        natural: Natural::uniform(DVec3::ZERO),
         root: DMat3::from_cols(d1, tangent.cross(d1), tangent),
         length: 1.0,
     }
@@ -24,12 +24,14 @@ fn without_weight_a_helix_is_one() {
     let (radius, p) = (0.03_f64, 0.01);
     let square = radius * radius + p * p;
     let natural = DVec3::new(radius / square, 0.0, p / square);
-    let rod = Hanging { natural, ..straight(0.0, 1.2, DVec3::X, DVec3::Y) };
+    let rod =
+        Hanging { natural: Natural::uniform(natural), ..straight(0.0, 1.2, DVec3::X, DVec3::Y) };
     let solution = rod.solve().unwrap();
     // After whole turns the displacement is along the axis.
     let axis = rod.root * natural.normalize();
     let turns = natural.length() / (2.0 * PI);
-    let whole = Hanging { natural: natural / turns * turns.round(), ..rod };
+    let whole =
+        Hanging { natural: Natural::uniform(natural / turns * turns.round()), ..rod.clone() };
     let tip = whole.solve().unwrap().tip();
     assert!((tip - axis * tip.dot(axis)).length() < 1e-9, "{tip}");
     assert!(solution.is_stable());
@@ -44,7 +46,8 @@ fn a_light_cantilever_is_the_linear_beam() {
 #[test]
 fn a_solution_is_found_again_from_its_frames() {
     let natural = DVec3::new(20.0, 0.0, 9.0);
-    let rod = Hanging { natural, ..straight(30.0, 1.3, DVec3::X, DVec3::Y) };
+    let rod =
+        Hanging { natural: Natural::uniform(natural), ..straight(30.0, 1.3, DVec3::X, DVec3::Y) };
     let solution = rod.solve().unwrap();
     let points = solution.line();
     let last = points.len() - 1;
@@ -84,6 +87,30 @@ fn a_thin_strip_gives_way_sideways_at_the_load_of_prandtl_and_michell() {
     }
 }
 
+#[test]
+fn a_strain_that_jumps_is_two_arcs_without_weight_and_one_rod_with_it() {
+    let [k0, k1, at] = [9.0, -14.0, 0.37];
+    let jump = [(0.0, DVec3::X * k0), (at, DVec3::X * k0), (at + 1e-12, DVec3::X * k1)];
+    let rod = Hanging { natural: Natural::varying(jump), ..straight(0.0, 1.2, DVec3::X, DVec3::Y) };
+    // In the plane of t and t × d1 the angle is the integral of the curvature: arcs of circles.
+    let (first, second) = (k0 * at, k1 * (1.0 - at));
+    let arc = |from: f64, turn: f64, k: f64| {
+        DVec2::new((from + turn).sin() - from.sin(), from.cos() - (from + turn).cos()) / k
+    };
+    let exact = arc(0.0, first, k0) + arc(first, second, k1);
+    let tip = rod.solve().unwrap().tip();
+    let across = rod.root * DVec3::NEG_Y;
+    let found = DVec2::new(tip.dot(rod.root * DVec3::Z), tip.dot(across));
+    assert!(found.distance(exact) < 1e-11, "{found} {exact}");
+    // A knot within a straight line changes nothing, with weight neither.
+    let kinked = Natural::varying([(0.0, DVec3::X), (1.0, DVec3::X * 5.0)]);
+    let kink = Natural::varying([0.0, 0.2345, 1.0].map(|s| (s, kinked.at(s))));
+    let tips = [kinked, kink]
+        .map(|natural| Hanging { natural, ..straight(20.0, 1.2, DVec3::X, DVec3::Y) })
+        .map(|rod| rod.solve().unwrap().tip());
+    assert!(tips[0].distance(tips[1]) < 1e-11, "{tips:?}");
+}
+
 fn vector(v: &Value) -> DVec3 {
     let at = |k: usize| v[k].as_f64().unwrap();
     DVec3::new(at(0), at(1), at(2))
@@ -107,7 +134,7 @@ fn tips_are_those_of_the_reference_cases() {
         let rod = Hanging {
             weight: f(&case["density"]) * PI * a * b * f(&case["gravity"]) * l.powi(3) / bend,
             stiffness: DVec3::new(1.0, (a / b).powi(2), g * j / bend),
-            natural: vector(&case["natural"]) * l,
+            natural: Natural::uniform(vector(&case["natural"]) * l),
             root: DMat3::from_cols(vector(&root[0]), vector(&root[1]), vector(&root[2])),
             length: l,
         };
