@@ -168,6 +168,16 @@ fn run(_: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
          measured on hair that is drawn out by hand, and water that holds many hairs together is not in this \
          experiment. For a hair with fewer than two turns, clamp and tip matter, and the closed form does not apply.",
     );
+    let tight = ["african-coily", "african-kinky", "coily", "kinky"];
+    let shrinks = found
+        .iter()
+        .filter(|f| tight.contains(&f.name))
+        .map(|f| format!("{} {:.0} %", f.name, 100.0 * (1.0 - f.heights[0][0])));
+    finding.text(format!(
+        "Shrinkage of dry hair by its curl alone, over the length: {}. Magazines and blogs give 40 to 85 % for heads; no study of \
+         single hairs was found, so no verdict depends on it.",
+        shrinks.collect::<Vec<_>>().join(", ")
+    ));
     check_criteria(&mut finding, &found);
     Ok(finding)
 }
@@ -290,12 +300,4 @@ fn check_criteria(finding: &mut Finding, found: &[Found]) {
         falls as f64,
         Limit::AtLeast(6.0),
     );
-    for name in ["african-coily", "african-kinky", "coily", "kinky"] {
-        let shrinks = by(name).map_or(f64::NAN, |f| 1.0 - f.heights[0][0]);
-        finding.check(
-            format!("shrinkage of dry hair, {name} (range from magazines)"),
-            shrinks,
-            Limit::Between(0.4, 0.85),
-        );
-    }
 }
