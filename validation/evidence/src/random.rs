@@ -1,9 +1,10 @@
 //! Hair drawn at random, the same on every machine.
 
 use frisure::rod::{
-    InvalidQuantity, Material, NaturalStrain, RodSpec, Root, Section, SplitMix64, TorsionConstant,
+    InvalidQuantity, Material, NaturalStrain, RodSpec, Root, Section, SplitMix64, StrainProfile,
+    TorsionConstant,
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// The random stream of one item of an experiment.
 pub(crate) fn stream(seed: u64, item: usize) -> SplitMix64 {
@@ -33,6 +34,28 @@ pub(crate) fn realistic(random: &mut SplitMix64) -> Result<RodSpec, InvalidQuant
         root: Root::from_tangent(DVec3::ZERO, tangent, d1)?,
         gravity: 9.81,
     })
+}
+
+/// Realistic hair with two curls: half of it changes linearly from one to the other, half jumps, as permed hair
+/// does that has grown.
+pub(crate) fn two_curls(random: &mut SplitMix64) -> Result<RodSpec, InvalidQuantity> {
+    let spec = realistic(random)?;
+    let length = spec.length;
+    let mut strain = || {
+        let radius = random.decades(0.0015, 0.06);
+        let pitch = radius * random.between(-3.0, 3.0);
+        let about = random.between(0.0, std::f64::consts::TAU);
+        let helix = NaturalStrain::helix(radius, pitch)?.at(0.0);
+        Ok(DMat3::from_rotation_z(about) * helix)
+    };
+    let (upper, lower) = (strain()?, strain()?);
+    let at = length * random.between(0.02, 0.98);
+    let knots = if random.unit() < 0.5 {
+        vec![(0.0, upper), (length, lower)]
+    } else {
+        vec![(0.0, upper), (at, upper), (at + 1e-9 * length, lower), (length, lower)]
+    };
+    Ok(RodSpec { natural: NaturalStrain::Varying(StrainProfile::new(knots)?), ..spec })
 }
 
 /// Absurd hair: from a bristle of a millimetre to ten metres of thread, rubber to

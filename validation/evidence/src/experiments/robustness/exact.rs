@@ -13,10 +13,15 @@ use crate::{Effort, Finding, Limit, Stopped, Table};
 /// Distance (m) beyond which two lines of realistic hair are different equilibria.
 const OTHER: f64 = 1e-3;
 
+/// Error over the length below which an estimate is not checked: the exactness of the boundary-value problem. Chosen.
+const ROUNDING: f64 = 1e-9;
+
 /// The boundary-value problem's results for a hair that frisure solved.
 struct Checked {
     /// Distance to the solution beside frisure's line, over the requested accuracy, and the index of that solution.
     beside: Option<(f64, usize)>,
+    /// The same distance over frisure's own estimate of it.
+    over_estimate: Option<f64>,
     /// Distance (m) to the solution of the branch that it follows from the natural shape.
     followed: Option<f64>,
 }
@@ -31,6 +36,9 @@ impl Checked {
         let followed = if follow { rod.solve().ok() } else { None };
         let gap = |solution: &Solution| distance(&found, solution);
         Ok(Self {
+            over_estimate: beside.as_ref().map(|s| {
+                gap(s) / (found.error_estimate.unwrap_or(f64::NAN) + ROUNDING * spec.length)
+            }),
             beside: beside.map(|s| (gap(&s) / accuracy, s.index())),
             followed: followed.map(|s| gap(&s)),
         })
@@ -54,21 +62,31 @@ pub(super) fn add(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> 
         some(effort.pick(60, 1000)).map(realistic).collect::<Result<_, Stopped>>()?;
     let absurd: Vec<Checked> =
         some(effort.pick(30, 1000)).map(absurd).collect::<Result<_, Stopped>>()?;
-    tabulate(finding, &realistic, &absurd);
-    for (kind, checked) in [("realistic", &realistic), ("absurd", &absurd)] {
+    let two_curls =
+        |i: usize| Checked::of(&random::two_curls(&mut random::stream(76, i))?, 1e-4, false);
+    let two_curls: Vec<Checked> =
+        some(effort.pick(40, 1000)).map(two_curls).collect::<Result<_, Stopped>>()?;
+    let kinds = [
+        ("realistic", &realistic[..]),
+        ("absurd", &absurd[..]),
+        ("realistic with two curls", &two_curls[..]),
+    ];
+    tabulate(finding, &kinds);
+    for (kind, checked) in kinds {
         beside(finding, kind, checked);
     }
     followed(finding, &realistic);
     Ok(())
 }
 
-fn tabulate(finding: &mut Finding, realistic: &[Checked], absurd: &[Checked]) {
+fn tabulate(finding: &mut Finding, kinds: &[(&str, &[Checked])]) {
+    let heads: Vec<&str> = std::iter::once("").chain(kinds.iter().map(|k| k.0)).collect();
     let mut table = Table::new(
         "frisure's lines, checked by the boundary-value problem that starts from them",
-        &["", "realistic", "absurd"],
+        &heads,
     );
     let mut row = |name: &str, of: &dyn Fn(&[Checked]) -> String| {
-        table.row([name.to_owned(), of(realistic), of(absurd)]);
+        table.row(std::iter::once(name.to_owned()).chain(kinds.iter().map(|k| of(k.1))));
     };
     let index = |checked: &[Checked], yes: fn(usize) -> bool| {
         checked.iter().filter_map(|j| j.beside).filter(|b| yes(b.1)).count().to_string()
@@ -79,6 +97,12 @@ fn tabulate(finding: &mut Finding, realistic: &[Checked], absurd: &[Checked]) {
     row("Morse's index 1 or more: a saddle", &|j| index(j, |index| index > 0));
     row("largest error over the requested accuracy", &|j| {
         small(largest(j.iter().filter_map(|j| j.beside).map(|b| b.0)))
+    });
+    row("error above frisure's estimate of it", &|j| {
+        j.iter().filter_map(|j| j.over_estimate).filter(|e| !(*e <= 1.0)).count().to_string()
+    });
+    row("largest error over the estimate", &|j| {
+        small(largest(j.iter().filter_map(|j| j.over_estimate)))
     });
     finding.table(table);
 }
@@ -99,6 +123,11 @@ fn beside(finding: &mut Finding, kind: &str, checked: &[Checked]) {
         format!("share of {} {kind} hairs whose solution has Morse's index 0", checked.len()),
         part(solved.iter().filter(|s| s.1 == 0).count()),
         Limit::AtLeast(1.0),
+    );
+    finding.check(
+        format!("share of {} {kind} hairs whose error is above frisure's estimate", checked.len()),
+        part(checked.iter().filter_map(|j| j.over_estimate).filter(|e| !(*e <= 1.0)).count()),
+        Limit::AtMost(0.05),
     );
     finding.check(
         format!(

@@ -23,7 +23,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         ratios up to 10, moduli of rubber to diamond, Γ from 0 to 30 000, natural turns up to forty; solved to a thousandth of the \
         length with at most 4000 elements. The certificate of each is its relative gradient and whether its second \
         variation is positive: numbers of frisure's own solver. An independent check covers some hairs of both \
-        kinds. The boundary-value problem starts Newton's method at frisure's line, on equations \
+        kinds, and hairs with two curls, whose strain changes linearly from one to the other or jumps. The boundary-value problem starts Newton's method at frisure's line, on equations \
         that do not depend on the start: the distance of its solution from the line is the error, and Morse's index of the \
         solution states whether it is a minimum. The boundary-value problem also solves the realistic hairs from the natural shape, \
         as the weight increases; it fails where it cannot follow a stable branch. G/E is random: E 1 to 5 GPa and G \
@@ -150,6 +150,7 @@ fn add_results(finding: &mut Finding, realistic: &[Solved], absurd: &[Solved]) {
         share(realistic),
         Limit::AtLeast(1.0),
     );
-    finding.check("iterations of 99 of 100 realistic hairs", at(&most, 0.99), Limit::AtMost(200.0));
+    // A branch that comes near a loss of stability is followed twice.
+    finding.check("iterations of 99 of 100 realistic hairs", at(&most, 0.99), Limit::AtMost(400.0));
     finding.check("share of absurd hairs that are stable", stable(absurd), Limit::AtLeast(1.0));
 }
