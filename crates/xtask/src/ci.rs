@@ -1,10 +1,12 @@
 //! The gate: what every change must pass, each thing built and tested once.
 
 use crate::page;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 use xtask::workspace::{root, say};
 
@@ -162,7 +164,16 @@ fn every_scene() -> Result<()> {
     }
     scenes.retain(|path| path.extension().is_some_and(|kind| kind == "toml"));
     scenes.sort();
-    scenes.iter().try_for_each(|scene| predict(&root().join("target/release/frisure"), scene))
+    let frisure = root().join("target/release/frisure");
+    // Two at a time: parts of a prediction have one thread. Each says what it did when it is done.
+    let waiting = Mutex::new(scenes.into_iter());
+    let next = || waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let work = || std::iter::from_fn(next).try_for_each(|scene| predict(&frisure, &scene));
+    thread::scope(|scope| {
+        let other = scope.spawn(work);
+        let first = work();
+        first.and(other.join().map_err(|_| anyhow!("a scene's thread ends with a panic"))?)
+    })
 }
 
 /// Predicts a scene; every guide must converge, and no hair may be in the head.
@@ -171,7 +182,8 @@ fn predict(frisure: &Path, scene: &Path) -> Result<()> {
     let (picture, report) = (format!("out/{name}.png"), format!("out/{name}.json"));
     let mut command = Command::new(frisure);
     command.arg("predict").arg(scene).args(["--image", &picture, "--report", &report]);
-    let status = command.current_dir(root()).status()?;
+    let Output { status, stdout, stderr } = command.current_dir(root()).output()?;
+    say(&format!("{}{}", String::from_utf8_lossy(&stderr), String::from_utf8_lossy(&stdout)));
     ensure!(status.success(), "{} ends with {status}", scene.display());
     ensure!(fs::metadata(root().join(&picture))?.len() > 0, "{picture} is empty");
     let report = fs::read_to_string(root().join(report))?;
