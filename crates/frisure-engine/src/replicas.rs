@@ -99,7 +99,7 @@ impl ReplicaReport {
 /// The relative change of the lengths and of the curl of a replica: evenly spread, longer and shorter in turn, the last one the largest.
 fn change(replica: usize, count: usize) -> f64 {
     let size = CHANGE * (replica + 1) as f64 / count as f64;
-    if (count - replica) % 2 == 0 { -size } else { size }
+    if (count - replica).is_multiple_of(2) { -size } else { size }
 }
 
 /// The description with all lengths and the natural curl changed: hair that reaches down to a level has no length of its own.

@@ -53,6 +53,8 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             shell("FRISURE=target/debug/frisure validation/clients/run")
         })?;
         gate.step("the Python package", || shell("crates/frisure-python/tests/run"))?;
+        // With the wheel of the step before.
+        gate.step("the extension for Blender", || shell("blender/tests/run"))?;
         gate.step("every scene", every_scene)?;
     }
     gate.report();

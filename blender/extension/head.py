@@ -1,0 +1,123 @@
+"""A mesh of Blender as the head of a scene.
+
+Blender and frisure both have z up and faces that look towards -y. frisure has metres; Blender has units of `scale_length` metres.
+"""
+
+import math
+
+import bpy
+import numpy as np
+
+# The group of faces on which hair grows, in the file of the head.
+SCALP = "scalp"
+
+# What frisure takes for a head, with or without a body (m).
+SMALLEST, LARGEST = 0.05, 3.0
+
+# The name of texture coordinates and positions that Blender's node group "Deform Curves on Surface" looks for.
+REST_POSITION = "rest_position"
+UV_MAP = "frisure"
+
+
+class HeadError(ValueError):
+    """A mesh that is no head, with what to do about it."""
+
+
+def metres_per_unit() -> float:
+    return bpy.context.scene.unit_settings.scale_length
+
+
+def world_points(head) -> np.ndarray:
+    """The vertices of a mesh object in metres, (V, 3)."""
+    mesh = head.data
+    points = np.empty(3 * len(mesh.vertices))
+    mesh.vertices.foreach_get("co", points)
+    matrix = np.array(head.matrix_world)
+    return (points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]) * metres_per_unit()
+
+
+def check(head) -> None:
+    """Raises `HeadError` unless the object is a mesh that can be a head."""
+    if head is None or head.type != "MESH":
+        raise HeadError("Hair grows on a mesh: select the mesh of a head first")
+    if len(head.data.polygons) == 0:
+        raise HeadError(f"The mesh of {head.name} has no faces")
+    points = world_points(head)
+    if not np.isfinite(points).all():
+        raise HeadError(f"The mesh of {head.name} has vertices that are no numbers")
+    size = (points.max(axis=0) - points.min(axis=0)).max()
+    if not SMALLEST <= size <= LARGEST:
+        raise HeadError(
+            f"{head.name} is {size:.3g} m across, and a head is between {SMALLEST} and {LARGEST} m: scale it, or set the unit "
+            f"scale of the scene (one unit is {metres_per_unit():g} m)"
+        )
+
+
+def ensure_uv_map(head) -> str:
+    """The name of the active UV map; a mesh without one gets one of its own.
+
+    It is the azimuthal equidistant map about the centre of the mesh, from its crown: without a seam except far below.
+    """
+    mesh = head.data
+    if mesh.uv_layers.active is not None:
+        return mesh.uv_layers.active.name
+    points = world_points(head)
+    away = points - 0.5 * (points.min(axis=0) + points.max(axis=0))
+    polar = np.arctan2(np.hypot(away[:, 0], away[:, 1]), away[:, 2]) / math.pi
+    azimuth = np.arctan2(away[:, 1], away[:, 0])
+    uv = 0.5 + 0.5 * polar[:, None] * np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1)
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    layer = mesh.uv_layers.new(name=UV_MAP)
+    layer.uv.foreach_set("vector", uv[corners].astype(np.float32).ravel())
+    return layer.name
+
+
+def ensure_rest_position(head) -> None:
+    """Keeps the positions of the vertices as they are now, from which the hair is moved with a head that is deformed."""
+    mesh = head.data
+    if REST_POSITION in mesh.attributes:
+        return
+    points = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", points)
+    mesh.attributes.new(REST_POSITION, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", points)
+
+
+def scalp_faces(head, group: str) -> set[int] | None:
+    """The faces of which every vertex is in a vertex group by half or more; none without a group."""
+    if not group:
+        return None
+    vertex_group = head.vertex_groups.get(group)
+    if vertex_group is None:
+        raise HeadError(f"{head.name} has no vertex group `{group}`; choose one of its groups, or none")
+    inside = {
+        vertex.index
+        for vertex in head.data.vertices
+        if any(g.group == vertex_group.index and g.weight >= 0.5 for g in vertex.groups)
+    }
+    faces = {face.index for face in head.data.polygons if all(v in inside for v in face.vertices)}
+    if not faces:
+        raise HeadError(f"No face of {head.name} has all its vertices in the group `{group}` with a weight of 0.5 or more")
+    return faces
+
+
+def write(head, path: str, group: str = "") -> None:
+    """Writes the head as Wavefront OBJ in metres, z up, with its texture coordinates and its scalp."""
+    check(head)
+    mesh = head.data
+    scalp = scalp_faces(head, group)
+    uv_name = ensure_uv_map(head)
+    uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
+    mesh.uv_layers[uv_name].uv.foreach_get("vector", uv)
+    lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in world_points(head).tolist()]
+    lines += [f"vt {u:.9g} {v:.9g}" for u, v in uv.reshape(-1, 2).tolist()]
+    # A mirrored object has its faces the other way round.
+    mirrored = head.matrix_world.determinant() < 0.0
+    for name, wanted in ((SCALP, True), ("skin", False)):
+        lines.append(f"g {name}")
+        for face in mesh.polygons:
+            if (scalp is not None and face.index in scalp) == wanted:
+                corners = [f"{mesh.loops[i].vertex_index + 1}/{i + 1}" for i in face.loop_indices]
+                lines.append("f " + " ".join(reversed(corners) if mirrored else corners))
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")

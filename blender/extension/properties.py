@@ -1,0 +1,134 @@
+"""What a hair object keeps: the head, the hair type and the text of its scene."""
+
+import time
+
+import bpy
+import frisure
+from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+
+from . import solver
+
+# How long (s) a property has to stay as it is until the exact hair is solved, and how often this is looked at. Chosen.
+STILL = 0.5
+LOOK = 0.1
+
+# The names must stay in memory: Blender keeps no copy of those that a function returns.
+HAIR_TYPES = [(name, name, text, index) for index, (name, text) in enumerate(frisure.presets.descriptions.items())]
+
+DEFAULT_TYPE = "caucasian-wavy"
+
+
+def changed(properties, _context) -> None:
+    """A property was changed: solved coarsely at once, and exactly when it stays."""
+    hair = properties.id_data
+    if hair.type != "CURVES" or not properties.scene or properties.source is not None:
+        return
+    _changed[hair.name] = time.monotonic()
+    if not bpy.app.background and not bpy.app.timers.is_registered(look):
+        bpy.app.timers.register(look, first_interval=0.01)
+
+
+# When the properties of an object were changed last (s), and those that show coarse hair.
+_changed: dict[str, float] = {}
+_job: list = []
+
+
+def look():
+    """Solves what was changed; called by a timer of Blender. Returns when to look again (s), or None."""
+    if _job:
+        job, hair_name = _job[0]
+        if job.is_running:
+            return LOOK
+        _job.clear()
+        hair = bpy.data.objects.get(hair_name)
+        if hair is not None and job.error is None:
+            job.solution.show(hair)
+            if not job.solution.coarse and _changed.get(hair_name) == job.since:
+                del _changed[hair_name]
+        elif job.error is not None:
+            # The scene in the panel is wrong until it is changed again; the panel shows why.
+            _changed.pop(hair_name, None)
+            if hair is not None:
+                hair.frisure.problem = solver.told(job.error)
+    for name, since in list(_changed.items()):
+        hair = bpy.data.objects.get(name)
+        if hair is None:
+            del _changed[name]
+            continue
+        still = time.monotonic() - since > STILL
+        try:
+            text = solver.with_steps(solver.scene_of(hair.frisure), hair.frisure.scene).text
+            solution = solver.Solution(hair, text, coarse=not still)
+        except (ValueError, frisure.FrisureError) as error:
+            hair.frisure.problem = solver.told(error)
+            del _changed[name]
+            continue
+        hair.frisure.problem = ""
+        job = solver.Job(solution)
+        job.since = since
+        _job.append((job, name))
+        return 0.02
+    return LOOK if _changed else None
+
+
+def solve_now(hair) -> None:
+    """Solves what the properties say, and waits for it: for scripts and tests."""
+    _changed.pop(hair.name, None)
+    text = solver.with_steps(solver.scene_of(hair.frisure), hair.frisure.scene).text
+    solution = solver.Solution(hair, text)
+    solution.solve()
+    solution.show(hair)
+
+
+def is_curves(_self, data) -> bool:
+    return data.users > 0
+
+
+class FrisureHair(bpy.types.PropertyGroup):
+    """What is kept with a Curves object that frisure solves."""
+
+    scene: StringProperty(name="Scene", description="The text of the frisure scene, without the files of head and groom")
+    problem: StringProperty(name="Problem", description="Why the hair was not solved")
+    head: PointerProperty(
+        name="Head", description="The mesh on which the hair grows", type=bpy.types.Object,
+        poll=lambda _self, other: other.type == "MESH",
+    )
+    source: PointerProperty(
+        name="Groom", description="The curves from which the hair was settled", type=bpy.types.Curves, poll=is_curves,
+    )
+    scalp: StringProperty(name="Scalp", description="The vertex group where hair grows; empty for the usual scalp")
+    hair_type: EnumProperty(name="Hair type", items=HAIR_TYPES, default=DEFAULT_TYPE, update=changed)
+    length: FloatProperty(
+        name="Length", description="Mean length of the hair (m); 0 for that of the type", min=0.0, max=2.0, precision=3,
+        step=1, subtype="DISTANCE", update=changed,
+    )
+    curl_radius: FloatProperty(
+        name="Curl radius", description="Radius of the natural curl (m); 0 for that of the type", min=0.0, max=1.0,
+        precision=4, step=0.1, subtype="DISTANCE", update=changed,
+    )
+    curl_pitch: FloatProperty(
+        name="Curl pitch", description="Advance of the curl in a turn (m); 0 for that of the type", min=0.0, max=1.0,
+        precision=4, step=0.1, subtype="DISTANCE", update=changed,
+    )
+    guides: IntProperty(
+        name="Guides", description="Hairs that are solved; 0 for as many as the type has", min=0, max=20_000,
+        update=changed,
+    )
+    hairs: IntProperty(
+        name="Hairs", description="Hairs that are drawn", min=1, max=1_000_000, default=5000, update=changed,
+    )
+    seed: IntProperty(name="Seed", description="Another seed, another head of the same hair", min=1, default=1, update=changed)
+
+
+def register():
+    bpy.utils.register_class(FrisureHair)
+    bpy.types.Object.frisure = PointerProperty(type=FrisureHair)
+
+
+def unregister():
+    if bpy.app.timers.is_registered(look):
+        bpy.app.timers.unregister(look)
+    _changed.clear()
+    _job.clear()
+    del bpy.types.Object.frisure
+    bpy.utils.unregister_class(FrisureHair)
