@@ -5,6 +5,7 @@
 pub mod frame;
 pub mod head;
 mod pipe;
+mod replace;
 mod temporary;
 mod whole;
 

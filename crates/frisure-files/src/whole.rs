@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, Metadata};
-use std::io::{self, BufWriter, ErrorKind, Read, Seek, Write};
+use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::{pipe, temporary};
+use crate::pipe;
+use crate::replace::{System, replace};
 
 /// Why a file could not be read.
 #[derive(Debug, Error)]
@@ -268,7 +269,8 @@ pub fn to_text(bytes: Vec<u8>, path: &Path) -> Result<String, ReadError> {
 /// give away, is written in place once all bytes are there. Output is buffered.
 ///
 /// # Errors
-/// [`WriteError`]; the destination is then untouched, unless the copy in place fails.
+/// [`WriteError`]; the destination is then untouched, with two exceptions that the error tells: it is written, but its name may
+/// not survive a loss of power; or the copy in place failed, and all bytes are in a file beside it.
 pub fn write_atomically(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -277,7 +279,7 @@ pub fn write_atomically(
     match destination(path)? {
         Destination::Device => write_directly(path, fill).map_err(fail),
         Destination::File { target, folder, existing } => {
-            replace(&target, &folder, existing, fill).map_err(fail)
+            replace(&mut System, &target, &folder, existing, fill).map_err(fail)
         }
     }
 }
@@ -359,55 +361,6 @@ fn end_of_links(path: &Path) -> PathBuf {
         }
     }
     end
-}
-
-fn replace(
-    target: &Path,
-    folder: &Path,
-    existing: Option<Box<Metadata>>,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut file = temporary::create(folder)?;
-    let mut buffer = BufWriter::with_capacity(1 << 18, file.as_file_mut());
-    fill(&mut buffer)?;
-    buffer.flush()?;
-    drop(buffer);
-    if let Some(existing) = existing {
-        if !keep_owner(file.as_file(), &existing) {
-            return copy_into(file.as_file_mut(), target);
-        }
-        // After the owner: a change of it clears bits of the mode (`chown(2)`).
-        file.as_file().set_permissions(existing.permissions())?;
-    }
-    file.as_file().sync_all()?;
-    file.persist(target)?;
-    // The rename itself reaches the disk with the folder; not every system can sync one.
-    if let Ok(folder) = File::open(folder) {
-        let _ = folder.sync_all();
-    }
-    Ok(())
-}
-
-/// Gives a file the owner and the group of another; whether it has them.
-#[cfg(unix)]
-fn keep_owner(file: &File, other: &Metadata) -> bool {
-    use std::os::unix::fs::{MetadataExt, fchown};
-    let same = |m: Metadata| (m.uid(), m.gid()) == (other.uid(), other.gid());
-    file.metadata().is_ok_and(same) || fchown(file, Some(other.uid()), Some(other.gid())).is_ok()
-}
-
-/// Other systems give a file in a folder the owner that it should have.
-#[cfg(not(unix))]
-fn keep_owner(_: &File, _: &Metadata) -> bool {
-    true
-}
-
-/// Copies a whole file into one that exists, whose owner this user cannot give to another file.
-fn copy_into(file: &mut File, target: &Path) -> io::Result<()> {
-    file.rewind()?;
-    let mut out = File::options().write(true).truncate(true).open(target)?;
-    io::copy(file, &mut out)?;
-    out.sync_all()
 }
 
 fn write_directly(
