@@ -314,7 +314,7 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                 let x = if count { format!("{x:.0}") } else { format!("{x:?}") };
                 let rest = match path.as_str() {
                     "head.scale" => "head.mesh = \"a\"\n",
-                    "groom.guides" => "groom.file = \"a.usd\"\n",
+                    "groom.guides" | "groom.scale" => "groom.file = \"a.usd\"\n",
                     // As many as fit on a head depends on how many wisps there are.
                     "wisps.hairs_per_wisp" => "wisps.count = 5\n",
                     "equilibrium.starts" => "equilibrium.branch = \"lowest\"\n",
