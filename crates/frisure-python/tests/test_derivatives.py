@@ -84,9 +84,9 @@ def test_frames_count_too() -> None:
 def test_straight_hair_and_saddles_say_so() -> None:
     gradient = rods.settle(0.05, derivatives=True).vjp(np.ones((1, 16, 3)))
     assert gradient.curl_radius is not None and gradient.curl_radius[0] == 0.0
-    # Upright, at 0.9999 of the load at which it falls over (Greenhill: 7.8373).
+    # Upright, at 0.999 of the load at which it falls over (Greenhill: 7.8373); at 0.9999 these elements lean, to no side.
     fibre = 3e9 * np.pi * (40e-6) ** 4 / 4 / (1300 * 9.81 * np.pi * (40e-6) ** 2)
-    length = (0.9999 * 7.8373 * fibre) ** (1 / 3)
+    length = (0.999 * 7.8373 * fibre) ** (1 / 3)
     upright = {"diameter": 80e-6, "youngs_modulus": 3e9, "shear_modulus": 1e9, "tangent": [0, 0, 1], "elements": 24}
     gradient = rods.settle([0.5 * length, length], **upright, derivatives=True).vjp(np.ones((2, 25, 3)))
     assert gradient.exists.all()
