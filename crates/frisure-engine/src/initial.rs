@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::inputs::scene_groom;
-use crate::placement::{guess, lines, placed};
+use crate::placement::{guess, lines, placed, words};
 
 /// The hairstyle before the first step: predicted from `[hair]`, or adopted from the groom of the scene.
 ///
@@ -103,8 +103,10 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
         && !placed
         && let Some(placement) = guess(head, &roots)
     {
+        let metres = scene.groom.as_ref().and_then(|file| file.frame.metres);
         let hint = format!(
-            "it would lie on the head with these lines in `[groom]`:\n{}",
+            "{}; it would lie on the head with these lines in `[groom]`:\n{}",
+            words(&placement, metres),
             lines(&placement)
         );
         return Err(scene.error_at("groom.file", problem, hint));

@@ -23,6 +23,16 @@ const SCALES: [f64; 13] = [
     1000.0,
 ];
 
+/// Units that a guess names, and their metres.
+const UNITS: [(&str, f64); 6] = [
+    ("metres", 1.0),
+    ("decimetres", 0.1),
+    ("centimetres", 0.01),
+    ("millimetres", 0.001),
+    ("inches", 0.0254),
+    ("feet", 0.3048),
+];
+
 /// Roots that a guess looks at. Chosen: enough to see the scalp's outline.
 const MOST_ROOTS: usize = 200;
 
@@ -95,11 +105,14 @@ pub(crate) fn guess(head: &Head, roots: &[DVec3]) -> Option<Placement> {
     best.map(|(_, placement)| placement)
 }
 
-/// Turns (rad) about x and z by quarters, the fewest first; about x another axis is up.
+/// The 24 rotations that turn axes into axes, as turns (rad) about x, y and z, the fewest first: a turn about x or y brings
+/// another axis up, one about z follows.
 fn quarters() -> impl Iterator<Item = DVec3> {
+    let upright = [[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [2.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
     let turns = [0.0, 1.0, -1.0, 2.0];
-    let about_x = turns.into_iter();
-    about_x.flat_map(move |x| turns.into_iter().map(move |z| FRAC_PI_2 * DVec3::new(x, 0.0, z)))
+    upright
+        .into_iter()
+        .flat_map(move |[x, y]| turns.into_iter().map(move |z| FRAC_PI_2 * DVec3::new(x, y, z)))
 }
 
 /// Root mean square distance (m) of points from their centre.
@@ -145,6 +158,31 @@ fn moved(
     let share = placed().filter(on_scalp).count() as f64 / roots.len() as f64;
     let near = median < NEAR && share > ON_SCALP;
     near.then_some((median + NEAR * (1.0 - share), Placement { shift, ..start }))
+}
+
+/// What a guess takes the groom for: `the groom looks as if it were in inches, turned and moved`. A unit has a name where
+/// the scene says as how many `metres` it is read.
+pub(crate) fn words(placement: &Placement, metres: Option<f64>) -> String {
+    let Placement { scale, turn, shift } = placement;
+    let mut found = Vec::new();
+    if *scale != 1.0 {
+        let is_unit = |unit: f64| metres.is_some_and(|m| (m * scale / unit - 1.0).abs() < 1e-6);
+        let unit = UNITS.iter().find(|(_, unit)| is_unit(*unit));
+        found.push(match unit {
+            Some((name, _)) => format!("in {name}"),
+            None if *scale > 1.0 => format!("{} times too small", number(*scale, 4)),
+            None => format!("{} times too large", number(scale.recip(), 4)),
+        });
+    }
+    if *turn != DVec3::ZERO {
+        found.push("turned".into());
+    }
+    if *shift != DVec3::ZERO {
+        found.push("moved".into());
+    }
+    let last = found.pop().unwrap_or_else(|| "in its place".into());
+    let list = if found.is_empty() { last } else { format!("{} and {last}", found.join(", ")) };
+    format!("the groom looks as if it were {list}")
 }
 
 /// The lines of `[groom]` that say a placement, one after the other.
@@ -193,6 +231,9 @@ mod tests {
             (100.0, DVec3::new(0.0, 0.0, 1.0), DVec3::new(-40.0, 5.0, 170.0)),
             (1.0, DVec3::new(0.0, 0.0, 0.0), DVec3::new(0.0, 0.0, 3.0)),
             (10.0, DVec3::new(1.0, 0.0, 2.0), DVec3::new(1.0, -1.0, 0.0)),
+            // The axis x points up.
+            (1.0, DVec3::new(0.0, -1.0, 0.0), DVec3::new(2.0, 0.0, -1.0)),
+            (100.0, DVec3::new(0.0, 1.0, 1.0), DVec3::new(0.0, 30.0, 0.0)),
         ] {
             let elsewhere = Placement { scale, turn: FRAC_PI_2 * turn, shift };
             let lying: Vec<DVec3> = roots.iter().map(|&p| elsewhere.position(p)).collect();
@@ -207,6 +248,34 @@ mod tests {
         }
         let small: Vec<DVec3> = roots.iter().map(|p| 7e-5 * *p).collect();
         assert_eq!(guess(&head, &small), None);
+    }
+
+    #[test]
+    fn turns_by_quarters_are_the_24_rotations_of_a_cube() {
+        let rotation = |turn| Placement { turn, ..Placement::default() }.rotation();
+        let rotations: Vec<DMat3> = quarters().map(rotation).collect();
+        assert_eq!(rotations.len(), 24);
+        for (i, a) in rotations.iter().enumerate() {
+            assert!(rotations[..i].iter().all(|b| !a.abs_diff_eq(*b, 1e-9)), "{a}");
+        }
+    }
+
+    #[test]
+    fn words_name_the_unit_where_there_is_one() {
+        let turn = DVec3::new(FRAC_PI_2, 0.0, 0.0);
+        let all = Placement { scale: 2.54, turn, shift: DVec3::ONE };
+        assert_eq!(
+            words(&all, Some(0.01)),
+            "the groom looks as if it were in inches, turned and moved"
+        );
+        let large = Placement { scale: 0.1, ..Placement::default() };
+        assert_eq!(words(&large, Some(0.1)), "the groom looks as if it were in centimetres");
+        assert_eq!(words(&large, None), "the groom looks as if it were 10 times too large");
+        let small = Placement { shift: DVec3::X, ..Placement { scale: 2.54, ..large } };
+        assert_eq!(
+            words(&small, Some(1.0)),
+            "the groom looks as if it were 2.54 times too small and moved"
+        );
     }
 
     #[test]

@@ -493,6 +493,7 @@ fn a_groom_that_lies_elsewhere_is_refused_with_the_lines_that_place_it() {
     let room = room.with("groomed.toml", &scene);
     let refused = room.run(&["predict", "groomed.toml", "-o", "c.hair"]);
     assert_eq!(refused.code, Some(2), "{}", refused.err);
+    assert!(refused.err.contains("as if it were in inches, turned and moved"), "{}", refused.err);
     let is_line = |line: &&str| ["scale = ", "turn = ", "move = "].iter().any(|k| line.contains(k));
     let lines: Vec<&str> = refused.err.lines().filter(is_line).map(str::trim).collect();
     assert!(!lines.is_empty(), "{}", refused.err);
