@@ -7,6 +7,8 @@ use crate::error::Error;
 /// What is made of the hairs of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
+    /// Nothing: the guides alone.
+    Guides,
     /// Numbers or files.
     Hairs,
     /// A preview of so many pixels.
@@ -64,6 +66,7 @@ pub fn estimate(spec: &HairstyleSpec, work: Work) -> f64 {
 
 fn point(work: Work) -> f64 {
     match work {
+        Work::Guides => 0.0,
         Work::Hairs => POINT,
         Work::Preview(_) => PREVIEWED_POINT,
         Work::Traced(_) => TRACED_POINT,
@@ -73,7 +76,7 @@ fn point(work: Work) -> f64 {
 /// Memory of a picture alone (bytes).
 fn picture(work: Work) -> f64 {
     match work {
-        Work::Hairs => 0.0,
+        Work::Guides | Work::Hairs => 0.0,
         Work::Preview(pixels) => pixels as f64 * PREVIEWED_PIXEL,
         Work::Traced(pixels) => pixels as f64 * TRACED_PIXEL,
     }
@@ -102,6 +105,7 @@ fn check_within(needed: f64, work: Work, available: Option<u64>) -> Result<(), E
     let gigabytes = |bytes: f64| bytes / 1e9;
     let most = (available as f64 - (needed - picture(work))).max(0.0);
     let hint = match work {
+        Work::Guides => "make fewer wisps (`wisps.count`), or set `contact.hair = \"layers\"`",
         Work::Hairs => "draw fewer hairs, or give them fewer points",
         // Where the picture is not what is too large.
         _ if picture(work) < 0.5 * needed => "draw fewer hairs, or give them fewer points",
@@ -170,6 +174,10 @@ mod tests {
         assert!(problem.contains("4.3 GB are free"), "{problem}");
         let (_, hint) = fault(Work::Hairs, 1 << 28).unwrap();
         assert!(hint.starts_with("draw fewer hairs"), "{hint}");
+        // Guides need no room for hairs.
+        assert_eq!(fault(Work::Guides, 1 << 28), None);
+        let (_, hint) = fault(Work::Guides, 1 << 24).unwrap();
+        assert!(hint.contains("`wisps.count`"), "{hint}");
         assert!(check_within(1e18, Work::Hairs, None).is_ok());
     }
 

@@ -9,6 +9,7 @@ use frisure::hairstyle::{DrawnHair, StrandOptions, penetration};
 use frisure::progress::Progress;
 use frisure::scene::Scene;
 use frisure::strands::Strands;
+use frisure_engine::memory::{self, Work};
 use frisure_engine::report::HairstyleReport;
 use frisure_engine::{Error, LoadedScene, Quality, Runner};
 use pyo3::prelude::*;
@@ -54,6 +55,7 @@ impl Hair {
         scene: &Arc<Scene>,
         progress: &dyn Progress,
     ) -> Result<Self, Error> {
+        memory::check(&scene.hairstyle_spec()?, Work::Guides)?;
         let loaded = {
             let mut runner = lock(&runner);
             // Another prediction with this runner may have taken long.
@@ -65,7 +67,10 @@ impl Hair {
 
     /// The drawn hairs.
     pub(crate) fn drawn(&self, progress: &dyn Progress) -> Result<Arc<DrawnHair>, Error> {
-        kept(&self.drawn, || self.loaded.draw(StrandOptions::default(), progress))
+        kept(&self.drawn, || {
+            memory::check(self.loaded.hairstyle.spec(), Work::Hairs)?;
+            self.loaded.draw(StrandOptions::default(), progress)
+        })
     }
 
     /// The drawn hairs and the guides with all their attributes.

@@ -12,6 +12,7 @@ use frisure::render::Image;
 use frisure::render::preview::PreviewOptions;
 use frisure::render::trace::TraceOptions;
 use frisure::scene::Output;
+use frisure_engine::memory::{self, Work};
 use frisure_engine::picture::{developed, write};
 use frisure_engine::{Error, LoadedScene, environment_map};
 use pyo3::prelude::*;
@@ -53,6 +54,9 @@ impl Picture {
         let environment = environment_map(&scene, &Files::default())?;
         let output = scene.output;
         let (width, height) = (output.width, output.height);
+        let pixels = width.saturating_mul(height);
+        let work = self.tracing.as_ref().map_or(Work::Preview(pixels), |_| Work::Traced(pixels));
+        memory::check(hair.loaded.hairstyle.spec(), work)?;
         let drawn = hair.drawn(progress)?;
         let loaded = LoadedScene { scene: Arc::new(scene), ..hair.loaded.clone() };
         let image = match &self.tracing {

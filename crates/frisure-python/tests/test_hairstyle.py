@@ -42,6 +42,15 @@ def test_strands_are_arrays(hair: frisure.Hairstyle) -> None:
     assert np.isfinite(strands.points).all()
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell how much memory is free")
+def test_a_picture_without_room_in_memory_is_refused(hair: frisure.Hairstyle) -> None:
+    for quality in ("preview", "final"):
+        with pytest.raises(ValueError, match=r"it takes about \d+\.\d GB of memory, and \d+\.\d GB are free"):
+            hair.render(width=1_000_000, height=1_000_000, quality=quality)
+    with pytest.raises(ValueError, match="GB of memory"):
+        hair.render(width=2**62, height=2**62)
+
+
 def test_attributes_have_a_value_for_each_strand_or_point(hair: frisure.Hairstyle) -> None:
     for strands in (hair.strands, hair.guides):
         for name, values in strands.attributes.items():
