@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::contact::Bed;
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, held_up, holding, settle};
-use crate::guides::{Guide, Planned, covered};
+use crate::guides::{Altitudes, Guide, Planned, covered};
 use crate::hairstyle::Hairstyle;
 use crate::hairstyle::RootPlacement;
 use crate::hairstyle::Styling;
@@ -189,14 +189,15 @@ fn spread(forces: &[f64]) -> Vec<f64> {
 /// The fibre of a guide, without a shape.
 fn fibre(spec: &HairstyleSpec, index: usize) -> Result<RodSpec, InvalidQuantity> {
     let mut random = Stream::new(spec.seed, Purpose::GuideFibre, index);
+    let section = spec.fibre.varied(&mut random)?;
     Ok(RodSpec {
         length: 1.0,
-        section: spec.fibre.varied(&mut random)?,
+        section,
         material: spec.fibre.material,
         torsion: spec.fibre.torsion,
         natural: NaturalStrain::STRAIGHT,
         root: Clamp::from_tangent(DVec3::ZERO, DVec3::Z, DVec3::X)?,
-        gravity: spec.gravity,
+        load: spec.load(&section),
     })
 }
 
@@ -291,11 +292,9 @@ fn plan(
     placement: &RootPlacement,
     held: &[(InverseSolution, Bed)],
 ) -> Vec<Guide> {
-    let heights = || placement.roots().iter().map(|root| root.position.z);
-    let (low, high) =
-        (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+    let altitudes = Altitudes::new(spec, placement.roots());
     let guide = |(root, (held, bed)): (&Root, &(InverseSolution, Bed))| {
-        let altitude = (root.position.z - low) / (high - low).max(1e-9);
+        let altitude = altitudes.of(root);
         let curl = held.rod.natural().mean(0.0, held.rod.length());
         let planned = Planned { rod: held.rod.clone(), curl, share: 1.0 };
         let guide = covered(spec, head, placement.area(), *root, altitude, planned);

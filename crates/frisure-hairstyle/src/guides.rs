@@ -56,18 +56,39 @@ pub(crate) fn plan(
     roots: &[Root],
     area: f64,
 ) -> Result<Vec<Guide>, InvalidQuantity> {
-    let heights = roots.iter().map(|r| r.position.z);
-    let (low, high) =
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+    let altitudes = Altitudes::new(spec, roots);
     roots
         .par_iter()
         .enumerate()
         .map(|(index, &root)| {
-            let altitude = (root.position.z - low) / (high - low).max(1e-9);
+            let altitude = altitudes.of(&root);
             let planned = fibre(spec, head, layout, &root, index)?;
             Ok(covered(spec, head, area, root, altitude, planned))
         })
         .collect()
+}
+
+/// How high roots are against gravity, from the lowest to the highest.
+pub(crate) struct Altitudes {
+    /// The direction of up (unit, head).
+    up: DVec3,
+    low: f64,
+    high: f64,
+}
+
+impl Altitudes {
+    pub(crate) fn new(spec: &HairstyleSpec, roots: &[Root]) -> Self {
+        let up = -spec.pose.down();
+        let heights = roots.iter().map(|root| root.position.dot(up));
+        let (low, high) =
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+        Self { up, low, high }
+    }
+
+    /// 0 for the lowest root, 1 for the highest.
+    pub(crate) fn of(&self, root: &Root) -> f64 {
+        (root.position.dot(self.up) - self.low) / (self.high - self.low).max(1e-9)
+    }
 }
 
 /// The guide of a fibre rooted somewhere, with the wisp about it and the hair beneath.
@@ -164,7 +185,7 @@ fn fibre(
         torsion: spec.fibre.torsion,
         natural,
         root: frisure_rod::Root::from_tangent(root.position, tangent, d1)?,
-        gravity: spec.gravity,
+        load: spec.load(&section),
     })?;
     Ok(Planned { rod, curl, share })
 }

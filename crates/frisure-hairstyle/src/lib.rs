@@ -68,8 +68,8 @@ pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset,
 pub use random::Draws;
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec, HeadMethod,
-    Implantation, InvalidSpec, Length, Level, Lift, Number, Parting, Place, Range, RegionLength,
-    RegionStyle, Scalar, Settling, Turn, Whorls, Wisps, number,
+    Implantation, InvalidSpec, Length, Level, Lift, Number, Parting, Place, Pose, Range,
+    RegionLength, RegionStyle, Scalar, Settling, Turn, Whorls, Wind, Wisps, number,
 };
 pub use strands::{
     Checkpoint, DrawnHair, Simulation, StrandOptions, add_natural_strains, add_sections, describe,

@@ -4,7 +4,7 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use frisure_rod::batch::{Batch, Precision};
 use frisure_rod::{
-    ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+    ElementKind, Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
     TorsionConstant, equilibrium, equilibrium_from,
 };
 use glam::DVec3;
@@ -23,7 +23,7 @@ fn curl(tangent: DVec3) -> Rod {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::helix(0.005, 0.010).unwrap(),
         root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.1, 0.9, -0.2)).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
     .unwrap()
 }

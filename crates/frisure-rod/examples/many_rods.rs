@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use frisure_rod::batch::Batch;
 use frisure_rod::{
-    InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability,
+    InvalidQuantity, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability,
     TorsionConstant,
 };
 use glam::DVec3;
@@ -46,6 +46,6 @@ fn curl(i: usize) -> Result<Rod, InvalidQuantity> {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::helix(0.005, 0.010)?,
         root: Root::from_tangent(DVec3::ZERO, DVec3::new(r * cos, r * sin, z), DVec3::Y)?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
 }

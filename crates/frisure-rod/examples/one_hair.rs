@@ -5,8 +5,8 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use frisure_rod::{
-    InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    TorsionConstant, equilibrium,
+    InvalidQuantity, Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
+    Section, TorsionConstant, equilibrium,
 };
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ fn main() -> Result<(), InvalidQuantity> {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::helix(0.005, 0.010)?,
         root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })?;
 
     // Every point of the centre line within 0.1 mm of the exact equilibrium.

@@ -15,7 +15,7 @@ const LARGEST_BEND: f64 = 1.5;
 ///
 /// ```
 /// use frisure_rod::{
-///     Chain, ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant,
+///     Chain, ElementKind, Material, NaturalStrain, Rod, RodSpec, Load, Root, Section, TorsionConstant,
 /// };
 /// use glam::DVec3;
 ///
@@ -28,7 +28,7 @@ const LARGEST_BEND: f64 = 1.5;
 ///     torsion: TorsionConstant::SaintVenant,
 ///     natural: NaturalStrain::helix(0.1, 0.0)?,
 ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-///     gravity: 0.0,
+///     load: Load::NONE,
 /// })?;
 /// let chain = Chain::uniform(&rod, ElementKind::Helix, 3);
 /// let shape = chain.natural_shape();

@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use frisure_rod::{
-//!     Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, Stability,
+//!     Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Load, Root, Section, Stability,
 //!     TorsionConstant, equilibrium,
 //! };
 //! use glam::DVec3;
@@ -20,7 +20,7 @@
 //!     torsion: TorsionConstant::SaintVenant,
 //!     natural: NaturalStrain::helix(0.005, 0.010)?,
 //!     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-//!     gravity: 9.81,
+//!     load: Load::down(9.81),
 //! })?;
 //!
 //! // The whole centre line within a tenth of a millimetre of the exact equilibrium.
@@ -90,6 +90,7 @@ mod element;
 mod equilibrium;
 mod error;
 pub mod inverse;
+mod load;
 mod material;
 pub mod minimise;
 pub mod potential;
@@ -107,6 +108,7 @@ pub use equilibrium::{
     AccuracyStatus, Branch, Certificate, Equilibrium, Options, equilibrium, equilibrium_from,
 };
 pub use error::InvalidQuantity;
+pub use load::Load;
 pub use material::Material;
 pub use minimise::{Energy, Stability};
 pub use random::SplitMix64;

@@ -1,8 +1,9 @@
-//! The rod: length, section, material, natural strain, clamp and gravity, checked when made.
+//! The rod: length, section, material, natural strain, clamp and load, checked when made.
 
 use glam::{DMat3, DVec3};
 
 use crate::error::{InvalidQuantity, finite, positive};
+use crate::load::{Load, direction_and_length};
 use crate::material::Material;
 use crate::section::{Section, TorsionConstant};
 use crate::strain::NaturalStrain;
@@ -91,14 +92,14 @@ pub struct RodSpec {
     pub natural: NaturalStrain,
     /// Where it is clamped.
     pub root: Root,
-    /// Acceleration of gravity (m/s²), along −z; may be zero.
-    pub gravity: f64,
+    /// Gravity and other forces all along it; may be none.
+    pub load: Load,
 }
 
 /// An inextensible, unshearable rod, clamped at its root and free at its tip.
 ///
 /// ```
-/// use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
+/// use frisure_rod::{Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
 /// use glam::DVec3;
 ///
 /// let spec = RodSpec {
@@ -108,7 +109,7 @@ pub struct RodSpec {
 ///     torsion: TorsionConstant::SaintVenant,
 ///     natural: NaturalStrain::STRAIGHT,
 ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-///     gravity: 9.81,
+///     load: Load::down(9.81), // m/s²
 /// };
 /// let rod = Rod::new(spec.clone())?;
 /// assert!((rod.heaviness() - 36.0).abs() < 1.0); // Γ: weight against elasticity
@@ -121,6 +122,8 @@ pub struct RodSpec {
 pub struct Rod {
     spec: RodSpec,
     stiffness: DVec3,
+    mass: f64,
+    up: DVec3,
     weight: f64,
 }
 
@@ -128,20 +131,12 @@ impl Rod {
     /// The rod of a specification.
     ///
     /// # Errors
-    /// [`InvalidQuantity`] unless the length is positive, gravity finite and not negative, the
+    /// [`InvalidQuantity`] unless the length is positive, the load finite, the
     /// natural strain finite, and stiffness and weight representable.
     pub fn new(spec: RodSpec) -> Result<Self, InvalidQuantity> {
         positive("length", spec.length, "m")?;
         spec.natural.check()?;
-        let gravity = finite("gravity", spec.gravity, "m/s²")?;
-        if gravity < 0.0 {
-            return Err(InvalidQuantity {
-                quantity: "gravity",
-                value: gravity,
-                unit: "m/s²",
-                allowed: "zero or greater: it acts along -z",
-            });
-        }
+        spec.load.check()?;
         let (section, material) = (spec.section, spec.material);
         // K = diag(E I1, E I2, μ J). Products of tiny numbers may vanish in f64, hence the checks.
         let stiffness = DVec3::new(
@@ -153,9 +148,10 @@ impl Rod {
                 "N m²",
             )?,
         );
-        let weight =
-            finite("weight per length", material.density() * section.area() * gravity, "N/m")?;
-        Ok(Self { spec, stiffness, weight })
+        let mass = material.density() * section.area();
+        let (up, weight) = direction_and_length(-spec.load.per_length(mass));
+        finite("weight per length", weight, "N/m")?;
+        Ok(Self { spec, stiffness, mass, up, weight })
     }
 
     /// What the rod was made from.
@@ -188,10 +184,28 @@ impl Rod {
         self.stiffness
     }
 
-    /// Weight per length ρ S g (N/m). \[paper\] (2.4)
+    /// Mass per length ρ S (kg/m).
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Apparent weight per length (N/m): the size of the load, ρ S g where gravity alone acts. \[paper\] (2.4)
     #[must_use]
     pub fn weight(&self) -> f64 {
         self.weight
+    }
+
+    /// The apparent vertical (world, unit): against the load; +z where there is none.
+    #[must_use]
+    pub fn up(&self) -> DVec3 {
+        self.up
+    }
+
+    /// The load per length (N/m, world): [`Self::weight`] against [`Self::up`].
+    #[must_use]
+    pub fn load(&self) -> DVec3 {
+        -self.up * self.weight
     }
 
     /// Γ = ρ S g L³ / EI with the smaller bending stiffness: weight against elasticity.

@@ -6,7 +6,7 @@ use common::{elements, hair, reference_cases, straight};
 use frisure_rod::batch::{Batch, Precision};
 use frisure_rod::minimise::Problem;
 use frisure_rod::{
-    Chain, ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64,
+    Chain, ElementKind, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64,
     Stability, StrainProfile, TorsionConstant, equilibrium,
 };
 use glam::DVec3;
@@ -27,7 +27,7 @@ fn head(count: usize) -> Vec<Rod> {
                 torsion: TorsionConstant::SaintVenant,
                 natural: NaturalStrain::helix(radius, pitch).unwrap(),
                 root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.1, 0.9, -0.2)).unwrap(),
-                gravity: 9.81,
+                load: Load::down(9.81),
             })
             .unwrap()
         })
@@ -134,7 +134,7 @@ fn saddles_and_limits() {
         ..common::curl()
     };
     rods.push(Rod::new(planar.clone()).unwrap());
-    rods.push(Rod::new(RodSpec { gravity: 0.0, ..planar }).unwrap());
+    rods.push(Rod::new(RodSpec { load: Load::NONE, ..planar }).unwrap());
     let batched = Batch { elements: 30, ..Batch::default() }.solve(&rods);
     for (i, hair) in batched.rods.iter().enumerate() {
         assert_eq!(hair.stability, Stability::Stable, "{i}: {hair:?}");

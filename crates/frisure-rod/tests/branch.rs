@@ -6,9 +6,9 @@ use common::{Spring, accuracy, curl, elements, hair, straight};
 use frisure_rod::minimise::{Minimiser, Newton, Problem, StoppingCriteria};
 use frisure_rod::potential::Potential;
 use frisure_rod::{
-    Branch, Chain, ElementKind, Equilibrium, Material, NaturalStrain, Options, Resolution, Rod,
-    RodSpec, Root, Section, SplitMix64, Stability, StrainProfile, TorsionConstant, equilibrium,
-    equilibrium_from,
+    Branch, Chain, ElementKind, Equilibrium, Load, Material, NaturalStrain, Options, Resolution,
+    Rod, RodSpec, Root, Section, SplitMix64, Stability, StrainProfile, TorsionConstant,
+    equilibrium, equilibrium_from,
 };
 use glam::{DVec3, Vec3Swizzles};
 use proptest::prelude::*;
@@ -187,7 +187,7 @@ fn folded() -> Rod {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::Varying(StrainProfile::new(knots).unwrap()),
         root: root.unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
     .unwrap()
 }
@@ -259,7 +259,7 @@ fn curled_in_two_ways(seed: u64) -> Rod {
         torsion: TorsionConstant::SaintVenant,
         natural,
         root: Root::from_tangent(DVec3::ZERO, tangent, d1).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
     .unwrap()
 }
@@ -323,7 +323,7 @@ prop_compose! {
             torsion: TorsionConstant::SaintVenant,
             natural,
             root,
-            gravity,
+            load: Load::down(gravity),
         })
         .unwrap()
     }

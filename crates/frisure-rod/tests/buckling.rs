@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 use common::{accuracy, elements, straight};
 use frisure_rod::minimise::Problem;
 use frisure_rod::{
-    AccuracyStatus, Chain, ElementKind, Material, NaturalStrain, Options, Rod, RodSpec, Root,
+    AccuracyStatus, Chain, ElementKind, Load, Material, NaturalStrain, Options, Rod, RodSpec, Root,
     Section, Stability, TorsionConstant, equilibrium,
 };
 use glam::{DVec2, DVec3};
@@ -250,7 +250,7 @@ fn on_edge(multiple: f64) -> Rod {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::STRAIGHT,
         root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y).unwrap(),
-        gravity: multiple * BEND_TWIST * bend / (1300.0 * section.area() * 1e-3),
+        load: Load::down(multiple * BEND_TWIST * bend / (1300.0 * section.area() * 1e-3)),
     })
     .unwrap()
 }

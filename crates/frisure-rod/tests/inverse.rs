@@ -2,7 +2,7 @@
 
 use frisure_rod::inverse::{FittedCurve, solve};
 use frisure_rod::{
-    Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, Stability,
+    Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, Stability,
     TorsionConstant, equilibrium, equilibrium_from,
 };
 use glam::DVec3;
@@ -15,7 +15,7 @@ fn spec(length: f64, ratio: f64, natural: NaturalStrain, tangent: DVec3) -> RodS
         torsion: TorsionConstant::SaintVenant,
         natural,
         root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.3, 0.9, 0.1)).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     }
 }
 

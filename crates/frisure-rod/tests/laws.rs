@@ -6,7 +6,7 @@ use common::{Spring, TipWrench, accuracy, curl, elements, hair, straight};
 use frisure_rod::minimise::{Minimiser, Newton, Problem, StoppingCriteria};
 use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{
-    Chain, ElementKind, Equilibrium, NaturalStrain, Options, Rod, RodSpec, Root, Section,
+    Chain, ElementKind, Equilibrium, Load, NaturalStrain, Options, Rod, RodSpec, Root, Section,
     SplitMix64, Stability, StrainProfile, equilibrium,
 };
 use glam::{DMat3, DVec3};
@@ -88,7 +88,7 @@ fn joints_carry_no_moment_about_the_vertical() {
 fn energy_falls_with_weight_at_the_rate_of_the_height() {
     // dE/d(weight) = E_g/weight along a branch, since E is stationary in the shape.
     let at = |gravity: f64| {
-        let rod = Rod::new(RodSpec { gravity, ..curl() }).unwrap();
+        let rod = Rod::new(RodSpec { load: Load::down(gravity), ..curl() }).unwrap();
         let found = equilibrium(&rod, &[], &elements(40, ElementKind::Jointed));
         (rod.weight(), found.energy)
     };
@@ -98,6 +98,55 @@ fn energy_falls_with_weight_at_the_rate_of_the_height() {
         let slope = (e1.total() - e0.total()) / (w1 - w0);
         let exact = e.gravity / w;
         assert!((slope - exact).abs() < 1e-5 * exact.abs(), "{gravity}: {slope} {exact}");
+    }
+}
+
+#[test]
+fn a_world_that_is_turned_with_its_load_turns_the_solution() {
+    let mut random = SplitMix64(12);
+    for i in 0..8 {
+        let spec = hair(&mut random);
+        let turn = DMat3::from_quat(glam::DQuat::from_scaled_axis(random.cube() * 2.0));
+        let turned = RodSpec {
+            root: turned(&spec.root, turn),
+            load: Load { gravity: turn * spec.load.gravity, ..Load::NONE },
+            ..spec.clone()
+        };
+        for kind in KINDS {
+            let found = [&spec, &turned].map(|spec| {
+                let rod = Rod::new(spec.clone()).unwrap();
+                equilibrium(&rod, &[], &elements(24, kind))
+            });
+            let scale = found[0].energy.elastic + found[0].energy.gravity.abs();
+            let energy = found[1].energy.total() - found[0].energy.total();
+            assert!(energy.abs() < 1e-9 * scale, "hair {i}: {energy} J");
+            for (a, b) in found[0].shape.positions.iter().zip(&found[1].shape.positions) {
+                // Relative gradients of 1e-10 leave about this much of a shape open.
+                assert!((turn * *a).distance(*b) < 1e-6 * spec.length, "hair {i}: {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_force_on_the_length_is_gravity_of_the_same_size() {
+    let mut random = SplitMix64(13);
+    for _ in 0..8 {
+        let spec = hair(&mut random);
+        let mass = Rod::new(spec.clone()).unwrap().mass();
+        let wind = random.direction() * 3e-5;
+        let both = Load { gravity: spec.load.gravity, force: wind };
+        let alike = Load { gravity: spec.load.gravity + wind / mass, ..Load::NONE };
+        let tip = [both, alike].map(|load| {
+            let rod = Rod::new(RodSpec { load, ..spec.clone() }).unwrap();
+            assert!((rod.load() - both.per_length(mass)).length() < 1e-15 * rod.weight());
+            *equilibrium(&rod, &[], &elements(24, ElementKind::Jointed))
+                .shape
+                .positions
+                .last()
+                .unwrap()
+        });
+        assert!(tip[0].distance(tip[1]) < 1e-6 * spec.length);
     }
 }
 
@@ -139,7 +188,7 @@ fn planar_data_have_planar_equilibria() {
 fn without_weight_the_natural_helix_is_exact() {
     // The helix of radius R and pitch P about an axis through its curvature and twist.
     let (radius, pitch) = (0.005_f64, 0.010);
-    let rod = Rod::new(RodSpec { gravity: 0.0, ..curl() }).unwrap();
+    let rod = Rod::new(RodSpec { load: Load::NONE, ..curl() }).unwrap();
     let p = pitch / std::f64::consts::TAU;
     let per_length = 1.0 / radius.hypot(p);
     let NaturalStrain::Uniform(u) = rod.natural() else { unreachable!() };
@@ -328,7 +377,7 @@ fn the_solver_finds_a_shape_that_was_chosen_first() {
 fn loves_helix_under_a_wrench_is_exact() {
     // Uniform strain u with axis a = u/|u|, a force f a on the tip and the body moment
     // M = c u + (f/|u|) t: an equilibrium of u⁰ = u − K⁻¹ M. Love, Treatise, §270.
-    let base = RodSpec { gravity: 0.0, length: 0.05, ..curl() };
+    let base = RodSpec { load: Load::NONE, length: 0.05, ..curl() };
     let stiffness = Rod::new(base.clone()).unwrap().stiffness();
     let u = DVec3::new(60.0, -25.0, 80.0);
     let (f, c) = (2e-6, 0.2 * stiffness.x);

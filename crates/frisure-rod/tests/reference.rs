@@ -6,8 +6,8 @@ use std::path::Path;
 
 use common::{Case, accuracy, curl, elements, reference_cases, straight};
 use frisure_rod::{
-    ElementKind, Equilibrium, NaturalStrain, Options, Rod, RodSpec, Root, Stability, StrainProfile,
-    equilibrium,
+    ElementKind, Equilibrium, Load, NaturalStrain, Options, Rod, RodSpec, Root, Stability,
+    StrainProfile, equilibrium,
 };
 use glam::DVec3;
 
@@ -221,7 +221,7 @@ fn with_a_jump(s: f64) -> (Rod, impl Fn(f64) -> DVec3) {
         vec![(s * length, DVec3::X * before), (s * length * (1.0 + 1e-9), DVec3::X * after)];
     let natural = NaturalStrain::Varying(StrainProfile::new(knots).unwrap());
     let root = Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y).unwrap();
-    let rod = Rod::new(RodSpec { length, natural, gravity: 0.0, root, ..curl() }).unwrap();
+    let rod = Rod::new(RodSpec { length, natural, load: Load::NONE, root, ..curl() }).unwrap();
     // κ1 turns about d1 = +y, from +x downwards.
     let arc = |curvature: f64, angle: f64, s: f64| {
         let to = angle + curvature * s;

@@ -9,8 +9,8 @@ use frisure_rod::derivatives::{
 use frisure_rod::minimise::Problem;
 use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{
-    Chain, ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    SplitMix64, StrainProfile, TorsionConstant, equilibrium, equilibrium_from,
+    Chain, ElementKind, Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
+    Section, SplitMix64, StrainProfile, TorsionConstant, equilibrium, equilibrium_from,
 };
 use glam::{DMat3, DQuat, DVec3};
 
@@ -39,7 +39,7 @@ impl Hair {
             torsion: TorsionConstant::SaintVenant,
             natural: NaturalStrain::helix(self.curl[0], self.curl[1]).unwrap(),
             root: Root::from_tangent(self.position, self.frame.z_axis, self.frame.x_axis).unwrap(),
-            gravity: 9.81,
+            load: Load::down(9.81),
         })
         .unwrap()
     }
@@ -144,7 +144,7 @@ fn worst(hair: &Hair, kind: ElementKind, at: &Sensitivity) -> f64 {
     };
     let by_young = stiffness(DVec3::new(k.x, k.y, 0.0) / young);
     let by_shear = stiffness(DVec3::Z * k.z / shear);
-    let load = DVec3::NEG_Z * rod.weight() / density;
+    let load = rod.load() / density;
     let by_density = ParameterChange { load, ..ParameterChange::default() };
     let h = 1e-3;
     let mut gaps = vec![
@@ -284,7 +284,7 @@ fn a_stiff_cantilever_sags_by_its_load_over_its_stiffness() {
     let gradient = at.vjp(&loss.into()).unwrap();
     let (length, k) = (hair.length, rod.stiffness().x);
     let sag = rod.weight() * length.powi(4) / (8.0 * k);
-    assert!((gradient.weight() * rod.weight() / sag - 1.0).abs() < 2e-3);
+    assert!((gradient.weight(&rod) * rod.weight() / sag - 1.0).abs() < 2e-3);
     assert!(
         (gradient.stiffness.x * k / -sag - 1.0).abs() < 2e-3,
         "{}",
@@ -320,7 +320,7 @@ fn the_energy_at_rest_changes_as_the_envelope_theorem_says() {
             let wider = |x: f64| Hair { curl: [radius * x, pitch], ..hair };
             let by = at.by_energy();
             let pairs = [
-                (slope(&heavier), by.weight() * rod.weight()),
+                (slope(&heavier), by.weight(&rod) * rod.weight()),
                 (slope(&longer), by.length.unwrap() * hair.length),
                 (slope(&wider), by.curl(radius, pitch)[0] * radius),
             ];
@@ -470,8 +470,16 @@ fn of_all_kinds(count: usize, seed: u64) -> Vec<Rod> {
             0 => NaturalStrain::Varying(StrainProfile::new(knots).unwrap()),
             _ => spec.natural.clone(),
         };
-        let gravity = if i % 7 == 3 { 0.0 } else { 9.81 };
-        Rod::new(RodSpec { natural, gravity, ..spec }).unwrap()
+        let load = match i % 7 {
+            3 => Load::NONE,
+            // A head that lies, in wind.
+            5 => Load {
+                gravity: DVec3::new(6.0, -7.0, 3.5),
+                force: DVec3::new(1.0, 2.0, -0.5) * 2e-5,
+            },
+            _ => Load::down(9.81),
+        };
+        Rod::new(RodSpec { natural, load, ..spec }).unwrap()
     };
     (0..count).map(rod).collect()
 }

@@ -7,8 +7,8 @@ use common::{Spring, elements, hair};
 use frisure_rod::minimise::Problem;
 use frisure_rod::potential::Potential;
 use frisure_rod::{
-    Chain, ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    SplitMix64, equilibrium,
+    Chain, ElementKind, Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root,
+    Section, SplitMix64, equilibrium,
 };
 use glam::DVec3;
 
@@ -45,7 +45,7 @@ impl Units {
             natural: NaturalStrain::Uniform(u / l),
             root: Root::new(si.root.position() * l, frame.x_axis, frame.y_axis, frame.z_axis)
                 .unwrap(),
-            gravity: si.gravity * l,
+            load: Load { gravity: si.load.gravity * l, force: si.load.force * m },
         }
     }
 }

@@ -79,7 +79,7 @@ impl Scene {
                 None => NaturalStrain::Uniform(spec.curl.strain),
             },
             root: Root::new(DVec3::ZERO, d1, d2, t).map_err(refuse)?,
-            gravity: spec.gravity,
+            load: spec.load(&spec.fibre.section),
         };
         let rod = Rod::new(rod).map_err(refuse)?;
         if !(rod.heaviness() <= MAX_HEAVINESS) {

@@ -19,19 +19,22 @@ pub enum Panel {
     Wisps,
     /// Where and in which direction hair grows.
     Implantation,
+    /// Gravity, the pose of the head, and wind.
+    Surroundings,
     /// Colour and light.
     Look,
 }
 
 impl Panel {
     /// All panels, in the order in which programs display them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Files,
         Self::Fibre,
         Self::Curl,
         Self::Length,
         Self::Wisps,
         Self::Implantation,
+        Self::Surroundings,
         Self::Look,
     ];
 
@@ -45,6 +48,7 @@ impl Panel {
             Self::Length => "Length",
             Self::Wisps => "Wisps",
             Self::Implantation => "Implantation",
+            Self::Surroundings => "Pose and wind",
             Self::Look => "Look and light",
         }
     }
@@ -75,6 +79,7 @@ pub(crate) const DEGREES: Unit = unit("°", "deg", PI / 180.0);
 pub(crate) const PER_CM2: Unit = unit("/cm²", "1/cm^2", 1e4);
 pub(crate) const ACCELERATION: Unit = unit("m/s²", "m/s^2", 1.0);
 pub(crate) const SPEED: Unit = unit("cm/month", "cm/month", 0.01 / MONTH);
+pub(crate) const METRES_PER_SECOND: Unit = unit("m/s", "m/s", 1.0);
 pub(crate) const NUMBER: Unit = unit("", "", 1.0);
 pub(crate) const TIMES: Unit = unit("×", "", 1.0);
 pub(crate) const TO_ONE: Unit = unit(": 1", "", 1.0);

@@ -9,7 +9,7 @@ use crate::source::Source;
 type Group = &'static [&'static [&'static str]];
 
 /// All groups; `[]` stands for the index of an item in a list.
-pub(crate) const GROUPS: [Group; 16] = [
+pub(crate) const GROUPS: [Group; 17] = [
     &[
         &["hair.fibre.diameter"],
         &["hair.fibre.mean_radius"],
@@ -31,6 +31,7 @@ pub(crate) const GROUPS: [Group; 16] = [
     &[&["implantation.parting"], &["implantation.partings"]],
     &[&["implantation.partings[].at"], &["implantation.partings[].line"]],
     &[&["implantation.lift"], &["implantation.lift_scale"]],
+    &[&["pose.pitch", "pose.roll"], &["pose.down"]],
     &[&["head.scalp_group"], &["head.scalp_colour"], &["head.scalp_mask"], &["head.scalp_weights"]],
     &[&["head.unit"], &["head.scale"]],
     &[&["region[].length"], &["region[].down_to"]],

@@ -17,8 +17,8 @@ use frisure_rod::{ElementKind, TorsionConstant};
 
 use crate::choice::OneOf;
 use crate::control::{
-    ACCELERATION, CM, DEGREES, DENSITY, GPA, MM, NUMBER, PER_CM2, PERCENT, Panel, SPEED, STOPS,
-    TIMES, TO_ONE, UM,
+    ACCELERATION, CM, DEGREES, DENSITY, GPA, METRES_PER_SECOND, MM, NUMBER, PER_CM2, PERCENT,
+    Panel, SPEED, STOPS, TIMES, TO_ONE, UM,
 };
 use crate::declaration::{Access, Declaration, field, number, table, value};
 use crate::keywords::{
@@ -268,9 +268,34 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// 0.15.
         "implantation.baby_hairs" => number::<Ratio>()
             .slider(Panel::Implantation, "Baby hairs", PERCENT, (0.0, 100.0), 0, "Share of short thin hairs along the edge.");
-        /// Acceleration of gravity, along -z; {}. Default 9.81 m/s^2.
+        /// Acceleration of gravity; {}. Default 9.81 m/s^2.
         "gravity" => number::<Acceleration>()
-            .slider(Panel::Implantation, "Gravity", ACCELERATION, (0.0, 30.0), 2, "9.81 on Earth, 1.62 on the Moon.");
+            .slider(Panel::Surroundings, "Gravity", ACCELERATION, (0.0, 30.0), 2, "9.81 on Earth, 1.62 on the Moon.");
+        /// How the head is held. Gravity turns in the frame of the head, which stays as it is: x to its left, y back, z up. Left
+        /// out, the head is upright.
+        "pose" => table();
+        /// How far the head nods, the face down; negative is back. {}. Default 0.
+        "pose.pitch" => number::<Angle>()
+            .slider(Panel::Surroundings, "Nod", DEGREES, (-180.0, 180.0), 0, "How far the head is bent forward; negative is back. At -90 it lies on its back.");
+        /// How far the head leans to its left, before it nods; {}. Default 0.
+        "pose.roll" => number::<Angle>()
+            .slider(Panel::Surroundings, "Lean", DEGREES, (-180.0, 180.0), 0, "How far the head leans to its left.");
+        /// Instead of these: the direction in which gravity pulls in the frame of the head, of any length, such as [0, 1, 0] for a head
+        /// on its back.
+        "pose.down" => value::<Vector>();
+        /// A steady wind. Its force is the same on every length of hair, whatever its direction.
+        "wind" => table();
+        /// Speed far from the head; {}. Default 0.
+        "wind.speed" => number::<Speed>()
+            .slider(Panel::Surroundings, "Wind", METRES_PER_SECOND, (0.0, 20.0), 1, "Speed of a steady wind.");
+        /// Where it comes from: 0 from before the face, 90 deg from the head's left; {}. Default 0.
+        "wind.azimuth" => number::<Angle>()
+            .slider(Panel::Surroundings, "Wind from", DEGREES, (-180.0, 180.0), 0, "Where the wind comes from: 0 from before the face, 90 from the head's left.");
+        /// How far above the level of the head it comes from; {}. Default 0.
+        "wind.elevation" => number::<Angle>();
+        /// Part of the drag of a single hair in the open that acts on each hair; the other hairs shelter it. {}. Default 0.01, an estimate
+        /// for a head; 1 is for one hair in the open.
+        "wind.exposure" => number::<Ratio>();
         /// What parts of the scalp have that the rest has not; later ones override earlier ones.
         "region[]" => table();
         /// Which part of the scalp, or a list of parts.

@@ -145,7 +145,7 @@ pub const TIME: Dimension = Dimension {
     ],
 };
 
-/// Speeds, as hair grows; SI m/s.
+/// Speeds, of growth and of wind; SI m/s.
 pub const SPEED: Dimension = Dimension {
     name: "a speed",
     si: "m/s",
@@ -156,6 +156,7 @@ pub const SPEED: Dimension = Dimension {
         ("mm/day", 1.0 / 86_400_000.0),
         ("um/day", 1.0 / 86_400_000_000.0),
         ("m/s", 1.0),
+        ("km/h", 1.0 / 3.6),
     ],
 };
 

@@ -1,8 +1,8 @@
 //! Hair drawn at random, the same on every machine.
 
 use frisure::rod::{
-    InvalidQuantity, Material, NaturalStrain, RodSpec, Root, Section, SplitMix64, StrainProfile,
-    TorsionConstant,
+    InvalidQuantity, Load, Material, NaturalStrain, RodSpec, Root, Section, SplitMix64,
+    StrainProfile, TorsionConstant,
 };
 use glam::{DMat3, DVec3};
 
@@ -32,7 +32,7 @@ pub(crate) fn realistic(random: &mut SplitMix64) -> Result<RodSpec, InvalidQuant
         torsion: TorsionConstant::SaintVenant,
         natural,
         root: Root::from_tangent(DVec3::ZERO, tangent, d1)?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
 }
 
@@ -88,6 +88,6 @@ pub(crate) fn absurd(random: &mut SplitMix64) -> Result<RodSpec, InvalidQuantity
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::Uniform(natural),
         root: Root::from_tangent(random.cube() * 10.0, tangent, d1)?,
-        gravity: if random.unit() < 0.05 { 0.0 } else { heaviness * bend / unit },
+        load: Load::down(if random.unit() < 0.05 { 0.0 } else { heaviness * bend / unit }),
     })
 }

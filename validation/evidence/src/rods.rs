@@ -1,8 +1,8 @@
 //! Rods that several experiments use, and measurements of them.
 
 use frisure::rod::{
-    ElementKind, Equilibrium, InvalidQuantity, Material, NaturalStrain, Options, Resolution, Rod,
-    RodSpec, Root, Section, TorsionConstant,
+    ElementKind, Equilibrium, InvalidQuantity, Load, Material, NaturalStrain, Options, Resolution,
+    Rod, RodSpec, Root, Section, TorsionConstant,
 };
 use glam::{DMat3, DVec3};
 
@@ -57,7 +57,7 @@ impl Bar {
             torsion: TorsionConstant::SaintVenant,
             natural: NaturalStrain::Uniform(self.natural / LENGTH),
             root: Root::from_tangent(DVec3::ZERO, self.tangent, self.d1)?,
-            gravity: self.gamma * bend / (density * section.area() * LENGTH.powi(3)),
+            load: Load::down(self.gamma * bend / (density * section.area() * LENGTH.powi(3))),
         })
     }
 

@@ -1,7 +1,7 @@
 //! The hairs: one curl, and any number of the same curl with roots rotated at random.
 
 use frisure::rod::{
-    InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64,
+    InvalidQuantity, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64,
     TorsionConstant,
 };
 use glam::{DMat3, DQuat, DVec3};
@@ -61,7 +61,7 @@ fn curl(root: DMat3) -> Result<Rod, InvalidQuantity> {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::helix(0.005, 0.010)?,
         root: Root::new(DVec3::ZERO, root.x_axis, root.y_axis, root.z_axis)?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
 }
 
@@ -74,7 +74,7 @@ impl Hair {
             youngs_modulus: spec.material.youngs_modulus(),
             shear_modulus: spec.material.shear_modulus(),
             density: spec.material.density(),
-            gravity: spec.gravity,
+            gravity: spec.load.gravity.length(),
             stiffness: rod.stiffness().to_array(),
             weight_per_length: rod.weight(),
             natural: rod.natural().at(0.0).to_array(),

@@ -1,7 +1,7 @@
 //! What the tests of contact share.
 
 use frisure_rod::potential::Field;
-use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
+use frisure_rod::{Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
 use glam::DVec3;
 
 use super::Thickness;
@@ -15,7 +15,7 @@ pub(super) fn wisp() -> Thickness {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::helix(0.01, 0.02).unwrap(),
         root: Root::from_tangent(DVec3::ZERO, DVec3::Z, DVec3::X).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     });
     let rod = rod.unwrap();
     Thickness::new(&rod, rod.natural().at(0.0), 300.0, 1.0, 0.05, 1.0)

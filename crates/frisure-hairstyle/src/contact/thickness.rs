@@ -135,7 +135,7 @@ impl Thickness {
 
 #[cfg(test)]
 mod tests {
-    use frisure_rod::{Material, NaturalStrain, RodSpec, Root, Section, TorsionConstant};
+    use frisure_rod::{Load, Material, NaturalStrain, RodSpec, Root, Section, TorsionConstant};
 
     use super::*;
 
@@ -147,7 +147,7 @@ mod tests {
             torsion: TorsionConstant::SaintVenant,
             natural: NaturalStrain::helix(curl.0, curl.1).unwrap(),
             root: Root::from_tangent(DVec3::ZERO, DVec3::Z, DVec3::X).unwrap(),
-            gravity,
+            load: Load::down(gravity),
         })
         .unwrap()
     }

@@ -174,8 +174,8 @@ mod tests {
 
     use frisure_rod::potential::Field;
     use frisure_rod::{
-        ElementKind, Material, NaturalStrain, Resolution, RodSpec, Root, Section, StrainProfile,
-        TorsionConstant, equilibrium,
+        ElementKind, Load, Material, NaturalStrain, Resolution, RodSpec, Root, Section,
+        StrainProfile, TorsionConstant, equilibrium,
     };
     use glam::{DMat3, DVec3};
 
@@ -257,7 +257,7 @@ mod tests {
             torsion: TorsionConstant::SaintVenant,
             natural,
             root,
-            gravity,
+            load: Load::down(gravity),
         })
         .unwrap()
     }
@@ -281,7 +281,7 @@ mod tests {
         let straight = |depth| fibre(length, 1e-4, gravity, NaturalStrain::STRAIGHT, root(depth));
         // The root is as deep as the fibre sinks in, so that it does not bend.
         let rod = straight(straight(0.0).weight() * angle.cos() / ground.stiffness);
-        let weightless = Rod::new(RodSpec { gravity: 0.0, ..rod.spec().clone() }).unwrap();
+        let weightless = Rod::new(RodSpec { load: Load::NONE, ..rod.spec().clone() }).unwrap();
         let options = options(40);
         let start = equilibrium(&weightless, &[], &options);
         let samples = 32;

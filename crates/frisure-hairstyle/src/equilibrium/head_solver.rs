@@ -159,7 +159,8 @@ impl<'a> HeadSolver<'a> {
         let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
         let mut order: Vec<usize> = (0..guides.len()).collect();
         // Hair rooted lower lies lower: it is the first to be pushed out of the way.
-        let height = |i: usize| guides[i].root.position.z;
+        let up = -spec.pose.down();
+        let height = |i: usize| guides[i].root.position.dot(up);
         order.sort_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
         let count = wisps.len();
         // The scale of the head: wisps are about as thick in the middle as contact takes them to be.

@@ -5,7 +5,9 @@ mod hair_type;
 mod humidity;
 mod styles;
 
-use crate::spec::{Contact, Hairs, HairstyleSpec, Implantation, Length, Lift, Settling, Wisps};
+use crate::spec::{
+    Contact, Hairs, HairstyleSpec, Implantation, Length, Lift, Pose, Settling, Wind, Wisps,
+};
 pub use hair_type::{Ellipticity, HairType, NaturalCurl};
 pub use humidity::Moisture;
 use styles::Style;
@@ -162,6 +164,8 @@ impl Preset {
             contact: Contact { hair: style.contact, ..Contact::default() },
             equilibrium: Settling::default(),
             gravity: 9.81,
+            pose: Pose::default(),
+            wind: Wind::default(),
         }
     }
 }

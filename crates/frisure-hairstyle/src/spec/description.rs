@@ -2,6 +2,7 @@
 
 use frisure_digest::digestible;
 
+use super::load::{Pose, Wind};
 use crate::fibre::{Curl, Fibre, Wetting};
 use crate::head::{Hairline, Region};
 use crate::rod_digest::{add_element, add_resolution};
@@ -40,8 +41,12 @@ digestible! {
         pub contact: Contact,
         /// How the equilibrium of guides is computed.
         pub equilibrium: Settling,
-        /// Acceleration of gravity (m/s²), along −z.
+        /// Acceleration of gravity (m/s²), along [`Pose::down`].
         pub gravity: f64,
+        /// How the head is held against gravity.
+        pub pose: Pose,
+        /// Wind on the hair.
+        pub wind: Wind,
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod check;
 mod description;
+mod load;
 mod numbers;
 mod ranges;
 
@@ -13,6 +14,7 @@ pub use description::{
     Implantation, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn,
     Whorls, Wisps,
 };
+pub use load::{Pose, Wind};
 pub use numbers::{Number, Scalar, number};
 pub(crate) use ranges::range;
 pub use ranges::{InvalidSpec, Range};

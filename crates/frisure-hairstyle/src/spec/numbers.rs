@@ -167,6 +167,12 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "contact.friction", field!(contact.friction), 0.0, 1.5, "between 0 and 1.5; measured on hair: 0.47 to 0.84";
     "contact.skin_friction", field!(contact.skin_friction), 0.0, 1.5, "between 0 and 1.5";
     "gravity", field!(gravity), 0.0, 1000.0, "between 0 and 1000 m/s²";
+    "pose.pitch", field!(pose.pitch), -PI, PI, "between -180 and 180 deg";
+    "pose.roll", field!(pose.roll), -PI, PI, "between -180 and 180 deg";
+    "wind.speed", field!(wind.speed), 0.0, 60.0, "between 0 and 60 m/s";
+    "wind.azimuth", field!(wind.azimuth), -2.0 * PI, 2.0 * PI, "a turn at most";
+    "wind.elevation", field!(wind.elevation), -PI / 2.0, PI / 2.0, "between -90 and 90 deg";
+    "wind.exposure", field!(wind.exposure), 0.0, 1.0, "between 0 and 1";
     "equilibrium.elements", Access::Derived(elements), 1.0, 1000.0, "between 1 and 1000 on a head";
     "equilibrium.tolerance", field!(equilibrium.tolerance), 1e-8, 0.1, "between 1e-8 and 0.1";
 };

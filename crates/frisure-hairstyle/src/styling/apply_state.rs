@@ -120,7 +120,7 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
             Some(Pull::Clip { piece, point, stiffness: CLIP.0, most })
         }
         Grip::Mould { tension, .. } => {
-            (tension > 0.0).then(|| Pull::Comb { force: DVec3::NEG_Z * (tension * rod.weight()) })
+            (tension > 0.0).then(|| Pull::Comb { force: -rod.up() * (tension * rod.weight()) })
         }
     }
 }

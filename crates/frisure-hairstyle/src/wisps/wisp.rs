@@ -139,7 +139,7 @@ fn transported(positions: &[DVec3], half: f64) -> Vec<DQuat> {
 #[cfg(test)]
 mod tests {
     use frisure_rod::{
-        ElementKind, Material, NaturalStrain, Options, Rod, RodSpec, Root, Section,
+        ElementKind, Load, Material, NaturalStrain, Options, Rod, RodSpec, Root, Section,
         TorsionConstant, equilibrium,
     };
 
@@ -153,7 +153,7 @@ mod tests {
             torsion: TorsionConstant::SaintVenant,
             natural: NaturalStrain::helix(0.004, 0.01).unwrap(),
             root: Root::from_tangent(DVec3::ZERO, DVec3::Z, DVec3::X).unwrap(),
-            gravity: 0.0,
+            load: Load::NONE,
         })
         .unwrap()
     }

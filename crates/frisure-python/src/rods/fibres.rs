@@ -1,7 +1,7 @@
 //! Rods from arrays of their properties, which are read where they are.
 
 use frisure::rod::{
-    InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, Root, Section, StrainProfile,
+    InvalidQuantity, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, StrainProfile,
     TorsionConstant,
 };
 use frisure_engine::Error;
@@ -161,8 +161,8 @@ impl From<WrongRod> for Error {
 }
 
 impl FibreViews<'_> {
-    /// The section and the material of a rod, and gravity.
-    pub(crate) fn at(&self, rod: usize) -> Result<(Section, Material, f64), WrongRod> {
+    /// The section and the material of a rod, and gravity along −z.
+    pub(crate) fn at(&self, rod: usize) -> Result<(Section, Material, Load), WrongRod> {
         let (diameter, axis_ratio) = (self.diameter.at(rod), self.axis_ratio.at(rod));
         let section = Section::from_diameter(diameter, axis_ratio).map_err(|problem| {
             // The section is checked as a whole; a diameter that is right is not the reason.
@@ -183,7 +183,13 @@ impl FibreViews<'_> {
             };
             argument.wrong(rod)(problem)
         })?;
-        Ok((section, material, self.gravity.at(rod)))
+        let gravity = self.gravity.at(rod);
+        if !(gravity >= 0.0 && gravity.is_finite()) {
+            let (quantity, unit, allowed) = ("gravity", "m/s²", "zero or more, and finite");
+            let problem = InvalidQuantity { quantity, value: gravity, unit, allowed };
+            return Err(self.gravity.wrong(rod)(problem));
+        }
+        Ok((section, material, Load::down(gravity)))
     }
 }
 
@@ -199,7 +205,7 @@ impl<'a> ClampViews<'a> {
     }
 
     fn rod(&self, fibres: &FibreViews<'a>, rod: usize) -> Result<Rod, WrongRod> {
-        let (section, material, gravity) = fibres.at(rod)?;
+        let (section, material, load) = fibres.at(rod)?;
         let (tangent, d1) = (self.tangent.at(rod), self.d1.at(rod));
         let root = Root::from_tangent(self.root.at(rod), tangent, d1).map_err(|problem| {
             let argument = match problem.quantity {
@@ -212,11 +218,10 @@ impl<'a> ClampViews<'a> {
         let length = self.length.at(rod);
         let natural = self.natural(rod, length)?;
         let torsion = TorsionConstant::SaintVenant;
-        let spec = RodSpec { length, section, material, torsion, natural, root, gravity };
+        let spec = RodSpec { length, section, material, torsion, natural, root, load };
         Rod::new(spec).map_err(|problem| {
             let argument = match problem.quantity {
                 "length" => &self.length,
-                "gravity" => &fibres.gravity,
                 "natural strain" => &self.curl_radius,
                 // Stiffness and weight, of a fibre that is too thin or too thick for numbers.
                 _ => &fibres.diameter,

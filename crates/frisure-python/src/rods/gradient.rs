@@ -108,7 +108,7 @@ impl RodsAtRest {
         let section = by_rods.iter().flat_map(|(by, rod)| by.diameter(rod));
         // Weight per length is ρ S g.
         let gravity = by_rods.iter().map(|(by, rod)| {
-            by.weight() * rod.spec().material.density() * rod.spec().section.area()
+            by.weight(rod) * rod.spec().material.density() * rod.spec().section.area()
         });
         Ok((
             PyArray1::from_vec(py, flat(&mut halves.copied())).reshape([count, 2 * elements, 3])?,

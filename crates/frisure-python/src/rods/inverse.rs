@@ -35,12 +35,12 @@ struct Found {
 
 impl Given {
     fn new(line: Vec<DVec3>, fibres: &FibreViews<'_>, index: usize) -> Result<Self, WrongRod> {
-        let (section, material, gravity) = fibres.at(index)?;
+        let (section, material, load) = fibres.at(index)?;
         // Length, natural strain and root are those of the line.
         let root = Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y).expect("a frame");
         let torsion = TorsionConstant::SaintVenant;
         let natural = NaturalStrain::STRAIGHT;
-        let fibre = RodSpec { length: 1.0, section, material, torsion, natural, root, gravity };
+        let fibre = RodSpec { length: 1.0, section, material, torsion, natural, root, load };
         Ok(Self { line, fibre })
     }
 

@@ -1,6 +1,6 @@
 //! The hairs of benchmarks: 15 cm long, of 70 µm, with roots all over a sphere.
 
-use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
+use frisure_rod::{Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
 use glam::{DQuat, DVec3};
 
 /// Name and turns of the natural curl in 15 cm.
@@ -35,7 +35,7 @@ fn rod(natural: NaturalStrain, tangent: DVec3) -> Rod {
         torsion: TorsionConstant::SaintVenant,
         natural,
         root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.1, 0.9, -0.2)).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
     .unwrap()
 }

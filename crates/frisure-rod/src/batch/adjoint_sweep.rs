@@ -149,9 +149,10 @@ pub(super) struct AdjointBundle<F> {
     /// Two for each element, or one for all.
     pub(super) halves: Vec<Half<F>>,
     pub(super) root: Mat3<F>,
-    /// K (N m), weight per length (N/m) and length of an element (m).
+    /// K (N m), apparent weight per length (N/m), the vertical against it (world), and length of an element (m).
     pub(super) stiffness: Vec3<F>,
     pub(super) weight: F,
+    pub(super) up: Vec3<F>,
     pub(super) spacing: F,
 }
 
@@ -231,7 +232,7 @@ impl<F: Lanes> AdjointBundle<F> {
             moment = joint.moment + joint.start.mul_vec(piece);
             beyond = beyond + half_length;
             // 3. The weight at the joint, and the joint eliminated. (L3) to (L6)
-            let up = Vec3::new(joint.after.x.z, joint.after.y.z, joint.after.z.z);
+            let up = joint.after.transpose_mul(self.up);
             let weight = joint.arm.cross(up);
             let bearing = slope + weight;
             let value = ValueFunction {
@@ -289,8 +290,9 @@ impl<F: Lanes> AdjointBundle<F> {
         let (w, half_length) = (self.weight, zero.splat(0.5) * self.spacing);
         // ∫ δr ds of what later joints move, and the length beyond.
         let (mut moved, mut beyond) = (Vec3::splat(zero), zero);
-        // e_z × v.
-        let around = |v: Vec3<F>| Vec3::new(-v.y, v.x, zero);
+        // e × v.
+        let vertical = self.up;
+        let around = |v: Vec3<F>| vertical.cross(v);
         for i in (0..self.joints.len()).rev() {
             let [first, second] = both(&self.halves, i);
             let earlier = match i {
@@ -299,7 +301,7 @@ impl<F: Lanes> AdjointBundle<F> {
             };
             let joint = &mut self.joints[i];
             // A piece whose end is at `at` moves what is beyond: a rotation of that about the end, a shift of it, and the piece's
-            // own first moment; `about` is e_z × the rotation by the joints before the piece.
+            // own first moment; `about` is e × the rotation by the joints before the piece.
             let by_piece = |piece: &Half<F>,
                             frame: Mat3<F>,
                             at: Vec3<F>,

@@ -13,6 +13,7 @@ use super::solver::f64s;
 use super::weight_lanes::WeightLanes;
 use crate::centre_line::Node;
 use crate::chain::Chain;
+use crate::load::Load;
 use crate::material::Material;
 use crate::minimise::{Minimiser, Newton, Problem, Stability, StoppingCriteria, damped_step};
 use crate::potential::{Derivatives, ElementState, NodeState, Potential};
@@ -59,7 +60,10 @@ fn rod(k: usize) -> Rod {
             DVec3::new(0.1, 0.2, 0.9),
         )
         .unwrap(),
-        gravity: 9.81,
+        load: match k % 2 {
+            0 => Load::down(9.81),
+            _ => Load { gravity: random(400 + k) * 9.81, force: random(500 + k) * 3e-5 },
+        },
     })
     .unwrap()
 }

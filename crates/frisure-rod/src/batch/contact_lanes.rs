@@ -104,6 +104,7 @@ impl<'a, F: Lanes> ContactLanes<'a, F> {
                 transport: Transport::new(zero, n, uniform),
                 frame: Mat3::splat(zero),
                 start: Vec3::splat(zero),
+                up: Vec3::splat(zero),
                 stiffness: Vec3::splat(zero.splat(1.0)),
             },
             setup,
@@ -126,6 +127,7 @@ impl<F: Lanes> LaneSweeps<F> for ContactLanes<'_, F> {
         let n = start.len();
         bundle.frame.set(lane, &joints.frame);
         bundle.start.set(lane, joints.start);
+        bundle.up.set(lane, joints.vertical);
         bundle.stiffness.set(lane, joints.stiffness);
         bundle.transport.set(lane, joints);
         let mut guided = frames.map(|frames| GuidedStart::new(joints, frames));

@@ -154,12 +154,13 @@ impl<F: Lanes> PositionModel<F> {
         arm: Vec3<F>,
         b: Vec3<F>,
         frame: Mat3<F>,
+        vertical: Vec3<F>,
     ) -> (ValueFunction<F>, Mat3<F>) {
         let half = arm.x.splat(0.5);
         let s = self.shift_shift;
         // 1. Slopes: the moment of the weight, a × y, and that of the force at the end of the link, b × Gᵀ f.
-        // y = Gᵀ e_z is the third row of G.
-        let up = Vec3::new(frame.x.z, frame.y.z, frame.z.z);
+        // y = Gᵀ e.
+        let up = frame.transpose_mul(vertical);
         let moment = arm.cross(up);
         let pull = frame.transpose_mul(self.force);
         let slope = self.slope + moment + b.cross(pull);
@@ -204,6 +205,8 @@ pub(super) struct Bundle<F> {
     /// Frame and position (m) before the first joint.
     pub(super) frame: Mat3<F>,
     pub(super) start: Vec3<F>,
+    /// e: the apparent vertical (world).
+    pub(super) up: Vec3<F>,
     /// K (N m).
     pub(super) stiffness: Vec3<F>,
 }
@@ -223,7 +226,7 @@ impl<F: Lanes> Bundle<F> {
             let State { control: c, frame, contact, .. } = joint.current;
             // 2. Contact at the end of the link, then the link with its weight. (L8), (L9)
             model.add_contact(&contact);
-            let (value, turn_shift) = model.through_link(joint.arm, joint.link, frame);
+            let (value, turn_shift) = model.through_link(joint.arm, joint.link, frame, self.up);
             // 3. The joint eliminated, as without contact; N = Jᵀ Q is its mixed block by the shift. (L10)
             let eliminated = Elimination::new(c, &stiffness, &value, &mut result);
             let (q, j, by_turn) = (turn_shift, eliminated.jacobian, eliminated.by_turn);
@@ -273,7 +276,7 @@ impl<F: Lanes> Bundle<F> {
             let end = at + frame.mul_vec(joint.link);
             let contact = contact_at(i, &end);
             // 3. The energy. (L2), (L8)
-            let up = Vec3::new(frame.x.z, frame.y.z, frame.z.z);
+            let up = frame.transpose_mul(self.up);
             energy = add_joint_energy(energy, c, self.stiffness, joint.arm, up) + contact.energy;
             shift = end - joint.current.end;
             joint.trial = State { control: c, frame, end, contact };

@@ -6,6 +6,7 @@ use super::contact::{ConfinementTube, Contact, ContactField};
 use super::division::Joints;
 use super::solver::Batch;
 use super::start::InitialShape;
+use crate::load::Load;
 use crate::material::Material;
 use crate::minimise::Stability;
 use crate::rod::{Rod, RodSpec, Root};
@@ -71,7 +72,7 @@ fn rods() -> Vec<Rod> {
             torsion: TorsionConstant::SaintVenant,
             natural: NaturalStrain::helix(0.012, 0.02 + 0.01 * k as f64).unwrap(),
             root: Root::from_tangent(DVec3::Z * 0.01, tangent, DVec3::new(0.1, 0.2, 0.9)).unwrap(),
-            gravity: 9.81,
+            load: Load { force: DVec3::new(1e-5, -2e-5, 0.0), ..Load::down(9.81) },
         })
         .unwrap()
     };
@@ -89,7 +90,7 @@ fn energy(rod: &Rod, hair: usize, controls: &[DVec3], around: &Near) -> f64 {
         frame *= DMat3::from_quat(DQuat::from_scaled_axis(*c));
         at += frame * joints.links[i];
         energy +=
-            0.5 * c.dot(joints.stiffness * *c) + joints.arms[i].dot(frame.transpose() * DVec3::Z);
+            0.5 * c.dot(joints.stiffness * *c) + joints.arms[i].dot(frame.transpose() * rod.up());
         let (s, share) = match i + 1 == n {
             true => (rod.length(), 0.5 * joints.h),
             false => ((i as f64 + 1.5) * joints.h, joints.h),

@@ -29,6 +29,8 @@ pub(super) struct Joints {
     pub(super) start: DVec3,
     /// Length of an element (m).
     pub(super) h: f64,
+    /// e: the apparent vertical (world).
+    pub(super) vertical: DVec3,
     /// ζ: the vertical in the frame before the first joint.
     pub(super) up: DVec3,
     /// K: stiffness of each joint (N m).
@@ -64,6 +66,7 @@ impl Joints {
         let half = 0.5 * h;
         let weight = rod.weight();
         self.h = h;
+        self.vertical = rod.up();
         self.root = (rod.root().position(), rod.root().frame());
         self.turns.clear();
         self.arms.clear();
@@ -94,10 +97,10 @@ impl Joints {
                 // Before the first joint there is the clamp: its weight is a constant.
                 None => {
                     let (position, clamp) = self.root;
-                    self.constant = (clamp * bears).z;
+                    self.constant = (clamp * bears).dot(rod.up());
                     self.frame = clamp * first.turn;
                     self.start = position + clamp * first.advance;
-                    self.up = self.frame.transpose() * DVec3::Z;
+                    self.up = self.frame.transpose() * rod.up();
                 }
                 // The first piece moves rigidly with the joint before: it belongs to that joint's arm and link.
                 Some(before) => {

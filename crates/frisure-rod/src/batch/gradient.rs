@@ -118,7 +118,7 @@ impl Batch {
     ///
     /// ```
     /// use frisure_rod::batch::Batch;
-    /// use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
+    /// use frisure_rod::{Material, NaturalStrain, Rod, RodSpec, Load, Root, Section, TorsionConstant};
     /// use glam::DVec3;
     ///
     /// let rod = Rod::new(RodSpec {
@@ -128,7 +128,7 @@ impl Batch {
     ///     torsion: TorsionConstant::SaintVenant,
     ///     natural: NaturalStrain::helix(0.01, 0.02)?,
     ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-    ///     gravity: 9.81,
+    ///     load: Load::down(9.81),
     /// })?;
     /// let (rods, batch) = ([rod], Batch { tolerance: 1e-10, ..Batch::default() });
     /// let found = batch.solve(&rods);
@@ -183,6 +183,7 @@ fn in_lanes<F: Lanes>(
         root: Mat3::splat(zero),
         stiffness: Vec3::splat(zero.splat(1.0)),
         weight: zero,
+        up: Vec3::splat(zero),
         spacing: zero.splat(1.0),
     };
     let mut joints = Joints::default();
@@ -214,7 +215,7 @@ fn in_lanes<F: Lanes>(
                 by_scale += strains[2 * i].dot(halves[0]) + strains[2 * i + 1].dot(halves[1]);
             }
             // As [`Sensitivity::vjp`].
-            let weight = DVec3::NEG_Z * rods[rod].weight();
+            let weight = rods[rod].load();
             let load = sums.load.get(lane);
             let turned = sums.torque.get(lane) + loss.frame(rod, 0);
             let stretched = sums.magnification.get(lane) + by_scale + 3.0 * weight.dot(load);
@@ -261,6 +262,7 @@ fn load<F: Lanes>(
     bundle.root.set(lane, &rod.root().frame());
     bundle.stiffness.set(lane, joints.stiffness);
     bundle.weight.set(lane, rod.weight());
+    bundle.up.set(lane, rod.up());
     bundle.spacing.set(lane, joints.h);
     let half = 0.5 * joints.h;
     match rod.natural() {

@@ -10,7 +10,7 @@
 //! ```
 //! use frisure_rod::batch::Batch;
 //! use frisure_rod::{
-//!     Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant,
+//!     Material, NaturalStrain, Rod, RodSpec, Load, Root, Section, Stability, TorsionConstant,
 //! };
 //! use glam::DVec3;
 //!
@@ -25,7 +25,7 @@
 //!             torsion: TorsionConstant::SaintVenant,
 //!             natural: NaturalStrain::helix(0.005, 0.010)?,
 //!             root: Root::from_tangent(DVec3::ZERO, DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0))?,
-//!             gravity: 9.81,
+//!             load: Load::down(9.81),
 //!         })
 //!     })
 //!     .collect::<Result<_, _>>()?;

@@ -31,7 +31,7 @@ pub struct ParameterChange {
     pub length: f64,
     /// Change of the stiffnesses E I1, E I2, μ J (N m²).
     pub stiffness: DVec3,
-    /// Change of the load per length (N/m, world): weight is `−ρSg e_z`.
+    /// Change of the load per length (N/m, world): weight is `ρS g`.
     pub load: DVec3,
     /// Change of the root's position (m, world).
     pub root_position: DVec3,
@@ -70,19 +70,24 @@ impl ParameterGradient {
             + self.root_rotation.dot(change.root_rotation)
     }
 
-    /// By the weight per length ρSg (N/m), which pulls along −z.
+    /// By the apparent weight per length of a rod (N/m), which pulls against [`Rod::up`].
     #[must_use]
-    pub fn weight(&self) -> f64 {
-        -self.load.z
+    pub fn weight(&self, rod: &Rod) -> f64 {
+        -self.load.dot(rod.up())
+    }
+
+    /// By a factor of a rod's mass: other forces stay as they are.
+    fn mass_factor(&self, rod: &Rod) -> f64 {
+        self.load.dot(rod.spec().load.gravity * rod.mass())
     }
 
     /// By density (kg/m³), Young's modulus and shear modulus (Pa) of the rod's material.
     #[must_use]
     pub fn material(&self, rod: &Rod) -> [f64; 3] {
-        // Each stiffness is proportional to its modulus, the weight to the density.
+        // Each stiffness is proportional to its modulus, the weight, of gravity alone, to the density.
         let (material, k) = (rod.spec().material, rod.stiffness());
         [
-            self.weight() * rod.weight() / material.density(),
+            self.mass_factor(rod) / material.density(),
             (self.stiffness.x * k.x + self.stiffness.y * k.y) / material.youngs_modulus(),
             self.stiffness.z * k.z / material.shear_modulus(),
         ]
@@ -94,7 +99,7 @@ impl ParameterGradient {
         let (section, k) = (rod.spec().section, rod.stiffness());
         let (a, b) = (section.a(), section.b());
         // S = πab, I1 = πab³/4, I2 = πa³b/4: d ln(S, I1, I2)/d ln(a, b) are their exponents.
-        let weight = self.weight() * rod.weight();
+        let weight = self.mass_factor(rod);
         let [by_i1, by_i2] = [self.stiffness.x * k.x, self.stiffness.y * k.y];
         // J = π a³b³/(a² + b²) has d ln J/d ln a = 3 − 2a²/(a² + b²); J = I1 + I2 has (I1 + 3 I2)/(I1 + I2) = 3 − 2b²/(a² + b²).
         let part = a * a / (a * a + b * b);

@@ -20,7 +20,7 @@ const MOST_POLISHES: usize = 12;
 /// use frisure_rod::derivatives::Sensitivity;
 /// use frisure_rod::minimise::Problem;
 /// use frisure_rod::{
-///     Chain, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+///     Chain, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Load, Root, Section,
 ///     TorsionConstant, equilibrium,
 /// };
 /// use glam::DVec3;
@@ -32,7 +32,7 @@ const MOST_POLISHES: usize = 12;
 ///     torsion: TorsionConstant::SaintVenant,
 ///     natural: NaturalStrain::helix(0.01, 0.02)?,
 ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-///     gravity: 9.81,
+///     load: Load::down(9.81),
 /// })?;
 /// let options = Options { resolution: Resolution::Elements(30), ..Options::default() };
 /// let rest = equilibrium(&rod, &[], &options);
@@ -133,7 +133,7 @@ impl Sensitivity {
             bent: shape.controls.iter().enumerate().map(bent).collect(),
             moments: [x, y, z],
             first_moment: DVec3::new(mx, my, mz),
-            load: DVec3::NEG_Z * problem.gravity.weight,
+            load: -problem.gravity.up * problem.gravity.weight,
             shape,
             variation,
             gradient_norm,

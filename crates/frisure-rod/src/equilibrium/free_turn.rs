@@ -64,7 +64,7 @@ pub(super) fn turned_towards(chain: &Chain<'_>, shape: &Shape, other: &Shape) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ElementKind, Material, RodSpec, Root, Section, TorsionConstant};
+    use crate::{ElementKind, Load, Material, RodSpec, Root, Section, TorsionConstant};
 
     fn rod(tangent: DVec3, natural: DVec3) -> Rod {
         Rod::new(RodSpec {
@@ -74,7 +74,7 @@ mod tests {
             torsion: TorsionConstant::SaintVenant,
             natural: NaturalStrain::Uniform(natural),
             root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(0.6, 0.8, 0.0)).unwrap(),
-            gravity: 9.81,
+            load: Load::down(9.81),
         })
         .unwrap()
     }

@@ -36,7 +36,7 @@ pub fn equilibrium(rod: &Rod, external: &[&dyn Potential], options: &Options) ->
 ///
 /// ```
 /// use frisure_rod::{
-///     Material, NaturalStrain, Options, Rod, RodSpec, Root, Section, TorsionConstant, equilibrium,
+///     Material, NaturalStrain, Options, Rod, RodSpec, Load, Root, Section, TorsionConstant, equilibrium,
 ///     equilibrium_from,
 /// };
 /// use glam::DVec3;
@@ -48,7 +48,7 @@ pub fn equilibrium(rod: &Rod, external: &[&dyn Potential], options: &Options) ->
 ///     torsion: TorsionConstant::SaintVenant,
 ///     natural: NaturalStrain::STRAIGHT,
 ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-///     gravity: 9.81,
+///     load: Load::down(9.81),
 /// };
 /// let options = Options::default();
 /// let long = equilibrium(&Rod::new(hair.clone())?, &[], &options);

@@ -46,7 +46,7 @@ pub struct Certificate {
 ///
 /// ```
 /// use frisure_rod::{
-///     Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, Stability,
+///     Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Load, Root, Section, Stability,
 ///     TorsionConstant, equilibrium,
 /// };
 /// use glam::DVec3;
@@ -59,7 +59,7 @@ pub struct Certificate {
 ///     torsion: TorsionConstant::SaintVenant,
 ///     natural: NaturalStrain::STRAIGHT,
 ///     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-///     gravity: 9.81,
+///     load: Load::down(9.81),
 /// })?;
 /// let options = Options { resolution: Resolution::Elements(20), ..Options::default() };
 /// let rest = equilibrium(&rod, &[], &options);

@@ -14,7 +14,7 @@
 //!
 //! ```
 //! use frisure_rod::{
-//!     Material, NaturalStrain, Options, Resolution, RodSpec, Root, Section, TorsionConstant, inverse,
+//!     Material, NaturalStrain, Options, Resolution, RodSpec, Load, Root, Section, TorsionConstant, inverse,
 //! };
 //! use glam::DVec3;
 //!
@@ -30,7 +30,7 @@
 //!     torsion: TorsionConstant::SaintVenant,
 //!     natural: NaturalStrain::STRAIGHT,
 //!     root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::Y)?,
-//!     gravity: 9.81,
+//!     load: Load::down(9.81),
 //! };
 //! let options = Options { resolution: Resolution::Elements(32), ..Options::default() };
 //! let found = inverse::solve(&line, &fibre, &[], &options)?;

@@ -27,7 +27,7 @@ pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DV
     };
 
     // The weight (N) of an element, at its middle.
-    let weight = DVec3::NEG_Z * (rod.weight() * h);
+    let weight = rod.load() * h;
     // Moments of the weight alone.
     let mut moments: Vec<DVec3> = (0..elements)
         .map(|i| {

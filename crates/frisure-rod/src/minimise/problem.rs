@@ -35,7 +35,8 @@ impl<'a> Problem<'a> {
         fraction: f64,
     ) -> Self {
         let rod = chain.rod();
-        let gravity = Gravity { weight: rod.weight() * fraction, length: rod.length() };
+        let gravity =
+            Gravity { up: rod.up(), weight: rod.weight() * fraction, length: rod.length() };
         // Weight counts as independent of positions: E_g = ρSg ∫ (L − s) t·e_z ds needs frames alone. [paper] (2.4)
         let with_position = external.iter().any(|p| p.depends_on_position());
         Self { chain, gravity, external, with_position }

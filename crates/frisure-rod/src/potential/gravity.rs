@@ -4,11 +4,13 @@ use glam::DVec3;
 
 use super::term::{Derivatives, ElementState, Potential};
 
-/// `ρSg ∫ (L − s) t·e_z ds`: the potential of the weight with the root at height zero. Each
-/// element lifts all that hangs below it. \[paper\] (2.4)
+/// `w ∫ (L − s) t·e ds`: the potential of a uniform load w along −e, weight for one, with the root at height zero. Each
+/// element lifts all that hangs below it. \[paper\] (2.4), with e for e_z.
 #[derive(Clone, Copy, Debug)]
 pub struct Gravity {
-    /// Weight per length ρSg (N/m).
+    /// e: against the load (world, unit).
+    pub up: DVec3,
+    /// Apparent weight per length w, ρSg (N/m).
     pub weight: f64,
     /// Length L of the rod (m).
     pub length: f64,
@@ -29,12 +31,12 @@ impl Potential for Gravity {
 
     #[inline]
     fn element_energy(&self, e: &ElementState<'_>) -> f64 {
-        // ∫ z dm over the element and what hangs below its end: hanging · p + ρSg ∫ (r − r_start) ds, upwards. [paper] (2.4)
-        e.work(DVec3::Z, self.hanging(e), self.weight)
+        // Over the element and what hangs below its end: hanging · p + w ∫ (r − r_start) ds, upwards. [paper] (2.4)
+        e.work(self.up, self.hanging(e), self.weight)
     }
 
     #[inline]
     fn add_element_derivatives(&self, e: &ElementState<'_>, sum: &mut Derivatives) {
-        e.add_work_derivatives(DVec3::Z, self.hanging(e), self.weight, sum);
+        e.add_work_derivatives(self.up, self.hanging(e), self.weight, sum);
     }
 }

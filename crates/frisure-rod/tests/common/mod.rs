@@ -5,7 +5,7 @@
 use frisure_rod::minimise::Problem;
 use frisure_rod::potential::{Derivatives, ElementState, Field, NodeState, Potential};
 use frisure_rod::{
-    ElementKind, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+    ElementKind, Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
     SplitMix64, TorsionConstant,
 };
 use glam::{DMat3, DVec3};
@@ -20,7 +20,7 @@ pub(crate) fn curl() -> RodSpec {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::helix(0.005, 0.010).unwrap(),
         root: Root::from_tangent(DVec3::ZERO, DVec3::new(1.0, 0.3, 0.4), DVec3::Y).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     }
 }
 
@@ -38,7 +38,7 @@ pub(crate) fn straight(gamma: f64, tangent: DVec3) -> Rod {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::STRAIGHT,
         root: Root::from_tangent(DVec3::ZERO, tangent, across).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
     .unwrap()
 }
@@ -202,7 +202,7 @@ pub(crate) fn hair(random: &mut SplitMix64) -> RodSpec {
         torsion: TorsionConstant::SaintVenant,
         natural: curl,
         root: Root::from_tangent(DVec3::ZERO, tangent, d1).unwrap(),
-        gravity: 9.81,
+        load: Load::down(9.81),
     }
 }
 /// One of the equilibria in tests/data/reference_cases.json; its header names their source.
@@ -241,7 +241,7 @@ fn reference_case(case: &Value) -> Case {
         },
         natural: NaturalStrain::Uniform(vector(&case["natural"])),
         root: Root::new(DVec3::ZERO, vector(&root[0]), vector(&root[1]), vector(&root[2])).unwrap(),
-        gravity: f(&case["gravity"]),
+        load: Load::down(f(&case["gravity"])),
     };
     let helix_errors = [5, 10, 15, 20, 30, 60, 120, 240]
         .map(|n: usize| {

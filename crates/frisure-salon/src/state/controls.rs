@@ -27,7 +27,7 @@ impl Deref for Control {
 }
 
 /// Keys of the panels of shape that also apply to a groom.
-const APPLY_TO_GROOMS: [&str; 2] = ["hair.growth_rate", "gravity"];
+const APPLY_TO_GROOMS: [&str; 1] = ["hair.growth_rate"];
 
 impl Control {
     fn of(declared: &'static Declaration) -> Option<Self> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frisure_files::read_text;
-use frisure_hairstyle::{HairModel, HairstyleSpec, Wetting, preset};
+use frisure_hairstyle::{HairModel, HairstyleSpec, Pose, Wetting, preset};
 use frisure_look::{CameraSpec, ToneCurve};
 use frisure_rod::{Branch, Resolution};
 
@@ -12,7 +12,7 @@ use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::{Result, SceneError};
 use crate::keywords::{BranchKind, HairType, WettingWord};
-use crate::kind::{Count, Text};
+use crate::kind::{Count, Text, Vector};
 use crate::natural_look::NaturalLook;
 use crate::scene::{MAX_SIZE, Output, Scene};
 use crate::schema::schema;
@@ -64,6 +64,7 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
     let contact = &mut spec.contact;
     contact.body = document.keyword("contact.body", contact.body)?;
     contact.hair = document.keyword("contact.hair", contact.hair)?;
+    spec.pose = pose(&document, spec.pose)?;
     let branch = equilibrium(&document, &mut spec)?;
     let (light, environment) = light::light(&document, folder)?;
     let groom = head::groom(&document, folder)?;
@@ -105,6 +106,13 @@ fn wetting(
 ) -> Result<Wetting> {
     let word = document.get::<OneOf<WettingWord>>("hair.wetting")?;
     Ok(word.map_or(default, |word| word.of(hair)))
+}
+
+/// How the head is held, where the scene gives the direction of gravity; angles are [numbers](Document::set_fields).
+fn pose(document: &Document<'_>, default: Pose) -> Result<Pose> {
+    let Some(down) = document.get::<Vector>("pose.down")? else { return Ok(default) };
+    let outside = || document.outside("pose.down", "a vector that is not zero");
+    Pose::of(down).ok_or_else(outside)
 }
 
 fn equilibrium(document: &Document<'_>, spec: &mut HairstyleSpec) -> Result<Branch> {

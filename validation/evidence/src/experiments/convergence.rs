@@ -1,8 +1,8 @@
 //! Convergence of errors with the number of elements.
 
 use frisure::rod::{
-    ElementKind, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant,
-    equilibrium,
+    ElementKind, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability,
+    TorsionConstant, equilibrium,
 };
 use glam::DVec3;
 use rayon::prelude::*;
@@ -53,7 +53,7 @@ fn hair(name: &str, turns: f64, ratio: f64) -> Result<Case, Stopped> {
         torsion: TorsionConstant::SaintVenant,
         natural,
         root: Root::from_tangent(DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 0.3))?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     };
     Ok(Case { name: name.to_owned(), spec, turns })
 }

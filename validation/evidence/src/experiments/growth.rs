@@ -2,7 +2,8 @@
 
 use frisure::rod::potential::FieldPotential;
 use frisure::rod::{
-    Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant, equilibrium,
+    Equilibrium, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant,
+    equilibrium,
 };
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -38,7 +39,7 @@ fn spec(length: f64, rise: f64) -> Result<RodSpec, Stopped> {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::STRAIGHT,
         root: Root::from_tangent(DVec3::ZERO, tangent, DVec3::Y)?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
 }
 

@@ -1,7 +1,7 @@
 //! Changes that must have no effect on the shape.
 
 use frisure::rod::{
-    Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64, Stability,
+    Equilibrium, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, SplitMix64, Stability,
     equilibrium,
 };
 use glam::{DMat3, DVec3};
@@ -180,8 +180,9 @@ fn scaled(spec: &RodSpec, random: &mut SplitMix64) -> Result<RodSpec, Stopped> {
         material.density() * dense,
     )?;
     // ρ r² g L³ / E r⁴ stays.
-    let gravity = spec.gravity * stiff * radius.powi(2) / (dense * length.powi(3));
+    let lighter = stiff * radius.powi(2) / (dense * length.powi(3));
+    let load = Load { gravity: spec.load.gravity * lighter, ..Load::NONE };
     let natural = NaturalStrain::Uniform(strain(spec) / length);
     let length = spec.length * length;
-    Ok(RodSpec { length, section, material, natural, gravity, ..spec.clone() })
+    Ok(RodSpec { length, section, material, natural, load, ..spec.clone() })
 }

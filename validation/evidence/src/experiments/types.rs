@@ -2,8 +2,8 @@
 
 use frisure::hairstyle::{HairType, PRESETS, Wetting};
 use frisure::rod::{
-    Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant,
-    equilibrium,
+    Equilibrium, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability,
+    TorsionConstant, equilibrium,
 };
 use glam::DVec3;
 use rayon::prelude::*;
@@ -68,7 +68,7 @@ fn spec(hair: &HairType, wetting: Option<Wetting>) -> Result<RodSpec, Stopped> {
         torsion: TorsionConstant::SaintVenant,
         natural: NaturalStrain::Uniform(natural.at(0.0) / by.length),
         root: Root::from_tangent(DVec3::ZERO, tangent, d1)?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
 }
 

@@ -33,7 +33,7 @@ pub struct Hanging {
 }
 
 impl Hanging {
-    /// The numbers of a rod, from textbook formulas of sections.
+    /// The numbers of a rod in gravity alone, along −z; from textbook formulas of sections.
     #[must_use]
     pub fn new(spec: &RodSpec) -> Self {
         let (a, b, l) = (spec.section.a(), spec.section.b(), spec.length);
@@ -44,7 +44,8 @@ impl Hanging {
         };
         let bend = 0.25 * PI * a * b.powi(3) * e;
         let stiffness = DVec3::new(1.0, (a / b).powi(2), g * j / bend);
-        let weight = spec.material.density() * PI * a * b * spec.gravity * l.powi(3) / bend;
+        let weight =
+            spec.material.density() * PI * a * b * spec.load.gravity.length() * l.powi(3) / bend;
         let natural = match &spec.natural {
             NaturalStrain::Uniform(strain) => Natural::uniform(*strain * l),
             NaturalStrain::Varying(profile) => {

@@ -1,7 +1,7 @@
 //! The key of a checkpoint: a digest of all that simulated hairs depend on.
 
 use frisure_digest::{Digest, Digestible, digest_fields};
-use frisure_rod::{NaturalStrain, RodSpec, Root as Clamp};
+use frisure_rod::{Load, NaturalStrain, RodSpec, Root as Clamp};
 
 use crate::fibre::Handedness;
 use crate::guides::Guide;
@@ -56,7 +56,7 @@ impl Digestible for Guide {
 }
 
 fn add_rod(digest: &mut Digest, rod: &RodSpec) {
-    let RodSpec { length, section, material, torsion, natural, root, gravity } = rod;
+    let RodSpec { length, section, material, torsion, natural, root, load } = rod;
     digest.field("length", length);
     add_section(digest, section);
     add_material(digest, material);
@@ -66,7 +66,8 @@ fn add_rod(digest: &mut Digest, rod: &RodSpec) {
         NaturalStrain::Varying(profile) => digest.field("strains", profile.knots()),
     };
     add_clamp(digest, root);
-    digest.field("gravity", gravity);
+    let Load { gravity, force } = load;
+    digest.field("gravity", gravity).field("force", force);
 }
 
 fn add_clamp(digest: &mut Digest, root: &Clamp) {

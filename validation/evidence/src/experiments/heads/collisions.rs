@@ -4,7 +4,8 @@ use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{penetration, settling_report};
 use frisure::rod::potential::FieldPotential;
 use frisure::rod::{
-    Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant, equilibrium,
+    Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability, TorsionConstant,
+    equilibrium,
 };
 use glam::DVec3;
 
@@ -31,7 +32,7 @@ pub(super) fn on_a_sphere(finding: &mut Finding) -> Result<(), Stopped> {
             DVec3::new(0.8, -0.1, 0.5),
             DVec3::Y,
         )?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })?;
     let mut plot = Plot::new("Figure 4: a curly hair and a sphere", "cm", "cm", [Scale::Linear; 2]);
     plot.equal = true;

@@ -1,7 +1,8 @@
 //! The rods of figure 3.
 
 use frisure::rod::{
-    Equilibrium, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant, equilibrium,
+    Equilibrium, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant,
+    equilibrium,
 };
 use glam::DVec3;
 
@@ -20,7 +21,7 @@ pub(super) fn spec(
         torsion: TorsionConstant::Polar,
         natural,
         root: Root::from_tangent(DVec3::ZERO, DVec3::new(1.0, 0.0, 0.4), DVec3::Y)?,
-        gravity: 9.81,
+        load: Load::down(9.81),
     })
 }
 
