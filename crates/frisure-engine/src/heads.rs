@@ -2,9 +2,11 @@
 
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
+use frisure::files::frame::rotation;
 use frisure::files::{Files, Stamp};
 use frisure::hairstyle::head::{Head, ScalpSource};
 use frisure::scene::{HeadSource, Scene, SceneError};
+use glam::{DMat3, DVec3, EulerRot};
 
 use crate::inputs::{head_files, head_mesh, head_note};
 
@@ -77,9 +79,35 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
     };
     let note = head_note(scene, &mesh);
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
-    let head = Head::from_surface(mesh.surface, scalp);
+    let turn = match &scene.head {
+        HeadSource::Mesh(file) => file.turn,
+        HeadSource::Mannequin => None,
+    };
+    let surface = match turn {
+        Some(turn) => mesh.surface.turned(rotation(turn)),
+        None => mesh.surface,
+    };
+    let head = Head::from_surface(surface, scalp);
     let head = head.map_err(|e| scene.error_at("head.mesh", e.to_string(), ""))?;
-    Ok(LoadedHead { head: Arc::new(head), note })
+    match head.turn_to_upright() {
+        // Who turns a head has looked at it.
+        Some(upright) if turn.is_none() => Err(lies(scene, upright)),
+        _ => Ok(LoadedHead { head: Arc::new(head), note }),
+    }
+}
+
+/// The error about a head that does not stand upright, with the rotation that it needs.
+fn lies(scene: &Scene, upright: DMat3) -> SceneError {
+    let (z, y, x) = upright.to_euler(EulerRot::ZYX);
+    let [x, y, z] = [x, y, z].map(|angle| angle.to_degrees().round() + 0.0);
+    let DVec3 { x: left, y: back, z: up } = upright * DVec3::NEG_Z;
+    let problem = "the head does not stand upright with its face to the front: hair would grow where no scalp is";
+    let hint = format!(
+        "write `turn = [{x}, {y}, {z}]` in `[head]`, which stands it up. If it is meant to be held as it is in the file, write also \
+         `down = [{left:.2}, {back:.2}, {up:.2}]` in `[pose]`, the direction of gravity. \
+         `turn = [0, 0, 0]` takes the file as it is"
+    );
+    scene.error_at("head.mesh", problem, &hint)
 }
 
 fn stamps(source: &HeadSource, files: &Files) -> Vec<Option<Stamp>> {

@@ -1,7 +1,7 @@
 //! Units and axes: how positions in a file lie to those inside, which are metres with z up and the
 //! face towards −y.
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 /// The axis of a file that points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,6 +88,12 @@ impl Frame {
     pub fn length_from_file(self, length: f32) -> f32 {
         (f64::from(length) * self.metres) as f32
     }
+}
+
+/// Turns about x, y and z (rad), one after the other, as one rotation `R_z R_y R_x`.
+#[must_use]
+pub fn rotation(turn: DVec3) -> DMat3 {
+    DMat3::from_rotation_z(turn.z) * DMat3::from_rotation_y(turn.y) * DMat3::from_rotation_x(turn.x)
 }
 
 /// Unit and axes of a file that take precedence over those of its format.

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use glam::DVec3;
+
 use crate::frame::FrameChoice;
 
 /// A head in files.
@@ -11,6 +13,8 @@ pub struct HeadFile {
     pub path: PathBuf,
     /// Unit and axes, where the scene says them.
     pub frame: FrameChoice,
+    /// Turns about the axes x, y and z of the upright head (rad), one after the other, where the scene says them.
+    pub turn: Option<DVec3>,
     /// The part on which hair grows.
     pub scalp: ScalpSource,
 }

@@ -1,11 +1,12 @@
 //! Groups of keys about the same thing.
 
 /// The keys about the file of the head, its path first; without it, the others have no effect.
-pub const HEAD: [&str; 8] = [
+pub const HEAD: [&str; 9] = [
     "head.mesh",
     "head.up",
     "head.unit",
     "head.scale",
+    "head.turn",
     "head.scalp_group",
     "head.scalp_colour",
     "head.scalp_mask",

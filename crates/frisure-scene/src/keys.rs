@@ -27,7 +27,7 @@ use crate::keywords::{
 };
 use crate::kind::{
     Acceleration, Angle, Colour, Count, Density, FaceSize, Flag, Length, Modulus, NumberDensity,
-    Pair, Point, Points, Ratio, Speed, Strain, Text, Vector,
+    Pair, Point, Points, Ratio, Speed, Strain, Text, Vector, Velocity,
 };
 use crate::operation::Steps;
 use crate::scene::Scene;
@@ -186,6 +186,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
             .options(Panel::Files, "Up in the head", "The axis of the mesh that points up.");
         /// Metres per unit of the mesh, instead of `unit`; more than 0.
         "head.scale" => number::<Ratio>().bounds(0.0, f64::INFINITY);
+        /// Turns of the mesh about the axes x (to the head's left), y (backwards) and z (up), one after the other, in degrees, so that it
+        /// stands upright with its face towards -y. Left out, the mesh is as its file has it, and a head that lies is refused.
+        "head.turn" => value::<Vector>();
         /// Group of faces on which hair grows, or the material that they have. Without scalp keys, the scalp is guessed.
         "head.scalp_group" => value::<Text>();
         /// What is painted on the mesh's vertices where hair grows: "red", "green", "blue", "alpha" or "brightness" of their
@@ -286,7 +289,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// A steady wind. Its force is the same on every length of hair, whatever its direction.
         "wind" => table();
         /// Speed far from the head; {}. Default 0.
-        "wind.speed" => number::<Speed>()
+        "wind.speed" => number::<Velocity>()
             .slider(Panel::Surroundings, "Wind", METRES_PER_SECOND, (0.0, 20.0), 1, "Speed of a steady wind.");
         /// Where it comes from: 0 from before the face, 90 deg from the head's left; {}. Default 0.
         "wind.azimuth" => number::<Angle>()

@@ -131,6 +131,8 @@ quantities! {
     Ratio = RATIO [];
     /// A speed (m/s).
     Speed = SPEED [];
+    /// A speed of wind (m/s).
+    Velocity = VELOCITY ["m/s"];
     /// A time (s).
     Time = TIME [];
 }

@@ -1,5 +1,6 @@
 //! Where a groom of another program lies on the head.
 
+use frisure_files::frame::rotation;
 use glam::{DMat3, DVec3};
 
 /// How a groom is scaled, turned and moved onto the head, after its unit and its axes.
@@ -23,8 +24,7 @@ impl Placement {
     /// The turns as one rotation `R_z R_y R_x`.
     #[must_use]
     pub fn rotation(&self) -> DMat3 {
-        let DVec3 { x, y, z } = self.turn;
-        DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x)
+        rotation(self.turn)
     }
 
     /// Where a point of the groom (m) lies on the head (m).

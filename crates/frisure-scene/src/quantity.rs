@@ -145,7 +145,15 @@ pub const TIME: Dimension = Dimension {
     ],
 };
 
-/// Speeds, of growth and of wind; SI m/s.
+/// Speeds of wind, SI m/s.
+pub const VELOCITY: Dimension = Dimension {
+    name: "a speed",
+    si: "m/s",
+    example: "5 m/s",
+    units: &[("m/s", 1.0), ("km/h", 1.0 / 3.6)],
+};
+
+/// Speeds, as hair grows; SI m/s.
 pub const SPEED: Dimension = Dimension {
     name: "a speed",
     si: "m/s",
@@ -156,7 +164,6 @@ pub const SPEED: Dimension = Dimension {
         ("mm/day", 1.0 / 86_400_000.0),
         ("um/day", 1.0 / 86_400_000_000.0),
         ("m/s", 1.0),
-        ("km/h", 1.0 / 3.6),
     ],
 };
 
@@ -164,7 +171,7 @@ pub const SPEED: Dimension = Dimension {
 pub const RATIO: Dimension =
     Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
 
-static ALL: [&Dimension; 11] = [
+static ALL: [&Dimension; 12] = [
     &LENGTH,
     &AREA,
     &ANGLE,
@@ -175,6 +182,7 @@ static ALL: [&Dimension; 11] = [
     &ACCELERATION,
     &TIME,
     &SPEED,
+    &VELOCITY,
     &RATIO,
 ];
 

@@ -59,11 +59,16 @@ fn use_head(bytes: &[u8]) {
             [ScalpSource::Guess, ScalpSource::Group("g".into()), ScalpSource::Colour("red".into())]
         {
             let path = path.to_path_buf();
-            let _ = head::read(&HeadFile { path: path.clone(), frame, scalp }, &Files::default());
+            let _ = head::read(
+                &HeadFile { path: path.clone(), frame, turn: None, scalp },
+                &Files::default(),
+            );
             // The mesh as its own mask and list of weights.
             for scalp in [ScalpSource::Mask(path.clone()), ScalpSource::Weights(path.clone())] {
-                let _ =
-                    head::read(&HeadFile { path: path.clone(), frame, scalp }, &Files::default());
+                let _ = head::read(
+                    &HeadFile { path: path.clone(), frame, turn: None, scalp },
+                    &Files::default(),
+                );
             }
         }
     });

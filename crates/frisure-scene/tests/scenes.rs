@@ -453,3 +453,27 @@ fn lights_are_understood_or_refused_at_their_key() {
         assert!(error.contains(part), "{text}: {error}");
     }
 }
+
+#[test]
+fn heads_are_held_and_blown_upon() {
+    let held = |text: &str| good(text).hairstyle_spec().unwrap();
+    let nods = held("[pose]\npitch = \"90 deg\"");
+    assert!(nods.pose.down().distance(DVec3::NEG_Y) < 1e-15);
+    // Any length of the direction is the same pose, and two ways of saying it are one.
+    let lies = held("pose.down = [0, 3, 0]");
+    assert!(lies.pose.down().distance(DVec3::Y) < 1e-15);
+    let leans = held("pose.roll = \"30 deg\"").pose;
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    let same = held(&format!("pose.down = [{sin}, 0, {}]", -cos)).pose;
+    assert!((leans.roll - same.roll).abs() < 1e-12 && same.pitch.abs() < 1e-12);
+    let blown = held("[wind]\nspeed = \"36 km/h\"\nazimuth = \"90 deg\"\nexposure = 0.5");
+    assert!((blown.wind.speed - 10.0).abs() < 1e-12);
+    // From the head's left to its right.
+    assert!(blown.wind.direction().distance(DVec3::NEG_X) < 1e-15);
+    let force = blown.load(&blown.fibre.section).force;
+    assert!(
+        (force.length() - 0.5 * blown.wind.drag(2.0 * blown.fibre.section.mean_radius())).abs()
+            < 1e-18
+    );
+    assert_eq!(held("").wind.drag(70e-6), 0.0);
+}

@@ -1,6 +1,6 @@
 //! A triangle mesh that was checked when it was made.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use thiserror::Error;
 
 /// A triangle mesh in metres, counter-clockwise seen from outside; every index is valid, every
@@ -103,6 +103,15 @@ impl Surface {
         }
         self.texture = texture;
         Ok(self)
+    }
+
+    /// The surface turned about the origin.
+    #[must_use]
+    pub fn turned(mut self, rotation: DMat3) -> Self {
+        for p in &mut self.positions {
+            *p = rotation * *p;
+        }
+        self
     }
 
     /// Texture coordinates (u, v) at the corners of each face, v upwards; empty if the mesh has none.

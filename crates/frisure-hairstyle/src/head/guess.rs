@@ -9,32 +9,49 @@ impl Landmarks {
     /// Measures a head mesh in our frame (m), of any size near human.
     pub(crate) fn guess(surface: &Surface) -> Self {
         let (low, high) = surface.bounds();
-        let middle = 0.5 * (low.x + high.x);
-        let top = high.z;
-        let mut scale = 1.0;
-        let mut cranium = Cranium::default();
-        // Where to measure depends on the size, and the size on the measures.
-        for _ in 0..4 {
-            cranium = Cranium::measure(surface, middle, top, scale);
-            scale =
-                (0.5 * (cranium.half_width / 0.0735 + cranium.half_depth / 0.0965)).clamp(0.4, 2.0);
-        }
+        let (middle, top) = (0.5 * (low.x + high.x), high.z);
+        let (cranium, scale) = Cranium::with_scale(surface.positions(), middle, top);
         cranium.landmarks(surface, middle, top, scale)
     }
 }
 
+/// Height of the vertex above the cranium's centre (m at scale 1), that of the mannequin.
+const ABOVE_CENTRE: f64 = 0.108;
+
 /// Box of the skull between the ears and the vertex (m).
 #[derive(Clone, Copy, Default)]
-struct Cranium {
+pub(super) struct Cranium {
     half_width: f64,
     half_depth: f64,
     middle_y: f64,
 }
 
 impl Cranium {
-    fn measure(surface: &Surface, middle: f64, top: f64, scale: f64) -> Self {
+    /// The centre of the cranium (m) and the size of the head against the mannequin's, from points of its skin.
+    pub(super) fn place(points: &[DVec3]) -> (DVec3, f64) {
+        let bounds = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = points.iter().fold(bounds, |(a, b), p| (a.min(p.x), b.max(p.x)));
+        let top = points.iter().fold(f64::NEG_INFINITY, |a, p| a.max(p.z));
+        let middle = 0.5 * (low + high);
+        let (cranium, scale) = Self::with_scale(points, middle, top);
+        (DVec3::new(middle, cranium.middle_y, top - ABOVE_CENTRE * scale), scale)
+    }
+
+    /// The measures, and the size of the head against the mannequin's.
+    fn with_scale(points: &[DVec3], middle: f64, top: f64) -> (Self, f64) {
+        let (mut scale, mut cranium) = (1.0, Self::default());
+        // Where to measure depends on the size, and the size on the measures.
+        for _ in 0..4 {
+            cranium = Self::measure(points, middle, top, scale);
+            scale =
+                (0.5 * (cranium.half_width / 0.0735 + cranium.half_depth / 0.0965)).clamp(0.4, 2.0);
+        }
+        (cranium, scale)
+    }
+
+    fn measure(points: &[DVec3], middle: f64, top: f64, scale: f64) -> Self {
         let band = |from: f64, to: f64| {
-            let p = surface.positions().iter();
+            let p = points.iter();
             p.filter(move |p| p.z < top - from * scale && p.z > top - to * scale)
         };
         // Above the ears for the width, from brow to occiput for the depth.
@@ -49,7 +66,7 @@ impl Cranium {
 
     fn landmarks(self, surface: &Surface, middle: f64, top: f64, scale: f64) -> Landmarks {
         // Proportions of an adult head, those of the mannequin (m at scale 1).
-        let centre = DVec3::new(middle, self.middle_y, top - 0.108 * scale);
+        let centre = DVec3::new(middle, self.middle_y, top - ABOVE_CENTRE * scale);
         let at = |x: f64, forward: f64, z: f64| centre + DVec3::new(x, -forward, z) * scale;
         let brow_z = brow_height(surface, middle, centre, scale);
         let ear = find_ear(surface, centre, self.half_width, scale)
@@ -57,7 +74,7 @@ impl Cranium {
         let skin = |guess: DVec3| nearest_on_line(surface, centre, guess);
         Landmarks {
             cranium_centre: centre,
-            cranium_radii: DVec3::new(self.half_width, self.half_depth, 0.108 * scale),
+            cranium_radii: DVec3::new(self.half_width, self.half_depth, ABOVE_CENTRE * scale),
             whorl: skin(at(0.0, -0.069, 0.079)),
             face: -DVec3::Y,
             width: 2.0 * self.half_width,

@@ -17,11 +17,13 @@ mod spheres;
 pub(crate) mod test_shapes;
 mod texture;
 mod triangles;
+mod upright;
 mod voxel_grid;
 mod voxels;
 
 use frisure_digest::Digest;
 use frisure_strands::Surface;
+use glam::DMat3;
 use thiserror::Error;
 
 pub use distance::SignedDistance;
@@ -178,6 +180,13 @@ impl Head {
     #[must_use]
     pub fn landmarks(&self) -> &Landmarks {
         &self.landmarks
+    }
+
+    /// The rotation that would stand the head upright with its face towards −y, for a mesh that is a head and lies otherwise by
+    /// more than 30 degrees; `None` for an upright one, and for what is not like a human head from any side.
+    #[must_use]
+    pub fn turn_to_upright(&self) -> Option<DMat3> {
+        upright::turn_to_upright(&self.surface, &self.signed_distance)
     }
 
     /// Distance to the skin, positive outside.

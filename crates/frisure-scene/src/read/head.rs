@@ -4,6 +4,7 @@ use std::path::Path;
 
 use frisure_files::frame::FrameChoice;
 use frisure_files::head::{HeadFile, ScalpSource};
+use glam::DVec3;
 
 use crate::choice::OneOf;
 use crate::document::Document;
@@ -46,7 +47,8 @@ pub(super) fn head(document: &Document<'_>, folder: &Path) -> Result<HeadSource>
     };
     let frame = frame(document, "head")?;
     let frame = FrameChoice { metres: scale.or(frame.metres), ..frame };
-    Ok(HeadSource::Mesh(HeadFile { path: folder.join(mesh), frame, scalp }))
+    let turn = turn(document, "head.turn")?;
+    Ok(HeadSource::Mesh(HeadFile { path: folder.join(mesh), frame, turn, scalp }))
 }
 
 /// Unit and axes of a file, where its table gives them.
@@ -79,13 +81,19 @@ const FARTHEST: f64 = 1000.0;
 /// Where the groom lies on the head.
 fn placement(document: &Document<'_>) -> Result<Placement> {
     let scale = document.number("groom.scale").unwrap_or(1.0);
-    let turn = document.get::<Vector>("groom.turn")?.unwrap_or_default();
-    if turn.abs().max_element() > 360.0 {
-        return Err(document.outside("groom.turn", "three angles between -360 and 360 degrees"));
-    }
+    let turn = turn(document, "groom.turn")?.unwrap_or_default();
     let shift = document.get::<Point>("groom.move")?.unwrap_or_default();
     if shift.abs().max_element() > FARTHEST {
         return Err(document.outside("groom.move", "three lengths of at most 1 km"));
     }
-    Ok(Placement { scale, turn: turn.map(f64::to_radians), shift })
+    Ok(Placement { scale, turn, shift })
+}
+
+/// Turns about x, y and z (rad), which a scene gives in degrees.
+fn turn(document: &Document<'_>, key: &str) -> Result<Option<DVec3>> {
+    let Some(turn) = document.get::<Vector>(key)? else { return Ok(None) };
+    match turn.abs().max_element() <= 360.0 {
+        true => Ok(Some(turn.map(f64::to_radians))),
+        false => Err(document.outside(key, "three angles between -360 and 360 degrees")),
+    }
 }

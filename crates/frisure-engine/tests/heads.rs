@@ -1,0 +1,39 @@
+//! Heads that do not stand upright.
+
+use std::path::{Path, PathBuf};
+
+use frisure::files::Files;
+use frisure::scene::{Scene, SceneError};
+use frisure_engine::{HeadCache, LoadedHead};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/heads")
+}
+
+fn load(keys: &str) -> Result<LoadedHead, SceneError> {
+    let text = format!("[head]\nmesh = \"female-head.obj\"\n{keys}\n");
+    let scene = Scene::parse("a.toml", text, &folder()).unwrap();
+    HeadCache::default().load(&scene, &Files::default())
+}
+
+#[test]
+fn a_head_with_the_wrong_axis_up_is_refused_with_the_turn_that_mends_it() {
+    assert!(load("").is_ok());
+    let error = load("up = \"z\"").unwrap_err();
+    let found = error.diagnostic().unwrap();
+    let (message, hint) = (found.message(), &found.hint);
+    assert!(message.contains("does not stand upright"), "{message}");
+    let turn = hint.split('`').find(|part| part.starts_with("turn = ")).unwrap();
+    let mended = load(&format!("up = \"z\"\n{turn}")).unwrap();
+    assert_eq!(mended.head.turn_to_upright(), None, "{turn}");
+    // The crown of the head is up again, near where the other axis has it.
+    let known = load("").unwrap().head.landmarks().clone();
+    let found = mended.head.landmarks();
+    let high = |l: &frisure::hairstyle::head::Landmarks| (l.whorl - l.cranium_centre).normalize();
+    assert!(high(found).distance(high(&known)) < 0.4, "{turn}");
+}
+
+#[test]
+fn who_turns_a_head_is_not_corrected() {
+    assert!(load("up = \"z\"\nturn = [0, 0, 0]").is_ok());
+}

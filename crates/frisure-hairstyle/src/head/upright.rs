@@ -1,0 +1,204 @@
+//! Whether the mesh of a head stands upright with its face to −y, and how it would have to be turned.
+
+use std::f64::consts::{PI, TAU};
+
+use frisure_strands::Surface;
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::distance::SignedDistance;
+use super::guess::Cranium;
+
+/// Mean distance (m at the size of the mannequin) from the skin of an average head, beyond which a mesh is looked at from other sides.
+/// Upright heads have 0.001 (the mannequin) to 0.008 (two heads of people, nodding by up to 20 degrees), heads that lie or stand on
+/// their side 0.013 to 0.024.
+const UNLIKE: f64 = 0.011;
+
+/// The same of a mesh that is surely a human head once it is turned.
+const ALIKE: f64 = 0.009;
+
+/// Farther points count as much as one so far away (m at the size of the mannequin): a hat or a missing ear decides nothing.
+const FAR: f64 = 0.03;
+
+/// Smallest angle (rad) of a turn that is reported. Chosen: people nod by as much when they sit still.
+const NOTICED: f64 = 30.0 * PI / 180.0;
+
+/// Distance of neighbouring turns that are tried (rad): the best is within half of it, where the distance above is still half as large
+/// as of a wrong turn.
+const STEP: f64 = 20.0 * PI / 180.0;
+
+/// Finest step of the search (rad).
+const FINEST: f64 = 1.0 * PI / 180.0;
+
+/// Most vertices that measure a head in the search.
+const MOST_VERTICES: usize = 2000;
+
+/// The best coarse turns that are refined.
+const REFINED: usize = 6;
+
+/// The rotation that stands a head upright, its face towards −y; `None` if it is so already, or is not like a human head from any
+/// side.
+///
+/// A mesh is compared with points on the skin of the mannequin's head, brought to its place and size by the measures that
+/// landmarks are guessed from.
+pub(super) fn turn_to_upright(surface: &Surface, skin: &SignedDistance) -> Option<DMat3> {
+    let vertices = surface.positions();
+    let stride = vertices.len().div_ceil(MOST_VERTICES);
+    let sparse: Vec<DVec3> = vertices.iter().step_by(stride).copied().collect();
+    let unlike = |turn: &DMat3| unlikeness(&sparse, skin, turn);
+    if unlike(&DMat3::IDENTITY) <= UNLIKE {
+        return None;
+    }
+    let mut coarse: Vec<(f64, DMat3)> =
+        turns().into_par_iter().map(|turn| (unlike(&turn), turn)).collect();
+    // A stable sort: of equal turns the first, on any number of threads.
+    coarse.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let refined = coarse[..REFINED].iter().map(|&(value, turn)| refine(&unlike, value, turn));
+    let (value, turn) = refined.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    // The angle of a rotation from its trace.
+    let trace = turn.x_axis.x + turn.y_axis.y + turn.z_axis.z;
+    let angle = (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos();
+    (value <= ALIKE && angle >= NOTICED).then_some(turn)
+}
+
+/// Mean distance of the mannequin's skin from that of a turned head (m at the size of the mannequin).
+fn unlikeness(vertices: &[DVec3], skin: &SignedDistance, turn: &DMat3) -> f64 {
+    let turned: Vec<DVec3> = vertices.iter().map(|p| *turn * *p).collect();
+    let (centre, scale) = Cranium::place(&turned);
+    let back = turn.transpose();
+    let distance = |p: &[i8; 3]| {
+        let p = DVec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2])) * 1e-3;
+        (skin.value(back * (centre + p * scale)).abs() / scale).min(FAR)
+    };
+    SKIN.iter().map(distance).sum::<f64>() / SKIN.len() as f64
+}
+
+/// Turns all over, [`STEP`] apart.
+fn turns() -> Vec<DMat3> {
+    // As many directions of the vertical as there are patches of that width, on a spiral of the golden angle.
+    let count = (2.0 * TAU / (STEP * STEP)).ceil() as usize;
+    let golden = PI * (3.0 - 5.0_f64.sqrt());
+    let spins = (TAU / STEP).round() as usize;
+    let mut turns = Vec::with_capacity(count * spins);
+    for i in 0..count {
+        let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let up = DVec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z;
+        let (a, b) = up.any_orthonormal_pair();
+        for k in 0..spins {
+            let (sin, cos) = (k as f64 * TAU / spins as f64).sin_cos();
+            let left = a * cos + b * sin;
+            // Rows: what becomes x, y and z.
+            turns.push(DMat3::from_cols(left, up.cross(left), up).transpose());
+        }
+    }
+    turns
+}
+
+/// Descends in turns about the three axes, with steps that are halved.
+fn refine(unlike: &impl Fn(&DMat3) -> f64, mut best: f64, mut turn: DMat3) -> (f64, DMat3) {
+    let mut step = 0.5 * STEP;
+    while step >= FINEST {
+        let mut better = false;
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            for angle in [step, -step] {
+                let tried = DMat3::from_axis_angle(axis, angle) * turn;
+                let value = unlike(&tried);
+                if value < best {
+                    (best, turn, better) = (value, tried, true);
+                }
+            }
+        }
+        if !better {
+            step *= 0.5;
+        }
+    }
+    (best, turn)
+}
+
+/// Points (mm) on the skin of the mannequin's head above the neck, as far from each other as they can be, from the centre and at
+/// the size that [`Cranium::place`] finds there. A test holds them to the mannequin.
+#[rustfmt::skip]
+const SKIN: [[i8; 3]; 160] = [
+    [1, 3, 108], [-2, -91, -97], [-1, 72, -48], [64, -31, -1], [-65, -29, 0], [53, 68, 42], [-54, 66, 44], [-1, -86, 58],
+    [40, -3, -93], [-49, -14, -87], [3, -104, -19], [52, -35, 71], [-52, -33, 72], [58, 37, -25], [-59, 39, -22], [50, -65,
+    -60], [1, 67, 86], [-44, 54, -96], [-47, -70, -50], [-1, 95, 15], [40, 62, -96], [52, 23, 82], [-41, -80, 14], [-48, 24,
+    86], [40, -80, 19], [74, 16, 30], [-73, 14, 37], [4, -50, 97], [62, -9, -47], [39, 78, -5], [-39, -61, -96], [-63, -6,
+    -42], [-42, 77, -1], [-4, 73, -95], [16, -90, -58], [-46, 29, -62], [45, 30, -66], [17, 88, 53], [-41, -69, 55], [44,
+    -46, -97], [37, -77, -23], [-4, -95, 19], [60, -48, 34], [78, 4, -11], [36, -71, 59], [-22, 84, 57], [67, 49, 11], [38,
+    59, 78], [-69, 45, 14], [-75, 8, -3], [33, -14, 97], [-33, -11, 97], [-62, -42, 37], [-17, 38, 101], [34, 59, -44],
+    [-26, -81, -21], [-38, 59, 78], [-34, 64, -34], [22, 33, 101], [-20, -89, -66], [65, -2, 61], [-55, -59, -17], [-58,
+    -40, -64], [-11, 85, -17], [61, -43, -35], [29, -77, -88], [-28, 69, -70], [-29, -52, 86], [64, 39, 56], [-44, 17, -97],
+    [-63, 0, 66], [70, -16, 30], [-63, 38, 58], [57, -33, -70], [21, 72, -73], [30, 89, 24], [-32, 88, 27], [54, -60, -2],
+    [45, 27, -97], [18, -85, 0], [-5, -108, -48], [68, 20, -49], [17, 79, -26], [-61, -34, -33], [29, -56, 83], [-69, 22,
+    -44], [-71, -16, 26], [-24, -87, 38], [-9, -24, 105], [-57, -55, 12], [18, -89, 36], [-6, -70, 81], [-51, 3, -65], [49,
+    4, -68], [53, 71, 17], [74, 24, 5], [-27, 14, 102], [66, -17, -23], [40, 54, -72], [-56, 68, 19], [51, -2, 83], [-65,
+    -22, 52], [-58, 58, -5], [56, 59, -10], [34, 11, 98], [17, 90, -2], [-40, -73, -74], [-5, 93, 41], [-51, -39, -88],
+    [-67, -13, -19], [16, -86, -33], [64, -27, 51], [-23, -80, -91], [73, 0, 12], [-77, 7, -28], [-20, -87, 3], [-17, -87,
+    -42], [-44, 43, -43], [24, -36, 97], [54, -66, -35], [34, -79, -47], [16, -75, 72], [-51, -64, 34], [22, 75, 73], [-22,
+    90, 5], [-27, 72, -95], [-41, 50, -72], [-51, -11, 82], [45, 38, -45], [66, 51, 34], [51, -55, 55], [-71, 30, -4], [-4,
+    74, -72], [19, 54, 92], [-53, -50, 57], [1, -96, -74], [-67, 46, 37], [-22, -77, 65], [19, 73, -95], [-44, -76, -8],
+    [49, -24, -92], [-20, 72, 78], [47, -68, 38], [-2, 83, 67], [37, 77, 57], [12, -16, 106], [69, 17, 52], [69, 17, -27],
+    [-38, -31, 89], [40, 67, -24], [47, -61, -81], [-59, -18, -65], [-59, -54, -41], [53, 58, 61], [-74, 19, 15], [2, 27,
+    106], [40, 40, 88], [-52, 43, 75], [54, -61, 19], [-42, 70, 61],
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::head::test_shapes::{ball, mannequin, read_obj};
+
+    /// A surface turned by a rotation.
+    fn turned(surface: &Surface, turn: DMat3) -> Surface {
+        let positions = surface.positions().iter().map(|p| turn * *p).collect();
+        Surface::new(positions, surface.triangles().to_vec()).unwrap()
+    }
+
+    fn found(surface: &Surface) -> Option<DMat3> {
+        turn_to_upright(surface, &SignedDistance::new(surface))
+    }
+
+    fn a_person() -> Surface {
+        read_obj(include_str!("../../../../scenes/heads/female-head.obj"))
+    }
+
+    #[test]
+    fn the_points_are_on_the_mannequins_skin() {
+        let head = mannequin();
+        let (centre, scale) = Cranium::place(head.surface().positions());
+        for [x, y, z] in SKIN.map(|p| p.map(|x| f64::from(x) * 1e-3)) {
+            let p = centre + DVec3::new(x, y, z) * scale;
+            assert!(head.signed_distance().value(p).abs() < 2.5e-3, "{p}");
+        }
+    }
+
+    #[test]
+    fn heads_that_stand_are_left_alone() {
+        assert_eq!(found(mannequin().surface()), None);
+        for nod in [0.0, 15.0_f64, -15.0] {
+            let nods = DMat3::from_rotation_x(nod.to_radians());
+            assert_eq!(found(&turned(&a_person(), nods)), None, "{nod}");
+        }
+    }
+
+    #[test]
+    fn heads_that_lie_are_turned_back() {
+        for (x, y, z) in
+            [(70.0, 0.0, 0.0), (-90.0, 0.0, 0.0), (0.0, 0.0, 180.0), (40.0, 50.0, -60.0)]
+        {
+            let (x, y, z) = (f64::to_radians(x), f64::to_radians(y), f64::to_radians(z));
+            let turn =
+                DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x);
+            let back = found(&turned(&a_person(), turn)).unwrap() * turn;
+            // People hold their heads differently: within 15 degrees of how the mesh was made.
+            let trace = back.x_axis.x + back.y_axis.y + back.z_axis.z;
+            let off = (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos().to_degrees();
+            assert!(off < 15.0, "{x} {y} {z}: {off}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_head_is_not_turned() {
+        assert_eq!(found(&ball(0.1, 24)), None);
+    }
+}
