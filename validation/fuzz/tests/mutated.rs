@@ -1,256 +1,18 @@
 //! Every reader on mutated files: nothing panics, and a groom that is read is written as a file that is read again.
 //!
-//! The targets begin with the files of `tests/corpus`, and with grooms in every format that is written. Mutations are
-//! drawn from a fixed seed, so a run is repeated exactly. `FRISURE_MUTATIONS=100000 cargo test -p frisure --test
+//! Mutations are drawn from a fixed seed, so a run is repeated exactly. `FRISURE_MUTATIONS=100000 cargo test -p frisure-fuzz --test
 //! mutated -- --nocapture` makes a longer run and prints its figures; an input that fails is left in `target/tmp`.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use frisure::files::Files;
-use frisure::files::frame::FrameChoice;
-use frisure::files::head::{HeadFile, ScalpSource};
-use frisure::formats::groom::{self, Format, Groom, attributes};
-use frisure::formats::{environment, head};
-use frisure::render::trace::Accumulator;
-use frisure::scene::batch::Batch;
-use frisure::scene::history::HistoryFile;
-use frisure::scene::measurements::{Choices, measured};
-use frisure::scene::{Scene, parse_step, write_step};
-use frisure::strands::{AttributeValues, Strands};
-use glam::Vec3;
+use frisure::rod::SplitMix64;
+use frisure_fuzz::mutate::mutated;
+use frisure_fuzz::{Target, targets};
 
 /// Mutations of each target, if the environment gives no number: seconds in all.
 const MUTATIONS: u64 = 1500;
-
-/// Largest input (bytes). Chosen: mutations of small files reach as much code.
-const LARGEST: usize = 1 << 14;
-
-/// Reads bytes, and uses what it reads.
-type Reader = Box<dyn Fn(&[u8])>;
-
-/// A reader under test.
-struct Target {
-    name: String,
-    corpus: Vec<Vec<u8>>,
-    run: Reader,
-}
-
-/// A stream of random numbers: `SplitMix64` (Steele, Lea & Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, end: usize) -> usize {
-        (self.next() % end.max(1) as u64) as usize
-    }
-
-    fn pick<'a, T: ?Sized>(&mut self, of: &[&'a T]) -> &'a T {
-        of[self.below(of.len())]
-    }
-}
-
-/// Words that readers treat specially, in text and in binary.
-const WORDS: &[&[u8]] = &[
-    b"nan",
-    b"inf",
-    b"-1",
-    b"0",
-    b"1e39",
-    b"1e308",
-    b"99999999999",
-    b"\"",
-    b"[",
-    b"]",
-    b"{",
-    b"}",
-    b"(",
-    b")",
-    b"=",
-    b"\n",
-    b"#",
-    b".",
-    b"/",
-    b",",
-    b"\xff\xff\xff\xff",
-    b"\xff\xff\xff\x7f",
-    b"\0\0\0\0",
-    b"\0\0\x80\x7f",
-    b"\xc3\xa9",
-];
-
-/// An input of a corpus with one to four mistakes in it.
-fn mutated(corpus: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
-    let mut bytes = corpus[random.below(corpus.len())].clone();
-    for _ in 0..=random.below(4) {
-        let at = random.below(bytes.len() + 1);
-        let end = (at + 1 + random.below(12)).min(bytes.len());
-        match random.below(7) {
-            0 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
-            1 if at < bytes.len() => bytes[at] = random.next() as u8,
-            2 => drop(bytes.drain(at..end)),
-            3 => bytes.truncate(at),
-            4 => {
-                let part = bytes[at..end].to_vec();
-                let times = 1 + random.below(20);
-                drop(bytes.splice(at..at, part.repeat(times)));
-            }
-            5 => {
-                let other = &corpus[random.below(corpus.len())];
-                let from = random.below(other.len());
-                let part = other[from..(from + 40).min(other.len())].to_vec();
-                drop(bytes.splice(at..end, part));
-            }
-            _ => drop(bytes.splice(at..end, random.pick(WORDS).iter().copied())),
-        }
-    }
-    bytes.truncate(LARGEST);
-    bytes
-}
-
-/// The files of a folder of the corpus, by name.
-fn corpus(name: &str) -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus").join(name);
-    let entries = fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    paths.iter().map(|path| fs::read(path).unwrap()).collect()
-}
-
-/// A groom with attributes, small enough that mutations meet its structure.
-fn small_groom() -> Groom {
-    let mut hairs = Strands::new();
-    for i in 0..4_u16 {
-        let x = f32::from(i) * 1e-3;
-        hairs.push(
-            &[Vec3::new(x, 0.0, 0.2), Vec3::new(x, 0.01, 0.1), Vec3::new(x, 0.02, 0.0)],
-            &[4e-5, 3e-5, 2e-5],
-        );
-    }
-    let guides = hairs.clone();
-    let id = attributes::of_strands(attributes::ID, AttributeValues::U32(vec![0, 1, 2, 3]));
-    hairs.set_attribute(id).unwrap();
-    Groom { guides, ..Groom::of(hairs) }
-}
-
-fn read_groom(format: Format, bytes: &[u8]) -> Option<Groom> {
-    groom::decode(format, bytes, Path::new("a"), FrameChoice::default()).ok()
-}
-
-/// Reads a groom, and what is written of it.
-fn use_groom(format: Format, bytes: &[u8]) {
-    let Some(found) = read_groom(format, bytes) else { return };
-    assert!(found.hairs.points().iter().all(|p| p.is_finite()));
-    for name in ["usda", "npz"] {
-        let Some(other) = Format::named(name) else { continue };
-        // Not every groom fits every format.
-        let Ok(written) = groom::encode(other, &found, FrameChoice::default()) else { continue };
-        let again = groom::decode(other, &written, Path::new("b"), FrameChoice::default());
-        let again = again.unwrap_or_else(|e| panic!("a .{name} of ours is refused: {e}"));
-        assert_eq!(again.hairs.len() + again.guides.len(), found.hairs.len() + found.guides.len());
-    }
-}
-
-fn groom_targets() -> impl Iterator<Item = Target> {
-    let given = corpus("groom");
-    Format::ALL.iter().copied().filter(|format| format.is_read()).map(move |format| {
-        let written = groom::encode(format, &small_groom(), FrameChoice::default());
-        let mut corpus: Vec<Vec<u8>> = written.into_iter().collect();
-        if format.extension().starts_with("usd") || corpus.is_empty() {
-            corpus.extend(given.iter().cloned());
-        }
-        let run = Box::new(move |bytes: &[u8]| use_groom(format, bytes));
-        Target { name: format!("groom {}", format.extension()), corpus, run }
-    })
-}
-
-fn use_head(bytes: &[u8]) {
-    let mut files = Files::default();
-    files.provide("head", bytes);
-    let frame = FrameChoice { metres: Some(0.1), up: None };
-    let path = PathBuf::from("head");
-    for scalp in [
-        ScalpSource::Guess,
-        ScalpSource::Group("top".into()),
-        ScalpSource::Colour("red".into()),
-        ScalpSource::Weights(path.clone()),
-        ScalpSource::Mask(path.clone()),
-    ] {
-        let _ = head::read(&HeadFile { path: path.clone(), frame, scalp }, &files);
-    }
-}
-
-fn use_environment(bytes: &[u8]) {
-    for name in ["a.hdr", "a.exr"] {
-        let mut files = Files::default();
-        files.provide(name, bytes);
-        let _ = environment::read(Path::new(name), &files);
-    }
-}
-
-fn use_scene(text: &str) {
-    let Ok(scene) = Scene::parse("any", text, Path::new("")) else { return };
-    let _ = scene.hairstyle_spec();
-    let _ = scene.single_hair();
-    for step in scene.steps() {
-        write_step(step).expect("a step that is read is written");
-    }
-}
-
-fn use_measurements(bytes: &[u8]) {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutated.csv");
-    fs::write(&path, bytes).unwrap();
-    if let Ok(estimate) = measured(&[&path], &Choices::default()) {
-        // Numbers that no hair has are refused then, as `frisure measured` does before it writes.
-        let _ = Scene::parse("measured", estimate.scene(), Path::new(""));
-    }
-}
-
-/// A target that reads text.
-fn text_target(name: &str, corpus: Vec<Vec<u8>>, run: impl Fn(&str) + 'static) -> Target {
-    let run = Box::new(move |bytes: &[u8]| run(&String::from_utf8_lossy(bytes)));
-    Target { name: name.into(), corpus, run }
-}
-
-fn other_targets() -> Vec<Target> {
-    let target = |name: &str, corpus, run: fn(&[u8])| Target {
-        name: name.into(),
-        corpus,
-        run: Box::new(run),
-    };
-    let light =
-        b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x80\x40\x20\x10\x81";
-    let checkpoint = [&b"frixpos\x01"[..], &[0; 8], &[1, 0, 0, 0, 1, 0, 0, 0], &[0; 104]].concat();
-    let steps = vec![parse_step("wet", "wet = { to = 1 }").expect("a step")];
-    let saved = HistoryFile { scene_text: "seed = 1\n".into(), operations: steps, done: 1 };
-    let saved = saved.text().expect("a history").into_bytes();
-    vec![
-        target("head", corpus("head"), use_head),
-        target("environment", vec![light.to_vec()], use_environment),
-        target("checkpoint of a picture", vec![checkpoint], |bytes| {
-            let _ = Accumulator::from_bytes(bytes);
-        }),
-        target("measurements", corpus("measured"), use_measurements),
-        text_target("scene", corpus("scene"), use_scene),
-        text_target("batch", corpus("batch"), |text| {
-            let _ = Batch::parse("any", text, Path::new(""));
-        }),
-        text_target("step", corpus("step"), |text| {
-            let _ = parse_step("any", text);
-        }),
-        text_target("history", vec![saved], |text| {
-            let _ = HistoryFile::parse("any", text);
-        }),
-    ]
-}
 
 #[expect(clippy::print_stdout, reason = "figures of a long run, with --nocapture")]
 #[test]
@@ -258,13 +20,13 @@ fn mutated_files_end_no_program() {
     let asked = std::env::var("FRISURE_MUTATIONS").ok().map(|n| n.parse().expect("a number"));
     let mutations = asked.unwrap_or(MUTATIONS);
     let mut failed = Vec::new();
-    for Target { name, corpus, run } in groom_targets().chain(other_targets()) {
+    for Target { name, corpus, run } in targets() {
         assert!(!corpus.is_empty(), "{name}");
-        let mut random = Random(0);
+        let mut random = SplitMix64(0);
         let works = |bytes: &[u8]| catch_unwind(AssertUnwindSafe(|| run(bytes))).is_ok();
         let mut check = |input: Vec<u8>, what: String| {
             if !works(&input) {
-                let file = format!("mutated-{}-{what}", name.replace(' ', "-"));
+                let file = format!("mutated-{}-{what}", name);
                 fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(&file), &input).unwrap();
                 failed.push(file);
             }
@@ -278,4 +40,17 @@ fn mutated_files_end_no_program() {
         println!("{name}: {} of the corpus, {mutations} mutations", corpus.len());
     }
     assert!(failed.is_empty(), "these are in target/tmp: {failed:?}");
+}
+
+#[test]
+fn each_target_is_a_program_of_libfuzzer() {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/Cargo.toml");
+    let manifest = fs::read_to_string(manifest).unwrap();
+    let named =
+        manifest.lines().filter_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"'));
+    // The first name is the package's.
+    let named: Vec<&str> = named.skip(1).collect();
+    let targets = targets();
+    let expected: Vec<&str> = targets.iter().map(|target| target.name.as_str()).collect();
+    assert_eq!(named, expected, "fuzz/Cargo.toml lists the targets in their order");
 }
