@@ -34,6 +34,7 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
+        gate.step("dependencies", dependencies)?;
         gate.step("documentation", || {
             shell("RUSTDOCFLAGS='-D warnings' cargo doc --workspace --all-features --no-deps --locked")
         })?;
@@ -104,6 +105,18 @@ fn spelling() -> Result<()> {
             ensure!(status.success(), "there are misspelled words; _typos.toml has the exceptions");
         }
         Err(_) => say("skipped: `typos` is not installed (`pip install typos`)"),
+    }
+    Ok(())
+}
+
+/// Checks the rules of `deny.toml` where `cargo-deny` is installed; `.ci/run` installs it.
+fn dependencies() -> Result<()> {
+    let program = root().join("target/deny/bin/cargo-deny");
+    let program = if program.is_file() { program } else { "cargo-deny".into() };
+    let check = ["--locked", "check", "bans", "licenses", "sources"];
+    match Command::new(program).args(check).current_dir(root()).status() {
+        Ok(status) => ensure!(status.success(), "a dependency breaks a rule of deny.toml"),
+        Err(_) => say("skipped: `cargo-deny` is not installed (`cargo install cargo-deny`)"),
     }
     Ok(())
 }
