@@ -96,7 +96,9 @@ fn measured(
 ) -> Result<Measured, Error> {
     let scene = Arc::new(Scene::parse("scene", text, batch.folder())?);
     let steps = scene.steps().len();
-    let loaded = Runner::new(heads.clone()).load(&scene, steps, Quality::Exact, progress)?;
+    // So many heads are computed at the same time.
+    let mut runner = Runner::new(heads.clone()).among(rayon::current_num_threads());
+    let loaded = runner.load(&scene, steps, Quality::Exact, progress)?;
     let points = batch.points().unwrap_or(loaded.hairstyle.spec().wisps.points);
     let lines = guide_strands(&loaded.hairstyle, points);
     Ok(Measured {

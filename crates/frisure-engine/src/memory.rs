@@ -89,7 +89,16 @@ fn picture(work: Work) -> f64 {
 /// # Errors
 /// [`Error::Invalid`], with both numbers.
 pub fn check(spec: &HairstyleSpec, work: Work) -> Result<(), Error> {
-    check_within(estimate(spec, work), work, available())
+    check_among(1, spec, work)
+}
+
+/// The same of one of so many computations at the same time, each of which has its share of what is free.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_among(computations: usize, spec: &HairstyleSpec, work: Work) -> Result<(), Error> {
+    let share = available().map(|room| room / computations.max(1) as u64);
+    check_within(estimate(spec, work), work, share)
 }
 
 /// The same of a picture of hair that is read from a file.

@@ -13,6 +13,7 @@ use crate::adoption::AdoptionReport;
 use crate::error::Error;
 use crate::hairstyles::{HairstyleCache, Input};
 use crate::heads::{HeadCache, LoadedHead};
+use crate::memory::{self, Work};
 use crate::quality::{Quality, points};
 
 /// Most points of drawn hairs in a browser, which has 4 GiB of memory in all. Chosen with room for a copy.
@@ -39,7 +40,7 @@ const MOST_POINTS_IN_BROWSER: usize = 32_000_000;
 /// assert!(wet.metrics().mass > dry.metrics().mass);
 /// # Ok::<(), frisure_engine::Error>(())
 /// ```
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Runner {
     /// The files that scenes name: of the file system, or provided where there is none.
     pub files: Files,
@@ -47,6 +48,20 @@ pub struct Runner {
     hairstyles: HairstyleCache,
     /// The strands that were drawn last, with their hairstyle and stride.
     strands: Option<(Arc<Hairstyle>, usize, Arc<Strands>)>,
+    /// The number of runners that share the memory of the machine.
+    runners: usize,
+}
+
+impl Default for Runner {
+    fn default() -> Self {
+        Self {
+            files: Files::default(),
+            heads: Arc::default(),
+            hairstyles: HairstyleCache::default(),
+            strands: None,
+            runners: 1,
+        }
+    }
 }
 
 /// A scene with its head and its hairstyle.
@@ -71,15 +86,23 @@ impl Runner {
         Self { heads, ..Self::default() }
     }
 
+    /// The runner as one of so many that work at the same time: each has its share of the memory that is free.
+    #[must_use]
+    pub fn among(self, runners: usize) -> Self {
+        Self { runners: runners.max(1), ..self }
+    }
+
     /// Replaces the caches with empty ones of its own; files that were provided stay.
     pub fn clear(&mut self) {
-        *self = Self { files: std::mem::take(&mut self.files), ..Self::default() };
+        let (files, runners) = (std::mem::take(&mut self.files), self.runners);
+        *self = Self { files, runners, ..Self::default() };
     }
 
     /// Loads a scene with the hairstyle after `done` of its steps; at most all.
     ///
     /// # Errors
-    /// [`Error`], at the key of the scene that has to change. The caches are still valid.
+    /// [`Error`], at the key of the scene that has to change, or [`Error::Invalid`] for guides that have no room in memory. The
+    /// caches are still valid.
     pub fn load(
         &mut self,
         scene: &Arc<Scene>,
@@ -88,6 +111,7 @@ impl Runner {
         progress: &dyn Progress,
     ) -> Result<LoadedScene, Error> {
         let spec = scene.hairstyle_spec()?;
+        memory::check_among(self.runners, &spec, Work::Guides)?;
         let LoadedHead { head, note } = self.heads.load(scene, &self.files)?;
         let input = Input { scene, spec, head: &head, done, files: &self.files };
         let hairstyle = match quality {
@@ -101,7 +125,7 @@ impl Runner {
     /// Every `stride`-th hair of a scene; the last strands are cached, so that another light does not draw them again.
     ///
     /// # Errors
-    /// [`Error::Cancelled`], and [`Error::Invalid`] for more points than a browser has memory for.
+    /// [`Error::Cancelled`], and [`Error::Invalid`] for more points than there is memory for.
     pub fn strands(
         &mut self,
         loaded: &LoadedScene,
@@ -118,6 +142,9 @@ impl Runner {
             && *step == stride
         {
             return Ok(strands.clone());
+        }
+        if stride == 1 {
+            memory::check_among(self.runners, loaded.hairstyle.spec(), Work::Hairs)?;
         }
         let options = StrandOptions { stride, ..StrandOptions::default() };
         let strands = Arc::new(loaded.draw(options, progress)?.strands);

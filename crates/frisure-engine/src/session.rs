@@ -18,6 +18,7 @@ use web_time::Instant;
 
 use crate::error::{Error, catch_panic};
 use crate::inputs::environment_map;
+use crate::memory::{self, Work};
 use crate::picture::{self, Pauses, Viewpoint, accumulate};
 use crate::preview;
 use crate::quality::Quality;
@@ -178,6 +179,7 @@ impl Execution<'_> {
         // The cast takes the low bits, which is as good a seed.
         let options = TraceOptions { seed: scene.look.hair.seed, ..options };
         options.check().map_err(|e| Error::because(&e, ""))?;
+        memory::check_picture(Work::Traced(options.width * options.height))?;
         let environment = environment_map(scene, &self.session.runner.files)?;
         let mut strands = Strands::clone(&*self.strands(&loaded, 1)?);
         add_sections(&mut strands, hairstyle, head);
