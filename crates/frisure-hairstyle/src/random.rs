@@ -19,6 +19,7 @@ pub(crate) enum Purpose {
     HairFibre,
     Batch,
     Lanczos,
+    Face,
 }
 
 /// A stream of random numbers.

@@ -7,11 +7,13 @@
 
 #![forbid(unsafe_code)]
 
+mod features;
 pub mod names;
 mod resample;
 mod strands;
 mod surface;
 
+pub use features::{Eye, Features, Tint};
 pub use resample::Resampled;
 pub use strands::{Attribute, AttributeError, AttributeValues, Domain, Strand, Strands};
 pub use surface::{Surface, SurfaceError};

@@ -188,6 +188,33 @@ impl Strands {
         self.offsets.push(end);
     }
 
+    /// These strands and then others, which have the attributes of the first of these; the others' own attributes, and all
+    /// attributes where there is no first, are left out.
+    ///
+    /// # Panics
+    /// If there are more than `u32::MAX` points in all.
+    #[must_use]
+    pub fn followed_by(&self, others: &Self) -> Self {
+        let mut both = self.clone();
+        both.attributes.clear();
+        for strand in others.iter() {
+            both.push(strand.points, strand.radii);
+        }
+        if self.points.is_empty() {
+            return both;
+        }
+        for attribute in &self.attributes {
+            let count = match attribute.domain {
+                Domain::Strand => others.len(),
+                Domain::Point => others.points.len(),
+            };
+            let mut values = attribute.values.clone();
+            values.append(&attribute.values.picked(std::iter::repeat_n(0, count)));
+            both.attributes.push(Attribute { values, ..attribute.clone() });
+        }
+        both
+    }
+
     /// Number of strands.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -291,6 +318,19 @@ mod tests {
         assert_eq!(strands.strand(1).points, &[Vec3::Y, Vec3::Z, Vec3::ONE]);
         assert_eq!(strands.iter().map(|s| s.points.len()).sum::<usize>(), 5);
         assert_eq!(strands.bounds(), Some((Vec3::ZERO, Vec3::ONE)));
+    }
+
+    #[test]
+    fn strands_that_follow_others_have_the_attributes_of_the_first() {
+        let (mut strands, others) = (two_strands(), two_strands());
+        let values = AttributeValues::U32(vec![7, 8]);
+        let guide = Attribute { name: "guide".into(), domain: Domain::Strand, values };
+        strands.set_attribute(guide).unwrap();
+        let both = strands.followed_by(&others);
+        assert_eq!((both.len(), both.points().len()), (4, 10));
+        let guides = &both.attribute("guide").unwrap().values;
+        assert_eq!(*guides, AttributeValues::U32(vec![7, 8, 7, 7]));
+        assert!(Strands::new().followed_by(&strands).attributes().is_empty());
     }
 
     #[test]

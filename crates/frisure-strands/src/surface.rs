@@ -1,7 +1,11 @@
 //! A triangle mesh that was checked when it was made.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 use thiserror::Error;
+
+use crate::features::{Features, Tint};
 
 /// A triangle mesh in metres, counter-clockwise seen from outside; every index is valid, every
 /// coordinate finite, and there is at least one triangle of positive area.
@@ -26,6 +30,7 @@ pub struct Surface {
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     texture: Vec<[[f32; 2]; 3]>,
+    features: Option<Arc<Features>>,
 }
 
 /// Why a mesh is not a [`Surface`].
@@ -60,6 +65,14 @@ pub enum SurfaceError {
         /// Number of faces.
         faces: usize,
     },
+    /// Tints are not those of the vertices.
+    #[error("there are tints for {given} vertices, but there are {vertices} vertices")]
+    TintCount {
+        /// Number of tints.
+        given: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
     /// A texture coordinate is infinite or not a number.
     #[error("face {face} has a texture coordinate that is not finite")]
     TextureNotFinite {
@@ -83,7 +96,7 @@ impl Surface {
                 return Err(SurfaceError::Index { face, vertex, count });
             }
         }
-        let surface = Self { positions, triangles, texture: Vec::new() };
+        let surface = Self { positions, triangles, texture: Vec::new(), features: None };
         if surface.area() > 0.0 { Ok(surface) } else { Err(SurfaceError::NoFaces) }
     }
 
@@ -118,6 +131,38 @@ impl Surface {
     #[must_use]
     pub fn texture(&self) -> &[[[f32; 2]; 3]] {
         &self.texture
+    }
+
+    /// The same mesh with eyes, lips, brows and what else a face has.
+    ///
+    /// # Errors
+    /// [`SurfaceError::TintCount`], if there are tints, but not one for each vertex.
+    pub fn with_features(mut self, features: Features) -> Result<Self, SurfaceError> {
+        let (given, vertices) = (features.tints.len(), self.positions.len());
+        if given != 0 && given != vertices {
+            return Err(SurfaceError::TintCount { given, vertices });
+        }
+        self.features = Some(Arc::new(features));
+        Ok(self)
+    }
+
+    /// Eyes, lips, brows and what else the face has; none of a mesh that is skin alone.
+    #[must_use]
+    pub fn features(&self) -> Option<&Features> {
+        self.features.as_deref()
+    }
+
+    /// The tint of a point of face `index` with these weights of its corners.
+    ///
+    /// # Panics
+    /// If there is no such face.
+    #[must_use]
+    pub fn tint(&self, index: usize, weights: [f32; 3]) -> Tint {
+        let Some(features) = self.features().filter(|f| !f.tints.is_empty()) else {
+            return Tint::default();
+        };
+        let corners = self.triangles[index].map(|v| features.tints[v as usize]);
+        corners.iter().zip(weights).fold(Tint::default(), |sum, (tint, w)| sum + *tint * w)
     }
 
     /// Vertices (m).
@@ -211,6 +256,19 @@ mod tests {
         assert_eq!(bad, Err(SurfaceError::TextureNotFinite { face: 0 }));
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
         assert_eq!(surface.with_texture(vec![corners]).unwrap().texture(), [corners]);
+    }
+
+    #[test]
+    fn tints_are_one_for_each_vertex_and_linear_between() {
+        let p = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let surface = Surface::new(p, vec![[0, 1, 2]]).unwrap();
+        assert_eq!(surface.tint(0, [1.0, 0.0, 0.0]), Tint::default());
+        let red = Tint { lips: 1.0, ..Tint::default() };
+        let with = |tints| surface.clone().with_features(Features { tints, ..Features::default() });
+        assert_eq!(with(vec![red]), Err(SurfaceError::TintCount { given: 1, vertices: 3 }));
+        let face = with(vec![red, Tint::default(), Tint::default()]).unwrap();
+        assert_eq!(face.tint(0, [0.25, 0.5, 0.25]).lips, 0.25);
+        assert!(surface.features().is_none() && face.features().is_some());
     }
 
     #[test]

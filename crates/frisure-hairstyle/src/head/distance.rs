@@ -3,26 +3,39 @@
 use frisure_strands::Surface;
 use glam::{DMat3, DVec3};
 
-use super::voxels::{Voxels, sample};
+use super::spline::Spline;
+use super::voxels::{Region, sample};
 
-/// Signed distance to the skin (m), positive outside: a tricubic B-spline on a regular grid.
+/// Signed distance to the skin (m), positive outside: a tricubic B-spline on a regular grid, and on a coarser one for the
+/// torso of a head that has one.
 ///
-/// Inside the grid it is C² and its derivatives are those of the spline itself, so that they agree
+/// Inside its grids it is C² and its derivatives are those of the splines themselves, so that they agree
 /// with finite differences everywhere. Near smooth skin it is within 0.3 mm of the distance to the
 /// mesh it was made from. Holes of the mesh are closed first: an open rim (a bust cut at the
 /// shoulders) gets a lid, and what can only be reached through a slit (a mouth bag) counts as
-/// inside. Outside the grid, some centimetres away from the skin, the value grows with the distance
+/// inside. Outside the grids, some centimetres away from the skin, the value grows with the distance
 /// to the grid; only there does the slope have a kink.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignedDistance {
-    origin: DVec3,
-    spacing: f64,
-    size: [usize; 3],
-    coefficients: Vec<f32>,
+    head: Spline,
+    torso: Option<Torso>,
 }
 
-/// Weights of four neighbouring coefficients and their first and second derivatives.
-type Weights = [[f64; 4]; 3];
+/// The part of a head below the neck.
+#[derive(Clone, Debug, PartialEq)]
+struct Torso {
+    distance: Spline,
+    /// Height (m) below which the torso's distance is the one, and the head's above [`BLEND`] more.
+    below: f64,
+}
+
+/// Height over which the distance goes from the torso's to the head's (m). Chosen: a tenth of a neck's width per grid cell,
+/// so that their differences, below 0.3 mm, make slopes of less than 0.02.
+const BLEND: f64 = 0.03;
+
+/// Room below and above the blend that both parts of a mesh cover (m): within it the nearest skin is in either part.
+/// Chosen.
+const ROOM: f64 = 0.045;
 
 impl SignedDistance {
     /// Samples the distance to `surface` (m) on a grid of about 3 mm.
@@ -30,183 +43,110 @@ impl SignedDistance {
     /// Larger meshes get a wider spacing, so that memory stays below 30 MB.
     #[must_use]
     pub fn new(surface: &Surface) -> Self {
-        let Voxels { origin, spacing, size, mut values } = sample(surface);
-        interpolate(&mut values, size);
-        Self { origin, spacing, size, coefficients: values }
+        Self { head: Spline::through(sample(surface, &Region::whole(surface))), torso: None }
     }
 
-    /// Distance between neighbouring nodes of the grid (m).
+    /// The same with a coarser grid for what is lower than `neck` (m), the lower end of the neck.
+    ///
+    /// The box of the fine grid is that of `frame` (smallest and largest corner, m), or of the mesh above the neck.
+    pub(crate) fn with_torso(surface: &Surface, neck: f64, frame: Option<(DVec3, DVec3)>) -> Self {
+        let below = neck - BLEND;
+        let head = Region::above(surface, below - ROOM, frame);
+        let torso = Region::below(surface, neck + ROOM);
+        let (head, torso) = rayon::join(
+            || Spline::through(sample(surface, &head)),
+            || Spline::through(sample(surface, &torso)),
+        );
+        Self { head, torso: Some(Torso { distance: torso, below }) }
+    }
+
+    /// Distance between neighbouring nodes of the grid about the head (m).
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        self.spacing
+        self.head.spacing()
     }
 
-    /// Smallest and largest corner of the box in which the spline is evaluated (m).
+    /// Smallest and largest corner of the box around the grids (m).
     #[must_use]
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let [x, y, z] = self.size.map(|n| (n - 2) as f64);
-        let low = self.origin + DVec3::splat(self.spacing);
-        (low, self.origin + self.spacing * DVec3::new(x, y, z))
+        let (low, high) = self.head.bounds();
+        match &self.torso {
+            None => (low, high),
+            Some(torso) => {
+                let (torso_low, torso_high) = torso.distance.bounds();
+                (low.min(torso_low), high.max(torso_high))
+            }
+        }
     }
 
     /// Signed distance (m) at `p` (m), positive outside.
     #[must_use]
     pub fn value(&self, p: DVec3) -> f64 {
-        let q = self.clamp(p);
-        let (first, [x, y, z]) = self.stencil(q);
-        let value: f64 =
-            (0..16).map(|n| y[0][n % 4] * z[0][n / 4] * self.row(first, n, &x[0])).sum();
-        value + (p - q).length()
+        match self.share(p) {
+            (None, _) => self.head.value(p),
+            (Some(torso), [0.0, ..]) => torso.distance.value(p),
+            (Some(torso), [share, ..]) => {
+                let (a, b) = (self.head.value(p), torso.distance.value(p));
+                b + share * (a - b)
+            }
+        }
     }
 
     /// Signed distance (m) at `p` (m) and its gradient.
     #[must_use]
     pub fn value_gradient(&self, p: DVec3) -> (f64, DVec3) {
-        let q = self.clamp(p);
-        let (first, [x, y, z]) = self.stencil(q);
-        let (mut value, mut gradient) = (0.0, DVec3::ZERO);
-        for n in 0..16 {
-            let (j, k) = (n % 4, n / 4);
-            let [v, s, _] = self.row_and_slopes(first, n, &x);
-            let (here, along_y, along_z) =
-                (y[0][j] * z[0][k], y[1][j] * z[0][k], y[0][j] * z[1][k]);
-            value += here * v;
-            gradient += DVec3::new(here * s, along_y * v, along_z * v);
+        match self.share(p) {
+            (None, _) => self.head.value_gradient(p),
+            (Some(torso), [0.0, ..]) => torso.distance.value_gradient(p),
+            (Some(torso), [share, slope, _]) => {
+                let (a, ga) = self.head.value_gradient(p);
+                let (b, gb) = torso.distance.value_gradient(p);
+                (b + share * (a - b), gb + share * (ga - gb) + slope * (a - b) * DVec3::Z)
+            }
         }
-        // Outside the box φ(q) + |p − q| with q the nearest point of the box: q moves only along the sides that hold it.
-        let beyond = p - q;
-        (value + beyond.length(), gradient * free(beyond) + beyond.normalize_or_zero())
     }
 
     /// Signed distance (m) at `p` (m), its gradient and its Hessian (1/m).
     #[must_use]
     pub fn value_gradient_hessian(&self, p: DVec3) -> (f64, DVec3, DMat3) {
-        let q = self.clamp(p);
-        let (first, [x, y, z]) = self.stencil(q);
-        let (mut value, mut gradient) = (0.0, DVec3::ZERO);
-        let (mut square, mut cross) = (DVec3::ZERO, DVec3::ZERO);
-        for n in 0..16 {
-            let (j, k) = (n % 4, n / 4);
-            let [v, s, b] = self.row_and_slopes(first, n, &x);
-            let (here, along_y, along_z) =
-                (y[0][j] * z[0][k], y[1][j] * z[0][k], y[0][j] * z[1][k]);
-            let (yy, yz, zz) = (y[2][j] * z[0][k], y[1][j] * z[1][k], y[0][j] * z[2][k]);
-            value += here * v;
-            gradient += DVec3::new(here * s, along_y * v, along_z * v);
-            square += DVec3::new(here * b, yy * v, zz * v);
-            cross += DVec3::new(along_y * s, along_z * s, yz * v);
-        }
-        let hessian = DMat3::from_cols(
-            DVec3::new(square.x, cross.x, cross.y),
-            DVec3::new(cross.x, square.y, cross.z),
-            DVec3::new(cross.y, cross.z, square.z),
-        );
-        let beyond = p - q;
-        let mask = free(beyond);
-        let free = DMat3::from_diagonal(mask);
-        let gradient = gradient * mask + beyond.normalize_or_zero();
-        (value + beyond.length(), gradient, free * hessian * free + length_hessian(beyond))
-    }
-
-    /// Nearest point of the box of [`SignedDistance::bounds`].
-    fn clamp(&self, p: DVec3) -> DVec3 {
-        let (low, high) = self.bounds();
-        p.clamp(low, high)
-    }
-
-    /// Index of the first of the 4×4×4 coefficients around `q`, and their weights per axis.
-    fn stencil(&self, q: DVec3) -> ([usize; 3], [Weights; 3]) {
-        let u = (q - self.origin) / self.spacing;
-        let mut first = [0; 3];
-        let mut weights = [[[0.0; 4]; 3]; 3];
-        for axis in 0..3 {
-            // The last cell is closed on the right, so that the box includes its border. The cast
-            // cannot lose a sign: `clamp` keeps u at 1 or above.
-            let cell = (u[axis] as usize).clamp(1, self.size[axis] - 3);
-            first[axis] = cell - 1;
-            weights[axis] = cubic(u[axis] - cell as f64, self.spacing);
-        }
-        (first, weights)
-    }
-
-    /// Weighted sum along x of row `n` of the sixteen rows of a stencil.
-    fn row(&self, first: [usize; 3], n: usize, weights: &[f64; 4]) -> f64 {
-        let row = self.coefficients_of(first, n);
-        (0..4).map(|i| row[i] * weights[i]).sum()
-    }
-
-    /// Weighted sum along x of row `n`, with its first two derivatives.
-    fn row_and_slopes(&self, first: [usize; 3], n: usize, weights: &Weights) -> [f64; 3] {
-        let row = self.coefficients_of(first, n);
-        weights.map(|w| row[0] * w[0] + row[1] * w[1] + row[2] * w[2] + row[3] * w[3])
-    }
-
-    fn coefficients_of(&self, [i, j, k]: [usize; 3], n: usize) -> [f64; 4] {
-        let at = ((k + n / 4) * self.size[1] + j + n % 4) * self.size[0] + i;
-        let row = &self.coefficients[at..at + 4];
-        [row[0].into(), row[1].into(), row[2].into(), row[3].into()]
-    }
-}
-
-/// One where a coordinate moves the nearest point of the box, zero where it is held by a side.
-fn free(beyond: DVec3) -> DVec3 {
-    DVec3::from_array(beyond.to_array().map(|d| if d == 0.0 { 1.0 } else { 0.0 }))
-}
-
-/// Hessian of the length of `beyond`, in the coordinates that are not zero.
-fn length_hessian(beyond: DVec3) -> DMat3 {
-    let Some(u) = beyond.try_normalize() else { return DMat3::ZERO };
-    // (I − u uᵀ)/|d| in the held coordinates.
-    let held = DMat3::from_diagonal(DVec3::ONE - free(beyond));
-    (held - DMat3::from_cols(u * u.x, u * u.y, u * u.z)) * beyond.length().recip()
-}
-
-/// The uniform cubic B-spline at `t` in 0..1 of a cell of width `h`, with two derivatives.
-fn cubic(t: f64, h: f64) -> Weights {
-    // ⅙ (1 − t)³, ⅙ (4 − 6t² + 3t³), the same mirrored, ⅙ t³; the derivatives by position divide by h and by h².
-    let s = 1.0 - t;
-    let value =
-        [s * s * s, 4.0 - 3.0 * t * t * (2.0 - t), 4.0 - 3.0 * s * s * (2.0 - s), t * t * t];
-    let slope = [-s * s, t * (3.0 * t - 4.0), s * (4.0 - 3.0 * s), t * t];
-    let bend = [s, 3.0 * t - 2.0, 3.0 * s - 2.0, t];
-    [value.map(|w| w / 6.0), slope.map(|w| w / (2.0 * h)), bend.map(|w| w / (h * h))]
-}
-
-/// Turns samples into coefficients whose spline passes by them to fourth order.
-///
-/// The local rule `c = f − δ²f/6` is enough here: an exact interpolation would ring at the creases
-/// of the distance.
-fn interpolate(values: &mut [f32], [nx, ny, _]: [usize; 3]) {
-    for stride in [1, nx, nx * ny] {
-        // Each axis in turn; a node at the end of a row keeps its value.
-        let length = match stride {
-            1 => nx,
-            s if s == nx => ny,
-            s => values.len() / s,
-        };
-        filter_axis(values, stride, length);
-    }
-}
-
-fn filter_axis(values: &mut [f32], stride: usize, length: usize) {
-    for block in values.chunks_mut(stride * length) {
-        let mut before: Vec<f32> = block[..stride].to_vec();
-        for row in 1..length - 1 {
-            for (lane, before) in before.iter_mut().enumerate() {
-                let at = row * stride + lane;
-                let here = block[at];
-                // The spline at a node is (c₋ + 4c + c₊)/6 = c + δ²c/6; `before` keeps the sample that was overwritten.
-                block[at] = here - (*before - 2.0 * here + block[at + stride]) / 6.0;
-                *before = here;
+        match self.share(p) {
+            (None, _) => self.head.value_gradient_hessian(p),
+            (Some(torso), [0.0, ..]) => torso.distance.value_gradient_hessian(p),
+            (Some(torso), [share, slope, bend]) => {
+                let (a, ga, ha) = self.head.value_gradient_hessian(p);
+                let (b, gb, hb) = torso.distance.value_gradient_hessian(p);
+                // φ = b + w (a − b) with w of z: the product rule.
+                let (gap, turn) = (a - b, slope * (ga - gb));
+                let cross =
+                    DMat3::from_cols(turn.x * DVec3::Z, turn.y * DVec3::Z, turn.z * DVec3::Z);
+                let mut hessian = hb + (ha - hb) * share + cross + cross.transpose();
+                hessian.z_axis.z += bend * gap;
+                (b + share * gap, gb + share * (ga - gb) + slope * gap * DVec3::Z, hessian)
             }
         }
+    }
+
+    /// The torso where it matters, and the head's share of the distance with its first two derivatives by height (1/m, 1/m²).
+    fn share(&self, p: DVec3) -> (Option<&Torso>, [f64; 3]) {
+        let Some(torso) = &self.torso else { return (None, [1.0, 0.0, 0.0]) };
+        let t = (p.z - torso.below) / BLEND;
+        if t >= 1.0 {
+            return (None, [1.0, 0.0, 0.0]);
+        }
+        let t = t.max(0.0);
+        // t³ (10 − 15t + 6t²), whose first two derivatives vanish at both ends.
+        let share = t * t * t * (10.0 - t * (15.0 - 6.0 * t));
+        let slope = 30.0 * t * t * (1.0 - t) * (1.0 - t) / BLEND;
+        let bend = 60.0 * t * (1.0 - t) * (1.0 - 2.0 * t) / (BLEND * BLEND);
+        (Some(torso), [share, slope, bend])
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::head::test_shapes::{ball, open_ball_with_bag};
+    use crate::head::test_shapes::{ball, mannequin, open_ball_with_bag};
+    use crate::head::triangles::closest_point;
 
     #[test]
     fn the_distance_to_a_ball_is_accurate() {
@@ -226,11 +166,24 @@ mod tests {
     #[test]
     fn derivatives_agree_with_differences_inside_and_outside_the_grid() {
         let field = SignedDistance::new(&ball(0.08, 32));
+        let about = |a: f64| DVec3::new(a.sin(), (1.7 * a).cos(), (0.3 * a).sin());
+        check_derivatives(&field, |a| about(a) * (0.01 + 0.01 * a));
+        // In the torso, in the neck's blend, and beside both.
+        let low = DVec3::new(0.0, 0.02, -0.3);
+        check_derivatives(mannequin().signed_distance(), |a| low + 0.2 * about(a));
+        let blend = DVec3::new(0.0, 0.02, -0.181);
+        check_derivatives(mannequin().signed_distance(), |a| {
+            blend + about(a) * DVec3::new(0.2, 0.1, 0.014)
+        });
+    }
+
+    fn check_derivatives(field: &SignedDistance, place: impl Fn(f64) -> DVec3) {
         let h = 1e-6;
         for i in 0..60 {
-            let a = f64::from(i) + 0.5;
-            let p = DVec3::new(a.sin(), (1.7 * a).cos(), (0.3 * a).sin()) * (0.01 + 0.01 * a);
-            let (_, gradient, hessian) = field.value_gradient_hessian(p);
+            let p = place(f64::from(i) + 0.5);
+            let (value, gradient, hessian) = field.value_gradient_hessian(p);
+            assert_eq!((value, gradient), field.value_gradient(p));
+            assert!((value - field.value(p)).abs() < 1e-12);
             for axis in 0..3 {
                 let e = DVec3::AXES[axis] * h;
                 let (up, gu) = field.value_gradient(p + e);
@@ -238,6 +191,39 @@ mod tests {
                 assert!(((up - down) / (2.0 * h) - gradient[axis]).abs() < 1e-6);
                 let bend = (gu - gd) / (2.0 * h);
                 assert!((bend - hessian.col(axis)).length() < 1e-3, "{bend} {}", hessian.col(axis));
+            }
+        }
+    }
+
+    #[test]
+    fn the_torso_is_as_far_as_its_triangles() {
+        let (field, surface) = (mannequin().signed_distance(), mannequin().surface());
+        let exact = |p: DVec3| {
+            let faces = 0..surface.triangles().len();
+            let gaps = faces.map(|f| closest_point(p, surface.corners(f)).distance(p));
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        // From the skin of chest, back, shoulder and neck outwards.
+        for (x, forward, z) in [
+            (0.05, 0.2, -0.30),
+            (0.08, -0.2, -0.28),
+            (0.3, -0.03, -0.23),
+            (0.1, -0.2, -0.2),
+            (0.02, -0.2, -0.17),
+            (0.09, 0.0, -0.16),
+        ] {
+            let middle = DVec3::new(0.5 * x, 0.01, z);
+            let out = DVec3::new(x, -forward, z);
+            let places = (0..40).map(|step| middle.lerp(out, f64::from(step) / 40.0));
+            for p in places.filter(|p| field.value(*p) > -5e-3) {
+                let (found, gap) = (field.value(p).abs(), exact(p));
+                // Beside the boxes of the grids the distance is an estimate.
+                let most = match gap {
+                    near if near < 0.02 => 5e-4,
+                    near if near < 0.06 => 2e-3,
+                    _ => 1e-2,
+                };
+                assert!((found - gap).abs() < most, "{found}, not {gap}, at {p}");
             }
         }
     }

@@ -5,9 +5,11 @@
 //! Proportions are those of an adult: 15.5 cm wide, 19.5 cm deep, 23 cm from chin to vertex, eyes at
 //! half height, ears between brow and base of the nose.
 
-use frisure_strands::Surface;
+use frisure_strands::{Features, Surface, Tint};
 use glam::{DMat3, DVec3, dvec3};
 
+use super::distance::SignedDistance;
+use super::facial_hair::{self, FacialLines};
 use super::landmarks::Landmarks;
 use super::mesher::{Lattice, mesh};
 use super::sculpt::{carve, chain, cone, ellipsoid, join, meet, turned};
@@ -33,9 +35,69 @@ pub(crate) fn landmarks() -> Landmarks {
     }
 }
 
-/// Fine where the face is, coarse at the shoulders (m).
+/// Lips, cheeks, brows and the lashes of the closed lids.
+pub(crate) fn features(surface: &Surface, skin: &SignedDistance) -> Features {
+    let tint = |p: &DVec3| tint(dvec3(p.x.abs(), -p.y, p.z) * 100.0);
+    // A start in front of the skin, moved onto it.
+    let place = |x: f64, forward: f64, z: f64| {
+        let mut p = dvec3(x, -forward, z) * 0.01;
+        for _ in 0..4 {
+            let (distance, out) = skin.value_gradient(p);
+            p -= out * (distance / out.length_squared().max(0.25));
+        }
+        p
+    };
+    let brow = [(1.2, 9.6, 1.5), (2.0, 9.5, 1.75), (2.9, 9.2, 1.95), (3.8, 8.6, 1.95)];
+    let brow = brow.into_iter().chain([(4.6, 7.8, 1.7), (5.2, 6.9, 1.2)]);
+    // The seam of `eyes`.
+    let lid = [-0.95, -0.6, -0.2, 0.2, 0.6, 0.95]
+        .map(|a: f64| place(3.2 + 1.5 * a, 8.4 - 0.3 * (a + 0.3).powi(2), -1.63 + 0.4 * a * a));
+    let lines = FacialLines {
+        brow: brow.map(|(x, y, z)| place(x, y, z)).collect(),
+        upper: lid.to_vec(),
+        lower: Vec::new(),
+        eye: dvec3(0.032, -0.0685, -0.0105),
+        middle: 0.0,
+    };
+    let tints = surface.positions().iter().map(tint).collect();
+    Features { tints, eyes: Vec::new(), hairs: facial_hair::grow(&lines, skin) }
+}
+
+/// The tint of a place (cm, in the sculpture's frame).
+fn tint(p: DVec3) -> Tint {
+    // Before the face nothing is red, and most of the mesh is behind it.
+    if p.z < -10.0 {
+        return Tint::default();
+    }
+    let ball = |centre: DVec3, radius: f64| (1.0 - p.distance(centre) / radius).max(0.0);
+    let lips = ((0.22 - upper_lip(p).min(lower_lip(p))) / 0.2).clamp(0.0, 1.0);
+    let cheek = 1.1 * ball(dvec3(4.1, 6.9, -3.9), 3.2);
+    let nose = ball(dvec3(0.0, 11.3, -4.3), 1.9);
+    let ear = if ear(p).abs() < 0.1 { 0.7 } else { 0.0 };
+    let flush = cheek.max(nose).max(ear).min(1.0);
+    Tint { lips: lips as f32, flush: flush as f32, garment: 0.0 }
+}
+
+/// Height of the foot (cm).
+const FOOT: f64 = -52.5;
+
+/// Height of the lower end of the neck (m): the distance to what is lower comes from a coarser grid.
+pub(crate) const NECK: f64 = -0.165;
+
+/// The box (m) that the fine grid of the distance fits: that of the bust without a torso, so that its nodes stay where they
+/// were.
+pub(crate) const FRAME: (DVec3, DVec3) = (
+    dvec3(-0.167_955_203_001_988_57, -0.116_427_103_003_770_85, -0.245),
+    dvec3(0.167_955_191_517_644_43, 0.112_732_751_585_463_3, 0.109_319_634_896_746_08),
+);
+
+/// Fine where the face is, coarse at the torso (m).
 fn lattice() -> Lattice {
-    let across = |x: f64| if x.abs() < 0.095 { 2.6e-3 } else { 5.0e-3 };
+    let across = |x: f64| match x.abs() {
+        x if x < 0.095 => 2.6e-3,
+        x if x < 0.185 => 5.0e-3,
+        _ => 8.0e-3,
+    };
     let along = |y: f64| if y < -0.06 { 2.3e-3 } else { 3.4e-3 };
     let up = |z: f64| match z {
         z if z < -0.13 => 5.5e-3,
@@ -43,11 +105,18 @@ fn lattice() -> Lattice {
         z if z < 0.025 => 2.3e-3,
         _ => 3.9e-3,
     };
-    let right = Lattice::axis(0.0, 0.185, across);
+    let right = Lattice::axis(0.0, 0.23, across);
     let left = right.iter().skip(1).rev().map(|x| -x);
     let x = left.chain(right.iter().copied()).collect();
-    Lattice { axes: [x, Lattice::axis(-0.135, 0.145, along), Lattice::axis(-0.26, 0.125, up)] }
+    // The head's nodes begin at a height of their own, so that they do not depend on how far down the torso goes.
+    let below = (1..=16).rev().map(|n| HEAD_FROM - TORSO_STEP * f64::from(n));
+    let z = below.chain(Lattice::axis(HEAD_FROM, 0.125, up)).collect();
+    Lattice { axes: [x, Lattice::axis(-0.135, 0.145, along), z] }
 }
+
+/// Height (m) from which the nodes of the head begin, and the step between those below it.
+const HEAD_FROM: f64 = -0.26;
+const TORSO_STEP: f64 = 17.5e-3;
 
 fn head(p: DVec3) -> f64 {
     // Each part is asked for only where it can matter: farther away no fillet reaches it.
@@ -56,13 +125,13 @@ fn head(p: DVec3) -> f64 {
         f = join(join(cranium(p), face(p), 2.4), f, 2.6);
     }
     if p.z < -11.0 {
-        f = join(f, shoulders(p), 3.0);
+        f = join(f, torso(p), 3.0);
     }
     if p.y > 4.5 && p.z > -11.5 && p.z < 3.5 {
         f = mouth(p, nose(p, eyes(p, f)));
     }
-    // The bust stands on a flat foot.
-    meet(join(f, ear(p), 0.5), -24.5 - p.z, 2.0)
+    // The bust stands on a flat foot, above the elbows.
+    meet(join(f, ear(p), 0.5), FOOT - p.z, 2.0)
 }
 
 fn cranium(p: DVec3) -> f64 {
@@ -138,23 +207,30 @@ fn nose(p: DVec3, skin: f64) -> f64 {
     carve(f, nostril, 0.25)
 }
 
-fn mouth(p: DVec3, skin: f64) -> f64 {
-    let upper = chain(
+fn upper_lip(p: DVec3) -> f64 {
+    chain(
         p,
         &[
             (dvec3(0.0, 9.5, -7.05), 0.42),
             (dvec3(0.6, 9.45, -7.0), 0.45),
             (dvec3(2.3, 8.2, -7.33), 0.3),
         ],
-    );
-    let lower = chain(
+    )
+}
+
+fn lower_lip(p: DVec3) -> f64 {
+    chain(
         p,
         &[
             (dvec3(0.0, 9.2, -7.95), 0.55),
             (dvec3(0.9, 9.0, -7.9), 0.5),
             (dvec3(2.2, 8.1, -7.55), 0.3),
         ],
-    );
+    )
+}
+
+fn mouth(p: DVec3, skin: f64) -> f64 {
+    let (upper, lower) = (upper_lip(p), lower_lip(p));
     let fold = cone(p, dvec3(0.0, 9.9, -9.0), dvec3(1.6, 9.2, -8.9), 0.6, 0.5);
     let groove = cone(p, dvec3(0.0, 10.45, -5.9), dvec3(0.0, 10.4, -6.5), 0.3, 0.3);
     let slit = chain(
@@ -227,9 +303,40 @@ fn neck(p: DVec3) -> f64 {
     join(join(f, nape, 2.5), trapezius, 3.5)
 }
 
-fn shoulders(p: DVec3) -> f64 {
-    let chest = ellipsoid(p, dvec3(0.0, -3.0, -27.5), dvec3(14.0, 9.0, 10.4));
-    let shoulder = ellipsoid(p, dvec3(11.6, -4.0, -22.8), dvec3(5.2, 5.2, 4.8));
-    let collar = cone(p, dvec3(1.8, 1.7, -19.6), dvec3(10.5, -1.0, -19.3), 0.7, 0.7);
-    join(join(chest, shoulder, 4.5), collar, 2.8)
+fn torso(p: DVec3) -> f64 {
+    let ribs = ellipsoid(p, dvec3(0.0, -1.2, -33.0), dvec3(14.0, 10.2, 17.5));
+    let waist = ellipsoid(p, dvec3(0.0, -0.6, -50.0), dvec3(12.4, 8.8, 15.0));
+    let plate = cone(p, dvec3(2.5, -1.6, -24.5), dvec3(11.0, -2.4, -24.8), 6.0, 4.6);
+    let pectoral = turned(p, dvec3(6.2, 5.0, -29.5), dvec3(6.0, 3.0, 5.4), 0.3, -0.25);
+    let blade = turned(p, dvec3(7.8, -8.0, -28.0), dvec3(4.6, 2.3, 7.2), -0.12, 0.28);
+    let spine = cone(p, dvec3(0.0, -12.3, -24.0), dvec3(0.0, -10.6, -47.0), 0.5, 0.5);
+    let f = join(join(ribs, waist, 6.0), plate, 4.0);
+    let f = carve(join(join(f, pectoral, 4.5), blade, 4.0), spine, 6.0);
+    let f = join(join(f, trapezius(p), 4.0), upper_arm(p), 4.0);
+    join(f, collar_bone(p), 2.0)
+}
+
+/// The muscle from the neck over the shoulder, and down beside the spine.
+fn trapezius(p: DVec3) -> f64 {
+    let over = cone(p, dvec3(10.5, -4.6, -19.6), dvec3(15.0, -3.4, -20.9), 2.2, 2.0);
+    let down = cone(p, dvec3(2.5, -7.0, -19.0), dvec3(1.5, -8.6, -32.0), 3.2, 1.6);
+    join(over, down, 4.0)
+}
+
+fn upper_arm(p: DVec3) -> f64 {
+    let deltoid = ellipsoid(p, dvec3(15.6, -2.9, -24.8), dvec3(4.3, 4.7, 6.0));
+    let arm = cone(p, dvec3(16.0, -3.1, -27.0), dvec3(17.4, -3.6, -54.0), 4.1, 3.7);
+    join(deltoid, arm, 4.0)
+}
+
+fn collar_bone(p: DVec3) -> f64 {
+    chain(
+        p,
+        &[
+            (dvec3(1.9, 2.2, -20.2), 0.75),
+            (dvec3(6.5, 2.5, -19.6), 0.6),
+            (dvec3(11.0, 0.2, -19.4), 0.65),
+            (dvec3(14.5, -2.2, -20.1), 0.8),
+        ],
+    )
 }

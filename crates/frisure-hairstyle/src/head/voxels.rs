@@ -39,12 +39,55 @@ const SHORE: usize = 4;
 const SLACK: f64 = 1e-8;
 /// Layers of nodes that one task fills. Chosen; no result depends on it.
 const SLAB: usize = 8;
-/// The signed distance to `surface` (m), positive outside, on a grid around it.
-pub(crate) fn sample(surface: &Surface) -> Voxels {
+/// Spacing of the grid of a torso (m). Chosen: its skin bends over centimetres.
+const TORSO_SPACING: f64 = 8e-3;
+
+/// A part of a mesh, and the box (m) and spacing (m) of a grid for it.
+pub(crate) struct Region {
+    low: DVec3,
+    high: DVec3,
+    spacing: f64,
+    /// Heights (m) between which faces belong to the part.
+    heights: [f64; 2],
+}
+
+impl Region {
+    /// The whole mesh.
+    pub(crate) fn whole(surface: &Surface) -> Self {
+        let (low, high) = surface.bounds();
+        Self { low, high, spacing: SPACING, heights: [f64::NEG_INFINITY, f64::INFINITY] }
+    }
+
+    /// What is higher than `height` (m); the grid fits into the box `frame` (m), if there is one.
+    pub(crate) fn above(surface: &Surface, height: f64, frame: Option<(DVec3, DVec3)>) -> Self {
+        let (low, high) = frame.unwrap_or_else(|| bounds(surface, |p| p.z >= height));
+        Self { low, high, spacing: SPACING, heights: [low.z - MARGIN, f64::INFINITY] }
+    }
+
+    /// What is lower than `height` (m).
+    pub(crate) fn below(surface: &Surface, height: f64) -> Self {
+        let (low, high) = bounds(surface, |p| p.z <= height);
+        Self { low, high, spacing: TORSO_SPACING, heights: [f64::NEG_INFINITY, height] }
+    }
+
+    fn has(&self, corners: [DVec3; 3]) -> bool {
+        corners.iter().all(|c| (self.heights[0]..=self.heights[1]).contains(&c.z))
+    }
+}
+
+/// Smallest and largest corner of the box around some vertices (m); around all where there is none.
+fn bounds(surface: &Surface, chosen: impl Fn(&DVec3) -> bool) -> (DVec3, DVec3) {
+    let mut points = surface.positions().iter().copied().filter(chosen);
+    let Some(first) = points.next() else { return surface.bounds() };
+    points.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
+}
+
+/// The signed distance to a part of `surface` (m), positive outside, on a grid around it.
+pub(crate) fn sample(surface: &Surface, region: &Region) -> Voxels {
     // 1. Exact distances near the closed mesh. 2. Which nodes are outside. 3. Without faces that no node outside has as its
     // nearest. 4. Distances everywhere else.
-    let soup = Soup::closed(surface);
-    let grid = Grid::around(surface);
+    let soup = Soup::closed(surface, |corners| region.has(corners));
+    let grid = Grid::around(region);
     let mut band = vec![FAR; grid.len()];
     grid.splat(&soup, &mut band, |_| true);
     let outside = grid.flood(&band);
@@ -57,10 +100,10 @@ pub(crate) fn sample(surface: &Surface) -> Voxels {
 }
 
 impl Grid {
-    fn around(surface: &Surface) -> Self {
-        let (low, high) = surface.bounds();
+    fn around(region: &Region) -> Self {
+        let (low, high) = (region.low, region.high);
         let extent = high - low + DVec3::splat(2.0 * MARGIN);
-        let spacing = (extent.x * extent.y * extent.z / MOST_NODES).cbrt().max(SPACING);
+        let spacing = (extent.x * extent.y * extent.z / MOST_NODES).cbrt().max(region.spacing);
         // The cast cannot lose a sign: an extent is at least two margins. Odd, so that every second
         // node includes the last.
         let size = (extent / spacing).to_array().map(|n| (n.ceil() as usize + 3) | 1);
@@ -76,7 +119,8 @@ impl Grid {
             let [a, b, c] = soup.corners(face);
             let low = self.first(a.min(b).min(c) - DVec3::splat(reach));
             let high = self.last(a.max(b).max(c) + DVec3::splat(reach));
-            for slab in &mut slabs[low[2] / SLAB..=high[2] / SLAB] {
+            // A part of a mesh may reach out of its grid.
+            for slab in slabs.iter_mut().take(high[2] / SLAB + 1).skip(low[2] / SLAB) {
                 slab.push(face);
             }
         }

