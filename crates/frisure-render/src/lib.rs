@@ -11,6 +11,7 @@
 #![forbid(unsafe_code)]
 
 pub mod accel;
+mod complexion;
 mod film;
 mod hash;
 mod picture;
@@ -19,6 +20,7 @@ pub mod preview;
 mod scene;
 pub mod trace;
 
+pub use complexion::{Material, SKIN_ROUGHNESS, material};
 pub use film::{Image, MAX_SIZE};
 pub use picture::PictureSpec;
 pub use scene::{Scene, framed_bounds, head_centre};

@@ -1,5 +1,7 @@
 //! The scene that both renderers draw: strands, head, camera, lights, materials.
 
+use std::borrow::Cow;
+
 use frisure_look::{Camera, Lights, Look};
 use frisure_strands::{Strands, Surface};
 use glam::DVec3;
@@ -33,6 +35,18 @@ impl<'a> Scene<'a> {
         let camera = Camera::framing(framed_bounds(strands, surface), 0.5, 0.08, 1.0);
         let lights = Lights::studio(&camera);
         Self { strands, surface, camera, lights, look: Look::default() }
+    }
+}
+
+impl Scene<'_> {
+    /// The hair together with the brows and lashes of the head, which have its colour.
+    #[must_use]
+    pub fn all_hair(&self) -> Cow<'_, Strands> {
+        let features = self.surface.and_then(Surface::features);
+        match features.filter(|features| !features.hairs.is_empty()) {
+            Some(features) => Cow::Owned(self.strands.followed_by(&features.hairs)),
+            None => Cow::Borrowed(self.strands),
+        }
     }
 }
 

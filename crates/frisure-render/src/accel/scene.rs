@@ -92,6 +92,12 @@ impl SceneBvh {
         }
     }
 
+    /// The closest hit of a ray on the head before `t_max` (m), whatever hair is before it.
+    #[must_use]
+    pub fn closest_skin_hit(&self, ray: &Ray, t_max: f32) -> Option<SkinHit> {
+        self.skin.closest_hit(self.level, ray, t_max).map(|found| self.skin_hit(ray, &found))
+    }
+
     /// Whether the ray hits anything before `t_max` (m): for shadow rays, faster than the closest hit.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {

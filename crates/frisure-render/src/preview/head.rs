@@ -1,11 +1,13 @@
 //! The head: its triangles, what of the environment reaches them, and which pixels of a tile it covers.
 
-use frisure_strands::Surface;
+use frisure_look::SkinLook;
+use frisure_strands::{Features, Surface, Tint};
 use glam::Vec3;
 
 use super::area::{Area, TILE};
 use super::projection::{NEAR, Projection};
 use super::raster;
+use crate::complexion::{self, Material};
 
 /// The surface that hair grows on, ready to be drawn.
 pub(super) struct Head {
@@ -14,6 +16,8 @@ pub(super) struct Head {
     triangles: Vec<[u32; 3]>,
     /// Irradiance / π of the environment at each vertex.
     environment: Vec<Vec3>,
+    features: Option<Features>,
+    look: SkinLook,
 }
 
 /// The part of the head in a pixel, averaged over its samples.
@@ -29,6 +33,14 @@ pub(super) struct HeadPixel {
     pub(super) normal: Vec3,
     /// Mean irradiance / π of the environment.
     pub(super) environment: Vec3,
+    /// Mean diffuse reflectance.
+    pub(super) colour: Vec3,
+    /// Mean strength of the gloss.
+    pub(super) gloss: f32,
+    /// Part beneath whose surface light scatters.
+    pub(super) deep: f32,
+    /// Part that is an eye's wet surface.
+    pub(super) wet: f32,
 }
 
 impl Head {
@@ -36,7 +48,34 @@ impl Head {
         let positions: Vec<Vec3> = surface.positions().iter().map(|p| p.as_vec3()).collect();
         let normals = surface.vertex_normals().iter().map(|n| n.as_vec3()).collect();
         let environment = vec![Vec3::ONE; positions.len()];
-        Self { positions, normals, triangles: surface.triangles().to_vec(), environment }
+        let features = surface.features().map(|features| Features {
+            tints: features.tints.clone(),
+            eyes: features.eyes.clone(),
+            ..Features::default()
+        });
+        Self {
+            positions,
+            normals,
+            triangles: surface.triangles().to_vec(),
+            environment,
+            features,
+            look: SkinLook::default(),
+        }
+    }
+
+    /// The same head in this look.
+    pub(super) fn looking(self, look: SkinLook) -> Self {
+        Self { look, ..self }
+    }
+
+    /// The material at a point of a face with these corners and weights.
+    fn material(&self, corners: [usize; 3], weights: Vec3, position: Vec3) -> Material {
+        let features = self.features.as_ref();
+        let tint = features.filter(|f| !f.tints.is_empty()).map_or(Tint::default(), |features| {
+            let [a, b, c] = corners.map(|v| features.tints[v]);
+            a * weights.x + b * weights.y + c * weights.z
+        });
+        complexion::material(features, tint, position, &self.look)
     }
 
     /// Sets the ambient irradiance / π at each vertex.
@@ -106,6 +145,10 @@ impl Head {
             pixel.depth *= mean;
             pixel.position *= mean;
             pixel.environment *= mean;
+            pixel.colour *= mean;
+            pixel.gloss *= mean;
+            pixel.wet *= mean;
+            pixel.deep *= mean;
             pixel.coverage *= part;
         }
         pixels
@@ -116,6 +159,12 @@ impl Head {
         let [a, b, c] = self.triangles[face as usize].map(|v| v as usize);
         let mix = |of: &[Vec3]| of[a] * weights.x + of[b] * weights.y + of[c] * weights.z;
         let (position, normal) = (mix(&self.positions), mix(&self.normals));
+        let material = self.material([a, b, c], weights, position);
+        let normal = material.normal.unwrap_or(normal);
+        pixel.colour += material.colour;
+        pixel.gloss += material.gloss;
+        pixel.deep += f32::from(u8::from(material.scatters));
+        pixel.wet += f32::from(u8::from(material.normal.is_some()));
         // Seen from inside (an open neck), a face is lit on the side that is seen.
         let towards = normal.dot(view.eye - position) >= 0.0;
         pixel.coverage += 1.0;

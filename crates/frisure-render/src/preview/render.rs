@@ -90,12 +90,14 @@ pub fn render(
     };
     report(0.0)?;
 
+    let hair = scene.all_hair();
+    let scene = &Scene { strands: &hair, ..scene.clone() };
     let view = Projection::new(&scene.camera, width, height);
     let scale = width_scale(scene.strands, options);
     let curves = Curves::new(scene.strands, &view, scale);
     report(0.1)?;
     let materials = Materials::new(scene.strands, &scene.look.hair);
-    let mut head = scene.surface.map(Head::new);
+    let mut head = scene.surface.map(|surface| Head::new(surface).looking(scene.look.skin));
     let shader = Shader::new(scene, &curves, materials, head.as_mut());
     report(0.3)?;
     let grid = TileGrid::new(&view, &curves, head.as_ref());

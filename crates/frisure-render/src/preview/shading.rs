@@ -6,20 +6,32 @@ use rayon::prelude::*;
 
 use super::ambient::{self, AmbientLight};
 use super::constants::{
-    ENVIRONMENT_GLOSS, HAIR_BIAS, OVERLAP, SKIN_BIAS, SKIN_GLOSS, SKIN_PENUMBRA, WET_DIFFUSE,
-    WET_REFLECTED, WET_RETURNED, WET_WIDTH, WRAP,
+    ENVIRONMENT_GLOSS, HAIR_BIAS, OVERLAP, SKIN_BIAS, SKIN_GLOSS, SKIN_HAIR_BLUR, SKIN_PENUMBRA,
+    SKIN_SPREAD, SKIN_WIDEST, WET_DIFFUSE, WET_GLINT, WET_GLOSS, WET_MIRROR, WET_REFLECTED,
+    WET_RETURNED, WET_WIDTH, WRAP, seeping_reach,
 };
 use super::curves::{Curves, Vertex};
 use super::density::DensityMap;
 use super::directional::DirectionalLights;
+use super::geometry::frame;
 use super::head::{Head, HeadPixel};
 use super::material::{Materials, glitter};
-use super::shadow::ShadowMap;
+use super::shadow::{Penumbra, ShadowMap};
 use crate::scene::{Scene, head_centre};
 use frisure_look::SkinLook;
 
 /// Optical depth from which a lamp counts for nothing: it leaves less than half a thousandth.
 const DARK: f32 = 7.6;
+
+/// Shadows of the head on itself.
+const PENUMBRA: Penumbra =
+    Penumbra { narrowest: SKIN_PENUMBRA, spread: SKIN_SPREAD, widest: SKIN_WIDEST };
+
+/// What light of a lamp lights, where it is `facing`: light that goes beneath the skin softens the edge of its own shadow.
+fn seeping(facing: f32, pixel: &HeadPixel, scatter: f32) -> Vec3 {
+    let more = seeping_reach(scatter) * pixel.deep;
+    ((Vec3::splat(facing) + more) / (Vec3::ONE + more)).max(Vec3::ZERO)
+}
 
 /// A lamp with its shadows.
 struct Lamp {
@@ -136,11 +148,20 @@ impl Shader {
         radiance
     }
 
+    /// Part of a lamp's light that the hair before a place on the skin lets pass, the mean over a small disc.
+    fn past_hair(&self, lamp: &Lamp, place: Vec3) -> Vec3 {
+        let Some(map) = &lamp.hair else { return Vec3::ONE };
+        let (u, v) = frame(lamp.to_light);
+        let passed = |at: Vec3| (-map.hairs_before(at) * self.extinction).exp();
+        let around = [u, -u, v, -v].map(|way| passed(place + SKIN_HAIR_BLUR * way));
+        (passed(place) + around.iter().sum::<Vec3>()) / 5.0
+    }
+
     /// Radiance of the head towards the eye.
     pub(super) fn skin(&self, pixel: &HeadPixel) -> Vec3 {
         let normal = pixel.normal.normalize_or_zero();
         let eye = (self.eye - pixel.position).normalize_or_zero();
-        let mut radiance = pixel.environment * self.skin.colour;
+        let mut radiance = pixel.environment * (pixel.colour + pixel.wet * WET_MIRROR);
         for lamp in &self.lamps {
             let facing = (normal.dot(lamp.to_light) + WRAP) / (1.0 + WRAP);
             if facing <= 0.0 {
@@ -148,15 +169,18 @@ impl Shader {
             }
             let lifted = pixel.position + SKIN_BIAS * normal;
             let head =
-                lamp.head.as_ref().map_or(1.0, |m| m.softly_lit(lifted, SKIN_BIAS, SKIN_PENUMBRA));
-            let hairs = lamp.hair.as_ref().map_or(0.0, |m| m.hairs_before(lifted));
-            let passed = head * (-hairs * self.extinction).exp();
+                lamp.head.as_ref().map_or(1.0, |m| m.softly_lit(lifted, SKIN_BIAS, PENUMBRA));
+            let passed = head * self.past_hair(lamp, lifted);
             let half = (lamp.to_light + eye).normalize_or_zero();
-            let gloss = self.skin.gloss * normal.dot(half).max(0.0).powi(SKIN_GLOSS);
+            let mirrored = normal.dot(half).max(0.0);
+            // The glint of a wet eye is small and bright.
+            let gloss = (1.0 - pixel.wet) * pixel.gloss * mirrored.powi(SKIN_GLOSS)
+                + pixel.wet * WET_GLINT * mirrored.powi(WET_GLOSS);
             radiance += passed
                 * lamp.irradiance
                 * std::f32::consts::FRAC_1_PI
-                * (facing * self.skin.colour + facing.min(1.0) * gloss);
+                * (seeping(facing, pixel, self.skin.scatter) * pixel.colour
+                    + facing.min(1.0) * gloss);
         }
         radiance
     }

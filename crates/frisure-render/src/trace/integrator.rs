@@ -13,8 +13,11 @@ use super::floor::Floor;
 use super::light_sampler::{LightSampler, power_heuristic};
 use super::rough_plastic::RoughPlastic;
 use super::sampler::Sampler;
+use super::subsurface::Subsurface;
 use crate::accel::{HairHit, Hit, Ray, SceneBvh, SkinHit};
+use crate::complexion::{Material, material};
 use frisure_look::SkinLook;
+use frisure_strands::{Surface, Tint};
 
 /// The scene that paths are traced through.
 pub(super) struct Integrator {
@@ -22,6 +25,8 @@ pub(super) struct Integrator {
     pub(super) fibres: Fibres,
     pub(super) lights: LightSampler,
     pub(super) skin: SkinLook,
+    /// The head, for what it is made of.
+    pub(super) head: Option<Surface>,
     pub(super) floor: Option<Floor>,
     pub(super) max_bounces: u32,
 }
@@ -105,6 +110,13 @@ impl Intersection {
     }
 }
 
+/// What a path sees at an intersection: where, with which BSDF, and the factor on its light.
+struct Seen<'a> {
+    intersection: Intersection,
+    bsdf: Bsdf<'a>,
+    weight: Vec3,
+}
+
 impl PrimaryHit {
     /// The face of a visible area light.
     fn lamp(t: f32, direction: Vec3) -> Self {
@@ -144,15 +156,22 @@ impl Integrator {
                 return path;
             }
 
-            // 3. Next-event estimation: the light-sampled half.
-            let bsdf = self.bsdf(&intersection, ray.direction());
+            // 3. Light that goes beneath the skin is seen where it comes out.
+            let Some(Seen { intersection, bsdf, weight }) =
+                self.seen(intersection, ray.direction(), bounce, sampler)
+            else {
+                return path;
+            };
+            throughput *= weight;
+
+            // 4. Next-event estimation: the light-sampled half.
             path.radiance += throughput * self.direct_light(&intersection, &bsdf, sampler);
 
-            // 4. Importance sampling of the BSDF.
+            // 5. Importance sampling of the BSDF.
             let Some(sample) = bsdf.sample(sampler) else { return path };
             throughput *= sample.weight;
 
-            // 5. Russian roulette.
+            // 6. Russian roulette.
             if bounce >= ROULETTE_START {
                 // A path goes on with probability q and its light is divided by q: the expected value stays.
                 let survival = throughput.max_element().min(MAX_SURVIVAL);
@@ -197,7 +216,7 @@ impl Integrator {
             Intersection::Hit(Hit::Skin(hit)) => PrimaryHit {
                 t: hit.t,
                 object: Object::Skin,
-                albedo: self.skin.colour,
+                albedo: self.material(hit).colour,
                 normal: facing(hit.smooth_normal, -direction),
             },
             Intersection::Floor { t, point } => {
@@ -219,12 +238,68 @@ impl Integrator {
         }
     }
 
+    /// What a ray sees at an intersection: of skin either its coat, or a place where light comes out that went in elsewhere.
+    fn seen(
+        &self,
+        intersection: Intersection,
+        direction: Vec3,
+        bounce: u32,
+        sampler: &mut Sampler,
+    ) -> Option<Seen<'_>> {
+        if let Intersection::Hit(Hit::Skin(hit)) = &intersection {
+            let material = self.material(hit);
+            let outside = hit.normal.dot(direction) < 0.0;
+            let deep = self.skin.scatter > 0.0 && material.scatters;
+            if deep && outside && bounce < SCATTERED_BOUNCES {
+                return self.scattered(hit, &material, direction, sampler);
+            }
+        }
+        let bsdf = self.bsdf(&intersection, direction);
+        Some(Seen { intersection, bsdf, weight: Vec3::ONE })
+    }
+
+    /// The coat of skin, or a place where light comes out, by their shares.
+    fn scattered(
+        &self,
+        hit: &SkinHit,
+        material: &Material,
+        direction: Vec3,
+        sampler: &mut Sampler,
+    ) -> Option<Seen<'_>> {
+        let surface = self.skin_bsdf(hit, -direction);
+        let coat = surface.coat_probability();
+        let which = sampler.one();
+        let ([a, b], [c, d]) = (sampler.pair(), sampler.pair());
+        if which < coat {
+            let bsdf = Bsdf::Surface(surface.coat_alone());
+            let intersection = Intersection::Hit(Hit::Skin(*hit));
+            return Some(Seen { intersection, bsdf, weight: Vec3::splat(1.0 / coat) });
+        }
+        let skin = Subsurface::new(material.colour, self.skin.scatter);
+        let (exit, weight) = skin.exit(&self.bvh, hit, [a, b, c, d])?;
+        if !self.material(&exit).scatters {
+            return None;
+        }
+        let normal = facing(exit.smooth_normal, exit.normal);
+        let bsdf = Bsdf::Surface(RoughPlastic::new(normal, normal, Vec3::ONE, 0.0, 1.0));
+        let weight = weight * (surface.let_out() / (1.0 - coat));
+        Some(Seen { intersection: Intersection::Hit(Hit::Skin(exit)), bsdf, weight })
+    }
+
+    /// What the head is made of at a hit.
+    fn material(&self, hit: &SkinHit) -> Material {
+        let features = self.head.as_ref().and_then(Surface::features);
+        let tint = |head: &Surface| head.tint(hit.face as usize, hit.barycentric);
+        let tint = self.head.as_ref().map_or(Tint::default(), tint);
+        material(features, tint, hit.position, &self.skin)
+    }
+
     fn skin_bsdf(&self, hit: &SkinHit, eye: Vec3) -> RoughPlastic {
-        let SkinLook { colour, gloss } = self.skin;
-        let normal = facing(hit.smooth_normal, eye);
+        let material = self.material(hit);
+        let normal = facing(material.normal.unwrap_or(hit.smooth_normal), eye);
         // At most that of a refractive index of 2.6, beyond any varnish.
-        let f0 = (F0_PER_GLOSS * gloss).clamp(0.0, 0.2);
-        RoughPlastic::new(normal, eye, colour, f0, SKIN_ROUGHNESS)
+        let f0 = (F0_PER_GLOSS * material.gloss).clamp(0.0, 0.2);
+        RoughPlastic::new(normal, eye, material.colour, f0, material.roughness)
     }
 
     fn hair_bsdf(&self, hit: &HairHit, direction: Vec3) -> Bsdf<'_> {
@@ -266,8 +341,8 @@ impl Integrator {
 /// which is that of a refractive index of 1.4. Chosen.
 const F0_PER_GLOSS: f32 = 0.24;
 
-/// Roughness of the coat of skin (slope, α of GGX); chosen by eye.
-const SKIN_ROUGHNESS: f32 = 0.3;
+/// Bounces whose hits on skin scatter light beneath it; later ones reflect where they hit. Chosen: the difference is not seen.
+const SCATTERED_BOUNCES: u32 = 2;
 
 /// The normal, flipped to the side of the eye.
 fn facing(normal: Vec3, eye: Vec3) -> Vec3 {

@@ -22,6 +22,7 @@ mod options;
 mod rough_plastic;
 mod sampler;
 mod scene_digest;
+mod subsurface;
 mod tracer;
 
 pub use accumulator::{

@@ -41,6 +41,21 @@ impl RoughPlastic {
         Self { frame, eye, body, f0, roughness, coat_probability }
     }
 
+    /// The probability with which [`Self::sample`] draws from the coat.
+    pub(super) fn coat_probability(&self) -> f32 {
+        self.coat_probability
+    }
+
+    /// The coat alone, without the body.
+    pub(super) fn coat_alone(self) -> Self {
+        Self { body: Vec3::ZERO, coat_probability: 1.0, ..self }
+    }
+
+    /// Share of the light towards the eye that the coat lets out.
+    pub(super) fn let_out(&self) -> f32 {
+        1.0 - fresnel(self.f0, self.eye.z)
+    }
+
     /// BSDF times the cosine, and the pdf of [`Self::sample`] (1/sr).
     pub(super) fn evaluate(&self, towards: Vec3) -> (Vec3, f32) {
         let towards = Vec3::from_array(self.frame.map(|axis| axis.dot(towards)));

@@ -1,7 +1,7 @@
 //! The digest of what a picture shows.
 
 use frisure_digest::Digest;
-use frisure_strands::{AttributeValues, Strands};
+use frisure_strands::{AttributeValues, Eye, Strands};
 use glam::{DVec3, Vec3};
 
 use super::options::TraceOptions;
@@ -18,6 +18,14 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
         digest.packed("positions", positions.map(f64::to_le_bytes));
         let corners = surface.triangles().iter().flatten();
         digest.packed("triangles", corners.map(|corner| corner.to_le_bytes()));
+        if let Some(features) = surface.features() {
+            let tints = features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment]);
+            digest.packed("tints", tints.map(f32::to_le_bytes));
+            let eye = |e: &Eye| [e.centre.to_array(), [e.radius; 3], e.gaze.to_array()];
+            let eyes = features.eyes.iter().flat_map(eye).flatten();
+            digest.packed("eyes", eyes.map(f64::to_le_bytes));
+            add_strands(&mut digest, &features.hairs);
+        }
     }
     digest.field("look", look);
     let TraceOptions { width, height, bounces, seed, .. } = *options;

@@ -52,12 +52,14 @@ impl Tracer {
         if !scene.strands.iter().any(|strand| strand.points.len() >= 2) {
             return Err(TraceError::NoHair);
         }
-        let fibres = Fibres::new(scene.strands, &scene.look.hair).map_err(TraceError::Fibre)?;
+        let hair = scene.all_hair();
+        let fibres = Fibres::new(&hair, &scene.look.hair).map_err(TraceError::Fibre)?;
         let integrator = Integrator {
-            bvh: SceneBvh::new(scene.strands, scene.surface, &CurveOptions::default())?,
+            bvh: SceneBvh::new(&hair, scene.surface, &CurveOptions::default())?,
             fibres,
             lights: LightSampler::new(&scene.lights),
             skin: scene.look.skin,
+            head: scene.surface.cloned(),
             floor: scene.look.floor.as_ref().map(Floor::new),
             max_bounces: options.bounces,
         };
@@ -66,7 +68,7 @@ impl Tracer {
             integrator,
             background: scene.look.background,
             options: *options,
-            wisps: wisps(scene.strands),
+            wisps: wisps(&hair),
             scene_digest: scene_digest(scene, options),
             digest: 0,
         };

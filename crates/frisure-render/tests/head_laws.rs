@@ -1,0 +1,135 @@
+//! What holds for light on a head: skin, eyes, brows and lashes.
+
+use frisure_look::{Background, Camera, Lights, Look, Melanin, SkinLook};
+use frisure_render::preview::{self, PreviewOptions};
+use frisure_render::trace::{TraceOptions, render};
+use frisure_render::{Image, Scene};
+use frisure_strands::{Eye, Features, Strands, Surface, Tint};
+use glam::{DVec3, Vec3};
+
+/// A ball of 8 cm with an eye of 1.2 cm in its front.
+fn ball() -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let (rings, around) = (48_u32, 96_u32);
+    let point = |i: u32, j: u32| {
+        let polar = std::f64::consts::PI * f64::from(i) / f64::from(rings);
+        let turn = std::f64::consts::TAU * f64::from(j) / f64::from(around);
+        0.08 * DVec3::new(polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos())
+    };
+    let positions = (0..=rings).flat_map(|i| (0..around).map(move |j| point(i, j))).collect();
+    let at = |i: u32, j: u32| i * around + j % around;
+    let quads = (0..rings).flat_map(|i| (0..around).map(move |j| (i, j)));
+    let faces = quads.flat_map(|(i, j)| {
+        [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]]
+    });
+    (positions, faces.collect())
+}
+
+fn skin() -> Surface {
+    let (positions, faces) = ball();
+    Surface::new(positions, faces).unwrap()
+}
+
+/// A hair that no picture of the ball shows.
+fn hidden_hair() -> Strands {
+    let mut strands = Strands::new();
+    strands.push(&[Vec3::ZERO, Vec3::Z * 0.01], &[1e-5; 2]);
+    strands
+}
+
+fn scene<'a>(strands: &'a Strands, surface: &'a Surface, skin: SkinLook) -> Scene<'a> {
+    let camera = Camera::look_at(DVec3::new(0.0, -1.0, 0.0), DVec3::ZERO, DVec3::Z, 0.2).unwrap();
+    let look = Look { skin, background: Background::Transparent, ..Look::default() };
+    Scene {
+        camera,
+        look,
+        lights: Lights::even(Vec3::ONE),
+        ..Scene::portrait(strands, Some(surface))
+    }
+}
+
+fn traced(scene: &Scene<'_>, samples: u32) -> Image {
+    let options =
+        TraceOptions { width: 24, height: 24, samples, noise: None, bounces: 200, seed: 1 };
+    render(scene, &options, &()).unwrap()
+}
+
+/// Mean light of what is covered.
+fn mean(image: &Image) -> Vec3 {
+    let sum = image.pixels().iter().fold([0.0_f64; 4], |mut sum, pixel| {
+        sum.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += f64::from(*value));
+        sum
+    });
+    Vec3::new((sum[0] / sum[3]) as f32, (sum[1] / sum[3]) as f32, (sum[2] / sum[3]) as f32)
+}
+
+#[test]
+fn white_skin_in_a_white_room_cannot_be_seen() {
+    // White furnace: what goes beneath the skin and is not absorbed comes out again, and so does what the coat mirrors.
+    let (surface, hair) = (skin(), hidden_hair());
+    for (gloss, scatter) in [(0.0, 3.7e-3), (0.0, 1e-3), (0.12, 3.7e-3)] {
+        let look = SkinLook { colour: Vec3::ONE, gloss, scatter, ..SkinLook::default() };
+        let light = mean(&traced(&scene(&hair, &surface, look), 256));
+        assert!((light - Vec3::ONE).abs().max_element() < 0.03, "{gloss} {scatter}: {light}");
+    }
+}
+
+#[test]
+fn skin_that_scatters_is_as_light_as_skin_that_does_not() {
+    let (surface, hair) = (skin(), hidden_hair());
+    let light = |scatter| {
+        let look = SkinLook { gloss: 0.0, scatter, ..SkinLook::default() };
+        mean(&traced(&scene(&hair, &surface, look), 128))
+    };
+    let ratio = light(3.7e-3) / light(0.0);
+    assert!((ratio - Vec3::ONE).abs().max_element() < 0.05, "{ratio}");
+}
+
+fn preview(scene: &Scene<'_>) -> Image {
+    let options = PreviewOptions { width: 96, height: 96, ..PreviewOptions::default() };
+    preview::render(scene, &options, &()).unwrap()
+}
+
+#[test]
+fn brows_are_in_both_pictures_and_in_no_hair() {
+    let (surface, hair) = (skin(), hidden_hair());
+    let mut brows = Strands::new();
+    for i in 0..200_u16 {
+        let x = -0.03 + 3e-4 * f32::from(i);
+        brows.push(&[Vec3::new(x, -0.081, 0.0), Vec3::new(x, -0.081, 0.02)], &[1e-4; 2]);
+    }
+    let features = Features { hairs: brows, ..Features::default() };
+    let with = surface.clone().with_features(features).unwrap();
+    let look = SkinLook { colour: Vec3::splat(0.8), ..SkinLook::default() };
+    let dark = |surface: &Surface, draw: &dyn Fn(&Scene<'_>) -> Image| {
+        let mut scene = scene(&hair, surface, look);
+        scene.look.hair.melanin = Melanin::BLACK;
+        assert_eq!(scene.strands.len(), 1);
+        mean(&draw(&scene)).y
+    };
+    for draw in [&preview as &dyn Fn(&Scene<'_>) -> Image, &|scene| traced(scene, 32)] {
+        assert!(dark(&with, draw) < 0.97 * dark(&surface, draw));
+    }
+}
+
+#[test]
+fn an_eye_has_an_iris_in_both_pictures() {
+    let (mut positions, mut faces) = ball();
+    let first = positions.len() as u32;
+    let centre = DVec3::new(0.0, -0.074, 0.0);
+    let (eye, triangles) = ball();
+    positions.extend(eye.iter().map(|p| centre + *p * (0.012 / 0.08)));
+    faces.extend(triangles.iter().map(|t| t.map(|v| v + first)));
+    let eye = Eye { centre, radius: 0.012, gaze: -DVec3::Y };
+    let tints = vec![Tint::default(); positions.len()];
+    let features = Features { tints, eyes: vec![eye], hairs: Strands::new() };
+    let surface = Surface::new(positions, faces).unwrap().with_features(features).unwrap();
+    let hair = hidden_hair();
+    let look = SkinLook { iris: Vec3::new(0.02, 0.05, 0.4), ..SkinLook::default() };
+    let scene = scene(&hair, &surface, look);
+    for (image, width) in [(preview(&scene), 96), (traced(&scene, 64), 24)] {
+        // Beside the middle of the picture, where the pupil is: 3 mm of 20 cm across.
+        let at = (width / 2) * width + width / 2 + width * 3 / 200;
+        let pixel = image.pixels()[at];
+        assert!(pixel[2] > 1.5 * pixel[0], "{pixel:?}");
+    }
+}
