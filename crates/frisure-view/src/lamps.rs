@@ -8,7 +8,7 @@ pub(crate) const LAMPS: usize = 4;
 /// Texels along a side of the maps of hair, of where hair begins, and of the head. Chosen for speed.
 pub(crate) const HAIR_MAP: u32 = 256;
 pub(crate) const FIRST_MAP: u32 = 128;
-pub(crate) const HEAD_MAP: u32 = 384;
+pub(crate) const HEAD_MAP: u32 = 640;
 
 /// A lamp as the shaders have it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,8 @@
 //! The head on the device.
 
 use bytemuck::cast_slice;
+use frisure_look::SkinLook;
+use frisure_render::material;
 use frisure_strands::{Strands, Surface};
 use glam::{DVec3, Vec3};
 use wgpu::{Buffer, BufferUsages, Device, Queue};
@@ -18,6 +20,8 @@ pub struct Skin {
     version: u64,
     /// Position and normal of each vertex.
     vertices: Buffer,
+    /// Colour of each vertex, and whether it is one of its own (1) or a factor on that of the skin (0).
+    paint: Buffer,
     indices: Buffer,
     corners: u32,
 }
@@ -44,6 +48,13 @@ impl Skin {
                 cast_slice(&values[..2 * kept]),
                 BufferUsages::VERTEX,
             ),
+            paint: gpu::buffer(
+                device,
+                queue,
+                "colours of the head",
+                cast_slice(&paint(surface)[..kept]),
+                BufferUsages::VERTEX,
+            ),
             indices: gpu::buffer(device, queue, "faces", cast_slice(&indices), BufferUsages::INDEX),
             corners: indices.len() as u32,
             surface: surface.clone(),
@@ -58,6 +69,11 @@ impl Skin {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..self.corners, 0, 0..1);
+    }
+
+    /// Colours of the vertices.
+    pub(crate) fn paint(&self) -> &Buffer {
+        &self.paint
     }
 
     pub(crate) fn version(&self) -> u64 {
@@ -83,4 +99,18 @@ impl Skin {
         let (low, high) = self.surface.bounds();
         (low.as_vec3(), high.as_vec3())
     }
+}
+
+/// Colour of each vertex: that of eyes and garment, or a factor on that of the skin.
+fn paint(surface: &Surface) -> Vec<[f32; 4]> {
+    let look = SkinLook { colour: Vec3::ONE, ..SkinLook::default() };
+    let features = surface.features();
+    let tints = features.map_or(&[][..], |features| &features.tints);
+    let of = |(index, p): (usize, &DVec3)| {
+        let tint = tints.get(index).copied().unwrap_or_default();
+        let material = material(features, tint, p.as_vec3(), &look);
+        let own = if material.scatters { 0.0 } else { 1.0 };
+        [material.colour.x, material.colour.y, material.colour.z, own]
+    };
+    surface.positions().iter().enumerate().map(of).collect()
 }

@@ -16,7 +16,7 @@ const LIFT: f32 = 2.3e-3;
 const HALF_CELL: f32 = 1.1e-3;
 
 /// Bytes of all of them.
-pub(crate) const BYTES: usize = 16 * (18 + 7 * LAMPS + 5 * MAX_PLANES);
+pub(crate) const BYTES: usize = 16 * (20 + 7 * LAMPS + 5 * MAX_PLANES);
 
 /// A vector and a number.
 fn four(v: Vec3, w: f32) -> [f32; 4] {
@@ -64,7 +64,7 @@ fn view(camera: &Camera, width: u32, height: u32, width_factor: f32) -> [[f32; 4
     ]
 }
 
-fn materials(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 6] {
+fn materials(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 8] {
     let surface = frame.look.hair.surface;
     let shape =
         LobeShape::of(surface.longitudinal_roughness, surface.azimuthal_roughness, surface.tilt);
@@ -88,6 +88,8 @@ fn materials(frame: &Frame<'_>, vertices: usize) -> [[f32; 4]; 6] {
             constants::SKIN_PENUMBRA,
             constants::SKIN_GLOSS as f32,
         ],
+        four(constants::seeping_reach(skin.scatter), constants::SKIN_SPREAD),
+        [constants::SKIN_WIDEST, 0.0, 0.0, 0.0],
     ]
 }
 

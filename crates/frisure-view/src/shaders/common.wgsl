@@ -53,6 +53,10 @@ struct Picture {
     skin: vec4<f32>,
     // Skin: wrap, bias (m), penumbra (m), exponent.
     skin_shape: vec4<f32>,
+    // How much farther light beneath the skin makes each colour reach; w: blur of shadows per distance of what casts them.
+    skin_depth: vec4<f32>,
+    // Widest blur of shadows on skin (m); three numbers unused.
+    skin_blur: vec4<f32>,
     // Ambient grid: low corner (m), 1 / distance of nodes (1/m).
     room_low: vec4<f32>,
     // Ambient grid: nodes along each side; w: how far hair is lifted to a lamp (m).

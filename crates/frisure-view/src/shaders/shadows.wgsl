@@ -42,6 +42,18 @@ fn hairs_met(lamp: Lamp, p: vec3<f32>, lift: f32, half_cell: f32) -> Met {
     return Met(before, max(around, 0.0));
 }
 
+// How far before a place the head is, as a lamp sees it (m); 0 where nothing is.
+fn blocker(lamp: Lamp, p: vec3<f32>, bias: f32) -> f32 {
+    let m = in_maps(lamp, p);
+    let size = lamp.head.w;
+    let g = (0.5 + 0.5 * (m.xy - lamp.head.xy) * lamp.head.z) * size;
+    if any(g < vec2<f32>(1.0)) || any(g > vec2<f32>(size - 2.0)) {
+        return 0.0;
+    }
+    let gap = m.z - lamp.head_range.x - textureLoad(head_depth, vec2<i32>(g), i32(lamp.towards.w), 0).x;
+    return select(0.0, gap, gap > bias);
+}
+
 // Part of the lamp that the head does not hide from a point, moved towards it by `bias` (m).
 fn past_head(lamp: Lamp, p: vec3<f32>, bias: f32) -> f32 {
     let m = in_maps(lamp, p);

@@ -9,6 +9,7 @@ struct Vertex {
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) ambient: vec3<f32>,
+    @location(3) paint: vec4<f32>,
 }
 
 struct Skin {
@@ -18,6 +19,8 @@ struct Skin {
     @location(2) ambient: vec3<f32>,
     // Lamps, and whether the head's shadows are soft.
     @location(3) @interpolate(flat) kinds: vec2<i32>,
+    // Colour, and whether it is one of its own (1) or a factor on that of the skin (0).
+    @location(4) paint: vec4<f32>,
 }
 
 fn projected(p: vec3<f32>) -> vec4<f32> {
@@ -30,7 +33,7 @@ fn projected(p: vec3<f32>) -> vec4<f32> {
 
 @vertex
 fn skin_vertex(in: Vertex) -> Skin {
-    return Skin(projected(in.position), in.position, in.normal, in.ambient, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)));
+    return Skin(projected(in.position), in.position, in.normal, in.ambient, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)), in.paint);
 }
 
 // Places on a lamp as wide as a soft box: the middle, a ring of eight of which four come first, and a ring of four
@@ -47,7 +50,19 @@ fn on_lamp(lamp: Lamp, i: i32, radius: f32) -> vec3<f32> {
 
 // Part of the lamp that the head does not hide: of `places` places on it, of which the first few tell that all are
 // open or none. One loop and not thirteen calls: software compiles each call anew.
-fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, places: i32) -> f32 {
+fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, places: i32) -> f32 {
+    // The farther away what casts the shadow is, the wider the blur (percentage-closer soft shadows).
+    var radius = picture.skin_shape.z;
+    if places > 1 {
+        var distance = 0.0;
+        var casting = 0.0;
+        for (var i = 0; i < FEW; i += 1) {
+            let gap = blocker(lamp, p + on_lamp(lamp, i, picture.skin_blur.x), bias);
+            distance += gap;
+            casting += select(0.0, 1.0, gap > 0.0);
+        }
+        radius = clamp(picture.skin_depth.w * distance / max(casting, 1.0), radius, picture.skin_blur.x);
+    }
     var open = 0.0;
     var count = places;
     for (var i = 0; i < count; i += 1) {
@@ -60,7 +75,7 @@ fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, radius: f32, places: i32)
 }
 
 // The light of a lamp that skin at a place sends to the eye.
-fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, places: i32) -> vec3<f32> {
+fn skin_from(lamp: Lamp, colour: vec4<f32>, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, places: i32) -> vec3<f32> {
     let wrap = picture.skin_shape.x;
     let bias = picture.skin_shape.y;
     // Diffuse light wrapped past the terminator, and a Blinn-Phong gloss, as `preview/shading.rs` has them.
@@ -69,12 +84,15 @@ fn skin_from(lamp: Lamp, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, pl
         return vec3<f32>(0.0);
     }
     let lifted = place + bias * normal;
-    let open = past_head_from(lamp, lifted, bias, picture.skin_shape.z, places);
+    let open = past_head_from(lamp, lifted, bias, places);
     let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
     let passed = open * exp(-met.before * picture.extinction.rgb);
     let half = normalize(lamp.towards.xyz + eye);
     let gloss = picture.skin.a * pow(max(dot(normal, half), 0.0), picture.skin_shape.w);
-    return passed * lamp.light.rgb / PI * (facing * picture.skin.rgb + min(facing, 1.0) * gloss);
+    // Red light goes far beneath the skin.
+    let more = picture.skin_depth.rgb * (1.0 - colour.a);
+    let lit = max((facing + more) / (1.0 + more), vec3<f32>(0.0));
+    return passed * lamp.light.rgb / PI * (lit * colour.rgb + min(facing, 1.0) * gloss);
 }
 
 // The ambient light and the lamps', as the preview has it.
@@ -86,9 +104,11 @@ fn skin(in: Skin) -> @location(0) vec4<f32> {
     let eye = normalize(picture.eye.xyz - in.place);
     var normal = normalize(in.normal);
     normal = select(normal, -normal, dot(normal, eye) < 0.0);
-    var light = in.ambient * picture.skin.rgb;
+    let paint = in.paint.rgb * mix(picture.skin.rgb, vec3<f32>(1.0), in.paint.a);
+    let colour = vec4<f32>(paint, in.paint.a);
+    var light = in.ambient * paint;
     for (var i = 0; i < in.kinds.x; i += 1) {
-        light += skin_from(picture.lamps[i], in.place, normal, eye, select(1, ALL, in.kinds.y > 0));
+        light += skin_from(picture.lamps[i], colour, in.place, normal, eye, select(1, ALL, in.kinds.y > 0));
     }
     return vec4<f32>(behind_planes(light, in.place), 1.0);
 }
