@@ -75,7 +75,11 @@ impl HeadCache {
 
 fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
     let Some(mesh) = head_mesh(scene, files)? else {
-        return Ok(LoadedHead { head: MANNEQUIN.clone(), note: None });
+        let person = match &scene.head {
+            HeadSource::Person(name) => Head::named(name).map(Arc::new),
+            _ => None,
+        };
+        return Ok(LoadedHead { head: person.unwrap_or_else(|| MANNEQUIN.clone()), note: None });
     };
     let note = head_note(scene, &mesh);
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);

@@ -34,6 +34,7 @@ pub(crate) const GROUPS: [Group; 17] = [
     &[&["pose.pitch", "pose.roll"], &["pose.down"]],
     &[&["head.scalp_group"], &["head.scalp_colour"], &["head.scalp_mask"], &["head.scalp_weights"]],
     &[&["head.unit"], &["head.scale"]],
+    &[&["head.model"], &["head.mesh"]],
     &[&["region[].length"], &["region[].down_to"]],
     &[&["equilibrium.elements"], &["equilibrium.accuracy"]],
     &[

@@ -22,8 +22,8 @@ use crate::control::{
 };
 use crate::declaration::{Access, Declaration, field, number, table, value};
 use crate::keywords::{
-    BackdropKind, BranchKind, FlowWord, HairType, Keyword, PartingPlace, Places, ShadeWord,
-    UnitWord, WettingWord,
+    BackdropKind, BranchKind, FlowWord, HairType, Keyword, ModelWord, PartingPlace, Places,
+    ShadeWord, UnitWord, WettingWord,
 };
 use crate::kind::{
     Acceleration, Angle, Colour, Count, Density, FaceSize, Flag, Length, Modulus, NumberDensity,
@@ -174,7 +174,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "hair.root.t" => value::<Vector>();
         /// The head that hair grows on; left out, the built-in mannequin.
         "head" => table();
-        /// Path of a mesh (OBJ, USD, glTF or PLY), relative to the scene. Left out, the built-in mannequin.
+        /// A built-in head. Default "mannequin".
+        "head.model" => value::<OneOf<ModelWord>>();
+        /// Path of a mesh (OBJ, USD, glTF or PLY), relative to the scene. Left out, a built-in head.
         "head.mesh" => value::<Text>();
         /// Unit of the mesh. Default: the unit that the file or its format states. OBJ and PLY state none: "m", or a guess from
         /// the size of the mesh.
@@ -456,6 +458,17 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
             .field(field!(look.hair.surface.index));
         /// Colour of the skin (sRGB). Default: that of the hair type.
         "look.skin" => value::<Colour>();
+        /// How far light goes beneath the skin, for final pictures: the diffuse mean free path of red light; {}. Default 3.7 mm; 0
+        /// for none.
+        "look.scatter" => number::<Length>().range(0.0, 0.02, "between 0 and 20 mm")
+            .field(field!(look.skin.scatter));
+        /// Strength of the skin's soft gloss; {}. Default 0.12.
+        "look.gloss" => number::<Ratio>().range(0.0, 1.0, "between 0 and 1")
+            .field(field!(look.skin.gloss));
+        /// Colour of the irises (sRGB) of a head with open eyes. Default: that of the hair type.
+        "look.iris" => value::<Colour>();
+        /// Colour of the garment (sRGB) of a head that wears one. Default a dark grey.
+        "look.garment" => value::<Colour>();
         /// What is behind the head. Default "surroundings" where sky or an environment light it, else "wall".
         "look.background" => value::<BackdropKind>()
             .options(Panel::Look, "Background", "What is behind the head.");

@@ -1,7 +1,7 @@
 //! The keywords of scene keys.
 
 use frisure_files::frame::UpAxis;
-use frisure_hairstyle::head::Region;
+use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::{
     Body, Comb, Ellipticity, HairContact, HairModel, Handedness, HeadMethod, Level, PRESETS,
     Parting, Place, Preset, Turn, Wetting,
@@ -73,6 +73,23 @@ impl Choice for ShadeWord {
             ("ginger", "copper"),
             ("strawberry-blond", "copper"),
         ]
+    }
+}
+
+/// Name of the head that a scene has, if it names none.
+pub(crate) const MANNEQUIN: &str = "mannequin";
+
+/// The name of a built-in head.
+#[derive(Clone, Copy)]
+pub(crate) struct ModelWord(pub(crate) &'static str);
+
+impl Choice for ModelWord {
+    fn keywords() -> Vec<(&'static str, &'static str, Self)> {
+        let about = |name: &str| match name {
+            MANNEQUIN => "a training head with closed eyes",
+            _ => "a person with open eyes and a garment",
+        };
+        Head::names().map(|name| (name, about(name), Self(name))).collect()
     }
 }
 

@@ -83,7 +83,17 @@ impl NaturalLook {
     /// Skin of this colour.
     #[must_use]
     pub fn skin(&self) -> SkinLook {
-        SkinLook { colour: linear_from_srgb(self.skin), ..SkinLook::default() }
+        // Eyes are dark where hair is; light hair goes with grey-blue ones more often than not. Chosen.
+        let iris = match self.colour.melanin.eumelanin {
+            dark if dark >= 0.7 => rgb(0x5a, 0x3b, 0x24),
+            medium if medium >= 0.3 => rgb(0x6f, 0x62, 0x44),
+            _ => rgb(0x6a, 0x82, 0x98),
+        };
+        SkinLook {
+            colour: linear_from_srgb(self.skin),
+            iris: linear_from_srgb(iris),
+            ..SkinLook::default()
+        }
     }
 }
 

@@ -62,6 +62,8 @@ pub struct SingleHair {
 pub enum HeadSource {
     /// The built-in mannequin.
     Mannequin,
+    /// A built-in head of a person, by name.
+    Person(&'static str),
     /// A mesh.
     Mesh(HeadFile),
 }

@@ -27,6 +27,35 @@ fn an_empty_file_is_a_scene() {
 }
 
 #[test]
+fn built_in_heads_have_names_and_a_wrong_one_gets_the_list() {
+    let of = |model: &str| good(&format!("head.model = \"{model}\"")).head;
+    assert_eq!(of("mannequin"), HeadSource::Mannequin);
+    assert_eq!(of("older-man"), HeadSource::Person("older-man"));
+    let wrong = diagnostic("head.model = \"old-man\"").to_string();
+    for name in ["mannequin", "african-woman", "asian-man", "european-woman", "older-man"] {
+        assert!(wrong.contains(name), "{wrong}");
+    }
+    // A mesh and a built-in head are two heads.
+    diagnostic("[head]\nmodel = \"asian-man\"\nmesh = \"head.obj\"");
+    diagnostic("[head]\nmodel = \"asian-man\"\nscale = 2");
+}
+
+#[test]
+fn the_look_of_a_face_is_read() {
+    let scene = good(
+        "[hair]\ntype = \"african-coily\"\n[look]\niris = \"#0000ff\"\ngarment = \"#ffffff\"\n\
+         scatter = \"2 mm\"\ngloss = 0.5",
+    );
+    let skin = scene.look.skin;
+    assert_eq!((skin.iris, skin.garment), (Vec3::Z, Vec3::ONE));
+    assert_eq!((skin.scatter, skin.gloss), (2e-3, 0.5));
+    diagnostic("look.scatter = \"5 cm\"");
+    let iris = |kind: &str| good(&format!("hair.type = \"{kind}\"")).look.skin.iris;
+    assert!(iris("african-coily").x > iris("african-coily").z);
+    assert!(iris("caucasian-straight").z > iris("caucasian-straight").x);
+}
+
+#[test]
 fn a_type_gives_its_preset_unchanged() {
     for preset in PRESETS {
         let scene = good(&format!("[hair]\ntype = \"{}\"", preset.name));

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{HairType, PRESETS, Preset, Wetting};
 use frisure_engine::Error;
 use serde::Serialize;
@@ -40,6 +41,9 @@ fn table() -> String {
             preset.description,
         );
     }
+    let heads: Vec<_> = Head::names().collect();
+    // Writing to a String cannot fail.
+    let _ = writeln!(out, "\nheads (`model` in `[head]`): {}", heads.join(", "));
     out.push_str("\naxes: longer over shorter axis of the section; curl: diameter of the curve\n");
     out
 }

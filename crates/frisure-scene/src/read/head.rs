@@ -10,7 +10,7 @@ use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::Result;
 use crate::key_groups::{GROOM, HEAD};
-use crate::keywords::{Keyword, UnitWord};
+use crate::keywords::{Keyword, MANNEQUIN, ModelWord, UnitWord};
 use crate::kind::{Point, Text, Vector};
 use crate::placement::Placement;
 use crate::scene::{GroomFile, HeadSource};
@@ -22,7 +22,10 @@ const GROOM_GUIDES: f64 = 300.0;
 pub(super) fn head(document: &Document<'_>, folder: &Path) -> Result<HeadSource> {
     let Some(mesh) = document.get::<Text>(HEAD[0])? else {
         return match document.first(&HEAD[1..]) {
-            None => Ok(HeadSource::Mannequin),
+            None => Ok(match document.get::<OneOf<ModelWord>>("head.model")? {
+                Some(ModelWord(name)) if name != MANNEQUIN => HeadSource::Person(name),
+                _ => HeadSource::Mannequin,
+            }),
             Some(key) => {
                 let problem = format!("`{key}` is about a mesh, and the scene has none");
                 Err(document.error(key, problem, "add `mesh = \"head.obj\"` to `[head]`"))

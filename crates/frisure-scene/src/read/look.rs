@@ -63,7 +63,12 @@ pub(super) fn look(
     let skin = natural.skin();
     Ok(LookSpec {
         hair,
-        skin: SkinLook { colour: colour("look.skin")?.unwrap_or(skin.colour), ..skin },
+        skin: SkinLook {
+            colour: colour("look.skin")?.unwrap_or(skin.colour),
+            iris: colour("look.iris")?.unwrap_or(skin.iris),
+            garment: colour("look.garment")?.unwrap_or(skin.garment),
+            ..skin
+        },
         backdrop: document.get_or::<BackdropKind>("look.background", backdrop)?,
         floor: colour("look.floor")?,
     })
