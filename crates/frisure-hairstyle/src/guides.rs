@@ -35,6 +35,8 @@ pub struct Guide {
     /// How many times as hard as usual it presses on the skin for being held in a shape, which skin
     /// has to bear.
     pub(crate) firmness: f64,
+    /// Force per length, in weights of the hair, with which the hair beneath holds it out of the face where it was combed.
+    pub(crate) hold: f64,
     /// Mean natural strain (rad/m), about which it varies along the hair.
     pub(crate) curl: DVec3,
     /// Its planned length over that of the head; 1 where a region says the length.
@@ -63,7 +65,8 @@ pub(crate) fn plan(
         .map(|(index, &root)| {
             let altitude = altitudes.of(&root);
             let planned = fibre(spec, head, layout, &root, index)?;
-            Ok(covered(spec, head, area, root, altitude, planned))
+            let hold = spec.implantation.hold * layout.held(&root);
+            Ok(Guide { hold, ..covered(spec, head, area, root, altitude, planned) })
         })
         .collect()
 }
@@ -103,7 +106,8 @@ pub(crate) fn covered(
     let region = head.landmarks().region(root.position);
     let thickness = thickness(spec, area, &rod);
     let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
-    Guide { root, region, rod, thickness, layer, bed: None, pull: None, firmness: 1.0, curl, share }
+    let (bed, pull, firmness, hold) = (None, None, 1.0, 0.0);
+    Guide { root, region, rod, thickness, layer, bed, pull, firmness, hold, curl, share }
 }
 
 /// Cross-section of hair per area of skin, in the middle of a guide.

@@ -255,6 +255,11 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "implantation.jitter" => number::<Angle>()
             .slider(Panel::Implantation, "Disorder", DEGREES, (0.0, 57.0), 0,
                 "Standard deviation of the direction in which neighbouring wisps leave the scalp.");
+        /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face;
+        /// {}. Default 1.2.
+        "implantation.hold" => number::<Ratio>()
+            .slider(Panel::Implantation, "Hold", TIMES, (0.0, 2.0), 2,
+                "How well combed hair stays out of the face, in weights of the hair.");
         /// The edge of the hair, against the usual line. A scalp that comes with a mesh keeps its own.
         "implantation.hairline" => table();
         /// Standard deviation from a smooth line; {}. Default 1.5 mm.
@@ -339,9 +344,27 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Further factors on the width of a wisp at root, middle and tip; each 0 to 10. Default
         /// [1, 1, 1].
         "wisps.profile" => value::<Vector>();
-        /// Number of thinner wisps that each wisp splits into; {}.
+        /// Number of thinner wisps that each wisp splits into, in the mean; {}, 1 for none.
         "wisps.splits" => number::<Count>()
             .slider(Panel::Wisps, "Splits", NUMBER, (1.0, 20.0), 0, "Thinner wisps into which each wisp parts.");
+        /// Standard deviation of the logarithm of the width of splits; {}.
+        "wisps.split_variation" => number::<Ratio>()
+            .slider(Panel::Wisps, "Split sizes", PERCENT, (0.0, 100.0), 0, "How much splits differ in width.");
+        /// How far hairs gather to the middle of their split at the tip; {}.
+        "wisps.split_clumping" => number::<Ratio>()
+            .slider(Panel::Wisps, "Split clumping", PERCENT, (0.0, 100.0), 0, "How far the hairs of a split gather.");
+        /// Number of still thinner wisps in each split; {}, 1 for none.
+        "wisps.subsplits" => number::<Count>()
+            .slider(Panel::Wisps, "Subsplits", NUMBER, (1.0, 20.0), 0, "Still thinner wisps into which each split parts.");
+        /// How far the curls of splits are out of step with their guide; {}, 1 for any phase.
+        "wisps.split_phase" => number::<Ratio>()
+            .slider(Panel::Wisps, "Split phase", PERCENT, (0.0, 100.0), 0, "How far the curls of splits are out of step.");
+        /// How far the curls of hairs are out of step with their split; {}.
+        "wisps.hair_phase" => number::<Ratio>()
+            .slider(Panel::Wisps, "Hair phase", PERCENT, (0.0, 100.0), 0, "How far the curls of single hairs are out of step.");
+        /// Standard deviation of the radius of curls between splits and between hairs, as a fraction; {}.
+        "wisps.radius_variation" => number::<Ratio>()
+            .slider(Panel::Wisps, "Curl widths", PERCENT, (0.0, 50.0), 0, "How much curls differ in width.");
         /// How far hairs stray from their place, as a fraction of the wisp's radius; {}.
         "wisps.fuzziness" => number::<Ratio>()
             .slider(Panel::Wisps, "Fuzziness", TIMES, (0.0, 2.0), 2, "How far hairs stray from their wisp.");
@@ -350,6 +373,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Fraction of hairs that leave their wisp; {}.
         "wisps.flyaways" => number::<Ratio>()
             .slider(Panel::Wisps, "Flyaways", PERCENT, (0.0, 20.0), 1, "Share of the hairs that stand off.");
+        /// Fraction of hairs that have not grown to the length of the others yet; {}.
+        "wisps.growing" => number::<Ratio>()
+            .slider(Panel::Wisps, "Growing hairs", PERCENT, (0.0, 50.0), 0, "Share of the hairs that are still growing.");
         /// How far neighbouring wisps blend: 0 (distinct) to 1 (a smooth mass).
         "wisps.blending" => number::<Ratio>()
             .slider(Panel::Wisps, "Blending", PERCENT, (0.0, 100.0), 0,

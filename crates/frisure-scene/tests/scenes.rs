@@ -103,6 +103,7 @@ fn every_key_arrives() {
         parting = "-1 cm"
         lift = "45 deg"
         jitter = "5 deg"
+        hold = 0.12
         [wisps]
         count = 11
         hairs_per_wisp = 12
@@ -110,7 +111,15 @@ fn every_key_arrives() {
         fuzziness = 0.14
         length_variation = 0.15
         flyaways = 0.16
+        growing = 0.19
         blending = 0.17
+        splits = 20
+        split_variation = 0.21
+        split_clumping = 0.22
+        subsplits = 23
+        split_phase = 0.24
+        hair_phase = 0.25
+        radius_variation = 0.26
         points = 18
         [contact]
         body = "spheres"
@@ -168,7 +177,10 @@ fn every_key_arrives() {
     assert_eq!((w.count, w.hairs, w.points), (11, Hairs::PerWisp(12), 18));
     assert_eq!((spec.fibre.variation, spec.fibre.axis_ratio_variation), (0.07, 0.08));
     assert_eq!((w.clumping, w.fuzziness, w.length_variation), (0.13, 0.14, 0.15));
-    assert_eq!((w.flyaways, w.blending), (0.16, 0.17));
+    assert_eq!((w.flyaways, w.growing, w.blending), (0.16, 0.19, 0.17));
+    assert_eq!((w.splits, w.split_variation, w.split_clumping), (20, 0.21, 0.22));
+    assert_eq!((w.subsplits, w.split_phase, w.hair_phase), (23, 0.24, 0.25));
+    assert_eq!((w.radius_variation, spec.implantation.hold), (0.26, 0.12));
     assert_eq!(spec.contact.body, Body::Spheres);
     assert_eq!((spec.contact.stiffness, spec.contact.volume), (200.0, 0.3));
     assert_eq!(spec.equilibrium.resolution, Resolution::Elements(210));

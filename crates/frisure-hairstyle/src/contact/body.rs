@@ -8,7 +8,7 @@ use super::friction::{FrictionSurface, Pressed};
 use super::layers::Layer;
 use super::thickness::Thickness;
 use crate::head::{Head, Sphere};
-use crate::math::outer;
+use crate::math::{outer, smooth_step};
 use crate::spec::Body;
 
 /// The body under a guide: hard skin, and on it the soft thickness of the guide's own wisp and of
@@ -36,6 +36,26 @@ pub struct BodyContact<'a> {
     pub bed: Option<&'a Bed>,
     /// Coefficients of friction.
     pub friction: FrictionCoefficients,
+    /// What holds combed hair.
+    pub hold: CombedHold,
+}
+
+/// The friction that holds combed hair where it was combed, at its limit: a force per length on the part of a hair that lies on
+/// the head, against the direction in which it would slide. It has a potential, `−f·r`, where Coulomb's law has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CombedHold {
+    /// Force per length (N/m) near the root.
+    pub force: DVec3,
+    /// Arc length (m) up to which it acts; it fades over the last third.
+    pub reach: f64,
+}
+
+impl CombedHold {
+    /// The force per length (N/m) at arc length `s` (m).
+    fn at(&self, s: f64) -> Option<DVec3> {
+        let acts = self.force != DVec3::ZERO && s < self.reach;
+        acts.then(|| self.force * (1.0 - smooth_step(self.reach * 2.0 / 3.0, self.reach, s)))
+    }
 }
 
 /// Coefficients of friction of hair, tangential over normal force; 0 without friction.
@@ -129,10 +149,11 @@ fn near(sphere: &Sphere, clearance: f64, p: DVec3) -> Option<(f64, DVec3, DMat3)
 impl Field for BodyContact<'_> {
     fn energy(&self, s: f64, p: DVec3) -> f64 {
         let clearance = self.clearance(s);
+        let held = self.hold.at(s).map_or(0.0, |force| -force.dot(p));
         if self.body == Body::SignedDistance {
-            return self.penalty(clearance, self.head.signed_distance().value(p))[0];
+            return self.penalty(clearance, self.head.signed_distance().value(p))[0] + held;
         }
-        let mut energy = 0.0;
+        let mut energy = held;
         self.for_each_near(clearance, p, |distance, _, _| {
             energy += self.penalty(clearance, distance)[0];
         });
@@ -141,7 +162,8 @@ impl Field for BodyContact<'_> {
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
         let clearance = self.clearance(s);
-        let mut sum: Option<(DVec3, DMat3)> = None;
+        // E = −f·r is linear: no stiffness.
+        let mut sum: Option<(DVec3, DMat3)> = self.hold.at(s).map(|force| (-force, DMat3::ZERO));
         self.for_each_near(clearance, p, |distance, gradient, hessian| {
             let [_, slope, bend] = self.penalty(clearance, distance);
             let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
@@ -194,6 +216,7 @@ mod tests {
                 layer,
                 bed: None,
                 friction: FrictionCoefficients::default(),
+                hold: CombedHold { force: DVec3::new(2e-5, 4e-5, 0.0), reach: 0.05 },
             };
             // In the hair over the skin, and in the skin.
             for out in [0.003, -0.004] {
@@ -207,8 +230,11 @@ mod tests {
                 ..contact
             };
             agrees_with_differences(&bare, 0.04, top - top.normalize() * 0.004);
-            assert_eq!(contact.derivatives(0.04, top * 2.0), None);
-            assert_eq!(contact.energy(0.04, top * 2.0), 0.0);
+            let loose = BodyContact { hold: CombedHold::default(), ..contact };
+            assert_eq!(loose.derivatives(0.04, top * 2.0), None);
+            assert_eq!(loose.energy(0.04, top * 2.0), 0.0);
+            // Beyond its reach nothing holds.
+            assert_eq!(contact.derivatives(0.05, top * 2.0), None);
         }
     }
 }

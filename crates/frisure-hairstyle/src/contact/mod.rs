@@ -20,7 +20,7 @@ mod thickness;
 mod wisp_friction;
 
 pub use bed::Bed;
-pub use body::{BodyContact, FrictionCoefficients};
+pub use body::{BodyContact, CombedHold, FrictionCoefficients};
 pub(crate) use friction::{Friction, FrictionGap};
 pub use friction::{FrictionSurface, Pressed};
 pub use layers::Layer;

@@ -1,10 +1,12 @@
 //! The external potentials of a guide, and the options of its equilibrium.
 
+use std::f64::consts::TAU;
+
 use frisure_rod::potential::{Field, FieldPotential};
 use frisure_rod::{Equilibrium, Options, Resolution, Rod};
 use glam::DVec3;
 
-use crate::contact::{Bed, BodyContact, FrictionCoefficients, Layer, Thickness};
+use crate::contact::{Bed, BodyContact, CombedHold, FrictionCoefficients, Layer, Thickness};
 use crate::guides::Guide;
 use crate::head::Head;
 use crate::spec::HairstyleSpec;
@@ -55,6 +57,7 @@ pub(crate) fn held_up<'a>(
         bed: Some(bed),
         // What the groom shows is held up by normal forces alone.
         friction: FrictionCoefficients::default(),
+        hold: CombedHold::default(),
     }
 }
 
@@ -97,6 +100,21 @@ fn skin_stiffness(spec: &HairstyleSpec, guide: &Guide) -> f64 {
     spec.contact.stiffness.max(needed.min(HARDEST))
 }
 
+/// Length (m) of combed hair that lies on the head, from the forehead's hairline to above the ears, and the most of a hair that
+/// does. Chosen by eye; not measured.
+const HELD: f64 = 0.12;
+const HELD_SHARE: f64 = 0.6;
+
+/// Length of a guide over that of the axis that its curl winds about, at most [`MOST_WINDING`]; 1 for straight hair.
+fn winding(guide: &Guide) -> f64 {
+    let strain = guide.rod.natural().mean(0.0, guide.rod.length());
+    let (all, along) = (strain.length(), strain.z.abs());
+    if all * guide.rod.length() < TAU { 1.0 } else { (all / along.max(1e-9)).min(MOST_WINDING) }
+}
+
+/// Most that a curl shortens combed hair: its weight draws tighter curls out. Chosen by eye; not measured.
+const MOST_WINDING: f64 = 2.0;
+
 /// Contact of a guide with the body, on a bed of hair or without.
 pub(super) fn body<'a>(
     spec: &HairstyleSpec,
@@ -113,6 +131,10 @@ pub(super) fn body<'a>(
         layer,
         bed: guide.bed.as_deref(),
         friction: friction(spec),
+        hold: CombedHold {
+            force: head.landmarks().face * (-guide.hold * guide.rod.weight()),
+            reach: (HELD * winding(guide)).min(HELD_SHARE * guide.rod.length()),
+        },
     }
 }
 

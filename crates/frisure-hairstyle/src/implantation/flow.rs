@@ -50,6 +50,21 @@ pub(crate) fn whorls(spec: &Whorls, head: &Head) -> Vec<Whorl> {
         .to_vec()
 }
 
+/// Radius (m) about a whorl from which roots of drawn hair are gathered, and by which power of the distance: hair that leaves
+/// on all sides covers its middle as well as the rest. Chosen by eye; not measured.
+const GATHERED: (f64, f64) = (0.018, 0.8);
+
+/// A point (m) of the skin, moved towards a whorl near by.
+pub(crate) fn gathered(whorls: &[Whorl], p: DVec3) -> DVec3 {
+    let (reach, power) = GATHERED;
+    let near = |w: &&Whorl| w.centre.distance(p) < reach;
+    whorls.iter().find(near).map_or(p, |whorl| {
+        // d (d/R)^0.8: continuous at the border.
+        let away = p - whorl.centre;
+        whorl.centre + away * (away.length() / reach).powf(power)
+    })
+}
+
 /// The flow at a root.
 pub(crate) fn along_skin(
     marks: &Landmarks,

@@ -116,6 +116,15 @@ impl Layout {
         out.lerp(down, combed * (1.0 - lift::curly(strain)))
     }
 
+    /// How much of the hair at a root, 0 to 1, was combed out of the face and would fall back into it.
+    pub(crate) fn held(&self, root: &Root) -> f64 {
+        let (along, combed) = self.along(root);
+        // Borders in radii of the cranium (y backwards), and slopes to the face: chosen by eye.
+        let front = 1.0 - smooth_step(-0.6, 0.1, self.marks.normalized(root.position).y);
+        let forward = smooth_step(0.2, 0.6, along.dot(self.marks.face));
+        combed * front * (1.0 - forward)
+    }
+
     /// Factor on the natural curl at a root.
     pub(crate) fn curl(&self, root: &Root) -> f64 {
         let factor = |style: &RegionStyle| {
@@ -137,13 +146,13 @@ impl Layout {
         regions::cut_at(&self.regions, &self.marks, p)
     }
 
-    /// Where a drawn hair is rooted: beside a parting, nearer to the line than it grows. Combed hair is
-    /// heaped there and hides the skin; hair drawn one by one from even roots leaves a broad stripe.
+    /// Where a drawn hair is rooted: beside a parting and in a whorl, nearer to the line or the middle than it grows. Hair
+    /// is heaped there and hides the skin; hair drawn one by one from even roots leaves a broad stripe, and a bald star.
     pub(crate) fn gathered(&self, head: &Head, root: Root) -> Root {
-        if self.partings.is_empty() {
-            return root;
+        let mut position = self.partings.gathered(root.position);
+        if self.implantation.flow == Flow::Whorl {
+            position = flow::gathered(&self.whorls, position);
         }
-        let position = self.partings.gathered(root.position);
         if position == root.position {
             return root;
         }

@@ -88,6 +88,8 @@ digestible! {
         pub density: f64,
         /// The edge of the hair, on a head whose scalp does not come with its mesh.
         pub hairline: Hairline,
+        /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face.
+        pub hold: f64,
         /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin, 0 to 1.
         pub baby_hairs: f64,
     }
@@ -103,6 +105,7 @@ impl Default for Implantation {
             jitter: 0.05,
             density: 2e6,
             hairline: Hairline::default(),
+            hold: 1.2,
             baby_hairs: 0.15,
         }
     }
@@ -271,14 +274,29 @@ digestible! {
         pub clumping: f64,
         /// Further factors on the width of a wisp at its root, middle and tip.
         pub profile: [f64; 3],
-        /// Number of thinner wisps that each wisp splits into towards its tip; 1 does not split.
+        /// Number of thinner wisps that each wisp splits into towards its tip, in the mean; 1 does not split.
         pub splits: usize,
+        /// Standard deviation of the logarithm of the width of splits.
+        pub split_variation: f64,
+        /// How much of the way to the middle of its split a hair has come at the tip, at most: the loosest splits gather less
+        /// than half as much.
+        pub split_clumping: f64,
+        /// Number of still thinner wisps that each split splits into; 1 does not split.
+        pub subsplits: usize,
+        /// How far the curls of splits are out of step with their guide, 0 (in step) to 1 (independent).
+        pub split_phase: f64,
+        /// How far the curls of hairs are out of step with their split, 0 to 1.
+        pub hair_phase: f64,
+        /// Standard deviation of the radius of curls between splits and between hairs, as a fraction.
+        pub radius_variation: f64,
         /// How far hairs stray from their place in the wisp, as a fraction of the wisp's radius.
         pub fuzziness: f64,
         /// Standard deviation of the length of hairs within a wisp, as a fraction.
         pub length_variation: f64,
         /// Fraction of hairs that leave their wisp.
         pub flyaways: f64,
+        /// Fraction of hairs that have not grown to the length of the others yet.
+        pub growing: f64,
         /// How far neighbouring wisps blend into each other, 0 (distinct) to 1 (a smooth mass).
         pub blending: f64,
         /// Points along each drawn hair.
@@ -295,10 +313,17 @@ impl Default for Wisps {
             hairs: Hairs::Density(2e6),
             clumping: 0.6,
             profile: [1.0; 3],
-            splits: 3,
+            splits: 8,
+            split_variation: 0.5,
+            split_clumping: 0.5,
+            subsplits: 6,
+            split_phase: 0.0,
+            hair_phase: 0.0,
+            radius_variation: 0.0,
             fuzziness: 0.06,
             length_variation: 0.06,
             flyaways: 0.01,
+            growing: 0.1,
             blending: 0.7,
             points: 32,
             strands: HairModel::Interpolated,

@@ -140,6 +140,7 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "implantation.lift", Access::Derived(lift), 0.0, PI / 2.0, "between 0 and 90 deg";
     "implantation.whorls", field!(implantation.whorls.count), 1.0, 2.0, "1 or 2";
     "implantation.whorl_offset", Access::Derived(|spec| spec.implantation.whorls.offset.to_vec()), -0.05, 0.05, "within 5 cm of the usual place";
+    "implantation.hold", field!(implantation.hold), 0.0, 3.0, "between 0 and 3 times the weight";
     "implantation.baby_hairs", field!(implantation.baby_hairs), 0.0, 1.0, "between 0 and 1";
     "implantation.hairline.irregularity", field!(implantation.hairline.irregularity), 0.0, 0.01, "between 0 and 1 cm";
     "implantation.hairline.height", field!(implantation.hairline.height), -0.03, 0.05, "between -3 and 5 cm";
@@ -157,7 +158,14 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "wisps.fuzziness", field!(wisps.fuzziness), 0.0, 2.0, "between 0 and 2";
     "wisps.length_variation", field!(wisps.length_variation), 0.0, 0.5, "0 to 0.5";
     "wisps.flyaways", field!(wisps.flyaways), 0.0, 1.0, "between 0 and 1";
+    "wisps.growing", field!(wisps.growing), 0.0, 1.0, "between 0 and 1";
     "wisps.splits", field!(wisps.splits), 1.0, 100.0, "between 1 and 100";
+    "wisps.split_variation", field!(wisps.split_variation), 0.0, 1.5, "0 to 1.5";
+    "wisps.split_clumping", field!(wisps.split_clumping), 0.0, 1.0, "between 0 and 1";
+    "wisps.subsplits", field!(wisps.subsplits), 1.0, 100.0, "between 1 and 100";
+    "wisps.split_phase", field!(wisps.split_phase), 0.0, 1.0, "between 0 and 1";
+    "wisps.hair_phase", field!(wisps.hair_phase), 0.0, 1.0, "between 0 and 1";
+    "wisps.radius_variation", field!(wisps.radius_variation), 0.0, 0.5, "0 to 0.5";
     "wisps.profile", Access::Derived(|spec| spec.wisps.profile.to_vec()), 0.0, 10.0, "three factors between 0 and 10 each, such as [1, 1, 0.5]";
     "wisps.blending", field!(wisps.blending), 0.0, 1.0, "between 0 and 1";
     "wisps.points", field!(wisps.points), 2.0, 1000.0, "between 2 and 1000";

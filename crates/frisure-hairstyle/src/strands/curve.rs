@@ -1,19 +1,23 @@
 //! Where drawn strands go: the curves of their guides, transported and laid on the skin.
 
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 
 use super::binding::StrandBinding;
 use super::population::Population;
-use super::skin::{Free, LAID, PRESSED};
+use super::skin::{Free, LAID, PRESSED, below};
+use super::splits::{OwnCurl, SplitId, SplitLine};
 use crate::implantation::Root;
 use crate::math::{first_positive, smooth_step};
 use crate::wisps::{BoundStrand, BoundStrands};
 
-/// Least length (m) along which hair gathers into wisps: stubble stands by itself. Chosen by eye; not measured.
-const GATHERING: f64 = 0.06;
+/// Least length (m) along which hair gathers into wisps: short hair stands by itself. Chosen by eye; not measured.
+const GATHERING: f64 = 0.12;
 
-/// How much of the way to the middle of its split a hair has come at the tip. Chosen by eye; not measured.
-const GATHERED: f64 = 0.75;
+/// Arc length (m) over which deviations grow to their full size. Chosen by eye; not measured.
+const RISE: f64 = 0.06;
+
+/// Arc length (m) over which the own curl of a hair departs from that of its guide. Chosen by eye; not measured.
+const DEPARTING: f64 = 0.015;
 
 /// Length (m) along which hair that would be stretched is drawn in to its guides. Chosen by eye; not measured.
 const DRAWN_IN: f64 = 0.02;
@@ -38,6 +42,22 @@ const STRETCHED: f64 = 1.12;
 /// Factors by which a hair that would be stretched more comes nearer to its guides, tried in order. Chosen by trial; not measured further.
 const NARROWER: [f64; 4] = [0.6, 0.3, 0.1, 0.0];
 
+/// How far the hairs of a wisp have gathered at the arc length `along` (m), of hair that would be `uncut` (m) long had it never
+/// been cut: what is left after a cut does not gather more. The exponent is chosen by eye.
+fn gathered(along: f64, uncut: f64) -> f64 {
+    smooth_step(0.0, 1.0, (along / uncut.max(GATHERING)).powf(0.8))
+}
+
+/// Where along a hair, and how wide its wisp is there.
+struct Place {
+    /// Arc length (m).
+    along: f64,
+    /// How far hairs have gathered.
+    gathered: f64,
+    /// Factor on the distance from the guides.
+    width: f64,
+}
+
 /// Length of a line (m).
 fn length(points: &[Vec3]) -> f64 {
     points.windows(2).map(|pair| f64::from(pair[0].distance(pair[1]))).sum()
@@ -56,6 +76,7 @@ impl Population<'_> {
             points = self.points(&binding);
         }
         let StrandBinding { thickness, cut, .. } = binding;
+        let thickness = thickness * self.own_diameter(binding.main(), index);
         Hair { guide: binding.main() as u32, thickness, cut, points }
     }
 
@@ -69,10 +90,10 @@ impl Population<'_> {
 
     /// Where a hair is at `x` of its guides' length.
     fn point(&self, binding: &StrandBinding<'_>, x: f64, free: &mut Free) -> DVec3 {
-        let p = self.followed_point(binding, x);
-        if binding.own.is_some() && x <= 0.0 {
-            return p;
+        if binding.own.is_none() && x <= 0.0 {
+            return below(&binding.root, self.leaving(binding));
         }
+        let p = self.followed_point(binding, x);
         // Hair of a groom lies as it lies; only what is in the body comes out.
         let width = match binding.own {
             Some(_) => LAID,
@@ -81,6 +102,13 @@ impl Population<'_> {
             }
         };
         self.skin.lay(&binding.root, p, x * binding.length, width, free)
+    }
+
+    /// The direction (unit) in which a hair leaves the skin: that of the guides that it follows.
+    fn leaving(&self, binding: &StrandBinding<'_>) -> DVec3 {
+        let tangent = |g: usize| self.guides[g].rod.root().frame().z_axis;
+        let mean: DVec3 = binding.followed.iter().map(|&(g, w)| tangent(g) * w).sum();
+        mean.normalize_or(binding.root.normal)
     }
 
     /// The length (m, of dry hair) that is left of a hair when it is cut where it first comes to
@@ -103,32 +131,22 @@ impl Population<'_> {
         if let (Some(own), Some(bound)) = (&binding.own, self.bound) {
             return self.bound_point(binding, own, bound, x);
         }
-        let StrandBinding {
-            root, followed, variation, split, length, planned, uncut, narrow, ..
-        } = binding;
+        let StrandBinding { root, variation, length, planned, uncut, narrow, .. } = binding;
         let along = x * length;
-        let rise = smooth_step(0.0, 0.06_f64.min(0.5 * length), along);
-        // How far the wisp has gathered, by the length that it would have uncut: what is left after a cut does not gather
-        // more. The exponent 0.8 and the 6 cm over which deviations rise are chosen by eye.
-        let gathered = smooth_step(0.0, 1.0, (along / uncut.max(GATHERING)).powf(0.8));
+        let rise = smooth_step(0.0, RISE.min(0.5 * length), along);
+        let gathered = gathered(along, *uncut);
         let drifted = x * (1.0 + (variation.drift - 1.0) * rise);
-        let mut transported = variation.waves.at(along / planned) * (rise * narrow);
         let drawn_in = 1.0 + (narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * length), along);
-        for (rank, &(g, weight)) in followed.iter().enumerate() {
-            // C(x) + n(x) T(x) δ, weighted over the guides. docs/theory.md, "Wisps"
-            let (centre, turn) = self.wisps[g].at(drifted);
-            let mut place = root.position - self.roots[g];
-            if rank == 0
-                && let Some(split) = split
-            {
-                // The split belongs to the first wisp alone; over its weight, all of the hair follows it.
-                place += (split.middle - place) * (GATHERED * gathered / weight);
-                transported += split.waves.at(along / planned) * (rise * narrow);
-            }
-            transported +=
-                (centre + turn * place * (drawn_in * self.narrowing(g, along, gathered))) * weight;
+        let place = Place { along, gathered, width: drawn_in };
+        let (main, curl) = match binding.split {
+            Some((line, _)) => (line.main, line.curl.and(variation.curl)),
+            None => (binding.main(), variation.curl),
+        };
+        let mut point = self.between(root.position, &binding.followed, main, curl, drifted, &place);
+        if let Some((line, clumping)) = binding.split {
+            point = point.lerp(line.at(drifted), clumping * gathered);
         }
-        transported
+        point + variation.waves.at(along / planned) * (rise * narrow)
     }
 
     /// The same, of a hair of a groom.
@@ -159,6 +177,77 @@ impl Population<'_> {
             point += (new + turn * (turned.inverse() * (at - old)) * narrow) * weight;
         }
         point
+    }
+
+    /// The line of the smallest split that hair rooted at a point (m) of the skin belongs to, and how much it gathers to it.
+    pub(super) fn split(&self, p: DVec3) -> Option<(&SplitLine, f64)> {
+        let id = self.splits.smallest(self.layout, p)?;
+        Some((self.split_line(id), self.splits.get(id).clumping))
+    }
+
+    /// The line of a split: hair rooted there, which gathers to the larger split that it is in.
+    fn split_line(&self, id: SplitId) -> &SplitLine {
+        let split = self.splits.get(id);
+        split.line.get_or_init(|| {
+            let position = split.root.position;
+            let larger = id.level.checked_sub(1);
+            let larger = larger.and_then(|l| self.splits.of_level(l, self.layout, position));
+            let larger = larger.map(|id| (self.split_line(id), self.splits.get(id).clumping));
+            let followed = self.following(&split.root);
+            let main = larger.map_or(followed[0].0, |(line, _)| line.main);
+            let curl = larger.map_or(split.curl, |(line, _)| line.curl.and(split.curl));
+            let mean =
+                |of: &dyn Fn(usize) -> f64| followed.iter().map(|&(g, w)| w * of(g)).sum::<f64>();
+            let length = mean(&|g| self.wisps[g].length);
+            let uncut = mean(&|g| self.states[g].uncut);
+            let planned = mean(&|g| self.planned[g].rod.length());
+            let end = self.wisps[followed[0].0].end();
+            let samples = 2 * self.spec.wisps.points.max(16);
+            let point = |k: usize| {
+                let x = k as f64 / (samples - 1) as f64 * end;
+                let along = x * length;
+                let place = Place { along, gathered: gathered(along, uncut), width: 1.0 };
+                let mut p = self.between(position, &followed, main, curl, x, &place);
+                if let Some((line, clumping)) = larger {
+                    p = p.lerp(line.at(x), clumping * place.gathered);
+                }
+                let rise = smooth_step(0.0, RISE.min(0.5 * length), along);
+                (p + split.waves.at(along / planned) * rise).as_vec3()
+            };
+            SplitLine::new(main, curl, end, (0..samples).map(point).collect())
+        })
+    }
+
+    /// Where (m) hair rooted at a point (m) of the skin goes that follows some guides, at `x` of their length: between their
+    /// axes, with the curl of the guide `main`, turned and widened.
+    fn between(
+        &self,
+        root: DVec3,
+        followed: &[(usize, f64)],
+        main: usize,
+        own: OwnCurl,
+        x: f64,
+        place: &Place,
+    ) -> DVec3 {
+        let &Place { along, gathered, width } = place;
+        let mut centre = DVec3::ZERO;
+        for &(g, weight) in followed {
+            // A(x) + n(x) T(x) δ, weighted over the guides. docs/theory.md, "Wisps"
+            let (axis, turn) = self.wisps[g].centre(x);
+            let across = root - self.roots[g];
+            centre +=
+                (axis + turn * across * (width * self.narrowing(g, along, gathered))) * weight;
+        }
+        let departed = smooth_step(0.0, DEPARTING, along);
+        if departed < 1.0 {
+            // Every curl begins in its follicle: what those of the guides differ by there is lost on the first centimetre.
+            let begin = |g: usize| self.roots[g] - self.wisps[g].centre(0.0).0;
+            let mean: DVec3 = followed.iter().map(|&(g, weight)| begin(g) * weight).sum();
+            centre += (mean - begin(main)) * (1.0 - departed);
+        }
+        let axis = self.wisps[main].axis(x);
+        let turned = DQuat::from_axis_angle(axis.direction, own.phase * departed);
+        centre + turned * axis.curl * (1.0 + (own.radius - 1.0) * departed)
     }
 
     /// Width of a wisp at arc length `s` (m), as a fraction of its patch of skin.

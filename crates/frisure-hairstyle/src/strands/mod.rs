@@ -13,6 +13,7 @@ mod described;
 mod population;
 mod simulated;
 mod skin;
+mod splits;
 
 use frisure_strands::{AttributeValues, Domain, Strands, names};
 use glam::Vec3;

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::binding::{StrandBinding, StrandVariation};
 use super::skin::{PRESSED, Skin};
+use super::splits::{Plan, Splits};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::hairstyle::WispState;
@@ -19,7 +20,6 @@ use crate::random::{Purpose, Stream};
 use crate::spec::HairstyleSpec;
 use crate::wisps::BoundStrands;
 use crate::wisps::Wisp;
-use crate::wisps::{Split, splits};
 
 /// How many neighbouring guides a hair can follow. Chosen by trial; not measured further.
 const FOLLOWED: usize = 5;
@@ -51,7 +51,7 @@ const BEYOND: f64 = 0.05;
 pub(crate) struct Population<'a> {
     pub(super) spec: &'a HairstyleSpec,
     pub(super) head: &'a Head,
-    layout: &'a Layout,
+    pub(super) layout: &'a Layout,
     /// Strands of a groom, which keep their own shapes.
     pub(super) bound: Option<&'a BoundStrands>,
     rim: Rim,
@@ -69,8 +69,8 @@ pub(crate) struct Population<'a> {
     pub(super) spacing: f64,
     /// Radius of the patch of skin that a wisp grows from (m).
     pub(super) patch: f64,
-    /// The thinner wisps that each wisp splits into.
-    splits: Vec<Vec<Split>>,
+    /// The thinner wisps into which hair splits.
+    pub(super) splits: Splits,
     pub(super) skin: Skin<'a>,
 }
 
@@ -83,6 +83,11 @@ const LEAST_WEIGHT: f64 = 1e-3;
 /// Ratios of distances along two guides to that of their roots: up to the first they go the same way, from the second on they
 /// do not. Chosen by eye; not measured.
 const AGREEING: (f64, f64) = (0.8, 1.6);
+
+/// How far apart two guides that stand beside each other may end, as a share of how far from the skin they end, up to a length
+/// (m). Chosen by eye; not measured.
+const FAN: f64 = 0.3;
+const SHORT: f64 = 0.08;
 
 /// Where along two guides it shows whether they go the same way, from root to tip.
 /// Chosen by trial; not measured further.
@@ -113,23 +118,35 @@ impl<'a> Population<'a> {
         let thickest = |g: &Guide| g.thickness.packed(0.0).max(g.thickness.packed(g.rod.length()));
         let wisp = |rest: &Equilibrium| Wisp::new(rest, samples, beyond);
         let wisps: Vec<Wisp> = rest.guides.par_iter().map(wisp).collect();
+        let bound = hairstyle.placement.bound(spec, head);
+        let planned = styling.planned.iter().map(|g| g.rod.length()).sum::<f64>();
+        let plan = Plan {
+            wisps: &spec.wisps,
+            seed: spec.seed,
+            hairs: &hairstyle.placement.hairs(spec, head),
+            area: hairstyle.placement.area(),
+            length: planned / guides.len() as f64,
+        };
         Self {
             spec,
             head,
             layout,
-            bound: hairstyle.placement.bound(spec, head),
+            bound,
             rim: Rim::new(head, head.edge(&spec.implantation.hairline, spec.seed), BABY_RIM),
             planned: &styling.planned,
             guides,
             states: &styling.wisps,
             limits,
-            marks: wisps.iter().map(|wisp| MARKS.map(|x| wisp.at(x).0)).collect(),
+            marks: wisps.iter().map(|wisp| MARKS.map(|x| wisp.centre(x).0)).collect(),
             wisps,
             grid: Grid::new(&roots, spacing),
             roots,
             spacing,
             patch,
-            splits: splits(spec, &styling.planned, patch),
+            splits: match bound {
+                Some(_) => Splits::NONE,
+                None => Splits::new(&plan, |root| layout.gathered(head, *root)),
+            },
             skin: Skin {
                 head,
                 body: spec.contact.body,
@@ -164,7 +181,11 @@ impl<'a> Population<'a> {
         let known = if own.is_some() { f64::INFINITY } else { self.wisps[main].end() };
         StrandBinding {
             root: *root,
-            split: self.split(main, root.position),
+            split: if own.is_none() && variation.gathers() {
+                self.split(root.position)
+            } else {
+                None
+            },
             followed,
             variation,
             length,
@@ -214,6 +235,11 @@ impl<'a> Population<'a> {
         if let Some(bound) = self.bound {
             return bound.bindings(index).to_vec();
         }
+        self.following(root)
+    }
+
+    /// The same of hair that is no groom's.
+    pub(super) fn following(&self, root: &Root) -> Vec<(usize, f64)> {
         let own = self.layout.direction(root);
         let near = self.sorted(root, own);
         let first = near[0];
@@ -268,14 +294,20 @@ impl<'a> Population<'a> {
         let (a, b) = (&self.marks[a], &self.marks[b]);
         let apart = |mark: usize| a[mark].distance(b[mark]);
         let most = apart(1).max(apart(2)).max(apart(3));
-        // How many times as far apart they end as they start; a spacing is added so that neighbours may spread a little.
-        1.0 - smooth_step(AGREEING.0, AGREEING.1, most / (apart(0) + self.spacing))
+        // How many times as far apart they end as they start; a spacing is added so that neighbours may spread a little, and
+        // short hair may fan out.
+        let fan = FAN * a[0].distance(a[3]).min(SHORT);
+        1.0 - smooth_step(AGREEING.0, AGREEING.1, most / (apart(0) + self.spacing + fan))
     }
 
-    /// The split of a wisp that a hair belongs to: the nearest in the skin.
-    fn split(&self, guide: usize, root: DVec3) -> Option<&Split> {
-        let place = root - self.roots[guide];
-        let far = |s: &&Split| s.middle.distance_squared(place);
-        self.splits[guide].iter().min_by(|a, b| far(a).total_cmp(&far(b)))
+    /// Factor on the diameter of a guide that gives a hair one of its own.
+    pub(super) fn own_diameter(&self, guide: usize, index: usize) -> f64 {
+        if self.bound.is_some() {
+            return 1.0;
+        }
+        let mut random = Stream::new(self.spec.seed, Purpose::HairFibre, index);
+        let mean = self.spec.fibre.section.mean_radius();
+        let of_guide = self.planned[guide].rod.spec().section.mean_radius();
+        mean / of_guide * random.positive(self.spec.fibre.variation)
     }
 }

@@ -8,7 +8,19 @@ use crate::spec::Body;
 
 /// Depth of the first point of a hair below the skin (m), so that no root floats.
 /// Chosen: more than the error of the distance field on smooth skin.
-pub(super) const ROOT_DEPTH: f64 = 3e-4;
+const ROOT_DEPTH: f64 = 3e-4;
+
+/// How much longer than it is deep the piece of a hair below the skin is at most, of hair that leaves it flat. Chosen: a line
+/// of hair that lies at 12° (docs/theory.md, "Roots and implantation") comes out of the skin where it is rooted.
+const LONGEST_BELOW: f64 = 5.0;
+
+/// The first point (m) of a hair that leaves the skin at its root in a direction (unit): below the skin, and so that the hair
+/// comes out at the root. Straight below it, hair that lies flat would leave a strip of bare skin beside a parting.
+pub(super) fn below(root: &Root, direction: DVec3) -> DVec3 {
+    let rise = direction.dot(root.normal).max(1.0 / LONGEST_BELOW);
+    let along = direction - root.normal * direction.dot(root.normal);
+    root.position - (root.normal + along / rise) * ROOT_DEPTH
+}
 
 /// Least distance of a hair from the skin far from its root (m). Chosen by eye; not measured.
 pub(super) const LEAST_DISTANCE: f64 = 4e-4;
@@ -57,7 +69,7 @@ impl Skin<'_> {
     /// and no two layers in one.
     pub(super) fn lay(&self, root: &Root, p: DVec3, s: f64, width: f64, free: &mut Free) -> DVec3 {
         if s <= 0.0 {
-            return root.position - root.normal * ROOT_DEPTH;
+            return p;
         }
         if self.body == Body::None || free.holds(p) {
             return p;

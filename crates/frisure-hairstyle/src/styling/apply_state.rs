@@ -58,6 +58,8 @@ pub(super) fn guide(
     };
     let mut guide = planned.with_rod(spec, area, rod, &dry, factors.wisp);
     guide.pull = pull(&guide.rod, state.grip);
+    // What a hand or a clip holds needs no friction, which would pull it elsewhere.
+    guide.hold = if state.grip.is_some() { 0.0 } else { planned.hold };
     // What is drawn tight over the head presses on skin as what is held in a shape does.
     guide.firmness = if state.grip.is_some_and(Grip::presses) { MOULD } else { 1.0 };
     Ok(guide)

@@ -1,9 +1,9 @@
 //! Wisps: the guide's curve and the hairs that follow it. Graphics programs call a wisp a *clump*.
 
 mod bound_strand;
-mod splits;
+mod waves;
 mod wisp;
 
 pub(crate) use bound_strand::{BoundStrand, BoundStrands};
-pub(crate) use splits::{Split, Waves, splits};
+pub(crate) use waves::Waves;
 pub(crate) use wisp::Wisp;

@@ -10,6 +10,8 @@ use std::f64::consts::TAU;
 use frisure_rod::Equilibrium;
 use glam::{DMat3, DQuat, DVec3, Vec3};
 
+use crate::math::smooth_step;
+
 /// A guide at rest, sampled evenly from root to tip.
 #[derive(Clone, Debug)]
 pub(crate) struct Wisp {
@@ -18,10 +20,27 @@ pub(crate) struct Wisp {
     spacing: f64,
     /// From the root to the tip and perhaps beyond.
     positions: Vec<DVec3>,
+    /// The axis that the curl winds about: means of the positions over one turn; the positions themselves without a curl.
+    axis: Vec<DVec3>,
+    /// Direction (unit) of the axis at the root.
+    forward: DVec3,
     /// Rotation of the axis from the root.
     turns: Vec<DQuat>,
     /// Director d1 of the guide at each position up to its tip.
     directors: Vec<Vec3>,
+}
+
+/// Turns of the curl as shares of the guide's length: up to the first the curl winds about its axis, from the second on it
+/// only bends, and the guide is its own axis. Chosen by eye; not measured.
+const WINDING: (f64, f64) = (0.35, 0.5);
+
+/// How the curl of a guide lies about its axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AxisPoint {
+    /// From the axis to the guide (m).
+    pub(crate) curl: DVec3,
+    /// Direction of the axis (unit).
+    pub(crate) direction: DVec3,
 }
 
 /// Longest window (m) for the axis of hair without a curl. Chosen by trial; not measured further.
@@ -33,16 +52,24 @@ impl Wisp {
         let line = guide.sample(samples);
         let length = guide.rod.length();
         let spacing = length / (samples - 1) as f64;
-        let more = beyond_tip(guide, line[samples - 1], spacing, (beyond / spacing) as usize);
-        let directors = line.iter().map(|(_, frame)| frame.x_axis.as_vec3()).collect();
-        let positions: Vec<DVec3> = line.into_iter().map(|(p, _)| p).chain(more).collect();
         let strain = guide.rod.natural().mean(0.0, length).length();
         // One turn of the curl, over which its winding averages out; hair that turns less than twice has no axis to find.
         let period = TAU / strain.max(1e-9);
+        let winds = 1.0 - smooth_step(WINDING.0, WINDING.1, period / length);
         let window = if period < 0.5 * length { period } else { STRAIGHT_WINDOW.min(length) };
-        let half = (0.5 * window / length * (samples - 1) as f64).max(1.0);
-        let turns = transported(&positions, half);
-        Self { length, spacing, positions, turns, directors }
+        let half = (0.5 * window / spacing).max(1.0);
+        // The mean over a turn needs half a turn more at both ends.
+        let more = if winds > 0.0 { half.ceil() as usize + 1 } else { 0 };
+        let beyond = ((beyond / spacing) as usize).min(MOST_BEYOND);
+        let after = continued(guide, line[samples - 1], length, spacing, beyond + more);
+        let before = continued(guide, line[0], 0.0, -spacing, more);
+        let directors = line.iter().map(|(_, frame)| frame.x_axis.as_vec3()).collect();
+        let known: Vec<DVec3> = line.into_iter().map(|(p, _)| p).chain(after).collect();
+        let last = known.len() - more.min(known.len() - samples);
+        let axis = axis(&known, &before, half, winds, last);
+        let positions = known[..last].to_vec();
+        let (forward, turns) = transported(&positions, half);
+        Self { length, spacing, positions, axis, forward, turns, directors }
     }
 
     /// How far it is known, 1 for the tip.
@@ -50,13 +77,32 @@ impl Wisp {
         (self.positions.len() - 1) as f64 * self.spacing / self.length
     }
 
-    /// Position (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip) or to
-    /// [`Self::end`].
-    pub(crate) fn at(&self, x: f64) -> (DVec3, DQuat) {
+    /// Index of the sample before `x`, and how far it is from there to the next one.
+    fn place(&self, x: f64) -> (usize, f64) {
         let last = self.positions.len() - 1;
         let place = (x.max(0.0) * self.length / self.spacing).min(last as f64);
         let i = (place as usize).min(last - 1);
-        let t = place - i as f64;
+        (i, place - i as f64)
+    }
+
+    /// Place on the axis (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip) or to [`Self::end`].
+    pub(crate) fn centre(&self, x: f64) -> (DVec3, DQuat) {
+        let (i, t) = self.place(x);
+        (catmull_rom(&self.axis, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
+    }
+
+    /// The direction of the axis and the curl about it, at `x` as in [`Self::centre`].
+    pub(crate) fn axis(&self, x: f64) -> AxisPoint {
+        let (i, t) = self.place(x);
+        let (centre, turn) = self.centre(x);
+        let curl = catmull_rom(&self.positions, i, t) - centre;
+        AxisPoint { curl, direction: turn * self.forward }
+    }
+
+    /// Position (m) and rotation of the axis from the root, at `x` from 0 (root) to 1 (tip) or to
+    /// [`Self::end`].
+    pub(crate) fn at(&self, x: f64) -> (DVec3, DQuat) {
+        let (i, t) = self.place(x);
         (catmull_rom(&self.positions, i, t), self.turns[i].lerp(self.turns[i + 1], t).normalize())
     }
 }
@@ -75,25 +121,56 @@ impl Wisp {
 /// Most samples beyond the tip. A guard on memory.
 const MOST_BEYOND: usize = 200;
 
-/// Points beyond the tip, where the guide goes on with its natural strain there: the moment of a free end is zero. (The last
-/// control would not do: a joint's is its turn less the natural one, so that a curl would go on straight.)
-fn beyond_tip(
+/// Points beyond an end of the guide, `step` (m) apart, where it goes on with its natural strain at `s` (m): the moment of a
+/// free end is zero. (The last control would not do: a joint's is its turn less the natural one, so that a curl would go on
+/// straight.) A negative step goes back from the root.
+fn continued(
     guide: &Equilibrium,
     (mut p, mut frame): (DVec3, DMat3),
-    spacing: f64,
+    s: f64,
+    step: f64,
     count: usize,
 ) -> Vec<DVec3> {
-    let turn = guide.rod.natural().at(guide.rod.length()) * spacing;
+    let turn = guide.rod.natural().at(s) * step;
     let half = DMat3::from_quat(DQuat::from_scaled_axis(0.5 * turn));
-    (0..count.min(MOST_BEYOND))
+    (0..count)
         // The midpoint rule: half a turn, a step along the tangent there, half a turn.
         .map(|_| {
             frame *= half;
-            p += frame.z_axis * spacing;
+            p += frame.z_axis * step;
             frame *= half;
             p
         })
         .collect()
+}
+
+/// The axis at the first `count` of the `known` points: means over `2 half` steps, of which the axis has the share `winds`.
+/// `before` has the points before the first, nearest first.
+fn axis(known: &[DVec3], before: &[DVec3], half: f64, winds: f64, count: usize) -> Vec<DVec3> {
+    if winds == 0.0 {
+        return known[..count].to_vec();
+    }
+    let all: Vec<DVec3> = before.iter().rev().chain(known).copied().collect();
+    // ∫ of the polygon up to each point.
+    let mut sum = DVec3::ZERO;
+    let mut sums = vec![sum];
+    for pair in all.windows(2) {
+        sum += (pair[0] + pair[1]) * 0.5;
+        sums.push(sum);
+    }
+    let integral = |x: f64| {
+        let x = x.clamp(0.0, (all.len() - 1) as f64);
+        let i = (x as usize).min(all.len() - 2);
+        let t = x - i as f64;
+        sums[i] + (all[i] * (1.0 - 0.5 * t) + all[i + 1] * (0.5 * t)) * t
+    };
+    let mean = |k: usize| {
+        let x = (k + before.len()) as f64;
+        // The window has no more than what is known on both sides.
+        let half = half.min(x).min((all.len() - 1) as f64 - x);
+        if half > 0.0 { (integral(x + half) - integral(x - half)) / (2.0 * half) } else { known[k] }
+    };
+    (0..count).map(|k| known[k].lerp(mean(k), winds)).collect()
 }
 
 /// The interpolating cubic through evenly spaced points, between points `i` and `i + 1`.
@@ -110,8 +187,8 @@ fn catmull_rom(points: &[DVec3], i: usize, t: f64) -> DVec3 {
         + m1 * (t3 - t2)
 }
 
-/// Parallel transport along the axis: chords over `2 half` samples.
-fn transported(positions: &[DVec3], half: f64) -> Vec<DQuat> {
+/// Direction of the axis at the root, and parallel transport along it: chords over `2 half` samples.
+fn transported(positions: &[DVec3], half: f64) -> (DVec3, Vec<DQuat>) {
     let last = (positions.len() - 1) as f64;
     let point = |x: f64| {
         let x = x.clamp(0.0, last);
@@ -124,8 +201,9 @@ fn transported(positions: &[DVec3], half: f64) -> Vec<DQuat> {
         (point(middle + half) - point(middle - half)).normalize_or(DVec3::NEG_Z)
     };
     let mut turn = DQuat::IDENTITY;
-    let mut previous = axis(0);
-    (0..positions.len())
+    let forward = axis(0);
+    let mut previous = forward;
+    let turns = (0..positions.len())
         .map(|k| {
             let next = axis(k);
             // The least rotation from chord to chord: parallel transport, without twist about the axis.
@@ -133,7 +211,8 @@ fn transported(positions: &[DVec3], half: f64) -> Vec<DQuat> {
             previous = next;
             turn
         })
-        .collect()
+        .collect();
+    (forward, turns)
 }
 
 #[cfg(test)]
@@ -171,6 +250,22 @@ mod tests {
                 // The midpoint rule: (h |u|)²/24 of the way beyond the tip, with h = 0.25 mm and |u| = 232/m.
                 assert!(a.distance(b) < 1.5e-4 * 0.03, "{s}: {}", a.distance(b));
             }
+        }
+    }
+
+    #[test]
+    fn a_curl_winds_about_its_axis_from_the_root_to_the_tip() {
+        let rest = equilibrium(&weightless(0.12), &[], &Options::default());
+        let wisp = Wisp::new(&rest, 481, 0.02);
+        let (start, along) = (wisp.centre(0.0).0, wisp.axis(0.0).direction);
+        for k in 0..=20 {
+            let x = f64::from(k) / 20.0 * wisp.end();
+            let (centre, AxisPoint { curl, direction }) = (wisp.centre(x).0, wisp.axis(x));
+            // Radius of the helix, and a straight axis.
+            assert!((curl.length() - 0.004).abs() < 1e-4, "{x}: {}", curl.length());
+            assert!(curl.dot(direction).abs() < 2e-4, "{x}: {}", curl.dot(direction));
+            assert!((centre - start).cross(along).length() < 2e-4, "{x}");
+            assert!((centre + curl).distance(wisp.at(x).0) < 1e-12);
         }
     }
 }

@@ -6,7 +6,7 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::random::{Purpose, Stream};
 use crate::strands::binding::StrandBinding;
 use crate::strands::population::Population;
-use crate::strands::skin::ROOT_DEPTH;
+use crate::strands::skin::below;
 
 /// Shortest hair (m) that is a rod. Shorter than any cut leaves. Chosen.
 const SHORTEST: f64 = 1e-3;
@@ -75,8 +75,7 @@ fn root(
     let tangent = mean.normalize_or(own.z_axis);
     let turn = DQuat::from_rotation_arc(own.z_axis, tangent);
     let d1 = (DMat3::from_quat(turn) * own).x_axis;
-    let follicle = binding.root.position - binding.root.normal * ROOT_DEPTH;
-    frisure_rod::Root::from_tangent(follicle, tangent, d1)
+    frisure_rod::Root::from_tangent(below(&binding.root, tangent), tangent, d1)
 }
 
 /// Where (m) the natural strain of a hair is given: where its guide's is, and beyond that as far apart.

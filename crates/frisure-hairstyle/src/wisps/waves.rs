@@ -1,16 +1,10 @@
-//! How hairs stray, and the thinner wisps that a wisp splits into.
+//! How hairs stray from their place in a wisp.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::guides::Guide;
-use crate::random::{Purpose, Stream};
-use crate::spec::HairstyleSpec;
-
-/// How far a split strays from its wisp, as a fraction of fuzziness times the patch's radius.
-/// Chosen by eye; not measured.
-const STRAY: f64 = 0.5;
+use crate::random::Stream;
 
 /// A coherent deviation along a hair: amplitude (m), wave number (rad per length) and phase.
 #[derive(Clone, Copy)]
@@ -53,35 +47,4 @@ impl Waves {
         };
         self.0.iter().map(wave).sum()
     }
-}
-
-/// A thinner wisp that a wisp splits into.
-#[derive(Clone, Copy)]
-pub(crate) struct Split {
-    /// Its middle in the wisp's patch of skin (m, from the guide's root).
-    pub(crate) middle: DVec3,
-    /// How it strays.
-    pub(crate) waves: Waves,
-}
-
-/// The thinner wisps of each wisp, spread over its patch.
-pub(crate) fn splits(spec: &HairstyleSpec, guides: &[Guide], patch: f64) -> Vec<Vec<Split>> {
-    let split = |guide: &Guide, random: &mut Stream| {
-        let normal = guide.root.normal;
-        let (u, v) = normal.any_orthonormal_pair();
-        // Uniform on the disc of the patch.
-        let (radius, angle) = (patch * random.unit().sqrt(), TAU * random.unit());
-        let amplitude = STRAY * spec.wisps.fuzziness * patch;
-        let length = guide.rod.length();
-        Split {
-            middle: (u * angle.cos() + v * angle.sin()) * radius,
-            waves: Waves::new(amplitude, length, random),
-        }
-    };
-    (guides.iter().enumerate())
-        .map(|(index, guide)| {
-            let mut random = Stream::new(spec.seed, Purpose::Split, index);
-            (0..spec.wisps.splits).map(|_| split(guide, &mut random)).collect()
-        })
-        .collect()
 }
