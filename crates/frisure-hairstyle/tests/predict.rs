@@ -193,12 +193,12 @@ fn regions_have_hair_of_their_own_length() {
         let short = rest.rod.length() < 0.05;
         assert_eq!(short, back > 0.5, "{:?}", guide.region);
     }
-    // Drawn hairs keep to it, too: none in between.
+    // Drawn hairs keep to it, too: none in between. Their first point is below the skin and up to 1.5 mm from the root.
     for hair in draw(&style, head(), StrandOptions::default(), &()).unwrap().strands.iter() {
         let shares = head().landmarks().shares(hair.points[0].as_dvec3());
         let back = shares[Region::Back as usize] + shares[Region::Nape as usize];
         let length: f32 = hair.points.windows(2).map(|p| p[0].distance(p[1])).sum();
-        assert!((length < 0.06) == (back > 0.5) || (back - 0.5).abs() < 0.05, "{length} {back}");
+        assert!((length < 0.06) == (back > 0.5) || (back - 0.5).abs() < 0.1, "{length} {back}");
     }
 }
 
