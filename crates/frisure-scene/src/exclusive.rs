@@ -9,7 +9,7 @@ use crate::source::Source;
 type Group = &'static [&'static [&'static str]];
 
 /// All groups; `[]` stands for the index of an item in a list.
-pub(crate) const GROUPS: [Group; 17] = [
+pub(crate) const GROUPS: [Group; 18] = [
     &[
         &["hair.fibre.diameter"],
         &["hair.fibre.mean_radius"],
