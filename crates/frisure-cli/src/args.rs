@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::files::frame::{Frame, FrameChoice, UpAxis};
-use frisure::formats::groom::Format;
+use frisure::formats::groom::{Fit, Format, MAX_STRANDS, Points, Program};
 use frisure::hairstyle::{PRESETS, Preset, preset};
 use frisure::render::trace::TraceOptions;
 use frisure::scene::Scene;
@@ -81,6 +81,8 @@ pub(crate) enum Command {
     Render(Render),
     /// Read a groom and write it in another format, with other units, axes or points.
     Convert(Convert),
+    /// Make hair cards for games: textured strips in levels of detail, in place of strands.
+    Cards(Cards),
     /// Compute one hair: its shape, its energies, and how sure they are.
     Hair(Hair),
     /// List the hair types that a scene can start from, or all that is measured of one.
@@ -327,12 +329,39 @@ pub(crate) struct Writing {
 
     /// Resample each strand to this number of points, evenly spaced along it: 2 to 65536. The command prints the
     /// largest distance from the original strands.
-    #[arg(long, value_name = "N", value_parser = groom_points)]
+    #[arg(long, value_name = "N", value_parser = groom_points, conflicts_with = "max_points")]
     pub(crate) points: Option<usize>,
+
+    /// Keep at most this number of points of each strand, 2 to 65536: root, tip and those without which the
+    /// strand would be farthest from its place. The command prints the largest distance.
+    #[arg(long, value_name = "N", value_parser = groom_points)]
+    pub(crate) max_points: Option<usize>,
+
+    /// Write this number of hairs, evenly chosen over the scalp, so much wider that they cover the same area.
+    #[arg(long, value_name = "N", value_parser = groom_hairs)]
+    pub(crate) hairs: Option<usize>,
+
+    /// With fewer hairs: leave each as wide as it is.
+    #[arg(long, requires = "hairs")]
+    pub(crate) keep_widths: bool,
+
+    /// Write what a program expects: unit, axes, numbers of hairs and points, attributes. `--unit`, `--up`,
+    /// `--hairs`, `--points` and `--max-points` have precedence.
+    #[arg(long = "for", value_name = "PROGRAM", value_parser = program())]
+    pub(crate) program: Option<&'static Program>,
 
     /// Unit and axes of what is written.
     #[command(flatten)]
     pub(crate) axes: Axes,
+}
+
+impl Writing {
+    /// The hairs and points that are asked for.
+    pub(crate) fn fit(self) -> Fit {
+        let even = self.points.map(Points::Even);
+        let points = even.or(self.max_points.map(Points::AtMost)).unwrap_or_default();
+        Fit { hairs: self.hairs, keep_widths: self.keep_widths, points }
+    }
 }
 
 /// Unit and axes of a groom's file.
@@ -386,7 +415,9 @@ const UP_AXES: [(&str, &str, UpAxis); 2] = [("y", "y", UpAxis::Y), ("z", "z", Up
 const CONVERT_EXAMPLES: &str = "\
 Examples:
   frisure convert wDemo.hair -o demo.ply
-  frisure convert scan.hair --from-unit mm --from-up y -o scan.obj --points 100";
+  frisure convert scan.hair --from-unit mm --from-up y -o scan.obj --points 100
+  frisure convert curly.usdc -o curly.html
+  frisure convert curly.usdc --for unreal --hairs 30000 -o curly.abc";
 
 /// Arguments of `frisure convert`.
 #[derive(Args, Debug)]
@@ -425,6 +456,57 @@ fn after_convert() -> String {
     }
     text.push_str("\ndocs/formats.md describes the content of each.");
     text
+}
+
+const CARDS_EXAMPLES: &str = "\
+Examples:
+  frisure cards scenes/curly.toml -o out/curly.glb
+  frisure cards curly.usdc -o curly.glb -o curly.obj --cards 400 --lods 3 --texture-size 1024
+
+Each level of detail has 2.5 times fewer cards than the one before, and textures half as large. The
+command prints for each level how far the cards are from the strands, seen from six sides: the part of
+the silhouette that differs, and the mean difference of what is covered. A .glb has all textures in
+it; .obj, .usdc and .usda have PNG files beside them. docs/cards.md describes the textures.";
+
+/// Arguments of `frisure cards`.
+#[derive(Args, Debug)]
+#[command(after_help = CARDS_EXAMPLES)]
+pub(crate) struct Cards {
+    /// The scene (TOML), `-` for standard input, or a groom of a format that `frisure convert` reads.
+    #[arg(value_name = "SCENE|GROOM")]
+    pub(crate) input: PathBuf,
+
+    /// Write them here (.glb, .obj, .usdc, .usda). May be repeated.
+    #[arg(long = "output", short, value_name = "CARDS", required = true)]
+    pub(crate) outputs: Vec<PathBuf>,
+
+    /// Cards of the first level, 1 to 20000.
+    #[arg(long, value_name = "N", value_parser = card_count, default_value_t = 800)]
+    pub(crate) cards: usize,
+
+    /// Levels of detail, 1 to 8.
+    #[arg(long, value_name = "N", value_parser = levels, default_value_t = 4)]
+    pub(crate) lods: usize,
+
+    /// Side of the first level's textures (texels), 64 to 8192.
+    #[arg(long, value_name = "N", value_parser = texture_size, default_value_t = 2048)]
+    pub(crate) texture_size: usize,
+
+    /// What a groom that is read has.
+    #[command(flatten)]
+    pub(crate) axes: Axes,
+}
+
+fn card_count(text: &str) -> Result<usize, String> {
+    number(text, 1, 20_000)
+}
+
+fn levels(text: &str) -> Result<usize, String> {
+    number(text, 1, 8)
+}
+
+fn texture_size(text: &str) -> Result<usize, String> {
+    number(text, 64, 8192)
 }
 
 const HAIR_EXAMPLES: &str = "\
@@ -559,6 +641,14 @@ fn hair_type() -> impl TypedValueParser<Value = &'static Preset> {
     PossibleValuesParser::new(PRESETS.iter().map(|p| p.name)).map(|n| preset(&n).expect(known))
 }
 
+/// Reads the name of a program.
+fn program() -> impl TypedValueParser<Value = &'static Program> {
+    let known = "the parser accepts the names of programs alone";
+    let possible = Program::ALL.iter().map(|p| PossibleValue::new(p.name).help(p.title));
+    PossibleValuesParser::new(possible)
+        .map(|name| Program::ALL.iter().find(|p| p.name == name).expect(known))
+}
+
 /// Reads the name of one of some values, each with a name and a description.
 fn named<T: Copy + Send + Sync>(
     values: &'static [(&'static str, &'static str, T)],
@@ -607,6 +697,10 @@ fn points(text: &str) -> Result<usize, String> {
 
 fn groom_points(text: &str) -> Result<usize, String> {
     number(text, 2, 65_536)
+}
+
+fn groom_hairs(text: &str) -> Result<usize, String> {
+    number(text, 1, MAX_STRANDS)
 }
 
 fn step_number(text: &str) -> Result<usize, String> {

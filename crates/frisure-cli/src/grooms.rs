@@ -1,8 +1,11 @@
 //! Files of grooms: which strands, with how many points, in which unit.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use frisure::formats::groom::{Format, Groom, GroomError, write_groom};
+use frisure::files::frame::FrameChoice;
+use frisure::formats::groom::{
+    Fit, FitError, Fitted, Format, Groom, GroomError, Points, write_groom,
+};
 use frisure::strands::Strands;
 use frisure_engine::Error;
 
@@ -12,7 +15,8 @@ use crate::interrupt;
 /// The hint for an output whose format prescribes a unit and axes.
 const FRAME_HINT: &str = "write it in a run of its own, without `--unit` and `--up`";
 
-/// Checks that the format of every output can hold the content, in the unit and axes chosen.
+/// Checks that the format of every output can hold the content, in the unit and axes chosen, and that the program
+/// opens it.
 pub(crate) fn check(outputs: &[PathBuf], writing: Writing) -> Result<(), Error> {
     for path in outputs {
         let format = Format::of(path).map_err(|e| Error::because(&e, hint_of(path)))?;
@@ -21,17 +25,19 @@ pub(crate) fn check(outputs: &[PathBuf], writing: Writing) -> Result<(), Error> 
             let error = GroomError::CannotHold { format: format.extension(), what };
             return Err(Error::because(&error, "write each with `--content` to a file of its own"));
         }
-        format.check_frame(writing.axes.choice()).map_err(|e| Error::because(&e, FRAME_HINT))?;
+        let choice = choice(path, format, writing)?;
+        format.check_frame(choice).map_err(|e| Error::because(&e, FRAME_HINT))?;
     }
     Ok(())
 }
 
-/// A groom with another number of points per strand.
-struct Resampled {
-    points: usize,
-    groom: Groom,
-    /// Largest distance from the strands before (m).
-    error: f32,
+/// Unit and axes of a file: given, or those of the program.
+fn choice(path: &Path, format: Format, writing: Writing) -> Result<FrameChoice, Error> {
+    let given = writing.axes.choice();
+    let Some(program) = writing.program else { return Ok(given) };
+    let hint = "write other files in a run of their own, without `--for`";
+    let usual = program.frame(path, format).map_err(|e| Error::because(&e, hint))?;
+    Ok(FrameChoice { metres: given.metres.or(usual.metres), up: given.up.or(usual.up) })
 }
 
 /// Writes a groom to each path; returns a line about each.
@@ -41,25 +47,28 @@ pub(crate) fn write(
     writing: Writing,
 ) -> Result<Vec<String>, Error> {
     let groom = with_content(groom, writing.content);
-    // Formats with the same number of points share the resampled groom.
-    let mut resampled: Option<Resampled> = None;
+    let groom =
+        writing.program.map_or_else(|| groom.clone(), |program| program.known(groom.clone()));
+    // Formats that ask for the same share the groom.
+    let mut known: Option<(Fit, Fitted)> = None;
     let mut lines = Vec::new();
     for path in paths {
         interrupt::check()?;
         let format = Format::of(path).map_err(|e| Error::because(&e, ""))?;
         let mut line = path.display().to_string();
         let mut written = &groom;
-        if let Some(points) = writing.points.or(format.other_points(&groom)) {
-            let known = resampled.take().filter(|known| known.points == points);
-            let Resampled { groom, error, .. } = resampled.insert(known.unwrap_or_else(|| {
-                let (groom, error) = groom.resampled(points);
-                Resampled { points, groom, error }
-            }));
-            let error = f64::from(*error) * 1e3;
-            line += &format!(" ({points} points each, within {error:.3} mm of what they were)");
-            written = groom;
+        let fit = writing.fit().or_usual(format, writing.program, &groom);
+        if !fit.is_nothing() {
+            let fitted = match known.take().filter(|(of, _)| *of == fit) {
+                Some((_, fitted)) => fitted,
+                None => groom.fitted(fit).map_err(|e| Error::because(&e, hint_of_fit(&e)))?,
+            };
+            let (_, fitted) = known.insert((fit, fitted));
+            line += &told(fit, fitted);
+            written = &fitted.groom;
         }
-        let write = || write_groom(path, written, writing.axes.choice());
+        let choice = choice(path, format, writing)?;
+        let write = || write_groom(path, written, choice);
         interrupt::writing(write).map_err(|e| match e {
             GroomError::CannotHold { .. } => Error::because(&e, ""),
             GroomError::Frame { .. } => Error::because(&e, FRAME_HINT),
@@ -68,6 +77,36 @@ pub(crate) fn write(
         lines.push(line);
     }
     Ok(lines)
+}
+
+/// What was done to a groom, in brackets; nothing if it is as it was.
+fn told(fit: Fit, fitted: &Fitted) -> String {
+    let mut parts = Vec::new();
+    if let Some(before) = fitted.hairs_before {
+        let (count, wider) = (fitted.groom.hairs.len(), fitted.widening);
+        let wider =
+            if wider == 1.0 { "as wide".into() } else { format!("{wider:.2} times as wide") };
+        parts.push(format!("{count} of {before} hairs, {wider}"));
+    }
+    let error = f64::from(fitted.error) * 1e3;
+    match fit.points {
+        Points::Own => {}
+        Points::Even(points) => {
+            parts.push(format!("{points} points each, within {error:.3} mm of what they were"));
+        }
+        Points::AtMost(points) => parts
+            .push(format!("at most {points} points each, within {error:.3} mm of what they were")),
+    }
+    if parts.is_empty() { String::new() } else { format!(" ({})", parts.join("; ")) }
+}
+
+/// How to ask for a groom that there is.
+fn hint_of_fit(error: &FitError) -> &'static str {
+    match error {
+        FitError::Hairs { .. } => "ask for at most as many, or leave `--hairs` out",
+        FitError::NoHairs => "leave `--hairs` out",
+        FitError::Thick { .. } => "ask for more hairs, or add `--keep-widths`",
+    }
 }
 
 /// The groom with only the strands that are wanted.
@@ -80,7 +119,7 @@ fn with_content(groom: Groom, content: Option<Content>) -> Groom {
 }
 
 /// The flag for an output that is no groom.
-fn hint_of(path: &std::path::Path) -> &'static str {
+fn hint_of(path: &Path) -> &'static str {
     match path.extension() {
         Some(e) if ["png", "exr"].iter().any(|known| e.eq_ignore_ascii_case(known)) => {
             "pictures go to `--image`"

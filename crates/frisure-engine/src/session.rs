@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use frisure::files::frame::FrameChoice;
 use frisure::formats::contents;
-use frisure::formats::groom::{self, Format};
+use frisure::formats::groom::{self, Fit, Format};
 use frisure::formats::picture::png;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{add_sections, selected};
@@ -158,9 +158,10 @@ impl Execution<'_> {
         let loaded = self.load(scene, Quality::Exact)?;
         let strands = self.strands(&loaded, 1)?;
         let groom = loaded.groom(Strands::clone(&strands), false);
-        let groom = match format.usual_points() {
-            Some(points) => groom.resampled(points).0,
-            None => groom,
+        let fit = Fit::default().or_usual(format, None, &groom);
+        let groom = match fit.is_nothing() {
+            true => groom,
+            false => groom.fitted(fit).map_err(|e| Error::because(&e, ""))?.groom,
         };
         let bytes = groom::encode(format, &groom, FrameChoice::default())
             .map_err(|e| Error::because(&e, ""))?;

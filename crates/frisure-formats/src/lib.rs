@@ -4,7 +4,8 @@
 //! | module | reads | writes |
 //! | --- | --- | --- |
 //! | [`head`] | OBJ, USD, glTF and PLY meshes, scalp masks | |
-//! | [`groom`] | `.hair`, `.obj`, `.ply`, `.usdc`, `.usda`, `.usdz`, `.abc`, `.data`, `.npz` | the same, `.txt` and `.pbrt` for renderers, `.glb` |
+//! | [`groom`] | `.hair`, `.obj`, `.ply`, `.usdc`, `.usda`, `.usdz`, `.abc`, `.data`, `.npz` | the same, `.txt` and `.pbrt` for renderers, `.glb`, `.html` |
+//! | [`cards`] | | hair cards: `.glb`, `.obj`, `.usdc`, `.usda` |
 //! | [`contents`] | what a file holds: head, groom, or both | |
 //! | [`environment`] | environment maps, `.hdr` and `.exr` | |
 //! | [`picture`] | | PNG, OpenEXR |
@@ -16,6 +17,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod cards;
 pub mod contents;
 pub mod environment;
 pub mod groom;

@@ -20,6 +20,7 @@ fn groom() -> Groom {
         of_strands(names::CLOSEST_GUIDES, Values::U32x3(vec![[1, 0, 0], [0, 1, 1], [1, 1, 0]])),
         of_strands(names::GUIDE_WEIGHTS, Values::F32x3(vec![[0.5, 0.25, 0.25]; 3])),
         of_strands(names::ID, Values::U32(vec![10, 11, 12])),
+        of_strands(names::CLUMP, Values::U32(vec![7, 8, 7])),
         // The last follows a guide of another group.
         of_strands(names::GROUP, Values::U32(vec![0, 5, 5])),
         of_strands(names::ROOT_UV, Values::F32x2(vec![[0.25, 0.5], [0.75, 0.125], [0.0, 1.0]])),
@@ -223,6 +224,21 @@ fn any_unit_and_axes_come_back() {
                 (Domain::Point, groom.hairs.attribute(names::DIRECTOR).unwrap())
             );
         }
+    }
+}
+
+/// Engines put hairs together by their wisps: those of the guides, where a groom says nothing else.
+#[test]
+fn hairs_of_a_guide_are_one_wisp() {
+    let mut groom = groom();
+    groom.hairs = groom.hairs.with_attributes(|name| name != names::CLUMP);
+    for format in ["abc", "usda", "usdc"].map(named) {
+        let back = read(format, &written(format, &groom)).unwrap();
+        assert_eq!(names::indices(&back.hairs, names::CLUMP), Some(&[1, 0, 1][..]));
+    }
+    let has = |bytes: &[u8], name: &[u8]| bytes.windows(name.len()).any(|w| w == name);
+    for format in ["abc", "usda"].map(named) {
+        assert!(has(&written(format, &groom), b"groom_group_cards_id"));
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use frisure::formats::groom::{Format, Groom, write_groom};
+use frisure::formats::groom::{Fit, Format, Groom, write_groom};
 use frisure::formats::report;
 use frisure::hairstyle::{DrawnHair, StrandOptions, penetration};
 use frisure::progress::Progress;
@@ -97,9 +97,11 @@ impl Hair {
             true => Arc::new(self.loaded.groom(self.drawn(progress)?.strands.clone(), true)),
             false => self.groom(progress)?,
         };
-        let resampled = format.other_points(&groom).map(|points| groom.resampled(points).0);
+        let fit = Fit::default().or_usual(format, None, &groom);
+        let fitted = (!fit.is_nothing()).then(|| groom.fitted(fit)).transpose();
+        let fitted = fitted.map_err(|e| Error::because(&e, ""))?;
         progress.check()?;
-        let written = resampled.as_ref().unwrap_or(&groom);
+        let written = fitted.as_ref().map_or(&*groom, |fitted| &fitted.groom);
         write_groom(path, written, Default::default()).map_err(|e| Error::failed(&e, ""))
     }
 }

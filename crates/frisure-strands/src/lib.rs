@@ -9,11 +9,15 @@
 
 mod features;
 pub mod names;
+mod near;
 mod resample;
+mod simplify;
 mod strands;
 mod surface;
+mod thin;
 
 pub use features::{Eye, Features, Tint};
 pub use resample::Resampled;
 pub use strands::{Attribute, AttributeError, AttributeValues, Domain, Strand, Strands};
 pub use surface::{Surface, SurfaceError};
+pub use thin::Thinned;

@@ -10,6 +10,8 @@ pub const GUIDE_WEIGHTS: &str = "guide_weights";
 pub const ID: &str = "id";
 /// Part of the scalp: 0 fringe, 1 top, 2 crown, 3 sides, 4 back, 5 nape; strand, u32.
 pub const GROUP: &str = "group";
+/// Number of its wisp (clump), from 0; strand, u32.
+pub const CLUMP: &str = "clump";
 /// Texture coordinates of the head beneath its root; strand, 2 × f32.
 pub const ROOT_UV: &str = "root_uv";
 /// Colour (linear, primaries of sRGB); strand or point, 3 × f32.

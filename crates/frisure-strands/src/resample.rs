@@ -141,7 +141,8 @@ fn distance(old: &[Vec3], parts: &[f64], new: &[Vec3]) -> f32 {
     old.iter().zip(parts).map(apart).fold(0.0, f32::max)
 }
 
-fn to_segment(p: Vec3, a: Vec3, b: Vec3) -> f32 {
+/// Distance of a point from a piece of a line.
+pub(crate) fn to_segment(p: Vec3, a: Vec3, b: Vec3) -> f32 {
     let along = b - a;
     let t = (p - a).dot(along) / along.length_squared();
     let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.0 };

@@ -239,6 +239,11 @@ impl Strands {
         &self.radii
     }
 
+    /// Multiplies all radii.
+    pub(crate) fn scale_radii(&mut self, factor: f32) {
+        self.radii.iter_mut().for_each(|radius| *radius *= factor);
+    }
+
     /// Index of the first point of each strand, and the number of points at the end.
     #[must_use]
     pub fn offsets(&self) -> &[u32] {
@@ -290,6 +295,13 @@ impl Strands {
     #[must_use]
     pub fn attributes(&self) -> &[Attribute] {
         &self.attributes
+    }
+
+    /// The strands with only the attributes whose names `keep` accepts.
+    #[must_use]
+    pub fn with_attributes(mut self, keep: impl Fn(&str) -> bool) -> Self {
+        self.attributes.retain(|attribute| keep(&attribute.name));
+        self
     }
 
     /// Smallest and largest corner of the box around all points (m); `None` without points.

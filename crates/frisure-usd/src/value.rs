@@ -253,6 +253,16 @@ impl Value {
         Self::single(ScalarType::Float, Data::F32(vec![x]))
     }
 
+    /// A truth value.
+    pub fn bool(x: bool) -> Self {
+        Self::single(ScalarType::Bool, Data::I32(vec![x.into()]))
+    }
+
+    /// The path of an asset, such as a texture.
+    pub fn asset(path: &str) -> Self {
+        Self::single(ScalarType::Asset, Data::Words(vec![path.into()]))
+    }
+
     /// An int.
     pub fn int(x: i32) -> Self {
         Self::single(ScalarType::Int, Data::I32(vec![x]))

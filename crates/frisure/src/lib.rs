@@ -66,6 +66,7 @@
 #![forbid(unsafe_code)]
 
 #[cfg(not(target_arch = "wasm32"))]
+pub use frisure_cards as cards;
 pub use frisure_denoise as denoise;
 pub use frisure_files as files;
 pub use frisure_formats as formats;

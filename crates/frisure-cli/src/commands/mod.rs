@@ -2,6 +2,7 @@
 
 #[cfg(feature = "batch")]
 pub(crate) mod batch;
+pub(crate) mod cards;
 pub(crate) mod convert;
 pub(crate) mod hair;
 pub(crate) mod measured;

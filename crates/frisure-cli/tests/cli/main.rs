@@ -2,6 +2,8 @@
 
 #[cfg(feature = "batch")]
 mod batch;
+mod cards;
+mod convert;
 mod hair;
 mod help;
 mod predict;

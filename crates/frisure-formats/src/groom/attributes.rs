@@ -10,6 +10,9 @@ use glam::Vec3;
 
 pub use frisure_strands::names::*;
 
+/// Names of the parts of the scalp, by their number in [`GROUP`].
+pub(super) const GROUPS: [&str; 6] = ["fringe", "top", "crown", "sides", "back", "nape"];
+
 /// An attribute with one value for each strand.
 #[must_use]
 pub fn of_strands(name: &str, values: AttributeValues) -> Attribute {
@@ -53,7 +56,7 @@ pub(super) fn real_values(all: Vec<f32>, width: usize) -> Option<AttributeValues
 /// Whether the values of an attribute are of the kind that its name stands for; other names stand for any.
 pub(super) fn is_as_named(attribute: &Attribute) -> bool {
     let expected = match &*attribute.name {
-        GUIDE | ID | GROUP => (true, 1),
+        GUIDE | ID | GROUP | CLUMP => (true, 1),
         CLOSEST_GUIDES => (true, 3),
         GUIDE_WEIGHTS | COLOUR | DIRECTOR | NATURAL_STRAIN => (false, 3),
         ROOT_UV => (false, 2),

@@ -18,7 +18,7 @@ const SENSIBLE: (f64, f64) = (2e-3, 5.0);
 const FARTHEST: f64 = 5e3;
 
 /// Largest radius of a fibre (m).
-const THICKEST: f32 = 0.01;
+pub(super) const THICKEST: f32 = 0.01;
 
 /// Radius of fibres where a file says nothing of it (m): a common human hair.
 pub(super) const USUAL_RADIUS: f32 = 35e-6;

@@ -49,17 +49,6 @@ impl Groom {
         Self { hairs, ..Self::default() }
     }
 
-    /// The groom with `points` points per strand, and how far (m) its strands are from what they were: see
-    /// [`Strands::resampled`].
-    #[must_use]
-    pub fn resampled(&self, points: usize) -> (Self, f32) {
-        let (hairs, guides) = (self.hairs.resampled(points), self.guides.resampled(points));
-        let error = hairs.error.max(guides.error);
-        let Self { name, head, colour, .. } = self;
-        let (name, head, colour) = (name.clone(), head.clone(), *colour);
-        (Self { name, hairs: hairs.strands, guides: guides.strands, head, colour }, error)
-    }
-
     /// The strands for a format that holds one kind: the hairs, or the guides where there are no hairs.
     #[must_use]
     pub fn strands(&self) -> &Strands {

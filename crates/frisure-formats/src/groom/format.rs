@@ -25,6 +25,8 @@ pub(super) struct Declaration {
     pub(super) holds_guides: bool,
     /// The number of points per strand that its readers require, if they require one.
     pub(super) usual_points: Option<usize>,
+    /// The most hairs that its readers show well, if there is such a number.
+    pub(super) most_hairs: Option<usize>,
     /// Checks that the format can hold a groom.
     pub(super) check: fn(&Groom) -> Result<(), String>,
     /// Writes what `check` has passed.
@@ -95,6 +97,12 @@ impl Format {
     #[must_use]
     pub const fn usual_points(self) -> Option<usize> {
         self.0.usual_points
+    }
+
+    /// The most hairs that its readers show well, if there is such a number.
+    #[must_use]
+    pub const fn most_hairs(self) -> Option<usize> {
+        self.0.most_hairs
     }
 
     /// That number, if some strand of a groom has another.

@@ -23,6 +23,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     frame: Frame::METRES_Y,
     holds_guides: true,
     usual_points: None,
+    most_hairs: None,
     check,
     write: encode,
     read: None,

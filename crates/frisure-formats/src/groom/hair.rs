@@ -23,6 +23,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     frame: Frame::CENTIMETRES_Z,
     holds_guides: false,
     usual_points: None,
+    most_hairs: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
     read: Some(decode),

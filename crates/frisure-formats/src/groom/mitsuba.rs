@@ -19,6 +19,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     frame: Frame::METRES_Y,
     holds_guides: false,
     usual_points: None,
+    most_hairs: None,
     check: |groom| check_strands("strand", groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
     read: None,

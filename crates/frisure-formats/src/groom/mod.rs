@@ -10,15 +10,18 @@ pub mod attributes;
 mod checked;
 mod curves;
 mod data;
+mod fit;
 mod format;
 mod gltf;
 mod hair;
+mod html;
 mod lines;
 mod mitsuba;
 mod npz;
 mod obj;
 mod pbrt;
 mod ply;
+mod program;
 mod usc;
 #[cfg(feature = "usd")]
 mod usd;
@@ -31,7 +34,9 @@ use thiserror::Error;
 
 pub use checked::MAX_STRANDS;
 pub use data::{Groom, HairColour};
+pub use fit::{Fit, FitError, Fitted, Points};
 pub use format::Format;
+pub use program::{Program, ProgramError};
 
 /// Largest file that is read (bytes).
 pub const MAX_SIZE: u64 = 8 << 30;
@@ -109,6 +114,7 @@ impl Format {
         Self(&mitsuba::FORMAT),
         Self(&pbrt::FORMAT),
         Self(&gltf::FORMAT),
+        Self(&html::FORMAT),
     ];
 
     /// The format of an extension without a dot, in any case of letters.
@@ -118,13 +124,16 @@ impl Format {
         Self::ALL.iter().find(names).copied()
     }
 
-    /// Checks that a file of the format can have the unit and axes of `choice`: glTF prescribes metres with y up.
+    /// Checks that a file of the format can have the unit and axes of `choice`: glTF prescribes metres with y up, and a
+    /// page has metres with z up.
     ///
     /// # Errors
     /// [`GroomError::Frame`].
     pub fn check_frame(self, choice: FrameChoice) -> Result<(), GroomError> {
-        // Only glTF prescribes both; other formats state them in the file, or leave them to their readers.
-        if self.0.extensions != gltf::FORMAT.extensions || choice.or(self.frame()) == self.frame() {
+        // Only these prescribe both; other formats state them in the file, or leave them to their readers.
+        let prescribes =
+            [gltf::FORMAT.extensions, html::FORMAT.extensions].contains(&self.0.extensions);
+        if !prescribes || choice.or(self.frame()) == self.frame() {
             return Ok(());
         }
         Err(GroomError::Frame { format: self.extension(), up: self.frame().up.name() })

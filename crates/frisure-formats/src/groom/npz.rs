@@ -32,6 +32,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     frame: Frame::METRES_Z,
     holds_guides: true,
     usual_points: None,
+    most_hairs: None,
     check: |_| Ok(()),
     write: encode,
     read: Some(decode),

@@ -20,6 +20,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     frame: Frame::METRES_Y,
     holds_guides: false,
     usual_points: None,
+    most_hairs: None,
     check: |_| Ok(()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
     read: Some(decode),

@@ -28,6 +28,24 @@ pub fn encode(width: u32, height: u32, rgba: &[u8]) -> Result<Vec<u8>, PictureEr
     Ok(bytes)
 }
 
+/// The bytes of a PNG of numbers that are no colours, as in [`encode`] without a statement about sRGB.
+///
+/// # Errors
+/// [`PictureError::Size`].
+pub fn encode_data(width: u32, height: u32, rgba: &[u8]) -> Result<Vec<u8>, PictureError> {
+    check(width, height, rgba)?;
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(rgba)?;
+        writer.finish()
+    });
+    written.map_err(|e| PictureError::Encoding(e.to_string()))?;
+    Ok(bytes)
+}
+
 /// The bytes of an animated PNG that never ends, of frames as in [`write()`], each seen for as many
 /// milliseconds. Programs that know no animation show the first.
 ///

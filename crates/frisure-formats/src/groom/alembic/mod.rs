@@ -23,6 +23,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     frame: names::FRAME,
     holds_guides: true,
     usual_points: None,
+    most_hairs: None,
     check: check_curves,
     write: write::encode,
     read: Some(read::decode),

@@ -12,17 +12,15 @@ pub(super) const UNREAL: &str = "groom_";
 pub(super) const OURS: &str = "frisure_";
 
 /// Attributes that Unreal reads: our name, and its own without [`UNREAL`].
-pub(super) const KNOWN: [(&str, &str); 6] = [
+pub(super) const KNOWN: [(&str, &str); 7] = [
     (attributes::ID, "id"),
     (attributes::GROUP, "group_id"),
     (attributes::ROOT_UV, "root_uv"),
     (attributes::COLOUR, "color"),
     (attributes::CLOSEST_GUIDES, "closest_guides"),
     (attributes::GUIDE_WEIGHTS, "guide_weights"),
+    (attributes::CLUMP, "clumpid"),
 ];
-
-/// Names of the parts of the scalp, by their number.
-pub(super) const GROUPS: [&str; 6] = ["fringe", "top", "crown", "sides", "back", "nape"];
 
 /// Schemas of curves and of transforms.
 pub(super) const CURVES: &str = "AbcGeom_Curve_v2";

@@ -7,7 +7,7 @@ use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::Vec3;
 
 use super::super::attributes as names;
-use super::names::{CURVES, GROUPS, KNOWN, OURS, UNREAL, XFORM};
+use super::names::{CURVES, KNOWN, OURS, UNREAL, XFORM};
 use crate::groom::attributes::{indices, of_strands, push};
 use crate::groom::data::{Groom, HairColour};
 use frisure_files::frame::Frame;
@@ -80,6 +80,12 @@ fn hair_extras(groom: &Groom) -> Vec<Attribute> {
         let ids = (0..hairs.len() as u32).collect();
         extras.push(of_strands(names::ID, AttributeValues::U32(ids)));
     }
+    // A hair grows in the wisp of the guide that it follows most.
+    if let Some(guide) = indices(hairs, names::GUIDE)
+        && hairs.attribute(names::CLUMP).is_none()
+    {
+        extras.push(of_strands(names::CLUMP, AttributeValues::U32(guide.to_vec())));
+    }
     if let Some(guide) = indices(hairs, names::GUIDE)
         && !groom.guides.is_empty()
         && hairs.attribute(names::CLOSEST_GUIDES).is_none()
@@ -143,7 +149,7 @@ fn groups<'a>(
 }
 
 fn group_name(group: u32) -> String {
-    let known = GROUPS.get(group as usize);
+    let known = names::GROUPS.get(group as usize);
     known.map_or_else(|| format!("group_{group}"), |&name| name.into())
 }
 
@@ -234,8 +240,10 @@ impl Part<'_> {
             let id = (group as i32).to_le_bytes();
             let id = Sample::of(Pod::I32, 1, 1, move |out| out.extend_from_slice(&id));
             all.push(parameter("groom_group_id", Scope::Constant, "", id));
-            let name = Sample::texts(&[&self.name]);
-            all.push(parameter("groom_group_name", Scope::Constant, "", name));
+            let name = || Sample::texts(&[&self.name]);
+            all.push(parameter("groom_group_name", Scope::Constant, "", name()));
+            // Unreal makes one set of cards for each name.
+            all.push(parameter("groom_group_cards_id", Scope::Constant, "", name()));
         } else if let Some(groups) = indices(self.strands, names::GROUP) {
             let called: Vec<String> =
                 self.rows.iter().map(|&row| group_name(groups[row])).collect();
@@ -314,7 +322,7 @@ impl Part<'_> {
 /// Whether an attribute is of the kind that its name promises.
 pub(super) fn fits(name: &str, domain: Domain, values: &AttributeValues) -> bool {
     match name {
-        names::ID | names::GROUP => {
+        names::ID | names::GROUP | names::CLUMP => {
             matches!((domain, values), (Domain::Strand, AttributeValues::U32(_)))
         }
         names::ROOT_UV => matches!((domain, values), (Domain::Strand, AttributeValues::F32x2(_))),

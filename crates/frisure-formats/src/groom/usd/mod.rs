@@ -43,6 +43,7 @@ const fn declaration(
         frame: Frame::METRES_Z,
         holds_guides: true,
         usual_points: None,
+        most_hairs: None,
         check: check_curves,
         write,
         read: Some(decode),

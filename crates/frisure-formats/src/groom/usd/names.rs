@@ -7,12 +7,15 @@ pub(super) const OURS: &str = "primvars:frisure:";
 
 /// Name inside, primvar, type of one value. Where several primvars have one name inside, readers take the first that
 /// is there.
-pub(super) const PRIMVARS: [(&str, &str, &str); 10] = [
+pub(super) const PRIMVARS: [(&str, &str, &str); 12] = [
     (inside::GUIDE, "primvars:guide_curve_index", "int"),
     (inside::CLOSEST_GUIDES, "primvars:groom_closest_guides", "int3"),
     (inside::GUIDE_WEIGHTS, "primvars:groom_guide_weights", "float3"),
     (inside::ID, "primvars:groom_id", "int"),
     (inside::GROUP, "primvars:groom_group_id", "int"),
+    // A number and no name, as Alembic has it: Blender warns of primvars that are strings.
+    (inside::GROUP, "primvars:groom_group_cards_id", "int"),
+    (inside::CLUMP, "primvars:groom_clumpid", "int"),
     // What Blender keeps where hair sits on a mesh, and what Unreal does.
     (inside::ROOT_UV, "primvars:surface_uv_coordinate", "texCoord2f"),
     (inside::ROOT_UV, "primvars:groom_root_uv", "float2"),

@@ -115,14 +115,19 @@ fn a_groom_comes_back_with_all_it_has() {
 fn each_of_three_guides_is_a_number_of_its_own() {
     let layer = write::layer(&whole(), Frame::METRES_Z);
     let hairs = layer.prims[0].children.iter().find(|prim| prim.name == "hairs").unwrap();
-    let of = |name: &str| hairs.attribute(name).unwrap().value.clone().unwrap();
+    // Without indices, which equal weights have.
+    let of = |name: &str| {
+        let attribute = hairs.attribute(name).unwrap();
+        hairs.resolved(attribute, attribute.value.as_ref().unwrap(), 1).unwrap()
+    };
     // The three of each hair in `whole`, by columns.
     for (k, column) in [[1, 0, 0], [0, 1, 1], [0, 1, 0]].into_iter().enumerate() {
         let guides = of(&format!("primvars:groom_closest_guide_{k}"));
-        assert_eq!(guides, usd::Value::ints(column.to_vec()));
+        assert_eq!(guides, usd::Data::I32(column.to_vec()));
         let weights = of(&format!("primvars:groom_guide_weight_{k}"));
-        assert_eq!(weights, usd::Value::floats(vec![[0.5, 0.25, 0.25][k]; 3]));
+        assert_eq!(weights, usd::Data::F32(vec![[0.5, 0.25, 0.25][k]; 3]));
     }
+    assert!(hairs.attribute("primvars:groom_guide_weight_0:indices").is_some());
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::Vec3;
 
-use super::super::attributes::{COLOUR, DIRECTOR, in_file_axes};
+use super::super::attributes::{CLUMP, COLOUR, DIRECTOR, GUIDE, in_file_axes, indices, of_strands};
 use super::super::data::{Groom, HairColour};
 use super::look;
 use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS, REST_POSITION, SINGLES, TEXTURE};
@@ -91,7 +91,17 @@ fn curves(name: &str, strands: &Strands, frame: Frame) -> Prim {
     for attribute in strands.attributes() {
         put(&mut prim, attribute, frame);
     }
+    if is_guide == 0 {
+        put_clumps(&mut prim, strands, frame);
+    }
     prim
+}
+
+/// Writes the wisp of each hair, by which engines put hairs together: that of the guide that it follows most.
+fn put_clumps(prim: &mut Prim, strands: &Strands, frame: Frame) {
+    if let (Some(guide), None) = (indices(strands, GUIDE), strands.attribute(CLUMP)) {
+        put(prim, &of_strands(CLUMP, AttributeValues::U32(guide.to_vec())), frame);
+    }
 }
 
 /// Writes an attribute under each of its names.
@@ -107,7 +117,7 @@ fn put(prim: &mut Prim, attribute: &Attribute, frame: Frame) {
         if *kind == "int3" {
             threes(prim, primvar, &value, per);
         } else {
-            prim.primvar(&format!("{kind}[]"), primvar, value.clone(), per);
+            indexed(prim, &format!("{kind}[]"), primvar, value.clone(), per);
         }
     }
     if let Some((_, prefix)) = SINGLES.iter().find(|(name, _)| *name == attribute.name) {
@@ -115,8 +125,36 @@ fn put(prim: &mut Prim, attribute: &Attribute, frame: Frame) {
     }
     let own = format!("{OURS}{}", identifier(&attribute.name));
     if !known && prim.attribute(&own).is_none() {
-        prim.primvar(usual, &own, value, per);
+        indexed(prim, usual, &own, value, per);
     }
+}
+
+/// Writes real numbers, each value once with an index for each strand or point if that is at most half of them: the weights of many
+/// hairs are the same.
+fn indexed(prim: &mut Prim, kind: &str, primvar: &str, value: Value, per: &str) {
+    let width = value.ty.width();
+    if let Data::F32(all) = &value.data
+        && all.len() > width
+    {
+        let (mut values, mut indices) = (Vec::new(), Vec::new());
+        let mut places = BTreeMap::new();
+        for row in all.chunks_exact(width) {
+            let key: Vec<u32> = row.iter().map(|x| x.to_bits()).collect();
+            let next = places.len();
+            let place = *places.entry(key).or_insert_with(|| {
+                values.extend_from_slice(row);
+                next
+            });
+            indices.push(place as i32);
+        }
+        if 2 * places.len() <= indices.len() {
+            let once = Value { data: Data::F32(values), ..value };
+            prim.primvar(kind, primvar, once, per);
+            prim.varying("int[]", &format!("{primvar}:indices"), Value::ints(indices));
+            return;
+        }
+    }
+    prim.primvar(kind, primvar, value, per);
 }
 
 /// A name that stages can have.
@@ -146,7 +184,7 @@ fn singles(prim: &mut Prim, prefix: &str, attribute: &Attribute, per: &str) {
             }
             _ => return,
         };
-        prim.primvar(kind, &format!("{prefix}{k}"), value, per);
+        indexed(prim, kind, &format!("{prefix}{k}"), value, per);
     }
 }
 
