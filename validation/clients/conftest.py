@@ -1,8 +1,11 @@
 """Fixtures of all clients: the program, and a small head of hair from it."""
 
+import json
 import os
 import pathlib
+import shutil
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -63,6 +66,28 @@ def head(frisure, tmp_path_factory):
     words = [word for groom in grooms for word in ("-o", groom)]
     frisure.run("predict", scene, "--fibres", *words)
     return folder
+
+
+@pytest.fixture(scope="session")
+def khronos():
+    """Codes and messages of Khronos' validator of glTF for a file, the worst first; those about what is not used or not known to it
+    are no faults."""
+    folder = pathlib.Path(sys.prefix) / "node_modules"
+    node = shutil.which("node")
+    if not node or not (folder / "gltf-validator").exists():
+        pytest.skip("there is no Node or no gltf-validator: see `install`")
+    code = """
+        const file = require("fs").readFileSync(process.argv[1]);
+        require("gltf-validator").validateBytes(new Uint8Array(file)).then((r) => console.log(JSON.stringify(r.issues)));"""
+
+    def khronos(path):
+        words = [node, "-e", code, str(path)]
+        done = subprocess.run(words, capture_output=True, text=True, check=True, env={**os.environ, "NODE_PATH": str(folder)})
+        issues = json.loads(done.stdout)["messages"]
+        known = ("UNSUPPORTED_EXTENSION", "UNUSED_OBJECT")
+        return [f"{i['code']}: {i['message']}" for i in issues if i["code"] not in known]
+
+    return khronos
 
 
 def read_hair(path):

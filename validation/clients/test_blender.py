@@ -65,13 +65,16 @@ def test_hair_and_head_are_imported(head, kind, hair_of):
     stage = Usd.Stage.Open(path)
     primvars = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/groom/hairs"))
     closest = np.array(primvars.GetPrimvar("groom_closest_guides").Get()).reshape(-1, 3)
-    weights = np.array(primvars.GetPrimvar("groom_guide_weights").Get())
+    weights = np.array(primvars.GetPrimvar("groom_guide_weights").ComputeFlattened())
     assert closest.max() > 0 and (closest[:, 0] == index).all()
     for k in range(3):
         single = np.zeros(len(counts), np.int32)
         curves.attributes[f"groom_closest_guide_{k}"].data.foreach_get("value", single)
         assert (single == closest[:, k]).all()
         assert (values(curves.attributes[f"groom_guide_weight_{k}"], "value", 1) == weights[:, k]).all()
+    clumps = np.zeros(len(counts), np.int32)
+    curves.attributes["groom_clumpid"].data.foreach_get("value", clumps)
+    assert (clumps == index).all()
     skin = bpy.data.objects["head"].data.materials[0]
     colour = next(n for n in skin.node_tree.nodes if n.type == "BSDF_PRINCIPLED").inputs["Base Color"]
     assert np.allclose(colour.default_value[:3], [0.40, 0.29, 0.235])
@@ -144,12 +147,16 @@ def test_hair_follows_the_head_as_it_deforms(head, bound):
     deform = tree.nodes.new("GeometryNodeDeformCurvesOnSurface")
     tree.links.new(start.outputs[0], deform.inputs[0])
     tree.links.new(deform.outputs[0], end.inputs[0])
-    hairs.modifiers.new("follow", "NODES").node_group = tree
+    follow = hairs.modifiers.new("follow", "NODES")
+    follow.node_group = tree
     bpy.context.view_layer.update()
     found = hairs.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     after = values(found.attributes["position"], "vector", 3)
     moved = np.abs(after - before - [0, 0, 0.02 if bound else 0]).max()
     assert moved < 1e-5, moved
+    # What the node says to its user.
+    told = [(warning.type, warning.message) for warning in follow.node_warnings]
+    assert told == ([] if bound else [("ERROR", 'Evaluated surface missing UV map: "st"')])
 
 
 def make(kind):

@@ -16,6 +16,10 @@ def glb(frisure, tmp_path):
     return path
 
 
+def test_khronos_has_nothing_to_say(glb, khronos):
+    assert khronos(glb) == []
+
+
 def array(gltf, index):
     accessor = gltf.accessors[index]
     view = gltf.bufferViews[accessor.bufferView]
