@@ -1,4 +1,4 @@
-"""Draws strands and their cards with Blender, one picture of each, and the cards of each level: the pictures of docs/cards.md.
+"""Draws strands and their cards with Blender, one picture of each: those of docs/cards.md. With `all` behind it, each level's, too.
 
     frisure predict scene.toml -o out/hair.usdc
     frisure cards out/hair.usdc -o out/hair.glb
@@ -68,17 +68,17 @@ def seen(hairs):
     scene.render.image_settings.quality = 88
 
 
-def main(usd, glb, folder):
+def main(usd, glb, folder, levels=""):
     hairs, cards = opened(usd, glb)
     lit()
     seen(hairs)
     things = [hairs, *cards]
     names = ["strands", "cards", *(f"cards-level-{k}" for k in range(1, len(cards)))]
-    for thing, name in zip(things, names):
+    for thing, name in list(zip(things, names))[: None if levels == "all" else 2]:
         for other in things:
             other.hide_render = other is not thing
         bpy.context.scene.render.filepath = str(pathlib.Path(folder).resolve() / f"{name}.jpg")
         bpy.ops.render.render(write_still=True)
 
 
-main(*sys.argv[1:4])
+main(*sys.argv[1:5])

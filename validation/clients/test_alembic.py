@@ -100,7 +100,10 @@ def test_every_attribute_has_its_type_and_scope(written):
         "groom_guide": ("int16_t", "con", [0]),
         "groom_group_id": ("int32_t", "con", [2]),
         "groom_group_name": ("string", "con", ["crown"]),
+        "groom_group_cards_id": ("string", "con", ["crown"]),
         "groom_id": ("int32_t", "uni", arrays["id"][rows]),
+        # The wisp is that of the guide.
+        "groom_clumpid": ("int32_t", "uni", arrays["guide"][rows]),
         "groom_root_uv": ("float32_t[2]", "uni", arrays["root_uv"][rows]),
         "groom_closest_guides": ("int32_t[3]", "uni", arrays["closest_guides"][rows]),
         "groom_guide_weights": ("float32_t[3]", "uni", arrays["guide_weights"][rows]),

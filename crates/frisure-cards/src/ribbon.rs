@@ -16,6 +16,9 @@ const SMOOTH: usize = 3;
 /// Part of the strands that a strip is as wide as; what is beyond is cut off.
 const WITHIN: f32 = 0.97;
 
+/// Largest turn of a strip between two stations of its mesh (rad). Chosen.
+const MOST_TURN: f32 = 1.0;
+
 /// Least half of the width of a strip (m).
 const NARROWEST: f32 = 5e-4;
 
@@ -222,7 +225,8 @@ fn beyond(even: &Even, rows: &[usize], tip: &Station) -> Option<Station> {
     (more > 1e-3).then_some(Station { middle, distance: tip.distance + more, ..*tip })
 }
 
-/// The stations without which an edge would be more than `tolerance` (m) away.
+/// The stations without which an edge would be more than `tolerance` (m) away, or the strip would turn by more than
+/// [`MOST_TURN`] between two: its edges would cross.
 fn needed(stations: &[Station], tolerance: f32) -> Vec<usize> {
     let edges: Vec<[Vec3; 2]> = stations.iter().map(Station::edges).collect();
     let mut kept = vec![0, stations.len() - 1];
@@ -235,10 +239,14 @@ fn needed(stations: &[Station], tolerance: f32) -> Vec<usize> {
         let all = (from + 1..to).map(|i| (apart(i), i));
         let (error, at) =
             all.fold((0.0, from), |best, next| if next.0 > best.0 { next } else { best });
-        if error > tolerance {
-            kept.push(at);
-            open.extend([(from, at), (at, to)]);
-        }
+        let turned = stations[from].across.dot(stations[to].across) < MOST_TURN.cos();
+        let at = match error > tolerance {
+            true => at,
+            false if turned && to - from > 1 => (from + to) / 2,
+            false => continue,
+        };
+        kept.push(at);
+        open.extend([(from, at), (at, to)]);
     }
     kept.sort_unstable();
     kept

@@ -14,18 +14,20 @@ fn room() -> Room {
 }
 
 #[test]
-fn a_scene_and_its_groom_have_the_same_cards() {
+fn a_scene_and_its_groom_have_as_many_cards_on_any_number_of_threads() {
     let room = room();
-    for (input, output, threads) in [("a.toml", "a.glb", "2"), ("a.usdc", "b.glb", "1")] {
-        let ran =
-            room.run(&[&["cards", input, "-o", output, "--threads", threads], &SMALL[..]].concat());
+    for (input, output, threads) in
+        [("a.toml", "a.glb", "2"), ("a.usdc", "b.glb", "1"), ("a.usdc", "c.glb", "2")]
+    {
+        let arguments = ["cards", input, "-o", output, "--threads", threads];
+        let ran = room.run(&[&arguments[..], &SMALL].concat());
         assert_eq!(ran.code, Some(0), "{}", ran.err);
         assert!(ran.out.contains("400 strands, 400 with a length, drawn as 400\n"), "{}", ran.out);
-        assert!(ran.out.contains("\n    1      8  "), "{}", ran.out);
+        assert!(ran.out.contains("\n    0     20  ") && ran.out.contains("\n    1      8  "));
     }
     let bytes = |name: &str| std::fs::read(room.path(name)).unwrap();
-    assert_eq!(bytes("a.glb"), bytes("b.glb"));
     assert_eq!(&bytes("a.glb")[..4], b"glTF");
+    assert_eq!(bytes("b.glb"), bytes("c.glb"));
 }
 
 #[test]
