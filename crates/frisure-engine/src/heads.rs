@@ -85,7 +85,7 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
     let turn = match &scene.head {
         HeadSource::Mesh(file) => file.turn,
-        HeadSource::Mannequin => None,
+        HeadSource::Mannequin | HeadSource::Person(_) => None,
     };
     let surface = match turn {
         Some(turn) => mesh.surface.turned(rotation(turn)),

@@ -171,7 +171,8 @@ pub const SPEED: Dimension = Dimension {
 pub const RATIO: Dimension =
     Dimension { name: "a number", si: "", example: "0.1", units: &[("%", 1e-2)] };
 
-static ALL: [&Dimension; 12] = [
+/// The dimensions by their SI units; of speeds, that of growth.
+static ALL: [&Dimension; 11] = [
     &LENGTH,
     &AREA,
     &ANGLE,
@@ -182,7 +183,6 @@ static ALL: [&Dimension; 12] = [
     &ACCELERATION,
     &TIME,
     &SPEED,
-    &VELOCITY,
     &RATIO,
 ];
 
