@@ -53,7 +53,8 @@ impl RoughPlastic {
 
     /// Share of the light towards the eye that the coat lets out.
     pub(super) fn let_out(&self) -> f32 {
-        1.0 - fresnel(self.f0, self.eye.z)
+        // Without a coat nothing is held back.
+        if self.f0 > 0.0 { 1.0 - fresnel(self.f0, self.eye.z) } else { 1.0 }
     }
 
     /// BSDF times the cosine, and the pdf of [`Self::sample`] (1/sr).
