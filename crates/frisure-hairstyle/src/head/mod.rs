@@ -350,7 +350,6 @@ mod tests {
         assert!(quantile(&above, 1.0) < 1.5e-3, "{}", quantile(&above, 1.0));
         // So does one of 8 mm between arm and ribs and at the edge of the foot.
         let below = gaps(|z| z < mannequin::NECK && z > -0.5);
-        println!("{:?}", [0.5, 0.8, 0.9, 0.95, 0.98, 1.0].map(|q| quantile(&below, q)));
         assert!(quantile(&below, 0.9) < 3e-4, "{}", quantile(&below, 0.9));
     }
 
