@@ -27,7 +27,7 @@ mod voxels;
 
 use frisure_digest::Digest;
 use frisure_strands::Surface;
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 use thiserror::Error;
 
 pub use distance::SignedDistance;
@@ -58,6 +58,7 @@ pub struct Head {
     signed_distance: SignedDistance,
     spheres: Vec<Sphere>,
     fingerprint: u64,
+    frame: (DVec3, DVec3),
 }
 
 /// Where the scalp of a mesh comes from.
@@ -128,7 +129,8 @@ impl Head {
             SignedDistance::with_torso(&surface, mannequin::NECK, Some(mannequin::FRAME));
         let features = mannequin::features(&surface, &distance);
         let surface = surface.with_features(features).expect("a tint for each vertex");
-        Self::assemble(surface, scalp, true, landmarks, distance)
+        let head = Self::assemble(surface, scalp, true, landmarks, distance);
+        Self { frame: mannequin::FRAME, ..head }
     }
 
     /// The names of the built-in heads, the mannequin first.
@@ -197,7 +199,14 @@ impl Head {
     ) -> Self {
         let spheres = spheres::fit(&surface, &scalp, &landmarks, &signed_distance);
         let fingerprint = fingerprint(&surface, &scalp);
-        Self { surface, scalp, natural, landmarks, signed_distance, spheres, fingerprint }
+        let frame = surface.bounds();
+        Self { frame, surface, scalp, natural, landmarks, signed_distance, spheres, fingerprint }
+    }
+
+    /// Smallest and largest corner of the box (m) by which places are put in order: that of the mesh, and of the mannequin
+    /// that of its bust, so that roots stay where they were before it had a torso.
+    pub(crate) fn frame(&self) -> (DVec3, DVec3) {
+        self.frame
     }
 
     /// A number that two heads share only if skin and scalp are the same.
@@ -250,7 +259,7 @@ impl Head {
 
 /// The digest of a head.
 fn fingerprint(surface: &Surface, scalp: &[f64]) -> u64 {
-    let positions = surface.positions().iter().flat_map(glam::DVec3::to_array);
+    let positions = surface.positions().iter().flat_map(DVec3::to_array);
     Digest::new("head")
         .packed("positions", positions.map(f64::to_le_bytes))
         .packed("triangles", surface.triangles().iter().flatten().map(|v| v.to_le_bytes()))
@@ -278,7 +287,6 @@ fn grows(surface: &Surface, scalp: &[f64]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
     use test_shapes::{ball, mannequin};
 
     #[test]

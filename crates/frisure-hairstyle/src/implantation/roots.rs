@@ -55,7 +55,7 @@ impl<'a> Scalp<'a> {
 
     fn with_edge(head: &'a Head, edge: Option<Edge>) -> Self {
         let surface = head.surface();
-        let (low, high) = surface.bounds();
+        let (low, high) = head.frame();
         let size = (high - low).max_element().max(f64::MIN_POSITIVE);
         let density = densities(head, edge.as_ref());
         let mut faces: Vec<(u32, usize, f64)> = (0..surface.triangles().len())
