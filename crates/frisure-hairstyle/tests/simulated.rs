@@ -54,6 +54,7 @@ fn a_hair_like_its_guide_falls_as_it_does() {
     spec.wisps.clumping = 0.0;
     spec.wisps.splits = 1;
     spec.wisps.length_variation = 0.0;
+    spec.wisps.growing = 0.0;
     spec.length.variation_between = 0.0;
     spec.fibre.variation = 0.0;
     spec.fibre.axis_ratio_variation = 0.0;
