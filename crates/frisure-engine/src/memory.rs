@@ -57,7 +57,8 @@ pub fn estimate(spec: &HairstyleSpec, work: Work) -> f64 {
         Hairs::PerWisp(each) => each as f64 * wisps,
         Hairs::Density(density) => density * SCALP,
     };
-    let touching = if spec.contact.hair == HairContact::Wisps { wisps } else { 0.0 };
+    let touch = matches!(spec.contact.hair, HairContact::Wisps | HairContact::Density);
+    let touching = if touch { wisps } else { 0.0 };
     let points = hairs * spec.wisps.points as f64;
     // More are refused by the key that asks for them, when the area of the scalp is known.
     let points = if hairs > MOST_HAIRS || points > MOST_POINTS { 0.0 } else { points };

@@ -34,6 +34,8 @@ pub struct ReplicaReport {
     pub largest: f64,
     /// Number of guides whose spread is above 0.5 mm: they rest in another minimum.
     pub jumped: usize,
+    /// Those guides, in their order: each snaps from one minimum to another.
+    pub snaps: Vec<usize>,
     /// The spread (m) of each guide: the largest distance of a point of it in a replica from the point at the same part of its
     /// length in the hairstyle.
     pub spread: Vec<f64>,
@@ -84,13 +86,15 @@ impl ReplicaReport {
             let rank = (part * sorted.len() as f64).ceil() as usize;
             sorted.get(rank.saturating_sub(1)).copied().unwrap_or(0.0)
         };
+        let snaps: Vec<usize> = (0..spread.len()).filter(|&i| spread[i] > JUMP).collect();
         Self {
             count,
             change: CHANGE,
             median: rank(0.5),
             percentile_99: rank(0.99),
             largest: rank(1.0),
-            jumped: spread.iter().filter(|&&spread| spread > JUMP).count(),
+            jumped: snaps.len(),
+            snaps,
             spread,
         }
     }
@@ -175,6 +179,6 @@ mod tests {
     fn ranks_are_the_nearest() {
         let report = ReplicaReport::of(1, vec![3e-3, 1e-6, 2e-6]);
         assert_eq!((report.median, report.percentile_99, report.largest), (2e-6, 3e-3, 3e-3));
-        assert_eq!(report.jumped, 1);
+        assert_eq!((report.jumped, report.snaps), (1, vec![0]));
     }
 }

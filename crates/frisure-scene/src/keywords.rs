@@ -315,6 +315,7 @@ keywords! {
         "none" => Self(HairContact::None), "wisps pass through each other";
         "layers" => Self(HairContact::Layers), "a bed of hair by the altitude of the root, as in the paper";
         "wisps" => Self(HairContact::Wisps), "wisps repel each other where they overlap";
+        "density" => Self(HairContact::Density), "a bed of hair as with layers, and wisps press on each other where together they take more room than there is";
     }
 
     Keyword<HeadMethod> {

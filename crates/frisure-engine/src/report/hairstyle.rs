@@ -88,7 +88,7 @@ pub struct GuideReport {
     /// The first that holds of `"not converged"`, `"inside the head"` (a penetration above [`DEEP`]), `"accuracy missed"`
     /// (the requested one, or the default) and `"at rest"`.
     pub status: &'static str,
-    /// What was checked of all guides together, with `equilibrium.method = "continuation"`.
+    /// What was checked of all guides together, with `contact.hair = "density"` or `equilibrium.method = "continuation"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<JointReport>,
     /// What friction holds; none if hair slides freely.
@@ -265,6 +265,9 @@ fn friction(hairstyle: &Hairstyle, largest_ratio: f64) -> Option<FrictionReport>
             "each guide alone, gravity turned on without friction; then all wisps pressed together, with friction"
         }
         HairContact::None | HairContact::Layers => "gravity turned on without friction",
+        HairContact::Density => {
+            "each guide alone, gravity turned on without friction; then all guides pressed together, with friction on the bed"
+        }
     };
     (hair > 0.0 || skin > 0.0).then_some(FrictionReport { hair, skin, largest_ratio, history })
 }
@@ -304,6 +307,7 @@ fn hair(hair: HairContact) -> &'static str {
         HairContact::None => "none",
         HairContact::Layers => "layers",
         HairContact::Wisps => "wisps",
+        HairContact::Density => "density",
     }
 }
 

@@ -10,6 +10,7 @@
 
 mod bed;
 mod body;
+mod density;
 mod friction;
 mod layers;
 mod neighbours;
@@ -21,6 +22,7 @@ mod wisp_friction;
 
 pub use bed::Bed;
 pub use body::{BodyContact, CombedHold, FrictionCoefficients};
+pub(crate) use density::{Density, DensityVariation, Strand};
 pub(crate) use friction::{Friction, FrictionGap};
 pub use friction::{FrictionSurface, Pressed};
 pub use layers::Layer;

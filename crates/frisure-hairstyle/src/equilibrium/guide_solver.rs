@@ -267,7 +267,7 @@ fn layer(spec: &HairstyleSpec, guide: &Guide) -> Layer {
 fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {
     let options = options(spec);
     let alone = spec.contact.body == Body::None && guide.pull.is_none();
-    if alone && spec.contact.hair != HairContact::Wisps {
+    if alone && !matches!(spec.contact.hair, HairContact::Wisps | HairContact::Density) {
         return equilibrium(&guide.rod, &[], &options);
     }
     let (elements, accuracy) = division(spec, guide);

@@ -228,7 +228,7 @@ impl HeadSolver<'_> {
         if !self.rubs {
             return;
         }
-        press(&mut self.wisps, &mut self.pairs);
+        press(&mut self.wisps, Some(&mut self.pairs));
     }
 
     /// Step 2.1: searches the neighbours of guides that have used up half of their reach.
@@ -256,7 +256,9 @@ impl HeadSolver<'_> {
             let settled: Vec<_> = group
                 .par_iter()
                 // No guide of a group touches another, so that moving them at the same time gives the same as one by one.
-                .map(|&i| self.wisps[i].downhill(&self.pairs, i, self.reach[i] - self.drift[i]))
+                .map(|&i| {
+                    self.wisps[i].downhill(&self.pairs.around(i), self.reach[i] - self.drift[i])
+                })
                 .collect();
             for (i, settled) in group.into_iter().zip(settled) {
                 self.wisps[i].take(settled);
@@ -314,7 +316,7 @@ impl HeadSolver<'_> {
     fn newton_steps(&self, newton: &mut [Option<NewtonStep>]) {
         newton.par_iter_mut().enumerate().filter(|(_, n)| n.is_none()).for_each(|(i, n)| {
             let reach = self.reach[i] - self.drift[i];
-            *n = Some(self.wisps[i].newton_step(&self.pairs, i, reach));
+            *n = Some(self.wisps[i].newton_step(&self.pairs.around(i), reach));
         });
     }
 
@@ -400,7 +402,7 @@ impl HeadSolver<'_> {
 
     /// Energy of the head (J).
     fn energy(&self) -> f64 {
-        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.pairs, i, None);
+        let share = |(i, w): (usize, &Wisp<'_>)| w.share(&self.pairs.shared(i), None);
         // Summed in order, so that it does not depend on threads.
         self.wisps.par_iter().enumerate().map(share).collect::<Vec<f64>>().iter().sum()
     }
@@ -409,7 +411,7 @@ impl HeadSolver<'_> {
         let count = self.wisps.len();
         // The lists without margins: certificates count what touches now, nothing else.
         self.pairs.update_neighbours(&vec![0.0; count], &vec![true; count]);
-        let gaps = friction_gaps(&self.wisps, &self.pairs);
+        let gaps = friction_gaps(&self.wisps, Some(&self.pairs));
         let friction = gaps.iter().map(|gap| gap.ratio).collect();
         Rest { sweeps, friction, ..rest_among(&self.wisps, &self.pairs, self.tolerance) }
     }

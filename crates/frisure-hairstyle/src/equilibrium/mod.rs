@@ -67,7 +67,8 @@ pub(crate) fn settle(
     SettleOptions { start, effort }: SettleOptions<'_>,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
-    let wisps_repel = spec.contact.hair == HairContact::Wisps;
+    let together = spec.contact.hair == HairContact::Density;
+    let wisps_repel = spec.contact.hair == HairContact::Wisps || together;
     let hold = match start {
         GuideStart::At(_) => Hold::Free,
         GuideStart::Natural | GuideStart::Like(_) | GuideStart::Changed { .. } => Hold::ByFriction,
@@ -93,18 +94,18 @@ pub(crate) fn settle(
         return Ok(Rest { friction, ..Rest::apart(alone) });
     }
     let gone = gone.unwrap_or_else(|| vec![None; guides.len()]);
-    if spec.equilibrium.method == HeadMethod::Continuation && full {
+    if together || (spec.equilibrium.method == HeadMethod::Continuation && full) {
         let among_each_other = warm || among;
-        let options = JointOptions { among_each_other, hold, gone: &gone };
-        return joint::settle(spec, head, guides, &alone, options, progress);
+        let most = (!full).then_some(effort.sweeps);
+        let options = JointOptions { among_each_other, hold, gone: &gone, most };
+        let mut rest = joint::settle(spec, head, guides, &alone, options, progress)?;
+        rest.divided_like(&alone);
+        return Ok(rest);
     }
     // Sweeps decide which wisp lies on which; a warm start has decided it.
     let sweep_first = full && !warm;
     let options = SweepOptions { sweep_first, most: effort.sweeps, hold };
     let mut rest = head_solver::settle(spec, head, guides, &alone, &gone, options, progress)?;
-    // Among wisps a guide has the division that it has alone.
-    for (guide, alone) in rest.guides.iter_mut().zip(&alone) {
-        guide.certificate.accuracy = alone.certificate.accuracy;
-    }
+    rest.divided_like(&alone);
     Ok(rest)
 }

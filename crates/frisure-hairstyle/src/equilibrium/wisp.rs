@@ -3,7 +3,7 @@
 use frisure_rod::minimise::{
     Minimiser, Minimum, Newton, NewtonStep, Problem, SecondVariation, StoppingCriteria,
 };
-use frisure_rod::potential::{FieldPotential, Potential};
+use frisure_rod::potential::{Field, FieldPotential, Potential};
 use frisure_rod::{Chain, Equilibrium, Shape};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -11,7 +11,9 @@ use rayon::prelude::*;
 use super::fields::{along, body, body_samples, samples};
 use super::friction_solver::Hold;
 use super::tether::{Tether, farthest, firmness};
-use crate::contact::{BodyContact, ContactPairs, Friction, FrictionGap, Layer, Pull, Samples};
+use crate::contact::{
+    BodyContact, ContactPairs, Density, Friction, FrictionGap, Layer, Pull, Samples, Strand,
+};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
@@ -26,6 +28,9 @@ const MOST_TETHERS: usize = 40;
 /// Distance between the points at which contact of wisps is evaluated, as a fraction of their radius …
 /// Chosen by trial; not measured further.
 const SPACING: f64 = 1.1;
+
+/// The same of density. Chosen: five points across its kernel.
+const SPACING_OF_DENSITY: f64 = 1.6;
 
 /// Least distance (m) between these points. Chosen by trial; not measured further.
 const LEAST_SPACING: f64 = 1e-3;
@@ -65,9 +70,10 @@ pub(super) struct Settled {
 }
 
 impl<'a> Wisp<'a> {
-    pub(super) fn new(guide: &'a Guide, alone: &'a Equilibrium, body: BodyContact<'a>) -> Self {
+    /// A guide where it rested alone; `spacing` is the distance of its points, as a fraction of its radius.
+    fn new(guide: &'a Guide, alone: &'a Equilibrium, body: BodyContact<'a>, spacing: f64) -> Self {
         let length = guide.rod.length();
-        let spacing = (SPACING * guide.thickness.packed(0.5 * length)).max(LEAST_SPACING);
+        let spacing = (spacing * guide.thickness.packed(0.5 * length)).max(LEAST_SPACING);
         let resolution = samples(guide, alone.elements, spacing);
         let settled = Settled {
             shape: alone.shape.clone(),
@@ -138,6 +144,13 @@ impl<'a> Wisp<'a> {
         Samples::new(self.points(), spacing, &self.guide.thickness)
     }
 
+    /// The points of the guide, for its density.
+    pub(super) fn strand(&self) -> Strand {
+        let elements = self.chain.len() as f64;
+        let spacing = self.guide.rod.length() / (elements * f64::from(self.resolution));
+        Strand { spacing, positions: self.points(), thickness: self.guide.thickness }
+    }
+
     /// Sets the bed of hair that the guide lies on besides the other wisps.
     pub(super) fn set_layer(&mut self, layer: Layer) {
         self.body.layer = layer;
@@ -152,19 +165,17 @@ impl<'a> Wisp<'a> {
     /// Gradient and second variation of the energy while all others hold still, held by a tether.
     pub(super) fn second_variation(
         &self,
-        pairs: &ContactPairs,
-        index: usize,
+        others: &dyn Field,
         anchor: Option<&Anchor>,
     ) -> SecondVariation {
-        let around = pairs.around(index);
-        let around = FieldPotential::new(&around, self.resolution);
+        let around = FieldPotential::new(others, self.resolution);
         self.held(&around, anchor, |problem| {
             problem.second_variation(&self.settled.shape, self.resolution)
         })
     }
 
     /// Some steps downhill while all others hold still, by at most `reach` (m).
-    pub(super) fn downhill(&self, pairs: &ContactPairs, index: usize, reach: f64) -> Settled {
+    pub(super) fn downhill(&self, others: &dyn Field, reach: f64) -> Settled {
         let stopping = StoppingCriteria { tolerance: 0.0, max_iterations: ITERATIONS };
         let from = &self.settled.shape;
         // A trust region in space: the same step with a stiffer tether until no node moves farther than `reach`.
@@ -173,7 +184,7 @@ impl<'a> Wisp<'a> {
             let tether = Tether::new(stiffness, &self.chain, from);
             // ½ c |r − r₀|² per length is a damping in space: the softest motions of a long hair are those that move it farthest.
             let tether = FieldPotential::new(&tether, 1);
-            let found = self.among(pairs, index, Some(&tether), |problem| {
+            let found = self.among(others, Some(&tether), |problem| {
                 Newton::default().minimise(problem, from.clone(), stopping)
             });
             let moved = farthest(&found.shape, from);
@@ -198,10 +209,10 @@ impl<'a> Wisp<'a> {
     }
 
     /// Newton's step while all others hold still, cut to move no node farther than `reach` (m).
-    pub(super) fn newton_step(&self, pairs: &ContactPairs, index: usize, reach: f64) -> NewtonStep {
+    pub(super) fn newton_step(&self, others: &dyn Field, reach: f64) -> NewtonStep {
         let from = &self.settled.shape;
         let mut newton =
-            self.among(pairs, index, None, |problem| Newton::default().newton_step(problem, from));
+            self.among(others, None, |problem| Newton::default().newton_step(problem, from));
         // Scaled as a whole, so that it stays a direction of descent.
         let moved = self.length_of(&newton.step);
         if moved > reach {
@@ -239,13 +250,11 @@ impl<'a> Wisp<'a> {
     /// Calls `act` with the energy of this guide while all others hold still.
     fn among<T>(
         &self,
-        pairs: &ContactPairs,
-        index: usize,
+        others: &dyn Field,
         tether: Option<&dyn Potential>,
         act: impl FnOnce(&Problem<'_>) -> T,
     ) -> T {
-        let around = pairs.around(index);
-        let around = FieldPotential::new(&around, self.resolution);
+        let around = FieldPotential::new(others, self.resolution);
         self.feeling(&around, tether, act)
     }
 
@@ -282,28 +291,21 @@ impl<'a> Wisp<'a> {
         act(&Problem::new(&self.chain, &felt))
     }
 
-    /// Energy of overlapping others (J).
-    pub(super) fn overlap_energy(&self, pairs: &ContactPairs, index: usize) -> f64 {
-        let around = pairs.around(index);
-        self.chain.energy(&self.settled.shape, &FieldPotential::new(&around, self.resolution))
+    /// Energy (J) that the guide has of `others`.
+    pub(super) fn energy_among(&self, others: &dyn Field) -> f64 {
+        self.chain.energy(&self.settled.shape, &FieldPotential::new(others, self.resolution))
     }
 
-    /// What the guide adds to the energy of the head (J): half of what it shares with others, and its tether.
-    pub(super) fn share(&self, pairs: &ContactPairs, index: usize, anchor: Option<&Anchor>) -> f64 {
-        let around = pairs.shared(index);
-        let around = FieldPotential::new(&around, self.resolution);
+    /// What the guide adds to the energy of the head (J), with its tether: `others` is its part of what it shares with them.
+    pub(super) fn share(&self, others: &dyn Field, anchor: Option<&Anchor>) -> f64 {
+        let around = FieldPotential::new(others, self.resolution);
         self.held(&around, anchor, |problem| problem.energy(&self.settled.shape).total())
     }
 
     /// The guide as an equilibrium.
-    pub(super) fn equilibrium(
-        &self,
-        pairs: &ContactPairs,
-        index: usize,
-        tolerance: f64,
-    ) -> Equilibrium {
+    pub(super) fn equilibrium(&self, others: &dyn Field, tolerance: f64) -> Equilibrium {
         let stopping = StoppingCriteria { tolerance, max_iterations: 0 };
-        self.among(pairs, index, None, |problem| {
+        self.among(others, None, |problem| {
             // No iteration: only the gradient and the pivots of the shape as it is, hence the certificate.
             let riccati = Newton { escape_saddles: false, ..Newton::default() };
             let found = riccati.minimise(problem, self.settled.shape.clone(), stopping);
@@ -322,41 +324,72 @@ pub(super) fn wisps_with_pairs<'a>(
     alone: &'a [Equilibrium],
     hold: Hold,
 ) -> (Vec<Wisp<'a>>, ContactPairs) {
-    let wisp = |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE));
-    let mut wisps: Vec<Wisp<'a>> = guides.iter().zip(alone).map(wisp).collect();
+    let wisp =
+        |(guide, alone)| Wisp::new(guide, alone, body(spec, head, guide, Layer::NONE), SPACING);
+    let wisps = stuck(guides.iter().zip(alone).map(wisp).collect(), hold);
     let samples = wisps.iter().map(Wisp::samples).collect();
     let pairs = ContactPairs::new(samples, spec.contact.hair_stiffness);
-    if hold == Hold::Free {
-        return (wisps, pairs);
+    let friction = if hold == Hold::Free { 0.0 } else { spec.contact.friction };
+    (wisps, pairs.with_friction(friction))
+}
+
+/// All guides of a head where they rest alone, on the bed of hair; they stick to what they touch there if they are `held`.
+pub(super) fn wisps_on_bed<'a>(
+    spec: &HairstyleSpec,
+    head: &'a Head,
+    guides: &'a [Guide],
+    alone: &'a [Equilibrium],
+    hold: Hold,
+) -> Vec<Wisp<'a>> {
+    let wisp = |(guide, alone): (&'a Guide, _)| {
+        Wisp::new(guide, alone, body(spec, head, guide, guide.layer), SPACING_OF_DENSITY)
+    };
+    stuck(guides.iter().zip(alone).map(wisp).collect(), hold)
+}
+
+/// Guides that stick to what they touch if they are held.
+fn stuck(mut wisps: Vec<Wisp<'_>>, hold: Hold) -> Vec<Wisp<'_>> {
+    if hold == Hold::ByFriction {
+        wisps.iter_mut().for_each(Wisp::stick);
     }
-    wisps.iter_mut().for_each(Wisp::stick);
-    (wisps, pairs.with_friction(spec.contact.friction))
+    wisps
 }
 
 /// Takes over how all wisps are pressed on skin and on each other; returns how far forces of friction were from the law.
-pub(super) fn press(wisps: &mut [Wisp<'_>], pairs: &mut ContactPairs) -> Vec<FrictionGap> {
+pub(super) fn press(wisps: &mut [Wisp<'_>], pairs: Option<&mut ContactPairs>) -> Vec<FrictionGap> {
     let on_skin: Vec<FrictionGap> = wisps.par_iter_mut().map(Wisp::press).collect();
-    joined(on_skin, pairs.press())
+    joined(on_skin, pairs.map(ContactPairs::press))
 }
 
 /// How far forces of friction are from the law where wisps are now.
-pub(super) fn friction_gaps(wisps: &[Wisp<'_>], pairs: &ContactPairs) -> Vec<FrictionGap> {
-    joined(wisps.par_iter().map(Wisp::friction_gap).collect(), pairs.friction_gaps())
+pub(super) fn friction_gaps(wisps: &[Wisp<'_>], pairs: Option<&ContactPairs>) -> Vec<FrictionGap> {
+    let on_skin = wisps.par_iter().map(Wisp::friction_gap).collect();
+    joined(on_skin, pairs.map(ContactPairs::friction_gaps))
 }
 
-fn joined(on_skin: Vec<FrictionGap>, on_hair: Vec<FrictionGap>) -> Vec<FrictionGap> {
+fn joined(on_skin: Vec<FrictionGap>, on_hair: Option<Vec<FrictionGap>>) -> Vec<FrictionGap> {
+    let Some(on_hair) = on_hair else { return on_skin };
     on_skin.into_iter().zip(on_hair).map(|(skin, hair)| skin.and(hair)).collect()
 }
 
 /// Guides among each other as they are, each certified to a relative gradient of `tolerance` while the others hold still.
 pub(super) fn rest_among(wisps: &[Wisp<'_>], pairs: &ContactPairs, tolerance: f64) -> Rest {
-    let overlaps = wisps.iter().enumerate().map(|(i, wisp)| wisp.overlap_energy(pairs, i));
+    let overlaps = wisps.iter().enumerate().map(|(i, wisp)| wisp.energy_among(&pairs.around(i)));
     // Each pair counts on both sides.
     let overlap_energy = overlaps.sum::<f64>() * 0.5;
     let guides = (wisps.par_iter().enumerate())
-        .map(|(i, wisp)| wisp.equilibrium(pairs, i, tolerance))
+        .map(|(i, wisp)| wisp.equilibrium(&pairs.around(i), tolerance))
         .collect();
     Rest { overlap_energy, ..Rest::apart(guides) }
+}
+
+/// Guides in hair of a density as they are, each with its own part of what they share, certified to a relative gradient of
+/// `tolerance` while the others hold still.
+pub(super) fn rest_in(wisps: &[Wisp<'_>], density: &Density, tolerance: f64) -> Rest {
+    let guides = (wisps.par_iter().enumerate())
+        .map(|(i, wisp)| wisp.equilibrium(&density.around(i), tolerance))
+        .collect();
+    Rest::apart(guides)
 }
 
 /// Where a tether holds a guide.

@@ -31,6 +31,13 @@ pub struct JointCertificate {
 }
 
 impl Rest {
+    /// Takes over what is known of the divisions of the guides: among others a guide has the one that it has alone.
+    pub(crate) fn divided_like(&mut self, alone: &[Equilibrium]) {
+        for (guide, alone) in self.guides.iter_mut().zip(alone) {
+            guide.certificate.accuracy = alone.certificate.accuracy;
+        }
+    }
+
     /// Guides that do not touch each other.
     pub(crate) fn apart(guides: Vec<Equilibrium>) -> Self {
         let friction = vec![0.0; guides.len()];

@@ -393,6 +393,9 @@ pub enum HairContact {
     /// Wisps repel each other where they overlap.
     #[default]
     Wisps,
+    /// Wisps lie on a bed of hair as with [`Self::Layers`], and press on each other where together they take more room than
+    /// there is. All come to rest together, whatever [`Settling::method`] says.
+    Density,
 }
 
 digestible! {

@@ -9,7 +9,7 @@ use frisure_rod::minimise::{NodeChanges, SecondVariation, SecondVariationFactor}
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::contact::Contact;
+use crate::contact::{Contact, DensityVariation};
 
 /// One vector for each element of each guide.
 pub(super) type Controls = Vec<Vec<DVec3>>;
@@ -18,8 +18,48 @@ pub(super) type Controls = Vec<Vec<DVec3>>;
 pub(super) struct JointHessian {
     /// H_i of each guide while the others hold still.
     pub(super) guides: Vec<SecondVariation>,
+    /// What couples them.
+    pub(super) coupling: Coupling,
+}
+
+/// Which second derivatives a step is computed with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Curvature {
+    /// All of them.
+    Full,
+    /// Those of density without what bends downwards: pairs that turn, or come nearer than the kernel is steep.
+    Convex,
+}
+
+/// The second derivatives of the energy that guides share, but for what H_i has of it.
+pub(super) enum Coupling {
     /// What each guide touches.
-    pub(super) contacts: Vec<Vec<Contact>>,
+    Pairs(Vec<Vec<Contact>>),
+    /// That of density.
+    Density(DensityVariation),
+}
+
+impl Coupling {
+    /// The change of force (N) at each point of each guide for displacements (m) of them.
+    fn forces(&self, moved: &[&[DVec3]], curvature: Curvature) -> Vec<Vec<DVec3>> {
+        let contacts = match self {
+            Self::Density(variation) => {
+                return variation.forces(moved, curvature == Curvature::Convex);
+            }
+            Self::Pairs(contacts) => contacts,
+        };
+        (contacts.par_iter().zip(moved))
+            .map(|(contacts, own)| {
+                let mut forces = vec![DVec3::ZERO; own.len()];
+                for contact in contacts {
+                    let (other, point) = contact.other;
+                    let displacement = moved[other as usize][point as usize];
+                    forces[contact.point as usize] -= contact.apply(displacement);
+                }
+                forces
+            })
+            .collect()
+    }
 }
 
 impl JointHessian {
@@ -30,6 +70,11 @@ impl JointHessian {
 
     /// H x (N m) for a step x (rad). (H1)
     pub(super) fn apply(&self, step: &Controls) -> Controls {
+        self.apply_with(step, Curvature::Full)
+    }
+
+    /// The same with some of the second derivatives.
+    pub(super) fn apply_with(&self, step: &Controls, curvature: Curvature) -> Controls {
         let moved: Vec<(NodeChanges, Vec<DVec3>)> = (self.guides.par_iter().zip(step))
             .map(|(guide, x)| {
                 let changes = guide.node_changes(x);
@@ -37,16 +82,10 @@ impl JointHessian {
                 (changes, moved)
             })
             .collect();
+        let displacements: Vec<&[DVec3]> = moved.iter().map(|(_, points)| &points[..]).collect();
+        let forces = self.coupling.forces(&displacements, curvature);
         (self.guides.par_iter().zip(step).enumerate())
-            .map(|(i, (guide, x))| {
-                let mut forces = vec![DVec3::ZERO; guide.sample_count()];
-                for contact in &self.contacts[i] {
-                    let (other, point) = contact.other;
-                    let displacement = moved[other as usize].1[point as usize];
-                    forces[contact.point as usize] -= contact.apply(displacement);
-                }
-                guide.apply_with(x, &moved[i].0, &forces)
-            })
+            .map(|(i, (guide, x))| guide.apply_with(x, &moved[i].0, &forces[i]))
             .collect()
     }
 }

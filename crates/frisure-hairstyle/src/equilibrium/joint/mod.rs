@@ -8,6 +8,7 @@
 mod certificate;
 mod hessian;
 mod newton;
+mod others;
 mod state;
 
 use frisure_progress::{Cancelled, Progress, StageCounter};
@@ -15,7 +16,7 @@ use frisure_rod::{Equilibrium, Stability};
 
 use self::certificate::lowest_eigenvalue;
 use self::hessian::Preconditioner;
-use self::newton::minimise;
+use self::newton::{Descent, minimise};
 use self::state::HeadState;
 use super::friction_solver::Hold;
 use super::letting_go::loads;
@@ -72,7 +73,11 @@ struct Stage {
 }
 
 /// The stages of the continuation; where the guides rested among each other before, those at full hardness.
-fn stages(among_each_other: bool) -> Vec<Stage> {
+fn stages(among_each_other: bool, density: bool) -> Vec<Stage> {
+    if density {
+        // Smooth enough for Newton's method from guides that rest alone on the bed of hair.
+        return vec![Stage { share: 1.0, tether: 0.0 }];
+    }
     let (first, last) = TETHERS;
     let hardening = (0..=HARDENING_STAGES).map(|k| {
         let done = f64::from(k) / f64::from(HARDENING_STAGES);
@@ -92,6 +97,8 @@ pub(super) struct JointOptions<'a> {
     pub(super) hold: Hold,
     /// What lets go of each guide, in steps.
     pub(super) gone: &'a [Option<Pull>],
+    /// Most steps, if guides need not come to rest; then nothing is certified of all together.
+    pub(super) most: Option<usize>,
 }
 
 /// Brings guides to rest together, from where they are in `start`. Friction, if there is any, follows them after each stage.
@@ -103,13 +110,22 @@ pub(super) fn settle(
     head: &Head,
     guides: &[Guide],
     start: &[Equilibrium],
-    JointOptions { among_each_other, hold, gone }: JointOptions<'_>,
+    JointOptions { among_each_other, hold, gone, most }: JointOptions<'_>,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let counter = StageCounter::new(progress, "wisps making way", 1);
     let mut state = HeadState::new(spec, head, guides, start, hold);
+    if let Some(most) = most {
+        state.press();
+        let Descent { steps, .. } = minimise(&mut state, TOLERANCE, most, &counter)?;
+        return Ok(Rest {
+            sweeps: steps,
+            friction: state.friction_ratios(),
+            ..state.rest(CERTIFIED)
+        });
+    }
     let loads = loads(gone);
-    let stages = stages(among_each_other);
+    let stages = stages(among_each_other, state.is_density());
     let mut steps = 0;
     for (l, load) in loads.iter().enumerate() {
         state.let_go(gone, *load);
@@ -191,7 +207,7 @@ fn certificate(state: &HeadState<'_>, seed: u64) -> JointCertificate {
 
 #[cfg(test)]
 mod tests {
-    use super::hessian::{Controls, add, dot, negative, zero};
+    use super::hessian::{Controls, Coupling, add, dot, negative, zero};
     use super::*;
     use crate::random::{Purpose, Stream};
     use crate::{PredictOptions, preset};
@@ -211,7 +227,8 @@ mod tests {
         state.press();
         state.hold(0.1);
         let hessian = state.hessian();
-        assert!(hessian.contacts.iter().map(Vec::len).sum::<usize>() > 1000);
+        let Coupling::Pairs(contacts) = &hessian.coupling else { panic!("wisps in pairs") };
+        assert!(contacts.iter().map(Vec::len).sum::<usize>() > 1000);
         let mut random = Stream::new(1, Purpose::Lanczos, 1);
         let mut step = zero(&hessian.gradient());
         step.iter_mut().flatten().for_each(|x| *x = DVec3::splat(random.gaussian()) * 1e-4);

@@ -6,7 +6,8 @@
 use frisure_progress::{Cancelled, StageCounter};
 
 use super::hessian::{
-    Controls, JointHessian, Preconditioner, add, add_scaled, dot, negative, zero,
+    Controls, Coupling, Curvature, JointHessian, Preconditioner, add, add_scaled, dot, negative,
+    zero,
 };
 use super::state::HeadState;
 
@@ -26,6 +27,9 @@ const TRIALS: usize = 12;
 /// Farthest (m) that a point of any guide moves in a step: less than the radius of most wisps, so that none jumps over
 /// another. Chosen; with 8 mm and 15 mm no fewer steps are needed.
 const FARTHEST: f64 = 4e-3;
+
+/// Relative gradient above which hair of a density is far from rest. Chosen by trial.
+const FAR: f64 = 0.05;
 
 /// Relative rounding error of the energy of the head: that of f64 times about a thousand for the sum over guides.
 const ENERGY_ROUNDING: f64 = 1e-13;
@@ -55,14 +59,15 @@ pub(super) fn minimise(
         stage.check()?;
         let hessian = state.hessian();
         let gradient = hessian.gradient();
-        let at_rest = state.relative(&gradient) <= tolerance;
+        let relative = state.relative(&gradient);
+        let (at_rest, far) = (relative <= tolerance, relative > FAR);
         if at_rest || steps >= most {
             return Ok(Descent { steps, at_rest });
         }
         let Some(preconditioner) = Preconditioner::new(&hessian) else {
             return Ok(Descent { steps, at_rest: false });
         };
-        let step = step(&hessian, &preconditioner, &gradient);
+        let step = best_step(&hessian, &preconditioner, &gradient, far);
         match search(state, &gradient, step, energy) {
             Some(lowered) => energy = lowered,
             None => return Ok(Descent { steps, at_rest: false }),
@@ -71,12 +76,40 @@ pub(super) fn minimise(
     }
 }
 
-/// The step of truncated Newton (rad): conjugate gradients for H x = −g.
+/// The step of truncated Newton (rad), for hair of a density from convex second derivatives while it is `far` from rest or where
+/// the energy curves downwards: they are those of Gauss and Newton, and no step is cut short.
+fn best_step(
+    hessian: &JointHessian,
+    preconditioner: &Preconditioner<'_>,
+    gradient: &Controls,
+    far: bool,
+) -> Controls {
+    let step = |curvature| step(hessian, preconditioner, gradient, curvature);
+    let density = matches!(hessian.coupling, Coupling::Density(_));
+    if density && far {
+        return step(Curvature::Convex).way;
+    }
+    match step(Curvature::Full) {
+        Solution { downwards: true, .. } if density => step(Curvature::Convex).way,
+        solution => solution.way,
+    }
+}
+
+/// What conjugate gradients found.
+struct Solution {
+    /// A direction of descent (rad).
+    way: Controls,
+    /// Whether they met a direction along which the energy curves downwards, and stopped.
+    downwards: bool,
+}
+
+/// Conjugate gradients for H x = −g.
 fn step(
     hessian: &JointHessian,
     preconditioner: &Preconditioner<'_>,
     gradient: &Controls,
-) -> Controls {
+    curvature: Curvature,
+) -> Solution {
     let mut residual = negative(gradient);
     let mut z = preconditioner.solve(&residual);
     let mut way = z.clone();
@@ -84,13 +117,13 @@ fn step(
     let first = dot(&residual, &z);
     let mut norm = first;
     for k in 0..MOST_CG {
-        let product = hessian.apply(&way);
-        let curvature = dot(&way, &product);
-        if curvature <= 0.0 {
+        let product = hessian.apply_with(&way, curvature);
+        let bend = dot(&way, &product);
+        if bend <= 0.0 {
             // The energy curves downwards this way: what is solved so far is a direction of descent, and so is the first way.
-            return if k == 0 { way } else { step };
+            return Solution { way: if k == 0 { way } else { step }, downwards: true };
         }
-        let length = norm / curvature;
+        let length = norm / bend;
         add(&mut step, length, &way);
         add(&mut residual, -length, &product);
         z = preconditioner.solve(&residual);
@@ -101,7 +134,7 @@ fn step(
         add_scaled(&mut way, next / norm, &z);
         norm = next;
     }
-    step
+    Solution { way: step, downwards: false }
 }
 
 /// Goes along a step, halved until the energy is lower; gives the energy (J) there. The guides stay if no trial is lower.

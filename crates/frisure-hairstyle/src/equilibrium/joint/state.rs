@@ -5,14 +5,16 @@ use rayon::prelude::*;
 
 use super::super::friction_solver::Hold;
 use super::super::wisp::{
-    Anchor, Settled, Wisp, friction_gaps, press, rest_among, wisps_with_pairs,
+    Anchor, Settled, Wisp, friction_gaps, press, rest_among, rest_in, wisps_on_bed,
+    wisps_with_pairs,
 };
 use super::hessian::{Controls, JointHessian};
-use crate::contact::{ContactPairs, FrictionGap, Layer, Pull};
+use super::others::Others;
+use crate::contact::{Density, FrictionGap, Layer, Pull};
 use crate::guides::Guide;
 use crate::hairstyle::Rest;
 use crate::head::Head;
-use crate::spec::HairstyleSpec;
+use crate::spec::{HairContact, HairstyleSpec};
 
 /// Least distance (m) beyond their thickness within which neighbours are searched. Chosen: a fraction of a wisp's radius.
 const LEAST_REACH: f64 = 6e-4;
@@ -28,7 +30,7 @@ const AGREEMENT: f64 = 1e-3;
 /// All guides of a head.
 pub(super) struct HeadState<'a> {
     wisps: Vec<Wisp<'a>>,
-    pairs: ContactPairs,
+    others: Others,
     /// Stiffness of hair per length of hair (Pa), in full.
     stiffness: f64,
     /// The bed of hair of each guide, in full.
@@ -49,11 +51,18 @@ impl<'a> HeadState<'a> {
         alone: &'a [Equilibrium],
         hold: Hold,
     ) -> Self {
-        let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
+        let (wisps, others) = if spec.contact.hair == HairContact::Density {
+            let wisps = wisps_on_bed(spec, head, guides, alone, hold);
+            let strands = wisps.iter().map(Wisp::strand).collect();
+            (wisps, Others::Density(Density::new(strands, spec.contact.hair_stiffness)))
+        } else {
+            let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
+            (wisps, Others::Pairs(pairs))
+        };
         let count = wisps.len();
         let mut state = Self {
             wisps,
-            pairs,
+            others,
             stiffness: spec.contact.hair_stiffness,
             layers: guides.iter().map(|guide| guide.layer).collect(),
             anchors: (0..count).map(|_| None).collect(),
@@ -67,7 +76,10 @@ impl<'a> HeadState<'a> {
     /// Sets the share of the stiffness with which wisps repel each other. The bed of hair, which stands for the other wisps
     /// while a guide is alone, has the rest.
     pub(super) fn harden(&mut self, share: f64) {
-        self.pairs.set_stiffness(self.stiffness * share);
+        // Hair of a density is as hard as it is from the start, and its bed stays: which hair lies beneath which is finer
+        // than the kernel.
+        let Some(pairs) = self.others.pairs_mut() else { return };
+        pairs.set_stiffness(self.stiffness * share);
         for (wisp, layer) in self.wisps.iter_mut().zip(&self.layers) {
             wisp.set_layer(layer.scaled(1.0 - share));
         }
@@ -75,12 +87,12 @@ impl<'a> HeadState<'a> {
 
     /// Lets friction follow where wisps are: what touches sticks, what slipped is followed by its anchors.
     pub(super) fn press(&mut self) {
-        press(&mut self.wisps, &mut self.pairs);
+        press(&mut self.wisps, self.others.pairs_mut());
     }
 
     /// Whether the forces of friction agree with where wisps are. docs/theory.md (F3)
     pub(super) fn friction_agrees(&self) -> bool {
-        let gaps = friction_gaps(&self.wisps, &self.pairs);
+        let gaps = friction_gaps(&self.wisps, self.others.pairs());
         let all = gaps.into_iter().fold(FrictionGap::default(), FrictionGap::and);
         all.change <= AGREEMENT * all.limit && all.ratio <= 1.0 + AGREEMENT
     }
@@ -94,7 +106,7 @@ impl<'a> HeadState<'a> {
 
     /// Largest |f_t| / μ f_n of each guide.
     pub(super) fn friction_ratios(&self) -> Vec<f64> {
-        friction_gaps(&self.wisps, &self.pairs).iter().map(|gap| gap.ratio).collect()
+        friction_gaps(&self.wisps, self.others.pairs()).iter().map(|gap| gap.ratio).collect()
     }
 
     /// Holds every guide where it is by a tether of a share of its firmness; with 0 lets go.
@@ -111,11 +123,12 @@ impl<'a> HeadState<'a> {
         if !used_up.contains(&true) {
             return;
         }
-        for i in (0..lengths.len()).filter(|&i| used_up[i]) {
+        let all = self.others.is_density();
+        for i in (0..lengths.len()).filter(|&i| all || used_up[i]) {
             self.reach[i] = (MOVES_PER_SEARCH * lengths[i]).max(LEAST_REACH);
             self.drift[i] = 0.0;
         }
-        self.pairs.update_neighbours(&self.reach, &used_up);
+        self.others.update_neighbours(&self.reach, &used_up);
     }
 
     /// Counts a move of a fraction of `lengths` (m).
@@ -130,6 +143,11 @@ impl<'a> HeadState<'a> {
         self.wisps.par_iter().zip(step).map(|(wisp, x)| wisp.length_of(x)).collect()
     }
 
+    /// Whether hair is a density.
+    pub(super) fn is_density(&self) -> bool {
+        self.others.is_density()
+    }
+
     /// Where the guides are.
     pub(super) fn shapes(&self) -> Vec<Settled> {
         self.wisps.iter().map(|wisp| wisp.settled().clone()).collect()
@@ -140,15 +158,14 @@ impl<'a> HeadState<'a> {
         let points: Vec<_> = (self.wisps.par_iter_mut().enumerate())
             .map(|(i, wisp)| wisp.go(&from[i], &step[i], fraction))
             .collect();
-        for (i, points) in points.into_iter().enumerate() {
-            self.pairs.place(i, points);
-        }
+        self.others.place(points);
     }
 
     /// Energy of the head (J), with that of the tethers.
     pub(super) fn energy(&self) -> f64 {
-        let share =
-            |(i, wisp): (usize, &Wisp<'_>)| wisp.share(&self.pairs, i, self.anchors[i].as_ref());
+        let share = |(i, wisp): (usize, &Wisp<'_>)| {
+            wisp.share(&*self.others.shared(i), self.anchors[i].as_ref())
+        };
         // Summed in order, so that it does not depend on threads.
         self.wisps.par_iter().enumerate().map(share).collect::<Vec<f64>>().iter().sum()
     }
@@ -156,11 +173,11 @@ impl<'a> HeadState<'a> {
     /// The second variation of that energy.
     pub(super) fn hessian(&self) -> JointHessian {
         let guides = (self.wisps.par_iter().enumerate())
-            .map(|(i, wisp)| wisp.second_variation(&self.pairs, i, self.anchors[i].as_ref()))
+            .map(|(i, wisp)| {
+                wisp.second_variation(&*self.others.around(i), self.anchors[i].as_ref())
+            })
             .collect();
-        let contacts =
-            (0..self.wisps.len()).into_par_iter().map(|i| self.pairs.contacts(i)).collect();
-        JointHessian { guides, contacts }
+        JointHessian { guides, coupling: self.others.coupling(self.wisps.len()) }
     }
 
     /// Largest derivative by any control, relative to the moment scale EI/L + ρSgL² of its guide.
@@ -173,6 +190,9 @@ impl<'a> HeadState<'a> {
 
     /// The guides as they are, each certified to a relative gradient of `tolerance` while the others hold still.
     pub(super) fn rest(&self, tolerance: f64) -> Rest {
-        rest_among(&self.wisps, &self.pairs, tolerance)
+        match &self.others {
+            Others::Pairs(pairs) => rest_among(&self.wisps, pairs, tolerance),
+            Others::Density(density) => rest_in(&self.wisps, density, tolerance),
+        }
     }
 }

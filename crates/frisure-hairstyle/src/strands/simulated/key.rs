@@ -40,7 +40,7 @@ digest_fields!(Lift: Regional { scale }, Uniform(lift));
 digest_fields!(HairModel: Interpolated, Simulated);
 digest_fields!(Hairs: Count(n), PerWisp(n), Density(density));
 digest_fields!(Body: None, Spheres, SignedDistance);
-digest_fields!(HairContact: None, Layers, Wisps);
+digest_fields!(HairContact: None, Layers, Wisps, Density);
 digest_fields!(HeadMethod: Sweeps, Continuation);
 digest_fields!(Root { position, normal });
 

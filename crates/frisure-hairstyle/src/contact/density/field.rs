@@ -1,0 +1,49 @@
+//! The density of all wisps as a field in which one guide lies.
+
+use frisure_rod::potential::Field;
+use glam::{DMat3, DVec3};
+
+use super::hair::Density;
+
+impl Density {
+    /// One guide among the others, where all are now.
+    pub(crate) fn around(&self, guide: usize) -> AmongDensity<'_> {
+        AmongDensity { density: self, guide }
+    }
+}
+
+/// One guide in the density of all, as a field in which it lies: `Σ_k V_k (k_hair/48) max(0, φ_k − φ₀)³` over its points,
+/// with φ_k the fraction of space that hair takes at one. docs/theory.md (D1), (D2)
+///
+/// The energy is the guide's own term of the sum over the head; the derivatives are those of the whole sum. Both are known at
+/// the points of the guide where all guides are now, and nowhere else.
+#[derive(Clone, Copy)]
+pub(crate) struct AmongDensity<'a> {
+    density: &'a Density,
+    guide: usize,
+}
+
+impl AmongDensity<'_> {
+    /// The point at the arc length `s` (m).
+    fn point(&self, s: f64) -> usize {
+        let range = self.density.of_guide(self.guide);
+        // Rounding finds the point at s; the first is one spacing from the root.
+        let k = (s / self.density.spacing[self.guide]).round() as usize;
+        range.start + k.clamp(1, range.len()) - 1
+    }
+}
+
+impl Field for AmongDensity<'_> {
+    fn energy(&self, s: f64, _: DVec3) -> f64 {
+        let Density { modulus, points, excess, .. } = self.density;
+        let k = self.point(s);
+        modulus * points.volume[k] / points.length[k] * excess[k].powi(3)
+    }
+
+    fn derivatives(&self, s: f64, _: DVec3) -> Option<(DVec3, DMat3)> {
+        let k = self.point(s);
+        let (force, stiffness) = self.density.derivatives(k)?;
+        let per_length = 1.0 / self.density.points.length[k];
+        Some((force * per_length, stiffness * per_length))
+    }
+}

@@ -1,0 +1,419 @@
+//! The points of all wisps, how dense hair is at them, and how they press on each other.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::kernel::Kernel;
+use crate::contact::thickness::Thickness;
+use crate::math::{Grid, outer};
+
+/// Reach of the kernel of two wisps, in the mean of their radii. Chosen: wide enough that some 16 wisps share it where hair is as
+/// dense as it packs, so that the answer is smooth, and about as wide as hair is thick on a head.
+const REACH: f64 = 4.0;
+
+/// φ₀, the fraction of space that hair takes at which wisps begin to press on each other. Chosen by trial: of 220 guides of
+/// straight hair none moves by more than 1 µm for a millionth of its length; with 2, where Newton's method passes saddles, 3 move by
+/// millimetres, and with 1 a good part. docs/theory.md, "Density"
+const ONSET: f64 = 2.5;
+
+/// The stiffness of hair over the energy per volume at φ − φ₀ = 1. Chosen: the hydrostatic pressure of hair a centimetre high is
+/// borne at φ − φ₀ of about a half.
+const STIFFNESS_PER_MODULUS: f64 = 48.0;
+
+/// The points of one guide at which density is evaluated: evenly spaced, without the root.
+pub(crate) struct Strand {
+    /// Distance between points along the guide (m).
+    pub(crate) spacing: f64,
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) thickness: Thickness,
+}
+
+/// All wisps of a head as a density.
+pub(crate) struct Density {
+    /// Energy per volume of hair at an excess of 1 (Pa).
+    pub(super) modulus: f64,
+    /// Where the points of each guide begin; one more than guides.
+    pub(super) starts: Vec<usize>,
+    /// Distance between points along each guide (m).
+    pub(super) spacing: Vec<f64>,
+    pub(super) points: Points,
+    /// Which points may be within reach of each other.
+    near: Near,
+    /// How much denser than at the onset hair is at each point; 0 where it is not.
+    pub(super) excess: Vec<f64>,
+}
+
+/// What is known of every point, in the order of guides.
+pub(super) struct Points {
+    /// The guide of each.
+    guide: Vec<u32>,
+    /// Length of hair (m) that each stands for.
+    pub(super) length: Vec<f64>,
+    /// Volume (m³) that its hairs take, by the cross-section of the wisp.
+    pub(super) volume: Vec<f64>,
+    /// Half of the reach (m) of the kernel between two points of the same kind.
+    half_reach: Vec<f64>,
+    /// Fraction of space that its own wisp, straight, takes there.
+    own: Vec<f64>,
+    positions: Vec<DVec3>,
+}
+
+/// For each point the points of other guides that may be within reach.
+#[derive(Default)]
+struct Near {
+    starts: Vec<u32>,
+    others: Vec<u32>,
+}
+
+impl Near {
+    fn of(&self, point: usize) -> &[u32] {
+        &self.others[self.starts[point] as usize..self.starts[point + 1] as usize]
+    }
+}
+
+impl Points {
+    fn new(strands: Vec<Strand>) -> Self {
+        let mut points = Self {
+            guide: Vec::new(),
+            length: Vec::new(),
+            volume: Vec::new(),
+            half_reach: Vec::new(),
+            own: Vec::new(),
+            positions: Vec::new(),
+        };
+        for (guide, strand) in strands.into_iter().enumerate() {
+            let last = strand.positions.len();
+            for k in 1..=last {
+                let s = k as f64 * strand.spacing;
+                // The trapezoidal rule; the root, which is clamped, is no point.
+                let length = if k == last { 0.5 * strand.spacing } else { strand.spacing };
+                let radius = strand.thickness.at(s);
+                let section = PI * radius * radius;
+                // Radii far from the root, where a wisp begins with none: a kernel has a width everywhere.
+                let half = 0.5 * REACH * strand.thickness.packed(s);
+                points.guide.push(guide as u32);
+                points.length.push(length);
+                points.volume.push(section * length);
+                points.half_reach.push(half);
+                points.own.push(section * Kernel::new(2.0 * half).line());
+            }
+            points.positions.extend(strand.positions);
+        }
+        points
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.guide.len()
+    }
+
+    /// The kernel between two points.
+    #[inline]
+    fn kernel(&self, a: usize, b: usize) -> Kernel {
+        Kernel::new(self.half_reach[a] + self.half_reach[b])
+    }
+}
+
+impl Density {
+    /// Wisps as a density; `stiffness` is that of hair per length of hair (Pa).
+    pub(crate) fn new(strands: Vec<Strand>, stiffness: f64) -> Self {
+        let mut starts = vec![0];
+        for strand in &strands {
+            starts.push(starts[starts.len() - 1] + strand.positions.len());
+        }
+        let spacing = strands.iter().map(|strand| strand.spacing).collect();
+        let points = Points::new(strands);
+        let excess = vec![0.0; points.len()];
+        let near = Near { starts: vec![0; points.len() + 1], others: Vec::new() };
+        Self { modulus: stiffness / STIFFNESS_PER_MODULUS, starts, spacing, points, near, excess }
+    }
+
+    /// The points of a guide.
+    pub(super) fn of_guide(&self, guide: usize) -> Range<usize> {
+        self.starts[guide]..self.starts[guide + 1]
+    }
+
+    /// Moves the points of a guide. [`Self::measure`] has to follow.
+    pub(crate) fn place(&mut self, guide: usize, positions: &[DVec3]) {
+        let range = self.of_guide(guide);
+        self.points.positions[range].copy_from_slice(positions);
+    }
+
+    /// Finds which points can come within reach while each guide moves by at most its margin (m).
+    pub(crate) fn update_neighbours(&mut self, margins: &[f64]) {
+        self.near = Near::default();
+        let points = &self.points;
+        let reach = |k: usize| points.half_reach[k] + margins[points.guide[k] as usize];
+        let most = (0..points.len()).map(reach).fold(0.0, f64::max);
+        let grid = Grid::new(&points.positions, 2.0 * most);
+        let near = |k: usize| -> Vec<u32> {
+            let (p, own) = (points.positions[k], points.guide[k]);
+            let close = |&l: &usize| {
+                let within = reach(k) + reach(l);
+                points.guide[l] != own && points.positions[l].distance_squared(p) < within * within
+            };
+            grid.near(p).filter(close).map(|l| l as u32).collect()
+        };
+        let found: Vec<Vec<u32>> = (0..points.len()).into_par_iter().map(near).collect();
+        let mut starts = Vec::with_capacity(found.len() + 1);
+        starts.push(0);
+        let mut total = 0;
+        for others in &found {
+            total += others.len() as u32;
+            starts.push(total);
+        }
+        self.near = Near { starts, others: found.concat() };
+    }
+
+    /// Measures how dense hair is at every point where it is now.
+    pub(crate) fn measure(&mut self) {
+        let (points, near) = (&self.points, &self.near);
+        let excess = |k: usize| {
+            let p = points.positions[k];
+            let of = |&l: &u32| {
+                let l = l as usize;
+                points.volume[l] * points.kernel(k, l).value(p.distance(points.positions[l]))
+            };
+            let dense: f64 = points.own[k] + near.of(k).iter().map(of).sum::<f64>();
+            (dense - ONSET).max(0.0)
+        };
+        self.excess = (0..points.len()).into_par_iter().map(excess).collect();
+    }
+}
+
+/// A pair of points that press on each other, seen from the first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) other: u32,
+    /// ∇W by the own point (1/m⁴).
+    pub(super) slope: DVec3,
+    /// Of the pressure that both feel, `t I + q ∇W ∇Wᵀ` (N/m): t, and q (N m⁷).
+    pub(super) across: f64,
+    pub(super) along: f64,
+    /// q of the part that stiffens, without t (N m⁷).
+    pub(super) stiff: f64,
+}
+
+impl Density {
+    /// First and second derivative of a point's energy by its density (J).
+    #[inline]
+    pub(super) fn by_density(&self, k: usize) -> (f64, f64) {
+        let (x, scale) = (self.excess[k], self.modulus * self.points.volume[k]);
+        (3.0 * scale * x * x, 6.0 * scale * x)
+    }
+
+    /// Calls `pressed` with the pairs of a point that press on each other.
+    #[inline]
+    pub(super) fn for_each_pair(&self, k: usize, mut pressed: impl FnMut(&Pair)) {
+        let points = &self.points;
+        let (own, _) = self.by_density(k);
+        for &l in self.near.of(k) {
+            let other = l as usize;
+            let (theirs, _) = self.by_density(other);
+            if own <= 0.0 && theirs <= 0.0 {
+                continue;
+            }
+            let away = points.positions[k] - points.positions[other];
+            let distance = away.length();
+            let (across, bend) = points.kernel(k, other).derivatives(distance);
+            if across == 0.0 {
+                continue;
+            }
+            // Each feels the volume of the other: E′_k V_l + E′_l V_k.
+            let pressure = own * points.volume[other] + theirs * points.volume[k];
+            let slope = away * across;
+            let square = slope.length_squared();
+            let along = if square > 0.0 { pressure * (bend - across) / square } else { 0.0 };
+            // At the very centre both vanish together: W″ = W′/r.
+            let along = if distance > 1e-9 { along } else { 0.0 };
+            let stiff = if bend > 0.0 && square > 0.0 { pressure * bend / square } else { 0.0 };
+            let across = pressure * across;
+            pressed(&Pair { other: l, slope, across, along, stiff });
+        }
+    }
+
+    /// Gradient (N) of the energy by a point, and the part of its Hessian (N/m) that is positive semidefinite: what its own
+    /// density and that of others make of it, and pairs that stiffen.
+    pub(super) fn derivatives(&self, k: usize) -> Option<(DVec3, DMat3)> {
+        let volume = self.points.volume[k];
+        let mut sum: Option<(DVec3, DMat3)> = None;
+        let mut gathered = DVec3::ZERO;
+        self.for_each_pair(k, |pair| {
+            let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
+            let other = pair.other as usize;
+            let (theirs, bulk) = (self.by_density(other).0, self.by_density(other).1);
+            let (own, _) = self.by_density(k);
+            *force += pair.slope * (own * self.points.volume[other] + theirs * volume);
+            *stiffness += outer(pair.slope, pair.slope) * (bulk * volume * volume + pair.stiff);
+            gathered += pair.slope * self.points.volume[other];
+        });
+        let (_, bulk) = self.by_density(k);
+        let (force, stiffness) = sum?;
+        Some((force, stiffness + outer(gathered, gathered) * bulk))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::test_field::wisp;
+    use glam::DQuat;
+
+    /// Straight wisps along x through places in the plane across.
+    fn lines(places: &[DVec3], points: u32, spacing: f64) -> Vec<Strand> {
+        let line = |place: &DVec3| Strand {
+            spacing,
+            positions: (1..=points).map(|k| *place + DVec3::X * (spacing * f64::from(k))).collect(),
+            thickness: wisp(),
+        };
+        places.iter().map(line).collect()
+    }
+
+    fn measured(strands: Vec<Strand>) -> Density {
+        let guides = strands.len();
+        let mut density = Density::new(strands, 2.0);
+        density.update_neighbours(&vec![1e-3; guides]);
+        density.measure();
+        density
+    }
+
+    fn energy(density: &Density) -> f64 {
+        let of = |k: usize| density.modulus * density.points.volume[k] * density.excess[k].powi(3);
+        (0..density.points.len()).map(of).sum()
+    }
+
+    /// Ten wisps in a bundle that is much too narrow for them.
+    fn bundle() -> Density {
+        let place = |i: i32| {
+            let angle = 2.4 * f64::from(i);
+            DVec3::new(0.0, angle.cos(), angle.sin()) * (4e-4 * f64::from(i))
+        };
+        let places: Vec<DVec3> = (0..10).map(place).collect();
+        measured(lines(&places, 12, 2e-3))
+    }
+
+    /// Forces (N), minus the gradient's sign: the derivative of the energy by every point.
+    fn gradient(density: &Density) -> Vec<DVec3> {
+        let of = |k| density.derivatives(k).map_or(DVec3::ZERO, |(gradient, _)| gradient);
+        (0..density.points.len()).map(of).collect()
+    }
+
+    fn moved(density: &mut Density, step: &[DVec3], fraction: f64) {
+        for (p, x) in density.points.positions.iter_mut().zip(step) {
+            *p += *x * fraction;
+        }
+        density.measure();
+    }
+
+    /// Displacements (m) without order.
+    fn step(count: usize) -> Vec<DVec3> {
+        let at = |k: usize| {
+            let x = k as f64;
+            DVec3::new((3.1 * x).sin(), (1.7 * x).cos(), (0.9 * x + 1.0).sin()) * 1e-6
+        };
+        (0..count).map(at).collect()
+    }
+
+    #[test]
+    fn the_gradient_is_the_derivative_of_the_energy_and_sums_to_zero() {
+        let mut density = bundle();
+        let gradient = gradient(&density);
+        assert!(density.excess.iter().filter(|x| **x > 0.1).count() > 20);
+        let size = gradient.iter().map(|g| g.length()).sum::<f64>();
+        // No force and no couple on the whole.
+        let positions = density.points.positions.iter();
+        let sum: DVec3 = gradient.iter().sum();
+        let couple: DVec3 = positions.zip(&gradient).map(|(p, g)| p.cross(*g)).sum();
+        assert!(sum.length() < 1e-12 * size && couple.length() < 1e-14 * size, "{sum} {couple}");
+        let step = step(gradient.len());
+        let expected: f64 = gradient.iter().zip(&step).map(|(g, x)| g.dot(*x)).sum();
+        moved(&mut density, &step, 1.0);
+        let above = energy(&density);
+        moved(&mut density, &step, -2.0);
+        let slope = 0.5 * (above - energy(&density));
+        assert!((slope / expected - 1.0).abs() < 1e-5, "{slope} {expected}");
+    }
+
+    #[test]
+    fn the_variation_and_the_blocks_are_the_derivative_of_the_gradient() {
+        let mut density = bundle();
+        let (variation, step) = (density.variation(), step(density.points.len()));
+        let guides: Vec<&[DVec3]> = step.chunks(12).collect();
+        let others = variation.forces(&guides, false).concat();
+        let own = |k: usize| density.derivatives(k).map_or(DMat3::ZERO, |(_, block)| block);
+        let product: Vec<DVec3> = (0..step.len()).map(|k| others[k] + own(k) * step[k]).collect();
+        // What is left out of the convex part takes energy away, and nothing else.
+        let convex = variation.forces(&guides, true).concat();
+        let along = |forces: &[DVec3]| -> f64 {
+            step.iter().zip(forces).enumerate().map(|(k, (x, f))| x.dot(*f + own(k) * *x)).sum()
+        };
+        assert!(along(&convex) > 0.0 && along(&convex) > along(&others));
+        moved(&mut density, &step, 1.0);
+        let above = gradient(&density);
+        moved(&mut density, &step, -2.0);
+        let below = gradient(&density);
+        let (mut error, mut size) = (0.0, 0.0);
+        for ((a, b), p) in above.iter().zip(&below).zip(&product) {
+            error += ((*a - *b) * 0.5 - *p).length();
+            size += p.length();
+        }
+        assert!(error < 1e-4 * size, "{error} of {size}");
+    }
+
+    #[test]
+    fn turning_everything_turns_the_forces() {
+        let turn = DQuat::from_rotation_z(0.83);
+        let density = bundle();
+        let strands = lines(&[DVec3::ZERO; 10], 12, 2e-3);
+        let turned = strands.into_iter().zip(density.points.positions.chunks(12)).map(
+            |(strand, positions)| Strand {
+                positions: positions.iter().map(|p| turn * *p).collect(),
+                ..strand
+            },
+        );
+        let turned = measured(turned.collect());
+        assert!((energy(&turned) / energy(&density) - 1.0).abs() < 1e-12);
+        for (a, b) in gradient(&density).iter().zip(gradient(&turned)) {
+            assert!((turn * *a).distance(b) < 1e-12 * (b.length() + 1e-9), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn a_lattice_has_the_density_and_the_pressure_of_its_packing() {
+        // Parallel wisps, each alone on the area a²: the fraction of space is the cross-section over it, whatever the kernel.
+        // Wisps grow thicker towards their tips: the one at the middle of the lattice counts.
+        let (half, points, spacing) = (7, 40, 2.5e-3);
+        let radius = wisp().packed(spacing * f64::from(points / 2 + 1));
+        let section = PI * radius * radius;
+        let lattice = |a: f64, b: f64| {
+            let row = |i: i32| (-half..=half).map(move |j| (i, j));
+            let places: Vec<DVec3> = (-half..=half)
+                .flat_map(row)
+                .map(|(i, j)| DVec3::new(0.0, a * f64::from(i), b * f64::from(j)))
+                .collect();
+            measured(lines(&places, points, spacing))
+        };
+        let middle = |density: &Density| {
+            let guide = density.starts.len() / 2 - 1;
+            density.starts[guide] + points as usize / 2
+        };
+        let side = (section / 3.1).sqrt();
+        let density = lattice(side, side);
+        let k = middle(&density);
+        assert!((density.excess[k] + ONSET - 3.1).abs() < 0.03, "{}", density.excess[k] + ONSET);
+        // The energy per volume of hair Ψ/φ = m (φ − φ₀)³ gives the pressure P = φ² d(Ψ/φ)/dφ: what it takes to bring one
+        // side of the cell nearer.
+        let per_length = |density: &Density| {
+            let k = middle(density);
+            density.modulus * section * density.excess[k].powi(3)
+        };
+        let h = 1e-3 * side;
+        let force = (per_length(&lattice(side - h, side)) - per_length(&lattice(side + h, side)))
+            / (2.0 * h);
+        let pressure = force / side;
+        let expected = 3.1_f64.powi(2) * 3.0 * density.modulus * 0.6_f64.powi(2);
+        assert!((pressure / expected - 1.0).abs() < 0.1, "{pressure} Pa, not {expected}");
+    }
+}

@@ -1,0 +1,89 @@
+//! What the guides of a head make of each other, while all come to rest together.
+
+use frisure_rod::potential::Field;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::hessian::Coupling;
+use crate::contact::{ContactPairs, Density};
+
+/// The energy that guides share.
+pub(super) enum Others {
+    /// Wisps repel each other where they overlap.
+    Pairs(ContactPairs),
+    /// Hair is pressed where it is denser than it packs.
+    Density(Density),
+}
+
+impl Others {
+    /// What a guide feels while the others hold still.
+    pub(super) fn around(&self, guide: usize) -> Box<dyn Field + '_> {
+        match self {
+            Self::Pairs(pairs) => Box::new(pairs.around(guide)),
+            Self::Density(density) => Box::new(density.around(guide)),
+        }
+    }
+
+    /// The part of the energy that counts as the guide's: a sum over all guides counts it once.
+    pub(super) fn shared(&self, guide: usize) -> Box<dyn Field + '_> {
+        match self {
+            Self::Pairs(pairs) => Box::new(pairs.shared(guide)),
+            Self::Density(density) => Box::new(density.around(guide)),
+        }
+    }
+
+    /// Moves the points (m) of all guides.
+    pub(super) fn place(&mut self, points: Vec<Vec<DVec3>>) {
+        match self {
+            Self::Pairs(pairs) => points.into_iter().enumerate().for_each(|(i, points)| {
+                pairs.place(i, points);
+            }),
+            Self::Density(density) => {
+                points.iter().enumerate().for_each(|(i, points)| density.place(i, points));
+                density.measure();
+            }
+        }
+    }
+
+    /// Finds what can touch while each guide moves by at most its margin (m), of guides that are looked at `again`.
+    pub(super) fn update_neighbours(&mut self, margins: &[f64], again: &[bool]) {
+        match self {
+            Self::Pairs(pairs) => pairs.update_neighbours(margins, again),
+            Self::Density(density) => {
+                density.update_neighbours(margins);
+                density.measure();
+            }
+        }
+    }
+
+    /// The pairs of wisps, if there are any.
+    pub(super) fn pairs(&self) -> Option<&ContactPairs> {
+        match self {
+            Self::Pairs(pairs) => Some(pairs),
+            Self::Density(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub(super) fn pairs_mut(&mut self) -> Option<&mut ContactPairs> {
+        match self {
+            Self::Pairs(pairs) => Some(pairs),
+            Self::Density(_) => None,
+        }
+    }
+
+    /// Whether hair is a density: then neighbours are found for all guides at once.
+    pub(super) fn is_density(&self) -> bool {
+        matches!(self, Self::Density(_))
+    }
+
+    /// The second derivatives between guides.
+    pub(super) fn coupling(&self, guides: usize) -> Coupling {
+        match self {
+            Self::Pairs(pairs) => {
+                Coupling::Pairs((0..guides).into_par_iter().map(|i| pairs.contacts(i)).collect())
+            }
+            Self::Density(density) => Coupling::Density(density.variation()),
+        }
+    }
+}
