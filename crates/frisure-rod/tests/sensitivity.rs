@@ -2,7 +2,7 @@
 
 #![expect(clippy::print_stderr, reason = "figures, for whoever reads a test's output")]
 
-use frisure_rod::batch::Batch;
+use frisure_rod::batch::{Batch, Direction};
 use frisure_rod::derivatives::{
     DerivativeError, ParameterChange, ParameterGradient, Regularity, Sensitivity, ShapeChange,
 };
@@ -569,4 +569,121 @@ fn wrong_input_is_refused() {
     let shape = equilibrium(&rod, &felt, &options(ElementKind::Jointed)).shape;
     let jointed = Sensitivity::new(&Problem::new(&chain, &felt), shape);
     assert_eq!(jointed.unwrap_err(), DerivativeError::JointedElements);
+}
+
+/// A direction of each kind; the strains of halves differ from half to half.
+fn directions(random: &mut SplitMix64) -> Vec<Direction> {
+    let strain = |natural_strain| Direction { natural_strain, ..Direction::default() };
+    vec![
+        strain(vec![DVec3::new(3.0, -1.0, 2.0)]),
+        strain((0..2 * ELEMENTS).map(|_| random.cube()).collect()),
+        Direction { stiffness: DVec3::new(0.2, -0.1, 0.3), ..Direction::default() },
+        Direction { weight: 0.1, ..Direction::default() },
+        Direction { length: 0.1, ..Direction::default() },
+        Direction { root_rotation: DVec3::new(0.1, 0.2, -0.1), ..Direction::default() },
+    ]
+}
+
+#[test]
+fn nodes_move_in_lanes_as_those_of_one_rod_alone() {
+    let rods = of_all_kinds(161, 31);
+    let uniform: Vec<Rod> = rods
+        .iter()
+        .filter(|rod| matches!(rod.natural(), NaturalStrain::Uniform(_)))
+        .cloned()
+        .collect();
+    let mut random = SplitMix64(32);
+    let directions = directions(&mut random);
+    let mut regular = 0;
+    for (rods, tolerance) in [(&rods, 1e-10), (&uniform, 1e-10), (&uniform, 1e-4)] {
+        let batch = Batch { elements: ELEMENTS, tolerance, ..Batch::default() };
+        let found = batch.solve(rods);
+        let moved = batch.jvp(rods, &found, &directions);
+        for (i, rod) in rods.iter().enumerate() {
+            let chain = Chain::uniform(rod, ElementKind::Jointed, ELEMENTS);
+            let at = Sensitivity::new(&Problem::new(&chain, &[]), found.shape(rod, i)).unwrap();
+            assert_eq!(moved.existence[i], Ok(()));
+            for (node, (x, r)) in moved.nodes(i).iter().enumerate() {
+                assert!(x.distance(at.shape().positions[node]) < 1e-8 * rod.length());
+                assert!((r.x_axis - at.shape().frames[node].x_axis).length() < 1e-7);
+            }
+            if at.regularity() == Regularity::IllConditioned {
+                continue;
+            }
+            regular += 1;
+            for (k, direction) in directions.iter().enumerate() {
+                if direction.natural_strain.len() > 1 {
+                    continue;
+                }
+                let strain = direction.natural_strain.first().map(|u| vec![*u; ELEMENTS]);
+                let alone = at.jvp(&ParameterChange {
+                    natural_strain: strain.unwrap_or_default(),
+                    length: direction.length * rod.length(),
+                    stiffness: direction.stiffness * rod.stiffness(),
+                    load: rod.load() * direction.weight,
+                    root_position: DVec3::ZERO,
+                    root_rotation: direction.root_rotation,
+                });
+                let alone = alone.unwrap();
+                let lanes = moved.motions(i, k);
+                let shifts: Vec<DVec3> = lanes.iter().map(|motion| motion.shift).collect();
+                let turns: Vec<DVec3> = lanes.iter().map(|motion| motion.rotation).collect();
+                if rod.weight() == 0.0 && k < 4 && k > 1 {
+                    // Stiffness and weight move nothing where there is no weight.
+                    assert!(shifts.iter().all(|v| v.length() < 1e-12), "{i}, {k}");
+                    continue;
+                }
+                let worst = gap(&alone.positions, &shifts).max(gap(&alone.rotations, &turns));
+                assert!(worst < 1e-7, "{i}, {k}: {worst} {}", at.min_eigenvalue());
+            }
+        }
+    }
+    assert!(regular > 300, "{regular}");
+}
+
+/// A loss of nodes and frames has the same derivative along a direction forwards and backwards, also where each half of an element
+/// has a strain of its own.
+#[test]
+fn products_in_lanes_agree_forwards_and_backwards() {
+    let rods = of_all_kinds(60, 33);
+    let batch = Batch { elements: ELEMENTS, tolerance: 1e-10, ..Batch::default() };
+    let found = batch.solve(&rods);
+    let mut random = SplitMix64(34);
+    let directions = directions(&mut random);
+    let mut vectors = |size: f64| -> Vec<DVec3> {
+        (0..rods.len() * (ELEMENTS + 1)).map(|_| random.cube() * size).collect()
+    };
+    let (positions, frames) = (vectors(1.0), vectors(0.05));
+    let moved = batch.jvp(&rods, &found, &directions);
+    let gradient = batch.vjp(&rods, &found, &positions, &frames);
+    for (i, rod) in rods.iter().enumerate() {
+        let by = gradient.rods[i];
+        if by.regularity != Ok(Regularity::Regular) {
+            continue;
+        }
+        let halves = &gradient.natural_strain[i * ELEMENTS..(i + 1) * ELEMENTS];
+        for (k, direction) in directions.iter().enumerate() {
+            let nodes = moved.motions(i, k).iter().enumerate();
+            let forwards: f64 = nodes
+                .map(|(node, motion)| {
+                    let node = i * (ELEMENTS + 1) + node;
+                    positions[node].dot(motion.shift) + frames[node].dot(motion.rotation)
+                })
+                .sum();
+            let given = |half: usize| match direction.natural_strain.as_slice() {
+                [] => DVec3::ZERO,
+                [same] => *same,
+                halves => halves[half],
+            };
+            let strains = halves.iter().flatten().enumerate();
+            let by_strain: f64 = strains.map(|(half, by)| by.dot(given(half))).sum();
+            let backwards = by_strain
+                + by.length * direction.length * rod.length()
+                + by.stiffness.dot(direction.stiffness * rod.stiffness())
+                + by.load.dot(rod.load()) * direction.weight
+                + by.root_rotation.dot(direction.root_rotation);
+            let size = moved.motions(i, k).iter().map(|m| m.shift.length()).sum::<f64>() + 1e-6;
+            assert!((forwards - backwards).abs() < 1e-7 * size, "{i}, {k}: {forwards} {backwards}");
+        }
+    }
 }

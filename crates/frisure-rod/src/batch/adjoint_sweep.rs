@@ -14,13 +14,13 @@ use crate::stumpff::stumpff;
 #[derive(Clone, Copy)]
 pub(super) struct Half<F> {
     /// Rotation, advance (m) and first moment (m²).
-    turn: Mat3<F>,
-    advance: Vec3<F>,
-    moment: Vec3<F>,
+    pub(super) turn: Mat3<F>,
+    pub(super) advance: Vec3<F>,
+    pub(super) moment: Vec3<F>,
     /// By the turn c = u⁰ h/2 of the piece: the turn of its end frame in itself, the advance (m) and the first moment (m²).
-    turn_by: Mat3<F>,
-    advance_by: Mat3<F>,
-    moment_by: Mat3<F>,
+    pub(super) turn_by: Mat3<F>,
+    pub(super) advance_by: Mat3<F>,
+    pub(super) moment_by: Mat3<F>,
 }
 
 /// [`Half`] of one rod.
@@ -157,7 +157,7 @@ pub(super) struct AdjointBundle<F> {
 }
 
 /// The halves of an element, before and after its joint.
-fn both<F>(halves: &[Half<F>], element: usize) -> [&Half<F>; 2] {
+pub(super) fn both<F>(halves: &[Half<F>], element: usize) -> [&Half<F>; 2] {
     match halves {
         [same] => [same; 2],
         halves => [&halves[2 * element], &halves[2 * element + 1]],

@@ -135,6 +135,12 @@ impl<F: Lanes> Elimination<F> {
         Self { rotation, jacobian, factor, reduced, by_turn }
     }
 
+    /// What further right-hand sides need.
+    #[inline(always)]
+    pub(super) fn pivot(&self) -> Pivot<F> {
+        Pivot { factor: self.factor, by_turn: self.by_turn }
+    }
+
     /// `H⁻¹ r`: the step is its negative. (L6)
     #[inline(always)]
     pub(super) fn step(&self) -> Vec3<F> {
@@ -155,9 +161,8 @@ impl<F: Lanes> Elimination<F> {
 
     /// `v − Mᵀ H⁻¹ r` from `L⁻¹ M`: a slope with the joint eliminated. (L6)
     #[inline(always)]
-    pub(super) fn reduce_slope(&self, v: Vec3<F>, [x, y, z]: [Vec3<F>; 3]) -> Vec3<F> {
-        let q = self.reduced;
-        z.mul_add(-q.z, y.mul_add(-q.y, x.mul_add(-q.x, v)))
+    pub(super) fn reduce_slope(&self, v: Vec3<F>, by_turn: [Vec3<F>; 3]) -> Vec3<F> {
+        reduced_slope(v, by_turn, self.reduced)
     }
 
     /// `P − Mᵀ H⁻¹ M` from `L⁻¹ M`: a Hessian with the joint eliminated. (L6)
@@ -184,6 +189,45 @@ impl<F: Lanes> Elimination<F> {
             z: row(q.z, m1.z, m2.z, m3.z),
         }
     }
+}
+
+/// The factorised block of a joint, for many right-hand sides r.
+#[derive(Clone, Copy)]
+pub(super) struct Pivot<F> {
+    factor: BlockFactor<F>,
+    /// `L⁻¹ M`, by rows.
+    by_turn: [Vec3<F>; 3],
+}
+
+impl<F: Lanes> Pivot<F> {
+    pub(super) fn zero(zero: F) -> Self {
+        let v = Vec3::splat(zero);
+        let factor = BlockFactor { l21: zero, l31: zero, l32: zero, inverse: v, least: zero };
+        Self { factor, by_turn: [v; 3] }
+    }
+
+    /// `D⁻¹ L⁻¹ r`.
+    #[inline(always)]
+    pub(super) fn reduce(&self, r: Vec3<F>) -> Vec3<F> {
+        self.factor.lower(r).component_mul(self.factor.inverse)
+    }
+
+    /// `H⁻¹ r` from `D⁻¹ L⁻¹ r`.
+    #[inline(always)]
+    pub(super) fn raise(&self, reduced: Vec3<F>) -> Vec3<F> {
+        self.factor.raise(reduced)
+    }
+
+    /// `v − Mᵀ H⁻¹ r` from `D⁻¹ L⁻¹ r`.
+    #[inline(always)]
+    pub(super) fn reduce_slope(&self, v: Vec3<F>, reduced: Vec3<F>) -> Vec3<F> {
+        reduced_slope(v, self.by_turn, reduced)
+    }
+}
+
+#[inline(always)]
+fn reduced_slope<F: Lanes>(v: Vec3<F>, [x, y, z]: [Vec3<F>; 3], q: Vec3<F>) -> Vec3<F> {
+    z.mul_add(-q.z, y.mul_add(-q.y, x.mul_add(-q.x, v)))
 }
 
 /// A joint's turn (rad) after a step `−feedback`, which the trust region limits. (L7)
@@ -245,6 +289,7 @@ impl<F: Lanes> HessianBlocks<F> {
 }
 
 /// `L D Lᵀ` of a symmetric block.
+#[derive(Clone, Copy)]
 struct BlockFactor<F> {
     l21: F,
     l31: F,

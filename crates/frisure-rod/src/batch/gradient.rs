@@ -239,7 +239,7 @@ fn in_lanes<F: Lanes>(
 }
 
 /// The natural strain of both halves of each element (rad/m).
-fn half_strains(rod: &Rod, n: usize, strains: &mut Vec<DVec3>) {
+pub(super) fn half_strains(rod: &Rod, n: usize, strains: &mut Vec<DVec3>) {
     strains.clear();
     match rod.natural() {
         NaturalStrain::Uniform(strain) => strains.resize(2 * n, *strain),

@@ -38,7 +38,8 @@
 //! The files in the order of the computation: `solver` (options, precision), `newton` (damping, rods through the lanes),
 //! `division` (a rod into joints), `weight_lanes` and `contact_lanes` (rods into lanes), `weight_sweep` and
 //! `contact_sweep` (backward and forward over the joints), `elimination` (one joint: energy, gradient, Hessian block),
-//! `rotation`, `linear`, `lanes` (the numbers). Derivatives: `gradient` (rods into lanes) and `adjoint_sweep`.
+//! `rotation`, `linear`, `lanes` (the numbers). Derivatives: `gradient` (rods into lanes)
+//! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`.
 
 mod adjoint_sweep;
 mod contact;
@@ -55,6 +56,8 @@ mod rotation;
 mod solution;
 mod solver;
 mod start;
+mod tangent;
+mod tangent_sweep;
 mod transport;
 mod weight_lanes;
 mod weight_sweep;
@@ -69,3 +72,4 @@ pub use gradient::{BatchGradient, RodGradient};
 pub use solution::{BatchSolution, RodSolution};
 pub use solver::{Batch, Precision};
 pub use start::{Frames, InitialShape};
+pub use tangent::{BatchTangents, Direction, NodeMotion};

@@ -232,6 +232,15 @@ impl Sensitivity {
     /// [`DerivativeError::Elements`], if the change has natural strains, but not one for each element;
     /// [`DerivativeError::Length`], if it has one of the length, and other potentials act.
     pub fn jvp(&self, change: &ParameterChange) -> Result<ShapeChange, DerivativeError> {
+        self.jvp_with_halves(change, &[])
+    }
+
+    /// [`Self::jvp`], with a change of the natural strain of both halves of each jointed element besides; empty for none.
+    pub(crate) fn jvp_with_halves(
+        &self,
+        change: &ParameterChange,
+        halves: &[[DVec3; 2]],
+    ) -> Result<ShapeChange, DerivativeError> {
         let elements = self.bent.len();
         let strain = &change.natural_strain;
         if !strain.is_empty() && strain.len() != elements {
@@ -261,7 +270,10 @@ impl Sensitivity {
                 None
             }
             Some(pieces) => {
-                let both = |(i, u): (usize, &[DVec3; 2])| u.map(|u| given(i) + u * larger);
+                let more = |i: usize, k: usize| halves.get(i).map_or(DVec3::ZERO, |pair| pair[k]);
+                let both = |(i, u): (usize, &[DVec3; 2])| {
+                    [0, 1].map(|k| given(i) + more(i, k) + u[k] * larger)
+                };
                 let natural = pieces.natural().iter().enumerate().map(both).collect::<Vec<_>>();
                 let (more, moved) = pieces.along(&natural);
                 right.iter_mut().zip(more).for_each(|(right, more)| *right += more);
