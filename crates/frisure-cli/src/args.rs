@@ -14,11 +14,13 @@ use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
 
 #[cfg(feature = "batch")]
 mod batch;
+mod fit;
 #[cfg(feature = "validate")]
 mod validate;
 
 #[cfg(feature = "batch")]
 pub(crate) use batch::Batch;
+pub(crate) use fit::{FitFibres, Quantity as FitQuantity};
 #[cfg(feature = "validate")]
 pub(crate) use validate::Validate;
 
@@ -91,6 +93,8 @@ pub(crate) enum Command {
     New(New),
     /// Turn tables of measured hair into a scene of that hair.
     Measured(Measured),
+    /// Fit digitised fibres: natural strain and stiffness over weight, with error bars.
+    Fit(FitFibres),
     /// Print the JSON Schema of scenes: every key, its unit and its range.
     Schema,
     /// Compare frisure with independent physics and the paper, and write the validation report.

@@ -85,6 +85,7 @@ fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),
+        Command::Fit(fit) => commands::fit::run(&fit, quiet),
         Command::Measured(measured) => commands::measured::run(&measured, quiet),
         Command::Schema => commands::schema::run(),
         #[cfg(feature = "validate")]

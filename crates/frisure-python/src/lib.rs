@@ -8,6 +8,7 @@
 //! | `array.rs` | memory of Rust as NumPy arrays, without copies |
 //! | `command.rs` | the command `frisure` |
 //! | `errors.rs` | errors as Python exceptions |
+//! | `fit.rs` | fits of measured fibres |
 //! | `hairstyle.rs` | hairstyles: predicted, styled, drawn, written |
 //! | `picture.rs` | pictures of hairstyles |
 //! | `rods` | many single rods at once, as arrays |
@@ -21,6 +22,7 @@
 mod array;
 mod command;
 mod errors;
+mod fit;
 mod hairstyle;
 mod picture;
 mod rods;
@@ -49,5 +51,6 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::scene_keys, module)?)?;
     module.add_function(wrap_pyfunction!(rods::settle_rods, module)?)?;
     module.add_function(wrap_pyfunction!(rods::inverse_rods, module)?)?;
+    module.add_function(wrap_pyfunction!(fit::fit_fibres, module)?)?;
     module.add_function(wrap_pyfunction!(command::run_command, module)?)
 }

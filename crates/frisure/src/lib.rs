@@ -69,6 +69,7 @@
 pub use frisure_cards as cards;
 pub use frisure_denoise as denoise;
 pub use frisure_files as files;
+pub use frisure_fit as fit;
 pub use frisure_formats as formats;
 pub use frisure_hairstyle as hairstyle;
 pub use frisure_look as look;

@@ -4,6 +4,7 @@
 pub(crate) mod batch;
 pub(crate) mod cards;
 pub(crate) mod convert;
+pub(crate) mod fit;
 pub(crate) mod hair;
 pub(crate) mod measured;
 pub(crate) mod new;

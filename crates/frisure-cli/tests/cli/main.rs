@@ -4,6 +4,7 @@
 mod batch;
 mod cards;
 mod convert;
+mod fit;
 mod hair;
 mod help;
 mod predict;

@@ -10,7 +10,7 @@
 
 - `predict` makes a `Hairstyle` from a `Scene`: a file, a text in TOML, or a dict.
 - A `Hairstyle` has `strands` and `guides` as NumPy arrays, a `report`, and one method for each step of styling.
-- `frisure.rods` solves many single fibres at once.
+- `frisure.rods` solves many single fibres at once; `frisure.fit` finds the numbers of measured ones, with error bars.
 - `frisure.presets` has a scene for each hair type.
 
 Lengths are metres, z points up, the face looks towards -y and its left is +x. Every error is a `FrisureError`; those
@@ -20,6 +20,7 @@ about what was asked for are `ValueError`s, too.
 from frisure import rods
 from frisure._frisure import __version__
 from frisure.errors import ArgumentError, FailedError, FrisureError, SceneError, SceneNotFoundError
+from frisure.fits import Fits, fit
 from frisure.hairstyle import Hairstyle, predict
 from frisure.presets import presets
 from frisure.scene import Scene, Section
@@ -28,6 +29,7 @@ from frisure.strands import Strands
 __all__ = [
     "ArgumentError",
     "FailedError",
+    "Fits",
     "FrisureError",
     "Hairstyle",
     "Scene",
@@ -36,6 +38,7 @@ __all__ = [
     "Section",
     "Strands",
     "__version__",
+    "fit",
     "predict",
     "presets",
     "rods",

@@ -17,6 +17,7 @@ __all__ = [
     "SceneText",
     "StrandData",
     "__version__",
+    "fit_fibres",
     "inverse_rods",
     "operation_names",
     "preset_names",
@@ -134,6 +135,13 @@ def inverse_rods(
     NDArray[np.float64],
     NDArray[np.float64],
 ]: ...
+def fit_fibres(
+    lines: Mapping[str, NDArray[np.float64] | NDArray[np.int64] | None],
+    known: Mapping[str, NDArray[np.float64] | None],
+    noise: float | None,
+    knots: int,
+    progress: _Progress | None,
+) -> dict[str, Any]: ...
 def preset_names() -> list[tuple[str, str]]: ...
 def preset_text(name: str) -> str | None: ...
 def operation_names() -> list[str]: ...

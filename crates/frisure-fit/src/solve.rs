@@ -1,0 +1,495 @@
+//! Levenberg–Marquardt for many fibres at once: their rods are solved and differentiated together, in the lanes of SIMD vectors.
+
+use frisure_rod::Rod;
+use frisure_rod::batch::{Batch, Direction};
+use glam::DVec3;
+
+use crate::dense::Symmetric;
+use crate::known::{Estimate, Known, USUAL_STIFFNESS, USUAL_TORSION_RATIO};
+use crate::observe::{Normal, Observed, Rods, spacing};
+use crate::pose::Fibre;
+use crate::start::{Expected, noise_of, start};
+use crate::unknowns::{Layout, OF_POSE, Unknowns, directions};
+
+/// Relative gradient of rods at rest: derivatives need 1e-9.
+const AT_REST: f64 = 5e-10;
+
+/// Most steps of a rod, and of a fit from one start. Guards; 6 to 15 are usual.
+const ROD_STEPS: usize = 100;
+const FIT_STEPS: usize = 120;
+
+/// First damping, the least one, the factor by which it falls at most, and that at which a fit is given up. A first fall by more than Nielsen's third saves a step.
+const FIRST_DAMPING: f64 = 1e-3;
+const LEAST_DAMPING: f64 = 1e-9;
+const SHRINKAGE: f64 = 0.1;
+const LARGEST_DAMPING: f64 = 1e7;
+
+/// Square of a step, in standard deviations, at which a fit ends: a fiftieth of a deviation.
+const SMALL: f64 = 4e-4;
+
+/// Largest step, in the unit of [`Unknowns::scale`]. Chosen.
+const LARGEST_STEP: f64 = 0.7;
+
+/// Deviations of the square of the distance from its expectation above which a line does not fit, and another start is tried.
+const MISFIT: f64 = 6.0;
+
+/// Deviation that stands for a number that is known exactly, relative to the number or to the scale of its unknown.
+const EXACT: f64 = 1e-7;
+
+/// A fibre that is fitted.
+pub(crate) struct Job<'a> {
+    pub(crate) fibre: &'a Fibre,
+    pub(crate) layout: Layout,
+    pub(crate) priors: Vec<(usize, f64, f64)>,
+    pub(crate) axis_ratio: f64,
+    pub(crate) observed: Vec<Observed>,
+    /// Standard deviation of a coordinate (m): given, or estimated so far.
+    pub(crate) noise: f64,
+    given_noise: bool,
+    expected: Expected,
+    /// The rank of the next start.
+    next: usize,
+    iterate: Iterate,
+    pub(crate) best: Option<Minimum>,
+    pub(crate) iterations: usize,
+    done: bool,
+    /// Whether the noise was estimated from a fit.
+    polished: bool,
+}
+
+/// A place at which a fit has arrived, and where it tries to go.
+struct Iterate {
+    at: Option<(Unknowns, Normal, Vec<DVec3>, Vec<Observed>)>,
+    trial: Unknowns,
+    damping: f64,
+    /// Factor by which the damping grows next, and the decrease that the last step promised.
+    growth: f64,
+    promised: f64,
+    steps: usize,
+}
+
+impl Iterate {
+    fn from(trial: Unknowns) -> Self {
+        Self { at: None, trial, damping: FIRST_DAMPING, growth: 2.0, promised: 0.0, steps: 0 }
+    }
+
+    /// The damping after a step that lowered the square by `decrease`, or did not. Nielsen 1999, *Damping parameter in Marquardt's method*.
+    fn adapt(&mut self, decrease: Option<f64>) {
+        match decrease {
+            Some(decrease) => {
+                let gain = (decrease / self.promised).clamp(0.0, 1.0);
+                let factor = (1.0 - (2.0 * gain - 1.0).powi(3)).max(SHRINKAGE);
+                self.damping = (self.damping * factor).max(LEAST_DAMPING);
+                self.growth = 2.0;
+            }
+            None => {
+                self.damping = (self.damping * self.growth).max(FIRST_DAMPING);
+                self.growth *= 2.0;
+            }
+        }
+    }
+}
+
+/// A minimum of the distance.
+#[derive(Clone)]
+pub(crate) struct Minimum {
+    pub(crate) unknowns: Unknowns,
+    /// Square of the distance with what is known, in units of the noise.
+    pub(crate) square: f64,
+    pub(crate) controls: Vec<DVec3>,
+    pub(crate) observed: Vec<Observed>,
+    pub(crate) converged: bool,
+}
+
+/// A fibre at its minimum: the distance of the points alone, and the points on the rods (m) in the axes of each pose.
+pub(crate) struct Measured {
+    pub(crate) data: Normal,
+    pub(crate) lines: Vec<Vec<DVec3>>,
+}
+
+impl<'a> Job<'a> {
+    pub(crate) fn new(fibre: &'a Fibre, known: &Known, noise: Option<f64>, knots: usize) -> Self {
+        let layout = Layout::of(fibre, knots);
+        let observed: Vec<Observed> =
+            fibre.poses().iter().map(|p| Observed::new(p, fibre.length(p.state()))).collect();
+        let guess = observed.iter().map(|o| noise_of(&o.points)).fold(0.0, f64::max);
+        // Rounding of points that have no noise.
+        let sigma = noise.unwrap_or(guess).max(1e-9);
+        let priors = priors(fibre, layout, known);
+        let at = |unknown: usize| {
+            priors.iter().find(|prior| prior.0 == unknown).map_or(0.0, |prior| prior.1)
+        };
+        let stiffness: Vec<f64> =
+            (0..layout.states).map(|state| at(layout.stiffness(state)).exp()).collect();
+        let ratio = at(layout.ratio()).exp();
+        let axis_ratio = known.axis_ratio;
+        let expected = Expected { stiffness, ratio, axis_ratio, knots, noise: sigma };
+        let trial = start(fibre, &observed, &expected, 0).expect("a first start");
+        let mut job = Self {
+            fibre,
+            layout,
+            priors,
+            axis_ratio,
+            observed,
+            noise: sigma,
+            given_noise: noise.is_some(),
+            expected,
+            next: 1,
+            iterate: Iterate::from(trial.clone()),
+            best: None,
+            iterations: 0,
+            done: false,
+            polished: false,
+        };
+        job.begin(trial);
+        job
+    }
+
+    /// The numbers that the fit starts with.
+    pub(crate) fn start(&self) -> &Unknowns {
+        &self.iterate.trial
+    }
+
+    /// Whether the noise was given.
+    pub(crate) fn given_noise(&self) -> bool {
+        self.given_noise
+    }
+
+    /// How many numbers were measured.
+    pub(crate) fn count(&self) -> usize {
+        self.observed.iter().map(Observed::count).sum()
+    }
+
+    /// Measured numbers less those that they determine: all but the ones that are known exactly.
+    pub(crate) fn degrees(&self) -> f64 {
+        let exact = self.priors.iter().filter(|prior| prior.2 <= 2.0 * EXACT).count();
+        (self.count() as f64 - (self.layout.len() - exact) as f64).max(1.0)
+    }
+
+    /// Whether a square of the distance is larger than noise makes it.
+    pub(crate) fn misfits(&self, square: f64) -> bool {
+        let degrees = self.degrees();
+        square > degrees + MISFIT * (2.0 * degrees).sqrt()
+    }
+
+    fn begin(&mut self, trial: Unknowns) {
+        for observed in self.observed.iter_mut().filter(|observed| !observed.placed) {
+            observed.fractions = by_chords(&observed.points);
+        }
+        self.iterate = Iterate::from(trial);
+    }
+
+    /// The rods of some unknowns; `None`, if they make none.
+    fn rods(&self, unknowns: &Unknowns) -> Option<Vec<Rod>> {
+        let poses = self.fibre.poses().iter().enumerate();
+        poses.map(|(i, pose)| unknowns.rod(pose, i, self.axis_ratio)).collect()
+    }
+
+    /// The sums of all points, and of what is known.
+    pub(crate) fn with_priors(&self, unknowns: &Unknowns, data: &Normal) -> Normal {
+        let mut normal = data.clone();
+        for &(unknown, value, deviation) in &self.priors {
+            normal.add_prior(unknown, unknowns.value(self.layout, unknown) - value, deviation);
+        }
+        for unknown in 0..self.layout.len() {
+            // A wide prior about the present value: what nothing tells stays. A uniform angle deviates by π/√3.
+            let scale = 1.8 * unknowns.scale(self.layout, unknown);
+            let scale = if self.is_turn(unknown) { scale } else { 1e3 * scale };
+            normal.matrix.add_diagonal(unknown, scale.powi(-2));
+        }
+        normal
+    }
+
+    fn is_turn(&self, unknown: usize) -> bool {
+        let shared = self.layout.shared();
+        unknown >= shared && (unknown - shared) % OF_POSE >= 3
+    }
+
+    /// After the trial was computed: `None`, if it makes no rod at rest.
+    fn decide(&mut self, normal: Option<Normal>, controls: &[DVec3], observed: Vec<Observed>) {
+        self.iterations += 1;
+        self.iterate.steps += 1;
+        let before = self.iterate.at.as_ref().map(|(_, before, _, _)| before.square);
+        let square = normal.as_ref().map_or(f64::INFINITY, |normal| normal.square);
+        let lower = square < before.unwrap_or(f64::INFINITY);
+        match (lower, before) {
+            (true, Some(before)) => self.iterate.adapt(Some(before - square)),
+            (true, None) => {}
+            (false, _) => self.iterate.adapt(None),
+        }
+        if let Some(normal) = normal.filter(|_| lower) {
+            let trial = self.iterate.trial.clone();
+            self.iterate.at = Some((trial, normal, controls.to_vec(), observed));
+        }
+        let Some((at, normal, _, _)) = &self.iterate.at else {
+            self.finish(false);
+            return;
+        };
+        let mut damped = normal.matrix.clone();
+        for i in 0..damped.len() {
+            damped.add_diagonal(i, self.iterate.damping * normal.matrix.at(i, i));
+        }
+        let Some(factor) = damped.cholesky() else {
+            self.finish(false);
+            return;
+        };
+        let mut step = factor.solve(&normal.gradient);
+        step.iter_mut().for_each(|x| *x = -*x);
+        let size = normal.matrix.square(&step);
+        if size < SMALL && (lower || self.iterate.damping > 1.0) {
+            self.finish(true);
+            return;
+        }
+        if self.iterate.steps > FIT_STEPS || self.iterate.damping > LARGEST_DAMPING {
+            self.finish(false);
+            return;
+        }
+        let layout = self.layout;
+        let largest = step.iter().enumerate();
+        let largest = largest.map(|(i, x)| x.abs() / at.scale(layout, i)).fold(0.0, f64::max);
+        if largest > LARGEST_STEP {
+            step.iter_mut().for_each(|x| *x *= LARGEST_STEP / largest);
+        }
+        let slope: f64 = step.iter().zip(&normal.gradient).map(|(x, g)| x * g).sum();
+        self.iterate.promised = -2.0 * slope - normal.matrix.square(&step);
+        self.iterate.trial = at.stepped(layout, &step);
+    }
+
+    /// The end of the fit from one start.
+    fn finish(&mut self, converged: bool) {
+        if let Some((unknowns, normal, controls, observed)) = self.iterate.at.take() {
+            let square = normal.square;
+            if self.best.as_ref().is_none_or(|best| square < best.square || self.polished) {
+                self.best = Some(Minimum { unknowns, square, controls, observed, converged });
+            }
+        }
+        let misfits = self.best.as_ref().is_none_or(|best| self.misfits(best.square));
+        if misfits
+            && !self.polished
+            && let Some(start) = start(self.fibre, &self.observed, &self.expected, self.next)
+        {
+            self.next += 1;
+            self.begin(start);
+            return;
+        }
+        if !self.given_noise
+            && !self.polished
+            && let Some(best) = self.best.clone()
+        {
+            // What is left over is the noise: once more with it, since it weighs what is known.
+            self.polished = true;
+            let factor = (best.square / self.degrees()).sqrt().max(1e-6);
+            self.noise = (self.noise * factor).max(1e-12);
+            self.begin(best.unknowns);
+            self.observed = best.observed;
+            return;
+        }
+        self.done = true;
+    }
+}
+
+/// What is known of the unknowns: which, its value and its deviation.
+fn priors(fibre: &Fibre, layout: Layout, known: &Known) -> Vec<(usize, f64, f64)> {
+    let mut priors = Vec::new();
+    let logarithm = |known: Option<Estimate>, usual: Estimate| match known {
+        Some(known) => (known.value.ln(), known.relative_deviation().max(EXACT)),
+        None => (usual.value.ln(), usual.deviation),
+    };
+    for state in 0..layout.states {
+        let of_state = known.stiffness_over_weight.filter(|_| state == 0);
+        let (value, deviation) = logarithm(of_state, USUAL_STIFFNESS);
+        priors.push((layout.stiffness(state), value, deviation));
+        if let Some(length) = fibre.length(state) {
+            priors.push((layout.length(state), length.ln(), EXACT));
+        }
+    }
+    let (value, deviation) = logarithm(known.torsion_ratio, USUAL_TORSION_RATIO);
+    priors.push((layout.ratio(), value, deviation));
+    // What is known of the mean over the knots is known of each, with a deviation that makes it so.
+    let spread = (layout.knots as f64).sqrt();
+    for knot in 0..layout.knots {
+        for (unknown, known) in
+            [(layout.curvature(knot), known.curvature), (layout.torsion(knot), known.torsion)]
+        {
+            if let Some(Estimate { value, deviation }) = known {
+                let deviation = (deviation * spread).max(EXACT * value.abs().max(1.0));
+                priors.push((unknown, value, deviation));
+            }
+        }
+    }
+    priors
+}
+
+/// The fraction of the length at each point, by the chords.
+fn by_chords(points: &[DVec3]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut fractions = vec![0.0];
+    for pair in points.windows(2) {
+        sum += pair[0].distance(pair[1]);
+        fractions.push(sum);
+    }
+    fractions.iter().map(|s| s / sum).collect()
+}
+
+/// Fits fibres whose rods have the same number of elements.
+pub(crate) fn run(jobs: &mut [Job<'_>], elements: usize, knots: usize) {
+    let solver = Solver::new(elements, knots);
+    while jobs.iter().any(|job| !job.done) {
+        let trials: Vec<Trial> = (jobs.iter().enumerate())
+            .filter(|(_, job)| !job.done)
+            .map(|(index, job)| {
+                let near = job.iterate.at.as_ref().map(|(_, _, controls, _)| controls.clone());
+                let unknowns = job.iterate.trial.clone();
+                Trial { index, unknowns, near: near.unwrap_or_default() }
+            })
+            .collect();
+        for (trial, found) in trials.iter().zip(solver.evaluate(jobs, &trials, false)) {
+            let job = &mut jobs[trial.index];
+            let normal = found.data.map(|data| job.with_priors(&trial.unknowns, &data));
+            job.decide(normal, &found.controls, found.observed);
+        }
+    }
+}
+
+/// The distance of the points at the minimum of each fibre, without what is known besides, and the lines; `None` without a minimum.
+pub(crate) fn measure(
+    jobs: &mut [Job<'_>],
+    elements: usize,
+    knots: usize,
+) -> Vec<Option<Measured>> {
+    let trials: Vec<Trial> = (jobs.iter().enumerate())
+        .filter_map(|(index, job)| {
+            let best = job.best.as_ref()?;
+            Some(Trial { index, unknowns: best.unknowns.clone(), near: best.controls.clone() })
+        })
+        .collect();
+    for job in jobs.iter_mut() {
+        if let Some(best) = &job.best {
+            job.observed.clone_from(&best.observed);
+        }
+    }
+    let mut measured: Vec<Option<Measured>> = jobs.iter().map(|_| None).collect();
+    let found = Solver::new(elements, knots).evaluate(jobs, &trials, true);
+    for (trial, found) in trials.iter().zip(found) {
+        measured[trial.index] = found.data.map(|data| Measured { data, lines: found.lines });
+    }
+    measured
+}
+
+/// Unknowns of a fibre to be tried, and turns of joints (rad) near which its rods come to rest; empty for none.
+struct Trial {
+    index: usize,
+    unknowns: Unknowns,
+    near: Vec<DVec3>,
+}
+
+/// The points of a fibre beside the rods of a trial; no data, if the trial makes no rods at rest.
+#[derive(Default)]
+struct Evaluation {
+    data: Option<Normal>,
+    controls: Vec<DVec3>,
+    observed: Vec<Observed>,
+    lines: Vec<Vec<DVec3>>,
+}
+
+/// Rods of one number of elements, and the directions in which they are differentiated.
+struct Solver {
+    batch: Batch,
+    directions: Vec<Direction>,
+}
+
+impl Solver {
+    fn new(elements: usize, knots: usize) -> Self {
+        let batch =
+            Batch { elements, tolerance: AT_REST, max_iterations: ROD_STEPS, ..Batch::default() };
+        Self { batch, directions: directions(knots, elements) }
+    }
+
+    /// Solves the rods of trials side by side, and adds up the points of each fibre.
+    fn evaluate(&self, jobs: &[Job<'_>], trials: &[Trial], lines: bool) -> Vec<Evaluation> {
+        let elements = self.batch.elements;
+        let (mut rods, mut controls, mut firsts) = (Vec::new(), Vec::new(), Vec::new());
+        for trial in trials {
+            let made = jobs[trial.index].rods(&trial.unknowns);
+            firsts.push(made.as_ref().map(|_| rods.len()));
+            for (pose, rod) in made.into_iter().flatten().enumerate() {
+                match trial.near.get(pose * elements..(pose + 1) * elements) {
+                    Some(near) => controls.extend_from_slice(near),
+                    None => controls.resize(controls.len() + elements, DVec3::ZERO),
+                }
+                rods.push(rod);
+            }
+        }
+        let found = self.batch.solve_from(&rods, controls);
+        let tangents = self.batch.jvp(&rods, &found, &self.directions);
+        let one = |(trial, first): (&Trial, Option<usize>)| {
+            let job = &jobs[trial.index];
+            let poses = job.fibre.poses();
+            let Some(first) = first.filter(|&first| {
+                tangents.existence[first..first + poses.len()].iter().all(Result::is_ok)
+            }) else {
+                return Evaluation::default();
+            };
+            let rods = Rods { tangents: &tangents, first, layout: job.layout, noise: job.noise };
+            let before = job.iterate.at.as_ref().map_or(&job.observed, |(_, _, _, seen)| seen);
+            let mut observed = before.clone();
+            let mut data = Normal::zero(job.layout.len());
+            let mut of_fibre = Vec::new();
+            for (p, pose) in poses.iter().enumerate() {
+                let spacing = spacing(&trial.unknowns, pose, elements);
+                rods.place(p, spacing, &mut observed[p]);
+                rods.add(p, pose.state(), spacing, &observed[p], &mut data);
+                if lines {
+                    let back = observed[p].turn.inverse();
+                    let line = rods.line(p, spacing, &observed[p]);
+                    of_fibre.push(line.into_iter().map(|x| back * x).collect());
+                }
+            }
+            let range = first * elements..(first + poses.len()) * elements;
+            let controls = found.controls[range].to_vec();
+            Evaluation { data: Some(data), controls, observed, lines: of_fibre }
+        };
+        trials.iter().zip(firsts).map(one).collect()
+    }
+}
+
+impl Unknowns {
+    /// The value of one that something may be known of: strain, stiffness, ratio or length.
+    fn value(&self, layout: Layout, unknown: usize) -> f64 {
+        if unknown < layout.torsion(0) {
+            self.strain[unknown].0
+        } else if unknown < layout.stiffness(0) {
+            self.strain[unknown - layout.torsion(0)].1
+        } else if unknown < layout.ratio() {
+            self.stiffness[unknown - layout.stiffness(0)]
+        } else if unknown == layout.ratio() {
+            self.ratio
+        } else {
+            self.length[unknown - layout.length(0)]
+        }
+    }
+}
+
+/// What the points alone tell of the unknowns that all poses share, with the roots of the poses eliminated.
+pub(crate) fn shared_information(layout: Layout, data: &Symmetric) -> Symmetric {
+    let shared: Vec<usize> = (0..layout.shared()).collect();
+    let roots: Vec<usize> = (layout.shared()..layout.len()).collect();
+    let mut information = data.part(&shared);
+    let mut of_roots = data.part(&roots);
+    for i in 0..of_roots.len() {
+        // The turn of a straight fibre about itself is told by nothing.
+        of_roots.add_diagonal(i, 1e-12 * of_roots.at(i, i).max(1e-300));
+    }
+    let Some(factor) = of_roots.cholesky() else { return information };
+    let columns: Vec<Vec<f64>> = shared
+        .iter()
+        .map(|&i| factor.solve(&roots.iter().map(|&r| data.at(r, i)).collect::<Vec<_>>()))
+        .collect();
+    for (a, column) in columns.iter().enumerate() {
+        for &b in &shared[..=a] {
+            let taken: f64 = roots.iter().zip(column).map(|(&r, x)| data.at(r, b) * x).sum();
+            information.set(a, b, information.at(a, b) - taken);
+        }
+    }
+    information
+}
