@@ -38,6 +38,12 @@ pub(super) const LAID: f64 = 2e-5;
 /// How many widths farther out no hair is moved: there the law moves it by 2.5e-3 of a width. Chosen.
 const FREE: f64 = 6.0;
 
+/// Most steps out of the skin. Chosen: on smooth skin one or two suffice, in creases of a coarse mesh eight.
+const MOST_STEPS: usize = 16;
+
+/// Least slope of the distance field that a step out of the skin takes for true. Chosen: a step is at most four times the depth.
+const FLATTEST: f64 = 0.25;
+
 /// A ball (m) known to be free of the body and of its layers: most points need no look-up.
 pub(super) struct Free {
     centre: DVec3,
@@ -85,13 +91,15 @@ impl Skin<'_> {
         }
         let wanted = least + width * beyond.exp().ln_1p();
         let mut p = p + gradient.normalize_or(root.normal) * (wanted - distance);
-        for _ in 0..4 {
-            // Where the skin is curved the way out is not straight: four steps (chosen) along the gradient there.
+        for _ in 0..MOST_STEPS {
+            // Where the skin is curved the way out is not straight.
             let (distance, gradient) = self.head.signed_distance().value_gradient(p);
             if distance >= least {
                 break;
             }
-            p += gradient.normalize_or(root.normal) * (least - distance);
+            // In creases the distance field is rounded, and grows by less than the way: Newton's step.
+            let slope = gradient.length().clamp(FLATTEST, 1.0);
+            p += gradient.normalize_or(root.normal) * ((least - distance) / slope);
         }
         p
     }
