@@ -62,7 +62,7 @@ fn crates_use_each_other_as_the_table_says() {
     let mut found = BTreeMap::new();
     let crates = std::fs::read_dir(root().join("crates")).expect("crates");
     let folders = crates.map(|entry| entry.expect("entry").path());
-    let validation = ["evidence", "peers"].map(|name| root().join("validation").join(name));
+    let validation = ["evidence", "fuzz", "peers"].map(|name| root().join("validation").join(name));
     for folder in folders.chain(validation) {
         let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).expect("manifest");
         let name = manifest.lines().find_map(|line| line.strip_prefix("name = "));

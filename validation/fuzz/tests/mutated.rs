@@ -26,7 +26,7 @@ fn mutated_files_end_no_program() {
         let works = |bytes: &[u8]| catch_unwind(AssertUnwindSafe(|| run(bytes))).is_ok();
         let mut check = |input: Vec<u8>, what: String| {
             if !works(&input) {
-                let file = format!("mutated-{}-{what}", name);
+                let file = format!("mutated-{name}-{what}");
                 fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(&file), &input).unwrap();
                 failed.push(file);
             }
