@@ -65,8 +65,8 @@
 
 #![forbid(unsafe_code)]
 
-#[cfg(not(target_arch = "wasm32"))]
 pub use frisure_cards as cards;
+#[cfg(not(target_arch = "wasm32"))]
 pub use frisure_denoise as denoise;
 pub use frisure_files as files;
 pub use frisure_fit as fit;
