@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the pictures of the gallery, gallery/*.png, with the command frisure.
 
-Usage: gallery.py PATH/TO/frisure. Needs Pillow, which gives each picture its own 96 colours, so that all
+Usage: gallery.py PATH/TO/frisure. Needs Pillow, which gives each picture its own 40 colours, so that all
 together weigh less than the fonts of the page.
 """
 import io, pathlib, re, subprocess, sys, tempfile
@@ -33,7 +33,7 @@ for kind, name in re.findall(r'card!\((type|scene) "([^"]+)"', cards):
         subprocess.run([sys.argv[1], "predict", scene, "--image", picture])
         # A guide that has not converged is reported, not fatal.
         image = Image.open(picture).convert("RGB").resize((176, 216), Image.LANCZOS)
-    image = image.quantize(96, dither=Image.Dither.FLOYDSTEINBERG)
+    image = image.quantize(40, dither=Image.Dither.NONE)
     bytes_ = io.BytesIO()
     image.save(bytes_, "PNG", optimize=True)
     out.write_bytes(bytes_.getvalue())
