@@ -11,9 +11,15 @@ use super::facial_hair::{self, FacialLines};
 use super::subdivide::Quads;
 
 /// Faces, and the tints of vertices.
+#[cfg(not(target_arch = "wasm32"))]
 const TOPOLOGY: &[u8] = include_bytes!("../../heads/topology.bin");
+#[cfg(target_arch = "wasm32")]
+const TOPOLOGY: &[u8] = &[];
 
-/// Names of the heads, and their files.
+/// Names of the heads, and their files. The page of the salon has none: it may not weigh more.
+#[cfg(target_arch = "wasm32")]
+const PEOPLE: [(&str, &[u8]); 0] = [];
+#[cfg(not(target_arch = "wasm32"))]
 const PEOPLE: [(&str, &[u8]); 4] = [
     ("african-woman", include_bytes!("../../heads/african-woman.bin")),
     ("asian-man", include_bytes!("../../heads/asian-man.bin")),
