@@ -124,11 +124,6 @@ fn hairs_keep_their_own_shapes() {
             .map(|i| off(&drawn.strand(i).points[1..], hairs.strand(i).points))
             .collect();
         apart.sort_by(f32::total_cmp);
-        for (d, f) in adoption.distances.iter().zip(&adoption.stiffness_needed) {
-            if *d > 5e-4 {
-                eprintln!("{name} {d} {f}");
-            }
-        }
         let held = adoption.distances.iter().filter(|d| **d < 5e-4).count() * apart.len() / GUIDES;
         // Some hairs are bound to one guide that was held and one that was not.
         assert!(apart[held * 8 / 10] < 1e-3, "{name}: {:?}", &apart[held * 7 / 10..]);

@@ -4,6 +4,8 @@
 //! `tests/mutated.rs` runs them with mutations of the corpus on the stable compiler; the package in `fuzz` runs them with
 //! libFuzzer, guided by coverage. docs/reliability.md says how.
 
+#![forbid(unsafe_code)]
+
 pub mod mutate;
 mod readers;
 

@@ -1,5 +1,7 @@
 //! Writes the corpus of a target into a folder, for libFuzzer to begin with: `frisure-fuzz scene FOLDER`.
 
+#![forbid(unsafe_code)]
+
 use std::env;
 use std::fs;
 use std::io::{self, Write};

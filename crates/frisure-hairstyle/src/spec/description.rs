@@ -1,6 +1,7 @@
 //! The description of a hairstyle: plain data, SI units.
 
 use frisure_digest::digestible;
+use frisure_rod::{Load, Section};
 
 use super::load::{Pose, Wind};
 use crate::fibre::{Curl, Fibre, Wetting};
@@ -471,5 +472,17 @@ impl Default for Settling {
             tolerance: 3e-2,
             method: HeadMethod::default(),
         }
+    }
+}
+
+impl HairstyleSpec {
+    /// What pulls on a hair of this section, in the frame of the head.
+    ///
+    /// The drag is that of the mean diameter 2√(ab), and does not change as the hair turns into the wind: a force with a
+    /// potential. Wet hair has the force of dry hair.
+    #[must_use]
+    pub fn load(&self, section: &Section) -> Load {
+        let force = self.wind.exposure * self.wind.drag(2.0 * section.mean_radius());
+        Load { gravity: self.pose.down() * self.gravity, force: self.wind.direction() * force }
     }
 }

@@ -1,10 +1,7 @@
 //! What pulls on hair: gravity, in the direction that the pose of the head gives it, and wind.
 
 use frisure_digest::digestible;
-use frisure_rod::{Load, Section};
 use glam::DVec3;
-
-use super::description::HairstyleSpec;
 
 digestible! {
     /// How the head is held against gravity. The frame of the head stays as it is; gravity turns in it.
@@ -103,20 +100,10 @@ impl Wind {
     }
 }
 
-impl HairstyleSpec {
-    /// What pulls on a hair of this section, in the frame of the head.
-    ///
-    /// The drag is that of the mean diameter 2√(ab), and does not change as the hair turns into the wind: a force with a
-    /// potential. Wet hair has the force of dry hair.
-    #[must_use]
-    pub fn load(&self, section: &Section) -> Load {
-        let force = self.wind.exposure * self.wind.drag(2.0 * section.mean_radius());
-        Load { gravity: self.pose.down() * self.gravity, force: self.wind.direction() * force }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use frisure_rod::{Load, Section};
+
     use super::*;
 
     #[test]
