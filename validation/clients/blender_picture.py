@@ -33,31 +33,37 @@ def dyed(hairs, brown, red):
     hairs.data.materials.append(material)
 
 
-def lit():
-    """A light high at the left, a weak one at the right, one behind, and a grey room."""
-    for place, size, watts in (((0.9, -1.1, 0.9), 0.5, 90), ((-1.2, -0.8, 0.2), 0.8, 20), ((-0.6, 1.1, 0.8), 0.4, 90)):
+def lit(watts, room):
+    """A light high at the left, a weak one at the right, one behind, of these watts, and a room of this grey."""
+    places = ((0.9, -1.1, 0.9), 0.5), ((-1.2, -0.8, 0.2), 0.8), ((-0.6, 1.1, 0.8), 0.4)
+    for (place, size), watts in zip(places, watts):
         lamp = bpy.data.objects.new("lamp", bpy.data.lights.new("lamp", "AREA"))
         lamp.data.energy, lamp.data.size = watts, size
         lamp.location = place
         lamp.rotation_euler = Vector(place).to_track_quat("Z", "Y").to_euler()
         bpy.context.collection.objects.link(lamp)
     world = bpy.data.worlds.new("room")
-    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.2, 0.2, 1)
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (room, room, room, 1)
     bpy.context.scene.world = world
+
+
+def camera(middle, azimuth, distance):
+    """A camera that looks at a point from so many degrees to the head's left, a little from above."""
+    made = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    made.data.angle = math.radians(24)
+    azimuth = math.radians(azimuth)
+    made.location = middle + distance * Vector((math.sin(azimuth), -math.cos(azimuth), 0.1))
+    made.rotation_euler = (made.location - middle).to_track_quat("Z", "Y").to_euler()
+    bpy.context.collection.objects.link(made)
+    bpy.context.scene.camera = made
 
 
 def seen(hairs, head, width=500, height=600):
     """A camera in front, a little to its left, with the hair and the shoulders in the picture."""
     heights = [(thing.matrix_world @ Vector(corner)).z for thing in (hairs, head) for corner in thing.bound_box]
     size, middle = max(heights) - min(heights), Vector((0, 0, 0.5 * (max(heights) + min(heights))))
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.data.angle = math.radians(24)
-    azimuth, distance = math.radians(35), 0.56 * size / math.tan(math.radians(12))
-    camera.location = middle + distance * Vector((math.sin(azimuth), -math.cos(azimuth), 0.1))
-    camera.rotation_euler = (camera.location - middle).to_track_quat("Z", "Y").to_euler()
-    bpy.context.collection.objects.link(camera)
+    camera(middle, 35, 0.56 * size / math.tan(math.radians(12)))
     scene = bpy.context.scene
-    scene.camera = camera
     scene.render.resolution_x, scene.render.resolution_y = width, height
 
 
@@ -77,6 +83,6 @@ if __name__ == "__main__":
     groom, picture, eumelanin, pheomelanin = sys.argv[1:]
     hairs, head = opened(groom)
     dyed(hairs, float(eumelanin), float(pheomelanin))
-    lit()
+    lit((90, 20, 90), 0.2)
     seen(hairs, head)
     rendered(picture)

@@ -12,6 +12,7 @@ import pathlib
 import sys
 
 import bpy
+from blender_picture import camera, lit
 from mathutils import Vector
 
 
@@ -31,32 +32,13 @@ def opened(usd, glb):
     return hairs, cards
 
 
-def lit():
-    """Three lights and a grey room."""
-    for place, size, watts in (((0.9, -1.1, 0.9), 0.5, 60), ((-1.2, -0.8, 0.2), 0.8, 25), ((-0.6, 1.1, 0.8), 0.4, 60)):
-        lamp = bpy.data.objects.new("lamp", bpy.data.lights.new("lamp", "AREA"))
-        lamp.data.energy, lamp.data.size = watts, size
-        lamp.location = place
-        lamp.rotation_euler = Vector(place).to_track_quat("Z", "Y").to_euler()
-        bpy.context.collection.objects.link(lamp)
-    world = bpy.data.worlds.new("room")
-    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.5, 0.5, 0.5, 1)
-    bpy.context.scene.world = world
-
-
 def seen(hairs):
     """A camera in front, a little to the head's left, with all hair in the picture."""
     corners = [hairs.matrix_world @ Vector(corner) for corner in hairs.bound_box]
     middle = sum(corners, Vector()) / 8
     size = max((corner - middle).length for corner in corners)
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.data.angle = math.radians(24)
-    azimuth, distance = math.radians(30), 0.95 * size / math.tan(math.radians(12))
-    camera.location = middle + distance * Vector((math.sin(azimuth), -math.cos(azimuth), 0.1))
-    camera.rotation_euler = (camera.location - middle).to_track_quat("Z", "Y").to_euler()
-    bpy.context.collection.objects.link(camera)
+    camera(middle, 30, 0.95 * size / math.tan(math.radians(12)))
     scene = bpy.context.scene
-    scene.camera = camera
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising = 48, False
     # Cards lie before each other: light passes many.
@@ -70,7 +52,7 @@ def seen(hairs):
 
 def main(usd, glb, folder, levels=""):
     hairs, cards = opened(usd, glb)
-    lit()
+    lit((60, 25, 60), 0.5)
     seen(hairs)
     things = [hairs, *cards]
     names = ["strands", "cards", *(f"cards-level-{k}" for k in range(1, len(cards)))]

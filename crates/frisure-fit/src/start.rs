@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use frisure_rod::{bending, twist_free_frames};
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::known::STANDARD_GRAVITY;
@@ -68,15 +69,9 @@ impl Polyline {
             arc = (0..blocks).map(mean).collect();
         }
         // 2. Frames without twist, and the twist with which the line bends about one axis.
-        let frames = twist_free(&chords);
-        let bends: Vec<(f64, f64)> = frames
-            .windows(2)
-            .map(|pair| {
-                let turn = DQuat::from_mat3(&(pair[0].transpose() * pair[1])).to_scaled_axis();
-                (turn.x, turn.y)
-            })
-            .collect();
-        let (twist, phase, strength) = twist_of(&bends, peak);
+        let tangents: Vec<DVec3> = chords.iter().map(|v| v.normalize_or(DVec3::NEG_Z)).collect();
+        let frames = twist_free_frames(&tangents);
+        let (twist, phase, strength) = twist_of(&bending(&frames), peak);
         let step = (arc[blocks - 1] - arc[0]) / (blocks - 1) as f64;
         let turned = |(i, frame): (usize, DMat3)| {
             frame * DMat3::from_rotation_z(phase + twist * (i as f64 - 0.5))
@@ -110,23 +105,6 @@ impl Polyline {
         let turn = DVec3::new(self.bending, 0.0, self.torsion) * -middle;
         self.frames[0] * DMat3::from_quat(DQuat::from_scaled_axis(turn))
     }
-}
-
-/// Twist-free (Bishop) frames along chords.
-fn twist_free(chords: &[DVec3]) -> Vec<DMat3> {
-    let tangent = |v: &DVec3| v.normalize_or(DVec3::NEG_Z);
-    let first = tangent(&chords[0]);
-    let d1 = first.any_orthonormal_vector();
-    let mut frame = DMat3::from_cols(d1, first.cross(d1), first);
-    let mut frames = vec![frame];
-    for pair in chords.windows(2) {
-        let (from, to) = (tangent(&pair[0]), tangent(&pair[1]));
-        frame = DMat3::from_quat(DQuat::from_rotation_arc(from, to)) * frame;
-        let d1 = (frame.x_axis - to * to.dot(frame.x_axis)).normalize();
-        frame = DMat3::from_cols(d1, to.cross(d1), to);
-        frames.push(frame);
-    }
-    frames
 }
 
 /// The twist (rad per piece) and the angle at the start (rad) of frames in which bending is most about d1, and how much it is there (rad per piece):

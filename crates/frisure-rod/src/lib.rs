@@ -83,6 +83,7 @@
 #![forbid(unsafe_code)]
 
 pub mod batch;
+mod bishop;
 mod centre_line;
 mod chain;
 pub mod derivatives;
@@ -102,6 +103,7 @@ mod section;
 mod strain;
 mod stumpff;
 
+pub use bishop::{bending, twist_free_frames};
 pub use centre_line::{Node, centre_line};
 pub use chain::{Chain, Shape};
 pub use equilibrium::{

@@ -1,72 +1,11 @@
 //! Sweeps for the derivatives of rods at rest in their own weight: the linear system of the adjoint, and its products with the
 //! parameters. docs/theory.md, "Derivatives of an equilibrium" and "Rods in lanes", (L11) to (L13).
 
-use glam::{DMat3, DVec3};
-
-use super::elimination::{Elimination, Stiffness, SweepResult, ValueFunction};
+use super::elimination::{Elimination, Stiffness, SweepResult};
 use super::lanes::Lanes;
 use super::linear::{Mat3, Sym3, Vec3};
+use super::rod_lanes::{Half, RodLanes, both};
 use super::rotation::RotationTable;
-use crate::rotation::{RotationSeries, right_jacobian};
-use crate::stumpff::stumpff;
-
-/// Half of an element, a piece of the natural helix, and how it moves with its natural strain.
-#[derive(Clone, Copy)]
-pub(super) struct Half<F> {
-    /// Rotation, advance (m) and first moment (m²).
-    pub(super) turn: Mat3<F>,
-    pub(super) advance: Vec3<F>,
-    pub(super) moment: Vec3<F>,
-    /// By the turn c = u⁰ h/2 of the piece: the turn of its end frame in itself, the advance (m) and the first moment (m²).
-    pub(super) turn_by: Mat3<F>,
-    pub(super) advance_by: Mat3<F>,
-    pub(super) moment_by: Mat3<F>,
-}
-
-/// [`Half`] of one rod.
-pub(super) struct HalfOfOne {
-    turn: DMat3,
-    advance: DVec3,
-    moment: DVec3,
-    turn_by: DMat3,
-    advance_by: DMat3,
-    moment_by: DMat3,
-}
-
-impl HalfOfOne {
-    /// A piece of the natural strain `strain` (rad/m) and the length `half` (m).
-    pub(super) fn new(strain: DVec3, half: f64) -> Self {
-        // h φ_1 e_3 is the advance and h² φ_2 e_3 the first moment. docs/theory.md, "Elements"
-        let c = strain * half;
-        let table = stumpff(c.length_squared());
-        let advance = RotationSeries::phi(1, &table, half, DVec3::Z);
-        let moment = RotationSeries::phi(2, &table, half * half, DVec3::Z);
-        Self {
-            turn: crate::rotation::exponential(c, &table),
-            advance: advance.value(c),
-            moment: moment.value(c),
-            turn_by: right_jacobian(c, &table),
-            advance_by: advance.jacobian(c),
-            moment_by: moment.jacobian(c),
-        }
-    }
-}
-
-impl<F: Lanes> Half<F> {
-    pub(super) fn zero(zero: F) -> Self {
-        let (v, m) = (Vec3::splat(zero), Mat3::splat(zero));
-        Self { turn: m, advance: v, moment: v, turn_by: m, advance_by: m, moment_by: m }
-    }
-
-    pub(super) fn set(&mut self, lane: usize, one: &HalfOfOne) {
-        self.turn.set(lane, &one.turn);
-        self.advance.set(lane, one.advance);
-        self.moment.set(lane, one.moment);
-        self.turn_by.set(lane, &one.turn_by);
-        self.advance_by.set(lane, &one.advance_by);
-        self.moment_by.set(lane, &one.moment_by);
-    }
-}
 
 /// One element of each rod.
 #[derive(Clone, Copy)]
@@ -146,22 +85,7 @@ pub(super) struct AdjointSums<F> {
 /// Rods side by side, each divided into the same number of elements.
 pub(super) struct AdjointBundle<F> {
     pub(super) joints: Vec<AdjointJoint<F>>,
-    /// Two for each element, or one for all.
-    pub(super) halves: Vec<Half<F>>,
-    pub(super) root: Mat3<F>,
-    /// K (N m), apparent weight per length (N/m), the vertical against it (world), and length of an element (m).
-    pub(super) stiffness: Vec3<F>,
-    pub(super) weight: F,
-    pub(super) up: Vec3<F>,
-    pub(super) spacing: F,
-}
-
-/// The halves of an element, before and after its joint.
-pub(super) fn both<F>(halves: &[Half<F>], element: usize) -> [&Half<F>; 2] {
-    match halves {
-        [same] => [same; 2],
-        halves => [&halves[2 * element], &halves[2 * element + 1]],
-    }
+    pub(super) rods: RodLanes<F>,
 }
 
 impl<F: Lanes> AdjointBundle<F> {
@@ -171,7 +95,7 @@ impl<F: Lanes> AdjointBundle<F> {
     #[inline(always)]
     pub(super) fn solve(&mut self, least: f64) -> (AdjointSums<F>, SweepResult<F>, F) {
         self.shape();
-        let zero = self.weight.splat(0.0);
+        let zero = self.rods.weight.splat(0.0);
         // What this sweep leaves in the joints the next one replaces.
         let mut shifted = SweepResult::new(zero);
         self.backward(&mut shifted, zero.splat(-least));
@@ -187,10 +111,10 @@ impl<F: Lanes> AdjointBundle<F> {
     /// Frames and positions, from root to tip.
     #[inline(always)]
     fn shape(&mut self) {
-        let mut frame = self.root;
-        let mut position = Vec3::splat(self.weight.splat(0.0));
+        let mut frame = self.rods.root;
+        let mut position = Vec3::splat(self.rods.weight.splat(0.0));
         for i in 0..self.joints.len() {
-            let [first, second] = both(&self.halves, i);
+            let [first, second] = both(&self.rods.halves, i);
             let joint = &mut self.joints[i];
             let table = RotationTable::of(joint.control);
             joint.jacobian = table.jacobian(joint.control);
@@ -207,16 +131,16 @@ impl<F: Lanes> AdjointBundle<F> {
     /// The Hessian, with `damping` times the stiffness, eliminated from tip to root with the loss on its right-hand side. (L11)
     #[inline(always)]
     fn backward(&mut self, result: &mut SweepResult<F>, damping: F) -> (Vec3<F>, Vec3<F>, F) {
-        let zero = self.weight.splat(0.0);
-        let stiffness = Stiffness::new(self.stiffness, damping);
-        let (half_length, half) = (zero.splat(0.5) * self.spacing, zero.splat(0.5));
+        let zero = self.rods.weight.splat(0.0);
+        let stiffness = Stiffness::new(self.rods.stiffness, damping);
+        let half_length = zero.splat(0.5) * self.rods.spacing;
         let none = Vec3::splat(zero);
         let (mut force, mut torque, mut magnification) = (none, none, zero);
         let (mut slope, mut hessian, mut later) = (none, Sym3::splat(zero), none);
         // First moment about the node and length beyond it.
         let (mut moment, mut beyond) = (none, zero);
         for i in (0..self.joints.len()).rev() {
-            let [first, second] = both(&self.halves, i);
+            let [first, second] = both(&self.rods.halves, i);
             let joint = &mut self.joints[i];
             // 1. What later nodes ask of a shift and of a rotation about the root.
             force = force + joint.by_position;
@@ -232,16 +156,7 @@ impl<F: Lanes> AdjointBundle<F> {
             moment = joint.moment + joint.start.mul_vec(piece);
             beyond = beyond + half_length;
             // 3. The weight at the joint, and the joint eliminated. (L3) to (L6)
-            let up = joint.after.transpose_mul(self.up);
-            let weight = joint.arm.cross(up);
-            let bearing = slope + weight;
-            let value = ValueFunction {
-                slope: bearing,
-                exact_slope: bearing,
-                hessian: hessian
-                    .add_outer(joint.arm * half, up)
-                    .add_diagonal(Vec3::splat(-joint.arm.dot(up))),
-            };
+            let value = self.rods.bearing(joint.arm, joint.after, slope, hessian);
             let asked = joint.after.transpose_mul(torque - joint.at.cross(force));
             let c = joint.control;
             let eliminated = Elimination::linear(c, &stiffness, &value, later - asked, result);
@@ -250,14 +165,9 @@ impl<F: Lanes> AdjointBundle<F> {
             // 4. Into the frame after the joint before.
             let frame = joint.after;
             if i > 0 {
-                let before = self.joints[i - 1].after;
-                let back = Mat3 {
-                    x: before.transpose_mul(frame.x),
-                    y: before.transpose_mul(frame.y),
-                    z: before.transpose_mul(frame.z),
-                };
+                let back = self.joints[i - 1].after.transpose_mul_mat(frame);
                 later = back.mul_vec(eliminated.reduce_slope(later, eliminated.by_turn));
-                slope = back.mul_vec(bearing);
+                slope = back.mul_vec(value.slope);
                 let left = eliminated.reduce_hessian(value.hessian, eliminated.by_turn);
                 hessian = back.congruence(left);
             }
@@ -268,14 +178,14 @@ impl<F: Lanes> AdjointBundle<F> {
     /// The adjoint a from root to tip, `−Σ a c` and `aᵀ K a`. (L12)
     #[inline(always)]
     fn forward(&mut self) -> (Vec3<F>, F) {
-        let zero = self.weight.splat(0.0);
+        let zero = self.rods.weight.splat(0.0);
         let (mut turned, mut bent) = (Vec3::splat(zero), Vec3::splat(zero));
         let mut elastic = zero;
         for joint in &mut self.joints {
             let seen = joint.after.transpose_mul(turned);
             let a = Vec3::splat(zero) - (joint.step + joint.gain.transpose_mul(seen));
             bent = bent - a.component_mul(joint.control);
-            elastic = elastic + a.dot(self.stiffness.component_mul(a));
+            elastic = elastic + a.dot(self.rods.stiffness.component_mul(a));
             joint.turned_alone = joint.after.mul_vec(joint.jacobian.mul_vec(a));
             turned = turned + joint.turned_alone;
             joint.turned = turned;
@@ -286,15 +196,15 @@ impl<F: Lanes> AdjointBundle<F> {
     /// Derivatives by natural strain, and by the load per length. (L13)
     #[inline(always)]
     fn products(&mut self) -> Vec3<F> {
-        let zero = self.weight.splat(0.0);
-        let (w, half_length) = (self.weight, zero.splat(0.5) * self.spacing);
+        let zero = self.rods.weight.splat(0.0);
+        let (w, half_length) = (self.rods.weight, zero.splat(0.5) * self.rods.spacing);
         // ∫ δr ds of what later joints move, and the length beyond.
         let (mut moved, mut beyond) = (Vec3::splat(zero), zero);
         // e × v.
-        let vertical = self.up;
+        let vertical = self.rods.up;
         let around = |v: Vec3<F>| vertical.cross(v);
         for i in (0..self.joints.len()).rev() {
-            let [first, second] = both(&self.halves, i);
+            let [first, second] = both(&self.rods.halves, i);
             let earlier = match i {
                 0 => Vec3::splat(zero),
                 _ => self.joints[i - 1].turned,

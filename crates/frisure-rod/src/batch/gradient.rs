@@ -3,17 +3,15 @@
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
 
-use super::adjoint_sweep::{AdjointBundle, AdjointJoint, Half, HalfOfOne};
+use super::adjoint_sweep::{AdjointBundle, AdjointJoint};
 use super::division::Joints;
 use super::lanes::Lanes;
-use super::linear::{Mat3, Vec3};
-use super::rotation::LARGEST_SQUARE;
+use super::rod_lanes::{RodLanes, is_minimum};
 use super::solution::BatchSolution;
 use super::solver::{Batch, f64s, uniform};
 use crate::chain::Chain;
 use crate::derivatives::{
-    AT_REST, DerivativeError, LEAST_EIGENVALUE, ParameterGradient, Regularity, Sensitivity,
-    ShapeChange,
+    DerivativeError, LEAST_EIGENVALUE, ParameterGradient, Regularity, Sensitivity, ShapeChange,
 };
 use crate::minimise::Problem;
 use crate::resolution::ElementKind;
@@ -179,12 +177,7 @@ fn in_lanes<F: Lanes>(
     let n = found.elements;
     let mut bundle = AdjointBundle {
         joints: vec![AdjointJoint::zero(zero); n],
-        halves: vec![Half::zero(zero); if uniform(rods) { 1 } else { 2 * n }],
-        root: Mat3::splat(zero),
-        stiffness: Vec3::splat(zero.splat(1.0)),
-        weight: zero,
-        up: Vec3::splat(zero),
-        spacing: zero.splat(1.0),
+        rods: RodLanes::new(zero, n, uniform(rods)),
     };
     let mut joints = Joints::default();
     let mut strains = Vec::new();
@@ -199,11 +192,8 @@ fn in_lanes<F: Lanes>(
         let (sums, result, above) = bundle.solve(LEAST_EIGENVALUE);
         // 3. Out of them.
         for (lane, rod) in (0..lanes).zip(first..) {
-            let at_rest = result.gradient.get(lane).sqrt() <= AT_REST * rods[rod].moment_scale();
-            // NaN fails too.
-            let in_series = result.turned.get(lane) < LARGEST_SQUARE;
             let natural_strain = &mut gradient.natural_strain[rod * n..(rod + 1) * n];
-            if !(at_rest && in_series && result.pivot.get(lane) > 0.0) {
+            if !is_minimum(&result, lane, &rods[rod]) {
                 gradient.rods[rod] = alone(&rods[rod], found, rod, loss, natural_strain);
                 continue;
             }
@@ -224,7 +214,7 @@ fn in_lanes<F: Lanes>(
             let eigenvalue_bound = if bound.is_nan() { 1.0 } else { bound };
             gradient.rods[rod] = RodGradient {
                 length: stretched / rods[rod].length(),
-                stiffness: sums.bent.get(lane) / bundle.spacing.get(lane),
+                stiffness: sums.bent.get(lane) / bundle.rods.spacing.get(lane),
                 load,
                 root_position: sums.force.get(lane) + loss.position(rod, 0),
                 root_rotation: turned - weight.cross(load),
@@ -259,23 +249,7 @@ fn load<F: Lanes>(
     loss: Loss<'_>,
 ) {
     let n = found.elements;
-    bundle.root.set(lane, &rod.root().frame());
-    bundle.stiffness.set(lane, joints.stiffness);
-    bundle.weight.set(lane, rod.weight());
-    bundle.up.set(lane, rod.up());
-    bundle.spacing.set(lane, joints.h);
-    let half = 0.5 * joints.h;
-    match rod.natural() {
-        NaturalStrain::Uniform(strain) => {
-            let one = HalfOfOne::new(*strain, half);
-            bundle.halves.iter_mut().for_each(|place| place.set(lane, &one));
-        }
-        NaturalStrain::Varying(_) => {
-            for (place, strain) in bundle.halves.iter_mut().zip(rod.natural().means(half)) {
-                place.set(lane, &HalfOfOne::new(strain, half));
-            }
-        }
-    }
+    bundle.rods.set(lane, rod, joints);
     let controls = &found.controls[index * n..(index + 1) * n];
     for (i, (joint, control)) in bundle.joints.iter_mut().zip(controls).enumerate() {
         joint.arm.set(lane, joints.arms[i]);

@@ -153,6 +153,11 @@ impl<F: Lanes> Mat3<F> {
 
     /// The product of this matrix with one whose rows are the columns of `o`, likewise with its rows as columns.
     #[inline(always)]
+    pub(super) fn transpose_mul_mat(self, o: Self) -> Self {
+        Self { x: self.transpose_mul(o.x), y: self.transpose_mul(o.y), z: self.transpose_mul(o.z) }
+    }
+
+    #[inline(always)]
     pub(super) fn rows_of(self, o: Self) -> Self {
         let row = |x: F, y: F, z: F| o.x.mul_add(x, o.y.mul_add(y, o.z * z));
         Self {

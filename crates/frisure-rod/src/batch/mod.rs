@@ -52,6 +52,7 @@ mod gradient;
 mod lanes;
 mod linear;
 mod newton;
+mod rod_lanes;
 mod rotation;
 mod solution;
 mod solver;

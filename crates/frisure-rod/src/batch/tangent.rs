@@ -3,21 +3,19 @@
 use fearless_simd::{Level, dispatch};
 use glam::{DMat3, DVec3};
 
-use super::adjoint_sweep::HalfOfOne;
 use super::division::Joints;
 use super::gradient::half_strains;
 use super::lanes::Lanes;
 use super::linear::Vec3;
-use super::rotation::LARGEST_SQUARE;
+use super::rod_lanes::is_minimum;
 use super::solution::BatchSolution;
 use super::solver::{Batch, f64s, uniform};
 use super::tangent_sweep::{TangentBundle, TangentDirection};
 use crate::chain::Chain;
-use crate::derivatives::{AT_REST, DerivativeError, ParameterChange, Sensitivity};
+use crate::derivatives::{DerivativeError, ParameterChange, Sensitivity};
 use crate::minimise::Problem;
 use crate::resolution::ElementKind;
 use crate::rod::Rod;
-use crate::strain::NaturalStrain;
 
 /// A change of the parameters of rods, the same for each; zero by default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -170,12 +168,9 @@ fn in_lanes<F: Lanes>(
         // 2. The factors, and whether they hold.
         let result = bundle.factorise();
         for (lane, rod) in (0..lanes).zip(first..) {
-            let at_rest = result.gradient.get(lane).sqrt() <= AT_REST * rods[rod].moment_scale();
-            // NaN fails too.
-            let in_series = result.turned.get(lane) < LARGEST_SQUARE;
-            let regular = at_rest && in_series && result.pivot.get(lane) > 0.0;
+            let exists = is_minimum(&result, lane, &rods[rod]);
             tangents.existence[rod] =
-                if regular { Ok(()) } else { Err(DerivativeError::NotAMinimum) };
+                if exists { Ok(()) } else { Err(DerivativeError::NotAMinimum) };
         }
         bundle.shape(|node, position, frame| {
             for (lane, rod) in (0..lanes).zip(first..) {
@@ -267,23 +262,7 @@ fn load<F: Lanes>(
     found: &BatchSolution,
 ) {
     let n = found.elements;
-    bundle.root.set(lane, &rod.root().frame());
-    bundle.stiffness.set(lane, joints.stiffness);
-    bundle.weight.set(lane, rod.weight());
-    bundle.up.set(lane, rod.up());
-    bundle.spacing.set(lane, joints.h);
-    let half = 0.5 * joints.h;
-    match rod.natural() {
-        NaturalStrain::Uniform(strain) => {
-            let one = HalfOfOne::new(*strain, half);
-            bundle.halves.iter_mut().for_each(|place| place.set(lane, &one));
-        }
-        NaturalStrain::Varying(_) => {
-            for (place, strain) in bundle.halves.iter_mut().zip(rod.natural().means(half)) {
-                place.set(lane, &HalfOfOne::new(strain, half));
-            }
-        }
-    }
+    bundle.rods.set(lane, rod, joints);
     let controls = &found.controls[index * n..(index + 1) * n];
     for (i, (joint, control)) in bundle.joints.iter_mut().zip(controls).enumerate() {
         joint.arm.set(lane, joints.arms[i]);

@@ -1,10 +1,10 @@
 //! Sweeps for the motion of rods at rest in their own weight with their parameters: one factorisation, then two linear passes for
 //! each parameter. docs/theory.md, "Rods in lanes", (L14) to (L16).
 
-use super::adjoint_sweep::{Half, both};
-use super::elimination::{Elimination, Pivot, Stiffness, SweepResult, ValueFunction};
+use super::elimination::{Elimination, Pivot, Stiffness, SweepResult};
 use super::lanes::Lanes;
 use super::linear::{Mat3, Sym3, Vec3};
+use super::rod_lanes::{Half, RodLanes, both};
 use super::rotation::RotationTable;
 
 /// One element of each rod, with what all directions share.
@@ -101,14 +101,7 @@ impl<F: Lanes> PieceChange<F> {
 /// Rods side by side, each divided into the same number of elements.
 pub(super) struct TangentBundle<F> {
     pub(super) joints: Vec<TangentJoint<F>>,
-    /// Two for each element, or one for all.
-    pub(super) halves: Vec<Half<F>>,
-    pub(super) root: Mat3<F>,
-    /// K (N m), apparent weight per length (N/m), the vertical against it (world), and length of an element (m).
-    pub(super) stiffness: Vec3<F>,
-    pub(super) weight: F,
-    pub(super) up: Vec3<F>,
-    pub(super) spacing: F,
+    pub(super) rods: RodLanes<F>,
     passing: Vec<Passing<F>>,
 }
 
@@ -118,12 +111,7 @@ impl<F: Lanes> TangentBundle<F> {
         let v = Vec3::splat(zero);
         Self {
             joints: vec![TangentJoint::zero(zero); elements],
-            halves: vec![Half::zero(zero); if uniform { 1 } else { 2 * elements }],
-            root: Mat3::splat(zero),
-            stiffness: Vec3::splat(zero.splat(1.0)),
-            weight: zero,
-            up: v,
-            spacing: zero.splat(1.0),
+            rods: RodLanes::new(zero, elements, uniform),
             passing: vec![Passing { carried: v, step: v }; elements],
         }
     }
@@ -131,7 +119,7 @@ impl<F: Lanes> TangentBundle<F> {
     /// Positions of the nodes from the root (m) and frames there, the root's first.
     #[inline(always)]
     pub(super) fn shape(&self, mut node: impl FnMut(usize, Vec3<F>, &Mat3<F>)) {
-        node(0, Vec3::splat(self.weight.splat(0.0)), &self.root);
+        node(0, Vec3::splat(self.rods.weight.splat(0.0)), &self.rods.root);
         for (i, joint) in self.joints.iter().enumerate() {
             node(i + 1, joint.end, &joint.finish);
         }
@@ -147,10 +135,10 @@ impl<F: Lanes> TangentBundle<F> {
     /// Frames and positions, from root to tip.
     #[inline(always)]
     fn forward(&mut self) {
-        let mut frame = self.root;
-        let mut position = Vec3::splat(self.weight.splat(0.0));
+        let mut frame = self.rods.root;
+        let mut position = Vec3::splat(self.rods.weight.splat(0.0));
         for i in 0..self.joints.len() {
-            let [first, second] = both(&self.halves, i);
+            let [first, second] = both(&self.rods.halves, i);
             let joint = &mut self.joints[i];
             let table = RotationTable::of(joint.control);
             joint.jacobian = table.jacobian(joint.control);
@@ -168,10 +156,10 @@ impl<F: Lanes> TangentBundle<F> {
     /// The Hessian eliminated from tip to root. (L3) to (L6)
     #[inline(always)]
     fn backward(&mut self) -> SweepResult<F> {
-        let zero = self.weight.splat(0.0);
+        let zero = self.rods.weight.splat(0.0);
         let mut result = SweepResult::new(zero);
-        let stiffness = Stiffness::new(self.stiffness, zero);
-        let (half_length, half) = (zero.splat(0.5) * self.spacing, zero.splat(0.5));
+        let stiffness = Stiffness::new(self.rods.stiffness, zero);
+        let half_length = zero.splat(0.5) * self.rods.spacing;
         let (mut slope, mut hessian) = (Vec3::splat(zero), Sym3::splat(zero));
         let (mut moment, mut beyond) = (Vec3::splat(zero), zero);
         for i in (0..self.joints.len()).rev() {
@@ -183,15 +171,7 @@ impl<F: Lanes> TangentBundle<F> {
             moment = joint.moment + joint.advance[0].mul_add(beyond, joint.halves[0]);
             beyond = beyond + half_length;
             // 2. The weight at the joint, and the joint eliminated.
-            let up = joint.after.transpose_mul(self.up);
-            let bearing = slope + joint.arm.cross(up);
-            let value = ValueFunction {
-                slope: bearing,
-                exact_slope: bearing,
-                hessian: hessian
-                    .add_outer(joint.arm * half, up)
-                    .add_diagonal(Vec3::splat(-joint.arm.dot(up))),
-            };
+            let value = self.rods.bearing(joint.arm, joint.after, slope, hessian);
             let c = joint.control;
             let eliminated =
                 Elimination::linear(c, &stiffness, &value, Vec3::splat(zero), &mut result);
@@ -200,13 +180,8 @@ impl<F: Lanes> TangentBundle<F> {
             // 3. Into the frame after the joint before.
             let frame = joint.after;
             if i > 0 {
-                let before = self.joints[i - 1].after;
-                let back = Mat3 {
-                    x: before.transpose_mul(frame.x),
-                    y: before.transpose_mul(frame.y),
-                    z: before.transpose_mul(frame.z),
-                };
-                slope = back.mul_vec(bearing);
+                let back = self.joints[i - 1].after.transpose_mul_mat(frame);
+                slope = back.mul_vec(value.slope);
                 let left = eliminated.reduce_hessian(value.hessian, eliminated.by_turn);
                 hessian = back.congruence(left);
                 self.joints[i].back = back;
@@ -224,15 +199,15 @@ impl<F: Lanes> TangentBundle<F> {
     ) {
         let turns: &[[Vec3<F>; 2]] = &direction.turns;
         // A curl that is the same all along changes the same all along.
-        let same = match (turns, self.halves.as_slice()) {
+        let same = match (turns, self.rods.halves.as_slice()) {
             ([[first, second]], [piece]) => {
                 Some([PieceChange::new(piece, *first), PieceChange::new(piece, *second)])
             }
             _ => None,
         };
-        let none = Vec3::splat(self.weight.splat(0.0));
+        let none = Vec3::splat(self.rods.weight.splat(0.0));
         let still = PieceChange { turn: none, advance: none, moment: none };
-        let halves = std::mem::take(&mut self.halves);
+        let halves = std::mem::take(&mut self.rods.halves);
         let change = |i: usize| match (&same, turns) {
             (Some(same), _) => *same,
             (None, []) => [still; 2],
@@ -245,7 +220,7 @@ impl<F: Lanes> TangentBundle<F> {
         self.carry(direction, &change);
         self.bear(direction, &change);
         self.rest(direction, &change, node);
-        self.halves = halves;
+        self.rods.halves = halves;
     }
 
     /// How the frame of each joint turns with the joints as they are. (L14)
@@ -271,8 +246,8 @@ impl<F: Lanes> TangentBundle<F> {
         direction: &TangentDirection<F>,
         change: &impl Fn(usize) -> [PieceChange<F>; 2],
     ) {
-        let zero = self.weight.splat(0.0);
-        let half_length = zero.splat(0.5) * self.spacing;
+        let zero = self.rods.weight.splat(0.0);
+        let half_length = zero.splat(0.5) * self.rods.spacing;
         let (mut moved, mut later) = (Vec3::splat(zero), Vec3::splat(zero));
         for i in (0..self.joints.len()).rev() {
             let [first, second] = change(i);
@@ -291,9 +266,9 @@ impl<F: Lanes> TangentBundle<F> {
             let piece = second.advance.mul_add(joint.beyond, second.moment);
             moved = moved + carried.cross(lever) + joint.after.mul_vec(piece);
             // 2. g = K c + Jᵀ Gᵀ (w m × e), where m × e = −e × m.
-            let torque = self.up.cross(joint.moment);
-            let bearing = carried.cross(torque) * self.weight
-                - self.up.cross(moved) * self.weight
+            let torque = self.rods.up.cross(joint.moment);
+            let bearing = carried.cross(torque) * self.rods.weight
+                - self.rods.up.cross(moved) * self.rods.weight
                 - torque * direction.weight;
             let right = direction.stiffness.component_mul(joint.control)
                 + joint.jacobian.transpose_mul(joint.after.transpose_mul(bearing) + later);
@@ -316,7 +291,7 @@ impl<F: Lanes> TangentBundle<F> {
         change: &impl Fn(usize) -> [PieceChange<F>; 2],
         mut node: impl FnMut(usize, Vec3<F>, Vec3<F>),
     ) {
-        let zero = self.weight.splat(0.0);
+        let zero = self.rods.weight.splat(0.0);
         let (mut turned, mut shift) = (Vec3::splat(zero), Vec3::splat(zero));
         let mut rotation = direction.rotation;
         node(0, shift, rotation);

@@ -1,6 +1,8 @@
 //! A smooth curve through points, and material frames along it.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
+
+use crate::bishop::{bending, twist_free_frames};
 
 /// Pieces of the smooth curve per piece of the given polyline. Chosen by trial: on an arc that turns by θ over one given
 /// piece, chords stray by θ/512 of the length of that piece.
@@ -87,14 +89,7 @@ impl Curve {
         let tangents: Vec<DVec3> = (0..=elements).map(tangent).collect();
         let frames = twist_free_frames(&tangents);
         // Bending about d1 and d2 of frames without twist, as complex numbers.
-        let bends: Vec<(f64, f64)> = frames
-            .windows(2)
-            .map(|pair| {
-                let turn = DQuat::from_mat3(&(pair[0].transpose() * pair[1])).to_scaled_axis();
-                (turn.x, turn.y)
-            })
-            .collect();
-        let (twist, start) = best_twist(&bends);
+        let (twist, start) = best_twist(&bending(&frames));
         let turned = |(i, frame): (usize, DMat3)| {
             // Bends belong to the middles of elements, frames to their ends: half an element less.
             frame * DMat3::from_rotation_z(start + twist * (i as f64 - 0.5))
@@ -116,23 +111,6 @@ fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
     let (a, b, c) = (mix(p[0], p[1], 0.0, t1), mix(p[1], p[2], t1, t2), mix(p[2], p[3], t2, t3));
     let (d, e) = (mix(a, b, 0.0, t2), mix(b, c, t1, t3));
     mix(d, e, t1, t2)
-}
-
-/// Twist-free frames (Bishop frames) with these tangents.
-fn twist_free_frames(tangents: &[DVec3]) -> Vec<DMat3> {
-    let first = tangents[0];
-    let d1 = first.any_orthonormal_vector();
-    let mut frame = DMat3::from_cols(d1, first.cross(d1), first);
-    let mut frames = vec![frame];
-    for pair in tangents.windows(2) {
-        // The smallest rotation from one tangent to the next, then d1 made orthogonal again.
-        frame = DMat3::from_quat(DQuat::from_rotation_arc(pair[0], pair[1])) * frame;
-        let (t, d1) = (pair[1], frame.x_axis);
-        let d1 = (d1 - t * t.dot(d1)).normalize();
-        frame = DMat3::from_cols(d1, t.cross(d1), t);
-        frames.push(frame);
-    }
-    frames
 }
 
 /// The twist (rad per element) and the angle at the start (rad) of frames in which bending is most about d1:

@@ -238,20 +238,19 @@ impl Density {
     /// density and that of others make of it, and pairs that stiffen.
     pub(super) fn derivatives(&self, k: usize) -> Option<(DVec3, DMat3)> {
         let volume = self.points.volume[k];
+        let (own, own_bulk) = self.by_density(k);
         let mut sum: Option<(DVec3, DMat3)> = None;
         let mut gathered = DVec3::ZERO;
         self.for_each_pair(k, |pair| {
             let (force, stiffness) = sum.get_or_insert((DVec3::ZERO, DMat3::ZERO));
             let other = pair.other as usize;
-            let (theirs, bulk) = (self.by_density(other).0, self.by_density(other).1);
-            let (own, _) = self.by_density(k);
+            let (theirs, bulk) = self.by_density(other);
             *force += pair.slope * (own * self.points.volume[other] + theirs * volume);
             *stiffness += outer(pair.slope, pair.slope) * (bulk * volume * volume + pair.stiff);
             gathered += pair.slope * self.points.volume[other];
         });
-        let (_, bulk) = self.by_density(k);
         let (force, stiffness) = sum?;
-        Some((force, stiffness + outer(gathered, gathered) * bulk))
+        Some((force, stiffness + outer(gathered, gathered) * own_bulk))
     }
 }
 
