@@ -72,7 +72,9 @@ impl Gate {
         say(&format!("\n== {name}"));
         let start = Instant::now();
         run().with_context(|| format!("step \"{name}\" fails"))?;
-        self.times.push((name, start.elapsed()));
+        let time = start.elapsed();
+        say(&format!("{:.1} s for the step \"{name}\"", time.as_secs_f64()));
+        self.times.push((name, time));
         Ok(())
     }
 
