@@ -2,7 +2,6 @@
 
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use frisure::files::frame::rotation;
 use frisure::files::{Files, Stamp};
 use frisure::hairstyle::head::{Head, ScalpSource};
 use frisure::scene::{HeadSource, Scene, SceneError};
@@ -74,28 +73,25 @@ impl HeadCache {
 }
 
 fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
-    let Some(mesh) = head_mesh(scene, files)? else {
-        let person = match &scene.head {
-            HeadSource::Person(name) => Head::named(name).map(Arc::new),
-            _ => None,
-        };
-        return Ok(LoadedHead { head: person.unwrap_or_else(|| MANNEQUIN.clone()), note: None });
+    let file = match &scene.head {
+        HeadSource::Mannequin => {
+            return Ok(LoadedHead { head: MANNEQUIN.clone(), note: None });
+        }
+        HeadSource::Person(name) => {
+            let none = || scene.error_at("head.model", "there is no head of this name", "");
+            let head = Head::named(name).ok_or_else(none)?;
+            return Ok(LoadedHead { head: Arc::new(head), note: None });
+        }
+        HeadSource::Mesh(file) => file,
     };
-    let note = head_note(scene, &mesh);
+    let mesh = head_mesh(scene, file, files)?;
+    let note = head_note(file, &mesh);
     let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
-    let turn = match &scene.head {
-        HeadSource::Mesh(file) => file.turn,
-        HeadSource::Mannequin | HeadSource::Person(_) => None,
-    };
-    let surface = match turn {
-        Some(turn) => mesh.surface.turned(rotation(turn)),
-        None => mesh.surface,
-    };
-    let head = Head::from_surface(surface, scalp);
+    let head = Head::from_surface(mesh.surface, scalp);
     let head = head.map_err(|e| scene.error_at("head.mesh", e.to_string(), ""))?;
     match head.turn_to_upright() {
         // Who turns a head has looked at it.
-        Some(upright) if turn.is_none() => Err(lies(scene, upright)),
+        Some(upright) if file.turn.is_none() => Err(lies(scene, upright)),
         _ => Ok(LoadedHead { head: Arc::new(head), note }),
     }
 }

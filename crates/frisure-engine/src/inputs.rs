@@ -32,13 +32,16 @@ pub(crate) fn head_files(head: &HeadFile) -> impl Iterator<Item = &Path> {
     [Some(head.path.as_path()), scalp].into_iter().flatten()
 }
 
-/// The mesh of the scene's head, or `None` for the built-in mannequin.
+/// The mesh of the scene's head, which is in `file`.
 ///
 /// # Errors
 /// [`SceneError`] at the key that names what cannot be used.
-pub fn head_mesh(scene: &Scene, files: &Files) -> Result<Option<HeadMesh>, SceneError> {
-    let HeadSource::Mesh(file) = &scene.head else { return Ok(None) };
-    head::read(file, files).map(Some).map_err(|e| {
+pub(crate) fn head_mesh(
+    scene: &Scene,
+    file: &HeadFile,
+    files: &Files,
+) -> Result<HeadMesh, SceneError> {
+    head::read(file, files).map_err(|e| {
         let hint = match e {
             HeadFileError::Size { .. } => "set `unit` and `up` of `[head]`",
             _ => "",
@@ -48,8 +51,7 @@ pub fn head_mesh(scene: &Scene, files: &Files) -> Result<Option<HeadMesh>, Scene
 }
 
 /// Returns a note about the unit that the reader assumed for the head's mesh.
-pub(crate) fn head_note(scene: &Scene, mesh: &HeadMesh) -> Option<String> {
-    let HeadSource::Mesh(file) = &scene.head else { return None };
+pub(crate) fn head_note(file: &HeadFile, mesh: &HeadMesh) -> Option<String> {
     let (path, unit) = (file.path.display(), mesh.guessed_unit?);
     Some(format!("{path} states no unit; {unit} is assumed: set `head.unit` to change it"))
 }

@@ -46,7 +46,7 @@ pub use adoption::AdoptionReport;
 pub use diagnostic::Diagnostic;
 pub use error::{Error, catch_panic, message};
 pub use heads::{HeadCache, LoadedHead};
-pub use inputs::{environment_map, head_mesh, input_files, scene_groom};
+pub use inputs::{environment_map, input_files, scene_groom};
 pub use metrics::HairstyleMetrics;
 pub use picture::Viewpoint;
 pub use quality::Quality;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use thiserror::Error;
 
 use crate::features::{Features, Tint};
@@ -116,15 +116,6 @@ impl Surface {
         }
         self.texture = texture;
         Ok(self)
-    }
-
-    /// The surface turned about the origin.
-    #[must_use]
-    pub fn turned(mut self, rotation: DMat3) -> Self {
-        for p in &mut self.positions {
-            *p = rotation * *p;
-        }
-        self
     }
 
     /// Texture coordinates (u, v) at the corners of each face, v upwards; empty if the mesh has none.

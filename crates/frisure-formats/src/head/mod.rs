@@ -14,7 +14,7 @@ mod usd;
 
 use std::path::{Component, Path};
 
-use frisure_files::frame::{Frame, FrameChoice};
+use frisure_files::frame::{Frame, FrameChoice, rotation};
 pub use frisure_files::head::{HeadFile, ScalpSource};
 use frisure_files::{Files, to_text};
 use frisure_strands::Surface;
@@ -60,7 +60,7 @@ pub struct HeadMesh {
     pub guessed_unit: Option<&'static str>,
 }
 
-/// Reads a head and its scalp.
+/// Reads a head and its scalp, in the unit, the axes and the turns that it is given.
 ///
 /// # Errors
 /// [`HeadFileError`].
@@ -76,7 +76,11 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
         return Err(not_a_mesh(path, problem));
     }
     let (frame, guessed_unit) = frame(&mesh, head.frame);
-    let metres = |p: &[f64; 3]| frame.position_from_file(DVec3::from_array(*p));
+    let turn = head.turn.map(rotation);
+    let metres = |p: &[f64; 3]| {
+        let p = frame.position_from_file(DVec3::from_array(*p));
+        turn.map_or(p, |turn| turn * p)
+    };
     let positions: Vec<DVec3> = mesh.positions.iter().map(metres).collect();
     // Before anything is computed from coordinates: the squares of huge ones overflow.
     let size = extent(&positions, &mesh.triangles);
