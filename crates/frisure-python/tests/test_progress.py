@@ -6,6 +6,7 @@ import _thread
 import signal
 import threading
 import time
+from collections.abc import Iterator
 
 import frisure
 import pytest
@@ -42,6 +43,15 @@ def test_an_exception_of_the_callback_ends_the_work() -> None:
     assert len(frisure.predict(SMALL).strands) == 200
 
 
+@pytest.fixture
+def ctrl_c() -> Iterator[None]:
+    """Python's handler of Ctrl-C: a shell lets what it starts in the background ignore it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_ends_the_work_soon() -> None:
     sent: list[float] = []
 
