@@ -15,12 +15,14 @@ use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
 #[cfg(feature = "batch")]
 mod batch;
 mod fit;
+mod transfer;
 #[cfg(feature = "validate")]
 mod validate;
 
 #[cfg(feature = "batch")]
 pub(crate) use batch::Batch;
 pub(crate) use fit::{FitFibres, Quantity as FitQuantity};
+pub(crate) use transfer::Transfer;
 #[cfg(feature = "validate")]
 pub(crate) use validate::Validate;
 
@@ -85,6 +87,8 @@ pub(crate) enum Command {
     Convert(Convert),
     /// Make hair cards for games: textured strips in levels of detail, in place of strands.
     Cards(Cards),
+    /// Put the hair of a groom on another head, where it comes to rest.
+    Transfer(Transfer),
     /// Compute one hair: its shape, its energies, and how sure they are.
     Hair(Hair),
     /// List the hair types that a scene can start from, or all that is measured of one.
@@ -216,7 +220,7 @@ pub(crate) enum Quality {
 }
 
 /// How much light is followed.
-#[derive(Args, Clone, Copy, Debug)]
+#[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct Tracing {
     /// Most paths of light per pixel of a final picture, 1 to 65536: noise falls with their root.
     /// [default: 256]

@@ -82,6 +82,7 @@ fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {
         Command::Render(render) => commands::render::run(render, quiet),
         Command::Cards(cards) => commands::cards::run(&cards, quiet),
         Command::Convert(convert) => commands::convert::run(&convert, quiet),
+        Command::Transfer(transfer) => commands::transfer::run(transfer, quiet),
         Command::Hair(hair) => commands::hair::run(&hair),
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),

@@ -20,6 +20,7 @@ use frisure::scene::{GroomFile, Scene};
 use crate::adoption::AdoptionReport;
 use crate::error::Error;
 use crate::initial::initial_hairstyle;
+use crate::inputs::groom_files;
 use crate::quality::Quality;
 
 /// Most descriptions in the cache, each with its history; chosen.
@@ -34,6 +35,9 @@ const COARSER: Effort = Effort { iterations: 1, sweeps: 1 };
 /// Guides above which it is used; chosen by trial.
 const MANY_GUIDES: usize = 400;
 
+/// A groom with the stamps of its files.
+type StampedGroom = (GroomFile, Vec<Option<Stamp>>);
+
 /// What a hairstyle depends on.
 pub(crate) struct Input<'a> {
     pub(crate) scene: &'a Scene,
@@ -45,9 +49,11 @@ pub(crate) struct Input<'a> {
 }
 
 impl Input<'_> {
-    /// The groom that the hair is adopted from, with the stamp of its file.
-    fn groom(&self) -> Option<(GroomFile, Option<Stamp>)> {
-        self.scene.groom.as_ref().map(|file| (file.clone(), self.files.stamp(&file.path)))
+    /// The groom that the hair is adopted from.
+    fn groom(&self) -> Option<StampedGroom> {
+        let file = self.scene.groom.clone()?;
+        let stamps = groom_files(&file).map(|path| self.files.stamp(path)).collect();
+        Some((file, stamps))
     }
 }
 
@@ -66,7 +72,7 @@ struct Exact {
     head: Arc<Head>,
     /// Its description, and the groom that it is adopted from.
     spec: HairstyleSpec,
-    groom: Option<(GroomFile, Option<Stamp>)>,
+    groom: Option<StampedGroom>,
     adoption: Option<AdoptionReport>,
     history: History,
 }

@@ -3,10 +3,12 @@
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use frisure::files::{Files, Stamp};
-use frisure::hairstyle::head::{Head, ScalpSource};
+use frisure::formats::head::{self, HeadMesh};
+use frisure::hairstyle::head::{Head, HeadError, ScalpSource};
 use frisure::scene::{HeadSource, Scene, SceneError};
 use glam::{DMat3, DVec3, EulerRot};
 
+use crate::error::message;
 use crate::inputs::{head_files, head_mesh, head_note};
 
 /// Most heads in the cache, some megabytes each; chosen.
@@ -73,27 +75,50 @@ impl HeadCache {
 }
 
 fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
-    let file = match &scene.head {
-        HeadSource::Mannequin => {
-            return Ok(LoadedHead { head: MANNEQUIN.clone(), note: None });
-        }
-        HeadSource::Person(name) => {
-            let none = || scene.error_at("head.model", "there is no head of this name", "");
-            let head = Head::named(name).ok_or_else(none)?;
-            return Ok(LoadedHead { head: Arc::new(head), note: None });
-        }
-        HeadSource::Mesh(file) => file,
+    let HeadSource::Mesh(file) = &scene.head else {
+        let head = built_in(scene, &scene.head, "head.model")?;
+        return Ok(LoadedHead { head, note: None });
     };
     let mesh = head_mesh(scene, file, files)?;
     let note = head_note(file, &mesh);
-    let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
-    let head = Head::from_surface(mesh.surface, scalp);
-    let head = head.map_err(|e| scene.error_at("head.mesh", e.to_string(), ""))?;
+    let head = of_mesh(mesh).map_err(|e| scene.error_at("head.mesh", e.to_string(), ""))?;
     match head.turn_to_upright() {
         // Who turns a head has looked at it.
         Some(upright) if file.turn.is_none() => Err(lies(scene, upright)),
         _ => Ok(LoadedHead { head: Arc::new(head), note }),
     }
+}
+
+/// The head that the groom of a scene was made on.
+///
+/// # Errors
+/// [`SceneError`] at the key that names what cannot be used.
+pub(crate) fn groom_head(
+    scene: &Scene,
+    source: &HeadSource,
+    files: &Files,
+) -> Result<Arc<Head>, SceneError> {
+    const KEY: &str = "groom.head_mesh";
+    let HeadSource::Mesh(file) = source else { return built_in(scene, source, "groom.head_model") };
+    let mesh = head::read(file, files).map_err(|e| scene.error_at(KEY, message(&e), ""))?;
+    let head = of_mesh(mesh).map_err(|e| scene.error_at(KEY, e.to_string(), ""))?;
+    if head.turn_to_upright().is_some() {
+        let problem = "the head of the groom does not stand upright with its face to the front";
+        let hint = "export groom and mesh with the head upright";
+        return Err(scene.error_at(KEY, problem, hint));
+    }
+    Ok(Arc::new(head))
+}
+
+fn built_in(scene: &Scene, source: &HeadSource, key: &str) -> Result<Arc<Head>, SceneError> {
+    let HeadSource::Person(name) = source else { return Ok(MANNEQUIN.clone()) };
+    let head = Head::named(name).map(Arc::new);
+    head.ok_or_else(|| scene.error_at(key, "there is no head of this name", ""))
+}
+
+fn of_mesh(mesh: HeadMesh) -> Result<Head, HeadError> {
+    let scalp = mesh.scalp.map_or(ScalpSource::Guess, ScalpSource::Weights);
+    Head::from_surface(mesh.surface, scalp)
 }
 
 /// The error about a head that does not stand upright, with the rotation that it needs.
@@ -111,6 +136,5 @@ fn lies(scene: &Scene, upright: DMat3) -> SceneError {
 }
 
 fn stamps(source: &HeadSource, files: &Files) -> Vec<Option<Stamp>> {
-    let HeadSource::Mesh(file) = source else { return Vec::new() };
-    head_files(file).map(|path| files.stamp(path)).collect()
+    head_files(source).map(|path| files.stamp(path)).collect()
 }

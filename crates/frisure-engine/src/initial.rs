@@ -3,7 +3,7 @@
 use frisure::files::Files;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::{
-    Adoption, Hairstyle, HairstyleSpec, PredictError, PredictOptions, adopt, predict,
+    Adoption, Hairstyle, HairstyleSpec, PredictError, PredictOptions, adopt, predict, transfer,
 };
 use frisure::progress::Progress;
 use frisure::scene::{Placement, Scene, SceneError};
@@ -11,6 +11,7 @@ use frisure::strands::Strands;
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::heads::groom_head;
 use crate::inputs::scene_groom;
 use crate::placement::{guess, lines, placed, words};
 
@@ -37,13 +38,20 @@ pub(crate) fn initial_hairstyle(
         true => evenly(&hairs, most),
         false => placed(&evenly(&groom.guides, most), &placement),
     };
-    check_roots(scene, head, &guides)?;
-    adopt(spec, head, &guides, &hairs, progress)
-        .map(|(hairstyle, adoption)| (hairstyle, Some(adoption)))
-        .map_err(|e| match e {
-            PredictError::Quantity(e) => scene.error_at("groom.file", e.to_string(), "").into(),
-            e => Error::of_prediction(&e, scene),
-        })
+    let wrong = |e| match e {
+        PredictError::Quantity(e) => scene.error_at("groom.file", e.to_string(), "").into(),
+        e => Error::of_prediction(&e, scene),
+    };
+    let made_on = scene.groom.as_ref().and_then(|file| file.head.as_ref());
+    let made_on = made_on.map(|source| groom_head(scene, source, files)).transpose()?;
+    let from = made_on.as_deref().unwrap_or(head);
+    check_roots(scene, from, &guides)?;
+    let (adopted, adoption) = adopt(spec, from, &guides, &hairs, progress).map_err(wrong)?;
+    let hairstyle = match &made_on {
+        Some(from) => transfer(&adopted, from, head, progress).map_err(wrong)?,
+        None => adopted,
+    };
+    Ok((hairstyle, Some(adoption)))
 }
 
 /// Largest median distance (m) of roots from the skin; chosen.

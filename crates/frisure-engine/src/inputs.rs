@@ -15,21 +15,28 @@ use crate::error::message;
 #[must_use]
 pub fn input_files(scene: &Scene) -> Vec<&Path> {
     let mut inputs: Vec<&Path> = Vec::new();
-    if let HeadSource::Mesh(file) = &scene.head {
-        inputs.extend(head_files(file));
-    }
-    inputs.extend(scene.groom.iter().map(|file| file.path.as_path()));
+    inputs.extend(head_files(&scene.head));
+    inputs.extend(scene.groom.iter().flat_map(groom_files));
     inputs.extend(scene.environment.iter().map(PathBuf::as_path));
     inputs
 }
 
 /// The files of a head: its mesh, and its scalp where that is another file.
-pub(crate) fn head_files(head: &HeadFile) -> impl Iterator<Item = &Path> {
-    let scalp = match &head.scalp {
+pub(crate) fn head_files(head: &HeadSource) -> impl Iterator<Item = &Path> {
+    let file = match head {
+        HeadSource::Mesh(file) => Some(file),
+        HeadSource::Mannequin | HeadSource::Person(_) => None,
+    };
+    let scalp = file.and_then(|file| match &file.scalp {
         ScalpSource::Mask(path) | ScalpSource::Weights(path) => Some(path.as_path()),
         ScalpSource::Guess | ScalpSource::Group(_) | ScalpSource::Colour(_) => None,
-    };
-    [Some(head.path.as_path()), scalp].into_iter().flatten()
+    });
+    [file.map(|file| file.path.as_path()), scalp].into_iter().flatten()
+}
+
+/// The files of a groom: its own, and those of the head that it was made on.
+pub(crate) fn groom_files(groom: &GroomFile) -> impl Iterator<Item = &Path> {
+    std::iter::once(groom.path.as_path()).chain(groom.head.iter().flat_map(head_files))
 }
 
 /// The mesh of the scene's head, which is in `file`.

@@ -18,7 +18,7 @@
 //! ```
 //!
 //! Modules, in the order of computation: `head`, `spec`, `presets`, `implantation` (roots and directions), `contact`,
-//! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict` and `adopt`, `strands`, `styling`, `history`. None uses
+//! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict`, `adopt` and `transfer`, `strands`, `styling`, `history`. None uses
 //! one that comes later.
 
 #![forbid(unsafe_code)]
@@ -47,6 +47,7 @@ mod equilibrium;
 
 mod adopt;
 mod predict;
+mod transfer;
 
 mod strands;
 mod volume;
@@ -76,4 +77,5 @@ pub use strands::{
     described_guides, guide_strands, penetration, simulation_key, strands,
 };
 pub use styling::{Draft, StyleOptions, selected, style};
+pub use transfer::transfer;
 pub use volume::{Volume, volume};

@@ -9,7 +9,7 @@ use crate::source::Source;
 type Group = &'static [&'static [&'static str]];
 
 /// All groups; `[]` stands for the index of an item in a list.
-pub(crate) const GROUPS: [Group; 18] = [
+pub(crate) const GROUPS: [Group; 19] = [
     &[
         &["hair.fibre.diameter"],
         &["hair.fibre.mean_radius"],
@@ -35,6 +35,7 @@ pub(crate) const GROUPS: [Group; 18] = [
     &[&["head.scalp_group"], &["head.scalp_colour"], &["head.scalp_mask"], &["head.scalp_weights"]],
     &[&["head.unit"], &["head.scale"]],
     &[&["head.model"], &["head.mesh"]],
+    &[&["groom.head_model"], &["groom.head_mesh"]],
     &[&["region[].length"], &["region[].down_to"]],
     &[&["equilibrium.elements"], &["equilibrium.accuracy"]],
     &[

@@ -14,8 +14,10 @@ pub const HEAD: [&str; 9] = [
 ];
 
 /// The keys about the file of the groom, its path first; without it, the others have no effect.
-pub const GROOM: [&str; 7] = [
+pub const GROOM: [&str; 9] = [
     "groom.file",
+    "groom.head_model",
+    "groom.head_mesh",
     "groom.up",
     "groom.unit",
     "groom.scale",
@@ -25,8 +27,14 @@ pub const GROOM: [&str; 7] = [
 ];
 
 /// The keys whose values are paths.
-pub const PATHS: [&str; 5] =
-    ["head.mesh", "head.scalp_mask", "head.scalp_weights", "groom.file", "light.environment"];
+pub const PATHS: [&str; 6] = [
+    "head.mesh",
+    "head.scalp_mask",
+    "head.scalp_weights",
+    "groom.file",
+    "groom.head_mesh",
+    "light.environment",
+];
 
 /// The keys about the sun of daylight.
 pub(crate) const SUN: [&str; 3] = ["light.sun_azimuth", "light.sun_elevation", "light.turbidity"];

@@ -206,6 +206,12 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "groom" => table();
         /// Path of the groom, relative to the scene: .hair, .obj, .ply, .usd, .abc, .data or .npz. It is rooted on the head of `[head]`.
         "groom.file" => value::<Text>();
+        /// The built-in head that the groom was made on, if that is another than the head of `[head]`: its roots go to the places that
+        /// correspond by landmarks, each guide keeps its length and its natural curl, and comes to rest on the head of `[head]`.
+        "groom.head_model" => value::<OneOf<ModelWord>>();
+        /// Path of the mesh that the groom was made on, relative to the scene, instead of a built-in head. Its unit and axes are those
+        /// that the file or its format states.
+        "groom.head_mesh" => value::<Text>();
         /// Unit of the groom. Default that of the file or format.
         "groom.unit" => value::<OneOf<UnitWord>>()
             .options(Panel::Files, "Unit of the groom", "What the groom is in.");

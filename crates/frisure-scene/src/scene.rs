@@ -75,10 +75,22 @@ pub struct GroomFile {
     pub path: PathBuf,
     /// Unit and axes, where the scene gives them.
     pub frame: FrameChoice,
-    /// Where it lies on the head.
+    /// The head that it was made on, where that is not the head of the scene.
+    pub head: Option<HeadSource>,
+    /// Where it lies on the head that it was made on.
     pub placement: Placement,
     /// How many strands become guides at most.
     pub guides: usize,
+}
+
+impl GroomFile {
+    /// A groom that was made on the head of the scene, with the unit and axes that its file states, and the default number of
+    /// guides.
+    #[must_use]
+    pub fn new(path: PathBuf) -> Self {
+        let (frame, placement) = (FrameChoice::default(), Placement::default());
+        Self { path, frame, head: None, placement, guides: 300 }
+    }
 }
 
 /// The picture's size, and how its light is shown.

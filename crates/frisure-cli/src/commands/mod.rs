@@ -13,6 +13,7 @@ pub(crate) mod presets;
 pub(crate) mod render;
 pub(crate) mod schema;
 pub(crate) mod style;
+pub(crate) mod transfer;
 #[cfg(feature = "validate")]
 pub(crate) mod validate;
 

@@ -16,6 +16,7 @@ fn help_of_everything() {
     insta::assert_snapshot!("render", help(&["render", "--help"]));
     insta::assert_snapshot!("convert", help(&["convert", "--help"]));
     insta::assert_snapshot!("cards", help(&["cards", "--help"]));
+    insta::assert_snapshot!("transfer", help(&["transfer", "--help"]));
     insta::assert_snapshot!("style", help(&["style", "--help"]));
     insta::assert_snapshot!("hair", help(&["hair", "--help"]));
     insta::assert_snapshot!("presets-help", help(&["presets", "--help"]));

@@ -10,6 +10,7 @@ mod help;
 mod predict;
 mod room;
 mod style;
+mod transfer;
 #[cfg(feature = "validate")]
 mod validate;
 mod wrong;

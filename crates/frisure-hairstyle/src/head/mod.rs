@@ -3,6 +3,7 @@
 //! A [`Head`] is checked when it is made; after that nothing about it can fail. Everything is in
 //! metres, z up; the face looks towards −y and the head's left is +x.
 
+mod correspondence;
 mod distance;
 mod facial_hair;
 mod fans;
@@ -30,6 +31,7 @@ use frisure_strands::Surface;
 use glam::{DMat3, DVec3};
 use thiserror::Error;
 
+pub(crate) use correspondence::{Correspondence, Corresponding};
 pub use distance::SignedDistance;
 pub use landmarks::{Landmarks, Region};
 pub(crate) use scalp::Edge;

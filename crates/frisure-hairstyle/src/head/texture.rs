@@ -49,6 +49,11 @@ impl Texture {
         [0, 1].map(|k| (0..3).map(|i| weights[i] * f64::from(corners[i][k])).sum::<f64>() as f32)
     }
 
+    /// The point of the skin (m) that is nearest to `p` (m).
+    pub(crate) fn foot(&self, p: DVec3) -> DVec3 {
+        self.nearest(p).1
+    }
+
     /// The face nearest to `p`, of faces equally near the first, and its nearest point.
     fn nearest(&self, p: DVec3) -> (usize, DVec3) {
         let (mut best, mut found, mut foot) = (f64::INFINITY, 0, p);

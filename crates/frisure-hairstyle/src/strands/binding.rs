@@ -1,5 +1,7 @@
 //! How one drawn strand is bound to guides: which it follows, and how it differs from them.
 
+use glam::DVec3;
+
 use super::splits::{OwnCurl, SplitLine};
 use crate::implantation::Root;
 use crate::random::Stream;
@@ -105,6 +107,8 @@ pub(super) struct StrandBinding<'a> {
     pub(super) narrow: f64,
     /// Its own shape, if it is a groom's.
     pub(super) own: Option<BoundStrand>,
+    /// How far (m) a hair of a groom is moved to begin at its root: on another head its guides are rooted elsewhere.
+    pub(super) shift: DVec3,
 }
 
 impl StrandBinding<'_> {

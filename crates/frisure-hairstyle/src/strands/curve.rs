@@ -16,6 +16,9 @@ const GATHERING: f64 = 0.12;
 /// Arc length (m) over which deviations grow to their full size. Chosen by eye; not measured.
 const RISE: f64 = 0.06;
 
+/// Agreement of two guides from which on hair of the one gathers to hair of the other. Chosen: the middle.
+const LEAST_AGREEMENT: f64 = 0.5;
+
 /// Arc length (m) over which the own curl of a hair departs from that of its guide. Chosen by eye; not measured.
 const DEPARTING: f64 = 0.015;
 
@@ -166,7 +169,7 @@ impl Population<'_> {
         let along = x * binding.length;
         let narrow = 1.0
             + (binding.narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * binding.length), along);
-        let mut point = DVec3::ZERO;
+        let mut point = binding.shift;
         for &(g, weight) in &binding.followed {
             let (now, before) = (&self.wisps[g], &bound.wisps[g]);
             // Lengths (m) of dry hair.
@@ -179,10 +182,18 @@ impl Population<'_> {
         point
     }
 
-    /// The line of the smallest split that hair rooted at a point (m) of the skin belongs to, and how much it gathers to it.
-    pub(super) fn split(&self, p: DVec3) -> Option<(&SplitLine, f64)> {
-        let id = self.splits.smallest(self.layout, p)?;
-        Some((self.split_line(id), self.splits.get(id).clumping))
+    /// The line of the smallest split that hair rooted at a point (m) of the skin belongs to, and how much it gathers to it, if it
+    /// follows `guide` most.
+    pub(super) fn split(&self, p: DVec3, guide: usize) -> Option<(&SplitLine, f64)> {
+        self.gathering(self.splits.smallest(self.layout, p)?, guide)
+    }
+
+    /// The line of a split, and how much hair that follows `guide` most gathers to it; none to one that goes another way: at the
+    /// end of a parting that hair would hang half-way between both sides, before the face.
+    fn gathering(&self, id: SplitId, guide: usize) -> Option<(&SplitLine, f64)> {
+        let line = self.split_line(id);
+        let agreement = self.agreement(guide, line.followed);
+        (agreement > LEAST_AGREEMENT).then(|| (line, agreement * self.splits.get(id).clumping))
     }
 
     /// The line of a split: hair rooted there, which gathers to the larger split that it is in.
@@ -192,8 +203,8 @@ impl Population<'_> {
             let position = split.root.position;
             let larger = id.level.checked_sub(1);
             let larger = larger.and_then(|l| self.splits.of_level(l, self.layout, position));
-            let larger = larger.map(|id| (self.split_line(id), self.splits.get(id).clumping));
             let followed = self.following(&split.root);
+            let larger = larger.and_then(|id| self.gathering(id, followed[0].0));
             let main = larger.map_or(followed[0].0, |(line, _)| line.main);
             let curl = larger.map_or(split.curl, |(line, _)| line.curl.and(split.curl));
             let mean =
@@ -214,7 +225,8 @@ impl Population<'_> {
                 let rise = smooth_step(0.0, RISE.min(0.5 * length), along);
                 (p + split.waves.at(along / planned) * rise).as_vec3()
             };
-            SplitLine::new(main, curl, end, (0..samples).map(point).collect())
+            let points = (0..samples).map(point).collect();
+            SplitLine::new([followed[0].0, main], curl, end, points)
         })
     }
 

@@ -179,10 +179,10 @@ impl<'a> Population<'a> {
         // Wet hair is longer than dry hair.
         let stretch = self.guides[main].rod.length() / self.states[main].length;
         let known = if own.is_some() { f64::INFINITY } else { self.wisps[main].end() };
-        StrandBinding {
+        let mut binding = StrandBinding {
             root: *root,
             split: if own.is_none() && variation.gathers() {
-                self.split(root.position)
+                self.split(root.position, main)
             } else {
                 None
             },
@@ -197,7 +197,12 @@ impl<'a> Population<'a> {
             thickness: if baby.is_some() { THIN } else { 1.0 },
             narrow: 1.0,
             own,
+            shift: DVec3::ZERO,
+        };
+        if binding.own.is_some() {
+            binding.shift = root.position - self.followed_point(&binding, 0.0);
         }
+        binding
     }
 
     /// A guide's wisp.
@@ -290,7 +295,7 @@ impl<'a> Population<'a> {
 
     /// Whether two guides go the same way, from 1 to 0: hair beside a parting or around an ear falls
     /// on one side or the other, not in the middle.
-    fn agreement(&self, a: usize, b: usize) -> f64 {
+    pub(super) fn agreement(&self, a: usize, b: usize) -> f64 {
         let (a, b) = (&self.marks[a], &self.marks[b]);
         let apart = |mark: usize| a[mark].distance(b[mark]);
         let most = apart(1).max(apart(2)).max(apart(3));

@@ -76,6 +76,8 @@ pub(super) struct Split {
 
 /// The line of a split.
 pub(super) struct SplitLine {
+    /// The guide that it follows most.
+    pub(super) followed: usize,
     /// The guide whose curl it has.
     pub(super) main: usize,
     /// How its curl differs from that.
@@ -86,9 +88,15 @@ pub(super) struct SplitLine {
 }
 
 impl SplitLine {
-    /// The line through evenly spaced points, from the root to `end` of the length of its guides.
-    pub(super) fn new(main: usize, curl: OwnCurl, end: f64, points: Box<[Vec3]>) -> Self {
-        Self { main, curl, end, points }
+    /// The line through evenly spaced points, from the root to `end` of the length of its guides, with the guide that it follows
+    /// most and that whose curl it has.
+    pub(super) fn new(
+        [followed, main]: [usize; 2],
+        curl: OwnCurl,
+        end: f64,
+        points: Box<[Vec3]>,
+    ) -> Self {
+        Self { followed, main, curl, end, points }
     }
 
     /// Where (m) it is at `x` of the length of its guides.

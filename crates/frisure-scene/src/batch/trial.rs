@@ -181,12 +181,14 @@ fn same_number(text: &str, written: &Written) -> bool {
 /// The files that shape the hair of a scene.
 fn files_of(scene: &Scene) -> BTreeSet<PathBuf> {
     let mut found = BTreeSet::new();
-    if let HeadSource::Mesh(file) = &scene.head {
+    let groom = scene.groom.iter();
+    for head in groom.clone().filter_map(|file| file.head.as_ref()).chain([&scene.head]) {
+        let HeadSource::Mesh(file) = head else { continue };
         found.insert(file.path.clone());
         if let ScalpSource::Mask(path) | ScalpSource::Weights(path) = &file.scalp {
             found.insert(path.clone());
         }
     }
-    found.extend(scene.groom.iter().map(|file| file.path.clone()));
+    found.extend(groom.map(|file| file.path.clone()));
     found
 }

@@ -15,17 +15,14 @@ use crate::kind::{Point, Text, Vector};
 use crate::placement::Placement;
 use crate::scene::{GroomFile, HeadSource};
 
-/// Most guides of a groom, if the scene gives no number.
-const GROOM_GUIDES: f64 = 300.0;
-
 /// The head; paths are relative to `folder`.
 pub(super) fn head(document: &Document<'_>, folder: &Path) -> Result<HeadSource> {
     let Some(mesh) = document.get::<Text>(HEAD[0])? else {
         return match document.first(&HEAD[1..]) {
-            None => Ok(match document.get::<OneOf<ModelWord>>("head.model")? {
-                Some(ModelWord(name)) if name != MANNEQUIN => HeadSource::Person(name),
-                _ => HeadSource::Mannequin,
-            }),
+            None => {
+                let model = document.get::<OneOf<ModelWord>>("head.model")?;
+                Ok(model.map_or(HeadSource::Mannequin, built_in))
+            }
             Some(key) => {
                 let problem = format!("`{key}` is about a mesh, and the scene has none");
                 Err(document.error(key, problem, "add `mesh = \"head.obj\"` to `[head]`"))
@@ -72,10 +69,29 @@ pub(super) fn groom(document: &Document<'_>, folder: &Path) -> Result<Option<Gro
             }
         };
     };
-    let guides = document.number("groom.guides").unwrap_or(GROOM_GUIDES) as usize;
     let frame = frame(document, "groom")?;
     let placement = placement(document)?;
-    Ok(Some(GroomFile { path: folder.join(path), frame, placement, guides }))
+    let head = groom_head(document, folder)?;
+    let mut groom = GroomFile { frame, head, placement, ..GroomFile::new(folder.join(path)) };
+    if let Some(guides) = document.number("groom.guides") {
+        groom.guides = guides as usize;
+    }
+    Ok(Some(groom))
+}
+
+/// The head that a groom was made on, where the scene gives one.
+fn groom_head(document: &Document<'_>, folder: &Path) -> Result<Option<HeadSource>> {
+    if let Some(mesh) = document.get::<Text>("groom.head_mesh")? {
+        let (frame, scalp) = (FrameChoice::default(), ScalpSource::Guess);
+        let file = HeadFile { path: folder.join(mesh), frame, turn: None, scalp };
+        return Ok(Some(HeadSource::Mesh(file)));
+    }
+    Ok(document.get::<OneOf<ModelWord>>("groom.head_model")?.map(built_in))
+}
+
+/// A built-in head.
+fn built_in(ModelWord(name): ModelWord) -> HeadSource {
+    if name == MANNEQUIN { HeadSource::Mannequin } else { HeadSource::Person(name) }
 }
 
 /// Largest displacement of a groom along an axis (m). Chosen: what is farther away has lost the precision of a hair.

@@ -1,0 +1,34 @@
+//! `frisure transfer`: the hair of a groom, on another head.
+
+use std::path::Path;
+
+use frisure::files::frame::FrameChoice;
+use frisure::scene::{GroomFile, Scene};
+use frisure_engine::Error;
+
+use super::predict;
+use crate::args::{Predict, Quality, Tracing, Transfer};
+use crate::diagnostics::ExitStatus;
+
+/// Predicts the scene of the groom on the other head.
+pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error> {
+    let Transfer { groom, from, to, outputs, writing, image, report, hair_type, .. } = arguments;
+    let text = hair_type.map_or(String::new(), |of| format!("hair.type = \"{}\"\n", of.name));
+    let mut scene = Scene::parse("transfer", text, Path::new(""))?;
+    let frame = FrameChoice { metres: arguments.from_unit, up: arguments.from_up };
+    let file = GroomFile { frame, head: Some(from), ..GroomFile::new(groom.clone()) };
+    (scene.head, scene.groom) = (to, Some(file));
+    let arguments = Predict {
+        scene: groom,
+        outputs,
+        image,
+        report,
+        quality: Quality::Preview,
+        tracing: Tracing::default(),
+        each_step: false,
+        replicas: None,
+        writing,
+        fibres: false,
+    };
+    predict::run_scene(&arguments, scene, None, quiet)
+}
