@@ -137,16 +137,18 @@ impl AmbientLight {
         // Outside the surface's own shell, which would shade it.
         // The reach of trilinear weights is a cell along each axis, √3 along a diagonal.
         let point = point + 1.7 * self.cell * normal;
-        let mut met = [0.0; DIRECTION_COUNT];
+        // Of the light that passes and not of the hairs met: behind the edge of the head these jump, and light would in a
+        // fortieth of a cell.
+        let mut passed = [Vec3::ZERO; DIRECTION_COUNT];
         self.visit_nodes(point, |i, weight| {
-            for (sum, field) in met.iter_mut().zip(&self.met) {
-                *sum += weight * field[i];
+            for (sum, field) in passed.iter_mut().zip(&self.met) {
+                *sum += weight * self.passed(field[i]);
             }
         });
         let (mut light, mut whole) = (Vec3::ZERO, 0.0);
         for (d, &(step, weight)) in DIRECTIONS.iter().enumerate() {
             let weight = weight * normal.dot(direction(step)).max(0.0);
-            light += weight * self.environment[d] * self.passed(met[d]);
+            light += weight * self.environment[d] * passed[d];
             whole += weight;
         }
         light / f32::max(whole, 1e-6)
@@ -154,7 +156,12 @@ impl AmbientLight {
 
     /// Part of the light that `hairs` hairs let pass.
     fn passed(&self, hairs: f32) -> Vec3 {
-        (-hairs * self.extinction).exp()
+        // Open air and the head, the most frequent, need no exponential.
+        match hairs {
+            0.0 => Vec3::ONE,
+            SHELL.. => Vec3::ZERO,
+            _ => (-hairs * self.extinction).exp(),
+        }
     }
 
     fn index(&self, p: UVec3) -> usize {
