@@ -6,19 +6,21 @@ use std::sync::{Arc, Mutex};
 
 use frisure_rod::inverse::{FittedCurve, InverseSolution};
 use frisure_rod::potential::FieldPotential;
-use frisure_rod::{InvalidQuantity, NaturalStrain, RodSpec, Root as Clamp};
+use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, Root as Clamp};
 use frisure_strands::{Strand, Strands};
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::contact::Bed;
-use crate::equilibrium::{Effort, GuideStart, SettleOptions, held_up, holding, settle};
+use crate::equilibrium::{
+    Effort, GuideStart, SettleOptions, combed_hold, held_up, holding, settle,
+};
 use crate::guides::{Altitudes, Guide, Planned, covered};
 use crate::hairstyle::Hairstyle;
 use crate::hairstyle::RootPlacement;
 use crate::hairstyle::Styling;
 use crate::head::Head;
-use crate::implantation::Layout;
+use crate::implantation::{Layout, out_of_face};
 use crate::implantation::{Root, Scalp};
 use crate::math::Grid;
 use crate::predict::PredictError;
@@ -48,7 +50,8 @@ pub struct Adoption {
 ///
 /// A groom says nothing of the hair that each strand lies on. Within 4 cm of the skin something may lie beneath it; it
 /// bears so much that the strand needs the least bending ([`FittedCurve::least_support`]), and stays as high as the groom
-/// has it ([`Bed`]), however the hair is styled. Between each other strands do not push. What was modelled into the
+/// has it ([`Bed`]), however the hair is styled. Strands that go out of the face may be held there as combed hair is
+/// ([`crate::Implantation::hold`]), if that takes less bending. Between each other strands do not push. What was modelled into the
 /// head is held as if it were not there, and comes out of it. Strands without length are left out.
 ///
 /// # Errors
@@ -75,7 +78,7 @@ pub fn adopt(
     let lines: Vec<Vec<DVec3>> =
         guides.iter().map(|s| s.points.iter().map(|p| p.as_dvec3()).collect()).collect();
     let stage = StageCounter::new(progress, "finding fibres", lines.len());
-    let held: Vec<(InverseSolution, Bed)> = lines
+    let held: Vec<Held> = lines
         .par_iter()
         .enumerate()
         .map(|(index, line)| {
@@ -90,12 +93,12 @@ pub fn adopt(
     spec.wisps.check_size(placement.area())?;
     let layout = Layout::new(&spec, head)?;
     let guides = plan(&spec, head, &placement, &held);
-    let before: Vec<_> = held.iter().map(|(held, _)| held.equilibrium.clone()).collect();
+    let before: Vec<_> = held.iter().map(|held| held.fit.equilibrium.clone()).collect();
     let options = SettleOptions { start: GuideStart::At(&before), effort: Effort::FULL };
     let rest = settle(&spec, head, &guides, options, progress)?;
     let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
     let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();
-    let stiffness_needed = held.iter().map(|(held, _)| held.stiffness_needed).collect();
+    let stiffness_needed = held.iter().map(|held| held.fit.stiffness_needed).collect();
     let inside = lines.iter().filter(|line| is_inside(&spec, head, line)).count();
     let styling = Styling::none(&guides);
     let hairstyle = Hairstyle { spec, placement, layout, guides, rest, styling };
@@ -143,18 +146,67 @@ const DEEPEST_BED: f64 = 0.04;
 /// Longest distance (m) between the points at which the bed is evaluated. Chosen by trial; not measured further.
 const FELT: f64 = 1e-3;
 
-/// The strand of a groom as a rod that rests in its shape, and the bed on which it does.
+/// The strand of a groom as a rod that rests in its shape.
+struct Held {
+    fit: InverseSolution,
+    /// The hair beneath it.
+    bed: Bed,
+    /// Force per length, in weights of the hair, that holds it out of the face.
+    hold: f64,
+}
+
+/// The strand of a groom as a rod that rests in its shape, and what it rests on. Where hair that is combed out of the face
+/// is held (`implantation.hold`), it is if that takes less bending.
 fn held(
     spec: &HairstyleSpec,
     head: &Head,
     line: &[DVec3],
     fibre: RodSpec,
-) -> Result<(InverseSolution, Bed), InvalidQuantity> {
+) -> Result<Held, InvalidQuantity> {
     let fitted = FittedCurve::new(line, &fibre)?;
     if is_inside(spec, head, line) {
-        let none = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2], 0.0);
-        return Ok((fitted.solve(&[], &holding(spec))?, none));
+        let bed = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2], 0.0);
+        return Ok(Held { fit: fitted.solve(&[], &holding(spec))?, bed, hold: 0.0 });
     }
+    let free = supported(spec, head, &fitted, 0.0)?;
+    let root = fitted.rod().root();
+    let normal = head.signed_distance().value_gradient(root.position()).1.normalize_or_zero();
+    let along = root.frame().z_axis;
+    let along = along - normal * along.dot(normal);
+    let hold = spec.implantation.hold * out_of_face(head.landmarks(), root.position(), along);
+    if hold <= 0.0 {
+        return Ok(free);
+    }
+    let held = supported(spec, head, &fitted, hold)?;
+    // A shape that is stable first.
+    let effort = |held: &Held| (held.fit.stiffness_needed, held.fit.target.energy.elastic);
+    Ok(if effort(&held) < effort(&free) { held } else { free })
+}
+
+/// The same on the bed that it needs, held out of the face with `hold` times its weight per length.
+fn supported(
+    spec: &HairstyleSpec,
+    head: &Head,
+    fitted: &FittedCurve,
+    hold: f64,
+) -> Result<Held, InvalidQuantity> {
+    let guess = supported_as(spec, head, fitted, fitted.rod(), hold)?;
+    if hold <= 0.0 {
+        return Ok(guess);
+    }
+    // How far the hold reaches depends on the curl that is found.
+    supported_as(spec, head, fitted, &guess.fit.rod, hold)
+}
+
+/// The same with the reach that the hold has for a rod with the curl of `like`.
+fn supported_as(
+    spec: &HairstyleSpec,
+    head: &Head,
+    fitted: &FittedCurve,
+    like: &Rod,
+    hold: f64,
+) -> Result<Held, InvalidQuantity> {
+    let combed = combed_hold(head, like, hold);
     let skin: Vec<(f64, DVec3)> =
         fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
     let bears = spec.contact.body != Body::None;
@@ -163,14 +215,14 @@ fn held(
     };
     let ways: Vec<Option<DVec3>> = skin.iter().map(beneath).collect();
     // The forces of (I2), docs/theory.md, "Inverse statics", as forces per length on a bed of the height that bears them.
-    let forces = spread(&fitted.least_support(&ways));
+    let forces = spread(&fitted.least_support(&ways, |s| combed.force(s)));
     let spacing = fitted.rod().length() / (skin.len() - 1) as f64;
     let borne = skin.iter().zip(&forces).map(|((distance, _), force)| (*distance, force / spacing));
     let bed = Bed::new(spacing, borne, spec.contact.hair_stiffness);
     let samples = (spacing / FELT).ceil().max(1.0) as u32;
-    let under = held_up(spec, head, fitted.rod(), &bed);
-    let held = fitted.solve(&[&FieldPotential::new(&under, samples)], &holding(spec))?;
-    Ok((held, bed))
+    let under = held_up(spec, head, fitted.rod(), &bed, combed);
+    let fit = fitted.solve(&[&FieldPotential::new(&under, samples)], &holding(spec))?;
+    Ok(Held { fit, bed, hold })
 }
 
 /// Forces at nodes, each shared with its neighbours: hair lies on hair, not on the points of a comb.
@@ -207,7 +259,7 @@ fn placement(
     head: &Head,
     lines: &[Vec<DVec3>],
     hairs: &Strands,
-    held: &[(InverseSolution, Bed)],
+    held: &[Held],
 ) -> RootPlacement {
     let root = |p: DVec3| Root {
         position: p,
@@ -231,7 +283,7 @@ fn placement(
     spec.wisps.hairs = Hairs::Count(drawn.len());
     let bound = (!hairs.is_empty()).then(|| {
         spec.wisps.points = spec.wisps.points.max(usual_points(hairs));
-        let wisp = |(held, _): &(InverseSolution, Bed)| Wisp::new(&held.target, WISP_SAMPLES, 0.0);
+        let wisp = |held: &Held| Wisp::new(&held.fit.target, WISP_SAMPLES, 0.0);
         Arc::new(BoundStrands::new(hairs, held.par_iter().map(wisp).collect()))
     });
     let hairs = Arc::new(Mutex::new(Some(drawn.into())));
@@ -286,19 +338,14 @@ fn near(guides: &[Root], roots: &[Root]) -> Vec<Root> {
 const LONELY: f64 = 0.01;
 
 /// The guides, with the fibres that were found.
-fn plan(
-    spec: &HairstyleSpec,
-    head: &Head,
-    placement: &RootPlacement,
-    held: &[(InverseSolution, Bed)],
-) -> Vec<Guide> {
+fn plan(spec: &HairstyleSpec, head: &Head, placement: &RootPlacement, held: &[Held]) -> Vec<Guide> {
     let altitudes = Altitudes::new(spec, placement.roots());
-    let guide = |(root, (held, bed)): (&Root, &(InverseSolution, Bed))| {
+    let guide = |(root, Held { fit, bed, hold }): (&Root, &Held)| {
         let altitude = altitudes.of(root);
-        let curl = held.rod.natural().mean(0.0, held.rod.length());
-        let planned = Planned { rod: held.rod.clone(), curl, share: 1.0 };
+        let curl = fit.rod.natural().mean(0.0, fit.rod.length());
+        let planned = Planned { rod: fit.rod.clone(), curl, share: 1.0 };
         let guide = covered(spec, head, placement.area(), *root, altitude, planned);
-        Guide { bed: Some(Arc::new(bed.clone())), ..guide }
+        Guide { bed: Some(Arc::new(bed.clone())), hold: *hold, ..guide }
     };
     placement.roots().iter().zip(held).map(guide).collect()
 }

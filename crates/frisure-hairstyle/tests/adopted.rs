@@ -15,8 +15,6 @@ fn spec(name: &str) -> HairstyleSpec {
     let mut spec = preset(name).unwrap().spec();
     spec.wisps.count = GUIDES;
     spec.wisps.hairs = Hairs::Count(400);
-    // A groom is held up by normal forces alone.
-    spec.implantation.hold = 0.0;
     spec
 }
 

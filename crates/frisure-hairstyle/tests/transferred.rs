@@ -13,8 +13,6 @@ fn adopted(mannequin: &Head) -> Hairstyle {
     let mut spec = preset("caucasian-wavy").unwrap().spec();
     spec.wisps.count = GUIDES;
     spec.wisps.hairs = Hairs::Count(300);
-    // A groom is held up by normal forces alone.
-    spec.implantation.hold = 0.0;
     let predicted = predict(&spec, mannequin, PredictOptions::default(), &()).unwrap();
     let hairs = strands(&predicted, mannequin, StrandOptions::default(), &()).unwrap().strands;
     adopt(&spec, mannequin, &guide_strands(&predicted, 120), &hairs, &()).unwrap().0

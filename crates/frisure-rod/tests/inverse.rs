@@ -120,10 +120,13 @@ fn a_table_bears_what_lies_on_it() {
     let fitted = FittedCurve::new(&line, &spec).unwrap();
     let weight = fitted.rod().weight() * fitted.rod().length();
     let on_table = vec![Some(DVec3::Z); fitted.nodes().len()];
-    let borne: f64 = fitted.least_support(&on_table).iter().sum();
+    let free = |_: f64| DVec3::ZERO;
+    let borne: f64 = fitted.least_support(&on_table, free).iter().sum();
     assert!((borne / weight - 1.0).abs() < 0.03, "{}", borne / weight);
-    assert!(fitted.least_support(&vec![None; fitted.nodes().len()]).iter().all(|f| *f == 0.0));
+    assert!(
+        fitted.least_support(&vec![None; fitted.nodes().len()], free).iter().all(|f| *f == 0.0)
+    );
     // A support from above bears nothing.
     let ceiling = vec![Some(DVec3::NEG_Z); fitted.nodes().len()];
-    assert!(fitted.least_support(&ceiling).iter().all(|f| *f == 0.0));
+    assert!(fitted.least_support(&ceiling, free).iter().all(|f| *f == 0.0));
 }

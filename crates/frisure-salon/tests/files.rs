@@ -14,9 +14,8 @@ use frisure_salon::state::{Badge, Command, Destination, FILES_PANEL, Message};
 fn exported(format: &str) -> Vec<u8> {
     static FILES: LazyLock<Vec<(String, Vec<u8>)>> = LazyLock::new(|| {
         let mut world = World::new();
-        let text = "[hair]\ntype = \"wavy\"\n[wisps]\ncount = 40\nhairs = 60\npoints = 12\n\
-             [implantation]\nhold = 0\n"
-            .to_owned();
+        let text =
+            "[hair]\ntype = \"wavy\"\n[wisps]\ncount = 40\nhairs = 60\npoints = 12\n".to_owned();
         world.run(Command::Open { path: None, name: "a".into(), text });
         let file = |format: &&str| {
             let name = format!("a.{format}");

@@ -45,6 +45,7 @@ pub(crate) fn held_up<'a>(
     head: &'a Head,
     rod: &Rod,
     bed: &'a Bed,
+    hold: CombedHold,
 ) -> BodyContact<'a> {
     BodyContact {
         head,
@@ -55,9 +56,9 @@ pub(crate) fn held_up<'a>(
         thickness: Thickness::new(rod, DVec3::ZERO, 1.0, 1.0, 0.0, 0.0),
         layer: Layer::NONE,
         bed: Some(bed),
-        // What the groom shows is held up by normal forces alone.
+        // What the groom shows is held by normal forces and by that which holds combed hair, and by no other friction.
         friction: FrictionCoefficients::default(),
-        hold: CombedHold::default(),
+        hold,
     }
 }
 
@@ -105,11 +106,19 @@ fn skin_stiffness(spec: &HairstyleSpec, guide: &Guide) -> f64 {
 const HELD: f64 = 0.12;
 const HELD_SHARE: f64 = 0.6;
 
-/// Length of a guide over that of the axis that its curl winds about, at most [`MOST_WINDING`]; 1 for straight hair.
-fn winding(guide: &Guide) -> f64 {
-    let strain = guide.rod.natural().mean(0.0, guide.rod.length());
+/// What holds a rod that was combed out of the face, with `hold` times its weight per length.
+pub(crate) fn combed_hold(head: &Head, rod: &Rod, hold: f64) -> CombedHold {
+    CombedHold {
+        force: head.landmarks().face * (-hold * rod.weight()),
+        reach: (HELD * winding(rod)).min(HELD_SHARE * rod.length()),
+    }
+}
+
+/// Length of a rod over that of the axis that its curl winds about, at most [`MOST_WINDING`]; 1 for straight hair.
+fn winding(rod: &Rod) -> f64 {
+    let strain = rod.natural().mean(0.0, rod.length());
     let (all, along) = (strain.length(), strain.z.abs());
-    if all * guide.rod.length() < TAU { 1.0 } else { (all / along.max(1e-9)).min(MOST_WINDING) }
+    if all * rod.length() < TAU { 1.0 } else { (all / along.max(1e-9)).min(MOST_WINDING) }
 }
 
 /// Most that a curl shortens combed hair: its weight draws tighter curls out. Chosen by eye; not measured.
@@ -131,10 +140,7 @@ pub(super) fn body<'a>(
         layer,
         bed: guide.bed.as_deref(),
         friction: friction(spec),
-        hold: CombedHold {
-            force: head.landmarks().face * (-guide.hold * guide.rod.weight()),
-            reach: (HELD * winding(guide)).min(HELD_SHARE * guide.rod.length()),
-        },
+        hold: combed_hold(head, &guide.rod, guide.hold),
     }
 }
 

@@ -11,7 +11,7 @@ mod start;
 mod tether;
 mod wisp;
 
-pub(crate) use fields::{held_up, holding};
+pub(crate) use fields::{combed_hold, held_up, holding};
 pub use report::{SettlingReport, settling_report};
 pub(crate) use start::{Change, GuideStart};
 

@@ -99,14 +99,18 @@ fn brow_height(surface: &Surface, middle: f64, centre: DVec3, scale: f64) -> f64
     if proud { guess.clamp(usual - 0.02 * scale, usual + 0.02 * scale) } else { usual }
 }
 
+/// Height above the cranium's centre (m at scale 1) below which an ear is: that of the brows. Higher up the skull is wider behind the
+/// ears than above them, and stands out too.
+const EAR_TOP: f64 = 0.015;
+
 /// Middle of what stands out beside the skull, mirrored to the left; none on a head without ears.
 fn find_ear(surface: &Surface, centre: DVec3, half_width: f64, scale: f64) -> Option<DVec3> {
     let out = half_width + 0.004 * scale;
-    // What stands out sideways by 4 mm and more between brow and jaw; the ear if it is 2.5 to 9 cm high.
+    // What stands out sideways by 4 mm and more between brows and jaw; the ear if it is 2.5 to 9 cm high.
     let (mut low, mut high, mut any) = (DVec3::INFINITY, DVec3::NEG_INFINITY, false);
     for p in surface.positions() {
         let d = *p - centre;
-        let beside = (-0.075 * scale..0.035 * scale).contains(&d.z) && d.y.abs() < 0.06 * scale;
+        let beside = (-0.075 * scale..EAR_TOP * scale).contains(&d.z) && d.y.abs() < 0.06 * scale;
         if beside && d.x.abs() > out {
             let q = DVec3::new(d.x.abs(), d.y, d.z);
             (low, high, any) = (low.min(q), high.max(q), true);

@@ -119,10 +119,7 @@ impl Layout {
     /// How much of the hair at a root, 0 to 1, was combed out of the face and would fall back into it.
     pub(crate) fn held(&self, root: &Root) -> f64 {
         let (along, combed) = self.along(root);
-        // Borders in radii of the cranium (y backwards), and slopes to the face: chosen by eye.
-        let front = 1.0 - smooth_step(-0.6, 0.1, self.marks.normalized(root.position).y);
-        let forward = smooth_step(0.2, 0.6, along.dot(self.marks.face));
-        combed * front * (1.0 - forward)
+        combed * out_of_face(&self.marks, root.position, along)
     }
 
     /// Factor on the natural curl at a root.
@@ -170,6 +167,13 @@ impl Layout {
     pub(crate) fn divides(&self) -> bool {
         !self.partings.is_empty() || self.regions.iter().any(|s| s.length.is_some())
     }
+}
+
+/// How much of the hair at a place of the skin (m) that is combed `along` it (no longer than 1), 0 to 1, would fall into the face.
+pub(crate) fn out_of_face(marks: &Landmarks, place: DVec3, along: DVec3) -> f64 {
+    // Borders in radii of the cranium (y backwards), and slopes to the face: chosen by eye.
+    let front = 1.0 - smooth_step(-0.6, 0.1, marks.normalized(place).y);
+    front * (1.0 - smooth_step(0.2, 0.6, along.dot(marks.face)))
 }
 
 /// How far (m) a hair must be able to go straight before it meets skin again. Chosen by trial; not measured further.

@@ -108,12 +108,21 @@ impl FittedCurve {
 
     /// The force (N) that something beneath the rod has to bear at each node, so that the rod is in balance with the
     /// least elastic energy: `beneath` is the unit direction in which it can push there, `None` where there is nothing.
+    /// `held` is the force per length (N/m) that acts besides its weight at an arc length (m).
     ///
     /// # Panics
     /// If there is not one direction per node.
     #[must_use]
-    pub fn least_support(&self, beneath: &[Option<DVec3>]) -> Vec<f64> {
-        support::least_energy_forces(&self.rod, &self.target, beneath)
+    pub fn least_support(
+        &self,
+        beneath: &[Option<DVec3>],
+        held: impl Fn(f64) -> DVec3,
+    ) -> Vec<f64> {
+        let elements = self.target.controls.len();
+        let h = self.rod.length() / elements as f64;
+        let load = |i: usize| (self.rod.load() + held((i as f64 + 0.5) * h)) * h;
+        let loads: Vec<DVec3> = (0..elements).map(load).collect();
+        support::least_energy_forces(&self.rod, &self.target, &loads, beneath)
     }
 
     /// The rod that rests in this shape. `external` are the potentials that act on it besides its weight, and

@@ -14,10 +14,16 @@ const RIDGE: f64 = 1e-6;
 
 /// The forces (N) along given directions, none of which pulls, with which the elastic energy of a rod in balance is
 /// least: non-negative least squares by coordinate descent.
-pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DVec3>]) -> Vec<f64> {
+///
+/// `loads` are the weight and what else acts on each element (N), at its middle.
+pub(super) fn least_energy_forces(
+    rod: &Rod,
+    shape: &Shape,
+    loads: &[DVec3],
+    beneath: &[Option<DVec3>],
+) -> Vec<f64> {
     assert_eq!(beneath.len(), shape.positions.len(), "one direction per node");
     let elements = shape.controls.len();
-    let h = rod.length() / elements as f64;
     // Moments in units in which their squares are energies: E = Σ ½ h |K^(−½) Rᵀ M|². docs/theory.md (I2)
     let scale = (DVec3::ONE / rod.stiffness()).map(f64::sqrt);
     let middle = |i: usize| 0.5 * (shape.positions[i] + shape.positions[i + 1]);
@@ -26,12 +32,10 @@ pub(super) fn least_energy_forces(rod: &Rod, shape: &Shape, beneath: &[Option<DV
         scaled(i, (shape.positions[node] - middle(i)).cross(way))
     };
 
-    // The weight (N) of an element, at its middle.
-    let weight = rod.load() * h;
-    // Moments of the weight alone.
+    // Moments of the loads alone.
     let mut moments: Vec<DVec3> = (0..elements)
         .map(|i| {
-            let beyond = (i + 1..elements).map(|k| (middle(k) - middle(i)).cross(weight));
+            let beyond = (i + 1..elements).map(|k| (middle(k) - middle(i)).cross(loads[k]));
             scaled(i, beyond.sum())
         })
         .collect();
