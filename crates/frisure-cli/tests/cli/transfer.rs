@@ -2,7 +2,8 @@
 
 use crate::room::Room;
 
-const SCENE: &str = "[hair]\ntype = \"wavy\"\nlength = \"8 cm\"\n[wisps]\ncount = 12\nhairs = 60\npoints = 12\n";
+const SCENE: &str =
+    "[hair]\ntype = \"wavy\"\nlength = \"8 cm\"\n[wisps]\ncount = 12\nhairs = 60\npoints = 12\n";
 
 fn room() -> Room {
     let room = Room::new().with("a.toml", SCENE);
