@@ -33,11 +33,18 @@ struct Node {
 impl Texture {
     pub(crate) fn new(head: &Head) -> Self {
         let surface = textured(head);
-        let mut faces: Vec<u32> = (0..surface.triangles().len() as u32).collect();
+        let mut faces: Vec<Boxed> = (0..surface.triangles().len())
+            .map(|face| {
+                let corners = surface.corners(face);
+                let low = corners[0].min(corners[1]).min(corners[2]);
+                let high = corners[0].max(corners[1]).max(corners[2]);
+                Boxed { face: face as u32, low, high, middle: corners.iter().sum() }
+            })
+            .collect();
         let mut nodes = Vec::new();
         let all = 0..faces.len();
-        split(&surface, &mut faces, all, &mut nodes);
-        Self { surface, faces, nodes }
+        split(&mut faces, all, &mut nodes);
+        Self { surface, faces: faces.into_iter().map(|boxed| boxed.face).collect(), nodes }
     }
 
     /// The texture coordinates of the point of the skin that is nearest to `p` (m), interpolated in its face.
@@ -80,17 +87,19 @@ impl Texture {
     }
 }
 
-/// Adds the nodes of a range of faces, which it sorts.
-fn split(
-    surface: &Surface,
-    faces: &mut [u32],
-    range: std::ops::Range<usize>,
-    nodes: &mut Vec<Node>,
-) {
+/// A face with the box around it (m), and three times its middle.
+struct Boxed {
+    face: u32,
+    low: DVec3,
+    high: DVec3,
+    middle: DVec3,
+}
+
+/// Adds the nodes of a range of faces, which it puts in order.
+fn split(faces: &mut [Boxed], range: std::ops::Range<usize>, nodes: &mut Vec<Node>) {
     let own = &mut faces[range.clone()];
-    let corners = || own.iter().flat_map(|f| surface.corners(*f as usize));
-    let low = corners().fold(DVec3::INFINITY, DVec3::min);
-    let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let low = own.iter().map(|boxed| boxed.low).fold(DVec3::INFINITY, DVec3::min);
+    let high = own.iter().map(|boxed| boxed.high).fold(DVec3::NEG_INFINITY, DVec3::max);
     let index = nodes.len();
     nodes.push(Node { low, high, faces: range.clone(), second: None });
     if own.len() <= LEAF {
@@ -98,12 +107,15 @@ fn split(
     }
     let size = high - low;
     let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
-    let middle = |f: &u32| surface.corners(*f as usize).iter().map(|p| p[axis]).sum::<f64>();
-    own.sort_by(|a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
-    let half = range.start + own.len() / 2;
-    split(surface, faces, range.start..half, nodes);
+    // Halves by the middle: in which order faces are within them is of no account.
+    let half = own.len() / 2;
+    own.select_nth_unstable_by(half, |a, b| {
+        a.middle[axis].total_cmp(&b.middle[axis]).then(a.face.cmp(&b.face))
+    });
+    let half = range.start + half;
+    split(faces, range.start..half, nodes);
     nodes[index].second = Some(nodes.len());
-    split(surface, faces, half..range.end, nodes);
+    split(faces, half..range.end, nodes);
 }
 
 /// Weights of the corners at a point of a triangle. \[Ericson\] §3.4
