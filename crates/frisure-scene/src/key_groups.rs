@@ -16,14 +16,14 @@ pub const HEAD: [&str; 9] = [
 /// The keys about the file of the groom, its path first; without it, the others have no effect.
 pub const GROOM: [&str; 9] = [
     "groom.file",
-    "groom.head_model",
-    "groom.head_mesh",
     "groom.up",
     "groom.unit",
     "groom.scale",
     "groom.turn",
     "groom.move",
     "groom.guides",
+    "groom.head_model",
+    "groom.head_mesh",
 ];
 
 /// The keys whose values are paths.

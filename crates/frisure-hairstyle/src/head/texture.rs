@@ -64,14 +64,20 @@ impl Texture {
     /// The face nearest to `p`, of faces equally near the first, and its nearest point.
     fn nearest(&self, p: DVec3) -> (usize, DVec3) {
         let (mut best, mut found, mut foot) = (f64::INFINITY, 0, p);
-        let mut open = vec![0];
-        while let Some(index) = open.pop() {
+        let away = |index: usize| {
             let node = &self.nodes[index];
-            if p.clamp(node.low, node.high).distance_squared(p) > best {
+            (p.clamp(node.low, node.high).distance_squared(p), index)
+        };
+        let mut open = vec![away(0)];
+        while let Some((distance, index)) = open.pop() {
+            if distance > best {
                 continue;
             }
+            let node = &self.nodes[index];
             if let Some(second) = node.second {
-                open.extend([second, index + 1]);
+                // The nearer child first: its faces shorten the search of the other.
+                let (a, b) = (away(index + 1), away(second));
+                open.extend(if a.0 <= b.0 { [b, a] } else { [a, b] });
                 continue;
             }
             for &face in &self.faces[node.faces.clone()] {

@@ -180,8 +180,9 @@ fn keys(written: &str, contents: Contents) -> Vec<(&'static str, Option<&str>)> 
         let all = keys.iter().enumerate().map(|(place, key)| (*key, value(place)));
         all.filter(|_| wanted).collect::<Vec<_>>()
     };
-    // `groom.guides` applies to any groom and stays.
-    [of(&HEAD, contents.head), of(&GROOM[..3], contents.groom)].concat()
+    // The number of guides applies to any groom and stays.
+    let groom: Vec<_> = GROOM.into_iter().filter(|key| *key != "groom.guides").collect();
+    [of(&HEAD, contents.head), of(&groom, contents.groom)].concat()
 }
 
 fn file_name(path: &str) -> String {
