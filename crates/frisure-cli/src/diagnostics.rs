@@ -56,7 +56,8 @@ pub fn plain(error: &Error) -> String {
 fn rendered(error: &Error, renderer: &Renderer) -> String {
     let diagnostic = if let Error::Scene(error) = error { error.diagnostic() } else { None };
     let message = diagnostic.map_or_else(|| message(error), Diagnostic::message);
-    let excerpt = diagnostic.map(Excerpt::of);
+    // A scene without a name is that of a command's arguments, and has no lines to show.
+    let excerpt = diagnostic.filter(|found| !found.file.is_empty()).map(Excerpt::of);
     let mut group = Group::with_title(Level::ERROR.primary_title(message.as_str()));
     if let (Some(diagnostic), Some(excerpt)) = (diagnostic, &excerpt) {
         let kinds =

@@ -14,7 +14,7 @@ use crate::diagnostics::ExitStatus;
 pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error> {
     let Transfer { groom, from, to, outputs, writing, image, report, hair_type, .. } = arguments;
     let text = hair_type.map_or(String::new(), |of| format!("hair.type = \"{}\"\n", of.name));
-    let mut scene = Scene::parse("transfer", text, Path::new(""))?;
+    let mut scene = Scene::parse("", text, Path::new(""))?;
     let frame = FrameChoice { metres: arguments.from_unit, up: arguments.from_up };
     let file = GroomFile { frame, head: Some(from), ..GroomFile::new(groom.clone()) };
     (scene.head, scene.groom) = (to, Some(file));

@@ -40,8 +40,8 @@ fn what_cannot_be_is_told() {
     let transfer = |from, to| ["transfer", "a.usdc", "--from", from, "--to", to, "-o", "b.hair"];
     let cases: [(&[&str], &str); 5] = [
         (&transfer("nobody", "mannequin"), "no built-in head of this name: mannequin, "),
-        (&transfer("ball.obj", "mannequin"), "groom.head_mesh"),
-        (&transfer("mannequin", "ball.obj"), "head.mesh"),
+        (&transfer("ball.obj", "mannequin"), "ball.obj:1: the face names vertex 1"),
+        (&transfer("mannequin", "ball.obj"), "ball.obj:1: the face names vertex 1"),
         (&["predict", "both.toml", "-o", "b.hair"], "head_mesh"),
         (&["predict", "no.toml", "-o", "b.hair"], "`groom.head_model` is about a groom"),
     ];
