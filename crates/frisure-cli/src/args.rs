@@ -442,13 +442,27 @@ pub(crate) struct Convert {
     #[command(flatten)]
     pub(crate) writing: Writing,
 
+    /// What the groom that is read has.
+    #[command(flatten)]
+    pub(crate) read: ReadAxes,
+}
+
+/// Unit and axes of a groom that is read, of a command that writes another.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct ReadAxes {
     /// The unit of the groom that is read, instead of its own or its format's.
     #[arg(long, value_parser = named(&UNITS), value_name = "UNIT")]
-    pub(crate) from_unit: Option<f64>,
+    from_unit: Option<f64>,
 
     /// The axis that points up in the groom that is read, instead of its own or its format's.
     #[arg(long, value_parser = named(&UP_AXES), value_name = "AXIS")]
-    pub(crate) from_up: Option<UpAxis>,
+    from_up: Option<UpAxis>,
+}
+
+impl ReadAxes {
+    pub(crate) fn axes(self) -> Axes {
+        Axes { unit: self.from_unit, up: self.from_up }
+    }
 }
 
 /// Examples, and the formats.

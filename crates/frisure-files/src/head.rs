@@ -19,6 +19,14 @@ pub struct HeadFile {
     pub scalp: ScalpSource,
 }
 
+impl HeadFile {
+    /// A mesh with the unit and axes that it states, and a scalp that is guessed from its shape.
+    #[must_use]
+    pub fn new(path: PathBuf) -> Self {
+        Self { path, frame: FrameChoice::default(), turn: None, scalp: ScalpSource::Guess }
+    }
+}
+
 /// The part of a mesh on which hair grows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ScalpSource {

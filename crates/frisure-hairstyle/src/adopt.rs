@@ -168,47 +168,36 @@ fn held(
         let bed = Bed::new(fitted.rod().length(), [(0.0, 0.0); 2], 0.0);
         return Ok(Held { fit: fitted.solve(&[], &holding(spec))?, bed, hold: 0.0 });
     }
-    let free = supported(spec, head, &fitted, 0.0)?;
+    let skin: Vec<(f64, DVec3)> =
+        fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
+    let supported = |like: &Rod, hold| supported(spec, head, (&fitted, &skin), like, hold);
+    let free = supported(fitted.rod(), 0.0)?;
     let root = fitted.rod().root();
-    let normal = head.signed_distance().value_gradient(root.position()).1.normalize_or_zero();
+    let normal = skin[0].1.normalize_or_zero();
     let along = root.frame().z_axis;
     let along = along - normal * along.dot(normal);
     let hold = spec.implantation.hold * out_of_face(head.landmarks(), root.position(), along);
     if hold <= 0.0 {
         return Ok(free);
     }
-    let held = supported(spec, head, &fitted, hold)?;
+    // How far the hold reaches depends on the curl that is found.
+    let guess = supported(fitted.rod(), hold)?;
+    let held = supported(&guess.fit.rod, hold)?;
     // A shape that is stable first.
     let effort = |held: &Held| (held.fit.stiffness_needed, held.fit.target.energy.elastic);
     Ok(if effort(&held) < effort(&free) { held } else { free })
 }
 
-/// The same on the bed that it needs, held out of the face with `hold` times its weight per length.
+/// The same on the bed that it needs, held out of the face with `hold` times its weight per length as far as a rod with the curl
+/// of `like` is; `skin` has the distance from it (m) and its gradient at each node.
 fn supported(
     spec: &HairstyleSpec,
     head: &Head,
-    fitted: &FittedCurve,
-    hold: f64,
-) -> Result<Held, InvalidQuantity> {
-    let guess = supported_as(spec, head, fitted, fitted.rod(), hold)?;
-    if hold <= 0.0 {
-        return Ok(guess);
-    }
-    // How far the hold reaches depends on the curl that is found.
-    supported_as(spec, head, fitted, &guess.fit.rod, hold)
-}
-
-/// The same with the reach that the hold has for a rod with the curl of `like`.
-fn supported_as(
-    spec: &HairstyleSpec,
-    head: &Head,
-    fitted: &FittedCurve,
+    (fitted, skin): (&FittedCurve, &[(f64, DVec3)]),
     like: &Rod,
     hold: f64,
 ) -> Result<Held, InvalidQuantity> {
     let combed = combed_hold(head, like, hold);
-    let skin: Vec<(f64, DVec3)> =
-        fitted.nodes().iter().map(|p| head.signed_distance().value_gradient(*p)).collect();
     let bears = spec.contact.body != Body::None;
     let beneath = |(distance, out): &(f64, DVec3)| {
         (bears && *distance < DEEPEST_BED).then(|| out.normalize_or_zero())

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use frisure_hairstyle::HairstyleSpec;
+use frisure_hairstyle::head::Head;
 use frisure_hairstyle::styling::Operation;
 use frisure_look::{CameraSpec, LightSpec, LookSpec, ToneCurve};
 use frisure_rod::{Branch, Options, Rod, StrainProfile};
@@ -10,6 +11,7 @@ use frisure_rod::{Branch, Options, Rod, StrainProfile};
 use frisure_files::frame::FrameChoice;
 use frisure_files::head::HeadFile;
 
+use crate::keywords::MANNEQUIN;
 use crate::placement::Placement;
 use crate::source::Source;
 
@@ -66,6 +68,15 @@ pub enum HeadSource {
     Person(&'static str),
     /// A mesh.
     Mesh(HeadFile),
+}
+
+impl HeadSource {
+    /// The built-in head of a name; `None`, if no head has it.
+    #[must_use]
+    pub fn built_in(name: &str) -> Option<Self> {
+        let name = Head::names().find(|known| *known == name)?;
+        Some(if name == MANNEQUIN { Self::Mannequin } else { Self::Person(name) })
+    }
 }
 
 /// Hair of another program.

@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use frisure::files::frame::{FrameChoice, UpAxis};
-use frisure::files::head::{HeadFile, ScalpSource};
+use frisure::files::head::HeadFile;
 use frisure::hairstyle::Preset;
 use frisure::hairstyle::head::Head;
 use frisure::scene::HeadSource;
 
-use super::{UNITS, UP_AXES, Writing, hair_type, named};
+use super::{ReadAxes, Writing, hair_type};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -57,30 +56,19 @@ pub(crate) struct Transfer {
     #[arg(value_parser = hair_type())]
     pub(crate) hair_type: Option<&'static Preset>,
 
-    /// The unit of the groom that is read, instead of its own or its format's.
-    #[arg(long, value_parser = named(&UNITS), value_name = "UNIT")]
-    pub(crate) from_unit: Option<f64>,
-
-    /// The axis that points up in the groom that is read, instead of its own or its format's.
-    #[arg(long, value_parser = named(&UP_AXES), value_name = "AXIS")]
-    pub(crate) from_up: Option<UpAxis>,
+    /// What the groom that is read has.
+    #[command(flatten)]
+    pub(crate) read: ReadAxes,
 }
 
 /// A built-in head by its name, or a mesh.
 fn head(text: &str) -> Result<HeadSource, String> {
-    let mut names = Head::names();
-    let built_in = Head::names().enumerate().find(|(_, name)| *name == text);
-    match built_in {
-        Some((0, _)) => Ok(HeadSource::Mannequin),
-        Some((_, name)) => Ok(HeadSource::Person(name)),
-        None if Path::new(text).exists() => {
-            let (frame, scalp) = (FrameChoice::default(), ScalpSource::Guess);
-            Ok(HeadSource::Mesh(HeadFile { path: text.into(), frame, turn: None, scalp }))
-        }
-        None => {
-            let first = names.next().unwrap_or_default();
-            let names = names.fold(first.to_owned(), |all, name| all + ", " + name);
-            Err(format!("there is no such file, and no built-in head of this name: {names}"))
-        }
+    if let Some(head) = HeadSource::built_in(text) {
+        return Ok(head);
     }
+    if Path::new(text).exists() {
+        return Ok(HeadSource::Mesh(HeadFile::new(text.into())));
+    }
+    let names = Head::names().collect::<Vec<_>>().join(", ");
+    Err(format!("there is no such file, and no built-in head of this name: {names}"))
 }

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use frisure::files::frame::FrameChoice;
 use frisure::scene::{GroomFile, Scene};
 use frisure_engine::Error;
 
@@ -12,10 +11,10 @@ use crate::diagnostics::ExitStatus;
 
 /// Predicts the scene of the groom on the other head.
 pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error> {
-    let Transfer { groom, from, to, outputs, writing, image, report, hair_type, .. } = arguments;
+    let Transfer { groom, from, to, outputs, writing, image, report, hair_type, read } = arguments;
     let text = hair_type.map_or(String::new(), |of| format!("hair.type = \"{}\"\n", of.name));
     let mut scene = Scene::parse("", text, Path::new(""))?;
-    let frame = FrameChoice { metres: arguments.from_unit, up: arguments.from_up };
+    let frame = read.axes().choice();
     let file = GroomFile { frame, head: Some(from), ..GroomFile::new(groom.clone()) };
     (scene.head, scene.groom) = (to, Some(file));
     let arguments = Predict {

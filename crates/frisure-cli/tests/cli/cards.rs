@@ -7,10 +7,7 @@ const SCENE: &str = "[hair]\ntype = \"straight\"\nlength = \"8 cm\"\n[wisps]\nco
 const SMALL: [&str; 6] = ["--cards", "20", "--lods", "2", "--texture-size", "256"];
 
 fn room() -> Room {
-    let room = Room::new().with("a.toml", SCENE);
-    let ran = room.run(&["predict", "a.toml", "-o", "a.usdc"]);
-    assert_eq!(ran.code, Some(0), "{}", ran.err);
-    room
+    Room::with_groom(SCENE)
 }
 
 #[test]

@@ -32,6 +32,14 @@ impl Room {
         self
     }
 
+    /// A scene, `a.toml`, and its groom, `a.usdc`.
+    pub(crate) fn with_groom(scene: &str) -> Self {
+        let room = Self::new().with("a.toml", scene);
+        let ran = room.run(&["predict", "a.toml", "-o", "a.usdc"]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        room
+    }
+
     /// The program, ready to run here.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_frisure"));

@@ -6,10 +6,7 @@ const SCENE: &str =
     "[hair]\ntype = \"wavy\"\nlength = \"8 cm\"\n[wisps]\ncount = 12\nhairs = 60\npoints = 12\n";
 
 fn room() -> Room {
-    let room = Room::new().with("a.toml", SCENE);
-    let ran = room.run(&["predict", "a.toml", "-o", "a.usdc"]);
-    assert_eq!(ran.code, Some(0), "{}", ran.err);
-    room
+    Room::with_groom(SCENE)
 }
 
 #[test]

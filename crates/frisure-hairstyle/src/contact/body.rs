@@ -51,11 +51,12 @@ pub struct CombedHold {
 }
 
 impl CombedHold {
-    /// The force per length (N/m) at arc length `s` (m).
+    /// The force per length (N/m) at arc length `s` (m), zero where it does not act.
     pub(crate) fn force(&self, s: f64) -> DVec3 {
         self.at(s).unwrap_or(DVec3::ZERO)
     }
 
+    /// The same where it acts.
     fn at(&self, s: f64) -> Option<DVec3> {
         let acts = self.force != DVec3::ZERO && s < self.reach;
         acts.then(|| self.force * (1.0 - smooth_step(self.reach * 2.0 / 3.0, self.reach, s)))

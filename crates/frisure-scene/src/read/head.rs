@@ -10,7 +10,7 @@ use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::Result;
 use crate::key_groups::{GROOM, HEAD};
-use crate::keywords::{Keyword, MANNEQUIN, ModelWord, UnitWord};
+use crate::keywords::{Keyword, ModelWord, UnitWord};
 use crate::kind::{Point, Text, Vector};
 use crate::placement::Placement;
 use crate::scene::{GroomFile, HeadSource};
@@ -19,10 +19,7 @@ use crate::scene::{GroomFile, HeadSource};
 pub(super) fn head(document: &Document<'_>, folder: &Path) -> Result<HeadSource> {
     let Some(mesh) = document.get::<Text>(HEAD[0])? else {
         return match document.first(&HEAD[1..]) {
-            None => {
-                let model = document.get::<OneOf<ModelWord>>("head.model")?;
-                Ok(model.map_or(HeadSource::Mannequin, built_in))
-            }
+            None => Ok(model(document, "head.model")?.unwrap_or(HeadSource::Mannequin)),
             Some(key) => {
                 let problem = format!("`{key}` is about a mesh, and the scene has none");
                 Err(document.error(key, problem, "add `mesh = \"head.obj\"` to `[head]`"))
@@ -82,16 +79,15 @@ pub(super) fn groom(document: &Document<'_>, folder: &Path) -> Result<Option<Gro
 /// The head that a groom was made on, where the scene gives one.
 fn groom_head(document: &Document<'_>, folder: &Path) -> Result<Option<HeadSource>> {
     if let Some(mesh) = document.get::<Text>("groom.head_mesh")? {
-        let (frame, scalp) = (FrameChoice::default(), ScalpSource::Guess);
-        let file = HeadFile { path: folder.join(mesh), frame, turn: None, scalp };
-        return Ok(Some(HeadSource::Mesh(file)));
+        return Ok(Some(HeadSource::Mesh(HeadFile::new(folder.join(mesh)))));
     }
-    Ok(document.get::<OneOf<ModelWord>>("groom.head_model")?.map(built_in))
+    model(document, "groom.head_model")
 }
 
-/// A built-in head.
-fn built_in(ModelWord(name): ModelWord) -> HeadSource {
-    if name == MANNEQUIN { HeadSource::Mannequin } else { HeadSource::Person(name) }
+/// The built-in head that a key names.
+fn model(document: &Document<'_>, key: &str) -> Result<Option<HeadSource>> {
+    let word = document.get::<OneOf<ModelWord>>(key)?;
+    Ok(word.and_then(|ModelWord(name)| HeadSource::built_in(name)))
 }
 
 /// Largest displacement of a groom along an axis (m). Chosen: what is farther away has lost the precision of a hair.
