@@ -1,13 +1,13 @@
 //! Distances away from the mesh, on every second node of the grid and cubic between.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::triangles::{Soup, closest_point};
 use super::voxel_grid::{Grid, NONE, Node};
 
-/// Directions of the sweeps (bit a: axis a runs downwards). Four of the eight reach everything, and
-/// the descent on the mesh mends what they leave. Chosen.
-const SWEEPS: [usize; 4] = [0b000, 0b111, 0b101, 0b010];
+/// Directions of the sweeps (bit a: axis a runs downwards): all there are. The descent on the mesh mends what they leave.
+const SWEEPS: [usize; 8] = [0b000, 0b111, 0b101, 0b010, 0b001, 0b110, 0b100, 0b011];
 
 /// Every second node along each axis, with the face nearest to it.
 pub(crate) struct Coarse {
@@ -18,8 +18,8 @@ pub(crate) struct Coarse {
 }
 
 impl Coarse {
-    /// Sweeps the nearest faces from the band over the grid. Carrying faces and measuring the
-    /// distance to each afresh is far more exact than carrying distances, and cheap on few nodes.
+    /// Sweeps the nearest points of faces from the band over the grid (Danielsson 1980,
+    /// doi:10.1016/0146-664X(80)90054-4), and descends on the mesh from each node's face to the nearest.
     pub(crate) fn around(grid: &Grid, nodes: &[Node], soup: &Soup, outside: &[bool]) -> Self {
         let size = grid.size.map(|n| n / 2 + 1);
         let fine = |at3: [usize; 3]| {
@@ -28,21 +28,23 @@ impl Coarse {
         };
         let mut coarse =
             Self { size, faces: vec![NONE; size[0] * size[1] * size[2]], values: Vec::new() };
-        let mut distances = vec![f64::INFINITY; coarse.faces.len()];
+        // The nearest point known for each node (m).
+        let mut feet = vec![DVec3::INFINITY; coarse.faces.len()];
+        let place = |at3| grid.position(grid.unravel(fine(at3)));
         for k in 0..size[2] {
             for j in 0..size[1] {
                 for i in 0..size[0] {
                     let (at, node) = (coarse.at([i, j, k]), nodes[fine([i, j, k])]);
-                    (coarse.faces[at], distances[at]) = (node.face, node.distance.into());
+                    coarse.faces[at] = node.face;
+                    if node.face != NONE {
+                        feet[at] =
+                            closest_point(place([i, j, k]), soup.corners(node.face as usize));
+                    }
                 }
             }
         }
-        let place = |at3| grid.position(grid.unravel(fine(at3)));
         for sweep in SWEEPS {
-            coarse.sweep(&mut distances, nodes, sweep, fine, |at3, face| {
-                let p = place(at3);
-                p.distance(closest_point(p, soup.corners(face as usize)))
-            });
+            coarse.sweep(&mut feet, nodes, sweep, fine, place);
         }
         let neighbours = soup.faces_of_vertices();
         let measure = |(at, &face): (usize, &u32)| {
@@ -64,15 +66,15 @@ impl Coarse {
         (k * self.size[1] + j) * self.size[0] + i
     }
 
-    /// Offers each node the faces of the three neighbours just passed; bit a of `sweep` is set
+    /// Offers each node the nearest points of the three neighbours just passed; bit a of `sweep` is set
     /// where axis a runs downwards.
     fn sweep(
         &mut self,
-        distances: &mut [f64],
+        feet: &mut [DVec3],
         nodes: &[Node],
         sweep: usize,
         fine: impl Fn([usize; 3]) -> usize,
-        measure: impl Fn([usize; 3], u32) -> f64,
+        place: impl Fn([usize; 3]) -> DVec3,
     ) {
         let order = |axis: usize| (0..self.size[axis], sweep >> axis & 1 == 1);
         let (zs, ys, xs) = (order(2), order(1), order(0));
@@ -81,21 +83,16 @@ impl Coarse {
                 for i in directed(xs.clone()) {
                     let at3 = [i, j, k];
                     if nodes[fine(at3)].face == NONE {
-                        self.relax(distances, at3, sweep, &measure);
+                        self.relax(feet, at3, sweep, place(at3));
                     }
                 }
             }
         }
     }
 
-    fn relax(
-        &mut self,
-        distances: &mut [f64],
-        at3: [usize; 3],
-        sweep: usize,
-        measure: impl Fn([usize; 3], u32) -> f64,
-    ) {
+    fn relax(&mut self, feet: &mut [DVec3], at3: [usize; 3], sweep: usize, p: DVec3) {
         let at = self.at(at3);
+        let mut least = p.distance_squared(feet[at]);
         for axis in 0..3 {
             let down = sweep >> axis & 1 == 1;
             if at3[axis] == if down { self.size[axis] - 1 } else { 0 } {
@@ -103,47 +100,52 @@ impl Coarse {
             }
             let mut from = at3;
             from[axis] = if down { at3[axis] + 1 } else { at3[axis] - 1 };
-            // The neighbour's nearest face is a candidate for this node, too.
-            let face = self.faces[self.at(from)];
-            if face != NONE && face != self.faces[at] {
-                let distance = measure(at3, face);
-                if distance < distances[at] {
-                    (distances[at], self.faces[at]) = (distance, face);
-                }
+            // The neighbour's nearest point is a candidate for this node, too.
+            let from = self.at(from);
+            let distance = p.distance_squared(feet[from]);
+            if distance < least {
+                (least, self.faces[at], feet[at]) = (distance, self.faces[from], feet[from]);
             }
         }
     }
 
-    /// Signed distance (m) at node `at3` of the fine grid, cubic in the coarse values.
-    pub(crate) fn interpolate(&self, at3: [usize; 3]) -> f32 {
-        if at3.iter().all(|n| n.is_multiple_of(2)) {
-            return self.values[self.at(at3.map(|n| n / 2))];
-        }
-        let strides = [1, self.size[0], self.size[0] * self.size[1]];
-        let [x, y, z] = [0, 1, 2].map(|axis| {
-            let taps = if at3[axis].is_multiple_of(2) { &ON_NODE[..] } else { &BETWEEN[..] };
-            let mut placed = [(0, 0.0); 4];
-            for (tap, (offset, weight)) in placed.iter_mut().zip(taps) {
-                let n = (at3[axis] / 2).saturating_add_signed(*offset).min(self.size[axis] - 1);
-                *tap = (n * strides[axis], *weight);
-            }
-            (placed, taps.len())
-        });
-        let mut sum = 0.0;
-        for &(k, wz) in &z.0[..z.1] {
-            for &(j, wy) in &y.0[..y.1] {
-                for &(i, wx) in &x.0[..x.1] {
-                    sum += wx * wy * wz * self.values[i + j + k];
-                }
-            }
-        }
-        sum
+    /// Signed distances (m) at all nodes of the fine grid of `size`, cubic in the coarse values.
+    pub(crate) fn interpolated(&self, size: [usize; 3]) -> Vec<f32> {
+        let [nx, ny, _] = size;
+        let [cx, cy, _] = self.size;
+        // One axis after another: each value has four taps at most instead of 64.
+        let mut along_x = vec![0.0; nx * cy * self.size[2]];
+        let rows = along_x.par_chunks_mut(nx).zip(self.values.par_chunks(cx));
+        rows.for_each(|(fine, coarse)| refine(fine, coarse, 1));
+        let mut along_y = vec![0.0; nx * ny * self.size[2]];
+        let layers = along_y.par_chunks_mut(nx * ny).zip(along_x.par_chunks(nx * cy));
+        layers.for_each(|(fine, coarse)| refine(fine, coarse, nx));
+        let mut values = vec![0.0; size.iter().product()];
+        refine(&mut values, &along_y, nx * ny);
+        values
     }
 }
 
-/// Offsets and weights of cubic interpolation at a coarse node, and half-way between two: Lagrange's (−1, 9, 9, −1)/16.
-const ON_NODE: [(isize, f32); 1] = [(0, 1.0)];
-const BETWEEN: [(isize, f32); 4] = [(-1, -0.0625), (0, 0.5625), (1, 0.5625), (2, -0.0625)];
+/// Rows of `width` values at twice the density: the coarse ones, and Lagrange's cubic (−1, 9, 9, −1)/16 half-way between two.
+fn refine(fine: &mut [f32], coarse: &[f32], width: usize) {
+    let last = coarse.len() / width - 1;
+    let row = |n: usize| &coarse[n * width..(n + 1) * width];
+    fine.par_chunks_mut(width).with_min_len(SERIAL / width + 1).enumerate().for_each(|(n, out)| {
+        let at = n / 2;
+        if n.is_multiple_of(2) {
+            out.copy_from_slice(row(at.min(last)));
+            return;
+        }
+        // Beyond the ends the last value goes on.
+        let [a, b, c, d] = [at.saturating_sub(1), at, at + 1, at + 2].map(|n| row(n.min(last)));
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = 0.5625 * (b[i] + c[i]) - 0.0625 * (a[i] + d[i]);
+        }
+    });
+}
+
+/// Values that one task refines. Chosen; no result depends on it.
+const SERIAL: usize = 1 << 14;
 
 /// A range, upwards or downwards.
 fn directed((range, down): (std::ops::Range<usize>, bool)) -> impl Iterator<Item = usize> {

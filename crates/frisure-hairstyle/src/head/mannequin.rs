@@ -120,9 +120,12 @@ const TORSO_STEP: f64 = 17.5e-3;
 
 fn head(p: DVec3) -> f64 {
     // Each part is asked for only where it can matter: farther away no fillet reaches it.
-    let mut f = neck(p);
-    if p.z > -16.0 {
-        f = join(join(cranium(p), face(p), 2.4), f, 2.6);
+    let mut f = if p.z > -16.0 { cranium(p) } else { neck(p) };
+    if p.z > -16.0 && p.z < 9.5 && p.y > -7.5 {
+        f = join(f, face(p), 2.4);
+    }
+    if p.z > -16.0 && p.z < 6.0 {
+        f = join(f, neck(p), 2.6);
     }
     if p.z < -11.0 {
         f = join(f, torso(p), 3.0);

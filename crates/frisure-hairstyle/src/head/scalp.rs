@@ -43,7 +43,9 @@ const FEATHER: f64 = 3.5e-3;
 /// Weight 0..1 at each vertex: 1 where hair grows, falling to 0 across the hairline.
 pub(crate) fn weights(surface: &Surface, landmarks: &Landmarks) -> Vec<f64> {
     let edge = Edge::new(landmarks, &Hairline::EVEN, 0);
-    let weight = |&p: &DVec3| smooth(edge.inside(p) / FEATHER) * (1.0 - edge.on_ear(p));
+    // Beyond the feather weights are constant: a little more, for rounding.
+    let inside = |p| edge.inside_within(p, 1.01 * FEATHER) / FEATHER;
+    let weight = |&p: &DVec3| smooth(inside(p)) * (1.0 - edge.on_ear(p));
     surface.positions().par_iter().map(weight).collect()
 }
 
@@ -66,6 +68,8 @@ pub(crate) struct Edge {
     hairline: Hairline,
     /// Wave vectors (rad/m) and phases.
     waves: Vec<(DVec3, f64)>,
+    /// Farther than this from the plain line (m) hair is full or there is none.
+    pub(crate) reach: f64,
 }
 
 impl Edge {
@@ -80,24 +84,34 @@ impl Edge {
         let waves = (0..count).map(|_| wave()).collect();
         let line = curve(&anchors(landmarks));
         let boxes = (0..line.len()).step_by(STEPS).map(|i| bounds(&line[i..], STEPS + 1)).collect();
-        Self { landmarks: landmarks.clone(), line, boxes, hairline: *hairline, waves }
+        let Hairline { irregularity, height, recession, widows_peak } = *hairline;
+        // n sines sum up to n at most: see `noise`.
+        let noise = irregularity.abs() * (2.0 * count as f64).sqrt();
+        let reach = THINNING.1 + height.abs() + recession.abs() + widows_peak.abs() + noise;
+        Self { landmarks: landmarks.clone(), line, boxes, hairline: *hairline, waves, reach }
     }
 
     /// Density of hair at a point (m) of the skin, 0 to 1.
     pub(crate) fn density(&self, p: DVec3) -> f64 {
         let (bald, full) = THINNING;
-        let x = (self.inside(p) - bald) / (full - bald);
+        let x = (self.inside_within(p, self.reach) - bald) / (full - bald);
         smooth(2.0 * x - 1.0) * (1.0 - self.on_ear(p))
     }
 
     /// Distance (m) to the line, positive where hair grows.
     pub(crate) fn inside(&self, p: DVec3) -> f64 {
+        self.inside_within(p, f64::INFINITY)
+    }
+
+    /// The same; ±`most` where the plain line is farther than `most` (m).
+    pub(crate) fn inside_within(&self, p: DVec3, most: f64) -> f64 {
         let l = &self.landmarks;
         // Just short of π, where the line ends.
         let at = [l.azimuth(p).abs().min(PI - 1e-9), l.elevation(p)];
         let reach = p.distance(l.cranium_centre);
-        let gap = self.distance(at) * reach;
-        (if self.covers(at) { gap } else { -gap }) - self.recession(at[0], p)
+        let gap = self.distance(at, most / reach) * reach;
+        let signed = if self.covers(at) { gap } else { -gap };
+        if gap < most { signed - self.recession(at[0], p) } else { signed }
     }
 
     /// How far (m) the hair has receded from the plain line.
@@ -121,25 +135,33 @@ impl Edge {
         sum * (2.0 / self.waves.len() as f64).sqrt()
     }
 
-    /// Angle to the line (rad).
-    fn distance(&self, at: [f64; 2]) -> f64 {
+    /// Angle to the line, or `most`, if that is less (rad).
+    fn distance(&self, at: [f64; 2], most: f64) -> f64 {
         let shrink = at[1].cos();
-        let mut least = f64::INFINITY;
+        let mut least = most * most;
         for (i, [low, high]) in self.boxes.iter().enumerate() {
             // No nearer than the box around the piece.
             let gap = |x: usize| (low[x] - at[x]).max(at[x] - high[x]).max(0.0);
             if (gap(0) * shrink).powi(2) + gap(1).powi(2) < least {
-                let end = (STEPS * (i + 1)).min(self.line.len() - 1);
-                let segments = self.line[STEPS * i..=end].windows(2);
-                least = segments.map(|w| square_gap(at, shrink, w)).fold(least, f64::min);
+                let gaps = self.segments(i).map(|w| square_gap(at, shrink, w));
+                least = gaps.fold(least, f64::min);
             }
         }
         least.sqrt()
     }
 
+    /// The segments of a piece.
+    fn segments(&self, piece: usize) -> impl Iterator<Item = &[[f64; 2]]> {
+        let end = (STEPS * (piece + 1)).min(self.line.len() - 1);
+        self.line[STEPS * piece..=end].windows(2)
+    }
+
     /// Whether a direction lies above the line: the line is below it an odd number of times.
     fn covers(&self, [azimuth, elevation]: [f64; 2]) -> bool {
-        let below = self.line.windows(2).filter(|w| {
+        // Only pieces whose azimuths contain this one can pass it.
+        let pieces = self.boxes.iter().enumerate();
+        let near = pieces.filter(|(_, [low, high])| (low[0]..=high[0]).contains(&azimuth));
+        let below = near.flat_map(|(i, _)| self.segments(i)).filter(|w| {
             let ([a0, e0], [a1, e1]) = (w[0], w[1]);
             (a0 <= azimuth) != (a1 <= azimuth)
                 && e0 + (azimuth - a0) / (a1 - a0) * (e1 - e0) < elevation

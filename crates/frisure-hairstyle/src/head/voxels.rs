@@ -160,30 +160,40 @@ impl Grid {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let (middle, radius) = bounding_ball(corners);
+        let farthest = reach + radius + SLACK;
+        let edge = self.spacing + SLACK;
         let low = self.first(a.min(b).min(c) - DVec3::splat(reach));
         let high = self.last(a.max(b).max(c) + DVec3::splat(reach));
         let top = (base + nodes.len() / self.layer() - 1).min(high[2]);
         for k in low[2].max(base)..=top {
             for j in low[1]..=high[1] {
                 let row = ((k - base) * self.size[1] + j) * self.size[0];
-                for i in low[0]..=high[0] {
-                    let p = self.position([i, j, k]);
+                // The nodes of the row in a ball outside of which the face matters to none.
+                let start = self.position([0, j, k]);
+                let across = (start - middle).with_x(0.0).length_squared();
+                let room = farthest * farthest - across;
+                if room < 0.0 {
+                    continue;
+                }
+                let ends = [-room.sqrt(), room.sqrt()];
+                let [from, to] = ends.map(|x| (middle.x + x - start.x) / self.spacing);
+                let (from, to) = (from.ceil().max(0.0) as usize, to.max(0.0) as usize);
+                for i in from.max(low[0])..=to.min(high[0]) {
+                    let p = start.with_x(start.x + self.spacing * i as f64);
                     let node = &mut nodes[row + i];
                     // The face matters to a node if it is nearer than the nearest yet, or may cross an edge. Its plane and a
-                    // ball around it rule most nodes out: no point of the face is nearer than either. SLACK is above rounding.
-                    let near = reach.min(node.distance.into()).max(1.001 * self.spacing) + SLACK;
-                    let outer = near + radius;
-                    if (p - a).dot(normal).abs() > near
-                        || p.distance_squared(middle) > outer * outer
-                    {
-                        continue;
+                    // ball around it rule most nodes out: no point of the face is nearer than either.
+                    let near = f64::from(node.distance).min(reach) + SLACK;
+                    let (height, away) = ((p - a).dot(normal).abs(), p.distance_squared(middle));
+                    let matters =
+                        |least: f64| height <= least && away <= (least + radius) * (least + radius);
+                    if matters(near) {
+                        let distance = p.distance(closest_point(p, corners)) as f32;
+                        if distance < node.distance && f64::from(distance) <= reach {
+                            (node.distance, node.face) = (distance, face);
+                        }
                     }
-                    let q = closest_point(p, corners);
-                    let distance = p.distance(q) as f32;
-                    if distance < node.distance && f64::from(distance) <= reach {
-                        (node.distance, node.face) = (distance, face);
-                    }
-                    if f64::from(distance) <= 1.001 * self.spacing {
+                    if matters(edge) {
                         node.crossed |= crossed_edges(p, self.spacing, corners, normal);
                     }
                 }
@@ -245,14 +255,18 @@ impl Grid {
     fn spread(&self, nodes: &[Node], soup: &Soup, outside: &[bool]) -> Vec<f32> {
         let coarse = Coarse::around(self, nodes, soup, outside);
         let reach = (BAND * self.spacing) as f32;
-        let measure = |(at, node): (usize, &Node)| match (node.face == NONE, outside[at]) {
-            (false, true) => node.distance,
-            (false, false) => -node.distance,
-            // A node that no face came near is at least that far.
-            (true, true) => coarse.interpolate(self.unravel(at)).max(reach),
-            (true, false) => coarse.interpolate(self.unravel(at)).min(-reach),
-        };
-        nodes.par_iter().enumerate().map(measure).collect()
+        let mut values = coarse.interpolated(self.size);
+        let known = values.par_iter_mut().zip(nodes).zip(outside);
+        known.for_each(|((value, node), &outside)| {
+            *value = match (node.face == NONE, outside) {
+                (false, true) => node.distance,
+                (false, false) => -node.distance,
+                // A node that no face came near is at least that far.
+                (true, true) => value.max(reach),
+                (true, false) => value.min(-reach),
+            };
+        });
+        values
     }
 }
 

@@ -153,7 +153,11 @@ fn densities(head: &Head, edge: Option<&Edge>) -> Vec<f64> {
         let mean = |i: usize| surface.triangles()[i].iter().map(|&v| scalp[v as usize] / 3.0).sum();
         return faces.map(mean).collect();
     };
-    let inside: Vec<f64> = surface.positions().par_iter().map(|&p| edge.inside(p)).collect();
+    let inside: Vec<f64> = surface
+        .positions()
+        .par_iter()
+        .map(|&p| edge.inside_within(p, SURELY + edge.reach))
+        .collect();
     let mean = |i: usize| -> f64 {
         let triangle = surface.triangles()[i].map(|v| v as usize);
         if triangle.iter().all(|&v| inside[v] < -SURELY) {
