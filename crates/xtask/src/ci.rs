@@ -5,6 +5,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -19,13 +20,11 @@ const LEAST_PICTURE: u64 = 100_000;
 
 /// Runs the gate; the quick one leaves out what takes minutes.
 pub(crate) fn run(quick: bool) -> Result<()> {
-    let mut gate = Gate { times: Vec::new() };
+    let gate = Gate::default();
     gate.step("format", || cargo("fmt --all --check"))?;
     gate.step("spelling", spelling)?;
-    gate.step("lints", || {
-        cargo("clippy --workspace --all-targets --all-features --locked -- -D warnings")
-    })?;
     if quick {
+        lints(&gate)?;
         gate.step("unit tests", || {
             cargo("test --workspace --all-features --locked --lib --bins --test tidy --test architecture")
         })?;
@@ -34,53 +33,83 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
-        gate.step("dependencies", dependencies)?;
-        gate.step("documentation", || {
-            shell("RUSTDOCFLAGS='-D warnings' cargo doc --workspace --all-features --no-deps --locked")
+        // Tests and compilers leave a part of two cores idle: what needs the release build goes on beside them.
+        thread::scope(|scope| {
+            let other = scope.spawn(|| release_build(&gate));
+            let first = development_build(&gate);
+            let other =
+                other.join().map_err(|_| anyhow!("the steps of the release build panic"))?;
+            first.and(other)
         })?;
-        gate.step("packages", || {
-            cargo("package --workspace --no-verify --allow-dirty --locked --quiet")
-        })?;
-        gate.step("page", || page::build(false))?;
-        gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
-        gate.step("mutated files", || {
-            // About two minutes; the tests have made a shorter run of it.
-            shell("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
-        })?;
-        gate.step("examples", examples)?;
-        gate.step("the README's main command", main_command)?;
-        gate.step("programs that open grooms", || {
-            // The tests have built this one, with every feature.
-            shell("FRISURE=target/debug/frisure validation/clients/run")
-        })?;
-        gate.step("the Python package", || shell("crates/frisure-python/tests/run"))?;
-        // With the wheel of the step before.
-        gate.step("the extension for Blender", || shell("blender/tests/run"))?;
-        gate.step("every scene", every_scene)?;
     }
     gate.report();
     Ok(())
 }
 
+fn lints(gate: &Gate) -> Result<()> {
+    gate.step("lints", || {
+        cargo("clippy --workspace --all-targets --all-features --locked -- -D warnings")
+    })
+}
+
+/// The steps that need only what the tests are built with.
+fn development_build(gate: &Gate) -> Result<()> {
+    lints(gate)?;
+    gate.step("dependencies", dependencies)?;
+    gate.step("documentation", || {
+        shell("RUSTDOCFLAGS='-D warnings' cargo doc --workspace --all-features --no-deps --locked")
+    })?;
+    gate.step("packages", || {
+        cargo("package --workspace --no-verify --allow-dirty --locked --quiet")
+    })?;
+    gate.step("page", || page::build(false))?;
+    gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
+    gate.step("mutated files", || {
+        // About two minutes; the tests have made a shorter run of it.
+        shell("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
+    })?;
+    gate.step("examples", examples)?;
+    gate.step("programs that open grooms", || {
+        // The tests have built this one, with every feature.
+        shell("FRISURE=target/debug/frisure validation/clients/run")
+    })?;
+    gate.step("the Python package", || shell("crates/frisure-python/tests/run"))?;
+    // With the wheel of the step before.
+    gate.step("the extension for Blender", || shell("blender/tests/run"))
+}
+
+/// The steps that need the release build. What they print comes when each is done.
+fn release_build(gate: &Gate) -> Result<()> {
+    gate.step("the README's main command", main_command)?;
+    gate.step("every scene", every_scene)
+}
+
 /// The steps so far, with their times.
+#[derive(Default)]
 struct Gate {
-    times: Vec<(&'static str, Duration)>,
+    times: Mutex<Vec<(&'static str, Duration)>>,
+    /// Whether a step has failed: no other begins then.
+    failed: AtomicBool,
 }
 
 impl Gate {
-    fn step(&mut self, name: &'static str, run: impl FnOnce() -> Result<()>) -> Result<()> {
+    fn step(&self, name: &'static str, run: impl FnOnce() -> Result<()>) -> Result<()> {
+        ensure!(!self.failed.load(Ordering::Relaxed), "\"{name}\" is not begun: a step has failed");
         say(&format!("\n== {name}"));
         let start = Instant::now();
-        run().with_context(|| format!("step \"{name}\" fails"))?;
+        run().with_context(|| format!("step \"{name}\" fails")).inspect_err(|error| {
+            self.failed.store(true, Ordering::Relaxed);
+            say(&format!("{error:#}"));
+        })?;
         let time = start.elapsed();
         say(&format!("{:.1} s for the step \"{name}\"", time.as_secs_f64()));
-        self.times.push((name, time));
+        self.times.lock().unwrap_or_else(PoisonError::into_inner).push((name, time));
         Ok(())
     }
 
     fn report(&self) {
         say("\nall gates passed");
-        for (name, time) in &self.times {
+        for (name, time) in self.times.lock().unwrap_or_else(PoisonError::into_inner).iter() {
             say(&format!("{:7.1} s  {name}", time.as_secs_f64()));
         }
     }
@@ -94,6 +123,19 @@ fn cargo(arguments: &str) -> Result<()> {
 fn shell(line: &str) -> Result<()> {
     say(line);
     let status = Command::new("bash").args(["-c", line]).current_dir(root()).status()?;
+    ensure!(status.success(), "`{line}` ends with {status}");
+    Ok(())
+}
+
+/// The same; says afterwards what the line printed.
+fn shell_beside(line: &str) -> Result<()> {
+    let Output { status, stdout, stderr } = Command::new("bash")
+        .args(["-c", line])
+        .current_dir(root())
+        .stdin(Stdio::null())
+        .output()?;
+    let (errors, output) = (String::from_utf8_lossy(&stderr), String::from_utf8_lossy(&stdout));
+    say(&format!("{line}\n{errors}{output}"));
     ensure!(status.success(), "`{line}` ends with {status}");
     Ok(())
 }
@@ -162,7 +204,7 @@ fn main_command() -> Result<()> {
     for file in ["curly.hair", "curly.png"] {
         let _ = fs::remove_file(out.join(file));
     }
-    shell(&readme_command("cargo run ")?)?;
+    shell_beside(&readme_command("cargo run ")?)?;
     for (file, start, least) in [
         ("curly.hair", &b"HAIR"[..], LEAST_GROOM),
         ("curly.png", b"\x89PNG\r\n\x1a\n", LEAST_PICTURE),
@@ -182,27 +224,18 @@ fn every_scene() -> Result<()> {
     scenes.retain(|path| path.extension().is_some_and(|kind| kind == "toml"));
     scenes.sort();
     let frisure = root().join("target/release/frisure");
-    // Two at a time: parts of a prediction have one thread. Each says what it did when it is done.
-    let waiting = Mutex::new(scenes.into_iter());
-    let next = || waiting.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = || std::iter::from_fn(next).try_for_each(|scene| predict(&frisure, &scene));
-    thread::scope(|scope| {
-        let other = scope.spawn(work);
-        let first = work();
-        first.and(other.join().map_err(|_| anyhow!("a scene's thread ends with a panic"))?)
-    })
+    scenes.iter().try_for_each(|scene| predict(&frisure, scene))
 }
 
 /// Predicts a scene; every guide must converge, and no hair may be in the head.
 fn predict(frisure: &Path, scene: &Path) -> Result<()> {
     let name = scene.file_stem().unwrap_or_default().to_string_lossy();
-    let (picture, report) = (format!("out/{name}.png"), format!("out/{name}.json"));
+    let report = format!("out/{name}.json");
     let mut command = Command::new(frisure);
-    command.arg("predict").arg(scene).args(["--image", &picture, "--report", &report]);
+    command.arg("predict").arg(scene).args(["--report", &report]);
     let Output { status, stdout, stderr } = command.current_dir(root()).output()?;
     say(&format!("{}{}", String::from_utf8_lossy(&stderr), String::from_utf8_lossy(&stdout)));
     ensure!(status.success(), "{} ends with {status}", scene.display());
-    ensure!(fs::metadata(root().join(&picture))?.len() > 0, "{picture} is empty");
     let report = fs::read_to_string(root().join(report))?;
     ensure!(report.contains("\"not_converged\": 0"), "{name}: guides have not converged");
     for line in report.lines().filter(|line| line.contains("penetration\":")) {
