@@ -112,6 +112,7 @@ Examples:
   frisure new frizzy | frisure predict - --image frizzy.png
   frisure predict scenes/curly.toml --image curly.png --quality final
   frisure predict scenes/growth.toml --each-step --image out/growth.png
+  frisure predict scenes/growth.toml --each-step --time-samples -o out/growth.abc
 
 The command creates the folders of its outputs. Paths in a scene are relative to the scene, or to
 the current folder if the scene comes from standard input.
@@ -166,6 +167,23 @@ pub(crate) struct Predict {
     /// hair-01.png and so on, all from one place. Growth in stages counts each stage.
     #[arg(long)]
     pub(crate) each_step: bool,
+
+    /// With `--each-step`: write one groom with the hair before the first step and after each as time
+    /// samples, in place of numbered grooms (.abc, .usda, .usdc, .usdz).
+    #[arg(long, requires = "each_step", requires = "outputs")]
+    pub(crate) time_samples: bool,
+
+    /// Seconds from one time sample to the next, 0.001 to 3600.
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.0, requires = "time_samples")]
+    #[arg(value_parser = interval)]
+    pub(crate) interval: f64,
+}
+
+/// Reads the time between samples.
+fn interval(text: &str) -> Result<f64, String> {
+    let range = 0.001..=3600.0;
+    let seconds = text.parse().ok().filter(|seconds| range.contains(seconds));
+    seconds.ok_or_else(|| "it must be a number of seconds between 0.001 and 3600".into())
 }
 
 const STYLE_EXAMPLES: &str = "\

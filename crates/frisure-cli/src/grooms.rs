@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use frisure::files::frame::FrameChoice;
 use frisure::formats::groom::{
-    Fit, FitError, Fitted, Format, Groom, GroomError, Points, write_groom,
+    Fit, FitError, Fitted, Format, Groom, GroomError, Motion, MotionError, Points, write_groom,
+    write_motion,
 };
 use frisure::strands::Strands;
 use frisure_engine::Error;
@@ -40,43 +41,114 @@ fn choice(path: &Path, format: Format, writing: Writing) -> Result<FrameChoice, 
     Ok(FrameChoice { metres: given.metres.or(usual.metres), up: given.up.or(usual.up) })
 }
 
+/// The same for files that hold the hair at several times.
+pub(crate) fn check_motion(outputs: &[PathBuf]) -> Result<(), Error> {
+    let check = |path: &PathBuf| Format::of(path).and_then(Format::check_motion);
+    let hint = "leave `--time-samples` out, for a numbered file of each step";
+    outputs.iter().try_for_each(check).map_err(|e| Error::because(&e, hint))
+}
+
 /// Writes a groom to each path; returns a line about each.
 pub(crate) fn write(
     groom: Groom,
     paths: &[PathBuf],
     writing: Writing,
 ) -> Result<Vec<String>, Error> {
+    let mut lines = Vec::new();
+    fitted(groom, paths, writing, |path, groom, note| {
+        write_file(path, writing, |choice| write_groom(path, groom, choice))?;
+        lines.push(format!("{}{note}", path.display()));
+        Ok(())
+    })?;
+    Ok(lines)
+}
+
+/// Writes a file with its unit and axes.
+fn write_file(
+    path: &Path,
+    writing: Writing,
+    write: impl FnOnce(FrameChoice) -> Result<(), GroomError>,
+) -> Result<(), Error> {
+    let format = Format::of(path).map_err(|e| Error::because(&e, ""))?;
+    let choice = choice(path, format, writing)?;
+    interrupt::writing(|| write(choice)).map_err(|e| match e {
+        GroomError::CannotHold { .. } => Error::because(&e, ""),
+        GroomError::Frame { .. } => Error::because(&e, FRAME_HINT),
+        _ => Error::failed(&e, ""),
+    })
+}
+
+/// Calls `each` with each path, the groom for it, and what was done to that.
+fn fitted(
+    groom: Groom,
+    paths: &[PathBuf],
+    writing: Writing,
+    mut each: impl FnMut(&Path, &Groom, &str) -> Result<(), Error>,
+) -> Result<(), Error> {
     let groom = with_content(groom, writing.content);
     let groom =
         writing.program.map_or_else(|| groom.clone(), |program| program.known(groom.clone()));
     // Formats that ask for the same share the groom.
     let mut known: Option<(Fit, Fitted)> = None;
-    let mut lines = Vec::new();
     for path in paths {
         interrupt::check()?;
         let format = Format::of(path).map_err(|e| Error::because(&e, ""))?;
-        let mut line = path.display().to_string();
-        let mut written = &groom;
         let fit = writing.fit().or_usual(format, writing.program, &groom);
-        if !fit.is_nothing() {
-            let fitted = match known.take().filter(|(of, _)| *of == fit) {
-                Some((_, fitted)) => fitted,
-                None => groom.fitted(fit).map_err(|e| Error::because(&e, hint_of_fit(&e)))?,
-            };
-            let (_, fitted) = known.insert((fit, fitted));
-            line += &told(fit, fitted);
-            written = &fitted.groom;
+        if fit.is_nothing() {
+            each(path, &groom, "")?;
+            continue;
         }
-        let choice = choice(path, format, writing)?;
-        let write = || write_groom(path, written, choice);
-        interrupt::writing(write).map_err(|e| match e {
-            GroomError::CannotHold { .. } => Error::because(&e, ""),
-            GroomError::Frame { .. } => Error::because(&e, FRAME_HINT),
-            _ => Error::failed(&e, ""),
-        })?;
-        lines.push(line);
+        let fitted = match known.take().filter(|(of, _)| *of == fit) {
+            Some((_, fitted)) => fitted,
+            None => groom.fitted(fit).map_err(|e| Error::because(&e, hint_of_fit(&e)))?,
+        };
+        let (_, fitted) = known.insert((fit, fitted));
+        each(path, &fitted.groom, &told(fit, fitted))?;
     }
-    Ok(lines)
+    Ok(())
+}
+
+/// Files that hold the hair at several times: it is added time by time, and written at the end.
+pub(crate) struct MotionFiles<'a> {
+    paths: &'a [PathBuf],
+    writing: Writing,
+    /// From one time to the next (s).
+    interval: f64,
+    /// Of each path, with what was done to the first groom; none before that.
+    motions: Vec<(Motion, String)>,
+}
+
+impl<'a> MotionFiles<'a> {
+    pub(crate) fn new(paths: &'a [PathBuf], writing: Writing, interval: f64) -> Self {
+        Self { paths, writing, interval, motions: Vec::new() }
+    }
+
+    /// Adds the hair at the next time.
+    pub(crate) fn push(&mut self, groom: Groom) -> Result<(), Error> {
+        let (motions, interval) = (&mut self.motions, self.interval);
+        let is_first = motions.is_empty();
+        let mut file = 0;
+        fitted(groom, self.paths, self.writing, |_, groom, note| {
+            if is_first {
+                motions.push((Motion::new(groom.clone(), interval), note.to_owned()));
+                return Ok(());
+            }
+            let added = motions[file].0.push(groom);
+            file += 1;
+            added.map_err(|e| Error::because(&e, hint_of_motion(&e)))
+        })
+    }
+
+    /// Writes the files; returns a line about each.
+    pub(crate) fn write(self) -> Result<Vec<String>, Error> {
+        let mut lines = Vec::new();
+        for (path, (motion, note)) in self.paths.iter().zip(self.motions) {
+            interrupt::check()?;
+            write_file(path, self.writing, |choice| write_motion(path, &motion, choice))?;
+            lines.push(format!("{} ({} time samples){note}", path.display(), motion.times().len()));
+        }
+        Ok(lines)
+    }
 }
 
 /// What was done to a groom, in brackets; nothing if it is as it was.
@@ -106,6 +178,14 @@ fn hint_of_fit(error: &FitError) -> &'static str {
         FitError::Hairs { .. } => "ask for at most as many, or leave `--hairs` out",
         FitError::NoHairs => "leave `--hairs` out",
         FitError::Thick { .. } => "ask for more hairs, or add `--keep-widths`",
+    }
+}
+
+/// How to ask for hair that can be written at several times.
+fn hint_of_motion(error: &MotionError) -> &'static str {
+    match error {
+        MotionError::Points { .. } => "add `--points N`, so that every strand has N points",
+        _ => "leave `--time-samples` out, for a numbered file of each step",
     }
 }
 

@@ -1,7 +1,7 @@
 //! Archives of Alembic in the Ogawa container: objects and properties, read and written.
 //!
 //! Knows no hair: what objects mean (curves, transforms) is for the caller. Only the first sample in time is
-//! read, and one sample is written. The C++ library is the reference; no crate writes Alembic.
+//! read; properties are written with one sample or with several, evenly apart. The C++ library is the reference; no crate writes Alembic.
 //!
 //! Whatever is read, no memory is taken for a size that the file does not back up.
 //!
@@ -20,7 +20,7 @@
 //!     children: Vec::new(),
 //! };
 //! let mut file = Vec::new();
-//! write_archive(&mut file, "", vec![object])?;
+//! write_archive(&mut file, "", None, vec![object])?;
 //!
 //! let archive = Archive::open(&file)?;
 //! let object = &archive.children(&archive.top())?[0];

@@ -112,10 +112,19 @@ pub struct Property<'a> {
 pub enum PropertyData<'a> {
     /// Further properties.
     Compound(Vec<Property<'a>>),
-    /// One value.
-    Scalar(Sample<'a>),
-    /// Any number of values.
-    Array(Sample<'a>),
+    /// One value at each time.
+    Scalar(Vec<Sample<'a>>),
+    /// Any number of values at each time.
+    Array(Vec<Sample<'a>>),
+}
+
+/// The times at which properties of several samples have them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeSampling {
+    /// The number of samples.
+    pub count: u32,
+    /// From one sample to the next (s); the first is at 0.
+    pub interval: f64,
 }
 
 impl<'a> Property<'a> {
@@ -125,16 +134,28 @@ impl<'a> Property<'a> {
         Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Compound(parts) }
     }
 
-    /// One value.
+    /// One value, at all times.
     #[must_use]
     pub fn scalar(name: &str, metadata: &str, values: Sample<'a>) -> Self {
-        Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Scalar(values) }
+        Self::scalars(name, metadata, vec![values])
     }
 
-    /// Any number of values.
+    /// One value at each time of the archive's [`TimeSampling`]; a single sample is the value at all times.
+    #[must_use]
+    pub fn scalars(name: &str, metadata: &str, samples: Vec<Sample<'a>>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Scalar(samples) }
+    }
+
+    /// Any number of values, at all times.
     #[must_use]
     pub fn array(name: &str, metadata: &str, values: Sample<'a>) -> Self {
-        Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Array(values) }
+        Self::arrays(name, metadata, vec![values])
+    }
+
+    /// Values, as many at each time of the archive's [`TimeSampling`]; a single sample is the values at all times.
+    #[must_use]
+    pub fn arrays(name: &str, metadata: &str, samples: Vec<Sample<'a>>) -> Self {
+        Self { name: name.into(), metadata: metadata.into(), data: PropertyData::Array(samples) }
     }
 }
 
@@ -153,25 +174,35 @@ pub struct Object<'a> {
 /// The version of the Alembic library whose layout is written.
 const LIBRARY: i32 = 1_08_12;
 
-/// The one sampling in time there is: one sample at 0, one second apart.
-fn times() -> Vec<u8> {
-    let mut bytes = 1_u32.to_le_bytes().to_vec();
-    bytes.extend(1.0_f64.to_le_bytes());
-    bytes.extend(1_u32.to_le_bytes());
-    bytes.extend(0.0_f64.to_le_bytes());
+/// The samplings in time, each as the number of samples, the interval, and the one time that is stored: that of what does
+/// not change, and that of what does.
+fn times(sampling: Option<TimeSampling>) -> Vec<u8> {
+    let still = TimeSampling { count: 1, interval: 1.0 };
+    let mut bytes = Vec::new();
+    for TimeSampling { count, interval } in [still].into_iter().chain(sampling) {
+        bytes.extend(count.to_le_bytes());
+        bytes.extend(interval.to_le_bytes());
+        bytes.extend(1_u32.to_le_bytes());
+        bytes.extend(0.0_f64.to_le_bytes());
+    }
     bytes
 }
 
-/// Writes an archive of objects.
+/// Writes an archive of objects. Properties of several samples have them at the times of `sampling`.
 ///
 /// # Errors
 /// Those of `out`.
+///
+/// # Panics
+/// If a property has several samples, but not as many as `sampling` has.
 pub fn write_archive(
     out: &mut dyn Write,
     metadata: &str,
+    sampling: Option<TimeSampling>,
     objects: Vec<Object<'_>>,
 ) -> io::Result<()> {
-    let mut names = Metadata::default();
+    let count = sampling.map_or(1, |sampling| sampling.count as usize);
+    let mut names = Names { metadata: Metadata::default(), samples: count };
     let top = Object {
         name: "ABC".into(),
         metadata: String::new(),
@@ -184,10 +215,17 @@ pub fn write_archive(
         Node::bytes(LIBRARY.to_le_bytes().to_vec()),
         top,
         Node::bytes(metadata.as_bytes().to_vec()),
-        Node::bytes(times()),
-        Node::bytes(names.bytes()),
+        Node::bytes(times(sampling)),
+        Node::bytes(names.metadata.bytes()),
     ]);
     container::write(out, &root)
+}
+
+/// What an archive has once for all its objects.
+struct Names {
+    metadata: Metadata,
+    /// How many samples a property has that changes.
+    samples: usize,
 }
 
 /// Metadata that are numbered: each is written once.
@@ -216,13 +254,13 @@ impl Metadata {
 }
 
 /// An object, and a digest of all that is in it.
-fn object<'a>(object: Object<'a>, names: &mut Metadata) -> (Node<'a>, [u8; 16]) {
+fn object<'a>(object: Object<'a>, names: &mut Names) -> (Node<'a>, [u8; 16]) {
     let (properties, mut hashes) = compound(object.properties, names);
     let mut nodes = vec![properties];
     let mut headers = Vec::new();
     let mut inner = Vec::new();
     for child in object.children {
-        let number = names.number(&child.metadata);
+        let number = names.metadata.number(&child.metadata);
         headers.extend((child.name.len() as u32).to_le_bytes());
         headers.extend(child.name.as_bytes());
         headers.push(number);
@@ -243,7 +281,7 @@ fn object<'a>(object: Object<'a>, names: &mut Metadata) -> (Node<'a>, [u8; 16]) 
 }
 
 /// Properties, and digests of them.
-fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a>, Vec<u8>) {
+fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Names) -> (Node<'a>, Vec<u8>) {
     let mut nodes = Vec::new();
     let (mut headers, mut hashes) = (Vec::new(), Vec::new());
     for property in properties {
@@ -256,17 +294,20 @@ fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a
                 hashes.extend(inner);
                 node
             }
-            PropertyData::Scalar(values) => {
-                hashes.extend(values.digest);
-                Node::Group(vec![values.sample()])
+            PropertyData::Scalar(samples) => {
+                samples.iter().for_each(|values| hashes.extend(values.digest));
+                Node::Group(samples.into_iter().map(Sample::sample).collect())
             }
-            PropertyData::Array(values) => {
-                hashes.extend(values.digest);
-                // The number of texts is not the number of bytes.
-                let is_text = values.pod == Pod::Text;
-                let size =
-                    if is_text { (values.count as u64).to_le_bytes().to_vec() } else { vec![] };
-                Node::Group(vec![values.sample(), Node::bytes(size)])
+            PropertyData::Array(samples) => {
+                samples.iter().for_each(|values| hashes.extend(values.digest));
+                // Each with its dimensions. The number of texts is not the number of bytes.
+                let nodes = samples.into_iter().flat_map(|values| {
+                    let is_text = values.pod == Pod::Text;
+                    let size =
+                        if is_text { (values.count as u64).to_le_bytes().to_vec() } else { vec![] };
+                    [values.sample(), Node::bytes(size)]
+                });
+                Node::Group(nodes.collect())
             }
         });
     }
@@ -277,29 +318,36 @@ fn compound<'a>(properties: Vec<Property<'a>>, names: &mut Metadata) -> (Node<'a
 }
 
 /// The header of a property: bits, the number of samples, name, and metadata.
-fn header(property: &Property<'_>, names: &mut Metadata) -> Vec<u8> {
+fn header(property: &Property<'_>, names: &mut Names) -> Vec<u8> {
     let Property { name, metadata, data } = property;
     // Bytes of the numbers below: 1, 2, or 4.
-    let hint = match name.len().max(metadata.len()) {
+    let hint = match name.len().max(metadata.len()).max(names.samples) {
         0..256 => 0,
         256..65_536 => 1,
         _ => 2,
     };
     let number = |n: usize| n.to_le_bytes()[..1 << hint].to_vec();
-    let index = names.number(metadata);
+    let index = names.metadata.number(metadata);
     let mut info = u32::from(index) << 20 | hint << 2;
-    // One sample that never changes, of the same size every time.
-    let values = |v: &Sample<'_>| {
-        0x800 | 0x400 | u32::from(v.extent) << 12 | (v.pod as u32) << 4 | u32::from(v.count == 1)
+    // One sample that never changes, or each another than that before, at the times of the second sampling; of the same
+    // size every time.
+    let all_times = |samples: &[Sample<'_>]| {
+        assert!([1, names.samples].contains(&samples.len()), "a sample for each time, or one");
+        let v = &samples[0];
+        let changes = if samples.len() > 1 { 0x100 } else { 0x800 };
+        changes | 0x400 | u32::from(v.extent) << 12 | (v.pod as u32) << 4 | u32::from(v.count == 1)
     };
-    let is_compound = matches!(data, PropertyData::Compound(_));
-    info |= match data {
-        PropertyData::Compound(_) => 0,
-        PropertyData::Scalar(v) => 1 | values(v),
-        PropertyData::Array(v) => 2 | values(v),
+    let (kind, samples) = match data {
+        PropertyData::Compound(_) => (0, 0),
+        PropertyData::Scalar(v) => (1 | all_times(v), v.len()),
+        PropertyData::Array(v) => (2 | all_times(v), v.len()),
     };
+    info |= kind;
     let mut bytes = info.to_le_bytes().to_vec();
-    if !is_compound {
+    if samples > 0 {
+        bytes.extend(number(samples));
+    }
+    if samples > 1 {
         bytes.extend(number(1));
     }
     bytes.extend(number(name.len()));

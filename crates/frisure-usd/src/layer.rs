@@ -93,6 +93,8 @@ pub struct Attribute {
     pub custom: bool,
     /// Its default, or else the first of its samples in time.
     pub value: Option<Value>,
+    /// Values at times (time codes, increasing), to be written; none of a layer that was read.
+    pub samples: Vec<(f64, Value)>,
     /// Paths of the attributes that it is connected to.
     pub connections: Vec<String>,
     /// The metadata keys that the reader supports.
@@ -111,7 +113,8 @@ pub struct Relationship {
 /// The types of the metadata that are kept: the text format does not state them.
 pub(crate) fn metadata_type(key: &str) -> Option<ValueType> {
     let scalar = match key {
-        "metersPerUnit" => ScalarType::Double,
+        "metersPerUnit" | "startTimeCode" | "endTimeCode" | "timeCodesPerSecond"
+        | "framesPerSecond" => ScalarType::Double,
         "elementSize" => ScalarType::Int,
         "active" => ScalarType::Bool,
         "defaultPrim" | "interpolation" | "kind" | "upAxis" => ScalarType::Token,
@@ -205,6 +208,26 @@ impl Prim {
             value: Some(value),
             ..Attribute::default()
         });
+        self.attributes.last_mut().expect("it was just added")
+    }
+
+    /// Adds an attribute with values at times (time codes, increasing), or with one that it always has.
+    ///
+    /// # Panics
+    /// If there is no value.
+    pub fn over_time(
+        &mut self,
+        type_name: &str,
+        name: &str,
+        mut samples: Vec<(f64, Value)>,
+    ) -> &mut Attribute {
+        let value = match samples.len() {
+            0 => panic!("`{name}` has no value"),
+            1 => samples.pop().map(|(_, value)| value),
+            _ => None,
+        };
+        let (name, type_name) = (name.into(), type_name.into());
+        self.attributes.push(Attribute { name, type_name, value, samples, ..Attribute::default() });
         self.attributes.last_mut().expect("it was just added")
     }
 

@@ -47,6 +47,8 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
         quality: Quality::Final,
         tracing,
         each_step: false,
+        time_samples: false,
+        interval: 1.0,
         replicas: None,
         writing: Writing::default(),
         fibres: false,

@@ -25,6 +25,8 @@ pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error>
         quality: Quality::Preview,
         tracing: Tracing::default(),
         each_step: false,
+        time_samples: false,
+        interval: 1.0,
         replicas: None,
         writing,
         fibres: false,

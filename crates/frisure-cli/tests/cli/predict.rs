@@ -175,6 +175,42 @@ fn the_last_step_is_what_is_written_otherwise() {
 }
 
 #[test]
+fn all_steps_are_in_one_groom_the_same_on_any_number_of_threads() {
+    let read = |threads: &str| {
+        let room = Room::new().with("steps.toml", format!("{QUICK}{STEPS}"));
+        let head = ["predict", "steps.toml", "--each-step", "--time-samples", "--threads", threads];
+        let files = ["-o", "out/a.abc", "-o", "out/a.usda", "--image", "out/a.png"];
+        let ran = room.run(&[&head[..], &files].concat());
+        assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+        assert!(ran.out.contains("a.abc (13 time samples)\n"), "{}", ran.out);
+        // Pictures are numbered as without.
+        assert!(room.path("out/a-12.png").exists() && !room.path("out/a-00.abc").exists());
+        ["out/a.abc", "out/a.usda"].map(|name| fs::read(room.path(name)).unwrap())
+    };
+    let [abc, usda] = read("1");
+    assert!([abc, usda.clone()] == read("3"), "grooms depend on the number of threads");
+    let text = String::from_utf8(usda).unwrap();
+    // Twelve seconds of 24 frames.
+    assert!(text.contains("endTimeCode = 288\n"));
+    assert_eq!(text.matches("point3f[] points.timeSamples").count(), 2);
+}
+
+#[test]
+fn time_samples_need_steps_and_a_format_that_has_them() {
+    let room = Room::new().with("steps.toml", format!("{QUICK}{STEPS}"));
+    let fails = |extra: &[&str], told: &str| {
+        let ran = room.run(&[&["predict", "steps.toml", "--time-samples"], extra].concat());
+        assert_eq!(ran.code, Some(2), "{}", ran.err);
+        assert!(ran.err.contains(told), "{}", ran.err);
+    };
+    fails(&["-o", "a.abc"], "--each-step");
+    fails(&["--each-step"], "--output <GROOM>");
+    fails(&["--each-step", "-o", "a.hair"], "a .hair file cannot hold several times");
+    fails(&["--each-step", "-o", "a.abc", "--interval", "0"], "between 0.001 and 3600");
+    assert_eq!(room.names(), ["steps.toml"]);
+}
+
+#[test]
 fn a_step_that_cannot_be_done_is_told_with_its_line_and_nothing_is_written() {
     for (step, problem) in [
         ("cut = { below = \"50 cm\" }", "above the roots of 6 of 6 wisps"),

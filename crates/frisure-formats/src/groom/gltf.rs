@@ -26,6 +26,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     most_hairs: None,
     check,
     write: encode,
+    write_motion: None,
     read: None,
 };
 

@@ -17,6 +17,7 @@ mod hair;
 mod html;
 mod lines;
 mod mitsuba;
+mod motion;
 mod npz;
 mod obj;
 mod pbrt;
@@ -36,6 +37,7 @@ pub use checked::MAX_STRANDS;
 pub use data::{Groom, HairColour};
 pub use fit::{Fit, FitError, Fitted, Points};
 pub use format::Format;
+pub use motion::{Motion, MotionError};
 pub use program::{Program, ProgramError};
 
 /// Largest file that is read (bytes).
@@ -139,6 +141,21 @@ impl Format {
         Err(GroomError::Frame { format: self.extension(), up: self.frame().up.name() })
     }
 
+    /// Checks that a file of the format can hold strands at several times: see [`Motion`].
+    ///
+    /// # Errors
+    /// [`GroomError::CannotHold`], listing the formats that can.
+    pub fn check_motion(self) -> Result<(), GroomError> {
+        self.motion_writer().map(drop)
+    }
+
+    fn motion_writer(self) -> Result<format::MotionWriter, GroomError> {
+        self.0.write_motion.ok_or_else(|| {
+            let what = format!("several times; {} can", known(|f| f.0.write_motion.is_some()));
+            GroomError::CannotHold { format: self.extension(), what }
+        })
+    }
+
     /// The format that a path's extension names.
     ///
     /// # Errors
@@ -158,6 +175,21 @@ pub fn write_groom(path: &Path, groom: &Groom, choice: FrameChoice) -> Result<()
     let format = Format::of(path)?;
     check(format, groom, choice)?;
     write_atomically(path, |out| (format.0.write)(out, groom, choice.or(format.frame())))?;
+    Ok(())
+}
+
+/// Writes hair that moves in the format that the path's extension names, atomically: its first sample as
+/// [`write_groom`] does, with points and widths at all times.
+///
+/// Alembic has the times in seconds; a stage has 24 time codes in a second.
+///
+/// # Errors
+/// [`GroomError`]; [`GroomError::CannotHold`] for a format whose files have one time only.
+pub fn write_motion(path: &Path, motion: &Motion, choice: FrameChoice) -> Result<(), GroomError> {
+    let format = Format::of(path)?;
+    let write = format.motion_writer()?;
+    check(format, motion.first(), choice)?;
+    write_atomically(path, |out| write(out, motion, choice.or(format.frame())))?;
     Ok(())
 }
 

@@ -35,6 +35,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     most_hairs: None,
     check: |_| Ok(()),
     write: encode,
+    write_motion: None,
     read: Some(decode),
 };
 

@@ -24,6 +24,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     most_hairs: None,
     check: |groom| check_strands("strand", groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
+    write_motion: None,
     read: None,
 };
 

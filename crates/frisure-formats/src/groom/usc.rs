@@ -26,6 +26,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     most_hairs: None,
     check: |groom| check(groom.strands()),
     write: |out, groom, frame| encode(out, groom.strands(), frame),
+    write_motion: None,
     read: Some(decode),
 };
 

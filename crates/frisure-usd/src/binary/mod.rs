@@ -65,6 +65,7 @@ mod code {
     pub(super) const SPECIFIER: u8 = 42;
     pub(super) const VARIABILITY: u8 = 44;
     pub(super) const TIME_SAMPLES: u8 = 46;
+    pub(super) const DOUBLE_VECTOR: u8 = 48;
 }
 
 /// Types of specs.

@@ -201,6 +201,7 @@ impl Reader<'_> {
             connections: self.paths(fields, "connectionPaths")?,
             metadata: self.metadata(fields)?,
             value: None,
+            samples: Vec::new(),
         };
         if let Some(rep) = fields.get("default") {
             attribute.value = self.source.value(*rep)?;

@@ -161,6 +161,10 @@ impl Crate {
             let value = self.value(value)?;
             self.field(&mut fields, "default", value);
         }
+        if !attribute.samples.is_empty() {
+            let samples = self.time_samples(&attribute.samples)?;
+            self.field(&mut fields, "timeSamples", samples);
+        }
         if !attribute.connections.is_empty() {
             let paths = self.path_list(&attribute.connections)?;
             self.field(&mut fields, "connectionPaths", paths);
@@ -168,6 +172,26 @@ impl Crate {
         fields.extend(self.metadata(&attribute.metadata)?);
         self.specs.push((spec::ATTRIBUTE, fields));
         Ok(())
+    }
+
+    /// Values at times: where the list of times is, the number of values, and each of them.
+    fn time_samples(&mut self, samples: &[(f64, Value)]) -> io::Result<ValueRep> {
+        let times = self.place();
+        self.bytes.extend((samples.len() as u64).to_le_bytes());
+        self.bytes.extend(samples.iter().flat_map(|(time, _)| time.to_le_bytes()));
+        let times = ValueRep::at(code::DOUBLE_VECTOR, times, 0);
+        let values = samples.iter().map(|(_, value)| self.value(value));
+        let values = values.collect::<io::Result<Vec<ValueRep>>>()?;
+        let at = self.place();
+        // Each of the two parts begins with the way from there to where it goes on: values that it has may stand between,
+        // but these stand before.
+        const NOTHING_BETWEEN: u64 = 8;
+        self.bytes.extend(NOTHING_BETWEEN.to_le_bytes());
+        self.bytes.extend(times.0.to_le_bytes());
+        self.bytes.extend(NOTHING_BETWEEN.to_le_bytes());
+        self.bytes.extend((values.len() as u64).to_le_bytes());
+        self.bytes.extend(values.iter().flat_map(|rep| rep.0.to_le_bytes()));
+        Ok(ValueRep::at(code::TIME_SAMPLES, at, 0))
     }
 
     fn relationship(&mut self, relationship: &Relationship) -> io::Result<()> {

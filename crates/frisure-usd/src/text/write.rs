@@ -126,6 +126,18 @@ impl Text<'_> {
             self.brackets(&attribute.metadata)?;
             self.word("\n");
         }
+        if !attribute.samples.is_empty() {
+            self.line(&head);
+            self.word(".timeSamples = {\n");
+            self.depth += 1;
+            for (time, value) in &attribute.samples {
+                self.line(&[&time.to_string(), ": "]);
+                self.value(value)?;
+                self.word(",\n");
+            }
+            self.depth -= 1;
+            self.line(&["}\n"]);
+        }
         if !attribute.connections.is_empty() {
             self.line(&head);
             self.word(".connect = ");

@@ -19,9 +19,10 @@ pub(super) struct StageFiles {
     pub(super) hair_checkpoint: Option<PathBuf>,
 }
 
-/// The files of each hairstyle: numbered with `--each-step`, or those of the last alone.
+/// The files of each hairstyle: numbered with `--each-step`, or those of the last alone; the last writes those of all
+/// times.
 pub(super) fn stages(arguments: &Predict, scene: &Scene, spec: &HairstyleSpec) -> Vec<StageFiles> {
-    let Predict { outputs, image, report, each_step, .. } = arguments;
+    let Predict { outputs, image, report, each_step, time_samples, .. } = arguments;
     let count = if *each_step { stage_count(scene) } else { 1 };
     let files = |stage: usize| {
         let named = |path: &PathBuf| match each_step {
@@ -29,8 +30,13 @@ pub(super) fn stages(arguments: &Predict, scene: &Scene, spec: &HairstyleSpec) -
             false => path.clone(),
         };
         let first = outputs.first().or(image.as_ref()).or(report.as_ref());
+        let grooms = match time_samples {
+            true if stage + 1 < count => Vec::new(),
+            true => outputs.clone(),
+            false => outputs.iter().map(named).collect(),
+        };
         StageFiles {
-            grooms: outputs.iter().map(named).collect(),
+            grooms,
             image: image.as_ref().map(named),
             hair_checkpoint: first.and_then(|p| HairCheckpoint::path_for(&named(p), spec)),
         }

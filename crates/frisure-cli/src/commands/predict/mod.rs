@@ -19,11 +19,12 @@ use frisure_engine::checkpoint::HairCheckpoint;
 use frisure_engine::memory::{self, Work};
 use frisure_engine::picture::{self as pictures, FrameSet, Subject};
 use frisure_engine::report::HairstyleReport;
-use frisure_engine::{Error, LoadedScene, Runner, StyledScene, environment_map};
+use frisure_engine::{Error, LoadedScene, Runner, StyledScene, environment_map, stage_count};
 
 use super::read_scene;
 use crate::args::{Predict, Quality};
 use crate::diagnostics::ExitStatus;
+use crate::grooms::MotionFiles;
 use crate::pictures::{Turntable, noise_filter, trace};
 use crate::progress::Bar;
 use crate::{console, grooms, hair_checkpoint, interrupt};
@@ -47,6 +48,9 @@ pub(crate) fn run_scene(
     let requested = scene.requests_accuracy();
     check_arguments(arguments, &scene)?;
     memory::check(&spec, work(arguments, &scene))?;
+    if arguments.time_samples {
+        memory::check(&spec, Work::Motion(stage_count(&scene)))?;
+    }
     let files = files::stages(arguments, &scene, &spec);
     files::prepare(arguments, &scene, &files, turntable)?;
     let environment = match arguments.image {
@@ -83,6 +87,9 @@ fn work(arguments: &Predict, scene: &Scene) -> Work {
 /// Checks what the files are asked to hold.
 fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
     grooms::check(&arguments.outputs, arguments.writing)?;
+    if arguments.time_samples {
+        grooms::check_motion(&arguments.outputs)?;
+    }
     if arguments.tracing.is_given() && arguments.quality == Quality::Preview {
         let message = "`--paths`, `--noise`, `--bounces` and `--denoise` are for final pictures";
         return Err(Error::invalid(message, "add `--quality final`"));
@@ -131,6 +138,8 @@ impl Prediction<'_> {
         let several = self.arguments.image.is_some() && styled.stages.len() > 1;
         let framed = several.then(|| styled.all_guides());
         let StyledScene { stages, steps } = styled;
+        let Predict { outputs, writing, interval, time_samples, .. } = self.arguments;
+        let mut motion = time_samples.then(|| MotionFiles::new(outputs, *writing, *interval));
         let mut lines = Vec::new();
         let mut report = None;
         for (stage, (loaded, files)) in stages.iter().zip(files).enumerate() {
@@ -146,10 +155,11 @@ impl Prediction<'_> {
                 report = Some(last);
             }
             if let Some(hairs) = hairs {
-                lines.extend(self.write(loaded, hairs, framed.as_ref(), files)?);
+                lines.extend(self.write(loaded, hairs, framed.as_ref(), files, motion.as_mut())?);
             }
             hair_checkpoint::remove(checkpoint);
         }
+        lines.extend(motion.map(MotionFiles::write).transpose()?.into_iter().flatten());
         let report = report.expect("the last hairstyle has a report");
         let report = HairstyleReport { steps, ..report };
         if let Some(path) = &self.arguments.report {
@@ -193,13 +203,14 @@ impl Prediction<'_> {
     }
 
     /// Writes the grooms and the picture of a hairstyle; returns a line about each. The camera of the picture has
-    /// `framed` in it.
+    /// `framed` in it. Where there is a `motion`, the groom is its next time.
     fn write(
         &self,
         loaded: &LoadedScene,
         hairs: DrawnHair,
         framed: Option<&Strands>,
         files: &StageFiles,
+        motion: Option<&mut MotionFiles<'_>>,
     ) -> Result<Vec<String>, Error> {
         let Predict { writing, fibres, .. } = self.arguments;
         let strands = hairs.strands;
@@ -207,10 +218,12 @@ impl Prediction<'_> {
             Some(path) => Some((path, self.picture(loaded, &strands, framed)?)),
             None => None,
         };
-        let mut lines = match files.grooms.is_empty() {
-            true => Vec::new(),
-            false => grooms::write(loaded.groom(strands, *fibres), &files.grooms, *writing)?,
-        };
+        let mut lines = Vec::new();
+        if let Some(motion) = motion {
+            motion.push(loaded.groom(strands, *fibres))?;
+        } else if !files.grooms.is_empty() {
+            lines = grooms::write(loaded.groom(strands, *fibres), &files.grooms, *writing)?;
+        }
         if let Some((path, picture)) = picture {
             interrupt::check()?;
             lines.extend(self.write_picture(path, picture, &loaded.scene.output)?);

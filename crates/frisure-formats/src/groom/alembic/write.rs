@@ -10,12 +10,23 @@ use super::super::attributes as names;
 use super::names::{CURVES, KNOWN, OURS, UNREAL, XFORM};
 use crate::groom::attributes::{indices, of_strands, push};
 use crate::groom::data::{Groom, HairColour};
+use crate::groom::motion::{Motion, Samples, same_widths};
 use frisure_files::frame::Frame;
 use frisure_ogawa::parameter::Scope;
-use frisure_ogawa::write::{Object, Pod, Property, Sample, write_archive};
+use frisure_ogawa::write::{Object, Pod, Property, Sample, TimeSampling, write_archive};
 
 /// Writes what the check has passed.
 pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+    encode_samples(out, &Samples::still(groom), frame)
+}
+
+/// The same for hair that moves.
+pub(super) fn encode_motion(out: &mut dyn Write, motion: &Motion, frame: Frame) -> io::Result<()> {
+    encode_samples(out, &Samples::of(motion), frame)
+}
+
+fn encode_samples(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Result<()> {
+    let Samples { groom, hairs: all_hairs, guides: all_guides, interval } = samples;
     let of_guides = with_extras(&groom.guides, guide_extras(&groom.guides));
     let of_hairs = with_extras(&groom.hairs, hair_extras(groom));
     let mut parts = Vec::new();
@@ -27,12 +38,13 @@ pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Re
             group: None,
             rows: (0..groom.guides.len()).collect(),
             strands: &groom.guides,
+            samples: all_guides,
             attributes: &of_guides,
         });
     }
     let group = group_of_hairs(groom);
     let has_guides = !groom.guides.is_empty();
-    let mut of_groups = groups(&groom.hairs, &of_hairs, group.as_deref());
+    let mut of_groups = groups(all_hairs, &of_hairs, group.as_deref());
     of_groups.iter_mut().for_each(|part| part.has_guides = has_guides);
     parts.extend(of_groups);
     let children = parts.iter().map(|p| p.object(frame, groom.colour)).collect();
@@ -43,7 +55,9 @@ pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Re
         children,
     };
     let metadata = "_ai_AlembicVersion=Alembic 1.8.12;_ai_Application=frisure";
-    write_archive(out, metadata, vec![top])
+    let count = all_hairs.len() as u32;
+    let sampling = (count > 1).then_some(TimeSampling { count, interval: *interval });
+    write_archive(out, metadata, sampling, vec![top])
 }
 
 /// Attributes with some in place of those of the same names.
@@ -106,17 +120,21 @@ struct Part<'a> {
     has_guides: bool,
     /// The group, where all are of one.
     group: Option<u32>,
+    /// At their first time.
     strands: &'a Strands,
+    /// At each time.
+    samples: &'a [&'a Strands],
     attributes: &'a [Cow<'a, Attribute>],
     rows: Vec<usize>,
 }
 
 /// Hairs by their group.
 fn groups<'a>(
-    hairs: &'a Strands,
+    samples: &'a [&'a Strands],
     attributes: &'a [Cow<'a, Attribute>],
     group: Option<&[u32]>,
 ) -> Vec<Part<'a>> {
+    let hairs = samples[0];
     if hairs.is_empty() {
         return Vec::new();
     }
@@ -126,6 +144,7 @@ fn groups<'a>(
         has_guides: false,
         group: Some(group),
         strands: hairs,
+        samples,
         attributes,
         rows,
     };
@@ -157,11 +176,11 @@ impl Part<'_> {
     fn object(&self, frame: Frame, colour: Option<HairColour>) -> Object<'_> {
         let mut geometry = vec![
             self.bounds(frame),
-            Property::array("P", "geoScope=vtx;interpretation=point", self.positions(frame)),
+            Property::arrays("P", "geoScope=vtx;interpretation=point", self.positions(frame)),
             Property::array("nVertices", "", self.counts()),
             // Linear, not closed, no basis (twice).
             Property::scalar("curveBasisAndType", "", bytes(&[1, 0, 0, 0])),
-            parameter("width", Scope::Varying, "", self.widths(frame)),
+            parameters("width", Scope::Varying, "", self.widths(frame)),
         ];
         geometry.push(Property::compound(".arbGeomParams", "", self.parameters(frame, colour)));
         let base = "schemaBaseType=AbcGeom_GeomBase_v1";
@@ -195,24 +214,30 @@ impl Part<'_> {
     }
 
     fn bounds(&self, frame: Frame) -> Property<'static> {
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for p in self.ranges().flatten().map(|i| self.strands.points()[i]) {
-            let p = frame.position_to_file(p);
-            (low, high) = (low.min(p), high.max(p));
-        }
-        let corners = [low.to_array(), high.to_array()];
-        let bytes = corners.as_flattened().iter().flat_map(|x| f64::from(*x).to_le_bytes());
-        let bytes: Vec<u8> = bytes.collect();
-        let values = Sample::of(Pod::F64, 6, 1, move |out| out.extend_from_slice(&bytes));
-        Property::scalar(".selfBnds", "interpretation=box", values)
+        let corners = |strands: &Strands| {
+            let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+            for p in self.ranges().flatten().map(|i| strands.points()[i]) {
+                let p = frame.position_to_file(p);
+                (low, high) = (low.min(p), high.max(p));
+            }
+            let corners = [low.to_array(), high.to_array()];
+            let bytes = corners.as_flattened().iter().flat_map(|x| f64::from(*x).to_le_bytes());
+            let bytes: Vec<u8> = bytes.collect();
+            Sample::of(Pod::F64, 6, 1, move |out| out.extend_from_slice(&bytes))
+        };
+        let samples = self.samples.iter().map(|strands| corners(strands)).collect();
+        Property::scalars(".selfBnds", "interpretation=box", samples)
     }
 
-    fn positions(&self, frame: Frame) -> Sample<'_> {
-        Sample::of(Pod::F32, 3, self.points(), move |out| {
-            for i in self.ranges().flatten() {
-                push(out, frame.position_to_file(self.strands.points()[i]).to_array());
-            }
-        })
+    fn positions(&self, frame: Frame) -> Vec<Sample<'_>> {
+        let samples = self.samples.iter().map(|&strands| {
+            Sample::of(Pod::F32, 3, self.points(), move |out| {
+                for i in self.ranges().flatten() {
+                    push(out, frame.position_to_file(strands.points()[i]).to_array());
+                }
+            })
+        });
+        samples.collect()
     }
 
     fn counts(&self) -> Sample<'_> {
@@ -223,12 +248,16 @@ impl Part<'_> {
         })
     }
 
-    fn widths(&self, frame: Frame) -> Sample<'_> {
-        Sample::of(Pod::F32, 1, self.points(), move |out| {
-            for i in self.ranges().flatten() {
-                push(out, [frame.length_to_file(2.0 * self.strands.radii()[i])]);
-            }
-        })
+    fn widths(&self, frame: Frame) -> Vec<Sample<'_>> {
+        let samples = if same_widths(self.samples) { &self.samples[..1] } else { self.samples };
+        let samples = samples.iter().map(|&strands| {
+            Sample::of(Pod::F32, 1, self.points(), move |out| {
+                for i in self.ranges().flatten() {
+                    push(out, [frame.length_to_file(2.0 * strands.radii()[i])]);
+                }
+            })
+        });
+        samples.collect()
     }
 
     /// Parameters that Unreal reads, and attributes of ours, which it ignores.
@@ -344,19 +373,29 @@ fn bytes(bytes: &[u8; 4]) -> Sample<'static> {
 
 /// A geometry parameter of a name, for strands or points.
 fn parameter<'a>(name: &str, scope: Scope, meaning: &str, values: Sample<'a>) -> Property<'a> {
+    parameters(name, scope, meaning, vec![values])
+}
+
+/// The same at each time, or with one sample for all of them.
+fn parameters<'a>(
+    name: &str,
+    scope: Scope,
+    meaning: &str,
+    samples: Vec<Sample<'a>>,
+) -> Property<'a> {
     let scope = match scope {
         Scope::Constant => "con",
         Scope::Uniform => "uni",
         Scope::Varying => "vtx",
     };
-    let (pod, extent) = values.kind();
+    let (pod, extent) = samples[0].kind();
     let meaning =
         if meaning.is_empty() { String::new() } else { format!("interpretation={meaning};") };
     let metadata = format!(
         "arrayExtent=1;geoScope={scope};{meaning}isGeomParam=true;podExtent={extent};podName={}",
         pod.name()
     );
-    Property::array(name, &metadata, values)
+    Property::arrays(name, &metadata, samples)
 }
 
 fn schema_of_object(schema: &str, base: &str, property: &str) -> String {

@@ -22,6 +22,7 @@ pub(super) static FORMAT: Declaration = Declaration {
     most_hairs: Some(20_000),
     check,
     write: encode,
+    write_motion: None,
     read: None,
 };
 

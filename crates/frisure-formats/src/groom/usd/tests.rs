@@ -60,7 +60,7 @@ fn whole() -> Groom {
 fn bytes(groom: &Groom, frame: Frame, binary: bool) -> Vec<u8> {
     check_curves(groom).unwrap();
     let mut out = Vec::new();
-    let encode = if binary { encode_binary } else { encode_text };
+    let encode = if binary { write_binary } else { write_text };
     encode(&mut out, groom, frame).unwrap();
     out
 }
@@ -73,7 +73,7 @@ fn text(body: &str) -> Result<Groom, String> {
 #[test]
 fn text_and_binary_hold_the_same_layer() {
     for frame in [Frame::METRES_Z, Frame::CENTIMETRES_Y] {
-        let layer = write::layer(&whole(), frame);
+        let layer = write::layer(&Samples::still(&whole()), frame);
         let from_text = usd::read(&bytes(&whole(), frame, false)).unwrap();
         assert_eq!(from_text, layer);
         let mut from_binary = usd::read(&bytes(&whole(), frame, true)).unwrap();
@@ -113,7 +113,7 @@ fn a_groom_comes_back_with_all_it_has() {
 
 #[test]
 fn each_of_three_guides_is_a_number_of_its_own() {
-    let layer = write::layer(&whole(), Frame::METRES_Z);
+    let layer = write::layer(&Samples::still(&whole()), Frame::METRES_Z);
     let hairs = layer.prims[0].children.iter().find(|prim| prim.name == "hairs").unwrap();
     // Without indices, which equal weights have.
     let of = |name: &str| {
@@ -393,5 +393,58 @@ fn deep_nesting_has_an_end() {
         "def \"a\" { variantSet \"b\" = { ",
     ] {
         assert!(text(&piece.repeat(100_000)).is_err());
+    }
+}
+
+/// The groom of `whole`, and the same hanging elsewhere and thinner.
+fn moving() -> Motion {
+    let first = whole();
+    let moved = |strands: &Strands, thinner: f32| {
+        let mut moved = Strands::new();
+        for strand in strands.iter() {
+            let points: Vec<Vec3> = strands_points(strand.points);
+            let radii: Vec<f32> = strand.radii.iter().map(|r| thinner * r).collect();
+            moved.push(&points, &radii);
+        }
+        moved
+    };
+    let mut motion = Motion::new(first.clone(), 0.5);
+    for thinner in [0.5, 0.25] {
+        let hairs = moved(&first.hairs, thinner);
+        motion.push(&Groom { hairs, guides: first.guides.clone(), ..Groom::default() }).unwrap();
+    }
+    motion
+}
+
+fn strands_points(points: &[Vec3]) -> Vec<Vec3> {
+    points.iter().map(|p| *p + Vec3::new(0.0, 0.0, 0.25)).collect()
+}
+
+#[test]
+fn hair_that_moves_has_its_points_and_widths_at_time_codes() {
+    let motion = moving();
+    let layer = write::layer(&Samples::of(&motion), Frame::METRES_Z);
+    let times = ["startTimeCode", "endTimeCode", "timeCodesPerSecond"];
+    let times = times.map(|key| layer.meta(key).and_then(usd::Value::number));
+    assert_eq!(times, [Some(0.0), Some(24.0), Some(24.0)]);
+    let prim = |name: &str| layer.prims[0].children.iter().find(|p| p.name == name).unwrap();
+    let codes = |prim: &usd::Prim, name: &str| -> Vec<f64> {
+        prim.attribute(name).unwrap().samples.iter().map(|(time, _)| *time).collect()
+    };
+    for name in ["points", "extent", "widths"] {
+        assert_eq!(codes(prim("hairs"), name), [0.0, 12.0, 24.0], "{name}");
+    }
+    // Guides have the same widths at all times.
+    assert_eq!(codes(prim("guides"), "points").len(), 3);
+    assert!(codes(prim("guides"), "widths").is_empty());
+    assert!(prim("guides").value("widths").is_some());
+    // A reader of one time has the first.
+    for write in [move_text, move_binary, move_package] {
+        let mut bytes = Vec::new();
+        write(&mut bytes, &motion, Frame::METRES_Z).unwrap();
+        let read = decode(&bytes, FrameChoice::default()).unwrap();
+        assert_eq!(read.hairs.points(), whole().hairs.points());
+        assert_eq!(read.hairs.radii(), whole().hairs.radii());
+        assert_eq!(read.guides, whole().guides);
     }
 }

@@ -7,13 +7,15 @@ use glam::Vec3;
 
 use super::super::attributes::{CLUMP, COLOUR, DIRECTOR, GUIDE, in_file_axes, indices, of_strands};
 use super::super::data::{Groom, HairColour};
+use super::super::motion::{FRAMES_PER_SECOND, Samples, same_widths};
 use super::look;
 use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS, REST_POSITION, SINGLES, TEXTURE};
 use frisure_files::frame::Frame;
 use frisure_usd::{Data, Layer, Prim, Value};
 
 /// The stage of a groom that the check has passed.
-pub(super) fn layer(groom: &Groom, frame: Frame) -> Layer {
+pub(super) fn layer(samples: &Samples<'_>, frame: Frame) -> Layer {
+    let Samples { groom, hairs: all_hairs, guides: all_guides, interval } = samples;
     let mut root = Prim::new("Xform", "groom");
     root.metadata.push(("kind".into(), Value::token("component")));
     if !groom.name.is_empty() {
@@ -25,12 +27,12 @@ pub(super) fn layer(groom: &Groom, frame: Frame) -> Layer {
         colours.push(("hair", colour));
     }
     if !groom.hairs.is_empty() || groom.guides.is_empty() {
-        let mut hairs = curves("hairs", &groom.hairs, frame);
+        let mut hairs = curves("hairs", all_hairs, *interval, frame);
         dress(&mut hairs, groom.colour.as_ref(), colour);
         root.children.push(hairs);
     }
     if !groom.guides.is_empty() {
-        let mut guides = curves("guides", &groom.guides, frame);
+        let mut guides = curves("guides", all_guides, *interval, frame);
         // Beside hairs they are not to be seen; alone they are all there is.
         if groom.hairs.is_empty() {
             dress(&mut guides, groom.colour.as_ref(), colour);
@@ -46,7 +48,18 @@ pub(super) fn layer(groom: &Groom, frame: Frame) -> Layer {
     if !colours.is_empty() {
         root.children.push(look::materials(&colours));
     }
-    Layer { metadata: metadata(frame), prims: vec![root] }
+    let mut metadata = metadata(frame);
+    if all_hairs.len() > 1 {
+        let end = time_code(all_hairs.len() - 1, *interval);
+        let times = [
+            ("startTimeCode", 0.0),
+            ("endTimeCode", end),
+            ("timeCodesPerSecond", FRAMES_PER_SECOND),
+            ("framesPerSecond", FRAMES_PER_SECOND),
+        ];
+        metadata.extend(times.map(|(key, value)| (key.into(), Value::double(value))));
+    }
+    Layer { metadata, prims: vec![root] }
 }
 
 fn metadata(frame: Frame) -> Vec<(String, Value)> {
@@ -72,20 +85,41 @@ fn colour(groom: &Groom) -> Option<[f32; 3]> {
     groom.colour.map(|c| c.colour).or_else(mean)
 }
 
-/// Curves through the points of strands.
-fn curves(name: &str, strands: &Strands, frame: Frame) -> Prim {
+/// The time code of a sample.
+fn time_code(sample: usize, interval: f64) -> f64 {
+    sample as f64 * interval * FRAMES_PER_SECOND
+}
+
+/// Curves through the points of strands at each of their times.
+fn curves(name: &str, samples: &[&Strands], interval: f64, frame: Frame) -> Prim {
+    let strands = samples[0];
     let mut prim = Prim::new("BasisCurves", name);
     prim.uniform("token", "type", Value::token("cubic"));
     prim.uniform("token", "basis", Value::token("catmullRom"));
     prim.uniform("token", "wrap", Value::token("pinned"));
-    let points: Vec<Vec3> = strands.points().iter().map(|p| frame.position_to_file(*p)).collect();
-    let widths: Vec<f32> = strands.radii().iter().map(|r| frame.length_to_file(2.0 * r)).collect();
-    let thickest = widths.iter().copied().fold(0.0, f32::max);
-    prim.varying("float3[]", "extent", extent(&points, 0.5 * thickest));
+    let points = |strands: &Strands| -> Vec<Vec3> {
+        strands.points().iter().map(|p| frame.position_to_file(*p)).collect()
+    };
+    let widths = |strands: &Strands| -> Vec<f32> {
+        strands.radii().iter().map(|r| frame.length_to_file(2.0 * r)).collect()
+    };
+    let at_times = |value: &dyn Fn(&Strands) -> Value, samples: &[&Strands]| {
+        let at =
+            |(sample, strands): (usize, &&Strands)| (time_code(sample, interval), value(strands));
+        samples.iter().enumerate().map(at).collect::<Vec<_>>()
+    };
+    let boxes = |strands: &Strands| {
+        let thickest = widths(strands).into_iter().fold(0.0, f32::max);
+        extent(&points(strands), 0.5 * thickest)
+    };
+    prim.over_time("float3[]", "extent", at_times(&boxes, samples));
     let counts = strands.offsets().windows(2).map(|o| signed(o[1] - o[0])).collect();
     prim.varying("int[]", "curveVertexCounts", Value::ints(counts));
-    prim.varying("point3f[]", "points", triples(&points));
-    prim.primvar("float[]", "widths", Value::floats(widths), "vertex");
+    prim.over_time("point3f[]", "points", at_times(&|s| triples(&points(s)), samples));
+    let of_widths = if same_widths(samples) { &samples[..1] } else { samples };
+    let all = at_times(&|s| Value::floats(widths(s)), of_widths);
+    let attribute = prim.over_time("float[]", "widths", all);
+    attribute.metadata.push(("interpolation".into(), Value::token("vertex")));
     let is_guide = i32::from(name == "guides");
     prim.primvar("int", IS_GUIDE, Value::int(is_guide), "constant");
     for attribute in strands.attributes() {
