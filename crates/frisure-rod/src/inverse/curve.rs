@@ -16,7 +16,7 @@ const LEAST_DISTANCE: f64 = 1e-9;
 const TWISTS: usize = 4;
 
 /// A smooth curve through points, by arc length.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Curve {
     arc: Vec<f64>,
     points: Vec<DVec3>,
