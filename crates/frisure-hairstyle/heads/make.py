@@ -6,8 +6,9 @@
 
 Needs numpy and scipy. MakeHuman's frame: decimetres, x to the head's left, y up, z to the front. A file of a head has the
 smallest and largest corner (6 f32, m), the radius of the eyes (f32), then places (f32, m): the centre of the left eye, 10
-along its upper and 10 along its lower lid, 6 along its brow; then three u16 for each vertex. `topology.bin` has the numbers of
-vertices and faces (u16), four u16 for each face, and three u8 for each vertex: lips, flush, garment.
+along its upper and 10 along its lower lid, 6 along its brow; then a table (see `columns`) of three u16 for each vertex, of all heads but
+the first less those of the first. `topology.bin` has the numbers of vertices and faces (u16), a table of four u16 for each face, and u8
+for each vertex: lips of all, flush of all, garment of all.
 """
 import gzip
 import json
@@ -21,11 +22,11 @@ import scipy.sparse.csgraph as graph
 
 SOURCE, TARGET = sys.argv[1:3]
 
-# Each head: shares of the targets by ancestry, sex, and shares by age.
+# Each head: shares of the targets by ancestry, sex, and shares by age. The first is the one that the others differ from.
 HEADS = {
+    "european-woman": ({"caucasian": 1}, "female", {"young": 1}),
     "african-woman": ({"african": 1}, "female", {"young": 1}),
     "asian-man": ({"asian": 1}, "male", {"young": 1}),
-    "european-woman": ({"caucasian": 1}, "female", {"young": 1}),
     "older-man": ({"caucasian": 0.75, "african": 0.25}, "male", {"young": 0.35, "old": 0.65}),
 }
 # Vertices of the lashes' strips along the edges of the left lids, from the nose outwards.
@@ -116,6 +117,15 @@ def front(places, triangles, x, y):
         return (a[:, 2] * (1 - u - v) + b[:, 2] * u + c[:, 2] * v)[inside].max()
 
 
+def columns(table):
+    """Bytes of a table of 16-bit numbers, which compress well: in each column the change from row to row, small ones of either sign
+    as small numbers; low bytes of all first, then high ones."""
+    change = np.diff(np.asarray(table, int).T, axis=1, prepend=0)
+    change = (change + 32768) % 65536 - 32768
+    code = np.where(change < 0, -2 * change - 1, 2 * change).astype("<u2").reshape(-1)
+    return (code & 255).astype(np.uint8).tobytes() + (code >> 8).astype(np.uint8).tobytes()
+
+
 def edges(faces):
     return np.array([(a, b) for face in faces for a, b in zip(face, face[1:] + face[:1])])
 
@@ -165,11 +175,12 @@ def main():
     chest = chest * (z > 0.2) * (abs(x) < 1.35)
 
     data = struct.pack("<HH", len(used), len(faces))
-    data += b"".join(struct.pack("<4H", *face) for face in faces)
-    data += np.round(np.stack([lips, flush, garment], 1) * 255).astype(np.uint8).tobytes()
+    data += columns(faces)
+    data += np.round(np.stack([lips, flush, garment]) * 255).astype(np.uint8).tobytes()
     open(os.path.join(TARGET, "topology.bin"), "wb").write(data)
 
     triangles = np.array([[f[0], f[i], f[i + 1]] for f in faces for i in (1, 2)])
+    first = None
     for name in HEADS:
         whole = with_arms_down(person(name))
         places = whole[used].copy()
@@ -203,7 +214,9 @@ def main():
         marks = [ours([eye]), ours(whole[UPPER]), ours(whole[LOWER]), ours(brow)]
         data = np.concatenate([low, high, [0.1 * radius], np.concatenate(marks).ravel()])
         data = data.astype("<f4").tobytes()
-        data += np.round((q - low) / (high - low) * 65535).astype("<u2").tobytes()
+        places = np.round((q - low) / (high - low) * 65535).astype(int)
+        first = places if first is None else first
+        data += columns(places if places is first else places - first)
         open(os.path.join(TARGET, name + ".bin"), "wb").write(data)
 
 

@@ -11,21 +11,18 @@ use super::facial_hair::{self, FacialLines};
 use super::subdivide::Quads;
 
 /// Faces, and the tints of vertices.
-#[cfg(not(target_arch = "wasm32"))]
 const TOPOLOGY: &[u8] = include_bytes!("../../heads/topology.bin");
-#[cfg(target_arch = "wasm32")]
-const TOPOLOGY: &[u8] = &[];
 
-/// Names of the heads, and their files. The page of the salon has none: it may not weigh more.
-#[cfg(target_arch = "wasm32")]
-const PEOPLE: [(&str, &[u8]); 0] = [];
-#[cfg(not(target_arch = "wasm32"))]
+/// Names of the heads, and their files.
 const PEOPLE: [(&str, &[u8]); 4] = [
     ("african-woman", include_bytes!("../../heads/african-woman.bin")),
     ("asian-man", include_bytes!("../../heads/asian-man.bin")),
-    ("european-woman", include_bytes!("../../heads/european-woman.bin")),
+    (FIRST, include_bytes!("../../heads/european-woman.bin")),
     ("older-man", include_bytes!("../../heads/older-man.bin")),
 ];
+
+/// The head that the files of the others have the difference from.
+const FIRST: &str = "european-woman";
 
 /// Points of the lines of both lids and the brow in a file.
 const LINES: [usize; 3] = [10, 10, 6];
@@ -48,14 +45,22 @@ pub(super) struct Person {
 impl Person {
     /// A person by name.
     pub(super) fn named(name: &str) -> Option<Self> {
-        let (_, file) = PEOPLE.iter().find(|person| person.0 == name)?;
-        let mut file = Reader(file);
+        let mut file = Reader(file_of(name)?);
         let (low, high) = (file.point(), file.point());
         let radius = f64::from(file.f32());
         let eye = file.point();
         let [upper, lower, brow] = LINES.map(|n| (0..n).map(|_| file.point()).collect());
         let lines = FacialLines { brow, upper, lower, eye, middle: 0.0 };
-        let cage = cage(&mut file, low, high);
+        let mut places = file.columns::<3>(vertices());
+        if name != FIRST {
+            let mut first = Reader(file_of(FIRST)?);
+            first.0 = &first.0[HEADING..];
+            let base = first.columns::<3>(vertices());
+            places.iter_mut().zip(base).for_each(|(x, y)| {
+                *x = [0, 1, 2].map(|axis| x[axis].wrapping_add(y[axis]));
+            });
+        }
+        let cage = cage(&places, low, high);
         let fine = cage.subdivided();
         let mut positions: Vec<DVec3> = fine.values.iter().map(|v| v.place.as_dvec3()).collect();
         let mut tints: Vec<Tint> = fine.values.iter().map(|v| v.tint).collect();
@@ -102,19 +107,34 @@ impl std::ops::Mul<f32> for Corner {
     }
 }
 
-/// The mesh before subdivision: faces of the topology, and places in the box from `low` to `high` (m).
-fn cage(file: &mut Reader<'_>, low: DVec3, high: DVec3) -> Quads<Corner> {
+/// The file of a head.
+fn file_of(name: &str) -> Option<&'static [u8]> {
+    PEOPLE.iter().find(|person| person.0 == name).map(|person| person.1)
+}
+
+/// Bytes of a file before its vertices: a box, a radius, and the places of an eye and of three lines.
+const HEADING: usize = 4 * (6 + 1 + 3 * (1 + LINES[0] + LINES[1] + LINES[2]));
+
+/// The number of vertices of each head before subdivision.
+fn vertices() -> usize {
+    usize::from(Reader(TOPOLOGY).u16())
+}
+
+/// The mesh before subdivision: faces of the topology, and places in the box from `low` to `high` (m), in 65535ths of it.
+fn cage(places: &[[u16; 3]], low: DVec3, high: DVec3) -> Quads<Corner> {
     let mut topology = Reader(TOPOLOGY);
-    let [vertices, faces] = [topology.u16(), topology.u16()];
-    let faces = (0..faces).map(|_| [(); 4].map(|()| u32::from(topology.u16()))).collect();
-    let values = (0..vertices)
-        .map(|_| {
-            let part = [(); 3].map(|()| f64::from(file.u16()) / 65535.0);
-            let [lips, flush, garment] = [(); 3].map(|()| f32::from(topology.u8()) / 255.0);
-            let place = (low + DVec3::from_array(part) * (high - low)).as_vec3();
-            Corner { place, tint: Tint { lips, flush, garment } }
-        })
-        .collect();
+    let [vertices, faces] = [topology.u16(), topology.u16()].map(usize::from);
+    let faces = topology.columns::<4>(faces).into_iter().map(|face| face.map(u32::from)).collect();
+    let tint = |vertex: usize| {
+        let [lips, flush, garment] =
+            [0, 1, 2].map(|column| f32::from(topology.0[column * vertices + vertex]) / 255.0);
+        Tint { lips, flush, garment }
+    };
+    let corner = |(vertex, place): (usize, &[u16; 3])| {
+        let part = DVec3::from_array(place.map(|x| f64::from(x) / 65535.0));
+        Corner { place: (low + part * (high - low)).as_vec3(), tint: tint(vertex) }
+    };
+    let values = places.iter().enumerate().map(corner).collect();
     Quads { values, faces }
 }
 
@@ -163,16 +183,32 @@ impl Reader<'_> {
         *first
     }
 
-    fn u8(&mut self) -> u8 {
-        self.take::<1>()[0]
-    }
-
     fn u16(&mut self) -> u16 {
         u16::from_le_bytes(self.take())
     }
 
     fn f32(&mut self) -> f32 {
         f32::from_le_bytes(self.take())
+    }
+
+    /// A table of `rows`: in each column the change from row to row, small ones of either sign as small numbers (2 n, or
+    /// −2 n − 1); low bytes of all first, then high ones. So the page of the salon, which is compressed, weighs less.
+    fn columns<const N: usize>(&mut self, rows: usize) -> Vec<[u16; N]> {
+        let (low, rest) = self.0.split_at(N * rows);
+        let (high, rest) = rest.split_at(N * rows);
+        self.0 = rest;
+        let mut table = vec![[0; N]; rows];
+        for column in 0..N {
+            let mut value = 0_u16;
+            for (row, out) in table.iter_mut().enumerate() {
+                let at = column * rows + row;
+                let code = u16::from_le_bytes([low[at], high[at]]);
+                let change = if code & 1 == 0 { code >> 1 } else { !(code >> 1) };
+                value = value.wrapping_add(change);
+                out[column] = value;
+            }
+        }
+        table
     }
 
     fn point(&mut self) -> DVec3 {
