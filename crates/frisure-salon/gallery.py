@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the pictures of the gallery, gallery/*.png, with the command frisure.
 
-Usage: gallery.py PATH/TO/frisure. Needs Pillow, which gives each picture its own 40 colours, so that all
-together weigh less than the fonts of the page.
+Usage: gallery.py PATH/TO/frisure. Needs Pillow, which gives each picture its own colours, 40 where the head is the
+mannequin and 80 where it is a person, so that all together weigh less than the fonts of the page.
 """
 import io, pathlib, re, subprocess, sys, tempfile
 from PIL import Image
@@ -33,7 +33,8 @@ for kind, name in re.findall(r'card!\((type|scene) "([^"]+)"', cards):
         subprocess.run([sys.argv[1], "predict", scene, "--image", picture])
         # A guide that has not converged is reported, not fatal.
         image = Image.open(picture).convert("RGB").resize((176, 216), Image.LANCZOS)
-    image = image.quantize(40, dither=Image.Dither.NONE)
+    colours = 80 if "[head]" in text else 40
+    image = image.quantize(colours, kmeans=3, dither=Image.Dither.NONE)
     bytes_ = io.BytesIO()
     image.save(bytes_, "PNG", optimize=True)
     out.write_bytes(bytes_.getvalue())
