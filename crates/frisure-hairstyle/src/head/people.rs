@@ -120,7 +120,7 @@ fn vertices() -> usize {
     usize::from(Reader(TOPOLOGY).u16())
 }
 
-/// The mesh before subdivision: faces of the topology, and places in the box from `low` to `high` (m), in 65535ths of it.
+/// The mesh before subdivision: faces of the topology, and places in the box from `low` to `high` (m), as whole numbers up to 65535.
 fn cage(places: &[[u16; 3]], low: DVec3, high: DVec3) -> Quads<Corner> {
     let mut topology = Reader(TOPOLOGY);
     let [vertices, faces] = [topology.u16(), topology.u16()].map(usize::from);
