@@ -248,7 +248,7 @@ impl Salon {
     #[must_use]
     pub fn files(&self) -> Contents {
         self.scene.as_ref().map_or(Contents::default(), |parsed| Contents {
-            head: parsed.scene.head != HeadSource::Mannequin,
+            head: matches!(parsed.scene.head, HeadSource::Mesh(_)),
             groom: parsed.scene.groom.is_some(),
         })
     }

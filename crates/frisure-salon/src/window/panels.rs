@@ -84,14 +84,16 @@ fn files(ui: &mut Ui, salon: &Salon, parsed: &ParsedScene, out: &mut Vec<Command
         let own = CHOICES.iter().filter(|choice| choice.key.starts_with(table));
         own.for_each(|choice| options(ui, salon, choice, out));
     };
-    if let HeadSource::Mesh(file) = &parsed.scene.head {
-        file_name(ui, "Head", &file.path);
-        units(ui, "head.", out);
-        if widgets::plain(ui, "Use the mannequin", "").clicked() {
-            out.push(Command::Head(None));
+    match &parsed.scene.head {
+        HeadSource::Mesh(file) => {
+            file_name(ui, "Head", &file.path);
+            units(ui, "head.", out);
+            if widgets::plain(ui, "Use the mannequin", "").clicked() {
+                out.push(Command::Head(None));
+            }
         }
-    } else {
-        ui.label("Head: the mannequin");
+        HeadSource::Person(name) => drop(ui.label(format!("Head: {name}"))),
+        HeadSource::Mannequin => drop(ui.label("Head: the mannequin")),
     }
     if let Some(file) = &parsed.scene.groom {
         file_name(ui, "Hair", &file.path);
