@@ -92,8 +92,12 @@ fn files(ui: &mut Ui, salon: &Salon, parsed: &ParsedScene, out: &mut Vec<Command
                 out.push(Command::Head(None));
             }
         }
-        HeadSource::Person(name) => drop(ui.label(format!("Head: {name}"))),
-        HeadSource::Mannequin => drop(ui.label("Head: the mannequin")),
+        HeadSource::Person(name) => {
+            ui.label(format!("Head: {name}"));
+        }
+        HeadSource::Mannequin => {
+            ui.label("Head: the mannequin");
+        }
     }
     if let Some(file) = &parsed.scene.groom {
         file_name(ui, "Hair", &file.path);
