@@ -6,16 +6,13 @@ use std::io::{self, Write};
 use frisure_files::frame::{Frame, FrameChoice};
 
 use super::data::Groom;
-use super::motion::Motion;
+use super::motion::Samples;
 
 /// Reads a groom from the bytes of a file, or returns what is wrong with them.
 pub(super) type Reader = fn(&[u8], FrameChoice) -> Result<Groom, String>;
 
-/// Writes a groom that has been checked.
-pub(super) type Writer = fn(&mut dyn Write, &Groom, Frame) -> io::Result<()>;
-
-/// Writes a groom that moves, each sample of which has been checked.
-pub(super) type MotionWriter = fn(&mut dyn Write, &Motion, Frame) -> io::Result<()>;
+/// Writes a groom that has been checked, at one time or, if the format can, at several.
+pub(super) type Writer = fn(&mut dyn Write, &Samples<'_>, Frame) -> io::Result<()>;
 
 /// A groom format; help, error messages and lists derive from it.
 pub(super) struct Declaration {
@@ -35,8 +32,8 @@ pub(super) struct Declaration {
     pub(super) check: fn(&Groom) -> Result<(), String>,
     /// Writes what `check` has passed.
     pub(super) write: Writer,
-    /// Writes a groom that moves; none where a file has one time only.
-    pub(super) write_motion: Option<MotionWriter>,
+    /// Whether a file can hold strands at several times.
+    pub(super) moves: bool,
     /// Reads a groom; none where the format is only written.
     pub(super) read: Option<Reader>,
 }

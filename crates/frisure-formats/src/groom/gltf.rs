@@ -25,8 +25,8 @@ pub(super) static FORMAT: Declaration = Declaration {
     usual_points: None,
     most_hairs: None,
     check,
-    write: encode,
-    write_motion: None,
+    write: |out, samples, frame| encode(out, samples.groom, frame),
+    moves: false,
     read: None,
 };
 

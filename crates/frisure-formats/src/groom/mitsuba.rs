@@ -21,8 +21,8 @@ pub(super) static FORMAT: Declaration = Declaration {
     usual_points: None,
     most_hairs: None,
     check: |groom| check_strands("strand", groom.strands()),
-    write: |out, groom, frame| encode(out, groom.strands(), frame),
-    write_motion: None,
+    write: |out, samples, frame| encode(out, samples.groom.strands(), frame),
+    moves: false,
     read: None,
 };
 

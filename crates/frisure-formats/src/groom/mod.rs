@@ -37,6 +37,7 @@ pub use checked::MAX_STRANDS;
 pub use data::{Groom, HairColour};
 pub use fit::{Fit, FitError, Fitted, Points};
 pub use format::Format;
+use motion::Samples;
 pub use motion::{Motion, MotionError};
 pub use program::{Program, ProgramError};
 
@@ -146,14 +147,11 @@ impl Format {
     /// # Errors
     /// [`GroomError::CannotHold`], listing the formats that can.
     pub fn check_motion(self) -> Result<(), GroomError> {
-        self.motion_writer().map(drop)
-    }
-
-    fn motion_writer(self) -> Result<format::MotionWriter, GroomError> {
-        self.0.write_motion.ok_or_else(|| {
-            let what = format!("several times; {} can", known(|f| f.0.write_motion.is_some()));
-            GroomError::CannotHold { format: self.extension(), what }
-        })
+        if self.0.moves {
+            return Ok(());
+        }
+        let what = format!("several times; {} can", known(|f| f.0.moves));
+        Err(GroomError::CannotHold { format: self.extension(), what })
     }
 
     /// The format that a path's extension names.
@@ -174,7 +172,8 @@ impl Format {
 pub fn write_groom(path: &Path, groom: &Groom, choice: FrameChoice) -> Result<(), GroomError> {
     let format = Format::of(path)?;
     check(format, groom, choice)?;
-    write_atomically(path, |out| (format.0.write)(out, groom, choice.or(format.frame())))?;
+    let samples = Samples::still(groom);
+    write_atomically(path, |out| (format.0.write)(out, &samples, choice.or(format.frame())))?;
     Ok(())
 }
 
@@ -187,9 +186,10 @@ pub fn write_groom(path: &Path, groom: &Groom, choice: FrameChoice) -> Result<()
 /// [`GroomError`]; [`GroomError::CannotHold`] for a format whose files have one time only.
 pub fn write_motion(path: &Path, motion: &Motion, choice: FrameChoice) -> Result<(), GroomError> {
     let format = Format::of(path)?;
-    let write = format.motion_writer()?;
+    format.check_motion()?;
     check(format, motion.first(), choice)?;
-    write_atomically(path, |out| write(out, motion, choice.or(format.frame())))?;
+    let samples = Samples::of(motion);
+    write_atomically(path, |out| (format.0.write)(out, &samples, choice.or(format.frame())))?;
     Ok(())
 }
 
@@ -201,7 +201,7 @@ pub fn encode(format: Format, groom: &Groom, choice: FrameChoice) -> Result<Vec<
     check(format, groom, choice)?;
     let mut bytes = Vec::new();
     // Memory takes all bytes.
-    (format.0.write)(&mut bytes, groom, choice.or(format.frame()))
+    (format.0.write)(&mut bytes, &Samples::still(groom), choice.or(format.frame()))
         .map_err(|source| WriteError::Io { path: PathBuf::new(), source })?;
     Ok(bytes)
 }

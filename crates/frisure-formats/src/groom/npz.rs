@@ -34,8 +34,8 @@ pub(super) static FORMAT: Declaration = Declaration {
     usual_points: None,
     most_hairs: None,
     check: |_| Ok(()),
-    write: encode,
-    write_motion: None,
+    write: |out, samples, frame| encode(out, samples.groom, frame),
+    moves: false,
     read: Some(decode),
 };
 

@@ -22,8 +22,8 @@ pub(super) static FORMAT: Declaration = Declaration {
     usual_points: None,
     most_hairs: None,
     check: |_| Ok(()),
-    write: |out, groom, frame| encode(out, groom.strands(), frame),
-    write_motion: None,
+    write: |out, samples, frame| encode(out, samples.groom.strands(), frame),
+    moves: false,
     read: Some(decode),
 };
 

@@ -25,8 +25,8 @@ pub(super) static FORMAT: Declaration = Declaration {
     usual_points: Some(100),
     most_hairs: None,
     check: |groom| check(groom.strands()),
-    write: |out, groom, frame| encode(out, groom.strands(), frame),
-    write_motion: None,
+    write: |out, samples, frame| encode(out, samples.groom.strands(), frame),
+    moves: false,
     read: Some(decode),
 };
 

@@ -26,6 +26,6 @@ pub(super) static FORMAT: Declaration = Declaration {
     most_hairs: None,
     check: check_curves,
     write: write::encode,
-    write_motion: Some(write::encode_motion),
+    moves: true,
     read: Some(read::decode),
 };

@@ -10,22 +10,13 @@ use super::super::attributes as names;
 use super::names::{CURVES, KNOWN, OURS, UNREAL, XFORM};
 use crate::groom::attributes::{indices, of_strands, push};
 use crate::groom::data::{Groom, HairColour};
-use crate::groom::motion::{Motion, Samples, same_widths};
+use crate::groom::motion::{Samples, same_widths};
 use frisure_files::frame::Frame;
 use frisure_ogawa::parameter::Scope;
 use frisure_ogawa::write::{Object, Pod, Property, Sample, TimeSampling, write_archive};
 
 /// Writes what the check has passed.
-pub(super) fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
-    encode_samples(out, &Samples::still(groom), frame)
-}
-
-/// The same for hair that moves.
-pub(super) fn encode_motion(out: &mut dyn Write, motion: &Motion, frame: Frame) -> io::Result<()> {
-    encode_samples(out, &Samples::of(motion), frame)
-}
-
-fn encode_samples(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Result<()> {
+pub(super) fn encode(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Result<()> {
     let Samples { groom, hairs: all_hairs, guides: all_guides, interval } = samples;
     let of_guides = with_extras(&groom.guides, guide_extras(&groom.guides));
     let of_hairs = with_extras(&groom.hairs, hair_extras(groom));

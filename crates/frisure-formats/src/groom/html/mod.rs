@@ -21,8 +21,8 @@ pub(super) static FORMAT: Declaration = Declaration {
     usual_points: None,
     most_hairs: Some(20_000),
     check,
-    write: encode,
-    write_motion: None,
+    write: |out, samples, frame| encode(out, samples.groom, frame),
+    moves: false,
     read: None,
 };
 

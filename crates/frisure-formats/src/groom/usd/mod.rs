@@ -19,27 +19,24 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 
 use super::checked::check_curves;
 use super::data::Groom;
-use super::format::{Declaration, MotionWriter, Writer};
-use super::motion::{Motion, Samples};
+use super::format::{Declaration, Writer};
+use super::motion::Samples;
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::{Frame, FrameChoice};
 use frisure_usd as usd;
 
 /// The declarations of the formats.
-pub(super) static USDC: Declaration = declaration(
-    &["usdc", "usd"],
-    "Universal Scene Description, binary",
-    (write_binary, move_binary),
-);
+pub(super) static USDC: Declaration =
+    declaration(&["usdc", "usd"], "Universal Scene Description, binary", write_binary);
 pub(super) static USDA: Declaration =
-    declaration(&["usda"], "Universal Scene Description, text", (write_text, move_text));
+    declaration(&["usda"], "Universal Scene Description, text", write_text);
 pub(super) static USDZ: Declaration =
-    declaration(&["usdz"], "Universal Scene Description, package", (write_package, move_package));
+    declaration(&["usdz"], "Universal Scene Description, package", write_package);
 
 const fn declaration(
     extensions: &'static [&'static str],
     title: &'static str,
-    (write, write_motion): (Writer, MotionWriter),
+    write: Writer,
 ) -> Declaration {
     Declaration {
         extensions,
@@ -50,42 +47,23 @@ const fn declaration(
         most_hairs: None,
         check: check_curves,
         write,
-        write_motion: Some(write_motion),
+        moves: true,
         read: Some(decode),
     }
 }
 
 /// Writes what [`check_curves`] has passed, as text.
-fn write_text(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
-    usd::write_text(out, &write::layer(&Samples::still(groom), frame))
-}
-
-/// The same for hair that moves.
-fn move_text(out: &mut dyn Write, motion: &Motion, frame: Frame) -> io::Result<()> {
-    usd::write_text(out, &write::layer(&Samples::of(motion), frame))
+fn write_text(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Result<()> {
+    usd::write_text(out, &write::layer(samples, frame))
 }
 
 /// Writes what [`check_curves`] has passed, in binary.
-fn write_binary(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
-    usd::write_binary(out, &write::layer(&Samples::still(groom), frame))
-}
-
-/// The same for hair that moves.
-fn move_binary(out: &mut dyn Write, motion: &Motion, frame: Frame) -> io::Result<()> {
-    usd::write_binary(out, &write::layer(&Samples::of(motion), frame))
+fn write_binary(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Result<()> {
+    usd::write_binary(out, &write::layer(samples, frame))
 }
 
 /// Writes what [`check_curves`] has passed, in binary and as a package.
-fn write_package(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
-    package(out, &Samples::still(groom), frame)
-}
-
-/// The same for hair that moves.
-fn move_package(out: &mut dyn Write, motion: &Motion, frame: Frame) -> io::Result<()> {
-    package(out, &Samples::of(motion), frame)
-}
-
-fn package(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Result<()> {
+fn write_package(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Result<()> {
     // Where layers are read as they lie in the archive, they have to lie so.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Stored)
@@ -93,7 +71,7 @@ fn package(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -> io::Resu
         .with_alignment(64);
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     archive.start_file("groom.usdc", options)?;
-    usd::write_binary(&mut archive, &write::layer(samples, frame))?;
+    write_binary(&mut archive, samples, frame)?;
     out.write_all(archive.finish()?.get_ref())
 }
 

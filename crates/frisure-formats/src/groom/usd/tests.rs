@@ -2,6 +2,7 @@ use frisure_strands::Surface;
 use glam::{DVec3, Vec3};
 
 use super::super::attributes::{self, of_points, of_strands};
+use super::super::motion::Motion;
 use super::*;
 use frisure_files::frame::UpAxis;
 use frisure_look::Melanin;
@@ -61,7 +62,7 @@ fn bytes(groom: &Groom, frame: Frame, binary: bool) -> Vec<u8> {
     check_curves(groom).unwrap();
     let mut out = Vec::new();
     let encode = if binary { write_binary } else { write_text };
-    encode(&mut out, groom, frame).unwrap();
+    encode(&mut out, &Samples::still(groom), frame).unwrap();
     out
 }
 
@@ -439,9 +440,9 @@ fn hair_that_moves_has_its_points_and_widths_at_time_codes() {
     assert!(codes(prim("guides"), "widths").is_empty());
     assert!(prim("guides").value("widths").is_some());
     // A reader of one time has the first.
-    for write in [move_text, move_binary, move_package] {
+    for write in [write_text, write_binary, write_package] {
         let mut bytes = Vec::new();
-        write(&mut bytes, &motion, Frame::METRES_Z).unwrap();
+        write(&mut bytes, &Samples::of(&motion), Frame::METRES_Z).unwrap();
         let read = decode(&bytes, FrameChoice::default()).unwrap();
         assert_eq!(read.hairs.points(), whole().hairs.points());
         assert_eq!(read.hairs.radii(), whole().hairs.radii());
