@@ -33,9 +33,9 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
-        // Tests and compilers leave a part of two cores idle: what needs the release build goes on beside them.
+        // Tests and compilers leave a part of two cores idle: what does not need the tests' build goes on beside them.
         thread::scope(|scope| {
-            let other = scope.spawn(|| release_build(&gate));
+            let other = scope.spawn(|| other_programs(&gate));
             let first = development_build(&gate);
             let other =
                 other.join().map_err(|_| anyhow!("the steps of the release build panic"))?;
@@ -68,20 +68,20 @@ fn development_build(gate: &Gate) -> Result<()> {
         // About two minutes; the tests have made a shorter run of it.
         shell("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
     })?;
-    gate.step("examples", examples)?;
-    gate.step("programs that open grooms", || {
-        // The tests have built this one, with every feature.
-        shell("FRISURE=target/debug/frisure validation/clients/run")
-    })?;
-    gate.step("the Python package", || shell("crates/frisure-python/tests/run"))?;
-    // With the wheel of the step before.
-    gate.step("the extension for Blender", || shell("blender/tests/run"))
+    gate.step("examples", examples)
 }
 
-/// The steps that need the release build. What they print comes when each is done.
-fn release_build(gate: &Gate) -> Result<()> {
+/// The steps that need the release build, then those of programs in Python. What they print comes when each is done.
+fn other_programs(gate: &Gate) -> Result<()> {
     gate.step("the README's main command", main_command)?;
-    gate.step("every scene", every_scene)
+    gate.step("every scene", every_scene)?;
+    gate.step("programs that open grooms", || {
+        // `.ci/run` has built this one, with every feature.
+        shell_beside("FRISURE=target/debug/frisure validation/clients/run")
+    })?;
+    gate.step("the Python package", || shell_beside("crates/frisure-python/tests/run"))?;
+    // With the wheel of the step before.
+    gate.step("the extension for Blender", || shell_beside("blender/tests/run"))
 }
 
 /// The steps so far, with their times.
