@@ -264,7 +264,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Force per length, in weights of the hair, with which friction on the hair beneath holds combed hair out of the face;
         /// {}. Default 1.2.
         "implantation.hold" => number::<Ratio>()
-            .slider(Panel::Implantation, "Hold", TIMES, (0.0, 2.0), 2,
+            .slider(Panel::Implantation, "Hold", TIMES, (0.0, 3.0), 2,
                 "How well combed hair stays out of the face, in weights of the hair.");
         /// The edge of the hair, against the usual line. A scalp that comes with a mesh keeps its own.
         "implantation.hairline" => table();
@@ -280,6 +280,12 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// How far it comes forward to a point in the middle; {}. Default 0.
         "implantation.hairline.widows_peak" => number::<Length>()
             .slider(Panel::Implantation, "Widow's peak", CM, (0.0, 3.0), 1, "How far the hairline comes forward in the middle.");
+        /// How much higher sideburns end than usual, which is beside the middle of the ear; {}. Default 0.
+        "implantation.hairline.sideburns" => number::<Length>()
+            .slider(Panel::Implantation, "Sideburns", CM, (0.0, 2.5), 1, "How much higher than usual the hair before the ears ends.");
+        /// How much higher the hair ends at the nape than usual; {}. Default 0.
+        "implantation.hairline.nape" => number::<Length>()
+            .slider(Panel::Implantation, "Nape", CM, (0.0, 3.0), 1, "How much higher than usual the hair ends at the nape.");
         /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin; {}. Default
         /// 0.15.
         "implantation.baby_hairs" => number::<Ratio>()

@@ -396,7 +396,7 @@ fn partings_and_regions_arrive() {
         whorl_offset = ["1 cm", "-5 mm"]
         whorl_turn = "anticlockwise"
         baby_hairs = "20 %"
-        hairline = { irregularity = "1 mm", height = "1 cm", recession = "2 cm", widows_peak = "5 mm" }
+        hairline = { irregularity = "1 mm", height = "1 cm", recession = "2 cm", widows_peak = "5 mm", sideburns = "2 cm", nape = "1 cm" }
         [[implantation.partings]]
         line = [["2 cm", "0 cm"], [0.03, 0.08]]
         [[implantation.partings]]
@@ -420,8 +420,14 @@ fn partings_and_regions_arrive() {
     assert_eq!(i.partings, [line, Parting::Zigzag { offset: 0.0 }]);
     assert_eq!((i.whorls.count, i.whorls.offset), (2, [0.01, -0.005]));
     assert_eq!((i.whorls.turn, i.baby_hairs), (Turn::Anticlockwise, 0.2));
-    let hairline =
-        Hairline { irregularity: 0.001, height: 0.01, recession: 0.02, widows_peak: 0.005 };
+    let hairline = Hairline {
+        irregularity: 0.001,
+        height: 0.01,
+        recession: 0.02,
+        widows_peak: 0.005,
+        sideburns: 0.02,
+        nape: 0.01,
+    };
     assert_eq!(i.hairline, hairline);
     let [fringe, nape] = spec.regions.as_slice() else { panic!("two regions") };
     assert_eq!(fringe.places, [Place::Region(Region::Fringe), Place::LeftOf(Region::Sides)]);

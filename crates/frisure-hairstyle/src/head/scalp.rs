@@ -22,13 +22,23 @@ digestible! {
         pub recession: f64,
         /// How far it comes forward to a point in the middle.
         pub widows_peak: f64,
+        /// How much higher sideburns end than usual, which is beside the middle of the ear.
+        pub sideburns: f64,
+        /// How much higher the line at the nape is than usual.
+        pub nape: f64,
     }
 }
 
 impl Hairline {
     /// The usual line without irregularities.
-    pub const EVEN: Self =
-        Self { irregularity: 0.0, height: 0.0, recession: 0.0, widows_peak: 0.0 };
+    pub const EVEN: Self = Self {
+        irregularity: 0.0,
+        height: 0.0,
+        recession: 0.0,
+        widows_peak: 0.0,
+        sideburns: 0.0,
+        nape: 0.0,
+    };
 }
 
 impl Default for Hairline {
@@ -82,9 +92,9 @@ impl Edge {
             (way.normalize_or(DVec3::X) * (TAU / length), TAU * random.unit())
         };
         let waves = (0..count).map(|_| wave()).collect();
-        let line = curve(&anchors(landmarks));
+        let line = curve(&anchors(landmarks, hairline));
         let boxes = (0..line.len()).step_by(STEPS).map(|i| bounds(&line[i..], STEPS + 1)).collect();
-        let Hairline { irregularity, height, recession, widows_peak } = *hairline;
+        let Hairline { irregularity, height, recession, widows_peak, .. } = *hairline;
         // n sines sum up to n at most: see `noise`.
         let noise = irregularity.abs() * (2.0 * count as f64).sqrt();
         let reach = THINNING.1 + height.abs() + recession.abs() + widows_peak.abs() + noise;
@@ -181,15 +191,17 @@ impl Edge {
     }
 }
 
-/// The line's corners, from proportions: azimuth and elevation (rad).
-fn anchors(l: &Landmarks) -> Vec<[f64; 2]> {
+/// The line's corners, from proportions and from how far a hairline moves them: azimuth and elevation (rad).
+fn anchors(l: &Landmarks, hairline: &Hairline) -> Vec<[f64; 2]> {
     let scale = l.width / 0.155;
     let ear = l.azimuth(l.ear);
     let front = l.hairline.z;
     let brow = l.brow.z;
     let top = l.ear.z + 0.033 * scale;
     let bottom = l.ear.z - 0.030 * scale;
-    let nape = l.elevation(l.nape);
+    // A length along the skin is an angle about the centre.
+    let nape = l.elevation(l.nape) + hairline.nape / l.nape.distance(l.cranium_centre);
+    let sideburns = bottom + hairline.sideburns;
     // The skin's distance from the vertical axis, for a height above the centre.
     let at = |azimuth: f64, z: f64| {
         let h = (z - l.cranium_centre.z) / l.cranium_radii.z;
@@ -208,13 +220,13 @@ fn anchors(l: &Landmarks) -> Vec<[f64; 2]> {
         at(1.04, brow + 0.010 * scale),
         at(1.16, brow - 0.004 * scale),
         at(ear - 0.42, top - 0.012 * scale),
-        at(ear - 0.40, bottom + 0.020 * scale),
-        at(ear - 0.24, bottom + 0.018 * scale),
+        at(ear - 0.40, sideburns + 0.020 * scale),
+        at(ear - 0.24, sideburns + 0.018 * scale),
         at(ear - 0.21, top - 0.012 * scale),
         at(ear - 0.10, top + 0.008 * scale),
         at(ear + 0.16, top + 0.006 * scale),
         at(ear + 0.34, top - 0.020 * scale),
-        at(ear + 0.44, bottom),
+        at(ear + 0.44, bottom + 0.5 * hairline.nape),
     ];
     let last = line[line.len() - 1];
     line.push([0.5 * (last[0] + PI), 0.35 * last[1] + 0.65 * nape]);

@@ -253,6 +253,13 @@ fn hairlines_recede_and_peak_where_told() {
     assert!(moved(Hairline { widows_peak: 0.01, ..even }, marks.hairline) < -0.008);
     assert!(moved(Hairline { recession: 0.01, ..even }, temple) > 0.005);
     assert!(moved(Hairline { recession: 0.01, ..even }, marks.nape).abs() < 1e-4);
+    let higher = moved(Hairline { nape: 0.01, ..even }, marks.nape);
+    assert!((0.007..0.0101).contains(&higher), "{higher}");
+    // Hair before the middle of the ear, and none there with short sideburns; at the temple nothing changes.
+    let before_ear = root(DVec3::new(0.07, marks.ear.y - 0.024, marks.ear.z)).position;
+    assert!(inside(even, before_ear) > 0.0, "{before_ear}");
+    assert!(inside(Hairline { sideburns: 0.02, ..even }, before_ear) < 0.0);
+    assert!(moved(Hairline { sideburns: 0.02, ..even }, temple).abs() < 1e-4);
 }
 
 /// The direction (unit) of the axis about which the natural curl of a root winds.

@@ -146,6 +146,8 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "implantation.hairline.height", field!(implantation.hairline.height), -0.03, 0.05, "between -3 and 5 cm";
     "implantation.hairline.recession", field!(implantation.hairline.recession), 0.0, 0.04, "between 0 and 4 cm";
     "implantation.hairline.widows_peak", field!(implantation.hairline.widows_peak), 0.0, 0.03, "between 0 and 3 cm";
+    "implantation.hairline.sideburns", field!(implantation.hairline.sideburns), 0.0, 0.025, "between 0 and 2.5 cm";
+    "implantation.hairline.nape", field!(implantation.hairline.nape), 0.0, 0.03, "between 0 and 3 cm";
     "implantation.partings.offset", Access::Listed, -0.06, 0.06, "within 6 cm of the middle";
     "region.length", Access::Listed, 1e-3, 3.0, "between 1 mm and 3 m";
     "region.lift", Access::Listed, 0.0, PI / 2.0, "between 0 and 90 deg";
