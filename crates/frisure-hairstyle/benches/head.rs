@@ -41,6 +41,12 @@ fn wisps(bencher: Bencher<'_, '_>, size: (usize, usize)) {
     cold(bencher, size, HairContact::Wisps);
 }
 
+/// The same with wisps that press on each other as a density.
+#[divan::bench(args = SIZES, sample_count = 4)]
+fn density(bencher: Bencher<'_, '_>, size: (usize, usize)) {
+    cold(bencher, size, HairContact::Density);
+}
+
 /// Guides × elements: the paper's head of hair is 100 × 15, and took it six seconds.
 const SIZES: [(usize, usize); 5] = [(100, 15), (100, 30), (200, 15), (400, 15), (100, 60)];
 
@@ -51,12 +57,17 @@ fn cold(bencher: Bencher<'_, '_>, (guides, elements): (usize, usize), hair: Hair
 }
 
 /// Contact, and most sweeps.
-const WARM: [(HairContact, usize); 3] =
-    [(HairContact::Layers, 1), (HairContact::Wisps, 2), (HairContact::Wisps, 1000)];
+const WARM: [(HairContact, usize); 5] = [
+    (HairContact::Layers, 1),
+    (HairContact::Wisps, 2),
+    (HairContact::Wisps, 1000),
+    (HairContact::Density, 2),
+    (HairContact::Density, 1000),
+];
 
 /// After the radius of curls has grown by 2 %: to rest in layers, then among wisps in two sweeps and
-/// to rest.
-#[divan::bench(args = 0..3, sample_count = 20)]
+/// to rest, then as a density in two steps and to rest.
+#[divan::bench(args = 0..5, sample_count = 20)]
 fn warm(bencher: Bencher<'_, '_>, case: usize) {
     let (hair, sweeps) = WARM[case];
     let (head, mut spec) = (Head::mannequin(), spec(100, 15));

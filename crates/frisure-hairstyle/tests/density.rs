@@ -66,6 +66,23 @@ fn a_dense_head_is_at_a_certified_minimum_and_stays_there() {
 }
 
 #[test]
+fn a_warm_start_ends_at_a_certified_minimum_near_the_prediction() {
+    let before = predicted(&spec(HairContact::Density));
+    let mut longer = spec(HairContact::Density);
+    longer.length.mean *= 1.02;
+    let options = PredictOptions {
+        previous: Some(&before),
+        start: Start::Previous,
+        ..PredictOptions::default()
+    };
+    let warm = predict(&longer, &HEAD, options, &()).unwrap();
+    certified(&warm);
+    // Some guides go downhill to another minimum of their own than that to which gravity leads, as without contact.
+    let moves = moves(&warm, &predicted(&longer));
+    assert!(moves[GUIDES / 2] < 5e-4, "{moves:?}");
+}
+
+#[test]
 fn a_millionth_of_the_length_moves_99_percent_by_less_than_a_tenth_of_a_millimetre() {
     let style = |factor: f64| {
         let mut spec = spec(HairContact::Density);

@@ -217,6 +217,7 @@ mod tests {
     fn the_joint_hessian_is_the_derivative_of_the_joint_gradient() {
         let head = Head::mannequin();
         let mut spec = preset("caucasian-curly").unwrap().spec();
+        spec.contact.hair = crate::spec::HairContact::Wisps;
         spec.wisps.count = 40;
         spec.equilibrium.resolution = frisure_rod::Resolution::Elements(10);
         let style = crate::predict(&spec, &head, PredictOptions::default(), &()).unwrap();
