@@ -22,7 +22,7 @@ CAPTION = 18  # pixels below a picture that has a caption
 STRAIGHT = '[hair]\ntype = "caucasian-straight"\nlength = "25 cm"\n[implantation]\nflow = "parted"\nparting = "2 cm"\n'
 BEHIND = '[camera]\nazimuth = "150 deg"\n'
 BOB = (
-    '[hair]\ntype = "asian-straight"\nlength = "33 cm"\n[look]\ncolour = "dark-brown"\n[camera]\nazimuth = "60 deg"\n'
+    '[head]\nmodel = "european-woman"\n[hair]\ntype = "asian-straight"\nlength = "33 cm"\n[look]\ncolour = "dark-brown"\n[camera]\nazimuth = "60 deg"\n'
     '[[step]]\ncut = { below = "chin", held = "hanging" }\n'
 )
 LOOKS = [
