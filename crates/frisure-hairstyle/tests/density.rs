@@ -28,6 +28,19 @@ fn predicted(spec: &HairstyleSpec) -> Hairstyle {
     predict(spec, &HEAD, PredictOptions::default(), &()).unwrap()
 }
 
+/// The same from where another head of hair lies, with so much work at most.
+fn predicted_from(before: &Hairstyle, spec: &HairstyleSpec, effort: Effort) -> Hairstyle {
+    let options = PredictOptions { previous: Some(before), start: Start::Previous, effort };
+    predict(spec, &HEAD, options, &()).unwrap()
+}
+
+/// The hair of [`spec`] as a density, 2 % longer.
+fn longer() -> HairstyleSpec {
+    let mut longer = spec(HairContact::Density);
+    longer.length.mean *= 1.02;
+    longer
+}
+
 /// Largest distance (m) between the same points of two hairstyles, guide by guide, in order.
 fn moves(a: &Hairstyle, b: &Hairstyle) -> Vec<f64> {
     let line = |style: &Hairstyle, i: usize| style.equilibria()[i].centre_line(40);
@@ -56,29 +69,17 @@ fn a_dense_head_is_at_a_certified_minimum_and_stays_there() {
     // Wisps that lie in one place on the bed of hair make room.
     let layers = predicted(&spec(HairContact::Layers));
     assert!(moves(&layers, &density)[GUIDES - 1] > 1e-4, "{:?}", moves(&layers, &density));
-    let options = PredictOptions {
-        previous: Some(&density),
-        start: Start::Previous,
-        ..PredictOptions::default()
-    };
-    let again = predict(&spec(HairContact::Density), &HEAD, options, &()).unwrap();
+    let again = predicted_from(&density, &spec(HairContact::Density), Effort::FULL);
     assert!(moves(&density, &again)[GUIDES - 1] < 1e-6, "{:?}", moves(&density, &again));
 }
 
 #[test]
 fn a_warm_start_ends_at_a_certified_minimum_near_the_prediction() {
     let before = predicted(&spec(HairContact::Density));
-    let mut longer = spec(HairContact::Density);
-    longer.length.mean *= 1.02;
-    let options = PredictOptions {
-        previous: Some(&before),
-        start: Start::Previous,
-        ..PredictOptions::default()
-    };
-    let warm = predict(&longer, &HEAD, options, &()).unwrap();
+    let warm = predicted_from(&before, &longer(), Effort::FULL);
     certified(&warm);
     // Some guides go downhill to another minimum of their own than that to which gravity leads, as without contact.
-    let moves = moves(&warm, &predicted(&longer));
+    let moves = moves(&warm, &predicted(&longer()));
     assert!(moves[GUIDES / 2] < 5e-4, "{moves:?}");
 }
 
@@ -124,16 +125,9 @@ fn steps_come_to_rest_together_and_drying_gives_back_what_was() {
 #[test]
 fn a_draft_takes_few_steps_and_is_not_certified() {
     let before = predicted(&spec(HairContact::Density));
-    let mut longer = spec(HairContact::Density);
-    longer.length.mean *= 1.02;
-    let options = PredictOptions {
-        previous: Some(&before),
-        start: Start::Previous,
-        effort: Effort { iterations: 4, sweeps: 2 },
-    };
-    let draft = predict(&longer, &HEAD, options, &()).unwrap();
+    let draft = predicted_from(&before, &longer(), Effort { iterations: 4, sweeps: 2 });
     let report = settling_report(&draft, &HEAD);
     assert!(report.joint.is_none() && report.sweeps <= 2, "{report:?}");
-    let exact = moves(&draft, &predicted(&longer));
+    let exact = moves(&draft, &predicted(&longer()));
     assert!(exact[GUIDES / 2] < 5e-3, "{exact:?}");
 }

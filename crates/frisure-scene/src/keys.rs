@@ -409,7 +409,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Factor on the thickness of wisps, which follows from their hairs; {}. Default 1.
         "contact.volume" => number::<Ratio>()
             .slider(Panel::Wisps, "Volume", TIMES, (0.0, 4.0), 2, "Factor on how much room wisps take from each other.");
-        /// Coefficient of friction of hair against hair, which holds what was combed; {}. Default 0: hair slides freely.
+        /// Coefficient of friction of hair against hair, which holds what was combed, as a density on the bed beneath alone; {}.
+        /// Default 0: hair slides freely.
         "contact.friction" => number::<Ratio>()
             .slider(Panel::Wisps, "Friction", PERCENT, (0.0, 100.0), 0, "How well hair holds on hair after it was combed.");
         /// The same against skin; {}. Default 0.

@@ -37,8 +37,7 @@ pub(crate) fn run(quick: bool) -> Result<()> {
         thread::scope(|scope| {
             let other = scope.spawn(|| other_programs(&gate));
             let first = development_build(&gate);
-            let other =
-                other.join().map_err(|_| anyhow!("the steps of the release build panic"))?;
+            let other = other.join().map_err(|_| anyhow!("the steps beside the tests panic"))?;
             first.and(other)
         })?;
     }

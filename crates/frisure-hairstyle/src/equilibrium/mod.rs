@@ -77,12 +77,15 @@ pub(crate) fn settle(
     let full = effort == Effort::FULL;
     let gone = letting_go::among_wisps(spec, guides, start).filter(|_| full);
     let among = gone.is_some();
+    // Whether guides go on from the shapes in which they were, among each other. In a density they come to rest alone first if they are to
+    // rest at all, as they do without a start: from there Newton's method for all takes a tenth of the steps (bench `head`, `warm`).
+    let goes_on = match spec.contact.hair {
+        HairContact::Wisps => true,
+        HairContact::Density => !full,
+        HairContact::None | HairContact::Layers => effort == Effort::NONE,
+    };
     let (alone, friction): (Vec<_>, Vec<_>) = match start {
-        // Among wisps the guides go on from where the other wisps left them. In a density they come to rest alone first, as they do
-        // without a start: from there Newton's method for all takes a tenth of the steps (bench `head`, `warm`).
-        GuideStart::At(before) | GuideStart::Like(before)
-            if effort == Effort::NONE || (wisps_repel && !(together && full)) =>
-        {
+        GuideStart::At(before) | GuideStart::Like(before) if goes_on => {
             let shapes = guide_solver::in_shapes_of(spec, guides, before);
             shapes.into_iter().map(|rest| (rest, 0.0)).unzip()
         }
