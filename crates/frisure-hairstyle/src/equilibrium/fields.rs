@@ -22,6 +22,11 @@ pub(super) const TOLERANCE: f64 = 1e-8;
 /// Chosen with room; a guide that needs more is reported.
 pub(super) const MAX_ITERATIONS: usize = 1000;
 
+/// Farthest (m) that a node of a guide moves in an iteration. Chosen by trial: hair that falls off the head comes down on the same
+/// side for lengths that differ by a millionth. With 10 mm one of 620 guides of straight hair does not, without a bound 7; a
+/// bound of 5 mm takes a sixth more time.
+const LONGEST_STEP: f64 = 5e-3;
+
 /// Options of the equilibrium of one guide.
 pub(super) fn options(spec: &HairstyleSpec) -> Options {
     Options {
@@ -30,6 +35,7 @@ pub(super) fn options(spec: &HairstyleSpec) -> Options {
         max_elements: MOST_ELEMENTS,
         tolerance: TOLERANCE,
         max_iterations: MAX_ITERATIONS,
+        longest_step: LONGEST_STEP,
         estimate_error: false,
         eigenvalue: false,
         ..Options::default()

@@ -203,6 +203,8 @@ fn settle_one_from(
         resolution: Resolution::Elements(elements),
         max_iterations: iterations,
         tolerance: WARM_TOLERANCE,
+        // It is near rest, and iterations are few.
+        longest_step: f64::INFINITY,
         ..options(spec)
     };
     if spec.contact.body == Body::None && guide.pull.is_none() {

@@ -33,6 +33,8 @@ pub struct Options {
     pub tolerance: f64,
     /// Most iterations at each division of the rod; a quarter of it at each step of gravity.
     pub max_iterations: usize,
+    /// Farthest (m) that a node moves in an iteration, see [`crate::minimise::Newton::longest_step`]; infinite by default.
+    pub longest_step: f64,
     /// Whether to estimate the error for a given number of elements, by doubling them.
     pub estimate_error: bool,
     /// Whether to compute the smallest eigenvalue of the second variation. Stability is known
@@ -52,6 +54,7 @@ impl Default for Options {
             tolerance: 1e-10,
             // Chosen: far above what hair takes; a bound for rods far outside of it.
             max_iterations: 500,
+            longest_step: f64::INFINITY,
             estimate_error: true,
             eigenvalue: true,
         }

@@ -166,6 +166,10 @@ impl Search<'_> {
         Chain::uniform(self.rod, self.kind, elements)
     }
 
+    fn newton(&self) -> Newton {
+        Newton { longest_step: self.options.longest_step, ..Newton::default() }
+    }
+
     fn stopping(&self, tolerance: f64) -> StoppingCriteria {
         StoppingCriteria { tolerance, max_iterations: self.options.max_iterations }
     }
@@ -205,7 +209,7 @@ impl Search<'_> {
 
     fn settle(&self, chain: &Chain<'_>, start: Shape, tolerance: f64) -> Level {
         let problem = Problem::new(chain, self.external);
-        let minimum = Newton::default().minimise(&problem, start, self.stopping(tolerance));
+        let minimum = self.newton().minimise(&problem, start, self.stopping(tolerance));
         let energy = problem.energy(&minimum.shape);
         Level { elements: chain.len(), minimum, energy, least: OnceCell::new() }
     }
@@ -294,7 +298,7 @@ impl Search<'_> {
                 },
                 _ => self.stopping(last),
             };
-            Newton::default().minimise(&problem, start, stopping)
+            self.newton().minimise(&problem, start, stopping)
         };
         let most_halvings = if self.external.is_empty() { HALVINGS } else { HALVINGS_IN_CONTACT };
         // 1. Without weight; external potentials can act even then.

@@ -24,11 +24,14 @@ pub struct Newton {
     pub first_damping: f64,
     /// Whether to leave a saddle point along negative curvature; without it the saddle point is the answer.
     pub escape_saddles: bool,
+    /// Farthest (m) that a node moves in an iteration; infinite by default. Where a rod falls from one minimum to another, short
+    /// steps follow the way downhill, so that the end is decided by the energy and not by the length of a step.
+    pub longest_step: f64,
 }
 
 impl Default for Newton {
     fn default() -> Self {
-        Self { first_damping: 0.3, escape_saddles: true }
+        Self { first_damping: 0.3, escape_saddles: true, longest_step: f64::INFINITY }
     }
 }
 
@@ -127,6 +130,12 @@ impl Newton {
         let step = rollout_steps::<POSITION>(problem, shape, &laws);
         let positive_definite = damping == 0.0 || at.negative_pivot(f64::INFINITY).is_none();
         NewtonStep { gradient: at.gradient, step, positive_definite }
+    }
+
+    /// Whether a node moves farther than it may from one shape to the next.
+    fn goes_too_far(&self, shape: &Shape, next: &Shape) -> bool {
+        let far = |(p, q): (&DVec3, &DVec3)| p.distance(*q) > self.longest_step;
+        self.longest_step.is_finite() && shape.positions.iter().zip(&next.positions).any(far)
     }
 
     /// Damping after one that was too weak.
@@ -244,6 +253,10 @@ impl Newton {
             let mut fraction = 1.0;
             for trial in 0..trials {
                 let (next, lowered) = rollout::<POSITION>(at.problem, shape, &sweep.laws, fraction);
+                if self.goes_too_far(shape, &next) {
+                    fraction *= 0.5;
+                    continue;
+                }
                 // The model's decrease along the step, a parabola with its vertex at α = 1: Δ(α) = α (2 − α) Δ(1).
                 let expected = sweep.decrease * fraction * (2.0 - fraction);
                 if lowered <= energy - ARMIJO * expected
