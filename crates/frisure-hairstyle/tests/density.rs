@@ -15,9 +15,9 @@ static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
 /// Number of guides: so many that some lie in one place on the bed of hair.
 const GUIDES: usize = 160;
 
-/// Straight hair of coarse guides.
+/// Wavy hair of coarse guides: straight hair presses only where it is nearly solid.
 fn spec(contact: HairContact) -> HairstyleSpec {
-    let mut spec = preset("caucasian-straight").unwrap().spec();
+    let mut spec = preset("caucasian-wavy").unwrap().spec();
     spec.wisps.count = GUIDES;
     spec.contact.hair = contact;
     spec.equilibrium.resolution = frisure_rod::Resolution::Elements(10);

@@ -400,7 +400,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "contact" => table();
         /// Model of the head in contact. Default "signed-distance".
         "contact.body" => value::<OneOf<Keyword<Body>>>();
-        /// Model of the contact between wisps. Default "wisps" for straight hair, "density" for waves and curls, "layers" for tight coils.
+        /// Model of the contact between wisps. Default "density", and "layers" for tight coils; choose "wisps" where hair is tied or is to stick to other hair.
         "contact.hair" => value::<OneOf<Keyword<HairContact>>>();
         /// Stiffness of skin per length of hair; {}. Default 2000 Pa.
         "contact.stiffness" => number::<Modulus>();

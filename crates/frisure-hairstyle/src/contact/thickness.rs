@@ -31,6 +31,8 @@ pub struct Thickness {
     spread: f64,
     /// q² (1/m²).
     wave: f64,
+    /// Bending stiffness EI (N m²).
+    bending: f64,
     /// 1/ℓ³ (1/m³).
     sag: f64,
     /// ℓ (m).
@@ -47,6 +49,7 @@ frisure_digest::digest_fields!(Thickness {
     fibre,
     spread,
     wave,
+    bending,
     sag,
     slack,
     length,
@@ -73,12 +76,14 @@ impl Thickness {
     ) -> Self {
         // The geometric mean of both bending stiffnesses: hairs of a wisp turn their soft axes every way.
         let stiffness = rod.stiffness();
-        let sag = rod.weight() / (stiffness.x * stiffness.y).sqrt();
+        let bending = (stiffness.x * stiffness.y).sqrt();
+        let sag = rod.weight() / bending;
         Self {
             hairs,
             fibre: rod.spec().section.mean_radius(),
             spread: spread * natural.truncate().length(),
             wave: natural.length_squared(),
+            bending,
             sag,
             // Without weight there is no tension, however far from the tip.
             slack: if sag > 0.0 { sag.cbrt().recip() } else { 0.0 },
@@ -109,6 +114,13 @@ impl Thickness {
         let tension = self.sag * (self.length - s).max(self.slack);
         let wander = self.spread / (self.wave + tension).max(1e-12);
         self.fibre + 0.5 * wander
+    }
+
+    /// Energy per volume (Pa) that it takes to straighten what keeps the hairs of the wisp apart at arc length `s` (m):
+    /// `½ EI (σκ)²` per length of hair, over the cross-section that a hair takes. docs/theory.md, "Density"
+    #[must_use]
+    pub fn springiness(&self, s: f64) -> f64 {
+        0.5 * self.bending * self.spread * self.spread / self.area_per_hair(s)
     }
 
     /// Fraction of a wisp that is hair, at arc length `s` (m).

@@ -24,9 +24,8 @@ pub(super) struct Style {
     pub(super) blending: f64,
     pub(super) count: usize,
     pub(super) points: usize,
-    /// What wisps make of each other: tight coils need so many guides that they lie on a bed; waves and curls press on each other as a
-    /// density, whose rest is a function of the scene. Straight hair lies so densely where it is combed together that this takes long and
-    /// is not one: there wisps repel each other in pairs. docs/theory.md, "Density"
+    /// What wisps make of each other: tight coils need so many guides that they lie on a bed; straight hair, waves and curls press on
+    /// each other as a density, whose rest is a function of the scene. docs/theory.md, "Density"
     pub(super) contact: HairContact,
 }
 
@@ -48,7 +47,7 @@ pub(super) const STRAIGHT: Style = Style {
     blending: 0.9,
     count: 220,
     points: 32,
-    contact: HairContact::Wisps,
+    contact: HairContact::Density,
 };
 
 pub(super) const WAVY: Style = Style {
@@ -61,7 +60,6 @@ pub(super) const WAVY: Style = Style {
     blending: 0.6,
     points: 48,
     count: 200,
-    contact: HairContact::Density,
     ..STRAIGHT
 };
 
@@ -91,7 +89,6 @@ pub(super) const CURLY: Style = Style {
     blending: 0.5,
     points: 48,
     count: 200,
-    contact: HairContact::Density,
     ..STRAIGHT
 };
 

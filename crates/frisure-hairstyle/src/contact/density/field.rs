@@ -37,7 +37,7 @@ impl Field for AmongDensity<'_> {
     fn energy(&self, s: f64, _: DVec3) -> f64 {
         let Density { modulus, points, excess, .. } = self.density;
         let k = self.point(s);
-        modulus * points.volume[k] / points.length[k] * excess[k].powi(3)
+        modulus * points.share[k] * points.volume[k] / points.length[k] * excess[k].powi(3)
     }
 
     fn derivatives(&self, s: f64, _: DVec3) -> Option<(DVec3, DMat3)> {

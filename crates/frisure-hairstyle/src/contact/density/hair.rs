@@ -14,10 +14,17 @@ use crate::math::{Grid, outer};
 /// dense as it packs, so that the answer is smooth, and about as wide as hair is thick on a head.
 const REACH: f64 = 4.0;
 
-/// φ₀, the fraction of space that hair takes at which wisps begin to press on each other. Chosen by trial: of 220 guides of
-/// straight hair none moves by more than 1 µm for a millionth of its length; with 2, where Newton's method passes saddles, 3 move by
-/// millimetres, and with 1 a good part. docs/theory.md, "Density"
+/// φ₀, the fraction of space that hair takes at which wisps begin to press on each other, where curls keep hairs apart. Chosen by
+/// trial: with 2 wisps of straight hair jump for a millionth of its length, and with 1 a good part. docs/theory.md, "Density"
 const ONSET: f64 = 2.5;
+
+/// [`Thickness::springiness`] (Pa) from which hair is as hard as curls. Chosen: below that of wavy types (0.03 to 0.05; curly 0.15,
+/// straight 0.002 to 0.003).
+const SPRINGY: f64 = 0.025;
+
+/// Fraction of space that fibres take at which straight hair begins to press, whose curl is too weak to keep them apart. Chosen:
+/// parallel cylinders that touch take 0.91, those of a bundle in disorder some 0.8.
+const SOLID: f64 = 0.8;
 
 /// The stiffness of hair over the energy per volume at φ − φ₀ = 1. Chosen: the hydrostatic pressure of hair a centimetre high is
 /// borne at φ − φ₀ of about a half.
@@ -58,7 +65,20 @@ pub(super) struct Points {
     half_reach: Vec<f64>,
     /// Fraction of space that its own wisp, straight, takes there.
     own: Vec<f64>,
+    /// Stiffness of its hair, as a share of that of curls.
+    pub(super) share: Vec<f64>,
+    /// Fraction of space at which its hair begins to press.
+    onset: Vec<f64>,
     positions: Vec<DVec3>,
+}
+
+/// A point as a search for neighbours sees it.
+struct Candidate {
+    position: DVec3,
+    /// Half of the reach of the kernel and the margin (m).
+    reach: f64,
+    index: u32,
+    guide: u32,
 }
 
 /// For each point the points of other guides that may be within reach.
@@ -74,6 +94,15 @@ impl Near {
     }
 }
 
+/// Stiffness of a wisp's hair, as a share of that of curls, and the fraction of space at which it begins to press, from those at the
+/// arc length `s` (m). docs/theory.md (D5)
+fn hardness(thickness: &Thickness, s: f64) -> (f64, f64) {
+    // Squared: chosen by trial. In proportion to its springiness some 15 of 200 wisps of long straight hair jump.
+    let share = (thickness.springiness(s) / SPRINGY).min(1.0).powi(2);
+    let solid = (SOLID / thickness.packing(s)).max(ONSET);
+    (share, solid + (ONSET - solid) * share)
+}
+
 impl Points {
     fn new(strands: Vec<Strand>) -> Self {
         let mut points = Self {
@@ -82,10 +111,13 @@ impl Points {
             volume: Vec::new(),
             half_reach: Vec::new(),
             own: Vec::new(),
+            share: Vec::new(),
+            onset: Vec::new(),
             positions: Vec::new(),
         };
         for (guide, strand) in strands.into_iter().enumerate() {
             let last = strand.positions.len();
+            let (share, onset) = hardness(&strand.thickness, 0.5 * strand.spacing * last as f64);
             for k in 1..=last {
                 let s = k as f64 * strand.spacing;
                 // The trapezoidal rule; the root, which is clamped, is no point.
@@ -99,6 +131,8 @@ impl Points {
                 points.volume.push(section * length);
                 points.half_reach.push(half);
                 points.own.push(section * Kernel::new(2.0 * half).line());
+                points.share.push(share);
+                points.onset.push(onset);
             }
             points.positions.extend(strand.positions);
         }
@@ -147,14 +181,28 @@ impl Density {
         let points = &self.points;
         let reach = |k: usize| points.half_reach[k] + margins[points.guide[k] as usize];
         let most = (0..points.len()).map(reach).fold(0.0, f64::max);
-        let grid = Grid::new(&points.positions, 2.0 * most);
+        // Cells of half the longest reach of a pair: two rings of them hold fewer points than one ring of wide cells.
+        let grid = Grid::new(&points.positions, most);
+        let rings = grid.rings(2.0 * most);
+        // In the order of cells, so that a row of them is read in one piece: half of the time of a step was spent here before.
+        let candidate = |&index: &u32| {
+            let k = index as usize;
+            Candidate {
+                position: points.positions[k],
+                reach: reach(k),
+                index,
+                guide: points.guide[k],
+            }
+        };
+        let sorted: Vec<Candidate> = grid.order().iter().map(candidate).collect();
         let near = |k: usize| -> Vec<u32> {
-            let (p, own) = (points.positions[k], points.guide[k]);
-            let close = |&l: &usize| {
-                let within = reach(k) + reach(l);
-                points.guide[l] != own && points.positions[l].distance_squared(p) < within * within
+            let (p, own, reach) = (points.positions[k], points.guide[k], reach(k));
+            let close = |other: &&Candidate| {
+                let within = reach + other.reach;
+                other.guide != own && other.position.distance_squared(p) < within * within
             };
-            grid.near(p).filter(close).map(|l| l as u32).collect()
+            let rows = grid.rows(p, rings).flat_map(|row| &sorted[row]);
+            rows.filter(close).map(|other| other.index).collect()
         };
         let found: Vec<Vec<u32>> = (0..points.len()).into_par_iter().map(near).collect();
         let mut starts = Vec::with_capacity(found.len() + 1);
@@ -177,7 +225,7 @@ impl Density {
                 points.volume[l] * points.kernel(k, l).value(p.distance(points.positions[l]))
             };
             let dense: f64 = points.own[k] + near.of(k).iter().map(of).sum::<f64>();
-            (dense - ONSET).max(0.0)
+            (dense - points.onset[k]).max(0.0)
         };
         self.excess = (0..points.len()).into_par_iter().map(excess).collect();
     }
@@ -200,7 +248,8 @@ impl Density {
     /// First and second derivative of a point's energy by its density (J).
     #[inline]
     pub(super) fn by_density(&self, k: usize) -> (f64, f64) {
-        let (x, scale) = (self.excess[k], self.modulus * self.points.volume[k]);
+        let x = self.excess[k];
+        let scale = self.modulus * self.points.share[k] * self.points.volume[k];
         (3.0 * scale * x * x, 6.0 * scale * x)
     }
 
@@ -279,7 +328,12 @@ mod tests {
     }
 
     fn energy(density: &Density) -> f64 {
-        let of = |k: usize| density.modulus * density.points.volume[k] * density.excess[k].powi(3);
+        let of = |k: usize| {
+            density.modulus
+                * density.points.share[k]
+                * density.points.volume[k]
+                * density.excess[k].powi(3)
+        };
         (0..density.points.len()).map(of).sum()
     }
 
@@ -340,15 +394,9 @@ mod tests {
         let mut density = bundle();
         let (variation, step) = (density.variation(), step(density.points.len()));
         let guides: Vec<&[DVec3]> = step.chunks(12).collect();
-        let others = variation.forces(&guides, false).concat();
+        let others = variation.forces(&guides).concat();
         let own = |k: usize| density.derivatives(k).map_or(DMat3::ZERO, |(_, block)| block);
         let product: Vec<DVec3> = (0..step.len()).map(|k| others[k] + own(k) * step[k]).collect();
-        // What is left out of the convex part takes energy away, and nothing else.
-        let convex = variation.forces(&guides, true).concat();
-        let along = |forces: &[DVec3]| -> f64 {
-            step.iter().zip(forces).enumerate().map(|(k, (x, f))| x.dot(*f + own(k) * *x)).sum()
-        };
-        assert!(along(&convex) > 0.0 && along(&convex) > along(&others));
         moved(&mut density, &step, 1.0);
         let above = gradient(&density);
         moved(&mut density, &step, -2.0);
@@ -401,7 +449,8 @@ mod tests {
         let side = (section / 3.1).sqrt();
         let density = lattice(side, side);
         let k = middle(&density);
-        assert!((density.excess[k] + ONSET - 3.1).abs() < 0.03, "{}", density.excess[k] + ONSET);
+        let onset = density.points.onset[k];
+        assert!((density.excess[k] + onset - 3.1).abs() < 0.03, "{}", density.excess[k] + onset);
         // The energy per volume of hair Ψ/φ = m (φ − φ₀)³ gives the pressure P = φ² d(Ψ/φ)/dφ: what it takes to bring one
         // side of the cell nearer.
         let per_length = |density: &Density| {

@@ -55,7 +55,7 @@ impl DensityVariation {
     }
 
     /// For displacements (m) of all points, the change of force (N) at each that the second variations of guides do not have.
-    pub(crate) fn forces(&self, moved: &[&[DVec3]], convex: bool) -> Vec<Vec<DVec3>> {
+    pub(crate) fn forces(&self, moved: &[&[DVec3]]) -> Vec<Vec<DVec3>> {
         let moved: Vec<DVec3> = moved.iter().flat_map(|points| points.iter().copied()).collect();
         // 1. How density changes at each point, and with it the pressure.
         let pressure = |k: usize| {
@@ -76,9 +76,8 @@ impl DensityVariation {
                 let l = pair.other as usize;
                 let apart = moved[k] - moved[l];
                 let squeezed = pressures[k] * self.volume[l] + pressures[l] * self.volume[k];
-                let (across, along) =
-                    if convex { (0.0, pair.stiff) } else { (pair.across, pair.along) };
-                sum += apart * across + pair.slope * (along * pair.slope.dot(apart) + squeezed);
+                let along = pair.along * pair.slope.dot(apart);
+                sum += apart * pair.across + pair.slope * (along + squeezed);
             }
             sum - self.blocks[k] * moved[k]
         };

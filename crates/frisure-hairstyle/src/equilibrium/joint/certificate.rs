@@ -45,7 +45,7 @@ pub(super) fn lowest_eigenvalue(
             x.iter_mut().flatten().for_each(|x| *x /= norm);
         }
         // 2. The three-term recursion: H M⁻¹ v − α v − β v of before.
-        let mut next = hessian.apply(&z);
+        let mut next = hessian.apply(&z).moments;
         let alpha = dot(&next, &z);
         add(&mut next, -alpha, &v);
         if let Some(beta) = beside.last() {

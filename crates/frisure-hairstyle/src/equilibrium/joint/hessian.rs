@@ -22,15 +22,6 @@ pub(super) struct JointHessian {
     pub(super) coupling: Coupling,
 }
 
-/// Which second derivatives a step is computed with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Curvature {
-    /// All of them.
-    Full,
-    /// Those of density without what bends downwards: pairs that turn, or come nearer than the kernel is steep.
-    Convex,
-}
-
 /// The second derivatives of the energy that guides share, but for what H_i has of it.
 pub(super) enum Coupling {
     /// What each guide touches.
@@ -41,11 +32,9 @@ pub(super) enum Coupling {
 
 impl Coupling {
     /// The change of force (N) at each point of each guide for displacements (m) of them.
-    fn forces(&self, moved: &[&[DVec3]], curvature: Curvature) -> Vec<Vec<DVec3>> {
+    fn forces(&self, moved: &[&[DVec3]]) -> Vec<Vec<DVec3>> {
         let contacts = match self {
-            Self::Density(variation) => {
-                return variation.forces(moved, curvature == Curvature::Convex);
-            }
+            Self::Density(variation) => return variation.forces(moved),
             Self::Pairs(contacts) => contacts,
         };
         (contacts.par_iter().zip(moved))
@@ -68,26 +57,28 @@ impl JointHessian {
         self.guides.iter().map(|guide| guide.gradient().to_vec()).collect()
     }
 
-    /// H x (N m) for a step x (rad). (H1)
-    pub(super) fn apply(&self, step: &Controls) -> Controls {
-        self.apply_with(step, Curvature::Full)
-    }
-
-    /// The same with some of the second derivatives.
-    pub(super) fn apply_with(&self, step: &Controls, curvature: Curvature) -> Controls {
-        let moved: Vec<(NodeChanges, Vec<DVec3>)> = (self.guides.par_iter().zip(step))
-            .map(|(guide, x)| {
-                let changes = guide.node_changes(x);
-                let moved = guide.displacements_with(x, &changes);
-                (changes, moved)
-            })
+    /// H x for a step x (rad), and by how much the step moves the points of guides. (H1)
+    pub(super) fn apply(&self, step: &Controls) -> Product {
+        let changes: Vec<NodeChanges> =
+            (self.guides.par_iter().zip(step)).map(|(guide, x)| guide.node_changes(x)).collect();
+        let moved: Vec<Vec<DVec3>> = (self.guides.par_iter().zip(step).zip(&changes))
+            .map(|((guide, x), changes)| guide.displacements_with(x, changes))
             .collect();
-        let displacements: Vec<&[DVec3]> = moved.iter().map(|(_, points)| &points[..]).collect();
-        let forces = self.coupling.forces(&displacements, curvature);
-        (self.guides.par_iter().zip(step).enumerate())
-            .map(|(i, (guide, x))| guide.apply_with(x, &moved[i].0, &forces[i]))
-            .collect()
+        let displacements: Vec<&[DVec3]> = moved.iter().map(|points| &points[..]).collect();
+        let forces = self.coupling.forces(&displacements);
+        let moments = (self.guides.par_iter().zip(step).enumerate())
+            .map(|(i, (guide, x))| guide.apply_with(x, &changes[i], &forces[i]))
+            .collect();
+        Product { moments, moved }
     }
+}
+
+/// The second variation applied to a step.
+pub(super) struct Product {
+    /// H x (N m).
+    pub(super) moments: Controls,
+    /// By how much the step moves the points of each guide (m), to first order.
+    pub(super) moved: Vec<Vec<DVec3>>,
 }
 
 /// Damping of a guide's second variation that is not positive definite, as a fraction of its elastic stiffness: the first

@@ -243,7 +243,7 @@ mod tests {
         let mut expected = gradient(0.1);
         add(&mut expected, -1.0, &gradient(-0.1));
         expected.iter_mut().flatten().for_each(|g| *g /= 0.2);
-        let mut gap = hessian.apply(&step);
+        let mut gap = hessian.apply(&step).moments;
         let size = dot(&gap, &gap).sqrt();
         add(&mut gap, 1.0, &negative(&expected));
         assert!(dot(&gap, &gap).sqrt() < 1e-4 * size, "{} of {size}", dot(&gap, &gap).sqrt());

@@ -12,7 +12,7 @@ pub(super) enum Others {
     /// Wisps repel each other where they overlap.
     Pairs(ContactPairs),
     /// Hair is pressed where it is denser than it packs.
-    Density(Density),
+    Density(Box<Density>),
 }
 
 impl Others {

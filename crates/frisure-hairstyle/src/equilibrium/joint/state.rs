@@ -54,7 +54,8 @@ impl<'a> HeadState<'a> {
         let (wisps, others) = if spec.contact.hair == HairContact::Density {
             let wisps = wisps_on_bed(spec, head, guides, alone, hold);
             let strands = wisps.iter().map(Wisp::strand).collect();
-            (wisps, Others::Density(Density::new(strands, spec.contact.hair_stiffness)))
+            let density = Density::new(strands, spec.contact.hair_stiffness);
+            (wisps, Others::Density(Box::new(density)))
         } else {
             let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
             (wisps, Others::Pairs(pairs))
