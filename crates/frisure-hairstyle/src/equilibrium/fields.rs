@@ -23,7 +23,7 @@ pub(super) const TOLERANCE: f64 = 1e-8;
 pub(super) const MAX_ITERATIONS: usize = 1000;
 
 /// Farthest (m) that a node of a guide moves in an iteration. Chosen by trial: hair that falls off the head comes down on the same
-/// side for lengths that differ by a millionth. With 10 mm one of 620 guides of straight hair does not, without a bound 7; a
+/// side for lengths that differ by a millionth. With 10 mm two of 620 guides of straight hair do not, without a bound six; a
 /// bound of 5 mm takes a sixth more time.
 const LONGEST_STEP: f64 = 5e-3;
 

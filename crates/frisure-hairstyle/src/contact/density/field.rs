@@ -35,9 +35,8 @@ impl AmongDensity<'_> {
 
 impl Field for AmongDensity<'_> {
     fn energy(&self, s: f64, _: DVec3) -> f64 {
-        let Density { modulus, points, excess, .. } = self.density;
         let k = self.point(s);
-        modulus * points.share[k] * points.volume[k] / points.length[k] * excess[k].powi(3)
+        self.density.energy(k) / self.density.points.length[k]
     }
 
     fn derivatives(&self, s: f64, _: DVec3) -> Option<(DVec3, DMat3)> {

@@ -40,8 +40,6 @@ pub(crate) struct Strand {
 
 /// All wisps of a head as a density.
 pub(crate) struct Density {
-    /// Energy per volume of hair at an excess of 1 (Pa).
-    pub(super) modulus: f64,
     /// Where the points of each guide begin; one more than guides.
     pub(super) starts: Vec<usize>,
     /// Distance between points along each guide (m).
@@ -65,8 +63,8 @@ pub(super) struct Points {
     half_reach: Vec<f64>,
     /// Fraction of space that its own wisp, straight, takes there.
     own: Vec<f64>,
-    /// Stiffness of its hair, as a share of that of curls.
-    pub(super) share: Vec<f64>,
+    /// Energy per volume (Pa) of its hair at an excess of 1.
+    modulus: Vec<f64>,
     /// Fraction of space at which its hair begins to press.
     onset: Vec<f64>,
     positions: Vec<DVec3>,
@@ -97,21 +95,22 @@ impl Near {
 /// Stiffness of a wisp's hair, as a share of that of curls, and the fraction of space at which it begins to press, from those at the
 /// arc length `s` (m). docs/theory.md (D5)
 fn hardness(thickness: &Thickness, s: f64) -> (f64, f64) {
-    // Squared: chosen by trial. In proportion to its springiness some 15 of 200 wisps of long straight hair jump.
+    // Squared: chosen by trial. In proportion to its springiness 11 of 150 wisps of `scenes/long-straight.toml` jump.
     let share = (thickness.springiness(s) / SPRINGY).min(1.0).powi(2);
     let solid = (SOLID / thickness.packing(s)).max(ONSET);
     (share, solid + (ONSET - solid) * share)
 }
 
 impl Points {
-    fn new(strands: Vec<Strand>) -> Self {
+    /// The points of wisps; those of curls have the energy per volume `modulus` (Pa) at an excess of 1.
+    fn new(strands: Vec<Strand>, modulus: f64) -> Self {
         let mut points = Self {
             guide: Vec::new(),
             length: Vec::new(),
             volume: Vec::new(),
             half_reach: Vec::new(),
             own: Vec::new(),
-            share: Vec::new(),
+            modulus: Vec::new(),
             onset: Vec::new(),
             positions: Vec::new(),
         };
@@ -131,7 +130,7 @@ impl Points {
                 points.volume.push(section * length);
                 points.half_reach.push(half);
                 points.own.push(section * Kernel::new(2.0 * half).line());
-                points.share.push(share);
+                points.modulus.push(share * modulus);
                 points.onset.push(onset);
             }
             points.positions.extend(strand.positions);
@@ -158,10 +157,10 @@ impl Density {
             starts.push(starts[starts.len() - 1] + strand.positions.len());
         }
         let spacing = strands.iter().map(|strand| strand.spacing).collect();
-        let points = Points::new(strands);
+        let points = Points::new(strands, stiffness / STIFFNESS_PER_MODULUS);
         let excess = vec![0.0; points.len()];
         let near = Near { starts: vec![0; points.len() + 1], others: Vec::new() };
-        Self { modulus: stiffness / STIFFNESS_PER_MODULUS, starts, spacing, points, near, excess }
+        Self { starts, spacing, points, near, excess }
     }
 
     /// The points of a guide.
@@ -245,11 +244,15 @@ pub(super) struct Pair {
 }
 
 impl Density {
+    /// Energy of a point (J). docs/theory.md (D2)
+    pub(super) fn energy(&self, k: usize) -> f64 {
+        self.points.modulus[k] * self.points.volume[k] * self.excess[k].powi(3)
+    }
+
     /// First and second derivative of a point's energy by its density (J).
     #[inline]
     pub(super) fn by_density(&self, k: usize) -> (f64, f64) {
-        let x = self.excess[k];
-        let scale = self.modulus * self.points.share[k] * self.points.volume[k];
+        let (x, scale) = (self.excess[k], self.points.modulus[k] * self.points.volume[k]);
         (3.0 * scale * x * x, 6.0 * scale * x)
     }
 
@@ -328,13 +331,7 @@ mod tests {
     }
 
     fn energy(density: &Density) -> f64 {
-        let of = |k: usize| {
-            density.modulus
-                * density.points.share[k]
-                * density.points.volume[k]
-                * density.excess[k].powi(3)
-        };
-        (0..density.points.len()).map(of).sum()
+        (0..density.points.len()).map(|k| density.energy(k)).sum()
     }
 
     /// Ten wisps in a bundle that is much too narrow for them.
@@ -455,13 +452,13 @@ mod tests {
         // side of the cell nearer.
         let per_length = |density: &Density| {
             let k = middle(density);
-            density.modulus * section * density.excess[k].powi(3)
+            density.points.modulus[k] * section * density.excess[k].powi(3)
         };
         let h = 1e-3 * side;
         let force = (per_length(&lattice(side - h, side)) - per_length(&lattice(side + h, side)))
             / (2.0 * h);
         let pressure = force / side;
-        let expected = 3.1_f64.powi(2) * 3.0 * density.modulus * 0.6_f64.powi(2);
+        let expected = 3.1_f64.powi(2) * 3.0 * density.points.modulus[k] * 0.6_f64.powi(2);
         assert!((pressure / expected - 1.0).abs() < 0.1, "{pressure} Pa, not {expected}");
     }
 }

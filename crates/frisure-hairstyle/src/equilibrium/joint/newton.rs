@@ -3,7 +3,6 @@
 //! Truncated Newton, \[Nocedal & Wright\] §7.1: conjugate gradients end where the step is accurate enough, or as long as it may be.
 
 use frisure_progress::{Cancelled, StageCounter};
-
 use glam::DVec3;
 
 use super::hessian::{
