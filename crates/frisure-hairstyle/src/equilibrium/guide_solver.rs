@@ -289,23 +289,31 @@ fn settle_on_body(
     guide: &Guide,
     options: &Options,
 ) -> Equilibrium {
-    // 1. On a soft body the branch of gravity is followed in a fifth of the iterations; from one
-    // hardness to the next the answer is near.
-    let rest = harden(spec, head, guide, options, &HARDNESS);
-    if depth(head, &rest) <= DEEPEST {
-        return rest;
+    let hard = &HARDNESS[HARDNESS.len() - 1..];
+    let far = Options { longest_step: f64::INFINITY, ..*options };
+    let tries = [
+        // 1. On a soft body the branch of gravity is followed in a fifth of the iterations; from one
+        // hardness to the next the answer is near.
+        (*options, &HARDNESS[..]),
+        // 2. But hair can sink into a soft ear and stay there: on the hard body from the start.
+        (*options, hard),
+        // 3. Short steps follow the way down, also where it ends in the body: long ones go past it.
+        (far, hard),
+        // 4. Its natural shape is in the body: of several random starts the one that is not in it has the least energy.
+        (Options { branch: Branch::Lowest { starts: STARTS, seed: spec.seed }, ..far }, hard),
+    ];
+    let mut best: Option<(f64, Equilibrium)> = None;
+    for (options, hardness) in tries {
+        let rest = harden(spec, head, guide, &options, hardness);
+        let deep = depth(head, &rest);
+        if deep <= DEEPEST {
+            return rest;
+        }
+        if best.as_ref().is_none_or(|(least, _)| deep < *least) {
+            best = Some((deep, rest));
+        }
     }
-    // 2. But hair can sink into a soft ear and stay there: on the hard body from the start.
-    let hard = harden(spec, head, guide, options, &HARDNESS[HARDNESS.len() - 1..]);
-    let rest = if depth(head, &hard) < depth(head, &rest) { hard } else { rest };
-    if depth(head, &rest) <= DEEPEST {
-        return rest;
-    }
-    // 3. Its natural shape is in the body: of several random starts the one that is not in it has the least energy.
-    let branch = Branch::Lowest { starts: STARTS, seed: spec.seed };
-    let options = Options { branch, ..*options };
-    let freed = harden(spec, head, guide, &options, &HARDNESS[HARDNESS.len() - 1..]);
-    if depth(head, &freed) < depth(head, &rest) { freed } else { rest }
+    best.expect("there are tries").1
 }
 
 /// The division of a guide, and whether it meets a requested accuracy. Extrapolation needs a smooth answer, and
