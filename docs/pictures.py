@@ -19,7 +19,7 @@ SCENES, OUT = ROOT / "scenes", ROOT / "docs/pictures"
 HEADS = """short-asian straight long-straight fringe parting bob wavy curly ringlets frizzy coils afro""".split()
 FINAL = HEADS + "collisions-none collisions obj-head fringe-cut growth rollers".split()
 CAPTION = 18  # pixels below a picture that has a caption
-STRAIGHT = '[hair]\ntype = "caucasian-straight"\nlength = "25 cm"\n[implantation]\nflow = "parted"\nparting = "2 cm"\n'
+STRAIGHT = '[head]\nmodel = "european-woman"\n[hair]\ntype = "caucasian-straight"\nlength = "25 cm"\n[implantation]\nflow = "parted"\nparting = "2 cm"\n'
 BEHIND = '[camera]\nazimuth = "150 deg"\n'
 BOB = (
     '[head]\nmodel = "european-woman"\n[hair]\ntype = "asian-straight"\nlength = "33 cm"\n[look]\ncolour = "dark-brown"\n[camera]\nazimuth = "60 deg"\n'
