@@ -114,17 +114,35 @@ digestible! {
         /// Factor on the length.
         pub length: f64,
         /// Factor on the radius of wisps, and on the distances that contact keeps: a film of water draws
-        /// hairs together.
+        /// hairs together. Only of [`WetLocks::Factor`].
         pub wisp: f64,
+        /// What draws wet hairs together.
+        pub locks: WetLocks,
     }
+}
+
+/// What makes locks of wet hair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WetLocks {
+    /// Wisps are thinner by [`Wetting::wisp`], and their hairs lie as dry ones do. \[paper\] §3.2.1
+    Factor,
+    /// Hairs gather into locks by the surface tension of water ([`crate::capillary`]), and wisps are as much thinner as that
+    /// makes them.
+    Capillary,
 }
 
 impl Wetting {
     /// The paper's: Young's modulus ÷ 5, radius + 13 %, length + 1 %, wisps − 40 %. \[paper\] §3.2.1
     ///
     /// Its shear modulus follows from Poisson's ratio, so it falls as much.
-    pub const PAPER: Self =
-        Self { youngs_modulus: 0.2, shear_modulus: 0.2, diameter: 1.13, length: 1.01, wisp: 0.6 };
+    pub const PAPER: Self = Self {
+        youngs_modulus: 0.2,
+        shear_modulus: 0.2,
+        diameter: 1.13,
+        length: 1.01,
+        wisp: 0.6,
+        locks: WetLocks::Factor,
+    };
 
     /// Measured in water against room-dry hair (Robbins 2012): moduli 3.9 → 1.7 GPa and
     /// 0.89 → 0.2 GPa; diameter and length from 60 % to 100 % relative humidity. Nobody measured
@@ -135,5 +153,6 @@ impl Wetting {
         diameter: 1.065,
         length: 1.003,
         wisp: 0.6,
+        locks: WetLocks::Factor,
     };
 }

@@ -118,17 +118,18 @@ fn cover(spec: &HairstyleSpec, thickness: &Thickness, rod: &Rod) -> f64 {
 }
 
 impl Guide {
-    /// The guide with another rod in its place, its wisp as thick as that of the rod `dry` times
-    /// `packed`; `area` is that of the scalp (m²).
+    /// The guide with another rod in its place, its wisp as thick as that of the rod `dry` times what
+    /// `packed` makes of that; `area` is that of the scalp (m²).
     pub(crate) fn with_rod(
         &self,
         spec: &HairstyleSpec,
         area: f64,
         rod: Rod,
         dry: &Rod,
-        packed: f64,
+        packed: impl FnOnce(&Thickness) -> f64,
     ) -> Self {
         let thickness = thickness(spec, area, dry);
+        let packed = packed(&thickness);
         let slope = cover(spec, &thickness, dry);
         Self {
             rod,

@@ -27,6 +27,7 @@ mod math;
 mod random;
 mod rod_digest;
 
+pub mod capillary;
 mod fibre;
 pub mod head;
 mod spec;
@@ -59,7 +60,7 @@ mod history;
 pub use adopt::{Adoption, adopt};
 pub use contact::Pull;
 pub use equilibrium::{Effort, SettlingReport, settling_report};
-pub use fibre::{Curl, Fibre, Handedness, Wetting};
+pub use fibre::{Curl, Fibre, Handedness, WetLocks, Wetting};
 pub use guides::Guide;
 pub use hairstyle::{Crowded, Hairstyle, JointCertificate};
 pub use history::{History, HistoryError};

@@ -20,6 +20,7 @@ pub(crate) enum Purpose {
     Batch,
     Lanczos,
     Face,
+    WetLock,
 }
 
 /// A stream of random numbers.

@@ -4,7 +4,7 @@ use frisure_files::frame::UpAxis;
 use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::{
     Body, Comb, Ellipticity, HairContact, HairModel, Handedness, HeadMethod, Level, PRESETS,
-    Parting, Place, Preset, Turn, Wetting,
+    Parting, Place, Preset, Turn, WetLocks, Wetting,
 };
 use frisure_look::{Backdrop, Daylight, SHADES, Setup, Shade, ToneCurve, linear_from_srgb};
 use frisure_rod::{ElementKind, TorsionConstant};
@@ -134,6 +134,7 @@ keywords! {
 pub(crate) enum WettingWord {
     Paper,
     Measured,
+    Capillary,
 }
 
 impl WettingWord {
@@ -141,6 +142,7 @@ impl WettingWord {
         match self {
             Self::Paper => hair.paper_wetting,
             Self::Measured => hair.wetting,
+            Self::Capillary => Wetting { locks: WetLocks::Capillary, ..hair.wetting },
         }
     }
 }
@@ -149,6 +151,7 @@ keywords! {
     WettingWord {
         "paper" => Self::Paper, "a fifth of the stiffness, as in the paper", title "As in the paper";
         "measured" => Self::Measured, "as measured on such hair", title "As measured";
+        "capillary" => Self::Capillary, "as measured, and hairs gather into locks by surface tension", title "Locks by capillarity";
     }
 }
 

@@ -184,7 +184,7 @@ impl Described {
 
 impl Wet {
     fn new(wet: &Wetting) -> Self {
-        let Wetting { youngs_modulus, shear_modulus, diameter, length, wisp } = *wet;
+        let Wetting { youngs_modulus, shear_modulus, diameter, length, wisp, locks: _ } = *wet;
         Self { youngs_modulus, shear_modulus, diameter, length, wisp }
     }
 }

@@ -123,6 +123,12 @@ impl Thickness {
         0.5 * self.bending * self.spread * self.spread / self.area_per_hair(s)
     }
 
+    /// Natural curvature (1/m) that a hair does not share with its wisp, σκ.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        self.spread
+    }
+
     /// Fraction of a wisp that is hair, at arc length `s` (m).
     #[must_use]
     pub fn packing(&self, s: f64) -> f64 {

@@ -2,11 +2,15 @@
 
 use std::sync::Arc;
 
-use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain, StrainProfile};
+use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain, Rod, StrainProfile};
 use glam::{DMat3, DQuat, DVec3};
 
 use super::rest::Rest;
+use crate::capillary::{Coalescence, Liquid};
+use crate::contact::Thickness;
+use crate::fibre::WetLocks;
 use crate::guides::Guide;
+use crate::spec::HairstyleSpec;
 
 /// Relative humidity of the air that every hairstyle begins in.
 /// That of the measured hair types (docs/hair-types.md, "Humidity").
@@ -178,6 +182,20 @@ impl WispState {
             Some(Grip::Clip { at, to }) => Some((at, to)),
             _ => None,
         }
+    }
+
+    /// How its hairs gather into locks, if they are wet and do so by the law of capillarity; `rod` is its guide as it is now, and
+    /// `thickness` says how much of the curl each hair has of its own.
+    pub(crate) fn coalescence(
+        &self,
+        spec: &HairstyleSpec,
+        rod: &Rod,
+        thickness: &Thickness,
+    ) -> Option<Coalescence> {
+        let gathers = self.wetness > 0.0 && spec.wetting.locks == WetLocks::Capillary;
+        let density = spec.implantation.density;
+        let of = || Coalescence::new(Liquid::WATER, self.wetness, rod, density, thickness.spread());
+        gathers.then(of)
     }
 
     /// Wets the wisp, or lets it dry to some wetness; what water opens loses its set.

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::splits::{OwnCurl, SplitLine};
+use super::curve::Pull;
+use super::splits::OwnCurl;
 use crate::implantation::Root;
 use crate::random::Stream;
 use crate::spec::Wisps;
@@ -87,8 +88,10 @@ pub(super) struct StrandBinding<'a> {
     /// Guides that it follows, with weights that sum to one; its own first.
     pub(super) followed: Vec<(usize, f64)>,
     pub(super) variation: StrandVariation,
-    /// The line of the thinner wisp that it gathers to, and how much of the way there it has come at the tip.
-    pub(super) split: Option<(&'a SplitLine, f64)>,
+    /// The thinner wisp that it gathers to.
+    pub(super) split: Option<Pull<'a>>,
+    /// The lock that it gathers to if it is wet.
+    pub(super) lock: Option<Pull<'a>>,
     /// Length of its guides (m).
     pub(super) length: f64,
     /// Length that they were planned with, and that they would have if they had never been cut (m):

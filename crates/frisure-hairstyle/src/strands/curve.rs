@@ -5,7 +5,8 @@ use glam::{DQuat, DVec3, Vec3};
 use super::binding::StrandBinding;
 use super::population::Population;
 use super::skin::{Free, LAID, PRESSED, below};
-use super::splits::{OwnCurl, SplitId, SplitLine};
+use super::locks::Gathering;
+use super::splits::{OwnCurl, SplitId, SplitLine, Splits};
 use crate::implantation::Root;
 use crate::math::{first_positive, smooth_step};
 use crate::wisps::{BoundStrand, BoundStrands};
@@ -59,6 +60,30 @@ struct Place {
     gathered: f64,
     /// Factor on the distance from the guides.
     width: f64,
+}
+
+/// Which strands hair gathers to: the thinner wisps into which it splits, or locks of wet hair.
+#[derive(Clone, Copy)]
+pub(super) enum Tier {
+    Splits,
+    Locks,
+}
+
+/// How hair gathers to a line.
+pub(super) struct Pull<'a> {
+    line: &'a SplitLine,
+    /// Most of the way to it.
+    most: f64,
+    /// How far along wet hair.
+    wet: Option<Gathering>,
+}
+
+impl Pull<'_> {
+    /// How much of the way to the line hair has come at the arc length `along` (m), where dry hair has come the share `gathered`
+    /// of its way and `width` is the distance of hairs over that of their roots.
+    fn share(&self, along: f64, gathered: f64, width: f64) -> f64 {
+        self.most * self.wet.map_or(gathered, |wet| wet.share(along, width))
+    }
 }
 
 /// Length of a line (m).
@@ -142,14 +167,22 @@ impl Population<'_> {
         let drawn_in = 1.0 + (narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * length), along);
         let place = Place { along, gathered, width: drawn_in };
         let (main, curl) = match binding.split {
-            Some((line, _)) => (line.main, line.curl.and(variation.curl)),
+            Some(Pull { line, .. }) => (line.main, line.curl.and(variation.curl)),
             None => (binding.main(), variation.curl),
         };
         let mut point = self.between(root.position, &binding.followed, main, curl, drifted, &place);
-        if let Some((line, clumping)) = binding.split {
-            point = point.lerp(line.at(drifted), clumping * gathered);
+        // What makes a hair differ from its wisp is in a lock as small as all else.
+        let mut free = 1.0;
+        if let Some(pull) = &binding.split {
+            point = point.lerp(pull.line.at(drifted), pull.share(along, gathered, 1.0));
         }
-        point + variation.waves.at(along / planned) * (rise * narrow)
+        if let Some(pull) = &binding.lock {
+            let width = drawn_in * self.narrowing(binding.main(), along, gathered);
+            let share = pull.share(along, gathered, width);
+            point = point.lerp(pull.line.at(drifted), share);
+            free -= share;
+        }
+        point + variation.waves.at(along / planned) * (rise * narrow * free)
     }
 
     /// The same, of a hair of a groom.
@@ -182,31 +215,43 @@ impl Population<'_> {
         point
     }
 
-    /// The line of the smallest split that hair rooted at a point (m) of the skin belongs to, and how much it gathers to it, if it
-    /// follows `guide` most.
-    pub(super) fn split(&self, p: DVec3, guide: usize) -> Option<(&SplitLine, f64)> {
-        self.gathering(self.splits.smallest(self.layout, p)?, guide)
+    /// How hair rooted at a point (m) of the skin that follows `guide` most gathers to the smallest split of a tier.
+    pub(super) fn pull(&self, tier: Tier, p: DVec3, guide: usize) -> Option<Pull<'_>> {
+        self.gathering(tier, self.tier(tier).smallest(self.layout, p)?, guide)
     }
 
-    /// The line of a split, and how much hair that follows `guide` most gathers to it; none to one that goes another way: at the
+    fn tier(&self, tier: Tier) -> &Splits {
+        match tier {
+            Tier::Splits => &self.splits,
+            Tier::Locks => &self.locks.splits,
+        }
+    }
+
+    /// How hair that follows `guide` most gathers to the line of a split; none to one that goes another way: at the
     /// end of a parting that hair would hang half-way between both sides, before the face.
-    fn gathering(&self, id: SplitId, guide: usize) -> Option<(&SplitLine, f64)> {
-        let line = self.split_line(id);
+    fn gathering(&self, tier: Tier, id: SplitId, guide: usize) -> Option<Pull<'_>> {
+        let (clumping, wet) = match tier {
+            Tier::Splits => (self.splits.get(id).clumping, None),
+            Tier::Locks => (1.0, Some(self.locks.gathering(guide, id.level)?)),
+        };
+        let line = self.split_line(tier, id);
         let agreement = self.agreement(guide, line.followed);
-        (agreement > LEAST_AGREEMENT).then(|| (line, agreement * self.splits.get(id).clumping))
+        (agreement > LEAST_AGREEMENT).then(|| Pull { line, most: agreement * clumping, wet })
     }
 
     /// The line of a split: hair rooted there, which gathers to the larger split that it is in.
-    fn split_line(&self, id: SplitId) -> &SplitLine {
-        let split = self.splits.get(id);
+    fn split_line(&self, tier: Tier, id: SplitId) -> &SplitLine {
+        let splits = self.tier(tier);
+        let split = splits.get(id);
         split.line.get_or_init(|| {
             let position = split.root.position;
             let larger = id.level.checked_sub(1);
-            let larger = larger.and_then(|l| self.splits.of_level(l, self.layout, position));
+            let larger = larger.and_then(|l| splits.of_level(l, self.layout, position));
             let followed = self.following(&split.root);
-            let larger = larger.and_then(|id| self.gathering(id, followed[0].0));
-            let main = larger.map_or(followed[0].0, |(line, _)| line.main);
-            let curl = larger.map_or(split.curl, |(line, _)| line.curl.and(split.curl));
+            let larger = larger.and_then(|id| self.gathering(tier, id, followed[0].0));
+            let larger = larger.as_ref();
+            let main = larger.map_or(followed[0].0, |pull| pull.line.main);
+            let curl = larger.map_or(split.curl, |pull| pull.line.curl.and(split.curl));
             let mean =
                 |of: &dyn Fn(usize) -> f64| followed.iter().map(|&(g, w)| w * of(g)).sum::<f64>();
             let length = mean(&|g| self.wisps[g].length);
@@ -219,8 +264,9 @@ impl Population<'_> {
                 let along = x * length;
                 let place = Place { along, gathered: gathered(along, uncut), width: 1.0 };
                 let mut p = self.between(position, &followed, main, curl, x, &place);
-                if let Some((line, clumping)) = larger {
-                    p = p.lerp(line.at(x), clumping * place.gathered);
+                if let Some(pull) = larger {
+                    let width = self.narrowing(followed[0].0, along, place.gathered);
+                    p = p.lerp(pull.line.at(x), pull.share(along, place.gathered, width));
                 }
                 let rise = smooth_step(0.0, RISE.min(0.5 * length), along);
                 (p + split.waves.at(along / planned) * rise).as_vec3()

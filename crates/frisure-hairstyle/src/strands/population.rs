@@ -6,7 +6,11 @@ use rayon::prelude::*;
 
 use super::binding::{StrandBinding, StrandVariation};
 use super::skin::{PRESSED, Skin};
+use super::curve::Tier;
+use super::locks::Locks;
 use super::splits::{Plan, Splits};
+use crate::capillary::Coalescence;
+use crate::fibre::Wetting;
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::hairstyle::WispState;
@@ -71,6 +75,8 @@ pub(crate) struct Population<'a> {
     pub(super) patch: f64,
     /// The thinner wisps into which hair splits.
     pub(super) splits: Splits,
+    /// The locks of wet hair.
+    pub(super) locks: Locks,
     pub(super) skin: Skin<'a>,
 }
 
@@ -104,6 +110,16 @@ pub(crate) fn roots(hairstyle: &Hairstyle, head: &Head, stride: usize) -> Vec<(u
     roots.par_iter().enumerate().step_by(stride.max(1)).map(gathered).collect()
 }
 
+/// How hairs would gather into locks if the hair that was planned were soaked: the sizes of locks that hair is divided into, which
+/// stay the same while it dries or is cut.
+fn soaked(spec: &HairstyleSpec, planned: &Guide) -> Option<Coalescence> {
+    let wisp = WispState { wetness: 1.0, ..WispState::new(planned.rod.length()) };
+    let dry = wisp.coalescence(spec, &planned.rod, &planned.thickness)?;
+    let Wetting { youngs_modulus, diameter, .. } = spec.wetting;
+    // EI goes with the modulus and the fourth power of the diameter.
+    Some(Coalescence { bending: dry.bending * youngs_modulus * diameter.powi(4), ..dry })
+}
+
 impl<'a> Population<'a> {
     pub(crate) fn new(hairstyle: &'a Hairstyle, head: &'a Head) -> Self {
         let Hairstyle { spec, layout, guides, rest, styling, .. } = hairstyle;
@@ -126,7 +142,13 @@ impl<'a> Population<'a> {
             hairs: &hairstyle.placement.hairs(spec, head),
             area: hairstyle.placement.area(),
             length: planned / guides.len() as f64,
+            purpose: Purpose::Split,
         };
+        let place = |root: &Root| layout.gathered(head, *root);
+        let water = |(guide, wisp): (&Guide, &WispState)| {
+            wisp.coalescence(spec, &guide.rod, &guide.thickness)
+        };
+        let water: Vec<_> = guides.iter().zip(&styling.wisps).map(water).collect();
         Self {
             spec,
             head,
@@ -145,7 +167,15 @@ impl<'a> Population<'a> {
             patch,
             splits: match bound {
                 Some(_) => Splits::NONE,
-                None => Splits::new(&plan, |root| layout.gathered(head, *root)),
+                None => Splits::new(&plan, place),
+            },
+            locks: match bound {
+                Some(_) => Locks::NONE,
+                None => {
+                    let plan = Plan { purpose: Purpose::WetLock, ..plan };
+                    let soaked = styling.planned.iter().filter_map(|guide| soaked(spec, guide));
+                    Locks::new(&plan, hairstyle.grown(), &water, soaked, place)
+                }
             },
             skin: Skin {
                 head,
@@ -182,10 +212,12 @@ impl<'a> Population<'a> {
         let mut binding = StrandBinding {
             root: *root,
             split: if own.is_none() && variation.gathers() {
-                self.split(root.position, main)
+                self.pull(Tier::Splits, root.position, main)
             } else {
                 None
             },
+            // Water draws in hairs that leave their wisp when dry, too.
+            lock: self.pull(Tier::Locks, root.position, main),
             followed,
             variation,
             length,

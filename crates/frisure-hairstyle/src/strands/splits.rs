@@ -122,7 +122,7 @@ pub(super) struct SplitId {
     index: usize,
 }
 
-/// All splits of a head: none, large ones, or large and small ones.
+/// All splits of a head, the largest first: none, large ones, or large and small ones; of wet hair its locks.
 pub(super) struct Splits(Vec<Level>);
 
 /// What the splits of a head are made from.
@@ -135,6 +135,8 @@ pub(super) struct Plan<'a> {
     pub(super) area: f64,
     /// Mean length of guides (m).
     pub(super) length: f64,
+    /// What is drawn at random.
+    pub(super) purpose: Purpose,
 }
 
 impl Splits {
@@ -149,7 +151,15 @@ impl Splits {
         let large = wisps.count.saturating_mul(wisps.splits).min(hairs.len());
         let small = large.saturating_mul(wisps.subsplits).min(hairs.len());
         let counts = if small > large { vec![large, small] } else { vec![large] };
-        let level = |(level, &count): (usize, &usize)| plan.level(level, count, &place);
+        Self::of(plan, &counts, place)
+    }
+
+    /// Splits of as many of each level.
+    pub(super) fn of(plan: &Plan<'_>, counts: &[usize], place: impl Fn(&Root) -> Root) -> Self {
+        let level = |(level, &count): (usize, &usize)| {
+            // Two numbers for each split: so it has been since there were two levels.
+            plan.level(level, counts.len().max(2), count, &place)
+        };
         Self(counts.iter().enumerate().map(level).collect())
     }
 
@@ -177,14 +187,20 @@ impl Splits {
 }
 
 impl Plan<'_> {
-    fn level(&self, level: usize, count: usize, place: &impl Fn(&Root) -> Root) -> Level {
+    fn level(
+        &self,
+        level: usize,
+        levels: usize,
+        count: usize,
+        place: &impl Fn(&Root) -> Root,
+    ) -> Level {
         let hairs = self.hairs;
         // Roots of drawn hairs lie one in each of as many strata of equal area, neighbours one after the other.
         let root = |i: usize| place(&hairs[i * hairs.len() / count]);
         let patch = (self.area / count as f64 / PI).sqrt();
         let share = if level == 0 { 1.0 } else { WITHIN };
         let split = |i: usize| {
-            let mut random = Stream::new(self.seed, Purpose::Split, 2 * i + level);
+            let mut random = Stream::new(self.seed, self.purpose, levels * i + level);
             let w = self.wisps;
             Split {
                 root: root(i),
@@ -219,7 +235,8 @@ mod tests {
         let scalp = crate::implantation::Scalp::grown(&head, &spec);
         let hairs = scalp.stratified(12_000, 1, Purpose::HairRoots);
         let (area, length) = (scalp.area(), spec.length.mean);
-        let plan = Plan { wisps: &spec.wisps, seed: 1, hairs: &hairs, area, length };
+        let purpose = Purpose::Split;
+        let plan = Plan { wisps: &spec.wisps, seed: 1, hairs: &hairs, area, length, purpose };
         let splits = Splits::new(&plan, |root| *root);
         let mut sizes = vec![0.0; splits.0[level].splits.len()];
         for hair in &hairs {

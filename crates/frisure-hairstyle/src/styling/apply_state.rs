@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use frisure_rod::{InvalidQuantity, Material, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::DVec3;
 
-use crate::contact::Pull;
+use crate::contact::{Pull, Thickness};
 use crate::guides::{Guide, grown_strain};
 use crate::hairstyle::{Grip, Mould, Styling};
 use crate::spec::HairstyleSpec;
@@ -52,11 +52,16 @@ pub(super) fn guide(
     let natural = stretched(&state.with_sets(grown)?, factors.length)?;
     let rod = wetted(&dry, natural, &factors)?;
     // 4. Held in a shape. The thickness of the wisp stays that of the dry hair, times what water makes of it.
+    let wet = rod.clone();
+    let packed = |dry: &Thickness| match state.coalescence(spec, &wet, dry) {
+        Some(water) => water.closeness(dry.area_per_hair(0.5 * state.length)),
+        None => factors.wisp,
+    };
     let rod = match state.grip {
         Some(Grip::Mould { mould, .. }) => held(rod, mould)?,
         _ => rod,
     };
-    let mut guide = planned.with_rod(spec, area, rod, &dry, factors.wisp);
+    let mut guide = planned.with_rod(spec, area, rod, &dry, packed);
     guide.pull = pull(&guide.rod, state.grip);
     // What a hand or a clip holds needs no friction, which would pull it elsewhere.
     guide.hold = if state.grip.is_some() { 0.0 } else { planned.hold };

@@ -3,7 +3,7 @@
 use frisure_digest::{Digest, Digestible, digest_fields};
 use frisure_rod::{Load, NaturalStrain, RodSpec, Root as Clamp};
 
-use crate::fibre::Handedness;
+use crate::fibre::{Handedness, WetLocks};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::{Head, Region};
@@ -28,6 +28,7 @@ pub(crate) fn key(hairstyle: &Hairstyle, head: &Head, roots: &[(usize, Root)]) -
 }
 
 digest_fields!(Handedness: Random, AsGiven);
+digest_fields!(WetLocks: Factor, Capillary);
 digest_fields!(Turn: Clockwise, Anticlockwise);
 digest_fields!(Parting: Straight { offset }, Zigzag { offset }, Through(points));
 digest_fields!(Place: Region(region), LeftOf(region), RightOf(region), Left, Right, Everywhere);
