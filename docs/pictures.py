@@ -162,8 +162,11 @@ def lights(maker):
 
 def wet(maker):
     dry = without((SCENES / "wavy.toml").read_text(), "look") + '\n[look]\ncolour = "light-brown"\n'
-    scenes = [maker.scene(dry, "dry"), maker.scene(dry + "\n[[step]]\nwet = {}\n", "wet")]
-    maker.save(grid([maker.traced(scene, (220, 264), share=1.0) for scene in scenes], 2, ["dry", "wet"]), "wet", 85)
+    soaked = dry + "\n[[step]]\nwet = {}\n"
+    locks = soaked.replace("[hair]\n", '[hair]\nwetting = "capillary"\n')
+    scenes = [maker.scene(dry, "dry"), maker.scene(soaked, "wet"), maker.scene(locks, "locks")]
+    captions = ["dry", "wet, as in the paper", "wet, with locks"]
+    maker.save(grid([maker.traced(scene, (260, 312), share=1.0) for scene in scenes], 3, captions), "wet", 85)
 
 
 def styling(maker):

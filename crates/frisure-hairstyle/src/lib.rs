@@ -62,7 +62,7 @@ pub use contact::Pull;
 pub use equilibrium::{Effort, SettlingReport, settling_report};
 pub use fibre::{Curl, Fibre, Handedness, WetLocks, Wetting};
 pub use guides::Guide;
-pub use hairstyle::{Crowded, Hairstyle, JointCertificate};
+pub use hairstyle::{Crowded, Hairstyle, JointCertificate, WetLockSizes};
 pub use history::{History, HistoryError};
 pub use implantation::{PartingError, Root, scalp_area};
 pub use predict::{PredictError, PredictOptions, Start, predict, redrawn};

@@ -3,7 +3,7 @@
 use frisure::hairstyle::contact::Thickness;
 use frisure::hairstyle::{
     Body, Contact, DrawnHair, HairContact, Hairstyle, JointCertificate, SettlingReport, Simulation,
-    Volume, volume,
+    Volume, WetLockSizes, volume,
 };
 use frisure::rod::Energy;
 use frisure::strands::Strands;
@@ -32,6 +32,9 @@ pub struct HairstyleReport {
     pub contact: ContactReport,
     /// Means over wisps, half-way along.
     pub thickness: ThicknessReport,
+    /// The locks of wet hair, with `wetting = "capillary"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wet_locks: Option<WetLockReport>,
     /// Energies of all guides.
     pub energy: EnergyReport,
     /// Number of drawn hairs.
@@ -146,6 +149,26 @@ pub struct ThicknessReport {
     pub packing: f64,
 }
 
+/// Locks of wet hair at three quarters of its length, by the law of capillarity.
+#[derive(Clone, Debug, Serialize)]
+pub struct WetLockReport {
+    /// Number of wet hairs on the head.
+    pub hairs: f64,
+    /// Hairs of a lock; 1 where hair forms none.
+    pub hairs_per_lock: f64,
+    /// Radius of a lock (m).
+    pub radius: f64,
+    /// Distance (m) from the roots at which two hairs meet; none if they do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub meeting: Option<f64>,
+}
+
+impl From<WetLockSizes> for WetLockReport {
+    fn from(WetLockSizes { hairs, hairs_per_lock, radius, meeting }: WetLockSizes) -> Self {
+        Self { hairs, hairs_per_lock, radius, meeting }
+    }
+}
+
 /// Energies (J).
 #[derive(Clone, Debug, Serialize)]
 pub struct EnergyReport {
@@ -202,6 +225,7 @@ impl LoadedScene {
             groom: self.adoption.clone(),
             contact: ContactReport { body: body(spec.contact.body), hair: hair(spec.contact.hair) },
             thickness: thickness(&self.hairstyle),
+            wet_locks: self.hairstyle.wet_locks().map(WetLockReport::from),
             energy: EnergyReport::from(metrics.settling.energy),
             hairs: strands.map_or(0, Strands::len),
             points: strands.map_or(0, |strands| strands.points().len()),

@@ -4,6 +4,7 @@
 
 mod placement;
 mod rest;
+mod wet_locks;
 mod wisp_state;
 
 use frisure_rod::Equilibrium;
@@ -16,6 +17,8 @@ pub use placement::Crowded;
 pub(crate) use placement::RootPlacement;
 pub use rest::JointCertificate;
 pub(crate) use rest::Rest;
+pub(crate) use wet_locks::COUNTED;
+pub use wet_locks::WetLockSizes;
 pub use wisp_state::WispState;
 pub(crate) use wisp_state::{DRAWN, Ends, Grip, Lay, Mould, ROOM, Styling, strain_of};
 

@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3, Vec3};
 
 use super::binding::StrandBinding;
+use super::locks::Gathering;
 use super::population::Population;
 use super::skin::{Free, LAID, PRESSED, below};
-use super::locks::Gathering;
 use super::splits::{OwnCurl, SplitId, SplitLine, Splits};
 use crate::implantation::Root;
 use crate::math::{first_positive, smooth_step};
@@ -264,12 +264,17 @@ impl Population<'_> {
                 let along = x * length;
                 let place = Place { along, gathered: gathered(along, uncut), width: 1.0 };
                 let mut p = self.between(position, &followed, main, curl, x, &place);
+                let mut free = 1.0;
                 if let Some(pull) = larger {
                     let width = self.narrowing(followed[0].0, along, place.gathered);
-                    p = p.lerp(pull.line.at(x), pull.share(along, place.gathered, width));
+                    let share = pull.share(along, place.gathered, width);
+                    p = p.lerp(pull.line.at(x), share);
+                    if pull.wet.is_some() {
+                        free -= share;
+                    }
                 }
                 let rise = smooth_step(0.0, RISE.min(0.5 * length), along);
-                (p + split.waves.at(along / planned) * rise).as_vec3()
+                (p + split.waves.at(along / planned) * (rise * free)).as_vec3()
             };
             let points = (0..samples).map(point).collect();
             SplitLine::new([followed[0].0, main], curl, end, points)

@@ -2,12 +2,9 @@
 
 use super::splits::{Plan, Splits};
 use crate::capillary::Coalescence;
+use crate::hairstyle::COUNTED;
 use crate::implantation::Root;
 use crate::math::smooth_step;
-
-/// Where along hair the largest locks that are drawn have formed, as a share of its length: farther out they are fewer still, by
-/// pairs that the smallest locks here would hide. Chosen by eye.
-const FORMED: f64 = 0.75;
 
 /// Most sizes of locks: from pairs of hairs to the largest by equal factors.
 const LEVELS: usize = 3;
@@ -53,7 +50,7 @@ impl Gathering {
 impl Locks {
     pub(super) const NONE: Self = Self { splits: Splits::NONE, guides: Vec::new() };
 
-    /// Locks of hairs of which `water` tells how those of each guide gather, `grown` of them on the whole head. `soaked`, how they
+    /// Locks of hairs, the largest of the size at [`COUNTED`], of which `water` tells how those of each guide gather, `grown` of them on the whole head. `soaked`, how they
     /// would if all were soaked, says how hair is divided: locks open and close while hair dries, and do not change places.
     pub(super) fn new(
         plan: &Plan<'_>,
@@ -66,11 +63,9 @@ impl Locks {
             return Self::NONE;
         }
         // The mean of logarithms: sizes vary by factors.
-        let sizes: Vec<f64> = soaked.map(|law| law.lock(FORMED * law.length).ln()).collect();
+        let sizes: Vec<f64> = soaked.map(|law| law.lock(COUNTED * law.length).ln()).collect();
         let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
-        let size = |level: usize| {
-            (mean * (LEVELS - level) as f64 / LEVELS as f64).exp()
-        };
+        let size = |level: usize| (mean * (LEVELS - level) as f64 / LEVELS as f64).exp();
         let hairs = plan.hairs.len() as f64;
         // A lock that has fewer than two drawn hairs is none.
         let drawn = |size: &f64| *size > LEAST && grown / size < 0.5 * hairs;

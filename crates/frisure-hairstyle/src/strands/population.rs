@@ -5,9 +5,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::binding::{StrandBinding, StrandVariation};
-use super::skin::{PRESSED, Skin};
 use super::curve::Tier;
 use super::locks::Locks;
+use super::skin::{PRESSED, Skin};
 use super::splits::{Plan, Splits};
 use crate::capillary::Coalescence;
 use crate::fibre::Wetting;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use frisure_engine::ReplicaReport;
-use frisure_engine::report::{DEEP, HairstyleReport, SimulationReport, StepReport};
+use frisure_engine::report::{DEEP, HairstyleReport, SimulationReport, StepReport, WetLockReport};
 
 /// The summary of a prediction; `note` is what was guessed of the head, and `written` has a line about each file.
 pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[String]) -> String {
@@ -72,6 +72,9 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
     for step in &report.steps {
         out += &step_line(step);
     }
+    if let Some(locks) = &report.wet_locks {
+        out += &wet_line(locks);
+    }
     for path in written {
         let _ = writeln!(out, "wrote {path}");
     }
@@ -121,4 +124,17 @@ fn step_line(step: &StepReport) -> String {
 fn beside(height: f64) -> String {
     let side = if height < 0.0 { "below" } else { "above" };
     format!("{:.1} cm {side}", height.abs() * 1e2)
+}
+
+/// What is said of the locks of wet hair.
+fn wet_line(locks: &WetLockReport) -> String {
+    let WetLockReport { hairs, hairs_per_lock, radius, .. } = locks;
+    if *hairs_per_lock < 2.0 {
+        return "wet hair forms no locks: its hairs share too little of their curl\n".to_owned();
+    }
+    format!(
+        "wet hair in about {:.0} locks of {hairs_per_lock:.0} hairs, {:.1} mm thick, at three quarters of its length\n",
+        hairs / hairs_per_lock,
+        2e3 * radius
+    )
 }

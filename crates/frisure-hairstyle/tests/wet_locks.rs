@@ -1,0 +1,293 @@
+//! Locks of wet hair: that hairs meet where beams do, and that drawn hairs gather as the law of capillarity says.
+
+use std::sync::LazyLock;
+
+use frisure_hairstyle::capillary::{Coalescence, Liquid};
+use frisure_hairstyle::head::Head;
+use frisure_hairstyle::styling::{Cut, CutLine, Dry, Held, Operation, Selection, Wet};
+use frisure_hairstyle::{
+    Hairs, Hairstyle, HairstyleSpec, PredictOptions, StrandOptions, StyleOptions, WetLockSizes,
+    WetLocks, predict, preset, strands, style,
+};
+use frisure_rod::potential::{Field, FieldPotential};
+use frisure_rod::{
+    ElementKind, Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+    Stability, TorsionConstant, equilibrium, equilibrium_from,
+};
+use frisure_strands::Strands;
+use glam::{DMat3, DVec3};
+
+static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
+
+/// A plane z = 0 that a rod sticks to within `reach` (m), with `adhesion` (J/m) per length, and that it cannot pass.
+struct StickyPlane {
+    adhesion: f64,
+    reach: f64,
+}
+
+impl StickyPlane {
+    /// Energy per length (J/m) at a height (m), and its first two derivatives: −G (1 − u²)³ above the plane, u = z/reach,
+    /// and a wall as stiff as that is at its edge below.
+    fn law(&self, z: f64) -> [f64; 3] {
+        let (g, r) = (self.adhesion, self.reach);
+        let u = z / r;
+        if u < 0.0 {
+            // Three times as stiff as the well, and much stiffer than a rod that is drawn into it.
+            let k = 200.0 * g / (r * r);
+            return [-g + 0.5 * k * z * z, k * z, k];
+        }
+        if u >= 1.0 {
+            return [0.0; 3];
+        }
+        let left = 1.0 - u * u;
+        [
+            -g * left.powi(3),
+            6.0 * g / r * u * left * left,
+            6.0 * g / (r * r) * left * (1.0 - 5.0 * u * u),
+        ]
+    }
+}
+
+impl Field for StickyPlane {
+    fn energy(&self, _: f64, p: DVec3) -> f64 {
+        self.law(p.z)[0]
+    }
+
+    fn derivatives(&self, _: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
+        let [_, slope, bend] = self.law(p.z);
+        Some((DVec3::Z * slope, DMat3::from_diagonal(DVec3::Z * bend)))
+    }
+}
+
+/// A straight fibre `height` (m) above the plane, along it.
+fn fibre(length: f64, height: f64, load: Load) -> Rod {
+    Rod::new(RodSpec {
+        length,
+        section: Section::from_diameter(70e-6, 1.0).unwrap(),
+        material: Material::new(1.6e9, 0.2e9, 1300.0).unwrap(),
+        torsion: TorsionConstant::SaintVenant,
+        natural: NaturalStrain::STRAIGHT,
+        root: Root::from_tangent(DVec3::Z * height, DVec3::X, DVec3::Y).unwrap(),
+        load,
+    })
+    .unwrap()
+}
+
+#[test]
+fn a_rod_meets_what_it_sticks_to_where_the_law_says() {
+    // Half of a pair: the plane between both is the middle, and each gains half of the energy.
+    let (height, length) = (3.5e-4, 0.02);
+    let rod = fibre(length, height, Load::NONE);
+    let adhesion = Liquid::WATER.adhesion(rod.spec().section.mean_radius(), 1.0);
+    let law = Coalescence {
+        spacing: 2.0 * height,
+        ..Coalescence::new(Liquid::WATER, 1.0, &rod, 1.0, 0.0)
+    };
+    let expected = law.meeting(1.0).unwrap();
+    let measured = |reach: f64| {
+        let plane = StickyPlane { adhesion: 0.5 * adhesion, reach };
+        let field = FieldPotential::new(&plane, 2);
+        let options = Options {
+            element: ElementKind::Jointed,
+            resolution: Resolution::Elements(800),
+            max_elements: 800,
+            tolerance: 1e-9,
+            max_iterations: 20_000,
+            longest_step: 1e-4,
+            ..Options::default()
+        };
+        // A weight presses it onto the plane before it is let go.
+        let pressed = equilibrium(&fibre(length, height, Load::down(200.0)), &[&field], &options);
+        let rest = equilibrium_from(&rod, &[&field], &options, &pressed);
+        assert_eq!(rest.certificate.stability, Stability::Stable);
+        // A clamped beam that touches with a slope of zero is half-way down in the middle of its way.
+        let line = rest.sample(2001);
+        let next = line.iter().position(|(p, _)| p.z < 0.5 * height).unwrap();
+        let (a, b) = (line[next - 1].0, line[next].0);
+        2.0 * (a.x + (b.x - a.x) * (a.z - 0.5 * height) / (a.z - b.z))
+    };
+    // The attraction reaches a fiftieth and a twenty-fifth of the way: neither matters.
+    for reach in [1.4e-5, 0.7e-5] {
+        let ratio = measured(reach) / expected;
+        println!("meets at {ratio:.5} of {:.3} mm", expected * 1e3);
+        assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
+    }
+}
+
+/// Three quarters of the hair (m), where locks are counted.
+const OUT: f64 = 0.75 * 0.3;
+
+fn spec(name: &str) -> HairstyleSpec {
+    let mut spec = preset(name).unwrap().spec();
+    spec.length.mean = 0.3;
+    spec.wisps.count = 80;
+    spec.wisps.hairs = Hairs::Count(16_000);
+    spec.wetting.locks = WetLocks::Capillary;
+    spec
+}
+
+fn done(before: &Hairstyle, operation: &Operation) -> Hairstyle {
+    style(before, &HEAD, operation, StyleOptions::default(), &()).unwrap()
+}
+
+fn wet(to: f64) -> Operation {
+    Operation::Wet(Wet { to, ..Wet::default() })
+}
+
+fn drawn(hair: &Hairstyle) -> Strands {
+    strands(hair, &HEAD, StrandOptions::default(), &()).unwrap().strands
+}
+
+/// The place of a strand at a distance (m) along it, or its tip.
+fn place(strands: &Strands, strand: usize, along: f64) -> DVec3 {
+    let points = strands.strand(strand).points;
+    let mut left = along as f32;
+    for pair in points.windows(2) {
+        let step = pair[0].distance(pair[1]);
+        if left <= step {
+            return pair[0].lerp(pair[1], left / step).as_dvec3();
+        }
+        left -= step;
+    }
+    points[points.len() - 1].as_dvec3()
+}
+
+/// How far (m) the place of a strand at a distance along it is from the line of another: hairs slide along each other.
+fn apart(strands: &Strands, [strand, other]: [usize; 2], along: f64) -> f64 {
+    let p = place(strands, strand, along);
+    let to = |pair: &[glam::Vec3]| {
+        let (a, b) = (pair[0].as_dvec3(), pair[1].as_dvec3());
+        let t = ((p - a).dot(b - a) / (b - a).length_squared().max(1e-18)).clamp(0.0, 1.0);
+        p.distance(a.lerp(b, t))
+    };
+    strands.strand(other).points.windows(2).map(to).fold(f64::INFINITY, f64::min)
+}
+
+/// For each strand the four whose roots are nearest.
+fn beside(strands: &Strands) -> Vec<[usize; 4]> {
+    let roots: Vec<DVec3> = (0..strands.len()).map(|i| place(strands, i, 0.0)).collect();
+    let nearest = |i: usize| {
+        let mut far: Vec<(f64, usize)> = (0..roots.len())
+            .filter(|&j| j != i)
+            .map(|j| (roots[j].distance_squared(roots[i]), j))
+            .collect();
+        far.select_nth_unstable_by(3, |a, b| a.0.total_cmp(&b.0));
+        [far[0].1, far[1].1, far[2].1, far[3].1]
+    };
+    (0..roots.len()).map(nearest).collect()
+}
+
+/// Distances (m) of strands that are rooted beside each other, sorted.
+fn distances(strands: &Strands, beside: &[[usize; 4]], along: f64) -> Vec<f64> {
+    let of = |(i, others): (usize, &[usize; 4])| others.map(|j| apart(strands, [i, j], along));
+    let mut all: Vec<f64> = beside.iter().enumerate().flat_map(of).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn median(sorted: &[f64]) -> f64 {
+    sorted[sorted.len() / 2]
+}
+
+#[test]
+fn wet_hairs_lie_in_locks_and_dry_apart() {
+    let dry = predict(&spec("caucasian-straight"), &HEAD, PredictOptions::default(), &()).unwrap();
+    let before = drawn(&dry);
+    let beside = beside(&before);
+    let soaked = done(&dry, &wet(1.0));
+    let damp = done(&dry, &wet(0.02));
+    let WetLockSizes { hairs_per_lock, radius, meeting, hairs } = soaked.wet_locks().unwrap();
+    println!("{hairs_per_lock} hairs, {radius} m, {meeting:?}, {hairs}");
+    // As photographs of wet hair of that length show them: pencils and thinner.
+    assert!((1e-3..4e-3).contains(&radius), "{radius}");
+    assert!((hairs / soaked.grown() - 1.0).abs() < 1e-12);
+
+    // 1. At the skin nothing changes. The first point is the same; the next is a hundredth of the way on.
+    let soaked_hair = drawn(&soaked);
+    let [at_root, was] = [&soaked_hair, &before].map(|hair| median(&distances(hair, &beside, 0.0)));
+    println!("at roots {at_root} {was}");
+    assert!((at_root / was - 1.0).abs() < 0.01);
+
+    // 2. Most hairs that are rooted beside each other lie as close as hairs in a lock do.
+    let law_of_lock = |hairs: f64| radius * (hairs_per_lock / hairs).powf(-0.5);
+    // Drawn hairs are fewer: they have the distances of as many in the same lock.
+    let per_lock = hairs_per_lock * 16_000.0 / hairs;
+    let touching = law_of_lock(hairs_per_lock) / per_lock.sqrt();
+    let far_out = distances(&soaked_hair, &beside, OUT);
+    let dry_out = median(&distances(&before, &beside, OUT));
+    println!("median {} m, law {touching} m, dry {dry_out} m", median(&far_out));
+    assert!(median(&far_out) < 3.0 * touching && median(&far_out) < 0.4 * dry_out);
+
+    // 3. Locks are as many as the law says. Roots side by side whose hairs are close belong to the same.
+    let mut lock: Vec<usize> = (0..before.len()).collect();
+    fn of(lock: &mut [usize], i: usize) -> usize {
+        if lock[i] != i {
+            lock[i] = of(lock, lock[i]);
+        }
+        lock[i]
+    }
+    for (i, others) in beside.iter().enumerate() {
+        for &j in others {
+            if apart(&soaked_hair, [i, j], OUT) < 2.0 * radius {
+                let (a, b) = (of(&mut lock, i), of(&mut lock, j));
+                lock[a] = b;
+            }
+        }
+    }
+    let mut sizes = vec![0; before.len()];
+    for i in 0..before.len() {
+        sizes[of(&mut lock, i)] += 1;
+    }
+    let count = sizes.iter().filter(|&&size| f64::from(size) > 0.2 * per_lock).count() as f64;
+    let expected = hairs / hairs_per_lock;
+    println!("{count} locks, {expected} by the law");
+    assert!((0.5..2.0).contains(&(count / expected)), "{count} {expected}");
+
+    // 4. With less water hairs meet farther out, and dry hair is as it was, to the last bit.
+    let damp_locks = damp.wet_locks().unwrap();
+    assert!(damp_locks.hairs_per_lock <= hairs_per_lock);
+    assert!(damp_locks.meeting.unwrap() > meeting.unwrap());
+    let dried = done(&soaked, &Operation::Dry(Dry::default()));
+    assert_eq!(dried.wet_locks(), None);
+    assert!(drawn(&dried) == before);
+}
+
+#[test]
+fn a_cut_leaves_locks_where_they_are() {
+    let mut spec = spec("caucasian-straight");
+    spec.wisps.hairs = Hairs::Count(2_000);
+    let dry = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
+    let soaked = done(&dry, &wet(1.0));
+    let line = CutLine::Length(0.25);
+    let cut = Cut { selection: Selection::Everything, line, held: Held::Down };
+    let shorter = done(&soaked, &Operation::Cut(cut));
+    let (long, short) = (drawn(&soaked), drawn(&shorter));
+    // Half-way along, hairs that lay side by side still do.
+    let beside = beside(&long);
+    let close = |strands: &Strands, i: usize, j: usize| apart(strands, [i, j], 0.12) < 1e-3;
+    let pairs = beside.iter().enumerate().flat_map(|(i, others)| others.map(|j| (i, j)));
+    let joined: Vec<(usize, usize)> = pairs.filter(|&(i, j)| close(&long, i, j)).collect();
+    let still = joined.iter().filter(|&&(i, j)| close(&short, i, j)).count();
+    println!("{still} of {} pairs", joined.len());
+    assert!(joined.len() > 2000 && still as f64 > 0.9 * joined.len() as f64);
+}
+
+#[test]
+fn tight_curls_form_no_locks_and_nothing_does_by_the_papers_law() {
+    let of = |name: &str| {
+        let mut spec = spec(name);
+        spec.length.mean = 0.1;
+        spec.wisps.hairs = Hairs::Count(200);
+        spec
+    };
+    let soaked = |spec: &HairstyleSpec| {
+        done(&predict(spec, &HEAD, PredictOptions::default(), &()).unwrap(), &wet(1.0))
+    };
+    let straight = soaked(&of("caucasian-straight")).wet_locks().unwrap();
+    let kinky = soaked(&of("african-kinky")).wet_locks().unwrap();
+    println!("{straight:?} {kinky:?}");
+    assert!(kinky.hairs_per_lock < 0.3 * straight.hairs_per_lock);
+    let mut paper = of("caucasian-straight");
+    paper.wetting.locks = WetLocks::Factor;
+    assert_eq!(soaked(&paper).wet_locks(), None);
+}
