@@ -59,7 +59,7 @@ mod history;
 
 pub use adopt::{Adoption, adopt};
 pub use contact::Pull;
-pub use equilibrium::{Effort, SettlingReport, settling_report};
+pub use equilibrium::{Effort, FrictionalRod, SettlingReport, settling_report};
 pub use fibre::{Curl, Fibre, Handedness, WetLocks, Wetting};
 pub use guides::Guide;
 pub use hairstyle::{Crowded, Hairstyle, JointCertificate, WetLockSizes};

@@ -1,118 +1,17 @@
-//! Locks of wet hair: that hairs meet where beams do, and that drawn hairs gather as the law of capillarity says.
+//! Locks of wet hair: drawn hairs gather as the law of capillarity says. That hairs meet where the law has it is shown in the evidence.
 
 use std::sync::LazyLock;
 
-use frisure_hairstyle::capillary::{Coalescence, Liquid};
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::styling::{Cut, CutLine, Dry, Held, Operation, Selection, Wet};
 use frisure_hairstyle::{
     Hairs, Hairstyle, HairstyleSpec, PredictOptions, StrandOptions, StyleOptions, WetLockSizes,
     WetLocks, predict, preset, strands, style,
 };
-use frisure_rod::potential::{Field, FieldPotential};
-use frisure_rod::{
-    ElementKind, Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
-    Stability, TorsionConstant, equilibrium, equilibrium_from,
-};
 use frisure_strands::Strands;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
-
-/// A plane z = 0 that a rod sticks to within `reach` (m), with `adhesion` (J/m) per length, and that it cannot pass.
-struct StickyPlane {
-    adhesion: f64,
-    reach: f64,
-}
-
-impl StickyPlane {
-    /// Energy per length (J/m) at a height (m), and its first two derivatives: −G (1 − u²)³ above the plane, u = z/reach,
-    /// and a wall as stiff as that is at its edge below.
-    fn law(&self, z: f64) -> [f64; 3] {
-        let (g, r) = (self.adhesion, self.reach);
-        let u = z / r;
-        if u < 0.0 {
-            // Three times as stiff as the well, and much stiffer than a rod that is drawn into it.
-            let k = 200.0 * g / (r * r);
-            return [-g + 0.5 * k * z * z, k * z, k];
-        }
-        if u >= 1.0 {
-            return [0.0; 3];
-        }
-        let left = 1.0 - u * u;
-        [
-            -g * left.powi(3),
-            6.0 * g / r * u * left * left,
-            6.0 * g / (r * r) * left * (1.0 - 5.0 * u * u),
-        ]
-    }
-}
-
-impl Field for StickyPlane {
-    fn energy(&self, _: f64, p: DVec3) -> f64 {
-        self.law(p.z)[0]
-    }
-
-    fn derivatives(&self, _: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
-        let [_, slope, bend] = self.law(p.z);
-        Some((DVec3::Z * slope, DMat3::from_diagonal(DVec3::Z * bend)))
-    }
-}
-
-/// A straight fibre `height` (m) above the plane, along it.
-fn fibre(length: f64, height: f64, load: Load) -> Rod {
-    Rod::new(RodSpec {
-        length,
-        section: Section::from_diameter(70e-6, 1.0).unwrap(),
-        material: Material::new(1.6e9, 0.2e9, 1300.0).unwrap(),
-        torsion: TorsionConstant::SaintVenant,
-        natural: NaturalStrain::STRAIGHT,
-        root: Root::from_tangent(DVec3::Z * height, DVec3::X, DVec3::Y).unwrap(),
-        load,
-    })
-    .unwrap()
-}
-
-#[test]
-fn a_rod_meets_what_it_sticks_to_where_the_law_says() {
-    // Half of a pair: the plane between both is the middle, and each gains half of the energy.
-    let (height, length) = (3.5e-4, 0.02);
-    let rod = fibre(length, height, Load::NONE);
-    let adhesion = Liquid::WATER.adhesion(rod.spec().section.mean_radius(), 1.0);
-    let law = Coalescence {
-        spacing: 2.0 * height,
-        ..Coalescence::new(Liquid::WATER, 1.0, &rod, 1.0, 0.0)
-    };
-    let expected = law.meeting(1.0).unwrap();
-    let measured = |reach: f64| {
-        let plane = StickyPlane { adhesion: 0.5 * adhesion, reach };
-        let field = FieldPotential::new(&plane, 2);
-        let options = Options {
-            element: ElementKind::Jointed,
-            resolution: Resolution::Elements(800),
-            max_elements: 800,
-            tolerance: 1e-9,
-            max_iterations: 20_000,
-            longest_step: 1e-4,
-            ..Options::default()
-        };
-        // A weight presses it onto the plane before it is let go.
-        let pressed = equilibrium(&fibre(length, height, Load::down(200.0)), &[&field], &options);
-        let rest = equilibrium_from(&rod, &[&field], &options, &pressed);
-        assert_eq!(rest.certificate.stability, Stability::Stable);
-        // A clamped beam that touches with a slope of zero is half-way down in the middle of its way.
-        let line = rest.sample(2001);
-        let next = line.iter().position(|(p, _)| p.z < 0.5 * height).unwrap();
-        let (a, b) = (line[next - 1].0, line[next].0);
-        2.0 * (a.x + (b.x - a.x) * (a.z - 0.5 * height) / (a.z - b.z))
-    };
-    // The attraction reaches a fiftieth and a twenty-fifth of the way: neither matters.
-    for reach in [1.4e-5, 0.7e-5] {
-        let ratio = measured(reach) / expected;
-        println!("meets at {ratio:.5} of {:.3} mm", expected * 1e3);
-        assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
-    }
-}
 
 /// Three quarters of the hair (m), where locks are counted.
 const OUT: f64 = 0.75 * 0.3;

@@ -7,7 +7,7 @@ use frisure_rod::{
 use rayon::prelude::*;
 
 use super::fields::{MAX_ITERATIONS, MOST_ELEMENTS, along, body, body_samples, depth, options};
-use super::friction_solver::{Hold, Rested, Rubbing};
+use super::friction_solver::{FrictionalRod, Hold, Rested};
 use super::letting_go::LETTING_GO;
 use super::start::{Change, GuideStart};
 use crate::contact::Layer;
@@ -168,7 +168,7 @@ fn resettle_one(
         Rested::free(pulls[1..].iter().fold(first, |rest, pull| settle(&rest, pull)))
     } else {
         let samples = body_samples(guide, elements);
-        let mut rubbing = Rubbing::new(&guide.rod, &surface, samples, options, before);
+        let mut rubbing = FrictionalRod::new(&guide.rod, &surface, samples, options, before);
         for pull in pulls {
             match pull {
                 None => rubbing.step(&[&body]),
@@ -219,7 +219,7 @@ fn settle_one_from(
         Rested::free(equilibrium_from(&guide.rod, &felt, &options, before))
     } else {
         let samples = body_samples(guide, elements);
-        let mut rubbing = Rubbing::new(&guide.rod, &surface, samples, options, before);
+        let mut rubbing = FrictionalRod::new(&guide.rod, &surface, samples, options, before);
         rubbing.step(&felt);
         rubbing.finish()
     };

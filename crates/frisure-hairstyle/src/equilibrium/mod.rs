@@ -12,6 +12,7 @@ mod tether;
 mod wisp;
 
 pub(crate) use fields::{combed_hold, held_up, holding};
+pub use friction_solver::FrictionalRod;
 pub use report::{SettlingReport, settling_report};
 pub(crate) use start::{Change, GuideStart};
 

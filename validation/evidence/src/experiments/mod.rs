@@ -3,6 +3,7 @@
 mod buckling;
 mod convergence;
 mod elastica;
+mod friction;
 mod growth;
 mod heads;
 mod invariance;
@@ -15,6 +16,7 @@ mod types;
 mod curls;
 mod plane;
 mod sphere;
+mod surfaces;
 
 use crate::Experiment;
 
@@ -30,6 +32,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &robustness::EXPERIMENT,
     &types::EXPERIMENT,
     &heads::EXPERIMENT,
+    &friction::EXPERIMENT,
     &speed::EXPERIMENT,
 ];
 

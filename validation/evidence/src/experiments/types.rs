@@ -1,6 +1,6 @@
 //! Hair types under gravity, compared with what the literature reports of curls.
 
-use frisure::hairstyle::{HairType, PRESETS, Wetting};
+use frisure::hairstyle::{HairType, PRESETS, WetLocks, Wetting};
 use frisure::rod::{
     Equilibrium, Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, Stability,
     TorsionConstant, equilibrium,
@@ -48,8 +48,14 @@ const STATES: [&str; 3] = ["dry", "wet, measured", "wet, paper"];
 /// A hair of a type.
 fn spec(hair: &HairType, wetting: Option<Wetting>) -> Result<RodSpec, Stopped> {
     let natural = NaturalStrain::helix(hair.curl.radius, hair.curl.pitch)?;
-    let none =
-        Wetting { youngs_modulus: 1.0, shear_modulus: 1.0, diameter: 1.0, length: 1.0, wisp: 1.0 };
+    let none = Wetting {
+        youngs_modulus: 1.0,
+        shear_modulus: 1.0,
+        diameter: 1.0,
+        length: 1.0,
+        wisp: 1.0,
+        locks: WetLocks::Factor,
+    };
     let by = wetting.unwrap_or(none);
     let material = Material::new(
         hair.youngs_modulus * by.youngs_modulus,
