@@ -236,7 +236,7 @@ impl Population<'_> {
         };
         let line = self.split_line(tier, id);
         let agreement = self.agreement(guide, line.followed);
-        (agreement > LEAST_AGREEMENT).then(|| Pull { line, most: agreement * clumping, wet })
+        (agreement > LEAST_AGREEMENT).then_some(Pull { line, most: agreement * clumping, wet })
     }
 
     /// The line of a split: hair rooted there, which gathers to the larger split that it is in.
