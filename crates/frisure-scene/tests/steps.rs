@@ -8,7 +8,7 @@ use frisure_hairstyle::styling::{
     Operation, Part, Release, Roll, Selection, Spot, Straighten, StyleError, Tie, TiePlace, Twist,
     View, Wet,
 };
-use frisure_hairstyle::{Comb as Word, Level, Parting, Place, preset};
+use frisure_hairstyle::{Comb as Word, Level, Parting, Place, WetLocks, Wetting, preset};
 use frisure_scene::edit::{self, EditError};
 use frisure_scene::{Diagnostic, Scene, WriteStepError, parse_step, schema, write_step};
 use glam::DVec3;
@@ -166,6 +166,8 @@ fn growth_and_wetting_of_a_type_can_be_changed() {
     assert_eq!(usual.length.growth_rate, hair.growth_rate);
     assert_eq!(usual.wetting, hair.paper_wetting);
     assert_eq!(spec("hair.wetting = 'measured'").wetting, hair.wetting);
+    let capillary = Wetting { locks: WetLocks::Capillary, ..hair.wetting };
+    assert_eq!(spec("hair.wetting = 'capillary'").wetting, capillary);
     let fast = spec("hair.growth_rate = '0.864 mm/day'").length.growth_rate;
     assert!((fast - 1e-8).abs() < 1e-22, "{fast}");
     let diagnostic =

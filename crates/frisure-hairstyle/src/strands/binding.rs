@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::curve::Pull;
+use super::gathering::Gathering;
 use super::splits::OwnCurl;
 use crate::implantation::Root;
 use crate::random::Stream;
@@ -89,9 +89,9 @@ pub(super) struct StrandBinding<'a> {
     pub(super) followed: Vec<(usize, f64)>,
     pub(super) variation: StrandVariation,
     /// The thinner wisp that it gathers to.
-    pub(super) split: Option<Pull<'a>>,
+    pub(super) split: Option<Gathering<'a>>,
     /// The lock that it gathers to if it is wet.
-    pub(super) lock: Option<Pull<'a>>,
+    pub(super) lock: Option<Gathering<'a>>,
     /// Length of its guides (m).
     pub(super) length: f64,
     /// Length that they were planned with, and that they would have if they had never been cut (m):

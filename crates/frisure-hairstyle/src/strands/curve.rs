@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3, Vec3};
 
 use super::binding::StrandBinding;
-use super::locks::Gathering;
+use super::gathering::{Gathering, Tier};
 use super::population::Population;
 use super::skin::{Free, LAID, PRESSED, below};
 use super::splits::{OwnCurl, SplitId, SplitLine, Splits};
@@ -60,30 +60,6 @@ struct Place {
     gathered: f64,
     /// Factor on the distance from the guides.
     width: f64,
-}
-
-/// Which strands hair gathers to: the thinner wisps into which it splits, or locks of wet hair.
-#[derive(Clone, Copy)]
-pub(super) enum Tier {
-    Splits,
-    Locks,
-}
-
-/// How hair gathers to a line.
-pub(super) struct Pull<'a> {
-    line: &'a SplitLine,
-    /// Most of the way to it.
-    most: f64,
-    /// How far along wet hair.
-    wet: Option<Gathering>,
-}
-
-impl Pull<'_> {
-    /// How much of the way to the line hair has come at the arc length `along` (m), where dry hair has come the share `gathered`
-    /// of its way and `width` is the distance of hairs over that of their roots.
-    fn share(&self, along: f64, gathered: f64, width: f64) -> f64 {
-        self.most * self.wet.map_or(gathered, |wet| wet.share(along, width))
-    }
 }
 
 /// Length of a line (m).
@@ -167,19 +143,19 @@ impl Population<'_> {
         let drawn_in = 1.0 + (narrow - 1.0) * smooth_step(0.0, DRAWN_IN.min(0.5 * length), along);
         let place = Place { along, gathered, width: drawn_in };
         let (main, curl) = match binding.split {
-            Some(Pull { line, .. }) => (line.main, line.curl.and(variation.curl)),
+            Some(Gathering { line, .. }) => (line.main, line.curl.and(variation.curl)),
             None => (binding.main(), variation.curl),
         };
         let mut point = self.between(root.position, &binding.followed, main, curl, drifted, &place);
         // What makes a hair differ from its wisp is in a lock as small as all else.
         let mut free = 1.0;
-        if let Some(pull) = &binding.split {
-            point = point.lerp(pull.line.at(drifted), pull.share(along, gathered, 1.0));
+        if let Some(to) = &binding.split {
+            point = point.lerp(to.line.at(drifted), to.share(along, gathered, 1.0));
         }
-        if let Some(pull) = &binding.lock {
+        if let Some(to) = &binding.lock {
             let width = drawn_in * self.narrowing(binding.main(), along, gathered);
-            let share = pull.share(along, gathered, width);
-            point = point.lerp(pull.line.at(drifted), share);
+            let share = to.share(along, gathered, width);
+            point = point.lerp(to.line.at(drifted), share);
             free -= share;
         }
         point + variation.waves.at(along / planned) * (rise * narrow * free)
@@ -216,7 +192,7 @@ impl Population<'_> {
     }
 
     /// How hair rooted at a point (m) of the skin that follows `guide` most gathers to the smallest split of a tier.
-    pub(super) fn pull(&self, tier: Tier, p: DVec3, guide: usize) -> Option<Pull<'_>> {
+    pub(super) fn gathers_to(&self, tier: Tier, p: DVec3, guide: usize) -> Option<Gathering<'_>> {
         self.gathering(tier, self.tier(tier).smallest(self.layout, p)?, guide)
     }
 
@@ -229,14 +205,14 @@ impl Population<'_> {
 
     /// How hair that follows `guide` most gathers to the line of a split; none to one that goes another way: at the
     /// end of a parting that hair would hang half-way between both sides, before the face.
-    fn gathering(&self, tier: Tier, id: SplitId, guide: usize) -> Option<Pull<'_>> {
+    fn gathering(&self, tier: Tier, id: SplitId, guide: usize) -> Option<Gathering<'_>> {
         let (clumping, wet) = match tier {
             Tier::Splits => (self.splits.get(id).clumping, None),
             Tier::Locks => (1.0, Some(self.locks.gathering(guide, id.level)?)),
         };
         let line = self.split_line(tier, id);
         let agreement = self.agreement(guide, line.followed);
-        (agreement > LEAST_AGREEMENT).then_some(Pull { line, most: agreement * clumping, wet })
+        (agreement > LEAST_AGREEMENT).then_some(Gathering { line, most: agreement * clumping, wet })
     }
 
     /// The line of a split: hair rooted there, which gathers to the larger split that it is in.
@@ -250,8 +226,8 @@ impl Population<'_> {
             let followed = self.following(&split.root);
             let larger = larger.and_then(|id| self.gathering(tier, id, followed[0].0));
             let larger = larger.as_ref();
-            let main = larger.map_or(followed[0].0, |pull| pull.line.main);
-            let curl = larger.map_or(split.curl, |pull| pull.line.curl.and(split.curl));
+            let main = larger.map_or(followed[0].0, |to| to.line.main);
+            let curl = larger.map_or(split.curl, |to| to.line.curl.and(split.curl));
             let mean =
                 |of: &dyn Fn(usize) -> f64| followed.iter().map(|&(g, w)| w * of(g)).sum::<f64>();
             let length = mean(&|g| self.wisps[g].length);
@@ -265,11 +241,11 @@ impl Population<'_> {
                 let place = Place { along, gathered: gathered(along, uncut), width: 1.0 };
                 let mut p = self.between(position, &followed, main, curl, x, &place);
                 let mut free = 1.0;
-                if let Some(pull) = larger {
+                if let Some(to) = larger {
                     let width = self.narrowing(followed[0].0, along, place.gathered);
-                    let share = pull.share(along, place.gathered, width);
-                    p = p.lerp(pull.line.at(x), share);
-                    if pull.wet.is_some() {
+                    let share = to.share(along, place.gathered, width);
+                    p = p.lerp(to.line.at(x), share);
+                    if to.wet.is_some() {
                         free -= share;
                     }
                 }

@@ -33,12 +33,12 @@ struct WetGuide {
 
 /// How a hair gathers to a lock.
 #[derive(Clone, Copy)]
-pub(super) struct Gathering {
+pub(super) struct WetGathering {
     meeting: f64,
     closeness: f64,
 }
 
-impl Gathering {
+impl WetGathering {
     /// How much of the way to the middle of its lock a hair has come at the arc length `along` (m), where `width` is the distance
     /// of hairs over that of their roots without water.
     pub(super) fn share(self, along: f64, width: f64) -> f64 {
@@ -89,9 +89,9 @@ impl Locks {
     }
 
     /// How hair of a guide gathers to locks of a level; none if it does not.
-    pub(super) fn gathering(&self, guide: usize, level: usize) -> Option<Gathering> {
+    pub(super) fn gathering(&self, guide: usize, level: usize) -> Option<WetGathering> {
         let WetGuide { meeting, closeness } = self.guides.get(guide)?.as_ref()?;
         let meeting = *meeting.get(level)?;
-        meeting.is_finite().then_some(Gathering { meeting, closeness: *closeness })
+        meeting.is_finite().then_some(WetGathering { meeting, closeness: *closeness })
     }
 }

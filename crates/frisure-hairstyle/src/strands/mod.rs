@@ -10,6 +10,7 @@ mod attributes;
 mod binding;
 mod curve;
 mod described;
+mod gathering;
 mod locks;
 mod population;
 mod simulated;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::binding::{StrandBinding, StrandVariation};
-use super::curve::Tier;
+use super::gathering::Tier;
 use super::locks::Locks;
 use super::skin::{PRESSED, Skin};
 use super::splits::{Plan, Splits};
@@ -212,12 +212,12 @@ impl<'a> Population<'a> {
         let mut binding = StrandBinding {
             root: *root,
             split: if own.is_none() && variation.gathers() {
-                self.pull(Tier::Splits, root.position, main)
+                self.gathers_to(Tier::Splits, root.position, main)
             } else {
                 None
             },
             // Water draws in hairs that leave their wisp when dry, too.
-            lock: self.pull(Tier::Locks, root.position, main),
+            lock: self.gathers_to(Tier::Locks, root.position, main),
             followed,
             variation,
             length,

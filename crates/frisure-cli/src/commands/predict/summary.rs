@@ -130,7 +130,7 @@ fn beside(height: f64) -> String {
 fn wet_line(locks: &WetLockReport) -> String {
     let WetLockReport { hairs, hairs_per_lock, radius, .. } = locks;
     if *hairs_per_lock < 2.0 {
-        return "wet hair forms no locks: its hairs share too little of their curl\n".to_owned();
+        return "wet hair forms no locks: it is too short, or its hairs share too little of their curl\n".to_owned();
     }
     format!(
         "wet hair in about {:.0} locks of {hairs_per_lock:.0} hairs, {:.1} mm thick, at three quarters of its length\n",
