@@ -25,8 +25,8 @@ pub(super) struct Locks {
 
 /// How hair of one guide gathers.
 struct WetGuide {
-    /// Distance (m) from the root at which locks of each level form; infinite if they do not.
-    meeting: [f64; LEVELS],
+    /// Distance (m) from the root at which locks of each level form; none where they do not.
+    meeting: [Option<f64>; LEVELS],
     /// Distance of hairs in a lock over that of their roots.
     closeness: f64,
 }
@@ -50,8 +50,9 @@ impl WetGathering {
 impl Locks {
     pub(super) const NONE: Self = Self { splits: Splits::NONE, guides: Vec::new() };
 
-    /// Locks of hairs, the largest of the size at [`COUNTED`], of which `water` tells how those of each guide gather, `grown` of them on the whole head. `soaked`, how they
-    /// would if all were soaked, says how hair is divided: locks open and close while hair dries, and do not change places.
+    /// Locks of hairs of which `water` tells how those of each guide gather, `grown` of them on the whole head; the largest have
+    /// the size at [`COUNTED`]. `soaked`, how they would if all were soaked, says how hair is divided: locks open and close
+    /// while hair dries, and do not change places.
     pub(super) fn new(
         plan: &Plan<'_>,
         grown: f64,
@@ -76,9 +77,9 @@ impl Locks {
         let counts: Vec<usize> =
             sizes.iter().map(|size| (grown / size).ceil().max(1.0) as usize).collect();
         let guide = |law: &Coalescence| {
-            let mut meeting = [f64::INFINITY; LEVELS];
+            let mut meeting = [None; LEVELS];
             for (meeting, size) in meeting.iter_mut().zip(&sizes) {
-                *meeting = law.meeting(Coalescence::bundle(*size)).unwrap_or(f64::INFINITY);
+                *meeting = law.meeting(Coalescence::bundle(*size));
             }
             WetGuide { meeting, closeness: law.area_per_hair().sqrt() / law.spacing }
         };
@@ -91,7 +92,6 @@ impl Locks {
     /// How hair of a guide gathers to locks of a level; none if it does not.
     pub(super) fn gathering(&self, guide: usize, level: usize) -> Option<WetGathering> {
         let WetGuide { meeting, closeness } = self.guides.get(guide)?.as_ref()?;
-        let meeting = *meeting.get(level)?;
-        meeting.is_finite().then_some(WetGathering { meeting, closeness: *closeness })
+        Some(WetGathering { meeting: (*meeting.get(level)?)?, closeness: *closeness })
     }
 }
