@@ -186,6 +186,51 @@ fn nobody_follows_a_guide_that_is_not_there() {
     assert!(error.ends_with("strand 0 follows guide 1, and it has 1"), "{error}");
 }
 
+/// An attribute may have any name, also that of something else in the file.
+#[test]
+fn attributes_with_names_of_other_things_come_back() {
+    let names = [
+        "guide_",
+        "guide_id",
+        "guide_positions",
+        "positions",
+        "points",
+        "strands",
+        "offsets",
+        "radii",
+        "widths",
+        "velocities",
+        "metres",
+        "up",
+        "name",
+        "hair_color",
+        "melanin",
+        "attribute_",
+        "attribute_up",
+        "attribute_attribute_up",
+        "xform",
+        "st",
+    ];
+    for guides in [strands(&[2, 3]), Strands::new()] {
+        for format in readable() {
+            for name in names {
+                let mut hairs = strands(&[3, 2, 4]);
+                hairs.set_attribute(of_strands(name, Values::U32(vec![7, 8, 9]))).unwrap();
+                let wanted = hairs.attribute(name).cloned();
+                let groom = Groom { hairs, guides: guides.clone(), ..Groom::default() };
+                let bytes = written(format, &groom);
+                let of = format.extension();
+                let back = read(format, &bytes).unwrap_or_else(|e| panic!("{of} {name}: {e}"));
+                assert_eq!(back.hairs.len(), 3, "{of} {name}");
+                // Formats without attributes of others have none.
+                let kept = back.hairs.attribute(name).cloned();
+                assert!(kept.is_none() || kept == wanted, "{of} {name}: {kept:?}");
+                assert!(kept.is_some() || of != "npz", "{of} {name}");
+            }
+        }
+    }
+}
+
 /// Numbers of guides that are not in the file would be taken for those of hairs.
 #[test]
 fn hairs_alone_follow_nobody_in_unreal() {

@@ -2,7 +2,8 @@
 //!
 //! `positions` of N × P × 3 where all strands have the same number of points, else `points` of all and
 //! `offsets`; `radii`, and an array for each attribute; those of guides with `guide_` in front. `metres` and
-//! `up` say unit and axes. Metres, z up, unless the caller says otherwise.
+//! `up` say unit and axes. Metres, z up, unless the caller says otherwise. An attribute whose name would be taken for one
+//! of these has `attribute_` in front.
 //!
 //! The zip is of the crate `zip`, without its other methods of compression; the headers of arrays are a line
 //! of text each.
@@ -42,6 +43,9 @@ pub(super) static FORMAT: Declaration = Declaration {
 /// Prefix of the names of arrays of guides.
 const GUIDE: &str = "guide_";
 
+/// Prefix of attributes whose names mean something else here.
+const ATTRIBUTE: &str = "attribute_";
+
 /// How much larger arrays can be than the file that they are packed in, and what they can have in any case.
 const MOST_PACKED: u64 = 16;
 const FREE: u64 = 64 << 20;
@@ -52,6 +56,27 @@ const UP: &str = "up";
 const NAME: &str = "name";
 const HAIR_COLOUR: &str = "hair_color";
 const MELANIN: &str = "melanin";
+
+/// Arrays of strands: their points, how many each has, and radii.
+const POSITIONS: &str = "positions";
+const STRANDS: &str = "strands";
+const POINTS: &str = "points";
+const OFFSETS: &str = "offsets";
+const RADII: &str = "radii";
+
+/// The name of the array of an attribute.
+fn array_name(attribute: &str) -> String {
+    const TAKEN: [&str; 10] =
+        [POSITIONS, STRANDS, POINTS, OFFSETS, RADII, METRES, UP, NAME, HAIR_COLOUR, MELANIN];
+    let is_taken =
+        TAKEN.contains(&attribute) || is_of_guides(attribute) || attribute.starts_with(ATTRIBUTE);
+    if is_taken { format!("{ATTRIBUTE}{attribute}") } else { attribute.to_owned() }
+}
+
+/// Whether an array is one of guides.
+fn is_of_guides(name: &str) -> bool {
+    name.starts_with(GUIDE) && name != names::GUIDE_WEIGHTS
+}
 
 /// Writes hairs and guides.
 fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
@@ -86,18 +111,18 @@ fn strands(zip: &mut Zip<'_>, prefix: &str, strands: &Strands, frame: Frame) -> 
         None => vec![points.len()],
     };
     let with = |extent: &[usize]| [&shape[..], extent].concat();
-    let name = if alike.is_some() { "positions" } else { "points" };
+    let name = if alike.is_some() { POSITIONS } else { POINTS };
     array(zip, &format!("{prefix}{name}"), "<f4", &with(&[3]), 12 * points.len(), |out| {
         points.iter().for_each(|p| names::push(out, frame.position_to_file(*p).to_array()));
     })?;
     if alike.is_none() {
         let offsets = strands.offsets();
-        let name = format!("{prefix}offsets");
+        let name = format!("{prefix}{OFFSETS}");
         array(zip, &name, "<i8", &[offsets.len()], 8 * offsets.len(), |out| {
             offsets.iter().for_each(|o| out.extend(i64::from(*o).to_le_bytes()));
         })?;
     }
-    array(zip, &format!("{prefix}radii"), "<f4", &shape, 4 * points.len(), |out| {
+    array(zip, &format!("{prefix}{RADII}"), "<f4", &shape, 4 * points.len(), |out| {
         strands.radii().iter().for_each(|r| names::push(out, [frame.length_to_file(*r)]));
     })?;
     for attribute in strands.attributes() {
@@ -105,7 +130,8 @@ fn strands(zip: &mut Zip<'_>, prefix: &str, strands: &Strands, frame: Frame) -> 
             Domain::Strand => vec![strands.len()],
             Domain::Point => shape.clone(),
         };
-        values(zip, &format!("{prefix}{}", attribute.name), attribute, &each, frame)?;
+        let name = format!("{prefix}{}", array_name(&attribute.name));
+        values(zip, &name, attribute, &each, frame)?;
     }
     Ok(())
 }
@@ -173,14 +199,16 @@ fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
     let name = arrays.remove(NAME).and_then(|a| a.text()).unwrap_or_default();
     let colour = colour(&mut arrays);
     let keys: Vec<String> = arrays.keys().cloned().collect();
-    let is_of_guides = |k: &String| k.starts_with(GUIDE) && k != names::GUIDE_WEIGHTS;
     let mut guides = BTreeMap::new();
-    for key in keys.iter().filter(|k| is_of_guides(k)) {
+    // Without points of guides they are attributes with such names, of another program.
+    let has_guides =
+        [POSITIONS, STRANDS, POINTS].iter().any(|k| keys.contains(&format!("{GUIDE}{k}")));
+    for key in keys.iter().filter(|k| has_guides && is_of_guides(k)) {
         if let Some(array) = arrays.remove(key) {
             guides.insert(key[GUIDE.len()..].to_owned(), array);
         }
     }
-    if !["positions", "strands", "points"].iter().any(|k| arrays.contains_key(*k)) {
+    if ![POSITIONS, STRANDS, POINTS].iter().any(|k| arrays.contains_key(*k)) {
         return Err(format!("it has no `positions` and no `points`, but {}", keys.join(", ")));
     }
     let hairs = curves(arrays, frame)?.strands(frame)?;
@@ -236,14 +264,14 @@ fn arrays(bytes: &[u8]) -> Result<BTreeMap<String, Array>, String> {
 
 /// Strands of arrays.
 fn curves(mut arrays: BTreeMap<String, Array>, frame: Frame) -> Result<Curves, String> {
-    let rows = arrays.remove("positions").or_else(|| arrays.remove("strands"));
+    let rows = arrays.remove(POSITIONS).or_else(|| arrays.remove(STRANDS));
     let (counts, points) = match rows {
         Some(array) => even(array)?,
         None => uneven(&mut arrays)?,
     };
     let mut curves = Curves { counts, points, ..Curves::default() };
     let total = curves.points.len();
-    if let Some(radii) = arrays.remove("radii") {
+    if let Some(radii) = arrays.remove(RADII) {
         let radii = radii.real().ok_or("`radii` are no real numbers")?;
         if radii.len() != total {
             return Err(format!("`radii` are {}, and there are {total} points", radii.len()));
@@ -251,6 +279,7 @@ fn curves(mut arrays: BTreeMap<String, Array>, frame: Frame) -> Result<Curves, S
         curves.diameters = radii.into_iter().map(|r| 2.0 * r).collect();
     }
     for (name, array) in arrays {
+        let name = name.strip_prefix(ATTRIBUTE).map_or(name.clone(), str::to_owned);
         curves.attributes.extend(attribute(name, array, curves.counts.len(), total, frame));
     }
     Ok(curves)
@@ -275,11 +304,11 @@ fn even(array: Array) -> Result<Rows, String> {
 }
 
 fn uneven(arrays: &mut BTreeMap<String, Array>) -> Result<Rows, String> {
-    let points = arrays.remove("points").ok_or("it has neither `positions` nor `points`")?;
+    let points = arrays.remove(POINTS).ok_or("it has neither `positions` nor `points`")?;
     let (&[total, 3], Some(points)) = (&points.shape[..], triples(&points)) else {
         return Err(format!("`points` are {:?}, and should be real numbers, N × 3", points.shape));
     };
-    let offsets = arrays.remove("offsets").and_then(|a| a.whole(|x| x));
+    let offsets = arrays.remove(OFFSETS).and_then(|a| a.whole(|x| x));
     let offsets = offsets.ok_or("it has `points`, but no whole `offsets`")?;
     if offsets.first() != Some(&0) || offsets.last() != Some(&(total as i64)) {
         return Err(format!("`offsets` do not go from 0 to {total}"));
