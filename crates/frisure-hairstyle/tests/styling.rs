@@ -9,7 +9,7 @@ use frisure_hairstyle::styling::{
     WispState,
 };
 use frisure_hairstyle::{
-    Body, Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, PRESETS, Parting, Place,
+    Body, Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, Moisture, PRESETS, Parting, Place,
     PredictOptions, StrandOptions, StyleOptions, predict, preset, selected, settling_report,
     strands, style,
 };
@@ -440,6 +440,44 @@ fn damp_air_softens_hair_and_dry_air_stiffens_it() {
     };
     assert_eq!(stiffness(0.6), before.guides()[0].rod.spec().material.youngs_modulus());
     assert!(stiffness(0.9) < stiffness(0.6) && stiffness(0.6) < stiffness(0.2));
+}
+
+/// Mean natural curvature (1/m) of guides as they are.
+fn curvature(hair: &Hairstyle) -> f64 {
+    let of = |g: &frisure_hairstyle::Guide| {
+        let at = |k| g.rod.natural().at(g.rod.length() * f64::from(k) / 50.0).truncate().length();
+        (0..=50).map(at).sum::<f64>() / 51.0
+    };
+    hair.guides().iter().map(of).sum::<f64>() / hair.guides().len() as f64
+}
+
+#[test]
+fn damp_air_takes_of_a_set_for_good() {
+    let before = hairstyle("caucasian-straight", 6);
+    let air = |h: &Hairstyle, relative| done(h, &Operation::Humidity(Humidity { relative }));
+    let everything = Selection::Everything;
+    let set = |h: &Hairstyle| {
+        let roll =
+            Operation::Roll(Roll { radius: 0.01, pitch: 0.0, selection: everything.clone() });
+        let release = Operation::Release(Release { selection: everything.clone() });
+        done(&done(&done(&done(h, &wet()), &roll), &dry()), &release)
+    };
+    let rolled = set(&before);
+    let [natural, curled] = [&before, &rolled].map(curvature);
+    assert!(curled > natural + 0.5 / 0.01, "{natural} {curled}");
+    let left = |h: &Hairstyle| (curvature(h) - natural) / (curled - natural);
+    // Drier air takes nothing; damp air takes what it opens, and gives nothing back.
+    assert!((left(&air(&rolled, 0.3)) - 1.0).abs() < 0.01);
+    let damp = air(&rolled, 0.9);
+    let share = left(&air(&damp, 0.6));
+    assert!((share - (1.0 - Moisture::in_air(0.9).open())).abs() < 0.03, "{share}");
+    // By way of less damp air it is the same.
+    let slowly = air(&air(&air(&rolled, 0.75), 0.9), 0.6);
+    assert!((left(&slowly) - share).abs() < 1e-6, "{} {share}", left(&slowly));
+    assert!(left(&air(&air(&rolled, 1.0), 0.6)).abs() < 1e-9);
+    // Hair that dries in damp air sets no more than is left of a set there.
+    let set_in_damp = air(&set(&air(&before, 0.9)), 0.6);
+    assert!((left(&set_in_damp) - share).abs() < 0.03, "{} {share}", left(&set_in_damp));
 }
 
 #[test]

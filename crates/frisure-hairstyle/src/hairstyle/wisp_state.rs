@@ -202,16 +202,20 @@ impl WispState {
     pub(crate) fn wet(&mut self, to: f64) {
         if to > self.wetness {
             // Wetting from w to w′ leaves k (1 − w′)/(1 − w) of a set: water opens the hydrogen bonds that hold it.
-            let closed = (1.0 - to) / (1.0 - self.wetness);
-            for set in &mut self.sets {
-                set.share *= closed;
-            }
-            self.sets.retain(|set| set.share > LEAST_SHARE);
+            self.leave_of_sets((1.0 - to) / (1.0 - self.wetness));
         }
         self.wetness = to;
         if to == 0.0 {
             self.water = 0.0;
         }
+    }
+
+    /// Leaves a share of what is kept of shapes that it was dried in.
+    pub(crate) fn leave_of_sets(&mut self, share: f64) {
+        for set in &mut self.sets {
+            set.share *= share;
+        }
+        self.sets.retain(|set| set.share > LEAST_SHARE);
     }
 
     /// Lets the wisp keep a share of a shape, given as strain along the dry hair.

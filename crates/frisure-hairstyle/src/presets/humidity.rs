@@ -65,6 +65,13 @@ impl Moisture {
             elongation: share(LENGTH, humidity),
         }
     }
+
+    /// Share of the hydrogen bonds that hold a set which the air keeps open: 0 up to room air, 1 as in water. It is taken to be that of
+    /// the swelling, the water that goes between the chains. docs/hair-types.md, "Humidity"
+    #[must_use]
+    pub fn open(&self) -> f64 {
+        self.swelling.max(0.0)
+    }
 }
 
 /// How far the quantity has gone from the room's to the wet one.

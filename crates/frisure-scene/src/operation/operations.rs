@@ -50,7 +50,7 @@ operations! {
         example: "humidity = 0.9",
         main: None,
     } keys {
-        /// Leaves all hair that is not wet in air of this relative humidity; {}. A hairstyle begins
+        /// Leaves all hair in air of this relative humidity; {}. Damp air takes a part of sets for good. A hairstyle begins
         /// at 0.6.
         relative: Ratio, in Humidity::RELATIVE, needed "humidity = 0.9";
     }

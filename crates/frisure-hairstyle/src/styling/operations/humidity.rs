@@ -2,11 +2,13 @@
 
 use crate::hairstyle::{Hairstyle, Styling};
 use crate::spec::{InvalidSpec, Range};
+use crate::presets::Moisture;
 use crate::styling::error::StyleError;
 use crate::styling::settle::Act;
 use super::apply::Apply;
 
-/// Leaves all hair that is not wet in air of some humidity.
+/// Leaves all hair in air of some humidity. Damp air opens the bonds that hold a set, as water does but not all of them: what it takes
+/// of a set does not come back when the air is dry again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Humidity {
     /// Relative humidity, 0 to 1; every hairstyle begins at 0.6.
@@ -30,6 +32,14 @@ impl Apply for Humidity {
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
-        act.with(Styling { humidity: self.relative, ..act.before.styling.clone() })
+        let mut styling = Styling { humidity: self.relative, ..act.before.styling.clone() };
+        // As wetting from the wetness w to w′ leaves (1 − w′)/(1 − w) of a set, and of what is wet at once as much.
+        let [before, after] =
+            [act.before.styling.humidity, self.relative].map(|h| Moisture::in_air(h).open());
+        if after > before {
+            let left = (1.0 - after) / (1.0 - before);
+            styling.wisps.iter_mut().for_each(|wisp| wisp.leave_of_sets(left));
+        }
+        act.with(styling)
     }
 }
