@@ -7,7 +7,9 @@ mod friction;
 mod growth;
 mod heads;
 mod invariance;
+mod ponytail;
 mod robustness;
+mod set;
 mod single;
 mod speed;
 mod suspended;
@@ -33,6 +35,8 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &types::EXPERIMENT,
     &heads::EXPERIMENT,
     &friction::EXPERIMENT,
+    &set::EXPERIMENT,
+    &ponytail::EXPERIMENT,
     &speed::EXPERIMENT,
 ];
 

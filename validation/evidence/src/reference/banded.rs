@@ -1,7 +1,7 @@
 //! Linear equations whose matrix is a band around the diagonal, by elimination with row pivots.
 
 /// A square matrix with `HALF` diagonals on either side of the middle one.
-pub(super) struct Banded {
+pub(crate) struct Banded {
     n: usize,
     values: Vec<f64>,
 }
@@ -12,11 +12,11 @@ const HALF: usize = 8;
 const WIDTH: usize = 3 * HALF + 1;
 
 impl Banded {
-    pub(super) fn new(n: usize) -> Self {
+    pub(crate) fn new(n: usize) -> Self {
         Self { n, values: vec![0.0; n * WIDTH] }
     }
 
-    pub(super) fn set(&mut self, row: usize, column: usize, value: f64) {
+    pub(crate) fn set(&mut self, row: usize, column: usize, value: f64) {
         let i = self.index(row, column);
         self.values[i] = value;
     }
@@ -26,7 +26,7 @@ impl Banded {
     }
 
     /// The solution for a right-hand side; `None` if the matrix is singular.
-    pub(super) fn solve(mut self, mut b: Vec<f64>) -> Option<Vec<f64>> {
+    pub(crate) fn solve(mut self, mut b: Vec<f64>) -> Option<Vec<f64>> {
         let n = self.n;
         for k in 0..n {
             let last_row = (k + HALF).min(n - 1);

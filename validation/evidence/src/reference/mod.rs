@@ -16,7 +16,7 @@
 //! A solution is stable if it satisfies Jacobi's condition: no neighbouring solution with a free tip
 //! meets it between tip and root. The number of those that do is Morse's index, the number of unstable directions.
 
-mod banded;
+pub(crate) mod banded;
 mod gauss;
 mod hanging;
 mod linear;
