@@ -2,6 +2,8 @@
 //!
 //! Source of the format: Greg Turk, "The PLY Polygon File Format" (1994).
 
+use std::collections::BTreeSet;
+
 /// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -90,6 +92,8 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(Vec<Element>, Body<'_>), String> {
     let mut rest = bytes;
     let mut order = None;
     let mut elements: Vec<Element> = Vec::new();
+    // Names of elements, and of properties of the last of them: a second one of a name would be taken for the first.
+    let (mut named, mut columns) = (BTreeSet::new(), BTreeSet::new());
     for number in 1.. {
         let end = rest.iter().position(|&b| b == b'\n').ok_or("its header has no end")?;
         let line = String::from_utf8_lossy(&rest[..end]).into_owned();
@@ -100,12 +104,21 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(Vec<Element>, Body<'_>), String> {
         match words[..] {
             ["ply"] if number == 1 => {}
             ["end_header"] => break,
-            ["format", "ascii", _] => order = Some(Order::Text),
-            ["format", "binary_little_endian", _] => order = Some(Order::Little),
-            ["format", "binary_big_endian", _] => order = Some(Order::Big),
+            ["format", name, _] if order.is_none() => {
+                order = Some(match name {
+                    "ascii" => Order::Text,
+                    "binary_little_endian" => Order::Little,
+                    "binary_big_endian" => Order::Big,
+                    _ => return Err(bad()),
+                });
+            }
             ["comment" | "obj_info", ..] | [] => {}
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| bad())?;
+                columns.clear();
+                if !named.insert(name.to_owned()) {
+                    return Err(format!("{}, the second element of that name", bad()));
+                }
                 elements.push(Element { name: name.into(), count, properties: Vec::new() });
             }
             ["property", .., kind, name] => {
@@ -115,6 +128,9 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(Vec<Element>, Body<'_>), String> {
                     ["list", count] => Some(known(count)?),
                     _ => return Err(bad()),
                 };
+                if !columns.insert(name.to_owned()) {
+                    return Err(format!("{}, the second property of that name", bad()));
+                }
                 let property = Property { name: name.into(), kind: known(kind)?, list };
                 elements.last_mut().ok_or_else(bad)?.properties.push(property);
             }

@@ -24,9 +24,12 @@ pub fn targets() -> Vec<Target> {
     groom_targets().chain(other_targets()).collect()
 }
 
-/// The files of a folder of the corpus, by name.
+/// The files of a folder of the corpus, by name; none if there is no such folder.
 fn corpus(name: &str) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(name);
+    if !folder.exists() {
+        return Vec::new();
+    }
     let entries = fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.sort();
@@ -71,12 +74,14 @@ fn groom_targets() -> impl Iterator<Item = Target> {
     let given = corpus("groom");
     Format::ALL.iter().copied().filter(|format| format.is_read()).map(move |format| {
         let written = groom::encode(format, &small_groom(), FrameChoice::default());
-        let mut corpus: Vec<Vec<u8>> = written.into_iter().collect();
-        if format.extension().starts_with("usd") || corpus.is_empty() {
-            corpus.extend(given.iter().cloned());
+        let mut files: Vec<Vec<u8>> = written.into_iter().collect();
+        if format.extension().starts_with("usd") || files.is_empty() {
+            files.extend(given.iter().cloned());
         }
+        // What failed once.
+        files.extend(corpus(&format!("groom-{}", format.extension())));
         let run = Box::new(move |bytes: &[u8]| use_groom(format, bytes));
-        Target { name: format!("groom-{}", format.extension()), corpus, run }
+        Target { name: format!("groom-{}", format.extension()), corpus: files, run }
     })
 }
 
