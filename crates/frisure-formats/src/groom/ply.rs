@@ -148,17 +148,15 @@ mod tests {
             0 0 0 255\n0 0 -0.1 1\n0 0 -0.2 1\n1 1 1 0\n3 0 1 2\n0 1\n1 2\n";
         let groom = decode(text, FrameChoice::default()).unwrap();
         assert_eq!(groom.hairs.points(), [0.0, -0.1, -0.2].map(|z| Vec3::new(0.0, 0.0, z)));
-        for (from, to) in
-            [
-                ("0 1\n1 2", "0 1\n1 4"),
-                ("0 1\n1 2", "0 1\n1"),
-                ("vertex 4", "vertex 9999999"),
-                // What is there twice is not taken for the first.
-                ("element face 1", "element vertex 0"),
-                ("double z", "double x\nproperty double z"),
-                ("format ascii", "format binary_big_endian 1.0\nformat ascii"),
-            ]
-        {
+        for (from, to) in [
+            ("0 1\n1 2", "0 1\n1 4"),
+            ("0 1\n1 2", "0 1\n1"),
+            ("vertex 4", "vertex 9999999"),
+            // What is there twice is not taken for the first.
+            ("element face 1", "element vertex 0"),
+            ("double z", "double x\nproperty double z"),
+            ("format ascii", "format binary_big_endian 1.0\nformat ascii"),
+        ] {
             let wrong = String::from_utf8_lossy(text).replace(from, to);
             assert!(decode(wrong.as_bytes(), FrameChoice::default()).is_err(), "{to}");
         }

@@ -84,9 +84,13 @@ pub(super) fn curl(document: &Document<'_>, curl: &mut Curl) -> Result<()> {
         curl.strain = strain(document, "hair.curl");
     } else if radius.is_some() || pitch.is_some() {
         let preset = curl.radius_pitch().unwrap_or_default();
-        for (quantity, value) in [("curl radius", radius), ("curl pitch", pitch)] {
+        for (quantity, value, allowed) in [
+            ("curl radius", radius, "at most 100 m; leave it out for straight hair"),
+            ("curl pitch", pitch, "between -100 and 100 m; leave it out for straight hair"),
+        ] {
             if let Some(value) = value.filter(|value| value.abs() > WIDEST) {
-                let (unit, allowed) = ("m", "at most 100 m; leave it out for straight hair");
+                let (unit, allowed) =
+                    ("m", "between -100 and 100 m; leave it out for straight hair");
                 let error = InvalidQuantity { quantity, value, unit, allowed };
                 return Err(quantity_error(&error, document.source));
             }
