@@ -2,11 +2,17 @@
 
 use std::fmt::Write;
 
+use frisure::hairstyle::Body;
 use frisure_engine::ReplicaReport;
 use frisure_engine::report::{DEEP, HairstyleReport, SimulationReport, StepReport, WetLockReport};
 
-/// The summary of a prediction; `note` is what was guessed of the head, and `written` has a line about each file.
-pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[String]) -> String {
+/// The summary of a prediction on a body; `note` is what was guessed of the head, and `written` has a line about each file.
+pub(super) fn summary(
+    report: &HairstyleReport,
+    body: Body,
+    note: Option<&str>,
+    written: &[String],
+) -> String {
     let guides = &report.guides;
     let name = if report.scene.is_empty() { report.hair_type } else { &report.scene };
     let mut out = String::new();
@@ -42,11 +48,15 @@ pub(super) fn summary(report: &HairstyleReport, note: Option<&str>, written: &[S
     }
     let depth = guides.penetration.max(report.hair_penetration.unwrap_or(0.0));
     let buried = if depth > DEEP {
-        // What sinks in is mostly a curl between the nodes of a coarse division.
-        format!(
-            "warning: hair is {:.1} mm inside the head; a smaller `equilibrium.accuracy` may lift it\n",
-            depth * 1e3
-        )
+        let hint = match body {
+            Body::None => "`contact.body` is \"none\"",
+            Body::Spheres => {
+                "the spheres are smaller than it; `contact.body = \"signed-distance\"` keeps hair out"
+            }
+            // What sinks in is mostly a curl between the nodes of a coarse division.
+            Body::SignedDistance => "a smaller `equilibrium.accuracy` may lift it",
+        };
+        format!("warning: hair is {:.1} mm inside the head; {hint}\n", depth * 1e3)
     } else {
         String::new()
     };
