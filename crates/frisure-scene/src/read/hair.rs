@@ -89,9 +89,7 @@ pub(super) fn curl(document: &Document<'_>, curl: &mut Curl) -> Result<()> {
             ("curl pitch", pitch, "between -100 and 100 m; leave it out for straight hair"),
         ] {
             if let Some(value) = value.filter(|value| value.abs() > WIDEST) {
-                let (unit, allowed) =
-                    ("m", "between -100 and 100 m; leave it out for straight hair");
-                let error = InvalidQuantity { quantity, value, unit, allowed };
+                let error = InvalidQuantity { quantity, value, unit: "m", allowed };
                 return Err(quantity_error(&error, document.source));
             }
         }
