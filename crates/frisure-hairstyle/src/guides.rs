@@ -6,8 +6,8 @@ use frisure_rod::{InvalidQuantity, NaturalStrain, Rod, RodSpec, StrainProfile};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
-use crate::contact::Pull;
 use crate::contact::{Bed, Layer, Thickness};
+use crate::contact::{FrictionCoefficients, Pull};
 use crate::fibre::{Curl, Handedness};
 use crate::head::{Head, Region};
 use crate::implantation::Root;
@@ -37,6 +37,8 @@ pub struct Guide {
     pub(crate) firmness: f64,
     /// Force per length, in weights of the hair, with which the hair beneath holds it out of the face where it was combed.
     pub(crate) hold: f64,
+    /// Friction of its hair, which is that of its wetness.
+    pub friction: FrictionCoefficients,
     /// Mean natural strain (rad/m), about which it varies along the hair.
     pub(crate) curl: DVec3,
     /// Its planned length over that of the head; 1 where a region says the length.
@@ -107,7 +109,9 @@ pub(crate) fn covered(
     let thickness = thickness(spec, area, &rod);
     let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
     let (bed, pull, firmness, hold) = (None, None, 1.0, 0.0);
-    Guide { root, region, rod, thickness, layer, bed, pull, firmness, hold, curl, share }
+    let (skin, hair) = (spec.contact.skin_friction, spec.contact.friction);
+    let friction = FrictionCoefficients { skin, hair, against_scales: spec.contact.scales };
+    Guide { root, region, rod, thickness, layer, bed, pull, firmness, hold, friction, curl, share }
 }
 
 /// Cross-section of hair per area of skin, in the middle of a guide.

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::styling::{Comb, Direction, Operation};
+use frisure_hairstyle::styling::{Comb, Direction, Dry, Operation, Wet};
 use frisure_hairstyle::{
     HairContact, Hairs, Hairstyle, HairstyleSpec, HeadMethod, PredictOptions, StyleOptions,
     predict, preset, settling_report, style,
@@ -117,4 +117,22 @@ fn coefficients_out_of_range_are_refused() {
         let error = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap_err();
         assert!(error.to_string().contains("between 0 and 1.5"), "{error}");
     }
+}
+
+#[test]
+fn wet_hair_has_more_friction_and_dried_hair_what_it_had() {
+    let before = hairstyle("caucasian-straight", 8, HairContact::Layers, 0.4);
+    let wet = |to| Operation::Wet(Wet { to, ..Wet::default() });
+    let done = |h: &Hairstyle, operation: &Operation| {
+        style(h, &HEAD, operation, StyleOptions::default(), &()).unwrap()
+    };
+    let of = |h: &Hairstyle| h.guides()[3].friction;
+    assert_eq!((of(&before).hair, of(&before).skin, of(&before).against_scales), (0.4, 0.4, 1.4));
+    let soaked = done(&before, &wet(1.0));
+    assert!((of(&soaked).hair - 0.4 * 1.3).abs() < 1e-12 && of(&soaked).against_scales == 1.4);
+    assert!((of(&done(&before, &wet(0.5))).skin - 0.4 * 1.15).abs() < 1e-12);
+    let dried = done(&soaked, &Operation::Dry(Dry::default()));
+    assert_eq!(of(&dried), of(&before));
+    let shapes = before.equilibria().iter().zip(dried.equilibria());
+    assert!(shapes.clone().all(|(a, b)| a.shape == b.shape));
 }

@@ -22,8 +22,8 @@ use crate::control::{
 };
 use crate::declaration::{Access, Declaration, field, number, table, value};
 use crate::keywords::{
-    BackdropKind, BranchKind, FlowWord, HairType, Keyword, ModelWord, PartingPlace, Places,
-    ShadeWord, UnitWord, WettingWord,
+    BackdropKind, BranchKind, FlowWord, FrictionWord, HairType, Keyword, ModelWord, PartingPlace,
+    Places, ShadeWord, UnitWord, WettingWord,
 };
 use crate::kind::{
     Acceleration, Angle, Colour, Count, Density, FaceSize, Flag, Length, Modulus, NumberDensity,
@@ -409,12 +409,19 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Factor on the thickness of wisps, which follows from their hairs; {}. Default 1.
         "contact.volume" => number::<Ratio>()
             .slider(Panel::Wisps, "Volume", TIMES, (0.0, 4.0), 2, "Factor on how much room wisps take from each other.");
-        /// Coefficient of friction of hair against hair, which holds what was combed, as a density on the bed beneath alone; {}.
-        /// Default 0: hair slides freely.
+        /// Where the coefficients of friction come from that are not given. Default "free".
+        "contact.coefficients" => value::<OneOf<FrictionWord>>()
+            .options(Panel::Wisps, "Friction of", "Whether hair that was combed holds as hair of this type does.");
+        /// Coefficient of friction of dry hair against hair along its scales, which holds what was combed, as a density on the bed beneath alone; {}.
+        /// Default by `coefficients`, 0 without: hair slides freely.
         "contact.friction" => number::<Ratio>()
             .slider(Panel::Wisps, "Friction", PERCENT, (0.0, 100.0), 0, "How well hair holds on hair after it was combed.");
-        /// The same against skin; {}. Default 0.
+        /// The same against skin; {}. Default by `coefficients`, 0 without.
         "contact.skin_friction" => number::<Ratio>();
+        /// Friction of wet hair over that of dry hair; {}. Default 1.3.
+        "contact.wet_friction" => number::<Ratio>();
+        /// Friction of hair that goes towards its tip, against its scales, over that towards its root; {}. Default 1.4.
+        "contact.scales" => number::<Ratio>();
         /// How the equilibrium of each guide is computed.
         "equilibrium" => table();
         /// Number of elements per hair; 1 to 10000, at most 1000 on a head.

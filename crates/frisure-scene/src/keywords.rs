@@ -155,6 +155,20 @@ keywords! {
     }
 }
 
+/// Where coefficients of friction come from that a scene does not give.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FrictionWord {
+    Free,
+    Measured,
+}
+
+keywords! {
+    FrictionWord {
+        "free" => Self::Free, "hair slides freely", title "None";
+        "measured" => Self::Measured, "as measured on hair of this type, and on skin as much", title "As measured";
+    }
+}
+
 /// An equilibrium of one hair, where there are several.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum BranchKind {

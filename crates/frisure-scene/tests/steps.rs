@@ -168,6 +168,18 @@ fn growth_and_wetting_of_a_type_can_be_changed() {
     assert_eq!(spec("hair.wetting = 'measured'").wetting, hair.wetting);
     let capillary = Wetting { locks: WetLocks::Capillary, ..hair.wetting };
     assert_eq!(spec("hair.wetting = 'capillary'").wetting, capillary);
+    let friction = |keys: &str| {
+        let contact = spec(keys).contact;
+        [contact.friction, contact.skin_friction, contact.wet_friction, contact.scales]
+    };
+    assert_eq!(friction(""), [0.0, 0.0, 1.3, 1.4]);
+    assert_eq!(friction("contact.coefficients = 'free'"), friction(""));
+    let measured = "hair.type = 'wavy'\n[contact]\ncoefficients = 'measured'\n";
+    assert_eq!(friction(measured), [0.54, 0.54, 1.3, 1.4]);
+    let given = format!("{measured}skin_friction = 0.2\nwet_friction = 1\nscales = 1");
+    assert_eq!(friction(&given), [0.54, 0.2, 1.0, 1.0]);
+    let diagnostic = parse("contact.scales = 0.9").unwrap().hairstyle_spec().unwrap_err();
+    assert!(diagnostic.to_string().contains("between 1 and 2"), "{diagnostic}");
     let fast = spec("hair.growth_rate = '0.864 mm/day'").length.growth_rate;
     assert!((fast - 1e-8).abs() < 1e-22, "{fast}");
     let diagnostic =

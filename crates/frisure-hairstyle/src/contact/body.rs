@@ -63,20 +63,37 @@ impl CombedHold {
     }
 }
 
-/// Coefficients of friction of hair, tangential over normal force; 0 without friction.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Coefficients of friction of hair along its scales, tangential over normal force; 0 without friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionCoefficients {
     /// Against skin.
     pub skin: f64,
     /// Against other hair.
     pub hair: f64,
+    /// Friction against the scales over that along them.
+    pub against_scales: f64,
+}
+
+frisure_digest::digest_fields!(FrictionCoefficients { skin, hair, against_scales });
+
+impl Default for FrictionCoefficients {
+    /// Hair slides freely.
+    fn default() -> Self {
+        Self { skin: 0.0, hair: 0.0, against_scales: 1.0 }
+    }
 }
 
 impl FrictionCoefficients {
     /// Whether hair slides freely on everything.
     #[must_use]
     pub fn is_zero(self) -> bool {
-        self == Self::default()
+        self.skin == 0.0 && self.hair == 0.0
+    }
+
+    /// The same of hair of another wetness, which has `factor` times the friction.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { skin: self.skin * factor, hair: self.hair * factor, ..self }
     }
 }
 
@@ -115,7 +132,7 @@ impl BodyContact<'_> {
     /// Coefficient of friction of the soft contact at arc length `s` (m): the wisp lies on hair as far as the thickness
     /// beneath it is that of other hair, and on skin as far as it is its own.
     fn soft_friction(&self, s: f64) -> f64 {
-        let FrictionCoefficients { skin, hair } = self.friction;
+        let FrictionCoefficients { skin, hair, .. } = self.friction;
         if self.bed.is_some() {
             return hair;
         }
@@ -181,6 +198,10 @@ impl Field for BodyContact<'_> {
 }
 
 impl FrictionSurface for BodyContact<'_> {
+    fn against_scales(&self) -> f64 {
+        self.friction.against_scales
+    }
+
     fn pressed(&self, s: f64, p: DVec3) -> Option<Pressed> {
         if self.friction.is_zero() {
             return None;

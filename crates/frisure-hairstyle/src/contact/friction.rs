@@ -20,6 +20,103 @@ pub trait FrictionSurface: Sync {
     /// How a piece of hair at arc length `s` (m) and position `p` (m, world) is pressed on the surface; `None` where it does
     /// not touch it, or the surface has no friction.
     fn pressed(&self, s: f64, p: DVec3) -> Option<Pressed>;
+
+    /// Friction of hair that goes on it towards its tip, against its scales, over that towards its root; 1 without scales.
+    fn against_scales(&self) -> f64 {
+        1.0
+    }
+}
+
+/// The scales of a hair at one of its points, which lie towards its tip: where hair goes the way of its tip over something, that rubs
+/// them up, and there is more friction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales {
+    /// Direction (unit) towards the tip.
+    along: DVec3,
+    /// Friction against the scales over that along them, squared, less 1.
+    excess: f64,
+}
+
+impl Scales {
+    /// No scales.
+    const NONE: Self = Self { along: DVec3::ZERO, excess: 0.0 };
+
+    /// Those of a hair that goes towards its tip `along` (unit), with so much more friction against them.
+    pub(super) fn new(along: DVec3, against: f64) -> Self {
+        Self { along, excess: against * against - 1.0 }
+    }
+
+    /// `share` of them.
+    pub(super) fn weighed(self, share: f64) -> Self {
+        Self { excess: self.excess * share, ..self }
+    }
+
+    /// The same, of the other of two hairs that go over each other.
+    pub(super) fn of_other(self) -> Self {
+        Self { along: -self.along, ..self }
+    }
+
+    /// What they add to the square of a way `u` (m), half of its gradient (m), and the vector of which half of its second
+    /// derivative is the outer square.
+    fn add(self, u: DVec3) -> (f64, DVec3, DVec3) {
+        let forth = u.dot(self.along);
+        if forth <= 0.0 {
+            return (0.0, DVec3::ZERO, DVec3::ZERO);
+        }
+        let gradient = self.along * (self.excess * forth);
+        (self.excess * forth * forth, gradient, self.along * self.excess.sqrt())
+    }
+}
+
+/// The way from an anchor as friction measures it: what goes against scales counts for longer, N² = |u|² + Σ e max(0, u·t)², so that the
+/// most friction is that of the direction. (F5)
+pub(super) struct Way {
+    /// N (m).
+    pub(super) length: f64,
+    /// ½ ∇N² (m).
+    rise: DVec3,
+    /// Vectors c of ½ ∇²N² = I + Σ c cᵀ.
+    pub(super) ridges: [DVec3; 2],
+}
+
+impl Way {
+    pub(super) fn new(u: DVec3, scales: [Scales; 2]) -> Self {
+        let [(a, p, c), (b, q, d)] = scales.map(|scales| scales.add(u));
+        Self { length: (u.length_squared() + a + b).sqrt(), rise: u + p + q, ridges: [c, d] }
+    }
+
+    /// H(N) (m): a spring up to `slip` (m), then as far as it goes. (F1)
+    pub(super) fn energy(&self, slip: f64) -> f64 {
+        let n = self.length;
+        if n < slip { 0.5 * n * n / slip } else { n - 0.5 * slip }
+    }
+
+    /// ∇H(N).
+    pub(super) fn force(&self, slip: f64) -> DVec3 {
+        self.rise / self.length.max(slip)
+    }
+
+    /// H′(N): how much of the most friction is used.
+    pub(super) fn used(&self, slip: f64) -> f64 {
+        (self.length / slip).min(1.0)
+    }
+
+    /// ∇²H(N) as s (I + Σ c cᵀ) − b bᵀ with the ridges c: s (1/m), and b (m^−½).
+    pub(super) fn stiffness(&self, slip: f64) -> (f64, DVec3) {
+        let n = self.length;
+        if n < slip {
+            return (1.0 / slip, DVec3::ZERO);
+        }
+        // What slips keeps the size of its force: no stiffness along the way.
+        (1.0 / n, self.rise / (n * n.sqrt()))
+    }
+}
+
+/// Directions (unit) of a line of points towards its tip, which begins at its second point.
+pub(super) fn directions(points: &[DVec3]) -> Vec<DVec3> {
+    let last = points.len().saturating_sub(1);
+    let at = |k: usize| points[(k + 1).min(last)] - points[k.saturating_sub(1)];
+    (0..points.len()).map(|k| at(k).normalize_or_zero()).collect()
 }
 
 /// A piece of hair that is pressed on a surface.
@@ -27,7 +124,7 @@ pub trait FrictionSurface: Sync {
 pub struct Pressed {
     /// Normal of the surface (unit).
     pub normal: DVec3,
-    /// Largest friction μ λ_n per length of hair (N/m): the coefficient times the normal force per length.
+    /// Largest friction μ λ_n per length of hair (N/m) along the scales: the coefficient times the normal force per length.
     pub limit: f64,
 }
 
@@ -52,6 +149,8 @@ struct FrictionPoint {
     normal: DVec3,
     /// μ λ_n (N/m); 0 off the surface.
     limit: f64,
+    /// Scales along the surface.
+    scales: Scales,
 }
 
 impl FrictionPoint {
@@ -61,25 +160,17 @@ impl FrictionPoint {
         away - self.normal * self.normal.dot(away)
     }
 
-    /// Energy per length (J/m). (F1)
-    fn energy(&self, p: DVec3) -> f64 {
-        let u = self.slid(p).length();
-        let share =
-            if u < SLIP_DISTANCE { 0.5 * u * u / SLIP_DISTANCE } else { u - 0.5 * SLIP_DISTANCE };
-        self.limit * share
-    }
-
-    /// Force on the surface per length (N/m), the gradient of [`Self::energy`].
-    fn force(&self, p: DVec3) -> DVec3 {
-        let slid = self.slid(p);
-        slid * (self.limit / slid.length().max(SLIP_DISTANCE))
+    /// The way from its anchor.
+    fn way(&self, p: DVec3) -> Way {
+        Way::new(self.slid(p), [self.scales, Scales::NONE])
     }
 }
 
 impl Friction {
     /// A guide that sticks where its points (m), `spacing` (m) apart, are: no force yet.
     pub(crate) fn stuck_at(points: &[DVec3], spacing: f64) -> Self {
-        let stuck = |&anchor: &DVec3| FrictionPoint { anchor, normal: DVec3::Z, limit: 0.0 };
+        let (normal, limit, scales) = (DVec3::Z, 0.0, Scales::NONE);
+        let stuck = |&anchor: &DVec3| FrictionPoint { anchor, normal, limit, scales };
         Self { spacing, points: points.iter().map(stuck).collect() }
     }
 
@@ -91,14 +182,18 @@ impl Friction {
     /// Takes over how the surface is pressed where points are now; returns how far the forces of friction are from the law
     /// there (F3).
     pub(crate) fn press(&mut self, surface: &dyn FrictionSurface, points: &[DVec3]) -> FrictionGap {
+        let against = surface.against_scales();
+        let along = directions(points);
         let now = |(k, &p): (usize, &DVec3)| surface.pressed(self.arc(k), p);
         let now: Vec<Option<Pressed>> = points.iter().enumerate().map(now).collect();
         let limit = |pressed: &Option<Pressed>| pressed.map_or(0.0, |pressed| pressed.limit);
         let total: f64 = now.iter().map(limit).sum();
         let light = LIGHT * total / now.len() as f64;
         let mut gap = FrictionGap { limit: total * self.spacing, ..FrictionGap::default() };
-        for ((held, &p), pressed) in self.points.iter_mut().zip(points).zip(&now) {
-            let (used, limit) = (held.force(p).length(), limit(pressed));
+        for (((held, &p), pressed), along) in
+            self.points.iter_mut().zip(points).zip(&now).zip(along)
+        {
+            let (used, limit) = (held.limit * held.way(p).used(SLIP_DISTANCE), limit(pressed));
             gap.change += (held.limit - limit).abs() * self.spacing;
             if limit > light {
                 gap.ratio = gap.ratio.max(used / limit);
@@ -108,8 +203,10 @@ impl Friction {
                 held.anchor = p;
             }
             held.limit = limit;
-            if let Some(pressed) = pressed {
-                held.normal = pressed.normal;
+            if let Some(Pressed { normal, .. }) = *pressed {
+                held.normal = normal;
+                let along = (along - normal * normal.dot(along)).normalize_or_zero();
+                held.scales = Scales::new(along, against);
             }
         }
         gap
@@ -118,12 +215,11 @@ impl Friction {
     /// Lets the anchors of points that slipped follow them, and those off the surface go along. (F2)
     pub(crate) fn slip(&mut self, points: &[DVec3]) {
         for (held, &p) in self.points.iter_mut().zip(points) {
-            let slid = held.slid(p);
-            let u = slid.length();
+            let way = held.way(p).length;
             if held.limit == 0.0 {
                 held.anchor = p;
-            } else if u > SLIP_DISTANCE {
-                held.anchor = p - slid * (SLIP_DISTANCE / u);
+            } else if way > SLIP_DISTANCE {
+                held.anchor = p - held.slid(p) * (SLIP_DISTANCE / way);
             }
         }
     }
@@ -137,7 +233,8 @@ impl Friction {
 
 impl Field for Friction {
     fn energy(&self, s: f64, p: DVec3) -> f64 {
-        self.at(s).energy(p)
+        let point = self.at(s);
+        point.limit * point.way(p).energy(SLIP_DISTANCE)
     }
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
@@ -145,18 +242,12 @@ impl Field for Friction {
         if point.limit == 0.0 {
             return None;
         }
-        let (slid, n) = (point.slid(p), point.normal);
-        let along = DMat3::IDENTITY - outer(n, n);
-        let u = slid.length();
-        if u < SLIP_DISTANCE {
-            return Some((
-                slid * (point.limit / SLIP_DISTANCE),
-                along * (point.limit / SLIP_DISTANCE),
-            ));
-        }
-        // Where it slips the force keeps its size and turns with the direction.
-        let way = slid / u;
-        Some((way * point.limit, (along - outer(way, way)) * (point.limit / u)))
+        let (way, n) = (point.way(p), point.normal);
+        let (s, b) = way.stiffness(SLIP_DISTANCE);
+        let [c, d] = way.ridges;
+        let along = DMat3::IDENTITY - outer(n, n) + outer(c, c) + outer(d, d);
+        let stiffness = along * s - outer(b, b);
+        Some((way.force(SLIP_DISTANCE) * point.limit, stiffness * point.limit))
     }
 }
 
@@ -232,10 +323,12 @@ mod tests {
         let mut friction = held();
         let across = DVec3::Y;
         let moved = [DVec3::X + across * 3e-3, DVec3::Y + across * 2e-5];
-        let before = [0, 1].map(|k| friction.points[k].force(moved[k]));
+        let force =
+            |friction: &Friction, k: usize| friction.points[k].way(moved[k]).force(SLIP_DISTANCE);
+        let before = [0, 1].map(|k| force(&friction, k));
         friction.slip(&moved);
         for k in [0, 1] {
-            assert!(friction.points[k].force(moved[k]).distance(before[k]) < 1e-12 * LIMIT);
+            assert!(force(&friction, k).distance(before[k]) < 1e-12);
         }
         assert!(friction.points[0].anchor.distance(moved[0]) < SLIP_DISTANCE * (1.0 + 1e-9));
         assert_eq!(friction.points[1].anchor, DVec3::Y, "what sticks keeps its anchor");

@@ -4,7 +4,8 @@ use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::friction::FrictionGap;
+use super::body::FrictionCoefficients;
+use super::friction::{FrictionGap, Scales, directions};
 use super::thickness::Thickness;
 use super::wisp_friction::{Hold, Holds, Touching};
 use crate::math::{Grid, outer};
@@ -41,8 +42,8 @@ pub(crate) struct ContactPairs {
     samples: Vec<Samples>,
     /// Per guide, what its points may touch.
     nearby: Vec<Nearby>,
-    /// Coefficient of friction between wisps; 0 without friction.
-    friction: f64,
+    /// Per guide, the friction of its hair; empty without friction.
+    friction: Vec<FrictionCoefficients>,
     /// Per guide, what sticks to its points; empty without friction.
     holds: Vec<Holds>,
 }
@@ -272,11 +273,13 @@ impl Nearby {
 
 impl ContactPairs {
     pub(crate) fn new(samples: Vec<Samples>, stiffness: f64) -> Self {
-        Self { stiffness, samples, nearby: Vec::new(), friction: 0.0, holds: Vec::new() }
+        Self { stiffness, samples, nearby: Vec::new(), friction: Vec::new(), holds: Vec::new() }
     }
 
-    /// The same with a coefficient of friction between wisps.
-    pub(crate) fn with_friction(self, friction: f64) -> Self {
+    /// The same with the friction of each guide's hair; without, if there is none.
+    pub(crate) fn with_friction(self, friction: Vec<FrictionCoefficients>) -> Self {
+        let rubs = friction.iter().any(|of| of.hair > 0.0);
+        let friction = if rubs { friction } else { Vec::new() };
         Self { friction, ..self }
     }
 
@@ -294,17 +297,19 @@ impl ContactPairs {
     }
 
     fn pressed(&self) -> (Vec<Holds>, Vec<FrictionGap>) {
-        if self.friction == 0.0 {
+        if self.friction.is_empty() {
             return (Vec::new(), vec![FrictionGap::default(); self.samples.len()]);
         }
         let none = Holds::default();
+        let along: Vec<Vec<DVec3>> =
+            self.samples.par_iter().map(|own| directions(&own.positions)).collect();
         (0..self.samples.len())
             .into_par_iter()
             .map(|guide| {
                 let (field, own) = (self.around(guide), &self.samples[guide]);
-                let touching = (0..own.positions.len()).map(|k| field.touching(k));
+                let touching = (0..own.positions.len()).map(|k| field.touching(k, &along));
                 let before = self.holds.get(guide).unwrap_or(&none);
-                before.pressed(self.friction, touching, own.spacing)
+                before.pressed(touching, own.spacing)
             })
             .unzip()
     }
@@ -429,15 +434,19 @@ impl ContactPairs {
         for here in 0..own.positions.len() {
             for hold in holds.of_point(here) {
                 let away = own.positions[here] - self.position(hold.other);
-                let (s, b) = hold.stiffness(away);
-                let length = own.weight(here);
+                let (s, b, [c, d]) = hold.stiffness(away);
+                let (length, point, other) = (own.weight(here), here as u32, hold.other);
                 contacts.push(Contact {
-                    point: here as u32,
-                    other: hold.other,
-                    along: DVec3::ZERO,
+                    point,
+                    other,
+                    along: c * length.sqrt(),
                     across: -s * length,
                     slip: b * length.sqrt(),
                 });
+                if d != DVec3::ZERO {
+                    let along = d * length.sqrt();
+                    contacts.push(Contact { point, other, along, across: 0.0, slip: DVec3::ZERO });
+                }
             }
         }
     }
@@ -479,8 +488,8 @@ pub struct Neighbours<'a> {
 }
 
 impl Neighbours<'_> {
-    /// What touches own point `k` now.
-    fn touching(&self, k: usize) -> Vec<Touching> {
+    /// What touches own point `k` now; `along` has the directions of all guides.
+    fn touching(&self, k: usize, along: &[Vec<DVec3>]) -> Vec<Touching> {
         let (own, near) = (&self.pairs.samples[self.guide], &self.pairs.nearby[self.guide]);
         let mut touching = Vec::new();
         for run in near.of_point(k) {
@@ -492,8 +501,19 @@ impl Neighbours<'_> {
                 if overlap > 0.0 {
                     // |∇E| of [`Self::derivatives`].
                     let scale = 0.75 * self.pairs.stiffness * other.weight(point) / reach;
-                    let force = scale * overlap * overlap * away.length();
-                    touching.push(((run.guide, point as u32), away, force));
+                    let guides = [self.guide, run.guide as usize];
+                    let of = guides.map(|guide| self.pairs.friction[guide]);
+                    touching.push(Touching {
+                        other: (run.guide, point as u32),
+                        separation: away,
+                        force: scale * overlap * overlap * away.length(),
+                        // Hair of two kinds: the mean, chosen.
+                        coefficient: 0.5 * (of[0].hair + of[1].hair),
+                        scales: [
+                            Scales::new(along[self.guide][k], of[0].against_scales),
+                            Scales::new(along[guides[1]][point], of[1].against_scales),
+                        ],
+                    });
                 }
             }
         }

@@ -84,11 +84,6 @@ const BODY_SPACING: f64 = 3e-3;
 /// docs/theory.md, "Hair on the body".
 const BODY_TURN: f64 = 0.7;
 
-/// The coefficients of friction of a description.
-pub(super) fn friction(spec: &HairstyleSpec) -> FrictionCoefficients {
-    FrictionCoefficients { skin: spec.contact.skin_friction, hair: spec.contact.friction }
-}
-
 /// How deep (m) a curl may press itself into the skin beside its root. Chosen: half of what the report calls inside the head.
 const CURL_DEPTH: f64 = 2.5e-4;
 
@@ -145,7 +140,7 @@ pub(super) fn body<'a>(
         thickness: guide.thickness,
         layer,
         bed: guide.bed.as_deref(),
-        friction: friction(spec),
+        friction: guide.friction,
         hold: combed_hold(head, &guide.rod, guide.hold),
     }
 }

@@ -18,7 +18,6 @@ use frisure_rod::minimise::NewtonStep;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::fields::friction;
 use super::friction_solver::Hold;
 use super::letting_go::loads;
 use super::wisp::{Settled, Wisp, friction_gaps, press, rest_among, wisps_with_pairs};
@@ -169,7 +168,7 @@ impl<'a> HeadSolver<'a> {
         let largest = (LARGEST_MOVE * radius).clamp(LEAST_REACH, MOST_REACH);
         Self {
             tolerance: spec.equilibrium.tolerance,
-            rubs: hold == Hold::ByFriction && !friction(spec).is_zero(),
+            rubs: hold == Hold::ByFriction && guides.iter().any(|guide| !guide.friction.is_zero()),
             wisps,
             pairs,
             order,

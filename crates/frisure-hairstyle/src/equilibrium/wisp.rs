@@ -329,7 +329,8 @@ pub(super) fn wisps_with_pairs<'a>(
     let wisps = stuck(guides.iter().zip(alone).map(wisp).collect(), hold);
     let samples = wisps.iter().map(Wisp::samples).collect();
     let pairs = ContactPairs::new(samples, spec.contact.hair_stiffness);
-    let friction = if hold == Hold::Free { 0.0 } else { spec.contact.friction };
+    let rubs = hold != Hold::Free;
+    let friction = guides.iter().filter(|_| rubs).map(|guide| guide.friction).collect();
     (wisps, pairs.with_friction(friction))
 }
 

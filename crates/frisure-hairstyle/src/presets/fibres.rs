@@ -36,6 +36,7 @@ pub(super) const CAUCASIAN_STRAIGHT: HairType = HairType {
     youngs_modulus: 3.9e9,
     shear_modulus: 0.9e9,
     mass_density: 1300.0,
+    friction: 0.47,
     curl: STRAIGHT_CURL,
     lift_scale: 1.0,
     growth_rate: 367.0 * MICROMETRE_PER_DAY,
@@ -46,6 +47,7 @@ pub(super) const CAUCASIAN_STRAIGHT: HairType = HairType {
 pub(super) const CAUCASIAN_WAVY: HairType = HairType {
     axis_ratio: 1.45,
     paper_eccentricity: 0.08,
+    friction: 0.54,
     curl: helix(0.012, 0.09, 0.2, 0.15),
     ..CAUCASIAN_STRAIGHT
 };
@@ -53,6 +55,7 @@ pub(super) const CAUCASIAN_WAVY: HairType = HairType {
 pub(super) const CAUCASIAN_CURLY: HairType = HairType {
     axis_ratio: 1.50,
     paper_eccentricity: 0.1,
+    friction: 0.51,
     curl: helix(0.010, 0.024, 0.12, 0.08),
     ..CAUCASIAN_STRAIGHT
 };
@@ -69,7 +72,7 @@ pub(super) const ASIAN_STRAIGHT: HairType = HairType {
 };
 
 pub(super) const ASIAN_WAVY: HairType =
-    HairType { curl: helix(0.012, 0.078, 0.25, 0.15), ..ASIAN_STRAIGHT };
+    HairType { friction: 0.54, curl: helix(0.012, 0.078, 0.25, 0.15), ..ASIAN_STRAIGHT };
 
 pub(super) const AFRICAN_COILY: HairType = HairType {
     density: 161.0 * PER_SQUARE_CENTIMETRE,
@@ -77,6 +80,7 @@ pub(super) const AFRICAN_COILY: HairType = HairType {
     axis_ratio: 1.75,
     axis_ratio_deviation: 0.16,
     paper_eccentricity: 0.2,
+    friction: 0.51,
     curl: helix(0.0028, 0.006, 0.25, 0.25),
     lift_scale: 0.6,
     growth_rate: 280.0 * MICROMETRE_PER_DAY,
@@ -100,6 +104,7 @@ pub(super) const STRAIGHT: HairType = HairType {
 pub(super) const WAVY: HairType = HairType {
     axis_ratio: 1.51,
     paper_eccentricity: 0.1,
+    friction: 0.54,
     curl: helix(0.010, 0.09, 0.2, 0.15),
     growth_rate: 370.0 * MICROMETRE_PER_DAY,
     ..STRAIGHT
@@ -108,6 +113,7 @@ pub(super) const WAVY: HairType = HairType {
 pub(super) const CURLY: HairType = HairType {
     axis_ratio: 1.61,
     paper_eccentricity: 0.1,
+    friction: 0.51,
     curl: helix(0.008, 0.020, 0.15, 0.1),
     growth_rate: 340.0 * MICROMETRE_PER_DAY,
     ..STRAIGHT
@@ -116,6 +122,7 @@ pub(super) const CURLY: HairType = HairType {
 pub(super) const COILY: HairType = HairType {
     axis_ratio: 1.73,
     paper_eccentricity: 0.2,
+    friction: 0.51,
     curl: helix(0.0040, 0.0090, 0.2, 0.2),
     lift_scale: 0.8,
     growth_rate: 300.0 * MICROMETRE_PER_DAY,

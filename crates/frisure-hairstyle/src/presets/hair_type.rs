@@ -28,6 +28,8 @@ pub struct HairType {
     pub shear_modulus: f64,
     /// Mass per volume (kg/m³).
     pub mass_density: f64,
+    /// Coefficient of friction of dry hair against a probe.
+    pub friction: f64,
     /// The natural curl.
     pub curl: NaturalCurl,
     /// Factor on the measured angles between hair and skin.

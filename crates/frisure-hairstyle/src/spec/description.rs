@@ -413,10 +413,14 @@ digestible! {
         pub hair_stiffness: f64,
         /// Factor on the thickness of wisps.
         pub volume: f64,
-        /// Coefficient of friction of hair against hair: largest tangential over normal force. 0: hair slides freely.
+        /// Coefficient of friction of dry hair against hair, along its scales: largest tangential over normal force. 0: hair slides freely.
         pub friction: f64,
         /// Coefficient of friction of hair against skin.
         pub skin_friction: f64,
+        /// Friction of wet hair over that of dry.
+        pub wet_friction: f64,
+        /// Friction of hair that goes towards its tip, against its scales, over that towards its root.
+        pub scales: f64,
     }
 }
 
@@ -430,6 +434,10 @@ impl Default for Contact {
             volume: 1.0,
             friction: 0.0,
             skin_friction: 0.0,
+            // Both chosen: wet hair has more than dry, and hair more against the scales than along them (Robbins); no numbers
+            // were at hand.
+            wet_friction: 1.3,
+            scales: 1.4,
         }
     }
 }

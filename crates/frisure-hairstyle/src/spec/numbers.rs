@@ -176,6 +176,8 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "contact.volume", field!(contact.volume), 0.0, 10.0, "between 0 and 10";
     "contact.friction", field!(contact.friction), 0.0, 1.5, "between 0 and 1.5; measured on hair: 0.47 to 0.84";
     "contact.skin_friction", field!(contact.skin_friction), 0.0, 1.5, "between 0 and 1.5";
+    "contact.wet_friction", field!(contact.wet_friction), 0.5, 3.0, "between 0.5 and 3";
+    "contact.scales", field!(contact.scales), 1.0, 2.0, "between 1 and 2";
     "gravity", field!(gravity), 0.0, 1000.0, "between 0 and 1000 m/s²";
     "pose.pitch", field!(pose.pitch), -PI, PI, "between -180 and 180 deg";
     "pose.roll", field!(pose.roll), -PI, PI, "between -180 and 180 deg";

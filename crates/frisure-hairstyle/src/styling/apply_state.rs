@@ -63,6 +63,8 @@ pub(super) fn guide(
     };
     let mut guide = planned.with_rod(spec, area, rod, &dry, packed);
     guide.pull = pull(&guide.rod, state.grip);
+    let wetter = 1.0 + state.wetness * (spec.contact.wet_friction - 1.0);
+    guide.friction = planned.friction.scaled(wetter);
     // What a hand or a clip holds needs no friction, which would pull it elsewhere.
     guide.hold = if state.grip.is_some() { 0.0 } else { planned.hold };
     // What is drawn tight over the head presses on skin as what is held in a shape does.

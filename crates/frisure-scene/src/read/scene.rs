@@ -11,7 +11,7 @@ use super::{hair, head, implantation, light, look};
 use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::{Result, SceneError};
-use crate::keywords::{BranchKind, HairType, WettingWord};
+use crate::keywords::{BranchKind, FrictionWord, HairType, WettingWord};
 use crate::kind::{Count, Text, Vector};
 use crate::natural_look::NaturalLook;
 use crate::scene::{MAX_SIZE, Output, Scene};
@@ -64,6 +64,11 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
     let contact = &mut spec.contact;
     contact.body = document.keyword("contact.body", contact.body)?;
     contact.hair = document.keyword("contact.hair", contact.hair)?;
+    if document.get::<OneOf<FrictionWord>>("contact.coefficients")? == Some(FrictionWord::Measured)
+    {
+        let measured = preset.hair_type().friction;
+        (contact.friction, contact.skin_friction) = (measured, measured);
+    }
     spec.pose = pose(&document, spec.pose)?;
     let branch = equilibrium(&document, &mut spec)?;
     let (light, environment) = light::light(&document, folder)?;

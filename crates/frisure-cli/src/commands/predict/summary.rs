@@ -46,20 +46,7 @@ pub(super) fn summary(
     if guides.accuracy_missed > 0 {
         let _ = write!(out, ", {} less accurate than requested", guides.accuracy_missed);
     }
-    let depth = guides.penetration.max(report.hair_penetration.unwrap_or(0.0));
-    let buried = if depth > DEEP {
-        let hint = match body {
-            Body::None => "`contact.body` is \"none\"",
-            Body::Spheres => {
-                "the spheres are smaller than it; `contact.body = \"signed-distance\"` keeps hair out"
-            }
-            // What sinks in is mostly a curl between the nodes of a coarse division.
-            Body::SignedDistance => "a smaller `equilibrium.accuracy` may lift it",
-        };
-        format!("warning: hair is {:.1} mm inside the head; {hint}\n", depth * 1e3)
-    } else {
-        String::new()
-    };
+    let buried = buried(report, body);
     let replicas = guides.replicas.as_ref().map(replicas_line).unwrap_or_default();
     if written.is_empty() {
         let hint = "add `-o hair.hair`, `--image hair.png` or `--report hair.json`";
@@ -147,4 +134,21 @@ fn wet_line(locks: &WetLockReport) -> String {
         hairs / hairs_per_lock,
         2e3 * radius
     )
+}
+
+/// A warning of hair inside the head, if there is some.
+fn buried(report: &HairstyleReport, body: Body) -> String {
+    let depth = report.guides.penetration.max(report.hair_penetration.unwrap_or(0.0));
+    if depth <= DEEP {
+        return String::new();
+    }
+    let hint = match body {
+        Body::None => "`contact.body` is \"none\"",
+        Body::Spheres => {
+            "the spheres are smaller than it; `contact.body = \"signed-distance\"` keeps hair out"
+        }
+        // What sinks in is mostly a curl between the nodes of a coarse division.
+        Body::SignedDistance => "a smaller `equilibrium.accuracy` may lift it",
+    };
+    format!("warning: hair is {:.1} mm inside the head; {hint}\n", depth * 1e3)
 }

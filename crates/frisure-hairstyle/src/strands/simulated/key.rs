@@ -47,13 +47,25 @@ digest_fields!(Root { position, normal });
 
 impl Digestible for Guide {
     fn add_to(&self, digest: &mut Digest) {
-        let Self { root, region, rod, thickness, layer, bed, pull, firmness, hold, curl, share } =
-            self;
+        let Self {
+            root,
+            region,
+            rod,
+            thickness,
+            layer,
+            bed,
+            pull,
+            firmness,
+            hold,
+            friction,
+            curl,
+            share,
+        } = self;
         digest.field("root", root).field("region", region);
         add_rod(digest, rod.spec());
         digest.field("thickness", thickness).field("layer", layer).field("bed", bed);
         digest.field("pull", pull).field("firmness", firmness).field("hold", hold);
-        digest.field("curl", curl).field("share", share);
+        digest.field("friction", friction).field("curl", curl).field("share", share);
     }
 }
 
