@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the pictures of the gallery, gallery/*.png, with the command frisure.
 
-Usage: gallery.py PATH/TO/frisure. Needs Pillow, which gives each picture its own colours, 40 where the head is the
-mannequin and 80 where it is a person, so that all together weigh less than the fonts of the page.
+Usage: gallery.py PATH/TO/frisure. Needs Pillow, which gives each picture its own colours, 48 for a hair type and 80 for a
+hairstyle, so that all together weigh less than the fonts of the page.
 """
 import io, pathlib, re, subprocess, sys, tempfile
 from PIL import Image
@@ -20,7 +20,10 @@ def without(text, table):
 
 for kind, name in re.findall(r'card!\((type|scene) "([^"]+)"', cards):
     if kind == "type":
-        text, out = f'[hair]\ntype = "{name}"\n', here / f"gallery/{name}.png"
+        start = subprocess.run([sys.argv[1], "new", name], capture_output=True, text=True, check=True).stdout
+        model = re.search(r'(?m)^model = "([a-z-]+)"', start)[1]
+        text = f'[head]\nmodel = "{model}"\n[hair]\ntype = "{name}"\n'
+        out = here / f"gallery/{name}.png"
     else:
         text, out = (scenes / f"{name}.toml").read_text(), here / f"gallery/scene-{name}.png"
     if out.exists():
@@ -33,7 +36,7 @@ for kind, name in re.findall(r'card!\((type|scene) "([^"]+)"', cards):
         subprocess.run([sys.argv[1], "predict", scene, "--image", picture])
         # A guide that has not converged is reported, not fatal.
         image = Image.open(picture).convert("RGB").resize((176, 216), Image.LANCZOS)
-    colours = 80 if "[head]" in text else 40
+    colours = 48 if kind == "type" else 80
     image = image.quantize(colours, kmeans=3, dither=Image.Dither.NONE)
     bytes_ = io.BytesIO()
     image.save(bytes_, "PNG", optimize=True)

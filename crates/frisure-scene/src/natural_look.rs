@@ -1,9 +1,9 @@
-//! The colours of hair and skin that a hair type brings with it.
+//! The colours of hair and skin that a hair type brings with it, and a head.
 
 use frisure_hairstyle::Preset;
 use frisure_look::{HairLook, Shade, SkinLook, linear_from_srgb};
 
-/// The colours of one hair type; a scene overrides them with `look.colour` and `look.skin`.
+/// The look of one hair type; a scene overrides it with `look.colour`, `look.skin` and `head.model`.
 ///
 /// ```
 /// use frisure_hairstyle::preset;
@@ -19,6 +19,8 @@ pub struct NaturalLook {
     pub colour: &'static Shade,
     /// Diffuse reflectance of the skin, sRGB from 0 to 1.
     pub skin: [f64; 3],
+    /// The built-in head of a scene that begins with the type ([`template`](crate::template)); without `head.model` it is the mannequin.
+    pub model: &'static str,
 }
 
 /// Skins (sRGB) from light to dark. Chosen: lightness falls in steps of about 10 CIELAB units from L* = 65 to L* = 37, with
@@ -33,29 +35,34 @@ const fn rgb(red: u8, green: u8, blue: u8) -> [f64; 3] {
     [red as f64 / 255.0, green as f64 / 255.0, blue as f64 / 255.0]
 }
 
-/// Hair type, colour of the hair, skin. What is chosen and why: `docs/hair-types.md`, "Colour and skin".
-const LOOKS: [(&str, &str, [f64; 3]); 21] = [
-    ("asian-straight", "black", LIGHT_WARM),
-    ("asian-wavy", "black", LIGHT_WARM),
-    ("caucasian-straight", "dark-blond", LIGHT),
-    ("caucasian-wavy", "light-brown", LIGHT),
-    ("caucasian-curly", "brown", LIGHT),
-    ("african-coily", "black", DARK),
-    ("african-kinky", "black", DARK),
-    ("straight", "brown", LIGHT),
-    ("wavy", "brown", LIGHT),
-    ("curly", "brown", LIGHT_WARM),
-    ("frizzy", "dark-brown", MEDIUM),
-    ("coily", "black", BROWN),
-    ("kinky", "black", DARK),
-    ("type-1", "black", LIGHT_WARM),
-    ("type-2", "dark-blond", LIGHT),
-    ("type-3", "light-brown", LIGHT),
-    ("type-4", "brown", LIGHT_WARM),
-    ("type-5", "dark-brown", MEDIUM),
-    ("type-6", "dark-brown", BROWN),
-    ("type-7", "black", BROWN),
-    ("type-8", "black", DARK),
+/// Built-in heads on which new scenes begin.
+const AFRICAN: &str = "african-woman";
+const ASIAN: &str = "asian-man";
+const EUROPEAN: &str = "european-woman";
+
+/// Hair type, colour of the hair, skin, head. What is chosen and why: `docs/hair-types.md`, "Colour and skin".
+const LOOKS: [(&str, &str, [f64; 3], &str); 21] = [
+    ("asian-straight", "black", LIGHT_WARM, ASIAN),
+    ("asian-wavy", "black", LIGHT_WARM, ASIAN),
+    ("caucasian-straight", "dark-blond", LIGHT, EUROPEAN),
+    ("caucasian-wavy", "light-brown", LIGHT, EUROPEAN),
+    ("caucasian-curly", "brown", LIGHT, EUROPEAN),
+    ("african-coily", "black", DARK, AFRICAN),
+    ("african-kinky", "black", DARK, AFRICAN),
+    ("straight", "brown", LIGHT, EUROPEAN),
+    ("wavy", "brown", LIGHT, EUROPEAN),
+    ("curly", "brown", LIGHT_WARM, EUROPEAN),
+    ("frizzy", "dark-brown", MEDIUM, AFRICAN),
+    ("coily", "black", BROWN, AFRICAN),
+    ("kinky", "black", DARK, AFRICAN),
+    ("type-1", "black", LIGHT_WARM, ASIAN),
+    ("type-2", "dark-blond", LIGHT, EUROPEAN),
+    ("type-3", "light-brown", LIGHT, EUROPEAN),
+    ("type-4", "brown", LIGHT_WARM, EUROPEAN),
+    ("type-5", "dark-brown", MEDIUM, EUROPEAN),
+    ("type-6", "dark-brown", BROWN, AFRICAN),
+    ("type-7", "black", BROWN, AFRICAN),
+    ("type-8", "black", DARK, AFRICAN),
 ];
 
 impl NaturalLook {
@@ -65,9 +72,9 @@ impl NaturalLook {
     /// Never: a test asks for every preset.
     #[must_use]
     pub fn of(preset: &Preset) -> Self {
-        let (_, colour, skin) =
+        let (_, colour, skin, model) =
             LOOKS.iter().find(|look| look.0 == preset.name).expect("each preset has a look");
-        Self { colour: Shade::named(colour).expect("a shade of the list"), skin: *skin }
+        Self { colour: Shade::named(colour).expect("a shade of the list"), skin: *skin, model }
     }
 
     /// Hair of this colour.

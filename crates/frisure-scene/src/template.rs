@@ -6,7 +6,7 @@ use frisure_hairstyle::Preset;
 
 use crate::natural_look::NaturalLook;
 
-/// A commented scene that sets nothing but the hair type, with the type's own numbers beside the
+/// A commented scene that sets the hair type and a built-in head, with the type's own numbers beside the
 /// keys that would change them.
 #[must_use]
 pub fn template(preset: &Preset) -> String {
@@ -22,6 +22,9 @@ pub fn template(preset: &Preset) -> String {
 
 name = "My hairstyle"
 seed = 1                          # another seed, another head of the same hair
+
+[head]
+{head}
 
 [hair]
 type = "{name}"  # {description}
@@ -84,14 +87,21 @@ type = "{name}"  # {description}
         density = preset.hair_type().density * 1e-4,
         clumping = wisps.clumping,
         fuzziness = wisps.fuzziness,
+        head = head_line(preset),
         look = look_lines(preset),
     );
     out
 }
 
+/// The built-in head.
+fn head_line(preset: &Preset) -> String {
+    let model = format!("model = \"{}\"", NaturalLook::of(preset).model);
+    format!("{model:<34}# or \"mannequin\", ...: `frisure presets`; or mesh = \"head.obj\"")
+}
+
 /// The keys of colours, commented out, with those of the type.
 fn look_lines(preset: &Preset) -> String {
-    let NaturalLook { colour, skin } = NaturalLook::of(preset);
+    let NaturalLook { colour, skin, .. } = NaturalLook::of(preset);
     let colour = format!("# colour = \"{}\"", colour.name);
     let skin = format!("# skin = \"{}\"", hexadecimal(skin));
     format!(

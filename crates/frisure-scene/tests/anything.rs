@@ -77,7 +77,10 @@ fn use_head(bytes: &[u8]) {
 /// A scene with every kind of key, one to a line.
 fn whole_scene() -> String {
     let loud = template(&frisure_hairstyle::PRESETS[3]).replace("\n# ", "\n");
+    // The head is a mesh, below.
+    let is_head = |l: &&str| *l == "[head]" || l.starts_with("model = ");
     let lines = loud.lines().filter(|l| l.contains('=') || l.starts_with('['));
+    let lines = lines.filter(|l| !is_head(l));
     let mut text: Vec<_> = lines.map(str::to_owned).collect();
     text.push("[hair.root]\nd1 = [0, 1, 0]\nd2 = [0, 0, 1]\nt = [1, 0, 0]\n".into());
     text.push("[equilibrium]\nelements = 20\nbranch = \"lowest\"\nstarts = 4\n".into());

@@ -1,6 +1,7 @@
 //! The cards of the gallery: hair types and hairstyles.
 
-use frisure::hairstyle::PRESETS;
+use frisure::hairstyle::{PRESETS, preset};
+use frisure::scene::NaturalLook;
 
 /// A card of the gallery.
 #[derive(Clone, Copy, Debug)]
@@ -86,9 +87,16 @@ impl Card {
     #[must_use]
     pub fn text(&self) -> String {
         match self.scene {
-            "" => format!("name = \"{}\"\n\n[hair]\ntype = \"{}\"\n", self.title, self.name),
+            "" => self.begun(),
             text => text.to_owned(),
         }
+    }
+
+    /// A scene of a hair type, on the head that goes with it.
+    fn begun(&self) -> String {
+        let Self { title, name, .. } = self;
+        let model = preset(name).map_or("mannequin", |preset| NaturalLook::of(preset).model);
+        format!("name = \"{title}\"\n\n[head]\nmodel = \"{model}\"\n\n[hair]\ntype = \"{name}\"\n")
     }
 
     /// A short description.

@@ -32,7 +32,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
                tension says, and does combed hair hold the better the higher the friction?",
     method: "Incline: a straight fibre lies along a plane and slides down sideways. It bends as a cantilever under what friction \
              leaves of its weight, w (sin α − μ cos α), so its tip moves by a known length. Where it has not \
-             slipped, near the clamp, it gives way as a spring: some 1e-3 of the way.\n\n\
+             slipped, near the clamp, it gives way as a spring: some 1e-3 of the way. Its weight comes at once, and in 2 to 16 steps.\n\n\
              Capstan: a light fibre lies around a quarter of a cylinder, drawn at both ends. It slips at the ratio of tensions \
              exp(μφ) (Euler, Eytelwein). The tension grows in steps, and the experiment asks between which two it slips.\n\n\
              Zipper: a fibre that sticks to a plane lifts off where l⁴ = 9 EI d²/G, with the energy G of water between two fibres, \
@@ -45,6 +45,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     let mut finding = Finding::default();
     incline(&mut finding, effort)?;
+    halved_steps(&mut finding, effort)?;
     check(progress, EXPERIMENT.name, 0.2)?;
     capstan(&mut finding, effort)?;
     check(progress, EXPERIMENT.name, 0.5)?;
@@ -172,6 +173,47 @@ fn incline(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
         Limit::AtMost(5e-5),
     );
     finding.check("incline: the same at 1.05 (m)", way(1.05)?, Limit::AtLeast(1e-3));
+    Ok(())
+}
+
+/// Way (m) of the tip of a fibre that slides down an incline of 45° with μ = 0.3, when its weight comes in so many equal steps.
+fn slide_in_steps(steps: u32) -> Result<f64, Stopped> {
+    let (length, gravity, normal) = (0.2, 0.15, DVec3::new(0.0, 1.0, 1.0).normalize());
+    let ground = Ground { stiffness: 50.0, coefficient: 0.3, form: Form::Plane(normal) };
+    let root = Root::from_tangent(DVec3::ZERO, DVec3::X, normal)?;
+    let rod = |load| fibre(length, 1e-4, load, NaturalStrain::STRAIGHT, root);
+    let (weight, rod) = (rod(Load::down(gravity))?.weight(), rod(Load::NONE)?);
+    let (options, samples) = (options(40), 32);
+    let start = equilibrium(&rod, &[], &options);
+    let mut sliding = FrictionalRod::new(&rod, &ground, samples, options, &start);
+    for step in 1..=steps {
+        let force = DVec3::NEG_Z * (weight * f64::from(step) / f64::from(steps));
+        let load = Push { piece: [0.0, 2.0 * length], force };
+        sliding
+            .step(&[&FieldPotential::new(&ground, samples), &FieldPotential::new(&load, samples)]);
+    }
+    at_rest(sliding.rest())?;
+    Ok((sliding.rest().tip() - start.tip()).dot(DVec3::new(0.0, 1.0, -1.0).normalize()))
+}
+
+fn halved_steps(finding: &mut Finding, effort: Effort) -> Result<(), Stopped> {
+    let counts: &[u32] = effort.pick(&[1, 4], &[1, 2, 4, 8, 16]);
+    let ways = counts.iter().map(|&steps| slide_in_steps(steps)).collect::<Result<Vec<_>, _>>()?;
+    let mut table = Table::new(
+        "The same, as its weight comes in steps",
+        &["steps", "way of the tip (mm)", "over that of the most steps"],
+    );
+    let last = ways[ways.len() - 1];
+    for (steps, way) in counts.iter().zip(&ways) {
+        table.row([format!("{steps}"), format!("{:.4}", 1e3 * way), format!("{:.5}", way / last)]);
+    }
+    finding.table(table);
+    let changes = ways.windows(2).map(|pair| (pair[0] / pair[1] - 1.0).abs());
+    finding.check(
+        "incline: largest relative change of the way when steps of the load are halved",
+        largest(changes),
+        Limit::AtMost(0.01),
+    );
     Ok(())
 }
 
