@@ -55,10 +55,13 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, parts: Parts) -> Self {
         theme::install(&cc.egui_ctx);
         let has_renderer = cc.wgpu_render_state.is_some();
+        let Parts { workers, mut platform, mut samples } = parts;
         if let Some(state) = &cc.wgpu_render_state {
-            renderer::install(state, parts.samples);
+            // Software that draws in place of a graphics card is slow, whatever was asked for.
+            let is_software = state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+            samples = if is_software { 1 } else { samples };
+            renderer::install(state, samples);
         }
-        let Parts { workers, mut platform, samples } = parts;
         let mut salon = Salon::new();
         if let Some(text) = platform.read_autosave() {
             salon.offer_recovery(&text);

@@ -38,8 +38,23 @@ pub(super) struct Viewport {
     environment: Option<(PathBuf, Option<EnvironmentMap>)>,
     /// The last error of the renderer.
     pub(super) error: Arc<Mutex<Option<String>>>,
-    /// Whether the user chose the settings of a slow device.
+    /// Whether the device is slow, as software is that draws in place of a graphics card.
     is_slow: bool,
+    /// How far the picture without motion is done, on a slow device.
+    refinement: Option<Refinement>,
+}
+
+/// A picture of a slow device on its way to all strands.
+#[derive(Clone, Copy)]
+struct Refinement {
+    /// The hair that it is of.
+    hair: u64,
+    /// Fraction of the strands drawn.
+    share: f32,
+    /// Whether more would take too long, or all are drawn.
+    done: bool,
+    /// Whether the last frame drew this share: only then does its time say how long that takes.
+    timed: bool,
 }
 
 struct StrandMarks {
@@ -51,6 +66,10 @@ struct StrandMarks {
 
 /// Time after the last motion until all strands are drawn (s).
 const REST: f64 = 0.25;
+
+/// Time of a frame (s) from which on no further strands are drawn: the window waits for a picture, and the next has twice as many.
+/// Chosen: a third of a second is felt as a halt.
+const PATIENCE: f32 = 0.15;
 
 /// Minimum number of strands drawn during motion. Chosen by trial.
 const MIN_STRANDS: f32 = 4000.0;
@@ -96,8 +115,12 @@ impl Viewport {
         let (now, frame_time) = ui.input(|i| (i.time, i.unstable_dt));
         if now - self.last_motion > REST && !salon.is_dragging() {
             // Density maps are the slowest part without a graphics card.
-            return (1.0, if self.is_slow { Shadows::None } else { Shadows::Fine });
+            return match self.is_slow {
+                true => (self.refined_share(ui, salon, frame_time), Shadows::None),
+                false => (1.0, Shadows::Fine),
+            };
         }
+        self.refinement = None;
         if self.share == 0.0 {
             self.share = 0.3;
         }
@@ -118,6 +141,29 @@ impl Viewport {
             (false, false) => Shadows::Fine,
         };
         (steps.exp2().min(1.0), shadows)
+    }
+
+    /// The fraction of the strands to draw on a slow device without motion: twice as many with each frame, until one takes long.
+    fn refined_share(&mut self, ui: &Ui, salon: &Salon, frame_time: f32) -> f32 {
+        let hair = salon.preview().map_or(0, |(_, version)| version);
+        let begun = self.refinement.filter(|refinement| refinement.hair == hair);
+        let share = if self.share > 0.0 { self.share } else { 0.3 };
+        let mut next =
+            begun.unwrap_or(Refinement { hair, share, done: share >= 1.0, timed: false });
+        if !next.done && next.timed {
+            next.done = frame_time > PATIENCE;
+            if !next.done {
+                next.share = (2.0 * next.share).min(1.0);
+            }
+        }
+        // The frame after this one says how long this took.
+        next.timed = true;
+        if !next.done {
+            ui.ctx().request_repaint();
+            next.done = next.share >= 1.0;
+        }
+        self.refinement = Some(next);
+        next.share
     }
 
     fn handle_pointer(
