@@ -272,6 +272,8 @@ impl GuideReport {
 fn status(settling: &SettlingReport) -> &'static str {
     match settling {
         SettlingReport { not_converged: 1.., .. } => "not converged",
+        SettlingReport { saddles: 1.., .. } => "on a saddle",
+        SettlingReport { undecided: 1.., .. } => "undecided",
         settling if settling.penetration > DEEP => "inside the head",
         SettlingReport { accuracy_missed: 1.., .. } => "accuracy missed",
         _ => "at rest",

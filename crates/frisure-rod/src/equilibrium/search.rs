@@ -98,6 +98,8 @@ struct Verdict {
     least: Option<LeastEigenvalue>,
     /// Whether a finer division could say more.
     refinable: bool,
+    /// Whether the shape is far enough from a loss of stability for its error to be told from divisions.
+    resolved: bool,
 }
 
 /// Factor on gravity from one step of the branch to the next: a hanging rod's shape changes with the logarithm of its
@@ -462,12 +464,12 @@ impl Search<'_> {
     ) -> Verdict {
         let converged = [coarse, fine].map(|l| l.minimum.stability != Stability::NotConverged);
         if converged != [true; 2] {
-            return Verdict { stability: division, least: None, refinable: false };
+            return Verdict { stability: division, least: None, refinable: false, resolved: false };
         }
         // 1. Far from a loss of stability no eigenvalue is needed.
         let clear = coarse.minimum.clear && fine.minimum.clear;
         if clear && !self.options.eigenvalue {
-            return Verdict { stability: division, least: None, refinable: false };
+            return Verdict { stability: division, least: None, refinable: false, resolved: true };
         }
         // 2. The eigenvalue of the exact rod.
         let rounding =
@@ -476,17 +478,19 @@ impl Search<'_> {
         let free = self.may_turn(coarse) && self.may_turn(fine);
         if free && of_coarse.abs().max(of_fine.abs()) <= rounding {
             let least = Some(LeastEigenvalue::neutral(rounding));
-            return Verdict { stability: division, least, refinable: false };
+            return Verdict { stability: division, least, refinable: false, resolved: true };
         }
         let before = before.map(|level| self.least(level));
         let least = LeastEigenvalue::extrapolated(before, of_coarse, of_fine, rounding);
         let stability = if clear { division } else { least.stability() };
         // 3. A finer division tells more, or falls off a shape that is stable with these elements alone.
+        let resolved = clear || least.is_resolved();
         let refinable = match stability {
             Stability::Undecided => least.is_refinable(),
+            Stability::Stable if !resolved => least.is_resolvable(),
             told => told != division,
         };
-        Verdict { stability, least: Some(least), refinable }
+        Verdict { stability, least: Some(least), refinable, resolved }
     }
 
     /// What one division says of itself.
@@ -500,7 +504,7 @@ impl Search<'_> {
             let least = if stability == Stability::Stable { least.max(0.0) } else { least };
             LeastEigenvalue::extrapolated(None, least, least, rounding)
         });
-        Verdict { stability, least, refinable: false }
+        Verdict { stability, least, refinable: false, resolved: true }
     }
 
     /// Smallest eigenvalue of a division.
@@ -518,12 +522,13 @@ impl Search<'_> {
     }
 
     /// Whether an estimate of the error (m) is within the requested accuracy.
-    fn accuracy(&self, stability: Stability, estimate: Option<f64>) -> AccuracyStatus {
+    fn accuracy(&self, verdict: &Verdict, estimate: Option<f64>) -> AccuracyStatus {
         let Resolution::Accuracy(accuracy) = self.options.resolution else {
             return AccuracyStatus::NotRequested;
         };
         // A shape that is not known to be stable may be far from the one at rest, however alike two divisions are.
-        let met = stability == Stability::Stable && estimate.is_some_and(|e| e <= accuracy);
+        let known = verdict.stability == Stability::Stable && verdict.resolved;
+        let met = known && estimate.is_some_and(|e| e <= accuracy);
         if met { AccuracyStatus::Met } else { AccuracyStatus::Missed }
     }
 
@@ -536,7 +541,7 @@ impl Search<'_> {
         error_estimate: Option<f64>,
     ) -> Equilibrium {
         let Minimum { shape, gradient_norm, iterations, .. } = level.minimum;
-        let stability = verdict.stability;
+        let (stability, accuracy) = (verdict.stability, self.accuracy(&verdict, error_estimate));
         let least = verdict.least.filter(|_| self.options.eigenvalue);
         Equilibrium {
             rod: self.rod.clone(),
@@ -550,7 +555,7 @@ impl Search<'_> {
                 eigenvalue_error: least.map(|least| least.error),
                 stability,
                 iterations,
-                accuracy: self.accuracy(stability, error_estimate),
+                accuracy,
             },
             error_estimate,
             correction,

@@ -26,7 +26,8 @@ pub(super) fn fibre(document: &Document<'_>, preset: &Preset, default: Fibre) ->
     };
     let section = section(document, base.section)?;
     let value = section.axis_ratio();
-    if value > MAX_AXIS_RATIO {
+    // The ratio of the two semi-axes, which are what is kept, has rounding.
+    if value > MAX_AXIS_RATIO * (1.0 + 1e-12) {
         let (quantity, allowed) = ("axis ratio", "at most 20; that of hair is between 1 and 3");
         return Err(refuse(InvalidQuantity { quantity, value, unit: "", allowed }));
     }
