@@ -12,7 +12,13 @@ use crate::interrupt;
 pub(crate) fn print(text: &str) -> Result<(), Error> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::failed(&error, "")),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            let hint = "what the command wrote to files is there; let standard output go elsewhere";
+            Err(Error::Failed {
+                problem: format!("cannot write to standard output: {error}"),
+                hint: hint.into(),
+            })
+        }
         _ => Ok(()),
     }
 }

@@ -82,12 +82,17 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
     let mesh = head_mesh(scene, file, files)?;
     let note = head_note(file, &mesh);
     let head = of_mesh(mesh).map_err(|e| scene.error_at("head.mesh", e.to_string(), ""))?;
-    match head.turn_to_upright() {
-        // Who turns a head has looked at it.
-        Some(upright) if file.turn.is_none() => Err(lies(scene, upright)),
-        _ => Ok(LoadedHead { head: Arc::new(head), note }),
-    }
+    let note = match head.turn_to_upright() {
+        None => note,
+        Some(upright) if file.turn.is_none() => return Err(lies(scene, upright)),
+        // Who turns a head has looked at it, so it is taken; but it is said.
+        Some(_) => Some(note.map_or(LIES.to_owned(), |note| format!("{note}\n{LIES}"))),
+    };
+    Ok(LoadedHead { head: Arc::new(head), note })
 }
+
+/// The warning about a head that was turned and does not stand upright.
+const LIES: &str = "warning: turned by `head.turn`, the head does not stand upright with its face to the front: hair may grow where no scalp is";
 
 /// The head that the groom of a scene was made on.
 ///

@@ -34,6 +34,10 @@ fn a_head_with_the_wrong_axis_up_is_refused_with_the_turn_that_mends_it() {
 }
 
 #[test]
-fn who_turns_a_head_is_not_corrected() {
-    assert!(load("up = \"z\"\nturn = [0, 0, 0]").is_ok());
+fn who_turns_a_head_is_warned_and_not_corrected() {
+    let taken = load("up = \"z\"\nturn = [0, 0, 0]").unwrap();
+    assert!(taken.note.unwrap().contains("does not stand upright"));
+    // One that stands is no reason for a warning.
+    let upright = load("turn = [0, 0, 0]").unwrap();
+    assert!(upright.note.is_none_or(|note| !note.contains("upright")));
 }

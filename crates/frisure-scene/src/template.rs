@@ -79,10 +79,7 @@ type = "{name}"  # {description}
         pitch = pitch * 1e3,
         between = spec.curl.variation_between,
         along = spec.curl.variation_along,
-        lift = match spec.implantation.lift {
-            frisure_hairstyle::Lift::Regional { scale } => scale,
-            frisure_hairstyle::Lift::Uniform(_) => 1.0,
-        },
+        lift = preset.hair_type().lift_scale,
         count = wisps.count,
         density = preset.hair_type().density * 1e-4,
         clumping = wisps.clumping,

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use frisure::rod::{AccuracyStatus, Equilibrium, Resolution, Stability, equilibrium};
-use frisure_engine::Error;
 use frisure_engine::report::EnergyReport;
+use frisure_engine::{Error, memory};
 use serde::Serialize;
 
 use super::read_scene;
@@ -47,6 +47,7 @@ struct Report {
 /// Computes and prints the hair of a scene.
 pub(crate) fn run(arguments: &Hair) -> Result<ExitStatus, Error> {
     let hair = read_scene(&arguments.scene)?.single_hair()?;
+    memory::check_points(arguments.points.unwrap_or(0) as f64, memory::PRINTED_POINT)?;
     let rest = equilibrium(&hair.rod, &[], &hair.options);
     let requested = match hair.options.resolution {
         Resolution::Accuracy(accuracy) => Some(accuracy),

@@ -18,7 +18,7 @@ pub(super) struct LeastEigenvalue {
 /// Largest spread over the eigenvalue at which shapes of divisions may be extrapolated. Near a loss of stability a shape goes as
 /// 1/λ, and 1/(λ + e h²) has a series in h² that is of use for e h² well below λ alone: with a quarter the next term is a
 /// hundredth. Chosen.
-const RESOLVED: f64 = 0.25;
+pub(super) const RESOLVED: f64 = 0.25;
 
 impl LeastEigenvalue {
     /// Extrapolates the eigenvalues of two divisions, or of three.
@@ -52,7 +52,8 @@ impl LeastEigenvalue {
 
     /// Whether the divisions are fine enough for a stable shape to be extrapolated from them.
     pub(super) fn is_resolved(&self) -> bool {
-        self.spread + self.rounding <= RESOLVED * self.value
+        // The error has the rounding in it.
+        self.spread + self.error <= RESOLVED * self.value
     }
 
     /// Whether finer divisions could be fine enough.

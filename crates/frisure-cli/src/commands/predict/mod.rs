@@ -67,7 +67,8 @@ pub(crate) fn run_scene(
     }
     // The default accuracy is what most guides reach in little time, and nothing that was asked for.
     let missed = requested && report.guides.accuracy_missed > 0;
-    Ok(match report.guides.not_converged {
+    // A guide on a saddle is not at rest either.
+    Ok(match report.guides.not_converged + report.guides.saddles {
         0 if missed => ExitStatus::AccuracyMissed,
         0 => ExitStatus::Success,
         _ => ExitStatus::NotConverged,
