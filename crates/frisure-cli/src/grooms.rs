@@ -8,7 +8,7 @@ use frisure::formats::groom::{
     write_motion,
 };
 use frisure::strands::Strands;
-use frisure_engine::Error;
+use frisure_engine::{Error, memory};
 
 use crate::args::{Content, Writing};
 use crate::interrupt;
@@ -54,6 +54,10 @@ pub(crate) fn write(
     paths: &[PathBuf],
     writing: Writing,
 ) -> Result<Vec<String>, Error> {
+    if let Points::Even(points) = writing.fit().points {
+        let hairs = groom.hairs.len().min(writing.hairs.unwrap_or(usize::MAX));
+        memory::check_points(hairs as f64 * points as f64, memory::CONVERTED_POINT)?;
+    }
     let mut lines = Vec::new();
     fitted(groom, paths, writing, |path, groom, note| {
         write_file(path, writing, |choice| write_groom(path, groom, choice))?;

@@ -1,8 +1,7 @@
 //! `frisure convert`: a groom from one format to others.
 
-use frisure::formats::groom::Points;
 use frisure::progress::Progress;
-use frisure_engine::{Error, memory};
+use frisure_engine::Error;
 
 use super::read_groom;
 use crate::args::Convert;
@@ -18,10 +17,6 @@ pub(crate) fn run(arguments: &Convert, quiet: bool) -> Result<ExitStatus, Error>
     let progress = Bar::new(quiet);
     progress.report("reading", 0.0);
     let groom = read_groom(path, read.axes(), "set `--from-unit` and `--from-up`")?;
-    if let Points::Even(points) = writing.fit().points {
-        let hairs = groom.hairs.len().min(arguments.writing.hairs.unwrap_or(usize::MAX));
-        memory::check_points(hairs as f64 * points as f64, memory::CONVERTED_POINT)?;
-    }
     progress.report("writing", 0.0);
     let found = format!("read {} hairs, {} guides\n", groom.hairs.len(), groom.guides.len());
     let written = grooms::write(groom, paths, *writing)?;

@@ -88,8 +88,8 @@ pub struct GuideReport {
     pub tolerance: f64,
     /// Deepest that a guide is inside the head (m).
     pub penetration: f64,
-    /// The first that holds of `"not converged"`, `"on a saddle"`, `"undecided"` (perhaps on a saddle), `"inside the head"` (a penetration above [`DEEP`]), `"accuracy missed"`
-    /// (the requested one, or the default) and `"at rest"`.
+    /// The first that holds of `"not converged"`, `"on a saddle"`, `"undecided"` (perhaps on a saddle), `"inside the head"` (a
+    /// penetration above [`DEEP`]), `"accuracy missed"` (the requested one, or the default) and `"at rest"`.
     pub status: &'static str,
     /// What was checked of all guides together, with `contact.hair = "density"` or `equilibrium.method = "continuation"`.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -53,8 +53,6 @@ struct Refinement {
     share: f32,
     /// Whether more would take too long, or all are drawn.
     done: bool,
-    /// Whether the last frame drew this share: only then does its time say how long that takes.
-    timed: bool,
 }
 
 struct StrandMarks {
@@ -148,16 +146,14 @@ impl Viewport {
         let hair = salon.preview().map_or(0, |(_, version)| version);
         let begun = self.refinement.filter(|refinement| refinement.hair == hair);
         let share = if self.share > 0.0 { self.share } else { 0.3 };
-        let mut next =
-            begun.unwrap_or(Refinement { hair, share, done: share >= 1.0, timed: false });
-        if !next.done && next.timed {
+        let mut next = begun.unwrap_or(Refinement { hair, share, done: share >= 1.0 });
+        // The time of a frame says how long the one before took: the first has none to go by.
+        if !next.done && begun.is_some() {
             next.done = frame_time > PATIENCE;
             if !next.done {
                 next.share = (2.0 * next.share).min(1.0);
             }
         }
-        // The frame after this one says how long this took.
-        next.timed = true;
         if !next.done {
             ui.ctx().request_repaint();
             next.done = next.share >= 1.0;
