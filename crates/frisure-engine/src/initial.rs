@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::heads::groom_head;
-use crate::inputs::scene_groom;
+use crate::inputs::{GROOM_FRAME, scene_groom};
 use crate::placement::{guess, lines, placed, words};
 
 /// The hairstyle before the first step: predicted from `[hair]`, or adopted from the groom of the scene.
@@ -113,13 +113,13 @@ fn check_roots(scene: &Scene, head: &Head, guides: &Strands) -> Result<(), Scene
     {
         let metres = scene.groom.as_ref().and_then(|file| file.frame.metres);
         let hint = format!(
-            "{}; it would lie on the head with these lines in `[groom]`:\n{}",
+            "{}; it would lie on the head with these lines in `[groom]` of a scene:\n{}",
             words(&placement, metres),
             lines(&placement)
         );
         return Err(scene.error_at("groom.file", problem, hint));
     }
-    let hint = "set `unit` and `up` of `[groom]` and of `[head]`; `mesh` of `[head]` is the head that the groom was made on";
+    let hint = format!("{GROOM_FRAME}, or name the head that the groom was made on");
     Err(scene.error_at("groom.file", problem, hint))
 }
 

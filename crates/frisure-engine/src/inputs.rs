@@ -63,6 +63,9 @@ pub(crate) fn head_note(file: &HeadFile, mesh: &HeadMesh) -> Option<String> {
     Some(format!("{path} states no unit; {unit} is assumed: set `head.unit` to change it"))
 }
 
+/// How a user says in which unit and axes a groom is.
+pub(crate) const GROOM_FRAME: &str = "set `unit` and `up` of `[groom]` in a scene, or `--from-unit` and `--from-up` of `frisure transfer`";
+
 /// The groom that the scene names, if it names one.
 ///
 /// # Errors
@@ -71,7 +74,7 @@ pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneE
     let Some(GroomFile { path, frame, .. }) = &scene.groom else { return Ok(None) };
     let wrong = |e: GroomError| {
         let hint = match e {
-            GroomError::Malformed { .. } => "set `unit` and `up` of `[groom]`",
+            GroomError::Malformed { .. } => GROOM_FRAME,
             _ => "",
         };
         scene.error_at("groom.file", message(&e), hint)

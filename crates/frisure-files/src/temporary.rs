@@ -32,10 +32,20 @@ pub(crate) fn create(folder: &Path) -> io::Result<NamedTempFile> {
     // Temporary files are private by default; an output should be as any new file is.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(folder)?;
+    let file = builder.tempfile_in(folder).map_err(without_path)?;
     // Where there are no locks, nothing is found left over either.
     let _ = file.as_file().try_lock();
     Ok(file)
+}
+
+/// The error of the system alone: its path is that of a file which the user never named.
+fn without_path(error: io::Error) -> io::Error {
+    let cause = error.get_ref().and_then(|wrapped| wrapped.source());
+    let cause = cause.and_then(|cause| cause.downcast_ref::<io::Error>());
+    match cause.and_then(io::Error::raw_os_error) {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error,
+    }
 }
 
 /// Removes the hidden files of killed runs from a folder, once in a process: folders of batches have many files.

@@ -59,7 +59,7 @@ impl Default for Known {
 
 /// A number that cannot be known of a fibre.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{quantity} is {value}; it must be {allowed}")]
+#[error("{quantity} is {value:?}; it must be {allowed}")]
 pub struct KnownError {
     /// The name of the number.
     pub quantity: &'static str,

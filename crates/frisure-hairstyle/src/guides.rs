@@ -110,7 +110,12 @@ pub(crate) fn covered(
     let layer = Layer::new(altitude, area, cover(spec, &thickness, &rod));
     let (bed, pull, firmness, hold) = (None, None, 1.0, 0.0);
     let (skin, hair) = (spec.contact.skin_friction, spec.contact.friction);
-    let friction = FrictionCoefficients { skin, hair, against_scales: spec.contact.scales };
+    let friction = FrictionCoefficients {
+        skin,
+        hair,
+        against_scales: spec.contact.scales,
+        ..FrictionCoefficients::default()
+    };
     Guide { root, region, rod, thickness, layer, bed, pull, firmness, hold, friction, curl, share }
 }
 

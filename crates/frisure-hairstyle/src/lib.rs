@@ -30,6 +30,7 @@ mod rod_digest;
 pub mod capillary;
 mod fibre;
 pub mod head;
+mod product;
 mod spec;
 
 mod presets;
@@ -67,6 +68,7 @@ pub use history::{History, HistoryError};
 pub use implantation::{PartingError, Root, scalp_area};
 pub use predict::{PredictError, PredictOptions, Start, predict, redrawn};
 pub use presets::{Ellipticity, HairType, Moisture, NaturalCurl, PRESETS, Preset, preset};
+pub use product::{Product, ProductLaw};
 pub use random::Draws;
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec, HeadMethod,

@@ -3,10 +3,10 @@
 use std::sync::LazyLock;
 
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::styling::{Comb, Direction, Dry, Operation, Wet};
+use frisure_hairstyle::styling::{self, Comb, Direction, Dry, Operation, Release, Roll, Wet};
 use frisure_hairstyle::{
-    HairContact, Hairs, Hairstyle, HairstyleSpec, HeadMethod, PredictOptions, StyleOptions,
-    predict, preset, settling_report, style,
+    HairContact, Hairs, Hairstyle, HairstyleSpec, HeadMethod, PredictOptions, Product,
+    StyleOptions, predict, preset, settling_report, style,
 };
 use frisure_rod::Equilibrium;
 
@@ -135,4 +135,66 @@ fn wet_hair_has_more_friction_and_dried_hair_what_it_had() {
     assert_eq!(of(&dried), of(&before));
     let shapes = before.equilibria().iter().zip(dried.equilibria());
     assert!(shapes.clone().all(|(a, b)| a.shape == b.shape));
+}
+
+fn with_product(before: &Hairstyle, kind: Product, amount: f64) -> Hairstyle {
+    let product = styling::Product { kind, amount, ..styling::Product::default() };
+    style(before, &HEAD, &product.into(), StyleOptions::default(), &()).unwrap()
+}
+
+#[test]
+fn what_dries_under_a_comb_with_a_product_stays_the_better_the_more_it_sticks() {
+    // Without friction.
+    let before = hairstyle("caucasian-straight", 40, HairContact::Layers, 0.0);
+    let held = combed(&before, true);
+    let kept = |product: Option<(Product, f64)>| {
+        let held = product.map_or(held.clone(), |(kind, amount)| with_product(&held, kind, amount));
+        let after = style(&held, &HEAD, &Release::default().into(), StyleOptions::default(), &());
+        let after = after.unwrap();
+        let report = settling_report(&after, &HEAD);
+        assert!(report.stable == 40 && report.friction <= 1.001, "{product:?}: {report:?}");
+        retention(&before, &held, &after)
+    };
+    let kept =
+        [None, Some((Product::Oil, 1.0)), Some((Product::Mousse, 1.0)), Some((Product::Gel, 1.0))]
+            .map(kept);
+    assert!(kept[0].abs() < 0.06, "{kept:?}");
+    assert!(kept.windows(2).all(|pair| pair[1] > pair[0] - 1e-3), "{kept:?}");
+    assert!(kept[3] > kept[0] + 0.1, "{kept:?}");
+}
+
+#[test]
+fn a_product_keeps_a_set_and_washes_out() {
+    let done = |h: &Hairstyle, operation: Operation| {
+        style(h, &HEAD, &operation, StyleOptions::default(), &()).unwrap()
+    };
+    let before = hairstyle("caucasian-straight", 8, HairContact::Layers, 0.0);
+    let set = |start: &Hairstyle| {
+        let rolled = done(start, Roll::default().into());
+        done(&done(&rolled, Dry::default().into()), Release::default().into())
+    };
+    let wet = done(&before, Wet::default().into());
+    let curvature = |h: &Hairstyle| {
+        let natural = h.guides()[2].rod.natural().at(0.5 * h.guides()[2].rod.length());
+        natural.truncate().length()
+    };
+    let (bare, gel) = (set(&wet), set(&with_product(&wet, Product::Gel, 1.0)));
+    // 0.6 of the roller's curvature, and three quarters of the rest; straight hair has a slight curl of its own.
+    assert!(
+        (curvature(&gel) / curvature(&bare) - 0.9 / 0.6).abs() < 0.1,
+        "{} {}",
+        curvature(&gel),
+        curvature(&bare)
+    );
+    assert_eq!(gel.wisps()[2].product(), Some((Product::Gel, 1.0)));
+    // Half a wash leaves half of it, a whole one nothing; oil stays.
+    let half = done(&gel, Wet { to: 0.5, ..Wet::default() }.into());
+    assert_eq!(half.wisps()[2].product(), Some((Product::Gel, 0.5)));
+    let washed = done(&gel, Wet::default().into());
+    assert_eq!(washed.wisps()[2].product(), None);
+    let oiled = done(&with_product(&before, Product::Oil, 1.0), Wet::default().into());
+    assert_eq!(oiled.wisps()[2].product(), Some((Product::Oil, 1.0)));
+    // Nothing is nothing, to the last bit.
+    let none = with_product(&before, Product::Gel, 0.0);
+    assert!(before.equilibria().iter().zip(none.equilibria()).all(|(a, b)| a.shape == b.shape));
 }

@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::styling::{
     Clip, Comb, Cut, CutLine, Direction, Dry, Grow, Growth, Height, Held, Humidity, Lasso,
-    Operation, Part, Release, Roll, Selection, Spot, StyleError, Tie, TiePlace, Twist, View, Wet,
-    WispState,
+    Operation, Part, Release, Roll, Selection, Sides, Spot, StyleError, Tie, TiePlace, Tuck, Twist,
+    View, Wet, WispState,
 };
 use frisure_hairstyle::{
     Body, Curl, HairContact, Hairs, Hairstyle, HairstyleSpec, Moisture, PRESETS, Parting, Place,
@@ -562,8 +562,43 @@ fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
     let short = predict(&short, &HEAD, PredictOptions::default(), &()).unwrap();
     let error = style(&short, &HEAD, &tie(TiePlace::High), StyleOptions::default(), &());
     let error = error.map(|_| ()).unwrap_err();
-    let StyleError::NothingTied { needed, longest } = error else { panic!("{error}") };
+    let StyleError::NothingGathered { needed, longest } = error else { panic!("{error}") };
     assert!(longest < needed);
+}
+
+#[test]
+fn tucked_hair_is_behind_the_ear_and_friction_keeps_some_of_it_there() {
+    let mut spec = spec("caucasian-straight", 80, HairContact::Layers);
+    spec.length.mean = 0.3;
+    // Without friction it slips off the ear again.
+    (spec.contact.friction, spec.contact.skin_friction) = (0.47, 0.47);
+    let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
+    let tuck =
+        |sides, hold| done(&before, &Operation::Tuck(Tuck { sides, hold, ..Tuck::default() }));
+    let land = HEAD.landmarks();
+    // Where a guide on the left passes the height of the ear: in front of its middle, or behind it (m).
+    let ahead = |h: &Hairstyle, i: usize| {
+        let line = h.equilibria()[i].centre_line(400);
+        let at = line.iter().find(|p| p.z < land.ear.z)?;
+        Some((*at - land.ear).dot(land.face))
+    };
+    let left = |i: usize| before.equilibria()[i].tip().x > land.cranium_centre.x;
+    let veil: Vec<usize> =
+        (0..80).filter(|&i| left(i) && ahead(&before, i).is_some_and(|x| x > 0.005)).collect();
+    assert!(veil.len() >= 4, "{}", veil.len());
+    let (held, free) = (tuck(Sides::Left, true), tuck(Sides::Left, false));
+    // This ear is small: of what is let go friction keeps a part.
+    for (name, after, most) in [("held", &held, veil.len() / 4), ("free", &free, veil.len() - 1)] {
+        let still = veil.iter().filter(|&&i| ahead(after, i).is_some_and(|x| x > 0.005)).count();
+        assert!(still <= most, "{name}: {still} of {} before the ear", veil.len());
+        let report = settling_report(after, &HEAD);
+        assert!(report.stable >= 79 && report.penetration < 1e-3, "{name}: {report:?}");
+    }
+    assert!(held.wisps().iter().any(WispState::is_held));
+    assert!(!free.wisps().iter().any(WispState::is_held));
+    let right = (0..80).filter(|&i| before.equilibria()[i].tip().x < -0.02);
+    let moved = right.map(|i| free.equilibria()[i].tip().distance(before.equilibria()[i].tip()));
+    assert!(moved.fold(0.0, f64::max) < 1e-9, "the right side stays");
 }
 
 #[test]

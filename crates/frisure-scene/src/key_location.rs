@@ -19,7 +19,9 @@ fn keys_of(quantity: &str) -> &'static [&'static str] {
         "semi-axis a" => &["hair.fibre.semi_axis_a"],
         "semi-axis b" => &["hair.fibre.semi_axis_b"],
         "eccentricity" => &["hair.fibre.eccentricity"],
-        "axis ratio" => &["hair.fibre.axis_ratio"],
+        "axis ratio" => {
+            &["hair.fibre.axis_ratio", "hair.fibre.semi_axis_a", "hair.fibre.semi_axis_b"]
+        }
         "Young's modulus" => &["hair.fibre.youngs_modulus"],
         "shear modulus" => &["hair.fibre.shear_modulus"],
         "Poisson's ratio" => &["hair.fibre.poisson_ratio"],

@@ -91,13 +91,13 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
             .slider(Panel::Fibre, "Ellipticity", TO_ONE, (1.0, 3.0), 2,
                 "Longer over shorter axis of the section. A flat hair bends more easily about its longer axis.")
             .shows(|scene| scene.spec.fibre.section.axis_ratio());
-        /// Young's modulus; more than 0. Default 3.9 GPa.
+        /// Young's modulus; more than 0, between 1 MPa and 1000 GPa on a head. Default 3.9 GPa.
         "hair.fibre.youngs_modulus" => number::<Modulus>().bounds(0.0, f64::INFINITY)
             .slider(Panel::Fibre, "Stiffness", GPA, (0.2, 20.0), 2,
                 "Young's modulus: how hard it is to bend. Human hair has some 4 GPa when dry.")
             .logarithmic()
             .shows(|scene| scene.spec.fibre.material.youngs_modulus());
-        /// Shear modulus; more than 0. Default 0.9 GPa, also when Young's modulus is given.
+        /// Shear modulus; more than 0, between 0.1 MPa and 1000 GPa on a head. Default 0.9 GPa, also when Young's modulus is given.
         "hair.fibre.shear_modulus" => number::<Modulus>().bounds(0.0, f64::INFINITY)
             .slider(Panel::Fibre, "Torsional stiffness", GPA, (0.05, 8.0), 2, "Shear modulus: how hard it is to twist.")
             .logarithmic()
@@ -105,7 +105,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Poisson's ratio, instead of the shear modulus: it is E / 2(1 + nu) then; more than -1, at
         /// most 0.5.
         "hair.fibre.poisson_ratio" => number::<Ratio>().bounds(-1.0, 0.5);
-        /// Density; more than 0. Default 1.3 g/cm^3.
+        /// Density; more than 0, between 0.01 and 20 g/cm^3 on a head. Default 1.3 g/cm^3.
         "hair.fibre.density" => number::<Density>().bounds(0.0, f64::INFINITY)
             .slider(Panel::Fibre, "Density", DENSITY, (0.5, 3.0), 2, "Mass per volume.")
             .shows(|scene| scene.spec.fibre.material.density());

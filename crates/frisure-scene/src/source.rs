@@ -30,6 +30,11 @@ impl Source {
     /// An error of the TOML reader; `key` is unknown then.
     pub(crate) fn syntax(&self, error: &toml::de::Error) -> SceneError {
         let span = error.span().unwrap_or(0..0);
+        if let Some(allowed) = whole_numbers(error.message()) {
+            let (key, value) = (self.path_at(&span), self.slice(span.clone()).to_owned());
+            let hint = "write a decimal point if it need not be whole";
+            return Diagnostic::outside(allowed).key(key).value(value).hint(hint).at(self, span);
+        }
         let mut message = error.message().to_owned();
         // The reader puts what it expected on lines of their own.
         if let Some((first, rest)) = message.clone().split_once('\n') {
@@ -115,6 +120,13 @@ impl Source {
         }
         path
     }
+}
+
+/// The range of whole numbers, if that is what the TOML reader refuses: it names the types that it tried.
+fn whole_numbers(message: &str) -> Option<&'static str> {
+    let refused =
+        ["value was too large", "value was too small", "too large to fit", "too small to fit"];
+    refused.iter().any(|end| message.contains(end)).then_some("between -2^63 and 2^63 - 1")
 }
 
 /// How far a path is written.

@@ -109,8 +109,11 @@ fn check_counts(counts: &[usize], points: usize) -> Result<(), String> {
     if counts.len() > MAX_STRANDS {
         return Err(format!("it has {} strands, and at most {MAX_STRANDS} are read", counts.len()));
     }
-    if let Some(i) = counts.iter().position(|&count| count == 0) {
-        return Err(format!("strand {i} has no point"));
+    if let Some(i) = counts.iter().position(|&count| count < 2) {
+        return Err(match counts[i] {
+            0 => format!("strand {i} has no point"),
+            _ => format!("strand {i} has one point; a strand has at least 2"),
+        });
     }
     let total = counts.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
     if total != Some(points) {

@@ -63,7 +63,8 @@ impl CombedHold {
     }
 }
 
-/// Coefficients of friction of hair along its scales, tangential over normal force; 0 without friction.
+/// Coefficients of friction of hair along its scales, tangential over normal force; 0 without friction. With cohesion hair begins to
+/// slide at `μ λ_n + c` (Coulomb's law for what sticks, docs/theory.md, "Friction").
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionCoefficients {
     /// Against skin.
@@ -72,14 +73,20 @@ pub struct FrictionCoefficients {
     pub hair: f64,
     /// Friction against the scales over that along them.
     pub against_scales: f64,
+    /// Cohesion c by a styling product: force per length (N/m) that it takes to slide what lies on something without weight.
+    pub cohesion: f64,
 }
 
-frisure_digest::digest_fields!(FrictionCoefficients { skin, hair, against_scales });
+frisure_digest::digest_fields!(FrictionCoefficients { skin, hair, against_scales, cohesion });
+
+/// Cohesion over the normal force per length below which contact is too light for all of it. Chosen: hair that lies with its own weight
+/// sticks with ten times that.
+const FULLY_STUCK: f64 = 10.0;
 
 impl Default for FrictionCoefficients {
     /// Hair slides freely.
     fn default() -> Self {
-        Self { skin: 0.0, hair: 0.0, against_scales: 1.0 }
+        Self { skin: 0.0, hair: 0.0, against_scales: 1.0, cohesion: 0.0 }
     }
 }
 
@@ -87,7 +94,13 @@ impl FrictionCoefficients {
     /// Whether hair slides freely on everything.
     #[must_use]
     pub fn is_zero(self) -> bool {
-        self.skin == 0.0 && self.hair == 0.0
+        self.skin == 0.0 && self.hair == 0.0 && self.cohesion == 0.0
+    }
+
+    /// What cohesion adds to the largest friction per length (N/m) of hair that is pressed with λ_n (N/m): all of it but where hair hardly
+    /// touches, so that the law is continuous.
+    fn sticks(self, pressed: f64) -> f64 {
+        self.cohesion.min(FULLY_STUCK * pressed)
     }
 
     /// The same of hair of another wetness, which has `factor` times the friction.
@@ -208,7 +221,7 @@ impl FrictionSurface for BodyContact<'_> {
         }
         let clearance = self.clearance(s);
         let soft = self.soft_friction(s);
-        let (mut normal, mut limit) = (DVec3::ZERO, 0.0);
+        let (mut normal, mut limit, mut pressed) = (DVec3::ZERO, 0.0, 0.0);
         self.for_each_near(clearance.max(0.0), p, |distance, gradient, _| {
             let [_, slope, _] = self.penalty(clearance, distance);
             // λ_n = −E′ of the skin, and that of the hair: each has its own coefficient.
@@ -216,7 +229,9 @@ impl FrictionSurface for BodyContact<'_> {
             let on_hair = (-slope - on_skin).max(0.0);
             normal += gradient * -slope;
             limit += self.friction.skin * on_skin + soft * on_hair;
+            pressed += on_skin + on_hair;
         });
+        limit += self.friction.sticks(pressed);
         let normal = normal.try_normalize()?;
         (limit > 0.0).then_some(Pressed { normal, limit })
     }
@@ -262,5 +277,41 @@ mod tests {
             // Beyond its reach nothing holds.
             assert_eq!(contact.derivatives(0.05, top * 2.0), None);
         }
+    }
+
+    #[test]
+    fn cohesion_is_added_to_friction_and_begins_with_contact() {
+        let head = Head::mannequin();
+        let (top, cohesion) = (head.landmarks().whorl, 4e-4);
+        let contact = BodyContact {
+            head: &head,
+            body: Body::SignedDistance,
+            skin: 1000.0,
+            hair: 2.0,
+            thickness: wisp(),
+            layer: Layer::NONE,
+            bed: None,
+            friction: FrictionCoefficients { cohesion, ..FrictionCoefficients::default() },
+            hold: CombedHold::default(),
+        };
+        let rough = FrictionCoefficients { skin: 0.3, ..contact.friction };
+        let rough = BodyContact { friction: rough, ..contact };
+        let limit = |contact: &BodyContact<'_>, out: f64| {
+            let p = top + top.normalize() * out;
+            contact.pressed(0.04, p).map_or(0.0, |pressed| pressed.limit)
+        };
+        // Off the hair, and pressed: all of the cohesion, and the coefficient times what presses.
+        assert_eq!(limit(&contact, 0.05), 0.0);
+        assert_eq!(limit(&contact, -0.001), cohesion);
+        let slid = BodyContact {
+            friction: FrictionCoefficients { cohesion: 0.0, ..rough.friction },
+            ..contact
+        };
+        assert!((limit(&rough, -0.001) - limit(&slid, -0.001) - cohesion).abs() < 1e-15);
+        // It grows with the contact, without a jump.
+        let steps: Vec<f64> =
+            (0..200).map(|k| limit(&contact, 0.01 - 1e-4 * f64::from(k))).collect();
+        assert!(steps.windows(2).all(|pair| pair[1] >= pair[0]), "{steps:?}");
+        assert!(steps.iter().any(|&limit| limit > 0.0 && limit < 0.5 * cohesion), "{steps:?}");
     }
 }

@@ -10,6 +10,7 @@ use crate::capillary::{Coalescence, Liquid};
 use crate::contact::Thickness;
 use crate::fibre::WetLocks;
 use crate::guides::Guide;
+use crate::product::{Applied, Product};
 use crate::spec::HairstyleSpec;
 
 /// Relative humidity of the air that every hairstyle begins in.
@@ -85,6 +86,8 @@ pub struct WispState {
     pub water: f64,
     /// Shapes that it was dried in and keeps part of, the oldest first.
     pub(crate) sets: Vec<Set>,
+    /// The styling product on it.
+    pub(crate) product: Option<Applied>,
     /// What holds it.
     pub(crate) grip: Option<Grip>,
     /// How often it was moved by hand: where it lay before means nothing then.
@@ -165,8 +168,8 @@ const MOST_KNOTS: f64 = 1000.0;
 
 impl WispState {
     pub(crate) fn new(length: f64) -> Self {
-        let (sets, grip) = (Vec::new(), None);
-        Self { length, uncut: length, wetness: 0.0, water: 0.0, sets, grip, moved: 0 }
+        let (sets, product, grip) = (Vec::new(), None, None);
+        Self { length, uncut: length, wetness: 0.0, water: 0.0, sets, product, grip, moved: 0 }
     }
 
     /// Whether something holds the wisp.
@@ -182,6 +185,12 @@ impl WispState {
             Some(Grip::Clip { at, to }) => Some((at, to)),
             _ => None,
         }
+    }
+
+    /// The styling product on the wisp and how much of it, 0 to 1; none if there is none.
+    #[must_use]
+    pub fn product(&self) -> Option<(Product, f64)> {
+        self.product.map(|applied| (applied.product, applied.amount))
     }
 
     /// How its hairs gather into locks, if they are wet and do so by the law of capillarity; `rod` is its guide as it is now, and
@@ -202,7 +211,9 @@ impl WispState {
     pub(crate) fn wet(&mut self, to: f64) {
         if to > self.wetness {
             // Wetting from w to w′ leaves k (1 − w′)/(1 − w) of a set: water opens the hydrogen bonds that hold it.
-            self.leave_of_sets((1.0 - to) / (1.0 - self.wetness));
+            let share = (1.0 - to) / (1.0 - self.wetness);
+            self.leave_of_sets(share);
+            self.product = self.product.and_then(|applied| applied.washed(share));
         }
         self.wetness = to;
         if to == 0.0 {

@@ -122,6 +122,9 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "hair.length", field!(length.mean), 1e-3, 3.0, "between 1 mm and 3 m";
     "hair.length_variation", field!(length.variation_between), 0.0, 0.5, "0 to 0.5";
     "hair.fibre.diameter", Access::Derived(|spec| vec![2.0 * spec.fibre.section.mean_radius()]), 5e-6, 5e-4, "between 5 um and 0.5 mm on a head; hair of the scalp has 40 to 120 um";
+    "hair.fibre.youngs_modulus", Access::Derived(|spec| vec![spec.fibre.material.youngs_modulus()]), 1e6, 1e12, "between 1 MPa and 1000 GPa on a head; hair has 1 to 7 GPa";
+    "hair.fibre.shear_modulus", Access::Derived(|spec| vec![spec.fibre.material.shear_modulus()]), 1e5, 1e12, "between 0.1 MPa and 1000 GPa on a head; hair has 0.2 to 2 GPa";
+    "hair.fibre.density", Access::Derived(|spec| vec![spec.fibre.material.density()]), 10.0, 2e4, "between 0.01 and 20 g/cm^3 on a head; hair has 1.3";
     "hair.fibre.variation", field!(fibre.variation), 0.0, 0.5, "between 0 and 0.5";
     "hair.growth_rate", field!(length.growth_rate), 0.0, 1e-7, "between 0 and 26 cm a month";
     "hair.wetting.youngs_modulus", field!(wetting.youngs_modulus), 0.01, 1.0, "between 0.01 and 1";

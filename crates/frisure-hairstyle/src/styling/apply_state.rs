@@ -8,6 +8,7 @@ use glam::DVec3;
 use crate::contact::{Pull, Thickness};
 use crate::guides::{Guide, grown_strain};
 use crate::hairstyle::{Grip, Mould, Styling};
+use crate::product::Applied;
 use crate::spec::HairstyleSpec;
 use crate::styling::wet_law::{WetFactors, stretched, wetted};
 
@@ -57,6 +58,7 @@ pub(super) fn guide(
         Some(water) => water.closeness(dry.area_per_hair(0.5 * state.length)),
         None => factors.wisp,
     };
+    let packed = |dry: &Thickness| packed(dry) * state.product.map_or(1.0, Applied::wisp);
     let rod = match state.grip {
         Some(Grip::Mould { mould, .. }) => held(rod, mould)?,
         _ => rod,
@@ -64,7 +66,10 @@ pub(super) fn guide(
     let mut guide = planned.with_rod(spec, area, rod, &dry, packed);
     guide.pull = pull(&guide.rod, state.grip);
     let wetter = 1.0 + state.wetness * (spec.contact.wet_friction - 1.0);
-    guide.friction = planned.friction.scaled(wetter);
+    let smoother = state.product.map_or(1.0, Applied::friction);
+    guide.friction = planned.friction.scaled(wetter * smoother);
+    let diameter = 2.0 * guide.rod.spec().section.mean_radius();
+    guide.friction.cohesion = state.product.map_or(0.0, |product| product.cohesion(diameter));
     // What a hand or a clip holds needs no friction, which would pull it elsewhere.
     guide.hold = if state.grip.is_some() { 0.0 } else { planned.hold };
     // What is drawn tight over the head presses on skin as what is held in a shape does.

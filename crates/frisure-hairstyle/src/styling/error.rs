@@ -34,12 +34,12 @@ pub enum StyleError {
         /// How many are selected.
         selected: usize,
     },
-    /// No selected wisp is long enough to reach a hair tie.
+    /// No selected wisp is long enough to be tied or tucked there.
     #[error(
-        "the tie gathers nothing: the nearest wisp needs {:.1} cm to reach it, and the longest has {:.1} cm",
+        "no hair is gathered: the nearest wisp needs {:.1} cm to reach it, and the longest has {:.1} cm",
         100.0 * needed, 100.0 * longest
     )]
-    NothingTied {
+    NothingGathered {
         /// Length (m) that the nearest wisp needs.
         needed: f64,
         /// Length (m) of the longest wisp.

@@ -9,6 +9,7 @@ mod apply;
 mod apply_state;
 mod ends;
 mod error;
+mod gather;
 mod height;
 mod operations;
 mod selection;

@@ -213,6 +213,14 @@ class Hairstyle:
         `"right"` or a point (m)."""
         return self.step("tie", progress=progress, to=to, **keys)
 
+    def product(self, kind: str = "gel", *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
+        """The hair with a styling product: `kind` is `"gel"`, `"mousse"` or `"oil"`, `amount` 0 to 1 (the usual amount)."""
+        return self.step("product", progress=progress, kind=kind, **keys)
+
+    def tuck(self, side: Any = None, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
+        """The hair behind the ears: `side` is `"both"` (the default), `"left"` or `"right"`; `hold=True` pins it there."""
+        return self.step("tuck", progress=progress, side=side, **keys)
+
     def release(self, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
         """The hair without what holds it."""
         return self.step("release", progress=progress, **keys)

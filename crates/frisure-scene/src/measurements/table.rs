@@ -48,6 +48,11 @@ impl Table {
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
+        if let Some(line) = open_quote(text, separator) {
+            return Err(refuse(&format!(
+                "a cell on line {line} begins with a quote that never ends"
+            )));
+        }
         let headings = reader.headers().map_err(|e| refuse(&described(&e)))?;
         let headings: Vec<String> = headings.iter().map(str::to_owned).collect();
         let mut rows = Vec::new();
@@ -96,6 +101,26 @@ fn separator(line: &str) -> u8 {
     let count = |s: u8| line.bytes().filter(|&b| b == s).count();
     // The first of several with as many: a table of one column has none of any.
     SEPARATORS.into_iter().rev().max_by_key(|&s| count(s)).unwrap_or(b',')
+}
+
+/// The line on which a quoted cell begins that has no end; a reader of CSV takes the rest of the file for that cell.
+///
+/// Quotes are those of RFC 4180, section 2: they enclose a whole cell, and are doubled inside it.
+fn open_quote(text: &str, separator: u8) -> Option<u64> {
+    let (mut line, mut opened, mut begins, mut new_line) = (1, None, true, true);
+    let mut bytes = text.bytes().peekable();
+    while let Some(byte) = bytes.next() {
+        match (byte, opened) {
+            (b'#', None) if new_line => while bytes.next_if(|&byte| byte != b'\n').is_some() {},
+            (b'"', None) if begins => opened = Some(line),
+            (b'"', Some(_)) if bytes.next_if_eq(&b'"').is_none() => opened = None,
+            _ => {}
+        }
+        new_line = byte == b'\n';
+        begins = opened.is_none() && (byte == separator || new_line);
+        line += u64::from(byte == b'\n');
+    }
+    opened
 }
 
 fn described(error: &csv::Error) -> String {

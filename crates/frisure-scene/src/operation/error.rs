@@ -92,8 +92,8 @@ fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String
             Some(rest) => format!("cut lower, or leave them out: `where = {rest}`"),
             None => "cut lower, or choose fewer wisps with `where`".into(),
         },
-        StyleError::NothingTied { .. } => {
-            "let the hair grow first, or tie it nearer to its roots".into()
+        StyleError::NothingGathered { .. } => {
+            "let the hair grow first, or gather it nearer to its roots".into()
         }
         StyleError::TooLong { .. } => "let it grow less, or cut it first".into(),
         StyleError::Parting(_) => "move the parting so that it lies on the scalp".into(),

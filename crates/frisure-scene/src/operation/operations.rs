@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use frisure_hairstyle::styling::{
     Braid, Clip, Comb, Cut, CutLine, Dry, Grow, Growth, Height, Held, Humidity, Operation, Part,
-    Release, Roll, Straighten, Tie, TiePlace, Twist, Wet,
+    Product, Release, Roll, Sides, Straighten, Tie, TiePlace, Tuck, Twist, Wet,
 };
 use frisure_hairstyle::{Parting, Range};
 
@@ -53,6 +53,21 @@ operations! {
         /// Leaves all hair in air of this relative humidity; {}. Damp air takes a part of sets for good. A hairstyle begins
         /// at 0.6.
         relative: Ratio, in Humidity::RELATIVE, needed "humidity = 0.9";
+    }
+
+    /// Puts a styling product on hair, in place of one that was there. Water washes gel and mousse out.
+    product: Product {
+        example: "product = { kind = \"gel\" }",
+        main: Some("kind"),
+        synonyms: &["gel", "mousse", "oil", "wax", "pomade", "spray"],
+        button: Some(Button { label: "Gel", step: "product = { kind = \"gel\" }" }),
+    } keys {
+        /// Which product.
+        kind: OneOf<Keyword<frisure_hairstyle::Product>>, needed "kind = \"gel\"",
+            set |product, kind| product.kind = kind.0,
+            get |product| Some(Keyword(product.kind));
+        /// How much of it; {}, the usual amount. Default 1.
+        amount: Ratio, in Product::AMOUNT;
     }
 
     /// Cuts hair along one line: `below`, `plane`, `sphere`, `off_skin`, `length` or `gathered`.
@@ -310,6 +325,22 @@ operations! {
         to: Tied,
             set |tie, place| tie.to = place,
             get |tie| (tie.to != TiePlace::Middle).then_some(tie.to);
+    }
+
+    /// Lays hair that hangs in front of an ear behind it, and lets it go there: friction keeps it, where there is some. Hair
+    /// that is too short to reach the place behind the ear stays out.
+    tuck: Tuck {
+        example: "tuck = {}",
+        main: Some("side"),
+        synonyms: &["behind_ear", "ear"],
+        button: Some(Button { label: "Behind the ears", step: "tuck = {}" }),
+    } keys {
+        /// Behind which ear. Default "both".
+        side: OneOf<Keyword<Sides>>,
+            set |tuck, sides| tuck.sides = sides.0,
+            get |tuck| (tuck.sides != Sides::Both).then_some(Keyword(tuck.sides));
+        /// Whether it is held there, as by a pin, until it is released. Default false.
+        hold: Flag;
     }
 
     /// Lets go of what is held.

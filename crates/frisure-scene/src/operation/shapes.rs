@@ -1,7 +1,7 @@
 //! Lines, places and directions that a step can name.
 
-use frisure_hairstyle::styling::{Direction, Height, Held, TiePlace};
-use frisure_hairstyle::{Comb, Level};
+use frisure_hairstyle::styling::{Direction, Height, Held, Sides, TiePlace};
+use frisure_hairstyle::{Comb, Level, Product};
 use glam::DVec3;
 use schemars::{Schema, json_schema};
 use toml::Value;
@@ -32,6 +32,22 @@ keywords! {
     Keyword<Held> {
         "down" => Self(Held::Down), "combed straight down from its root, as in the paper";
         "hanging" => Self(Held::Hanging), "as it hangs";
+    }
+}
+
+keywords! {
+    Keyword<Product> {
+        "gel" => Self(Product::Gel), "a yield stress of 60 Pa, and a film that keeps three quarters of what drying would lose of a held shape";
+        "mousse" => Self(Product::Mousse), "15 Pa, and two fifths";
+        "oil" => Self(Product::Oil), "2 Pa, and less friction; it does not wash out";
+    }
+}
+
+keywords! {
+    Keyword<Sides> {
+        "both" => Self(Sides::Both), "behind both ears";
+        "left" => Self(Sides::Left), "behind the left ear";
+        "right" => Self(Sides::Right), "behind the right ear";
     }
 }
 

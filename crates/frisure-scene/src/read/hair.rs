@@ -28,7 +28,13 @@ pub(super) fn fibre(document: &Document<'_>, preset: &Preset, default: Fibre) ->
     let value = section.axis_ratio();
     // The ratio of the two semi-axes, which are what is kept, has rounding.
     if value > MAX_AXIS_RATIO * (1.0 + 1e-12) {
-        let (quantity, allowed) = ("axis ratio", "at most 20; that of hair is between 1 and 3");
+        let (quantity, allowed) = match document.number("hair.fibre.eccentricity") {
+            Some(_) => (
+                "eccentricity",
+                "at most 0.9987, an axis ratio of 20; that of hair is at most 0.94",
+            ),
+            None => ("axis ratio", "at most 20; that of hair is between 1 and 3"),
+        };
         return Err(refuse(InvalidQuantity { quantity, value, unit: "", allowed }));
     }
     Ok(Fibre {

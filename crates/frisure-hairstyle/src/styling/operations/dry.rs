@@ -50,7 +50,8 @@ impl Apply for Dry {
             wisp.wet(0.0);
             // Only the bonds that water had opened close in the new shape.
             if let Some(held) = &kept[index] {
-                wisp.keep(held.clone(), self.keep * closed);
+                let keep = wisp.product.map_or(self.keep, |product| product.keep(self.keep));
+                wisp.keep(held.clone(), keep * closed);
             }
         }))
     }

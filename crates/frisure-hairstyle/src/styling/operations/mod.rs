@@ -74,6 +74,8 @@ operations! {
     dry::Dry(selection),
     /// Leaves hair in damp or dry air.
     humidity::Humidity(),
+    /// Puts a styling product on hair.
+    product::Product(selection),
     /// Cuts hair. \[paper\] §3.2
     cut::Cut(selection),
     /// Lets hair grow. \[paper\] §3.2, §4.1
@@ -94,6 +96,8 @@ operations! {
     clip::Clip(selection),
     /// Gathers hair with a hair tie, and holds it.
     tie::Tie(selection),
+    /// Lays hair behind the ears.
+    tuck::Tuck(selection),
     /// Lets go of held hair.
     release::Release(selection),
 }
@@ -102,6 +106,7 @@ pub use comb::Direction;
 pub use cut_line::{CutLine, Held};
 pub use grow::Growth;
 pub use tie::TiePlace;
+pub use tuck::Sides;
 
 impl Operation {
     /// Checks every number against its range.

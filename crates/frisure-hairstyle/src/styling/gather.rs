@@ -1,0 +1,146 @@
+//! Hair gathered to one place: each wisp tight around the head to its place in a round bundle.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::error::StyleError;
+use super::settle::{Act, DraftRest};
+use super::taut::taut_length;
+use crate::equilibrium::Effort;
+use crate::hairstyle::{Grip, Hairstyle, Styling};
+use crate::head::Head;
+
+/// Fraction of the cross section in a bundle that is hair. Chosen: hexagonal packing of round fibres has 0.91, a tie does not
+/// order them.
+const PACKING: f64 = 0.7;
+
+/// Hair that is longer than the tight way to the bundle by this share lies on the head without being stretched. Chosen.
+const SLACK: f64 = 0.015;
+
+/// Height (m) at which gathered hair passes over the skin. Chosen.
+const LYING: f64 = 2e-3;
+
+/// Shortest tail (m) beyond the bundle that is held. Chosen: the width of an elastic.
+const SHORTEST_TAIL: f64 = 0.01;
+
+/// Farthest (m) that hair may be from its place in the bundle. Chosen: within the bundle.
+const REACHED: f64 = 0.01;
+
+/// Shortest hair (m) between a root and the bundle: what is rooted beneath it is bent no sharper. Chosen.
+const SHORTEST: f64 = 0.015;
+
+/// Where hair is gathered.
+pub(super) struct Gathering<'a> {
+    /// The middle (m) of a bundle of a radius (m), and the direction (unit) of its axis.
+    pub(super) bundle: &'a dyn Fn(f64) -> (DVec3, DVec3),
+    /// Where (m) hair is held before it goes to a bundle with this axis: off the head, so that none hangs on an ear or before the neck.
+    pub(super) lifted: &'a dyn Fn(DVec3) -> DVec3,
+}
+
+/// Where a ray from far outside towards the middle of the cranium meets the skin (m).
+pub(super) fn onto_skin(head: &Head, direction: DVec3) -> DVec3 {
+    const MOST: usize = 200;
+    let centre = head.landmarks().cranium_centre;
+    let mut reach = 2.0 * head.landmarks().cranium_radii.max_element();
+    for _ in 0..MOST {
+        // Sphere tracing: no skin is nearer than the distance.
+        let distance = head.signed_distance().value(centre + direction * reach);
+        reach -= distance;
+        if distance.abs() < 1e-5 {
+            break;
+        }
+    }
+    centre + direction * reach
+}
+
+/// Points (m) of a round bundle, about evenly spread: the nearest roots inside, each on the side that it comes from.
+struct Bundle {
+    middle: DVec3,
+    axes: [DVec3; 2],
+    radius: f64,
+}
+
+impl Bundle {
+    fn point(&self, rank: usize, count: usize, root: DVec3) -> DVec3 {
+        let reach = self.radius * ((rank as f64 + 0.5) / count as f64).sqrt();
+        let [x, y] = self.axes.map(|axis| axis.dot(root - self.middle));
+        let angle =
+            if x == 0.0 && y == 0.0 { TAU * rank as f64 / count as f64 } else { y.atan2(x) };
+        self.middle + (self.axes[0] * angle.cos() + self.axes[1] * angle.sin()) * reach
+    }
+}
+
+impl Styling {
+    /// The same with a place of some wisps held: their indices, the points (m), and the places along them.
+    fn held_at(&self, places: impl Iterator<Item = (usize, DVec3, f64)>) -> Self {
+        let mut styling = self.clone();
+        for (i, to, at) in places {
+            let wisp = &mut styling.wisps[i];
+            wisp.moved += 1;
+            wisp.grip = Some(Grip::Clip { at, to });
+        }
+        styling
+    }
+}
+
+/// Gathers the chosen wisps that are long enough, and holds them there. What catches on an ear or the neck on its way stays out.
+///
+/// # Errors
+/// [`StyleError::NothingGathered`], if no wisp is long enough.
+pub(super) fn gathered(
+    act: &Act<'_>,
+    chosen: &[bool],
+    to: &Gathering<'_>,
+) -> Result<Hairstyle, StyleError> {
+    let (before, head) = (act.before, act.head);
+    // 1. How much hair each takes to the middle of the bundle, tight around the head.
+    let hairs = before.grown() / before.guides.len() as f64;
+    let area = |i: usize| hairs * before.guides[i].rod.spec().section.area() / PACKING;
+    let (middle, _) = (to.bundle)(0.0);
+    let mut ways: Vec<(usize, f64)> = (0..chosen.len())
+        .into_par_iter()
+        .filter(|&i| chosen[i])
+        .map(|i| (i, taut_length(head, before.guides[i].root.position, middle, LYING)))
+        .collect();
+    let long_enough = |&(i, way): &(usize, f64)| {
+        before.guides[i].rod.length() >= way * (1.0 + SLACK) + SHORTEST_TAIL
+    };
+    let nearest = ways.iter().map(|(_, way)| *way).fold(f64::INFINITY, f64::min);
+    ways.retain(long_enough);
+    if ways.is_empty() {
+        let longest = (0..chosen.len()).filter(|&i| chosen[i]);
+        let longest = longest.map(|i| before.guides[i].rod.length()).fold(0.0, f64::max);
+        return Err(StyleError::NothingGathered { needed: nearest + SHORTEST_TAIL, longest });
+    }
+    // 2. Where in the bundle each lies: the nearest inside.
+    ways.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    let radius = (ways.iter().map(|(i, _)| area(*i)).sum::<f64>() / PI).sqrt();
+    let (middle, axis) = (to.bundle)(radius);
+    let across = axis.any_orthonormal_vector();
+    let bundle = Bundle { middle, axes: [across, axis.cross(across)], radius };
+    let places: Vec<(usize, DVec3, f64)> = ways
+        .par_iter()
+        .enumerate()
+        .map(|(rank, &(i, _))| {
+            let root = before.guides[i].root.position;
+            let to = bundle.point(rank, ways.len(), root);
+            let way = taut_length(head, root, to, LYING).max(SHORTEST) * (1.0 + SLACK);
+            (i, to, (way / before.guides[i].rod.length()).min(1.0))
+        })
+        .collect();
+    // 3. Lifted off the head first, then held there.
+    let lifted = (to.lifted)(axis);
+    let alone = Effort { sweeps: 0, ..Effort::FULL };
+    let hand = Act { draft: Some(DraftRest { effort: alone, stride: 1, like: None }), ..*act };
+    let up = places.iter().map(|&(i, _, at)| (i, lifted, at));
+    let in_hand = hand.with(before.styling.held_at(up))?;
+    // 4. Hair that catches on its way stays out, rather than being held half-way.
+    let tried = hand.on(&in_hand).with(before.styling.held_at(places.iter().copied()))?;
+    let reached = |&(i, to, at): &(usize, DVec3, f64)| {
+        let rest = &tried.rest.guides[i];
+        rest.at(&rest.chain(), at).0.distance(to) <= REACHED
+    };
+    act.on(&in_hand).with(before.styling.held_at(places.into_iter().filter(reached)))
+}
