@@ -124,9 +124,15 @@ impl Source {
 
 /// The range of whole numbers, if that is what the TOML reader refuses: it names the types that it tried.
 fn whole_numbers(message: &str) -> Option<&'static str> {
-    let refused =
-        ["value was too large", "value was too small", "too large to fit", "too small to fit"];
-    refused.iter().any(|end| message.contains(end)).then_some("between -2^63 and 2^63 - 1")
+    let refused = [
+        "as i128",
+        "as u128",
+        "value was too large",
+        "value was too small",
+        "too large to fit",
+        "too small to fit",
+    ];
+    refused.iter().any(|part| message.contains(part)).then_some("between -2^63 and 2^63 - 1")
 }
 
 /// How far a path is written.

@@ -32,6 +32,48 @@ fn a_fault_in_a_scene_is_shown_with_its_line() {
 }
 
 #[test]
+fn a_number_that_nothing_can_have_is_told_with_its_key_and_range() {
+    for (line, place, said) in [
+        (
+            "seed = 99999999999999999999",
+            "1:8",
+            "`seed` is 99999999999999999999; it must be between -2^63",
+        ),
+        (
+            "hair.fibre.eccentricity = 0.9999",
+            "1:27",
+            "`hair.fibre.eccentricity` is 0.9999; it must be at most 0.9987",
+        ),
+        ("hair.fibre.youngs_modulus = 1e18", "1:29", "between 1 MPa and 1000 GPa on a head"),
+        ("hair.fibre.shear_modulus = \"1 kPa\"", "1:28", "between 0.1 MPa and 1000 GPa on a head"),
+        ("hair.fibre.density = \"1000 g/cm^3\"", "1:22", "between 0.01 and 20 g/cm^3 on a head"),
+    ] {
+        let told = about(&format!("{line}\n"), place);
+        assert!(told.contains(said), "{line}: {told}");
+    }
+    let table = "id,s (mm),x (mm),y (mm),z (mm)\n";
+    let ran = room().with("f.csv", table).run(&[
+        "fit",
+        "f.csv",
+        "--known",
+        "stiffness-over-weight=1e300",
+    ]);
+    assert!(ran.code == Some(2) && ran.err.contains(" is 1e300; it must be "), "{}", ran.err);
+}
+
+#[test]
+fn a_quote_that_never_ends_is_told() {
+    let table = "length (cm),radius (mm)\n# \"a remark\n25,\"5\n26,6\n";
+    let ran = room().with("m.csv", table).run(&["measured", "m.csv"]);
+    assert!(ran.code == Some(2) && ran.err.contains("`m.csv` is not"), "{}", ran.err);
+    assert!(
+        ran.err.contains("a cell on line 3 begins with a quote that never ends"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
 fn what_is_long_is_quoted_in_part() {
     let long = "a".repeat(1 << 20);
     for (scene, said) in [
