@@ -3,8 +3,9 @@
 use glam::DVec2;
 use serde::Serialize;
 
+use crate::contrast::SMOOTHING;
 use crate::dense::{Normal, median};
-use crate::lock::{Line, SMOOTHING};
+use crate::lock::Line;
 use crate::measure::Estimate;
 use crate::ridges::{RidgePoint, SCALES};
 use crate::wave::Wave;
@@ -15,8 +16,8 @@ const LEAST_TURN: f64 = 0.8;
 /// Ridge lines, together, that are enough, in waves: fewer tell less than the middle line. Chosen.
 const ENOUGH: f64 = 2.0;
 
-/// Amplitudes of ridge lines over that of the middle line that can be: phases that differ by a radian take 40 %. Chosen.
-const RATIOS: [f64; 2] = [0.9, 1.6];
+/// Largest variance (rad²) of the phases in a lock: more is no lock. Chosen.
+const MOST_VARIANCE: f64 = 1.0;
 
 /// What is seen of the curl, besides the wave. Lengths in metres.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -51,31 +52,25 @@ pub(crate) fn cues(
     pixel: f64,
 ) -> (Cues, Ratio) {
     let k = std::f64::consts::TAU / wave.mean_wavelength();
-    let blur = |square: f64| (0.5 * k * k * square).exp();
-    // The ridge filter blurs on top of what the line has.
-    let wider = blur(SCALES[0] * SCALES[0]);
-    let mut ratios: Vec<(f64, f64)> = ridges
-        .iter()
-        .filter_map(|ridge| amplitude(line, wave, ridge))
-        .map(|(ratio, turns)| (ratio * wider, turns))
-        .collect();
+    let [variance, error] = phase_variance(line, wave);
+    // A spread of phases, and blur along the axis, which is the same, take the factor exp(−σ²/2) from the middle line.
+    let ratio = Ratio { value: (0.5 * variance).exp(), deviation: 0.5 * error };
+    let amplitude = wave.mean_amplitude();
+    // The ridge filter has blurred.
+    let wider = (0.5 * k * k * (SCALES[0] * SCALES[0] + SMOOTHING * SMOOTHING)).exp();
+    let mut ratios: Vec<(f64, f64)> =
+        ridges.iter().filter_map(|ridge| ridge_amplitude(line, wave, ridge)).collect();
+    ratios.iter_mut().for_each(|(ratio, _)| *ratio *= wider);
     ratios.sort_by(|a, b| a.0.total_cmp(&b.0));
     let total: f64 = ratios.iter().map(|r| r.1).sum();
     let middle = weighted_median(&ratios, total);
     let mut off: Vec<f64> = ratios.iter().map(|r| (r.0 - middle).abs()).collect();
     let scatter = 1.48 * median(&mut off) / (ratios.len() as f64).sqrt().max(1.0);
     let enough = total > ENOUGH && middle.is_finite();
-    let amplitude = wave.mean_amplitude() * blur(SMOOTHING * SMOOTHING);
-    let ratio = if enough {
-        let value = middle.clamp(RATIOS[0], RATIOS[1]);
-        Ratio { value, deviation: scatter.hypot(0.3 * (value - 1.0)) }
-    } else {
-        Ratio { value: 1.0, deviation: 0.03 }
-    };
     let points: Vec<&RidgePoint> = ridges.iter().flatten().collect();
     let coherence = points.iter().map(|p| p.coherence).sum::<f64>() / points.len().max(1) as f64;
     let weight: f64 = line.rows.iter().map(|r| r.weight).sum();
-    let spread: f64 = line.rows.iter().map(|r| r.weight * r.spread * r.spread).sum();
+    let spread: f64 = line.rows.iter().map(|r| r.weight * r.variance).sum();
     let cues = Cues {
         line: amplitude * pixel,
         ridges: enough.then(|| Estimate {
@@ -90,8 +85,38 @@ pub(crate) fn cues(
     (cues, ratio)
 }
 
+/// Variance of the phases of the hairs (rad²) with that of blur along the axis, and its standard deviation.
+///
+/// A hair with the phase Φ + δ is off the middle by −A δ sin Φ, so that the variance across the axis is c + σ² A² sin² Φ, with c of hairs that are side by
+/// side: a straight line by A² sin² Φ, fitted to each turn.
+fn phase_variance(line: &Line, wave: &Wave) -> [f64; 2] {
+    let blocks = (wave.turns().floor() as usize).clamp(1, 40);
+    let mut sums = vec![Normal::new(2); blocks];
+    let [from, to] = [wave.phase(wave.ends[0]), wave.phase(wave.ends[1])];
+    for row in &line.rows {
+        if !(wave.ends[0]..=wave.ends[1]).contains(&row.along) {
+            continue;
+        }
+        let at = ((wave.phase(row.along) - from) / (to - from) * blocks as f64) as usize;
+        let (angle, rate) = wave.eccentric(row.along);
+        let lever = (wave.amplitude(row.along) * angle.sin() * rate).powi(2);
+        sums[at.min(blocks - 1)].add(&[1.0, lever], row.variance, row.weight);
+    }
+    let mut found: Vec<f64> =
+        sums.into_iter().filter_map(|sum| sum.damped(1e-9).solve()).map(|x| x[1]).collect();
+    let n = found.len() as f64;
+    if found.is_empty() {
+        return [0.0, MOST_VARIANCE];
+    }
+    let middle = median(&mut found);
+    let mut off: Vec<f64> = found.iter().map(|x| (x - middle).abs()).collect();
+    // Blocks of a lock are alike: their scatter says little of what they have in common.
+    let error = (1.48 * median(&mut off) / n.sqrt()).hypot(0.25 * middle);
+    [middle.clamp(0.0, MOST_VARIANCE), error]
+}
+
 /// Amplitude of a ridge line over that of the wave, and how many waves it covers.
-fn amplitude(line: &Line, wave: &Wave, ridge: &[RidgePoint]) -> Option<(f64, f64)> {
+fn ridge_amplitude(line: &Line, wave: &Wave, ridge: &[RidgePoint]) -> Option<(f64, f64)> {
     let place = |p: &RidgePoint| {
         let d = p.place - line.origin;
         (d.dot(line.axis), d.dot(line.axis.perp()))
@@ -111,7 +136,7 @@ fn amplitude(line: &Line, wave: &Wave, ridge: &[RidgePoint]) -> Option<(f64, f64
     let middle = 0.5 * (low + high);
     for (u, v) in &places {
         let a = wave.amplitude(*u);
-        let (sin, cos) = wave.phase(*u).sin_cos();
+        let (sin, cos) = wave.eccentric(*u).0.sin_cos();
         let row = [1.0, a * cos, a * sin, (u - middle) / (high - low)];
         normal.add(&row[..columns], v - wave.trend(*u), 1.0);
     }

@@ -6,12 +6,10 @@ use crate::abstain::Abstention;
 use crate::contrast::Contrast;
 use crate::filter::Grey;
 
-/// Standard deviation of the Gaussian (pixels) under which the lock is separated from noise. Chosen: about the blur of a lens.
-pub(crate) const SMOOTHING: f64 = 1.0;
-
-/// Side (pixels) of the cells in which pieces of the lock are joined, and how many empty cells may be between them. Chosen.
+/// Side (pixels) of the cells in which pieces of the lock are joined, and how many empty cells may be between them, across and down. Chosen: a hair is lost
+/// where its highlight is as light as the background.
 const CELL: usize = 4;
-const GAP: usize = 4;
+const GAP: [usize; 2] = [6, 16];
 
 /// Part of the strongest contrast that is hair. Chosen.
 const HAIR: f64 = 0.2;
@@ -30,7 +28,7 @@ const SLENDER: f64 = 4.0;
 pub(crate) struct Lock {
     /// Position (pixels) and contrast above the threshold.
     pub(crate) pixels: Vec<(DVec2, f64)>,
-    /// Contrast, smoothed; 0 outside of the lock.
+    /// Contrast; 0 outside of the lock.
     pub(crate) grey: Grey,
 }
 
@@ -50,8 +48,8 @@ pub(crate) struct Row {
     pub(crate) along: f64,
     /// Mean across the axis (pixels).
     pub(crate) across: f64,
-    /// Deviation of the contrast about the mean (pixels).
-    pub(crate) spread: f64,
+    /// Variance of the contrast about the mean (square pixels).
+    pub(crate) variance: f64,
     /// What the row counts.
     pub(crate) weight: f64,
 }
@@ -59,11 +57,11 @@ pub(crate) struct Row {
 impl Lock {
     /// The largest thing that differs from the background.
     pub(crate) fn find(contrast: &Contrast) -> Result<Self, Abstention> {
-        let mut grey = contrast.grey.gaussian(SMOOTHING, 0, 0);
+        let mut grey = contrast.grey.clone();
         let mut sorted = grey.values.clone();
         let strongest = sorted.len() - 1 - (sorted.len() / 1000).min(2000);
         let top = f64::from(*sorted.select_nth_unstable_by(strongest, f32::total_cmp).1);
-        let threshold = (HAIR * top).max(0.5 * contrast.noise).max(0.008) as f32;
+        let threshold = (HAIR * top).max(1.5 * contrast.noise).max(0.003) as f32;
         grey.values.iter_mut().for_each(|v| *v = (*v - threshold).max(0.0));
         let count = grey.values.iter().filter(|v| **v > 0.0).count();
         let part = count as f64 / grey.values.len() as f64;
@@ -138,7 +136,7 @@ impl Lock {
             Row {
                 along: first + i as f64,
                 across,
-                spread: (s[2] / s[0] - across * across).max(0.0).sqrt(),
+                variance: (s[2] / s[0] - across * across).max(0.0),
                 weight: (s[0] / usual).min(1.0),
             }
         };
@@ -183,8 +181,8 @@ impl Cells {
             while let Some(cell) = stack.pop() {
                 size += weights[cell];
                 let (x, y) = (cell % columns, cell / columns);
-                for v in y.saturating_sub(GAP)..(y + GAP + 1).min(rows) {
-                    for u in x.saturating_sub(GAP)..(x + GAP + 1).min(columns) {
+                for v in y.saturating_sub(GAP[1])..(y + GAP[1] + 1).min(rows) {
+                    for u in x.saturating_sub(GAP[0])..(x + GAP[0] + 1).min(columns) {
                         let next = v * columns + u;
                         if labels[next] == 0 && weights[next] > 0.0 {
                             labels[next] = label;

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::abstain::Abstention;
 use crate::contrast::Contrast;
 use crate::cues::{Cues, Ratio, cues};
-use crate::lock::{Line, Lock, SMOOTHING};
+use crate::lock::{Line, Lock};
 use crate::photo::Photo;
 use crate::ridges::ridge_lines;
 use crate::scale::Scale;
@@ -26,17 +26,13 @@ const LEAST_WAVELENGTH: f64 = 12.0;
 pub(crate) const LEAST_EXPLAINED: f64 = 0.6;
 
 /// Largest standard deviation of radius or pitch, as a part of it. Tuned on renders with seeds below 1000.
-pub(crate) const MOST_DEVIATION: f64 = 0.12;
+pub(crate) const MOST_DEVIATION: f64 = 0.1;
 
 /// Deviation from a straight line, over its length, below which a line without a clear wave is straight. Chosen.
 const STRAIGHT: f64 = 0.02;
 
 /// What is left over by a second wave beside what is left by the first, at which both are equally likely. Chosen.
 const EQUALLY_LIKELY: f64 = 1.25;
-
-/// Blur of the photo itself: standard deviation (pixels), and its own error. Chosen: a lens and a sensor in focus.
-const BLUR: f64 = 0.7;
-const BLUR_ERROR: f64 = 0.4;
 
 /// Part of a wave next to the root that is left out: there the lock is still held. Chosen.
 const HELD: f64 = 0.4;
@@ -323,14 +319,7 @@ fn clear(found: &Found, reduction: f64, pixel: f64) -> Result<(), Abstention> {
 
 impl Seen {
     fn new(line: &Line, wave: &Wave, ratio: Ratio, cues: Cues, pixel: f64) -> Self {
-        // A Gaussian of deviation σ takes the factor exp(−k²σ²/2) from a wave.
-        let k = std::f64::consts::TAU / wave.mean_wavelength();
-        let square = SMOOTHING * SMOOTHING + BLUR * BLUR;
-        let blur_error = k * k * BLUR * BLUR_ERROR;
-        let widening = [
-            ratio.value * (0.5 * k * k * square).exp(),
-            ratio.deviation.hypot(blur_error).hypot(UNSEEN),
-        ];
+        let widening = [ratio.value, ratio.deviation.hypot(UNSEEN)];
         let rows = &line.rows;
         let [head, foot] = [rows[0].along, rows[rows.len() - 1].along];
         let from = wave.ends[0];

@@ -168,16 +168,21 @@ impl Hanging<'_> {
             .collect()
     }
 
-    /// The line of a fibre that is clamped at its upper end, pointing down (m).
+    /// The line of a fibre that is clamped at its upper end (m).
     fn line(&self, x: [f64; 2], gravity: f64) -> Option<Vec<DVec3>> {
         let Fibre { section, material, torsion, .. } = *self.fibre;
+        // Held so that the axis of its natural helix, along κ d1 + τ t, hangs down.
+        let [curvature, twist] = strain(x);
+        let (sin, cos) = curvature.atan2(twist).sin_cos();
+        let tangent = DVec3::new(sin, 0.0, -cos);
+        let root = Root::from_tangent(DVec3::ZERO, tangent, DVec3::new(-cos, 0.0, -sin)).ok()?;
         let rod = Rod::new(RodSpec {
             length: self.length,
             section,
             material,
             torsion,
             natural: NaturalStrain::helix(x[0].exp(), x[1].exp()).ok()?,
-            root: Root::from_tangent(DVec3::ZERO, DVec3::NEG_Z, DVec3::X).ok()?,
+            root,
             load: Load::down(GRAVITY * gravity),
         })
         .ok()?;
@@ -188,7 +193,6 @@ impl Hanging<'_> {
             eigenvalue: false,
             ..Options::default()
         };
-        let [curvature, twist] = strain(x);
         let turns = self.length * curvature.hypot(twist) / TAU;
         let points = (PER_TURN * turns).clamp(200.0, 6000.0) as usize;
         Some(equilibrium(&rod, &[], &options).centre_line(points))

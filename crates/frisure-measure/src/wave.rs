@@ -1,11 +1,12 @@
 //! A wave whose length and height change slowly along a line, fitted to samples of it.
 //!
 //! ```text
-//! v(u) = p(t) + A(t) cos Φ(t),   Φ(t) = φ + ∫ k du,   ln k and ln A polynomials of third degree in t,
+//! v(u) = p(t) + A(t) cos E,   E + σ k A sin E = Φ(t) = φ + ∫ k du,   ln k and ln A polynomials of third degree in t,
 //! ```
 //!
-//! with t from −1 to 1 over the samples and p of second degree: the side view of a helix about a line, whose radius A and
-//! pitch 2π/k change along it.
+//! with t from −1 to 1 over the samples and p of third degree: the side view of a helix about a line, whose radius A and
+//! pitch 2π/k change along it. σ is the sine of the angle between the line and the picture: the far side of a helix that leans away is seen higher than
+//! its near side, by which the wave is skewed (Kepler's equation).
 
 use crate::dense::Normal;
 
@@ -20,18 +21,26 @@ pub(crate) struct Sample {
 /// Coefficients of ln k and of ln A: Legendre polynomials up to the third degree.
 pub(crate) const DEGREES: usize = 4;
 
-/// Coefficients of the trend.
-const TREND: usize = 3;
+/// Coefficients of the trend: an axis with a bow.
+const TREND: usize = 4;
 
-/// Unknowns: trend, ln k, ln A, phase.
-const UNKNOWNS: usize = TREND + 2 * DEGREES + 1;
+/// Unknowns: trend, ln k, ln A, phase, lean.
+const UNKNOWNS: usize = TREND + 2 * DEGREES + 2;
+const PHASE: usize = UNKNOWNS - 2;
+const LEAN: usize = UNKNOWNS - 1;
+
+/// Sine of the angle between the line and the picture: standard deviation of what is expected before. Chosen: 6°.
+const EXPECTED_LEAN: f64 = 0.1;
+
+/// Largest skew σ k A: at 1 a wave would overhang. Chosen.
+const MOST_SKEW: f64 = 0.9;
 
 /// How much ln k and ln A change along a lock, by degree: standard deviations of what is expected before. Chosen: a hanging lock whose pitch doubles from tip
 /// to root has 0.35 in the first.
 const EXPECTED: [f64; DEGREES] = [f64::INFINITY, 0.5, 0.2, 0.1];
 
-/// Bow of the axis, of the amplitude: standard deviation of what is expected before. Chosen.
-const EXPECTED_BOW: f64 = 0.5;
+/// Bow of the axis by degree from 2, of the amplitude and for each turn: standard deviation of what is expected before. Chosen: a short wave is not a bow.
+const EXPECTED_BOW: [f64; 2] = [0.25, 0.1];
 
 /// Samples of the line in a wavelength that count as independent. Chosen: what a lock's line deviates by is correlated along it.
 const INDEPENDENT: f64 = 8.0;
@@ -47,7 +56,7 @@ const HUBER: f64 = 2.0;
 pub(crate) struct Wave {
     /// First and last place.
     pub(crate) ends: [f64; 2],
-    /// Trend, ln k, ln A, phase.
+    /// Trend, ln k, ln A, phase, lean.
     x: [f64; UNKNOWNS],
     /// Places, evenly spaced, and the integral of k P_j from the middle to each.
     step: f64,
@@ -120,7 +129,7 @@ impl Wave {
 
     /// Phase at a place.
     pub(crate) fn phase(&self, u: f64) -> f64 {
-        self.x[UNKNOWNS - 1] + self.integrals(u)[0]
+        self.x[PHASE] + self.integrals(u)[0]
     }
 
     /// The axis at a place.
@@ -135,7 +144,17 @@ impl Wave {
 
     /// The line at a place.
     pub(crate) fn value(&self, u: f64) -> f64 {
-        self.trend(u) + self.amplitude(u) * self.phase(u).cos()
+        self.trend(u) + self.amplitude(u) * self.eccentric(u).0.cos()
+    }
+
+    /// The angle E about the axis at a place, and dE/dΦ.
+    pub(crate) fn eccentric(&self, u: f64) -> (f64, f64) {
+        eccentric(self.phase(u), self.skew(u))
+    }
+
+    /// σ k A at a place.
+    fn skew(&self, u: f64) -> f64 {
+        (self.x[LEAN] * self.wave_number(u) * self.amplitude(u)).clamp(-MOST_SKEW, MOST_SKEW)
     }
 
     /// Number of waves.
@@ -201,13 +220,16 @@ impl Wave {
         for s in samples {
             let p = legendre(self.unit(s.u));
             let a = self.amplitude(s.u);
-            let (sin, cos) = self.phase(s.u).sin_cos();
-            normal.add(&[p[0], p[1], p[2], a * cos, a * sin], s.v, s.weight);
+            let (sin, cos) = self.eccentric(s.u).0.sin_cos();
+            normal.add(&[p[0], p[1], p[2], p[3], a * cos, a * sin], s.v, s.weight);
         }
+        let unit: f64 = samples.iter().map(|s| s.weight).sum();
+        // A bow costs something, so that it does not take the place of a wave.
+        (2..TREND).for_each(|i| normal.pull(i, 0.0, 0.02 * unit));
         let found = normal.damped(1e-9).solve()?;
         self.x[..TREND].copy_from_slice(&found[..TREND]);
         let (cos, sin) = (found[TREND], found[TREND + 1]);
-        self.x[UNKNOWNS - 1] += (-sin).atan2(cos);
+        self.x[PHASE] += (-sin).atan2(cos);
         self.x[TREND + DEGREES] += cos.hypot(sin).max(1e-12).ln();
         Some(())
     }
@@ -303,7 +325,11 @@ impl Wave {
     /// Weight of what is expected before of each unknown.
     fn priors(&self) -> [f64; UNKNOWNS] {
         let mut weights = [0.0; UNKNOWNS];
-        weights[2] = (EXPECTED_BOW * self.mean_amplitude()).max(1e-12).powi(-2);
+        let unit = self.mean_amplitude() * self.turns().max(1.0);
+        for (i, expected) in EXPECTED_BOW.iter().enumerate() {
+            weights[2 + i] = (expected * unit).max(1e-12).powi(-2);
+        }
+        weights[LEAN] = EXPECTED_LEAN.powi(-2);
         for (i, expected) in EXPECTED.iter().enumerate() {
             weights[TREND + i] = expected.powi(-2);
             weights[TREND + DEGREES + i] = expected.powi(-2);
@@ -329,14 +355,19 @@ impl Wave {
             let p = legendre(self.unit(s.u));
             let a = sum(self.ln_a(), &p).exp();
             let integrals = self.integrals(s.u);
-            let (sin, cos) = (self.x[UNKNOWNS - 1] + integrals[0]).sin_cos();
+            let skew = self.skew(s.u);
+            let (angle, rate) = eccentric(self.x[PHASE] + integrals[0], skew);
+            let (sin, cos) = angle.sin_cos();
+            // ∂E/∂Φ is `rate`, ∂E/∂(skew) is −sin E · rate, and the skew is proportional to k and A.
+            let (by_phase, by_skew) = (-a * sin * rate, a * sin * sin * rate);
             let mut row = [0.0; UNKNOWNS];
             row[..TREND].copy_from_slice(&p[..TREND]);
             for j in 0..DEGREES {
-                row[TREND + j] = -a * sin * integrals[j];
-                row[TREND + DEGREES + j] = a * cos * p[j];
+                row[TREND + j] = by_phase * integrals[j] + by_skew * skew * p[j];
+                row[TREND + DEGREES + j] = (a * cos + by_skew * skew) * p[j];
             }
-            row[UNKNOWNS - 1] = -a * sin;
+            row[PHASE] = by_phase;
+            row[LEAN] = by_skew * a * self.wave_number(s.u);
             let rest = s.v - sum(&self.x[..TREND], &p) - a * cos;
             let huber = (HUBER * scale / rest.abs().max(1e-300)).min(1.0);
             normal.add(&row, rest, share * s.weight * huber / (scale * scale));
@@ -370,6 +401,22 @@ impl Wave {
         self.residual = (rest / total).sqrt();
         self.explained = 1.0 - rest / all.max(1e-300);
     }
+}
+
+/// E and dE/dΦ with E + e sin E = Φ, by Newton's method.
+fn eccentric(phase: f64, e: f64) -> (f64, f64) {
+    let mut angle = phase - e * phase.sin();
+    if e != 0.0 {
+        for _ in 0..8 {
+            let (sin, cos) = angle.sin_cos();
+            let step = (angle + e * sin - phase) / (1.0 + e * cos);
+            angle -= step;
+            if step.abs() < 1e-12 {
+                break;
+            }
+        }
+    }
+    (angle, (1.0 + e * angle.cos()).recip())
 }
 
 /// An angle between −π and π.

@@ -11,7 +11,7 @@ use frisure::rod::{
     Load, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, SplitMix64, equilibrium,
 };
 use frisure::strands::Strands;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DMat3, DVec2, DVec3, Vec3};
 
 use crate::Stopped;
 use crate::random::stream;
@@ -70,43 +70,60 @@ fn lock(random: &mut SplitMix64) -> Result<(KnownLock, Vec<DVec3>), Stopped> {
     let ratio = (kind.axis_ratio + kind.axis_ratio_deviation * normal(random)).max(1.0);
     let (material, torsion) = (mean.material, mean.torsion);
     let section = Section::from_diameter(diameter, ratio)?;
-    // Held within 20° of the vertical.
-    let about = random.between(0.0, TAU);
-    let lean = random.between(0.0, 20_f64.to_radians());
-    let across = DVec3::new(about.cos(), about.sin(), 0.0);
-    let tangent = DVec3::NEG_Z * lean.cos() + across * lean.sin();
+    let root = held(natural, random)?;
     let rod = Rod::new(RodSpec {
         length,
         section,
         material,
         torsion,
         natural: NaturalStrain::helix(natural[0], natural[1])?,
-        root: Root::from_tangent(DVec3::ZERO, tangent, random.direction())?,
+        root,
         load: Load::down(9.806_65),
     })?;
     let options = Options { resolution: Resolution::Accuracy(5e-5), ..Options::default() };
-    let points = (length / turn * 60.0).max(200.0) as usize;
+    let per_turn = 60;
+    let points = (length / turn * f64::from(per_turn)).max(200.0) as usize;
     let line = equilibrium(&rod, &[], &options).centre_line(points);
     let hairs = if random.unit() < 0.35 { 1 } else { random.decades(3.0, 40.0) as usize };
     let fibre = Fibre { section, material, torsion, spread: 0.0 };
-    let (hanging, turns) = helix(&line);
+    let (hanging, turns) = helix(&line, per_turn as usize);
     Ok((KnownLock { preset, natural, length, fibre, hairs, hanging, turns }, line))
 }
 
-/// Radius and pitch (m) of a line that hangs as a helix, without its upper tenth, and its turns.
-fn helix(line: &[DVec3]) -> ([f64; 2], f64) {
+/// Largest angle between the vertical and the axis of the natural helix where a lock is held (degrees). Chosen: who photographs a curl turns it until it hangs
+/// straight down.
+const LEAN: f64 = 10.0;
+
+/// The clamp of a helix whose axis hangs down within [`LEAN`].
+fn held([radius, pitch]: [f64; 2], random: &mut SplitMix64) -> Result<Root, Stopped> {
+    let [about, around] = [0, 1].map(|_| random.between(0.0, TAU));
+    let lean = random.between(0.0, LEAN.to_radians());
+    // The axis of the helix is along κ d1 + τ t.
+    let (sin, cos) = (TAU * radius / pitch).atan().sin_cos();
+    let turn = DMat3::from_rotation_z(about) * DMat3::from_rotation_y(lean) * DMat3::from_rotation_z(around);
+    let tangent = turn * DVec3::new(sin, 0.0, -cos);
+    Ok(Root::from_tangent(DVec3::ZERO, tangent, turn * DVec3::new(-cos, 0.0, -sin))?)
+}
+
+/// Radius and pitch (m) of a line that hangs as a helix, without its upper tenth, and its turns; the axis is the mean over a turn.
+fn helix(line: &[DVec3], turn: usize) -> ([f64; 2], f64) {
     let seen = &line[line.len() / 10..];
-    let axis = axis(seen);
+    let mean = |i: usize| seen[i..i + turn].iter().sum::<DVec3>() / turn as f64;
     let mut turned = 0.0;
-    let mut square = 0.0;
-    for pair in seen.windows(3) {
-        let (a, b) = ((pair[1] - pair[0]).truncate(), (pair[2] - pair[1]).truncate());
-        turned += a.angle_to(b);
-        square += (pair[1].truncate() - axis).length_squared();
+    for t in seen.windows(3) {
+        turned += (t[1] - t[0]).truncate().angle_to((t[2] - t[1]).truncate());
     }
     let turns = turned.abs() / TAU;
-    let drop = seen[0].z - seen[seen.len() - 1].z;
-    ([(square / (seen.len() - 2) as f64).sqrt(), drop / turns], turns)
+    let axis: Vec<DVec3> = (0..=seen.len().saturating_sub(turn)).map(mean).collect();
+    let (mut square, mut count) = (0.0, 0.0);
+    for (i, pair) in axis.windows(2).enumerate() {
+        let along = (pair[1] - pair[0]).normalize_or_zero();
+        square += (seen[i + turn / 2] - pair[0]).reject_from_normalized(along).length_squared();
+        count += 1.0;
+    }
+    let length: f64 = axis.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    let whole = length * (seen.len() - 1) as f64 / f64::max(count, 1.0);
+    ([(square / f64::max(count, 1.0)).sqrt(), whole / turns], turns)
 }
 
 fn axis(line: &[DVec3]) -> DVec2 {
