@@ -3,6 +3,19 @@
 use serde::Serialize;
 use thiserror::Error;
 
+/// Least number of waves. Chosen: fewer do not tell a wave from a bow.
+pub(crate) const LEAST_WAVES: f64 = 1.5;
+
+/// Least amplitude and wavelength (pixels of the photo). Chosen.
+pub(crate) const LEAST_AMPLITUDE: f64 = 3.0;
+pub(crate) const LEAST_WAVELENGTH: f64 = 12.0;
+
+/// Least part of the line's variance about its axis that the wave explains. Tuned on renders with seeds below 1000.
+pub(crate) const LEAST_EXPLAINED: f64 = 0.6;
+
+/// Largest standard deviation of radius or pitch, as a part of it. Tuned on renders with seeds below 1000.
+pub(crate) const MOST_DEVIATION: f64 = 0.1;
+
 /// Why no radius and pitch are given.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Serialize)]
 #[serde(tag = "reason", rename_all = "snake_case")]
@@ -43,7 +56,9 @@ pub enum Abstention {
         waves: f64,
     },
     /// The waves are too small for the picture.
-    #[error("the waves are {amplitude:.1} px high and {wavelength:.1} px long (at least 3 px and 12 px are needed)")]
+    #[error(
+        "the waves are {amplitude:.1} px high and {wavelength:.1} px long (at least 3 px and 12 px are needed)"
+    )]
     Coarse {
         /// Amplitude (pixels of the photo).
         amplitude: f64,
@@ -51,7 +66,7 @@ pub enum Abstention {
         wavelength: f64,
     },
     /// No wave explains the line of the lock.
-    #[error("no wave runs along the lock: the best explains {:.0} % of its line (at least {:.0} % are needed)", 100.0 * explained, 100.0 * crate::measure::LEAST_EXPLAINED)]
+    #[error("no wave runs along the lock: the best explains {:.0} % of its line (at least {:.0} % are needed)", 100.0 * explained, 100.0 * LEAST_EXPLAINED)]
     NoWave {
         /// Part of the line's variance that is explained.
         explained: f64,
@@ -65,7 +80,7 @@ pub enum Abstention {
         second: f64,
     },
     /// The error bars are too wide.
-    #[error("the error bars are too wide: {:.0} % of the radius, {:.0} % of the pitch (at most {:.0} %)", 100.0 * radius, 100.0 * pitch, 100.0 * crate::measure::MOST_DEVIATION)]
+    #[error("the error bars are too wide: {:.0} % of the radius, {:.0} % of the pitch (at most {:.0} %)", 100.0 * radius, 100.0 * pitch, 100.0 * MOST_DEVIATION)]
     Uncertain {
         /// Standard deviation of the radius over the radius.
         radius: f64,
@@ -84,13 +99,17 @@ impl Abstention {
             }
             Self::NoHair => "use a background that is much lighter or darker than the hair",
             Self::Crowded { .. } => "leave background free on both sides of the lock; see --crop",
-            Self::Several { .. } => "give --crop x,y,width,height around one lock, without the ruler",
+            Self::Several { .. } => {
+                "give --crop x,y,width,height around one lock, without the ruler"
+            }
             Self::Straight { .. } => "nothing is wrong with the picture if the hair is straight",
             Self::FewWaves { .. } => "photograph a longer lock",
             Self::Coarse { .. } => "go nearer, so that a wave is 12 px long and 6 px wide at least",
             Self::NoWave { .. } => "take fewer hairs that run together, or a single one",
             Self::Ambiguous { .. } => "take fewer hairs, or a single one",
-            Self::Uncertain { .. } => "photograph a longer lock or from nearer; --length and --type tell more of the fibre",
+            Self::Uncertain { .. } => {
+                "photograph a longer lock or from nearer; --length and --type tell more of the fibre"
+            }
         }
     }
 }

@@ -37,16 +37,15 @@ impl Contrast {
     pub(crate) fn new(photo: &Photo) -> Result<Self, Abstention> {
         let (w, h) = (photo.width(), photo.height());
         let step = ((w * h / SAMPLES) as f64).sqrt().floor().max(1.0) as usize;
-        let all: Vec<(usize, usize)> = (0..h)
-            .step_by(step)
-            .flat_map(|y| (0..w).step_by(step).map(move |x| (x, y)))
-            .collect();
+        let all: Vec<(usize, usize)> =
+            (0..h).step_by(step).flat_map(|y| (0..w).step_by(step).map(move |x| (x, y))).collect();
         let (side, foot) = ((BORDER * w as f64).ceil(), (BORDER * h as f64).ceil());
         let at_border = |&&(x, y): &&(usize, usize)| {
             (x as f64) < side || (x as f64) >= w as f64 - side || (y as f64) >= h as f64 - foot
         };
         let border: Vec<(usize, usize)> = all.iter().filter(at_border).copied().collect();
-        let mut background = Background { width: w, height: h, terms: FEW, colours: [[0.0; MANY]; 3] };
+        let mut background =
+            Background { width: w, height: h, terms: FEW, colours: [[0.0; MANY]; 3] };
         let mut deviation = background.refine(photo, &border, f64::INFINITY);
         for _ in 0..8 {
             deviation = background.refine(photo, &border, (3.0 * deviation).max(0.01));
@@ -93,7 +92,8 @@ impl Background {
         let unit = |x: usize, size: usize| 2.0 * x as f64 / size as f64 - 1.0;
         let (u, v) = (unit(x, self.width), unit(y, self.height));
         let (u2, v2) = (u * u, v * v);
-        let [few, cubic] = [[1.0, u, v, u2, u * v, v2], [u2 * u, u2 * v, u * v2, v2 * v, u2 * u2, 0.0]];
+        let [few, cubic] =
+            [[1.0, u, v, u2, u * v, v2], [u2 * u, u2 * v, u * v2, v2 * v, u2 * u2, 0.0]];
         let quartic = [u2 * u * v, u2 * v2, u * v2 * v, v2 * v2];
         let mut row = [0.0; MANY];
         row[..6].copy_from_slice(&few);

@@ -14,6 +14,7 @@ mod abstain;
 mod contrast;
 mod cues;
 mod dense;
+mod estimate;
 mod filter;
 mod lock;
 mod measure;
@@ -29,7 +30,8 @@ mod wave;
 
 pub use abstain::Abstention;
 pub use cues::Cues;
-pub use measure::{Drawing, Estimate, Hang, Measurement, Options, Outcome, measure};
+pub use estimate::Estimate;
+pub use measure::{Drawing, Hang, Measurement, Options, Outcome, measure};
 pub use overlay::draw;
 pub use photo::{Crop, LEAST_SIDE, Photo, PhotoError};
 pub use report::{scene, table};

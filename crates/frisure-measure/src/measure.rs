@@ -4,9 +4,12 @@ use frisure_progress::{Cancelled, Progress};
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::abstain::Abstention;
+use crate::abstain::{
+    Abstention, LEAST_AMPLITUDE, LEAST_EXPLAINED, LEAST_WAVELENGTH, LEAST_WAVES, MOST_DEVIATION,
+};
 use crate::contrast::Contrast;
 use crate::cues::{Cues, Ratio, cues};
+use crate::estimate::Estimate;
 use crate::lock::{Line, Lock};
 use crate::photo::Photo;
 use crate::ridges::ridge_lines;
@@ -14,19 +17,6 @@ use crate::scale::Scale;
 use crate::search::{Found, search};
 use crate::statics::{Fibre, Hanging, Natural, OBSERVED, observables};
 use crate::wave::{Sample, Wave};
-
-/// Least number of waves.
-const LEAST_WAVES: f64 = 1.5;
-
-/// Least amplitude and wavelength (pixels of the photo).
-const LEAST_AMPLITUDE: f64 = 3.0;
-const LEAST_WAVELENGTH: f64 = 12.0;
-
-/// Least part of the line's variance about its axis that the wave explains. Tuned on renders with seeds below 1000.
-pub(crate) const LEAST_EXPLAINED: f64 = 0.6;
-
-/// Largest standard deviation of radius or pitch, as a part of it. Tuned on renders with seeds below 1000.
-pub(crate) const MOST_DEVIATION: f64 = 0.1;
 
 /// Deviation from a straight line, over its length, below which a line without a clear wave is straight. Chosen.
 const STRAIGHT: f64 = 0.02;
@@ -39,27 +29,6 @@ const HELD: f64 = 0.4;
 
 /// What no picture tells, as a part of radius and pitch: the scale, the lens, the tilt of the lock towards the camera (cos 5° is 0.996). Chosen.
 const UNSEEN: f64 = 0.01;
-
-/// A number with its standard deviation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Estimate {
-    /// The number.
-    pub value: f64,
-    /// Its standard deviation.
-    pub deviation: f64,
-}
-
-impl Estimate {
-    /// The bounds of the interval that contains the truth with a probability of 95 %.
-    #[must_use]
-    pub fn bounds(&self) -> [f64; 2] {
-        [self.value - 1.96 * self.deviation, self.value + 1.96 * self.deviation]
-    }
-
-    fn of_logarithm(value: f64, deviation: f64) -> Self {
-        Self { value, deviation: value * deviation }
-    }
-}
 
 /// Whether weight stretched the lock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -186,7 +155,8 @@ fn look(
         let of = |working: f64, corner: usize| corner as f64 + (working + 0.5) * reduction - 0.5;
         [of(p.x, x), of(p.y, y)]
     };
-    drawing.ridges = ridges.iter().map(|line| line.iter().map(|p| original(p.place)).collect()).collect();
+    drawing.ridges =
+        ridges.iter().map(|line| line.iter().map(|p| original(p.place)).collect()).collect();
     step(0.4)?;
     let (line, found) = match follow(&lock, options.hang) {
         Ok(found) => found,
@@ -196,7 +166,8 @@ fn look(
     let ends = wave.ends;
     let at = |i: usize| ends[0] + (ends[1] - ends[0]) * i as f64 / 600.0;
     drawing.curve = (0..=600).map(|i| original(line.place(at(i), wave.value(at(i))))).collect();
-    drawing.axis = (0..=600).step_by(20).map(|i| original(line.place(at(i), wave.trend(at(i))))).collect();
+    drawing.axis =
+        (0..=600).step_by(20).map(|i| original(line.place(at(i), wave.trend(at(i))))).collect();
     step(0.6)?;
     let pixel = photo.reduction() as f64 / options.scale.pixels_per_metre();
     if let Err(why) = clear(&found, photo.reduction() as f64, pixel) {
@@ -242,7 +213,8 @@ fn follow(lock: &Lock, hang: Hang) -> Result<(Line, Found), Unseen> {
     for _ in 0..3 {
         let line = lock.line(origin, axis);
         let samples = samples(&line, held);
-        let [Some(first), Some(end)] = [samples.first(), samples.last()].map(|s| s.map(|s| s.u)) else {
+        let [Some(first), Some(end)] = [samples.first(), samples.last()].map(|s| s.map(|s| s.u))
+        else {
             return Err(Unseen::Nothing(Abstention::NoHair));
         };
         let length = end - first;
@@ -290,7 +262,8 @@ fn no_wave(samples: &[Sample], length: f64, wave: Option<&Wave>) -> Unseen {
     }
     let fit = normal.damped(1e-9).solve().unwrap_or(vec![0.0; 2]);
     let total: f64 = samples.iter().map(|s| s.weight).sum();
-    let square: f64 = samples.iter().map(|s| s.weight * (s.v - fit[0] - fit[1] * s.u).powi(2)).sum();
+    let square: f64 =
+        samples.iter().map(|s| s.weight * (s.v - fit[0] - fit[1] * s.u).powi(2)).sum();
     Unseen::Line {
         deviation: (square / total).sqrt(),
         length,
@@ -347,8 +320,12 @@ impl Seen {
         let [from, to] = self.wave.ends;
         let block = |s: &Sample| ((s.u - from) / (to - from) * blocks as f64) as usize;
         let without = |left_out: usize| {
-            let kept: Vec<Sample> =
-                self.samples.iter().filter(|s| block(s).min(blocks - 1) != left_out).copied().collect();
+            let kept: Vec<Sample> = self
+                .samples
+                .iter()
+                .filter(|s| block(s).min(blocks - 1) != left_out)
+                .copied()
+                .collect();
             let mut wave = self.wave.clone();
             wave.refine(&kept)?;
             Some(wave)
@@ -363,9 +340,7 @@ impl Seen {
     ) -> Result<Result<Measurement, Abstention>, Cancelled> {
         let replicates = self.replicates();
         let wave = &self.wave;
-        let of = |wave: &Wave| {
-            [wave.mean_amplitude().ln(), wave.mean_wavelength().ln()]
-        };
+        let of = |wave: &Wave| [wave.mean_amplitude().ln(), wave.mean_wavelength().ln()];
         let deviations = jackknife(&replicates, &of(wave), of);
         let [widening, widening_error] = self.widening;
         let apparent_radius = Estimate::of_logarithm(
@@ -416,12 +391,15 @@ impl Seen {
         let [from, to] = self.wave.ends;
         let above_tip = [self.foot - to, self.foot - from];
         let hanging = Hanging { fibre: &options.fibre, length, above_tip };
-        let Some(Natural { x, gain }) = hanging.solve(&seen, &deviations, 1.0, None, progress)? else {
+        let Some(Natural { x, gain }) = hanging.solve(&seen, &deviations, 1.0, None, progress)?
+        else {
             return Ok(None);
         };
         let mapped = |wave: &Wave| {
             let other = widened(wave);
-            let by = |row: usize| (0..OBSERVED).map(|i| gain[row][i] * (other[i] - seen[i])).sum::<f64>();
+            let by = |row: usize| {
+                (0..OBSERVED).map(|i| gain[row][i] * (other[i] - seen[i])).sum::<f64>()
+            };
             [by(0), by(1)]
         };
         let image = jackknife(replicates, &[0.0; 2], mapped);

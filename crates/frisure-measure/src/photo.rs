@@ -37,7 +37,9 @@ pub enum PhotoError {
         found: usize,
     },
     /// The photo or its crop is too small.
-    #[error("{width} x {height} pixels are too few; a photo has at least {LEAST_SIDE} x {LEAST_SIDE}")]
+    #[error(
+        "{width} x {height} pixels are too few; a photo has at least {LEAST_SIDE} x {LEAST_SIDE}"
+    )]
     Small {
         /// Pixels across.
         width: usize,

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::measure::{Estimate, Hang, Measurement};
+use crate::estimate::Estimate;
+use crate::measure::{Hang, Measurement};
 
 /// The measurement as a table with bounds of 95 %.
 #[must_use]
@@ -58,7 +59,10 @@ pub fn scene(found: &Measurement, hair_type: &str, source: &str) -> Option<Strin
     for (name, estimate) in [("radius", radius), ("pitch", pitch)] {
         let [low, high] = estimate.bounds().map(|x| 1e3 * x);
         let value = 1e3 * estimate.value;
-        let _ = writeln!(out, "{name} = \"{value:.3} mm\" # without weight; 95 %: {low:.2} to {high:.2} mm");
+        let _ = writeln!(
+            out,
+            "{name} = \"{value:.3} mm\" # without weight; 95 %: {low:.2} to {high:.2} mm"
+        );
     }
     Some(out)
 }

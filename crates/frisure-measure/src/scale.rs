@@ -16,7 +16,9 @@ pub enum ScaleError {
     #[error("it has no unit; it must be such as \"52 px/mm\"")]
     NoUnit,
     /// The unit is not known.
-    #[error("`{0}` is no unit of a scale; the units are px/mm, px/cm, px/m, px/in, dpi, um/px and mm/px")]
+    #[error(
+        "`{0}` is no unit of a scale; the units are px/mm, px/cm, px/m, px/in, dpi, um/px and mm/px"
+    )]
     Unit(String),
     /// The number is out of range.
     #[error("it must be from 10 px/m to 1e7 px/m (0.01 px/mm to 10000 px/mm)")]

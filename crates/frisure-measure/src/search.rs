@@ -39,7 +39,9 @@ pub(crate) fn search(samples: &[Sample], shortest: f64, longest: f64) -> Option<
     let wavelengths: Vec<f64> = (0..count).map(|i| shortest * STEP.powi(i as i32)).collect();
     let centre = |i: usize| first + (last - first) * i as f64 / (WINDOWS - 1) as f64;
     let explained: Vec<Vec<Window>> = (0..WINDOWS)
-        .map(|i| wavelengths.iter().map(|&length| periodogram(samples, centre(i), length)).collect())
+        .map(|i| {
+            wavelengths.iter().map(|&length| periodogram(samples, centre(i), length)).collect()
+        })
         .collect();
     let fit = |path: &[usize]| {
         let places: Vec<(f64, f64, f64)> = path
@@ -100,7 +102,10 @@ fn periodogram(samples: &[Sample], centre: f64, wavelength: f64) -> Window {
         line.add(&row[..2], *v, *weight);
         wave.add(row, *v, *weight);
     }
-    let (Some(straight), Some(found)) = (line.damped(1e-9).solve(), wave.damped(1e-6).solve()) else { return none };
+    let (Some(straight), Some(found)) = (line.damped(1e-9).solve(), wave.damped(1e-6).solve())
+    else {
+        return none;
+    };
     let left = |x: &[f64]| -> f64 {
         let off = |row: &[f64; 4], v: f64| v - x.iter().zip(row).map(|(a, b)| a * b).sum::<f64>();
         rows.iter().map(|(row, v, weight)| weight * off(row, *v).powi(2)).sum()

@@ -44,7 +44,11 @@ pub fn natural_of_hanging(radius: f64, pitch: f64, pull: f64, stiffness: [f64; 2
 
 /// Radius and pitch (m) at which a fibre of a natural curvature and torsion (rad/m) hangs under a pull (N): the inverse of [`natural_of_hanging`], by
 /// Newton's method on the logarithms.
-pub(crate) fn hanging_of_natural(natural: [f64; 2], pull: f64, stiffness: [f64; 2]) -> Option<[f64; 2]> {
+pub(crate) fn hanging_of_natural(
+    natural: [f64; 2],
+    pull: f64,
+    stiffness: [f64; 2],
+) -> Option<[f64; 2]> {
     let square = natural[0] * natural[0] + natural[1] * natural[1];
     // Pulled in steps, each from the one before.
     let mut x = [(natural[0] / square).ln(), (TAU * natural[1] / square).ln()];
@@ -61,7 +65,8 @@ pub(crate) fn hanging_of_natural(natural: [f64; 2], pull: f64, stiffness: [f64; 
             let d = 1e-6;
             let a = off([x[0] + d, x[1]]);
             let b = off([x[0], x[1] + d]);
-            let j = [[(a[0] - f[0]) / d, (b[0] - f[0]) / d], [(a[1] - f[1]) / d, (b[1] - f[1]) / d]];
+            let j =
+                [[(a[0] - f[0]) / d, (b[0] - f[0]) / d], [(a[1] - f[1]) / d, (b[1] - f[1]) / d]];
             let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
             let change = [
                 -(f[0] * j[1][1] - f[1] * j[0][1]) / det,
@@ -93,7 +98,10 @@ mod tests {
                     continue;
                 }
                 let [r, p] = hanging_of_natural(natural, pull, stiffness).unwrap();
-                assert!((r / radius - 1.0).abs() < 1e-6 && (p / pitch - 1.0).abs() < 1e-6, "{radius} {pitch} {pull}: {r} {p}");
+                assert!(
+                    (r / radius - 1.0).abs() < 1e-6 && (p / pitch - 1.0).abs() < 1e-6,
+                    "{radius} {pitch} {pull}: {r} {p}"
+                );
             }
         }
     }

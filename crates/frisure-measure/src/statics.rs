@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 
 use frisure_progress::{Cancelled, Progress};
 use frisure_rod::{
-    Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section, TorsionConstant,
-    equilibrium,
+    Load, Material, NaturalStrain, Options, Resolution, Rod, RodSpec, Root, Section,
+    TorsionConstant, equilibrium,
 };
 use glam::DVec3;
 
@@ -35,7 +35,7 @@ const STEPS: usize = 8;
 const SMALL: f64 = 1e-3;
 
 /// Points of a line for each of its turns.
-const PER_TURN: f64 = 48.0;
+const PER_TURN: f64 = 32.0;
 
 /// The fibres of a lock.
 #[derive(Clone, Copy, Debug)]
@@ -194,7 +194,7 @@ impl Hanging<'_> {
             ..Options::default()
         };
         let turns = self.length * curvature.hypot(twist) / TAU;
-        let points = (PER_TURN * turns).clamp(200.0, 6000.0) as usize;
+        let points = (PER_TURN * turns).clamp(200.0, 4000.0) as usize;
         Some(equilibrium(&rod, &[], &options).centre_line(points))
     }
 
@@ -230,11 +230,14 @@ impl Hanging<'_> {
             for i in 0..OBSERVED {
                 normal.add(&jacobian[i], rest[i], weights[i]);
             }
-            let (Some(change), Some(inverse)) = (normal.solve(), normal.inverse()) else { return Ok(None) };
+            let (Some(change), Some(inverse)) = (normal.solve(), normal.inverse()) else {
+                return Ok(None);
+            };
             let gain = [0, 1].map(|row: usize| {
                 let mut gain = [0.0; OBSERVED];
                 for i in 0..OBSERVED {
-                    gain[i] = weights[i] * (0..2).map(|k| inverse[row][k] * jacobian[i][k]).sum::<f64>();
+                    gain[i] =
+                        weights[i] * (0..2).map(|k| inverse[row][k] * jacobian[i][k]).sum::<f64>();
                 }
                 gain
             });

@@ -6,7 +6,7 @@
 //!
 //! with t from −1 to 1 over the samples and p of third degree: the side view of a helix about a line, whose radius A and
 //! pitch 2π/k change along it. σ is the sine of the angle between the line and the picture: the far side of a helix that leans away is seen higher than
-//! its near side, by which the wave is skewed (Kepler's equation).
+//! its near side, by which the wave is skewed (Kepler's equation). It is linear in t, since a camera that is near sees the upper end from below.
 
 use crate::dense::Normal;
 
@@ -24,10 +24,10 @@ pub(crate) const DEGREES: usize = 4;
 /// Coefficients of the trend: an axis with a bow.
 const TREND: usize = 4;
 
-/// Unknowns: trend, ln k, ln A, phase, lean.
-const UNKNOWNS: usize = TREND + 2 * DEGREES + 2;
-const PHASE: usize = UNKNOWNS - 2;
-const LEAN: usize = UNKNOWNS - 1;
+/// Unknowns: trend, ln k, ln A, phase, lean in the middle and its change by t.
+const UNKNOWNS: usize = TREND + 2 * DEGREES + 3;
+const PHASE: usize = UNKNOWNS - 3;
+const LEAN: usize = UNKNOWNS - 2;
 
 /// Sine of the angle between the line and the picture: standard deviation of what is expected before. Chosen: 6°.
 const EXPECTED_LEAN: f64 = 0.1;
@@ -56,7 +56,7 @@ const HUBER: f64 = 2.0;
 pub(crate) struct Wave {
     /// First and last place.
     pub(crate) ends: [f64; 2],
-    /// Trend, ln k, ln A, phase, lean.
+    /// Trend, ln k, ln A, phase, lean in the middle and its change.
     x: [f64; UNKNOWNS],
     /// Places, evenly spaced, and the integral of k P_j from the middle to each.
     step: f64,
@@ -154,7 +154,8 @@ impl Wave {
 
     /// σ k A at a place.
     fn skew(&self, u: f64) -> f64 {
-        (self.x[LEAN] * self.wave_number(u) * self.amplitude(u)).clamp(-MOST_SKEW, MOST_SKEW)
+        let lean = self.x[LEAN] + self.x[LEAN + 1] * self.unit(u);
+        (lean * self.wave_number(u) * self.amplitude(u)).clamp(-MOST_SKEW, MOST_SKEW)
     }
 
     /// Number of waves.
@@ -170,7 +171,9 @@ impl Wave {
     /// Root mean square of the amplitude.
     pub(crate) fn mean_amplitude(&self) -> f64 {
         let n = 64;
-        let at = |i: i32| self.ends[0] + (self.ends[1] - self.ends[0]) * (f64::from(i) + 0.5) / f64::from(n);
+        let at = |i: i32| {
+            self.ends[0] + (self.ends[1] - self.ends[0]) * (f64::from(i) + 0.5) / f64::from(n)
+        };
         ((0..n).map(|i| self.amplitude(at(i)).powi(2)).sum::<f64>() / f64::from(n)).sqrt()
     }
 
@@ -188,7 +191,7 @@ impl Wave {
     }
 
     fn tabulate(&mut self) {
-        const INTERVALS: usize = 2000;
+        const INTERVALS: usize = 1200;
         let step = (self.ends[1] - self.ends[0]) / INTERVALS as f64;
         let rate = |wave: &Self, u: f64| {
             let p = legendre(wave.unit(u));
@@ -239,7 +242,8 @@ impl Wave {
         let mut places = Vec::new();
         let mut before: Option<f64> = None;
         for i in 0..windows {
-            let centre = self.ends[0] + (self.ends[1] - self.ends[0]) * i as f64 / (windows - 1) as f64;
+            let centre =
+                self.ends[0] + (self.ends[1] - self.ends[0]) * i as f64 / (windows - 1) as f64;
             let reach = 1.25 * std::f64::consts::TAU / self.wave_number(centre);
             let mut normal = Normal::new(4);
             for s in window(samples, centre, reach) {
@@ -296,7 +300,7 @@ impl Wave {
                 let gain = (cost - after) / cost.max(1e-300);
                 (*self, cost) = (next, after);
                 damping = (damping * 0.2).max(1e-9);
-                if gain < 1e-8 && step > 12 {
+                if gain < 1e-6 && step > 12 {
                     break;
                 }
             } else {
@@ -314,7 +318,9 @@ impl Wave {
     fn scale(&self, samples: &[Sample]) -> f64 {
         let mut off: Vec<f64> = samples.iter().map(|s| (s.v - self.value(s.u)).abs()).collect();
         let length = self.ends[1] - self.ends[0];
-        (crate::dense::median(&mut off) * 1.4826).max(1e-4 * self.mean_amplitude()).max(1e-9 * length)
+        (crate::dense::median(&mut off) * 1.4826)
+            .max(1e-4 * self.mean_amplitude())
+            .max(1e-9 * length)
     }
 
     /// What a sample counts beside what is expected before: samples of a wave are not independent.
@@ -329,7 +335,7 @@ impl Wave {
         for (i, expected) in EXPECTED_BOW.iter().enumerate() {
             weights[2 + i] = (expected * unit).max(1e-12).powi(-2);
         }
-        weights[LEAN] = EXPECTED_LEAN.powi(-2);
+        weights[LEAN..].fill(EXPECTED_LEAN.powi(-2));
         for (i, expected) in EXPECTED.iter().enumerate() {
             weights[TREND + i] = expected.powi(-2);
             weights[TREND + DEGREES + i] = expected.powi(-2);
@@ -368,6 +374,7 @@ impl Wave {
             }
             row[PHASE] = by_phase;
             row[LEAN] = by_skew * a * self.wave_number(s.u);
+            row[LEAN + 1] = row[LEAN] * p[1];
             let rest = s.v - sum(&self.x[..TREND], &p) - a * cos;
             let huber = (HUBER * scale / rest.abs().max(1e-300)).min(1.0);
             normal.add(&row, rest, share * s.weight * huber / (scale * scale));

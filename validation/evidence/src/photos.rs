@@ -100,7 +100,9 @@ fn held([radius, pitch]: [f64; 2], random: &mut SplitMix64) -> Result<Root, Stop
     let lean = random.between(0.0, LEAN.to_radians());
     // The axis of the helix is along κ d1 + τ t.
     let (sin, cos) = (TAU * radius / pitch).atan().sin_cos();
-    let turn = DMat3::from_rotation_z(about) * DMat3::from_rotation_y(lean) * DMat3::from_rotation_z(around);
+    let turn = DMat3::from_rotation_z(about)
+        * DMat3::from_rotation_y(lean)
+        * DMat3::from_rotation_z(around);
     let tangent = turn * DVec3::new(sin, 0.0, -cos);
     Ok(Root::from_tangent(DVec3::ZERO, tangent, turn * DVec3::new(-cos, 0.0, -sin))?)
 }
@@ -186,8 +188,7 @@ pub fn photo(seed: u64) -> Result<KnownPhoto, Stopped> {
     let eye = axis + away * distance + DVec3::Z * (distance * f64::to_radians(rise).tan());
     let up = DVec3::Z + side * f64::to_radians(roll).tan();
     let view = 2.0 * (0.5 * shown / (eye - axis).length()).atan();
-    let camera = Camera::look_at(eye, axis, up, view)
-        .map_err(|e| Stopped::Other(e.to_string()))?;
+    let camera = Camera::look_at(eye, axis, up, view).map_err(|e| Stopped::Other(e.to_string()))?;
     let shades = ["black", "dark-brown", "brown", "light-brown", "auburn", "dark-blond", "blond"];
     let shade = (random.unit() * shades.len() as f64) as usize;
     let dark = shade < 5;
@@ -198,7 +199,8 @@ pub fn photo(seed: u64) -> Result<KnownPhoto, Stopped> {
     // Paper behind dark hair, dark cloth behind light hair; the light falls off to the corners.
     let grey = if dark { random.between(0.5, 0.8) } else { random.between(0.01, 0.04) } as f32;
     let corner = grey * random.between(0.6, 1.0) as f32;
-    let background = Background::Gradient { centre: Vec3::splat(grey), corner: Vec3::splat(corner) };
+    let background =
+        Background::Gradient { centre: Vec3::splat(grey), corner: Vec3::splat(corner) };
     let look = Look { hair, background, ..Look::default() };
     let lights = Lights::studio(&camera);
     let scene = Scene { strands: &strands, surface: None, camera, lights, look };
@@ -218,9 +220,8 @@ pub fn photo(seed: u64) -> Result<KnownPhoto, Stopped> {
 
 /// A Gaussian of a standard deviation in pixels, as of a lens.
 fn blur(pixels: &mut [[f32; 4]], [width, height]: [usize; 2], sigma: f64) {
-    let kernel: Vec<f32> = (-3..=3_i32)
-        .map(|i| (-0.5 * (f64::from(i) / sigma).powi(2)).exp() as f32)
-        .collect();
+    let kernel: Vec<f32> =
+        (-3..=3_i32).map(|i| (-0.5 * (f64::from(i) / sigma).powi(2)).exp() as f32).collect();
     let total: f32 = kernel.iter().sum();
     let mut pass = |count: usize, step: usize, lines: usize, stride: usize| {
         let mut line = vec![[0.0_f32; 4]; count];

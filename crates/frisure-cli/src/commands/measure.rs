@@ -37,15 +37,13 @@ struct Report<'a> {
 
 /// Reads the photo, measures it, prints the numbers and writes scene and overlay.
 pub(crate) fn run(arguments: &Arguments, quiet: bool) -> Result<ExitStatus, Error> {
-    let written: Vec<&Path> = [&arguments.output, &arguments.overlay]
-        .into_iter()
-        .flatten()
-        .map(AsRef::as_ref)
-        .collect();
+    let written: Vec<&Path> =
+        [&arguments.output, &arguments.overlay].into_iter().flatten().map(AsRef::as_ref).collect();
     outputs::prepare(&written, &[&arguments.photo])?;
     check_extensions(arguments)?;
     let options = options(arguments)?;
-    let pixels = read(&arguments.photo).map_err(|e| Error::because(&e, "give a photo as .png or .jpg"))?;
+    let pixels =
+        read(&arguments.photo).map_err(|e| Error::because(&e, "give a photo as .png or .jpg"))?;
     let name = arguments.photo.display();
     let photo = Photo::new(pixels.width, pixels.height, &pixels.rgb, arguments.crop)
         .map_err(|e| Error::invalid(format!("{name}: {e}"), "see --crop"))?;
@@ -79,7 +77,8 @@ fn check_extensions(arguments: &Arguments) -> Result<(), Error> {
 }
 
 fn options(arguments: &Arguments) -> Result<Options, Error> {
-    let fibre = fibre(arguments).map_err(|e| Error::because(&e, "see --diameter and --axis-ratio"))?;
+    let fibre =
+        fibre(arguments).map_err(|e| Error::because(&e, "see --diameter and --axis-ratio"))?;
     let (scale, hang) = (arguments.scale, arguments.hang.into());
     Ok(Options { scale, hang, fibre, length: arguments.length })
 }
@@ -113,7 +112,12 @@ fn report(arguments: &Arguments, outcome: &Outcome, quiet: bool) -> Result<(), E
             Err(why) => ("abstained", None, Some(why)),
         };
         let message = abstention.map(ToString::to_string);
-        return console::print(&console::json(&Report { status, measurement, abstention, message })?);
+        return console::print(&console::json(&Report {
+            status,
+            measurement,
+            abstention,
+            message,
+        })?);
     }
     match &outcome.result {
         Ok(found) if !quiet => console::print(&table(found, arguments.hang.into())),
@@ -139,8 +143,7 @@ fn write_scene(arguments: &Arguments, found: &Measurement) -> Result<(), Error> 
 
 fn overlay(path: &Path, mut pixels: Pixels, outcome: &Outcome) -> Result<(), Error> {
     draw(pixels.width, &mut pixels.rgb, &outcome.drawing);
-    let rgba: Vec<u8> =
-        pixels.rgb.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect();
+    let rgba: Vec<u8> = pixels.rgb.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect();
     let size = |n: usize| u32::try_from(n).map_err(|e| Error::failed(&e, ""));
     let (width, height) = (size(pixels.width)?, size(pixels.height)?);
     interrupt::writing(|| png::write(path, width, height, &rgba)).map_err(|e| Error::failed(&e, ""))

@@ -192,11 +192,20 @@ mod tests {
             from_png(&bytes).unwrap().rgb
         };
         use png::{BitDepth, ColorType};
-        assert_eq!(encoded(ColorType::Grayscale, BitDepth::Eight, &[0, 200]), [0, 0, 0, 200, 200, 200]);
-        assert_eq!(encoded(ColorType::GrayscaleAlpha, BitDepth::Eight, &[0, 0, 7, 255]), [255, 255, 255, 7, 7, 7]);
+        assert_eq!(
+            encoded(ColorType::Grayscale, BitDepth::Eight, &[0, 200]),
+            [0, 0, 0, 200, 200, 200]
+        );
+        assert_eq!(
+            encoded(ColorType::GrayscaleAlpha, BitDepth::Eight, &[0, 0, 7, 255]),
+            [255, 255, 255, 7, 7, 7]
+        );
         let sixteen = [10, 99, 20, 99, 30, 99, 40, 0, 50, 0, 60, 0];
         assert_eq!(encoded(ColorType::Rgb, BitDepth::Sixteen, &sixteen), [10, 20, 30, 40, 50, 60]);
-        assert_eq!(encoded(ColorType::Rgba, BitDepth::Eight, &[1, 2, 3, 255, 9, 9, 9, 0])[..3], [1, 2, 3]);
+        assert_eq!(
+            encoded(ColorType::Rgba, BitDepth::Eight, &[1, 2, 3, 255, 9, 9, 9, 0])[..3],
+            [1, 2, 3]
+        );
     }
 
     #[test]
@@ -222,7 +231,8 @@ mod tests {
             assert!(from_jpeg(bytes).is_err());
         }
         // A header that asks for 2^31 pixels a side.
-        let mut huge = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\x02\0\0\0".to_vec();
+        let mut huge =
+            b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\x02\0\0\0".to_vec();
         huge.extend([0; 4]);
         assert!(from_png(&huge).is_err());
         assert!(allowed(usize::MAX, 3).is_err() && allowed(0, 5).is_err() && allowed(5, 5).is_ok());
