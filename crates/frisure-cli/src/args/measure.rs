@@ -15,12 +15,12 @@ Examples:
   frisure measure lock.jpg --scale '600 dpi' --crop 400,0,900,3000 --length '18 cm' -o mine.toml
   frisure measure lock.png --scale '19 um/px' --hang none --overlay seen.png --json
 
-Hang one lock, a few hairs or a single one, freely by its root in front of plain paper or cloth that is
-much lighter or darker, with a ruler beside it, and photograph it from 1 m or more. Leave the ruler out
-of the crop. The command prints radius and pitch of the curl as it hangs and as it would be without
-weight, with the half width of an interval of 95 %. It needs 1.5 waves and more, 12 pixels long and
-with an amplitude of 3 pixels or more; where the photo does not tell, it says why, and the exit status
-is 5. docs/photo.md describes the method and its errors.";
+Hang one lock, a few hairs or a single one, freely by its root in front of plain paper or cloth
+that is much lighter or darker, with a ruler beside it, and photograph it from 1 m or more. Leave
+the ruler out of the crop. The command prints radius and pitch of the curl as it hangs and as it
+would be without weight, with the half width of an interval of 95 %. It needs 1.5 waves and more,
+12 pixels long and with an amplitude of 3 pixels or more; where the photo does not tell, it says
+why, and the exit status is 5. docs/photo.md describes the method and its errors.";
 
 /// Arguments of `frisure measure`.
 #[derive(Args, Debug)]
@@ -30,7 +30,7 @@ pub(crate) struct MeasurePhoto {
     pub(crate) photo: PathBuf,
 
     /// The scale of the photo, by its ruler: '52 px/mm', '520 px/cm', '1200 dpi', '19 um/px'.
-    #[arg(long, value_name = "SCALE", value_parser = scale)]
+    #[arg(long, value_name = "SCALE", value_parser = scale, allow_hyphen_values = true)]
     pub(crate) scale: Scale,
 
     /// Measure this part of the photo: left edge, upper edge, width and height (pixels).
