@@ -80,7 +80,7 @@ pub(crate) fn cues(
     let spread: f64 = line.rows.iter().map(|r| r.weight * r.variance).sum();
     let cues = Cues {
         line: amplitude * pixel,
-        ridges: enough.then(|| Estimate {
+        ridges: enough.then_some(Estimate {
             value: middle * amplitude * pixel,
             deviation: scatter * amplitude * pixel,
         }),

@@ -129,9 +129,10 @@ fn path(explained: &[Vec<Window>], other: Option<&[usize]>) -> Option<Vec<usize>
         let mut next = vec![f64::NEG_INFINITY; count];
         let mut back = vec![0; count];
         for l in 0..count {
-            for before in l.saturating_sub(2)..(l + 3).min(count) {
+            let near = totals.iter().enumerate().take(l + 3).skip(l.saturating_sub(2));
+            for (before, total) in near {
                 let change = before.abs_diff(l) as f64;
-                let total = totals[before] - CHANGE * change * change;
+                let total = total - CHANGE * change * change;
                 if total > next[l] {
                     (next[l], back[l]) = (total, before);
                 }
