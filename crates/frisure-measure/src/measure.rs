@@ -356,8 +356,8 @@ impl Seen {
             Hang::None => Some([apparent_radius, apparent_pitch]),
             Hang::Down => self.natural(&replicates, options, length, progress)?,
         };
-        let judged = natural.unwrap_or([apparent_radius, apparent_pitch]);
-        let [radius, pitch] = judged.map(|e| e.deviation / e.value);
+        let checked = natural.unwrap_or([apparent_radius, apparent_pitch]);
+        let [radius, pitch] = checked.map(|e| e.deviation / e.value);
         if !(radius.max(pitch) <= MOST_DEVIATION) {
             return Ok(Err(Abstention::Uncertain { radius, pitch }));
         }
