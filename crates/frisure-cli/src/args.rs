@@ -15,6 +15,7 @@ use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
 #[cfg(feature = "batch")]
 mod batch;
 mod fit;
+mod measure;
 mod transfer;
 #[cfg(feature = "validate")]
 mod validate;
@@ -22,6 +23,7 @@ mod validate;
 #[cfg(feature = "batch")]
 pub(crate) use batch::Batch;
 pub(crate) use fit::{FitFibres, Quantity as FitQuantity};
+pub(crate) use measure::MeasurePhoto;
 pub(crate) use transfer::Transfer;
 #[cfg(feature = "validate")]
 pub(crate) use validate::Validate;
@@ -53,6 +55,7 @@ Exit status:
   2    the command line, the scene or the head is wrong
   3    computed and written, but some equilibrium did not converge, or a verdict fails
   4    computed and written, but some equilibrium misses the requested accuracy
+  5    the photo does not tell: `frisure measure` says why
   130  interrupted; no file is left half-written";
 
 /// Predicts how natural hair falls, from the physics of its fibres.
@@ -97,6 +100,8 @@ pub(crate) enum Command {
     New(New),
     /// Turn tables of measured hair into a scene of that hair.
     Measured(Measured),
+    /// Measure the curl of one lock in a photo, with error bars.
+    Measure(MeasurePhoto),
     /// Fit digitised fibres: natural strain and stiffness over weight, with error bars.
     Fit(FitFibres),
     /// Print the JSON Schema of scenes: every key, its unit and its range.

@@ -17,6 +17,8 @@ pub(crate) enum ExitStatus {
     NotConverged,
     /// Every equilibrium converged, but some misses the requested accuracy.
     AccuracyMissed,
+    /// What was given does not tell the result: the reason is printed.
+    Abstained,
     /// Some criterion of the report fails.
     #[cfg_attr(not(feature = "validate"), expect(dead_code, reason = "of `frisure validate`"))]
     CriterionFailed,
@@ -28,6 +30,7 @@ impl From<ExitStatus> for u8 {
             ExitStatus::Success => 0,
             ExitStatus::NotConverged | ExitStatus::CriterionFailed => 3,
             ExitStatus::AccuracyMissed => 4,
+            ExitStatus::Abstained => 5,
         }
     }
 }

@@ -87,6 +87,7 @@ fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {
         Command::Presets(arguments) => commands::presets::run(&arguments),
         Command::New(new) => commands::new::run(&new),
         Command::Fit(fit) => commands::fit::run(&fit, quiet),
+        Command::Measure(measure) => commands::measure::run(&measure, quiet),
         Command::Measured(measured) => commands::measured::run(&measured, quiet),
         Command::Schema => commands::schema::run(),
         #[cfg(feature = "validate")]

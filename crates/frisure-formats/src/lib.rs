@@ -8,7 +8,7 @@
 //! | [`cards`] | | hair cards: `.glb`, `.obj`, `.usdc`, `.usda` |
 //! | [`contents`] | what a file holds: head, groom, or both | |
 //! | [`environment`] | environment maps, `.hdr` and `.exr` | |
-//! | [`picture`] | | PNG, OpenEXR |
+//! | [`picture`] | PNG, JPEG | PNG, OpenEXR |
 //! | [`report`] | | JSON |
 //!
 //! Every file is written beside its destination and renamed over it when it is complete, so that

@@ -73,6 +73,7 @@ pub use frisure_fit as fit;
 pub use frisure_formats as formats;
 pub use frisure_hairstyle as hairstyle;
 pub use frisure_look as look;
+pub use frisure_measure as measure;
 pub use frisure_optics as optics;
 pub use frisure_progress as progress;
 pub use frisure_render as render;

@@ -16,6 +16,7 @@ mod experiments;
 mod extremes;
 mod finding;
 mod numbers;
+pub mod photos;
 pub mod plot;
 mod random;
 pub mod reference;

@@ -24,11 +24,11 @@ pub(crate) struct Validate {
     #[arg(value_parser = PossibleValuesParser::new(EXPERIMENTS.iter().map(|e| e.name)))]
     pub(crate) experiments: Vec<String>,
 
-    /// Fewer hairs and coarser scans, under the same criteria: about a minute. This is the default.
+    /// Fewer hairs and coarser scans, under the same criteria: about two minutes. This is the default.
     #[arg(long)]
     pub(crate) quick: bool,
 
-    /// Everything: five to ten minutes on two cores.
+    /// Everything: ten to fifteen minutes on two cores.
     #[arg(long, conflicts_with = "quick")]
     pub(crate) full: bool,
 

@@ -6,6 +6,7 @@ pub(crate) mod cards;
 pub(crate) mod convert;
 pub(crate) mod fit;
 pub(crate) mod hair;
+pub(crate) mod measure;
 pub(crate) mod measured;
 pub(crate) mod new;
 pub(crate) mod predict;

@@ -22,6 +22,7 @@ fn help_of_everything() {
     insta::assert_snapshot!("presets-help", help(&["presets", "--help"]));
     insta::assert_snapshot!("new", help(&["new", "--help"]));
     insta::assert_snapshot!("measured", help(&["measured", "--help"]));
+    insta::assert_snapshot!("measure", help(&["measure", "--help"]));
     insta::assert_snapshot!("fit", help(&["fit", "--help"]));
     insta::assert_snapshot!("validate", help(&["validate", "--help"]));
     insta::assert_snapshot!("schema", help(&["schema", "--help"]));

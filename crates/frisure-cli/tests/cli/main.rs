@@ -7,6 +7,7 @@ mod convert;
 mod fit;
 mod hair;
 mod help;
+mod measure;
 mod predict;
 mod room;
 mod style;

@@ -1,7 +1,8 @@
-//! Pictures: PNG for screens, OpenEXR for compositors.
+//! Pictures: PNG for screens, OpenEXR for compositors, and photos that are read.
 
 #[cfg(feature = "exr")]
 pub mod exr;
+pub mod photo;
 pub mod png;
 
 use std::path::Path;

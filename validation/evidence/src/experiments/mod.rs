@@ -7,6 +7,7 @@ mod friction;
 mod growth;
 mod heads;
 mod invariance;
+mod photo;
 mod ponytail;
 mod robustness;
 mod set;
@@ -37,6 +38,7 @@ pub const EXPERIMENTS: &[&Experiment] = &[
     &friction::EXPERIMENT,
     &set::EXPERIMENT,
     &ponytail::EXPERIMENT,
+    &photo::EXPERIMENT,
     &speed::EXPERIMENT,
 ];
 

@@ -1,0 +1,240 @@
+//! Photos, from PNG and JPEG.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
+
+use frisure_files::{ReadError, read_bytes};
+
+/// Largest file (bytes). Chosen: above every camera's.
+const LARGEST_FILE: u64 = 1 << 28;
+
+/// Most pixels. Chosen: cameras have up to 150 million; they take three bytes each.
+pub const MOST_PIXELS: usize = 160_000_000;
+
+/// A photo: rows from the top, three bytes (red, green, blue; sRGB) per pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pixels {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// The values.
+    pub rgb: Vec<u8>,
+}
+
+/// Why a photo cannot be read.
+#[derive(Debug, Error)]
+pub enum PhotoReadError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// It is neither PNG nor JPEG.
+    #[error("{}: it is neither PNG nor JPEG", path.display())]
+    Format {
+        /// The path given.
+        path: PathBuf,
+    },
+    /// It is damaged, or of a kind that is not read.
+    #[error("{}: {problem}", path.display())]
+    Damaged {
+        /// The path given.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+/// Reads a photo; the first bytes tell the format. Grey is read as colour, 16 bits as 8, what is transparent as if white were behind it, and a photo that
+/// says that it has to be turned is turned (Exif).
+///
+/// # Errors
+/// [`PhotoReadError`].
+pub fn read(path: &Path) -> Result<Pixels, PhotoReadError> {
+    let bytes = read_bytes(path, LARGEST_FILE, "a photo")?;
+    let damaged = |problem| PhotoReadError::Damaged { path: path.into(), problem };
+    if bytes.starts_with(b"\x89PNG") {
+        from_png(&bytes).map_err(damaged)
+    } else if bytes.starts_with(&[0xff, 0xd8]) {
+        from_jpeg(&bytes).map_err(damaged)
+    } else {
+        Err(PhotoReadError::Format { path: path.into() })
+    }
+}
+
+fn too_many(width: usize, height: usize) -> String {
+    format!("{width} x {height} pixels are too many; at most {MOST_PIXELS} are read")
+}
+
+fn allowed(width: usize, height: usize) -> Result<(), String> {
+    let pixels = width.checked_mul(height);
+    match pixels {
+        Some(0) => Err(format!("{width} x {height} pixels are no picture")),
+        Some(n) if n <= MOST_PIXELS => Ok(()),
+        _ => Err(too_many(width, height)),
+    }
+}
+
+fn from_png(bytes: &[u8]) -> Result<Pixels, String> {
+    let limits = png::Limits { bytes: 5 * MOST_PIXELS };
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|e| e.to_string())?;
+    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    allowed(width, height)?;
+    let size = reader.output_buffer_size().filter(|&n| n <= 4 * MOST_PIXELS);
+    let mut pixels = vec![0; size.ok_or_else(|| too_many(width, height))?];
+    let frame = reader.next_frame(&mut pixels).map_err(|e| e.to_string())?;
+    let samples = frame.color_type.samples();
+    let mut rgb = Vec::with_capacity(3 * width * height);
+    for pixel in pixels[..frame.buffer_size()].chunks_exact(samples) {
+        let (colours, alpha) = match *pixel {
+            [grey] => ([grey; 3], 255),
+            [grey, alpha] => ([grey; 3], alpha),
+            [r, g, b] => ([r, g, b], 255),
+            [r, g, b, alpha] => ([r, g, b], alpha),
+            _ => return Err(format!("{samples} samples per pixel")),
+        };
+        let over = |c: u8| {
+            let (c, a) = (u32::from(c), u32::from(alpha));
+            // At most 255.
+            ((c * a + 255 * (255 - a) + 127) / 255) as u8
+        };
+        rgb.extend(colours.map(over));
+    }
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    Ok(Pixels { width, height, rgb })
+}
+
+fn from_jpeg(bytes: &[u8]) -> Result<Pixels, String> {
+    let options = DecoderOptions::default()
+        .set_max_width(MOST_PIXELS)
+        .set_max_height(MOST_PIXELS)
+        .jpeg_set_out_colorspace(ColorSpace::RGB);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    decoder.decode_headers().map_err(|e| e.to_string())?;
+    let (width, height) = decoder.dimensions().ok_or("it has no size")?;
+    allowed(width, height)?;
+    let rgb = decoder.decode().map_err(|e| e.to_string())?;
+    if rgb.len() != 3 * width * height {
+        return Err("it has no colours that can be read".to_owned());
+    }
+    let turn = decoder.exif().and_then(|exif| orientation(exif)).unwrap_or(1);
+    Ok(turned(Pixels { width, height, rgb }, turn))
+}
+
+/// The orientation, 1 to 8, that an Exif block states (Exif 2.3, tag 0x0112).
+fn orientation(exif: &[u8]) -> Option<u16> {
+    let exif = exif.strip_prefix(b"Exif\0\0").unwrap_or(exif);
+    let little = match exif.get(..2)? {
+        b"II" => true,
+        b"MM" => false,
+        _ => return None,
+    };
+    let short = |at: usize| {
+        let bytes = exif.get(at..at.checked_add(2)?)?.try_into().ok()?;
+        Some(if little { u16::from_le_bytes(bytes) } else { u16::from_be_bytes(bytes) })
+    };
+    let long = |at: usize| {
+        let bytes = exif.get(at..at.checked_add(4)?)?.try_into().ok()?;
+        Some(if little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) } as usize)
+    };
+    let directory = long(4)?;
+    let count = usize::from(short(directory)?);
+    let entries = (0..count).map(|i| directory + 2 + 12 * i);
+    let mut of_tag = entries.filter(|&at| short(at) == Some(0x0112));
+    short(of_tag.next()? + 8)
+}
+
+/// The photo as it is to be seen: mirrored for even orientations up to 4, and so on (Exif 2.3, "Orientation").
+fn turned(photo: Pixels, orientation: u16) -> Pixels {
+    if !(2..=8).contains(&orientation) {
+        return photo;
+    }
+    let Pixels { width: w, height: h, rgb } = photo;
+    let (width, height) = if orientation > 4 { (h, w) } else { (w, h) };
+    let mut out = Vec::with_capacity(rgb.len());
+    for y in 0..height {
+        for x in 0..width {
+            let (u, v) = match orientation {
+                2 => (w - 1 - x, y),
+                3 => (w - 1 - x, h - 1 - y),
+                4 => (x, h - 1 - y),
+                5 => (y, x),
+                6 => (y, h - 1 - x),
+                7 => (w - 1 - y, h - 1 - x),
+                _ => (w - 1 - y, x),
+            };
+            let at = 3 * (v * w + u);
+            out.extend_from_slice(&rgb[at..at + 3]);
+        }
+    }
+    Pixels { width, height, rgb: out }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn png_of_every_kind_is_read() {
+        let mut encoded = |color, depth, data: &[u8]| {
+            let mut bytes = Vec::new();
+            let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+            encoder.set_color(color);
+            encoder.set_depth(depth);
+            encoder.write_header().unwrap().write_image_data(data).unwrap();
+            from_png(&bytes).unwrap().rgb
+        };
+        use png::{BitDepth, ColorType};
+        assert_eq!(
+            encoded(ColorType::Grayscale, BitDepth::Eight, &[0, 200]),
+            [0, 0, 0, 200, 200, 200]
+        );
+        assert_eq!(
+            encoded(ColorType::GrayscaleAlpha, BitDepth::Eight, &[0, 0, 7, 255]),
+            [255, 255, 255, 7, 7, 7]
+        );
+        let sixteen = [10, 99, 20, 99, 30, 99, 40, 0, 50, 0, 60, 0];
+        assert_eq!(encoded(ColorType::Rgb, BitDepth::Sixteen, &sixteen), [10, 20, 30, 40, 50, 60]);
+        assert_eq!(
+            encoded(ColorType::Rgba, BitDepth::Eight, &[1, 2, 3, 255, 9, 9, 9, 0])[..3],
+            [1, 2, 3]
+        );
+    }
+
+    #[test]
+    fn a_photo_is_turned_as_it_says() {
+        // Two pixels beside each other.
+        let photo = Pixels { width: 2, height: 1, rgb: vec![1, 1, 1, 2, 2, 2] };
+        let of = |orientation| turned(photo.clone(), orientation);
+        assert_eq!(of(1), photo);
+        assert_eq!(of(3).rgb, [2, 2, 2, 1, 1, 1]);
+        // 6 is to be turned clockwise: the left pixel is then above.
+        assert_eq!((of(6).width, of(6).height, of(6).rgb), (1, 2, vec![1, 1, 1, 2, 2, 2]));
+        assert_eq!(of(8).rgb, [2, 2, 2, 1, 1, 1]);
+        let exif = b"Exif\0\0MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0";
+        assert_eq!(orientation(exif), Some(6));
+        assert_eq!(orientation(&exif[..20]), None);
+        assert_eq!(orientation(b"II"), None);
+    }
+
+    #[test]
+    fn damaged_files_are_errors() {
+        for bytes in [&b"\x89PNG\r\n\x1a\n"[..], b"\xff\xd8\xff\xe0", b"\xff\xd8", b"\x89PNG"] {
+            assert!(from_png(bytes).is_err());
+            assert!(from_jpeg(bytes).is_err());
+        }
+        // A header that asks for 2^31 pixels a side.
+        let mut huge =
+            b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\x02\0\0\0".to_vec();
+        huge.extend([0; 4]);
+        assert!(from_png(&huge).is_err());
+        assert!(allowed(usize::MAX, 3).is_err() && allowed(0, 5).is_err() && allowed(5, 5).is_ok());
+    }
+}

@@ -1,0 +1,115 @@
+//! Why a photo was not measured.
+
+use serde::Serialize;
+use thiserror::Error;
+
+/// Least number of waves. Chosen: fewer do not tell a wave from a bow.
+pub(crate) const LEAST_WAVES: f64 = 1.5;
+
+/// Least amplitude and wavelength (pixels of the photo). Chosen.
+pub(crate) const LEAST_AMPLITUDE: f64 = 3.0;
+pub(crate) const LEAST_WAVELENGTH: f64 = 12.0;
+
+/// Least part of the line's variance about its axis that the wave explains. Tuned on renders with seeds below 1000.
+pub(crate) const LEAST_EXPLAINED: f64 = 0.6;
+
+/// Largest standard deviation of radius or pitch, as a part of it. Tuned on renders with seeds below 1000.
+pub(crate) const MOST_DEVIATION: f64 = 0.1;
+
+/// Why no radius and pitch are given.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Serialize)]
+#[serde(tag = "reason", rename_all = "snake_case")]
+pub enum Abstention {
+    /// The background is not smooth.
+    #[error("the background is not plain: it varies by {:.0} % (at most 6 % is plain)", 100.0 * deviation)]
+    Background {
+        /// Standard deviation of its brightness, of 0 to 1.
+        deviation: f64,
+    },
+    /// Nothing differs from the background.
+    #[error("no hair differs from the background")]
+    NoHair,
+    /// Too much of the picture differs from the background.
+    #[error("{:.0} % of the picture differs from the background", 100.0 * part)]
+    Crowded {
+        /// Part of the picture that differs.
+        part: f64,
+    },
+    /// Several things of about the same size are in the picture.
+    #[error("there are several things in the picture, and the second has {:.0} % of the first's size", 100.0 * part)]
+    Several {
+        /// Size of the second over that of the first.
+        part: f64,
+    },
+    /// The lock is straight, within what the picture tells.
+    #[error("the lock is straight within {:.2} mm; the curvature of its curl is at most {most_curvature:.0} 1/m (a radius of {:.0} mm or more in a plane)", 1e3 * deviation, 1e3 / most_curvature)]
+    Straight {
+        /// Deviation from a straight line (m), root mean square.
+        deviation: f64,
+        /// Upper bound of the curvature (1/m).
+        most_curvature: f64,
+    },
+    /// The lock has too few waves.
+    #[error("only {waves:.1} waves are seen (at least 1.5 are needed)")]
+    FewWaves {
+        /// Waves seen, about.
+        waves: f64,
+    },
+    /// The waves are too small for the picture.
+    #[error(
+        "the waves are {amplitude:.1} px high and {wavelength:.1} px long (at least 3 px and 12 px are needed)"
+    )]
+    Coarse {
+        /// Amplitude (pixels of the photo).
+        amplitude: f64,
+        /// Wavelength (pixels of the photo).
+        wavelength: f64,
+    },
+    /// No wave explains the line of the lock.
+    #[error("no wave runs along the lock: the best explains {:.0} % of its line (at least {:.0} % are needed)", 100.0 * explained, 100.0 * LEAST_EXPLAINED)]
+    NoWave {
+        /// Part of the line's variance that is explained.
+        explained: f64,
+    },
+    /// Two wavelengths explain the line about as well.
+    #[error("waves of {:.1} mm and of {:.1} mm are about equally likely", 1e3 * first, 1e3 * second)]
+    Ambiguous {
+        /// The better wavelength (m).
+        first: f64,
+        /// The other (m).
+        second: f64,
+    },
+    /// The error bars are too wide.
+    #[error("the error bars are too wide: {:.0} % of the radius, {:.0} % of the pitch (at most {:.0} %)", 100.0 * radius, 100.0 * pitch, 100.0 * MOST_DEVIATION)]
+    Uncertain {
+        /// Standard deviation of the radius over the radius.
+        radius: f64,
+        /// Standard deviation of the pitch over the pitch.
+        pitch: f64,
+    },
+}
+
+impl Abstention {
+    /// What can be done about it.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Background { .. } => {
+                "photograph the lock in front of paper or cloth of one colour, or give --crop around the lock, without the ruler"
+            }
+            Self::NoHair => "use a background that is much lighter or darker than the hair",
+            Self::Crowded { .. } => "leave background free on both sides of the lock; see --crop",
+            Self::Several { .. } => {
+                "give --crop x,y,width,height around one lock, without the ruler"
+            }
+            Self::Straight { .. } => "nothing is wrong with the picture if the hair is straight",
+            Self::FewWaves { .. } => "photograph a longer lock",
+            Self::Coarse { .. } => "go nearer, so that a wave is 12 px long and 6 px wide at least",
+            Self::NoWave { .. } => "take fewer hairs that run together, or a single one",
+            Self::Ambiguous { .. } => "take fewer hairs, or a single one",
+            Self::Uncertain { .. } => {
+                "photograph a longer lock or from nearer; --length and --type tell more of the fibre"
+            }
+        }
+    }
+}
