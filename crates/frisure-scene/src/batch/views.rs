@@ -176,6 +176,9 @@ fn cameras(table: &Table<'_>, views: &Field<'_>, source: &Source) -> Result<Vec<
     if let DeValue::Table(orbit) = field.value.get_ref() {
         let orbit =
             Table::read(source, orbit, "views.cameras", &["count", "elevation", "azimuth"])?;
+        if !orbit.has("count") {
+            return Err(table.refuse("cameras", "a table with the `count` of cameras"));
+        }
         return around(&orbit);
     }
     let allowed = "a list of cameras, or a table with the `count` of them around the head";
@@ -224,9 +227,7 @@ fn camera(
 
 /// Cameras evenly around the head.
 fn around(orbit: &Table<'_>) -> Result<Vec<ViewCamera>> {
-    let count = orbit.whole("count", 1, MOST_CAMERAS)?;
-    let count =
-        count.ok_or_else(|| orbit.refuse("count", "a table with the `count` of cameras"))?;
+    let count = orbit.whole("count", 1, MOST_CAMERAS)?.unwrap_or(1);
     let (first, elevation) = (angle(orbit, "azimuth", TAU)?, angle(orbit, "elevation", STEEPEST)?);
     let camera = |index: i64| ViewCamera {
         name: format!("orbit-{index:02}"),
