@@ -110,7 +110,7 @@ def torch_dataset(
     do not go into one batch of tensors: choose `columns`, or a `collate_fn`.
     """
     try:
-        import torch.utils.data  # noqa: F401
+        import torch.utils.data  # type: ignore[import-not-found, unused-ignore]  # noqa: F401
     except ImportError as error:
         raise ImportError("`frisure.data.torch_dataset` needs PyTorch: pip install torch") from error
     from frisure._torch_data import TorchDataset
@@ -125,7 +125,7 @@ def torch_dataset(
 
 def _parquet() -> Any:
     try:
-        import pyarrow.parquet
+        import pyarrow.parquet  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError as error:
         raise ImportError("`frisure.data` needs pyarrow: pip install pyarrow") from error
     return pyarrow.parquet
@@ -251,7 +251,7 @@ def _open(path: Path) -> Any:
 def _read(path: Path, read: Callable[[Any], Any]) -> Any:
     """What is read from a file; a broken one is an `ArgumentError`."""
     parquet = _parquet()
-    import pyarrow
+    import pyarrow  # type: ignore[import-not-found, import-untyped, unused-ignore]
 
     try:
         return read(parquet.ParquetFile(path))

@@ -40,21 +40,20 @@ def batch(
     folder: Union[str, PathLike[str]],
     *,
     cpus_per_task: int = 1,
-    retries: int = 5,
     progress: Optional[Callable[[str, float], object]] = None,
 ) -> Done:
     """Computes the missing parts of a batch on the Ray cluster that this program is connected to, or on one of its own machine.
 
     `spec` is the batch (TOML) and `folder` the folder of its heads: paths that name the same files on every machine, such as
     those of a network disk. Each task uses `cpus_per_task` threads and asks Ray for as many processors; a task that loses its
-    worker or its machine is tried `retries` times more, -1 for any number. `progress("parts", done)` is called after each
-    part with the fraction that is done; Ray shows its own progress, too.
+    worker or its machine is tried again, as Ray Data does. `progress("parts", done)` is called after each part with the
+    fraction that is done; Ray shows its own progress, too.
 
     Errors: those of `frisure batch`, before any task begins; `ray.exceptions.RayTaskError` from within a task, with the
     original error as its cause; `ImportError` without Ray.
     """
     try:
-        import ray.data
+        import ray.data  # type: ignore[import-not-found, unused-ignore]
     except ImportError as error:
         raise ImportError('`frisure.ray` needs Ray Data: pip install "ray[data]"') from error
     if cpus_per_task < 1:
@@ -66,7 +65,7 @@ def batch(
     compute = _Task(str(spec), str(folder), parts, cpus_per_task)
     # One block for each part: a task computes one, and a killed worker costs no more than that.
     tasks = ray.data.from_items([{"part": part} for part in missing], override_num_blocks=len(missing))
-    rows = tasks.map(compute, num_cpus=cpus_per_task, ray_remote_args_fn=lambda: {"max_retries": retries}).iter_rows()
+    rows = tasks.map(compute, num_cpus=cpus_per_task).iter_rows()
     heads = before = failed = 0
     for count, row in enumerate(rows, 1):
         heads, before, failed = heads + row["heads"], before + row["before"], failed + row["failed"]
