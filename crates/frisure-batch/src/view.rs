@@ -23,7 +23,8 @@ pub(crate) fn views(
     let Some(views) = batch.views() else { return Ok(Bytes::new()) };
     // So many heads are computed at the same time, and those of a part are kept until it is written.
     let threads = rayon::current_num_threads();
-    let kept = views.pixels() * views.cameras.len() * batch.rows().div_ceil(threads);
+    let kept =
+        views.pixels() * views.cameras.len() * batch.rows().min(batch.heads()).div_ceil(threads);
     let work = Work::Views { hairs: views.hairs, pixels: views.pixels(), kept };
     memory::check_among(threads, loaded.hairstyle.spec(), work)?;
     let viewed = Viewed::new(loaded, views, progress)?;

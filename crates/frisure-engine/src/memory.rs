@@ -236,6 +236,10 @@ mod tests {
         assert!(problem.contains("4.3 GB are free"), "{problem}");
         let (_, hint) = fault(Work::Hairs, 1 << 28).unwrap();
         assert!(hint.starts_with("draw fewer hairs"), "{hint}");
+        let views = |pixels| Work::Views { hairs: 20_000, pixels, kept: 16 * pixels };
+        assert_eq!(fault(views(512 * 512), 1 << 30), None);
+        let (_, hint) = fault(views(4096 * 4096), 4 << 30).unwrap();
+        assert!(hint.contains("`views.size`"), "{hint}");
         // Guides need no room for hairs.
         assert_eq!(fault(Work::Guides, 1 << 28), None);
         let (_, hint) = fault(Work::Guides, 1 << 24).unwrap();

@@ -157,8 +157,7 @@ fn size(table: &Table<'_>) -> Result<[usize; 2]> {
     let sides = table.list("size").filter(|items| items.len() == 2).ok_or_else(refused)?;
     let mut size = [0; 2];
     for (side, item) in size.iter_mut().zip(sides) {
-        let whole =
-            item.get_ref().as_integer().and_then(|i| i64::from_str_radix(i.as_str(), 10).ok());
+        let whole = item.get_ref().as_integer().and_then(|i| i.as_str().parse::<i64>().ok());
         *side = match whole {
             Some(pixels) if (1..=MOST_PIXELS).contains(&pixels) => pixels as usize,
             _ => return Err(table.refuse_at("size", item.span(), allowed)),
