@@ -6,7 +6,7 @@ use frisure::look::CameraSpec;
 use frisure::progress::Progress;
 use frisure::render::maps::{MappedPixel, Mapper, Pinhole};
 use frisure::render::preview::{PreviewOptions, chosen_width};
-use frisure::scene::batch::{ViewCamera, Views};
+use frisure::scene::batch::{ViewCamera, ViewOutput, Views};
 use frisure::strands::{AttributeValues, Strands};
 
 use super::options::{developed, spec};
@@ -20,7 +20,8 @@ use crate::runner::LoadedScene;
 pub struct View {
     /// The camera in pixels.
     pub camera: Pinhole,
-    /// Red, green, blue and alpha (sRGB) of each pixel, row by row from the top left.
+    /// Red, green, blue and alpha (sRGB) of each pixel, row by row from the top left; empty unless the batch stores it, since it
+    /// takes most of the time.
     pub color: Vec<u8>,
     /// What each pixel shows; the index of a hair is that among all drawn hairs of the head.
     pub pixels: Vec<MappedPixel>,
@@ -93,18 +94,24 @@ impl<'a> Viewed<'a> {
         let aspect = width as f64 / height as f64;
         let framed =
             spec(&scene, environment.as_ref()).frame(&self.strands, subject.surface, aspect);
-        let options = PreviewOptions {
-            width,
-            height,
-            samples: scene.output.samples,
-            width_scale: Some(self.width),
+        let color = match self.views.outputs.contains(&ViewOutput::Color) {
+            true => {
+                let options = PreviewOptions {
+                    width,
+                    height,
+                    samples: scene.output.samples,
+                    width_scale: Some(self.width),
+                };
+                let image = project(&subject.render_scene(framed)?, &options, progress)?;
+                developed(&image, &scene.output)
+            }
+            false => Vec::new(),
         };
-        let image = project(&subject.render_scene(framed)?, &options, progress)?;
         let camera = Pinhole::new(&framed, width, height);
         let mut pixels = self.mapper.maps(&camera, samples, progress)?;
         for hair in pixels.iter_mut().filter_map(|pixel| pixel.strand.as_mut()) {
             hair.index *= self.stride as u32;
         }
-        Ok(View { camera, color: developed(&image, &scene.output), pixels })
+        Ok(View { camera, color, pixels })
     }
 }
