@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import subprocess
 import sys
@@ -158,6 +159,20 @@ def test_errors_name_folder_file_and_column(folder: Path, tmp_path: Path) -> Non
     assert len(list(data.heads(tmp_path))) == 2
     with pytest.raises(frisure.ArgumentError, match=r"has no views: its batch has no table `\[views\]`"):
         data.views(tmp_path)
+
+
+def test_the_recipe_has_the_heads_of_its_hashes(tmp_path: Path) -> None:
+    scenes = Path(__file__).resolve().parents[3] / "scenes/batch"
+    spec = importlib.util.spec_from_file_location("people", scenes / "people.py")
+    assert spec is not None and spec.loader is not None
+    people = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(people)
+    text = (scenes / "people-10000.toml").read_text().replace("samples = 10000", "samples = 2\nvolume = false")
+    before, views, after = text.partition("[views]")
+    assert views
+    text = before + after[after.index("[set]") :]
+    batch(tmp_path, text.replace('"people.csv"', f'"{(scenes / "people.csv").as_posix()}"'))
+    assert people.check(str(tmp_path / "heads")) == []
 
 
 @pytest.mark.parametrize("missing", ["pyarrow", "torch"])
