@@ -5,43 +5,16 @@ use std::sync::Arc;
 use frisure::files::Files;
 use frisure::hairstyle::{StrandOptions, guide_strands, volume};
 use frisure::progress::{Cancelled, Progress, Silent};
-use frisure::scene::batch::{Batch, Sample, Value};
+use frisure::scene::batch::{Batch, Sample};
 use frisure::scene::edit::EditError;
 use frisure::scene::{Scene, SceneError};
-use frisure_engine::{
-    Error, HairstyleMetrics, HeadCache, LoadedScene, Quality, Runner, catch_panic,
-};
+use frisure_engine::{Error, HeadCache, LoadedScene, Quality, Runner, catch_panic};
+
+use crate::row::{Measured, Row};
+use crate::view;
 
 /// Most hairs that are drawn to measure the space of all; chosen.
 const HAIRS: usize = 10_000;
-
-/// A head of a batch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// Its index in the batch.
-    pub index: usize,
-    /// The seed of its scene.
-    pub seed: u64,
-    /// The value of each of [`Batch::parameters`]; SI units.
-    pub values: Vec<Value>,
-    /// The text of its scene, if there is one.
-    pub scene: Option<String>,
-    /// Its measures, or the message of an error.
-    pub outcome: Result<Measured, String>,
-}
-
-/// Measures of a head; SI units.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
-    /// The hairstyle and its guides.
-    pub metrics: HairstyleMetrics,
-    /// Space that the hair takes, air included, and that of the fibres themselves (m³), if it was measured.
-    pub volume: Option<[f64; 2]>,
-    /// Points of each guide.
-    pub points: usize,
-    /// The points of all guides from root to tip, evenly spaced: x, y, z (m).
-    pub lines: Vec<f32>,
-}
 
 /// The message of an error in a row: with the line of the scene and the hint.
 fn message(error: &Error) -> String {
@@ -74,7 +47,7 @@ pub(crate) fn row(
     let Sample { index, seed, values, text } = batch.sample(index);
     let (scene, measured) = match text {
         Ok(text) => {
-            let measured = catch_panic(|| measured(batch, heads, &text, &Silent(progress)));
+            let measured = catch_panic(|| measured(batch, heads, index, &text, &Silent(progress)));
             (Some(text), measured)
         }
         Err(EditError::Scene(error)) => (None, Err(error.into())),
@@ -91,6 +64,7 @@ pub(crate) fn row(
 fn measured(
     batch: &Batch,
     heads: &Arc<HeadCache>,
+    index: usize,
     text: &str,
     progress: &dyn Progress,
 ) -> Result<Measured, Error> {
@@ -106,6 +80,7 @@ fn measured(
         volume: batch.volume().then(|| space(&loaded, progress)).transpose()?,
         points: points.max(2),
         lines: lines.points().iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
+        views: view::views(batch, index, &loaded, progress)?,
     })
 }
 

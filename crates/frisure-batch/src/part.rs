@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+/// The folder of views beside the parts. Readers of a folder of Parquet skip names that begin so: the table of heads stays one.
+pub(crate) const VIEWS: &str = "_views";
+
 /// Neighbouring heads in one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
@@ -32,6 +35,12 @@ impl Part {
     #[must_use]
     pub fn name(self) -> String {
         format!("part-{:09}.parquet", self.first)
+    }
+
+    /// The name of the file of its views, in the folder [`VIEWS`]: `views-000000120.parquet`.
+    #[must_use]
+    pub fn views_name(self) -> String {
+        format!("views-{:09}.parquet", self.first)
     }
 
     /// The first head of the part with a file name; none for other names.

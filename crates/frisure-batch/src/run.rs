@@ -12,8 +12,10 @@ use frisure::scene::batch::Batch;
 use frisure_engine::{Error, HeadCache};
 use rayon::prelude::*;
 
-use crate::head::{self, Row};
+use crate::head;
 use crate::parquet::{self, PartMetadata};
+use crate::part::VIEWS;
+use crate::row::Row;
 use crate::{Part, Shard};
 
 /// Why a run fails.
@@ -138,8 +140,12 @@ impl Run {
         if let Some((_, path)) = known {
             run.check(&path)?;
         }
+        if run.batch.views().is_some() {
+            fs::create_dir_all(folder.join(VIEWS)).map_err(fail)?;
+        }
         if let Some(part) = run.parts().next() {
             check_destination(&run.path(part))?;
+            run.views_path(part).map_or(Ok(()), |path| check_destination(&path))?;
         }
         Ok(run)
     }
@@ -163,6 +169,12 @@ impl Run {
         self.folder.join(part.name())
     }
 
+    /// The path of the views of a part, if the batch has any.
+    #[must_use]
+    pub fn views_path(&self, part: Part) -> Option<PathBuf> {
+        self.batch.views().map(|_| self.folder.join(VIEWS).join(part.views_name()))
+    }
+
     /// The parts of the shard that are missing.
     ///
     /// # Errors
@@ -170,9 +182,13 @@ impl Run {
     pub fn missing(&self) -> Result<Vec<Part>, BatchError> {
         let mut missing = Vec::new();
         for part in self.parts() {
-            let path = self.path(part);
             // The last part of an earlier, shorter batch has too few heads.
-            if !path.exists() || self.check(&path)? != part.heads {
+            let has_all = |path: &Path| -> Result<bool, BatchError> {
+                Ok(path.exists() && self.check(path)? == part.heads)
+            };
+            let views = self.views_path(part).map_or(Ok(true), |path| has_all(&path))?;
+            let whole = has_all(&self.path(part))? && views;
+            if !whole {
                 missing.push(part);
             }
         }
@@ -214,11 +230,16 @@ impl Run {
         part.range().into_par_iter().with_max_len(1).map(one).collect()
     }
 
-    /// Writes a part atomically; returns its path.
+    /// Writes a part atomically, after its views if the batch has any; returns its path.
     ///
     /// # Errors
     /// [`BatchError`].
     pub fn write(&self, part: Part, rows: &[Row]) -> Result<PathBuf, BatchError> {
+        if let (Some(path), Some(views)) = (self.views_path(part), self.batch.views()) {
+            let bytes = parquet::join_views(&self.batch, views, rows);
+            let bytes = bytes.map_err(BatchError::Encode)?;
+            write_atomically(&path, |out| out.write_all(&bytes))?;
+        }
         let path = self.path(part);
         let bytes = parquet::encode(&self.batch, rows).map_err(BatchError::Encode)?;
         write_atomically(&path, |out| out.write_all(&bytes))?;

@@ -106,3 +106,66 @@ fn what_is_stopped_keeps_whole_parts() {
     assert!((1..6).contains(&missing), "{missing}");
     assert_eq!(run.all(&()).unwrap().before, 6 - missing);
 }
+
+/// Files of a folder with their bytes, and those of the folder of views.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut all = Vec::new();
+    for inner in [folder.to_owned(), folder.join("_views")] {
+        let entries = std::fs::read_dir(inner).unwrap().map(|entry| entry.unwrap().path());
+        all.extend(entries.filter(|path| path.is_file()).map(|path| {
+            (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(path).unwrap())
+        }));
+    }
+    all.sort();
+    all
+}
+
+#[test]
+fn views_are_a_row_each_and_the_same_bytes_from_any_shards() {
+    let text = TEXT.replace("head.mesh = [\"none.obj\"]", "");
+    let text = text.replace(
+        "[set]",
+        "[views]\ncameras = [\"front\", { azimuth = \"50 deg\" }]\nsize = [40, 30]\n[set]",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let whole = run(&text, folder.path());
+    let done = whole.all(&()).unwrap();
+    let expected = ["part-000000000", "part-000000004", "views-000000000", "views-000000004"];
+    let names: Vec<String> = files(folder.path()).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, expected.map(|name| format!("{name}.parquet")));
+
+    let mut views = 0;
+    for part in whole.parts() {
+        let heads = rows(&whole.path(part));
+        let good: Vec<_> = heads.iter().filter(|row| *field(row, "error") == Field::Null).collect();
+        let seen = rows(&whole.views_path(part).unwrap());
+        assert_eq!(seen.len(), 2 * good.len());
+        for (place, view) in seen.iter().enumerate() {
+            assert_eq!(field(view, "index"), field(good[place / 2], "index"));
+            assert_eq!(*field(view, "view"), Field::Int((place % 2) as i32));
+            let bytes = |name: &str| match field(view, name) {
+                Field::Bytes(bytes) => bytes.len(),
+                other => panic!("{other}"),
+            };
+            let pixels = 40 * 30;
+            let sizes = ["depth", "direction", "tangent", "strand", "guide"].map(bytes);
+            assert_eq!(sizes, [4, 4, 6, 4, 4].map(|size| size * pixels));
+            assert!(bytes("color") > 100 && bytes("mask") > 50 && bytes("body") > 50);
+            views += 1;
+        }
+    }
+    assert_eq!(views, 2 * (6 - done.failed));
+
+    // A part without its views is made again, to the same bytes; so are shards.
+    let before = files(folder.path());
+    std::fs::remove_file(folder.path().join("_views/views-000000004.parquet")).unwrap();
+    assert_eq!(whole.missing().unwrap().len(), 1);
+    assert_eq!(whole.all(&()).unwrap().before, 4);
+    assert!(files(folder.path()) == before);
+    let other = tempfile::tempdir().unwrap();
+    for shard in ["2/2", "1/2"] {
+        let batch = Batch::parse("batch", text.as_str(), Path::new("")).unwrap();
+        Run::new(batch, other.path(), shard.parse().unwrap()).unwrap().all(&()).unwrap();
+    }
+    assert!(files(other.path()) == before);
+}

@@ -17,6 +17,15 @@ pub enum Work {
     Preview(usize),
     /// A traced picture of so many pixels.
     Traced(usize),
+    /// Pictures with maps of at most so many hairs, for a batch.
+    Views {
+        /// Most hairs that are drawn.
+        hairs: usize,
+        /// Pixels of one picture.
+        pixels: usize,
+        /// Pixels of all pictures that are kept until they are written.
+        kept: usize,
+    },
 }
 
 // All measured as the largest resident size of `frisure predict` and `frisure render` on x86-64 Linux, as differences
@@ -47,6 +56,15 @@ const PREVIEWED_PIXEL: f64 = 36.0;
 /// A pixel of a traced picture with its checkpoint and its file (bytes). Measured between 512² and 1536² pixels: 154.
 const TRACED_PIXEL: f64 = 160.0;
 
+/// A point of a hair in a picture with maps (bytes): that of a preview and of the tree of a traced picture.
+const VIEWED_POINT: f64 = PREVIEWED_POINT + TRACED_POINT;
+
+/// A pixel of a picture with maps, while they are made (bytes): a preview, the maps, and both encoded.
+const VIEWED_PIXEL: f64 = PREVIEWED_PIXEL + 100.0;
+
+/// A pixel of a picture with maps in a file (bytes). All maps without compression.
+const KEPT_PIXEL: f64 = 25.0;
+
 /// Area on which hair grows (m²). That of the mannequin is 0.07.
 const SCALP: f64 = 0.07;
 
@@ -63,6 +81,10 @@ pub fn estimate(spec: &HairstyleSpec, work: Work) -> f64 {
         Hairs::PerWisp(each) => each as f64 * wisps,
         Hairs::Density(density) => density * SCALP,
     };
+    let hairs = match work {
+        Work::Views { hairs: most, .. } => hairs.min(most as f64),
+        _ => hairs,
+    };
     let touch = matches!(spec.contact.hair, HairContact::Wisps | HairContact::Density);
     let touching = if touch { wisps } else { 0.0 };
     let points = hairs * spec.wisps.points as f64;
@@ -78,6 +100,7 @@ fn point(work: Work) -> f64 {
         Work::Motion(samples) => POINT + MOVING_POINT * samples as f64,
         Work::Preview(_) => PREVIEWED_POINT,
         Work::Traced(_) => TRACED_POINT,
+        Work::Views { .. } => VIEWED_POINT,
     }
 }
 
@@ -87,6 +110,7 @@ fn picture(work: Work) -> f64 {
         Work::Guides | Work::Hairs | Work::Motion(_) => 0.0,
         Work::Preview(pixels) => pixels as f64 * PREVIEWED_PIXEL,
         Work::Traced(pixels) => pixels as f64 * TRACED_PIXEL,
+        Work::Views { pixels, kept, .. } => pixels as f64 * VIEWED_PIXEL + kept as f64 * KEPT_PIXEL,
     }
 }
 
@@ -141,6 +165,10 @@ fn check_within(needed: f64, work: Work, available: Option<u64>) -> Result<(), E
     let hint = match work {
         Work::Guides => "make fewer wisps (`wisps.count`), or set `contact.hair = \"layers\"`",
         Work::Hairs | Work::Motion(_) => "draw fewer hairs, or give them fewer points",
+        Work::Views { .. } => {
+            "make smaller views (`views.size`) or fewer (`views.cameras`), draw fewer hairs (`views.hairs`), have fewer \
+             heads in a file (`rows`), or compute on fewer threads"
+        }
         // Where the picture is not what is too large.
         _ if picture(work) < 0.5 * needed => "draw fewer hairs, or give them fewer points",
         Work::Preview(_) => &format!("a picture of {:.0} pixels has room", most / PREVIEWED_PIXEL),
@@ -208,6 +236,10 @@ mod tests {
         assert!(problem.contains("4.3 GB are free"), "{problem}");
         let (_, hint) = fault(Work::Hairs, 1 << 28).unwrap();
         assert!(hint.starts_with("draw fewer hairs"), "{hint}");
+        let views = |pixels| Work::Views { hairs: 20_000, pixels, kept: 16 * pixels };
+        assert_eq!(fault(views(512 * 512), 1 << 30), None);
+        let (_, hint) = fault(views(4096 * 4096), 4 << 30).unwrap();
+        assert!(hint.contains("`views.size`"), "{hint}");
         // Guides need no room for hairs.
         assert_eq!(fault(Work::Guides, 1 << 28), None);
         let (_, hint) = fault(Work::Guides, 1 << 24).unwrap();

@@ -6,6 +6,7 @@
 //! | file | what it has |
 //! | --- | --- |
 //! | `array.rs` | memory of Rust as NumPy arrays, without copies |
+//! | `batch.rs` | parts of a batch of heads |
 //! | `command.rs` | the command `frisure` |
 //! | `errors.rs` | errors as Python exceptions |
 //! | `fit.rs` | fits of measured fibres |
@@ -20,6 +21,8 @@
 #![forbid(unsafe_code)]
 
 mod array;
+#[cfg(feature = "batch")]
+mod batch;
 mod command;
 mod errors;
 mod fit;
@@ -44,6 +47,7 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<rods::RodsAtRest>()?;
     module.add_function(wrap_pyfunction!(picture::render, module)?)?;
     module.add_function(wrap_pyfunction!(picture::render_png, module)?)?;
+    module.add_function(wrap_pyfunction!(picture::read_png, module)?)?;
     module.add_function(wrap_pyfunction!(picture::save_picture, module)?)?;
     module.add_function(wrap_pyfunction!(scene::preset_names, module)?)?;
     module.add_function(wrap_pyfunction!(scene::preset_text, module)?)?;
@@ -52,5 +56,10 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(rods::settle_rods, module)?)?;
     module.add_function(wrap_pyfunction!(rods::inverse_rods, module)?)?;
     module.add_function(wrap_pyfunction!(fit::fit_fibres, module)?)?;
+    #[cfg(feature = "batch")]
+    {
+        module.add_function(wrap_pyfunction!(batch::missing_parts, module)?)?;
+        module.add_function(wrap_pyfunction!(batch::compute_part, module)?)?;
+    }
     module.add_function(wrap_pyfunction!(command::run_command, module)?)
 }

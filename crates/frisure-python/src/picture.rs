@@ -149,3 +149,16 @@ pub(crate) fn save_picture(
         write(&path, &image, &output)
     })
 }
+
+/// The pixels of a PNG as an array: rows from the top, pixels, channels; without the last axis for one channel.
+#[pyfunction]
+pub(crate) fn read_png(py: Python<'_>, png: &[u8]) -> PyResult<Memory> {
+    let read = py.detach(|| png::decode(png));
+    let read = read.map_err(|problem| {
+        let error = Error::invalid(format!("this is no PNG: {problem}"), "");
+        crate::errors::raise(py, &error)
+    })?;
+    let png::Decoded { width, height, channels, pixels } = read;
+    let shape = if channels == 1 { vec![height, width] } else { vec![height, width, channels] };
+    Ok(Memory::whole(pixels, shape))
+}

@@ -14,6 +14,7 @@ pub mod accel;
 mod complexion;
 mod film;
 mod hash;
+pub mod maps;
 mod picture;
 mod pigment;
 pub mod preview;

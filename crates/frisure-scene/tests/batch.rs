@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frisure_scene::Scene;
-use frisure_scene::batch::{Batch, Kind, Value};
+use frisure_scene::batch::{Batch, Kind, Value, ViewOutput};
 
 fn batch(text: &str) -> Batch {
     Batch::parse("batch", text, Path::new("")).unwrap_or_else(|e| panic!("{text}\n{e}"))
@@ -172,6 +172,33 @@ fn rows_of_a_table_stay_together() {
     }
 }
 
+#[test]
+fn views_have_cameras_and_outputs_in_order() {
+    let heads = |views: &str| batch(&format!("samples = 1\n{views}"));
+    let all =
+        heads("views.cameras = ['front', 'side', { azimuth = '30 deg', elevation = '-10 deg' }]");
+    let views = all.views().unwrap();
+    let names: Vec<&str> = views.cameras.iter().map(|camera| camera.name.as_str()).collect();
+    assert_eq!(names, ["front", "side", "camera-02"]);
+    near(views.cameras[1].azimuth, std::f64::consts::FRAC_PI_2, 1e-12);
+    near(views.cameras[2].elevation, -10_f64.to_radians(), 1e-12);
+    assert_eq!((views.width, views.height, views.hairs, views.samples), (512, 512, 20_000, 3));
+    assert_eq!(views.outputs, ViewOutput::ALL);
+
+    let orbit = heads(
+        "[views]\ncameras = { count = 4, elevation = 0.1 }\noutputs = ['strand', 'color', 'strand']",
+    );
+    let views = orbit.views().unwrap();
+    near(views.cameras[3].azimuth, 1.5 * std::f64::consts::PI, 1e-12);
+    assert_eq!((views.cameras.len(), views.cameras[3].elevation), (4, 0.1));
+    assert_eq!(views.outputs, [ViewOutput::Color, ViewOutput::Strand]);
+
+    // The digest has the views; a batch without them has the digest that it had before there were any.
+    let digests: std::collections::BTreeSet<String> =
+        [heads("").digest(), all.digest(), orbit.digest()].into();
+    assert_eq!((heads("").views(), digests.len()), (None, 3));
+}
+
 /// Text after `samples = 2`, line and column, and parts of the sentence with its hint.
 type Case = (&'static str, usize, usize, &'static [&'static str]);
 
@@ -218,6 +245,45 @@ fn faults_name_place_value_range_and_hint() {
         ("grid.wisps.count = 3", 2, 20, &["it must be a list"]),
         ("grid.hair.length = { from = 1, to = 2 }", 2, 20, &["has no `steps`"]),
         ("grid.hair.length = [1]\nset.hair.length = 2", 2, 11, &["is said twice"]),
+        ("views = 1", 2, 9, &["`views` is 1", "a table"]),
+        ("views = { size = [8, 8] }", 2, 1, &["`views` has no cameras", "around the head"]),
+        ("views = { cameras = [] }", 2, 21, &["a list of cameras", "`count`"]),
+        (
+            "views = { cameras = ['fron'] }",
+            2,
+            22,
+            &["one of", "\"back\"", "did you mean \"front\"?"],
+        ),
+        ("views = { cameras = [1] }", 2, 22, &["a name in quotes"]),
+        ("views = { cameras = ['back', 'back'] }", 2, 30, &["there is a camera `back` before"]),
+        (
+            "views = { cameras = [{ azimut = 1 }] }",
+            2,
+            24,
+            &["unknown key", "did you mean `azimuth`?"],
+        ),
+        ("views = { cameras = [{ azimuth = '30' }] }", 2, 34, &["an angle", "add a unit"]),
+        (
+            "views = { cameras = [{ elevation = '86 deg' }] }",
+            2,
+            36,
+            &["between -85 deg and 85 deg"],
+        ),
+        ("views = { cameras = {} }", 2, 21, &["a table with the `count`"]),
+        ("views = { cameras = { count = 361 } }", 2, 31, &["between 1 and 360"]),
+        (
+            "views = { cameras = ['back'], size = [0, 9] }",
+            2,
+            39,
+            &["`views.size` is 0", "1 and 4096"],
+        ),
+        ("views = { cameras = ['back'], size = [9, 4097] }", 2, 42, &["is 4097", "1 and 4096"]),
+        ("views = { cameras = ['back'], size = 512 }", 2, 38, &["width and height"]),
+        ("views = { cameras = ['back'], hairs = 0 }", 2, 39, &["between 1 and 1000000"]),
+        ("views = { cameras = ['back'], samples = 9 }", 2, 41, &["between 1 and 8"]),
+        ("views = { cameras = ['back'], outputs = ['colour'] }", 2, 42, &["one of", "\"color\"?"]),
+        ("views = { cameras = ['back'], outputs = [] }", 2, 41, &["a list of color, mask"]),
+        ("views = { camera = ['back'] }", 2, 11, &["did you mean `cameras`?"]),
         ("[vary", 2, 6, &["]"]),
     ];
     for (text, line, column, parts) in cases {

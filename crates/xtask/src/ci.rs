@@ -78,6 +78,7 @@ fn other_programs(gate: &Gate) -> Result<()> {
         // `.ci/run` has built this one, with every feature.
         shell_beside("FRISURE=target/debug/frisure validation/clients/run")
     })?;
+    gate.step("scripts for clusters", || shell_beside("validation/cluster/run"))?;
     gate.step("the Python package", || shell_beside("crates/frisure-python/tests/run"))?;
     // With the wheel of the step before.
     gate.step("the extension for Blender", || shell_beside("blender/tests/run"))

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use frisure::progress::Progress;
 use frisure::scene::SceneError;
+use frisure::scene::batch::Views;
 use frisure::scene::edit::EditError;
 use frisure_batch::{Batch as Heads, Row, Run, Sample, Shard, Value};
 use frisure_engine::Error;
@@ -43,7 +44,7 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Exi
     let to_do = missing.iter().map(|part| part.heads).sum::<usize>();
     let before = own - to_do;
     if !quiet {
-        console::print(&header(shard, own, all, before))?;
+        console::print(&header(run.batch().views(), shard, own, all, before))?;
     }
     let progress = Bar::new(quiet);
     let done = AtomicUsize::new(0);
@@ -74,11 +75,14 @@ fn compute(heads: Heads, folder: &Path, shard: Shard, quiet: bool) -> Result<Exi
 }
 
 /// A line about the work before it begins.
-fn header(shard: Shard, own: usize, all: usize, before: usize) -> String {
+fn header(views: Option<&Views>, shard: Shard, own: usize, all: usize, before: usize) -> String {
     let mut out = match shard {
         Shard::WHOLE => format!("{all} heads"),
         shard => format!("shard {shard}: {own} of {all} heads"),
     };
+    if let Some(Views { cameras, width, height, .. }) = views {
+        let _ = write!(out, " with {} views of {width} × {height} pixels each", cameras.len());
+    }
     if before > 0 {
         let _ = write!(out, ", {before} of which are there already");
     }
@@ -140,6 +144,17 @@ fn list(heads: &Heads, shard: Shard) -> Result<ExitStatus, Error> {
     for (key, _) in heads.parameters().filter(|(key, _)| *key != "seed") {
         let _ = write!(out, ",{}", cell(key));
     }
+    // The cameras' names, the same for every head.
+    let cameras: Vec<&str> = heads
+        .views()
+        .map_or(&[][..], |views| &views.cameras)
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    let cameras = heads.views().map(|_| cell(&cameras.join(" ")));
+    if cameras.is_some() {
+        out.push_str(",views");
+    }
     out.push('\n');
     let rows = heads.rows();
     let own = (0..heads.heads()).filter(|index| shard.has(index / rows));
@@ -153,6 +168,9 @@ fn list(heads: &Heads, shard: Shard) -> Result<ExitStatus, Error> {
                 Value::Flag(flag) => write!(out, ",{flag}"),
                 Value::Text(text) => write!(out, ",{}", cell(text)),
             };
+        }
+        if let Some(cameras) = &cameras {
+            let _ = write!(out, ",{cameras}");
         }
         out.push('\n');
         if place % LISTED == LISTED - 1 {

@@ -59,6 +59,20 @@ fn shards_and_threads_make_the_same_bytes() {
     assert!(whole != parts(&room, "other"));
 }
 
+#[test]
+fn views_are_listed_and_written_beside_the_parts() {
+    let views =
+        "views = { cameras = ['front', { azimuth = '9 deg' }], size = [24, 16], hairs = 9 }";
+    let room = Room::new().with("a.toml", format!("{views}\n{}", spec(2)));
+    let out = well(&room, &["a.toml", "--list"]);
+    let lines: Vec<&str> = out.lines().collect();
+    assert!(lines[0].ends_with(",hair.type,views"), "{out}");
+    assert!(lines[1..].iter().all(|line| line.ends_with(",front camera-01")), "{out}");
+    let out = well(&room, &["a.toml", "-o", "heads"]);
+    assert!(out.contains("2 heads with 2 views of 24 × 16 pixels each"), "{out}");
+    assert!(room.path("heads/_views/views-000000000.parquet").is_file());
+}
+
 /// Waits until a run has written some parts.
 fn await_parts(room: &Room, child: &mut Child, count: usize) {
     let since = Instant::now();

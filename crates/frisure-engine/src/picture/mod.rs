@@ -11,6 +11,8 @@ mod options;
 mod subject;
 mod traced;
 mod turntable;
+#[cfg(not(target_arch = "wasm32"))]
+mod views;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub use denoise::NoiseFilter;
@@ -20,6 +22,8 @@ pub use file::write;
 pub use frames::{FinalPicture, FrameSet, TraceEnd};
 pub use options::{aspect, developed, spec};
 pub use subject::{Subject, Viewpoint};
+#[cfg(not(target_arch = "wasm32"))]
+pub use views::{View, Viewed};
 
 pub(crate) use accumulate::{Pauses, accumulate};
 pub(crate) use turntable::{check_turntable, turntable};

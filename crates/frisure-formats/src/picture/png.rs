@@ -46,6 +46,76 @@ pub fn encode_data(width: u32, height: u32, rgba: &[u8]) -> Result<Vec<u8>, Pict
     Ok(bytes)
 }
 
+/// The bytes of a PNG with one (grey), three (sRGB) or four (sRGB, alpha) bytes per pixel, row by row from the top.
+///
+/// # Errors
+/// [`PictureError::Size`], also for another number of channels.
+pub fn encode_channels(
+    width: u32,
+    height: u32,
+    channels: u8,
+    pixels: &[u8],
+) -> Result<Vec<u8>, PictureError> {
+    let (color, what) = match channels {
+        1 => (png::ColorType::Grayscale, "grey"),
+        3 => (png::ColorType::Rgb, "RGB"),
+        _ => (png::ColorType::Rgba, "RGBA"),
+    };
+    let expected = u128::from(width) * u128::from(height) * color.samples() as u128;
+    if expected == 0 || pixels.len() as u128 != expected || color.samples() != usize::from(channels)
+    {
+        let (width, height) = (width as usize, height as usize);
+        let (what, found) = (what.to_owned(), pixels.len());
+        return Err(PictureError::Size { width, height, what, found });
+    }
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(png::BitDepth::Eight);
+    if channels > 1 {
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    }
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(pixels)?;
+        writer.finish()
+    });
+    written.map_err(|e| PictureError::Encoding(e.to_string()))?;
+    Ok(bytes)
+}
+
+/// The pixels of a PNG in eight bits a channel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Decoded {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Bytes of each pixel: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha.
+    pub channels: usize,
+    /// Row by row from the top left.
+    pub pixels: Vec<u8>,
+}
+
+/// Most bytes of a picture that is read.
+const MAX_DECODED: usize = 1 << 30;
+
+/// Reads a PNG; what is wrong with it is told in a sentence.
+///
+/// # Errors
+/// The sentence.
+pub fn decode(bytes: &[u8]) -> Result<Decoded, String> {
+    let limits = png::Limits { bytes: MAX_DECODED };
+    let mut decoder = png::Decoder::new_with_limits(io::Cursor::new(bytes), limits);
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|e| e.to_string())?;
+    let size = reader.output_buffer_size().filter(|&n| n <= MAX_DECODED);
+    let mut pixels = vec![0; size.ok_or("it has too many pixels")?];
+    let frame = reader.next_frame(&mut pixels).map_err(|e| e.to_string())?;
+    pixels.truncate(frame.buffer_size());
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    Ok(Decoded { width, height, channels: frame.color_type.samples(), pixels })
+}
+
 /// The bytes of an animated PNG that never ends, of frames as in [`write()`], each seen for as many
 /// milliseconds. Programs that know no animation show the first.
 ///
@@ -107,6 +177,19 @@ fn animated(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn channels_come_back() {
+        for channels in [1, 3, 4] {
+            let pixels: Vec<u8> = (0..6 * channels).map(|i| 11 * i).collect();
+            let bytes = encode_channels(2, 3, channels, &pixels).unwrap();
+            let channels = usize::from(channels);
+            assert_eq!(decode(&bytes), Ok(Decoded { width: 2, height: 3, channels, pixels }));
+        }
+        assert!(encode_channels(2, 3, 2, &[0; 12]).is_err());
+        assert!(encode_channels(2, 3, 3, &[0; 17]).is_err());
+        assert!(decode(b"no picture").is_err());
+    }
 
     #[test]
     fn frames_come_back_from_an_animation() {

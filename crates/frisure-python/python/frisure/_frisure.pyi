@@ -17,11 +17,14 @@ __all__ = [
     "SceneText",
     "StrandData",
     "__version__",
+    "compute_part",
     "fit_fibres",
     "inverse_rods",
+    "missing_parts",
     "operation_names",
     "preset_names",
     "preset_text",
+    "read_png",
     "render",
     "render_png",
     "run_command",
@@ -88,6 +91,7 @@ def render(
     progress: _Progress | None,
 ) -> Memory: ...
 def render_png(prediction: Prediction, width: int, height: int) -> bytes: ...
+def read_png(png: bytes) -> Memory: ...
 def save_picture(
     prediction: Prediction, path: str | os.PathLike[str], progress: _Progress | None
 ) -> None: ...
@@ -147,3 +151,13 @@ def preset_text(name: str) -> str | None: ...
 def operation_names() -> list[str]: ...
 def scene_keys() -> list[tuple[str, str]]: ...
 def run_command(arguments: Sequence[str]) -> int: ...
+def missing_parts(
+    spec: str | os.PathLike[str], folder: str | os.PathLike[str]
+) -> tuple[int, list[int]]: ...
+def compute_part(
+    spec: str | os.PathLike[str],
+    folder: str | os.PathLike[str],
+    part: int,
+    parts: int,
+    threads: int,
+) -> tuple[int, int, int]: ...

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use frisure_hairstyle::Draws;
 
 use super::sheet::Sheet;
+use super::views::Views;
 use super::way::{self, Kind, Parameter, Value, Written};
 use crate::edit::{EditError, set_key, set_keys};
 use crate::key_groups::PATHS;
@@ -32,6 +33,7 @@ pub struct Batch {
     pub(super) rows: usize,
     pub(super) points: Option<usize>,
     pub(super) volume: bool,
+    pub(super) views: Option<Views>,
     /// Keys that are the same for all heads.
     pub(super) fixed: Vec<(String, String)>,
     /// Keys of the grid, then those that are drawn.
@@ -76,6 +78,12 @@ impl Batch {
     #[must_use]
     pub fn volume(&self) -> bool {
         self.volume
+    }
+
+    /// The pictures of each head, if it has any.
+    #[must_use]
+    pub fn views(&self) -> Option<&Views> {
+        self.views.as_ref()
     }
 
     /// Where paths in its scenes begin from.
@@ -196,7 +204,7 @@ impl Batch {
     }
 
     pub(super) fn digest_with(&self, files: &[Vec<u8>]) -> [u8; 16] {
-        let Self { seed, same_seed, rows, points, volume, fixed, parameters, .. } = self;
+        let Self { seed, same_seed, rows, points, volume, views, fixed, parameters, .. } = self;
         let mut digest = Digest::new("batch");
         digest
             .field("version", env!("CARGO_PKG_VERSION"))
@@ -209,6 +217,10 @@ impl Batch {
             .field("parameters", parameters)
             .field("scene", self.base.text())
             .field("files", files);
+        // Folders of batches without pictures stay valid.
+        if let Some(views) = views {
+            digest.field("views", views);
+        }
         digest.bytes()
     }
 }

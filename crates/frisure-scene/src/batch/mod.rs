@@ -3,7 +3,7 @@
 //! A batch is TOML that names a scene, the keys of it that differ from head to head, and how: over a
 //! grid, or drawn from ranges, distributions and tables of people who were measured. `read` reads
 //! it, `way` is how a key varies, `sheet` the tables, and `trial` tries the ends of each range on the scene, so
-//! that the work does not begin with values out of range. The head of a number follows from the batch and that
+//! that the work does not begin with values out of range. `views` are the pictures of each head. The head of a number follows from the batch and that
 //! number alone.
 
 mod heads;
@@ -13,6 +13,7 @@ mod sheet;
 mod table;
 mod trial;
 mod variation;
+mod views;
 mod way;
 
 use std::path::Path;
@@ -22,6 +23,7 @@ use crate::source::Source;
 use crate::unit_hint;
 
 pub use heads::{Batch, MOST_HEADS, Sample};
+pub use views::{ViewCamera, ViewOutput, Views};
 pub use way::{Kind, Value};
 
 /// Largest description of a batch that is read (bytes).

@@ -11,14 +11,26 @@ use super::names;
 use super::sheet::Sheet;
 use super::table::{Field, Table, join};
 use super::variation::{self, Entry, Varied};
+use super::views;
 use super::way::{Parameter, Way, Written, kind_of};
 use crate::error::{Diagnostic, Result, SceneError};
 use crate::scene::Scene;
 use crate::source::Source;
 
 /// Keys of a batch.
-const KEYS: [&str; 10] =
-    ["scene", "samples", "seed", "same_seed", "rows", "points", "volume", "set", "grid", "vary"];
+const KEYS: [&str; 11] = [
+    "scene",
+    "samples",
+    "seed",
+    "same_seed",
+    "rows",
+    "points",
+    "volume",
+    "views",
+    "set",
+    "grid",
+    "vary",
+];
 
 /// Reads a description; paths are relative to `folder`, and the ends of its ranges are not tried.
 pub(super) fn batch(source: Source, folder: &Path) -> Result<Batch> {
@@ -40,6 +52,7 @@ pub(super) fn batch(source: Source, folder: &Path) -> Result<Batch> {
         rows: table.whole("rows", 1, 100_000)?.unwrap_or(16) as usize,
         points: table.whole("points", 2, 10_000)?.map(|points| points as usize),
         volume: table.flag("volume")?.unwrap_or(true),
+        views: views::views(&table, &source)?,
         fixed: fixed.into_iter().map(|entry| (entry.path, entry.text)).collect(),
         parameters: parameters.into_iter().map(|varied| varied.parameter).collect(),
         sheets,
