@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn png_of_every_kind_is_read() {
-        let mut encoded = |color, depth, data: &[u8]| {
+        let encoded = |color, depth, data: &[u8]| {
             let mut bytes = Vec::new();
             let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
             encoder.set_color(color);
