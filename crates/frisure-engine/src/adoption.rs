@@ -26,6 +26,9 @@ pub struct AdoptionReport {
     /// Strands of the groom without length, which are left out.
     #[serde(default)]
     pub left_out: usize,
+    /// At how many times the file has the groom, of which the first was taken; 0 or 1 of a groom that does not move.
+    #[serde(default)]
+    pub times: usize,
     /// Indices of the strands that moved by more than a millimetre, the farthest first; at most a hundred.
     pub moved: Vec<usize>,
 }
@@ -43,7 +46,7 @@ impl AdoptionReport {
     /// Summarises an adoption.
     #[must_use]
     pub fn of(adoption: &Adoption) -> Self {
-        let Adoption { distances, stiffness_needed, left_out, inside } = adoption;
+        let Adoption { distances, stiffness_needed, left_out, inside, times } = adoption;
         let mut order: Vec<usize> = (0..distances.len()).collect();
         order.sort_by(|&a, &b| distances[b].total_cmp(&distances[a]).then(a.cmp(&b)));
         let distance = |rank: usize| order.get(rank).map_or(0.0, |&i| distances[i]);
@@ -57,6 +60,7 @@ impl AdoptionReport {
             stiffness_needed: stiffness_needed.iter().copied().fold(1.0, f64::max),
             inside: *inside,
             left_out: *left_out,
+            times: *times,
             moved: order[..moved.min(LISTED)].to_vec(),
         }
     }
@@ -86,6 +90,9 @@ impl fmt::Display for AdoptionReport {
         if self.left_out > 0 {
             write!(f, "; {} without length and left out", are(self.left_out))?;
         }
+        if self.times > 1 {
+            write!(f, "; of {} times that the groom has the first is taken", self.times)?;
+        }
         if 2 * within_a_millimetre < *strands {
             f.write_str("; check that this is the head of the groom, and which axis is up")?;
         }
@@ -106,7 +113,7 @@ mod tests {
     fn strands_that_moved_are_counted_and_listed() {
         let distances = vec![1e-4, 0.02, 2e-4, 3e-3, 0.0];
         let stiffness_needed = vec![1.0, 6.5, 1.0, 1.0, 1.0];
-        let adoption = Adoption { distances, stiffness_needed, left_out: 2, inside: 1 };
+        let adoption = Adoption { distances, stiffness_needed, left_out: 2, inside: 1, times: 3 };
         let report = AdoptionReport::of(&adoption);
         assert_eq!(report.moved, [1, 3]);
         assert_eq!(

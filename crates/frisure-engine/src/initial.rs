@@ -51,7 +51,7 @@ pub(crate) fn initial_hairstyle(
         Some(from) => transfer(&adopted, from, head, progress).map_err(wrong)?,
         None => adopted,
     };
-    Ok((hairstyle, Some(adoption)))
+    Ok((hairstyle, Some(Adoption { times: groom.times, ..adoption })))
 }
 
 /// Largest median distance (m) of roots from the skin; chosen.

@@ -43,7 +43,7 @@ fn groom() -> Groom {
         guides.set_attribute(attribute).unwrap();
     }
     let colour = Some(HairColour { melanin: None, colour: [0.25, 0.125, 0.0625] });
-    Groom { name: "fine_hair".into(), hairs, guides, head: None, colour }
+    Groom { name: "fine_hair".into(), hairs, guides, colour, ..Groom::default() }
 }
 
 fn strands(counts: &[usize]) -> Strands {

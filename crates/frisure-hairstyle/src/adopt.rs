@@ -41,6 +41,8 @@ pub struct Adoption {
     pub left_out: usize,
     /// How many guides the groom has in the head, deeper than 5 mm; they come out of it.
     pub inside: usize,
+    /// At how many times the groom is known, of which the first was adopted; 0 or 1 of a groom that does not move.
+    pub times: usize,
 }
 
 /// The hairstyle of a groom: each strand of `guides` (m) becomes a guide whose natural strain is the one with which
@@ -102,7 +104,7 @@ pub fn adopt(
     let inside = lines.iter().filter(|line| is_inside(&spec, head, line)).count();
     let styling = Styling::none(&guides);
     let hairstyle = Hairstyle { spec, placement, layout, guides, rest, styling };
-    Ok((hairstyle, Adoption { distances, stiffness_needed, left_out, inside }))
+    Ok((hairstyle, Adoption { distances, stiffness_needed, left_out, inside, times: 0 }))
 }
 
 /// Least length (m) of a strand that is hair. Chosen: far below any hair, far above rounding.

@@ -47,7 +47,7 @@ impl<'a> Archive<'a> {
     /// # Errors
     /// What is wrong with the file.
     pub fn numbers(&self, property: &Property<'a>) -> Result<Option<(usize, Numbers)>, String> {
-        let Kind::Values { pod, extent } = property.kind else { return Ok(None) };
+        let Kind::Values { pod, extent, .. } = property.kind else { return Ok(None) };
         let bytes = self.sample(property)?;
         let whole = |values: Vec<u32>| Numbers::Whole(values);
         let values = match pod {

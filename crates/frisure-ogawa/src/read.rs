@@ -43,6 +43,8 @@ pub enum Kind {
         pod: u8,
         /// How many make one.
         extent: u8,
+        /// How many samples in time it has that differ; 1 of what does not change.
+        samples: usize,
     },
 }
 
@@ -191,12 +193,15 @@ impl<'a> Archive<'a> {
                 Kind::Compound
             } else {
                 // The number of samples, the first and last that differ, and the times.
-                for present in [true, info & 0x200 != 0, info & 0x200 != 0, info & 0x100 != 0] {
+                // A property that is said to be constant stores its first sample alone.
+                let all = rest.number(width)?;
+                let samples = if info & 0x800 == 0 { all } else { all.min(1) };
+                for present in [info & 0x200 != 0, info & 0x200 != 0, info & 0x100 != 0] {
                     if present {
                         rest.number(width)?;
                     }
                 }
-                Kind::Values { pod: (info >> 4 & 15) as u8, extent: (info >> 12) as u8 }
+                Kind::Values { pod: (info >> 4 & 15) as u8, extent: (info >> 12) as u8, samples }
             };
             let size = rest.number(width)?;
             let name = rest.take(size)?;

@@ -95,6 +95,8 @@ pub struct Attribute {
     pub value: Option<Value>,
     /// Values at times (time codes, increasing), to be written; none of a layer that was read.
     pub samples: Vec<(f64, Value)>,
+    /// How many samples in time it has in a layer that was read; [`Self::value`] has one of them at most.
+    pub times: usize,
     /// Paths of the attributes that it is connected to.
     pub connections: Vec<String>,
     /// The metadata keys that the reader supports.

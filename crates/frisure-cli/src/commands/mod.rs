@@ -27,6 +27,7 @@ use frisure::scene::{MAX_SIZE, Scene};
 use frisure_engine::Error;
 
 use crate::args::Axes;
+use crate::console;
 
 /// The name of a scene in errors about its size.
 const SCENE_FILE: &str = "a scene";
@@ -68,10 +69,14 @@ fn read_text(path: &Path) -> Result<String, Error> {
 
 /// The groom in a file; `hint` names the flags for its unit and axes.
 fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Error> {
-    groom::read_groom(path, axes.choice()).map_err(|e| match e {
+    let read = groom::read_groom(path, axes.choice()).map_err(|e| match e {
         GroomError::Malformed { .. } => Error::because(&e, hint),
         _ => Error::because(&e, ""),
-    })
+    })?;
+    if let Some(told) = read.told() {
+        console::note(&format!("{}: {told}", path.display()));
+    }
+    Ok(read)
 }
 
 /// The name of a scene in errors.

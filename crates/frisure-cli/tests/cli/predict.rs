@@ -183,6 +183,14 @@ fn all_steps_are_in_one_groom_the_same_on_any_number_of_threads() {
         let ran = room.run(&[&head[..], &files].concat());
         assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
         assert!(ran.out.contains("a.abc (13 time samples)\n"), "{}", ran.out);
+        // What reads them takes the first, and says so.
+        for moving in ["out/a.abc", "out/a.usda"] {
+            let still = room.run(&["convert", moving, "-o", "still.npz"]);
+            let told = format!(
+                "note: {moving}: the hair of the file moves: of its 13 times the first is read"
+            );
+            assert!(still.code == Some(0) && still.err.contains(&told), "{}", still.err);
+        }
         // Pictures are numbered as without.
         assert!(room.path("out/a-12.png").exists() && !room.path("out/a-00.abc").exists());
         ["out/a.abc", "out/a.usda"].map(|name| fs::read(room.path(name)).unwrap())

@@ -31,6 +31,8 @@ pub struct Groom {
     pub head: Option<Surface>,
     /// The colour of its hairs, where they have none of their own.
     pub colour: Option<HairColour>,
+    /// At how many times the file has its points: readers take the first of several, as [`Self::told`] says. 0 of hair that does not move.
+    pub times: usize,
 }
 
 /// The colour of hair, for pictures.
@@ -47,6 +49,14 @@ impl Groom {
     #[must_use]
     pub fn of(hairs: Strands) -> Self {
         Self { hairs, ..Self::default() }
+    }
+
+    /// What a person should know of how it was read: that there are several times, of which it is the first.
+    #[must_use]
+    pub fn told(&self) -> Option<String> {
+        let times = self.times;
+        (times > 1)
+            .then(|| format!("the hair of the file moves: of its {times} times the first is read"))
     }
 
     /// The strands for a format that holds one kind: the hairs, or the guides where there are no hairs.

@@ -101,7 +101,7 @@ impl Groom {
         let ((hairs, of_hairs), (guides, of_guides)) = (with(&hairs), with(&self.guides));
         let Self { name, head, colour, .. } = self;
         let (name, head, colour) = (name.clone(), head.clone(), *colour);
-        let groom = Self { name, hairs, guides, head, colour };
+        let groom = Self { name, hairs, guides, head, colour, times: self.times };
         Ok(Fitted { groom, hairs_before: before, widening, error: of_hairs.max(of_guides) })
     }
 }

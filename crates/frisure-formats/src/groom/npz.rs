@@ -218,7 +218,7 @@ fn decode(bytes: &[u8], choice: FrameChoice) -> Result<Groom, String> {
         let of_guides = |e: String| format!("of its guides: {e}");
         curves(guides, frame).and_then(|c| c.strands(frame)).map_err(of_guides)?
     };
-    Ok(Groom { name, hairs, guides, head: None, colour })
+    Ok(Groom { name, hairs, guides, colour, ..Groom::default() })
 }
 
 fn colour(arrays: &mut BTreeMap<String, Array>) -> Option<HairColour> {

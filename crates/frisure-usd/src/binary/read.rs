@@ -202,12 +202,15 @@ impl Reader<'_> {
             metadata: self.metadata(fields)?,
             value: None,
             samples: Vec::new(),
+            times: 0,
         };
         if let Some(rep) = fields.get("default") {
             attribute.value = self.source.value(*rep)?;
         }
-        if let (None, Some(rep)) = (&attribute.value, fields.get("timeSamples")) {
-            attribute.value = self.source.first_sample(*rep)?;
+        if let Some(rep) = fields.get("timeSamples") {
+            let (first, times) = self.source.first_sample(*rep)?;
+            attribute.times = times;
+            attribute.value = attribute.value.or(first);
         }
         Ok(attribute)
     }

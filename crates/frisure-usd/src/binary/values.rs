@@ -36,20 +36,21 @@ impl Source<'_> {
     }
 
     /// The first of samples in time.
-    pub(super) fn first_sample(&mut self, rep: ValueRep) -> Result<Option<Value>, String> {
+    pub(super) fn first_sample(&mut self, rep: ValueRep) -> Result<(Option<Value>, usize), String> {
         if rep.code() != code::TIME_SAMPLES || rep.has(ValueRep::INLINED) {
-            return Ok(None);
+            return Ok((None, 0));
         }
         let mut here = Bytes::new(self.bytes, rep.payload())?;
         // Times, then values.
         here.follow()?;
         here.u64()?;
         here.follow()?;
-        if here.u64()? == 0 {
-            return Ok(None);
+        let times = here.u64()?;
+        if times == 0 {
+            return Ok((None, 0));
         }
         let first = ValueRep(here.u64()?);
-        self.value(first)
+        Ok((self.value(first)?, usize::try_from(times).unwrap_or(usize::MAX)))
     }
 
     /// Indices of words, of a list or of a change to one.

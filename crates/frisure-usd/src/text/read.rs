@@ -173,7 +173,8 @@ impl<'a> Reader<'a> {
             }
             "timeSamples" => {
                 self.lexer.expect(b'=')?;
-                let first = self.samples(type_name)?;
+                let (first, times) = self.samples(type_name)?;
+                attribute.times = times;
                 if attribute.value.is_none() {
                     attribute.value = first;
                 }
@@ -310,10 +311,11 @@ impl<'a> Reader<'a> {
     }
 
     /// The first of samples in time, which are in the order of time.
-    fn samples(&mut self, type_name: &str) -> Result<Option<Value>, String> {
+    fn samples(&mut self, type_name: &str) -> Result<(Option<Value>, usize), String> {
         self.lexer.expect(b'{')?;
-        let mut first = None;
+        let (mut first, mut times) = (None, 0);
         while !self.lexer.takes(b'}')? {
+            times += 1;
             self.lexer.number()?;
             self.lexer.expect(b':')?;
             if first.is_none() {
@@ -323,7 +325,7 @@ impl<'a> Reader<'a> {
             }
             self.lexer.takes(b',')?;
         }
-        Ok(first)
+        Ok((first, times))
     }
 
     /// One value of a type.

@@ -13,7 +13,7 @@ use crate::groom::curves::Curves;
 use crate::groom::data::{Groom, HairColour};
 use frisure_files::frame::{Frame, FrameChoice, UpAxis};
 use frisure_ogawa::parameter::{Numbers, Parameter, Scope};
-use frisure_ogawa::read::{Archive, Object, Property};
+use frisure_ogawa::read::{Archive, Kind, Object, Property};
 
 /// How deep objects can be in each other.
 const DEEPEST: usize = 64;
@@ -49,6 +49,8 @@ struct Found {
     melanin: Option<Melanin>,
     hairs: Vec<Part>,
     guides: Vec<Part>,
+    /// Most samples in time of the points of any curves; 0 if none move.
+    times: usize,
 }
 
 impl Found {
@@ -69,6 +71,7 @@ impl Found {
                 .map_err(|e| format!("of its guides, {e}"))?,
             head: None,
             colour,
+            times: self.times,
         })
     }
 }
@@ -98,6 +101,11 @@ fn visit<'a>(
     }
     let Some(geometry) = named(&properties, ".geom") else { return Ok(placed) };
     let geometry = archive.parts(&geometry)?;
+    if let Some(Kind::Values { samples: samples @ 2.., .. }) =
+        named(&geometry, "P").map(|points| points.kind)
+    {
+        found.times = found.times.max(samples);
+    }
     if let Some((part, guides)) = curves(archive, &geometry, placed)? {
         let rows = |of: bool| (0..guides.len()).filter(|&i| guides[i] == of).collect::<Vec<_>>();
         match (rows(true), rows(false)) {

@@ -18,12 +18,13 @@ const USUAL_DIAMETER: f64 = 70e-6;
 /// The groom of a stage.
 pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
     let (mut hairs, mut guides) = (Vec::new(), Vec::new());
-    let mut found = false;
+    let (mut found, mut times) = (false, 0);
     let (mut colour, mut coloured) = (None, false);
     for place in &stage.prims {
         let described = |e: String| stage.fault(place, &e);
         let Some(taps) = taps(place).map_err(described)? else { continue };
         found = true;
+        times = times.max(place.prim.attribute("points").map_or(0, |points| points.times));
         let curves = curves(place, &taps, frame).map_err(described)?;
         let (own_hairs, own_guides) = divided(curves, place, &taps).map_err(described)?;
         // That of the first prim with hairs.
@@ -42,6 +43,7 @@ pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
         guides: joined(guides, frame)?,
         head: head(stage, frame)?,
         colour,
+        times,
     })
 }
 

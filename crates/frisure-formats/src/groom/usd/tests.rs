@@ -55,6 +55,7 @@ fn whole() -> Groom {
         guides: strands(2, 3),
         head: Some(head),
         colour: Some(HairColour { melanin, colour: [0.5, 0.25, 0.125] }),
+        times: 0,
     }
 }
 
@@ -447,5 +448,8 @@ fn hair_that_moves_has_its_points_and_widths_at_time_codes() {
         assert_eq!(read.hairs.points(), whole().hairs.points());
         assert_eq!(read.hairs.radii(), whole().hairs.radii());
         assert_eq!(read.guides, whole().guides);
+        // And says that there are others.
+        assert_eq!((read.times, whole().told()), (3, None));
+        assert!(read.told().unwrap().contains("of its 3 times the first"));
     }
 }
