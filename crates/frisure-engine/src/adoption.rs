@@ -120,7 +120,8 @@ mod tests {
             report.to_string(),
             "3 of 5 guides stay within 1 mm (median 0.20 mm, farthest 20.0 mm); 1 strand is unstable with \
              this fibre; the worst needs 6.5 times the bending stiffness; 1 strand is inside the head in the \
-             groom and moved out; 2 strands are without length and left out"
+             groom and moved out; 2 strands are without length and left out; of 3 times that the groom has the first \
+             is taken"
         );
     }
 }

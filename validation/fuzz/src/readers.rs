@@ -7,6 +7,7 @@ use frisure::files::Files;
 use frisure::files::frame::FrameChoice;
 use frisure::files::head::{HeadFile, ScalpSource};
 use frisure::formats::groom::{self, Format, Groom, attributes};
+use frisure::formats::picture::photo;
 use frisure::formats::{environment, head};
 use frisure::render::trace::Accumulator;
 use frisure::scene::batch::Batch;
@@ -154,6 +155,9 @@ fn other_targets() -> Vec<Target> {
     vec![
         target("head", corpus("head"), use_head),
         target("environment", vec![light.to_vec()], use_environment),
+        target("photo", corpus("photo"), |bytes| {
+            let _ = photo::decode(bytes, Path::new("any"));
+        }),
         target("picture-checkpoint", vec![checkpoint], |bytes| {
             let _ = Accumulator::from_bytes(bytes);
         }),

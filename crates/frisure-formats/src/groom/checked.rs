@@ -74,12 +74,25 @@ pub(super) fn check_curves(groom: &Groom) -> Result<(), String> {
     check_strands("guide", &groom.guides)
 }
 
+/// Checks that every strand is a line, of at least two points: no reader takes others.
+pub(super) fn check_lines(groom: &Groom) -> Result<(), String> {
+    check_each("hair", &groom.hairs)?;
+    check_each("guide", &groom.guides)
+}
+
+fn check_each(kind: &str, strands: &Strands) -> Result<(), String> {
+    match strands.iter().position(|strand| strand.points.len() < 2) {
+        None => Ok(()),
+        Some(i) => {
+            let points = strands.strand(i).points.len();
+            Err(format!("{kind} {i} of {points} points: a curve has at least 2"))
+        }
+    }
+}
+
 /// Checks that curves can hold strands: at least two points each, and counts that are signed.
 pub(super) fn check_strands(kind: &str, strands: &Strands) -> Result<(), String> {
-    if let Some(i) = strands.iter().position(|strand| strand.points.len() < 2) {
-        let points = strands.strand(i).points.len();
-        return Err(format!("{kind} {i} of {points} points: a curve has at least 2"));
-    }
+    check_each(kind, strands)?;
     let points = strands.points().len();
     i32::try_from(points).map(drop).map_err(|_| format!("{points} points of {kind}s"))
 }

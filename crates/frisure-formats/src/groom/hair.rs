@@ -56,12 +56,12 @@ fn info(frame: Frame) -> String {
 /// Colour of strands that have none of their own: brown.
 const DEFAULT_COLOUR: [f32; 3] = [0.25, 0.15, 0.09];
 
-/// Checks that the format has room: strands of 1 to 65 536 points.
+/// Checks that the format has room: strands of 2 to 65 536 points.
 fn check(strands: &Strands) -> Result<(), String> {
     for (i, strand) in strands.iter().enumerate() {
         let points = strand.points.len();
-        if points == 0 || points > 1 + usize::from(u16::MAX) {
-            return Err(format!("strand {i} of {points} points: 1 to 65536 are possible"));
+        if points < 2 || points > 1 + usize::from(u16::MAX) {
+            return Err(format!("strand {i} of {points} points: 2 to 65536 are possible"));
         }
     }
     if u32::try_from(strands.len()).is_err() {
@@ -258,7 +258,7 @@ mod tests {
 
     #[test]
     fn what_was_written_is_read() {
-        for counts in [&[3, 2][..], &[4, 4, 4], &[1], &[]] {
+        for counts in [&[3, 2][..], &[4, 4, 4], &[2], &[]] {
             let strands = groom(counts);
             let read = decode(&bytes(&strands), FrameChoice::default()).unwrap().hairs;
             assert_eq!(read.offsets(), strands.offsets());

@@ -209,7 +209,7 @@ pub fn encode(format: Format, groom: &Groom, choice: FrameChoice) -> Result<Vec<
 /// Checks that a format has room for a groom, and has the unit and axes.
 fn check(format: Format, groom: &Groom, choice: FrameChoice) -> Result<(), GroomError> {
     format.check_frame(choice)?;
-    let checked = (format.0.check)(groom);
+    let checked = checked::check_lines(groom).and_then(|()| (format.0.check)(groom));
     checked.map_err(|what| GroomError::CannotHold { format: format.extension(), what })
 }
 

@@ -50,18 +50,25 @@ pub enum PhotoReadError {
     },
 }
 
-/// Reads a photo; the first bytes tell the format. Grey is read as colour, 16 bits as 8, what is transparent as if white were behind it, and a photo that
-/// says that it has to be turned is turned (Exif).
+/// Reads the photo in a file: [`decode`].
 ///
 /// # Errors
 /// [`PhotoReadError`].
 pub fn read(path: &Path) -> Result<Pixels, PhotoReadError> {
-    let bytes = read_bytes(path, LARGEST_FILE, "a photo")?;
+    decode(&read_bytes(path, LARGEST_FILE, "a photo")?, path)
+}
+
+/// A photo from the bytes of a file, whose `path` is for errors alone; the first bytes tell the format. Grey is read as colour, 16 bits as 8, what is transparent as if white were behind it, and a photo that
+/// says that it has to be turned is turned (Exif).
+///
+/// # Errors
+/// [`PhotoReadError`].
+pub fn decode(bytes: &[u8], path: &Path) -> Result<Pixels, PhotoReadError> {
     let damaged = |problem| PhotoReadError::Damaged { path: path.into(), problem };
     if bytes.starts_with(b"\x89PNG") {
-        from_png(&bytes).map_err(damaged)
+        from_png(bytes).map_err(damaged)
     } else if bytes.starts_with(&[0xff, 0xd8]) {
-        from_jpeg(&bytes).map_err(damaged)
+        from_jpeg(bytes).map_err(damaged)
     } else {
         Err(PhotoReadError::Format { path: path.into() })
     }
@@ -206,6 +213,29 @@ mod tests {
             encoded(ColorType::Rgba, BitDepth::Eight, &[1, 2, 3, 255, 9, 9, 9, 0])[..3],
             [1, 2, 3]
         );
+    }
+
+    #[test]
+    fn jpeg_is_read_and_turned() {
+        // Red rises by 20 a pixel to the right, green by 25 downwards, in 12 x 9 pixels; saved by libjpeg, which loses a little.
+        let baseline = from_jpeg(include_bytes!("../../tests/data/turned.jpg")).unwrap();
+        let progressive = from_jpeg(include_bytes!("../../tests/data/progressive.jpg")).unwrap();
+        let grey = from_jpeg(include_bytes!("../../tests/data/grey.jpg")).unwrap();
+        // The first says that it is to be turned clockwise.
+        assert_eq!((baseline.width, baseline.height), (9, 12));
+        assert_eq!((progressive.width, progressive.height, grey.rgb.len()), (12, 9, 324));
+        assert!(grey.rgb.chunks_exact(3).all(|p| p[0] == p[1] && p[1] == p[2]));
+        let (mut of_turned, mut of_progressive) = (0, 0);
+        for (x, y) in (0..12).flat_map(|x| (0..9).map(move |y| (x, y))) {
+            let off = |photo: &Pixels, at: usize| {
+                let [r, g] = [photo.rgb[3 * at], photo.rgb[3 * at + 1]].map(usize::from);
+                r.abs_diff(20 * x) + g.abs_diff(25 * y)
+            };
+            of_turned += off(&baseline, x * 9 + (8 - y));
+            of_progressive += off(&progressive, y * 12 + x);
+        }
+        let mean = [of_turned, of_progressive].map(|sum| sum as f64 / 108.0);
+        assert!(mean.iter().all(|mean| *mean < 25.0), "{mean:?}");
     }
 
     #[test]
