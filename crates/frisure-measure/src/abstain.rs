@@ -16,6 +16,12 @@ pub(crate) const LEAST_EXPLAINED: f64 = 0.6;
 /// Largest standard deviation of radius or pitch, as a part of it. Tuned on renders with seeds below 1000.
 pub(crate) const MOST_DEVIATION: f64 = 0.1;
 
+/// Largest angle (rad) to the vertical of a lock that hangs: 20 degrees. Chosen: its weight would bend it as a whole.
+pub(crate) const MOST_TILT: f64 = 0.35;
+
+/// Factor by which the amplitudes of middle line, ridge lines and directions may differ. Tuned on renders with seeds below 1000.
+pub(crate) const MOST_APART: f64 = 1.6;
+
 /// Why no radius and pitch are given.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Serialize)]
 #[serde(tag = "reason", rename_all = "snake_case")]
@@ -42,7 +48,7 @@ pub enum Abstention {
         part: f64,
     },
     /// The lock is straight, within what the picture tells.
-    #[error("the lock is straight within {:.2} mm; the curvature of its curl is at most {most_curvature:.0} 1/m (a radius of {:.0} mm or more in a plane)", 1e3 * deviation, 1e3 / most_curvature)]
+    #[error("the middle line is straight within {:.2} mm; if all hairs run along it, the curvature of the curl is at most {most_curvature:.0} 1/m (a radius of {:.0} mm or more in a plane)", 1e3 * deviation, 1e3 / most_curvature)]
     Straight {
         /// Deviation from a straight line (m), root mean square.
         deviation: f64,
@@ -79,6 +85,23 @@ pub enum Abstention {
         /// The other (m).
         second: f64,
     },
+    /// It does not hang.
+    #[error("the lock lies {:.0} degrees from the vertical (at most {:.0} are a lock that hangs)", tilt.abs().to_degrees(), MOST_TILT.to_degrees())]
+    Aslant {
+        /// Angle of its axis to the photo's vertical (rad).
+        tilt: f64,
+    },
+    /// Hairs do not run as the wave of the whole does.
+    #[error("the outline has a wave of {:.2} mm, and the lines in it one of {:.2} mm: they are not hairs that run with it", 1e3 * line, 1e3 * other)]
+    Disagree {
+        /// Amplitude (m) of the middle line.
+        line: f64,
+        /// Amplitude (m) by ridge lines or by directions.
+        other: f64,
+    },
+    /// No line runs along the wave.
+    #[error("no line of hair runs along the wave")]
+    Unsupported,
     /// The error bars are too wide.
     #[error("the error bars are too wide: {:.0} % of the radius, {:.0} % of the pitch (at most {:.0} %)", 100.0 * radius, 100.0 * pitch, 100.0 * MOST_DEVIATION)]
     Uncertain {
@@ -102,13 +125,21 @@ impl Abstention {
             Self::Several { .. } => {
                 "give --crop x,y,width,height around one lock, without the ruler"
             }
-            Self::Straight { .. } => "nothing is wrong with the picture if the hair is straight",
+            Self::Straight { .. } => {
+                "nothing is wrong if the hair is straight; of hairs that cross, take a single one"
+            }
             Self::FewWaves { .. } => "photograph a longer lock",
             Self::Coarse { .. } => "go nearer, so that a wave is 12 px long and 6 px wide at least",
             Self::NoWave { .. } => "take fewer hairs that run together, or a single one",
+            Self::Aslant { .. } => {
+                "turn the photo so that down is down; --hang none is for a lock that lies flat"
+            }
+            Self::Disagree { .. } | Self::Unsupported => {
+                "look at --overlay: what was followed is no lock, or its hairs cross; give --crop around one lock"
+            }
             Self::Ambiguous { .. } => "take fewer hairs, or a single one",
             Self::Uncertain { .. } => {
-                "photograph a longer lock or from nearer; --length and --type tell more of the fibre"
+                "photograph a longer lock or from nearer; --diameter, --length and --type tell more of the fibre"
             }
         }
     }

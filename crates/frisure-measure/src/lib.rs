@@ -34,7 +34,7 @@ pub use estimate::Estimate;
 pub use measure::{Drawing, Hang, Measurement, Options, Outcome, measure};
 pub use overlay::draw;
 pub use photo::{Crop, LEAST_SIDE, Photo, PhotoError};
-pub use report::{scene, table};
+pub use report::{GivenFibre, scene, table};
 pub use scale::{Scale, ScaleError};
 pub use spring::natural_of_hanging;
 pub use statics::Fibre;

@@ -5,7 +5,8 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::abstain::{
-    Abstention, LEAST_AMPLITUDE, LEAST_EXPLAINED, LEAST_WAVELENGTH, LEAST_WAVES, MOST_DEVIATION,
+    Abstention, LEAST_AMPLITUDE, LEAST_EXPLAINED, LEAST_WAVELENGTH, LEAST_WAVES, MOST_APART,
+    MOST_DEVIATION, MOST_TILT,
 };
 use crate::contrast::Contrast;
 use crate::cues::{Cues, Ratio, cues};
@@ -174,7 +175,34 @@ fn look(
         return Ok(Err(why));
     }
     let (cues, ratio) = cues(&line, wave, &ridges, pixel);
-    Ok(Ok(Seen::new(&line, wave, ratio, cues, pixel)))
+    let seen = Seen::new(&line, wave, ratio, cues, pixel);
+    Ok(match supported(&cues).and_then(|()| hangs(&seen, options.hang)) {
+        Ok(()) => Ok(seen),
+        Err(why) => Err(why),
+    })
+}
+
+/// Whether hairs run as the wave does: an outline alone is no lock.
+fn supported(cues: &Cues) -> Result<(), Abstention> {
+    let others = [cues.ridges.map(|ridges| ridges.value), cues.slopes];
+    let mut others = others.into_iter().flatten().peekable();
+    if others.peek().is_none() {
+        return Err(Abstention::Unsupported);
+    }
+    let apart = |other: &f64| !(1.0 / MOST_APART..=MOST_APART).contains(&(other / cues.line));
+    match others.find(apart) {
+        Some(other) => Err(Abstention::Disagree { line: cues.line, other }),
+        None => Ok(()),
+    }
+}
+
+/// Whether a lock that is said to hang does.
+fn hangs(seen: &Seen, hang: Hang) -> Result<(), Abstention> {
+    let tilt = seen.tilt;
+    match hang {
+        Hang::Down if tilt.abs() > MOST_TILT => Err(Abstention::Aslant { tilt }),
+        _ => Ok(()),
+    }
 }
 
 /// Why no wave was found, with lengths in pixels that are worked at.

@@ -46,15 +46,38 @@ fn millimetres(estimate: Estimate) -> String {
     format!("{:.2} ± {:.2} mm", 1e3 * estimate.value, 1e3 * half)
 }
 
+/// What the fibre was taken to be where that is not the type's, in SI units; [`scene`] writes it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct GivenFibre {
+    /// Length of the hairs (m).
+    pub length: Option<f64>,
+    /// Mean diameter (m).
+    pub diameter: Option<f64>,
+    /// Longer over shorter axis of the section.
+    pub axis_ratio: Option<f64>,
+    /// Young's and shear modulus (Pa).
+    pub moduli: Option<[f64; 2]>,
+}
+
 /// A scene with the natural curl: `[hair.curl]` with comments, for `frisure predict`; none without a natural curl. `hair_type` is the type of the other
-/// numbers, `source` what was measured.
+/// numbers, `given` those of the fibre that the measurement used instead, `source` what was measured.
 #[must_use]
-pub fn scene(found: &Measurement, hair_type: &str, source: &str) -> Option<String> {
+pub fn scene(
+    found: &Measurement,
+    hair_type: &str,
+    given: &GivenFibre,
+    source: &str,
+) -> Option<String> {
     let [radius, pitch] = found.natural?;
     let source: String = source.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let mut out = format!("# Measured by `frisure measure` from {source}.\n");
     let _ = writeln!(out, "# {:.1} curls, {} as seen.\n", found.turns, seen(found));
-    let _ = writeln!(out, "[hair]\ntype = \"{hair_type}\" # every number that is not measured\n");
+    let _ = writeln!(out, "[hair]\ntype = \"{hair_type}\" # every number that is not below");
+    if let Some(length) = given.length {
+        let _ = writeln!(out, "length = \"{:.1} mm\"", 1e3 * length);
+    }
+    out.push('\n');
+    out.push_str(&fibre(given));
     out.push_str("[hair.curl]\n");
     for (name, estimate) in [("radius", radius), ("pitch", pitch)] {
         let [low, high] = estimate.bounds().map(|x| 1e3 * x);
@@ -65,6 +88,26 @@ pub fn scene(found: &Measurement, hair_type: &str, source: &str) -> Option<Strin
         );
     }
     Some(out)
+}
+
+/// The table of the fibre, if something of it was given.
+fn fibre(given: &GivenFibre) -> String {
+    let mut keys = String::new();
+    if let Some(diameter) = given.diameter {
+        let _ = writeln!(keys, "diameter = \"{:.2} um\"", 1e6 * diameter);
+    }
+    if let Some(ratio) = given.axis_ratio {
+        let _ = writeln!(keys, "axis_ratio = {ratio:.4}");
+    }
+    if let Some([young, shear]) = given.moduli {
+        let _ = writeln!(keys, "youngs_modulus = \"{:.4} GPa\"", 1e-9 * young);
+        let _ = writeln!(keys, "shear_modulus = \"{:.4} GPa\"", 1e-9 * shear);
+    }
+    if keys.is_empty() {
+        keys
+    } else {
+        format!("[hair.fibre] # as the measurement took it\n{keys}\n")
+    }
 }
 
 fn seen(found: &Measurement) -> String {

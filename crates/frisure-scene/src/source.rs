@@ -132,7 +132,10 @@ fn whole_numbers(message: &str) -> Option<&'static str> {
         "too large to fit",
         "too small to fit",
     ];
-    refused.iter().any(|part| message.contains(part)).then_some("between -2^63 and 2^63 - 1")
+    refused
+        .iter()
+        .any(|part| message.contains(part))
+        .then_some("smaller: no whole number is above 2^63 - 1")
 }
 
 /// How far a path is written.

@@ -194,7 +194,7 @@ fn faults_name_place_value_range_and_hint() {
             &["at most 200000000 points"],
         ),
         (
-            "[hair.fibre]\nyoungs_modulus = \"1e-9 Pa\"",
+            "[hair.fibre]\ndiameter = \"5 um\"\nyoungs_modulus = \"1 MPa\"\n[hair]\nlength = \"3 m\"",
             1,
             1,
             "hair.fibre",

@@ -536,6 +536,7 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                     "braid.width" => "braid.pitch = 0.1",
                     "braid.pitch" => "braid.width = 0.01",
                     "clip.at" => "clip.to = [0, 0, 0]",
+                    "product.amount" => "product.kind = 'gel'",
                     _ => "",
                 };
                 format!("{rest}\n{path} = {x}")

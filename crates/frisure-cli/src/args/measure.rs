@@ -51,7 +51,7 @@ pub(crate) struct MeasurePhoto {
     pub(crate) length: Option<f64>,
 
     /// Mean diameter of the hairs, such as '72 um'. [default: the type's]
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = diameter)]
     pub(crate) diameter: Option<f64>,
 
     /// Longer over shorter axis of their section. [default: the type's]
@@ -107,7 +107,11 @@ fn crop(text: &str) -> Result<Crop, String> {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    within(&LENGTH, text, 1e-6, 10.0, "from 1 um to 10 m")
+    within(&LENGTH, text, 1e-3, 3.0, "from 1 mm to 3 m")
+}
+
+fn diameter(text: &str) -> Result<f64, String> {
+    within(&LENGTH, text, 5e-6, 5e-4, "from 5 um to 0.5 mm; hair of the scalp has 40 to 120 um")
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
@@ -115,7 +119,7 @@ fn ratio(text: &str) -> Result<f64, String> {
 }
 
 fn modulus(text: &str) -> Result<f64, String> {
-    within(&PRESSURE, text, 1e6, 1e12, "from 1 MPa to 1000 GPa")
+    within(&PRESSURE, text, 1e8, 1e11, "from 0.1 to 100 GPa; hair has 1 to 7 GPa")
 }
 
 fn within(

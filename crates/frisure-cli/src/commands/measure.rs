@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use frisure::formats::picture::photo::{Pixels, read};
+use frisure::formats::picture::photo::{PhotoReadError, Pixels, read};
 use frisure::formats::picture::png;
 use frisure::hairstyle::{Ellipticity, HairType};
 use frisure::measure::{
-    Abstention, Fibre, Measurement, Options, Outcome, Photo, draw, measure, scene, table,
+    Abstention, Fibre, GivenFibre, Measurement, Options, Outcome, Photo, draw, measure, scene,
+    table,
 };
 use frisure::rod::{Material, Section};
 use frisure_engine::Error;
@@ -42,8 +43,12 @@ pub(crate) fn run(arguments: &Arguments, quiet: bool) -> Result<ExitStatus, Erro
     outputs::prepare(&written, &[&arguments.photo])?;
     check_extensions(arguments)?;
     let options = options(arguments)?;
-    let pixels =
-        read(&arguments.photo).map_err(|e| Error::because(&e, "give a photo as .png or .jpg"))?;
+    let pixels = read(&arguments.photo).map_err(|e| match e {
+        PhotoReadError::Damaged { .. } => {
+            Error::because(&e, "copy it from the camera again, or save it anew as .png")
+        }
+        _ => Error::because(&e, "give a photo as .png or .jpg"),
+    })?;
     let name = arguments.photo.display();
     let photo = Photo::new(pixels.width, pixels.height, &pixels.rgb, arguments.crop)
         .map_err(|e| Error::invalid(format!("{name}: {e}"), "see --crop"))?;
@@ -132,7 +137,16 @@ fn report(arguments: &Arguments, outcome: &Outcome, quiet: bool) -> Result<(), E
 fn write_scene(arguments: &Arguments, found: &Measurement) -> Result<(), Error> {
     let Some(path) = &arguments.output else { return Ok(()) };
     let source = arguments.photo.file_name().unwrap_or_default().to_string_lossy();
-    let Some(text) = scene(found, arguments.hair_type.name, &source) else {
+    let kind: &HairType = arguments.hair_type.hair_type();
+    let given = GivenFibre {
+        length: arguments.length,
+        diameter: arguments.diameter,
+        axis_ratio: arguments.axis_ratio,
+        moduli: arguments
+            .youngs_modulus
+            .map(|young| [young, kind.shear_modulus * young / kind.youngs_modulus]),
+    };
+    let Some(text) = scene(found, arguments.hair_type.name, &given, &source) else {
         console::note(&format!("`{}` is not written: there is no natural curl", path.display()));
         return Ok(());
     };

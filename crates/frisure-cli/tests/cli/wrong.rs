@@ -37,7 +37,7 @@ fn a_number_that_nothing_can_have_is_told_with_its_key_and_range() {
         (
             "seed = 99999999999999999999",
             "1:8",
-            "`seed` is 99999999999999999999; it must be between -2^63",
+            "`seed` is 99999999999999999999; it must be smaller",
         ),
         (
             "hair.fibre.eccentricity = 0.9999",

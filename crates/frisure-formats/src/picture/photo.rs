@@ -119,6 +119,9 @@ fn from_png(bytes: &[u8]) -> Result<Pixels, String> {
 }
 
 fn from_jpeg(bytes: &[u8]) -> Result<Pixels, String> {
+    if !is_whole(bytes) {
+        return Err("it is cut short: its end is missing".to_owned());
+    }
     let options = DecoderOptions::default()
         .set_max_width(MOST_PIXELS)
         .set_max_height(MOST_PIXELS)
@@ -133,6 +136,12 @@ fn from_jpeg(bytes: &[u8]) -> Result<Pixels, String> {
     }
     let turn = decoder.exif().and_then(|exif| orientation(exif)).unwrap_or(1);
     Ok(turned(Pixels { width, height, rgb }, turn))
+}
+
+/// Whether a JPEG has its end (EOI) behind its last scan (SOS): a decoder fills up what is missing. Within a scan neither occurs.
+fn is_whole(bytes: &[u8]) -> bool {
+    let scan = bytes.windows(2).rposition(|marker| marker == [0xff, 0xda]);
+    scan.is_some_and(|at| bytes[at..].windows(2).any(|marker| marker == [0xff, 0xd9]))
 }
 
 /// The orientation, 1 to 8, that an Exif block states (Exif 2.3, tag 0x0112).
@@ -252,6 +261,14 @@ mod tests {
         assert_eq!(orientation(exif), Some(6));
         assert_eq!(orientation(&exif[..20]), None);
         assert_eq!(orientation(b"II"), None);
+    }
+
+    #[test]
+    fn a_jpeg_that_is_cut_short_is_an_error() {
+        let whole = include_bytes!("../../tests/data/progressive.jpg");
+        for length in [whole.len() - 2, whole.len() / 2 + 100] {
+            assert!(from_jpeg(&whole[..length]).unwrap_err().contains("cut short"), "{length}");
+        }
     }
 
     #[test]

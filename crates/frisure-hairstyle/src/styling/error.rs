@@ -34,6 +34,9 @@ pub enum StyleError {
         /// How many are selected.
         selected: usize,
     },
+    /// No selected wisp hangs where it could be tucked.
+    #[error("none of the selected wisps is rooted and hangs in front of an ear")]
+    NothingBeforeEar,
     /// No selected wisp is long enough to be tied or tucked there.
     #[error(
         "no hair is gathered: the nearest wisp needs {:.1} cm to reach it, and the longest has {:.1} cm",

@@ -48,10 +48,8 @@ impl Table {
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
-        if let Some(line) = open_quote(text, separator) {
-            return Err(refuse(&format!(
-                "a cell on line {line} begins with a quote that never ends"
-            )));
+        if let Some((line, wrong)) = wrong_quote(text, separator) {
+            return Err(refuse(&format!("a cell on line {line} {wrong}")));
         }
         let headings = reader.headers().map_err(|e| refuse(&described(&e)))?;
         let headings: Vec<String> = headings.iter().map(str::to_owned).collect();
@@ -103,24 +101,31 @@ fn separator(line: &str) -> u8 {
     SEPARATORS.into_iter().rev().max_by_key(|&s| count(s)).unwrap_or(b',')
 }
 
-/// The line on which a quoted cell begins that has no end; a reader of CSV takes the rest of the file for that cell.
+/// The line of a cell whose quotes enclose it in part, or have no end, and what is wrong with it: a reader of CSV would take other cells
+/// or the rest of the file for that cell.
 ///
 /// Quotes are those of RFC 4180, section 2: they enclose a whole cell, and are doubled inside it.
-fn open_quote(text: &str, separator: u8) -> Option<u64> {
+fn wrong_quote(text: &str, separator: u8) -> Option<(u64, &'static str)> {
     let (mut line, mut opened, mut begins, mut new_line) = (1, None, true, true);
     let mut bytes = text.bytes().peekable();
     while let Some(byte) = bytes.next() {
         match (byte, opened) {
             (b'#', None) if new_line => while bytes.next_if(|&byte| byte != b'\n').is_some() {},
             (b'"', None) if begins => opened = Some(line),
-            (b'"', Some(_)) if bytes.next_if_eq(&b'"').is_none() => opened = None,
+            (b'"', Some(_)) if bytes.next_if_eq(&b'"').is_none() => {
+                opened = None;
+                while bytes.next_if(|byte| matches!(byte, b' ' | b'\r')).is_some() {}
+                if bytes.peek().is_some_and(|&next| next != separator && next != b'\n') {
+                    return Some((line, "goes on behind the quote that ends it"));
+                }
+            }
             _ => {}
         }
         new_line = byte == b'\n';
         begins = opened.is_none() && (byte == separator || new_line);
         line += u64::from(byte == b'\n');
     }
-    opened
+    opened.map(|line| (line, "begins with a quote that never ends"))
 }
 
 fn described(error: &csv::Error) -> String {

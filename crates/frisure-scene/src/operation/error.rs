@@ -92,8 +92,11 @@ fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String
             Some(rest) => format!("cut lower, or leave them out: `where = {rest}`"),
             None => "cut lower, or choose fewer wisps with `where`".into(),
         },
+        StyleError::NothingBeforeEar => {
+            "choose hair of the sides, the fringe or the top with `where`".into()
+        }
         StyleError::NothingGathered { .. } => {
-            "let the hair grow first, or gather it nearer to its roots".into()
+            "let the hair grow first; a tie may be nearer to its roots".into()
         }
         StyleError::TooLong { .. } => "let it grow less, or cut it first".into(),
         StyleError::Parting(_) => "move the parting so that it lies on the scalp".into(),

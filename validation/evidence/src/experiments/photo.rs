@@ -323,6 +323,8 @@ fn reason(why: &Abstention) -> &'static str {
         Abstention::Coarse { .. } => "too few pixels",
         Abstention::NoWave { .. } => "no wave",
         Abstention::Ambiguous { .. } => "two pitches equally likely",
+        Abstention::Aslant { .. } => "aslant",
+        Abstention::Disagree { .. } | Abstention::Unsupported => "hairs off the wave",
         Abstention::Uncertain { .. } => "error bars too wide",
     }
 }

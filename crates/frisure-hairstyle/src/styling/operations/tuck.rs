@@ -106,7 +106,7 @@ impl<'a> Ear<'a> {
         let chosen: Vec<bool> =
             selected.iter().enumerate().map(|(i, &is)| is && is_before(i)).collect();
         if !chosen.contains(&true) {
-            return Err(StyleError::NothingSelected);
+            return Err(StyleError::NothingBeforeEar);
         }
         let to = Gathering { bundle: &|radius| self.bundle(radius), lifted: &|_| self.lifted() };
         gathered(act, &chosen, &to)
@@ -130,7 +130,7 @@ impl Apply for Tuck {
         for &left in ears {
             match Ear::new(act.head, left).tucked(&act.on(&hair), &selected) {
                 Ok(tucked) => hair = tucked,
-                Err(error @ (StyleError::NothingSelected | StyleError::NothingGathered { .. })) => {
+                Err(error @ (StyleError::NothingBeforeEar | StyleError::NothingGathered { .. })) => {
                     refused = Some(error);
                 }
                 Err(error) => return Err(error),
