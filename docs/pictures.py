@@ -3,7 +3,7 @@
 
 Usage: docs/pictures.py PATH/TO/frisure [--paths N] [NAME...]
 
-NAME is one of the groups below (heads, final, collisions, colours, looks, lights, wet, styling, grooms), or a
+NAME is one of the groups below (heads, final, collisions, colours, looks, lights, wet, styling, tucked, grooms), or a
 picture of `final` such as final/afro; without a name all are made. N is the number of paths per pixel of a traced
 picture (24). FRISURE_OIDN names the library of Open Image Denoise if the system does not know it. Needs Pillow.
 
@@ -185,6 +185,15 @@ def styling(maker):
     maker.save(sheet, "styling", 77)
 
 
+def tucked(maker):
+    size, pictures = (320, 391), []
+    for name in ["tucked", "slicked-back"]:
+        steps = maker.steps((SCENES / f"{name}.toml").read_text(), size, name)
+        pictures += [steps[0], steps[-1]]
+    captions = ["as it falls", "tucked behind the ears", "as it falls", "gel, combed back, dried, let go"]
+    maker.save(grid(pictures, 4, captions), "tucked", 80)
+
+
 def grooms(maker):
     out = maker.folder / "predict.png"
     text = without((SCENES / "curly.toml").read_text(), "output") + "\n[output]\nwidth = 500\nheight = 600\n"
@@ -192,7 +201,7 @@ def grooms(maker):
     maker.save(Image.open(out).convert("RGB"), "grooms/predict", 85)
 
 
-GROUPS = [heads, collisions, colours, looks, lights, wet, styling, grooms, final]
+GROUPS = [heads, collisions, colours, looks, lights, wet, styling, tucked, grooms, final]
 
 
 def main():

@@ -390,10 +390,17 @@ fn faults_name_place_value_range_and_hint() {
             "",
             &["only parted hair"],
         ),
+        (
+            "seed = 99999999999999999999",
+            1,
+            8,
+            "seed",
+            "99999999999999999999",
+            &["no whole number is above 2^63 - 1"],
+        ),
         // Not TOML.
         ("[hair", 1, 6, "", "", &[]),
         ("a = 1\na = 2", 2, 1, "", "", &["duplicate key"]),
-        ("seed = 99999999999999999999", 1, 8, "", "", &[]),
         ("\n\n  x", 3, 4, "", "", &[]),
         ("name = \"a\u{0}\"", 1, 10, "", "", &[]),
     ];
