@@ -37,7 +37,7 @@ impl Part {
         format!("part-{:09}.parquet", self.first)
     }
 
-    /// The name of the file of its views, in the folder [`VIEWS`]: `views-000000120.parquet`.
+    /// The name of the file of its views, in the folder `_views`: `views-000000120.parquet`.
     #[must_use]
     pub fn views_name(self) -> String {
         format!("views-{:09}.parquet", self.first)

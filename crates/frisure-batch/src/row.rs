@@ -12,7 +12,7 @@ pub struct Row {
     pub index: usize,
     /// The seed of its scene.
     pub seed: u64,
-    /// The value of each of [`Batch::parameters`]; SI units.
+    /// The value of each of [`frisure::scene::batch::Batch::parameters`]; SI units.
     pub values: Vec<Value>,
     /// The text of its scene, if there is one.
     pub scene: Option<String>,

@@ -249,7 +249,7 @@ fn faults_name_place_value_range_and_hint() {
         ("views = { size = [8, 8] }", 2, 1, &["`views` has no cameras", "around the head"]),
         ("views = { cameras = [] }", 2, 21, &["a list of cameras", "`count`"]),
         (
-            "views = { cameras = ['fron'] }",
+            "views = { cameras = ['frontt'] }",
             2,
             22,
             &["one of", "\"back\"", "did you mean \"front\"?"],
