@@ -369,7 +369,7 @@ impl Seen {
         let replicates = self.replicates();
         let wave = &self.wave;
         let of = |wave: &Wave| [wave.mean_amplitude().ln(), wave.mean_wavelength().ln()];
-        let deviations = jackknife(&replicates, &of(wave), of);
+        let deviations = jackknife(&replicates, of);
         let [widening, widening_error] = self.widening;
         let apparent_radius = Estimate::of_logarithm(
             wave.mean_amplitude() * widening,
@@ -415,7 +415,7 @@ impl Seen {
             seen
         };
         let seen = widened(&self.wave);
-        let deviations = jackknife(replicates, &seen, widened);
+        let deviations = jackknife(replicates, widened);
         let [from, to] = self.wave.ends;
         let above_tip = [self.foot - to, self.foot - from];
         let hanging = Hanging { fibre: &options.fibre, length, above_tip };
@@ -430,7 +430,7 @@ impl Seen {
             };
             [by(0), by(1)]
         };
-        let image = jackknife(replicates, &[0.0; 2], mapped);
+        let image = jackknife(replicates, mapped);
         let amplitudes = |row: usize| gain[row][OBSERVED / 2..].iter().sum::<f64>();
         // Softer and heavier by one standard deviation: the same as more gravity.
         let gravity = 1.0 + options.fibre.spread;
@@ -459,11 +459,7 @@ fn mean_stretch(wave: &Wave, widening: f64, otherwise: f64) -> f64 {
 }
 
 /// Standard deviations of some numbers of a wave, from waves without a part of the line each.
-fn jackknife<const N: usize>(
-    replicates: &[Wave],
-    _whole: &[f64; N],
-    of: impl Fn(&Wave) -> [f64; N],
-) -> [f64; N] {
+fn jackknife<const N: usize>(replicates: &[Wave], of: impl Fn(&Wave) -> [f64; N]) -> [f64; N] {
     let n = replicates.len() as f64;
     if replicates.len() < 2 {
         return [f64::INFINITY; N];

@@ -135,7 +135,7 @@ fn whole_numbers(message: &str) -> Option<&'static str> {
     refused
         .iter()
         .any(|part| message.contains(part))
-        .then_some("smaller: no whole number is above 2^63 - 1")
+        .then_some("within 2^63 of 0, as every whole number")
 }
 
 /// How far a path is written.

@@ -396,7 +396,7 @@ fn faults_name_place_value_range_and_hint() {
             8,
             "seed",
             "99999999999999999999",
-            &["no whole number is above 2^63 - 1"],
+            &["within 2^63 of 0"],
         ),
         // Not TOML.
         ("[hair", 1, 6, "", "", &[]),

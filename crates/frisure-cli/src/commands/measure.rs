@@ -95,7 +95,7 @@ fn fibre(arguments: &Arguments) -> Result<Fibre, frisure::rod::InvalidQuantity> 
     let diameter = arguments.diameter.unwrap_or(kind.diameter);
     let ratio = arguments.axis_ratio.unwrap_or(kind.axis_ratio);
     let young = arguments.youngs_modulus.unwrap_or(kind.youngs_modulus);
-    let shear = kind.shear_modulus * young / kind.youngs_modulus;
+    let shear = shear_modulus(kind, young);
     let spread = |given: bool, of_type: f64| if given { MEASURED_SPREAD } else { of_type };
     let deviations = [
         2.0 * spread(arguments.diameter.is_some(), kind.diameter_variation),
@@ -108,6 +108,11 @@ fn fibre(arguments: &Arguments) -> Result<Fibre, frisure::rod::InvalidQuantity> 
         torsion: of_type.torsion,
         spread: deviations.iter().map(|d| d * d).sum::<f64>().sqrt(),
     })
+}
+
+/// The shear modulus (Pa) that goes with a given Young's modulus (Pa): their ratio is the type's.
+fn shear_modulus(kind: &HairType, young: f64) -> f64 {
+    kind.shear_modulus * young / kind.youngs_modulus
 }
 
 fn report(arguments: &Arguments, outcome: &Outcome, quiet: bool) -> Result<(), Error> {
@@ -142,9 +147,7 @@ fn write_scene(arguments: &Arguments, found: &Measurement) -> Result<(), Error> 
         length: arguments.length,
         diameter: arguments.diameter,
         axis_ratio: arguments.axis_ratio,
-        moduli: arguments
-            .youngs_modulus
-            .map(|young| [young, kind.shear_modulus * young / kind.youngs_modulus]),
+        moduli: arguments.youngs_modulus.map(|young| [young, shear_modulus(kind, young)]),
     };
     let Some(text) = scene(found, arguments.hair_type.name, &given, &source) else {
         console::note(&format!("`{}` is not written: there is no natural curl", path.display()));

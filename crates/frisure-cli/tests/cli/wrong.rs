@@ -37,7 +37,7 @@ fn a_number_that_nothing_can_have_is_told_with_its_key_and_range() {
         (
             "seed = 99999999999999999999",
             "1:8",
-            "`seed` is 99999999999999999999; it must be smaller",
+            "`seed` is 99999999999999999999; it must be within 2^63 of 0",
         ),
         (
             "hair.fibre.eccentricity = 0.9999",
@@ -68,6 +68,23 @@ fn a_quote_that_never_ends_is_told() {
     assert!(ran.code == Some(2) && ran.err.contains("`m.csv` is not"), "{}", ran.err);
     assert!(
         ran.err.contains("a cell on line 3 begins with a quote that never ends"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
+fn quotes_around_whole_cells_are_read_whatever_ends_a_line() {
+    for end in ["\n", "\r\n", "\r"] {
+        let rows =
+            ["radius (mm),pitch (mm),note", "\"5\",\"20\",\"a, \"\"b\"\"\"", "6,22,\"c\" ", ""];
+        let ran = room().with("m.csv", rows.join(end)).run(&["measured", "m.csv"]);
+        assert_eq!(ran.code, Some(0), "{end:?}: {}", ran.err);
+    }
+    let table = "hair,note,diameter (um)\na,\"x,70\nb,\"y,72\n";
+    let ran = room().with("m.csv", table).run(&["measured", "m.csv"]);
+    assert!(
+        ran.code == Some(2) && ran.err.contains("a cell on line 3 goes on behind"),
         "{}",
         ran.err
     );

@@ -110,18 +110,21 @@ fn wrong_quote(text: &str, separator: u8) -> Option<(u64, &'static str)> {
     let mut bytes = text.bytes().peekable();
     while let Some(byte) = bytes.next() {
         match (byte, opened) {
-            (b'#', None) if new_line => while bytes.next_if(|&byte| byte != b'\n').is_some() {},
+            (b'#', None) if new_line => {
+                while bytes.next_if(|byte| !matches!(byte, b'\r' | b'\n')).is_some() {}
+            }
             (b'"', None) if begins => opened = Some(line),
             (b'"', Some(_)) if bytes.next_if_eq(&b'"').is_none() => {
                 opened = None;
-                while bytes.next_if(|byte| matches!(byte, b' ' | b'\r')).is_some() {}
-                if bytes.peek().is_some_and(|&next| next != separator && next != b'\n') {
+                while bytes.next_if_eq(&b' ').is_some() {}
+                let ends = |&next: &u8| next == separator || matches!(next, b'\r' | b'\n');
+                if !bytes.peek().is_none_or(ends) {
                     return Some((line, "goes on behind the quote that ends it"));
                 }
             }
             _ => {}
         }
-        new_line = byte == b'\n';
+        new_line = matches!(byte, b'\r' | b'\n');
         begins = opened.is_none() && (byte == separator || new_line);
         line += u64::from(byte == b'\n');
     }

@@ -5,7 +5,6 @@ use glam::DVec3;
 use super::apply::Apply;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
-use crate::spec::InvalidSpec;
 use crate::styling::error::StyleError;
 use crate::styling::gather::{Gathering, gathered, onto_skin};
 use crate::styling::selection::Selection;
@@ -114,10 +113,6 @@ impl<'a> Ear<'a> {
 }
 
 impl Apply for Tuck {
-    fn check(&self) -> Result<(), InvalidSpec> {
-        Ok(())
-    }
-
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
         let selected = act.selected(&self.selection)?;
         let ears: &[bool] = match self.sides {
