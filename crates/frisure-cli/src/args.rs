@@ -16,6 +16,7 @@ use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
 mod batch;
 mod fit;
 mod measure;
+mod picture;
 mod transfer;
 #[cfg(feature = "validate")]
 mod validate;
@@ -24,6 +25,8 @@ mod validate;
 pub(crate) use batch::Batch;
 pub(crate) use fit::{FitFibres, Quantity as FitQuantity};
 pub(crate) use measure::MeasurePhoto;
+use picture::cameras;
+pub(crate) use picture::{NamedCamera, Pictured, Render, View};
 pub(crate) use transfer::Transfer;
 #[cfg(feature = "validate")]
 pub(crate) use validate::Validate;
@@ -86,6 +89,8 @@ pub(crate) enum Command {
     Style(Style),
     /// Draw the final picture of a head of hair, by following the light.
     Render(Render),
+    /// Draw pictures of a scene or a groom in seconds, as `frisure predict --image` does.
+    View(View),
     /// Read a groom and write it in another format, with other units, axes or points.
     Convert(Convert),
     /// Make hair cards for games: textured strips in levels of detail, in place of strands.
@@ -116,6 +121,7 @@ Examples:
   frisure predict scenes/wavy.toml -o wavy.obj -o wavy.ply --report wavy.json
   frisure new frizzy | frisure predict - --image frizzy.png
   frisure predict scenes/curly.toml --image curly.png --quality final
+  frisure predict scenes/bob.toml --image bob.png --camera front,side,back
   frisure predict scenes/growth.toml --each-step --image out/growth.png
   frisure predict scenes/growth.toml --each-step --time-samples -o out/growth.abc
 
@@ -163,6 +169,11 @@ pub(crate) struct Predict {
     /// How the picture is made.
     #[arg(long, value_enum, default_value_t = Quality::Preview, value_name = "QUALITY")]
     pub(crate) quality: Quality,
+
+    /// Where the picture is taken from, instead of the scene's place. Several, as `front,side,back`, give a
+    /// picture each, whose file has the name of the camera: hair-front.png.
+    #[arg(long, value_parser = cameras(), value_name = "CAMERA", value_delimiter = ',', requires = "image")]
+    pub(crate) camera: Vec<NamedCamera>,
 
     /// How final pictures are traced.
     #[command(flatten)]
@@ -260,6 +271,12 @@ pub(crate) struct Tracing {
     #[arg(long, value_name = "N", value_parser = bounces)]
     pub(crate) bounces: Option<u32>,
 
+    /// Firefly clamp: the most light that one path may bring which was scattered twice or more, 0.01 to
+    /// 1e6, where white paper has about 1. It takes away single bright pixels and darkens the picture a
+    /// little; 10 is weak, 2 strong. By default there is none.
+    #[arg(long, value_name = "LIGHT", value_parser = clamp)]
+    pub(crate) clamp: Option<f32>,
+
     /// Take out what noise is left, by Open Image Denoise, if it is installed: pleasant for few paths,
     /// but no longer the truth. FRISURE_OIDN names its library where the system does not know it.
     /// `--denoise=50` takes out half of it, which keeps the finest hairs.
@@ -271,8 +288,9 @@ pub(crate) struct Tracing {
 impl Tracing {
     /// Whether any of them is given.
     pub(crate) fn is_given(self) -> bool {
-        let Self { paths, noise, bounces, denoise } = self;
-        paths.is_some() || noise.is_some() || bounces.is_some() || denoise.is_some()
+        let Self { paths, noise, bounces, clamp, denoise } = self;
+        let tracing = paths.is_some() || noise.is_some() || bounces.is_some() || clamp.is_some();
+        tracing || denoise.is_some()
     }
 
     /// The renderer's options, for a picture of a scene's size, with the scene's seed.
@@ -283,73 +301,12 @@ impl Tracing {
             samples: self.paths.unwrap_or(256),
             noise: Some(0.01 * self.noise.unwrap_or(2.0)).filter(|noise| *noise > 0.0),
             bounces: self.bounces.unwrap_or(100),
+            clamp: self.clamp,
             // The cast takes the low bits, which is as good a seed.
             seed: scene.look.hair.seed,
         }
     }
 }
-
-const RENDER_EXAMPLES: &str = "\
-Examples:
-  frisure render scenes/curly.toml -o curly.png
-  frisure render scenes/afro.toml -o back.exr --camera back --size 512x640 --noise 1
-  frisure render scenes/wavy.toml -o turn/wavy.png --turntable 36
-  frisure render mine.hair -o mine.png --look scenes/curly.toml
-  frisure render scan.ply --unit mm --up y -o scan.png
-
-The command saves the picture and a checkpoint, PICTURE.part, every minute and at Ctrl-C; the same
-command then resumes from the checkpoint. PNG has display colours (sRGB); EXR has linear light with
-layers for compositors and denoisers: albedo, normal, tangent, depth, hair, wisp.";
-
-/// Arguments of `frisure render`.
-#[derive(Args, Debug)]
-#[command(after_help = RENDER_EXAMPLES)]
-pub(crate) struct Render {
-    /// The scene (TOML), `-` for standard input, or a groom of a format that `frisure convert` reads.
-    #[arg(value_name = "SCENE|GROOM")]
-    pub(crate) scene: PathBuf,
-
-    /// The picture (.png or .exr).
-    #[arg(long, short, value_name = "PICTURE")]
-    pub(crate) output: PathBuf,
-
-    /// How it is traced.
-    #[command(flatten)]
-    pub(crate) tracing: Tracing,
-
-    /// Width and height (pixels), instead of the scene's: 67108864 pixels at most, as 8192x8192.
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub(crate) size: Option<(usize, usize)>,
-
-    /// Where it is taken from, instead of the scene's place.
-    #[arg(long, value_parser = named(&CAMERAS), value_name = "CAMERA")]
-    pub(crate) camera: Option<f64>,
-
-    /// So many pictures from all around, numbered, in the studio's light; the head turns to its right.
-    #[arg(long, value_name = "FRAMES", value_parser = frames)]
-    pub(crate) turntable: Option<usize>,
-
-    /// The number of the first frame of the turntable that is drawn: to go on with one.
-    #[arg(long, value_name = "FRAME", requires = "turntable", default_value_t = 0)]
-    pub(crate) from: usize,
-
-    /// For a groom: the scene whose head, look, camera and light it is shown with. Without it, a groom
-    /// has no head.
-    #[arg(long, value_name = "SCENE")]
-    pub(crate) look: Option<PathBuf>,
-
-    /// What a groom that is read has.
-    #[command(flatten)]
-    pub(crate) axes: Axes,
-}
-
-/// Directions of the camera, as angles around the head (degrees) from the face to its left.
-const CAMERAS: [(&str, &str, f64); 4] = [
-    ("front", "In front of the face", 0.0),
-    ("three-quarter", "Between front and left side", 35.0),
-    ("side", "The head's left side", 90.0),
-    ("back", "Behind", 180.0),
-];
 
 /// What is in a groom file, and how.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -752,11 +709,6 @@ fn step_number(text: &str) -> Result<usize, String> {
     number(text, 1, usize::MAX).map_err(|_| "steps are numbered from 1".into())
 }
 
-fn size(text: &str) -> Result<(usize, usize), String> {
-    let (width, height) = text.split_once('x').ok_or("it must be such as 1024x1280")?;
-    Ok((number(width, 1, 16_384)?, number(height, 1, 16_384)?))
-}
-
 fn paths(text: &str) -> Result<usize, String> {
     number(text, 1, 65_536)
 }
@@ -765,8 +717,9 @@ fn bounces(text: &str) -> Result<u32, String> {
     number(text, 1, 10_000).map(|n| u32::try_from(n).expect("at most 10000"))
 }
 
-fn frames(text: &str) -> Result<usize, String> {
-    number(text, 2, 10_000)
+fn clamp(text: &str) -> Result<f32, String> {
+    let outside = || "it must be a number between 0.01 and 1e6".to_owned();
+    text.parse().ok().filter(|n| (0.01..=1e6).contains(n)).ok_or_else(outside)
 }
 
 fn noise(text: &str) -> Result<f32, String> {

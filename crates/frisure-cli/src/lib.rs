@@ -80,6 +80,7 @@ fn execute(arguments: Arguments) -> Result<ExitStatus, Error> {
         Command::Batch(_) => Err(commands::not_built("batch")),
         Command::Style(style) => commands::style::run(&style, quiet),
         Command::Render(render) => commands::render::run(render, quiet),
+        Command::View(view) => commands::render::view(view, quiet),
         Command::Cards(cards) => commands::cards::run(&cards, quiet),
         Command::Convert(convert) => commands::convert::run(&convert, quiet),
         Command::Transfer(transfer) => commands::transfer::run(transfer, quiet),

@@ -110,8 +110,14 @@ fn same_file(_: &Path, _: &Path) -> bool {
 /// A path with a number before the extension: `out/hair.png` is `out/hair-07.png`.
 pub(crate) fn numbered(path: &Path, number: usize, count: usize) -> PathBuf {
     let digits = count.saturating_sub(1).to_string().len().max(2);
+    suffixed(path, &format!("{number:0digits$}"))
+}
+
+/// A path with a word before the extension: `out/hair.png` is `out/hair-front.png`.
+pub(crate) fn suffixed(path: &Path, word: &str) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("-{number:0digits$}"));
+    name.push("-");
+    name.push(word);
     if let Some(extension) = path.extension() {
         name.push(".");
         name.push(extension);

@@ -5,13 +5,60 @@ use std::path::{Path, PathBuf};
 use frisure::denoise::{Denoiser, VARIABLE};
 use frisure::files::WriteError;
 use frisure::progress::{Cancelled, SubStage};
+use frisure::render::Image;
+use frisure::render::preview::PreviewOptions;
+use frisure::scene::Output;
 use frisure_engine::Error;
 use frisure_engine::checkpoint::picture as checkpoint;
-use frisure_engine::picture::{FinalPicture, FrameSet, NoiseFilter, TraceEnd};
+use frisure_engine::picture::{self, FinalPicture, FrameSet, Frames, NoiseFilter, TraceEnd};
 
-use crate::outputs::{self, numbered};
+use crate::args::NamedCamera;
+use crate::outputs::{self, numbered, suffixed};
 use crate::progress::Bar;
 use crate::{console, interrupt};
+
+/// The pictures of one hairstyle.
+#[derive(Clone, Debug)]
+pub(crate) enum Views {
+    /// From the scene's camera, or from each of these.
+    Cameras(Vec<NamedCamera>),
+    /// From all around the head.
+    Turntable(Turntable),
+}
+
+impl Views {
+    /// The same for the renderers.
+    pub(crate) fn frames(&self) -> Frames {
+        match self {
+            Self::Cameras(cameras) if cameras.is_empty() => Frames::Scene,
+            Self::Cameras(cameras) => {
+                Frames::Azimuths(cameras.iter().map(|camera| camera.azimuth).collect())
+            }
+            Self::Turntable(Turntable { frames, .. }) => Frames::Turntable(*frames),
+        }
+    }
+
+    /// The files of the pictures: the one, or those with the camera or the number in the name.
+    pub(crate) fn paths(&self, path: &Path) -> Vec<PathBuf> {
+        match self {
+            Self::Cameras(cameras) if cameras.len() < 2 => vec![path.to_owned()],
+            Self::Cameras(cameras) => {
+                cameras.iter().map(|camera| suffixed(path, camera.name)).collect()
+            }
+            Self::Turntable(Turntable { frames, .. }) => {
+                (0..*frames).map(|frame| numbered(path, frame, *frames)).collect()
+            }
+        }
+    }
+
+    /// The number of the first picture that is drawn.
+    pub(crate) fn first(&self) -> usize {
+        match self {
+            Self::Cameras(_) => 0,
+            Self::Turntable(Turntable { first, .. }) => *first,
+        }
+    }
+}
 
 /// Pictures from all around the head.
 #[derive(Clone, Copy, Debug)]
@@ -36,16 +83,6 @@ pub(crate) fn noise_filter(percent: Option<f32>) -> Result<Option<NoiseFilter>, 
     Ok(Some(NoiseFilter { denoiser, fraction: 0.01 * percent }))
 }
 
-/// The files of the pictures: numbered for a turntable, or the one.
-pub(crate) fn paths(path: &Path, turntable: Option<Turntable>) -> Vec<PathBuf> {
-    match turntable {
-        Some(Turntable { frames, .. }) => {
-            (0..frames).map(|frame| numbered(path, frame, frames)).collect()
-        }
-        None => vec![path.to_owned()],
-    }
-}
-
 /// Prepares to write pictures with their checkpoints, and other files; none may be one of the `inputs`.
 pub(crate) fn prepare(
     pictures: &[PathBuf],
@@ -64,15 +101,15 @@ pub(crate) fn prepare(
 pub(crate) fn trace(
     mut frames: FrameSet,
     path: &Path,
-    turntable: Option<Turntable>,
+    views: &Views,
     progress: &Bar,
 ) -> Result<Vec<String>, Error> {
-    let paths = paths(path, turntable);
+    let paths = views.paths(path);
     let mut lines = Vec::new();
-    for (frame, path) in paths.iter().enumerate().skip(turntable.map_or(0, |t| t.first)) {
-        let name = match turntable {
-            Some(Turntable { frames, .. }) => format!("picture {} of {frames}", frame + 1),
-            None => "picture".to_owned(),
+    for (frame, path) in paths.iter().enumerate().skip(views.first()) {
+        let name = match paths.len() {
+            1 => "picture".to_owned(),
+            count => format!("picture {} of {count}", frame + 1),
         };
         let stage = SubStage { progress, stage: &name, range: [0.0, 1.0] };
         let mut picture = frames.open(frame, path)?;
@@ -87,7 +124,7 @@ pub(crate) fn trace(
             TraceEnd::Finished => lines.push(summary(&picture)),
             TraceEnd::Cancelled(saved) => {
                 let mut text = interruption(&picture, saved.err().as_ref());
-                if turntable.is_some() {
+                if let Views::Turntable(_) = views {
                     text +=
                         &format!(" With `--from {frame}` the frames before are not drawn again.");
                 }
@@ -97,6 +134,28 @@ pub(crate) fn trace(
         }
     }
     Ok(lines)
+}
+
+/// The options of a preview of a scene's size.
+pub(crate) fn preview_options(output: &Output) -> PreviewOptions {
+    let Output { width, height, samples, .. } = *output;
+    PreviewOptions { width, height, samples, ..PreviewOptions::default() }
+}
+
+/// Writes previews, from `views` in their order; returns a line about each.
+pub(crate) fn write_previews(
+    images: &[Image],
+    path: &Path,
+    views: &Views,
+    output: &Output,
+) -> Result<Vec<String>, Error> {
+    let paths = views.paths(path);
+    let pictures = images.iter().zip(&paths).skip(views.first());
+    let write = |(image, path): (&Image, &PathBuf)| {
+        interrupt::writing(|| picture::write(path, image, output))?;
+        Ok(path.display().to_string())
+    };
+    pictures.map(write).collect()
 }
 
 /// A line about a finished picture.

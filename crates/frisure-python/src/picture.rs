@@ -36,6 +36,7 @@ struct Tracing {
     paths: usize,
     noise: f32,
     bounces: u32,
+    clamp: Option<f32>,
 }
 
 /// A picture of the light, and how it is shown.
@@ -76,6 +77,7 @@ impl Picture {
                     samples: tracing.paths,
                     noise: Some(tracing.noise).filter(|noise| *noise > 0.0),
                     bounces: tracing.bounces,
+                    clamp: tracing.clamp,
                     seed: loaded.scene.look.hair.seed,
                 };
                 options.check().map_err(|e| Error::because(&e, ""))?;
@@ -88,7 +90,7 @@ impl Picture {
 
 /// A picture of a hairstyle as an array: rows from the top, pixels, red, green, blue (and alpha).
 ///
-/// `tracing` is the most paths of light per pixel, the noise (0 to 1) and the most bounces of a final picture.
+/// `tracing` is the most paths of light per pixel, the noise (0 to 1), the most bounces and the firefly clamp of a final picture.
 #[pyfunction]
 #[pyo3(signature = (prediction, size, azimuth, tracing, alpha, progress))]
 pub(crate) fn render(
@@ -96,11 +98,12 @@ pub(crate) fn render(
     prediction: &Prediction,
     size: (Option<usize>, Option<usize>),
     azimuth: Option<f64>,
-    tracing: Option<(usize, f32, u32)>,
+    tracing: Option<(usize, f32, u32, Option<f32>)>,
     alpha: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Memory> {
-    let tracing = tracing.map(|(paths, noise, bounces)| Tracing { paths, noise, bounces });
+    let tracing =
+        tracing.map(|(paths, noise, bounces, clamp)| Tracing { paths, noise, bounces, clamp });
     let (picture, hair) = (Picture { size, azimuth, tracing }, prediction.hair.clone());
     let pixels = work::run(py, progress, move |p| {
         let Rendered { image, output } = picture.render(&hair, p)?;

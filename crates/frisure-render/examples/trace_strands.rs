@@ -192,7 +192,7 @@ fn picture(path: &str, out: &str, keys: &[&str]) -> Outcome<()> {
     scene.look.skin.colour = Vec3::splat(job.ball.unwrap_or(0.0));
     let (width, height) = (job.size, job.size);
     let Job { samples, bounces, seed, .. } = job;
-    let options = TraceOptions { width, height, samples, noise: None, bounces, seed };
+    let options = TraceOptions { width, height, samples, noise: None, bounces, clamp: None, seed };
     let start = Instant::now();
     let image = render(&scene, &options, &())?;
     writeln!(std::io::stdout().lock(), "{:.2} s", start.elapsed().as_secs_f64())?;

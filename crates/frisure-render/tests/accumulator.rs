@@ -11,8 +11,15 @@ use frisure_render::trace::{
 use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::{DVec3, Vec3};
 
-const SMALL: TraceOptions =
-    TraceOptions { width: 40, height: 33, samples: 48, noise: None, bounces: 20, seed: 1 };
+const SMALL: TraceOptions = TraceOptions {
+    width: 40,
+    height: 33,
+    samples: 48,
+    noise: None,
+    bounces: 20,
+    clamp: None,
+    seed: 1,
+};
 
 /// Hairs along z side by side, 2 cm wide and 4 cm high, in the plane `y`; the right half is wisp 7.
 fn curtain(y: f32) -> Strands {
@@ -146,6 +153,7 @@ fn another_picture_is_not_resumed() {
     );
     assert!(!tracer(&other, SMALL).can_resume(&accumulator));
     assert!(!tracer(&strands, TraceOptions { seed: 2, ..SMALL }).can_resume(&accumulator));
+    assert!(!tracer(&strands, TraceOptions { clamp: Some(1.0), ..SMALL }).can_resume(&accumulator));
     assert!(
         !tracer(&strands, TraceOptions { width: 33, height: 40, ..SMALL }).can_resume(&accumulator)
     );

@@ -43,8 +43,15 @@ fn drawn(strands: &Strands, look: Look, lights: Option<Lights>, options: TraceOp
     render(&scene, &options, &()).unwrap()
 }
 
-const SMALL: TraceOptions =
-    TraceOptions { width: 24, height: 24, samples: 32, noise: None, bounces: 1000, seed: 1 };
+const SMALL: TraceOptions = TraceOptions {
+    width: 24,
+    height: 24,
+    samples: 32,
+    noise: None,
+    bounces: 1000,
+    clamp: None,
+    seed: 1,
+};
 
 /// Mean light of what is covered.
 fn mean(image: &Image) -> Vec3 {
@@ -80,6 +87,26 @@ fn pigment_only_takes_light_and_bounces_only_give_it() {
 }
 
 #[test]
+fn the_firefly_clamp_takes_light_that_was_scattered_twice_and_no_other() {
+    let strands = tuft();
+    let traced = |bounces, clamp| {
+        let options = TraceOptions { bounces, clamp, ..SMALL };
+        drawn(&strands, look(Melanin::WHITE), None, options)
+    };
+    // 1. Light that comes straight from a lamp over one fibre stays, and so does all light below a high clamp.
+    assert!(traced(1, Some(1e-3)) == traced(1, None));
+    assert!(traced(100, Some(1e6)) == traced(100, None));
+    // 2. Paths are the same, so that a lower clamp leaves no pixel brighter; one of next to nothing leaves the light of one scattering.
+    let all = [traced(100, None), traced(100, Some(0.5)), traced(100, Some(0.05))];
+    for pair in all.windows(2) {
+        let brighter = pair[0].pixels().iter().zip(pair[1].pixels());
+        assert!(brighter.flat_map(|(a, b)| a.iter().zip(b)).all(|(a, b)| *b <= a + 1e-6));
+    }
+    let [whole, some, little] = all.each_ref().map(|image| mean(image).element_sum());
+    assert!(some < 0.99 * whole && little < 0.8 * some, "{whole} {some} {little}");
+}
+
+#[test]
 fn the_same_bytes_on_any_number_of_threads() {
     let strands = tuft();
     let on = |threads: usize| {
@@ -99,6 +126,8 @@ fn impossible_pictures_are_refused_before_the_work() {
     assert!(matches!(refused(TraceOptions { width: 0, ..SMALL }), TraceError::Size { .. }));
     assert!(matches!(refused(TraceOptions { height: 100_000, ..SMALL }), TraceError::Size { .. }));
     assert_eq!(refused(TraceOptions { samples: 0, ..SMALL }), TraceError::Samples { samples: 0 });
+    let dark = TraceOptions { clamp: Some(0.0), ..SMALL };
+    assert_eq!(refused(dark), TraceError::Clamp { clamp: 0.0 });
     let scene = Scene::portrait(&strands, None);
     let token = frisure_progress::CancellationToken::default();
     token.cancel();

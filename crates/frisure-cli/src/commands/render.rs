@@ -1,6 +1,6 @@
-//! `frisure render`: the final picture of a scene, or of a groom.
+//! `frisure render` and `frisure view`: pictures of a scene, or of a groom.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use frisure::files::Files;
 use frisure::formats::groom::Format as GroomFormat;
@@ -15,36 +15,52 @@ use frisure_engine::{Error, HeadCache, environment_map, input_files};
 
 use super::predict;
 use super::{read_groom, read_scene};
-use crate::args::{Axes, Predict, Quality, Render, Writing};
+use crate::args::{Axes, Pictured, Predict, Quality, Render, Tracing, View, Writing};
 use crate::console;
 use crate::diagnostics::ExitStatus;
-use crate::pictures::{self, Turntable, noise_filter};
+use crate::pictures::{self, Turntable, Views, noise_filter};
 use crate::progress::Bar;
 
 /// Predicts the scene, or reads the groom, and traces its picture.
 pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
-    let turntable = turntable(&arguments)?;
-    if GroomFormat::of(&arguments.scene).is_ok() {
-        return groom(&arguments, turntable, quiet);
+    let Render { pictured, tracing } = arguments;
+    picture(pictured, Quality::Final, tracing, quiet)
+}
+
+/// The same by projection.
+pub(crate) fn view(arguments: View, quiet: bool) -> Result<ExitStatus, Error> {
+    picture(arguments.pictured, Quality::Preview, Tracing::default(), quiet)
+}
+
+fn picture(
+    pictured: Pictured,
+    quality: Quality,
+    tracing: Tracing,
+    quiet: bool,
+) -> Result<ExitStatus, Error> {
+    let views = views(&pictured)?;
+    if GroomFormat::of(&pictured.scene).is_ok() {
+        return GroomPicture { pictured: &pictured, views, quality, tracing }.make(quiet);
     }
-    if let Some(look) = &arguments.look {
+    if let Some(look) = &pictured.look {
         let message = format!("`--look {}` is for grooms", look.display());
         let hint = "a scene has its own look; change it there";
         return Err(Error::invalid(message, hint));
     }
-    if arguments.axes.is_given() {
+    if pictured.axes.is_given() {
         let message = "`--unit` and `--up` are for grooms";
         let hint = "for the files of a scene, set them in `[head]` and `[groom]`";
         return Err(Error::invalid(message, hint));
     }
-    let scene = with_view(&arguments, read_scene(&arguments.scene)?);
-    let Render { scene: path, output, tracing, .. } = arguments;
+    let scene = with_view(&pictured, read_scene(&pictured.scene)?);
+    let Pictured { scene: path, output, .. } = pictured;
     let arguments = Predict {
         scene: path,
         outputs: Vec::new(),
         image: Some(output),
         report: None,
-        quality: Quality::Final,
+        quality,
+        camera: Vec::new(),
         tracing,
         each_step: false,
         time_samples: false,
@@ -53,26 +69,32 @@ pub(crate) fn run(arguments: Render, quiet: bool) -> Result<ExitStatus, Error> {
         writing: Writing::default(),
         fibres: false,
     };
-    predict::run_scene(&arguments, scene, turntable, quiet)
+    predict::run_scene(&arguments, scene, views, quiet)
 }
 
-fn turntable(arguments: &Render) -> Result<Option<Turntable>, Error> {
-    let Some(frames) = arguments.turntable else { return Ok(None) };
-    let first = arguments.from;
+fn views(pictured: &Pictured) -> Result<Views, Error> {
+    let Some(frames) = pictured.turntable else {
+        return Ok(Views::Cameras(pictured.camera.clone()));
+    };
+    if pictured.camera.len() > 1 {
+        let message = "a turntable begins at one camera, not at several";
+        return Err(Error::invalid(message, "give one `--camera`, or leave out `--turntable`"));
+    }
+    let first = pictured.from;
     if first >= frames {
         let message = format!("frame {first} is none of a turntable of {frames}");
         return Err(Error::invalid(message, "frames are numbered from 0"));
     }
-    Ok(Some(Turntable { frames, first }))
+    Ok(Views::Turntable(Turntable { frames, first }))
 }
 
-/// The scene with the size and the camera of the arguments.
-fn with_view(arguments: &Render, mut scene: Scene) -> Scene {
-    if let Some((width, height)) = arguments.size {
+/// The scene with the size and the camera of the arguments; of several, the first.
+fn with_view(pictured: &Pictured, mut scene: Scene) -> Scene {
+    if let Some((width, height)) = pictured.size {
         (scene.output.width, scene.output.height) = (width, height);
     }
-    if let Some(camera) = arguments.camera {
-        scene.camera.azimuth = camera.to_radians();
+    if let Some(camera) = pictured.camera.first() {
+        scene.camera.azimuth = camera.azimuth;
     }
     scene
 }
@@ -83,60 +105,79 @@ fn strands(path: &Path, axes: Axes) -> Result<Strands, Error> {
     Ok(if groom.hairs.is_empty() { groom.guides } else { groom.hairs })
 }
 
-fn groom(
-    arguments: &Render,
-    turntable: Option<Turntable>,
-    quiet: bool,
-) -> Result<ExitStatus, Error> {
-    let look = match &arguments.look {
-        Some(path) => read_scene(path)?,
-        None => Scene::parse("", "", Path::new(""))?,
-    };
-    let scene = with_view(arguments, look);
-    Format::of(&arguments.output).map_err(|e| Error::because(&e, ""))?;
-    arguments.tracing.options(&scene).check().map_err(|e| Error::because(&e, ""))?;
-    memory::check_picture(Work::Traced(scene.output.width * scene.output.height))?;
-    let mut inputs = input_files(&scene);
-    inputs.push(&arguments.scene);
-    inputs.extend(arguments.look.as_deref());
-    pictures::prepare(&pictures::paths(&arguments.output, turntable), &[], &inputs)?;
-    let progress = Bar::new(quiet);
-    progress.report("strands", 0.0);
-    let frames = groom_frames(arguments, &scene, turntable)?;
-    let lines = pictures::trace(frames, &arguments.output, turntable, &progress)?;
-    drop(progress);
-    if !quiet {
-        console::print(&lines.iter().map(|line| format!("wrote {line}\n")).collect::<String>())?;
-    }
-    Ok(ExitStatus::Success)
+/// The pictures of a groom.
+struct GroomPicture<'a> {
+    pictured: &'a Pictured,
+    views: Views,
+    quality: Quality,
+    tracing: Tracing,
 }
 
-/// The pictures of a groom with the look of a scene; with the scene's head if the scene was given.
-fn groom_frames(
-    arguments: &Render,
-    scene: &Scene,
-    turntable: Option<Turntable>,
-) -> Result<FrameSet, Error> {
-    let (path, files) = (&arguments.scene, Files::default());
-    let environment = environment_map(scene, &files)?;
-    let filter = noise_filter(arguments.tracing.denoise)?;
-    let strands = strands(path, arguments.axes)?;
-    let head = arguments.look.as_ref().map(|_| HeadCache::default().load(scene, &files));
-    let head = head.transpose()?.map(|loaded| loaded.head);
-    let subject = Subject {
-        scene,
-        strands: &strands,
-        framed: &strands,
-        surface: head.as_deref().map(Head::surface),
-        environment: environment.as_ref(),
-    };
-    let turntable = turntable.map(|turntable| turntable.frames);
-    FrameSet::new(&subject, &arguments.tracing.options(scene), turntable, filter).map_err(|e| {
-        match e {
+impl GroomPicture<'_> {
+    fn make(&self, quiet: bool) -> Result<ExitStatus, Error> {
+        let Self { pictured, views, quality, tracing } = self;
+        let look = match &pictured.look {
+            Some(path) => read_scene(path)?,
+            None => Scene::parse("", "", Path::new(""))?,
+        };
+        let scene = with_view(pictured, look);
+        Format::of(&pictured.output).map_err(|e| Error::because(&e, ""))?;
+        let pixels = scene.output.width * scene.output.height;
+        let paths = views.paths(&pictured.output);
+        let mut inputs = input_files(&scene);
+        inputs.push(&pictured.scene);
+        inputs.extend(pictured.look.as_deref());
+        match quality {
+            Quality::Final => {
+                tracing.options(&scene).check().map_err(|e| Error::because(&e, ""))?;
+                memory::check_picture(Work::Traced(pixels))?;
+                pictures::prepare(&paths, &[], &inputs)?;
+            }
+            Quality::Preview => {
+                memory::check_picture(Work::Preview(pixels))?;
+                let paths: Vec<&Path> = paths.iter().map(PathBuf::as_path).collect();
+                pictures::prepare(&[], &paths, &inputs)?;
+            }
+        }
+        let progress = Bar::new(quiet);
+        progress.report("strands", 0.0);
+        let lines = self.write(&scene, &progress)?;
+        drop(progress);
+        if !quiet {
+            let lines: String = lines.iter().map(|line| format!("wrote {line}\n")).collect();
+            console::print(&lines)?;
+        }
+        Ok(ExitStatus::Success)
+    }
+
+    /// Writes the pictures with the look of a scene; with the scene's head if the scene was given. Returns a line about each.
+    fn write(&self, scene: &Scene, progress: &Bar) -> Result<Vec<String>, Error> {
+        let Self { pictured, views, quality, tracing } = self;
+        let (path, files) = (&pictured.scene, Files::default());
+        let environment = environment_map(scene, &files)?;
+        let filter = noise_filter(tracing.denoise)?;
+        let strands = strands(path, pictured.axes)?;
+        let head = pictured.look.as_ref().map(|_| HeadCache::default().load(scene, &files));
+        let head = head.transpose()?.map(|loaded| loaded.head);
+        let subject = Subject {
+            scene,
+            strands: &strands,
+            framed: &strands,
+            surface: head.as_deref().map(Head::surface),
+            environment: environment.as_ref(),
+        };
+        let named = |e| match e {
             Error::Invalid { problem, hint } => {
                 Error::invalid(format!("`{}`: {problem}", path.display()), &hint)
             }
             e => e,
+        };
+        if *quality == Quality::Preview {
+            let options = pictures::preview_options(&scene.output);
+            let images = subject.previews(&views.frames(), &options, progress).map_err(named)?;
+            return pictures::write_previews(&images, &pictured.output, views, &scene.output);
         }
-    })
+        let frames = FrameSet::new(&subject, &tracing.options(scene), &views.frames(), filter);
+        pictures::trace(frames.map_err(named)?, &pictured.output, views, progress)
+    }
 }

@@ -8,6 +8,7 @@ use frisure_engine::Error;
 use super::predict;
 use crate::args::{Predict, Quality, Tracing, Transfer};
 use crate::diagnostics::ExitStatus;
+use crate::pictures::Views;
 
 /// Predicts the scene of the groom on the other head.
 pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error> {
@@ -22,6 +23,7 @@ pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error>
         outputs,
         image,
         report,
+        camera: Vec::new(),
         quality: Quality::Preview,
         tracing: Tracing::default(),
         each_step: false,
@@ -31,5 +33,5 @@ pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error>
         writing,
         fibres: false,
     };
-    predict::run_scene(&arguments, scene, None, quiet)
+    predict::run_scene(&arguments, scene, Views::Cameras(Vec::new()), quiet)
 }

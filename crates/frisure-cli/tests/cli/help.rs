@@ -14,6 +14,7 @@ fn help_of_everything() {
     insta::assert_snapshot!("predict", help(&["predict", "--help"]));
     insta::assert_snapshot!("batch", help(&["batch", "--help"]));
     insta::assert_snapshot!("render", help(&["render", "--help"]));
+    insta::assert_snapshot!("view", help(&["view", "--help"]));
     insta::assert_snapshot!("convert", help(&["convert", "--help"]));
     insta::assert_snapshot!("cards", help(&["cards", "--help"]));
     insta::assert_snapshot!("transfer", help(&["transfer", "--help"]));

@@ -269,6 +269,54 @@ fn a_final_picture_of_another_size_from_behind() {
 }
 
 #[test]
+fn pictures_from_several_cameras_have_their_names() {
+    let room = Room::new().with("quick.toml", QUICK);
+    let run = |arguments: &[&str]| {
+        let ran = room.run(arguments);
+        (ran.code, ran.err)
+    };
+    let done = (Some(0), String::new());
+    let bytes = |name: &str| fs::read(room.path(name)).unwrap();
+    // 1. Previews of a scene: the hair is predicted once.
+    let three = ["--camera", "front,side,back"];
+    assert_eq!(run(&[&["predict", "quick.toml", "--image", "p.png"], &three[..]].concat()), done);
+    assert_eq!(run(&["view", "quick.toml", "-o", "v.png", "--camera", "side"]), done);
+    assert!(bytes("p-side.png") == bytes("v.png") && bytes("p-front.png") != bytes("p-back.png"));
+    assert_eq!(run(&["view", "quick.toml", "-o", "w.png"]), done);
+    assert_eq!(run(&["predict", "quick.toml", "--image", "q.png", "-o", "a.hair"]), done);
+    assert!(bytes("w.png") == bytes("q.png") && !room.path("p.png").exists());
+    // 2. Previews of a groom, with a head and without one.
+    let view = ["view", "a.hair", "-o", "turn/g.png", "--size", "20x24"];
+    assert_eq!(run(&[&view[..], &["--turntable", "4", "--from", "3"]].concat()), done);
+    assert!(room.path("turn/g-03.png").exists() && !room.path("turn/g-00.png").exists());
+    assert_eq!(run(&[&view[..], &["--look", "quick.toml"], &three].concat()), done);
+    assert!(bytes("turn/g-back.png") != bytes("turn/g-front.png"));
+    // 3. Traced ones are those of one camera at a time.
+    let quick = ["--size", "20x24", "--paths", "2"];
+    assert_eq!(run(&[&["render", "a.hair", "-o", "f.png"], &three[..], &quick].concat()), done);
+    let back = ["render", "a.hair", "-o", "b.png", "--camera", "back"];
+    assert_eq!(run(&[&back[..], &quick].concat()), done);
+    assert!(bytes("f-back.png") == bytes("b.png"));
+    // 4. A file for each.
+    for (wrong, problem) in [
+        (&["view", "quick.toml", "-o", "d.png", "--camera", "back,back"][..], "given twice"),
+        (&["view", "quick.toml", "-o", "d.png", "--camera", "back,above"], "three-quarter"),
+        (&["predict", "quick.toml", "--camera", "back"], "--image"),
+        (
+            &["view", "a.hair", "-o", "d.png", "--turntable", "4", "--camera", "back,front"],
+            "one `--camera`",
+        ),
+        (&["view", "a.hair", "-o", "d.png", "--paths", "4"], "--paths"),
+        (&["render", "a.hair", "-o", "d.png", "--clamp", "0"], "between 0.01 and 1e6"),
+        (&["predict", "quick.toml", "--image", "d.png", "--clamp", "4"], "--quality final"),
+    ] {
+        let (code, err) = run(wrong);
+        assert!(code == Some(2) && err.contains(problem), "{wrong:?}: {err}");
+    }
+    assert!(!room.path("d.png").exists());
+}
+
+#[test]
 fn a_groom_from_all_around_and_with_its_light() {
     let room = Room::new().with("quick.toml", QUICK);
     let run = |arguments: &[&str]| {

@@ -12,17 +12,17 @@ use frisure::scene::Output;
 use super::accumulate::{Pauses, accumulate};
 use super::denoise::NoiseFilter;
 use super::file::write_traced;
-use super::subject::Subject;
+use super::subject::{Frames, Subject};
 use crate::checkpoint::picture as checkpoint;
 use crate::error::Error;
 
 /// When the picture so far is saved: every minute, and for at most a twentieth of the time; chosen.
 const PAUSES: Pauses = Pauses { every: Duration::from_mins(1), spacing: 20 };
 
-/// The final pictures of a subject: one, or those from all around the head.
+/// The final pictures of a subject, as its [`Frames`] say.
 pub struct FrameSet {
     tracer: Tracer,
-    /// What differs between the frames of a turntable; empty for one picture.
+    /// What differs between the pictures.
     views: Vec<(Camera, Lights)>,
     output: Output,
     filter: Option<NoiseFilter>,
@@ -51,20 +51,18 @@ pub enum TraceEnd {
 }
 
 impl FrameSet {
-    /// Prepares the picture from the scene's camera, or `turntable` pictures around the head.
+    /// Prepares the pictures.
     ///
     /// # Errors
     /// [`Error::Invalid`].
     pub fn new(
         subject: &Subject<'_>,
         options: &TraceOptions,
-        turntable: Option<usize>,
+        frames: &Frames,
         filter: Option<NoiseFilter>,
     ) -> Result<Self, Error> {
-        let tracer = subject.tracer(None, options)?;
-        let aspect = options.width as f64 / options.height as f64;
-        let views = turntable.map(|frames| subject.views(None, frames, aspect)).transpose()?;
-        let views = views.unwrap_or_default();
+        let views = subject.frames(frames, options.width as f64 / options.height as f64)?;
+        let tracer = subject.tracer_from(views[0].0, options)?;
         Ok(Self { tracer, views, output: subject.scene.output, filter })
     }
 

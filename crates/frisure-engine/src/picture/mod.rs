@@ -21,7 +21,7 @@ pub use file::write;
 #[cfg(not(target_arch = "wasm32"))]
 pub use frames::{FinalPicture, FrameSet, TraceEnd};
 pub use options::{aspect, developed, spec};
-pub use subject::{Subject, Viewpoint};
+pub use subject::{Frames, Subject, Viewpoint};
 #[cfg(not(target_arch = "wasm32"))]
 pub use views::{View, Viewed};
 

@@ -1,10 +1,10 @@
 //! What is in a picture, and the scene of the renderers.
 
-use frisure::look::{Camera, EnvironmentMap, Lights};
-use frisure::progress::{Cancelled, Progress};
+use frisure::look::{Camera, CameraSpec, EnvironmentMap, Lights};
+use frisure::progress::{Cancelled, Progress, SubStage};
 use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::{TraceError, TraceOptions, Tracer};
-use frisure::render::{self, Image};
+use frisure::render::{self, Image, PictureSpec};
 use frisure::scene::Scene;
 use frisure::strands::{Strands, Surface};
 use glam::DVec3;
@@ -23,6 +23,18 @@ pub struct Viewpoint {
     pub target: [f64; 3],
     /// Vertical field of view (rad).
     pub field_of_view: f64,
+}
+
+/// From where the pictures of a subject are taken.
+#[derive(Clone, Debug, Default)]
+pub enum Frames {
+    /// One, from the scene's camera.
+    #[default]
+    Scene,
+    /// One from each of these azimuths (rad, from the face to the head's left) in place of that of the scene's camera; at least one.
+    Azimuths(Vec<f64>),
+    /// So many from all around the head; the first is from the scene's camera.
+    Turntable(usize),
 }
 
 /// What is in a picture.
@@ -64,7 +76,16 @@ impl<'a> Subject<'a> {
         options: &TraceOptions,
     ) -> Result<Tracer, Error> {
         let aspect = options.width as f64 / options.height as f64;
-        let scene = self.render_scene(self.camera(viewpoint, aspect)?)?;
+        self.tracer_from(self.camera(viewpoint, aspect)?, options)
+    }
+
+    /// The tracer of the picture from a camera.
+    pub(super) fn tracer_from(
+        &self,
+        camera: Camera,
+        options: &TraceOptions,
+    ) -> Result<Tracer, Error> {
+        let scene = self.render_scene(camera)?;
         Tracer::new(&scene, options).map_err(|e| match e {
             TraceError::Cancelled => Error::Cancelled(Cancelled),
             e => Error::because(&e, ""),
@@ -82,6 +103,53 @@ impl<'a> Subject<'a> {
     ) -> Result<Image, Error> {
         let aspect = options.width as f64 / options.height as f64;
         project(&self.render_scene(self.camera(None, aspect)?)?, options, progress)
+    }
+
+    /// Pictures by projection, in the order of `frames`.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] and [`Error::Invalid`].
+    pub fn previews(
+        &self,
+        frames: &Frames,
+        options: &PreviewOptions,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Image>, Error> {
+        let views = self.frames(frames, options.width as f64 / options.height as f64)?;
+        let mut scene = self.render_scene(views[0].0)?;
+        let count = views.len();
+        let picture = |(index, (camera, lights))| {
+            (scene.camera, scene.lights) = (camera, lights);
+            let at = |part: usize| (index + part) as f64 / count as f64;
+            let stage = SubStage { progress, stage: "picture", range: [at(0), at(1)] };
+            project(&scene, options, &stage)
+        };
+        views.into_iter().enumerate().map(picture).collect()
+    }
+
+    /// The cameras and lights of `frames`, at least one. `aspect` is width over height.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`].
+    pub(super) fn frames(
+        &self,
+        frames: &Frames,
+        aspect: f64,
+    ) -> Result<Vec<(Camera, Lights)>, Error> {
+        let azimuths = match frames {
+            Frames::Turntable(count) => return self.views(None, *count, aspect),
+            Frames::Scene => &[self.scene.camera.azimuth][..],
+            Frames::Azimuths(azimuths) => azimuths,
+        };
+        let spec = spec(self.scene, self.environment);
+        let view = |azimuth: &f64| {
+            let from = CameraSpec { azimuth: *azimuth, ..*spec.camera };
+            let spec = PictureSpec { camera: &from, ..spec };
+            let camera = spec.frame(self.framed, self.surface, aspect);
+            let scene = spec.scene(camera, self.strands, self.framed, self.surface);
+            scene.map(|scene| (camera, scene.lights)).map_err(|e| Error::because(&e, ""))
+        };
+        azimuths.iter().map(view).collect()
     }
 
     /// The cameras and lights of `frames` pictures around the head; the first is from the viewpoint, or from the direction of

@@ -86,7 +86,7 @@ def render(
     prediction: Prediction,
     size: tuple[int | None, int | None],
     azimuth: float | None,
-    tracing: tuple[int, float, int] | None,
+    tracing: tuple[int, float, int, float | None] | None,
     alpha: bool,
     progress: _Progress | None,
 ) -> Memory: ...

@@ -124,6 +124,7 @@ class Hairstyle:
         paths: int = 256,
         noise: float = 2.0,
         bounces: int = 100,
+        clamp: float | None = None,
         alpha: bool = False,
         progress: Progress | None = None,
     ) -> NDArray[np.uint8]:
@@ -132,7 +133,9 @@ class Hairstyle:
         The size (pixels), the camera, the lights and the look are the scene's where nothing else is given. `azimuth` is
         the direction of the camera around the head in degrees: 0 in front, 90 at the head's left. A preview takes
         seconds. `quality="final"` traces at most `paths` paths of light per pixel until the `noise` (percent of the way
-        from black to white) is reached, each followed at most `bounces` times.
+        from black to white) is reached, each followed at most `bounces` times. `clamp` bounds the light that one path may
+        bring which was scattered twice or more (white paper has about 1): it takes away single bright pixels and
+        darkens the picture a little.
         """
         if quality not in ("preview", "final"):
             raise ArgumentError(f'quality is {quality!r}; it must be "preview" or "final"')
@@ -143,7 +146,9 @@ class Hairstyle:
             raise ArgumentError(f"noise is {noise}; it must be between 0 and 100 percent")
         if azimuth is not None and not math.isfinite(azimuth):
             raise ArgumentError(f"azimuth is {azimuth}; it must be a finite number of degrees")
-        tracing = (paths, 0.01 * noise, bounces) if quality == "final" else None
+        if clamp is not None and not clamp > 0:
+            raise ArgumentError(f"clamp is {clamp}; it must be above 0")
+        tracing = (paths, 0.01 * noise, bounces, clamp) if quality == "final" else None
         turned = None if azimuth is None else math.radians(azimuth)
         made = render(self._prediction, (width, height), turned, tracing, alpha, progress)
         return np.asarray(made)

@@ -29,6 +29,8 @@ pub(super) struct Integrator {
     pub(super) head: Option<Surface>,
     pub(super) floor: Option<Floor>,
     pub(super) max_bounces: u32,
+    /// The most light of a path that was scattered twice or more ([`super::TraceOptions::clamp`]).
+    pub(super) clamp: Option<f32>,
 }
 
 /// Bounces after which Russian roulette may end a path. Measured: brown hair has the same noise in two thirds
@@ -140,7 +142,8 @@ impl Integrator {
             //    sampling; a camera ray shows the faces of visible area lights.
             if let Some((from, pdf)) = scattered {
                 self.lights.emitted(from, ray.direction(), blocked, |light, light_pdf| {
-                    path.radiance += throughput * light * power_heuristic(pdf, light_pdf);
+                    let light = throughput * light * power_heuristic(pdf, light_pdf);
+                    path.radiance += self.clamped(light, bounce);
                 });
             } else if let Some((t, radiance)) =
                 self.lights.visible_area_light(ray.origin(), ray.direction(), blocked)
@@ -165,7 +168,8 @@ impl Integrator {
             throughput *= weight;
 
             // 4. Next-event estimation: the light-sampled half.
-            path.radiance += throughput * self.direct_light(&intersection, &bsdf, sampler);
+            let light = throughput * self.direct_light(&intersection, &bsdf, sampler);
+            path.radiance += self.clamped(light, bounce + 1);
 
             // 5. Importance sampling of the BSDF.
             let Some(sample) = bsdf.sample(sampler) else { return path };
@@ -184,6 +188,16 @@ impl Integrator {
             scattered = Some((intersection.shading_point(), sample.pdf));
         }
         path
+    }
+
+    /// Light that was scattered so many times, of the same hue and at most as bright as the firefly clamp.
+    fn clamped(&self, light: Vec3, scatterings: u32) -> Vec3 {
+        match self.clamp {
+            Some(most) if scatterings > 1 && light.max_element() > most => {
+                light * (most / light.max_element())
+            }
+            _ => light,
+        }
     }
 
     /// Distance (m) at which a ray hits anything.

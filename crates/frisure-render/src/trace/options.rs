@@ -27,13 +27,25 @@ pub struct TraceOptions {
     pub noise: Option<f32>,
     /// Most bounces of a path (maximum depth); light hair needs 50 and more.
     pub bounces: u32,
+    /// The most light that a path may bring which was scattered twice or more, in each colour, above 0 (radiance; white paper in
+    /// the picture's light has about 1): the firefly clamp. It takes away single bright pixels, and darkens the picture where
+    /// much light comes that way; `None` is exact.
+    pub clamp: Option<f32>,
     /// Seed of the sampler.
     pub seed: u32,
 }
 
 impl Default for TraceOptions {
     fn default() -> Self {
-        Self { width: 1024, height: 1024, samples: 64, noise: None, bounces: 100, seed: 1 }
+        Self {
+            width: 1024,
+            height: 1024,
+            samples: 64,
+            noise: None,
+            bounces: 100,
+            clamp: None,
+            seed: 1,
+        }
     }
 }
 
@@ -74,6 +86,12 @@ pub enum TraceError {
         /// The noise given.
         noise: f32,
     },
+    /// A firefly clamp that is not above 0.
+    #[error("the firefly clamp must be above 0, not {clamp}")]
+    Clamp {
+        /// The clamp given.
+        clamp: f32,
+    },
     /// No strand has two points.
     #[error("there is no hair: no strand has two points")]
     NoHair,
@@ -97,7 +115,7 @@ impl TraceOptions {
     /// # Errors
     /// [`TraceError`], for the first option out of range.
     pub fn check(&self) -> Result<(), TraceError> {
-        let Self { width, height, samples, noise, .. } = *self;
+        let Self { width, height, samples, noise, clamp, .. } = *self;
         if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
             return Err(TraceError::Size { width, height });
         }
@@ -107,9 +125,9 @@ impl TraceOptions {
         if !(1..=MAX_SAMPLES).contains(&samples) {
             return Err(TraceError::Samples { samples });
         }
-        match noise {
-            Some(noise) if noise.is_nan() || noise <= 0.0 => Err(TraceError::Noise { noise }),
-            _ => Ok(()),
-        }
+        let positive =
+            |value: Option<f32>| value.filter(|x| x.is_nan() || *x <= 0.0).map_or(Ok(()), Err);
+        positive(noise).map_err(|noise| TraceError::Noise { noise })?;
+        positive(clamp).map_err(|clamp| TraceError::Clamp { clamp })
     }
 }

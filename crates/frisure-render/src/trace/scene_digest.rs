@@ -28,8 +28,11 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
         }
     }
     digest.field("look", look);
-    let TraceOptions { width, height, bounces, seed, .. } = *options;
+    let TraceOptions { width, height, bounces, clamp, seed, .. } = *options;
     digest.field("size", &[width, height]).field("bounces", &bounces).field("seed", &seed);
+    if let Some(clamp) = clamp {
+        digest.field("clamp", &clamp);
+    }
     digest
 }
 

@@ -45,7 +45,7 @@ impl Subsurface {
     }
 
     /// A place where light comes out that a ray in the direction of `hit` sees, and its weight by colour. `random` has
-    /// numbers in [0, 1): axis and colour, radius, angle, layer.
+    /// numbers in [0, 1): colour and axis, radius, angle, layer.
     pub(super) fn exit(
         &self,
         bvh: &SceneBvh,
@@ -54,9 +54,11 @@ impl Subsurface {
     ) -> Option<(SkinHit, Vec3)> {
         // 1. An axis, and a place on the disc across it by the profile of one colour.
         let frame = frame(hit.normal);
-        let (which, colour) = (random[0], (random[0] * 4096.0).fract());
+        // One stratified number gives both: a third of its range is a colour, and where it is in that third the axis.
+        let scaled = 3.0 * random[0];
+        let (colour, which) = ((scaled as usize).min(2), scaled.fract());
         let axis = if which < AXES[0] { 0 } else { 1 + usize::from(which >= AXES[0] + AXES[1]) };
-        let d = self.lengths[((3.0 * colour) as usize).min(2)];
+        let d = self.lengths[colour];
         let (radius, farthest) = (sampled_radius(random[1], d), FARTHEST * d);
         if radius >= farthest {
             return None;
@@ -81,15 +83,19 @@ impl Subsurface {
         // 3. One of them, and how probable it was by all axes and colours (multiple importance sampling).
         let exit = found[((random[3] * count as f32) as usize).min(count - 1)];
         let way = exit.position - hit.position;
+        let distance = way.length();
+        // A probe ray of a colour ends at its ball: a colour whose ball the exit lies beyond cannot have found it.
+        let reaches = self.lengths.to_array().map(|d| distance < FARTHEST * d);
         let pdf: f32 = (0..3)
             .map(|k| {
                 let along = way.dot(frame[k]);
                 let across = (way.length_squared() - along * along).max(0.0).sqrt();
-                let radial = self.profile(across).element_sum() / 3.0;
+                let profiles = self.profile(across).to_array();
+                let radial: f32 = (0..3).filter(|c| reaches[*c]).map(|c| profiles[c] / 3.0).sum();
                 AXES[k] * radial * exit.normal.dot(frame[k]).abs()
             })
             .sum();
-        let weight = self.albedo * self.profile(way.length()) * (count as f32 / pdf);
+        let weight = self.albedo * self.profile(distance) * (count as f32 / pdf);
         (pdf > 0.0 && weight.is_finite()).then_some((exit, weight))
     }
 }

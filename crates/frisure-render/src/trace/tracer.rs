@@ -62,6 +62,7 @@ impl Tracer {
             head: scene.surface.cloned(),
             floor: scene.look.floor.as_ref().map(Floor::new),
             max_bounces: options.bounces,
+            clamp: options.clamp,
         };
         let mut tracer = Self {
             lens: Lens::new(&scene.camera, options, 1.0),

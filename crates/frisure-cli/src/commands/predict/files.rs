@@ -9,7 +9,7 @@ use frisure_engine::{Error, input_files, stage_count};
 
 use crate::args::{Predict, Quality};
 use crate::outputs::numbered;
-use crate::pictures::{self, Turntable};
+use crate::pictures::{self, Views};
 
 /// The files of one hairstyle.
 pub(super) struct StageFiles {
@@ -49,12 +49,12 @@ pub(super) fn prepare(
     arguments: &Predict,
     scene: &Scene,
     stages: &[StageFiles],
-    turntable: Option<Turntable>,
+    views: &Views,
 ) -> Result<(), Error> {
     let mut inputs = input_files(scene);
     inputs.push(&arguments.scene);
     let images = stages.iter().filter_map(|stage| stage.image.as_deref());
-    let images: Vec<PathBuf> = images.flat_map(|path| pictures::paths(path, turntable)).collect();
+    let images: Vec<PathBuf> = images.flat_map(|path| views.paths(path)).collect();
     let mut others: Vec<&Path> =
         stages.iter().flat_map(|stage| &stage.grooms).map(PathBuf::as_path).collect();
     others.extend(arguments.report.as_deref());

@@ -12,12 +12,11 @@ use frisure::hairstyle::{Checkpoint, DrawnHair, StrandOptions, add_sections, pen
 use frisure::look::EnvironmentMap;
 use frisure::progress::Progress;
 use frisure::render::Image;
-use frisure::render::preview::PreviewOptions;
 use frisure::scene::{Output, Scene};
 use frisure::strands::Strands;
 use frisure_engine::checkpoint::HairCheckpoint;
 use frisure_engine::memory::{self, Work};
-use frisure_engine::picture::{self as pictures, FrameSet, Subject};
+use frisure_engine::picture::{FrameSet, Subject};
 use frisure_engine::report::HairstyleReport;
 use frisure_engine::{Error, LoadedScene, Runner, StyledScene, environment_map, stage_count};
 
@@ -25,7 +24,7 @@ use super::read_scene;
 use crate::args::{Predict, Quality};
 use crate::diagnostics::ExitStatus;
 use crate::grooms::MotionFiles;
-use crate::pictures::{Turntable, noise_filter, trace};
+use crate::pictures::{Views, noise_filter, preview_options, trace, write_previews};
 use crate::progress::Bar;
 use crate::{console, grooms, hair_checkpoint, interrupt};
 
@@ -34,14 +33,15 @@ use summary::summary;
 
 /// Computes what the arguments ask for, and writes it.
 pub(crate) fn run(arguments: &Predict, quiet: bool) -> Result<ExitStatus, Error> {
-    run_scene(arguments, read_scene(&arguments.scene)?, None, quiet)
+    let views = Views::Cameras(arguments.camera.clone());
+    run_scene(arguments, read_scene(&arguments.scene)?, views, quiet)
 }
 
-/// The same for a scene that was read already, with a turntable of its final picture, if wanted.
+/// The same for a scene that was read already, with these views of it.
 pub(crate) fn run_scene(
     arguments: &Predict,
     scene: Scene,
-    turntable: Option<Turntable>,
+    views: Views,
     quiet: bool,
 ) -> Result<ExitStatus, Error> {
     let spec = scene.hairstyle_spec()?;
@@ -52,13 +52,13 @@ pub(crate) fn run_scene(
         memory::check(&spec, Work::Motion(stage_count(&scene)))?;
     }
     let files = files::stages(arguments, &scene, &spec);
-    files::prepare(arguments, &scene, &files, turntable)?;
+    files::prepare(arguments, &scene, &files, &views)?;
     let environment = match arguments.image {
         Some(_) => environment_map(&scene, &Files::default())?,
         None => None,
     };
     let progress = Bar::new(quiet);
-    let prediction = Prediction { arguments, turntable, environment, progress };
+    let prediction = Prediction { arguments, views, environment, progress };
     let written = prediction.execute(&Arc::new(scene), &files);
     drop(prediction);
     let Written { report, note, lines } = written?;
@@ -92,7 +92,8 @@ fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
         grooms::check_motion(&arguments.outputs)?;
     }
     if arguments.tracing.is_given() && arguments.quality == Quality::Preview {
-        let message = "`--paths`, `--noise`, `--bounces` and `--denoise` are for final pictures";
+        let message =
+            "`--paths`, `--noise`, `--bounces`, `--clamp` and `--denoise` are for final pictures";
         return Err(Error::invalid(message, "add `--quality final`"));
     }
     if let Some(path) = &arguments.image {
@@ -109,7 +110,7 @@ fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
 /// A prediction with its arguments.
 struct Prediction<'a> {
     arguments: &'a Predict,
-    turntable: Option<Turntable>,
+    views: Views,
     environment: Option<EnvironmentMap>,
     progress: Bar,
 }
@@ -125,7 +126,7 @@ struct Written {
 }
 
 enum Picture {
-    Preview(Image),
+    Previews(Vec<Image>),
     Final(Box<FrameSet>),
 }
 
@@ -232,7 +233,7 @@ impl Prediction<'_> {
         Ok(lines)
     }
 
-    /// The picture of strands, or its tracer.
+    /// The pictures of strands, or their tracer.
     fn picture(
         &self,
         loaded: &LoadedScene,
@@ -243,14 +244,14 @@ impl Prediction<'_> {
         let subject = loaded.subject(strands, self.environment.as_ref());
         let subject = Subject { framed: framed.unwrap_or(strands), ..subject };
         if self.arguments.quality == Quality::Preview {
-            let Output { width, height, samples, .. } = scene.output;
-            let options = PreviewOptions { width, height, samples, ..PreviewOptions::default() };
-            return subject.preview(&options, &self.progress).map(Picture::Preview);
+            let options = preview_options(&scene.output);
+            let pictures = subject.previews(&self.views.frames(), &options, &self.progress);
+            return pictures.map(Picture::Previews);
         }
         let tracing = &self.arguments.tracing;
-        let turntable = self.turntable.map(|turntable| turntable.frames);
         let filter = noise_filter(tracing.denoise)?;
-        let frames = FrameSet::new(&subject, &tracing.options(scene), turntable, filter)?;
+        let frames =
+            FrameSet::new(&subject, &tracing.options(scene), &self.views.frames(), filter)?;
         Ok(Picture::Final(Box::new(frames)))
     }
 
@@ -261,11 +262,8 @@ impl Prediction<'_> {
         output: &Output,
     ) -> Result<Vec<String>, Error> {
         match picture {
-            Picture::Preview(image) => {
-                interrupt::writing(|| pictures::write(path, &image, output))?;
-                Ok(vec![path.display().to_string()])
-            }
-            Picture::Final(frames) => trace(*frames, path, self.turntable, &self.progress),
+            Picture::Previews(images) => write_previews(&images, path, &self.views, output),
+            Picture::Final(frames) => trace(*frames, path, &self.views, &self.progress),
         }
     }
 }
