@@ -33,10 +33,10 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
-        // Tests and compilers leave a part of two cores idle: what does not need the tests' build goes on beside them.
+        // Tests leave a part of two cores idle: what does not need them goes on beside them.
         thread::scope(|scope| {
             let other = scope.spawn(|| other_programs(&gate));
-            let first = development_build(&gate);
+            let first = tests(&gate);
             let other = other.join().map_err(|_| anyhow!("the steps beside the tests panic"))?;
             first.and(other)
         })?;
@@ -51,16 +51,8 @@ fn lints(gate: &Gate) -> Result<()> {
     })
 }
 
-/// The steps that need only what the tests are built with.
-fn development_build(gate: &Gate) -> Result<()> {
-    lints(gate)?;
-    gate.step("dependencies", dependencies)?;
-    gate.step("documentation", || {
-        shell("RUSTDOCFLAGS='-D warnings' cargo doc --workspace --all-features --no-deps --locked")
-    })?;
-    gate.step("packages", || {
-        cargo("package --workspace --no-verify --allow-dirty --locked --quiet")
-    })?;
+/// The steps that the tests need, and those with what the tests have built.
+fn tests(gate: &Gate) -> Result<()> {
     gate.step("page", || page::build(false))?;
     gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
     gate.step("mutated files", || {
@@ -70,8 +62,11 @@ fn development_build(gate: &Gate) -> Result<()> {
     gate.step("examples", examples)
 }
 
-/// The steps that need the release build, then those of programs in Python. What they print comes when each is done.
+/// Lints, the steps that need the release build, those of programs in Python, and documents. They take about as long as the tests.
+/// What a program prints comes when its step is done.
 fn other_programs(gate: &Gate) -> Result<()> {
+    lints(gate)?;
+    gate.step("dependencies", dependencies)?;
     gate.step("the README's main command", main_command)?;
     gate.step("every scene", every_scene)?;
     gate.step("programs that open grooms", || {
@@ -81,7 +76,15 @@ fn other_programs(gate: &Gate) -> Result<()> {
     gate.step("scripts for clusters", || shell_beside("validation/cluster/run"))?;
     gate.step("the Python package", || shell_beside("crates/frisure-python/tests/run"))?;
     // With the wheel of the step before.
-    gate.step("the extension for Blender", || shell_beside("blender/tests/run"))
+    gate.step("the extension for Blender", || shell_beside("blender/tests/run"))?;
+    gate.step("documentation", || {
+        shell_beside(
+            "RUSTDOCFLAGS='-D warnings' cargo doc --workspace --all-features --no-deps --locked",
+        )
+    })?;
+    gate.step("packages", || {
+        shell_beside("cargo package --workspace --no-verify --allow-dirty --locked --quiet")
+    })
 }
 
 /// The steps so far, with their times.
