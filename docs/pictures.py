@@ -52,14 +52,21 @@ class Maker:
         if done.returncode not in (0, 1):
             raise SystemExit(f"frisure {' '.join(map(str, arguments))}\n{done.stderr}")
 
-    def traced(self, hair, size, look=None, share=0.6):
-        """A scene, or a groom with the scene `look`, by the path tracer."""
+    def traced(self, hair, size, look=None, share=0.6, scale=1):
+        """A scene, or a groom with the scene `look`, by the path tracer; made `scale` times as large and then smaller, which keeps
+        the hairs that the denoiser blurs."""
+        width, height = scale * size[0], scale * size[1]
         out = self.folder / "traced.png"
         out.unlink(missing_ok=True)
         with_look = ["--look", look] if look else []
-        self.run("render", hair, "-o", out, "--size", f"{size[0]}x{size[1]}", "--noise", 0, "--paths", self.paths,
+        self.run("render", hair, "-o", out, "--size", f"{width}x{height}", "--noise", 0, "--paths", self.paths,
                  f"--denoise={round(100 * share)}", "-q", *with_look)
-        return Image.open(out).convert("RGB")
+        picture = Image.open(out).convert("RGB")
+        return picture.resize(size, Image.LANCZOS) if scale > 1 else picture
+
+    def small(self, hair, size, look=None):
+        """The same in a small picture, which shows the noise that a part of the denoising leaves."""
+        return self.traced(hair, size, look, share=0.9, scale=2)
 
     def scene(self, text, name="scene"):
         path = self.folder / f"{name}.toml"
@@ -99,8 +106,7 @@ def grid(pictures, columns, captions=None):
 
 
 def heads(maker):
-    # Small pictures show the noise that a share of the traced picture keeps.
-    maker.save(grid([maker.traced(SCENES / f"{name}.toml", (360, 440), share=1.0) for name in HEADS], 4), "heads")
+    maker.save(grid([maker.small(SCENES / f"{name}.toml", (360, 440)) for name in HEADS], 4), "heads")
 
 
 def final(maker, names=FINAL):
@@ -112,14 +118,14 @@ def collisions(maker):
     text = (SCENES / "collisions-none.toml").read_text()
     layers = maker.scene(re.sub(r'(?m)^hair = "none"', 'hair = "layers"', text))
     scenes = [SCENES / "collisions-none.toml", layers, SCENES / "collisions.toml"]
-    maker.save(grid([maker.traced(scene, (360, 440), share=1.0) for scene in scenes], 3), "collisions")
+    maker.save(grid([maker.small(scene, (360, 440)) for scene in scenes], 3), "collisions")
 
 
 def swatches(maker, looks, name):
     """One straight head from behind in each of the looks, lines of `[look]`."""
     hair = maker.groom(STRAIGHT, "straight")
     scenes = [maker.scene(STRAIGHT + BEHIND + f"[look]\n{look}\n", f"look{i}") for i, (_, look) in enumerate(looks)]
-    pictures = [maker.traced(hair, (180, 216), scene, 1.0) for scene in scenes]
+    pictures = [maker.small(hair, (180, 216), scene) for scene in scenes]
     maker.save(grid(pictures, 5, [caption for caption, _ in looks]), name, 85)
 
 
@@ -156,7 +162,7 @@ def lights(maker):
     kinds = [(s, f'setup = "{s}"') for s in SETUPS] + [("environment (a window)", 'environment = "window.hdr"')]
     scenes = [maker.scene(f"{STRAIGHT}[look]\ncolour = \"light-brown\"\n[light]\n{light}\n", f"light{i}")
               for i, (_, light) in enumerate(kinds)]
-    pictures = [maker.traced(hair, (200, 240), scene, 1.0) for scene in scenes]
+    pictures = [maker.small(hair, (200, 240), scene) for scene in scenes]
     maker.save(grid(pictures, 4, [caption for caption, _ in kinds]), "lights", 85)
 
 
@@ -166,7 +172,7 @@ def wet(maker):
     locks = soaked.replace("[hair]\n", '[hair]\nwetting = "capillary"\n')
     scenes = [maker.scene(dry, "dry"), maker.scene(soaked, "wet"), maker.scene(locks, "locks")]
     captions = ["dry", "wet, as in the paper", "wet, with locks"]
-    maker.save(grid([maker.traced(scene, (260, 312), share=1.0) for scene in scenes], 3, captions), "wet", 85)
+    maker.save(grid([maker.small(scene, (260, 312)) for scene in scenes], 3, captions), "wet", 85)
 
 
 def styling(maker):
