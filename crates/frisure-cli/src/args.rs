@@ -8,6 +8,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::files::frame::{Frame, FrameChoice, UpAxis};
 use frisure::formats::groom::{Fit, Format, MAX_STRANDS, Points, Program};
 use frisure::hairstyle::{PRESETS, Preset, preset};
+use frisure::look::NamedCamera;
 use frisure::render::trace::TraceOptions;
 use frisure::scene::Scene;
 use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
@@ -26,7 +27,7 @@ pub(crate) use batch::Batch;
 pub(crate) use fit::{FitFibres, Quantity as FitQuantity};
 pub(crate) use measure::MeasurePhoto;
 use picture::cameras;
-pub(crate) use picture::{NamedCamera, Pictured, Render, View};
+pub(crate) use picture::{Pictured, Render, View};
 pub(crate) use transfer::Transfer;
 #[cfg(feature = "validate")]
 pub(crate) use validate::Validate;

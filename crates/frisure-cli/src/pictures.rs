@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use frisure::denoise::{Denoiser, VARIABLE};
 use frisure::files::WriteError;
+use frisure::look::NamedCamera;
 use frisure::progress::{Cancelled, SubStage};
 use frisure::render::Image;
 use frisure::render::preview::PreviewOptions;
@@ -12,7 +13,6 @@ use frisure_engine::Error;
 use frisure_engine::checkpoint::picture as checkpoint;
 use frisure_engine::picture::{self, FinalPicture, FrameSet, Frames, NoiseFilter, TraceEnd};
 
-use crate::args::NamedCamera;
 use crate::outputs::{self, numbered, suffixed};
 use crate::progress::Bar;
 use crate::{console, interrupt};

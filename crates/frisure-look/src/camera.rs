@@ -224,6 +224,31 @@ fn usable_bounds((low, high): (DVec3, DVec3)) -> (DVec3, DVec3) {
     if good && size > 0.0 { (low, high) } else { (DVec3::splat(-0.15), DVec3::splat(0.15)) }
 }
 
+/// A direction around the head from which pictures are taken, by its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedCamera {
+    /// The name, which is also in the names of files.
+    pub name: &'static str,
+    /// Where it is.
+    pub description: &'static str,
+    /// [`CameraSpec::azimuth`] (rad).
+    pub azimuth: f64,
+}
+
+const fn named(name: &'static str, description: &'static str, degrees: f64) -> NamedCamera {
+    NamedCamera { name, description, azimuth: degrees.to_radians() }
+}
+
+/// The cameras that have names.
+pub const CAMERAS: [NamedCamera; 6] = [
+    named("front", "In front of the face", 0.0),
+    named("three-quarter", "Between front and left side", 35.0),
+    named("side", "The head's left side", 90.0),
+    named("left", "The same", 90.0),
+    named("back", "Behind", 180.0),
+    named("right", "The head's right side", -90.0),
+];
+
 /// A camera by its direction from the subject; its distance follows from what it must show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraSpec {

@@ -18,7 +18,7 @@ mod pigment;
 mod shade;
 mod tone;
 
-pub use camera::{Aperture, Camera, CameraError, CameraSpec};
+pub use camera::{Aperture, CAMERAS, Camera, CameraError, CameraSpec, NamedCamera};
 pub use colour::{colour_of_temperature, linear_from_srgb};
 pub use hair::{Dye, Fade, HairLook, HairSurface};
 pub use light::{

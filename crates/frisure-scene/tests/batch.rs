@@ -247,7 +247,7 @@ fn faults_name_place_value_range_and_hint() {
         ("grid.hair.length = [1]\nset.hair.length = 2", 2, 11, &["is said twice"]),
         ("views = 1", 2, 9, &["`views` is 1", "a table"]),
         ("views = { size = [8, 8] }", 2, 1, &["`views` has no cameras", "around the head"]),
-        ("views = { cameras = [] }", 2, 21, &["a list of cameras", "`count`"]),
+        ("views = { cameras = [] }", 2, 21, &["a list of 1 to 360 cameras", "`count`"]),
         (
             "views = { cameras = ['frontt'] }",
             2,
@@ -255,7 +255,8 @@ fn faults_name_place_value_range_and_hint() {
             &["one of", "\"back\"", "did you mean \"front\"?"],
         ),
         ("views = { cameras = [1] }", 2, 22, &["a name in quotes"]),
-        ("views = { cameras = ['back', 'back'] }", 2, 30, &["there is a camera `back` before"]),
+        ("views = { cameras = ['back', 'back'] }", 2, 30, &["`back` before it takes the same"]),
+        ("views = { cameras = ['side', 'left'] }", 2, 30, &["`side` before it takes the same"]),
         (
             "views = { cameras = [{ azimut = 1 }] }",
             2,

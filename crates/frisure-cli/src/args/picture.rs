@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::TypedValueParser;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use frisure::look::{CAMERAS, NamedCamera};
 
-use super::{Axes, Tracing, named, number};
+use super::{Axes, Tracing, number};
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -90,31 +91,12 @@ pub(crate) struct Pictured {
     pub(crate) axes: Axes,
 }
 
-/// A direction from which a picture is taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct NamedCamera {
-    /// The name, also in the names of files.
-    pub(crate) name: &'static str,
-    /// The angle around the head from the face to the head's left (rad).
-    pub(crate) azimuth: f64,
-}
-
-/// Directions of the camera, as angles around the head (degrees) from the face to its left.
-const CAMERAS: [(&str, &str, f64); 5] = [
-    ("front", "In front of the face", 0.0),
-    ("three-quarter", "Between front and left side", 35.0),
-    ("side", "The head's left side", 90.0),
-    ("right-side", "The head's right side", -90.0),
-    ("back", "Behind", 180.0),
-];
-
 /// Reads the name of a camera.
 pub(super) fn cameras() -> impl TypedValueParser<Value = NamedCamera> {
-    named(&CAMERAS).map(|degrees: f64| {
-        let known = CAMERAS.iter().find(|camera| camera.2 == degrees);
-        let (name, ..) = known.expect("no two cameras have the same angle");
-        NamedCamera { name, azimuth: degrees.to_radians() }
-    })
+    let possible = CAMERAS.iter().map(|of| PossibleValue::new(of.name).help(of.description));
+    let known = "the parser accepts these names alone";
+    PossibleValuesParser::new(possible)
+        .map(|name| *CAMERAS.iter().find(|camera| camera.name == name).expect(known))
 }
 
 fn size(text: &str) -> Result<(usize, usize), String> {

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use frisure_digest::digest_fields;
+use frisure_look::CAMERAS;
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -27,16 +28,6 @@ const MOST_HAIRS: i64 = 1_000_000;
 
 /// Largest elevation (rad): above it a camera has no upright picture.
 const STEEPEST: f64 = 85.0 * PI / 180.0;
-
-/// Cameras with a name, and their angles around the head (degrees).
-const NAMED: [(&str, f64); 6] = [
-    ("front", 0.0),
-    ("three-quarter", 35.0),
-    ("side", 90.0),
-    ("left", 90.0),
-    ("back", 180.0),
-    ("right", -90.0),
-];
 
 /// The pictures of each head.
 #[derive(Clone, Debug, PartialEq)]
@@ -180,16 +171,18 @@ fn cameras(table: &Table<'_>, views: &Field<'_>, source: &Source) -> Result<Vec<
         }
         return around(&orbit);
     }
-    let allowed = "a list of cameras, or a table with the `count` of them around the head";
-    let items = table.list("cameras").ok_or_else(|| table.refuse("cameras", allowed))?;
-    if items.len() as i64 > MOST_CAMERAS {
-        return Err(table.refuse("cameras", format!("a list of at most {MOST_CAMERAS} cameras")));
-    }
+    let allowed = format!(
+        "a list of 1 to {MOST_CAMERAS} cameras, or a table with the `count` of them around the head"
+    );
+    let items = table.list("cameras").filter(|items| items.len() as i64 <= MOST_CAMERAS);
+    let items = items.ok_or_else(|| table.refuse("cameras", allowed))?;
     let mut found: Vec<ViewCamera> = Vec::new();
     for (index, item) in items.iter().enumerate() {
         let camera = camera(table, item, index, source)?;
-        if found.iter().any(|other| other.name == camera.name) {
-            let twice = Diagnostic::new(format!("there is a camera `{}` before", camera.name));
+        let place = |camera: &ViewCamera| (camera.azimuth, camera.elevation);
+        if let Some(other) = found.iter().find(|other| place(other) == place(&camera)) {
+            let problem = format!("the camera `{}` before it takes the same pictures", other.name);
+            let twice = Diagnostic::new(problem).hint("leave one of them out");
             return Err(twice.key("views.cameras").at(source, item.span()));
         }
         found.push(camera);
@@ -205,11 +198,10 @@ fn camera(
 ) -> Result<ViewCamera> {
     match item.get_ref() {
         DeValue::String(name) => {
-            let known = NAMED.iter().find(|(known, _)| *known == name.as_ref());
-            let names = NAMED.map(|(name, _)| name);
-            let known = known.ok_or_else(|| unknown(source, "views.cameras", item, &names));
-            let (name, degrees) = known?;
-            Ok(ViewCamera { name: (*name).into(), azimuth: degrees.to_radians(), elevation: 0.0 })
+            let known = CAMERAS.iter().find(|known| known.name == name.as_ref());
+            let names = CAMERAS.map(|known| known.name);
+            let known = known.ok_or_else(|| unknown(source, "views.cameras", item, &names))?;
+            Ok(ViewCamera { name: known.name.into(), azimuth: known.azimuth, elevation: 0.0 })
         }
         DeValue::Table(angles) => {
             let angles = Table::read(source, angles, "views.cameras", &["azimuth", "elevation"])?;
