@@ -1,5 +1,10 @@
 //! Friction and cohesion against closed forms, and what a combed head keeps.
 
+mod fibre;
+mod lock;
+mod plate;
+mod tuft;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use frisure::hairstyle::capillary::{Coalescence, Liquid};
@@ -12,12 +17,12 @@ use frisure::hairstyle::{
 use frisure::progress::Progress;
 use frisure::rod::potential::FieldPotential;
 use frisure::rod::{
-    ElementKind, Equilibrium, InvalidQuantity, Load, Material, NaturalStrain, Options, Resolution,
-    Rod, RodSpec, Root, Section, Stability, StrainProfile, TorsionConstant, equilibrium,
-    equilibrium_from,
+    ElementKind, Equilibrium, Load, NaturalStrain, Options, Resolution, Root, StrainProfile,
+    equilibrium, equilibrium_from,
 };
 use glam::DVec3;
 
+use self::fibre::{at_rest, fibre, options};
 use super::surfaces::{Form, Ground, Push, StickyPlane};
 use crate::experiment::check;
 use crate::extremes::{largest, smallest};
@@ -35,8 +40,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
              slipped, near the clamp, it gives way as a spring: some 1e-3 of the way. Its weight comes at once, and in 2 to 16 steps.\n\n\
              Capstan: a light fibre lies around a quarter of a cylinder, drawn at both ends. It slips at the ratio of tensions \
              exp(μφ) (Euler, Eytelwein). The tension grows in steps, and the experiment asks between which two it slips.\n\n\
+             Plate: a fibre that is pressed on a plate is pulled along it. It slips at μ times the force that the plate presses back with.\n\n\
              Zipper: a fibre that sticks to a plane lifts off where l⁴ = 9 EI d²/G, with the energy G of water between two fibres, \
              each of which has half of the way. The plane attracts within a fiftieth of that way.\n\n\
+             Brush: hairs that lean every way stand on a plane, and a plate goes down on them by a fifth of their height and up again. They touch the plate, not \
+             each other. What is lost of its work has no closed form; it has to be nothing without friction and to grow with it.\n\n\
+             Lock: the hairs of a wisp stick to each other and slip as it bends. A level cantilever with that yield is bent to and fro by a light load. What it loses \
+             over the cycle is 4 m_y (e − m_y/K_f) per length where hairs slip, with the bend e = (qξ²/2 − m_y)/K at ξ from the tip, and the set of the tip that is left \
+             when the load is taken off has a closed form, too.\n\n\
              Head: a comb draws 40 wisps back and lets them go, on six heads. How much of the way that it moved the tips is left has no closed \
              form; it has to be nothing without friction and to grow with it.",
     run,
@@ -48,48 +59,15 @@ fn run(effort: Effort, progress: &dyn Progress) -> Result<Finding, Stopped> {
     halved_steps(&mut finding, effort)?;
     check(progress, EXPERIMENT.name, 0.2)?;
     capstan(&mut finding, effort)?;
-    check(progress, EXPERIMENT.name, 0.5)?;
+    plate::add(&mut finding, effort)?;
+    check(progress, EXPERIMENT.name, 0.4)?;
     zipper(&mut finding, effort)?;
+    check(progress, EXPERIMENT.name, 0.5)?;
+    tuft::add(&mut finding, effort)?;
+    lock::add(&mut finding, effort)?;
     check(progress, EXPERIMENT.name, 0.6)?;
     retention(&mut finding, effort, progress)?;
     Ok(finding)
-}
-
-fn fibre(
-    length: f64,
-    radius: f64,
-    load: Load,
-    natural: NaturalStrain,
-    root: Root,
-) -> Result<Rod, InvalidQuantity> {
-    Rod::new(RodSpec {
-        length,
-        section: Section::circular(radius)?,
-        material: Material::new(3.9e9, 1.5e9, 1300.0)?,
-        torsion: TorsionConstant::SaintVenant,
-        natural,
-        root,
-        load,
-    })
-}
-
-fn options(elements: usize) -> Options {
-    Options {
-        resolution: Resolution::Elements(elements),
-        element: ElementKind::Helix,
-        tolerance: 1e-10,
-        estimate_error: false,
-        eigenvalue: false,
-        ..Options::default()
-    }
-}
-
-/// An error if a rod is not at a minimum of its energy.
-fn at_rest(rest: &Equilibrium) -> Result<(), Stopped> {
-    match rest.certificate.stability {
-        Stability::Stable => Ok(()),
-        other => Err(Stopped::Other(format!("a fibre is not at rest: {other:?}"))),
-    }
 }
 
 /// A fibre that slides down an incline.
