@@ -102,6 +102,9 @@ fn a_prediction_sticks_where_it_lies() {
 fn washing_and_growing_free_locks() {
     let before = done(&predicted(HairContact::Layers, 12, 0.5), gel(1.0));
     let after = done(&done(&before, comb(true)), Release::default());
+    // What was done to other wisps, or to how they lie, changes nothing.
+    let again = done(&done(&after, comb(true)), Release::default());
+    assert!(settling_report(&again, &HEAD).lock.ratio > 0.9);
     let ratio = |h: &Hairstyle| settling_report(h, &HEAD).lock.ratio;
     assert!(ratio(&after) > 0.9, "{}", ratio(&after));
     // What slid and stuck anew carries no moment.

@@ -68,7 +68,7 @@ pub(super) fn started(
         LockStart::Like(before) => Some(before),
     };
     let anew = stuck(spec, head, guide, rest)?;
-    // Strains are beyond the natural one: those of another fibre say nothing.
+    // Of another division or length nothing is kept.
     Some(before.and_then(|before| anew.sticking_like(before)).unwrap_or(anew))
 }
 

@@ -121,7 +121,7 @@ impl<'a> Act<'a> {
         mut changes: Vec<Change>,
     ) -> Result<Rest, StyleError> {
         let mut before = self.before.rest.guides.clone();
-        let mut locks = self.locks(styling);
+        let mut locks = self.locks(styling, guides);
         let lay = styling.lay.as_ref().filter(|lay| lay.humidity == styling.humidity);
         if let Some(lay) = lay {
             if let Some((states, rest)) = &lay.whole
@@ -164,21 +164,27 @@ impl<'a> Act<'a> {
             Some(like) => GuideStart::Like(like),
             None => GuideStart::Changed { before: &self.before.rest.guides, changes },
         };
-        let locks = self.locks(styling);
+        let locks = self.locks(styling, guides);
         self.settle(guides, SettleOptions { start, effort: draft.effort, locks })
     }
 
-    /// How the hairs inside each wisp begin: as they stuck before, or sliding where water or growth has freed them.
-    fn locks(&self, styling: &Styling) -> Vec<LockStart> {
-        let old = &self.before.styling;
-        let freed =
-            |new: &WispState, old: &WispState| new.wetness > old.wetness || new.uncut > old.uncut;
-        let wisps = styling.wisps.iter().zip(&old.wisps).enumerate();
-        let start = |(wisp, (new, old)): (usize, (&WispState, &WispState))| match freed(new, old) {
-            true => LockStart::Free,
-            false => LockStart::like(self.before.rest.locks.get(wisp).and_then(Option::as_ref)),
+    /// How the hairs inside each wisp begin: as they stuck before, anew where the fibre has another natural shape, or sliding where
+    /// water or growth has freed them.
+    fn locks(&self, styling: &Styling, guides: &[Guide]) -> Vec<LockStart> {
+        let (before, old) = (self.before, &self.before.styling);
+        let start = |(wisp, new): (usize, &WispState)| {
+            let old = &old.wisps[wisp];
+            // The strain at which they stick is that beyond the natural one.
+            let same = before.guides[wisp].rod.natural() == guides[wisp].rod.natural();
+            if new.wetness > old.wetness || new.uncut > old.uncut {
+                LockStart::Free
+            } else if same {
+                LockStart::like(before.rest.locks.get(wisp).and_then(Option::as_ref))
+            } else {
+                LockStart::Anew
+            }
         };
-        wisps.map(start).collect()
+        styling.wisps.iter().enumerate().map(start).collect()
     }
 
     fn settle(&self, guides: &[Guide], options: SettleOptions<'_>) -> Result<Rest, StyleError> {
