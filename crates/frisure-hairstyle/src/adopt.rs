@@ -96,7 +96,8 @@ pub fn adopt(
     let layout = Layout::new(&spec, head)?;
     let guides = plan(&spec, head, &placement, &held);
     let before: Vec<_> = held.iter().map(|held| held.fit.equilibrium.clone()).collect();
-    let options = SettleOptions { start: GuideStart::At(&before), effort: Effort::FULL };
+    let start = GuideStart::At(&before);
+    let options = SettleOptions { start, effort: Effort::FULL, locks: Vec::new() };
     let rest = settle(&spec, head, &guides, options, progress)?;
     let distance = |(line, rest): (&Vec<DVec3>, _)| apart(line, rest);
     let distances = lines.par_iter().zip(&rest.guides).map(distance).collect();

@@ -114,6 +114,7 @@ pub(crate) fn covered(
         skin,
         hair,
         against_scales: spec.contact.scales,
+        lock: spec.contact.lock_friction,
         ..FrictionCoefficients::default()
     };
     Guide { root, region, rod, thickness, layer, bed, pull, firmness, hold, friction, curl, share }

@@ -118,7 +118,8 @@ pub fn predict(
             GuideStart::At(&nearest_rests)
         }
     };
-    let rest = settle(spec, head, &guides, SettleOptions { start, effort }, progress)?;
+    let options = SettleOptions { start, effort, locks: Vec::new() };
+    let rest = settle(spec, head, &guides, options, progress)?;
     let styling = Styling::none(&guides);
     Ok(Hairstyle { spec: spec.clone(), placement, layout, guides, rest, styling })
 }

@@ -74,6 +74,11 @@ impl Applied {
         self.amount * self.product.law().yield_stress * diameter * BRIDGED
     }
 
+    /// The same of hair of a diameter (m) on the hair beside it in a wisp, which it touches along its length.
+    pub(crate) fn cohesion_in_wisp(self, diameter: f64) -> f64 {
+        self.amount * self.product.law().yield_stress * diameter
+    }
+
     /// Factor on the coefficients of friction.
     pub(crate) fn friction(self) -> f64 {
         1.0 + self.amount * (self.product.law().friction - 1.0)

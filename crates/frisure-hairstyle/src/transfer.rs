@@ -64,7 +64,7 @@ pub fn transfer(
     let guides = hairstyle.guides.iter().zip(&roots).map(guide);
     let guides = guides.collect::<Result<Vec<_>, InvalidQuantity>>()?;
     let start = GuideStart::At(&hairstyle.rest.guides);
-    let options = SettleOptions { start, effort: Effort::FULL };
+    let options = SettleOptions { start, effort: Effort::FULL, locks: Vec::new() };
     let rest = settle(&spec, to, &guides, options, progress)?;
     let styling = Styling::none(&guides);
     Ok(Hairstyle { spec, placement, layout, guides, rest, styling })

@@ -57,6 +57,7 @@
 //! | to find | look in |
 //! | --- | --- |
 //! | elastic energy, its gradient and Hessian | `potential/elastic.rs`; in lanes `batch/elimination.rs` |
+//! | a lock whose fibres stick and slip (Huber on the strain) | `potential/yielding.rs` |
 //! | gradient of the whole energy (adjoint sweep) | `minimise/linearise.rs` |
 //! | Hessian, its factorisation (Riccati sweep, LDLᵀ) | `minimise/riccati.rs`, `minimise/block.rs` |
 //! | damping (Levenberg–Marquardt), line search, saddle points | `minimise/newton.rs`; in lanes `batch/newton.rs` |
@@ -70,7 +71,8 @@
 //!
 //! # What it does not do
 //!
-//! - No motion: shapes at rest only. No friction, plasticity or hysteresis of humidity.
+//! - No motion: shapes at rest only. No plasticity of the fibre, no hysteresis of humidity; friction inside a lock of fibres is a
+//!   [`potential::Yielding`], other friction a potential of the caller.
 //! - A rod has no contact with itself or other rods; any contact is a potential of the caller, twice
 //!   differentiable except at kinks.
 //! - The root is clamped and the tip is free; no other ends.

@@ -422,6 +422,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "contact.wet_friction" => number::<Ratio>();
         /// Friction of hair that goes towards its tip, against its scales, over that towards its root; {}. Default 1.4.
         "contact.scales" => number::<Ratio>();
+        /// Coefficient of friction between the hairs of a wisp: they stick and slip as it bends, so that it keeps part of a bend, more with a
+        /// product; {}. Default 0: hairs of a wisp slide freely.
+        "contact.lock_friction" => number::<Ratio>();
         /// How the equilibrium of each guide is computed.
         "equilibrium" => table();
         /// Number of elements per hair; 1 to 10000, at most 1000 on a head.

@@ -178,6 +178,10 @@ fn growth_and_wetting_of_a_type_can_be_changed() {
     assert_eq!(friction(measured), [0.54, 0.54, 1.3, 1.4]);
     let given = format!("{measured}skin_friction = 0.2\nwet_friction = 1\nscales = 1");
     assert_eq!(friction(&given), [0.54, 0.2, 1.0, 1.0]);
+    assert_eq!(spec("").contact.lock_friction, 0.0);
+    assert_eq!(spec("contact.lock_friction = 0.4").contact.lock_friction, 0.4);
+    let diagnostic = parse("contact.lock_friction = 2").unwrap().hairstyle_spec().unwrap_err();
+    assert!(diagnostic.to_string().contains("between 0 and 1.5"), "{diagnostic}");
     let diagnostic = parse("contact.scales = 0.9").unwrap().hairstyle_spec().unwrap_err();
     assert!(diagnostic.to_string().contains("between 1 and 2"), "{diagnostic}");
     let fast = spec("hair.growth_rate = '0.864 mm/day'").length.growth_rate;

@@ -112,8 +112,22 @@ pub struct FrictionReport {
     /// Largest friction of any contact over the most that its normal force allows: 1 where it slips, more by what normal
     /// forces and shapes do not agree.
     pub largest_ratio: f64,
+    /// How the hairs inside wisps hold as these bend; none if they slide freely.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub locks: Option<LockReport>,
     /// How the hair came to where it rests.
     pub history: &'static str,
+}
+
+/// How the hairs inside wisps hold as these bend.
+#[derive(Clone, Debug, Serialize)]
+pub struct LockReport {
+    /// Coefficient of friction of hairs inside a wisp.
+    pub friction: f64,
+    /// Largest moment that they carry over that at which they slip: at most 1.
+    pub largest_ratio: f64,
+    /// Share of the length of wisps, in the mean, that carries as much as it can: there they would slip on, or slipped last.
+    pub slipping: f64,
 }
 
 /// What was checked of all guides of a head together.
@@ -219,7 +233,7 @@ impl LoadedScene {
             hair_type: self.scene.hair_type,
             seed: spec.seed,
             guides: GuideReport {
-                friction: friction(&self.hairstyle, metrics.settling.friction),
+                friction: friction(&self.hairstyle, &metrics.settling),
                 ..GuideReport::new(&metrics.settling, spec.equilibrium.tolerance)
             },
             groom: self.adoption.clone(),
@@ -281,21 +295,51 @@ fn status(settling: &SettlingReport) -> &'static str {
 }
 
 /// What friction holds of a hairstyle; none without friction.
-fn friction(hairstyle: &Hairstyle, largest_ratio: f64) -> Option<FrictionReport> {
-    let Contact { hair: model, friction: hair, skin_friction: skin, .. } = hairstyle.spec().contact;
-    let history = match model {
-        _ if hairstyle.is_styled() => {
+fn friction(hairstyle: &Hairstyle, settling: &SettlingReport) -> Option<FrictionReport> {
+    let contact = hairstyle.spec().contact;
+    let Contact { friction: hair, skin_friction: skin, lock_friction: lock, .. } = contact;
+    let locks = (lock > 0.0).then_some(LockReport {
+        friction: lock,
+        largest_ratio: settling.lock.ratio,
+        slipping: settling.lock.slipping,
+    });
+    let history = history(contact.hair, hairstyle.is_styled(), locks.is_some());
+    let largest_ratio = settling.friction;
+    let any = hair > 0.0 || skin > 0.0 || lock > 0.0;
+    any.then_some(FrictionReport { hair, skin, largest_ratio, locks, history })
+}
+
+/// How hair came to where it rests; `locks`: whether the hairs inside wisps stick.
+fn history(model: HairContact, styled: bool, locks: bool) -> &'static str {
+    match (model, styled, locks) {
+        (_, true, false) => {
             "the prediction, then the steps in their order, each from where hair lay, held by friction"
         }
-        HairContact::Wisps => {
+        (_, true, true) => {
+            "the prediction, then the steps in their order, each from where hair lay, held by friction; hairs inside wisps stuck where \
+             it came to rest or was last washed, and slipped as it bent since"
+        }
+        (HairContact::Wisps, false, false) => {
             "each guide alone, gravity turned on without friction; then all wisps pressed together, with friction"
         }
-        HairContact::None | HairContact::Layers => "gravity turned on without friction",
-        HairContact::Density => {
+        (HairContact::Wisps, false, true) => {
+            "each guide alone, gravity turned on without friction; then hairs inside wisps stick, and all wisps are pressed together, with \
+             friction"
+        }
+        (HairContact::None | HairContact::Layers, false, false) => {
+            "gravity turned on without friction"
+        }
+        (HairContact::None | HairContact::Layers, false, true) => {
+            "gravity turned on without friction; then hairs inside wisps stick"
+        }
+        (HairContact::Density, false, false) => {
             "each guide alone, gravity turned on without friction; then all guides pressed together, with friction on the bed"
         }
-    };
-    (hair > 0.0 || skin > 0.0).then_some(FrictionReport { hair, skin, largest_ratio, history })
+        (HairContact::Density, false, true) => {
+            "each guide alone, gravity turned on without friction; then hairs inside wisps stick, and all guides are pressed together, with \
+             friction on the bed"
+        }
+    }
 }
 
 impl From<JointCertificate> for JointReport {

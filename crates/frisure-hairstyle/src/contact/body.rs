@@ -75,9 +75,20 @@ pub struct FrictionCoefficients {
     pub against_scales: f64,
     /// Cohesion c by a styling product: force per length (N/m) that it takes to slide what lies on something without weight.
     pub cohesion: f64,
+    /// Between the hairs of its wisp; 0: they slide freely as it bends.
+    pub lock: f64,
+    /// The cohesion (N/m) of hairs that lie side by side in the wisp.
+    pub lock_cohesion: f64,
 }
 
-frisure_digest::digest_fields!(FrictionCoefficients { skin, hair, against_scales, cohesion });
+frisure_digest::digest_fields!(FrictionCoefficients {
+    skin,
+    hair,
+    against_scales,
+    cohesion,
+    lock,
+    lock_cohesion,
+});
 
 /// Cohesion over the normal force per length below which contact is too light for all of it. Chosen: hair that lies with its own weight
 /// sticks with ten times that.
@@ -86,12 +97,19 @@ const FULLY_STUCK: f64 = 10.0;
 impl Default for FrictionCoefficients {
     /// Hair slides freely.
     fn default() -> Self {
-        Self { skin: 0.0, hair: 0.0, against_scales: 1.0, cohesion: 0.0 }
+        Self {
+            skin: 0.0,
+            hair: 0.0,
+            against_scales: 1.0,
+            cohesion: 0.0,
+            lock: 0.0,
+            lock_cohesion: 0.0,
+        }
     }
 }
 
 impl FrictionCoefficients {
-    /// Whether hair slides freely on everything.
+    /// Whether hair slides freely on everything outside of its wisp.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.skin == 0.0 && self.hair == 0.0 && self.cohesion == 0.0
@@ -106,7 +124,12 @@ impl FrictionCoefficients {
     /// The same of hair of another wetness, which has `factor` times the friction.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
-        Self { skin: self.skin * factor, hair: self.hair * factor, ..self }
+        Self {
+            skin: self.skin * factor,
+            hair: self.hair * factor,
+            lock: self.lock * factor,
+            ..self
+        }
     }
 }
 
@@ -152,6 +175,16 @@ impl BodyContact<'_> {
         let (own, beneath) = (self.thickness.at(s), self.layer.at(s));
         let share = if beneath > 0.0 { beneath / (own + beneath) } else { 0.0 };
         skin + share * (hair - skin)
+    }
+
+    /// Force per length of hair (N/m) with which the body presses on it at arc length `s` (m) and position `p` (m).
+    pub(crate) fn normal_force(&self, s: f64, p: DVec3) -> f64 {
+        let clearance = self.clearance(s);
+        let mut force = 0.0;
+        self.for_each_near(clearance.max(0.0), p, |distance, _, _| {
+            force -= self.penalty(clearance, distance)[1];
+        });
+        force
     }
 
     /// Energy per length (J/m) at a distance (m), and its first two derivatives.

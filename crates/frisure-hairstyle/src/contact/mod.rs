@@ -13,6 +13,7 @@ mod body;
 mod density;
 mod friction;
 mod layers;
+mod lock;
 mod neighbours;
 mod pull;
 #[cfg(test)]
@@ -26,6 +27,7 @@ pub(crate) use density::{Density, DensityVariation, Strand};
 pub(crate) use friction::{Friction, FrictionGap};
 pub use friction::{FrictionSurface, Pressed};
 pub use layers::Layer;
+pub(crate) use lock::LockFriction;
 pub use neighbours::Neighbours;
 pub(crate) use neighbours::{Contact, ContactPairs, Samples};
 pub use pull::Pull;

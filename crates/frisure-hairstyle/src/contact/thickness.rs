@@ -123,6 +123,26 @@ impl Thickness {
         0.5 * self.bending * self.spread * self.spread / self.area_per_hair(s)
     }
 
+    /// Number of hairs.
+    #[must_use]
+    pub fn hairs(&self) -> f64 {
+        self.hairs
+    }
+
+    /// Mean force per length (N/m) with which the neighbours of a hair keep it from half of its wander: along the wave w cos qs a half of it
+    /// takes `½ EI q² σκ cos qs`, whatever the tension. docs/theory.md, "A lock that yields"
+    #[must_use]
+    pub fn crowding(&self) -> f64 {
+        self.bending * self.wave * self.spread / PI
+    }
+
+    /// Distance (m) between the axes of neighbouring hairs at arc length `s` (m).
+    #[must_use]
+    pub fn distance(&self, s: f64) -> f64 {
+        // A hexagon whose opposite sides are h apart has the area √3/2 h².
+        (self.area_per_hair(s) * 2.0 / 3.0_f64.sqrt()).sqrt()
+    }
+
     /// Natural curvature (1/m) that a hair does not share with its wisp, σκ.
     #[must_use]
     pub fn spread(&self) -> f64 {

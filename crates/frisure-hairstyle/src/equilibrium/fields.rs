@@ -9,7 +9,7 @@ use glam::DVec3;
 use crate::contact::{Bed, BodyContact, CombedHold, FrictionCoefficients, Layer, Thickness};
 use crate::guides::Guide;
 use crate::head::Head;
-use crate::spec::HairstyleSpec;
+use crate::spec::{HairContact, HairstyleSpec};
 
 /// Most elements of a guide, whatever the accuracy.
 /// A guard on time: an accuracy that needs more is not reached.
@@ -143,6 +143,11 @@ pub(super) fn body<'a>(
         friction: guide.friction,
         hold: combed_hold(head, &guide.rod, guide.hold),
     }
+}
+
+/// The bed of hair that a guide lies on while it is alone.
+pub(super) fn layer(spec: &HairstyleSpec, guide: &Guide) -> Layer {
+    if spec.contact.hair == HairContact::None { Layer::NONE } else { guide.layer }
 }
 
 /// The body, or what pulls, along a guide of `elements` elements.

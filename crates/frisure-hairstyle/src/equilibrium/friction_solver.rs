@@ -4,7 +4,7 @@
 //! sought with the normal forces of the one before until both agree (Picard's iteration); then the anchors of what slipped
 //! follow, and the load takes its next step.
 
-use frisure_rod::potential::{FieldPotential, Potential};
+use frisure_rod::potential::{FieldPotential, Potential, Yielding};
 use frisure_rod::{Equilibrium, Options, Rod, Stability, equilibrium_from};
 use glam::DVec3;
 
@@ -40,12 +40,14 @@ pub(super) struct Rested {
     pub(super) rest: Equilibrium,
     /// Largest |f_t| / μ f_n; 0 without friction.
     pub(super) friction: f64,
+    /// The hairs of its wisp, if they stuck on the way.
+    pub(super) lock: Option<Yielding>,
 }
 
 impl Rested {
     /// A guide that no friction holds.
     pub(super) fn free(rest: Equilibrium) -> Self {
-        Self { rest, friction: 0.0 }
+        Self { rest, friction: 0.0, lock: None }
     }
 }
 
@@ -200,7 +202,7 @@ impl<'a> FrictionalRod<'a> {
 
     /// The guide at rest.
     pub(super) fn finish(self) -> Rested {
-        Rested { rest: self.rest, friction: self.ratio }
+        Rested { rest: self.rest, friction: self.ratio, lock: None }
     }
 
     /// The rest with the normal forces as they are, held where the guide is by a tether of a stiffness (Pa).

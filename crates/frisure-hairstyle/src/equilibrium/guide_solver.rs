@@ -1,16 +1,18 @@
 //! Each guide by itself, on the body and on the bed of hair.
 
-use frisure_rod::potential::Potential;
+use frisure_rod::potential::{FieldPotential, Potential, Yielding};
 use frisure_rod::{
     AccuracyStatus, Branch, Equilibrium, Options, Resolution, equilibrium, equilibrium_from,
 };
 use rayon::prelude::*;
 
-use super::fields::{MAX_ITERATIONS, MOST_ELEMENTS, along, body, body_samples, depth, options};
+use super::fields::{
+    MAX_ITERATIONS, MOST_ELEMENTS, along, body, body_samples, depth, layer, options,
+};
 use super::friction_solver::{FrictionalRod, Hold, Rested};
 use super::letting_go::LETTING_GO;
+use super::lock::{self, LockStart};
 use super::start::{Change, GuideStart};
-use crate::contact::Layer;
 use crate::contact::Pull;
 use crate::guides::Guide;
 use crate::head::Head;
@@ -35,9 +37,20 @@ const STARTS: u32 = 8;
 /// that of a cold start.
 const WARM_TOLERANCE: f64 = 1e-5;
 
+/// What every guide comes to rest with.
+pub(super) struct GuideOptions<'a> {
+    /// Where guides start from.
+    pub(super) start: GuideStart<'a>,
+    /// How the hairs of each wisp begin.
+    pub(super) locks: &'a [LockStart],
+    /// Most iterations of each.
+    pub(super) iterations: usize,
+    /// Whether a guide that lay among wisps stays as it lay: it comes to rest with them.
+    pub(super) held_by_wisps: bool,
+}
+
 /// Brings every guide to rest by itself, in at most `iterations` iterations from where it rested before. With
-/// fewer than [`MAX_ITERATIONS`] a changed guide that was not put into another shape comes nearer to rest. A guide that lay
-/// among wisps and is `held_by_wisps` stays as it lay: it comes to rest with them.
+/// fewer than [`MAX_ITERATIONS`] a changed guide that was not put into another shape comes nearer to rest.
 ///
 /// # Errors
 /// [`Cancelled`], if the work is cancelled.
@@ -45,29 +58,33 @@ pub(super) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    start: GuideStart<'_>,
-    iterations: usize,
-    held_by_wisps: bool,
+    GuideOptions { start, locks, iterations, held_by_wisps }: GuideOptions<'_>,
     progress: &dyn Progress,
 ) -> Result<Vec<Rested>, Cancelled> {
     let stage = StageCounter::new(progress, "settling guides", guides.len());
     let rest = |(index, guide): (usize, &Guide)| {
         stage.check()?;
+        let lock = &locks[index];
         let rest = match start {
             GuideStart::Natural => Rested::free(settle_one(spec, head, guide)),
             GuideStart::At(before) => {
-                settle_one_from(spec, head, guide, &before[index], iterations, Hold::Free)
+                let free = &LockStart::Free;
+                settle_one_from(spec, head, guide, &before[index], free, iterations, Hold::Free)
             }
             GuideStart::Like(before) => {
-                settle_one_from(spec, head, guide, &before[index], iterations, Hold::ByFriction)
+                let hold = Hold::ByFriction;
+                settle_one_from(spec, head, guide, &before[index], lock, iterations, hold)
             }
             GuideStart::Changed { before, changes }
                 if held_by_wisps && changes[index].leaves_it_lying(guide) =>
             {
-                Rested::free(in_shape_of(spec, guide, &before[index]))
+                let rest = in_shape_of(spec, guide, &before[index]);
+                let lock = lock::started(spec, head, guide, &rest, lock);
+                Rested { lock, ..Rested::free(rest) }
             }
             GuideStart::Changed { before, changes } => {
-                settle_changed(spec, head, guide, &before[index], changes[index], iterations)
+                let (before, change) = (&before[index], changes[index]);
+                settle_changed(spec, head, guide, before, lock, change, iterations)
             }
         };
         stage.advance();
@@ -82,21 +99,25 @@ fn settle_changed(
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
+    lock: &LockStart,
     change: Change,
     iterations: usize,
 ) -> Rested {
     match change {
-        Change::None => Rested::free(before.clone()),
+        Change::None => {
+            let lock = lock::started(spec, head, guide, before, lock);
+            Rested { lock, ..Rested::free(before.clone()) }
+        }
         Change::Changed | Change::LetGo(_) | Change::HeldElsewhere(_)
             if iterations < MAX_ITERATIONS =>
         {
-            settle_one_from(spec, head, guide, before, iterations, Hold::ByFriction)
+            settle_one_from(spec, head, guide, before, lock, iterations, Hold::ByFriction)
         }
         Change::Changed | Change::LetGo(_) | Change::HeldElsewhere(_) => {
-            resettle_one(spec, head, guide, before, &pulls(guide, change))
+            resettle_one(spec, head, guide, before, lock, &pulls(guide, change))
         }
         Change::Moulded => Rested::free(settle_one(spec, head, guide)),
-        Change::Handled => handled(spec, head, guide, before, change),
+        Change::Handled => handled(spec, head, guide, before, lock, change),
     }
 }
 
@@ -106,11 +127,12 @@ fn handled(
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
+    lock: &LockStart,
     change: Change,
 ) -> Rested {
     // Two minima of the same energy: downhill from where it lay, and along gravity's branch from its root. A hand that lifts
     // hair frees it of friction: what falls has none.
-    let lying = resettle_one(spec, head, guide, before, &pulls(guide, change));
+    let lying = resettle_one(spec, head, guide, before, lock, &pulls(guide, change));
     let fallen = settle_one(spec, head, guide);
     let lower = fallen.energy.total() < lying.rest.energy.total();
     if lower && depth(head, &fallen) <= DEEPEST { Rested::free(fallen) } else { lying }
@@ -144,39 +166,43 @@ fn resettle_one(
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
+    lock: &LockStart,
     pulls: &[Option<Pull>],
 ) -> Rested {
     // 1. Without a body and without a pull the rod's own search needs no steps.
     let alone = pulls.iter().all(Option::is_none);
-    if spec.contact.body == Body::None && alone {
+    let slides = guide.friction.lock == 0.0 || matches!(lock, LockStart::Free);
+    if spec.contact.body == Body::None && alone && slides {
         return Rested::free(equilibrium_from(&guide.rod, &[], &options(spec), before));
     }
     let (elements, accuracy) = division(spec, guide);
     let options = Options { resolution: Resolution::Elements(elements), ..options(spec) };
     let surface = body(spec, head, guide, layer(spec, guide));
     let body = along(&surface, guide, elements);
-    // 2. The pulls, each from the shape of the one before.
+    // 2. The pulls, each from the shape of the one before; what slips inside the wisp follows each.
+    let mut lock = match slides {
+        true => None,
+        false => lock::started(spec, head, guide, &lying_as(guide, before, options), lock),
+    };
     let mut rested = if surface.friction.is_zero() {
-        let settle = |from: &Equilibrium, pull: &Option<Pull>| match pull {
-            None => equilibrium_from(&guide.rod, &[&body], &options, from),
-            Some(pull) => {
-                let pull = along(pull, guide, elements);
-                equilibrium_from(&guide.rod, &[&body, &pull], &options, from)
-            }
-        };
-        let first = settle(before, &pulls[0]);
-        Rested::free(pulls[1..].iter().fold(first, |rest, pull| settle(&rest, pull)))
+        let mut rest = before.clone();
+        for pull in pulls {
+            let pull = pull.as_ref().map(|pull| along(pull, guide, elements));
+            rest = equilibrium_from(&guide.rod, &all(&body, &pull, &lock), &options, &rest);
+            lock::follow(&mut lock, &rest);
+        }
+        Rested::free(rest)
     } else {
         let samples = body_samples(guide, elements);
         let mut rubbing = FrictionalRod::new(&guide.rod, &surface, samples, options, before);
         for pull in pulls {
-            match pull {
-                None => rubbing.step(&[&body]),
-                Some(pull) => rubbing.step(&[&body, &along(pull, guide, elements)]),
-            }
+            let pull = pull.as_ref().map(|pull| along(pull, guide, elements));
+            rubbing.step(&all(&body, &pull, &lock));
+            lock::follow(&mut lock, rubbing.rest());
         }
         rubbing.finish()
     };
+    rested.lock = lock;
     rested.rest.certificate.accuracy = accuracy;
     // 3. It may have been pushed into the body, or have been there when it was held: then it comes down
     // from its root again.
@@ -189,12 +215,25 @@ fn resettle_one(
     if depth(head, &fallen) < deep { Rested::free(fallen) } else { rested }
 }
 
+/// All that a guide feels but its weight and friction.
+fn all<'a>(
+    body: &'a dyn Potential,
+    pull: &'a Option<FieldPotential<'_, Pull>>,
+    lock: &'a Option<Yielding>,
+) -> Vec<&'a dyn Potential> {
+    let mut felt = vec![body];
+    felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
+    felt.extend(lock::felt(lock.as_ref()));
+    felt
+}
+
 /// Brings a guide nearer to rest from where it lay, in at most `iterations` iterations for each set of normal forces.
 fn settle_one_from(
     spec: &HairstyleSpec,
     head: &Head,
     guide: &Guide,
     before: &Equilibrium,
+    lock: &LockStart,
     iterations: usize,
     hold: Hold,
 ) -> Rested {
@@ -207,14 +246,18 @@ fn settle_one_from(
         longest_step: f64::INFINITY,
         ..options(spec)
     };
-    if spec.contact.body == Body::None && guide.pull.is_none() {
+    let slides = guide.friction.lock == 0.0 || matches!(lock, LockStart::Free);
+    if spec.contact.body == Body::None && guide.pull.is_none() && slides {
         return Rested::free(equilibrium_from(&guide.rod, &[], &options, before));
     }
     let surface = body(spec, head, guide, layer(spec, guide));
     let body = along(&surface, guide, elements);
     let pull = guide.pull.as_ref().map(|pull| along(pull, guide, elements));
-    let mut felt: Vec<&dyn Potential> = vec![&body];
-    felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
+    let mut lock = match slides {
+        true => None,
+        false => lock::started(spec, head, guide, &lying_as(guide, before, options), lock),
+    };
+    let felt = all(&body, &pull, &lock);
     let mut rested = if hold == Hold::Free || surface.friction.is_zero() {
         Rested::free(equilibrium_from(&guide.rod, &felt, &options, before))
     } else {
@@ -223,6 +266,8 @@ fn settle_one_from(
         rubbing.step(&felt);
         rubbing.finish()
     };
+    lock::follow(&mut lock, &rested.rest);
+    rested.lock = lock;
     rested.rest.certificate.accuracy = before.certificate.accuracy;
     // It may have been pushed into the body: then it comes down from its root again. One that lay deep before stays.
     let deep = depth(head, &rested.rest);
@@ -244,13 +289,18 @@ pub(super) fn in_shapes_of(
 
 /// A guide in the shape of the one before it.
 fn in_shape_of(spec: &HairstyleSpec, guide: &Guide, before: &Equilibrium) -> Equilibrium {
-    // No iteration: the shape is transferred by its frames and stays as it is. docs/theory.md, "Warm starts"
     let resolution = Resolution::Elements(elements_like(spec, before));
-    let still = Options { max_iterations: 0, tolerance: 0.0, resolution, ..options(spec) };
-    let mut transferred = equilibrium_from(&guide.rod, &[], &still, before);
+    let mut transferred = lying_as(guide, before, Options { resolution, ..options(spec) });
     transferred.certificate.iterations = 0;
     transferred.certificate.accuracy = before.certificate.accuracy;
     transferred
+}
+
+/// A guide in the shape of the one before it, with the division of the options.
+fn lying_as(guide: &Guide, before: &Equilibrium, options: Options) -> Equilibrium {
+    // No iteration: the shape is transferred by its frames and stays as it is. docs/theory.md, "Warm starts"
+    let still = Options { max_iterations: 0, tolerance: 0.0, ..options };
+    equilibrium_from(&guide.rod, &[], &still, before)
 }
 
 /// The division of a guide: that of the one before it, if the description gives an accuracy.
@@ -259,11 +309,6 @@ fn elements_like(spec: &HairstyleSpec, before: &Equilibrium) -> usize {
         Resolution::Elements(n) => n,
         Resolution::Accuracy(_) => before.elements,
     }
-}
-
-/// The bed of hair that a guide lies on while it is alone.
-fn layer(spec: &HairstyleSpec, guide: &Guide) -> Layer {
-    if spec.contact.hair == HairContact::None { Layer::NONE } else { guide.layer }
 }
 
 fn settle_one(spec: &HairstyleSpec, head: &Head, guide: &Guide) -> Equilibrium {

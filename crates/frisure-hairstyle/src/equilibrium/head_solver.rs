@@ -15,6 +15,7 @@
 
 use frisure_rod::Equilibrium;
 use frisure_rod::minimise::NewtonStep;
+use frisure_rod::potential::Yielding;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -89,6 +90,8 @@ pub(super) struct SweepOptions {
     pub(super) most: usize,
     /// Whether friction holds wisps near where they start.
     pub(super) hold: Hold,
+    /// How the hairs inside each wisp stick.
+    pub(super) locks: Vec<Option<Yielding>>,
 }
 
 /// Lets wisps make way for each other from where the guides are in `start`. Friction, if there is any, lets them stick where
@@ -103,11 +106,14 @@ pub(super) fn settle(
     guides: &[Guide],
     start: &[Equilibrium],
     gone: &[Option<Pull>],
-    SweepOptions { sweep_first, most, hold }: SweepOptions,
+    SweepOptions { sweep_first, most, hold, locks }: SweepOptions,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let stage = StageCounter::new(progress, "wisps making way", 1);
     let mut solver = HeadSolver::new(spec, head, guides, start, hold);
+    for (wisp, lock) in solver.wisps.iter_mut().zip(locks) {
+        wisp.set_lock(lock);
+    }
     if !sweep_first && solver.rubs {
         solver.update_neighbours();
         solver.press();
@@ -119,6 +125,7 @@ pub(super) fn settle(
         }
         sweeps += if sweep_first { solver.sweep_until_calm(&stage)? } else { 0 };
         sweeps += solver.settle_with_friction(&stage, most)?;
+        solver.wisps.iter_mut().for_each(Wisp::follow_lock);
     }
     Ok(solver.finish(sweeps))
 }

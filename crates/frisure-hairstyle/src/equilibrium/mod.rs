@@ -6,6 +6,7 @@ mod guide_solver;
 mod head_solver;
 mod joint;
 mod letting_go;
+mod lock;
 mod report;
 mod start;
 mod tether;
@@ -13,10 +14,12 @@ mod wisp;
 
 pub(crate) use fields::{combed_hold, held_up, holding};
 pub use friction_solver::FrictionalRod;
+pub(crate) use lock::LockStart;
 pub use report::{SettlingReport, settling_report};
 pub(crate) use start::{Change, GuideStart};
 
-use self::friction_solver::Hold;
+use self::friction_solver::{Hold, Rested};
+use self::guide_solver::GuideOptions;
 use self::head_solver::SweepOptions;
 use self::joint::JointOptions;
 use crate::guides::Guide;
@@ -24,6 +27,8 @@ use crate::hairstyle::Rest;
 use crate::head::Head;
 use crate::spec::{HairContact, HairstyleSpec, HeadMethod};
 use frisure_progress::{Cancelled, Progress};
+use frisure_rod::potential::Yielding;
+use rayon::prelude::*;
 
 /// How much work is done at most; what does not fit is left for the next call, which starts warm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +60,8 @@ pub(crate) struct SettleOptions<'a> {
     pub(crate) start: GuideStart<'a>,
     /// How much work is done at most.
     pub(crate) effort: Effort,
+    /// How the hairs inside each wisp begin; as they lie if it is empty.
+    pub(crate) locks: Vec<LockStart>,
 }
 
 /// Brings every guide to rest: first each alone on the body, then, if wisps repel each other, all together.
@@ -65,9 +72,10 @@ pub(crate) fn settle(
     spec: &HairstyleSpec,
     head: &Head,
     guides: &[Guide],
-    SettleOptions { start, effort }: SettleOptions<'_>,
+    SettleOptions { start, effort, mut locks }: SettleOptions<'_>,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
+    locks.resize(guides.len(), LockStart::Anew);
     let together = spec.contact.hair == HairContact::Density;
     let wisps_repel = spec.contact.hair == HairContact::Wisps || together;
     let hold = match start {
@@ -85,32 +93,58 @@ pub(crate) fn settle(
         HairContact::Density => !full,
         HairContact::None | HairContact::Layers => effort == Effort::NONE,
     };
-    let (alone, friction): (Vec<_>, Vec<_>) = match start {
+    let alone: Vec<Rested> = match start {
         GuideStart::At(before) | GuideStart::Like(before) if goes_on => {
             let shapes = guide_solver::in_shapes_of(spec, guides, before);
-            shapes.into_iter().map(|rest| (rest, 0.0)).unzip()
+            shapes.into_iter().map(Rested::free).collect()
         }
-        _ => guide_solver::settle(spec, head, guides, start, effort.iterations, among, progress)?
-            .into_iter()
-            .map(|rested| (rested.rest, rested.friction))
-            .unzip(),
+        _ => {
+            let (locks, iterations) = (&*locks, effort.iterations);
+            let options = GuideOptions { start, locks, iterations, held_by_wisps: among };
+            guide_solver::settle(spec, head, guides, options, progress)?
+        }
     };
-    if !wisps_repel || effort.sweeps == 0 {
-        return Ok(Rest { friction, ..Rest::apart(alone) });
+    let mut stuck = Vec::new();
+    let (mut rests, mut friction) = (Vec::new(), Vec::new());
+    for rested in alone {
+        rests.push(rested.rest);
+        friction.push(rested.friction);
+        stuck.push(rested.lock);
     }
+    let alone = rests;
+    if !wisps_repel || effort.sweeps == 0 {
+        let rest = Rest { friction, locks: stuck, ..Rest::apart(alone) };
+        return Ok(all_stuck(spec, head, guides, rest));
+    }
+    let begins = |(i, lock): (usize, Option<Yielding>)| {
+        let begins = hold == Hold::ByFriction && lock.is_none();
+        if begins { lock::started(spec, head, &guides[i], &alone[i], &locks[i]) } else { lock }
+    };
+    let locks: Vec<_> = stuck.into_iter().enumerate().map(begins).collect();
     let gone = gone.unwrap_or_else(|| vec![None; guides.len()]);
-    if together || (spec.equilibrium.method == HeadMethod::Continuation && full) {
+    let mut rest = if together || (spec.equilibrium.method == HeadMethod::Continuation && full) {
         let among_each_other = warm || among;
         let most = (!full).then_some(effort.sweeps);
-        let options = JointOptions { among_each_other, hold, gone: &gone, most };
-        let mut rest = joint::settle(spec, head, guides, &alone, options, progress)?;
-        rest.divided_like(&alone);
-        return Ok(rest);
-    }
-    // Sweeps decide which wisp lies on which; a warm start has decided it.
-    let sweep_first = full && !warm;
-    let options = SweepOptions { sweep_first, most: effort.sweeps, hold };
-    let mut rest = head_solver::settle(spec, head, guides, &alone, &gone, options, progress)?;
+        let options = JointOptions { among_each_other, hold, locks, gone: &gone, most };
+        joint::settle(spec, head, guides, &alone, options, progress)?
+    } else {
+        // Sweeps decide which wisp lies on which; a warm start has decided it.
+        let sweep_first = full && !warm;
+        let options = SweepOptions { sweep_first, most: effort.sweeps, hold, locks };
+        head_solver::settle(spec, head, guides, &alone, &gone, options, progress)?
+    };
     rest.divided_like(&alone);
-    Ok(rest)
+    Ok(all_stuck(spec, head, guides, rest))
+}
+
+/// Guides at rest, the hairs of whose wisps stick as they lie if they slid on the way.
+fn all_stuck(spec: &HairstyleSpec, head: &Head, guides: &[Guide], mut rest: Rest) -> Rest {
+    if guides.iter().all(|guide| guide.friction.lock == 0.0) {
+        return Rest { locks: Vec::new(), ..rest };
+    }
+    rest.locks.resize(guides.len(), None);
+    let all = rest.locks.par_iter_mut().zip(guides).zip(&rest.guides);
+    all.filter(|((lock, _), _)| lock.is_none())
+        .for_each(|((lock, guide), rest)| *lock = lock::stuck(spec, head, guide, rest));
+    rest
 }

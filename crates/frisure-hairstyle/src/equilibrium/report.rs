@@ -1,9 +1,11 @@
 //! How the guides came to rest, in numbers.
 
+use frisure_rod::potential::YieldState;
 use frisure_rod::{AccuracyStatus, Stability};
 use rayon::prelude::*;
 
 use super::fields::depth;
+use super::lock;
 use crate::hairstyle::{Hairstyle, JointCertificate, Rest};
 use crate::head::Head;
 
@@ -39,17 +41,26 @@ pub struct SettlingReport {
     /// Largest |f_t| / μ f_n of any guide, friction over what the law allows: at most 1 but for the agreement of normal forces
     /// and shape; 0 where no friction was felt. docs/theory.md (F3)
     pub friction: f64,
+    /// How the hairs inside wisps hold: the largest moment over that at which they slip, and the share of the length where it is
+    /// reached; zeros where they slide freely.
+    pub lock: YieldState,
 }
 
 /// Reports how the guides of a hairstyle came to rest on its head.
 #[must_use]
 pub fn settling_report(hairstyle: &Hairstyle, head: &Head) -> SettlingReport {
-    let Rest { guides, overlap_energy, sweeps, joint, friction } = &hairstyle.rest;
+    let Rest { guides, overlap_energy, sweeps, joint, friction, .. } = &hairstyle.rest;
+    let locks: Vec<YieldState> = lock::states(&hairstyle.rest).collect();
     let mut report = SettlingReport {
         guides: guides.len(),
         sweeps: *sweeps,
         joint: *joint,
         friction: friction.iter().copied().fold(0.0, f64::max),
+        lock: YieldState {
+            ratio: locks.iter().map(|lock| lock.ratio).fold(0.0, f64::max),
+            slipping: locks.iter().fold(0.0, |sum, lock| sum + lock.slipping)
+                / locks.len().max(1) as f64,
+        },
         ..SettlingReport::default()
     };
     for guide in guides {

@@ -3,13 +3,14 @@
 use frisure_rod::minimise::{
     Minimiser, Minimum, Newton, NewtonStep, Problem, SecondVariation, StoppingCriteria,
 };
-use frisure_rod::potential::{Field, FieldPotential, Potential};
+use frisure_rod::potential::{Field, FieldPotential, Potential, Yielding};
 use frisure_rod::{Chain, Equilibrium, Shape};
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::fields::{along, body, body_samples, samples};
 use super::friction_solver::Hold;
+use super::lock;
 use super::tether::{Tether, farthest, firmness};
 use crate::contact::{
     BodyContact, ContactPairs, Density, Friction, FrictionGap, Layer, Pull, Samples, Strand,
@@ -56,6 +57,8 @@ pub(super) struct Wisp<'a> {
     settled: Settled,
     /// Friction on skin, if there is any.
     friction: Option<Friction>,
+    /// The hairs inside, if they stick.
+    lock: Option<Yielding>,
     /// What pulls at the guide while it lets go.
     letting_go: Option<Pull>,
 }
@@ -87,6 +90,7 @@ impl<'a> Wisp<'a> {
             resolution,
             settled,
             friction: None,
+            lock: None,
             letting_go: None,
         }
     }
@@ -94,6 +98,23 @@ impl<'a> Wisp<'a> {
     /// Sets what pulls at the guide, besides what holds it, while it lets go.
     pub(super) fn let_go(&mut self, pull: Option<Pull>) {
         self.letting_go = pull;
+    }
+
+    /// Sets how the hairs inside stick.
+    pub(super) fn set_lock(&mut self, lock: Option<Yielding>) {
+        self.lock = lock;
+    }
+
+    /// Lets hairs inside that slipped stick where they are now.
+    pub(super) fn follow_lock(&mut self) {
+        if let Some(lock) = &mut self.lock {
+            lock.follow(&self.chain, &self.settled.shape);
+        }
+    }
+
+    /// The hairs inside, if they stick.
+    pub(super) fn lock(&self) -> Option<&Yielding> {
+        self.lock.as_ref()
     }
 
     /// Lets the guide stick to the skin where it is, if the skin has friction.
@@ -287,6 +308,7 @@ impl<'a> Wisp<'a> {
         let mut felt: Vec<&dyn Potential> = vec![&body, around];
         felt.extend(friction.iter().map(|friction| friction as &dyn Potential));
         felt.extend(pull.iter().map(|pull| pull as &dyn Potential));
+        felt.extend(lock::felt(self.lock.as_ref()));
         felt.extend(tether);
         act(&Problem::new(&self.chain, &felt))
     }
@@ -381,7 +403,12 @@ pub(super) fn rest_among(wisps: &[Wisp<'_>], pairs: &ContactPairs, tolerance: f6
     let guides = (wisps.par_iter().enumerate())
         .map(|(i, wisp)| wisp.equilibrium(&pairs.around(i), tolerance))
         .collect();
-    Rest { overlap_energy, ..Rest::apart(guides) }
+    Rest { overlap_energy, locks: locks(wisps), ..Rest::apart(guides) }
+}
+
+/// How the hairs inside each wisp stick.
+fn locks(wisps: &[Wisp<'_>]) -> Vec<Option<Yielding>> {
+    wisps.iter().map(|wisp| wisp.lock().cloned()).collect()
 }
 
 /// Guides in hair of a density as they are, each with its own part of what they share, certified to a relative gradient of
@@ -390,7 +417,7 @@ pub(super) fn rest_in(wisps: &[Wisp<'_>], density: &Density, tolerance: f64) -> 
     let guides = (wisps.par_iter().enumerate())
         .map(|(i, wisp)| wisp.equilibrium(&density.around(i), tolerance))
         .collect();
-    Rest::apart(guides)
+    Rest { locks: locks(wisps), ..Rest::apart(guides) }
 }
 
 /// Where a tether holds a guide.

@@ -1,6 +1,7 @@
 //! How guides rest.
 
 use frisure_rod::Equilibrium;
+use frisure_rod::potential::Yielding;
 
 /// Guides at rest.
 #[derive(Clone, Debug)]
@@ -14,6 +15,8 @@ pub(crate) struct Rest {
     pub(crate) joint: Option<JointCertificate>,
     /// Largest |f_t| / μ f_n of each guide, friction over what the law allows; 0 where no friction was felt.
     pub(crate) friction: Vec<f64>,
+    /// How the hairs inside each wisp stick; empty where none of any wisp do.
+    pub(crate) locks: Vec<Option<Yielding>>,
 }
 
 /// What was checked of all guides of a head together.
@@ -41,6 +44,6 @@ impl Rest {
     /// Guides that do not touch each other.
     pub(crate) fn apart(guides: Vec<Equilibrium>) -> Self {
         let friction = vec![0.0; guides.len()];
-        Self { guides, overlap_energy: 0.0, sweeps: 0, joint: None, friction }
+        Self { guides, overlap_energy: 0.0, sweeps: 0, joint: None, friction, locks: Vec::new() }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use frisure_rod::potential::Yielding;
 use frisure_rod::{Equilibrium, InvalidQuantity, NaturalStrain, Rod, StrainProfile};
 use glam::{DMat3, DQuat, DVec3};
 
@@ -36,8 +37,8 @@ pub(crate) struct Styling {
 #[derive(Debug)]
 pub(crate) struct Lay {
     pub(crate) humidity: f64,
-    /// State and equilibrium of each wisp that was dry.
-    pub(crate) wisps: Vec<Option<(WispState, Equilibrium)>>,
+    /// State and equilibrium of each wisp that was dry, and how its hairs stuck.
+    pub(crate) wisps: Vec<Option<(WispState, Equilibrium, Option<Yielding>)>>,
     /// All of the head when all of it was dry.
     pub(crate) whole: Option<(Vec<WispState>, Rest)>,
 }

@@ -421,6 +421,9 @@ digestible! {
         pub wet_friction: f64,
         /// Friction of hair that goes towards its tip, against its scales, over that towards its root.
         pub scales: f64,
+        /// Coefficient of friction of the hairs inside a wisp, which stick and slip as it bends. 0: they slide freely, and a wisp bends as one
+        /// of its hairs does.
+        pub lock_friction: f64,
     }
 }
 
@@ -438,6 +441,7 @@ impl Default for Contact {
             // were at hand.
             wet_friction: 1.3,
             scales: 1.4,
+            lock_friction: 0.0,
         }
     }
 }

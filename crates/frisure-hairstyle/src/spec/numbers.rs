@@ -181,6 +181,7 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "contact.skin_friction", field!(contact.skin_friction), 0.0, 1.5, "between 0 and 1.5";
     "contact.wet_friction", field!(contact.wet_friction), 0.5, 3.0, "between 0.5 and 3";
     "contact.scales", field!(contact.scales), 1.0, 2.0, "between 1 and 2";
+    "contact.lock_friction", field!(contact.lock_friction), 0.0, 1.5, "between 0 and 1.5";
     "gravity", field!(gravity), 0.0, 1000.0, "between 0 and 1000 m/s²";
     "pose.pitch", field!(pose.pitch), -PI, PI, "between -180 and 180 deg";
     "pose.roll", field!(pose.roll), -PI, PI, "between -180 and 180 deg";

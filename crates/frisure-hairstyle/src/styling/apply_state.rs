@@ -70,6 +70,8 @@ pub(super) fn guide(
     guide.friction = planned.friction.scaled(wetter * smoother);
     let diameter = 2.0 * guide.rod.spec().section.mean_radius();
     guide.friction.cohesion = state.product.map_or(0.0, |product| product.cohesion(diameter));
+    let in_wisp = state.product.map_or(0.0, |product| product.cohesion_in_wisp(diameter));
+    guide.friction.lock_cohesion = in_wisp;
     // What a hand or a clip holds needs no friction, which would pull it elsewhere.
     guide.hold = if state.grip.is_some() { 0.0 } else { planned.hold };
     // What is drawn tight over the head presses on skin as what is held in a shape does.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::apply_state;
 use super::error::StyleError;
 use super::selection::Selection;
-use crate::equilibrium::{Change, Effort, GuideStart, SettleOptions, settle};
+use crate::equilibrium::{Change, Effort, GuideStart, LockStart, SettleOptions, settle};
 use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::hairstyle::Rest;
@@ -62,7 +62,10 @@ impl<'a> Act<'a> {
         let before = before.as_ref().filter(|before| before.humidity == *humidity);
         let all_dry = wisps.iter().all(|wisp| wisp.wetness == 0.0);
         let now = |(index, wisp): (usize, &WispState)| match (wisp.wetness, before) {
-            (0.0, _) => Some((wisp.clone(), rest.guides[index].clone())),
+            (0.0, _) => {
+                let lock = rest.locks.get(index).cloned().flatten();
+                Some((wisp.clone(), rest.guides[index].clone(), lock))
+            }
             (_, before) => before.and_then(|before| before.wisps[index].clone()),
         };
         let whole = all_dry.then(|| (wisps.clone(), rest.clone()));
@@ -104,7 +107,7 @@ impl<'a> Act<'a> {
         let changes = self.changes(&styling, &changed, change);
         let rest = match self.draft {
             None => self.exact_rest(&styling, &guides, &changed, changes)?,
-            Some(draft) => self.draft_rest(&guides, &changes, draft)?,
+            Some(draft) => self.draft_rest(&styling, &guides, &changes, draft)?,
         };
         Ok(Hairstyle { guides, rest, styling, ..before.clone() })
     }
@@ -118,6 +121,7 @@ impl<'a> Act<'a> {
         mut changes: Vec<Change>,
     ) -> Result<Rest, StyleError> {
         let mut before = self.before.rest.guides.clone();
+        let mut locks = self.locks(styling, guides);
         let lay = styling.lay.as_ref().filter(|lay| lay.humidity == styling.humidity);
         if let Some(lay) = lay {
             if let Some((states, rest)) = &lay.whole
@@ -126,17 +130,18 @@ impl<'a> Act<'a> {
                 return Ok(rest.clone());
             }
             for (i, known) in lay.wisps.iter().enumerate() {
-                if let Some((state, rest)) = known
+                if let Some((state, rest, lock)) = known
                     && *state == styling.wisps[i]
                     && changed[i]
                 {
                     before[i].clone_from(rest);
+                    locks[i] = LockStart::like(lock.as_ref());
                     changes[i] = Change::None;
                 }
             }
         }
         let start = GuideStart::Changed { before: &before, changes: &changes };
-        let mut rest = self.settle(guides, SettleOptions { start, effort: Effort::FULL })?;
+        let mut rest = self.settle(guides, SettleOptions { start, effort: Effort::FULL, locks })?;
         // What did not move is held as before.
         let held = self.before.rest.friction.iter().zip(&changes);
         for (ratio, (before, change)) in rest.friction.iter_mut().zip(held) {
@@ -150,6 +155,7 @@ impl<'a> Act<'a> {
     /// Brings changed guides nearer to rest, from where they are likely to end.
     fn draft_rest(
         &self,
+        styling: &Styling,
         guides: &[Guide],
         changes: &[Change],
         draft: DraftRest<'_>,
@@ -158,7 +164,27 @@ impl<'a> Act<'a> {
             Some(like) => GuideStart::Like(like),
             None => GuideStart::Changed { before: &self.before.rest.guides, changes },
         };
-        self.settle(guides, SettleOptions { start, effort: draft.effort })
+        let locks = self.locks(styling, guides);
+        self.settle(guides, SettleOptions { start, effort: draft.effort, locks })
+    }
+
+    /// How the hairs inside each wisp begin: as they stuck before, anew where the fibre has another natural shape, or sliding where
+    /// water or growth has freed them.
+    fn locks(&self, styling: &Styling, guides: &[Guide]) -> Vec<LockStart> {
+        let (before, old) = (self.before, &self.before.styling);
+        let start = |(wisp, new): (usize, &WispState)| {
+            let old = &old.wisps[wisp];
+            // The strain at which they stick is that beyond the natural one.
+            let same = before.guides[wisp].rod.natural() == guides[wisp].rod.natural();
+            if new.wetness > old.wetness || new.uncut > old.uncut {
+                LockStart::Free
+            } else if same {
+                LockStart::like(before.rest.locks.get(wisp).and_then(Option::as_ref))
+            } else {
+                LockStart::Anew
+            }
+        };
+        styling.wisps.iter().enumerate().map(start).collect()
     }
 
     fn settle(&self, guides: &[Guide], options: SettleOptions<'_>) -> Result<Rest, StyleError> {

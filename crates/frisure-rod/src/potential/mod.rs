@@ -13,8 +13,10 @@ mod elastic;
 mod field;
 mod gravity;
 mod term;
+mod yielding;
 
 pub use elastic::Elastic;
 pub use field::{Field, FieldPotential};
 pub use gravity::Gravity;
 pub use term::{Derivatives, ElementState, NodeState, Potential};
+pub use yielding::{YieldLaw, YieldState, Yielding};

@@ -12,6 +12,7 @@ mod others;
 mod state;
 
 use frisure_progress::{Cancelled, Progress, StageCounter};
+use frisure_rod::potential::Yielding;
 use frisure_rod::{Equilibrium, Stability};
 
 use self::certificate::lowest_eigenvalue;
@@ -95,6 +96,8 @@ pub(super) struct JointOptions<'a> {
     pub(super) among_each_other: bool,
     /// Whether friction holds guides near where they start.
     pub(super) hold: Hold,
+    /// How the hairs inside each wisp stick.
+    pub(super) locks: Vec<Option<Yielding>>,
     /// What lets go of each guide, in steps.
     pub(super) gone: &'a [Option<Pull>],
     /// Most steps, if guides need not come to rest; then nothing is certified of all together.
@@ -110,14 +113,16 @@ pub(super) fn settle(
     head: &Head,
     guides: &[Guide],
     start: &[Equilibrium],
-    JointOptions { among_each_other, hold, gone, most }: JointOptions<'_>,
+    JointOptions { among_each_other, hold, locks, gone, most }: JointOptions<'_>,
     progress: &dyn Progress,
 ) -> Result<Rest, Cancelled> {
     let counter = StageCounter::new(progress, "wisps making way", 1);
     let mut state = HeadState::new(spec, head, guides, start, hold);
+    state.set_locks(locks);
     if let Some(most) = most {
         state.press();
         let Descent { steps, .. } = minimise(&mut state, TOLERANCE, most, &counter)?;
+        state.follow_locks();
         return Ok(Rest {
             sweeps: steps,
             friction: state.friction_ratios(),
@@ -128,6 +133,8 @@ pub(super) fn settle(
     let stages = stages(among_each_other, state.is_density());
     let mut steps = 0;
     for (l, load) in loads.iter().enumerate() {
+        // What slipped inside wisps under the load before sticks there.
+        state.follow_locks();
         state.let_go(gone, *load);
         for (k, stage) in stages.iter().enumerate() {
             state.harden(stage.share);
@@ -146,6 +153,7 @@ pub(super) fn settle(
         steps += settle_stage(&mut state, 0.0, &counter)?;
         agrees = state.friction_agrees();
     }
+    state.follow_locks();
     let mut rest = state.rest(CERTIFIED);
     let certificate = certificate(&state, spec.seed);
     let joint = JointCertificate { stable: agrees && certificate.stable, ..certificate };

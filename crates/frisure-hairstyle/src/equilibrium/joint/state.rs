@@ -1,6 +1,7 @@
 //! Where all guides of a head are, and what they feel there.
 
 use frisure_rod::Equilibrium;
+use frisure_rod::potential::Yielding;
 use rayon::prelude::*;
 
 use super::super::friction_solver::Hold;
@@ -72,6 +73,18 @@ impl<'a> HeadState<'a> {
         };
         state.make_room(&vec![0.0; count]);
         state
+    }
+
+    /// Sets how the hairs inside each wisp stick.
+    pub(super) fn set_locks(&mut self, locks: Vec<Option<Yielding>>) {
+        for (wisp, lock) in self.wisps.iter_mut().zip(locks) {
+            wisp.set_lock(lock);
+        }
+    }
+
+    /// Lets hairs inside wisps that slipped stick where they are now.
+    pub(super) fn follow_locks(&mut self) {
+        self.wisps.par_iter_mut().for_each(Wisp::follow_lock);
     }
 
     /// Sets the share of the stiffness with which wisps repel each other. The bed of hair, which stands for the other wisps
