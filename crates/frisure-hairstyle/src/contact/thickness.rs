@@ -116,19 +116,6 @@ impl Thickness {
         self.fibre + 0.5 * wander
     }
 
-    /// Radius (m) at arc length `s` (m) of a drawn hair in contact that stands for `hairs` hairs, of the fibre `fibre` (m).
-    ///
-    /// A hair that stands for itself alone is a fibre. The others of the bundle that it stands for take the cross-section that they
-    /// take in a wisp (packed hexagonally, √12 R² each): `R² = r² + (n − 1) A/√12`, so that hairs at their contact distances fill
-    /// the wisp, however many are drawn. As [`Self::at`] it grows from the fibre at the root.
-    #[must_use]
-    pub fn bundle(&self, s: f64, fibre: f64, hairs: f64) -> f64 {
-        let others = (hairs - 1.0).max(0.0) * self.area_per_hair(s) / 12.0_f64.sqrt();
-        let packed = (fibre * fibre + self.volume * self.volume * others).sqrt();
-        let width = (GATHERING * self.packed(s)).min(0.5 * self.length);
-        fibre + (packed - fibre) * smooth_step(0.0, width.max(1e-9), s)
-    }
-
     /// Energy per volume (Pa) that it takes to straighten what keeps the hairs of the wisp apart at arc length `s` (m):
     /// `½ EI (σκ)²` per length of hair, over the cross-section that a hair takes. docs/theory.md, "Density"
     #[must_use]
@@ -212,10 +199,6 @@ mod tests {
         let double = wisp(0.1, 600.0, 9.81);
         assert!((double.packed(0.05) / short.packed(0.05) - 2.0_f64.sqrt()).abs() < 1e-12);
         assert_eq!(short.at(0.0), 0.0);
-        // A drawn hair that stands for all hairs of a wisp is as thick as the wisp, but for the shape of the cross-section.
-        assert!((short.bundle(0.1, 35e-6, 1.0) - 35e-6).abs() < 1e-12);
-        let whole = short.bundle(0.1, 35e-6, 301.0) / short.packed(0.1);
-        assert!((whole - (PI / 12.0_f64.sqrt()).sqrt()).abs() < 0.01, "{whole}");
         // No wisp is thicker than the skin it grows on is wide.
         let free = rod(0.2, (0.3, 0.5), 0.0);
         let strain = free.natural().at(0.0);

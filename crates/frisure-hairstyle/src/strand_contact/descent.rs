@@ -89,10 +89,11 @@ impl Descent<'_> {
     /// Whether enough hairs have moved for contacts to be searched anew.
     fn has_moved(&self, from: &[DVec3], to: &[DVec3]) -> bool {
         let (share, radii) = self.moved;
-        let Head { layout, radii: of, .. } = self.head;
+        let Head { layout, system, .. } = self.head;
         let far = |strand: &usize| {
             let mut points = layout.points(*strand);
-            points.any(|k| from[k].distance_squared(to[k]) > (radii * of[k]).powi(2))
+            let far = (radii * system.radii[*strand]).powi(2);
+            points.any(|k| from[k].distance_squared(to[k]) > far)
         };
         let moved = (0..layout.strands()).into_par_iter().filter(far).count();
         moved as f64 > share * layout.strands() as f64

@@ -15,9 +15,6 @@ pub(super) struct Head<'a> {
     pub(super) chains: Vec<JointChain>,
     /// Moment (N m) that the gradients of each hair are relative to.
     pub(super) moments: Vec<f64>,
-    pub(super) radii: Vec<f64>,
-    /// Factor on the radii of tubes.
-    pub(super) opening: f64,
 }
 
 /// A shape of all hairs.
@@ -45,13 +42,8 @@ impl<'a> Head<'a> {
         let chain = |(rod, &elements): (&_, &usize)| JointChain::new(rod, elements);
         let chains: Vec<JointChain> =
             (system.rods.par_iter().zip(&system.elements)).map(chain).collect();
-        let radii = (chains.par_iter().enumerate())
-            .flat_map_iter(|(strand, chain)| {
-                (0..=chain.joints()).map(move |point| (system.radius)(strand, chain.at(point).0))
-            })
-            .collect();
         let moments = system.rods.iter().map(frisure_rod::Rod::moment_scale).collect();
-        Self { system, layout, chains, moments, radii, opening: 1.0 }
+        Self { system, layout, chains, moments }
     }
 
     pub(super) fn properties(&self) -> StrandProperties<'_> {
@@ -59,7 +51,7 @@ impl<'a> Head<'a> {
         let force_scale = |(rod, moment): (&frisure_rod::Rod, &f64)| moment / rod.length().powi(2);
         StrandProperties {
             layout: &self.layout,
-            radii: &self.radii,
+            radii: &self.system.radii,
             force_scale: self.system.rods.iter().zip(&self.moments).map(force_scale).collect(),
             friction: &self.system.friction,
             shares: shares.flat_map(|c| (0..=c.joints()).map(move |p| c.at(p).1)).collect(),
@@ -80,12 +72,6 @@ impl<'a> Head<'a> {
             energy: 0.0,
             clear: vec![(DVec3::ZERO, -1.0); points],
         }
-    }
-
-    /// The tube of a hair at an arc length (m), as open as tubes are now.
-    pub(super) fn tube(&self, strand: usize, s: f64) -> ConfinementTube {
-        let tube = self.system.field.confinement(strand, s);
-        ConfinementTube { radius: self.opening * tube.radius, ..tube }
     }
 
     /// Computes points of a shape from its turns, with all but pairs: its energy (J), and the gradient by points.
@@ -129,7 +115,8 @@ impl<'a> Head<'a> {
         let mut sum = 0.0;
         for (k, &p) in points.iter().enumerate().skip(1) {
             let (s, share) = chain.at(k);
-            let ConfinementTube { centre, radius, stiffness, .. } = self.tube(strand, s);
+            let ConfinementTube { centre, radius, stiffness, .. } =
+                self.system.field.confinement(strand, s);
             let away = p - centre;
             let distance = away.length();
             let beyond = (distance - radius).max(0.0);

@@ -11,6 +11,9 @@ use super::pairs::Pairs;
 /// Chosen by trial; not measured further.
 const ITERATIONS: usize = 4;
 
+/// The same of a hair that has not found a step by then.
+const PATIENT_ITERATIONS: usize = 24;
+
 /// Farthest that a point moves in a step of its hair, in contact radii: hairs must not pass through each other between two searches for
 /// contacts. Chosen; not measured further.
 const FARTHEST: f64 = 0.5;
@@ -39,7 +42,7 @@ impl Held<'_> {
 impl ContactField for Held<'_> {
     fn confinement(&self, strand: usize, s: f64) -> ConfinementTube {
         // What is known of the field is not known of the pairs.
-        ConfinementTube { clearance: -1.0, ..self.head.tube(strand, s) }
+        ConfinementTube { clearance: -1.0, ..self.head.system.field.confinement(strand, s) }
     }
 
     fn contact(&self, strand: usize, s: f64, position: DVec3) -> Contact {
@@ -78,10 +81,9 @@ impl Head<'_> {
         let (mut points, mut frames) = (vec![DVec3::ZERO; n + 1], vec![DMat3::ZERO; n]);
         self.chains[strand].shape(after, &mut points, &mut frames);
         let range = self.layout.points(strand);
-        let before = &state.points[range.clone()];
-        let far = |((p, q), radius): ((&DVec3, &DVec3), &f64)| p.distance(*q) / radius;
-        let moved = points.iter().zip(before).zip(&self.radii[range]).map(far);
-        (FARTHEST / moved.fold(0.0, f64::max)).min(1.0)
+        let before = &state.points[range];
+        let moved = points.iter().zip(before).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
+        (FARTHEST * self.system.radii[strand] / moved.max(1e-300)).min(1.0)
     }
 
     /// Puts the step of each hair (rad) into `step`, from an evaluated shape.
@@ -108,24 +110,27 @@ impl Head<'_> {
         (layout.chunks().par_iter()).zip(steps).for_each(|(chunk, step)| {
             let joints = layout.joints(chunk.start).start..layout.joints(chunk.end - 1).end;
             let before = &state.controls[joints];
-            let batch = Batch {
-                elements: self.system.elements[chunk.start],
-                // A hair that is at rest by itself takes no step.
-                tolerance: 1e-12,
-                max_iterations: ITERATIONS,
-                ..Batch::default()
-            };
-            let start = InitialShape::Controls(before.to_vec());
+            let n = self.system.elements[chunk.start];
             let rods = &self.system.rods[chunk.clone()];
-            let (found, _) = batch.solve_in_contact(rods, start, &held, chunk.start);
-            for ((step, after), before) in step.iter_mut().zip(&found.controls).zip(before) {
-                *step = *after - *before;
-            }
-            let n = batch.elements;
-            for (strand, step) in chunk.clone().zip(step.chunks_mut(n)) {
-                let after = &found.controls[(strand - chunk.start) * n..][..n];
-                let shorter = self.shorter(strand, state, after);
-                step.iter_mut().for_each(|turn| *turn *= shorter);
+            let solve = |first: usize, count: usize, before: &[DVec3], max_iterations| {
+                // A hair that is at rest by itself takes no step.
+                let batch =
+                    Batch { elements: n, tolerance: 1e-12, max_iterations, ..Batch::default() };
+                let start = InitialShape::Controls(before.to_vec());
+                let rods = &rods[first..first + count];
+                batch.solve_in_contact(rods, start, &held, chunk.start + first).0.controls
+            };
+            let mut found = solve(0, rods.len(), before, ITERATIONS);
+            for (k, after) in found.chunks_mut(n).enumerate() {
+                let before = &before[k * n..(k + 1) * n];
+                if after == before {
+                    after.copy_from_slice(&solve(k, 1, before, PATIENT_ITERATIONS));
+                }
+                let shorter = self.shorter(chunk.start + k, state, after);
+                let step = &mut step[k * n..(k + 1) * n];
+                for ((step, after), before) in step.iter_mut().zip(after).zip(before) {
+                    *step = (*after - *before) * shorter;
+                }
             }
         });
     }

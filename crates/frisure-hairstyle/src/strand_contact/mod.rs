@@ -29,11 +29,11 @@ pub(crate) struct StrandSystem<'a> {
     pub(crate) rods: Vec<Rod>,
     /// Elements of each hair; hairs of as many are best side by side.
     pub(crate) elements: Vec<usize>,
-    /// Contact radius (m) of each hair at an arc length (m).
-    pub(crate) radius: &'a (dyn Fn(usize, f64) -> f64 + Sync),
+    /// Contact radius (m) of each hair: half of the distance at which two such hairs begin to touch.
+    pub(crate) radii: Vec<f64>,
     /// Friction of each hair.
     pub(crate) friction: Vec<FrictionCoefficients>,
-    /// Contact with all else, by the index of the hair. Its tubes are those of the last stage.
+    /// Contact with all else, by the index of the hair.
     pub(crate) field: &'a dyn ContactField,
 }
 

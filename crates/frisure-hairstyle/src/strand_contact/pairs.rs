@@ -25,7 +25,7 @@ const LIGHT: f64 = 0.1;
 pub(super) struct StrandProperties<'a> {
     /// Where points are.
     pub(super) layout: &'a Layout,
-    /// Contact radius at each point (m).
+    /// Contact radius of each hair (m).
     pub(super) radii: &'a [f64],
     /// Force per length (N/m) that bends a hair as much as its weight, or as it bends: moment scale over length squared; of each hair.
     pub(super) force_scale: Vec<f64>,
@@ -441,8 +441,7 @@ impl Pair {
     ) -> Option<Self> {
         let &Nearest { segment, share, away } = nearest;
         let at = segment as usize;
-        let radius = of.radii[at] * (1.0 - share) + of.radii[at + 1] * share;
-        let distance = of.radii[point] + radius;
+        let distance = of.radii[own] + of.radii[strand as usize];
         if away.length_squared() > (distance * (1.0 + MARGIN)).powi(2) {
             return None;
         }

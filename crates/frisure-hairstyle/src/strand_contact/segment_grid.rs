@@ -16,10 +16,13 @@ pub(super) struct SegmentGrid {
 /// and what is within reach of that place is in the cells around it.
 const CELL: f64 = 4.0 / 3.0;
 
+/// Least width of a cell (m): narrower ones take more time and memory to sort than they save. Chosen by trial; no result depends on it.
+const LEAST_CELL: f64 = 1.5e-3;
+
 impl SegmentGrid {
     /// Sorts the segments between the points (m) of hairs for searches within `reach` (m).
     pub(super) fn new(layout: &Layout, points: &[DVec3], reach: f64) -> Self {
-        let cell = CELL * reach.max(1e-6);
+        let cell = (CELL * reach).max(LEAST_CELL);
         let (mut samples, mut owners) = (Vec::new(), Vec::new());
         for strand in 0..layout.strands() {
             let range = layout.points(strand);

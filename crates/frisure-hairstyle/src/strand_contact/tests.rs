@@ -52,7 +52,7 @@ impl Tuft {
         let hair = FrictionCoefficients { hair: self.friction, ..FrictionCoefficients::default() };
         act(&StrandSystem {
             elements: vec![self.elements; count],
-            radius: &|_, _| RADIUS,
+            radii: vec![RADIUS; count],
             friction: vec![hair; count],
             field: &Nothing,
             rods: self.rods.clone(),

@@ -65,16 +65,14 @@ impl<'a> Simulated<'a> {
         let envelopes = self.envelopes(&started);
         let represented = (self.hairstyle.grown() / roots.len() as f64).max(1.0);
         let guides = self.population.guides;
-        let radius = |hair: usize, s: f64| {
-            let Started { planned, rod, .. } = &started[hair];
-            let fibre = rod.spec().section.mean_radius();
-            guides[planned.binding.main()].thickness.bundle(s, fibre, represented)
-        };
+        // What a hair stands for goes its way, and packs like wires.
+        let radius =
+            |hair: &Started<'_>| hair.rod.spec().section.mean_radius() * represented.sqrt();
         let friction = |hair: &Started<'_>| guides[hair.planned.binding.main()].friction;
         let system = StrandSystem {
             rods: started.iter().map(|hair| hair.rod.clone()).collect(),
             elements: elements.clone(),
-            radius: &radius,
+            radii: started.iter().map(radius).collect(),
             friction: started.iter().map(friction).collect(),
             field: &envelopes,
         };
