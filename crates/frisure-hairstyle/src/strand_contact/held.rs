@@ -131,6 +131,12 @@ impl Head<'_> {
                 for ((step, after), before) in step.iter_mut().zip(after).zip(before) {
                     *step = (*after - *before) * shorter;
                 }
+                // A long step can end downhill though it begins uphill; one such hair would stop all others.
+                let gradient = &state.gradient[layout.joints(chunk.start + k)];
+                let slope: f64 = gradient.iter().zip(&*step).map(|(g, s)| g.dot(*s)).sum();
+                if slope >= 0.0 {
+                    step.fill(DVec3::ZERO);
+                }
             }
         });
     }

@@ -20,6 +20,9 @@ struct Started<'a> {
     controls: Vec<DVec3>,
 }
 
+/// Hairs as they are drawn, if they are known; hairs at rest in their tubes; and their counts.
+type Begun<'a> = (Vec<Option<Hair>>, Vec<Started<'a>>, Simulation);
+
 /// Envelopes of hairs of as many elements each, one after the other.
 struct Envelopes<'a> {
     /// The first hair of each, and the envelope.
@@ -104,7 +107,7 @@ impl<'a> Simulated<'a> {
         &self,
         roots: &[(usize, Root)],
         stage: &StageCounter<'_>,
-    ) -> Result<(Vec<Option<Hair>>, Vec<Started<'a>>, Simulation), Cancelled> {
+    ) -> Result<Begun<'a>, Cancelled> {
         let chunk = |roots: &[(usize, Root)]| {
             stage.check()?;
             let (mut drawn, groups) = self.groups(roots);
