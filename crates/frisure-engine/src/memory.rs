@@ -1,6 +1,6 @@
 //! The memory that a prediction and its picture take, estimated before the work.
 
-use frisure::hairstyle::{HairContact, Hairs, HairstyleSpec};
+use frisure::hairstyle::{HairContact, HairModel, Hairs, HairstyleSpec, StrandContact};
 
 use crate::error::Error;
 
@@ -36,6 +36,9 @@ const PROGRAM: f64 = 64e6;
 
 /// A wisp that touches others (bytes). Measured between 400 and 1600 wavy wisps of 10 cm: 172 kB.
 const TOUCHING_WISP: f64 = 2e5;
+
+/// A simulated hair in contact with others (bytes). Measured between 1 000 and 10 000 straight hairs of 25 cm: 45 kB.
+const HAIR_IN_CONTACT: f64 = 6e4;
 
 /// A point of a drawn hair, in a report or a file (bytes). Measured between 2 and 8 million points: 29 and 58.
 const POINT: f64 = 60.0;
@@ -88,9 +91,13 @@ pub fn estimate(spec: &HairstyleSpec, work: Work) -> f64 {
     let touch = matches!(spec.contact.hair, HairContact::Wisps | HairContact::Density);
     let touching = if touch { wisps } else { 0.0 };
     let points = hairs * spec.wisps.points as f64;
+    let pushing = spec.wisps.strands == HairModel::Simulated
+        && spec.wisps.contact == StrandContact::Contacts
+        && work != Work::Guides;
+    let contact = if pushing { hairs.min(MOST_HAIRS) * HAIR_IN_CONTACT } else { 0.0 };
     // More are refused by the key that asks for them, when the area of the scalp is known.
     let points = if hairs > MOST_HAIRS || points > MOST_POINTS { 0.0 } else { points };
-    PROGRAM + touching * TOUCHING_WISP + points * point(work) + picture(work)
+    PROGRAM + touching * TOUCHING_WISP + contact + points * point(work) + picture(work)
 }
 
 fn point(work: Work) -> f64 {

@@ -5,8 +5,8 @@
 use divan::Bencher;
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::{
-    Effort, HairContact, HairModel, Hairs, HairstyleSpec, PredictOptions, Start, StrandOptions,
-    predict, preset, strands,
+    Effort, HairContact, HairModel, Hairs, HairstyleSpec, PredictOptions, Start, StrandContact,
+    StrandOptions, predict, preset, strands,
 };
 use frisure_rod::Resolution;
 use glam::DVec3;
@@ -83,21 +83,29 @@ fn warm(bencher: Bencher<'_, '_>, case: usize) {
 /// Twenty thousand hairs of 48 points around 200 guides, each a rod of its own on the skin and between its neighbours.
 #[divan::bench(args = ["straight", "wavy", "curly", "frizzy"], sample_count = 3)]
 fn simulated_hairs(bencher: Bencher<'_, '_>, name: &str) {
-    simulated(bencher, name, 20_000);
+    simulated(bencher, name, 20_000, StrandContact::Tube);
 }
 
 /// The same of more and more curly hairs.
 #[divan::bench(args = [100, 1000, 10_000, 100_000], sample_count = 3)]
 fn simulated_heads(bencher: Bencher<'_, '_>, hairs: usize) {
-    simulated(bencher, "curly", hairs);
+    simulated(bencher, "curly", hairs, StrandContact::Tube);
 }
 
-fn simulated(bencher: Bencher<'_, '_>, name: &str, hairs: usize) {
+/// Straight hairs that push and rub each other.
+#[divan::bench(args = [1000, 10_000], sample_count = 1)]
+fn hairs_in_contact(bencher: Bencher<'_, '_>, hairs: usize) {
+    simulated(bencher, "straight", hairs, StrandContact::Contacts);
+}
+
+fn simulated(bencher: Bencher<'_, '_>, name: &str, hairs: usize, contact: StrandContact) {
     let (head, mut spec) = (Head::mannequin(), preset(name).expect("a preset").spec());
     spec.wisps.count = 200;
     spec.wisps.hairs = Hairs::Count(hairs);
     spec.wisps.strands = HairModel::Simulated;
+    spec.wisps.contact = contact;
     spec.contact.hair = HairContact::Layers;
+    spec.contact.friction = if contact == StrandContact::Contacts { 0.3 } else { 0.0 };
     let style = predict(&spec, &head, PredictOptions::default(), &()).expect("a valid description");
     bencher.bench(|| strands(&style, &head, StrandOptions::default(), &()));
 }

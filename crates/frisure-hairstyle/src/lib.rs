@@ -18,7 +18,7 @@
 //! ```
 //!
 //! Modules, in the order of computation: `head`, `spec`, `presets`, `implantation` (roots and directions), `contact`,
-//! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict`, `adopt` and `transfer`, `strands`, `styling`, `history`. None uses
+//! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict`, `adopt` and `transfer`, `strand_contact`, `strands`, `styling`, `history`. None uses
 //! one that comes later.
 
 #![forbid(unsafe_code)]
@@ -51,6 +51,7 @@ mod adopt;
 mod predict;
 mod transfer;
 
+mod strand_contact;
 mod strands;
 mod volume;
 
@@ -73,8 +74,9 @@ pub use random::Draws;
 pub use spec::{
     Body, Comb, Contact, Flow, HairContact, HairModel, Hairline, Hairs, HairstyleSpec, HeadMethod,
     Implantation, InvalidSpec, Length, Level, Lift, Number, Parting, Place, Pose, Range,
-    RegionLength, RegionStyle, Scalar, Settling, Turn, Whorls, Wind, Wisps, number,
+    RegionLength, RegionStyle, Scalar, Settling, StrandContact, Turn, Whorls, Wind, Wisps, number,
 };
+pub use strand_contact::StrandCertificate;
 pub use strands::{
     Checkpoint, DrawnHair, Simulation, StrandOptions, add_natural_strains, add_sections, describe,
     described_guides, guide_strands, penetration, simulation_key, strands,

@@ -3,7 +3,8 @@
 use frisure_hairstyle::head::Head;
 use frisure_hairstyle::{
     Body, Checkpoint, HairContact, HairModel, Hairs, Hairstyle, HairstyleSpec, PredictOptions,
-    StrandOptions, guide_strands, penetration, predict, preset, simulation_key, strands as draw,
+    StrandContact, StrandOptions, guide_strands, penetration, predict, preset, simulation_key,
+    strands as draw,
 };
 use frisure_progress::Progress;
 use frisure_rod::Resolution;
@@ -187,4 +188,56 @@ fn work_that_was_cut_off_goes_on_to_the_same_bytes() {
                     &head
                 )
     );
+}
+
+fn in_contact(name: &str, hairs: usize, friction: f64) -> HairstyleSpec {
+    let mut spec = spec(name);
+    spec.wisps.hairs = Hairs::Count(hairs);
+    spec.wisps.contact = StrandContact::Contacts;
+    spec.contact.friction = friction;
+    spec
+}
+
+/// Forces between hairs of a head are equal and opposite, and no hair is in the head. How near to rest they come is a part of the
+/// certificate, and is not always near (docs/performance.md).
+#[test]
+fn hairs_in_contact_push_equally() {
+    let head = Head::mannequin();
+    for (name, friction) in [("straight", 0.3), ("curly", 0.0)] {
+        let spec = in_contact(name, 300, friction);
+        let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
+        let drawn = draw(&hairstyle, &head, StrandOptions::default(), &()).unwrap();
+        let certificate = drawn.simulation.contact.unwrap();
+        assert!(certificate.contacts > 100 && certificate.imbalance < 1e-9, "{certificate:?}");
+        assert_eq!(certificate.friction_ratio > 0.0, friction > 0.0);
+        assert!((certificate.represented - hairstyle.grown() / 300.0).abs() < 1e-9);
+        assert!(penetration(&drawn.strands, &head) < 1e-5, "{name}");
+    }
+}
+
+#[test]
+fn hairs_in_contact_are_the_same_whatever_the_number_of_threads() {
+    let head = Head::mannequin();
+    let spec = in_contact("wavy", 150, 0.4);
+    let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| draw(&hairstyle, &head, StrandOptions::default(), &()).unwrap())
+    };
+    let one = on(1);
+    assert_eq!(one, on(2));
+    assert_eq!(one, on(8));
+}
+
+#[test]
+fn hairs_in_contact_can_be_cancelled_and_are_not_saved() {
+    let head = Head::mannequin();
+    let spec = in_contact("straight", 200, 0.3);
+    let hairstyle = predict(&spec, &head, PredictOptions::default(), &()).unwrap();
+    let token = frisure_progress::CancellationToken::default();
+    token.cancel();
+    assert!(draw(&hairstyle, &head, StrandOptions::default(), &token).is_err());
+    let kept = Kept { enough: usize::MAX, ..Kept::default() };
+    draw(&hairstyle, &head, saved_in(&kept), &kept).unwrap();
+    assert!(kept.now.into_inner().unwrap().is_empty());
 }

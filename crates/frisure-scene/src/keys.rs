@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use frisure_files::frame::UpAxis;
 use frisure_hairstyle::{
     Body, Comb, Ellipticity, HairContact, HairModel, Hairs, HairstyleSpec, Handedness, HeadMethod,
-    Level, Lift, Scalar, Turn,
+    Level, Lift, Scalar, StrandContact, Turn,
 };
 use frisure_look::{Setup, ToneCurve};
 use frisure_rod::{ElementKind, TorsionConstant};
@@ -396,6 +396,9 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "wisps.points" => number::<Count>();
         /// What drawn hairs are. Default "interpolated".
         "wisps.strands" => value::<OneOf<Keyword<HairModel>>>();
+        /// How simulated hairs touch each other; only with `strands = "simulated"`. Friction is that of `contact.friction`. Where fewer
+        /// hairs are drawn than grow, each is as thick as those that it stands for. Default "tube".
+        "wisps.contact" => value::<OneOf<Keyword<StrandContact>>>();
         /// Contact of hair with the head and with hair.
         "contact" => table();
         /// Model of the head in contact. Default "signed-distance".

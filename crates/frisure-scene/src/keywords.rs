@@ -4,7 +4,7 @@ use frisure_files::frame::UpAxis;
 use frisure_hairstyle::head::{Head, Region};
 use frisure_hairstyle::{
     Body, Comb, Ellipticity, HairContact, HairModel, Handedness, HeadMethod, Level, PRESETS,
-    Parting, Place, Preset, Turn, WetLocks, Wetting,
+    Parting, Place, Preset, StrandContact, Turn, WetLocks, Wetting,
 };
 use frisure_look::{Backdrop, Daylight, SHADES, Setup, Shade, ToneCurve, linear_from_srgb};
 use frisure_rod::{ElementKind, TorsionConstant};
@@ -350,6 +350,11 @@ keywords! {
         "interpolated" => Self(HairModel::Interpolated), "hairs that go with the guides around them";
         "simulated" => Self(HairModel::Simulated),
             "each a rod with a fibre of its own, at rest on the skin and between its neighbours";
+    }
+
+    Keyword<StrandContact> {
+        "tube" => Self(StrandContact::Tube), "each hair in a tube that its neighbours leave it, without pushing them";
+        "contacts" => Self(StrandContact::Contacts), "each hair pushes and rubs the hairs that it touches: slower, and with a certificate of all hairs together";
     }
 
     Keyword<Setup> {

@@ -47,6 +47,14 @@ fn faults_name_place_value_range_and_hint() {
             "",
             &["shapes of their own", "leave out `strands`"],
         ),
+        (
+            "[wisps]\ncontact = \"contacts\"",
+            2,
+            11,
+            "wisps.contact",
+            "",
+            &["only simulated hairs", "strands = \"simulated\""],
+        ),
         // Kinds.
         ("hair = 3", 1, 8, "hair", "3", &["it must be a table"]),
         ("[hair.curl]\nalong = 3", 2, 9, "hair.curl.along", "3", &["a list of tables"]),

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use frisure::files::{ReadError, read_bytes};
-use frisure::hairstyle::{Checkpoint, HairModel, HairstyleSpec, simulation_key};
+use frisure::hairstyle::{Checkpoint, HairModel, HairstyleSpec, StrandContact, simulation_key};
 use frisure_digest::checksum;
 
 use super::{first_bytes, foreign, with_suffix};
@@ -46,11 +46,13 @@ pub struct HairCheckpoint {
 }
 
 impl HairCheckpoint {
-    /// The file of an output, such as `curls.hair.hairs.part`; none for hairs that are interpolated, and for devices.
+    /// The file of an output, such as `curls.hair.hairs.part`; none for hairs that are interpolated, for hairs in contact with each
+    /// other, of which no part is at rest before all are, and for devices.
     #[must_use]
     pub fn path_for(output: &Path, spec: &HairstyleSpec) -> Option<PathBuf> {
         let device = std::fs::metadata(output).is_ok_and(|found| !found.is_file());
-        let simulated = spec.wisps.strands == HairModel::Simulated;
+        let simulated =
+            spec.wisps.strands == HairModel::Simulated && spec.wisps.contact == StrandContact::Tube;
         (simulated && !device).then(|| with_suffix(output, ".hairs.part"))
     }
 

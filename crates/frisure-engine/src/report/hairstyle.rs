@@ -3,7 +3,7 @@
 use frisure::hairstyle::contact::Thickness;
 use frisure::hairstyle::{
     Body, Contact, DrawnHair, HairContact, Hairstyle, JointCertificate, SettlingReport, Simulation,
-    Volume, WetLockSizes, volume,
+    StrandCertificate, Volume, WetLockSizes, volume,
 };
 use frisure::rod::Energy;
 use frisure::strands::Strands;
@@ -207,6 +207,68 @@ pub struct SimulationReport {
     pub elements: usize,
     /// Iterations of the minimiser of all hairs.
     pub iterations: usize,
+    /// Contact of the hairs with each other, if they push each other. `stable` is then where that begins: each hair in its tube.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<StrandContactReport>,
+}
+
+/// Contact of simulated hairs with each other, and how near to rest they are together. Whether the shape is a minimum in all
+/// directions is not checked.
+#[derive(Clone, Debug, Serialize)]
+pub struct StrandContactReport {
+    /// Hairs in contact with each other.
+    pub hairs: usize,
+    /// How many hairs that grow each of them stands for.
+    pub represented: f64,
+    /// Points of a hair that touch another hair.
+    pub contacts: usize,
+    /// Hairs in balance: with a gradient of at most 1e-5.
+    pub balanced: usize,
+    /// Largest gradient of a hair in the energy of all, relative to ρSgL² + EI/L.
+    pub largest_gradient: f64,
+    /// Root mean square of the largest gradient of each hair.
+    pub rms_gradient: f64,
+    /// Deepest overlap of two hairs over their contact distance.
+    pub deepest_overlap: f64,
+    /// Largest tangential force over friction limit of contacts that bear more than a tenth of the mean; 0 without friction.
+    pub friction_ratio: f64,
+    /// Change of the friction limits at the last search for contacts over their sum; 0 without friction.
+    pub friction_change: f64,
+    /// Sum of all forces between hairs over the sum of their magnitudes.
+    pub imbalance: f64,
+    /// Iterations on all hairs together.
+    pub iterations: usize,
+}
+
+impl From<StrandCertificate> for StrandContactReport {
+    fn from(certificate: StrandCertificate) -> Self {
+        let StrandCertificate {
+            strands: hairs,
+            represented,
+            contacts,
+            balanced,
+            largest_gradient,
+            rms_gradient,
+            deepest_overlap,
+            friction_ratio,
+            friction_change,
+            imbalance,
+            iterations,
+        } = certificate;
+        Self {
+            hairs,
+            represented,
+            contacts,
+            balanced,
+            largest_gradient,
+            rms_gradient,
+            deepest_overlap,
+            friction_ratio,
+            friction_change,
+            imbalance,
+            iterations,
+        }
+    }
 }
 
 /// Space that drawn hairs take.
@@ -243,8 +305,10 @@ impl LoadedScene {
             energy: EnergyReport::from(metrics.settling.energy),
             hairs: strands.map_or(0, Strands::len),
             points: strands.map_or(0, |strands| strands.points().len()),
-            simulated: simulation.map(|Simulation { hairs, at_rest, elements, iterations }| {
-                SimulationReport { hairs, stable: at_rest, elements, iterations }
+            simulated: simulation.map(|simulation| {
+                let Simulation { hairs, at_rest, elements, iterations, contact } = simulation;
+                let contact = contact.map(StrandContactReport::from);
+                SimulationReport { hairs, stable: at_rest, elements, iterations, contact }
             }),
             hair_penetration: None,
             volume: strands.map(|strands| {

@@ -5,6 +5,6 @@ mod step;
 
 pub use hairstyle::{
     ContactReport, DEEP, EnergyReport, GuideReport, HairstyleReport, SimulationReport,
-    ThicknessReport, VolumeReport, WetLockReport,
+    StrandContactReport, ThicknessReport, VolumeReport, WetLockReport,
 };
 pub use step::{CutReport, StepReport};

@@ -30,7 +30,7 @@ pub trait FrictionSurface: Sync {
 /// The scales of a hair at one of its points, which lie towards its tip: where hair goes the way of its tip over something, that rubs
 /// them up, and there is more friction.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scales {
+pub(crate) struct Scales {
     /// Direction (unit) towards the tip.
     along: DVec3,
     /// Friction against the scales over that along them, squared, less 1.
@@ -39,20 +39,20 @@ pub(super) struct Scales {
 
 impl Scales {
     /// No scales.
-    const NONE: Self = Self { along: DVec3::ZERO, excess: 0.0 };
+    pub(crate) const NONE: Self = Self { along: DVec3::ZERO, excess: 0.0 };
 
     /// Those of a hair that goes towards its tip `along` (unit), with so much more friction against them.
-    pub(super) fn new(along: DVec3, against: f64) -> Self {
+    pub(crate) fn new(along: DVec3, against: f64) -> Self {
         Self { along, excess: against * against - 1.0 }
     }
 
     /// `share` of them.
-    pub(super) fn weighed(self, share: f64) -> Self {
+    pub(crate) fn weighed(self, share: f64) -> Self {
         Self { excess: self.excess * share, ..self }
     }
 
     /// The same, of the other of two hairs that go over each other.
-    pub(super) fn of_other(self) -> Self {
+    pub(crate) fn of_other(self) -> Self {
         Self { along: -self.along, ..self }
     }
 
@@ -70,39 +70,39 @@ impl Scales {
 
 /// The way from an anchor as friction measures it: what goes against scales counts for longer, N² = |u|² + Σ e max(0, u·t)², so that the
 /// most friction is that of the direction. (F5)
-pub(super) struct Way {
+pub(crate) struct Way {
     /// N (m).
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// ½ ∇N² (m).
     rise: DVec3,
     /// Vectors c of ½ ∇²N² = I + Σ c cᵀ.
-    pub(super) ridges: [DVec3; 2],
+    pub(crate) ridges: [DVec3; 2],
 }
 
 impl Way {
-    pub(super) fn new(u: DVec3, scales: [Scales; 2]) -> Self {
+    pub(crate) fn new(u: DVec3, scales: [Scales; 2]) -> Self {
         let [(a, p, c), (b, q, d)] = scales.map(|scales| scales.add(u));
         Self { length: (u.length_squared() + a + b).sqrt(), rise: u + p + q, ridges: [c, d] }
     }
 
     /// H(N) (m): a spring up to `slip` (m), then as far as it goes. (F1)
-    pub(super) fn energy(&self, slip: f64) -> f64 {
+    pub(crate) fn energy(&self, slip: f64) -> f64 {
         let n = self.length;
         if n < slip { 0.5 * n * n / slip } else { n - 0.5 * slip }
     }
 
     /// ∇H(N).
-    pub(super) fn force(&self, slip: f64) -> DVec3 {
+    pub(crate) fn force(&self, slip: f64) -> DVec3 {
         self.rise / self.length.max(slip)
     }
 
     /// H′(N): how much of the most friction is used.
-    pub(super) fn used(&self, slip: f64) -> f64 {
+    pub(crate) fn used(&self, slip: f64) -> f64 {
         (self.length / slip).min(1.0)
     }
 
     /// ∇²H(N) as s (I + Σ c cᵀ) − b bᵀ with the ridges c: s (1/m), and b (m^−½).
-    pub(super) fn stiffness(&self, slip: f64) -> (f64, DVec3) {
+    pub(crate) fn stiffness(&self, slip: f64) -> (f64, DVec3) {
         let n = self.length;
         if n < slip {
             return (1.0 / slip, DVec3::ZERO);

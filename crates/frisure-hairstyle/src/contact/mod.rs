@@ -24,7 +24,7 @@ mod wisp_friction;
 pub use bed::Bed;
 pub use body::{BodyContact, CombedHold, FrictionCoefficients};
 pub(crate) use density::{Density, DensityVariation, Strand};
-pub(crate) use friction::{Friction, FrictionGap};
+pub(crate) use friction::{Friction, FrictionGap, SLIP_DISTANCE, Scales, Way};
 pub use friction::{FrictionSurface, Pressed};
 pub use layers::Layer;
 pub(crate) use lock::LockFriction;

@@ -304,6 +304,8 @@ digestible! {
         pub points: usize,
         /// What drawn hairs are.
         pub strands: HairModel,
+        /// How simulated hairs touch each other.
+        pub contact: StrandContact,
     }
 }
 
@@ -328,6 +330,7 @@ impl Default for Wisps {
             blending: 0.7,
             points: 32,
             strands: HairModel::Interpolated,
+            contact: StrandContact::Tube,
         }
     }
 }
@@ -341,6 +344,16 @@ pub enum HairModel {
     /// Rods with fibres of their own, each at rest on the skin and between its neighbours. Hairs of a groom keep their
     /// shapes all the same.
     Simulated,
+}
+
+/// How simulated hairs ([`HairModel::Simulated`]) touch each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StrandContact {
+    /// Each in a tube that its neighbours leave it, and which it does not push: a mean field.
+    #[default]
+    Tube,
+    /// Each pushes and rubs every other that it touches; a tube as wide as its wisp keeps it in that.
+    Contacts,
 }
 
 /// How many hairs are drawn on a head.

@@ -11,8 +11,8 @@ mod ranges;
 pub use crate::head::Hairline;
 pub use description::{
     Body, Comb, Contact, Flow, HairContact, HairModel, Hairs, HairstyleSpec, HeadMethod,
-    Implantation, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling, Turn,
-    Whorls, Wisps,
+    Implantation, Length, Level, Lift, Parting, Place, RegionLength, RegionStyle, Settling,
+    StrandContact, Turn, Whorls, Wisps,
 };
 pub use load::{Pose, Wind};
 pub use numbers::{Number, Scalar, number};

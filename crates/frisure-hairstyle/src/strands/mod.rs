@@ -25,7 +25,7 @@ use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::math::smooth_step;
-use crate::spec::{HairModel, HairstyleSpec};
+use crate::spec::{HairModel, HairstyleSpec, StrandContact};
 use frisure_progress::{Cancelled, Progress, StageCounter};
 
 use attributes::put;
@@ -45,10 +45,12 @@ const TAPER: f64 = 0.85;
 #[derive(Clone, Copy)]
 pub struct StrandOptions<'a> {
     /// Draws the first hair and every `stride`-th after it, each the same to the last bit as among all: for
-    /// a view that has to be quick. 0 counts as 1.
+    /// a view that has to be quick. 0 counts as 1. Hairs in contact with each other ([`StrandContact::Contacts`]) are
+    /// not the same then: each stands for more hairs.
     pub stride: usize,
     /// Where simulated hairs are saved part by part as they come to rest, and found again; it has to be of
-    /// the same [`simulation_key`] and the same stride.
+    /// the same [`simulation_key`] and the same stride. Hairs in contact with each other are not saved: no part of
+    /// them is at rest before all are.
     pub checkpoint: Option<&'a dyn Checkpoint>,
 }
 
@@ -100,7 +102,11 @@ pub fn strands(
     let (hairs, simulation) = match hairstyle.spec.wisps.strands {
         HairModel::Simulated if population.bound.is_none() => {
             let stage = StageCounter::new(progress, "simulating hairs", roots.len());
-            Simulated::new(&population, hairstyle).hairs(&roots, &stage, options.checkpoint)?
+            let simulated = Simulated::new(&population, hairstyle);
+            match hairstyle.spec.wisps.contact {
+                StrandContact::Tube => simulated.hairs(&roots, &stage, options.checkpoint)?,
+                StrandContact::Contacts => simulated.in_contact(&roots, &stage, progress)?,
+            }
         }
         _ => {
             let stage = StageCounter::new(progress, "drawing hairs", roots.len());

@@ -4,6 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::contact::{ConfinementTube, Contact, ContactField};
 use super::division::Joints;
+use super::joint_chain::JointChain;
 use super::solver::Batch;
 use super::start::InitialShape;
 use crate::load::Load;
@@ -178,5 +179,42 @@ fn rest_is_a_minimum_of_the_energy() {
                 }
             }
         }
+    }
+}
+
+/// Energy and gradient of [`JointChain`] are those of the definition, with a force at every contact point.
+#[test]
+fn a_chain_by_itself_has_the_energy_and_its_gradient() {
+    for (k, rod) in rods().iter().enumerate() {
+        let n = 12;
+        let chain = JointChain::new(rod, n);
+        let force = |point: usize| DVec3::new(1e-6, 2e-6 * point as f64, -1e-6 * k as f64);
+        let forces: Vec<DVec3> = (0..=n).map(force).collect();
+        let shape = |controls: &[DVec3]| {
+            let (mut points, mut frames) = (vec![DVec3::ZERO; n + 1], vec![DMat3::ZERO; n]);
+            let energy = chain.shape(controls, &mut points, &mut frames);
+            let pulled: f64 = points.iter().zip(&forces).map(|(p, f)| p.dot(*f)).sum();
+            (energy + pulled, energy, points, frames)
+        };
+        let bent = |i: usize| DVec3::new(0.1, -0.05 * i as f64, 0.02 * k as f64);
+        let controls: Vec<DVec3> = (0..n).map(bent).collect();
+        let (_, own, points, frames) = shape(&controls);
+        let scale = rod.moment_scale();
+        assert!((own - energy(rod, k, &controls, &Near::Nothing)).abs() < 1e-12 * scale);
+        let mut gradient = vec![DVec3::ZERO; n];
+        chain.gradient(&controls, &points, &frames, &forces, &mut gradient);
+        for joint in 0..n {
+            for axis in 0..3 {
+                let moved = |by: f64| {
+                    let mut moved = controls.clone();
+                    moved[joint][axis] += by;
+                    shape(&moved).0
+                };
+                let slope = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                assert!((slope - gradient[joint][axis]).abs() < 1e-7 * scale, "{k} {joint} {axis}");
+            }
+        }
+        let lengths: f64 = (0..=n).map(|point| chain.at(point).1).sum();
+        assert!((lengths - rod.length() * 11.5 / 12.0).abs() < 1e-12);
     }
 }

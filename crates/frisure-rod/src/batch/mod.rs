@@ -39,7 +39,7 @@
 //! `division` (a rod into joints), `weight_lanes` and `contact_lanes` (rods into lanes), `weight_sweep` and
 //! `contact_sweep` (backward and forward over the joints), `elimination` (one joint: energy, gradient, Hessian block),
 //! `rotation`, `linear`, `lanes` (the numbers). Derivatives: `gradient` (rods into lanes)
-//! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`.
+//! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`. One rod by itself: `joint_chain`.
 
 mod adjoint_sweep;
 mod contact;
@@ -49,6 +49,7 @@ mod contact_term;
 mod division;
 mod elimination;
 mod gradient;
+mod joint_chain;
 mod lanes;
 mod linear;
 mod newton;
@@ -70,6 +71,7 @@ mod contact_tests;
 
 pub use contact::{ConfinementTube, Contact, ContactField};
 pub use gradient::{BatchGradient, RodGradient};
+pub use joint_chain::JointChain;
 pub use solution::{BatchSolution, RodSolution};
 pub use solver::{Batch, Precision};
 pub use start::{Frames, InitialShape};

@@ -1,6 +1,6 @@
 //! Reading `[hair]` and `[wisps]`.
 
-use frisure_hairstyle::{Curl, Fibre, Hairs, HairstyleSpec, Preset};
+use frisure_hairstyle::{Curl, Fibre, HairModel, Hairs, HairstyleSpec, Preset, StrandContact};
 use frisure_rod::{InvalidQuantity, Material, Section, StrainProfile};
 use glam::DVec3;
 
@@ -166,5 +166,10 @@ pub(super) fn wisps(document: &Document<'_>, spec: &mut HairstyleSpec) -> Result
         wisps.profile = profile.to_array();
     }
     wisps.strands = document.keyword("wisps.strands", wisps.strands)?;
+    wisps.contact = document.keyword("wisps.contact", wisps.contact)?;
+    if wisps.contact != StrandContact::Tube && wisps.strands != HairModel::Simulated {
+        let problem = "only simulated hairs touch each other";
+        return Err(document.error("wisps.contact", problem, "add `strands = \"simulated\"`"));
+    }
     Ok(())
 }

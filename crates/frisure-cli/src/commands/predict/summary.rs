@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use frisure::hairstyle::Body;
 use frisure_engine::ReplicaReport;
-use frisure_engine::report::{DEEP, HairstyleReport, SimulationReport, StepReport, WetLockReport};
+use frisure_engine::report::{
+    DEEP, HairstyleReport, SimulationReport, StepReport, StrandContactReport, WetLockReport,
+};
 
 /// The summary of a prediction on a body; `note` is what was guessed of the head, and `written` has a line about each file.
 pub(super) fn summary(
@@ -60,8 +62,11 @@ pub(super) fn summary(
     out.push('\n');
     out += &buried;
     out += &replicas;
-    if let Some(SimulationReport { hairs, stable, .. }) = &report.simulated {
-        let _ = writeln!(out, "simulated: {stable} of {hairs} hairs at rest");
+    if let Some(SimulationReport { hairs, stable, contact, .. }) = &report.simulated {
+        let _ = match contact {
+            None => writeln!(out, "simulated: {stable} of {hairs} hairs at rest"),
+            Some(contact) => writeln!(out, "simulated: {}", contact_line(contact)),
+        };
     }
     if let Some(groom) = &report.groom {
         let _ = writeln!(out, "groom: {groom}");
@@ -87,6 +92,23 @@ fn replicas_line(replicas: &ReplicaReport) -> String {
          (99 %), {largest:.3} mm (the most); {jumped} of {} by more than 0.5 mm\n",
         spread.len()
     )
+}
+
+/// How near to rest simulated hairs in contact with each other are.
+fn contact_line(contact: &StrandContactReport) -> String {
+    let StrandContactReport { hairs, contacts, balanced, represented, .. } = contact;
+    let StrandContactReport { largest_gradient, rms_gradient, deepest_overlap, .. } = contact;
+    let StrandContactReport { friction_ratio, iterations, .. } = contact;
+    let mut out = format!(
+        "{balanced} of {hairs} hairs in balance at {contacts} contacts between them (gradient {largest_gradient:.1e} at most, \
+         {rms_gradient:.1e} rms, after {iterations} iterations; overlaps up to {:.0} % of the contact distance; each stands for {represented:.1})",
+        deepest_overlap * 1e2
+    );
+    if *friction_ratio > 0.0 {
+        // Writing to a String cannot fail.
+        let _ = write!(out, "; friction up to {friction_ratio:.3} of its limit");
+    }
+    out
 }
 
 /// A line about a step.

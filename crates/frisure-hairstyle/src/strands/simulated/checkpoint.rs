@@ -16,7 +16,7 @@ pub trait Checkpoint: Sync {
 
 /// The bytes of a part: how its hairs came to rest, then for each guide, thickness, whether it was cut, and points.
 pub(super) fn part_to_bytes(hairs: &[Hair], simulation: Simulation) -> Vec<u8> {
-    let Simulation { hairs: of, at_rest, elements, iterations } = simulation;
+    let Simulation { hairs: of, at_rest, elements, iterations, contact: _ } = simulation;
     let mut bytes = Vec::new();
     for number in [of, at_rest, elements, iterations] {
         bytes.extend((number as u64).to_le_bytes());
@@ -40,6 +40,8 @@ pub(super) fn part_from_bytes(mut bytes: &[u8], count: usize) -> Option<(Vec<Hai
         at_rest: number()?,
         elements: number()?,
         iterations: number()?,
+        // Hairs in contact with each other are not saved.
+        contact: None,
     };
     let hairs = (0..count).map(|_| hair(bytes)).collect::<Option<_>>()?;
     bytes.is_empty().then_some((hairs, simulation))
@@ -70,7 +72,8 @@ mod tests {
             cut: n == 1,
             points: (0..n).map(|k| Vec3::new(k as f32, -1.5, 0.1)).collect(),
         };
-        let simulation = Simulation { hairs: 3, at_rest: 2, elements: 50, iterations: 17 };
+        let simulation =
+            Simulation { hairs: 3, at_rest: 2, elements: 50, iterations: 17, contact: None };
         let hairs = [hair(2), hair(0), hair(1)];
         let bytes = part_to_bytes(&hairs, simulation);
         let (again, counts) = part_from_bytes(&bytes, 3).unwrap();

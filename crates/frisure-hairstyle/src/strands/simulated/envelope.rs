@@ -21,12 +21,22 @@ use crate::strands::skin::LEAST_DISTANCE;
 pub(super) struct Envelope<'a> {
     population: &'a Population<'a>,
     elements: usize,
+    room: Room,
     /// Factor on all stiffnesses.
     pub(super) hardness: f64,
     /// Length of an element of each hair (m).
     lengths: Vec<f64>,
     /// Of the ends of links, those of a hair one after the other.
     tubes: Vec<ConfinementTube>,
+}
+
+/// What a tube leaves a hair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Room {
+    /// The room of one hair, which others do not enter.
+    Hair,
+    /// The room of its wisp, which it shares with all others.
+    Wisp,
 }
 
 /// Steepest slope of the distance from the skin: it is 1 but for the smoothing.
@@ -43,9 +53,21 @@ const FAR: f64 = 0.02;
 const MARGIN_GROWTH: f64 = 0.003;
 
 impl<'a> Envelope<'a> {
-    pub(super) fn new(population: &'a Population<'a>, elements: usize, hairs: usize) -> Self {
+    pub(super) fn new(
+        population: &'a Population<'a>,
+        room: Room,
+        elements: usize,
+        hairs: usize,
+    ) -> Self {
         let tubes = Vec::with_capacity(elements * hairs);
-        Self { population, elements, hardness: 1.0, lengths: Vec::with_capacity(hairs), tubes }
+        Self {
+            population,
+            elements,
+            room,
+            hardness: 1.0,
+            lengths: Vec::with_capacity(hairs),
+            tubes,
+        }
     }
 
     /// The next hair, of a length (m).
@@ -67,7 +89,12 @@ impl<'a> Envelope<'a> {
                 }
             };
             before = (centre, clear);
-            let (radius, stiffness) = (wide * thickness.tube(s), spec.contact.hair_stiffness);
+            let own = wide * thickness.tube(s);
+            let radius = match self.room {
+                Room::Hair => own,
+                Room::Wisp => own.max(thickness.packed(s)),
+            };
+            let stiffness = spec.contact.hair_stiffness;
             self.tubes.push(ConfinementTube { centre, radius, stiffness, clearance: clear });
         }
         self.lengths.push(h);

@@ -11,7 +11,7 @@ use crate::implantation::Root;
 use crate::rod_digest::{add_material, add_section, add_torsion};
 use crate::spec::{
     Body, Comb, Flow, HairContact, HairModel, Hairs, HeadMethod, Level, Lift, Parting, Place,
-    RegionLength, Turn,
+    RegionLength, StrandContact, Turn,
 };
 
 /// What the hairs of this hairstyle depend on, for the same version: if it is the same, so are the hairs.
@@ -39,6 +39,7 @@ digest_fields!(Comb: Forward, Back, Down, Left, Right);
 digest_fields!(Flow: Whorl, Parted { offset }, SweptBack);
 digest_fields!(Lift: Regional { scale }, Uniform(lift));
 digest_fields!(HairModel: Interpolated, Simulated);
+digest_fields!(StrandContact: Tube, Contacts);
 digest_fields!(Hairs: Count(n), PerWisp(n), Density(density));
 digest_fields!(Body: None, Spheres, SignedDistance);
 digest_fields!(HairContact: None, Layers, Wisps, Density);

@@ -5,6 +5,7 @@
 //! put them, turned as the guide that they follow.
 
 mod checkpoint;
+mod contacts;
 mod envelope;
 mod fibre;
 mod key;
@@ -23,7 +24,7 @@ use crate::hairstyle::Hairstyle;
 use crate::implantation::Root;
 pub use checkpoint::Checkpoint;
 use checkpoint::{part_from_bytes, part_to_bytes};
-use envelope::Envelope;
+use envelope::{Envelope, Room};
 use frisure_progress::{Cancelled, StageCounter};
 pub(crate) use key::key;
 pub use simulation::Simulation;
@@ -70,6 +71,13 @@ struct Group<'a> {
     planned: Vec<Planned<'a>>,
     /// One for each.
     rods: Vec<Rod>,
+}
+
+/// Hairs that have come to rest.
+struct Rested {
+    found: BatchSolution,
+    /// Those of a hair one after the other.
+    nodes: Vec<Node>,
 }
 
 /// Hairs as rods.
@@ -127,9 +135,32 @@ impl<'a> Simulated<'a> {
         roots: &[(usize, Root)],
         stage: &StageCounter<'_>,
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
+        let (mut drawn, groups) = self.groups(roots);
+        let mut simulation = Simulation::default();
+        for (group, elements) in groups.into_iter().zip(ELEMENTS) {
+            stage.check()?;
+            let Rested { found, nodes } = self.settle(&group, elements);
+            let Group { planned, rods } = group;
+            simulation = simulation.and(counts(&found, elements));
+            for (hair, (planned, rod)) in planned.into_iter().zip(&rods).enumerate() {
+                let place = planned.place;
+                let nodes = &nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)];
+                drawn[place] = Some(match found.rods[hair].stability {
+                    Stability::Stable => self.drawn(&planned, rod, nodes),
+                    // On its way a hair can be anywhere: it is drawn between its guides.
+                    _ => self.population.hair(&roots[place].1, roots[place].0),
+                });
+                stage.advance();
+            }
+        }
+        Ok((drawn.into_iter().flatten().collect(), simulation))
+    }
+
+    /// Hairs rooted at some places by their number of elements, and those that are too short for rods, as they are drawn.
+    fn groups(&self, roots: &[(usize, Root)]) -> (Vec<Option<Hair>>, Vec<Group<'a>>) {
         let mut drawn: Vec<Option<Hair>> = Vec::new();
         drawn.resize_with(roots.len(), || None);
-        let mut groups: Vec<Group<'_>> = ELEMENTS.iter().map(|_| Group::default()).collect();
+        let mut groups: Vec<Group<'a>> = ELEMENTS.iter().map(|_| Group::default()).collect();
         for (place, (index, root)) in roots.iter().enumerate() {
             let mut binding = self.population.bind(root, *index);
             // It deviates by its own physics, not by chance.
@@ -145,41 +176,24 @@ impl<'a> Simulated<'a> {
             group.planned.push(Planned { place, binding, turned });
             group.rods.push(rod);
         }
-        let mut simulation = Simulation::default();
-        for (group, elements) in groups.into_iter().zip(ELEMENTS) {
-            stage.check()?;
-            let (found, nodes) = self.settle(&group, elements);
-            let Group { planned, rods } = group;
-            let at_rest = |hair: &&RodSolution| hair.stability == Stability::Stable;
-            simulation = simulation.and(Simulation {
-                hairs: planned.len(),
-                at_rest: found.rods.iter().filter(at_rest).count(),
-                elements: elements * planned.len(),
-                iterations: found.rods.iter().map(|hair| hair.iterations).sum(),
-            });
-            for (hair, (planned, rod)) in planned.into_iter().zip(&rods).enumerate() {
-                let Planned { place, binding, .. } = planned;
-                let nodes = &nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)];
-                drawn[place] = Some(match found.rods[hair].stability {
-                    Stability::Stable => Hair {
-                        guide: binding.main() as u32,
-                        thickness: binding.thickness,
-                        cut: binding.cut,
-                        points: self.points(&binding.root, rod.length(), nodes),
-                    },
-                    // On its way a hair can be anywhere: it is drawn between its guides.
-                    _ => self.population.hair(&roots[place].1, roots[place].0),
-                });
-                stage.advance();
-            }
-        }
-        Ok((drawn.into_iter().flatten().collect(), simulation))
+        (drawn, groups)
     }
 
-    /// Brings hairs of `elements` elements to rest. Returns the nodes of each, too.
-    fn settle(&self, group: &Group<'_>, elements: usize) -> (BatchSolution, Vec<Node>) {
+    /// A hair whose nodes are at rest.
+    fn drawn(&self, planned: &Planned<'_>, rod: &Rod, nodes: &[Node]) -> Hair {
+        let StrandBinding { root, thickness, cut, .. } = &planned.binding;
+        Hair {
+            guide: planned.binding.main() as u32,
+            thickness: *thickness,
+            cut: *cut,
+            points: self.points(root, rod.length(), nodes),
+        }
+    }
+
+    /// Brings hairs of `elements` elements to rest, each in its tube.
+    fn settle(&self, group: &Group<'_>, elements: usize) -> Rested {
         let Group { planned, rods } = group;
-        let mut envelope = Envelope::new(self.population, elements, planned.len());
+        let mut envelope = Envelope::new(self.population, Room::Hair, elements, planned.len());
         for (Planned { binding, .. }, rod) in planned.iter().zip(rods) {
             envelope.add(binding, rod.length());
         }
@@ -198,11 +212,12 @@ impl<'a> Simulated<'a> {
                 continue;
             }
             let (again, line) = patiently(&batch, rod, &frames, &mut envelope, hair);
-            let iterations = found.rods[hair].iterations + again.iterations;
-            found.rods[hair] = RodSolution { iterations, ..again };
+            let iterations = found.rods[hair].iterations + again.rods[0].iterations;
+            found.rods[hair] = RodSolution { iterations, ..again.rods[0] };
+            found.controls[hair * elements..(hair + 1) * elements].copy_from_slice(&again.controls);
             nodes[hair * (elements + 1)..(hair + 1) * (elements + 1)].copy_from_slice(&line);
         }
-        (found, nodes)
+        Rested { found, nodes }
     }
 
     /// The frame that a hair has at arc length `s` (m) if it goes as its guide does, but for having been turned at the
@@ -237,7 +252,7 @@ fn patiently(
     frames: Frames<'_>,
     envelope: &mut Envelope<'_>,
     hair: usize,
-) -> (RodSolution, Vec<Node>) {
+) -> (BatchSolution, Vec<Node>) {
     let batch = Batch { max_iterations: MOST_ITERATIONS, ..*batch };
     let mut iterations = 0;
     let mut start = InitialShape::Frames(frames);
@@ -251,15 +266,29 @@ fn patiently(
         let (found, nodes) =
             batch.solve_in_contact(std::slice::from_ref(rod), start, envelope, hair);
         iterations += found.rods[0].iterations;
-        at_rest = Some((found.rods[0], nodes));
-        start = InitialShape::Controls(found.controls);
-        if hardness == 1.0 && found.rods[0].stability == Stability::Stable {
+        start = InitialShape::Controls(found.controls.clone());
+        let stable = found.rods[0].stability == Stability::Stable;
+        at_rest = Some((found, nodes));
+        if hardness == 1.0 && stable {
             break;
         }
     }
     envelope.hardness = 1.0;
-    let (found, nodes) = at_rest.expect("there are steps");
-    (RodSolution { iterations, ..found }, nodes)
+    let (mut found, nodes) = at_rest.expect("there are steps");
+    found.rods[0].iterations = iterations;
+    (found, nodes)
+}
+
+/// How hairs of `elements` elements came to rest.
+fn counts(found: &BatchSolution, elements: usize) -> Simulation {
+    let at_rest = |hair: &&RodSolution| hair.stability == Stability::Stable;
+    Simulation {
+        hairs: found.rods.len(),
+        at_rest: found.rods.iter().filter(at_rest).count(),
+        elements: elements * found.rods.len(),
+        iterations: found.rods.iter().map(|hair| hair.iterations).sum(),
+        contact: None,
+    }
 }
 
 /// Which of [`ELEMENTS`] a hair has.

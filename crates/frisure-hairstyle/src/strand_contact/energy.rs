@@ -1,0 +1,189 @@
+//! The energy of all hairs together, and its gradient.
+
+use frisure_rod::batch::{ConfinementTube, Contact, JointChain};
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::StrandSystem;
+use super::layout::Layout;
+use super::pairs::{PairForce, Pairs, StrandProperties};
+
+/// A head of hair, ready for evaluation.
+pub(super) struct Head<'a> {
+    pub(super) system: &'a StrandSystem<'a>,
+    pub(super) layout: Layout,
+    pub(super) chains: Vec<JointChain>,
+    /// Moment (N m) that the gradients of each hair are relative to.
+    pub(super) moments: Vec<f64>,
+}
+
+/// A shape of all hairs.
+#[derive(Clone, Default)]
+pub(super) struct State {
+    /// Turns of joints (rad).
+    pub(super) controls: Vec<DVec3>,
+    /// Contact points (m).
+    pub(super) points: Vec<DVec3>,
+    frames: Vec<DMat3>,
+    pub(super) pair_forces: Vec<PairForce>,
+    /// Gradient (N) by points of all but elasticity and weight.
+    pub(super) forces: Vec<DVec3>,
+    /// Gradient (N m) by turns.
+    pub(super) gradient: Vec<DVec3>,
+    /// Energy (J).
+    pub(super) energy: f64,
+    /// Around each point: centre (m) and radius (m) of a ball in which the field has no contact but its tubes.
+    pub(super) clear: Vec<(DVec3, f64)>,
+}
+
+impl<'a> Head<'a> {
+    pub(super) fn new(system: &'a StrandSystem<'a>) -> Self {
+        let layout = Layout::new(&system.elements);
+        let chain = |(rod, &elements): (&_, &usize)| JointChain::new(rod, elements);
+        let chains: Vec<JointChain> =
+            (system.rods.par_iter().zip(&system.elements)).map(chain).collect();
+        let moments = system.rods.iter().map(frisure_rod::Rod::moment_scale).collect();
+        Self { system, layout, chains, moments }
+    }
+
+    pub(super) fn properties(&self) -> StrandProperties<'_> {
+        let shares = self.chains.iter();
+        let force_scale = |(rod, moment): (&frisure_rod::Rod, &f64)| moment / rod.length().powi(2);
+        StrandProperties {
+            layout: &self.layout,
+            radii: &self.system.radii,
+            force_scale: self.system.rods.iter().zip(&self.moments).map(force_scale).collect(),
+            friction: &self.system.friction,
+            shares: shares.flat_map(|c| (0..=c.joints()).map(move |p| c.at(p).1)).collect(),
+        }
+    }
+
+    /// The shape with these turns (rad), not evaluated.
+    pub(super) fn state(&self, controls: Vec<DVec3>) -> State {
+        let (joints, points) = (self.layout.joint_count(), self.layout.point_count());
+        assert_eq!(controls.len(), joints, "a turn for every joint");
+        State {
+            controls,
+            points: vec![DVec3::ZERO; points],
+            frames: vec![DMat3::ZERO; joints],
+            pair_forces: Vec::new(),
+            forces: vec![DVec3::ZERO; points],
+            gradient: vec![DVec3::ZERO; joints],
+            energy: 0.0,
+            clear: vec![(DVec3::ZERO, -1.0); points],
+        }
+    }
+
+    /// Computes points of a shape from its turns, with all but pairs: its energy (J), and the gradient by points.
+    pub(super) fn place(&self, state: &mut State) {
+        let layout = &self.layout;
+        let State { controls, points, frames, forces, clear, .. } = state;
+        let work = (layout.chunks().par_iter())
+            .zip(layout.by_point(points))
+            .zip(layout.by_joint(frames))
+            .zip(layout.by_point(forces))
+            .zip(layout.by_point(clear));
+        let energies: Vec<f64> = work
+            .map(|((((chunk, points), frames), forces), clear)| {
+                let (mut joint, mut point, mut energy) = (0, 0, 0.0);
+                for strand in chunk.clone() {
+                    let chain = &self.chains[strand];
+                    let n = chain.joints();
+                    let points = &mut points[point..=point + n];
+                    let controls = &controls[layout.joints(strand)];
+                    energy += chain.shape(controls, points, &mut frames[joint..joint + n]);
+                    let forces = &mut forces[point..=point + n];
+                    energy += self.outside(strand, points, forces, &mut clear[point..=point + n]);
+                    (joint, point) = (joint + n, point + n + 1);
+                }
+                energy
+            })
+            .collect();
+        state.energy = energies.iter().sum();
+    }
+
+    /// Contact of one hair with all but hairs: energy (J), and its gradient (N) by points.
+    fn outside(
+        &self,
+        strand: usize,
+        points: &[DVec3],
+        forces: &mut [DVec3],
+        clear: &mut [(DVec3, f64)],
+    ) -> f64 {
+        let chain = &self.chains[strand];
+        forces[0] = DVec3::ZERO;
+        let mut sum = 0.0;
+        for (k, &p) in points.iter().enumerate().skip(1) {
+            let (s, share) = chain.at(k);
+            let ConfinementTube { centre, radius, stiffness, .. } =
+                self.system.field.confinement(strand, s);
+            let away = p - centre;
+            let distance = away.length();
+            let beyond = (distance - radius).max(0.0);
+            forces[k] = DVec3::ZERO;
+            if beyond > 0.0 {
+                // k e³/6ρ, as the tube of a rod in the lanes.
+                let force = 0.5 * stiffness * beyond * beyond / radius * share;
+                sum += force * beyond / 3.0;
+                forces[k] = away * (force / distance);
+            }
+            if p.distance_squared(clear[k].0) < clear[k].1 * clear[k].1.abs() {
+                continue;
+            }
+            match self.system.field.contact(strand, s, p) {
+                Contact::Clear(radius) => clear[k] = (p, radius),
+                Contact::Active { energy, gradient, .. } => {
+                    sum += energy * share;
+                    forces[k] += gradient * share;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Computes energy and gradient of a shape from its turns.
+    pub(super) fn evaluate(&self, pairs: &Pairs, state: &mut State) {
+        self.place(state);
+        let layout = &self.layout;
+        state.energy += pairs.forces(layout, &state.points, &mut state.pair_forces);
+        let State { controls, points, frames, pair_forces, forces, gradient, .. } = state;
+        let work = (layout.chunks().par_iter())
+            .zip(layout.by_point(forces))
+            .zip(layout.by_joint(gradient));
+        work.for_each(|((chunk, forces), gradient)| {
+            let (mut joint, mut point) = (0, 0);
+            for strand in chunk.clone() {
+                let chain = &self.chains[strand];
+                let n = chain.joints();
+                let (joints, range) = (layout.joints(strand), layout.points(strand));
+                let forces = &mut forces[point..=point + n];
+                pairs.add_forces(strand, range.start, pair_forces, forces);
+                chain.gradient(
+                    &controls[joints.clone()],
+                    &points[range],
+                    &frames[joints],
+                    forces,
+                    &mut gradient[joint..joint + n],
+                );
+                (joint, point) = (joint + n, point + n + 1);
+            }
+        });
+    }
+
+    /// The largest gradient of each hair by the turn of a joint, relative to its moment scale.
+    pub(super) fn gradients(&self, state: &State) -> Vec<f64> {
+        let largest = |strand: usize| {
+            let of = &state.gradient[self.layout.joints(strand)];
+            of.iter().map(|g| g.length()).fold(0.0, f64::max) / self.moments[strand]
+        };
+        (0..self.layout.strands()).into_par_iter().map(largest).collect()
+    }
+
+    /// The scalar product of two vectors by joint, in an order that does not depend on threads.
+    pub(super) fn dot(&self, a: &[DVec3], b: &[DVec3]) -> f64 {
+        let products: Vec<f64> = (a.par_chunks(4096).zip(b.par_chunks(4096)))
+            .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum::<f64>())
+            .collect();
+        products.iter().sum()
+    }
+}
