@@ -8,7 +8,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use frisure::files::frame::{Frame, FrameChoice, UpAxis};
 use frisure::formats::groom::{Fit, Format, MAX_STRANDS, Points, Program};
 use frisure::hairstyle::{PRESETS, Preset, preset};
-use frisure::look::NamedCamera;
+use frisure::look::{CAMERAS, NamedCamera};
 use frisure::render::trace::TraceOptions;
 use frisure::scene::Scene;
 use frisure::scene::quantity::{Dimension, LENGTH, RATIO, STRAIN};
@@ -26,7 +26,6 @@ mod validate;
 pub(crate) use batch::Batch;
 pub(crate) use fit::{FitFibres, Quantity as FitQuantity};
 pub(crate) use measure::MeasurePhoto;
-use picture::cameras;
 pub(crate) use picture::{Pictured, Render, View};
 pub(crate) use transfer::Transfer;
 #[cfg(feature = "validate")]
@@ -660,6 +659,14 @@ fn named<T: Copy + Send + Sync>(
     let possible = values.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help));
     PossibleValuesParser::new(possible)
         .map(|name| values.iter().find(|value| value.0 == name).expect(known).2)
+}
+
+/// Reads the name of a camera.
+fn cameras() -> impl TypedValueParser<Value = NamedCamera> {
+    let possible = CAMERAS.iter().map(|of| PossibleValue::new(of.name).help(of.description));
+    let known = "the parser accepts these names alone";
+    PossibleValuesParser::new(possible)
+        .map(|name| *CAMERAS.iter().find(|camera| camera.name == name).expect(known))
 }
 
 /// Reads two texts with `=` between.

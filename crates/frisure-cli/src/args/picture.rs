@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use frisure::look::{CAMERAS, NamedCamera};
+use frisure::look::NamedCamera;
 
-use super::{Axes, Tracing, number};
+use super::{Axes, Tracing, cameras, number};
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -89,14 +88,6 @@ pub(crate) struct Pictured {
     /// What a groom that is read has.
     #[command(flatten)]
     pub(crate) axes: Axes,
-}
-
-/// Reads the name of a camera.
-pub(super) fn cameras() -> impl TypedValueParser<Value = NamedCamera> {
-    let possible = CAMERAS.iter().map(|of| PossibleValue::new(of.name).help(of.description));
-    let known = "the parser accepts these names alone";
-    PossibleValuesParser::new(possible)
-        .map(|name| *CAMERAS.iter().find(|camera| camera.name == name).expect(known))
 }
 
 fn size(text: &str) -> Result<(usize, usize), String> {

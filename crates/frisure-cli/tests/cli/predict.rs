@@ -269,6 +269,20 @@ fn a_final_picture_of_another_size_from_behind() {
 }
 
 #[test]
+fn hairs_in_contact_that_are_not_in_balance_are_told() {
+    let simulated =
+        QUICK.replace("[wisps]", "[wisps]\nstrands = \"simulated\"\ncontact = \"contacts\"");
+    let room = Room::new().with("s.toml", simulated);
+    let ran = room.run(&["predict", "s.toml", "--report", "s.json"]);
+    let report: Value = serde_json::from_slice(&fs::read(room.path("s.json")).unwrap()).unwrap();
+    let contact = &report["simulated"]["contact"];
+    let [hairs, balanced] = ["hairs", "balanced"].map(|key| contact[key].as_u64().unwrap());
+    assert!(hairs > 0 && balanced <= hairs, "{contact}");
+    assert_eq!(ran.code, Some(if balanced == hairs { 0 } else { 3 }), "{}", ran.err);
+    assert!(ran.out.contains(&format!("{balanced} of {hairs} hairs in balance")), "{}", ran.out);
+}
+
+#[test]
 fn pictures_from_several_cameras_have_their_names() {
     let room = Room::new().with("quick.toml", QUICK);
     let run = |arguments: &[&str]| {

@@ -67,8 +67,10 @@ pub(crate) fn run_scene(
     }
     // The default accuracy is what most guides reach in little time, and nothing that was asked for.
     let missed = requested && report.guides.accuracy_missed > 0;
-    // A guide on a saddle is not at rest either.
-    Ok(match report.guides.not_converged + report.guides.saddles {
+    // A guide on a saddle is not at rest either, nor is a hair that others push on.
+    let contact = report.simulated.as_ref().and_then(|simulated| simulated.contact.as_ref());
+    let unbalanced = contact.map_or(0, |contact| contact.hairs - contact.balanced);
+    Ok(match report.guides.not_converged + report.guides.saddles + unbalanced {
         0 if missed => ExitStatus::AccuracyMissed,
         0 => ExitStatus::Success,
         _ => ExitStatus::NotConverged,
