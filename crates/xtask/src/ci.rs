@@ -29,7 +29,8 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             cargo("test --workspace --all-features --locked --lib --bins --test tidy --test architecture")
         })?;
         gate.step("one scene", || {
-            cargo("build --workspace --all-features --locked --bin frisure")?;
+            // With an example, as in `.ci/run`: the features of the tests.
+            cargo("build --workspace --all-features --locked --bins --example first_head")?;
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
