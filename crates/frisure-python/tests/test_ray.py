@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -76,13 +75,12 @@ def test_a_killed_worker_leaves_the_bytes_of_one_machine(cluster: None, tmp_path
     subprocess.run(command, check=True)
 
     killed: list[int] = []
+    finished = threading.Event()
     folder = tmp_path / "cluster"
 
     def kill() -> None:
         """Kills a worker that computes, once there is a part."""
-        end = time.monotonic() + 60
-        while not killed and time.monotonic() < end:
-            time.sleep(0.02)
+        while not killed and not finished.wait(0.02):
             if len(files(folder)) >= 2 and (found := workers()):
                 os.kill(found[0], signal.SIGKILL)
                 killed.extend(found[:1])
@@ -90,8 +88,11 @@ def test_a_killed_worker_leaves_the_bytes_of_one_machine(cluster: None, tmp_path
     killer = threading.Thread(target=kill)
     killer.start()
     heard: list[float] = []
-    done = frisure.ray.batch(spec, folder, progress=lambda stage, part: heard.append(part))
-    killer.join()
+    try:
+        done = frisure.ray.batch(spec, folder, progress=lambda stage, part: heard.append(part))
+    finally:
+        finished.set()
+        killer.join()
     assert killed, "no worker was found"
     assert done.heads == 8 and done.failed == 0
     assert len(heard) == 8 and heard[-1] == 1
