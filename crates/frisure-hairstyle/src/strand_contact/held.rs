@@ -18,6 +18,9 @@ const PATIENT_ITERATIONS: usize = 24;
 /// contacts. Chosen; not measured further.
 const FARTHEST: f64 = 0.5;
 
+/// Largest turn of a joint (rad) in a step straight down the gradient. Chosen; not measured further.
+const STEEPEST_TURN: f64 = 0.02;
+
 /// One hair among others that hold still: contact with them to the second order about the present shape.
 struct Held<'a> {
     head: &'a Head<'a>,
@@ -86,6 +89,18 @@ impl Head<'_> {
         (FARTHEST * self.system.radii[strand] / moved.max(1e-300)).min(1.0)
     }
 
+    /// A short step (rad) of a hair straight down its gradient: of one that others hold so that Newton's method finds none.
+    fn steepest(&self, strand: usize, state: &State, step: &mut [DVec3]) {
+        let joints = self.layout.joints(strand);
+        let (controls, gradient) = (&state.controls[joints.clone()], &state.gradient[joints]);
+        let largest = gradient.iter().map(|g| g.length()).fold(0.0, f64::max);
+        let scale = STEEPEST_TURN / largest.max(1e-300);
+        let after: Vec<DVec3> =
+            controls.iter().zip(gradient).map(|(c, g)| *c - *g * scale).collect();
+        let shorter = scale * self.shorter(strand, state, &after);
+        step.iter_mut().zip(gradient).for_each(|(step, g)| *step = *g * -shorter);
+    }
+
     /// Puts the step of each hair (rad) into `step`, from an evaluated shape.
     pub(super) fn step_while_held(&self, pairs: &Pairs, state: &State, step: &mut [DVec3]) {
         let layout = &self.layout;
@@ -135,7 +150,7 @@ impl Head<'_> {
                 let gradient = &state.gradient[layout.joints(chunk.start + k)];
                 let slope: f64 = gradient.iter().zip(&*step).map(|(g, s)| g.dot(*s)).sum();
                 if slope >= 0.0 {
-                    step.fill(DVec3::ZERO);
+                    self.steepest(chunk.start + k, state, step);
                 }
             }
         });

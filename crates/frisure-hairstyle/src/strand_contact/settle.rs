@@ -10,7 +10,7 @@ use super::{SettledStrands, StrandCertificate, StrandSystem};
 
 /// Most iterations between two searches for contacts, and in all. Chosen by trial; not measured further.
 const ITERATIONS: usize = 12;
-const MOST_ITERATIONS: usize = 300;
+const MOST_ITERATIONS: usize = 600;
 
 /// Contacts are searched anew when this share of the hairs has moved by so many contact radii since. Chosen by trial; not measured
 /// further.
