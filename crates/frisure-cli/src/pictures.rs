@@ -6,12 +6,13 @@ use frisure::denoise::{Denoiser, VARIABLE};
 use frisure::files::WriteError;
 use frisure::look::NamedCamera;
 use frisure::progress::{Cancelled, SubStage};
-use frisure::render::Image;
 use frisure::render::preview::PreviewOptions;
 use frisure::scene::Output;
 use frisure_engine::Error;
 use frisure_engine::checkpoint::picture as checkpoint;
-use frisure_engine::picture::{self, FinalPicture, FrameSet, Frames, NoiseFilter, TraceEnd};
+use frisure_engine::picture::{
+    self, FinalPicture, FrameSet, Frames, NoiseFilter, Subject, TraceEnd,
+};
 
 use crate::outputs::{self, numbered, suffixed};
 use crate::progress::Bar;
@@ -136,26 +137,25 @@ pub(crate) fn trace(
     Ok(lines)
 }
 
-/// The options of a preview of a scene's size.
-pub(crate) fn preview_options(output: &Output) -> PreviewOptions {
-    let Output { width, height, samples, .. } = *output;
-    PreviewOptions { width, height, samples, ..PreviewOptions::default() }
-}
-
-/// Writes previews, from `views` in their order; returns a line about each.
-pub(crate) fn write_previews(
-    images: &[Image],
+/// Draws and writes previews of a scene's size; returns a line about each.
+pub(crate) fn previews(
+    subject: &Subject<'_>,
     path: &Path,
     views: &Views,
-    output: &Output,
+    progress: &Bar,
 ) -> Result<Vec<String>, Error> {
+    let output = &subject.scene.output;
+    let Output { width, height, samples, .. } = *output;
+    let options = PreviewOptions { width, height, samples, ..PreviewOptions::default() };
     let paths = views.paths(path);
-    let pictures = images.iter().zip(&paths).skip(views.first());
-    let write = |(image, path): (&Image, &PathBuf)| {
-        interrupt::writing(|| picture::write(path, image, output))?;
-        Ok(path.display().to_string())
-    };
-    pictures.map(write).collect()
+    let mut lines = Vec::new();
+    subject.previews(&views.frames(), views.first(), &options, progress, &mut |index, image| {
+        interrupt::check()?;
+        interrupt::writing(|| picture::write(&paths[index], image, output))?;
+        lines.push(paths[index].display().to_string());
+        Ok(())
+    })?;
+    Ok(lines)
 }
 
 /// A line about a finished picture.

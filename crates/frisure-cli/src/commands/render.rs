@@ -173,9 +173,7 @@ impl GroomPicture<'_> {
             e => e,
         };
         if *quality == Quality::Preview {
-            let options = pictures::preview_options(&scene.output);
-            let images = subject.previews(&views.frames(), &options, progress).map_err(named)?;
-            return pictures::write_previews(&images, &pictured.output, views, &scene.output);
+            return pictures::previews(&subject, &pictured.output, views, progress).map_err(named);
         }
         let frames = FrameSet::new(&subject, &tracing.options(scene), &views.frames(), filter);
         pictures::trace(frames.map_err(named)?, &pictured.output, views, progress)

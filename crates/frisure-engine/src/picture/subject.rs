@@ -105,26 +105,29 @@ impl<'a> Subject<'a> {
         project(&self.render_scene(self.camera(None, aspect)?)?, options, progress)
     }
 
-    /// Pictures by projection, in the order of `frames`.
+    /// Pictures by projection, in the order of `frames` from the number `first` on; `each` gets one after the other, since all of a
+    /// turntable may take more memory than there is.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] and [`Error::Invalid`].
+    /// [`Error::Cancelled`], [`Error::Invalid`], and those of `each`.
     pub fn previews(
         &self,
         frames: &Frames,
+        first: usize,
         options: &PreviewOptions,
         progress: &dyn Progress,
-    ) -> Result<Vec<Image>, Error> {
+        each: &mut dyn FnMut(usize, &Image) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let views = self.frames(frames, options.width as f64 / options.height as f64)?;
         let mut scene = self.render_scene(views[0].0)?;
         let count = views.len();
-        let picture = |(index, (camera, lights))| {
+        for (index, (camera, lights)) in views.into_iter().enumerate().skip(first) {
             (scene.camera, scene.lights) = (camera, lights);
             let at = |part: usize| (index + part) as f64 / count as f64;
             let stage = SubStage { progress, stage: "picture", range: [at(0), at(1)] };
-            project(&scene, options, &stage)
-        };
-        views.into_iter().enumerate().map(picture).collect()
+            each(index, &project(&scene, options, &stage)?)?;
+        }
+        Ok(())
     }
 
     /// The cameras and lights of `frames`, at least one. `aspect` is width over height.

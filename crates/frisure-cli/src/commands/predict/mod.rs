@@ -11,8 +11,7 @@ use frisure::formats::{picture, report};
 use frisure::hairstyle::{Checkpoint, DrawnHair, StrandOptions, add_sections, penetration};
 use frisure::look::EnvironmentMap;
 use frisure::progress::Progress;
-use frisure::render::Image;
-use frisure::scene::{Output, Scene};
+use frisure::scene::Scene;
 use frisure::strands::Strands;
 use frisure_engine::checkpoint::HairCheckpoint;
 use frisure_engine::memory::{self, Work};
@@ -24,7 +23,7 @@ use super::read_scene;
 use crate::args::{Predict, Quality};
 use crate::diagnostics::ExitStatus;
 use crate::grooms::MotionFiles;
-use crate::pictures::{Views, noise_filter, preview_options, trace, write_previews};
+use crate::pictures::{Views, noise_filter, previews, trace};
 use crate::progress::Bar;
 use crate::{console, grooms, hair_checkpoint, interrupt};
 
@@ -128,7 +127,8 @@ struct Written {
 }
 
 enum Picture {
-    Previews(Vec<Image>),
+    /// Written already: a line about each.
+    Previews(Vec<String>),
     Final(Box<FrameSet>),
 }
 
@@ -219,7 +219,7 @@ impl Prediction<'_> {
         let Predict { writing, fibres, .. } = self.arguments;
         let strands = hairs.strands;
         let picture = match &files.image {
-            Some(path) => Some((path, self.picture(loaded, &strands, framed)?)),
+            Some(path) => Some((path, self.picture(loaded, &strands, framed, path)?)),
             None => None,
         };
         let mut lines = Vec::new();
@@ -230,25 +230,25 @@ impl Prediction<'_> {
         }
         if let Some((path, picture)) = picture {
             interrupt::check()?;
-            lines.extend(self.write_picture(path, picture, &loaded.scene.output)?);
+            lines.extend(self.write_picture(path, picture)?);
         }
         Ok(lines)
     }
 
-    /// The pictures of strands, or their tracer.
+    /// The previews of strands, which this writes, or the tracer of their final pictures.
     fn picture(
         &self,
         loaded: &LoadedScene,
         strands: &Strands,
         framed: Option<&Strands>,
+        path: &Path,
     ) -> Result<Picture, Error> {
         let scene = &loaded.scene;
         let subject = loaded.subject(strands, self.environment.as_ref());
         let subject = Subject { framed: framed.unwrap_or(strands), ..subject };
         if self.arguments.quality == Quality::Preview {
-            let options = preview_options(&scene.output);
-            let pictures = subject.previews(&self.views.frames(), &options, &self.progress);
-            return pictures.map(Picture::Previews);
+            let lines = previews(&subject, path, &self.views, &self.progress);
+            return lines.map(Picture::Previews);
         }
         let tracing = &self.arguments.tracing;
         let filter = noise_filter(tracing.denoise)?;
@@ -257,14 +257,9 @@ impl Prediction<'_> {
         Ok(Picture::Final(Box::new(frames)))
     }
 
-    fn write_picture(
-        &self,
-        path: &Path,
-        picture: Picture,
-        output: &Output,
-    ) -> Result<Vec<String>, Error> {
+    fn write_picture(&self, path: &Path, picture: Picture) -> Result<Vec<String>, Error> {
         match picture {
-            Picture::Previews(images) => write_previews(&images, path, &self.views, output),
+            Picture::Previews(lines) => Ok(lines),
             Picture::Final(frames) => trace(*frames, path, &self.views, &self.progress),
         }
     }
