@@ -556,7 +556,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// How far the main lamp stands above the horizon; {}.
         "light.elevation" => number::<Angle>().range(-FRAC_PI_2, FRAC_PI_2, "between -90 and 90 deg");
         /// How large the main lamp is, as the angle from edge to edge under which the head sees it: a larger
-        /// one is softer. {}; the studio's is about 10 deg, the sun 0.5 deg.
+        /// one is softer. {}; the studio's are 34 deg, the sun 0.5 deg.
         "light.size" => number::<Angle>().range(0.0, 170.0 * DEG + 1e-9, "between 0 and 170 deg");
         /// Factor on the strength of all lamps; {}. Default 1.
         "light.strength" => number::<Ratio>().range(0.0, 100.0, "between 0 and 100")
@@ -589,7 +589,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "light.lamp[].distance" => number::<Length>().range(0.01, 1000.0, "between 1 cm and 1 km");
         /// Instead of these: its place, with x to the head's left, y back, z up; within 1 km.
         "light.lamp[].position" => value::<Point>();
-        /// Angle from edge to edge of a lamp that is very far away; {}. Default 10 deg.
+        /// Angle from edge to edge of a lamp that is very far away; {}. Default 34 deg, as a softbox of 1.2 m has at two metres.
         "light.lamp[].angle" => number::<Angle>().range(0.0, 170.0 * DEG + 1e-9, "between 0 and 170 deg");
         /// Size of a lamp that is not: diameter of a disc, or width and height of a rectangle, facing the
         /// head; 1 mm to 100 m. Left out, it shines from a point to all sides.

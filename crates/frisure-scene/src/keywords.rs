@@ -313,6 +313,8 @@ keywords! {
         "ears" => Self(Level::Ears), "the middle of the ears";
         "chin" | "jaw" => Self(Level::Chin), "the chin";
         "nape" | "neck" => Self(Level::Nape), "the lowest hair in the neck";
+        "shoulders" | "shoulder" => Self(Level::Shoulders), "the shoulders, where the neck meets them";
+        "chest" | "armpits" => Self(Level::Chest), "the chest, as high as the armpits";
     }
 
     Keyword<Comb> {

@@ -385,9 +385,9 @@ fn other_words_lead_to_those_that_there_are() {
         let hint = hint(text);
         assert!(hint.ends_with(meant), "{text}: {hint}");
     }
-    for text in ["cut = { below = 'mouth' }", "cut = { below = 'shoulders' }"] {
+    for text in ["cut = { below = 'mouth' }", "cut = { below = 'waist' }"] {
         let sentence = parse_step("--step", text).unwrap_err().to_string();
-        let allowed = "one of \"brows\", \"eyes\", \"ears\", \"chin\", \"nape\", or a height such as \"4 cm\"";
+        let allowed = "one of \"brows\", \"eyes\", \"ears\", \"chin\", \"nape\", \"shoulders\", \"chest\", or a height such as \"4 cm\"";
         assert!(sentence.contains(allowed), "{sentence}");
     }
     let months = hint("grow = { months = '12 months' }");
@@ -413,7 +413,8 @@ fn a_step_said_in_another_way_is_told_how() {
         ("wet = true", "write `wet = {}`"),
         ("dry = 0.5", "write `dry = { keep = 0.5 }`"),
         ("cut = 'chin'", "write `cut = { below = 'chin' }`"),
-        ("cut = 'shoulders'", "write `cut = { below = \"chin\" }`"),
+        ("cut = 'shoulders'", "write `cut = { below = 'shoulders' }`"),
+        ("cut = 'waist'", "write `cut = { below = \"chin\" }`"),
         ("release = 'fringe'", "write `release = { where = 'fringe' }`"),
         ("braid = '2 cm'", "write `braid = { width = \"2 cm\", pitch = \"4 cm\" }`"),
         ("part = { at = 0, where = 'top' }", "leave `where` out"),

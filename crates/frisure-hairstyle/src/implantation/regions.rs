@@ -44,6 +44,9 @@ pub(crate) fn height(level: Level, marks: &Landmarks) -> f64 {
         // Hairline to brows is a third of the face; brows to chin is the rest.
         Level::Chin => marks.brow.z - 2.0 * face,
         Level::Nape => marks.nape.z,
+        // By the built-in heads; a test measures them.
+        Level::Shoulders => marks.cranium_centre.z - marks.width,
+        Level::Chest => marks.cranium_centre.z - 1.6 * marks.width,
     }
 }
 

@@ -306,3 +306,23 @@ fn drawn_hair_is_gathered_at_a_parting_on_its_own_side() {
     }
     assert!(nearer > 2 * near, "{nearer}, {near}");
 }
+
+#[test]
+fn shoulders_and_chest_are_where_a_head_has_them() {
+    use crate::spec::Level;
+    for name in Head::names() {
+        let head = Head::named(name).unwrap();
+        let marks = head.landmarks();
+        // Half of the width (m) at a height: of skin within 5 mm of it.
+        let width = |z: f64| {
+            let skin = head.surface().positions().iter().filter(|p| (p.z - z).abs() < 5e-3);
+            skin.map(|p| p.x.abs()).fold(0.0, f64::max)
+        };
+        let at = |level| regions::height(level, marks);
+        let [chin, shoulders, chest] = [Level::Chin, Level::Shoulders, Level::Chest].map(at);
+        // The neck is 5 to 6 cm from its middle to its side, shoulders are 19 to 24.
+        assert!((0.06..0.18).contains(&width(shoulders)), "{name}: {}", width(shoulders));
+        assert!(width(shoulders - 0.02) > 0.12 && width(shoulders + 0.03) < 0.13, "{name}");
+        assert!(width(chest) > 0.19 && shoulders - chest > 0.08 && shoulders < chin, "{name}");
+    }
+}

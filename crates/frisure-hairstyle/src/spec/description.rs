@@ -206,7 +206,7 @@ pub enum RegionLength {
     DownTo(Level),
 }
 
-/// A height on the head that hair can reach down to.
+/// A height on the head or below it that hair can reach down to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// The brows.
@@ -219,6 +219,10 @@ pub enum Level {
     Chin,
     /// The lowest hair in the neck.
     Nape,
+    /// The shoulders, where the neck meets them.
+    Shoulders,
+    /// The chest, as high as the armpits.
+    Chest,
 }
 
 /// The direction in which hair is combed, along the skin.

@@ -7,8 +7,8 @@ use glam::{DVec3, Vec3};
 
 use super::error::{InvalidLight, amount, direction, place, within};
 
-/// Angular radius of a softbox some metres away (rad); chosen.
-pub const SOFTBOX: f64 = 0.09;
+/// Angular radius of a softbox of 1.2 m two metres away (rad).
+pub const SOFTBOX: f64 = 0.3;
 
 /// Any lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]

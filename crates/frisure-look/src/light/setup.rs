@@ -75,13 +75,13 @@ impl Lights {
             softbox(direction, irradiance, SOFTBOX)
         };
         let lamps = [
-            lamp(-0.5, 0.95, 0.85, Vec3::new(5.0, 4.85, 4.6)),
-            lamp(0.9, 0.15, 0.75, Vec3::new(0.9, 0.95, 1.05)),
-            lamp(0.55, 0.8, -0.8, Vec3::new(3.2, 3.25, 3.4)),
+            lamp(-0.55, 0.8, 0.9, Vec3::new(4.6, 4.5, 4.3)),
+            lamp(0.9, 0.2, 0.8, Vec3::new(1.5, 1.53, 1.6)),
+            lamp(0.55, 0.8, -0.8, Vec3::new(2.4, 2.45, 2.55)),
         ];
         let environment = EnvironmentLight::Gradient {
-            sky: Vec3::new(0.46, 0.49, 0.54),
-            ground: Vec3::new(0.13, 0.12, 0.115),
+            sky: Vec3::new(0.56, 0.58, 0.62),
+            ground: Vec3::new(0.2, 0.19, 0.185),
         };
         Self { lamps: lamps.map(Into::into).to_vec(), environment }
     }

@@ -34,7 +34,7 @@ digest_fields!(Parting: Straight { offset }, Zigzag { offset }, Through(points))
 digest_fields!(Place: Region(region), LeftOf(region), RightOf(region), Left, Right, Everywhere);
 digest_fields!(Region: Fringe, Top, Crown, Sides, Back, Nape);
 digest_fields!(RegionLength: Mean(length), DownTo(level));
-digest_fields!(Level: Brows, Eyes, Ears, Chin, Nape);
+digest_fields!(Level: Brows, Eyes, Ears, Chin, Nape, Shoulders, Chest);
 digest_fields!(Comb: Forward, Back, Down, Left, Right);
 digest_fields!(Flow: Whorl, Parted { offset }, SweptBack);
 digest_fields!(Lift: Regional { scale }, Uniform(lift));
