@@ -187,7 +187,9 @@ fn fibre(
         None => (spec.length.mean * varied, varied),
     };
     let curl = mean_strain(&spec.curl, layout.curl(root), &mut random);
-    let natural = natural_strain(&spec.curl, curl, length, &mut random)?;
+    // How many numbers it takes depends on the length, so it has a stream of its own: what else is drawn does not change with the length.
+    let mut along = Stream::new(spec.seed, Purpose::CurlAlong, index);
+    let natural = natural_strain(&spec.curl, curl, length, &mut along)?;
     let tangent = jittered(spec, head, layout, root, index);
     let strain = natural.at(0.0);
     let d1 = leaning(strain, tangent, layout.lean(root, tangent, strain), &mut random);
@@ -334,6 +336,38 @@ impl Wander<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::head::test_shapes::mannequin;
+    use crate::presets::preset;
+    use crate::spec::{Place, RegionLength, RegionStyle};
+
+    #[test]
+    fn a_guide_that_is_longer_by_a_picometre_is_the_same_fibre() {
+        let mut spec = preset("caucasian-straight").unwrap().spec();
+        // One more knot of the strain just where it becomes longer.
+        let knot = 0.5 * spec.curl.variation_scale;
+        let mut planned = |length: f64| {
+            let region = RegionStyle {
+                places: vec![Place::Everywhere],
+                length: Some(RegionLength::Mean(length)),
+                ..RegionStyle::default()
+            };
+            spec.regions = vec![region];
+            let layout = Layout::new(&spec, mannequin()).unwrap();
+            let position = mannequin().landmarks().whorl;
+            let (_, normal) = mannequin().signed_distance().value_gradient(position);
+            fibre(&spec, mannequin(), &layout, &Root { position, normal }, 3).unwrap().rod
+        };
+        let [shorter, longer] = [-1e-12, 1e-12].map(|more| planned(4.0 * knot - SPARE + more));
+        let knots = |rod: &Rod| match rod.natural() {
+            NaturalStrain::Varying(profile) => profile.knots().to_vec(),
+            NaturalStrain::Uniform(_) => Vec::new(),
+        };
+        let (few, more) = (knots(&shorter), knots(&longer));
+        assert_eq!(more.len(), few.len() + 1);
+        assert_eq!(few, more[..few.len()]);
+        assert_eq!(shorter.spec().section, longer.spec().section);
+        assert_eq!(shorter.root(), longer.root());
+    }
 
     #[test]
     fn curls_lean_out_of_the_skin() {

@@ -21,6 +21,7 @@ pub(crate) enum Purpose {
     Lanczos,
     Face,
     WetLock,
+    CurlAlong,
 }
 
 /// A stream of random numbers.
