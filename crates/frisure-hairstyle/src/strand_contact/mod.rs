@@ -7,10 +7,12 @@
 //! Files: `layout` (hairs in long arrays), `segment_grid` and `pairs` (contacts), `energy` (of a shape of all hairs), `held` (one hair
 //! while the others hold still), `descent` (conjugate gradients), `settle` (stages, certificate).
 
-mod descent;
 mod energy;
-mod held;
+mod interaction;
 mod layout;
+mod linear;
+mod newton;
+mod pair_system;
 mod pairs;
 mod segment_grid;
 mod settle;

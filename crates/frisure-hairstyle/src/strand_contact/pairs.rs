@@ -2,13 +2,14 @@
 //!
 //! docs/theory.md, "Hairs that push each other"
 
-use glam::{DMat3, DVec3};
+use frisure_rod::batch::chain_factor::Symmetric;
+use glam::DVec3;
 use rayon::prelude::*;
 
+use super::interaction::InteractionSummary;
 use super::layout::{Layout, split_mut};
 use super::segment_grid::SegmentGrid;
 use crate::contact::{FrictionCoefficients, SLIP_DISTANCE, Scales, Way};
-use crate::math::outer;
 
 /// Overlap, as a share of the contact distance, at which two hairs bear the force scale of a hair. Chosen: a hair lies a tenth of the
 /// distance in the one that it lies on; not measured further.
@@ -65,9 +66,9 @@ struct Stick {
 
 /// Where a point is nearest to another hair.
 #[derive(Clone, Copy, Debug)]
-struct Nearest {
-    segment: u32,
-    share: f64,
+pub(super) struct Nearest {
+    pub(super) segment: u32,
+    pub(super) share: f64,
     /// From there to the point (m).
     away: DVec3,
 }
@@ -92,21 +93,6 @@ pub(super) struct Pairs {
     /// Pairs whose segment is of each hair, in their order, and where those of each hair begin.
     incoming: Vec<u32>,
     incoming_starts: Vec<u32>,
-}
-
-/// Contact of a head of hair in numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct PairSummary {
-    /// Pairs that touch.
-    pub(super) touching: usize,
-    /// Largest overlap over contact distance.
-    pub(super) deepest: f64,
-    /// Largest |f_t|/(μ f_n) of what is pressed with more than [`LIGHT`] of the mean.
-    pub(super) ratio: f64,
-    /// Sum of the changes of limits since the last search over the sum of limits.
-    pub(super) change: f64,
-    /// Magnitude of the sum of all contact forces over the sum of their magnitudes.
-    pub(super) imbalance: f64,
 }
 
 fn nearest_on(points: &[DVec3], segment: u32, x: DVec3) -> Nearest {
@@ -160,20 +146,32 @@ impl Pair {
     }
 
     /// Stiffness (N/m) by its point: along the normal, and of friction, neither of them negative in any direction.
-    fn stiffness(&self, layout: &Layout, points: &[DVec3]) -> (Nearest, DMat3, DMat3) {
+    pub(super) fn stiffness(
+        &self,
+        layout: &Layout,
+        points: &[DVec3],
+    ) -> (Nearest, Symmetric, Symmetric) {
         let nearest = self.nearest(layout, points);
         let distance = nearest.away.length();
         let (_, _, stiffness) = self.normal(distance);
         let n = nearest.away / distance.max(1e-12);
-        let mut friction = DMat3::ZERO;
+        let mut friction = Symmetric::default();
         if self.stick.limit > 0.0 {
             let (way, n) = (self.way(points), self.stick.normal);
             let (s, b) = way.stiffness(SLIP_DISTANCE);
-            let [c, d] = way.ridges;
-            let along = DMat3::IDENTITY - outer(n, n) + outer(c, c) + outer(d, d);
-            friction = (along * s - outer(b, b)) * self.stick.limit;
+            friction += Symmetric::identity(s * self.stick.limit);
+            friction += Symmetric::square(n, -s * self.stick.limit);
+            for ridge in way.ridges {
+                friction += Symmetric::square(ridge, s * self.stick.limit);
+            }
+            friction += Symmetric::square(b, -self.stick.limit);
         }
-        (nearest, outer(n, n) * stiffness, friction)
+        (nearest, Symmetric::square(n, stiffness), friction)
+    }
+
+    /// Segment and share of it of the other hair that it stuck to.
+    pub(super) fn stuck_to(&self) -> (u32, f64) {
+        (self.stick.segment, self.stick.share)
     }
 }
 
@@ -205,7 +203,7 @@ impl Pairs {
         &self,
         of: &StrandProperties<'_>,
         points: &[DVec3],
-    ) -> (Self, PairSummary) {
+    ) -> (Self, InteractionSummary) {
         let widest = of.radii.iter().copied().fold(0.0, f64::max);
         let grid = SegmentGrid::new(of.layout, points, 2.0 * widest * (1.0 + MARGIN));
         let found: Vec<(Vec<Pair>, Tally)> = (0..of.layout.strands())
@@ -264,7 +262,8 @@ impl Pairs {
         (pairs, tally)
     }
 
-    fn of(&self, strand: usize) -> &[Pair] {
+    /// Those of the points of one hair.
+    pub(super) fn of(&self, strand: usize) -> &[Pair] {
         match self.starts.get(strand..strand + 2) {
             Some(&[from, to]) => &self.pairs[from as usize..to as usize],
             _ => &[],
@@ -339,34 +338,6 @@ impl Pairs {
         }
     }
 
-    /// Adds to the stiffness (N/m) of each point of one hair that of all pairs while the other hairs hold still.
-    ///
-    /// The share of a segment's two points in a pair is lumped: `v vᵀ ≤ diag(v)` for shares v that sum to one.
-    pub(super) fn add_stiffness(
-        &self,
-        layout: &Layout,
-        strand: usize,
-        points: &[DVec3],
-        sum: &mut [DMat3],
-    ) {
-        let first = layout.points(strand).start;
-        for pair in self.of(strand) {
-            let (_, normal, friction) = pair.stiffness(layout, points);
-            sum[pair.point as usize - first] += normal + friction;
-        }
-        for &k in self.onto(strand) {
-            let pair = &self.pairs[k as usize];
-            let (nearest, normal, friction) = pair.stiffness(layout, points);
-            let mut act = |segment: u32, share: f64, m: DMat3| {
-                let at = segment as usize - first;
-                sum[at] += m * (1.0 - share);
-                sum[at + 1] += m * share;
-            };
-            act(nearest.segment, nearest.share, normal);
-            act(pair.stick.segment, pair.stick.share, friction);
-        }
-    }
-
     fn onto(&self, strand: usize) -> &[u32] {
         let range =
             self.incoming_starts[strand] as usize..self.incoming_starts[strand + 1] as usize;
@@ -384,7 +355,7 @@ impl Pairs {
         if all > 0.0 { on.iter().sum::<DVec3>().length() / all } else { 0.0 }
     }
 
-    fn summary(&self, of: &StrandProperties<'_>, points: &[DVec3], tally: &Tally) -> PairSummary {
+    fn summary(&self, of: &StrandProperties<'_>, points: &[DVec3], tally: &Tally) -> InteractionSummary {
         let limits: f64 = self.pairs.iter().map(|pair| pair.stick.limit).sum();
         let rubbing = self.pairs.iter().filter(|pair| pair.stick.limit > 0.0).count().max(1);
         let light = LIGHT * limits / rubbing as f64;
@@ -398,7 +369,7 @@ impl Pairs {
             let away = nearest_on(points, force.segment, points[pair.point as usize]).away;
             1.0 - away.length() / pair.distance
         };
-        PairSummary {
+        InteractionSummary {
             touching: forces.iter().filter(touching).count(),
             deepest: self.pairs.iter().zip(&forces).map(overlap).fold(0.0, f64::max),
             ratio: heavy.map(|(used, limit)| used / limit).fold(0.0, f64::max),

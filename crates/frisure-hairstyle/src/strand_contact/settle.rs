@@ -3,18 +3,15 @@
 use frisure_progress::{Cancelled, StageCounter};
 use glam::DVec3;
 
-use super::descent::Descent;
 use super::energy::Head;
-use super::pairs::{PairSummary, Pairs};
+use super::interaction::{Interaction, InteractionSummary};
+use super::linear::LinearRule;
+use super::newton::Newton;
+use super::pair_system::PairSystem;
 use super::{SettledStrands, StrandCertificate, StrandSystem};
 
-/// Most iterations between two searches for contacts, and in all. Chosen by trial; not measured further.
-const ITERATIONS: usize = 12;
+/// Most iterations in all. Chosen by trial; not measured further.
 const MOST_ITERATIONS: usize = 600;
-
-/// Contacts are searched anew when this share of the hairs has moved by so many contact radii since. Chosen by trial; not measured
-/// further.
-const MOVED: (f64, f64) = (0.25, 1.5);
 
 /// Change of friction limits over their sum at which friction is at rest: (F3) with a share that is below the tolerance of forces.
 const FRICTION: f64 = 1e-3;
@@ -35,17 +32,26 @@ pub(crate) fn settle(
     stage: &StageCounter<'_>,
 ) -> Result<SettledStrands, Cancelled> {
     let head = Head::new(system);
+    let mut interaction = PairSystem::new(head.properties());
     let mut state = head.state(controls);
-    let mut trial = head.state(state.controls.clone());
-    let mut pairs = Pairs::default();
+    let far = std::env::var("FAR").map_or(1.0, |x| x.parse().unwrap());
+    let eta = std::env::var("ETA").map_or(0.1, |x| x.parse().unwrap());
+    let most = std::env::var("MOST").map_or(50, |x| x.parse().unwrap());
+    let mut newton = Newton::new(&head, stage, far);
     let mut iterations = 0;
     head.place(&mut state);
+    let debug = std::env::var("DEBUG").is_ok();
+    let begin = std::time::Instant::now();
+    let start = state.points.clone();
+    let mut all = 0;
     let certificate = loop {
         stage.check()?;
         // 1. Contacts where hairs are now; friction as it is there.
-        let (found, summary) = pairs.search(&head.properties(), &state.points);
-        pairs = found;
-        head.evaluate(&pairs, &mut state);
+        let t = std::time::Instant::now();
+        let summary = interaction.search(&state.points);
+        let t1 = t.elapsed();
+        head.evaluate(&mut interaction, &mut state);
+        let t2 = t.elapsed();
         // 2. At rest with these?
         let gradients = head.gradients(&state);
         let certificate = certificate(&gradients, tolerance, &summary, iterations);
@@ -54,12 +60,22 @@ pub(crate) fn settle(
             break certificate;
         }
         // 3. Downhill.
-        let descent = Descent { head: &head, pairs: &pairs, stage, moved: MOVED };
-        let most = ITERATIONS.min(MOST_ITERATIONS - iterations);
-        // An evaluation counts, too, so that it ends where nothing can move.
-        let spent = descent.run(&mut state, &mut trial, most, 0.3 * tolerance)?.max(1);
-        iterations += spent;
-        (0..spent).for_each(|_| stage.advance());
+        let e = state.energy;
+        let rule = LinearRule { reduction: eta, most };
+        let done = newton.step(&mut interaction, &mut state, rule)?;
+        all += done.linear;
+        if debug {
+            let moved = state.points.iter().zip(&start).map(|(a, b)| a.distance(*b));
+            let (sum, max) = moved.fold((0.0, 0.0f64), |(s, m), d| (s + d, m.max(d)));
+            eprintln!(
+                "{iterations} t {:.2} E {e:.9e} bal {} rms {:.2e} max {:.2e} chg {:.1e} touch {} deep {:.2} | lin {} ({all}) short {:.3} at {:.2} tr {} damp {} | moved {:.2e} {:.2e} | search {:.1?} eval {:.1?} step {:.1?}",
+                begin.elapsed().as_secs_f64(), certificate.balanced, certificate.rms_gradient, certificate.largest_gradient, summary.change,
+                summary.touching, summary.deepest, done.linear, done.shortened, done.at, done.trials, newton.linear.damping.iter().filter(|d| **d > 0.0).count(),
+                sum / start.len() as f64, max, t1, t2 - t1, t.elapsed() - t2
+            );
+        }
+        iterations += 1;
+        stage.advance();
     };
     Ok(SettledStrands { controls: state.controls, certificate })
 }
@@ -67,7 +83,7 @@ pub(crate) fn settle(
 fn certificate(
     gradients: &[f64],
     tolerance: f64,
-    pairs: &PairSummary,
+    pairs: &InteractionSummary,
     iterations: usize,
 ) -> StrandCertificate {
     let count = gradients.len().max(1) as f64;

@@ -6,7 +6,8 @@ use frisure_rod::{Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, To
 use glam::{DMat3, DVec3};
 
 use super::energy::Head;
-use super::pairs::Pairs;
+use super::interaction::Interaction;
+use super::pair_system::PairSystem;
 use super::{SettledStrands, StrandSystem, settle, stages};
 use crate::contact::FrictionCoefficients;
 
@@ -83,8 +84,9 @@ impl Tuft {
             let mut state = head.state(controls.to_vec());
             head.place(&mut state);
             let without = state.energy;
-            let (pairs, _) = Pairs::default().search(&head.properties(), &state.points);
-            head.evaluate(&pairs, &mut state);
+            let mut pairs = PairSystem::new(head.properties());
+            pairs.search(&state.points);
+            head.evaluate(&mut pairs, &mut state);
             let of = |strand: usize| state.forces[head.layout.points(strand)].to_vec();
             ((0..self.rods.len()).map(of).collect(), state.energy - without)
         })

@@ -1,0 +1,302 @@
+//! The linear system of Newton's step of all hairs: conjugate gradients, with the Hessian of each hair as the preconditioner.
+//!
+//! The Hessian of all is H = M + Jᵀ (K − D) J, with M the Hessians of hairs by themselves, in which the interaction has the stiffness D
+//! of points by themselves, K that of the interaction, and J the motion of points by turns of joints. Each solution `z = M⁻¹ r` comes
+//! with its motion J z, and M z = r: so neither M nor J has to be applied, their products follow by the recursion of directions.
+
+use std::ops::Range;
+
+use frisure_rod::batch::chain_factor::{JointFactor, Symmetric, solve, subtract_gradient};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::energy::{Head, State};
+use super::interaction::Interaction;
+
+/// Damping of a hair whose Hessian is not positive definite, and the factor by which it grows until it is: (1 + damping) times the
+/// stiffness of joints. As for rods in lanes.
+const FIRST_DAMPING: f64 = 0.3;
+const GROWTH: f64 = 4.0;
+
+/// Factor on the damping from step to step, and where it ends. As for rods in lanes.
+const SHRINKAGE: f64 = 0.2;
+const LEAST_DAMPING: f64 = 0.01;
+
+/// Largest damping: a hair hardly moves then. Chosen.
+const MOST_DAMPING: f64 = 1e6;
+
+/// Least pivot over the stiffness of a joint. Chosen: numbers are in single precision.
+const LEAST_PIVOT: f64 = 1e-4;
+
+/// Hairs that one thread looks after.
+struct Part {
+    strands: Range<usize>,
+    factors: Vec<JointFactor>,
+    /// By joint: residual r, solution x, preconditioned residual z, direction p and M p.
+    residual: Vec<DVec3>,
+    solution: Vec<DVec3>,
+    preconditioned: Vec<DVec3>,
+    direction: Vec<DVec3>,
+    image: Vec<DVec3>,
+    /// By point: J z and J x.
+    moved: Vec<DVec3>,
+    solution_moved: Vec<DVec3>,
+}
+
+/// The system at one shape, and the memory for the next.
+pub(super) struct LinearModel {
+    parts: Vec<Part>,
+    /// By hair.
+    pub(super) damping: Vec<f64>,
+    /// D by point (N/m).
+    own: Vec<Symmetric>,
+    /// J p by point (m), and K J p (N).
+    motion: Vec<DVec3>,
+    forces: Vec<DVec3>,
+}
+
+/// When the linear system is solved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LinearRule {
+    /// Norm of the residual over the first.
+    pub(super) reduction: f64,
+    pub(super) most: usize,
+}
+
+impl LinearModel {
+    pub(super) fn new(head: &Head<'_>) -> Self {
+        let layout = &head.layout;
+        let part = |strands: &Range<usize>| {
+            let joints = layout.joints(strands.end - 1).end - layout.joints(strands.start).start;
+            let zeros = || vec![DVec3::ZERO; joints];
+            let points = || vec![DVec3::ZERO; joints + strands.len()];
+            Part {
+                strands: strands.clone(),
+                factors: vec![JointFactor::default(); joints],
+                residual: zeros(),
+                solution: zeros(),
+                preconditioned: zeros(),
+                direction: zeros(),
+                image: zeros(),
+                moved: points(),
+                solution_moved: points(),
+            }
+        };
+        let points = layout.point_count();
+        Self {
+            parts: layout.chunks().par_iter().map(part).collect(),
+            damping: vec![0.0; layout.strands()],
+            own: vec![Symmetric::default(); points],
+            motion: vec![DVec3::ZERO; points],
+            forces: vec![DVec3::ZERO; points],
+        }
+    }
+
+    /// Factorises at an evaluated shape.
+    pub(super) fn renew(
+        &mut self,
+        head: &Head<'_>,
+        interaction: &mut dyn Interaction,
+        state: &State,
+    ) {
+        self.own.fill(Symmetric::default());
+        interaction.linearise(&state.points, &mut self.own);
+        let layout = &head.layout;
+        let damping = super::layout::split_mut(
+            &mut self.damping,
+            layout.chunks().iter().map(ExactSizeIterator::len),
+        );
+        // Only D is of the interaction alone: what is outside of hairs is in M and in H alike.
+        let own = &self.own;
+        self.parts.par_iter_mut().zip(damping).for_each(|(part, damping)| {
+            let mut stiffness = Vec::new();
+            let first = layout.joints(part.strands.start).start;
+            for (strand, damping) in part.strands.clone().zip(damping) {
+                let (joints, points) = (layout.joints(strand), layout.points(strand));
+                stiffness.clear();
+                stiffness.extend_from_slice(&own[points]);
+                head.add_outside_stiffness(strand, state, &mut stiffness);
+                let factors = &mut part.factors[joints.start - first..joints.end - first];
+                let weaker = SHRINKAGE * *damping;
+                *damping = if weaker < LEAST_DAMPING { 0.0 } else { weaker };
+                // A pivot that is not a number is not less than anything: hence the negated comparison.
+                while *damping < MOST_DAMPING
+                    && !(head.factorise(strand, state, &stiffness, *damping, factors) > LEAST_PIVOT)
+                {
+                    *damping = (GROWTH * *damping).max(FIRST_DAMPING);
+                }
+            }
+        });
+    }
+
+    /// Solves `H x = −g` for the step x (rad), as well as `rule` says. Returns the iterations.
+    pub(super) fn solve(
+        &mut self,
+        head: &Head<'_>,
+        interaction: &mut dyn Interaction,
+        gradient: &[DVec3],
+        rule: LinearRule,
+    ) -> usize {
+        let layout = &head.layout;
+        let Self { parts, own, motion, forces, .. } = self;
+        parts.par_iter_mut().for_each(|part| part.begin(layout.joints(part.strands.start).start, gradient));
+        motion.fill(DVec3::ZERO);
+        let (mut first, mut before, mut step) = (0.0, 1.0, 0.0);
+        for iteration in 0..=rule.most {
+            let products: Vec<f64> = (parts.par_iter_mut())
+                .zip(layout.by_point(motion))
+                .zip(layout.by_point(forces))
+                .map(|((part, motion), forces)| {
+                    let first = layout.points(part.strands.start).start;
+                    if iteration > 0 {
+                        let own = &own[first..first + motion.len()];
+                        part.advance(head, step, (motion, forces), own);
+                    }
+                    part.precondition(head)
+                })
+                .collect();
+            let product: f64 = products.iter().sum();
+            if iteration == 0 {
+                first = product;
+            }
+            if iteration == rule.most || product <= rule.reduction * rule.reduction * first {
+                return iteration;
+            }
+            let beta = if iteration == 0 { 0.0 } else { product / before };
+            before = product;
+            let curvatures: Vec<f64> = (parts.par_iter_mut().zip(layout.by_point(motion)))
+                .map(|(part, motion)| {
+                    let first = layout.points(part.strands.start).start;
+                    part.turn(beta, motion, &own[first..first + motion.len()])
+                })
+                .collect();
+            let curvature = curvatures.iter().sum::<f64>() + interaction.product(motion, forces);
+            if curvature <= 0.0 {
+                if iteration == 0 {
+                    parts.par_iter_mut().for_each(Part::take_direction);
+                }
+                return iteration;
+            }
+            step = product / curvature;
+        }
+        rule.most
+    }
+
+    /// Puts the step of each hair (rad) into `step`, shortened to turns of at most `turn` (rad) and motions of at most `far` (m) of
+    /// each. Returns the share of hairs that were shortened.
+    pub(super) fn step(
+        &self,
+        head: &Head<'_>,
+        turn: f64,
+        far: impl Fn(usize) -> f64 + Sync,
+        step: &mut [DVec3],
+    ) -> f64 {
+        let layout = &head.layout;
+        let shortened: Vec<usize> = (self.parts.par_iter().zip(layout.by_joint(step)))
+            .map(|(part, step)| {
+                let (mut joint, mut point, mut shortened) = (0, 0, 0);
+                for strand in part.strands.clone() {
+                    let n = layout.joints(strand).len();
+                    let x = &part.solution[joint..joint + n];
+                    let moved = &part.solution_moved[point..=point + n];
+                    let most = |values: &[DVec3]| {
+                        values.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt()
+                    };
+                    let shorter = (far(strand) / most(moved)).min(turn / most(x)).min(1.0);
+                    shortened += usize::from(shorter < 1.0);
+                    for (step, x) in step[joint..joint + n].iter_mut().zip(x) {
+                        *step = *x * shorter;
+                    }
+                    (joint, point) = (joint + n, point + n + 1);
+                }
+                shortened
+            })
+            .collect();
+        shortened.iter().sum::<usize>() as f64 / layout.strands() as f64
+    }
+}
+
+impl Part {
+    fn begin(&mut self, first: usize, gradient: &[DVec3]) {
+        let n = self.residual.len();
+        for (residual, g) in self.residual.iter_mut().zip(&gradient[first..first + n]) {
+            *residual = -*g;
+        }
+        for zero in [&mut self.solution, &mut self.direction, &mut self.image] {
+            zero.fill(DVec3::ZERO);
+        }
+        self.solution_moved.fill(DVec3::ZERO);
+    }
+
+    /// Goes `step` along the direction: x, J x and r. `motion` is J p and `forces` K J p, which becomes K J p − D J p.
+    fn advance(
+        &mut self,
+        head: &Head<'_>,
+        step: f64,
+        (motion, forces): (&[DVec3], &mut [DVec3]),
+        own: &[Symmetric],
+    ) {
+        for ((force, own), motion) in forces.iter_mut().zip(own).zip(motion) {
+            *force -= *own * *motion;
+        }
+        for (moved, motion) in self.solution_moved.iter_mut().zip(motion) {
+            *moved += *motion * step;
+        }
+        for (x, p) in self.solution.iter_mut().zip(&self.direction) {
+            *x += *p * step;
+        }
+        for (r, image) in self.residual.iter_mut().zip(&self.image) {
+            *r -= *image * step;
+        }
+        let (mut joint, mut point) = (0, 0);
+        for strand in self.strands.clone() {
+            let n = head.layout.joints(strand).len();
+            subtract_gradient(
+                &self.factors[joint..joint + n],
+                &forces[point..=point + n],
+                step,
+                &mut self.residual[joint..joint + n],
+            );
+            (joint, point) = (joint + n, point + n + 1);
+        }
+    }
+
+    /// z and J z. Returns r·z.
+    fn precondition(&mut self, head: &Head<'_>) -> f64 {
+        let (mut joint, mut point) = (0, 0);
+        for strand in self.strands.clone() {
+            let n = head.layout.joints(strand).len();
+            solve(
+                &self.factors[joint..joint + n],
+                &self.residual[joint..joint + n],
+                &mut self.preconditioned[joint..joint + n],
+                &mut self.moved[point..=point + n],
+            );
+            (joint, point) = (joint + n, point + n + 1);
+        }
+        self.residual.iter().zip(&self.preconditioned).map(|(r, z)| r.dot(*z)).sum()
+    }
+
+    /// The next direction p = z + β p, with J p and M p. Returns `pᵀ M p − (J p)ᵀ D J p`.
+    fn turn(&mut self, beta: f64, motion: &mut [DVec3], own: &[Symmetric]) -> f64 {
+        let mut curvature = 0.0;
+        for (((p, image), z), r) in (self.direction.iter_mut().zip(&mut self.image))
+            .zip(&self.preconditioned)
+            .zip(&self.residual)
+        {
+            *p = *z + *p * beta;
+            *image = *r + *image * beta;
+            curvature += p.dot(*image);
+        }
+        for ((motion, moved), own) in motion.iter_mut().zip(&self.moved).zip(own) {
+            *motion = *moved + *motion * beta;
+            curvature -= motion.dot(*own * *motion);
+        }
+        curvature
+    }
+
+    fn take_direction(&mut self) {
+        self.solution.copy_from_slice(&self.direction);
+        self.solution_moved.copy_from_slice(&self.moved);
+    }
+}
