@@ -62,6 +62,7 @@ impl<'a> Head<'a> {
             radii: &self.system.radii,
             force_scale: self.system.rods.iter().zip(&self.moments).map(force_scale).collect(),
             friction: &self.system.friction,
+            hardness: 1.0,
             shares: shares.flat_map(|c| (0..=c.joints()).map(move |p| c.at(p).1)).collect(),
         }
     }
@@ -222,6 +223,12 @@ impl<'a> Head<'a> {
             stiffness,
         };
         self.chains[strand].factorise(&shape, damping, factors)
+    }
+
+    /// How far (m) the points of one hair have moved at most.
+    pub(super) fn moved(&self, strand: usize, from: &[DVec3], to: &[DVec3]) -> f64 {
+        let far = |k: usize| from[k].distance_squared(to[k]);
+        self.layout.points(strand).map(far).fold(0.0, f64::max).sqrt()
     }
 
     /// The largest gradient of each hair by the turn of a joint, relative to its moment scale.

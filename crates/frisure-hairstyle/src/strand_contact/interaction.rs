@@ -8,6 +8,9 @@ pub(super) trait Interaction: Sync {
     /// Finds out what is near at these points (m), and what friction is there.
     fn search(&mut self, points: &[DVec3]) -> InteractionSummary;
 
+    /// Makes it so hard, of what it is, from the next search on.
+    fn harden(&mut self, hardness: f64);
+
     /// Adds the gradient (N) by these points (m) to `forces`; returns the energy (J).
     fn add_forces(&mut self, points: &[DVec3], forces: &mut [DVec3]) -> f64;
 

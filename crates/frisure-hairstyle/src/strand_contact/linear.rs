@@ -48,6 +48,8 @@ pub(super) struct LinearModel {
     parts: Vec<Part>,
     /// By hair.
     pub(super) damping: Vec<f64>,
+    /// Stiffness per length (N/m²) that holds the points of each hair where they are, in the model alone.
+    pub(super) drag: Vec<f64>,
     /// D by point (N/m).
     own: Vec<Symmetric>,
     /// J p by point (m), and K J p (N).
@@ -61,6 +63,7 @@ pub(super) struct LinearRule {
     /// Norm of the residual over the first.
     pub(super) reduction: f64,
     pub(super) most: usize,
+    pub(super) least: usize,
 }
 
 impl LinearModel {
@@ -86,28 +89,28 @@ impl LinearModel {
         Self {
             parts: layout.chunks().par_iter().map(part).collect(),
             damping: vec![0.0; layout.strands()],
+            drag: vec![0.0; layout.strands()],
             own: vec![Symmetric::default(); points],
             motion: vec![DVec3::ZERO; points],
             forces: vec![DVec3::ZERO; points],
         }
     }
 
-    /// Factorises at an evaluated shape.
-    pub(super) fn renew(
-        &mut self,
-        head: &Head<'_>,
-        interaction: &mut dyn Interaction,
-        state: &State,
-    ) {
+    /// Takes over the stiffness of the interaction at an evaluated shape.
+    pub(super) fn linearise(&mut self, interaction: &mut dyn Interaction, state: &State) {
         self.own.fill(Symmetric::default());
         interaction.linearise(&state.points, &mut self.own);
+    }
+
+    /// Factorises at the same shape.
+    pub(super) fn factorise(&mut self, head: &Head<'_>, state: &State) {
         let layout = &head.layout;
         let damping = super::layout::split_mut(
             &mut self.damping,
             layout.chunks().iter().map(ExactSizeIterator::len),
         );
         // Only D is of the interaction alone: what is outside of hairs is in M and in H alike.
-        let own = &self.own;
+        let (own, drag) = (&self.own, &self.drag);
         self.parts.par_iter_mut().zip(damping).for_each(|(part, damping)| {
             let mut stiffness = Vec::new();
             let first = layout.joints(part.strands.start).start;
@@ -116,6 +119,11 @@ impl LinearModel {
                 stiffness.clear();
                 stiffness.extend_from_slice(&own[points]);
                 head.add_outside_stiffness(strand, state, &mut stiffness);
+                if drag[strand] > 0.0 {
+                    for (k, sum) in stiffness.iter_mut().enumerate().skip(1) {
+                        *sum += Symmetric::identity(drag[strand] * head.chains[strand].at(k).1);
+                    }
+                }
                 let factors = &mut part.factors[joints.start - first..joints.end - first];
                 let weaker = SHRINKAGE * *damping;
                 *damping = if weaker < LEAST_DAMPING { 0.0 } else { weaker };
@@ -129,14 +137,15 @@ impl LinearModel {
         });
     }
 
-    /// Solves `H x = −g` for the step x (rad), as well as `rule` says. Returns the iterations.
+    /// Solves `H x = −g` for the step x (rad), as well as `rule` says. Returns the iterations, and whether it has ended early in a
+    /// direction in which the Hessian is not positive: hairs that have a part in that are held back the next time.
     pub(super) fn solve(
         &mut self,
         head: &Head<'_>,
         interaction: &mut dyn Interaction,
         gradient: &[DVec3],
         rule: LinearRule,
-    ) -> usize {
+    ) -> (usize, bool) {
         let layout = &head.layout;
         let Self { parts, own, motion, forces, .. } = self;
         parts.par_iter_mut().for_each(|part| part.begin(layout.joints(part.strands.start).start, gradient));
@@ -159,8 +168,8 @@ impl LinearModel {
             if iteration == 0 {
                 first = product;
             }
-            if iteration == rule.most || product <= rule.reduction * rule.reduction * first {
-                return iteration;
+            if iteration == rule.most || (iteration >= rule.least && product <= rule.reduction * rule.reduction * first) {
+                return (iteration, false);
             }
             let beta = if iteration == 0 { 0.0 } else { product / before };
             before = product;
@@ -172,47 +181,57 @@ impl LinearModel {
                 .collect();
             let curvature = curvatures.iter().sum::<f64>() + interaction.product(motion, forces);
             if curvature <= 0.0 {
-                if iteration == 0 {
-                    parts.par_iter_mut().for_each(Part::take_direction);
-                }
-                return iteration;
+                self.hold(head);
+                return (iteration, true);
             }
             step = product / curvature;
         }
-        rule.most
+        (rule.most, false)
     }
 
-    /// Puts the step of each hair (rad) into `step`, shortened to turns of at most `turn` (rad) and motions of at most `far` (m) of
-    /// each. Returns the share of hairs that were shortened.
-    pub(super) fn step(
-        &self,
-        head: &Head<'_>,
-        turn: f64,
-        far: impl Fn(usize) -> f64 + Sync,
-        step: &mut [DVec3],
-    ) -> f64 {
+    /// Holds hairs back whose part `pᵀ H p` of a direction is negative, so that it is positive.
+    fn hold(&mut self, head: &Head<'_>) {
         let layout = &head.layout;
-        let shortened: Vec<usize> = (self.parts.par_iter().zip(layout.by_joint(step)))
-            .map(|(part, step)| {
-                let (mut joint, mut point, mut shortened) = (0, 0, 0);
-                for strand in part.strands.clone() {
-                    let n = layout.joints(strand).len();
-                    let x = &part.solution[joint..joint + n];
-                    let moved = &part.solution_moved[point..=point + n];
-                    let most = |values: &[DVec3]| {
-                        values.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt()
-                    };
-                    let shorter = (far(strand) / most(moved)).min(turn / most(x)).min(1.0);
-                    shortened += usize::from(shorter < 1.0);
-                    for (step, x) in step[joint..joint + n].iter_mut().zip(x) {
-                        *step = *x * shorter;
-                    }
-                    (joint, point) = (joint + n, point + n + 1);
+        let Self { parts, own, motion, forces, drag, .. } = self;
+        let drag = super::layout::split_mut(drag, layout.chunks().iter().map(ExactSizeIterator::len));
+        parts.par_iter().zip(drag).for_each(|(part, drag)| {
+            let mut joint = 0;
+            for (strand, drag) in part.strands.clone().zip(drag) {
+                let n = layout.joints(strand).len();
+                let (p, image) = (&part.direction[joint..joint + n], &part.image[joint..joint + n]);
+                let mut curvature: f64 = p.iter().zip(image).map(|(p, q)| p.dot(*q)).sum();
+                let mut square = 0.0;
+                for (k, at) in layout.points(strand).enumerate() {
+                    let u = motion[at];
+                    curvature += u.dot(forces[at] - own[at] * u);
+                    square += u.length_squared() * head.chains[strand].at(k).1;
                 }
-                shortened
-            })
-            .collect();
-        shortened.iter().sum::<usize>() as f64 / layout.strands() as f64
+                if curvature < 0.0 {
+                    *drag += 2.0 * -curvature / square;
+                }
+                joint += n;
+            }
+        });
+    }
+
+    /// Puts the step of each hair (rad) into `step`, and how far (m) its points move and its joints turn (rad) at most into `far`.
+    pub(super) fn step(&self, head: &Head<'_>, step: &mut [DVec3], far: &mut [(f64, f64)]) {
+        let layout = &head.layout;
+        let far = super::layout::split_mut(far, layout.chunks().iter().map(ExactSizeIterator::len));
+        let most = |values: &[DVec3]| {
+            values.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt()
+        };
+        let work = self.parts.par_iter().zip(layout.by_joint(step)).zip(far);
+        work.for_each(|((part, step), far)| {
+            let (mut joint, mut point) = (0, 0);
+            for (strand, far) in part.strands.clone().zip(far) {
+                let n = layout.joints(strand).len();
+                let x = &part.solution[joint..joint + n];
+                *far = (most(&part.solution_moved[point..=point + n]), most(x));
+                step[joint..joint + n].copy_from_slice(x);
+                (joint, point) = (joint + n, point + n + 1);
+            }
+        });
     }
 }
 
@@ -293,10 +312,5 @@ impl Part {
             curvature -= motion.dot(*own * *motion);
         }
         curvature
-    }
-
-    fn take_direction(&mut self) {
-        self.solution.copy_from_slice(&self.direction);
-        self.solution_moved.copy_from_slice(&self.moved);
     }
 }

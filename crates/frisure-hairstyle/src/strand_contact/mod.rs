@@ -7,6 +7,7 @@
 //! Files: `layout` (hairs in long arrays), `segment_grid` and `pairs` (contacts), `energy` (of a shape of all hairs), `held` (one hair
 //! while the others hold still), `descent` (conjugate gradients), `settle` (stages, certificate).
 
+mod candidates;
 mod energy;
 mod interaction;
 mod layout;

@@ -14,6 +14,11 @@ const ARMIJO: f64 = 1e-4;
 /// Most trials of a line search. Chosen; not measured further.
 const TRIALS: usize = 8;
 
+/// How often a linear system whose matrix is not positive definite is tried again, and the iterations before that is found that are
+/// enough for a step. Chosen by trial.
+const HOLDS: usize = 4;
+const ENOUGH: usize = 8;
+
 /// Largest turn of a joint in a step (rad). Chosen: half of that of a hair by itself.
 const LARGEST_TURN: f64 = 0.5;
 
@@ -27,6 +32,8 @@ pub(super) struct Newton<'a> {
     pub(super) linear: LinearModel,
     trial: State,
     step: Vec<DVec3>,
+    /// How far (m, rad) each hair moves.
+    pub(super) far: Vec<(f64, f64)>,
     /// Farthest that a point may move in a step, in contact radii of its hair.
     pub(super) farthest: f64,
 }
@@ -43,6 +50,7 @@ pub(super) struct Step {
     /// How far it went, of the whole step.
     pub(super) at: f64,
     pub(super) trials: usize,
+    pub(super) holds: usize,
 }
 
 impl<'a> Newton<'a> {
@@ -53,6 +61,7 @@ impl<'a> Newton<'a> {
             linear: LinearModel::new(head),
             trial: head.state(vec![DVec3::ZERO; head.layout.joint_count()]),
             step: vec![DVec3::ZERO; head.layout.joint_count()],
+            far: vec![(0.0, 0.0); head.layout.strands()],
             farthest,
         }
     }
@@ -69,17 +78,24 @@ impl<'a> Newton<'a> {
     ) -> Result<Step, Cancelled> {
         self.stage.check()?;
         let head = self.head;
-        self.linear.renew(head, interaction, state);
+        self.linear.linearise(interaction, state);
         let mut done = Step::default();
         // Hairs that may not go as far as they would can turn a direction uphill. The first direction of the linear system does that
         // least.
-        for rule in [rule, LinearRule { most: 1, ..rule }] {
-            done.linear += self.linear.solve(head, interaction, &state.gradient, rule);
-            let radii = &head.system.radii;
-            let far = |strand: usize| self.farthest * radii[strand];
-            done.shortened = self.linear.step(head, LARGEST_TURN, far, &mut self.step);
-            let slope = head.dot(&state.gradient, &self.step);
-            if slope < 0.0 && self.search(interaction, state, slope, &mut done) {
+        for rule in [rule, LinearRule { most: 1, least: 1, ..rule }] {
+            for _ in 0..HOLDS {
+                self.linear.factorise(head, state);
+                let (linear, early) =
+                    self.linear.solve(head, interaction, &state.gradient, rule);
+                done.linear += linear;
+                done.holds += usize::from(early);
+                if !early || linear >= ENOUGH {
+                    break;
+                }
+            }
+            self.linear.step(head, &mut self.step, &mut self.far);
+            self.limit(&mut done);
+            if self.search(interaction, state, &mut done) {
                 done.lower = true;
                 break;
             }
@@ -87,35 +103,101 @@ impl<'a> Newton<'a> {
         Ok(done)
     }
 
-    /// Goes along the step until the energy falls; `false` if it does not.
+    /// Shortens the steps of hairs that go too far, and holds these back the next time.
+    fn limit(&mut self, done: &mut Step) {
+        let Self { head, linear, step, far, farthest, .. } = self;
+        let mut shortened = 0;
+        let radii = &head.system.radii;
+        for (strand, (moved, turned)) in far.iter().enumerate() {
+            let excess = (moved / (*farthest * radii[strand])).max(turned / LARGEST_TURN);
+            let drag = &mut linear.drag[strand];
+            let least = head.moments[strand]
+                / (head.system.rods[strand].length().powi(2) * *farthest * radii[strand]);
+            if excess > 1.0 {
+                shortened += 1;
+                for d in &mut step[head.layout.joints(strand)] {
+                    *d *= 1.0 / excess;
+                }
+                *drag = (*drag * excess.clamp(2.0, 8.0)).max(0.1 * least * excess.min(10.0));
+            } else {
+                *drag *= 0.3;
+                if *drag < 1e-3 * least {
+                    *drag = 0.0;
+                }
+            }
+        }
+        done.shortened = shortened as f64 / far.len() as f64;
+    }
+
+    /// The slopes of each hair along its step.
+    fn slopes(&self, gradient: &[DVec3]) -> Vec<f64> {
+        let layout = &self.head.layout;
+        let slope = |strand: usize| {
+            let joints = layout.joints(strand);
+            let pairs = gradient[joints.clone()].iter().zip(&self.step[joints]);
+            pairs.map(|(g, d)| g.dot(*d)).sum::<f64>()
+        };
+        (0..layout.strands()).into_par_iter().map(slope).collect()
+    }
+
+    /// Goes along the step if the energy falls, shortening the steps of hairs that go beyond their minimum where it does not;
+    /// `false` if it never falls.
     fn search(
         &mut self,
         interaction: &mut dyn Interaction,
         state: &mut State,
-        slope: f64,
         done: &mut Step,
     ) -> bool {
-        let Self { head, trial, step, .. } = self;
+        let head = self.head;
         let noise = ROUNDING * state.energy.abs();
-        let mut at = 1.0;
+        let mut slopes = self.slopes(&state.gradient);
+        done.at = 1.0;
         for _ in 0..TRIALS {
+            let slope: f64 = slopes.iter().sum();
+            let trial = &mut self.trial;
             trial.controls.clear();
-            let moved = state.controls.par_iter().zip(&*step).map(|(c, d)| *c + *d * at);
+            let moved = state.controls.par_iter().zip(&self.step).map(|(c, d)| *c + *d);
             trial.controls.par_extend(moved);
             trial.clear.copy_from_slice(&state.clear);
             head.evaluate(interaction, trial);
             done.trials += 1;
-            done.at = at;
-            let there = head.dot(&trial.gradient, step);
-            let falls = trial.energy <= state.energy + ARMIJO * at * slope
-                || (trial.energy <= state.energy + noise && there.abs() <= slope.abs());
+            let there = self.slopes(&self.trial.gradient);
+            let sum: f64 = there.iter().sum();
+            let falls = slope < 0.0
+                && (self.trial.energy <= state.energy + ARMIJO * slope
+                    || (self.trial.energy <= state.energy + noise && sum.abs() <= slope.abs()));
             if falls {
-                std::mem::swap(state, trial);
+                std::mem::swap(state, &mut self.trial);
                 return true;
             }
-            // The zero of the slope between, away from both ends.
-            let share = if there > 0.0 { slope / (slope - there) } else { 0.5 };
-            at *= share.clamp(0.1, 0.5);
+            // Hairs whose slope has turned go to where it is zero between, away from both ends, and those that bend farther than their
+            // motion said go as far as they may; all go less far where there is neither.
+            let factors: Vec<f64> = (0..there.len())
+                .into_par_iter()
+                .map(|strand| {
+                    let (t, s) = (there[strand], slopes[strand]);
+                    let moved = head.moved(strand, &state.points, &self.trial.points);
+                    let far = self.farthest * head.system.radii[strand];
+                    if moved > 2.0 * far {
+                        (far / moved).clamp(0.02, 0.5)
+                    } else if t > 0.3 * s.abs() {
+                        if s < 0.0 { (s / (s - t)).clamp(0.1, 0.7) } else { 0.1 }
+                    } else {
+                        1.0
+                    }
+                })
+                .collect();
+            let turned = factors.iter().filter(|&&factor| factor < 1.0).count();
+            for (strand, factor) in factors.into_iter().enumerate() {
+                let factor = if turned == 0 { 0.3 } else { factor };
+                if factor < 1.0 {
+                    for d in &mut self.step[head.layout.joints(strand)] {
+                        *d *= factor;
+                    }
+                    slopes[strand] *= factor;
+                }
+            }
+            done.at = turned as f64 / there.len() as f64;
         }
         false
     }

@@ -4,14 +4,19 @@ use frisure_rod::batch::chain_factor::Symmetric;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::candidates::Candidates;
 use super::interaction::{Interaction, InteractionSummary};
 use super::layout::{Layout, split_mut};
-use super::pairs::{PairForce, Pairs, StrandProperties};
+use super::pairs::{Nearest, Pair, PairForce, Pairs, StrandProperties};
+
+/// How far hairs may move until those near them are found anew, over the reach of a search. Chosen by trial; no result depends on it.
+const SKIN: f64 = 0.5;
 
 /// The contacts of all hairs with each other.
 pub(super) struct PairSystem<'a> {
     of: StrandProperties<'a>,
     pairs: Pairs,
+    candidates: Candidates,
     forces: Vec<PairForce>,
     springs: Springs,
 }
@@ -23,6 +28,46 @@ struct Spring {
     segment: u32,
     share: f64,
     stiffness: Symmetric,
+    turning: Turning,
+}
+
+/// What the normal force takes away from the stiffness of a pair as the normal turns: for the motion u of the point against the place on
+/// the segment and Δ of the segment's end against its beginning, `−(f/d) (|u|² − (n·u)² − (u·τ + (d/ℓ) n·Δ)²)`, with the segment's
+/// direction τ and length ℓ; without the last square where the place is an end of the segment. [D]
+#[derive(Clone, Copy, Debug, Default)]
+struct Turning {
+    /// f/d (N/m).
+    across: f64,
+    normal: DVec3,
+    along: DVec3,
+    /// d/ℓ.
+    lever: f64,
+}
+
+impl Turning {
+    fn new(pair: &Pair, nearest: &Nearest, points: &[DVec3]) -> Self {
+        let distance = nearest.away.length().max(1e-12);
+        let at = nearest.segment as usize;
+        let segment = points[at + 1] - points[at];
+        let g = std::env::var("GN").map_or(1.0, |x| x.parse().unwrap());
+        let (across, normal) = (g * pair.force_at(distance) / distance, nearest.away / distance);
+        if nearest.share > 0.0 && nearest.share < 1.0 {
+            let length = segment.length();
+            Self { across, normal, along: segment / length, lever: distance / length }
+        } else {
+            Self { across, normal, ..Self::default() }
+        }
+    }
+
+    /// Adds to the force (N) on the point; returns that on the segment's end against its beginning, and the cost (J).
+    #[inline]
+    fn product(&self, apart: DVec3, turned: DVec3, force: &mut DVec3) -> (DVec3, f64) {
+        let Self { across, normal: n, along, lever } = *self;
+        let slide = apart.dot(along) + lever * n.dot(turned);
+        let by = apart - n * n.dot(apart) - along * slide;
+        *force -= by * across;
+        (n * (across * slide * lever), -across * (by.dot(apart) - lever * slide * n.dot(turned)))
+    }
 }
 
 /// The stiffness of all pairs that have any.
@@ -35,7 +80,7 @@ struct Springs {
     incoming: Vec<u32>,
     incoming_starts: Vec<usize>,
     /// Of each, in a product.
-    forces: Vec<DVec3>,
+    forces: Vec<(DVec3, DVec3)>,
 }
 
 impl<'a> PairSystem<'a> {
@@ -43,6 +88,7 @@ impl<'a> PairSystem<'a> {
         Self {
             of,
             pairs: Pairs::default(),
+            candidates: Candidates::default(),
             forces: Vec::new(),
             springs: Springs::default(),
         }
@@ -51,9 +97,19 @@ impl<'a> PairSystem<'a> {
 
 impl Interaction for PairSystem<'_> {
     fn search(&mut self, points: &[DVec3]) -> InteractionSummary {
-        let (pairs, summary) = self.pairs.search(&self.of, points);
+        let reach = Pairs::reach(&self.of);
+        let skin = SKIN * reach;
+        if !self.candidates.hold(points, skin) {
+            if std::env::var("DEBUG").is_ok() { eprintln!("new"); }
+            self.candidates = Candidates::new(self.of.layout, points, reach + 2.0 * skin);
+        }
+        let (pairs, summary) = self.pairs.search(&self.of, points, &self.candidates);
         self.pairs = pairs;
         summary
+    }
+
+    fn harden(&mut self, hardness: f64) {
+        self.of.hardness = hardness;
     }
 
     fn add_forces(&mut self, points: &[DVec3], forces: &mut [DVec3]) -> f64 {
@@ -88,19 +144,21 @@ impl Springs {
             let mut springs = Vec::new();
             for pair in chunk.clone().flat_map(|strand| pairs.of(strand)) {
                 let (nearest, normal, friction) = pair.stiffness(layout, points);
-                let mut push = |segment: u32, share: f64, stiffness: Symmetric| {
+                let turning = Turning::new(pair, &nearest, points);
+                let mut push = |segment, share, stiffness, turning| {
                     if stiffness != Symmetric::default() {
-                        springs.push(Spring { point: pair.point, segment, share, stiffness });
+                        let point = pair.point;
+                        springs.push(Spring { point, segment, share, stiffness, turning });
                     }
                 };
                 let stuck = pair.stuck_to();
                 if stuck == (nearest.segment, nearest.share) {
                     let mut both = normal;
                     both += friction;
-                    push(stuck.0, stuck.1, both);
+                    push(stuck.0, stuck.1, both, turning);
                 } else {
-                    push(nearest.segment, nearest.share, normal);
-                    push(stuck.0, stuck.1, friction);
+                    push(nearest.segment, nearest.share, normal, turning);
+                    push(stuck.0, stuck.1, friction, Turning::default());
                 }
             }
             springs
@@ -113,7 +171,7 @@ impl Springs {
             self.springs.extend(some);
             self.starts.push(self.springs.len());
         }
-        self.forces.resize(self.springs.len(), DVec3::ZERO);
+        self.forces.resize(self.springs.len(), (DVec3::ZERO, DVec3::ZERO));
         // A counting sort by the chunk of the segment.
         let ends: Vec<usize> = layout.chunks().iter().map(|c| layout.points(c.end - 1).end).collect();
         let chunk_of: Vec<u32> = self.springs.par_iter()
@@ -160,8 +218,12 @@ impl Springs {
                     let at = spring.segment as usize;
                     let place = motion[at].lerp(motion[at + 1], spring.share);
                     let apart = motion[spring.point as usize] - place;
-                    *force = spring.stiffness * apart;
-                    cost += force.dot(apart);
+                    let mut on = spring.stiffness * apart;
+                    cost += on.dot(apart);
+                    let turned = motion[at + 1] - motion[at];
+                    let (end, more) = spring.turning.product(apart, turned, &mut on);
+                    *force = (on, end);
+                    cost += more;
                 }
                 cost
             })
@@ -171,13 +233,13 @@ impl Springs {
             let first = layout.points(chunk.start).start;
             sum.fill(DVec3::ZERO);
             for k in starts[index]..starts[index + 1] {
-                sum[springs[k].point as usize - first] += forces[k];
+                sum[springs[k].point as usize - first] += forces[k].0;
             }
             for &k in &incoming[incoming_starts[index]..incoming_starts[index + 1]] {
-                let (spring, force) = (&springs[k as usize], forces[k as usize]);
+                let (spring, (force, end)) = (&springs[k as usize], forces[k as usize]);
                 let at = spring.segment as usize - first;
-                sum[at] -= force * (1.0 - spring.share);
-                sum[at + 1] -= force * spring.share;
+                sum[at] -= force * (1.0 - spring.share) + end;
+                sum[at + 1] -= force * spring.share - end;
             }
         });
         costs.iter().sum()

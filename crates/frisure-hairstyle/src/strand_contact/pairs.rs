@@ -6,9 +6,9 @@ use frisure_rod::batch::chain_factor::Symmetric;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::candidates::Candidates;
 use super::interaction::InteractionSummary;
 use super::layout::{Layout, split_mut};
-use super::segment_grid::SegmentGrid;
 use crate::contact::{FrictionCoefficients, SLIP_DISTANCE, Scales, Way};
 
 /// Overlap, as a share of the contact distance, at which two hairs bear the force scale of a hair. Chosen: a hair lies a tenth of the
@@ -34,6 +34,8 @@ pub(super) struct StrandProperties<'a> {
     pub(super) friction: &'a [FrictionCoefficients],
     /// Length of hair (m) at each point.
     pub(super) shares: Vec<f64>,
+    /// Factor on all stiffnesses.
+    pub(super) hardness: f64,
 }
 
 /// A point of one hair near a segment of another. Half of the energy of two hairs is that of points of the one, half that of the other.
@@ -70,7 +72,7 @@ pub(super) struct Nearest {
     pub(super) segment: u32,
     pub(super) share: f64,
     /// From there to the point (m).
-    away: DVec3,
+    pub(super) away: DVec3,
 }
 
 /// The gradients (N) of a pair by its point, and where their opposites act.
@@ -158,7 +160,8 @@ impl Pair {
         let mut friction = Symmetric::default();
         if self.stick.limit > 0.0 {
             let (way, n) = (self.way(points), self.stick.normal);
-            let (s, b) = way.stiffness(SLIP_DISTANCE);
+            // What has slipped is where it begins to stick: it goes on, since that is what the load does.
+            let (s, b) = way.stiffness(SLIP_DISTANCE * (1.0 - 1e-6));
             friction += Symmetric::identity(s * self.stick.limit);
             friction += Symmetric::square(n, -s * self.stick.limit);
             for ridge in way.ridges {
@@ -167,6 +170,11 @@ impl Pair {
             friction += Symmetric::square(b, -self.stick.limit);
         }
         (nearest, Symmetric::square(n, stiffness), friction)
+    }
+
+    /// Normal force (N) at a distance (m).
+    pub(super) fn force_at(&self, distance: f64) -> f64 {
+        self.normal(distance).1
     }
 
     /// Segment and share of it of the other hair that it stuck to.
@@ -198,17 +206,21 @@ fn descend(layout: &Layout, points: &[DVec3], strand: u32, segment: u32, x: DVec
 }
 
 impl Pairs {
-    /// The pairs of hairs at these points (m); what stuck before sticks on, and slips if it has to.
+    /// The reach (m) of a search.
+    pub(super) fn reach(of: &StrandProperties<'_>) -> f64 {
+        2.0 * of.radii.iter().copied().fold(0.0, f64::max) * (1.0 + MARGIN)
+    }
+
+    /// The pairs of hairs at these points (m), of those that are near; what stuck before sticks on, and slips if it has to.
     pub(super) fn search(
         &self,
         of: &StrandProperties<'_>,
         points: &[DVec3],
+        near: &Candidates,
     ) -> (Self, InteractionSummary) {
-        let widest = of.radii.iter().copied().fold(0.0, f64::max);
-        let grid = SegmentGrid::new(of.layout, points, 2.0 * widest * (1.0 + MARGIN));
         let found: Vec<(Vec<Pair>, Tally)> = (0..of.layout.strands())
             .into_par_iter()
-            .map(|strand| self.of_strand(of, points, &grid, strand))
+            .map(|strand| self.of_strand(of, points, near, strand))
             .collect();
         let mut next = Self { starts: vec![0], ..Self::default() };
         let mut tally = Tally::default();
@@ -226,26 +238,21 @@ impl Pairs {
         &self,
         of: &StrandProperties<'_>,
         points: &[DVec3],
-        grid: &SegmentGrid,
+        near: &Candidates,
         strand: usize,
     ) -> (Vec<Pair>, Tally) {
         let mut pairs = Vec::new();
         let mut tally = Tally::default();
         let mut before = self.of(strand);
-        let mut found: Vec<(u32, u32)> = Vec::new();
         for point in of.layout.points(strand).skip(1) {
             let x = points[point];
-            found.clear();
-            found.extend(grid.near(x).filter(|&(other, _)| other != strand as u32));
-            found.sort_unstable();
-            found.dedup();
             // Segments of the same hair lead to the same nearest one.
             let first = pairs.len();
             let known = before.iter().take_while(|pair| pair.point == point as u32).count();
             let (known, later) = before.split_at(known);
             before = later;
             tally.before += known.iter().map(|pair| pair.stick.limit).sum::<f64>();
-            for &(other, segment) in &found {
+            for &(other, segment) in near.of(point) {
                 let nearest = descend(of.layout, points, other, segment, x);
                 let same = |pair: &Pair| {
                     pair.strand == other && pair.segment.abs_diff(nearest.segment) <= 1
@@ -427,7 +434,7 @@ impl Pair {
             strand,
             segment,
             distance,
-            stiffness: 0.5 * of.shares[point] * stiffness,
+            stiffness: 0.5 * of.shares[point] * stiffness * of.hardness,
             stick: Stick { limit, anchor: away, normal, scales, segment, share },
         })
     }

@@ -40,12 +40,18 @@ pub(crate) fn settle(
     let mut newton = Newton::new(&head, stage, far);
     let mut iterations = 0;
     head.place(&mut state);
+    let least = std::env::var("LEAST").map_or(5, |x| x.parse().unwrap());
+    let stages: Vec<(f64, usize, f64)> = std::env::var("STAGES").map_or(vec![], |x| x.split(',').map(|s| { let mut p = s.split(':'); (p.next().unwrap().parse().unwrap(), p.next().unwrap().parse().unwrap(), p.next().unwrap().parse().unwrap()) }).collect());
     let debug = std::env::var("DEBUG").is_ok();
     let begin = std::time::Instant::now();
     let start = state.points.clone();
     let mut all = 0;
     let certificate = loop {
         stage.check()?;
+        let mut until = 0;
+        let stage_now = stages.iter().find(|s| { until += s.1; iterations < until }).copied().unwrap_or((1.0, 0, far));
+        interaction.harden(stage_now.0);
+        newton.farthest = stage_now.2;
         // 1. Contacts where hairs are now; friction as it is there.
         let t = std::time::Instant::now();
         let summary = interaction.search(&state.points);
@@ -56,21 +62,25 @@ pub(crate) fn settle(
         let gradients = head.gradients(&state);
         let certificate = certificate(&gradients, tolerance, &summary, iterations);
         let at_rest = certificate.balanced == gradients.len() && summary.change <= FRICTION;
-        if at_rest || iterations >= MOST_ITERATIONS {
+        if (at_rest && stage_now.1 == 0) || iterations >= MOST_ITERATIONS {
             break certificate;
         }
         // 3. Downhill.
         let e = state.energy;
-        let rule = LinearRule { reduction: eta, most };
+        let rule = LinearRule { reduction: eta, most, least };
         let done = newton.step(&mut interaction, &mut state, rule)?;
         all += done.linear;
         if debug {
+            let after = head.gradients(&state);
+            let rms = (after.iter().map(|g| g * g).sum::<f64>() / after.len() as f64).sqrt();
+            let worst = (0..after.len()).max_by(|a, b| gradients[*a].total_cmp(&gradients[*b])).unwrap();
+            eprintln!("   after rms {rms:.2e} worst {worst} {:.2e} -> {:.2e} moved {:.2e}", gradients[worst], after[worst], newton.far[worst].0);
             let moved = state.points.iter().zip(&start).map(|(a, b)| a.distance(*b));
             let (sum, max) = moved.fold((0.0, 0.0f64), |(s, m), d| (s + d, m.max(d)));
             eprintln!(
-                "{iterations} t {:.2} E {e:.9e} bal {} rms {:.2e} max {:.2e} chg {:.1e} touch {} deep {:.2} | lin {} ({all}) short {:.3} at {:.2} tr {} damp {} | moved {:.2e} {:.2e} | search {:.1?} eval {:.1?} step {:.1?}",
+                "{iterations} t {:.2} E {e:.9e} bal {} rms {:.2e} max {:.2e} chg {:.1e} touch {} deep {:.2} | lin {} ({all}) short {:.3} at {:.2} tr {} hold {} damp {} drag {} | moved {:.2e} {:.2e} | search {:.1?} eval {:.1?} step {:.1?}",
                 begin.elapsed().as_secs_f64(), certificate.balanced, certificate.rms_gradient, certificate.largest_gradient, summary.change,
-                summary.touching, summary.deepest, done.linear, done.shortened, done.at, done.trials, newton.linear.damping.iter().filter(|d| **d > 0.0).count(),
+                summary.touching, summary.deepest, done.linear, done.shortened, done.at, done.trials, done.holds, newton.linear.damping.iter().filter(|d| **d > 0.0).count(), newton.linear.drag.iter().filter(|d| **d > 0.0).count(),
                 sum / start.len() as f64, max, t1, t2 - t1, t.elapsed() - t2
             );
         }
