@@ -9,6 +9,10 @@ use super::interaction::{Interaction, InteractionSummary};
 use super::layout::{Layout, split_mut};
 use super::pairs::{Nearest, Pair, PairForce, Pairs, StrandProperties};
 
+/// Share of what turning normals take away from the stiffness that is taken: with all of it, linear systems are often not positive
+/// definite; with less, steps along the other hair are too short. Chosen by trial.
+const TURNING: f64 = 0.8;
+
 /// How far hairs may move until those near them are found anew, over the reach of a search. Chosen by trial; no result depends on it.
 const SKIN: f64 = 0.5;
 
@@ -49,8 +53,7 @@ impl Turning {
         let distance = nearest.away.length().max(1e-12);
         let at = nearest.segment as usize;
         let segment = points[at + 1] - points[at];
-        let g = std::env::var("GN").map_or(1.0, |x| x.parse().unwrap());
-        let (across, normal) = (g * pair.force_at(distance) / distance, nearest.away / distance);
+        let (across, normal) = (TURNING * pair.force_at(distance) / distance, nearest.away / distance);
         if nearest.share > 0.0 && nearest.share < 1.0 {
             let length = segment.length();
             Self { across, normal, along: segment / length, lever: distance / length }

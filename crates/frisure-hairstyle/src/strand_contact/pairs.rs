@@ -161,7 +161,7 @@ impl Pair {
         if self.stick.limit > 0.0 {
             let (way, n) = (self.way(points), self.stick.normal);
             // What has slipped is where it begins to stick: it goes on, since that is what the load does.
-            let (s, b) = way.stiffness(SLIP_DISTANCE * (1.0 - 1e-6));
+            let (s, b) = way.stiffness(SLIP_DISTANCE * 0.98);
             friction += Symmetric::identity(s * self.stick.limit);
             friction += Symmetric::square(n, -s * self.stick.limit);
             for ridge in way.ridges {
