@@ -17,10 +17,17 @@ pub(super) struct Candidates {
 }
 
 impl Candidates {
-    /// Whether no point has moved by more than `skin` (m) since.
-    pub(super) fn hold(&self, points: &[DVec3], skin: f64) -> bool {
-        self.at.len() == points.len()
-            && self.at.par_iter().zip(points).all(|(a, b)| a.distance_squared(*b) < skin * skin)
+    /// Share of hairs of which a point has moved by more than `skin` (m) since.
+    pub(super) fn outdated(&self, layout: &Layout, points: &[DVec3], skin: f64) -> f64 {
+        if self.at.len() != points.len() {
+            return 1.0;
+        }
+        let far = |&strand: &usize| {
+            let mut range = layout.points(strand);
+            range.any(|k| self.at[k].distance_squared(points[k]) > skin * skin)
+        };
+        let count = (0..layout.strands()).into_par_iter().filter(far).count();
+        count as f64 / layout.strands() as f64
     }
 
     /// Finds the segments within `reach` (m) of each point.

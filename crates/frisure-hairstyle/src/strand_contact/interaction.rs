@@ -5,8 +5,9 @@ use glam::DVec3;
 
 /// An energy of the contact points of all hairs, which is all that one hair knows of another.
 pub(super) trait Interaction: Sync {
-    /// Finds out what is near at these points (m), and what friction is there.
-    fn search(&mut self, points: &[DVec3]) -> InteractionSummary;
+    /// Finds out what is near at these points (m), and what friction is there. Without `exact` it may miss contact of a few hairs that have
+    /// moved far since the last time.
+    fn search(&mut self, points: &[DVec3], exact: bool) -> InteractionSummary;
 
     /// Makes it so hard, of what it is, from the next search on.
     fn harden(&mut self, hardness: f64);

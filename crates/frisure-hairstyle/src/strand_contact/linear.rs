@@ -25,6 +25,9 @@ const LEAST_DAMPING: f64 = 0.01;
 /// Largest damping: a hair hardly moves then. Chosen.
 const MOST_DAMPING: f64 = 1e6;
 
+/// Stiffness by which a hair is held back next time, over that which it lacked. Chosen by trial.
+const HOLD: f64 = 4.0;
+
 /// Least pivot over the stiffness of a joint. Chosen: numbers are in single precision.
 const LEAST_PIVOT: f64 = 1e-4;
 
@@ -41,6 +44,8 @@ struct Part {
     /// By point: J z and J x.
     moved: Vec<DVec3>,
     solution_moved: Vec<DVec3>,
+    /// By hair: whether its step is no longer changed.
+    frozen: Vec<bool>,
 }
 
 /// The system at one shape, and the memory for the next.
@@ -83,6 +88,7 @@ impl LinearModel {
                 image: zeros(),
                 moved: points(),
                 solution_moved: points(),
+                frozen: vec![false; strands.len()],
             }
         };
         let points = layout.point_count();
@@ -105,10 +111,7 @@ impl LinearModel {
     /// Factorises at the same shape.
     pub(super) fn factorise(&mut self, head: &Head<'_>, state: &State) {
         let layout = &head.layout;
-        let damping = super::layout::split_mut(
-            &mut self.damping,
-            layout.chunks().iter().map(ExactSizeIterator::len),
-        );
+        let damping = layout.by_strand(&mut self.damping);
         // Only D is of the interaction alone: what is outside of hairs is in M and in H alike.
         let (own, drag) = (&self.own, &self.drag);
         self.parts.par_iter_mut().zip(damping).for_each(|(part, damping)| {
@@ -137,87 +140,126 @@ impl LinearModel {
         });
     }
 
-    /// Solves `H x = −g` for the step x (rad), as well as `rule` says. Returns the iterations, and whether it has ended early in a
-    /// direction in which the Hessian is not positive: hairs that have a part in that are held back the next time.
+    /// Solves `H x = −g` for the step x (rad), as well as `rule` says. Returns the iterations, and how many hairs were
+    /// taken out since the Hessian is not positive in a direction of theirs.
     pub(super) fn solve(
         &mut self,
         head: &Head<'_>,
         interaction: &mut dyn Interaction,
         gradient: &[DVec3],
         rule: LinearRule,
-    ) -> (usize, bool) {
+    ) -> (usize, usize) {
         let layout = &head.layout;
-        let Self { parts, own, motion, forces, .. } = self;
-        parts.par_iter_mut().for_each(|part| part.begin(layout.joints(part.strands.start).start, gradient));
-        motion.fill(DVec3::ZERO);
-        let (mut first, mut before, mut step) = (0.0, 1.0, 0.0);
+        self.parts.par_iter_mut().for_each(|part| {
+            part.begin(layout.joints(part.strands.start).start, gradient);
+        });
+        self.motion.fill(DVec3::ZERO);
+        let (mut first, mut before, mut step) = (0.0, f64::INFINITY, None);
+        let mut frozen = 0;
         for iteration in 0..=rule.most {
-            let products: Vec<f64> = (parts.par_iter_mut())
-                .zip(layout.by_point(motion))
-                .zip(layout.by_point(forces))
-                .map(|((part, motion), forces)| {
-                    let first = layout.points(part.strands.start).start;
-                    if iteration > 0 {
-                        let own = &own[first..first + motion.len()];
-                        part.advance(head, step, (motion, forces), own);
-                    }
-                    part.precondition(head)
-                })
-                .collect();
-            let product: f64 = products.iter().sum();
-            if iteration == 0 {
-                first = product;
+            let product = self.residual(head, step);
+            first = if iteration == 0 { product } else { first };
+            let small = product <= rule.reduction * rule.reduction * first;
+            if iteration == rule.most || (iteration >= rule.least && small) {
+                return (iteration, frozen);
             }
-            if iteration == rule.most || (iteration >= rule.least && product <= rule.reduction * rule.reduction * first) {
-                return (iteration, false);
-            }
-            let beta = if iteration == 0 { 0.0 } else { product / before };
+            // Zero after the first, and where hairs were taken out.
+            let beta = product / before;
             before = product;
-            let curvatures: Vec<f64> = (parts.par_iter_mut().zip(layout.by_point(motion)))
-                .map(|(part, motion)| {
-                    let first = layout.points(part.strands.start).start;
-                    part.turn(beta, motion, &own[first..first + motion.len()])
-                })
-                .collect();
-            let curvature = curvatures.iter().sum::<f64>() + interaction.product(motion, forces);
-            if curvature <= 0.0 {
-                self.hold(head);
-                return (iteration, true);
-            }
-            step = product / curvature;
+            let curvature = self.turn(head, interaction, beta);
+            step = if curvature > 0.0 {
+                Some(product / curvature)
+            } else {
+                let held = self.hold(head);
+                frozen += held;
+                if held == 0 {
+                    return (iteration, frozen);
+                }
+                before = f64::INFINITY;
+                None
+            };
         }
-        (rule.most, false)
+        (rule.most, frozen)
     }
 
-    /// Holds hairs back whose part `pᵀ H p` of a direction is negative, so that it is positive.
-    fn hold(&mut self, head: &Head<'_>) {
+    /// Takes a step along the direction, if there is one, and preconditions the residual. Returns r·z.
+    fn residual(&mut self, head: &Head<'_>, step: Option<f64>) -> f64 {
+        let layout = &head.layout;
+        let Self { parts, own, motion, forces, .. } = self;
+        let products: Vec<f64> = (parts.par_iter_mut())
+            .zip(layout.by_point(motion))
+            .zip(layout.by_point(forces))
+            .map(|((part, motion), forces)| {
+                let first = layout.points(part.strands.start).start;
+                if let Some(step) = step {
+                    part.advance(head, step, (motion, forces), &own[first..first + motion.len()]);
+                }
+                part.precondition(head)
+            })
+            .collect();
+        products.iter().sum()
+    }
+
+    /// The next direction. Returns its `pᵀ H p`.
+    fn turn(&mut self, head: &Head<'_>, interaction: &mut dyn Interaction, beta: f64) -> f64 {
+        let layout = &head.layout;
+        let Self { parts, own, motion, forces, .. } = self;
+        let curvatures: Vec<f64> = (parts.par_iter_mut().zip(layout.by_point(motion)))
+            .map(|(part, motion)| {
+                let first = layout.points(part.strands.start).start;
+                part.turn(beta, motion, &own[first..first + motion.len()])
+            })
+            .collect();
+        curvatures.iter().sum::<f64>() + interaction.product(motion, forces)
+    }
+
+    /// Takes hairs out of the system whose part `pᵀ H p` of a direction is negative, of those the worst, and holds them back the next
+    /// time. Returns how many.
+    fn hold(&mut self, head: &Head<'_>) -> usize {
         let layout = &head.layout;
         let Self { parts, own, motion, forces, drag, .. } = self;
-        let drag = super::layout::split_mut(drag, layout.chunks().iter().map(ExactSizeIterator::len));
-        parts.par_iter().zip(drag).for_each(|(part, drag)| {
-            let mut joint = 0;
-            for (strand, drag) in part.strands.clone().zip(drag) {
-                let n = layout.joints(strand).len();
-                let (p, image) = (&part.direction[joint..joint + n], &part.image[joint..joint + n]);
-                let mut curvature: f64 = p.iter().zip(image).map(|(p, q)| p.dot(*q)).sum();
-                let mut square = 0.0;
-                for (k, at) in layout.points(strand).enumerate() {
-                    let u = motion[at];
-                    curvature += u.dot(forces[at] - own[at] * u);
-                    square += u.length_squared() * head.chains[strand].at(k).1;
+        let curvatures: Vec<Vec<(f64, f64)>> = (parts.par_iter())
+            .map(|part| {
+                let mut joint = 0;
+                let of_strand = |strand: usize| {
+                    let n = layout.joints(strand).len();
+                    let of = joint..joint + n;
+                    joint += n;
+                    let products = part.direction[of.clone()].iter().zip(&part.image[of]);
+                    let mut curvature: f64 = products.map(|(p, q)| p.dot(*q)).sum();
+                    let mut square = 0.0;
+                    for (k, at) in layout.points(strand).enumerate() {
+                        let u = motion[at];
+                        curvature += u.dot(forces[at] - own[at] * u);
+                        square += u.length_squared() * head.chains[strand].at(k).1;
+                    }
+                    (curvature, square)
+                };
+                part.strands.clone().map(of_strand).collect()
+            })
+            .collect();
+        let worst = curvatures.iter().flatten().map(|of| of.0).fold(0.0, f64::min);
+        let mut count = 0;
+        for ((part, curvatures), drag) in
+            parts.iter_mut().zip(curvatures).zip(layout.by_strand(drag))
+        {
+            for ((frozen, (curvature, square)), drag) in
+                part.frozen.iter_mut().zip(curvatures).zip(drag)
+            {
+                if curvature < 0.1 * worst && !*frozen {
+                    *frozen = true;
+                    *drag += HOLD * -curvature / square;
+                    count += 1;
                 }
-                if curvature < 0.0 {
-                    *drag += 2.0 * -curvature / square;
-                }
-                joint += n;
             }
-        });
+        }
+        count
     }
 
     /// Puts the step of each hair (rad) into `step`, and how far (m) its points move and its joints turn (rad) at most into `far`.
     pub(super) fn step(&self, head: &Head<'_>, step: &mut [DVec3], far: &mut [(f64, f64)]) {
         let layout = &head.layout;
-        let far = super::layout::split_mut(far, layout.chunks().iter().map(ExactSizeIterator::len));
+        let far = layout.by_strand(far);
         let most = |values: &[DVec3]| {
             values.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt()
         };
@@ -245,6 +287,7 @@ impl Part {
             zero.fill(DVec3::ZERO);
         }
         self.solution_moved.fill(DVec3::ZERO);
+        self.frozen.fill(false);
     }
 
     /// Goes `step` along the direction: x, J x and r. `motion` is J p and `forces` K J p, which becomes K J p − D J p.
@@ -283,14 +326,17 @@ impl Part {
     /// z and J z. Returns r·z.
     fn precondition(&mut self, head: &Head<'_>) -> f64 {
         let (mut joint, mut point) = (0, 0);
-        for strand in self.strands.clone() {
+        for (strand, frozen) in self.strands.clone().zip(&self.frozen) {
             let n = head.layout.joints(strand).len();
-            solve(
-                &self.factors[joint..joint + n],
-                &self.residual[joint..joint + n],
-                &mut self.preconditioned[joint..joint + n],
-                &mut self.moved[point..=point + n],
-            );
+            let z = &mut self.preconditioned[joint..joint + n];
+            let moved = &mut self.moved[point..=point + n];
+            if *frozen {
+                self.residual[joint..joint + n].fill(DVec3::ZERO);
+                z.fill(DVec3::ZERO);
+                moved.fill(DVec3::ZERO);
+            } else {
+                solve(&self.factors[joint..joint + n], &self.residual[joint..joint + n], z, moved);
+            }
             (joint, point) = (joint + n, point + n + 1);
         }
         self.residual.iter().zip(&self.preconditioned).map(|(r, z)| r.dot(*z)).sum()

@@ -14,11 +14,6 @@ const ARMIJO: f64 = 1e-4;
 /// Most trials of a line search. Chosen; not measured further.
 const TRIALS: usize = 8;
 
-/// How often a linear system whose matrix is not positive definite is tried again, and the iterations before that is found that are
-/// enough for a step. Chosen by trial.
-const HOLDS: usize = 4;
-const ENOUGH: usize = 8;
-
 /// Largest turn of a joint in a step (rad). Chosen: half of that of a hair by itself.
 const LARGEST_TURN: f64 = 0.5;
 
@@ -79,20 +74,14 @@ impl<'a> Newton<'a> {
         self.stage.check()?;
         let head = self.head;
         self.linear.linearise(interaction, state);
+        self.linear.factorise(head, state);
         let mut done = Step::default();
         // Hairs that may not go as far as they would can turn a direction uphill. The first direction of the linear system does that
         // least.
         for rule in [rule, LinearRule { most: 1, least: 1, ..rule }] {
-            for _ in 0..HOLDS {
-                self.linear.factorise(head, state);
-                let (linear, early) =
-                    self.linear.solve(head, interaction, &state.gradient, rule);
-                done.linear += linear;
-                done.holds += usize::from(early);
-                if !early || linear >= ENOUGH {
-                    break;
-                }
-            }
+            let (linear, held) = self.linear.solve(head, interaction, &state.gradient, rule);
+            done.linear += linear;
+            done.holds += held;
             self.linear.step(head, &mut self.step, &mut self.far);
             self.limit(&mut done);
             if self.search(interaction, state, &mut done) {
@@ -106,18 +95,14 @@ impl<'a> Newton<'a> {
     /// Shortens the steps of hairs that go too far, and holds these back the next time.
     fn limit(&mut self, done: &mut Step) {
         let Self { head, linear, step, far, farthest, .. } = self;
-        let mut shortened = 0;
-        let radii = &head.system.radii;
-        for (strand, (moved, turned)) in far.iter().enumerate() {
-            let excess = (moved / (*farthest * radii[strand])).max(turned / LARGEST_TURN);
-            let drag = &mut linear.drag[strand];
-            let least = head.moments[strand]
-                / (head.system.rods[strand].length().powi(2) * *farthest * radii[strand]);
+        let (head, farthest) = (*head, *farthest);
+        let limit = |strand: usize, step: &mut [DVec3], (moved, turned): (f64, f64), drag: &mut f64| {
+            let most = farthest * head.system.radii[strand];
+            let excess = (moved / most).max(turned / LARGEST_TURN);
+            let length = head.system.rods[strand].length();
+            let least = head.moments[strand] / (length * length * most);
             if excess > 1.0 {
-                shortened += 1;
-                for d in &mut step[head.layout.joints(strand)] {
-                    *d *= 1.0 / excess;
-                }
+                step.iter_mut().for_each(|d| *d *= 1.0 / excess);
                 *drag = (*drag * excess.clamp(2.0, 8.0)).max(0.1 * least * excess.min(10.0));
             } else {
                 *drag *= 0.3;
@@ -125,8 +110,23 @@ impl<'a> Newton<'a> {
                     *drag = 0.0;
                 }
             }
-        }
-        done.shortened = shortened as f64 / far.len() as f64;
+            usize::from(excess > 1.0)
+        };
+        let layout = &head.layout;
+        let drag = layout.by_strand(&mut linear.drag);
+        let work = layout.chunks().par_iter().zip(layout.by_joint(step)).zip(drag);
+        let shortened: Vec<usize> = work
+            .map(|((chunk, step), drag)| {
+                let (mut joint, mut shortened) = (0, 0);
+                for (strand, drag) in chunk.clone().zip(drag) {
+                    let n = layout.joints(strand).len();
+                    shortened += limit(strand, &mut step[joint..joint + n], far[strand], drag);
+                    joint += n;
+                }
+                shortened
+            })
+            .collect();
+        done.shortened = shortened.iter().sum::<usize>() as f64 / far.len() as f64;
     }
 
     /// The slopes of each hair along its step.

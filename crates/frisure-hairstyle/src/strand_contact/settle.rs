@@ -54,12 +54,18 @@ pub(crate) fn settle(
         newton.farthest = stage_now.2;
         // 1. Contacts where hairs are now; friction as it is there.
         let t = std::time::Instant::now();
-        let summary = interaction.search(&state.points);
+        let mut summary = interaction.search(&state.points, iterations == MOST_ITERATIONS);
         let t1 = t.elapsed();
         head.evaluate(&mut interaction, &mut state);
         let t2 = t.elapsed();
         // 2. At rest with these?
-        let gradients = head.gradients(&state);
+        let mut gradients = head.gradients(&state);
+        if gradients.iter().all(|&gradient| gradient <= tolerance) && summary.change <= FRICTION {
+            // With everything that is near.
+            summary = interaction.search(&state.points, true);
+            head.evaluate(&mut interaction, &mut state);
+            gradients = head.gradients(&state);
+        }
         let certificate = certificate(&gradients, tolerance, &summary, iterations);
         let at_rest = certificate.balanced == gradients.len() && summary.change <= FRICTION;
         if (at_rest && stage_now.1 == 0) || iterations >= MOST_ITERATIONS {

@@ -85,7 +85,7 @@ impl Tuft {
             head.place(&mut state);
             let without = state.energy;
             let mut pairs = PairSystem::new(head.properties());
-            pairs.search(&state.points);
+            pairs.search(&state.points, true);
             head.evaluate(&mut pairs, &mut state);
             let of = |strand: usize| state.forces[head.layout.points(strand)].to_vec();
             ((0..self.rods.len()).map(of).collect(), state.energy - without)
