@@ -239,12 +239,4 @@ impl<'a> Head<'a> {
         };
         (0..self.layout.strands()).into_par_iter().map(largest).collect()
     }
-
-    /// The scalar product of two vectors by joint, in an order that does not depend on threads.
-    pub(super) fn dot(&self, a: &[DVec3], b: &[DVec3]) -> f64 {
-        let products: Vec<f64> = (a.par_chunks(4096).zip(b.par_chunks(4096)))
-            .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum::<f64>())
-            .collect();
-        products.iter().sum()
-    }
 }

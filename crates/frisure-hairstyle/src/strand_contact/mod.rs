@@ -8,6 +8,7 @@
 //! while the others hold still), `descent` (conjugate gradients), `settle` (stages, certificate).
 
 mod candidates;
+mod density_system;
 mod energy;
 mod interaction;
 mod layout;
@@ -27,6 +28,16 @@ use glam::DVec3;
 use crate::contact::FrictionCoefficients;
 pub(crate) use settle::{settle, stages};
 
+/// How hairs act on each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InteractionForm {
+    /// Each pushes and rubs those that it touches.
+    #[default]
+    Contacts,
+    /// All together are a volume that presses where it is too dense; without friction.
+    Density,
+}
+
 /// Hairs in contact with each other.
 pub(crate) struct StrandSystem<'a> {
     pub(crate) rods: Vec<Rod>,
@@ -36,6 +47,8 @@ pub(crate) struct StrandSystem<'a> {
     pub(crate) radii: Vec<f64>,
     /// Friction of each hair.
     pub(crate) friction: Vec<FrictionCoefficients>,
+    /// How they act on each other.
+    pub(crate) form: InteractionForm,
     /// Contact with all else, by the index of the hair.
     pub(crate) field: &'a dyn ContactField,
 }
@@ -53,11 +66,13 @@ pub(crate) struct SettledStrands {
 /// minimum in all directions is not checked: the second variation of the whole is not computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StrandCertificate {
+    /// How hairs act on each other.
+    pub form: InteractionForm,
     /// Hairs in contact with each other.
     pub strands: usize,
     /// How many hairs that grow each of them stands for.
     pub represented: f64,
-    /// Contacts: points of a hair that touch another hair.
+    /// Contacts: points of a hair that touch another hair; of a density, points of hairs on which it presses.
     pub contacts: usize,
     /// Hairs whose gradient is at most the tolerance.
     pub balanced: usize,
@@ -65,7 +80,7 @@ pub struct StrandCertificate {
     pub largest_gradient: f64,
     /// Root mean square over the hairs of the largest gradient of each.
     pub rms_gradient: f64,
-    /// Deepest overlap of two hairs over their contact distance.
+    /// Deepest overlap of two hairs over their contact distance; of a density, that of a bundle as dense as the densest place.
     pub deepest_overlap: f64,
     /// Largest |f_t|/(μ f_n) of contacts that bear more than a tenth of the mean; 0 without friction.
     pub friction_ratio: f64,

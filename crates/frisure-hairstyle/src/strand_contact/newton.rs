@@ -14,6 +14,9 @@ const ARMIJO: f64 = 1e-4;
 /// Most trials of a line search. Chosen; not measured further.
 const TRIALS: usize = 8;
 
+/// Trials from which on a hair that still goes beyond its minimum does not move. Chosen by trial.
+const PATIENCE: usize = 2;
+
 /// Largest turn of a joint in a step (rad). Chosen: half of that of a hair by itself.
 const LARGEST_TURN: f64 = 0.5;
 
@@ -28,7 +31,7 @@ pub(super) struct Newton<'a> {
     trial: State,
     step: Vec<DVec3>,
     /// How far (m, rad) each hair moves.
-    pub(super) far: Vec<(f64, f64)>,
+    far: Vec<(f64, f64)>,
     /// Farthest that a point may move in a step, in contact radii of its hair.
     pub(super) farthest: f64,
 }
@@ -152,7 +155,7 @@ impl<'a> Newton<'a> {
         let noise = ROUNDING * state.energy.abs();
         let mut slopes = self.slopes(&state.gradient);
         done.at = 1.0;
-        for _ in 0..TRIALS {
+        for trials in 0..TRIALS {
             let slope: f64 = slopes.iter().sum();
             let trial = &mut self.trial;
             trial.controls.clear();
@@ -178,7 +181,11 @@ impl<'a> Newton<'a> {
                     let (t, s) = (there[strand], slopes[strand]);
                     let moved = head.moved(strand, &state.points, &self.trial.points);
                     let far = self.farthest * head.system.radii[strand];
-                    if moved > 2.0 * far {
+                    let over = moved > 2.0 * far || t > 0.3 * s.abs();
+                    if over && trials >= PATIENCE {
+                        // Others must not wait for it: it stays where it is.
+                        0.0
+                    } else if moved > 2.0 * far {
                         (far / moved).clamp(0.02, 0.5)
                     } else if t > 0.3 * s.abs() {
                         if s < 0.0 { (s / (s - t)).clamp(0.1, 0.7) } else { 0.1 }

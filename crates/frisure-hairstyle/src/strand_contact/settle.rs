@@ -3,15 +3,33 @@
 use frisure_progress::{Cancelled, StageCounter};
 use glam::DVec3;
 
+use super::density_system::DensitySystem;
 use super::energy::Head;
 use super::interaction::{Interaction, InteractionSummary};
 use super::linear::LinearRule;
 use super::newton::Newton;
 use super::pair_system::PairSystem;
-use super::{SettledStrands, StrandCertificate, StrandSystem};
+use super::{InteractionForm, SettledStrands, StrandCertificate, StrandSystem};
 
 /// Most iterations in all. Chosen by trial; not measured further.
 const MOST_ITERATIONS: usize = 600;
+
+/// The way to rest goes from soft contact to hard contact, so that hairs that start in each other part without haste: hardness of the
+/// contact between hairs, iterations, and how far hairs may move in each of them, in contact radii. Chosen by trial.
+const STAGES: [(f64, usize, f64); 6] = [
+    (1e-5, 2, 50.0),
+    (1e-4, 2, 30.0),
+    (1e-3, 3, 20.0),
+    (1e-2, 4, 10.0),
+    (0.1, 5, 5.0),
+    (0.3, 5, 3.0),
+];
+
+/// The same of the last stage. Chosen by trial.
+const FARTHEST: f64 = 2.0;
+
+/// How well linear systems are solved. Chosen by trial.
+const LINEAR: LinearRule = LinearRule { reduction: 0.1, least: 5, most: 20 };
 
 /// Change of friction limits over their sum at which friction is at rest: (F3) with a share that is below the tolerance of forces.
 const FRICTION: f64 = 1e-3;
@@ -32,62 +50,50 @@ pub(crate) fn settle(
     stage: &StageCounter<'_>,
 ) -> Result<SettledStrands, Cancelled> {
     let head = Head::new(system);
-    let mut interaction = PairSystem::new(head.properties());
+    let mut pairs;
+    let mut density;
+    let interaction: &mut dyn Interaction = match system.form {
+        InteractionForm::Contacts => {
+            pairs = PairSystem::new(head.properties());
+            &mut pairs
+        }
+        InteractionForm::Density => {
+            density = DensitySystem::new(&head.properties());
+            &mut density
+        }
+    };
     let mut state = head.state(controls);
-    let far = std::env::var("FAR").map_or(1.0, |x| x.parse().unwrap());
-    let eta = std::env::var("ETA").map_or(0.1, |x| x.parse().unwrap());
-    let most = std::env::var("MOST").map_or(50, |x| x.parse().unwrap());
-    let mut newton = Newton::new(&head, stage, far);
+    let mut newton = Newton::new(&head, stage, FARTHEST);
     let mut iterations = 0;
     head.place(&mut state);
-    let least = std::env::var("LEAST").map_or(5, |x| x.parse().unwrap());
-    let stages: Vec<(f64, usize, f64)> = std::env::var("STAGES").map_or(vec![], |x| x.split(',').map(|s| { let mut p = s.split(':'); (p.next().unwrap().parse().unwrap(), p.next().unwrap().parse().unwrap(), p.next().unwrap().parse().unwrap()) }).collect());
-    let debug = std::env::var("DEBUG").is_ok();
-    let begin = std::time::Instant::now();
-    let start = state.points.clone();
-    let mut all = 0;
     let certificate = loop {
         stage.check()?;
-        let mut until = 0;
-        let stage_now = stages.iter().find(|s| { until += s.1; iterations < until }).copied().unwrap_or((1.0, 0, far));
-        interaction.harden(stage_now.0);
-        newton.farthest = stage_now.2;
+        let (hardness, farthest) = stage_at(iterations);
+        interaction.harden(hardness);
+        newton.farthest = farthest;
         // 1. Contacts where hairs are now; friction as it is there.
-        let t = std::time::Instant::now();
         let mut summary = interaction.search(&state.points, iterations == MOST_ITERATIONS);
-        let t1 = t.elapsed();
-        head.evaluate(&mut interaction, &mut state);
-        let t2 = t.elapsed();
+        head.evaluate(interaction, &mut state);
         // 2. At rest with these?
         let mut gradients = head.gradients(&state);
         if gradients.iter().all(|&gradient| gradient <= tolerance) && summary.change <= FRICTION {
             // With everything that is near.
             summary = interaction.search(&state.points, true);
-            head.evaluate(&mut interaction, &mut state);
+            head.evaluate(interaction, &mut state);
             gradients = head.gradients(&state);
         }
-        let certificate = certificate(&gradients, tolerance, &summary, iterations);
+        let certificate = certificate(system.form, &gradients, tolerance, &summary, iterations);
         let at_rest = certificate.balanced == gradients.len() && summary.change <= FRICTION;
-        if (at_rest && stage_now.1 == 0) || iterations >= MOST_ITERATIONS {
+        if (at_rest && hardness == 1.0) || iterations >= MOST_ITERATIONS {
             break certificate;
         }
         // 3. Downhill.
-        let e = state.energy;
-        let rule = LinearRule { reduction: eta, most, least };
-        let done = newton.step(&mut interaction, &mut state, rule)?;
-        all += done.linear;
-        if debug {
-            let after = head.gradients(&state);
-            let rms = (after.iter().map(|g| g * g).sum::<f64>() / after.len() as f64).sqrt();
-            let worst = (0..after.len()).max_by(|a, b| gradients[*a].total_cmp(&gradients[*b])).unwrap();
-            eprintln!("   after rms {rms:.2e} worst {worst} {:.2e} -> {:.2e} moved {:.2e}", gradients[worst], after[worst], newton.far[worst].0);
-            let moved = state.points.iter().zip(&start).map(|(a, b)| a.distance(*b));
-            let (sum, max) = moved.fold((0.0, 0.0f64), |(s, m), d| (s + d, m.max(d)));
+        let done = newton.step(interaction, &mut state, LINEAR)?;
+        if std::env::var("DEBUG").is_ok() {
             eprintln!(
-                "{iterations} t {:.2} E {e:.9e} bal {} rms {:.2e} max {:.2e} chg {:.1e} touch {} deep {:.2} | lin {} ({all}) short {:.3} at {:.2} tr {} hold {} damp {} drag {} | moved {:.2e} {:.2e} | search {:.1?} eval {:.1?} step {:.1?}",
-                begin.elapsed().as_secs_f64(), certificate.balanced, certificate.rms_gradient, certificate.largest_gradient, summary.change,
-                summary.touching, summary.deepest, done.linear, done.shortened, done.at, done.trials, done.holds, newton.linear.damping.iter().filter(|d| **d > 0.0).count(), newton.linear.drag.iter().filter(|d| **d > 0.0).count(),
-                sum / start.len() as f64, max, t1, t2 - t1, t.elapsed() - t2
+                "{iterations} E {:.9e} bal {} rms {:.2e} max {:.2e} chg {:.1e} touch {} deep {:.2} imb {:.1e} | {done:?} damp {} drag {}",
+                state.energy, certificate.balanced, certificate.rms_gradient, certificate.largest_gradient, summary.change, summary.touching, summary.deepest, summary.imbalance,
+                newton.linear.damping.iter().filter(|d| **d > 0.0).count(), newton.linear.drag.iter().filter(|d| **d > 0.0).count(),
             );
         }
         iterations += 1;
@@ -96,7 +102,20 @@ pub(crate) fn settle(
     Ok(SettledStrands { controls: state.controls, certificate })
 }
 
+/// Hardness of contact, and how far hairs may move (contact radii), in an iteration.
+fn stage_at(iteration: usize) -> (f64, f64) {
+    let mut end = 0;
+    for (hardness, iterations, farthest) in STAGES {
+        end += iterations;
+        if iteration < end {
+            return (hardness, farthest);
+        }
+    }
+    (1.0, FARTHEST)
+}
+
 fn certificate(
+    form: InteractionForm,
     gradients: &[f64],
     tolerance: f64,
     pairs: &InteractionSummary,
@@ -104,6 +123,7 @@ fn certificate(
 ) -> StrandCertificate {
     let count = gradients.len().max(1) as f64;
     StrandCertificate {
+        form,
         strands: gradients.len(),
         represented: 1.0,
         contacts: pairs.touching,

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use super::energy::Head;
 use super::interaction::Interaction;
 use super::pair_system::PairSystem;
-use super::{SettledStrands, StrandSystem, settle, stages};
+use super::{InteractionForm, SettledStrands, StrandSystem, settle, stages};
 use crate::contact::FrictionCoefficients;
 
 /// Nothing but hairs.
@@ -55,6 +55,7 @@ impl Tuft {
             elements: vec![self.elements; count],
             radii: vec![RADIUS; count],
             friction: vec![hair; count],
+            form: InteractionForm::Contacts,
             field: &Nothing,
             rods: self.rods.clone(),
         })
