@@ -2,8 +2,8 @@
 
 use frisure::hairstyle::contact::Thickness;
 use frisure::hairstyle::{
-    Body, Contact, DrawnHair, HairContact, Hairstyle, JointCertificate, SettlingReport, Simulation,
-    InteractionForm, StrandCertificate, Volume, WetLockSizes, volume,
+    Body, Contact, DrawnHair, HairContact, Hairstyle, InteractionForm, JointCertificate,
+    SettlingReport, Simulation, StrandCertificate, Volume, WetLockSizes, volume,
 };
 use frisure::rod::Energy;
 use frisure::strands::Strands;

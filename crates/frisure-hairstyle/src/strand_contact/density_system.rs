@@ -21,8 +21,8 @@ pub(super) const SOLID: f64 = 0.8;
 const CELL: f64 = 4.0;
 const LEAST_CELL: f64 = 3e-3;
 
-/// Energy per volume, over the force scale and the cross-section of a hair, where distances are shorter than contact distances by all
-/// of these. Three pairs of each hair in a hexagonal bundle, k D²/6 each, k = 200 f/D: (S1), (V1).
+/// Energy per length of a hair, over the force scale and the contact distance, where distances are shorter than contact distances by
+/// all of these. Three pairs of each hair in a hexagonal bundle, k D²/6 each, k = 200 f/D: (S1), (V1).
 const BUNDLE: f64 = 100.0;
 
 /// Parts in which volumes are summed up, each by itself, whatever the number of threads. Chosen.
@@ -119,7 +119,7 @@ impl<'a> DensitySystem<'a> {
         let width = (CELL * 2.0 * radius).max(LEAST_CELL);
         Self {
             layout: of.layout,
-            modulus: BUNDLE * force / mean(sections.iter().sum()),
+            modulus: BUNDLE * force * 2.0 * radius / mean(sections.iter().sum()),
             sections,
             hardness: 1.0,
             cells: Cells { width, ..Cells::default() },
@@ -204,10 +204,8 @@ impl Interaction for DensitySystem<'_> {
     fn search(&mut self, points: &[DVec3], _: bool) -> InteractionSummary {
         // 1. A grid around all hair.
         let bounds = points.par_iter().map(|p| (*p, *p));
-        let (low, high) = bounds.reduce(
-            || (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |a, b| (a.0.min(b.0), a.1.max(b.1)),
-        );
+        let (low, high) = bounds
+            .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
         // On multiples of the width, so that cells stay where they are.
         let key = |p: DVec3| (p / self.cells.width).floor();
         self.cells.low = (key(low) - f64::from(MARGIN)) * self.cells.width;

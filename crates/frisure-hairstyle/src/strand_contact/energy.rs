@@ -1,14 +1,18 @@
 //! The energy of all hairs together, and its gradient.
 
+use frisure_rod::Stability;
 use frisure_rod::batch::chain_factor::{ChainShape, JointFactor, Symmetric};
-use frisure_rod::batch::{ConfinementTube, Contact, JointChain};
+use frisure_rod::batch::{Batch, ConfinementTube, Contact, InitialShape, JointChain};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::StrandSystem;
-use super::layout::Layout;
 use super::interaction::Interaction;
+use super::layout::Layout;
 use super::pairs::StrandProperties;
+
+/// Most iterations of a hair by itself. As in a tube.
+const ALONE: usize = 400;
 
 /// A head of hair, ready for evaluation.
 pub(super) struct Head<'a> {
@@ -223,6 +227,25 @@ impl<'a> Head<'a> {
             stiffness,
         };
         self.chains[strand].factorise(&shape, damping, factors)
+    }
+
+    /// The turns (rad) of hairs each at rest by itself, from others; those that find no rest keep theirs.
+    pub(super) fn alone(&self, mut controls: Vec<DVec3>, tolerance: f64) -> Vec<DVec3> {
+        let work = self.layout.chunks().par_iter().zip(self.layout.by_joint(&mut controls));
+        work.for_each(|(chunk, controls)| {
+            let n = self.system.elements[chunk.start];
+            let batch = Batch { elements: n, tolerance, max_iterations: ALONE, ..Batch::default() };
+            let start = InitialShape::Controls(controls.to_vec());
+            let rods = &self.system.rods[chunk.clone()];
+            let (found, _) = batch.solve_in_contact(rods, start, self.system.field, chunk.start);
+            let shapes = found.controls.chunks(n).zip(&found.rods);
+            for (before, (after, rod)) in controls.chunks_mut(n).zip(shapes) {
+                if rod.stability == Stability::Stable {
+                    before.copy_from_slice(after);
+                }
+            }
+        });
+        controls
     }
 
     /// How far (m) the points of one hair have moved at most.

@@ -140,28 +140,27 @@ impl LinearModel {
         });
     }
 
-    /// Solves `H x = −g` for the step x (rad), as well as `rule` says. Returns the iterations, and how many hairs were
-    /// taken out since the Hessian is not positive in a direction of theirs.
+    /// Solves `H x = −g` for the step x (rad), as well as `rule` says. Hairs in a direction of
+    /// which the Hessian is not positive are taken out.
     pub(super) fn solve(
         &mut self,
         head: &Head<'_>,
         interaction: &mut dyn Interaction,
         gradient: &[DVec3],
         rule: LinearRule,
-    ) -> (usize, usize) {
+    ) {
         let layout = &head.layout;
         self.parts.par_iter_mut().for_each(|part| {
             part.begin(layout.joints(part.strands.start).start, gradient);
         });
         self.motion.fill(DVec3::ZERO);
         let (mut first, mut before, mut step) = (0.0, f64::INFINITY, None);
-        let mut frozen = 0;
         for iteration in 0..=rule.most {
             let product = self.residual(head, step);
             first = if iteration == 0 { product } else { first };
             let small = product <= rule.reduction * rule.reduction * first;
             if iteration == rule.most || (iteration >= rule.least && small) {
-                return (iteration, frozen);
+                return;
             }
             // Zero after the first, and where hairs were taken out.
             let beta = product / before;
@@ -170,16 +169,13 @@ impl LinearModel {
             step = if curvature > 0.0 {
                 Some(product / curvature)
             } else {
-                let held = self.hold(head);
-                frozen += held;
-                if held == 0 {
-                    return (iteration, frozen);
+                if self.hold(head) == 0 {
+                    return;
                 }
                 before = f64::INFINITY;
                 None
             };
         }
-        (rule.most, frozen)
     }
 
     /// Takes a step along the direction, if there is one, and preconditions the residual. Returns r·z.
@@ -260,9 +256,8 @@ impl LinearModel {
     pub(super) fn step(&self, head: &Head<'_>, step: &mut [DVec3], far: &mut [(f64, f64)]) {
         let layout = &head.layout;
         let far = layout.by_strand(far);
-        let most = |values: &[DVec3]| {
-            values.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt()
-        };
+        let most =
+            |values: &[DVec3]| values.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt();
         let work = self.parts.par_iter().zip(layout.by_joint(step)).zip(far);
         work.for_each(|((part, step), far)| {
             let (mut joint, mut point) = (0, 0);

@@ -36,21 +36,6 @@ pub(super) struct Newton<'a> {
     pub(super) farthest: f64,
 }
 
-/// What a step did.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Step {
-    /// Whether the energy fell.
-    pub(super) lower: bool,
-    /// Iterations of the linear system.
-    pub(super) linear: usize,
-    /// Share of hairs that may not go as far as they would.
-    pub(super) shortened: f64,
-    /// How far it went, of the whole step.
-    pub(super) at: f64,
-    pub(super) trials: usize,
-    pub(super) holds: usize,
-}
-
 impl<'a> Newton<'a> {
     pub(super) fn new(head: &'a Head<'a>, stage: &'a StageCounter<'a>, farthest: f64) -> Self {
         Self {
@@ -73,63 +58,55 @@ impl<'a> Newton<'a> {
         interaction: &mut dyn Interaction,
         state: &mut State,
         rule: LinearRule,
-    ) -> Result<Step, Cancelled> {
+    ) -> Result<(), Cancelled> {
         self.stage.check()?;
         let head = self.head;
         self.linear.linearise(interaction, state);
         self.linear.factorise(head, state);
-        let mut done = Step::default();
         // Hairs that may not go as far as they would can turn a direction uphill. The first direction of the linear system does that
         // least.
         for rule in [rule, LinearRule { most: 1, least: 1, ..rule }] {
-            let (linear, held) = self.linear.solve(head, interaction, &state.gradient, rule);
-            done.linear += linear;
-            done.holds += held;
+            self.linear.solve(head, interaction, &state.gradient, rule);
             self.linear.step(head, &mut self.step, &mut self.far);
-            self.limit(&mut done);
-            if self.search(interaction, state, &mut done) {
-                done.lower = true;
+            self.limit();
+            if self.search(interaction, state) {
                 break;
             }
         }
-        Ok(done)
+        Ok(())
     }
 
     /// Shortens the steps of hairs that go too far, and holds these back the next time.
-    fn limit(&mut self, done: &mut Step) {
+    fn limit(&mut self) {
         let Self { head, linear, step, far, farthest, .. } = self;
         let (head, farthest) = (*head, *farthest);
-        let limit = |strand: usize, step: &mut [DVec3], (moved, turned): (f64, f64), drag: &mut f64| {
-            let most = farthest * head.system.radii[strand];
-            let excess = (moved / most).max(turned / LARGEST_TURN);
-            let length = head.system.rods[strand].length();
-            let least = head.moments[strand] / (length * length * most);
-            if excess > 1.0 {
-                step.iter_mut().for_each(|d| *d *= 1.0 / excess);
-                *drag = (*drag * excess.clamp(2.0, 8.0)).max(0.1 * least * excess.min(10.0));
-            } else {
-                *drag *= 0.3;
-                if *drag < 1e-3 * least {
-                    *drag = 0.0;
+        let limit =
+            |strand: usize, step: &mut [DVec3], (moved, turned): (f64, f64), drag: &mut f64| {
+                let most = farthest * head.system.radii[strand];
+                let excess = (moved / most).max(turned / LARGEST_TURN);
+                let length = head.system.rods[strand].length();
+                let least = head.moments[strand] / (length * length * most);
+                if excess > 1.0 {
+                    step.iter_mut().for_each(|d| *d *= 1.0 / excess);
+                    *drag = (*drag * excess.clamp(2.0, 8.0)).max(0.1 * least * excess.min(10.0));
+                } else {
+                    *drag *= 0.3;
+                    if *drag < 1e-3 * least {
+                        *drag = 0.0;
+                    }
                 }
-            }
-            usize::from(excess > 1.0)
-        };
+            };
         let layout = &head.layout;
         let drag = layout.by_strand(&mut linear.drag);
         let work = layout.chunks().par_iter().zip(layout.by_joint(step)).zip(drag);
-        let shortened: Vec<usize> = work
-            .map(|((chunk, step), drag)| {
-                let (mut joint, mut shortened) = (0, 0);
-                for (strand, drag) in chunk.clone().zip(drag) {
-                    let n = layout.joints(strand).len();
-                    shortened += limit(strand, &mut step[joint..joint + n], far[strand], drag);
-                    joint += n;
-                }
-                shortened
-            })
-            .collect();
-        done.shortened = shortened.iter().sum::<usize>() as f64 / far.len() as f64;
+        work.for_each(|((chunk, step), drag)| {
+            let mut joint = 0;
+            for (strand, drag) in chunk.clone().zip(drag) {
+                let n = layout.joints(strand).len();
+                limit(strand, &mut step[joint..joint + n], far[strand], drag);
+                joint += n;
+            }
+        });
     }
 
     /// The slopes of each hair along its step.
@@ -145,16 +122,10 @@ impl<'a> Newton<'a> {
 
     /// Goes along the step if the energy falls, shortening the steps of hairs that go beyond their minimum where it does not;
     /// `false` if it never falls.
-    fn search(
-        &mut self,
-        interaction: &mut dyn Interaction,
-        state: &mut State,
-        done: &mut Step,
-    ) -> bool {
+    fn search(&mut self, interaction: &mut dyn Interaction, state: &mut State) -> bool {
         let head = self.head;
         let noise = ROUNDING * state.energy.abs();
         let mut slopes = self.slopes(&state.gradient);
-        done.at = 1.0;
         for trials in 0..TRIALS {
             let slope: f64 = slopes.iter().sum();
             let trial = &mut self.trial;
@@ -163,7 +134,6 @@ impl<'a> Newton<'a> {
             trial.controls.par_extend(moved);
             trial.clear.copy_from_slice(&state.clear);
             head.evaluate(interaction, trial);
-            done.trials += 1;
             let there = self.slopes(&self.trial.gradient);
             let sum: f64 = there.iter().sum();
             let falls = slope < 0.0
@@ -204,7 +174,6 @@ impl<'a> Newton<'a> {
                     slopes[strand] *= factor;
                 }
             }
-            done.at = turned as f64 / there.len() as f64;
         }
         false
     }

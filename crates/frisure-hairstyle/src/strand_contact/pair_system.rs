@@ -56,7 +56,8 @@ impl Turning {
         let distance = nearest.away.length().max(1e-12);
         let at = nearest.segment as usize;
         let segment = points[at + 1] - points[at];
-        let (across, normal) = (TURNING * pair.force_at(distance) / distance, nearest.away / distance);
+        let (across, normal) =
+            (TURNING * pair.force_at(distance) / distance, nearest.away / distance);
         if nearest.share > 0.0 && nearest.share < 1.0 {
             let length = segment.length();
             Self { across, normal, along: segment / length, lever: distance / length }
@@ -107,7 +108,6 @@ impl Interaction for PairSystem<'_> {
         let skin = SKIN * reach;
         let most = if exact { 0.0 } else { OUTDATED };
         if self.candidates.outdated(self.of.layout, points, skin) > most {
-            if std::env::var("DEBUG").is_ok() { eprintln!("new"); }
             self.candidates = Candidates::new(self.of.layout, points, reach + 2.0 * skin);
         }
         let (pairs, summary) = self.pairs.search(&self.of, points, &self.candidates);
@@ -180,8 +180,11 @@ impl Springs {
         }
         self.forces.resize(self.springs.len(), (DVec3::ZERO, DVec3::ZERO));
         // A counting sort by the chunk of the segment.
-        let ends: Vec<usize> = layout.chunks().iter().map(|c| layout.points(c.end - 1).end).collect();
-        let chunk_of: Vec<u32> = self.springs.par_iter()
+        let ends: Vec<usize> =
+            layout.chunks().iter().map(|c| layout.points(c.end - 1).end).collect();
+        let chunk_of: Vec<u32> = self
+            .springs
+            .par_iter()
             .map(|spring| ends.partition_point(|&end| end <= spring.segment as usize) as u32)
             .collect();
         let mut starts = vec![0; layout.chunks().len() + 1];

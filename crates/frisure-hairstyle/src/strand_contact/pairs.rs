@@ -362,7 +362,12 @@ impl Pairs {
         if all > 0.0 { on.iter().sum::<DVec3>().length() / all } else { 0.0 }
     }
 
-    fn summary(&self, of: &StrandProperties<'_>, points: &[DVec3], tally: &Tally) -> InteractionSummary {
+    fn summary(
+        &self,
+        of: &StrandProperties<'_>,
+        points: &[DVec3],
+        tally: &Tally,
+    ) -> InteractionSummary {
         let limits: f64 = self.pairs.iter().map(|pair| pair.stick.limit).sum();
         let rubbing = self.pairs.iter().filter(|pair| pair.stick.limit > 0.0).count().max(1);
         let light = LIGHT * limits / rubbing as f64;

@@ -22,10 +22,10 @@ const CELLS_PER_SEGMENT: f64 = 64.0;
 impl SegmentGrid {
     /// Sorts the segments between the points (m) of hairs for searches within `reach` (m).
     pub(super) fn new(layout: &Layout, points: &[DVec3], reach: f64) -> Self {
-        let (low, high) = points.par_iter().map(|p| (*p, *p)).reduce(
-            || (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |a, b| (a.0.min(b.0), a.1.max(b.1)),
-        );
+        let (low, high) = points
+            .par_iter()
+            .map(|p| (*p, *p))
+            .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
         // A ball of the reach is in eight cells at most.
         let mut cell = (2.0 * reach).max(1e-6);
         let count = |cell: f64| ((high - low) / cell).floor() + DVec3::ONE;
@@ -76,7 +76,8 @@ impl SegmentGrid {
     /// The cells that a segment crosses, one after the other ([Amanatides & Woo 1987]).
     fn crossed(&self, a: DVec3, b: DVec3, mut act: impl FnMut(u32)) {
         let last = self.size - IVec3::ONE;
-        let key = |p: DVec3| ((p - self.low) / self.cell).floor().as_ivec3().clamp(IVec3::ZERO, last);
+        let key =
+            |p: DVec3| ((p - self.low) / self.cell).floor().as_ivec3().clamp(IVec3::ZERO, last);
         let (mut at, end) = (key(a).to_array(), key(b).to_array());
         let along = (b - a).to_array();
         let from = ((a - self.low) / self.cell).to_array();
@@ -99,7 +100,8 @@ impl SegmentGrid {
                 }
             }
             at[axis] += (end[axis] - at[axis]).signum();
-            next[axis] = if at[axis] == end[axis] { f64::INFINITY } else { next[axis] + apart[axis] };
+            next[axis] =
+                if at[axis] == end[axis] { f64::INFINITY } else { next[axis] + apart[axis] };
             act(self.index(IVec3::from_array(at)));
         }
     }
@@ -109,15 +111,10 @@ impl SegmentGrid {
     }
 
     /// Adds hair and segment of everything within `reach` (m) of a place to `found`, some of it more than once.
-    pub(super) fn find(
-        &self,
-        points: &[DVec3],
-        x: DVec3,
-        reach: f64,
-        found: &mut Vec<(u32, u32)>,
-    ) {
+    pub(super) fn find(&self, points: &[DVec3], x: DVec3, reach: f64, found: &mut Vec<(u32, u32)>) {
         let last = self.size - IVec3::ONE;
-        let key = |p: DVec3| ((p - self.low) / self.cell).floor().as_ivec3().clamp(IVec3::ZERO, last);
+        let key =
+            |p: DVec3| ((p - self.low) / self.cell).floor().as_ivec3().clamp(IVec3::ZERO, last);
         let (from, to) = (key(x - reach), key(x + reach));
         for z in from.z..=to.z {
             for y in from.y..=to.y {
@@ -127,7 +124,8 @@ impl SegmentGrid {
                 for &(strand, segment) in &self.segments[first as usize..end as usize] {
                     let (a, b) = (points[segment as usize], points[segment as usize + 1]);
                     let along = b - a;
-                    let share = ((x - a).dot(along) / along.length_squared().max(1e-30)).clamp(0.0, 1.0);
+                    let share =
+                        ((x - a).dot(along) / along.length_squared().max(1e-30)).clamp(0.0, 1.0);
                     if (a + along * share).distance_squared(x) < reach * reach {
                         found.push((strand, segment));
                     }

@@ -28,6 +28,9 @@ const STAGES: [(f64, usize, f64); 6] = [
 /// The same of the last stage. Chosen by trial.
 const FARTHEST: f64 = 2.0;
 
+/// How far (m) hairs that press as a volume may move in a step. Chosen: half of a cell.
+const DENSITY_STEP: f64 = 1.5e-3;
+
 /// How well linear systems are solved. Chosen by trial.
 const LINEAR: LinearRule = LinearRule { reduction: 0.1, least: 5, most: 20 };
 
@@ -50,6 +53,11 @@ pub(crate) fn settle(
     stage: &StageCounter<'_>,
 ) -> Result<SettledStrands, Cancelled> {
     let head = Head::new(system);
+    // A volume parts hairs little: they begin where each rests without it. Hairs that touch begin where they do not hang in each other.
+    let controls = match system.form {
+        InteractionForm::Contacts => controls,
+        InteractionForm::Density => head.alone(controls, tolerance),
+    };
     let mut pairs;
     let mut density;
     let interaction: &mut dyn Interaction = match system.form {
@@ -65,10 +73,15 @@ pub(crate) fn settle(
     let mut state = head.state(controls);
     let mut newton = Newton::new(&head, stage, FARTHEST);
     let mut iterations = 0;
+    let mean_radius = system.radii.iter().sum::<f64>() / system.radii.len().max(1) as f64;
+    let widest_step = DENSITY_STEP / mean_radius.max(1e-9);
     head.place(&mut state);
     let certificate = loop {
         stage.check()?;
-        let (hardness, farthest) = stage_at(iterations);
+        let (hardness, farthest) = match system.form {
+            InteractionForm::Contacts => stage_at(iterations),
+            InteractionForm::Density => (1.0, widest_step),
+        };
         interaction.harden(hardness);
         newton.farthest = farthest;
         // 1. Contacts where hairs are now; friction as it is there.
@@ -78,7 +91,11 @@ pub(crate) fn settle(
         let mut gradients = head.gradients(&state);
         if gradients.iter().all(|&gradient| gradient <= tolerance) && summary.change <= FRICTION {
             // With everything that is near.
+            let InteractionSummary { ratio, change, .. } = summary;
             summary = interaction.search(&state.points, true);
+            // What friction did since the last step; nothing has moved since.
+            (summary.ratio, summary.change) =
+                (summary.ratio.max(ratio), summary.change.max(change));
             head.evaluate(interaction, &mut state);
             gradients = head.gradients(&state);
         }
@@ -88,14 +105,7 @@ pub(crate) fn settle(
             break certificate;
         }
         // 3. Downhill.
-        let done = newton.step(interaction, &mut state, LINEAR)?;
-        if std::env::var("DEBUG").is_ok() {
-            eprintln!(
-                "{iterations} E {:.9e} bal {} rms {:.2e} max {:.2e} chg {:.1e} touch {} deep {:.2} imb {:.1e} | {done:?} damp {} drag {}",
-                state.energy, certificate.balanced, certificate.rms_gradient, certificate.largest_gradient, summary.change, summary.touching, summary.deepest, summary.imbalance,
-                newton.linear.damping.iter().filter(|d| **d > 0.0).count(), newton.linear.drag.iter().filter(|d| **d > 0.0).count(),
-            );
-        }
+        newton.step(interaction, &mut state, LINEAR)?;
         iterations += 1;
         stage.advance();
     };

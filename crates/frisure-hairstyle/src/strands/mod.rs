@@ -25,8 +25,8 @@ use crate::guides::Guide;
 use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::math::smooth_step;
-use crate::strand_contact::InteractionForm;
 use crate::spec::{HairModel, HairstyleSpec, StrandContact};
+use crate::strand_contact::InteractionForm;
 use frisure_progress::{Cancelled, Progress, StageCounter};
 
 use attributes::put;
