@@ -1,11 +1,12 @@
 //! Hairs that push and rub each other: contact of every hair with every other, equal and opposite on both.
 //!
 //! A point of one hair and a segment of another repel each other closer than their contact distance, and stick together until they
-//! slip. All hairs come to rest together: the preconditioned method of conjugate gradients on the energy of all, in which the
-//! preconditioner is Newton's step of each hair while the others hold still. docs/theory.md, "Hairs that push each other"
+//! slip; or all hairs are a volume that presses where it is too dense. All hairs come to rest together, by Newton's method on the energy of
+//! all. docs/theory.md, "Hairs that push each other"
 //!
-//! Files: `layout` (hairs in long arrays), `segment_grid` and `pairs` (contacts), `energy` (of a shape of all hairs), `held` (one hair
-//! while the others hold still), `descent` (conjugate gradients), `settle` (stages, certificate).
+//! Files: `layout` (hairs in long arrays), `interaction` (what couples hairs), `segment_grid`, `candidates`, `pairs` and `pair_system`
+//! (contacts), `density_system` (a volume), `energy` (of a shape of all hairs), `linear` (the linear system of a step), `newton` (a step),
+//! `settle` (until rest, certificate).
 
 mod candidates;
 mod density_system;

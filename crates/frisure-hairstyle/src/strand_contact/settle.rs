@@ -76,11 +76,11 @@ pub(crate) fn settle(
     let mean_radius = system.radii.iter().sum::<f64>() / system.radii.len().max(1) as f64;
     let widest_step = DENSITY_STEP / mean_radius.max(1e-9);
     head.place(&mut state);
-    let softest = softest(&head, interaction, &mut state);
+    let soft = system.form == InteractionForm::Contacts && begins_soft(&head, &mut state);
     let certificate = loop {
         stage.check()?;
         let (hardness, farthest) = match system.form {
-            InteractionForm::Contacts => stage_at(iterations, softest),
+            InteractionForm::Contacts => stage_at(iterations, soft),
             InteractionForm::Density => (1.0, widest_step),
         };
         interaction.harden(hardness);
@@ -113,27 +113,27 @@ pub(crate) fn settle(
     Ok(SettledStrands { controls: state.controls, certificate })
 }
 
-/// Hardness of contact, and how far hairs may move (contact radii), in an iteration of a way that begins as soft as `softest`.
-fn stage_at(iteration: usize, softest: f64) -> (f64, f64) {
+/// Hardness of contact, and how far hairs may move (contact radii), in an iteration of a way that begins with soft contact or not.
+fn stage_at(iteration: usize, soft: bool) -> (f64, f64) {
     let mut end = 0;
-    for (hardness, iterations, farthest) in STAGES {
-        end += if hardness < softest { 0 } else { iterations };
+    for (hardness, iterations, farthest) in STAGES.iter().filter(|_| soft) {
+        end += iterations;
         if iteration < end {
-            return (hardness, farthest);
+            return (*hardness, *farthest);
         }
     }
     (1.0, FARTHEST)
 }
 
-/// How soft contact begins: soft where hairs start in each other, so that they part without haste; hard where they only touch, so that none
-/// goes through what bears it. Chosen: contact bears a tenth of the weight of hairs then.
-fn softest(head: &Head<'_>, interaction: &mut dyn Interaction, state: &mut State) -> f64 {
-    interaction.search(&state.points, true);
-    head.evaluate(interaction, state);
+/// Whether contact begins soft: where hairs start in each other, so that they part without haste. Where they only touch it does not, so that
+/// none goes through what bears it: where forces are less than those of weight.
+fn begins_soft(head: &Head<'_>, state: &mut State) -> bool {
+    // Contacts of its own: nothing has stuck yet.
+    let mut pairs = PairSystem::new(head.properties());
+    pairs.search(&state.points, true);
+    head.evaluate(&mut pairs, state);
     let gradients = head.gradients(state);
-    let count = gradients.len().max(1) as f64;
-    let rms = (gradients.iter().map(|g| g * g).sum::<f64>() / count).sqrt();
-    if rms > 1.0 { 0.1 / rms } else { 1.0 }
+    gradients.iter().map(|g| g * g).sum::<f64>() > gradients.len() as f64
 }
 
 fn certificate(
