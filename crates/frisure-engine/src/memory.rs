@@ -92,7 +92,7 @@ pub fn estimate(spec: &HairstyleSpec, work: Work) -> f64 {
     let touching = if touch { wisps } else { 0.0 };
     let points = hairs * spec.wisps.points as f64;
     let pushing = spec.wisps.strands == HairModel::Simulated
-        && spec.wisps.contact == StrandContact::Contacts
+        && spec.wisps.contact != StrandContact::Tube
         && work != Work::Guides;
     let contact = if pushing { hairs.min(MOST_HAIRS) * HAIR_IN_CONTACT } else { 0.0 };
     // More are refused by the key that asks for them, when the area of the scalp is known.

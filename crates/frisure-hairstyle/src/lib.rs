@@ -76,7 +76,7 @@ pub use spec::{
     Implantation, InvalidSpec, Length, Level, Lift, Number, Parting, Place, Pose, Range,
     RegionLength, RegionStyle, Scalar, Settling, StrandContact, Turn, Whorls, Wind, Wisps, number,
 };
-pub use strand_contact::StrandCertificate;
+pub use strand_contact::{InteractionForm, StrandCertificate};
 pub use strands::{
     Checkpoint, DrawnHair, Simulation, StrandOptions, add_natural_strains, add_sections, describe,
     described_guides, guide_strands, penetration, simulation_key, strands,

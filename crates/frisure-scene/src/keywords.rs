@@ -357,6 +357,7 @@ keywords! {
     Keyword<StrandContact> {
         "tube" => Self(StrandContact::Tube), "each hair in a tube that its neighbours leave it, without pushing them";
         "contacts" => Self(StrandContact::Contacts), "each hair pushes and rubs the hairs that it touches: slower, and with a certificate of all hairs together";
+        "density" => Self(StrandContact::Density), "all hairs are a volume that presses where it is denser than hair packs, without friction between them; with the same certificate";
     }
 
     Keyword<Setup> {

@@ -2,8 +2,8 @@
 
 use frisure::hairstyle::contact::Thickness;
 use frisure::hairstyle::{
-    Body, Contact, DrawnHair, HairContact, Hairstyle, JointCertificate, SettlingReport, Simulation,
-    StrandCertificate, Volume, WetLockSizes, volume,
+    Body, Contact, DrawnHair, HairContact, Hairstyle, InteractionForm, JointCertificate,
+    SettlingReport, Simulation, StrandCertificate, Volume, WetLockSizes, volume,
 };
 use frisure::rod::Energy;
 use frisure::strands::Strands;
@@ -216,6 +216,8 @@ pub struct SimulationReport {
 /// directions is not checked.
 #[derive(Clone, Debug, Serialize)]
 pub struct StrandContactReport {
+    /// How hairs act on each other: "contacts", or "density", a volume without friction.
+    pub form: &'static str,
     /// Hairs in contact with each other.
     pub hairs: usize,
     /// How many hairs that grow each of them stands for.
@@ -243,6 +245,7 @@ pub struct StrandContactReport {
 impl From<StrandCertificate> for StrandContactReport {
     fn from(certificate: StrandCertificate) -> Self {
         let StrandCertificate {
+            form,
             strands: hairs,
             represented,
             contacts,
@@ -256,6 +259,10 @@ impl From<StrandCertificate> for StrandContactReport {
             iterations,
         } = certificate;
         Self {
+            form: match form {
+                InteractionForm::Contacts => "contacts",
+                InteractionForm::Density => "density",
+            },
             hairs,
             represented,
             contacts,

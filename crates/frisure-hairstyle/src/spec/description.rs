@@ -358,6 +358,8 @@ pub enum StrandContact {
     Tube,
     /// Each pushes and rubs every other that it touches; a tube as wide as its wisp keeps it in that.
     Contacts,
+    /// All are a volume that presses where it is too dense, without friction; tubes are those of [`Self::Contacts`].
+    Density,
 }
 
 /// How many hairs are drawn on a head.

@@ -1,18 +1,26 @@
 //! The energy of all hairs together, and its gradient.
 
-use frisure_rod::batch::{ConfinementTube, Contact, JointChain};
+use frisure_rod::Stability;
+use frisure_rod::batch::chain_factor::{ChainShape, JointFactor, Symmetric};
+use frisure_rod::batch::{Batch, ConfinementTube, Contact, InitialShape, JointChain};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::StrandSystem;
+use super::interaction::Interaction;
 use super::layout::Layout;
-use super::pairs::{PairForce, Pairs, StrandProperties};
+use super::pairs::StrandProperties;
+
+/// Most iterations of a hair by itself. As in a tube.
+const ALONE: usize = 400;
 
 /// A head of hair, ready for evaluation.
 pub(super) struct Head<'a> {
     pub(super) system: &'a StrandSystem<'a>,
     pub(super) layout: Layout,
     pub(super) chains: Vec<JointChain>,
+    /// By point.
+    tubes: Vec<ConfinementTube>,
     /// Moment (N m) that the gradients of each hair are relative to.
     pub(super) moments: Vec<f64>,
 }
@@ -25,7 +33,6 @@ pub(super) struct State {
     /// Contact points (m).
     pub(super) points: Vec<DVec3>,
     frames: Vec<DMat3>,
-    pub(super) pair_forces: Vec<PairForce>,
     /// Gradient (N) by points of all but elasticity and weight.
     pub(super) forces: Vec<DVec3>,
     /// Gradient (N m) by turns.
@@ -43,7 +50,12 @@ impl<'a> Head<'a> {
         let chains: Vec<JointChain> =
             (system.rods.par_iter().zip(&system.elements)).map(chain).collect();
         let moments = system.rods.iter().map(frisure_rod::Rod::moment_scale).collect();
-        Self { system, layout, chains, moments }
+        let tubes = (chains.par_iter().enumerate())
+            .flat_map_iter(|(strand, chain)| {
+                (0..=chain.joints()).map(move |k| system.field.confinement(strand, chain.at(k).0))
+            })
+            .collect();
+        Self { system, layout, chains, tubes, moments }
     }
 
     pub(super) fn properties(&self) -> StrandProperties<'_> {
@@ -54,6 +66,7 @@ impl<'a> Head<'a> {
             radii: &self.system.radii,
             force_scale: self.system.rods.iter().zip(&self.moments).map(force_scale).collect(),
             friction: &self.system.friction,
+            hardness: 1.0,
             shares: shares.flat_map(|c| (0..=c.joints()).map(move |p| c.at(p).1)).collect(),
         }
     }
@@ -66,7 +79,6 @@ impl<'a> Head<'a> {
             controls,
             points: vec![DVec3::ZERO; points],
             frames: vec![DMat3::ZERO; joints],
-            pair_forces: Vec::new(),
             forces: vec![DVec3::ZERO; points],
             gradient: vec![DVec3::ZERO; joints],
             energy: 0.0,
@@ -111,12 +123,12 @@ impl<'a> Head<'a> {
         clear: &mut [(DVec3, f64)],
     ) -> f64 {
         let chain = &self.chains[strand];
+        let tubes = &self.tubes[self.layout.points(strand)];
         forces[0] = DVec3::ZERO;
         let mut sum = 0.0;
         for (k, &p) in points.iter().enumerate().skip(1) {
             let (s, share) = chain.at(k);
-            let ConfinementTube { centre, radius, stiffness, .. } =
-                self.system.field.confinement(strand, s);
+            let ConfinementTube { centre, radius, stiffness, .. } = tubes[k];
             let away = p - centre;
             let distance = away.length();
             let beyond = (distance - radius).max(0.0);
@@ -142,32 +154,104 @@ impl<'a> Head<'a> {
     }
 
     /// Computes energy and gradient of a shape from its turns.
-    pub(super) fn evaluate(&self, pairs: &Pairs, state: &mut State) {
+    pub(super) fn evaluate(&self, interaction: &mut dyn Interaction, state: &mut State) {
         self.place(state);
         let layout = &self.layout;
-        state.energy += pairs.forces(layout, &state.points, &mut state.pair_forces);
-        let State { controls, points, frames, pair_forces, forces, gradient, .. } = state;
-        let work = (layout.chunks().par_iter())
-            .zip(layout.by_point(forces))
-            .zip(layout.by_joint(gradient));
-        work.for_each(|((chunk, forces), gradient)| {
-            let (mut joint, mut point) = (0, 0);
+        state.energy += interaction.add_forces(&state.points, &mut state.forces);
+        let State { controls, points, frames, forces, gradient, .. } = state;
+        let work = (layout.chunks().par_iter()).zip(layout.by_joint(gradient));
+        work.for_each(|(chunk, gradient)| {
+            let mut joint = 0;
             for strand in chunk.clone() {
                 let chain = &self.chains[strand];
                 let n = chain.joints();
                 let (joints, range) = (layout.joints(strand), layout.points(strand));
-                let forces = &mut forces[point..=point + n];
-                pairs.add_forces(strand, range.start, pair_forces, forces);
                 chain.gradient(
                     &controls[joints.clone()],
-                    &points[range],
+                    &points[range.clone()],
                     &frames[joints],
-                    forces,
+                    &forces[range],
                     &mut gradient[joint..joint + n],
                 );
-                (joint, point) = (joint + n, point + n + 1);
+                joint += n;
             }
         });
+    }
+
+    /// Adds the stiffness (N/m) of contact of one hair with all but hairs, none of it negative, to `sum` by its points.
+    pub(super) fn add_outside_stiffness(
+        &self,
+        strand: usize,
+        state: &State,
+        sum: &mut [Symmetric],
+    ) {
+        let chain = &self.chains[strand];
+        let range = self.layout.points(strand);
+        for (k, at) in range.enumerate().skip(1) {
+            let (s, share) = chain.at(k);
+            let (p, tube) = (state.points[at], &self.tubes[at]);
+            let away = p - tube.centre;
+            let distance = away.length();
+            let beyond = distance - tube.radius;
+            if beyond > 0.0 {
+                let stiffness = tube.stiffness * beyond / tube.radius * share;
+                let across = 0.5 * stiffness * beyond / distance;
+                sum[k] += Symmetric::square(away / distance, stiffness - across);
+                sum[k] += Symmetric::identity(across);
+            }
+            let (centre, radius) = state.clear[at];
+            if p.distance_squared(centre) < radius * radius.abs() {
+                continue;
+            }
+            if let Contact::Active { hessian, .. } = self.system.field.contact(strand, s, p) {
+                sum[k] += Symmetric::of(&(hessian * share));
+            }
+        }
+    }
+
+    /// Factorises the Hessian of one hair at an evaluated shape, with `stiffness` (N/m) by its points. Returns the least pivot.
+    pub(super) fn factorise(
+        &self,
+        strand: usize,
+        state: &State,
+        stiffness: &[Symmetric],
+        damping: f64,
+        factors: &mut [JointFactor],
+    ) -> f64 {
+        let (joints, points) = (self.layout.joints(strand), self.layout.points(strand));
+        let shape = ChainShape {
+            controls: &state.controls[joints.clone()],
+            points: &state.points[points.clone()],
+            frames: &state.frames[joints],
+            forces: &state.forces[points],
+            stiffness,
+        };
+        self.chains[strand].factorise(&shape, damping, factors)
+    }
+
+    /// The turns (rad) of hairs each at rest by itself, from others; those that find no rest keep theirs.
+    pub(super) fn alone(&self, mut controls: Vec<DVec3>, tolerance: f64) -> Vec<DVec3> {
+        let work = self.layout.chunks().par_iter().zip(self.layout.by_joint(&mut controls));
+        work.for_each(|(chunk, controls)| {
+            let n = self.system.elements[chunk.start];
+            let batch = Batch { elements: n, tolerance, max_iterations: ALONE, ..Batch::default() };
+            let start = InitialShape::Controls(controls.to_vec());
+            let rods = &self.system.rods[chunk.clone()];
+            let (found, _) = batch.solve_in_contact(rods, start, self.system.field, chunk.start);
+            let shapes = found.controls.chunks(n).zip(&found.rods);
+            for (before, (after, rod)) in controls.chunks_mut(n).zip(shapes) {
+                if rod.stability == Stability::Stable {
+                    before.copy_from_slice(after);
+                }
+            }
+        });
+        controls
+    }
+
+    /// How far (m) the points of one hair have moved at most.
+    pub(super) fn moved(&self, strand: usize, from: &[DVec3], to: &[DVec3]) -> f64 {
+        let far = |k: usize| from[k].distance_squared(to[k]);
+        self.layout.points(strand).map(far).fold(0.0, f64::max).sqrt()
     }
 
     /// The largest gradient of each hair by the turn of a joint, relative to its moment scale.
@@ -177,13 +261,5 @@ impl<'a> Head<'a> {
             of.iter().map(|g| g.length()).fold(0.0, f64::max) / self.moments[strand]
         };
         (0..self.layout.strands()).into_par_iter().map(largest).collect()
-    }
-
-    /// The scalar product of two vectors by joint, in an order that does not depend on threads.
-    pub(super) fn dot(&self, a: &[DVec3], b: &[DVec3]) -> f64 {
-        let products: Vec<f64> = (a.par_chunks(4096).zip(b.par_chunks(4096)))
-            .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum::<f64>())
-            .collect();
-        products.iter().sum()
     }
 }

@@ -58,6 +58,11 @@ impl Layout {
         self.joint_count() + self.strands()
     }
 
+    /// A slice of values by hair, cut where chunks end.
+    pub(super) fn by_strand<'a, T>(&self, values: &'a mut [T]) -> Vec<&'a mut [T]> {
+        split_mut(values, self.chunks.iter().map(ExactSizeIterator::len))
+    }
+
     /// A slice of values by joint, cut where chunks end.
     pub(super) fn by_joint<'a, T>(&self, values: &'a mut [T]) -> Vec<&'a mut [T]> {
         split_mut(values, self.chunks.iter().map(|c| c.clone().map(|s| self.joints(s).len()).sum()))

@@ -1,16 +1,21 @@
 //! Hairs that push and rub each other: contact of every hair with every other, equal and opposite on both.
 //!
 //! A point of one hair and a segment of another repel each other closer than their contact distance, and stick together until they
-//! slip. All hairs come to rest together: the preconditioned method of conjugate gradients on the energy of all, in which the
-//! preconditioner is Newton's step of each hair while the others hold still. docs/theory.md, "Hairs that push each other"
+//! slip; or all hairs are a volume that presses where it is too dense. All hairs come to rest together, by Newton's method on the energy of
+//! all. docs/theory.md, "Hairs that push each other"
 //!
-//! Files: `layout` (hairs in long arrays), `segment_grid` and `pairs` (contacts), `energy` (of a shape of all hairs), `held` (one hair
-//! while the others hold still), `descent` (conjugate gradients), `settle` (stages, certificate).
+//! Files: `layout` (hairs in long arrays), `interaction` (what couples hairs), `segment_grid`, `candidates`, `pairs` and `pair_system`
+//! (contacts), `density_system` (a volume), `energy` (of a shape of all hairs), `linear` (the linear system of a step), `newton` (a step),
+//! `settle` (until rest, certificate).
 
-mod descent;
+mod candidates;
+mod density_system;
 mod energy;
-mod held;
+mod interaction;
 mod layout;
+mod linear;
+mod newton;
+mod pair_system;
 mod pairs;
 mod segment_grid;
 mod settle;
@@ -24,6 +29,16 @@ use glam::DVec3;
 use crate::contact::FrictionCoefficients;
 pub(crate) use settle::{settle, stages};
 
+/// How hairs act on each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InteractionForm {
+    /// Each pushes and rubs those that it touches.
+    #[default]
+    Contacts,
+    /// All together are a volume that presses where it is too dense; without friction.
+    Density,
+}
+
 /// Hairs in contact with each other.
 pub(crate) struct StrandSystem<'a> {
     pub(crate) rods: Vec<Rod>,
@@ -33,6 +48,8 @@ pub(crate) struct StrandSystem<'a> {
     pub(crate) radii: Vec<f64>,
     /// Friction of each hair.
     pub(crate) friction: Vec<FrictionCoefficients>,
+    /// How they act on each other.
+    pub(crate) form: InteractionForm,
     /// Contact with all else, by the index of the hair.
     pub(crate) field: &'a dyn ContactField,
 }
@@ -50,11 +67,13 @@ pub(crate) struct SettledStrands {
 /// minimum in all directions is not checked: the second variation of the whole is not computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StrandCertificate {
+    /// How hairs act on each other.
+    pub form: InteractionForm,
     /// Hairs in contact with each other.
     pub strands: usize,
     /// How many hairs that grow each of them stands for.
     pub represented: f64,
-    /// Contacts: points of a hair that touch another hair.
+    /// Contacts: points of a hair that touch another hair; of a density, points of hairs on which it presses.
     pub contacts: usize,
     /// Hairs whose gradient is at most the tolerance.
     pub balanced: usize,
@@ -62,7 +81,7 @@ pub struct StrandCertificate {
     pub largest_gradient: f64,
     /// Root mean square over the hairs of the largest gradient of each.
     pub rms_gradient: f64,
-    /// Deepest overlap of two hairs over their contact distance.
+    /// Deepest overlap of two hairs over their contact distance; of a density, that of a bundle as dense as the densest place.
     pub deepest_overlap: f64,
     /// Largest |f_t|/(μ f_n) of contacts that bear more than a tenth of the mean; 0 without friction.
     pub friction_ratio: f64,

@@ -2,13 +2,14 @@
 //!
 //! docs/theory.md, "Hairs that push each other"
 
-use glam::{DMat3, DVec3};
+use frisure_rod::batch::chain_factor::Symmetric;
+use glam::DVec3;
 use rayon::prelude::*;
 
+use super::candidates::Candidates;
+use super::interaction::InteractionSummary;
 use super::layout::{Layout, split_mut};
-use super::segment_grid::SegmentGrid;
 use crate::contact::{FrictionCoefficients, SLIP_DISTANCE, Scales, Way};
-use crate::math::outer;
 
 /// Overlap, as a share of the contact distance, at which two hairs bear the force scale of a hair. Chosen: a hair lies a tenth of the
 /// distance in the one that it lies on; not measured further.
@@ -33,6 +34,8 @@ pub(super) struct StrandProperties<'a> {
     pub(super) friction: &'a [FrictionCoefficients],
     /// Length of hair (m) at each point.
     pub(super) shares: Vec<f64>,
+    /// Factor on all stiffnesses.
+    pub(super) hardness: f64,
 }
 
 /// A point of one hair near a segment of another. Half of the energy of two hairs is that of points of the one, half that of the other.
@@ -65,11 +68,11 @@ struct Stick {
 
 /// Where a point is nearest to another hair.
 #[derive(Clone, Copy, Debug)]
-struct Nearest {
-    segment: u32,
-    share: f64,
+pub(super) struct Nearest {
+    pub(super) segment: u32,
+    pub(super) share: f64,
     /// From there to the point (m).
-    away: DVec3,
+    pub(super) away: DVec3,
 }
 
 /// The gradients (N) of a pair by its point, and where their opposites act.
@@ -92,21 +95,6 @@ pub(super) struct Pairs {
     /// Pairs whose segment is of each hair, in their order, and where those of each hair begin.
     incoming: Vec<u32>,
     incoming_starts: Vec<u32>,
-}
-
-/// Contact of a head of hair in numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct PairSummary {
-    /// Pairs that touch.
-    pub(super) touching: usize,
-    /// Largest overlap over contact distance.
-    pub(super) deepest: f64,
-    /// Largest |f_t|/(μ f_n) of what is pressed with more than [`LIGHT`] of the mean.
-    pub(super) ratio: f64,
-    /// Sum of the changes of limits since the last search over the sum of limits.
-    pub(super) change: f64,
-    /// Magnitude of the sum of all contact forces over the sum of their magnitudes.
-    pub(super) imbalance: f64,
 }
 
 fn nearest_on(points: &[DVec3], segment: u32, x: DVec3) -> Nearest {
@@ -160,20 +148,38 @@ impl Pair {
     }
 
     /// Stiffness (N/m) by its point: along the normal, and of friction, neither of them negative in any direction.
-    fn stiffness(&self, layout: &Layout, points: &[DVec3]) -> (Nearest, DMat3, DMat3) {
+    pub(super) fn stiffness(
+        &self,
+        layout: &Layout,
+        points: &[DVec3],
+    ) -> (Nearest, Symmetric, Symmetric) {
         let nearest = self.nearest(layout, points);
         let distance = nearest.away.length();
         let (_, _, stiffness) = self.normal(distance);
         let n = nearest.away / distance.max(1e-12);
-        let mut friction = DMat3::ZERO;
+        let mut friction = Symmetric::default();
         if self.stick.limit > 0.0 {
             let (way, n) = (self.way(points), self.stick.normal);
-            let (s, b) = way.stiffness(SLIP_DISTANCE);
-            let [c, d] = way.ridges;
-            let along = DMat3::IDENTITY - outer(n, n) + outer(c, c) + outer(d, d);
-            friction = (along * s - outer(b, b)) * self.stick.limit;
+            // What has slipped is where it begins to stick: it goes on, since that is what the load does.
+            let (s, b) = way.stiffness(SLIP_DISTANCE * 0.98);
+            friction += Symmetric::identity(s * self.stick.limit);
+            friction += Symmetric::square(n, -s * self.stick.limit);
+            for ridge in way.ridges {
+                friction += Symmetric::square(ridge, s * self.stick.limit);
+            }
+            friction += Symmetric::square(b, -self.stick.limit);
         }
-        (nearest, outer(n, n) * stiffness, friction)
+        (nearest, Symmetric::square(n, stiffness), friction)
+    }
+
+    /// Normal force (N) at a distance (m).
+    pub(super) fn force_at(&self, distance: f64) -> f64 {
+        self.normal(distance).1
+    }
+
+    /// Segment and share of it of the other hair that it stuck to.
+    pub(super) fn stuck_to(&self) -> (u32, f64) {
+        (self.stick.segment, self.stick.share)
     }
 }
 
@@ -200,17 +206,21 @@ fn descend(layout: &Layout, points: &[DVec3], strand: u32, segment: u32, x: DVec
 }
 
 impl Pairs {
-    /// The pairs of hairs at these points (m); what stuck before sticks on, and slips if it has to.
+    /// The reach (m) of a search.
+    pub(super) fn reach(of: &StrandProperties<'_>) -> f64 {
+        2.0 * of.radii.iter().copied().fold(0.0, f64::max) * (1.0 + MARGIN)
+    }
+
+    /// The pairs of hairs at these points (m), of those that are near; what stuck before sticks on, and slips if it has to.
     pub(super) fn search(
         &self,
         of: &StrandProperties<'_>,
         points: &[DVec3],
-    ) -> (Self, PairSummary) {
-        let widest = of.radii.iter().copied().fold(0.0, f64::max);
-        let grid = SegmentGrid::new(of.layout, points, 2.0 * widest * (1.0 + MARGIN));
+        near: &Candidates,
+    ) -> (Self, InteractionSummary) {
         let found: Vec<(Vec<Pair>, Tally)> = (0..of.layout.strands())
             .into_par_iter()
-            .map(|strand| self.of_strand(of, points, &grid, strand))
+            .map(|strand| self.of_strand(of, points, near, strand))
             .collect();
         let mut next = Self { starts: vec![0], ..Self::default() };
         let mut tally = Tally::default();
@@ -228,26 +238,21 @@ impl Pairs {
         &self,
         of: &StrandProperties<'_>,
         points: &[DVec3],
-        grid: &SegmentGrid,
+        near: &Candidates,
         strand: usize,
     ) -> (Vec<Pair>, Tally) {
         let mut pairs = Vec::new();
         let mut tally = Tally::default();
         let mut before = self.of(strand);
-        let mut found: Vec<(u32, u32)> = Vec::new();
         for point in of.layout.points(strand).skip(1) {
             let x = points[point];
-            found.clear();
-            found.extend(grid.near(x).filter(|&(other, _)| other != strand as u32));
-            found.sort_unstable();
-            found.dedup();
             // Segments of the same hair lead to the same nearest one.
             let first = pairs.len();
             let known = before.iter().take_while(|pair| pair.point == point as u32).count();
             let (known, later) = before.split_at(known);
             before = later;
             tally.before += known.iter().map(|pair| pair.stick.limit).sum::<f64>();
-            for &(other, segment) in &found {
+            for &(other, segment) in near.of(point) {
                 let nearest = descend(of.layout, points, other, segment, x);
                 let same = |pair: &Pair| {
                     pair.strand == other && pair.segment.abs_diff(nearest.segment) <= 1
@@ -264,7 +269,8 @@ impl Pairs {
         (pairs, tally)
     }
 
-    fn of(&self, strand: usize) -> &[Pair] {
+    /// Those of the points of one hair.
+    pub(super) fn of(&self, strand: usize) -> &[Pair] {
         match self.starts.get(strand..strand + 2) {
             Some(&[from, to]) => &self.pairs[from as usize..to as usize],
             _ => &[],
@@ -339,34 +345,6 @@ impl Pairs {
         }
     }
 
-    /// Adds to the stiffness (N/m) of each point of one hair that of all pairs while the other hairs hold still.
-    ///
-    /// The share of a segment's two points in a pair is lumped: `v vᵀ ≤ diag(v)` for shares v that sum to one.
-    pub(super) fn add_stiffness(
-        &self,
-        layout: &Layout,
-        strand: usize,
-        points: &[DVec3],
-        sum: &mut [DMat3],
-    ) {
-        let first = layout.points(strand).start;
-        for pair in self.of(strand) {
-            let (_, normal, friction) = pair.stiffness(layout, points);
-            sum[pair.point as usize - first] += normal + friction;
-        }
-        for &k in self.onto(strand) {
-            let pair = &self.pairs[k as usize];
-            let (nearest, normal, friction) = pair.stiffness(layout, points);
-            let mut act = |segment: u32, share: f64, m: DMat3| {
-                let at = segment as usize - first;
-                sum[at] += m * (1.0 - share);
-                sum[at + 1] += m * share;
-            };
-            act(nearest.segment, nearest.share, normal);
-            act(pair.stick.segment, pair.stick.share, friction);
-        }
-    }
-
     fn onto(&self, strand: usize) -> &[u32] {
         let range =
             self.incoming_starts[strand] as usize..self.incoming_starts[strand + 1] as usize;
@@ -384,7 +362,12 @@ impl Pairs {
         if all > 0.0 { on.iter().sum::<DVec3>().length() / all } else { 0.0 }
     }
 
-    fn summary(&self, of: &StrandProperties<'_>, points: &[DVec3], tally: &Tally) -> PairSummary {
+    fn summary(
+        &self,
+        of: &StrandProperties<'_>,
+        points: &[DVec3],
+        tally: &Tally,
+    ) -> InteractionSummary {
         let limits: f64 = self.pairs.iter().map(|pair| pair.stick.limit).sum();
         let rubbing = self.pairs.iter().filter(|pair| pair.stick.limit > 0.0).count().max(1);
         let light = LIGHT * limits / rubbing as f64;
@@ -398,7 +381,7 @@ impl Pairs {
             let away = nearest_on(points, force.segment, points[pair.point as usize]).away;
             1.0 - away.length() / pair.distance
         };
-        PairSummary {
+        InteractionSummary {
             touching: forces.iter().filter(touching).count(),
             deepest: self.pairs.iter().zip(&forces).map(overlap).fold(0.0, f64::max),
             ratio: heavy.map(|(used, limit)| used / limit).fold(0.0, f64::max),
@@ -456,7 +439,7 @@ impl Pair {
             strand,
             segment,
             distance,
-            stiffness: 0.5 * of.shares[point] * stiffness,
+            stiffness: 0.5 * of.shares[point] * stiffness * of.hardness,
             stick: Stick { limit, anchor: away, normal, scales, segment, share },
         })
     }

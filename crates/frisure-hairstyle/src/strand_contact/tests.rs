@@ -5,9 +5,11 @@ use frisure_rod::batch::{Batch, Contact, ContactField, InitialShape, JointChain}
 use frisure_rod::{Load, Material, NaturalStrain, Rod, RodSpec, Root, Section, TorsionConstant};
 use glam::{DMat3, DVec3};
 
+use super::density_system::{DensitySystem, SOLID, law};
 use super::energy::Head;
-use super::pairs::Pairs;
-use super::{SettledStrands, StrandSystem, settle, stages};
+use super::interaction::Interaction;
+use super::pair_system::PairSystem;
+use super::{InteractionForm, SettledStrands, StrandSystem, settle, stages};
 use crate::contact::FrictionCoefficients;
 
 /// Nothing but hairs.
@@ -54,6 +56,7 @@ impl Tuft {
             elements: vec![self.elements; count],
             radii: vec![RADIUS; count],
             friction: vec![hair; count],
+            form: InteractionForm::Contacts,
             field: &Nothing,
             rods: self.rods.clone(),
         })
@@ -83,8 +86,9 @@ impl Tuft {
             let mut state = head.state(controls.to_vec());
             head.place(&mut state);
             let without = state.energy;
-            let (pairs, _) = Pairs::default().search(&head.properties(), &state.points);
-            head.evaluate(&pairs, &mut state);
+            let mut pairs = PairSystem::new(head.properties());
+            pairs.search(&state.points, true);
+            head.evaluate(&mut pairs, &mut state);
             let of = |strand: usize| state.forces[head.layout.points(strand)].to_vec();
             ((0..self.rods.len()).map(of).collect(), state.energy - without)
         })
@@ -232,4 +236,94 @@ fn a_propped_tip_holds_up_to_the_angle_of_friction() {
     let free = (0.375 * weight * sin - mu * pressed) / spring;
     let slipped = tip.x - before.x;
     assert!((slipped / free - 1.0).abs() < 0.02, "{slipped} {free}");
+}
+
+/// Hairs in a square, so near that together they take more of the space than hair packs; they have no weight.
+fn crowd(side: i32, apart: f64) -> Tuft {
+    let place = |i: i32, j: i32| DVec3::new(f64::from(i), 0.0, f64::from(j)) * apart;
+    let middle = place(side - 1, side - 1) * 0.5;
+    let rods = (0..side).flat_map(|i| (0..side).map(move |j| place(i, j)));
+    let rods = rods.map(|at| hair(at - middle, DVec3::Y, 0.03, 1.0, DVec3::ZERO)).collect();
+    Tuft { rods, elements: 24, friction: 0.0 }
+}
+
+#[test]
+fn the_energy_of_a_volume_is_that_of_a_bundle_and_has_its_derivatives() {
+    for fraction in [0.81, 0.9, 1.3, 2.0] {
+        let h = 1e-5;
+        let (energy, first, second) = law(fraction);
+        let (below, above) = (law(fraction - h), law(fraction + h));
+        assert!(((above.0 - below.0) / (2.0 * h) - first).abs() < 1e-6, "{fraction}");
+        assert!(((above.1 - below.1) / (2.0 * h) - second).abs() < 1e-5, "{fraction}");
+        // A hexagonal bundle whose distances are s has 3 pairs a hair, each with e³ of the overlap e = 1 − s/D.
+        let s = (SOLID / fraction).sqrt();
+        assert!((energy / fraction - (1.0 - s).powi(3)).abs() < 1e-14);
+    }
+    assert_eq!(law(0.8), (0.0, 0.0, 0.0));
+}
+
+/// The gradient of a volume that is the same everywhere along hairs, against its energy, by the motion of one hair.
+#[test]
+fn the_force_of_a_volume_is_the_derivative_of_its_energy() {
+    let tuft = crowd(32, 2e-4);
+    tuft.with(|system| {
+        let head = Head::new(system);
+        let mut state = head.state(vec![DVec3::ZERO; 1024 * 24]);
+        head.place(&mut state);
+        let mut density = DensitySystem::new(&head.properties());
+        let summary = density.search(&state.points, true);
+        assert!(summary.touching > 1000 && summary.deepest > 0.05, "{summary:?}");
+        // Cells do not move with hair, so forces balance only as far as the grid is fine.
+        assert!(summary.imbalance < 0.1, "{summary:?}");
+        let mut forces = vec![DVec3::ZERO; state.points.len()];
+        density.add_forces(&state.points, &mut forces);
+        let motion: Vec<DVec3> = (0..state.points.len())
+            .map(|k| DVec3::new((k as f64).sin(), (k as f64 * 0.7).cos(), (k as f64 * 1.3).sin()))
+            .collect();
+        let h = 1e-8;
+        let energy = |density: &mut DensitySystem<'_>, t: f64| {
+            // Links keep their lengths to first order only: volumes are those of the lengths.
+            let points: Vec<DVec3> = (state.points.iter().zip(&motion))
+                .map(|(p, u)| *p + DVec3::new(u.x, 0.0, u.z) * t)
+                .collect();
+            density.add_forces(&points, &mut vec![DVec3::ZERO; points.len()])
+        };
+        let slope = (energy(&mut density, h) - energy(&mut density, -h)) / (2.0 * h);
+        let expected: f64 =
+            forces.iter().zip(&motion).map(|(f, u)| f.dot(DVec3::new(u.x, 0.0, u.z))).sum();
+        assert!((slope / expected - 1.0).abs() < 1e-5, "{slope} {expected}");
+    });
+}
+
+/// A crowd presses itself apart, and is in balance and symmetric then.
+#[test]
+fn a_volume_spreads_as_its_mirror_image() {
+    let side = 24;
+    let tuft = crowd(side, 2e-4);
+    let stage = StageCounter::new(&(), "test", stages());
+    let count = tuft.rods.len();
+    let settled = tuft.with(|system| {
+        let system = StrandSystem {
+            form: InteractionForm::Density,
+            rods: system.rods.clone(),
+            elements: system.elements.clone(),
+            radii: system.radii.clone(),
+            friction: system.friction.clone(),
+            field: &Nothing,
+        };
+        settle(&system, vec![DVec3::ZERO; count * 24], 1e-6, &stage).unwrap()
+    });
+    assert_eq!(settled.certificate.balanced, count, "{:?}", settled.certificate);
+    let points = tuft.points(&settled.controls);
+    let extent = |k: usize| {
+        points.iter().map(|hair| DVec3::new(hair[k].x, 0.0, hair[k].z).length()).sum::<f64>()
+    };
+    assert!(extent(24) > 1.02 * extent(0), "{} {}", extent(24), extent(0));
+    let side = side as usize;
+    let far = (0..count).map(|k| {
+        let (a, b) = (points[k][24], points[(side - 1 - k / side) * side + k % side][24]);
+        DVec3::new(a.x + b.x, a.y - b.y, a.z - b.z).length()
+    });
+    let far = far.fold(0.0, f64::max);
+    assert!(far < 1e-6, "{far}");
 }

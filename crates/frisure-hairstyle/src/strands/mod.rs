@@ -26,6 +26,7 @@ use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::math::smooth_step;
 use crate::spec::{HairModel, HairstyleSpec, StrandContact};
+use crate::strand_contact::InteractionForm;
 use frisure_progress::{Cancelled, Progress, StageCounter};
 
 use attributes::put;
@@ -105,7 +106,12 @@ pub fn strands(
             let simulated = Simulated::new(&population, hairstyle);
             match hairstyle.spec.wisps.contact {
                 StrandContact::Tube => simulated.hairs(&roots, &stage, options.checkpoint)?,
-                StrandContact::Contacts => simulated.in_contact(&roots, &stage, progress)?,
+                StrandContact::Contacts => {
+                    simulated.in_contact(&roots, InteractionForm::Contacts, &stage, progress)?
+                }
+                StrandContact::Density => {
+                    simulated.in_contact(&roots, InteractionForm::Density, &stage, progress)?
+                }
             }
         }
         _ => {

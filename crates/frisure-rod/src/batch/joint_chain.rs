@@ -112,6 +112,22 @@ impl JointChain {
         }
     }
 
+    /// Arm (N m) of the weight that a joint bears, in the frame after it.
+    pub(super) fn arm(&self, joint: usize) -> DVec3 {
+        self.arms[joint]
+    }
+
+    /// The apparent vertical (world).
+    pub(super) fn up(&self) -> DVec3 {
+        self.up
+    }
+
+    /// Stiffness of each joint (N m).
+    #[must_use]
+    pub fn stiffness(&self) -> DVec3 {
+        self.stiffness
+    }
+
     fn turn(&self, joint: usize) -> &DMat3 {
         // What is after the last joint is not used.
         self.turns.get(joint).or(self.turns.last()).unwrap_or(&DMat3::IDENTITY)

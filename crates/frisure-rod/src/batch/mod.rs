@@ -39,9 +39,11 @@
 //! `division` (a rod into joints), `weight_lanes` and `contact_lanes` (rods into lanes), `weight_sweep` and
 //! `contact_sweep` (backward and forward over the joints), `elimination` (one joint: energy, gradient, Hessian block),
 //! `rotation`, `linear`, `lanes` (the numbers). Derivatives: `gradient` (rods into lanes)
-//! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`. One rod by itself: `joint_chain`.
+//! and `adjoint_sweep`; by directions of the parameters, `tangent` and `tangent_sweep`. One rod by itself: `joint_chain`,
+//! `chain_factor`.
 
 mod adjoint_sweep;
+pub mod chain_factor;
 mod contact;
 mod contact_lanes;
 mod contact_sweep;

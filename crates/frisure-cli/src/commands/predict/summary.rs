@@ -99,8 +99,12 @@ fn contact_line(contact: &StrandContactReport) -> String {
     let StrandContactReport { hairs, contacts, balanced, represented, .. } = contact;
     let StrandContactReport { largest_gradient, rms_gradient, deepest_overlap, .. } = contact;
     let StrandContactReport { friction_ratio, iterations, .. } = contact;
+    let between = match contact.form {
+        "density" => "points at which they press on each other as a volume, without friction",
+        _ => "contacts between them",
+    };
     let mut out = format!(
-        "{balanced} of {hairs} hairs in balance at {contacts} contacts between them (gradient {largest_gradient:.1e} at most, \
+        "{balanced} of {hairs} hairs in balance at {contacts} {between} (gradient {largest_gradient:.1e} at most, \
          {rms_gradient:.1e} rms, after {iterations} iterations; overlaps up to {:.0} % of the contact distance; each stands for {represented:.1})",
         deepest_overlap * 1e2
     );

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::envelope::{Envelope, Room};
 use super::{CHUNK, ELEMENTS, Planned, Rested, Simulated, Simulation, TOLERANCE, counts};
 use crate::implantation::Root;
-use crate::strand_contact::{SettledStrands, StrandSystem, settle, stages};
+use crate::strand_contact::{InteractionForm, SettledStrands, StrandSystem, settle, stages};
 use crate::strands::curve::Hair;
 
 /// A hair at rest in its tube.
@@ -57,6 +57,7 @@ impl<'a> Simulated<'a> {
     pub(in crate::strands) fn in_contact(
         &self,
         roots: &[(usize, Root)],
+        form: InteractionForm,
         stage: &StageCounter<'_>,
         progress: &dyn Progress,
     ) -> Result<(Vec<Hair>, Simulation), Cancelled> {
@@ -77,6 +78,7 @@ impl<'a> Simulated<'a> {
             elements: elements.clone(),
             radii: started.iter().map(radius).collect(),
             friction: started.iter().map(friction).collect(),
+            form,
             field: &envelopes,
         };
         let controls = started.iter().flat_map(|hair| &hair.controls).copied().collect();

@@ -39,7 +39,7 @@ digest_fields!(Comb: Forward, Back, Down, Left, Right);
 digest_fields!(Flow: Whorl, Parted { offset }, SweptBack);
 digest_fields!(Lift: Regional { scale }, Uniform(lift));
 digest_fields!(HairModel: Interpolated, Simulated);
-digest_fields!(StrandContact: Tube, Contacts);
+digest_fields!(StrandContact: Tube, Contacts, Density);
 digest_fields!(Hairs: Count(n), PerWisp(n), Density(density));
 digest_fields!(Body: None, Spheres, SignedDistance);
 digest_fields!(HairContact: None, Layers, Wisps, Density);
