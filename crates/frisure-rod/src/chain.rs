@@ -192,12 +192,22 @@ impl<'a> Chain<'a> {
     /// If there is not one frame per node.
     #[must_use]
     pub fn shape_through(&self, frames: &[DMat3]) -> Shape {
+        self.shape_through_near(frames, |_| None)
+    }
+
+    /// The same, with controls (rad) that are known to be near, by the index of the element: an element that turns by more than half a turn is
+    /// otherwise taken to turn the other way where that is nearer to its natural control.
+    pub(crate) fn shape_through_near(
+        &self,
+        frames: &[DMat3],
+        near: impl Fn(usize) -> Option<DVec3>,
+    ) -> Shape {
         assert_eq!(frames.len(), self.arc.len(), "one frame per node");
         let mut frame = self.rod.root().frame();
         let mut controls = Vec::with_capacity(self.len());
         for (i, next) in frames[1..].iter().enumerate() {
             let g = self.geometry(i);
-            let c = g.control_for(&(frame.transpose() * *next));
+            let c = g.control_for(&(frame.transpose() * *next), near(i).unwrap_or(g.rest()));
             controls.push(c);
             frame *= g.motion(c).rotation();
         }

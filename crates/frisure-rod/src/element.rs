@@ -131,14 +131,14 @@ impl Geometry {
         }
     }
 
-    /// The control (rad) at which the end frame is `turn` seen from the start frame.
-    pub(crate) fn control_for(&self, turn: &DMat3) -> DVec3 {
+    /// The control (rad) at which the end frame is `turn` seen from the start frame: of all that differ by whole turns the nearest to `near`.
+    pub(crate) fn control_for(&self, turn: &DMat3, near: DVec3) -> DVec3 {
         // The turn of the joint alone, Aᵀ Q Bᵀ.
         let turn = match &self.curve {
             Curve::Helix => *turn,
             Curve::Jointed(j) => j.before.transpose() * *turn * j.after.transpose(),
         };
-        nearest_turn(glam::DQuat::from_mat3(&turn).normalize().to_scaled_axis(), self.rest())
+        nearest_turn(glam::DQuat::from_mat3(&turn).normalize().to_scaled_axis(), near)
     }
 
     /// Rotation and advance (m) from the start of the element to arc length `from` (m) within it, at

@@ -26,5 +26,13 @@ pub(super) fn warm_start(chain: &Chain<'_>, previous: &Equilibrium) -> Shape {
     for frame in &mut frames {
         *frame = turn * *frame;
     }
-    chain.shape_through(&frames)
+    // 4. An element that is where one was turns about as that did.
+    let same = |s: f64, t: f64| (s - t).abs() <= 1e-9 * previous.rod.length();
+    let near = |i: usize| {
+        let (ours, theirs) = (chain.arc(), old.arc());
+        let ends = theirs.get(i).zip(theirs.get(i + 1))?;
+        let found = same(ours[i], *ends.0) && same(ours[i + 1], *ends.1);
+        found.then(|| previous.shape.controls[i])
+    };
+    chain.shape_through_near(&frames, near)
 }
