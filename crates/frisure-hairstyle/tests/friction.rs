@@ -67,8 +67,9 @@ fn what_was_combed_holds_the_better_the_higher_the_friction() {
             assert!(report.friction <= 1.001, "{contact:?} {friction}: {}", report.friction);
             assert!(report.penetration < 3e-4, "{contact:?} {friction}: {}", report.penetration);
             match friction {
-                // Wisps that were combed past each other do not all fall back.
-                0.0 => assert!(kept.abs() < 0.06, "{contact:?}: {kept} is kept without friction"),
+                // Wisps that were combed past each other do not all fall back: how many is chance, of a head of 40 wisps some hundredths. The
+                // evidence has the mean of six heads.
+                0.0 => assert!(kept.abs() < 0.1, "{contact:?}: {kept} is kept without friction"),
                 _ => assert!(kept > last + 0.01, "{contact:?} {friction}: {kept} after {last}"),
             }
             last = kept;

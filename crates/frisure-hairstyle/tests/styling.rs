@@ -603,13 +603,13 @@ fn tucked_hair_is_behind_the_ear_and_friction_keeps_some_of_it_there() {
 
 #[test]
 fn a_new_parting_sends_hair_to_both_sides_of_it() {
-    let before = hairstyle("caucasian-straight", 100);
+    let before = hairstyle("caucasian-straight", 300);
     let offset = -0.03;
     let parted = done(&before, &Operation::Part(Part { line: Parting::Straight { offset } }));
     // Hair rooted between the middle and the parting on the right falls to the left now.
     let top =
         |h: &Hairstyle, i: usize| matches!(h.guides()[i].region, Region::Top | Region::Fringe);
-    let between = (0..100).filter(|&i| {
+    let between = (0..300).filter(|&i| {
         let x = before.guides()[i].root.position.x;
         top(&before, i) && x > offset + 0.005 && x < -0.005
     });
@@ -619,7 +619,7 @@ fn a_new_parting_sends_hair_to_both_sides_of_it() {
     };
     let ((left_before, _), (left_after, all)) = (aside(&before), aside(&parted));
     assert!(
-        all >= 3 && left_after > left_before && 3 * left_after >= 2 * all,
+        all >= 9 && left_after > left_before && 3 * left_after >= 2 * all,
         "{left_before} {left_after} {all}"
     );
     for (a, b) in before.guides().iter().zip(parted.guides()) {

@@ -96,7 +96,8 @@ pub(super) fn add(
     finding.check(
         "combed: share that is left without friction",
         found[0].1.abs(),
-        Limit::AtMost(0.06),
+        // Of one head more by chance than of six.
+        Limit::AtMost(effort.pick(0.1, 0.06)),
     );
     finding.check(
         "combed: largest fall of that share from one coefficient to the next",
