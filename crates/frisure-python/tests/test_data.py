@@ -109,7 +109,7 @@ def test_hairs_of_the_scene_are_projected_to_their_pixels(folder: Path) -> None:
             # A pixel is 7 mm wide here, and a hair is seen at an angle.
             assert np.abs(depths[near] - view["depth"][row, column]).min() < 3e-3
             checked += 1
-    assert checked > 500
+    assert checked > 400
 
 
 def test_both_conventions_are_one_camera(folder: Path) -> None:
