@@ -38,7 +38,6 @@ pub(super) struct DensitySystem<'a> {
     sections: Vec<f64>,
     /// Energy per volume (Pa) of [`Law`].
     modulus: f64,
-    hardness: f64,
     cells: Cells,
     parts: Vec<Vec<f64>>,
     /// By cell: fraction of space, or its change; then what that makes of the energy (J) or the pressure (Pa).
@@ -121,7 +120,6 @@ impl<'a> DensitySystem<'a> {
             layout: of.layout,
             modulus: BUNDLE * force * 2.0 * radius / mean(sections.iter().sum()),
             sections,
-            hardness: 1.0,
             cells: Cells { width, ..Cells::default() },
             parts: vec![Vec::new(); PARTS],
             fraction: Vec::new(),
@@ -224,13 +222,9 @@ impl Interaction for DensitySystem<'_> {
         }
     }
 
-    fn harden(&mut self, hardness: f64) {
-        self.hardness = hardness;
-    }
-
     fn add_forces(&mut self, points: &[DVec3], forces: &mut [DVec3]) -> f64 {
         self.gather(points, |_, _, volume, weight, _| volume * weight);
-        let modulus = self.modulus * self.hardness;
+        let modulus = self.modulus;
         self.pressure.resize(self.fraction.len(), 0.0);
         let work = self.pressure.par_chunks_mut(4096).zip(self.fraction.par_chunks(4096));
         let energies: Vec<f64> = work
@@ -250,7 +244,7 @@ impl Interaction for DensitySystem<'_> {
 
     fn linearise(&mut self, points: &[DVec3], own: &mut [Symmetric]) {
         self.gather(points, |_, _, volume, weight, _| volume * weight);
-        let modulus = self.modulus * self.hardness;
+        let modulus = self.modulus;
         self.bulk = self.fraction.par_iter().map(|&fraction| modulus * law(fraction).2).collect();
         self.at = points.to_vec();
         let scale = self.cells.width.powi(3).recip();

@@ -9,8 +9,8 @@ pub(super) trait Interaction: Sync {
     /// moved far since the last time.
     fn search(&mut self, points: &[DVec3], exact: bool) -> InteractionSummary;
 
-    /// Makes it so hard, of what it is, from the next search on.
-    fn harden(&mut self, hardness: f64);
+    /// Makes it so hard, of what it is, from the next search on. What begins where hairs rest apart is always as hard as it is.
+    fn harden(&mut self, _hardness: f64) {}
 
     /// Adds the gradient (N) by these points (m) to `forces`; returns the energy (J).
     fn add_forces(&mut self, points: &[DVec3], forces: &mut [DVec3]) -> f64;

@@ -23,20 +23,20 @@ pub struct JointFactor {
     link: [f32; 3],
 }
 
-/// A symmetric matrix.
+/// A symmetric matrix, such as the stiffness of a point (N/m, world axes).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Symmetric {
-    /// Its entries.
+    /// First row and column.
     pub xx: f64,
-    /// The same of x and y, and so on.
+    /// First row, second column, and the other way round.
     pub xy: f64,
-    #[allow(missing_docs)]
+    /// First row, third column, and the other way round.
     pub xz: f64,
-    #[allow(missing_docs)]
+    /// Second row and column.
     pub yy: f64,
-    #[allow(missing_docs)]
+    /// Second row, third column, and the other way round.
     pub yz: f64,
-    #[allow(missing_docs)]
+    /// Third row and column.
     pub zz: f64,
 }
 
