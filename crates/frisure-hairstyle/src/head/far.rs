@@ -30,7 +30,7 @@ impl Coarse {
             Self { size, faces: vec![NONE; size[0] * size[1] * size[2]], values: Vec::new() };
         // The nearest point known for each node (m).
         let mut feet = vec![DVec3::INFINITY; coarse.faces.len()];
-        let place = |at3| grid.position(grid.unravel(fine(at3)));
+        let place = |at3: [usize; 3]| grid.position(at3.map(|n| 2 * n));
         for k in 0..size[2] {
             for j in 0..size[1] {
                 for i in 0..size[0] {
@@ -43,16 +43,17 @@ impl Coarse {
                 }
             }
         }
+        let known: Vec<bool> = coarse.faces.iter().map(|&face| face != NONE).collect();
         for sweep in SWEEPS {
-            coarse.sweep(&mut feet, nodes, sweep, fine, place);
+            coarse.sweep(&mut feet, &known, sweep, place);
         }
-        let neighbours = soup.faces_of_vertices();
+        let around = soup.faces_around();
         let measure = |(at, &face): (usize, &u32)| {
             let at3 = [at % size[0], at / size[0] % size[1], at / (size[0] * size[1])];
             let near = nodes[fine(at3)];
             // In the band about the skin the distance is known exactly; elsewhere the swept face is a start.
             let distance = if near.face == NONE {
-                soup.descend(&neighbours, face, place(at3)) as f32
+                soup.descend(&around, face, place(at3)) as f32
             } else {
                 near.distance
             };
@@ -67,13 +68,12 @@ impl Coarse {
     }
 
     /// Offers each node the nearest points of the three neighbours just passed; bit a of `sweep` is set
-    /// where axis a runs downwards.
+    /// where axis a runs downwards. Those whose nearest point is `known` keep it.
     fn sweep(
         &mut self,
         feet: &mut [DVec3],
-        nodes: &[Node],
+        known: &[bool],
         sweep: usize,
-        fine: impl Fn([usize; 3]) -> usize,
         place: impl Fn([usize; 3]) -> DVec3,
     ) {
         let order = |axis: usize| (0..self.size[axis], sweep >> axis & 1 == 1);
@@ -82,7 +82,7 @@ impl Coarse {
             for j in directed(ys.clone()) {
                 for i in directed(xs.clone()) {
                     let at3 = [i, j, k];
-                    if nodes[fine(at3)].face == NONE {
+                    if !known[self.at(at3)] {
                         self.relax(feet, at3, sweep, place(at3));
                     }
                 }

@@ -92,20 +92,13 @@ impl Soup {
         let (mut best, mut foot) = measure(face);
         loop {
             let from = face;
-            let corners = self.triangles[from as usize];
-            for (n, &v) in corners.iter().enumerate() {
-                for &f in around.of(v) {
-                    // Those at an earlier corner have been measured.
-                    if self.triangles[f as usize].iter().any(|u| corners[..n].contains(u)) {
-                        continue;
-                    }
-                    if self.behind(f, p, foot) {
-                        continue;
-                    }
-                    let (d, q) = measure(f);
-                    if d < best {
-                        (best, foot, face) = (d, q, f);
-                    }
+            for &f in around.of(from) {
+                if self.behind(f, p, foot) {
+                    continue;
+                }
+                let (d, q) = measure(f);
+                if d < best {
+                    (best, foot, face) = (d, q, f);
                 }
             }
             if face == from {
@@ -132,8 +125,26 @@ impl Soup {
         level <= 1
     }
 
+    /// For each face, the others that share a corner with it.
+    pub(crate) fn faces_around(&self) -> Rows {
+        let of_vertices = self.faces_of_vertices();
+        let (mut starts, mut items) = (vec![0], Vec::with_capacity(12 * self.len()));
+        for (face, corners) in self.triangles.iter().enumerate() {
+            for (n, &v) in corners.iter().enumerate().take(if self.has(face) { 3 } else { 0 }) {
+                let around = of_vertices.of(v).iter().copied().filter(|&f| f as usize != face);
+                // Those at an earlier corner are in the list.
+                let new = |&f: &u32| {
+                    n == 0 || !self.triangles[f as usize].iter().any(|u| corners[..n].contains(u))
+                };
+                items.extend(around.filter(new));
+            }
+            starts.push(items.len());
+        }
+        Rows { starts, items }
+    }
+
     /// For each vertex, the faces that meet there.
-    pub(crate) fn faces_of_vertices(&self) -> Rows {
+    fn faces_of_vertices(&self) -> Rows {
         let mut starts = vec![0; self.positions.len() + 1];
         let present = || (0..self.len()).filter(|&f| self.has(f));
         for v in present().flat_map(|f| self.triangles[f]) {

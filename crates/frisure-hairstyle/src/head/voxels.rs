@@ -5,6 +5,8 @@
 //! that normals alone would tell a wrong side. Farther away nodes take the nearest point that their
 //! neighbours know.
 
+use std::ops::Range;
+
 use frisure_strands::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -37,6 +39,9 @@ const SHORE: usize = 4;
 /// What the rounding of distances may add up to (m): `f32` distances within the band have steps below 1 nm, and bounds
 /// in `f64` err by far less.
 const SLACK: f64 = 1e-8;
+/// How far beside a face an edge of the grid that meets it may be (m): above the breadth by which [`covers`] is too large.
+/// Chosen; no result depends on it.
+const BESIDE: f64 = 1e-6;
 /// Layers of nodes that one task fills. Chosen; no result depends on it.
 const SLAB: usize = 8;
 /// Spacing of the grid of a torso (m). Chosen: its skin bends over centimetres.
@@ -110,31 +115,75 @@ impl Grid {
         Self { origin: low - DVec3::splat(MARGIN + spacing), spacing, size }
     }
 
-    /// Exact distance, nearest face and crossed edges of the nodes near the mesh, in those slabs of
-    /// layers where some node is `wrong`.
+    /// Exact distance, nearest face and crossed edges of the nodes near the mesh that are `wrong`.
     fn splat(&self, soup: &Soup, nodes: &mut [Node], wrong: impl Fn(&Node) -> bool + Sync) {
         let reach = BAND * self.spacing;
         let mut slabs = vec![Vec::new(); self.size[2].div_ceil(SLAB)];
         for face in (0..soup.len()).filter(|&f| soup.has(f)) {
-            let [a, b, c] = soup.corners(face);
-            let low = self.first(a.min(b).min(c) - DVec3::splat(reach));
-            let high = self.last(a.max(b).max(c) + DVec3::splat(reach));
+            let near = self.near(soup.corners(face), reach);
             // A part of a mesh may reach out of its grid.
-            for slab in slabs.iter_mut().take(high[2] / SLAB + 1).skip(low[2] / SLAB) {
-                slab.push(face);
+            for slab in slabs.iter_mut().take(near[1][2] / SLAB + 1).skip(near[0][2] / SLAB) {
+                slab.push(face as u32);
             }
         }
         nodes.par_chunks_mut(SLAB * self.layer()).zip(slabs).enumerate().for_each(
-            |(index, (nodes, faces))| {
-                if !nodes.iter().any(&wrong) {
-                    return;
+            |(index, (nodes, mut faces))| {
+                let base = index * SLAB;
+                let Some(part) = self.reset(nodes, base, &wrong) else { return };
+                let meets = |near: [[usize; 3]; 2]| {
+                    (0..3).all(|a| near[0][a] <= part[1][a] && near[1][a] >= part[0][a])
+                };
+                faces.retain(|&f| meets(self.near(soup.corners(f as usize), reach)));
+                let mut most = vec![f32::INFINITY; nodes.len()];
+                for &face in &faces {
+                    self.bound(&mut most, base, soup.corners(face as usize), reach);
                 }
-                nodes.fill(FAR);
-                for face in faces {
-                    self.splat_face(nodes, index * SLAB, soup.corners(face), face as u32, reach);
+                for &face in &faces {
+                    self.splat_face(nodes, &most, base, soup.corners(face as usize), face, reach);
                 }
             },
         );
+    }
+
+    /// First and last node, along each axis, that may be within `reach` (m) of a triangle.
+    fn near(&self, [a, b, c]: [DVec3; 3], reach: f64) -> [[usize; 3]; 2] {
+        let reach = DVec3::splat(reach);
+        [self.first(a.min(b).min(c) - reach), self.last(a.max(b).max(c) + reach)]
+    }
+
+    /// Forgets what is known of the nodes that are `wrong` in the slab that begins at layer `base`; their first and last
+    /// along each axis, if there are any.
+    fn reset(
+        &self,
+        nodes: &mut [Node],
+        base: usize,
+        wrong: impl Fn(&Node) -> bool,
+    ) -> Option<[[usize; 3]; 2]> {
+        let mut part = [[usize::MAX; 3], [0; 3]];
+        for (row, nodes) in nodes.chunks_mut(self.size[0]).enumerate() {
+            for (i, node) in nodes.iter_mut().enumerate().filter(|(_, node)| wrong(node)) {
+                *node = FAR;
+                let at = [i, row % self.size[1], base + row / self.size[1]];
+                for axis in 0..3 {
+                    part[0][axis] = part[0][axis].min(at[axis]);
+                    part[1][axis] = part[1][axis].max(at[axis]);
+                }
+            }
+        }
+        (part[0][0] != usize::MAX).then_some(part)
+    }
+
+    /// Lowers to the squared distance (m²) from the middle of a face what bounds the distance to the mesh from above.
+    fn bound(&self, most: &mut [f32], base: usize, corners: [DVec3; 3], reach: f64) {
+        let middle = corners.iter().sum::<DVec3>() / 3.0;
+        self.for_rows([middle; 3], base, most.len(), reach, |row, start, range| {
+            let across = (start - middle).with_x(0.0).length_squared();
+            let x = start.x - middle.x;
+            for (i, most) in range.clone().zip(&mut most[row + range.start..row + range.end]) {
+                let x = x + self.spacing * i as f64;
+                *most = most.min((across + x * x) as f32);
+            }
+        });
     }
 
     /// First node of the grid with no coordinate below `p`.
@@ -148,23 +197,20 @@ impl Grid {
         [0, 1, 2].map(|a| (u[a].max(0.0) as usize).min(self.size[a] - 1))
     }
 
-    /// Offers one face to the nodes of the slab that begins at layer `base`.
-    fn splat_face(
+    /// Calls `visit(index of the row in the slab, position of its first node (m), nodes of the row)` for the rows of the slab
+    /// of `count` nodes that begins at layer `base`, and the nodes in them that may be within `reach` (m) of a triangle.
+    fn for_rows(
         &self,
-        nodes: &mut [Node],
-        base: usize,
         corners: [DVec3; 3],
-        face: u32,
+        base: usize,
+        count: usize,
         reach: f64,
+        mut visit: impl FnMut(usize, DVec3, Range<usize>),
     ) {
-        let [a, b, c] = corners;
-        let normal = (b - a).cross(c - a).normalize_or_zero();
         let (middle, radius) = bounding_ball(corners);
         let farthest = reach + radius + SLACK;
-        let edge = self.spacing + SLACK;
-        let low = self.first(a.min(b).min(c) - DVec3::splat(reach));
-        let high = self.last(a.max(b).max(c) + DVec3::splat(reach));
-        let top = (base + nodes.len() / self.layer() - 1).min(high[2]);
+        let [low, high] = self.near(corners, reach);
+        let top = (base + count / self.layer() - 1).min(high[2]);
         for k in low[2].max(base)..=top {
             for j in low[1]..=high[1] {
                 let row = ((k - base) * self.size[1] + j) * self.size[0];
@@ -178,50 +224,70 @@ impl Grid {
                 let ends = [-room.sqrt(), room.sqrt()];
                 let [from, to] = ends.map(|x| (middle.x + x - start.x) / self.spacing);
                 let (from, to) = (from.ceil().max(0.0) as usize, to.max(0.0) as usize);
-                for i in from.max(low[0])..=to.min(high[0]) {
-                    let p = start.with_x(start.x + self.spacing * i as f64);
-                    let node = &mut nodes[row + i];
-                    // The face matters to a node if it is nearer than the nearest yet, or may cross an edge. Its plane and a
-                    // ball around it rule most nodes out: no point of the face is nearer than either.
-                    let near = f64::from(node.distance).min(reach) + SLACK;
-                    let (height, away) = ((p - a).dot(normal).abs(), p.distance_squared(middle));
-                    let matters =
-                        |least: f64| height <= least && away <= (least + radius) * (least + radius);
-                    if matters(near) {
-                        let distance = p.distance(closest_point(p, corners)) as f32;
-                        if distance < node.distance && f64::from(distance) <= reach {
-                            (node.distance, node.face) = (distance, face);
-                        }
-                    }
-                    if matters(edge) {
-                        node.crossed |= crossed_edges(p, self.spacing, corners, normal);
-                    }
+                let (from, to) = (from.max(low[0]), to.min(high[0]));
+                if from <= to {
+                    visit(row, start, from..to + 1);
                 }
             }
         }
+    }
+
+    /// Offers one face to the nodes of the slab that begins at layer `base`; no node is farther from the mesh than the root
+    /// of its `most` (m²).
+    fn splat_face(
+        &self,
+        nodes: &mut [Node],
+        most: &[f32],
+        base: usize,
+        corners: [DVec3; 3],
+        face: u32,
+        reach: f64,
+    ) {
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let (middle, radius) = bounding_ball(corners);
+        let edge = self.spacing + SLACK;
+        let room = DVec3::splat(BESIDE);
+        let (low, high) = (a.min(b).min(c) - room, a.max(b).max(c) + room);
+        self.for_rows(corners, base, nodes.len(), reach, |row, start, range| {
+            for i in range {
+                let p = start.with_x(start.x + self.spacing * i as f64);
+                let node = &mut nodes[row + i];
+                // The face matters to a node if it is nearer than the nearest yet, or may cross an edge. Its plane and a
+                // ball around it rule most nodes out: no point of the face is nearer than either.
+                let near = f64::from(node.distance.min(most[row + i].sqrt())).min(reach) + SLACK;
+                let (height, away) = ((p - a).dot(normal).abs(), p.distance_squared(middle));
+                let matters =
+                    |least: f64| height <= least && away <= (least + radius) * (least + radius);
+                if matters(near) {
+                    let distance = p.distance(closest_point(p, corners)) as f32;
+                    if distance < node.distance && f64::from(distance) <= reach {
+                        (node.distance, node.face) = (distance, face);
+                    }
+                }
+                // An edge of the grid that meets the face begins in its box or below it, and passes through the box.
+                let below = [p.x <= high.x, p.y <= high.y, p.z <= high.z];
+                if below == [true; 3] && matters(edge) && p.cmpge(low).bitmask().count_ones() >= 2 {
+                    node.crossed |= crossed_edges(p, self.spacing, corners, normal);
+                }
+            }
+        });
     }
 
     /// True at the nodes outside: reached from the border with clearance, or in a few steps from
     /// such a node without crossing a face.
     fn flood(&self, nodes: &[Node]) -> Vec<bool> {
         let clearance = (CLEARANCE * self.spacing) as f32;
-        let mut outside = vec![false; nodes.len()];
-        let mut open = vec![0];
-        outside[0] = true;
+        let clear: Vec<bool> = nodes.iter().map(|node| node.distance > clearance).collect();
+        let mut outside = self.flood_clear(&clear);
+        // The shore: nodes outside with a neighbour without clearance.
         let mut shore = Vec::new();
-        while let Some(at) = open.pop() {
-            // Flood fill by clearance; a node with a neighbour closer to the mesh is the shore.
-            let mut ashore = false;
+        for at in (0..nodes.len()).filter(|&at| !clear[at]) {
             self.for_neighbours(at, |next, _, _| {
-                ashore |= nodes[next].distance <= clearance;
-                if nodes[next].distance > clearance && !outside[next] {
-                    outside[next] = true;
-                    open.push(next);
+                if outside[next] {
+                    shore.push(next);
                 }
             });
-            if ashore {
-                shore.push(at);
-            }
         }
         for _ in 0..SHORE {
             let mut nearer = Vec::new();
@@ -236,6 +302,43 @@ impl Grid {
             shore = nearer;
         }
         outside
+    }
+
+    /// True at the nodes that a flood through `clear` ones reaches from the first node of the grid, run by run along x.
+    fn flood_clear(&self, clear: &[bool]) -> Vec<bool> {
+        let [width, depth, height] = self.size;
+        let mut reached = vec![false; clear.len()];
+        let mut open = vec![0];
+        while let Some(seed) = open.pop() {
+            if reached[seed] {
+                continue;
+            }
+            // The run of clear nodes around the seed.
+            let (row, i) = (seed / width * width, seed % width);
+            let is_clear = |i: &usize| clear[row + i];
+            let from = (0..i).rev().take_while(is_clear).last().unwrap_or(i);
+            let to = (i + 1..width).take_while(is_clear).last().unwrap_or(i);
+            reached[row + from..=row + to].fill(true);
+            // The first node of each clear run beside it in the four rows around.
+            let (j, k) = (row / width % depth, row / self.layer());
+            let around = [
+                (j > 0).then(|| row - width),
+                (j + 1 < depth).then_some(row + width),
+                (k > 0).then(|| row - self.layer()),
+                (k + 1 < height).then_some(row + self.layer()),
+            ];
+            for row in around.into_iter().flatten() {
+                let mut before = false;
+                for at in row + from..=row + to {
+                    let goes_on = clear[at] && !reached[at];
+                    if goes_on && !before {
+                        open.push(at);
+                    }
+                    before = goes_on;
+                }
+            }
+        }
+        reached
     }
 
     /// Calls `visit(neighbour, node that owns the edge, axis)` for the six neighbours of a node.
