@@ -45,7 +45,7 @@ pub const SHADES: [Shade; 15] = [
     shade("light-brown", "", 0.36, 0.08),
     shade("brown", "", 0.8, 0.0),
     shade("dark-brown", "", 1.3, 0.0),
-    shade("black", "brown where light comes through", 2.2, 0.0),
+    shade("black", "brown where light comes through", 3.0, 0.0),
     shade("jet-black", "the darkest", 9.0, 0.0),
     shade("copper", "light red", 0.03, 0.7),
     shade("red", "", 0.08, 1.1),

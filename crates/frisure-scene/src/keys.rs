@@ -287,7 +287,7 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "implantation.hairline.nape" => number::<Length>()
             .slider(Panel::Implantation, "Nape", CM, (0.0, 3.0), 1, "How much higher than usual the hair ends at the nape.");
         /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin; {}. Default
-        /// 0.15.
+        /// 0.25.
         "implantation.baby_hairs" => number::<Ratio>()
             .slider(Panel::Implantation, "Baby hairs", PERCENT, (0.0, 100.0), 0, "Share of short thin hairs along the edge.");
         /// Acceleration of gravity; {}. Default 9.81 m/s^2.

@@ -47,7 +47,7 @@ type = "{name}"  # {description}
 [implantation]
 # flow = "parted"                 # or "whorl", "swept-back"
 # parting = "2 cm"                # to the head's left; or "middle", "right", "zigzag"
-# baby_hairs = 0.15               # of the hairs along the hairline
+# baby_hairs = 0.25               # of the hairs along the hairline
 # lift_scale = {lift:.1}                # angle to the skin, against the measured
 
 [wisps]

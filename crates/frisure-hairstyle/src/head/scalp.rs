@@ -109,11 +109,12 @@ impl Edge {
     }
 
     /// Distance (m) to the line, positive where hair grows.
+    #[cfg(test)]
     pub(crate) fn inside(&self, p: DVec3) -> f64 {
         self.inside_within(p, f64::INFINITY)
     }
 
-    /// The same; ±`most` where the plain line is farther than `most` (m).
+    /// Distance (m) to the line, positive where hair grows; ±`most` where the plain line is farther than `most` (m).
     pub(crate) fn inside_within(&self, p: DVec3, most: f64) -> f64 {
         let l = &self.landmarks;
         // Just short of π, where the line ends.

@@ -39,10 +39,11 @@ impl Rim {
         Self::Border { grid: Grid::new(&points, reach), points }
     }
 
-    /// Distance (m) of a point of the scalp from the edge, exact within the reach.
-    pub(crate) fn distance(&self, p: DVec3) -> f64 {
+    /// Distance (m) of a point of the scalp from the edge, exact within the reach; `most` (m) or more where it is farther.
+    pub(crate) fn distance(&self, p: DVec3, most: f64) -> f64 {
         match self {
-            Self::Line(edge) => edge.inside(p).max(0.0),
+            // The plain line may be nearer than the hairline by what that has receded.
+            Self::Line(edge) => edge.inside_within(p, most + edge.reach).max(0.0),
             Self::Border { grid, points } => {
                 grid.near(p).map(|i| points[i].distance(p)).fold(f64::INFINITY, f64::min)
             }

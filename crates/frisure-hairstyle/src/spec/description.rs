@@ -107,7 +107,7 @@ impl Default for Implantation {
             density: 2e6,
             hairline: Hairline::default(),
             hold: 1.2,
-            baby_hairs: 0.15,
+            baby_hairs: 0.25,
         }
     }
 }

@@ -34,11 +34,19 @@ const SOUGHT: usize = 24;
 /// Width of the strip along the hairline in which baby hairs grow (m). docs/theory.md, "Roots and implantation".
 const BABY_RIM: f64 = 0.015;
 
-/// Shortest and longest baby hair (m). docs/theory.md, "Roots and implantation".
+/// Shortest and longest baby hair at the inner edge of the strip (m); at the hairline itself they are [`SHORTER`] times as long.
+/// docs/theory.md, "Roots and implantation".
 const BABY_LENGTH: (f64, f64) = (0.02, 0.05);
 
-/// Diameter of a baby hair, as a fraction of other hair's. docs/theory.md, "Roots and implantation".
+/// Factor on the length of baby hairs at the hairline. Chosen by eye.
+const SHORTER: f64 = 0.3;
+
+/// Diameter of a baby hair, and of every hair at the hairline, as a fraction of other hair's. docs/theory.md, "Roots and
+/// implantation".
 const THIN: f64 = 0.5;
+
+/// Distance from the hairline at which hair is as thick as elsewhere (m). docs/theory.md, "Roots and implantation".
+const FULL: f64 = 0.01;
 
 /// Least length of a hair that is cut to a line, as a fraction: a cut leaves no short hairs.
 /// Chosen by eye; not measured.
@@ -202,7 +210,7 @@ impl<'a> Population<'a> {
             (_, Some(own)) => (variation.length.max(CUT) * own + (uncut - planned)).min(uncut),
             _ => variation.length * uncut,
         };
-        let baby = if own.is_some() { None } else { self.baby(root, index) };
+        let (baby, thickness) = if own.is_some() { (None, 1.0) } else { self.fine(root, index) };
         let grown = baby.map_or(grown, |baby| baby.min(grown));
         let limit = self.limits.map_or(f64::INFINITY, |limits| f64::from(limits[index]));
         let (dry, cut) = (grown.min(limit), limit < grown);
@@ -226,7 +234,7 @@ impl<'a> Population<'a> {
             end: (dry * stretch / length).min(known),
             dry,
             cut,
-            thickness: if baby.is_some() { THIN } else { 1.0 },
+            thickness,
             narrow: 1.0,
             own,
             shift: DVec3::ZERO,
@@ -313,16 +321,24 @@ impl<'a> Population<'a> {
         if near.is_empty() { vec![nearest] } else { near }
     }
 
-    /// The length (m) of a baby hair; none for other hair.
-    fn baby(&self, root: &Root, index: usize) -> Option<f64> {
+    /// The length (m) of a baby hair, none for other hair; and a factor on the diameter of the fibre.
+    fn fine(&self, root: &Root, index: usize) -> (Option<f64>, f64) {
         let share = self.spec.implantation.baby_hairs;
         if share == 0.0 {
-            return None;
+            return (None, 1.0);
         }
+        let inside = self.rim.distance(root.position, BABY_RIM) / BABY_RIM;
+        if inside >= 1.0 {
+            return (None, 1.0);
+        }
+        // The share falls to none across the strip; twice as much at the line makes it the mean.
+        let chance = 2.0 * share * (1.0 - inside);
         let mut random = Stream::new(self.spec.seed, Purpose::BabyHair, index);
-        let chosen = random.unit() < share;
-        (chosen && self.rim.distance(root.position) < BABY_RIM)
-            .then(|| random.between(BABY_LENGTH.0, BABY_LENGTH.1))
+        if random.unit() < chance {
+            let length = random.between(BABY_LENGTH.0, BABY_LENGTH.1);
+            return (Some(length * (SHORTER + (1.0 - SHORTER) * inside)), THIN);
+        }
+        (None, THIN + (1.0 - THIN) * smooth_step(0.0, FULL / BABY_RIM, inside))
     }
 
     /// Whether two guides go the same way, from 1 to 0: hair beside a parting or around an ear falls
