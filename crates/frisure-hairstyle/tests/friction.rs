@@ -199,3 +199,17 @@ fn a_product_keeps_a_set_and_washes_out() {
     let none = with_product(&before, Product::Gel, 0.0);
     assert!(before.equilibria().iter().zip(none.equilibria()).all(|(a, b)| a.shape == b.shape));
 }
+
+#[test]
+fn wisps_that_come_to_rest_go_on_until_friction_agrees() {
+    // Normal forces follow the shape and the shape follows friction many times, in more steps than hair may take to come to rest once.
+    for seed in [1, 2] {
+        let mut spec = spec("caucasian-straight", 40, HairContact::Wisps, 0.47);
+        spec.length.mean = 0.25;
+        spec.seed = seed;
+        let hair = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
+        let report = settling_report(&hair, &HEAD);
+        assert_eq!(report.stable, 40, "{seed}: {report:?}");
+        assert!(report.friction <= 1.001, "{seed}: {}", report.friction);
+    }
+}

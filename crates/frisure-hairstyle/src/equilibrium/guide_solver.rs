@@ -10,6 +10,7 @@ use super::fields::{
     MAX_ITERATIONS, MOST_ELEMENTS, along, body, body_samples, depth, layer, options,
 };
 use super::friction_solver::{FrictionalRod, Hold, Rested};
+use super::letting_down::let_down;
 use super::letting_go::LETTING_GO;
 use super::lock::{self, LockStart};
 use super::start::{Change, GuideStart};
@@ -336,20 +337,26 @@ fn settle_on_body(
 ) -> Equilibrium {
     let hard = &HARDNESS[HARDNESS.len() - 1..];
     let far = Options { longest_step: f64::INFINITY, ..*options };
-    let tries = [
+    let lowest = Options { branch: Branch::Lowest { starts: STARTS, seed: spec.seed }, ..far };
+    let harden = |options, hardness| harden(spec, head, guide, options, hardness);
+    let ways: [&dyn Fn() -> Equilibrium; 5] = [
         // 1. On a soft body the branch of gravity is followed in a fifth of the iterations; from one
         // hardness to the next the answer is near.
-        (*options, &HARDNESS[..]),
+        &|| harden(options, &HARDNESS),
         // 2. But hair can sink into a soft ear and stay there: on the hard body from the start.
-        (*options, hard),
+        &|| harden(options, hard),
         // 3. Short steps follow the way down, also where it ends in the body: long ones go past it.
-        (far, hard),
+        &|| harden(&far, hard),
         // 4. Its natural shape is in the body: of several random starts the one that is not in it has the least energy.
-        (Options { branch: Branch::Lowest { starts: STARTS, seed: spec.seed }, ..far }, hard),
+        &|| harden(&lowest, hard),
+        // 5. It grows against an ear, where all of these begin: held off the head and let down on it.
+        &|| let_down(spec, head, guide, options),
     ];
+    // Spheres have no ears, and no other shape lies less deep in a body that is not there.
+    let count = if spec.contact.body == Body::SignedDistance { ways.len() } else { ways.len() - 1 };
     let mut best: Option<(f64, Equilibrium)> = None;
-    for (options, hardness) in tries {
-        let rest = harden(spec, head, guide, &options, hardness);
+    for way in &ways[..count] {
+        let rest = way();
         let deep = depth(head, &rest);
         if deep <= DEEPEST {
             return rest;
@@ -358,7 +365,7 @@ fn settle_on_body(
             best = Some((deep, rest));
         }
     }
-    best.expect("there are tries").1
+    best.expect("there are ways").1
 }
 
 /// The division of a guide, and whether it meets a requested accuracy. Extrapolation needs a smooth answer, and

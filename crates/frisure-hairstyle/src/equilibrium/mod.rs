@@ -5,6 +5,7 @@ mod friction_solver;
 mod guide_solver;
 mod head_solver;
 mod joint;
+mod letting_down;
 mod letting_go;
 mod lock;
 mod report;
