@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 """Makes the pictures of README.md and docs/ again, with the command frisure.
 
-Usage: docs/pictures.py PATH/TO/frisure [--paths N] [NAME...]
+Usage: docs/pictures.py PATH/TO/frisure [--paths N] [--jobs N] [NAME...]
 
 NAME is one of the groups below (heads, final, collisions, colours, looks, lights, wet, styling, tucked, grooms), or a
-picture of `final` such as final/afro; without a name all are made. N is the number of paths per pixel of a traced
-picture (24). FRISURE_OIDN names the library of Open Image Denoise if the system does not know it. Needs Pillow.
+picture of `final` such as final/afro; without a name all are made. `--paths` is the number of paths per pixel of a traced
+picture (96: all pictures take about two hours of one processor), `--jobs` how many pictures are made at once (1: on few
+processors each picture uses all of them). FRISURE_OIDN names the library of Open Image Denoise if the system does not know it. Needs Pillow.
 
 Not made here: docs/pictures/fibre.jpg (`cargo run --release -p frisure-render --example fibre -- fibre.png`),
 docs/pictures/validation (`frisure evidence`), docs/pictures/grooms/blender.jpg
 (validation/clients/blender_picture.py), and docs/pictures/salon, which are photographs of the window.
 """
 import argparse, math, pathlib, re, struct, subprocess, tempfile
+from concurrent.futures import ThreadPoolExecutor
 from PIL import Image, ImageDraw, ImageFont
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -43,8 +45,13 @@ def without(text, table):
 class Maker:
     """Runs frisure in a folder of its own and saves what comes out as JPEG."""
 
-    def __init__(self, program, paths, folder):
+    def __init__(self, program, paths, jobs, folder):
         self.program, self.paths, self.folder = program, paths, pathlib.Path(folder)
+        self.pool = ThreadPoolExecutor(jobs)
+
+    def each(self, make, items):
+        """What `make` makes of each item, several at once."""
+        return list(self.pool.map(make, items))
 
     def run(self, *arguments):
         done = subprocess.run([self.program, *map(str, arguments)], cwd=SCENES, capture_output=True, text=True)
@@ -52,12 +59,11 @@ class Maker:
         if done.returncode not in (0, 1):
             raise SystemExit(f"frisure {' '.join(map(str, arguments))}\n{done.stderr}")
 
-    def traced(self, hair, size, look=None, share=0.6, scale=1):
+    def traced(self, hair, size, look=None, share=0.5, scale=1):
         """A scene, or a groom with the scene `look`, by the path tracer; made `scale` times as large and then smaller, which keeps
         the hairs that the denoiser blurs."""
         width, height = scale * size[0], scale * size[1]
-        out = self.folder / "traced.png"
-        out.unlink(missing_ok=True)
+        out = pathlib.Path(tempfile.mkdtemp(dir=self.folder)) / "traced.png"
         with_look = ["--look", look] if look else []
         self.run("render", hair, "-o", out, "--size", f"{width}x{height}", "--noise", 0, "--paths", self.paths,
                  f"--denoise={round(100 * share)}", "-q", *with_look)
@@ -65,8 +71,8 @@ class Maker:
         return picture.resize(size, Image.LANCZOS) if scale > 1 else picture
 
     def small(self, hair, size, look=None):
-        """The same in a small picture, which shows the noise that a part of the denoising leaves."""
-        return self.traced(hair, size, look, share=0.9, scale=2)
+        """The same in a small picture, whose pixels are the mean of four."""
+        return self.traced(hair, size, look, share=0.6, scale=2)
 
     def scene(self, text, name="scene"):
         path = self.folder / f"{name}.toml"
@@ -106,26 +112,26 @@ def grid(pictures, columns, captions=None):
 
 
 def heads(maker):
-    maker.save(grid([maker.small(SCENES / f"{name}.toml", (360, 440)) for name in HEADS], 4), "heads")
+    pictures = maker.each(lambda name: maker.small(SCENES / f"{name}.toml", (360, 440)), HEADS)
+    maker.save(grid(pictures, 4), "heads")
 
 
 def final(maker, names=FINAL):
-    for name in names:
-        maker.save(maker.traced(SCENES / f"{name}.toml", (1024, 1024)), f"final/{name}")
+    maker.each(lambda name: maker.save(maker.traced(SCENES / f"{name}.toml", (1024, 1024)), f"final/{name}"), names)
 
 
 def collisions(maker):
     text = (SCENES / "collisions-none.toml").read_text()
     layers = maker.scene(re.sub(r'(?m)^hair = "none"', 'hair = "layers"', text))
     scenes = [SCENES / "collisions-none.toml", layers, SCENES / "collisions.toml"]
-    maker.save(grid([maker.small(scene, (360, 440)) for scene in scenes], 3), "collisions")
+    maker.save(grid(maker.each(lambda scene: maker.small(scene, (360, 440)), scenes), 3), "collisions")
 
 
 def swatches(maker, looks, name):
     """One straight head from behind in each of the looks, lines of `[look]`."""
     hair = maker.groom(STRAIGHT, "straight")
     scenes = [maker.scene(STRAIGHT + BEHIND + f"[look]\n{look}\n", f"look{i}") for i, (_, look) in enumerate(looks)]
-    pictures = [maker.small(hair, (180, 216), scene) for scene in scenes]
+    pictures = maker.each(lambda scene: maker.small(hair, (180, 216), scene), scenes)
     maker.save(grid(pictures, 5, [caption for caption, _ in looks]), name, 85)
 
 
@@ -162,7 +168,7 @@ def lights(maker):
     kinds = [(s, f'setup = "{s}"') for s in SETUPS] + [("environment (a window)", 'environment = "window.hdr"')]
     scenes = [maker.scene(f"{STRAIGHT}[look]\ncolour = \"light-brown\"\n[light]\n{light}\n", f"light{i}")
               for i, (_, light) in enumerate(kinds)]
-    pictures = [maker.small(hair, (200, 240), scene) for scene in scenes]
+    pictures = maker.each(lambda scene: maker.small(hair, (200, 240), scene), scenes)
     maker.save(grid(pictures, 4, [caption for caption, _ in kinds]), "lights", 85)
 
 
@@ -172,7 +178,7 @@ def wet(maker):
     locks = soaked.replace("[hair]\n", '[hair]\nwetting = "capillary"\n')
     scenes = [maker.scene(dry, "dry"), maker.scene(soaked, "wet"), maker.scene(locks, "locks")]
     captions = ["dry", "wet, as in the paper", "wet, with locks"]
-    maker.save(grid([maker.small(scene, (260, 312)) for scene in scenes], 3, captions), "wet", 85)
+    maker.save(grid(maker.each(lambda scene: maker.small(scene, (260, 312)), scenes), 3, captions), "wet", 85)
 
 
 def styling(maker):
@@ -183,10 +189,14 @@ def styling(maker):
     def of(scene):
         return (SCENES / f"{scene}.toml").read_text()
 
-    rows = [row(of("fringe-cut"), (400, 489), "fringe-cut"), row(of("growth"), (266, 325), "growth", (0, 2, 3, 5, 7, 11))]
-    last = [row(of("rollers"), (320, 391), "rollers", (0, 2, 4)), row(BOB, (320, 391), "bob", (0, 1))]
+    rows = [
+        (of("fringe-cut"), (400, 489), "fringe-cut"),
+        (of("growth"), (266, 325), "growth", (0, 2, 3, 5, 7, 11)),
+        (of("rollers"), (320, 391), "rollers", (0, 2, 4)),
+        (BOB, (320, 391), "bob", (0, 1)),
+    ]
     sheet = Image.new("RGB", (1600, 489 + 325 + 391), "white")
-    for picture, place in zip(rows + last, [(0, 0), (2, 489), (0, 814), (960, 814)]):
+    for picture, place in zip(maker.each(lambda of_row: row(*of_row), rows), [(0, 0), (2, 489), (0, 814), (960, 814)]):
         sheet.paste(picture, place)
     maker.save(sheet, "styling", 77)
 
@@ -213,7 +223,8 @@ GROUPS = [heads, collisions, colours, looks, lights, wet, styling, tucked, groom
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("frisure")
-    arguments.add_argument("--paths", type=int, default=24)
+    arguments.add_argument("--paths", type=int, default=96)
+    arguments.add_argument("--jobs", type=int, default=1)
     arguments.add_argument("names", nargs="*", metavar="NAME")
     asked = arguments.parse_intermixed_args()
     single = [name[6:] for name in asked.names if name.startswith("final/")]
@@ -224,7 +235,7 @@ def main():
             arguments.error(f"no picture `{name}`: {', '.join(sorted(known))}")
     program = pathlib.Path(asked.frisure).resolve()
     with tempfile.TemporaryDirectory() as folder:
-        maker = Maker(program, asked.paths, folder)
+        maker = Maker(program, asked.paths, asked.jobs, folder)
         for group in groups:
             group(maker)
         final(maker, single)
