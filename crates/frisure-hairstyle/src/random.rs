@@ -22,6 +22,7 @@ pub(crate) enum Purpose {
     Face,
     WetLock,
     CurlAlong,
+    PartingSide,
 }
 
 /// A stream of random numbers.

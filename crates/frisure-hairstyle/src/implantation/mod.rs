@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use crate::head::{Head, Landmarks};
 use crate::math::smooth_step;
+use crate::random::{Purpose, Stream};
 use crate::spec::{Flow, HairstyleSpec, Implantation, Lift, Parting, RegionStyle};
 
 pub use parting::PartingError;
@@ -157,10 +158,22 @@ impl Layout {
         Root { position: position - away * distance, ..root }
     }
 
-    /// Whether hair rooted at two points (m) near each other cannot go together: a parting lies
-    /// between them, or the edge of a region with a length of its own.
-    pub(crate) fn apart(&self, a: DVec3, b: DVec3) -> bool {
-        self.partings.between(&self.marks, a, b) || self.cut(a) != self.cut(b)
+    /// Whether hair rooted at `a` (m) that is combed from `side` (m) cannot go with that rooted at `b` (m) near it: a parting
+    /// lies between them, or the edge of a region with a length of its own.
+    pub(crate) fn apart(&self, a: DVec3, side: DVec3, b: DVec3) -> bool {
+        self.partings.between(&self.marks, side, b) || self.cut(a) != self.cut(b)
+    }
+
+    /// The root from which a hair is combed to a side of a parting: beside its own by chance, because a comb does not part hair
+    /// to the width of one, so that some hairs lie over the line.
+    pub(crate) fn combed_from(&self, root: &Root, seed: u64, index: usize) -> Root {
+        if self.partings.is_empty() {
+            return *root;
+        }
+        let mut random = Stream::new(seed, Purpose::PartingSide, index);
+        let mut stray = || STRAY * random.normal();
+        let step = DVec3::new(stray(), stray(), stray()).reject_from_normalized(root.normal);
+        Root { position: root.position + step, ..*root }
     }
 
     /// Whether neighbouring hair may have to be kept apart at all.
@@ -175,6 +188,10 @@ pub(crate) fn out_of_face(marks: &Landmarks, place: DVec3, along: DVec3) -> f64 
     let front = 1.0 - smooth_step(-0.6, 0.1, marks.normalized(place).y);
     front * (1.0 - smooth_step(0.2, 0.6, along.dot(marks.face)))
 }
+
+/// Standard deviation (m), along each axis, of the place from which a hair beside a parting is combed. Chosen by eye: the teeth of
+/// a comb are 1 to 2 mm apart.
+const STRAY: f64 = 0.8e-3;
 
 /// How far (m) a hair must be able to go straight before it meets skin again. Chosen by trial; not measured further.
 const CLEAR_PATH: f64 = 0.016;

@@ -50,7 +50,7 @@ fn neighbouring_hair_goes_the_same_way() {
             for (i, a) in roots.iter().enumerate().filter(|(_, r)| far(r.position)) {
                 for b in grid.near(a.position).filter(|&j| j > i).map(|j| &roots[j]) {
                     let apart = a.position.distance(b.position);
-                    if apart > 2e-3 || layout.apart(a.position, b.position) {
+                    if apart > 2e-3 || layout.apart(a.position, a.position, b.position) {
                         continue;
                     }
                     let turn = layout.direction(a).angle_between(layout.direction(b));
@@ -142,12 +142,32 @@ fn check_sides(layout: &Layout) {
             let middle = root(0.5 * (pair[0] + pair[1]));
             let aside = (pair[1] - pair[0]).cross(middle.normal).normalize();
             let sides = [-1.0, 1.0].map(|side| root(middle.position + aside * (side * 1.5e-3)));
-            assert!(layout.apart(sides[0].position, sides[1].position));
+            assert!(layout.apart(sides[0].position, sides[0].position, sides[1].position));
             for (side, root) in [-1.0, 1.0].into_iter().zip(&sides) {
                 assert!(layout.direction(root).dot(aside) * side > 0.05, "{}", root.position);
             }
         }
     }
+}
+
+#[test]
+fn hair_next_to_a_parting_is_combed_to_either_side() {
+    let parting = vec![Parting::Straight { offset: 0.0 }];
+    let layout = layout(Flow::SweptBack, |s| s.implantation.partings = parting);
+    let line = layout.partings.lines().next().unwrap();
+    let (from, to) = (line[line.len() / 2], line[line.len() / 2 + 1]);
+    let middle = root(0.5 * (from + to));
+    let aside = (to - from).cross(middle.normal).normalize();
+    let over = |distance: f64| {
+        let own = root(middle.position + aside * distance);
+        let other = root(middle.position + aside * 5e-3).position;
+        let side = |index| layout.combed_from(&own, 1, index).position;
+        (0..1000).filter(|&index| layout.apart(own.position, side(index), other)).count()
+    };
+    // Half of the hairs on the line; P(N > 0.5 mm / 0.8 mm) = 0.27 beside it; none 3 mm from it.
+    assert!((450..550).contains(&over(0.0)), "{}", over(0.0));
+    assert!((220..310).contains(&over(0.5e-3)), "{}", over(0.5e-3));
+    assert_eq!(over(3e-3), 0);
 }
 
 #[test]
@@ -191,7 +211,7 @@ fn regions_have_directions_and_lengths_of_their_own() {
     let length = layout.length(head(), &in_fringe).unwrap();
     let least = in_fringe.position.distance(marks.brow);
     assert!((least..least + 0.015).contains(&length), "{length}, {least}");
-    assert!(layout.apart(in_fringe.position, crown.position));
+    assert!(layout.apart(in_fringe.position, in_fringe.position, crown.position));
 }
 
 #[test]

@@ -223,7 +223,7 @@ impl Population<'_> {
             let position = split.root.position;
             let larger = id.level.checked_sub(1);
             let larger = larger.and_then(|l| splits.of_level(l, self.layout, position));
-            let followed = self.following(&split.root);
+            let followed = self.following(&split.root, &split.root);
             let larger = larger.and_then(|id| self.gathering(tier, id, followed[0].0));
             let larger = larger.as_ref();
             let main = larger.map_or(followed[0].0, |to| to.line.main);

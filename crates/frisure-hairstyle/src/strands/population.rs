@@ -254,14 +254,17 @@ impl<'a> Population<'a> {
     pub(crate) fn main(&self, root: &Root, index: usize) -> usize {
         match self.bound {
             Some(bound) => bound.bindings(index)[0].0,
-            None => self.sorted(root, self.layout.direction(root))[0],
+            None => {
+                let from = self.layout.combed_from(root, self.spec.seed, index);
+                self.sorted(root, &from, self.layout.direction(&from))[0]
+            }
         }
     }
 
-    /// Guides near a root that its hair, which leaves in the direction `own`, can go with; the one most
+    /// Guides near a root that its hair, which is combed from another root in the direction `own`, can go with; the one most
     /// like it first.
-    fn sorted(&self, root: &Root, own: DVec3) -> Vec<usize> {
-        let near = self.near(root.position);
+    fn sorted(&self, root: &Root, from: &Root, own: DVec3) -> Vec<usize> {
+        let near = self.near(root.position, from.position);
         // Beside a parting the nearest guide may go to the other side.
         let mut ranked: Vec<_> = near.iter().map(|&g| (self.farness(root, own, g), g)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -280,13 +283,13 @@ impl<'a> Population<'a> {
         if let Some(bound) = self.bound {
             return bound.bindings(index).to_vec();
         }
-        self.following(root)
+        self.following(root, &self.layout.combed_from(root, self.spec.seed, index))
     }
 
-    /// The same of hair that is no groom's.
-    pub(super) fn following(&self, root: &Root) -> Vec<(usize, f64)> {
-        let own = self.layout.direction(root);
-        let near = self.sorted(root, own);
+    /// The same of hair that is no groom's and is combed from another root beside its own.
+    pub(super) fn following(&self, root: &Root, from: &Root) -> Vec<(usize, f64)> {
+        let own = self.layout.direction(from);
+        let near = self.sorted(root, from, own);
         let first = near[0];
         let farness = |g: usize| self.farness(root, own, g);
         // exp(−(d² − d₀²)/(0.9 b ℓ)²) times how far the guides go the same way. docs/theory.md, "Wisps"
@@ -304,14 +307,14 @@ impl<'a> Population<'a> {
         followed
     }
 
-    /// Guides near a root that its hair can go with, nearest first; at least one.
-    fn near(&self, root: DVec3) -> Vec<usize> {
+    /// Guides near a root that its hair, combed from the point `from` (m), can go with, nearest first; at least one.
+    fn near(&self, root: DVec3, from: DVec3) -> Vec<usize> {
         let mut near = self.grid.nearest(root, FOLLOWED, &self.roots);
         if !self.layout.divides() {
             return near;
         }
         let nearest = near[0];
-        let together = |g: &usize| !self.layout.apart(root, self.roots[*g]);
+        let together = |g: &usize| !self.layout.apart(root, from, self.roots[*g]);
         near.retain(together);
         if near.is_empty() {
             near = self.grid.nearest(root, SOUGHT, &self.roots);

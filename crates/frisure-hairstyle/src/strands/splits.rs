@@ -176,7 +176,7 @@ impl Splits {
         let near = grid.nearest(p, SOUGHT, roots).into_iter();
         let mut near: Vec<_> = near.map(|i| (far(i), i)).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let together = |i: usize| !layout.divides() || !layout.apart(p, roots[i]);
+        let together = |i: usize| !layout.divides() || !layout.apart(p, p, roots[i]);
         let found = near.into_iter().map(|(_, i)| i).find(|&i| together(i))?;
         Some(SplitId { level, index: found })
     }
