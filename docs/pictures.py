@@ -5,7 +5,7 @@ Usage: docs/pictures.py PATH/TO/frisure [--paths N] [--jobs N] [NAME...]
 
 NAME is one of the groups below (heads, final, collisions, colours, looks, lights, wet, styling, tucked, grooms), or a
 picture of `final` such as final/afro; without a name all are made. `--paths` is the number of paths per pixel of a traced
-picture (96: all pictures take about two hours of one processor), `--jobs` how many pictures are made at once (1: on few
+picture (96: all pictures take about three hours of one processor), `--jobs` how many pictures are made at once (1: on few
 processors each picture uses all of them). FRISURE_OIDN names the library of Open Image Denoise if the system does not know it. Needs Pillow.
 
 Not made here: docs/pictures/fibre.jpg (`cargo run --release -p frisure-render --example fibre -- fibre.png`),
