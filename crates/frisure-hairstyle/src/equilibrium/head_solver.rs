@@ -78,11 +78,6 @@ const BACKTRACKING: (f64, f64) = (0.1, 0.5);
 /// Most times that phase 2 is done again because friction has changed. A guard.
 const MOST_ROUNDS: usize = 40;
 
-/// Most steps of phase 2 with friction, each time that it is done. A guard: 20 to 170 are usual, and what sticks in a tight bundle, such as
-/// a hair tie, is not at rest after 800. Hair that is at rest goes on until friction agrees, which took 140 to 730 steps in all of each load
-/// of 150 wisps.
-const MOST_STEPS_WITH_FRICTION: usize = 300;
-
 /// How [`settle`] works.
 pub(super) struct SweepOptions {
     /// Whether phase 1 comes first.
@@ -216,14 +211,13 @@ impl HeadSolver<'_> {
         stage: &StageCounter<'_>,
         most: usize,
     ) -> Result<usize, Cancelled> {
-        let at_once = if self.rubs { most.min(MOST_STEPS_WITH_FRICTION) } else { most };
         let mut steps = 0;
         for round in 0..MOST_ROUNDS {
-            let most = at_once.min(most - steps);
-            let taken = self.converge(stage, most)?;
+            let left = most - steps;
+            let taken = self.converge(stage, left)?;
             steps += taken;
             // At rest with the friction of where wisps are: the law holds there, (F3). Or not at rest at all.
-            if taken == most || (round > 0 && taken == 0) || !self.rubs {
+            if taken == left || (round > 0 && taken == 0) || !self.rubs {
                 break;
             }
             self.press();
