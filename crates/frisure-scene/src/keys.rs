@@ -286,8 +286,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// How much higher the hair ends at the nape than usual; {}. Default 0.
         "implantation.hairline.nape" => number::<Length>()
             .slider(Panel::Implantation, "Nape", CM, (0.0, 3.0), 1, "How much higher than usual the hair ends at the nape.");
-        /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin; {}. Default
-        /// 0.25.
+        /// Fraction of the hairs within 1.5 cm of the edge that stay short and thin, more of those nearer to it: from 0.5 on
+        /// all at the edge, with 1 three quarters; {}. Default 0.25.
         "implantation.baby_hairs" => number::<Ratio>()
             .slider(Panel::Implantation, "Baby hairs", PERCENT, (0.0, 100.0), 0, "Share of short thin hairs along the edge.");
         /// Acceleration of gravity; {}. Default 9.81 m/s^2.

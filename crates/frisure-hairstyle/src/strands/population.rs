@@ -334,7 +334,7 @@ impl<'a> Population<'a> {
         if inside >= 1.0 {
             return (None, 1.0);
         }
-        // The share falls to none across the strip; twice as much at the line makes it the mean.
+        // The share falls to none across the strip; twice as much at the line makes it the mean, up to a share of a half.
         let chance = 2.0 * share * (1.0 - inside);
         let mut random = Stream::new(self.spec.seed, Purpose::BabyHair, index);
         if random.unit() < chance {
