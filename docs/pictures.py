@@ -59,7 +59,7 @@ class Maker:
         if done.returncode not in (0, 1):
             raise SystemExit(f"frisure {' '.join(map(str, arguments))}\n{done.stderr}")
 
-    def traced(self, hair, size, look=None, share=0.5, scale=1):
+    def traced(self, hair, size, look=None, share=0.85, scale=1):
         """A scene, or a groom with the scene `look`, by the path tracer; made `scale` times as large and then smaller, which keeps
         the hairs that the denoiser blurs."""
         width, height = scale * size[0], scale * size[1]
@@ -72,7 +72,7 @@ class Maker:
 
     def small(self, hair, size, look=None):
         """The same in a small picture, whose pixels are the mean of four."""
-        return self.traced(hair, size, look, share=0.6, scale=2)
+        return self.traced(hair, size, look, scale=2)
 
     def scene(self, text, name="scene"):
         path = self.folder / f"{name}.toml"

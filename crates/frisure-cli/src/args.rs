@@ -279,7 +279,7 @@ pub(crate) struct Tracing {
 
     /// Take out what noise is left, by Open Image Denoise, if it is installed: pleasant for few paths,
     /// but no longer the truth. FRISURE_OIDN names its library where the system does not know it.
-    /// `--denoise=50` takes out half of it, which keeps the finest hairs.
+    /// `--denoise=50` takes out half of it where hair is, which keeps the finest hairs, and all elsewhere.
     #[arg(long, value_name = "PERCENT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "100", value_parser = noise)]
     pub(crate) denoise: Option<f32>,

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct filter { float *color, *albedo, *normal, *output; size_t width, height; bool hdr, committed; };
+struct filter { float *color, *albedo, *normal, *output; size_t width, height; bool hdr, clean, committed; };
 static int devices, filters;
 static char error[64];
 
@@ -33,11 +33,12 @@ void oidnSetSharedFilterImage(void *f, const char *name, void *pixels, int forma
 void SET_BOOL(void *f, const char *name, bool value) {
     struct filter *filter = f;
     if (!strcmp(name, "hdr")) filter->hdr = value;
+    if (!strcmp(name, "cleanAux")) filter->clean = value;
 }
 void oidnCommitFilter(void *f) { ((struct filter *)f)->committed = true; }
 void oidnExecuteFilter(void *f) {
     struct filter *filter = f;
-    if (!filter->committed || !filter->hdr) snprintf(error, sizeof error, "not committed");
+    if (!filter->committed || !filter->hdr || !filter->clean) snprintf(error, sizeof error, "not committed");
     if (filter->width == 1) { snprintf(error, sizeof error, "too narrow"); return; }
     for (size_t i = 0; i < 3 * filter->width * filter->height; i++)
         filter->output[i] = filter->color[i] + 10 * filter->albedo[i] + 100 * filter->normal[i];
