@@ -47,6 +47,7 @@ fn fringe() -> Operation {
         selection: Selection::Place(Place::Region(Region::Fringe)),
         line: CutLine::Below(Height::At(0.0)),
         held: Held::Down,
+        ..Cut::default()
     })
 }
 

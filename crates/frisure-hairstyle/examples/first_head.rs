@@ -36,7 +36,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let line = CutLine::Length(0.15);
     for operation in [
         Operation::Wet(Wet::default()),
-        Operation::Cut(Cut { selection: Selection::Everything, line, held: Held::Down }),
+        Operation::Cut(Cut {
+            selection: Selection::Everything,
+            line,
+            held: Held::Down,
+            ..Cut::default()
+        }),
         Operation::Dry(Dry::default()),
     ] {
         hair = style(&hair, &head, &operation, StyleOptions::default(), &())?;

@@ -23,6 +23,7 @@ pub(crate) enum Purpose {
     WetLock,
     CurlAlong,
     PartingSide,
+    Scissors,
 }
 
 /// A stream of random numbers.

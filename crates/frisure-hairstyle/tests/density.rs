@@ -120,7 +120,7 @@ fn steps_come_to_rest_together_and_drying_gives_back_what_was() {
     let dry = done(&wet, &Operation::Dry(Dry::default()));
     assert_eq!(moves(&before, &dry)[GUIDES - 1], 0.0);
     let line = CutLine::Below(Height::At(-0.2));
-    let cut = Cut { selection: Selection::Everything, line, held: Held::Down };
+    let cut = Cut { selection: Selection::Everything, line, held: Held::Down, ..Cut::default() };
     certified(&done(&before, &Operation::Cut(cut)));
 }
 

@@ -32,7 +32,7 @@ fn dry() -> Operation {
 
 fn cut(length: f64) -> Operation {
     let (selection, line) = (Selection::Everything, CutLine::Length(length));
-    Operation::Cut(Cut { selection, line, held: Held::Down })
+    Operation::Cut(Cut { selection, line, held: Held::Down, ..Cut::default() })
 }
 
 fn grow(by: f64) -> Operation {
@@ -119,7 +119,8 @@ fn an_edit_that_fails_loses_nothing() {
     history.undo(&HEAD, &()).unwrap();
     let (now, operations) = (history.current().clone(), history.operations().to_vec());
     let height = CutLine::Below(Height::At(0.3));
-    let above = Cut { selection: Selection::Everything, line: height, held: Held::Down };
+    let above =
+        Cut { selection: Selection::Everything, line: height, held: Held::Down, ..Cut::default() };
     let error = history.replace(0, Operation::Cut(above), &HEAD, &()).unwrap_err();
     assert_eq!(error.step, 0);
     assert!(matches!(error.error, StyleError::AboveRoot { selected: 20, .. }), "{error}");

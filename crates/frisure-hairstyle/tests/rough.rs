@@ -123,7 +123,12 @@ fn rough_hair_may_be_of_anything_before() {
 fn rough_steps_go_on_from_those_before() {
     let hair = predict(&spec(), &HEAD, PredictOptions::default(), &()).unwrap();
     let line = CutLine::Length(0.08);
-    let cut = Operation::Cut(Cut { selection: Selection::Everything, line, held: Held::Down });
+    let cut = Operation::Cut(Cut {
+        selection: Selection::Everything,
+        line,
+        held: Held::Down,
+        ..Cut::default()
+    });
     let exact = style(&hair, &HEAD, &cut, StyleOptions::default(), &()).unwrap();
     let rough = style(&hair, &HEAD, &cut, draft(Some(&exact)), &()).unwrap();
     assert_eq!(rough.wisps(), exact.wisps());

@@ -43,7 +43,7 @@ fn dry() -> Operation {
 
 fn cut_below(z: f64, selection: Selection) -> Operation {
     let line = CutLine::Below(Height::At(z));
-    Operation::Cut(Cut { selection, line, held: Held::Down })
+    Operation::Cut(Cut { selection, line, held: Held::Down, ..Cut::default() })
 }
 
 fn grow(amount: Growth) -> Operation {
@@ -208,7 +208,10 @@ fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
 fn layers_are_as_long_as_the_line_is_far_from_the_skin() {
     let before = hairstyle("caucasian-straight", 60);
     let cut = |line: CutLine, held: Held| {
-        done(&before, &Operation::Cut(Cut { selection: Selection::Everything, line, held }))
+        done(
+            &before,
+            &Operation::Cut(Cut { selection: Selection::Everything, line, held, ..Cut::default() }),
+        )
     };
     let out = Held::Elevated(std::f64::consts::FRAC_PI_2);
     let lengths = |h: &Hairstyle| h.wisps().iter().map(|w| w.length).collect::<Vec<_>>();
@@ -284,7 +287,7 @@ fn every_hair_cut_as_it_hangs_ends_at_the_line() {
         point: glam::DVec3::new(0.0, 0.0, -0.10),
         normal: glam::DVec3::new(0.3, 0.0, -1.0),
     };
-    let cut = Cut { selection: Selection::Everything, line, held: Held::Hanging };
+    let cut = Cut { selection: Selection::Everything, line, held: Held::Hanging, ..Cut::default() };
     let after = done(&before, &Operation::Cut(cut));
     let beyond = |p: glam::DVec3| {
         (p - glam::DVec3::Z * -0.1).dot(glam::DVec3::new(0.3, 0.0, -1.0).normalize())
@@ -305,6 +308,62 @@ fn every_hair_cut_as_it_hangs_ends_at_the_line() {
     assert!(cut > 100 && at_line * 10 > cut * 9, "{at_line} of {cut}");
 }
 
+/// Lengths (m) of the drawn hairs.
+fn drawn_lengths(hair: &Hairstyle) -> Vec<f64> {
+    let drawn = strands(hair, &HEAD, StrandOptions::default(), &()).unwrap().strands;
+    let length = |points: &[glam::Vec3]| -> f64 {
+        points.windows(2).map(|p| f64::from(p[0].distance(p[1]))).sum()
+    };
+    drawn.iter().map(|strand| length(strand.points)).collect()
+}
+
+#[test]
+fn point_cutting_ends_hairs_evenly_up_to_a_depth_before_the_line() {
+    let before = hairstyle("caucasian-straight", 60);
+    let line = CutLine::Length(0.12);
+    let blunt = Cut { line, ..Cut::default() };
+    let soft = Cut { point_cut: 0.03, ..blunt.clone() };
+    let cut = |cut: &Cut| done(&before, &Operation::Cut(cut.clone()));
+    let (blunt, soft) = (cut(&blunt), cut(&soft));
+    // The guides are the same.
+    for (a, b) in blunt.equilibria().iter().zip(soft.equilibria()) {
+        assert_eq!(a.shape, b.shape);
+    }
+    let ends: Vec<f64> = (drawn_lengths(&blunt).iter().zip(drawn_lengths(&soft)))
+        .filter(|(blunt, _)| **blunt > 0.119)
+        .map(|(blunt, soft)| blunt - soft)
+        .collect();
+    // A drawn hair is a curve through points, which is not quite as long as the hair.
+    assert!(ends.len() > 100 && ends.iter().all(|x| (-5e-4..0.0305).contains(x)), "{ends:?}");
+    let mean = ends.iter().sum::<f64>() / ends.len() as f64;
+    // Uniform: the mean of n hairs is within three standard errors, 0.03/√(12 n).
+    assert!((mean - 0.015).abs() < 3.0 * 0.03 / (12.0 * ends.len() as f64).sqrt(), "{mean}");
+}
+
+#[test]
+fn thinning_cuts_its_share_of_the_hairs_and_other_hairs_the_next_time() {
+    let before = hairstyle("caucasian-straight", 60);
+    let thin = Cut { line: CutLine::Length(0.1), share: 0.4, ..Cut::default() };
+    let thin = Operation::Cut(thin);
+    let once = done(&before, &thin);
+    let twice = done(&once, &thin);
+    for (a, b) in before.guides().iter().zip(twice.guides()) {
+        assert_eq!(a.rod, b.rod);
+    }
+    let long = drawn_lengths(&before);
+    let share = |hair: &Hairstyle| {
+        let now = drawn_lengths(hair);
+        let long = long.iter().zip(&now).filter(|(before, _)| **before > 0.12);
+        let (count, cut) = long.fold((0.0, 0.0), |(count, cut), (_, now)| {
+            (count + 1.0, cut + f64::from(u8::from(*now < 0.115)))
+        });
+        cut / count
+    };
+    // 300 hairs: three standard deviations of a share are 0.085.
+    let (first, second) = (share(&once), share(&twice));
+    assert!((first - 0.4).abs() < 0.085 && (second - 0.64).abs() < 0.085, "{first} {second}");
+}
+
 #[test]
 fn hair_that_grew_and_is_cut_back_lies_as_before() {
     let mut spec = spec("caucasian-wavy", 40, HairContact::Layers);
@@ -314,7 +373,7 @@ fn hair_that_grew_and_is_cut_back_lies_as_before() {
     let grown = done(&before, &grow(Growth::By(0.04)));
     assert!(farthest_tip(&before, &grown) > 0.02);
     let line = CutLine::Length(0.12);
-    let cut = Cut { selection: Selection::Everything, line, held: Held::Down };
+    let cut = Cut { selection: Selection::Everything, line, held: Held::Down, ..Cut::default() };
     let after = done(&grown, &Operation::Cut(cut));
     for (a, b) in before.guides().iter().zip(after.guides()) {
         assert_eq!(a.rod, b.rod);

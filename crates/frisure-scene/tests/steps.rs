@@ -49,6 +49,7 @@ fn steps_come_in_their_order() {
         selection: fringe(),
         line: CutLine::Below(Height::Above(Level::Brows, 0.0)),
         held: Held::Down,
+        ..Cut::default()
     };
     let dry = Dry { selection: EVERYTHING, keep: 0.25 };
     let expected = [Operation::Wet(Wet::default()), Operation::Cut(cut), Operation::Dry(dry)];
@@ -63,7 +64,8 @@ fn every_operation_can_be_said() {
     assert_eq!(one("dry = {}"), Operation::Dry(Dry::default()));
     let damp = Operation::Humidity(Humidity { relative: 0.9 });
     assert_eq!((one("humidity = 0.9"), one("humidity = \"90 %\"")), (damp.clone(), damp));
-    let cut = |line, held| Operation::Cut(Cut { selection: EVERYTHING, line, held });
+    let cut =
+        |line, held| Operation::Cut(Cut { selection: EVERYTHING, line, held, ..Cut::default() });
     let brows = CutLine::Below(Height::Above(Level::Brows, -0.01));
     assert_eq!(one("cut = { below = 'brows', raise = '-1 cm' }"), cut(brows, Held::Down));
     let flat = CutLine::Below(Height::At(0.04));
@@ -534,7 +536,7 @@ fn ranges_of_the_schema_are_those_that_are_checked() {
                 let x = if count { format!("{x:.0}") } else { format!("{x:?}") };
                 let rest = match path.as_str() {
                     "cut.raise" => "cut.below = 'eyes'",
-                    "cut.elevation" => "cut.below = 0",
+                    "cut.elevation" | "cut.point_cut" | "cut.share" => "cut.below = 0",
                     "grow.stages" => "grow.by = 0",
                     "comb.strength" => "comb.to = 'left'",
                     "roll.pitch" => "roll.radius = 0.01",
@@ -642,7 +644,15 @@ fn cut() -> impl Strategy<Value = Cut> {
         point().prop_map(CutLine::Gathered),
     ];
     let how = prop_oneof![(open, held), (closed, Just(Held::Down))];
-    (selection(), how).prop_map(|(selection, (line, held))| Cut { selection, line, held })
+    (selection(), how, number(0.0, 0.5), number(0.0, 1.0)).prop_map(
+        |(selection, (line, held), point_cut, share)| Cut {
+            selection,
+            line,
+            held,
+            point_cut,
+            share,
+        },
+    )
 }
 
 fn tie_place() -> impl Strategy<Value = TiePlace> {
@@ -793,7 +803,12 @@ fn steps_are_written_as_a_person_would() {
 fn what_cannot_be_said_is_not_written() {
     let bad = Operation::Humidity(Humidity { relative: f64::NAN });
     assert!(matches!(write_step(&bad), Err(WriteStepError::Invalid(_))));
-    let held = Cut { selection: EVERYTHING, line: CutLine::Length(0.1), held: Held::Hanging };
+    let held = Cut {
+        selection: EVERYTHING,
+        line: CutLine::Length(0.1),
+        held: Held::Hanging,
+        ..Cut::default()
+    };
     assert!(matches!(write_step(&Operation::Cut(held)), Err(WriteStepError::Invalid(_))));
     let aside = Part { line: Parting::Zigzag { offset: 0.01 } };
     let unsaid = Err(WriteStepError::Unsaid { operation: "part" });

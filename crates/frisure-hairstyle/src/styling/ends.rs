@@ -41,6 +41,16 @@ impl Ends {
         Self { limits: limits.into(), wisps: wisps.into() }
     }
 
+    /// A number that changes with every cut.
+    pub(super) fn history(hairstyle: &Hairstyle) -> u64 {
+        // FNV-1a over the lengths at which hairs have been cut; it need only differ.
+        let step = |hash: u64, limit: &f32| {
+            (hash ^ u64::from(limit.to_bits())).wrapping_mul(0x0100_0000_01b3)
+        };
+        let ends = hairstyle.styling.ends.as_ref();
+        ends.map_or(0, |ends| ends.limits.iter().fold(0xcbf2_9ce4_8422_2325, step))
+    }
+
     /// The same hairs where they follow other guides.
     pub(super) fn replanted(self, hairstyle: &Hairstyle, head: &Head) -> Self {
         let population = Population::new(hairstyle, head);

@@ -178,7 +178,7 @@ class Hairstyle:
 
     def cut(self, below: Any = None, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
         """The hair cut `below` a level of the head (`"chin"`) or a height, or along `plane`, `sphere`, `off_skin`,
-        `length` or `gathered`."""
+        `length` or `gathered`. `point_cut` makes a soft edge, `share` thins: it cuts a fraction of the hairs."""
         return self.step("cut", progress=progress, below=below, **keys)
 
     def grow(self, by: Any = None, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:

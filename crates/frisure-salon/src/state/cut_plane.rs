@@ -79,7 +79,7 @@ impl CutPlane {
         // 0.1 mm and 0.01° are finer than a pointer.
         let (point, normal) = (rounded(self.point, 1e-4), rounded(self.normal(), 1e-4));
         let line = CutLine::Plane { point, normal };
-        Operation::Cut(Cut { selection: Selection::Everything, line, held })
+        Operation::Cut(Cut { selection: Selection::Everything, line, held, ..Cut::default() })
     }
 
     /// A preview of the cut of the drawn strands of some wisps (`None`: of all).

@@ -74,7 +74,7 @@ operations! {
     cut: Cut {
         example: "cut = { below = \"chin\" }",
         main: Some("below"),
-        synonyms: &["snip", "trim", "shorten"],
+        synonyms: &["snip", "trim", "shorten", "thin"],
         groups: &[
             Group {
                 keys: &["below", "plane", "sphere", "off_skin", "length", "gathered"],
@@ -158,6 +158,12 @@ operations! {
                 Held::Elevated(angle) => Some(angle),
                 _ => None,
             };
+        /// Point cutting: each hair ends up to this far before the line, by chance, which makes a soft
+        /// edge; {}. Default 0: a blunt one.
+        point_cut: Length, in Cut::POINT_CUT;
+        /// Thinning scissors: the fraction of hairs that is cut, by chance, while the others keep their
+        /// length; {}. Default 1.
+        share: Ratio, in Cut::SHARE;
     }
 
     /// Lets hair grow: `by` or `to` a length, or for a time.

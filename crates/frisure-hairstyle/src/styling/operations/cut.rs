@@ -17,6 +17,7 @@ use crate::guides::Guide;
 use crate::hairstyle::Ends;
 use crate::implantation::Root;
 use crate::spec::Level;
+use crate::random::{Purpose, Stream};
 use crate::strands::Population;
 
 /// Cuts hair. \[paper\] §3.2
@@ -28,12 +29,22 @@ pub struct Cut {
     pub line: CutLine,
     /// How the hair is held meanwhile.
     pub held: Held,
+    /// Point cutting: each hair ends up to this far (m, along the fibre) before the line, by chance. Guides end at the line.
+    pub point_cut: f64,
+    /// Thinning scissors: the fraction of hairs that is cut, by chance. Below 1 guides keep their lengths.
+    pub share: f64,
 }
 
 impl Default for Cut {
     fn default() -> Self {
         let line = CutLine::Below(Height::Above(Level::Chin, 0.0));
-        Self { selection: Selection::Everything, line, held: Held::Down }
+        Self {
+            selection: Selection::Everything,
+            line,
+            held: Held::Down,
+            point_cut: 0.0,
+            share: 1.0,
+        }
     }
 }
 
@@ -58,6 +69,11 @@ impl Cut {
         "between 0 (along the skin) and 180 deg",
     );
 
+    /// Range of how far before the line hairs end (m).
+    pub const POINT_CUT: Range = Range::new("cut.point_cut", 0.0, 0.5, "between 0 and 50 cm");
+    /// Range of the fraction of hairs that is cut.
+    pub const SHARE: Range = Range::new("cut.share", 0.0, 1.0, "between 0 and 1");
+
     fn check_line(&self) -> Result<(), InvalidSpec> {
         match self.line {
             CutLine::Below(Height::At(z)) => Self::BELOW.check(z),
@@ -80,6 +96,8 @@ impl Cut {
 impl Apply for Cut {
     fn check(&self) -> Result<(), InvalidSpec> {
         self.check_line()?;
+        Self::POINT_CUT.check(self.point_cut)?;
+        Self::SHARE.check(self.share)?;
         if matches!(self.line, CutLine::Length(_) | CutLine::Gathered(_)) {
             let given = self.held != Held::default();
             let (field, value) = ("cut.held", "given with `length` or `gathered`".to_owned());
@@ -110,21 +128,43 @@ impl Apply for Cut {
         // Lengths of wisps are those of dry hair; wet hair is longer when it is cut.
         let stretch = |i: usize| hair.guides[i].rod.length() / hair.styling.wisps[i].length;
         let mut styling = hair.styling.changed(&chosen, |index, wisp| {
-            wisp.length = wisp.length.min(left[index] / stretch(index));
+            // A guide stands for most hairs of its wisp, which thinning scissors leave as they are.
+            if self.share >= 1.0 {
+                wisp.length = wisp.length.min(left[index] / stretch(index));
+            }
         });
         let stride = act.draft.map_or(1, |draft| draft.stride);
+        let chance = Chance { cut: self, seed: hair.spec.seed, history: Ends::history(hair) };
         let left = |population: &Population<'_>, root: &Root, index: usize, wisp: usize| {
-            if scissors.hanging() {
+            let Some(before_line) = chance.of(index) else { return f64::INFINITY };
+            let left = if scissors.hanging() {
                 let left = population.cut_where(root, index, |p| scissors.beyond(p));
                 left.unwrap_or(f64::INFINITY)
             } else {
                 scissors.left_straight(root) / stretch(wisp)
-            }
+            };
+            left - before_line
         };
         styling.ends = Some(Ends::cut(hair, head, stride, &chosen, left));
         if scissors.hanging() {
             return act.with(styling);
         }
         act.at_rest(styling, Change::Handled)
+    }
+}
+
+/// What chance does to each hair of a cut.
+struct Chance<'a> {
+    cut: &'a Cut,
+    seed: u64,
+    /// Of the cuts before, so that the same scissors meet other hairs the next time.
+    history: u64,
+}
+
+impl Chance<'_> {
+    /// How far (m) before the line the hair of this index is cut, if it is.
+    fn of(&self, index: usize) -> Option<f64> {
+        let mut random = Stream::new(self.seed ^ self.history, Purpose::Scissors, index);
+        (random.unit() < self.cut.share).then(|| random.unit() * self.cut.point_cut)
     }
 }
