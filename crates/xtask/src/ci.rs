@@ -2,6 +2,7 @@
 
 use crate::page;
 use anyhow::{Context, Result, anyhow, ensure};
+use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -24,7 +25,7 @@ pub(crate) fn run(quick: bool) -> Result<()> {
     gate.step("format", || cargo("fmt --all --check"))?;
     gate.step("spelling", spelling)?;
     if quick {
-        lints(&gate)?;
+        gate.step("lints", || cargo(CLIPPY))?;
         gate.step("unit tests", || {
             cargo("test --workspace --all-features --locked --lib --bins --test tidy --test architecture")
         })?;
@@ -34,7 +35,7 @@ pub(crate) fn run(quick: bool) -> Result<()> {
             predict(&root().join("target/debug/frisure"), &root().join("scenes/short-asian.toml"))
         })?;
     } else {
-        // Tests leave a part of two cores idle: what does not need them goes on beside them.
+        // Tests leave a third of two cores idle: what does not need them goes on beside them.
         thread::scope(|scope| {
             let other = scope.spawn(|| other_programs(&gate));
             let first = tests(&gate);
@@ -46,30 +47,23 @@ pub(crate) fn run(quick: bool) -> Result<()> {
     Ok(())
 }
 
-fn lints(gate: &Gate) -> Result<()> {
-    gate.step("lints", || {
-        cargo("clippy --workspace --all-targets --all-features --locked -- -D warnings")
-    })
-}
+const CLIPPY: &str = "clippy --workspace --all-targets --all-features --locked -- -D warnings";
 
 /// The steps that the tests need, and those with what the tests have built.
 fn tests(gate: &Gate) -> Result<()> {
     gate.step("page", || page::build(false))?;
     gate.step("the README's test command", || shell(&readme_command("cargo test ")?))?;
-    gate.step("mutated files", || {
-        // About two minutes; the tests have made a shorter run of it.
-        shell("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
-    })?;
     gate.step("examples", examples)
 }
 
-/// Lints, the steps that need the release build, those of programs in Python, and documents. They take about as long as the tests.
+/// The steps that need the release build, lints, those of programs in Python, and documents. They take about as long as the tests.
 /// What a program prints comes when its step is done.
 fn other_programs(gate: &Gate) -> Result<()> {
-    lints(gate)?;
     gate.step("dependencies", dependencies)?;
     gate.step("the README's main command", main_command)?;
     gate.step("every scene", every_scene)?;
+    // Not before the tests are compiled: both are built in the same folder, and one would wait for the other.
+    gate.step("lints", || shell_beside(&format!("cargo {CLIPPY}")))?;
     gate.step("programs that open grooms", || {
         // `.ci/run` has built this one, with every feature.
         shell_beside("FRISURE=target/debug/frisure validation/clients/run")
@@ -85,7 +79,18 @@ fn other_programs(gate: &Gate) -> Result<()> {
     })?;
     gate.step("packages", || {
         shell_beside("cargo package --workspace --no-verify --allow-dirty --locked --quiet")
+    })?;
+    gate.step("mutated files", || {
+        // About two minutes; the tests have made a shorter run of it.
+        shell_beside("FRISURE_MUTATIONS=20000 cargo test --workspace --all-features --locked --test mutated -- --nocapture")
     })
+}
+
+/// A program that gives way to the tests: they are the longer way and seldom use two cores, and what is left is enough for it.
+fn beside(program: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new("nice");
+    command.args(["-n", "5"]).arg(program);
+    command
 }
 
 /// The steps so far, with their times.
@@ -133,11 +138,8 @@ fn shell(line: &str) -> Result<()> {
 
 /// The same; says afterwards what the line printed.
 fn shell_beside(line: &str) -> Result<()> {
-    let Output { status, stdout, stderr } = Command::new("bash")
-        .args(["-c", line])
-        .current_dir(root())
-        .stdin(Stdio::null())
-        .output()?;
+    let Output { status, stdout, stderr } =
+        beside("bash").args(["-c", line]).current_dir(root()).stdin(Stdio::null()).output()?;
     let (errors, output) = (String::from_utf8_lossy(&stderr), String::from_utf8_lossy(&stdout));
     say(&format!("{line}\n{errors}{output}"));
     ensure!(status.success(), "`{line}` ends with {status}");
@@ -235,7 +237,7 @@ fn every_scene() -> Result<()> {
 fn predict(frisure: &Path, scene: &Path) -> Result<()> {
     let name = scene.file_stem().unwrap_or_default().to_string_lossy();
     let report = format!("out/{name}.json");
-    let mut command = Command::new(frisure);
+    let mut command = beside(frisure);
     command.arg("predict").arg(scene).args(["--report", &report]);
     let Output { status, stdout, stderr } = command.current_dir(root()).output()?;
     say(&format!("{}{}", String::from_utf8_lossy(&stderr), String::from_utf8_lossy(&stdout)));

@@ -157,7 +157,7 @@ impl BodyContact<'_> {
             Body::SignedDistance => {
                 // Most points are far from the skin: the value alone costs a fraction of the derivatives.
                 let field = self.head.signed_distance();
-                if field.value(p) < clearance {
+                if field.may_be_nearer(p, clearance) && field.value(p) < clearance {
                     let (distance, gradient, hessian) = field.value_gradient_hessian(p);
                     touch(distance, gradient, hessian);
                 }
@@ -219,7 +219,10 @@ impl Field for BodyContact<'_> {
         let clearance = self.clearance(s);
         let held = self.hold.at(s).map_or(0.0, |force| -force.dot(p));
         if self.body == Body::SignedDistance {
-            return self.penalty(clearance, self.head.signed_distance().value(p))[0] + held;
+            let field = self.head.signed_distance();
+            let near = field.may_be_nearer(p, clearance.max(0.0));
+            let pressed = if near { self.penalty(clearance, field.value(p))[0] } else { 0.0 };
+            return pressed + held;
         }
         let mut energy = held;
         self.for_each_near(clearance, p, |distance, _, _| {

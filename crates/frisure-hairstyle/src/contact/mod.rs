@@ -16,6 +16,7 @@ mod layers;
 mod lock;
 mod neighbours;
 mod pull;
+mod sieve;
 #[cfg(test)]
 mod test_field;
 mod thickness;

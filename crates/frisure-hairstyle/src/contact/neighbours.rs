@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::body::FrictionCoefficients;
 use super::friction::{FrictionGap, Scales, directions};
+use super::sieve::{LANES, Run, Sieve, SievePoint};
 use super::thickness::Thickness;
 use super::wisp_friction::{Hold, Holds, Touching};
 use crate::math::{Grid, outer};
@@ -40,6 +41,8 @@ pub(crate) struct ContactPairs {
     /// Stiffness of hair per length of hair (Pa).
     stiffness: f64,
     samples: Vec<Samples>,
+    /// The same points, for a first look at what is near.
+    sieve: Sieve,
     /// Per guide, what its points may touch.
     nearby: Vec<Nearby>,
     /// Per guide, the friction of its hair; empty without friction.
@@ -57,14 +60,6 @@ struct Nearby {
     touches: Vec<Run>,
     /// The guides among them, in order.
     guides: Vec<u32>,
-}
-
-/// Points `first` to `end − 1` of a guide.
-#[derive(Clone, Copy, Debug)]
-struct Run {
-    guide: u32,
-    first: u32,
-    end: u32,
 }
 
 /// Own points, with another guide that each of them may touch, and which point of that one.
@@ -87,19 +82,9 @@ struct GridLevel {
     grid: Grid,
     /// In the order of the grid.
     points: Vec<Point>,
-    /// Around each [`BLOCK`] of them.
-    blocks: Vec<Block>,
+    /// The same, as if they were those of one guide.
+    sieve: Sieve,
 }
-
-/// A box around some points (m), and their largest reach (m).
-struct Block {
-    low: DVec3,
-    high: DVec3,
-    reach: f64,
-}
-
-/// Points of a block: about those of one guide in a cell. Chosen; no result depends on it.
-const BLOCK: usize = 8;
 
 /// Levels, each for half the reach of the one before; the last for all that is less. No result depends on it.
 const LEVELS: usize = 3;
@@ -121,23 +106,27 @@ impl GridLevel {
         let positions: Vec<DVec3> = points.iter().map(|p| p.position).collect();
         let grid = Grid::new(&positions, 2.0 * reach);
         let points: Vec<Point> = grid.order().iter().map(|&i| points[i as usize]).collect();
-        let blocks = points.chunks(BLOCK).map(Block::around).collect();
-        Self { reach, grid, points, blocks }
+        let (positions, reaches): (Vec<DVec3>, Vec<f64>) =
+            points.iter().map(|p| (p.position, p.reach)).unzip();
+        let sieve = Sieve::new(std::iter::once((&positions[..], &reaches[..])));
+        Self { reach, grid, points, sieve }
     }
 
-    /// Calls `found` with those that may be within reach of a point.
-    fn for_each_near(&self, p: &Point, mut found: impl FnMut(&Point)) {
+    /// Calls `found` with those within reach of a point, and a few that hardly are not; `rows` is a place for runs.
+    fn for_each_near(&self, p: &Point, rows: &mut Vec<Run>, mut found: impl FnMut(&Point)) {
         let rings = self.grid.rings(p.reach + self.reach);
+        rows.clear();
         for row in self.grid.rows(p.position, rings) {
-            let mut from = row.start;
-            while from < row.end {
-                let to = row.end.min((from / BLOCK + 1) * BLOCK);
-                if self.blocks[from / BLOCK].may_touch(p) {
-                    self.points[from..to].iter().for_each(&mut found);
-                }
-                from = to;
-            }
+            let end = row.end as u32;
+            let runs = row.step_by(LANES).map(|first| first as u32);
+            rows.extend(runs.map(|first| Run {
+                guide: 0,
+                first,
+                end: end.min(first + LANES as u32),
+            }));
         }
+        let own = SievePoint::new(p.position, p.reach);
+        self.sieve.for_each_close(own, rows, |_, i| found(&self.points[i]));
     }
 }
 
@@ -167,35 +156,37 @@ impl Contact {
     }
 }
 
-impl Block {
-    fn around(points: &[Point]) -> Self {
-        let of = points.iter();
-        Self {
-            low: of.clone().map(|p| p.position).fold(DVec3::INFINITY, DVec3::min),
-            high: of.clone().map(|p| p.position).fold(DVec3::NEG_INFINITY, DVec3::max),
-            reach: of.map(|p| p.reach).fold(0.0, f64::max),
+/// Guide and point of what each of a guide's points may touch, in the order of `met`: where those of each point begin, and all.
+fn by_point(met: &[Met], points: usize) -> (Vec<usize>, Vec<(u32, u32)>) {
+    // Counting sort: there are many for each point.
+    let mut starts = vec![0; points + 1];
+    let own = |run: &Run| run.first as usize..run.end as usize;
+    for k in met.iter().flat_map(|(run, _)| own(run)) {
+        starts[k + 1] += 1;
+    }
+    for k in 0..points {
+        starts[k + 1] += starts[k];
+    }
+    let mut next = starts.clone();
+    let mut touches = vec![(0, 0); starts[points]];
+    for (run, point) in met {
+        for k in own(run) {
+            touches[next[k]] = (run.guide, *point);
+            next[k] += 1;
         }
     }
-
-    /// False only if no point of the block is within reach of `p`.
-    fn may_touch(&self, p: &Point) -> bool {
-        // No point is nearer than the box, none reaches farther than the farthest; the factor is far above rounding.
-        let reach = (p.reach + self.reach) * (1.0 + 1e-9);
-        p.position.clamp(self.low, self.high).distance_squared(p.position) <= reach * reach
-    }
+    (starts, touches)
 }
-
-/// A point of one guide, and guide and point of what it may touch.
-type Touch = (u32, (u32, u32));
 
 impl Nearby {
     /// What the points `own` of one guide may touch.
     fn search(own: &[Point], levels: &[GridLevel]) -> Self {
         let mut near = Self::default();
+        let mut rows = Vec::new();
         for p in own {
             near.begin_point();
             for level in levels {
-                level.for_each_near(p, |q| {
+                level.for_each_near(p, &mut rows, |q| {
                     let reach = p.reach + q.reach;
                     // Radii and margins of both: neither can come to touch the other before its margin is used up.
                     let touches = q.position.distance_squared(p.position) < reach * reach;
@@ -217,7 +208,12 @@ impl Nearby {
     fn add(&mut self, run: Run) {
         let begins = self.starts.last().is_none_or(|&start| self.touches.len() == start as usize);
         match self.touches.last_mut() {
-            Some(last) if !begins && last.guide == run.guide && last.end == run.first => {
+            Some(last)
+                if !begins
+                    && last.guide == run.guide
+                    && last.end == run.first
+                    && (run.end - last.first) as usize <= LANES =>
+            {
                 last.end = run.end;
             }
             _ => self.touches.push(run),
@@ -227,9 +223,12 @@ impl Nearby {
     fn finish(mut self) -> Self {
         self.begin_point();
         self.touches.shrink_to_fit();
-        self.guides = self.touches.iter().map(|run| run.guide).collect();
-        self.guides.sort_unstable();
-        self.guides.dedup();
+        let count = self.touches.iter().map(|run| run.guide as usize + 1).max().unwrap_or(0);
+        let mut touched = vec![false; count];
+        for run in &self.touches {
+            touched[run.guide as usize] = true;
+        }
+        self.guides = (0..count as u32).filter(|&guide| touched[guide as usize]).collect();
         self.guides.shrink_to_fit();
         self
     }
@@ -253,17 +252,13 @@ impl Nearby {
         if met.is_empty() && !self.guides.iter().any(|&g| again[g as usize]) {
             return self;
         }
-        let each = |&(run, k): &Met| (run.first..run.end).map(move |own| (own, (run.guide, k)));
-        let mut met: Vec<Touch> = met.iter().flat_map(each).collect();
-        // Of runs that are in order already.
-        met.sort_by_key(|t| t.0);
-        let mut met = met.into_iter().peekable();
+        let (starts, met) = by_point(met, self.points());
         let mut near = Self::default();
         for k in 0..self.points() {
             near.begin_point();
             let stays = self.of_point(k).iter().filter(|run| !again[run.guide as usize]);
             stays.for_each(|run| near.add(*run));
-            while let Some((_, (guide, point))) = met.next_if(|t| t.0 as usize == k) {
+            for &(guide, point) in &met[starts[k]..starts[k + 1]] {
                 near.add(Run { guide, first: point, end: point + 1 });
             }
         }
@@ -273,7 +268,9 @@ impl Nearby {
 
 impl ContactPairs {
     pub(crate) fn new(samples: Vec<Samples>, stiffness: f64) -> Self {
-        Self { stiffness, samples, nearby: Vec::new(), friction: Vec::new(), holds: Vec::new() }
+        let sieve = Sieve::new(samples.iter().map(|own| (&own.positions[..], &own.radii[..])));
+        let (nearby, friction, holds) = (Vec::new(), Vec::new(), Vec::new());
+        Self { stiffness, samples, sieve, nearby, friction, holds }
     }
 
     /// The same with the friction of each guide's hair; without, if there is none.
@@ -319,6 +316,7 @@ impl ContactPairs {
     pub(crate) fn place(&mut self, guide: usize, positions: Vec<DVec3>) -> f64 {
         let moved = positions.iter().zip(&self.samples[guide].positions);
         let farthest = moved.map(|(p, q)| p.distance_squared(*q)).fold(0.0, f64::max);
+        self.sieve.place(guide, &positions, &self.samples[guide].radii);
         self.samples[guide].positions = positions;
         farthest.sqrt()
     }
@@ -399,12 +397,11 @@ impl ContactPairs {
 
     /// The contacts of one guide, in the order of its points.
     pub(crate) fn contacts(&self, guide: usize) -> Vec<Contact> {
-        let (own, near) = (&self.samples[guide], &self.nearby[guide]);
+        let own = &self.samples[guide];
         let mut contacts = Vec::new();
-        for (point, run) in near.iter() {
-            let samples = &self.samples[run.guide as usize];
-            let here = point as usize;
-            for there in run.first as usize..run.end as usize {
+        for here in 0..self.nearby[guide].points() {
+            self.for_each_close(guide, here, own.positions[here], |other, there| {
+                let samples = &self.samples[other as usize];
                 let away = own.positions[here] - samples.positions[there];
                 let reach = own.radii[here] + samples.radii[there];
                 let square = 1.0 / (reach * reach);
@@ -414,17 +411,25 @@ impl ContactPairs {
                     let length = own.weight(here) * samples.weight(there);
                     let scale = 0.75 * self.stiffness * length / reach * overlap;
                     contacts.push(Contact {
-                        point,
-                        other: (run.guide, there as u32),
+                        point: here as u32,
+                        other: (other, there as u32),
                         along: away * (4.0 * scale * square).sqrt(),
                         across: scale * overlap,
                         slip: DVec3::ZERO,
                     });
                 }
-            }
+            });
         }
         self.add_held_contacts(guide, &mut contacts);
         contacts
+    }
+
+    /// Calls `close` with guide and point of what touches point `k` of a guide at `p` (m), and of a few that hardly do not.
+    #[inline]
+    fn for_each_close(&self, guide: usize, k: usize, p: DVec3, mut close: impl FnMut(u32, usize)) {
+        let own = SievePoint::new(p, self.samples[guide].radii[k]);
+        let near = self.nearby[guide].of_point(k);
+        self.sieve.for_each_close(own, near, |run, point| close(run.guide, point));
     }
 
     /// Adds those by which friction holds one guide.
@@ -490,33 +495,31 @@ pub struct Neighbours<'a> {
 impl Neighbours<'_> {
     /// What touches own point `k` now; `along` has the directions of all guides.
     fn touching(&self, k: usize, along: &[Vec<DVec3>]) -> Vec<Touching> {
-        let (own, near) = (&self.pairs.samples[self.guide], &self.pairs.nearby[self.guide]);
+        let own = &self.pairs.samples[self.guide];
         let mut touching = Vec::new();
-        for run in near.of_point(k) {
-            let other = &self.pairs.samples[run.guide as usize];
-            for point in run.first as usize..run.end as usize {
-                let away = own.positions[k] - other.positions[point];
-                let reach = own.radii[k] + other.radii[point];
-                let overlap = 1.0 - away.length_squared() / (reach * reach);
-                if overlap > 0.0 {
-                    // |∇E| of [`Self::derivatives`].
-                    let scale = 0.75 * self.pairs.stiffness * other.weight(point) / reach;
-                    let guides = [self.guide, run.guide as usize];
-                    let of = guides.map(|guide| self.pairs.friction[guide]);
-                    touching.push(Touching {
-                        other: (run.guide, point as u32),
-                        separation: away,
-                        force: scale * overlap * overlap * away.length(),
-                        // Hair of two kinds: the mean, chosen.
-                        coefficient: 0.5 * (of[0].hair + of[1].hair),
-                        scales: [
-                            Scales::new(along[self.guide][k], of[0].against_scales),
-                            Scales::new(along[guides[1]][point], of[1].against_scales),
-                        ],
-                    });
-                }
+        self.pairs.for_each_close(self.guide, k, own.positions[k], |guide, point| {
+            let other = &self.pairs.samples[guide as usize];
+            let away = own.positions[k] - other.positions[point];
+            let reach = own.radii[k] + other.radii[point];
+            let overlap = 1.0 - away.length_squared() / (reach * reach);
+            if overlap > 0.0 {
+                // |∇E| of [`Self::derivatives`].
+                let scale = 0.75 * self.pairs.stiffness * other.weight(point) / reach;
+                let guides = [self.guide, guide as usize];
+                let of = guides.map(|guide| self.pairs.friction[guide]);
+                touching.push(Touching {
+                    other: (guide, point as u32),
+                    separation: away,
+                    force: scale * overlap * overlap * away.length(),
+                    // Hair of two kinds: the mean, chosen.
+                    coefficient: 0.5 * (of[0].hair + of[1].hair),
+                    scales: [
+                        Scales::new(along[self.guide][k], of[0].against_scales),
+                        Scales::new(along[guides[1]][point], of[1].against_scales),
+                    ],
+                });
             }
-        }
+        });
         touching
     }
 
@@ -536,20 +539,17 @@ impl Neighbours<'_> {
     #[inline]
     fn for_each_touch(&self, s: f64, p: DVec3, mut touch: impl FnMut(DVec3, f64, f64)) {
         let own = &self.pairs.samples[self.guide];
-        let near = &self.pairs.nearby[self.guide];
         // The field is evaluated at these points alone: rounding finds the one at s. Point 0 is one spacing from the root.
         let k = ((s / own.spacing).round() as usize).clamp(1, own.positions.len()) - 1;
         let radius = own.radii[k];
-        for run in near.of_point(k) {
-            let other = &self.pairs.samples[run.guide as usize];
-            for point in run.first as usize..run.end as usize {
-                let reach = radius + other.radii[point];
-                let away = p - other.positions[point];
-                if away.length_squared() < reach * reach {
-                    touch(away, reach, self.share * other.weight(point));
-                }
+        self.pairs.for_each_close(self.guide, k, p, |guide, point| {
+            let other = &self.pairs.samples[guide as usize];
+            let reach = radius + other.radii[point];
+            let away = p - other.positions[point];
+            if away.length_squared() < reach * reach {
+                touch(away, reach, self.share * other.weight(point));
             }
-        }
+        });
     }
 }
 
@@ -711,9 +711,11 @@ mod tests {
     }
 
     #[test]
-    fn points_in_a_row_are_kept_as_one_run() {
+    fn points_in_a_row_are_kept_as_few_runs() {
         let near = &pairs(3e-3).nearby[0];
         let points: u32 = near.iter().map(|(_, run)| run.end - run.first).sum();
-        assert!(near.touches.len() <= 2 * near.points() && points > 5 * 100, "{points}");
+        // One that is not full where the guide passes out of reach, and full ones.
+        let most = points as usize / LANES + near.points();
+        assert!(near.touches.len() <= most && points > 5 * 100, "{points}");
     }
 }

@@ -92,6 +92,19 @@ impl SignedDistance {
         }
     }
 
+    /// False only if [`Self::value`] at `p` (m) is larger than `distance` (m). A bound: it takes a fraction of the time.
+    #[inline]
+    pub(crate) fn may_be_nearer(&self, p: DVec3, distance: f64) -> bool {
+        match self.share(p) {
+            (None, _) => self.head.may_be_nearer(p, distance),
+            (Some(torso), [0.0, ..]) => torso.distance.may_be_nearer(p, distance),
+            // Between two distances, one of which is not larger then.
+            (Some(torso), _) => {
+                self.head.may_be_nearer(p, distance) || torso.distance.may_be_nearer(p, distance)
+            }
+        }
+    }
+
     /// Signed distance (m) at `p` (m) and its gradient.
     #[must_use]
     pub fn value_gradient(&self, p: DVec3) -> (f64, DVec3) {
@@ -184,6 +197,9 @@ mod tests {
             let (value, gradient, hessian) = field.value_gradient_hessian(p);
             assert_eq!((value, gradient), field.value_gradient(p));
             assert!((value - field.value(p)).abs() < 1e-12);
+            assert!(field.may_be_nearer(p, value));
+            // The bound is about as far below as a block is wide.
+            assert!(!field.may_be_nearer(p, value - 0.06), "{value} at {p}");
             for axis in 0..3 {
                 let e = DVec3::AXES[axis] * h;
                 let (up, gu) = field.value_gradient(p + e);

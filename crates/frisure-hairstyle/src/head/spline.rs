@@ -14,7 +14,13 @@ pub(crate) struct Spline {
     spacing: f64,
     size: [usize; 3],
     coefficients: Vec<f32>,
+    /// The least coefficient for each [`BLOCK`]³ cells, and blocks along each axis.
+    least: Vec<f32>,
+    blocks: [usize; 3],
 }
+
+/// Cells along each axis of a block. Chosen: as long as hair is thick; no result depends on it.
+const BLOCK: usize = 4;
 
 /// Weights of four neighbouring coefficients and their first and second derivatives.
 type Weights = [[f64; 4]; 3];
@@ -24,7 +30,8 @@ impl Spline {
     pub(crate) fn through(voxels: Voxels) -> Self {
         let Voxels { origin, spacing, size, mut values } = voxels;
         interpolate(&mut values, size);
-        Self { origin, spacing, size, coefficients: values }
+        let (least, blocks) = least_of_blocks(&values, size);
+        Self { origin, spacing, size, coefficients: values, least, blocks }
     }
 
     /// Distance between neighbouring nodes of the grid (m).
@@ -42,10 +49,26 @@ impl Spline {
     /// Signed distance (m) at `p` (m), positive outside.
     pub(crate) fn value(&self, p: DVec3) -> f64 {
         let q = self.clamp(p);
-        let (first, [x, y, z]) = self.stencil(q);
-        let value: f64 =
-            (0..16).map(|n| y[0][n % 4] * z[0][n / 4] * self.row(first, n, &x[0])).sum();
+        let (first, inside) = self.cell(q);
+        let [x, y, z] = inside.map(values);
+        let mut value = 0.0;
+        for n in 0..16 {
+            let row = self.coefficients_of(first, n);
+            let along = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3];
+            value += y[n % 4] * z[n / 4] * along;
+        }
         value + (p - q).length()
+    }
+
+    /// False only if [`Self::value`] at `p` (m) is larger than `distance` (m); far away it often is, at a fraction of the cost.
+    #[inline]
+    pub(crate) fn may_be_nearer(&self, p: DVec3, distance: f64) -> bool {
+        let q = self.clamp(p);
+        let (first, _) = self.cell(q);
+        let [i, j, k] = first.map(|n| n / BLOCK);
+        let least = self.least[(k * self.blocks[1] + j) * self.blocks[0] + i];
+        // A spline is nowhere less than the least of its coefficients; the bound (m) is far above rounding.
+        f64::from(least) + (p - q).length() <= distance + 1e-9
     }
 
     /// Signed distance (m) at `p` (m) and its gradient.
@@ -103,31 +126,32 @@ impl Spline {
 
     /// Index of the first of the 4×4×4 coefficients around `q`, and their weights per axis.
     fn stencil(&self, q: DVec3) -> ([usize; 3], [Weights; 3]) {
+        let (first, inside) = self.cell(q);
+        (first, inside.map(|t| cubic(t, self.spacing)))
+    }
+
+    /// Index of the first of the 4×4×4 coefficients around `q`, and where in its cell it is, 0 to 1 along each axis.
+    #[inline]
+    fn cell(&self, q: DVec3) -> ([usize; 3], [f64; 3]) {
         let u = (q - self.origin) / self.spacing;
-        let mut first = [0; 3];
-        let mut weights = [[[0.0; 4]; 3]; 3];
+        let (mut first, mut inside) = ([0; 3], [0.0; 3]);
         for axis in 0..3 {
             // The last cell is closed on the right, so that the box includes its border. The cast
             // cannot lose a sign: `clamp` keeps u at 1 or above.
             let cell = (u[axis] as usize).clamp(1, self.size[axis] - 3);
             first[axis] = cell - 1;
-            weights[axis] = cubic(u[axis] - cell as f64, self.spacing);
+            inside[axis] = u[axis] - cell as f64;
         }
-        (first, weights)
+        (first, inside)
     }
 
-    /// Weighted sum along x of row `n` of the sixteen rows of a stencil.
-    fn row(&self, first: [usize; 3], n: usize, weights: &[f64; 4]) -> f64 {
-        let row = self.coefficients_of(first, n);
-        (0..4).map(|i| row[i] * weights[i]).sum()
-    }
-
-    /// Weighted sum along x of row `n`, with its first two derivatives.
+    /// Weighted sum along x of row `n` of the sixteen rows of a stencil, with its first two derivatives.
     fn row_and_slopes(&self, first: [usize; 3], n: usize, weights: &Weights) -> [f64; 3] {
         let row = self.coefficients_of(first, n);
         weights.map(|w| row[0] * w[0] + row[1] * w[1] + row[2] * w[2] + row[3] * w[3])
     }
 
+    #[inline]
     fn coefficients_of(&self, [i, j, k]: [usize; 3], n: usize) -> [f64; 4] {
         let at = ((k + n / 4) * self.size[1] + j + n % 4) * self.size[0] + i;
         let row = &self.coefficients[at..at + 4];
@@ -150,13 +174,50 @@ fn length_hessian(beyond: DVec3) -> DMat3 {
 
 /// The uniform cubic B-spline at `t` in 0..1 of a cell of width `h`, with two derivatives.
 fn cubic(t: f64, h: f64) -> Weights {
-    // ⅙ (1 − t)³, ⅙ (4 − 6t² + 3t³), the same mirrored, ⅙ t³; the derivatives by position divide by h and by h².
+    // The derivatives by position divide by h and by h².
     let s = 1.0 - t;
-    let value =
-        [s * s * s, 4.0 - 3.0 * t * t * (2.0 - t), 4.0 - 3.0 * s * s * (2.0 - s), t * t * t];
     let slope = [-s * s, t * (3.0 * t - 4.0), s * (4.0 - 3.0 * s), t * t];
     let bend = [s, 3.0 * t - 2.0, 3.0 * s - 2.0, t];
-    [value.map(|w| w / 6.0), slope.map(|w| w / (2.0 * h)), bend.map(|w| w / (h * h))]
+    [values(t), slope.map(|w| w / (2.0 * h)), bend.map(|w| w / (h * h))]
+}
+
+/// The uniform cubic B-spline at `t` in 0..1 of a cell.
+#[inline]
+fn values(t: f64) -> [f64; 4] {
+    // ⅙ (1 − t)³, ⅙ (4 − 6t² + 3t³), the same mirrored, ⅙ t³.
+    let s = 1.0 - t;
+    [s * s * s, 4.0 - 3.0 * t * t * (2.0 - t), 4.0 - 3.0 * s * s * (2.0 - s), t * t * t]
+        .map(|w| w / 6.0)
+}
+
+/// The least coefficient that each block of cells uses, and blocks along each axis.
+fn least_of_blocks(coefficients: &[f32], size: [usize; 3]) -> (Vec<f32>, [usize; 3]) {
+    // A cell uses four coefficients along each axis from its own index on. One axis after another: least of least.
+    let blocks = size.map(|n| n.div_ceil(BLOCK));
+    let mut least = coefficients.to_vec();
+    let (mut length, mut width) = (size[0], 1);
+    for (axis, count) in blocks.iter().enumerate() {
+        let before = std::mem::take(&mut least);
+        before.chunks(length).for_each(|rows| add_least_along(rows, width, &mut least));
+        width *= count;
+        length = width * size.get(axis + 1).copied().unwrap_or(1);
+    }
+    (least, blocks)
+}
+
+/// Adds the least values over rows of `width` values: of those that each [`BLOCK`] of rows uses.
+fn add_least_along(rows: &[f32], width: usize, least: &mut Vec<f32>) {
+    let count = rows.len() / width;
+    for first in (0..count).step_by(BLOCK) {
+        let used = &rows[first * width..(first + BLOCK + 3).min(count) * width];
+        let start = least.len();
+        least.extend_from_slice(&used[..width]);
+        for row in used[width..].chunks(width) {
+            for (least, x) in least[start..].iter_mut().zip(row) {
+                *least = least.min(*x);
+            }
+        }
+    }
 }
 
 /// Turns samples into coefficients whose spline passes by them to fourth order.

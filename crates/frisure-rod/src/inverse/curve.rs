@@ -116,24 +116,27 @@ fn spline(p: [DVec3; 4], x: f64) -> DVec3 {
 /// The twist (rad per element) and the angle at the start (rad) of frames in which bending is most about d1:
 /// the peak of the spectrum of the bending.
 fn best_twist(bends: &[(f64, f64)]) -> (f64, f64) {
-    // Fourier sum of the bending at a twist (rad per element).
-    let sum = |twist: f64| {
-        bends.iter().enumerate().fold((0.0, 0.0), |(x, y), (i, b)| {
+    // Fourier sums of the bending at a twist (rad per element) and at the opposite one, which has the same cosines.
+    let sums = |twist: f64| {
+        bends.iter().enumerate().fold([(0.0, 0.0); 2], |[(x, y), (u, v)], (i, b)| {
             let (sin, cos) = (twist * i as f64).sin_cos();
-            (x + b.0 * cos + b.1 * sin, y + b.1 * cos - b.0 * sin)
+            [
+                (x + b.0 * cos + b.1 * sin, y + b.1 * cos - b.0 * sin),
+                (u + b.0 * cos - b.1 * sin, v + b.1 * cos + b.0 * sin),
+            ]
         })
     };
     let tries = (TWISTS * bends.len()) as i32;
     // A quarter turn per element is all that elements can follow.
-    let twists = (-tries..=tries)
-        .map(|k| std::f64::consts::FRAC_PI_4 * f64::from(k) / f64::from(tries.max(1)));
-    let strength = |twist: f64| {
-        let (x, y) = sum(twist);
+    let twist = |k: i32| std::f64::consts::FRAC_PI_4 * f64::from(k) / f64::from(tries.max(1));
+    let found: Vec<_> = (0..=tries).map(|k| sums(twist(k))).collect();
+    let strength = |k: i32| {
+        let (x, y) = found[k.unsigned_abs() as usize][usize::from(k < 0)];
         // Of equal strengths, the least twist.
-        x.hypot(y) - 1e-9 * twist.abs()
+        x.hypot(y) - 1e-9 * twist(k).abs()
     };
-    let best = twists.max_by(|a, b| strength(*a).total_cmp(&strength(*b))).unwrap_or(0.0);
+    let best = (-tries..=tries).max_by(|a, b| strength(*a).total_cmp(&strength(*b))).unwrap_or(0);
     // In a frame turned by this phase the mean bending is about d1.
-    let (x, y) = sum(best);
-    (best, y.atan2(x))
+    let (x, y) = found[best.unsigned_abs() as usize][usize::from(best < 0)];
+    (twist(best), y.atan2(x))
 }

@@ -1,5 +1,7 @@
 //! The rod that hangs in the shape of a line: fit the line, balance the moments, correct what remains.
 
+use std::sync::OnceLock;
+
 use glam::{DMat3, DVec3};
 
 use super::curve::Curve;
@@ -87,6 +89,8 @@ pub struct FittedCurve {
     /// The rod that would have this shape without weight.
     rod: Rod,
     target: Shape,
+    /// The same in twice as many elements, once it has been needed.
+    finer: OnceLock<Box<Self>>,
 }
 
 impl FittedCurve {
@@ -102,7 +106,7 @@ impl FittedCurve {
     pub fn new(given: &[DVec3], spec: &RodSpec) -> Result<Self, InvalidQuantity> {
         let line = checked(given)?;
         let (rod, target) = fitted(&line, spec)?;
-        Ok(Self { line, rod, target })
+        Ok(Self { line, rod, target, finer: OnceLock::new() })
     }
 
     /// The rod that would have this shape without weight.
@@ -152,12 +156,22 @@ impl FittedCurve {
             return Ok(best);
         }
         // The shape is stable in this division, and yet the rod rests elsewhere in one that is finer: there it may be unstable.
-        let (rod, target) = fitted_by(&self.line, self.rod.spec(), elements)?;
-        let finer = Self { line: self.line.clone(), rod, target }.solve(external, options)?;
+        let finer = self.finer(elements)?.solve(external, options)?;
         if finer.error < best.error {
             return Ok(finer);
         }
         Ok(InverseSolution { stiffness_needed: finer.stiffness_needed, ..best })
+    }
+
+    /// The same in a larger number of elements, which does not change from one call to the next.
+    fn finer(&self, elements: usize) -> Result<&Self, InvalidQuantity> {
+        if self.finer.get().is_none() {
+            // The fit takes about as long as an equilibrium, and potentials do not matter to it.
+            let (rod, target) = fitted_by(&self.line, self.rod.spec(), elements)?;
+            let finer = Self { line: self.line.clone(), rod, target, finer: OnceLock::new() };
+            let _ = self.finer.set(Box::new(finer));
+        }
+        Ok(self.finer.get().expect("it has just been set"))
     }
 
     fn solve_in_this_division(

@@ -10,7 +10,7 @@ use crate::contact::{ContactPairs, Density};
 /// The energy that guides share.
 pub(super) enum Others {
     /// Wisps repel each other where they overlap.
-    Pairs(ContactPairs),
+    Pairs(Box<ContactPairs>),
     /// Hair is pressed where it is denser than it packs.
     Density(Box<Density>),
 }

@@ -59,7 +59,7 @@ impl<'a> HeadState<'a> {
             (wisps, Others::Density(Box::new(density)))
         } else {
             let (wisps, pairs) = wisps_with_pairs(spec, head, guides, alone, hold);
-            (wisps, Others::Pairs(pairs))
+            (wisps, Others::Pairs(Box::new(pairs)))
         };
         let count = wisps.len();
         let mut state = Self {
