@@ -153,8 +153,8 @@ impl<'a> Session<'a> {
                 return Err(DenoiseError::Refused(error));
             }
             (functions.set_bool)(filter, c"hdr".as_ptr(), true);
-            // "The layers have no noise", which nearly holds: a pixel of hair shows hundreds of fibres, and the layers have
-            // less noise than the light after few paths. Without it the filter blurs what is as fine as a hair.
+            // "The layers have no noise": they have far less than the light after the same paths. Without it the filter blurs
+            // what is as fine as a hair.
             (functions.set_bool)(filter, c"cleanAux".as_ptr(), true);
             Ok(Self { functions, device, filter })
         }

@@ -377,7 +377,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Standard deviation of the radius of curls between splits and between hairs, as a fraction; {}.
         "wisps.radius_variation" => number::<Ratio>()
             .slider(Panel::Wisps, "Curl widths", PERCENT, (0.0, 50.0), 0, "How much curls differ in width.");
-        /// How far hairs stray from their place, as a fraction of the wisp's radius, and from its curl, as a fraction of the variation between wisps, which makes wisps thicker; {}.
+        /// How far hairs stray from their place, as a fraction of the wisp's radius, and from its curl,
+        /// as a fraction of the variation between wisps, which makes wisps thicker; {}.
         "wisps.fuzziness" => number::<Ratio>()
             .slider(Panel::Wisps, "Fuzziness", TIMES, (0.0, 2.0), 2, "How far hairs stray from their wisp.");
         /// Standard deviation of the length within a wisp, as a fraction; {}.

@@ -72,6 +72,8 @@ pub(crate) struct Ends {
     pub(crate) limits: Arc<[f32]>,
     /// The wisp of each hair.
     pub(crate) wisps: Arc<[u32]>,
+    /// How many cuts there have been.
+    pub(crate) cuts: u32,
 }
 
 /// What styling has made of one wisp. Lengths are those of dry hair, in air of 60 %.

@@ -38,17 +38,8 @@ impl Ends {
         for (index, wisp, left) in cut {
             (limits[index], wisps[index]) = (limits[index].min(left), wisp);
         }
-        Self { limits: limits.into(), wisps: wisps.into() }
-    }
-
-    /// A number that changes with every cut.
-    pub(super) fn history(hairstyle: &Hairstyle) -> u64 {
-        // FNV-1a over the lengths at which hairs have been cut; it need only differ.
-        let step = |hash: u64, limit: &f32| {
-            (hash ^ u64::from(limit.to_bits())).wrapping_mul(0x0100_0000_01b3)
-        };
-        let ends = hairstyle.styling.ends.as_ref();
-        ends.map_or(0, |ends| ends.limits.iter().fold(0xcbf2_9ce4_8422_2325, step))
+        let cuts = before.map_or(0, |ends| ends.cuts) + 1;
+        Self { limits: limits.into(), wisps: wisps.into(), cuts }
     }
 
     /// The same hairs where they follow other guides.
@@ -63,7 +54,7 @@ impl Ends {
     pub(super) fn grown(&self, by: &[f64]) -> Self {
         let grown = |(limit, &wisp): (&f32, &u32)| limit + by[wisp as usize] as f32;
         let limits = self.limits.iter().zip(self.wisps.iter()).map(grown).collect();
-        Self { limits, wisps: self.wisps.clone() }
+        Self { limits, wisps: self.wisps.clone(), cuts: self.cuts }
     }
 }
 

@@ -134,7 +134,8 @@ impl Apply for Cut {
             }
         });
         let stride = act.draft.map_or(1, |draft| draft.stride);
-        let chance = Chance { cut: self, seed: hair.spec.seed, history: Ends::history(hair) };
+        let cuts = hair.styling.ends.as_ref().map_or(0, |ends| ends.cuts);
+        let chance = Chance { cut: self, seed: hair.spec.seed, cuts };
         let left = |population: &Population<'_>, root: &Root, index: usize, wisp: usize| {
             let Some(before_line) = chance.of(index) else { return f64::INFINITY };
             let left = if scissors.hanging() {
@@ -157,14 +158,15 @@ impl Apply for Cut {
 struct Chance<'a> {
     cut: &'a Cut,
     seed: u64,
-    /// Of the cuts before, so that the same scissors meet other hairs the next time.
-    history: u64,
+    /// How many cuts there have been: the same scissors meet other hairs the next time.
+    cuts: u32,
 }
 
 impl Chance<'_> {
     /// How far (m) before the line the hair of this index is cut, if it is.
     fn of(&self, index: usize) -> Option<f64> {
-        let mut random = Stream::new(self.seed ^ self.history, Purpose::Scissors, index);
+        let seed = self.seed.wrapping_add(u64::from(self.cuts) << 32);
+        let mut random = Stream::new(seed, Purpose::Scissors, index);
         (random.unit() < self.cut.share).then(|| random.unit() * self.cut.point_cut)
     }
 }
