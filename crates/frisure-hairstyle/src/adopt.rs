@@ -233,7 +233,7 @@ fn spread(forces: &[f64]) -> Vec<f64> {
 /// The fibre of a guide, without a shape.
 fn fibre(spec: &HairstyleSpec, index: usize) -> Result<RodSpec, InvalidQuantity> {
     let mut random = Stream::new(spec.seed, Purpose::GuideFibre, index);
-    let section = spec.fibre.varied(&mut random)?;
+    let section = spec.fibre.of_wisp(&mut random)?;
     Ok(RodSpec {
         length: 1.0,
         section,

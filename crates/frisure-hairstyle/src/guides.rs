@@ -194,7 +194,7 @@ fn fibre(
     let strain = natural.at(0.0);
     let d1 = leaning(strain, tangent, layout.lean(root, tangent, strain), &mut random);
     // Drawn last: seeds keep their curls whatever the section does.
-    let section = spec.fibre.varied(&mut random)?;
+    let section = spec.fibre.of_wisp(&mut random)?;
     let rod = Rod::new(RodSpec {
         length,
         section,

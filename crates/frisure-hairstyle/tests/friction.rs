@@ -49,8 +49,9 @@ fn retention(before: &Hairstyle, held: &Hairstyle, after: &Hairstyle) -> f64 {
 }
 
 /// Hair before, in and after the comb, and how much of its way it keeps.
-fn combed_and_let_go(contact: HairContact, friction: f64) -> (Hairstyle, f64) {
-    let before = hairstyle("caucasian-straight", 40, contact, friction);
+fn combed_and_let_go(contact: HairContact, friction: f64, seed: u64) -> (Hairstyle, f64) {
+    let spec = HairstyleSpec { seed, ..spec("caucasian-straight", 40, contact, friction) };
+    let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let (held, after) = (combed(&before, true), combed(&before, false));
     let kept = retention(&before, &held, &after);
     (after, kept)
@@ -61,11 +62,17 @@ fn what_was_combed_holds_the_better_the_higher_the_friction() {
     for contact in [HairContact::Layers, HairContact::Wisps] {
         let mut last = 0.0;
         for friction in [0.0, 0.1, 0.4] {
-            let (after, kept) = combed_and_let_go(contact, friction);
-            let report = settling_report(&after, &HEAD);
-            assert_eq!(report.stable, 40, "{contact:?} {friction}: {report:?}");
-            assert!(report.friction <= 1.001, "{contact:?} {friction}: {}", report.friction);
-            assert!(report.penetration < 3e-4, "{contact:?} {friction}: {}", report.penetration);
+            // The mean of three heads: what one of 40 wisps keeps is off by some hundredths, by chance.
+            let of_head = |seed: u64| {
+                let (after, kept) = combed_and_let_go(contact, friction, seed);
+                let report = settling_report(&after, &HEAD);
+                assert_eq!(report.stable, 40, "{contact:?} {friction}: {report:?}");
+                assert!(report.friction <= 1.001, "{contact:?} {friction}: {}", report.friction);
+                let deepest = report.penetration;
+                assert!(deepest < 3e-4, "{contact:?} {friction}: {deepest}");
+                kept
+            };
+            let kept = [1, 2, 3].map(of_head).iter().sum::<f64>() / 3.0;
             match friction {
                 // Wisps that were combed past each other do not all fall back: how many is chance, of a head of 40 wisps some hundredths. The
                 // evidence has the mean of six heads.
@@ -84,7 +91,7 @@ fn what_was_combed_holds_the_better_the_higher_the_friction() {
 fn the_number_of_threads_changes_no_bit() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| combed_and_let_go(HairContact::Wisps, 0.3).0)
+        pool.install(|| combed_and_let_go(HairContact::Wisps, 0.3, 1).0)
     };
     let (one, three) = (on(1), on(3));
     for (a, b) in one.equilibria().iter().zip(three.equilibria()) {

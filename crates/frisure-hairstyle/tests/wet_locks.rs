@@ -111,7 +111,11 @@ fn wet_hairs_lie_in_locks_and_dry_apart() {
     let touching = radius / per_lock.sqrt();
     let far_out = distances(&soaked_hair, &beside, OUT);
     let dry_out = median(&distances(&before, &beside, OUT));
-    assert!(median(&far_out) < 3.0 * touching && median(&far_out) < 0.4 * dry_out);
+    let wet_out = median(&far_out);
+    assert!(
+        wet_out < 3.0 * touching && wet_out < 0.4 * dry_out,
+        "{wet_out}, {touching}, {dry_out}"
+    );
 
     // 3. Locks are as many as the law says. Roots side by side whose hairs are close belong to the same.
     let mut lock: Vec<usize> = (0..before.len()).collect();

@@ -88,12 +88,13 @@ pub struct HairSurface {
 digest_fields!(HairSurface { longitudinal_roughness, azimuthal_roughness, tilt, index });
 
 impl Default for HairSurface {
-    /// Clean hair: the highlight has a standard deviation of 10°, and the scales stand off by 3°. Marschner
-    /// et al. 2003, table 1, has 5° to 10°, and shifts that belong to scales of 2.5° to 5°.
+    /// Clean hair: the highlight has a standard deviation of 13°, and the scales stand off by 3°. Marschner
+    /// et al. 2003, table 1, has 5° to 10° for a fibre, and shifts that belong to scales of 2.5° to 5°. Fibres of a lock also stray from
+    /// each other between the points of drawn hairs, by about 9° (chosen by eye), and √(10² + 9²) = 13. Around the fibre: chosen by eye.
     fn default() -> Self {
         Self {
-            longitudinal_roughness: 0.2,
-            azimuthal_roughness: 0.3,
+            longitudinal_roughness: 0.25,
+            azimuthal_roughness: 0.4,
             tilt: 0.0524,
             index: HAIR_INDEX,
         }

@@ -5,6 +5,7 @@ use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
 use crate::hash::mix;
+use crate::scene::PIGMENT;
 
 /// Relative deviation of the pigment from wisp to wisp, over that from strand to strand; chosen by eye.
 const WISP_PART: f32 = 0.6;
@@ -41,6 +42,9 @@ impl Pigments {
             Some(AttributeValues::F32(tint)) => tint.iter().map(|&t| bounded(t)).collect(),
             _ => varied(strands, look),
         };
+        if let Some(AttributeValues::F32(pigment)) = values(strands, PIGMENT) {
+            factors.iter_mut().zip(pigment).for_each(|(factor, more)| *factor *= more);
+        }
         if look.white_share > 0.0 {
             let guides = guides(strands);
             let threshold = normal_quantile(look.white_share);

@@ -109,13 +109,16 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "hair.fibre.density" => number::<Density>().bounds(0.0, f64::INFINITY)
             .slider(Panel::Fibre, "Density", DENSITY, (0.5, 3.0), 2, "Mass per volume.")
             .shows(|scene| scene.spec.fibre.material.density());
-        /// Standard deviation of the diameter between guides, as a fraction of the mean; {}.
+        /// Standard deviation of the diameter between hairs, as a fraction of the mean; {}.
         "hair.fibre.variation" => number::<Ratio>()
             .slider(Panel::Fibre, "Diameter varies by", PERCENT, (0.0, 50.0), 0,
-                "Standard deviation of the diameter from wisp to wisp.");
-        /// Standard deviation between guides of what the axis ratio exceeds 1 by, as a fraction of the
+                "Standard deviation of the diameter from hair to hair.");
+        /// Standard deviation between hairs of what the axis ratio exceeds 1 by, as a fraction of the
         /// mean; {}. A circle stays one.
         "hair.fibre.axis_ratio_variation" => number::<Ratio>();
+        /// How much of these variations is found between guides, which stand for the mean hairs of their wisps: 0 for guides that
+        /// are all alike, 1 for guides that differ as hairs do; {}. Default 0.25, chosen by eye.
+        "hair.fibre.coherence" => number::<Ratio>();
         /// Which torsion constant the section is given. Default "saint-venant".
         "hair.fibre.torsion" => value::<OneOf<Keyword<TorsionConstant>>>();
         /// Natural curl, the shape without weight. It is said in one way: `radius` and `pitch`; or
@@ -496,11 +499,11 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "look.dye.strength" => number::<Ratio>().range(0.0, 1.0, "between 0 and 1");
         /// Length at the roots that has grown since, without dye; {}. Default 0.
         "look.dye.regrowth" => number::<Length>().range(0.0, 3.0, "between 0 and 3 m");
-        /// Roughness along the fibre: 0.1 has narrow highlights, 0.5 is matt; {}. Default 0.2.
+        /// Roughness along the fibre: 0.1 has narrow highlights, 0.5 is matt; {}. Default 0.25.
         "look.roughness" => number::<Ratio>().range(0.05, 1.0, "between 0.05 and 1")
             .field(field!(look.hair.surface.longitudinal_roughness))
             .slider(Panel::Look, "Roughness", NUMBER, (0.05, 1.0), 2, "How wide the highlights are: 0.1 is glossy, 0.5 is matt.");
-        /// Roughness around the fibre; {}. Default 0.3.
+        /// Roughness around the fibre; {}. Default 0.4.
         "look.roughness_around" => number::<Ratio>().range(0.05, 1.0, "between 0.05 and 1")
             .field(field!(look.hair.surface.azimuthal_roughness));
         /// Tilt of the cuticle's scales, which moves the highlights apart; {}. Default 3 deg.

@@ -33,7 +33,7 @@ type = "{name}"  # {description}
 [hair.fibre]
 # diameter = "{diameter:.0} um"             # mean diameter
 # axis_ratio = {ratio:.2}               # longer over shorter axis of the section
-# variation = {variation:.2}               # of the diameter, between wisps
+# variation = {variation:.2}               # of the diameter, between hairs
 # youngs_modulus = "3.9 GPa"
 # shear_modulus = "0.9 GPa"       # or poisson_ratio
 # density = "1.3 g/cm^3"

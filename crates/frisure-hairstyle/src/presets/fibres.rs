@@ -23,7 +23,7 @@ const fn helix(radius: f64, pitch: f64, between: f64, along: f64) -> NaturalCurl
 }
 
 /// Straight: a helix too wide for one turn.
-const STRAIGHT_CURL: NaturalCurl = helix(0.12, 0.30, 0.4, 0.2);
+const STRAIGHT_CURL: NaturalCurl = helix(0.12, 0.30, 0.1, 0.2);
 
 /// Caucasian hair; what is the same for all (moduli, mass, wetting) stands here.
 pub(super) const CAUCASIAN_STRAIGHT: HairType = HairType {
@@ -48,7 +48,7 @@ pub(super) const CAUCASIAN_WAVY: HairType = HairType {
     axis_ratio: 1.45,
     paper_eccentricity: 0.08,
     friction: 0.54,
-    curl: helix(0.012, 0.09, 0.2, 0.15),
+    curl: helix(0.012, 0.09, 0.12, 0.15),
     ..CAUCASIAN_STRAIGHT
 };
 
@@ -72,7 +72,7 @@ pub(super) const ASIAN_STRAIGHT: HairType = HairType {
 };
 
 pub(super) const ASIAN_WAVY: HairType =
-    HairType { friction: 0.54, curl: helix(0.012, 0.078, 0.25, 0.15), ..ASIAN_STRAIGHT };
+    HairType { friction: 0.54, curl: helix(0.012, 0.078, 0.12, 0.15), ..ASIAN_STRAIGHT };
 
 pub(super) const AFRICAN_COILY: HairType = HairType {
     density: 161.0 * PER_SQUARE_CENTIMETRE,
@@ -105,7 +105,7 @@ pub(super) const WAVY: HairType = HairType {
     axis_ratio: 1.51,
     paper_eccentricity: 0.1,
     friction: 0.54,
-    curl: helix(0.010, 0.09, 0.2, 0.15),
+    curl: helix(0.010, 0.09, 0.12, 0.15),
     growth_rate: 370.0 * MICROMETRE_PER_DAY,
     ..STRAIGHT
 };
@@ -142,9 +142,9 @@ pub(super) const FRIZZY: HairType =
 
 /// The eight curl types of de la Mettrie et al. (2007), I to VIII.
 pub(super) const CURL_TYPES: [HairType; 8] = [
-    HairType { curl: helix(0.06, 0.20, 0.3, 0.2), growth_rate: rate(1), ..STRAIGHT },
-    HairType { curl: helix(0.010, 0.10, 0.2, 0.15), growth_rate: rate(2), ..WAVY },
-    HairType { curl: helix(0.011, 0.075, 0.2, 0.15), growth_rate: rate(3), ..WAVY },
+    HairType { curl: helix(0.06, 0.20, 0.1, 0.2), growth_rate: rate(1), ..STRAIGHT },
+    HairType { curl: helix(0.010, 0.10, 0.12, 0.15), growth_rate: rate(2), ..WAVY },
+    HairType { curl: helix(0.011, 0.075, 0.12, 0.15), growth_rate: rate(3), ..WAVY },
     HairType { curl: helix(0.011, 0.045, 0.15, 0.12), growth_rate: rate(4), ..CURLY },
     HairType { curl: helix(0.008, 0.022, 0.15, 0.1), growth_rate: rate(5), ..CURLY },
     HairType { curl: helix(0.0052, 0.013, 0.2, 0.15), growth_rate: rate(6), ..COILY },

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use frisure_rod::{InvalidQuantity, Material, Section, TorsionConstant};
 
-use crate::fibre::{Curl, Fibre, Wetting};
+use crate::fibre::{COHERENCE, Curl, Fibre, Wetting};
 
 /// What is known of one type of hair, dry at about 60 % relative humidity: numbers of fibre and
 /// follicle, without any styling. The source of each number is in `docs/hair-types.md`.
@@ -84,6 +84,7 @@ impl HairType {
                 }
                 Ellipticity::Measured | Ellipticity::Paper => 0.0,
             },
+            coherence: COHERENCE,
         })
     }
 

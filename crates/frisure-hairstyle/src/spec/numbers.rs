@@ -133,6 +133,7 @@ pub(super) static NUMBERS: &[Number] = numbers! {
     "hair.wetting.length", field!(wetting.length), 1.0, 1.1, "between 1 and 1.1";
     "hair.wetting.wisp", field!(wetting.wisp), 0.1, 1.0, "between 0.1 and 1";
     "hair.fibre.axis_ratio_variation", field!(fibre.axis_ratio_variation), 0.0, 1.0, "between 0 and 1";
+    "hair.fibre.coherence", field!(fibre.coherence), 0.0, 1.0, "between 0 and 1";
     "hair.curl", Access::Derived(|spec| vec![spec.curl.strain.length()]), 0.0, 2e4, "a strain of at most 20000 rad/m (0.05 mm radius)";
     "hair.curl.variation_between", field!(curl.variation_between), 0.0, 1.0, "between 0 and 1";
     "hair.curl.variation_along", field!(curl.variation_along), 0.0, 1.0, "between 0 and 1";

@@ -46,6 +46,9 @@ const STRETCHED: f64 = 1.12;
 /// Factors by which a hair that would be stretched more comes nearer to its guides, tried in order. Chosen by trial; not measured further.
 const NARROWER: [f64; 4] = [0.6, 0.3, 0.1, 0.0];
 
+/// How often a drawn hair that is still too long is shortened at most. Chosen.
+const SHORTENED: usize = 4;
+
 /// How far the hairs of a wisp have gathered at the arc length `along` (m), of hair that would be `uncut` (m) long had it never
 /// been cut: what is left after a cut does not gather more. The exponent is chosen by eye.
 fn gathered(along: f64, uncut: f64) -> f64 {
@@ -72,11 +75,21 @@ impl Population<'_> {
     pub(super) fn hair(&self, root: &Root, index: usize) -> Hair {
         let mut binding = self.bind(root, index);
         let mut points = self.points(&binding);
+        let most = STRETCHED * binding.end * binding.length;
         for narrow in NARROWER {
-            if length(&points) <= STRETCHED * binding.end * binding.length {
+            if length(&points) <= most {
                 break;
             }
             binding.narrow = narrow;
+            points = self.points(&binding);
+        }
+        // Where its guides go another way, such as on both sides of an ear, it ends sooner.
+        for _ in 0..SHORTENED {
+            let long = length(&points);
+            if long <= most {
+                break;
+            }
+            binding.end *= most / long;
             points = self.points(&binding);
         }
         let StrandBinding { thickness, cut, .. } = binding;
@@ -147,7 +160,7 @@ impl Population<'_> {
             None => (binding.main(), variation.curl),
         };
         let mut point = self.between(root.position, &binding.followed, main, curl, drifted, &place);
-        // What makes a hair differ from its wisp is in a lock as small as all else.
+        // What makes a hair stray is in a lock smaller than all else: there it is held by its neighbours. The power of two is chosen.
         let mut free = 1.0;
         if let Some(to) = &binding.split {
             point = point.lerp(to.line.at(drifted), to.share(along, gathered, 1.0));
@@ -158,7 +171,7 @@ impl Population<'_> {
             point = point.lerp(to.line.at(drifted), share);
             free -= share;
         }
-        point + variation.waves.at(along / planned) * (rise * narrow * free)
+        point + variation.waves.at(along / planned) * (rise * narrow * free * free)
     }
 
     /// The same, of a hair of a groom.
@@ -250,7 +263,7 @@ impl Population<'_> {
                     }
                 }
                 let rise = smooth_step(0.0, RISE.min(0.5 * length), along);
-                (p + split.waves.at(along / planned) * (rise * free)).as_vec3()
+                (p + split.waves.at(along / planned) * (rise * free * free)).as_vec3()
             };
             let points = (0..samples).map(point).collect();
             SplitLine::new([followed[0].0, main], curl, end, points)

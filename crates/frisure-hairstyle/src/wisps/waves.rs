@@ -6,6 +6,10 @@ use glam::DVec3;
 
 use crate::random::Stream;
 
+/// Root mean square of a deviation's slope at most: √(1 + 0.25²) is 3 % more length. Of few, wide wisps, or of a hair that strays more
+/// than others, waves in proportion to the wisp would be so steep that a hair is drawn a third longer than it is. Chosen.
+const STEEPEST: f64 = 0.25;
+
 /// A coherent deviation along a hair: amplitude (m), wave number (rad per length) and phase.
 #[derive(Clone, Copy)]
 pub(crate) struct Waves([Wave; 3]);
@@ -36,7 +40,14 @@ impl Waves {
             Wave { amplitude: direction * (amplitude * share), number, phase, root: phase.sin() }
         };
         // Wavelength (m) and share of the amplitude: 16, 6 and 2.5 cm. docs/theory.md, "Wisps"; shares chosen by eye.
-        Self([wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)])
+        let mut waves = [wave(0.16, 0.6), wave(0.06, 0.3), wave(0.025, 0.12)];
+        // The derivative of A sin(n x) with x = s/L is (A n/L) cos(n x), whose mean square is (A n/L)²/2.
+        let square = |w: &Wave| (w.amplitude * (w.number / length)).length_squared() / 2.0;
+        let slope = waves.iter().map(square).sum::<f64>().sqrt();
+        if slope > STEEPEST {
+            waves.iter_mut().for_each(|wave| wave.amplitude *= STEEPEST / slope);
+        }
+        Self(waves)
     }
 
     /// Deviation (m) at `x` from 0 (root) to 1 (tip); none at the root.
