@@ -56,7 +56,8 @@ impl Scene<'_> {
         let Some(features) = features.filter(|features| !features.hairs.is_empty()) else {
             return Cow::Borrowed(self.strands);
         };
-        let mut all = self.strands.followed_by(&features.hairs).with_attributes(|name| name != PIGMENT);
+        let mut all =
+            self.strands.followed_by(&features.hairs).with_attributes(|name| name != PIGMENT);
         let mut factors = vec![1.0; self.strands.len()];
         factors.resize(all.len(), FACIAL_PIGMENT);
         let values = AttributeValues::F32(factors);

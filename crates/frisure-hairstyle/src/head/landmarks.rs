@@ -28,6 +28,9 @@ pub struct Landmarks {
     pub nape: DVec3,
 }
 
+/// Half the axes of the outline of an ear on the mannequin, along and up (m).
+const EAR: [f64; 2] = [0.026, 0.038];
+
 /// Parts of the scalp, as a hairdresser names them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Region {
@@ -56,6 +59,24 @@ impl Landmarks {
     #[must_use]
     pub fn normalized(&self, p: DVec3) -> DVec3 {
         (p - self.cranium_centre) / self.cranium_radii
+    }
+
+    /// The size of the head over that of the mannequin.
+    pub(crate) fn scale(&self) -> f64 {
+        self.width / 0.155
+    }
+
+    /// Distance of a point (m) from the middle of the ear beside it, seen from the side, over that of the ear's outline there: an
+    /// ellipse of 26 × 38 mm, longer than the ear because hair grows around it. Chosen by eye.
+    pub(crate) fn about_ear(&self, p: DVec3) -> f64 {
+        let d = p - self.ear;
+        (d.y / EAR[0]).hypot(d.z / EAR[1]) / self.scale()
+    }
+
+    /// Distance (m) of a point beside an ear from its outline, towards the middle of the ear; negative on it.
+    pub(crate) fn from_ear(&self, p: DVec3) -> f64 {
+        let d = p - self.ear;
+        d.y.hypot(d.z) * (1.0 - 1.0 / self.about_ear(p).max(1e-9))
     }
 
     /// Angle about the vertical (rad): 0 at the face, π/2 at the left ear, −π/2 at the right, ±π

@@ -39,6 +39,16 @@ impl Hairline {
         sideburns: 0.0,
         nape: 0.0,
     };
+
+    /// The usual line of women: a little lower over the forehead, not receding, and with short sideburns. Chosen by eye.
+    pub const WOMAN: Self =
+        Self { irregularity: 1.5e-3, height: -4e-3, sideburns: 1e-2, ..Self::EVEN };
+
+    /// The usual line on a built-in head.
+    #[must_use]
+    pub fn usual(head: &str) -> Self {
+        if head.ends_with("-woman") { Self::WOMAN } else { Self::default() }
+    }
 }
 
 impl Default for Hairline {
@@ -183,12 +193,9 @@ impl Edge {
     /// 1 on the outer ear, which the scalp behind it shares its directions with.
     fn on_ear(&self, p: DVec3) -> f64 {
         let l = &self.landmarks;
-        let d = DVec3::new(p.x.abs(), p.y, p.z) - l.ear;
-        let scale = l.width / 0.155;
-        let out = d.x / scale + 2e-3;
-        // An ellipse of 26 × 38 mm about the ear, from 2 mm outside the skull on.
-        let side = DVec3::new(0.0, d.y / 0.026, d.z / 0.038).length() / scale;
-        smooth(out / 2e-3) * smooth((1.0 - side) / 0.1)
+        let out = (p.x.abs() - l.ear.x) / l.scale() + 2e-3;
+        // From 2 mm outside the skull on.
+        smooth(out / 2e-3) * smooth((1.0 - l.about_ear(p)) / 0.1)
     }
 }
 

@@ -41,6 +41,10 @@ const BABY_LENGTH: (f64, f64) = (0.02, 0.05);
 /// Factor on the length of baby hairs at the hairline. Chosen by eye.
 const SHORTER: f64 = 0.3;
 
+/// How far over the outline of an ear baby hairs reach, and how long they are at least for that (m). Chosen by eye.
+const INTO_EAR: f64 = 2e-3;
+const LEAST_BABY: f64 = 6e-3;
+
 /// Diameter of a baby hair, and of every hair at the hairline, as a fraction of other hair's. docs/theory.md, "Roots and
 /// implantation".
 const THIN: f64 = 0.5;
@@ -339,7 +343,10 @@ impl<'a> Population<'a> {
         let mut random = Stream::new(self.spec.seed, Purpose::BabyHair, index);
         if random.unit() < chance {
             let length = random.between(BABY_LENGTH.0, BABY_LENGTH.1);
-            return (Some(length * (SHORTER + (1.0 - SHORTER) * inside)), THIN);
+            let length = length * (SHORTER + (1.0 - SHORTER) * inside);
+            // Those that grow before an ear do not reach into it, wherever hair is combed to.
+            let before_ear = self.head.landmarks().from_ear(root.position) + INTO_EAR;
+            return (Some(length.min(before_ear.max(LEAST_BABY))), THIN);
         }
         (None, THIN + (1.0 - THIN) * smooth_step(0.0, FULL / BABY_RIM, inside))
     }

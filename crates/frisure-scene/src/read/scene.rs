@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use frisure_files::read_text;
-use frisure_hairstyle::{HairModel, HairstyleSpec, Pose, Wetting, preset};
+use frisure_hairstyle::{HairModel, Hairline, HairstyleSpec, Pose, Wetting, preset};
 use frisure_look::{CameraSpec, ToneCurve};
 use frisure_rod::{Branch, Resolution};
 
@@ -14,7 +14,7 @@ use crate::error::{Result, SceneError};
 use crate::keywords::{BranchKind, FrictionWord, HairType, WettingWord};
 use crate::kind::{Count, Text, Vector};
 use crate::natural_look::NaturalLook;
-use crate::scene::{MAX_SIZE, Output, Scene};
+use crate::scene::{HeadSource, MAX_SIZE, Output, Scene};
 use crate::schema::schema;
 use crate::source::Source;
 use crate::{key_location, step, unit_hint, unknown_keys};
@@ -60,6 +60,10 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
     hair::curl(&document, &mut spec.curl)?;
     hair::wisps(&document, &mut spec)?;
     implantation::implantation(&document, &mut spec.implantation)?;
+    let head = head::head(&document, folder)?;
+    if let HeadSource::Person(name) = head {
+        spec.implantation.hairline = Hairline::usual(name);
+    }
     spec.regions = implantation::regions(&document)?;
     let contact = &mut spec.contact;
     contact.body = document.keyword("contact.body", contact.body)?;
@@ -83,7 +87,7 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
     let mut scene = Scene {
         name: document.get_or::<Text>("name", String::new())?,
         hair_type: preset.name,
-        head: head::head(&document, folder)?,
+        head,
         groom,
         look: look::look(&document, &NaturalLook::of(preset), spec.seed, backdrop)?,
         camera: camera(&document)?,
