@@ -6,13 +6,13 @@ use std::path::Path;
 
 use common::{diagnostic, good};
 use frisure_files::frame::{FrameChoice, UpAxis};
-use frisure_hairstyle::{Body, Ellipticity, Flow, Hairs, Handedness, Lift, PRESETS};
+use frisure_hairstyle::{Body, Ellipticity, Flow, Hairline, Hairs, Handedness, Lift, PRESETS};
 use frisure_look::{
     Backdrop, Dye, Fade, Melanin, SHADES, absorption_of_colour, colour_of_temperature,
     linear_from_srgb,
 };
 use frisure_rod::{Branch, ElementKind, NaturalStrain, Resolution, TorsionConstant};
-use frisure_scene::{HeadSource, ScalpSource, Scene, schema, template};
+use frisure_scene::{HeadSource, NaturalLook, ScalpSource, Scene, schema, template};
 use glam::{DVec3, Vec3};
 use serde_json::Value;
 
@@ -67,7 +67,10 @@ fn a_type_gives_its_preset_unchanged() {
 fn every_template_is_its_preset_and_so_it_is_uncommented() {
     for preset in PRESETS {
         let text = template(preset);
-        assert_eq!(good(&text).hairstyle_spec().unwrap(), preset.spec(), "{text}");
+        // It begins on a person, who has a hairline of her own.
+        let mut expected = preset.spec();
+        expected.implantation.hairline = Hairline::usual(NaturalLook::of(preset).model);
+        assert_eq!(good(&text).hairstyle_spec().unwrap(), expected, "{text}");
         // With the numbers in its comments, which are rounded.
         let loud = text.replace("\n# ", "\n").replacen("A scene for", "# A scene for", 1);
         let loud = loud.replacen("Quantities are", "# Quantities are", 1);
