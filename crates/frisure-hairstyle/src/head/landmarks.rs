@@ -74,7 +74,7 @@ impl Landmarks {
     }
 
     /// Distance (m) of a point beside an ear from its outline, towards the middle of the ear; negative on it.
-    pub(crate) fn from_ear(&self, p: DVec3) -> f64 {
+    pub(crate) fn off_ear(&self, p: DVec3) -> f64 {
         let d = p - self.ear;
         d.y.hypot(d.z) * (1.0 - 1.0 / self.about_ear(p).max(1e-9))
     }

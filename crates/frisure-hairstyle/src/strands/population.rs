@@ -345,7 +345,7 @@ impl<'a> Population<'a> {
             let length = random.between(BABY_LENGTH.0, BABY_LENGTH.1);
             let length = length * (SHORTER + (1.0 - SHORTER) * inside);
             // Those that grow before an ear do not reach into it, wherever hair is combed to.
-            let before_ear = self.head.landmarks().from_ear(root.position) + INTO_EAR;
+            let before_ear = self.head.landmarks().off_ear(root.position) + INTO_EAR;
             return (Some(length.min(before_ear.max(LEAST_BABY))), THIN);
         }
         (None, THIN + (1.0 - THIN) * smooth_step(0.0, FULL / BABY_RIM, inside))
