@@ -11,7 +11,7 @@ pub struct HairstyleMetrics {
     pub settling: SettlingReport,
     /// Number of hairs that grow on the head.
     pub hairs: f64,
-    /// Mass of all hair that grows on the head, with the water in it (kg).
+    /// Mass of all hair that grows on the head (kg); water does not change it (the paper, §3.2.1).
     pub mass: f64,
     /// Mean length along the guides (m).
     pub length: f64,

@@ -37,7 +37,7 @@ const MOST_POINTS_IN_BROWSER: usize = 32_000_000;
 /// let mut runner = Runner::default();
 /// let dry = runner.load(&scene, 0, Quality::Exact, &())?;
 /// let wet = runner.load(&scene, 1, Quality::Exact, &())?;
-/// assert!(wet.metrics().mass > dry.metrics().mass);
+/// assert!(wet.metrics().tip_height < dry.metrics().tip_height);
 /// # Ok::<(), frisure_engine::Error>(())
 /// ```
 #[derive(Debug)]

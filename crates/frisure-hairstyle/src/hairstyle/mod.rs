@@ -52,8 +52,8 @@ impl Hairstyle {
         !self.styling.is_none(&self.guides)
     }
 
-    /// Mass (kg) of all hair that grows on the head, with the water in it, each hair taken to be as
-    /// long as its guide.
+    /// Mass (kg) of all hair that grows on the head, each hair taken to be as long as its guide. Water does not change it (the
+    /// paper, §3.2.1).
     #[must_use]
     pub fn mass(&self) -> f64 {
         let each = self.grown() / self.guides.len() as f64;
