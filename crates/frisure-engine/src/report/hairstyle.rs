@@ -50,7 +50,7 @@ pub struct HairstyleReport {
     pub volume: Option<VolumeReport>,
     /// Smallest and largest corner of the box around the hair (m); none without hairs.
     pub bounds: Option<[[f32; 3]; 2]>,
-    /// Mass of all hair that grows on the head, (kg); water does not change it.
+    /// Mass of all hair that grows on the head (kg); water does not change it.
     pub mass: f64,
     /// The steps in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
