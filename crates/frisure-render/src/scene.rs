@@ -45,7 +45,7 @@ impl<'a> Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// The hair together with the brows and lashes of the head, which have its colour, only darker: the attribute [`PIGMENT`] says by
+    /// The hair together with the brows and lashes of the head, which have its colour, only darker: the attribute `frisure:pigment` says by
     /// how much.
     ///
     /// # Panics
