@@ -136,6 +136,8 @@ fn together() -> HairstyleSpec {
     spec.wisps.count = 30;
     spec.equilibrium.resolution = frisure_rod::Resolution::Elements(16);
     spec.equilibrium.method = HeadMethod::Continuation;
+    // Guides that differ as hairs do, the harder case.
+    spec.fibre.coherence = 1.0;
     spec
 }
 
@@ -161,7 +163,7 @@ fn a_head_together_is_at_a_certified_minimum() {
     // Contact makes a head softer in some direction than its guides are one by one.
     assert!(lowest > joint.eigenvalue_error && lowest < 1.0, "{joint:?}");
     assert_eq!((report.stable, report.not_converged), (30, 0));
-    // A minimum, in a valley that is about as high as that of sweeps; it need not be the same one.
+    // A minimum of the same energy as that of sweeps, and in a valley of about the same height.
     let mut sweeps = together();
     sweeps.equilibrium.method = HeadMethod::Sweeps;
     sweeps.equilibrium.tolerance = 1e-4;
@@ -169,7 +171,7 @@ fn a_head_together_is_at_a_certified_minimum() {
     let other = settling_report(&sweeps, head());
     assert_eq!(other.joint, None);
     let (found, expected) = (report.energy.total(), other.energy.total());
-    assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
     // From there on it stays where it is.
     let options = PredictOptions {
         previous: Some(&style),

@@ -43,7 +43,7 @@ impl Pigments {
             _ => varied(strands, look),
         };
         if let Some(AttributeValues::F32(pigment)) = values(strands, PIGMENT) {
-            factors.iter_mut().zip(pigment).for_each(|(factor, more)| *factor *= more);
+            factors.iter_mut().zip(pigment).for_each(|(factor, &more)| *factor *= bounded(more));
         }
         if look.white_share > 0.0 {
             let guides = guides(strands);

@@ -83,10 +83,10 @@ impl Population<'_> {
             binding.narrow = narrow;
             points = self.points(&binding);
         }
-        // Where its guides go another way, such as on both sides of an ear, it ends sooner.
+        // Where its guides go another way, such as on both sides of an ear, it ends sooner; hair of a groom is as long as the groom has it.
         for _ in 0..SHORTENED {
             let long = length(&points);
-            if long <= most {
+            if long <= most || binding.own.is_some() {
                 break;
             }
             binding.end *= most / long;
