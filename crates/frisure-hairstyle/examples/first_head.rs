@@ -7,7 +7,7 @@
 use std::error::Error;
 
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::styling::{Cut, CutLine, Dry, Held, Operation, Selection, Wet};
+use frisure_hairstyle::styling::{Cut, CutLine, Dry, Operation, Wet};
 use frisure_hairstyle::{
     Hairs, Hairstyle, PredictOptions, StrandOptions, StyleOptions, predict, preset,
     settling_report, strands, style,
@@ -36,12 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let line = CutLine::Length(0.15);
     for operation in [
         Operation::Wet(Wet::default()),
-        Operation::Cut(Cut {
-            selection: Selection::Everything,
-            line,
-            held: Held::Down,
-            ..Cut::default()
-        }),
+        Operation::Cut(Cut { line, ..Cut::default() }),
         Operation::Dry(Dry::default()),
     ] {
         hair = style(&hair, &head, &operation, StyleOptions::default(), &())?;

@@ -31,8 +31,7 @@ fn dry() -> Operation {
 }
 
 fn cut(length: f64) -> Operation {
-    let (selection, line) = (Selection::Everything, CutLine::Length(length));
-    Operation::Cut(Cut { selection, line, held: Held::Down, ..Cut::default() })
+    Operation::Cut(Cut { line: CutLine::Length(length), ..Cut::default() })
 }
 
 fn grow(by: f64) -> Operation {

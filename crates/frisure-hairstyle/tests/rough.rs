@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::styling::{Cut, CutLine, Held, Operation, Selection, Wet};
+use frisure_hairstyle::styling::{Cut, CutLine, Operation, Wet};
 use frisure_hairstyle::{
     Draft, Effort, HairContact, Hairs, Hairstyle, HairstyleSpec, PredictOptions, Start,
     StrandOptions, StyleOptions, predict, preset, redrawn, settling_report, strands, style,
@@ -123,12 +123,7 @@ fn rough_hair_may_be_of_anything_before() {
 fn rough_steps_go_on_from_those_before() {
     let hair = predict(&spec(), &HEAD, PredictOptions::default(), &()).unwrap();
     let line = CutLine::Length(0.08);
-    let cut = Operation::Cut(Cut {
-        selection: Selection::Everything,
-        line,
-        held: Held::Down,
-        ..Cut::default()
-    });
+    let cut = Operation::Cut(Cut { line, ..Cut::default() });
     let exact = style(&hair, &HEAD, &cut, StyleOptions::default(), &()).unwrap();
     let rough = style(&hair, &HEAD, &cut, draft(Some(&exact)), &()).unwrap();
     assert_eq!(rough.wisps(), exact.wisps());

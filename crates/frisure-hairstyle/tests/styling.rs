@@ -14,6 +14,7 @@ use frisure_hairstyle::{
     strands, style,
 };
 use frisure_strands::AttributeValues;
+use glam::DVec3;
 
 static HEAD: LazyLock<Head> = LazyLock::new(Head::mannequin);
 
@@ -88,7 +89,7 @@ fn wet_hair_weighs_the_same_and_hangs_lower_and_straighter() {
         let before = hairstyle(preset.name, 60);
         let after = done(&before, &wet());
         assert!((after.mass() / before.mass() - 1.0).abs() < 1e-12, "{}", preset.name);
-        let mean = |h: &Hairstyle, of: fn(&frisure_hairstyle::Guide, glam::DVec3) -> f64| {
+        let mean = |h: &Hairstyle, of: fn(&frisure_hairstyle::Guide, DVec3) -> f64| {
             let each = h.guides().iter().zip(h.equilibria());
             each.map(|(guide, rest)| of(guide, rest.tip())).sum::<f64>() / 60.0
         };
@@ -166,7 +167,7 @@ fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
     let marks = HEAD.landmarks();
     let side = |left: f64, through: bool| {
         let view = View {
-            eye: marks.cranium_centre + glam::DVec3::new(0.0, -1.0, 0.05),
+            eye: marks.cranium_centre + DVec3::new(0.0, -1.0, 0.05),
             target: marks.cranium_centre,
             field_of_view: 0.6,
             aspect: 1.0,
@@ -189,7 +190,7 @@ fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
         let brush = Selection::Brush { spots: vec![spot], radius: 0.03 };
         selected(&hair, &HEAD, &brush).unwrap()
     };
-    let near = brush(Spot::At(marks.whorl + glam::DVec3::Z * 0.05));
+    let near = brush(Spot::At(marks.whorl + DVec3::Z * 0.05));
     for (near, guide) in near.iter().zip(hair.guides()) {
         let distance = guide.root.position.distance(marks.whorl);
         assert!(*near == (distance < 0.03) || (distance - 0.03).abs() < 0.02, "{distance}");
@@ -219,7 +220,7 @@ fn layers_are_as_long_as_the_line_is_far_from_the_skin() {
         // Straight out of the skin, but where it is hollow.
         assert!((0.0799..0.13).contains(&length), "{length}");
     }
-    assert!(lengths(&cut(CutLine::Length(0.08), Held::Down)).iter().all(|l| *l == 0.08));
+    assert!(lengths(&cut(CutLine::Length(0.08), Held::default())).iter().all(|l| *l == 0.08));
     let centre = HEAD.landmarks().cranium_centre;
     let sphere = cut(CutLine::Sphere { centre, radius: 0.2 }, out);
     for (wisp, guide) in sphere.wisps().iter().zip(sphere.guides()) {
@@ -227,8 +228,8 @@ fn layers_are_as_long_as_the_line_is_far_from_the_skin() {
         assert!((end.distance(centre) - 0.2).abs() < 1e-9 || wisp.length > 0.2);
     }
     // A stationary guide leaves hair the longer the farther it is rooted.
-    let point = HEAD.landmarks().whorl + glam::DVec3::Z * 0.1;
-    let gathered = cut(CutLine::Gathered(point), Held::Down);
+    let point = HEAD.landmarks().whorl + DVec3::Z * 0.1;
+    let gathered = cut(CutLine::Gathered(point), Held::default());
     for (wisp, guide) in gathered.wisps().iter().zip(before.guides()) {
         let expected = guide.root.position.distance(point).min(guide.rod.length());
         assert!((wisp.length - expected).abs() < 1e-12);
@@ -239,7 +240,7 @@ fn layers_are_as_long_as_the_line_is_far_from_the_skin() {
 fn a_cut_takes_what_is_below_and_cutting_again_takes_nothing() {
     let before = hairstyle("caucasian-wavy", 60);
     let line = 0.02;
-    let above = Selection::Beyond { point: glam::DVec3::Z * (line + 0.01), normal: glam::DVec3::Z };
+    let above = Selection::Beyond { point: DVec3::Z * (line + 0.01), normal: DVec3::Z };
     let cut = cut_below(line, above.clone());
     let after = done(&before, &cut);
     let chosen = selected(&before, &HEAD, &above).unwrap();
@@ -283,15 +284,11 @@ fn every_hair_cut_as_it_hangs_ends_at_the_line() {
     let mut spec = spec("caucasian-straight", 120, HairContact::Layers);
     spec.curl = Curl::STRAIGHT;
     let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
-    let line = CutLine::Plane {
-        point: glam::DVec3::new(0.0, 0.0, -0.10),
-        normal: glam::DVec3::new(0.3, 0.0, -1.0),
-    };
+    let line =
+        CutLine::Plane { point: DVec3::new(0.0, 0.0, -0.10), normal: DVec3::new(0.3, 0.0, -1.0) };
     let cut = Cut { selection: Selection::Everything, line, held: Held::Hanging, ..Cut::default() };
     let after = done(&before, &Operation::Cut(cut));
-    let beyond = |p: glam::DVec3| {
-        (p - glam::DVec3::Z * -0.1).dot(glam::DVec3::new(0.3, 0.0, -1.0).normalize())
-    };
+    let beyond = |p: DVec3| (p - DVec3::Z * -0.1).dot(DVec3::new(0.3, 0.0, -1.0).normalize());
     let (mut cut, mut at_line) = (0, 0);
     let (old, new) = (
         strands(&before, &HEAD, StrandOptions::default(), &()).unwrap().strands,
@@ -315,6 +312,48 @@ fn drawn_lengths(hair: &Hairstyle) -> Vec<f64> {
         points.windows(2).map(|p| f64::from(p[0].distance(p[1]))).sum()
     };
     drawn.iter().map(|strand| length(strand.points)).collect()
+}
+
+#[test]
+fn hair_that_is_trimmed_until_it_rests_ends_at_the_line() {
+    // Curls spring up when what fell no longer pulls at them.
+    let before = hairstyle("caucasian-curly", 60);
+    let height = HEAD.landmarks().brow.z;
+    let selection = Selection::Beyond { point: DVec3::Z * (height + 0.03), normal: DVec3::Z };
+    let chosen = selected(&before, &HEAD, &selection).unwrap();
+    let line = CutLine::Below(Height::At(height));
+    let hanging = Cut { selection, line, ..Cut::default() };
+    let lowest = |points: &mut dyn Iterator<Item = DVec3>| {
+        points.map(|p| p.z - height).fold(f64::INFINITY, f64::min)
+    };
+    // Of the chosen guides that were cut: how far (m) above the line the lowest place of each rests.
+    let gaps = |after: &Hairstyle| {
+        let cut = |i: &usize| chosen[*i] && after.wisps()[*i].length < before.wisps()[*i].length;
+        let ends = (0..60).filter(cut).map(|i| {
+            let rest = &after.equilibria()[i];
+            let chain = rest.chain();
+            lowest(&mut (0..=200).map(|k| rest.at(&chain, f64::from(k) / 200.0).0))
+        });
+        let mut ends: Vec<f64> = ends.collect();
+        ends.sort_by(f64::total_cmp);
+        ends
+    };
+    let once = gaps(&done(&before, &Operation::Cut(hanging.clone())));
+    let resting = done(&before, &Operation::Cut(Cut { resting: true, ..hanging }));
+    let trimmed = gaps(&resting);
+    assert!(once.len() > 10 && trimmed.len() > 10, "{once:?} {trimmed:?}");
+    assert!(once[once.len() / 2] > 5e-3, "curls spring up: {once:?}");
+    let near = trimmed.iter().filter(|gap| gap.abs() < 1e-3).count();
+    assert!(near * 10 >= trimmed.len() * 8, "{trimmed:?}");
+    // Each drawn hair of theirs ends at the line or before it, but for the spacing of drawn points.
+    let drawn = strands(&resting, &HEAD, StrandOptions::default(), &()).unwrap().strands;
+    let Some(AttributeValues::U32(guide)) = drawn.attribute("guide").map(|a| &a.values) else {
+        panic!("hairs say their guides")
+    };
+    for (hair, guide) in drawn.iter().zip(guide).filter(|(_, guide)| chosen[**guide as usize]) {
+        let gap = lowest(&mut hair.points.iter().map(|p| p.as_dvec3()));
+        assert!(gap > -2e-3, "{guide}: {gap}");
+    }
 }
 
 #[test]
@@ -376,8 +415,7 @@ fn hair_that_grew_and_is_cut_back_lies_as_before() {
     let before = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let grown = done(&before, &grow(Growth::By(0.04)));
     assert!(farthest_tip(&before, &grown) > 0.02);
-    let line = CutLine::Length(0.12);
-    let cut = Cut { selection: Selection::Everything, line, held: Held::Down, ..Cut::default() };
+    let cut = Cut { line: CutLine::Length(0.12), ..Cut::default() };
     let after = done(&grown, &Operation::Cut(cut));
     for (a, b) in before.guides().iter().zip(after.guides()) {
         assert_eq!(a.rod, b.rod);
@@ -442,7 +480,7 @@ fn weightless(wisps: usize) -> Hairstyle {
     let mut spec = spec("caucasian-straight", wisps, HairContact::None);
     spec.gravity = 0.0;
     spec.contact.body = Body::None;
-    spec.curl.strain = glam::DVec3::ZERO;
+    spec.curl.strain = DVec3::ZERO;
     predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap()
 }
 
@@ -573,7 +611,7 @@ fn combed_hair_falls_to_an_equilibrium_that_need_not_be_the_old_one() {
 fn a_clip_holds_hair_where_it_is_put() {
     let before = hairstyle("caucasian-straight", 80);
     let wisp = (0..80).find(|&i| before.guides()[i].region == Region::Sides).unwrap();
-    let to = HEAD.landmarks().whorl + glam::DVec3::new(0.0, 0.03, 0.03);
+    let to = HEAD.landmarks().whorl + DVec3::new(0.0, 0.03, 0.03);
     let clip = Clip { selection: Selection::Wisps(vec![wisp]), at: 1.0, to };
     let clipped = done(&before, &Operation::Clip(clip));
     let distance = clipped.equilibria()[wisp].tip().distance(to);
@@ -599,7 +637,7 @@ fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
         assert!(report.penetration < 2e-3, "{to:?}: {}", report.penetration);
         // Wisps pass through a bundle of some centimetres off the head.
         let lines: Vec<_> = tied.equilibria().iter().map(|e| e.centre_line(200)).collect();
-        let through = |p: glam::DVec3, reach: f64| {
+        let through = |p: DVec3, reach: f64| {
             lines.iter().filter(|line| line.iter().any(|q| q.distance(p) < reach)).count()
         };
         let middle = lines

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::styling::{Cut, CutLine, Dry, Held, Operation, Selection, Wet};
+use frisure_hairstyle::styling::{Cut, CutLine, Dry, Operation, Wet};
 use frisure_hairstyle::{
     Hairs, Hairstyle, HairstyleSpec, PredictOptions, StrandOptions, StyleOptions, WetLockSizes,
     WetLocks, predict, preset, strands, style,
@@ -157,7 +157,7 @@ fn a_cut_leaves_locks_where_they_are() {
     let dry = predict(&spec, &HEAD, PredictOptions::default(), &()).unwrap();
     let soaked = done(&dry, &wet(1.0));
     let line = CutLine::Length(0.25);
-    let cut = Cut { selection: Selection::Everything, line, held: Held::Down, ..Cut::default() };
+    let cut = Cut { line, ..Cut::default() };
     let shorter = done(&soaked, &Operation::Cut(cut));
     let (long, short) = (drawn(&soaked), drawn(&shorter));
     // Half-way along, hairs that lay side by side still do.

@@ -48,7 +48,7 @@ fn steps_come_in_their_order() {
     let cut = Cut {
         selection: fringe(),
         line: CutLine::Below(Height::Above(Level::Brows, 0.0)),
-        held: Held::Down,
+        held: Held::Hanging,
         ..Cut::default()
     };
     let dry = Dry { selection: EVERYTHING, keep: 0.25 };
@@ -67,19 +67,22 @@ fn every_operation_can_be_said() {
     let cut =
         |line, held| Operation::Cut(Cut { selection: EVERYTHING, line, held, ..Cut::default() });
     let brows = CutLine::Below(Height::Above(Level::Brows, -0.01));
-    assert_eq!(one("cut = { below = 'brows', raise = '-1 cm' }"), cut(brows, Held::Down));
+    assert_eq!(one("cut = { below = 'brows', raise = '-1 cm' }"), cut(brows, Held::Hanging));
     let flat = CutLine::Below(Height::At(0.04));
     assert_eq!(one("cut = { below = '4 cm', held = 'hanging' }"), cut(flat, Held::Hanging));
+    assert_eq!(one("cut = { below = '4 cm', held = 'down' }"), cut(flat, Held::Down));
+    let resting = Cut { line: flat, resting: true, ..Cut::default() };
+    assert_eq!(one("cut = { below = '4 cm', resting = true }"), Operation::Cut(resting));
     let plane = CutLine::Plane { point: DVec3::new(0.0, 0.05, 1.0), normal: DVec3::NEG_Z };
     let text = "cut = { plane = { point = [0, '5 cm', 1], normal = [0, 0, -1] } }";
-    assert_eq!(one(text), cut(plane, Held::Down));
+    assert_eq!(one(text), cut(plane, Held::Hanging));
     let sphere = CutLine::Sphere { centre: DVec3::ZERO, radius: 0.2 };
     let text = "cut = { sphere = { centre = [0, 0, 0], radius = '20 cm' }, elevation = '90 deg' }";
     assert_eq!(one(text), cut(sphere, Held::Elevated(std::f64::consts::FRAC_PI_2)));
-    assert_eq!(one("cut = { off_skin = '8 cm' }"), cut(CutLine::OffSkin(0.08), Held::Down));
-    assert_eq!(one("cut = { length = '10 cm' }"), cut(CutLine::Length(0.1), Held::Down));
+    assert_eq!(one("cut = { off_skin = '8 cm' }"), cut(CutLine::OffSkin(0.08), Held::Hanging));
+    assert_eq!(one("cut = { length = '10 cm' }"), cut(CutLine::Length(0.1), Held::Hanging));
     let gathered = CutLine::Gathered(DVec3::new(0.0, -0.2, 0.1));
-    assert_eq!(one("cut = { gathered = [0, '-20 cm', 0.1] }"), cut(gathered, Held::Down));
+    assert_eq!(one("cut = { gathered = [0, '-20 cm', 0.1] }"), cut(gathered, Held::Hanging));
     let grow = |amount, stages| Operation::Grow(Grow { selection: EVERYTHING, amount, stages });
     assert_eq!(one("grow = { by = '2 cm' }"), grow(Growth::By(0.02), 1));
     assert_eq!(one("grow = { to = '20 cm', stages = 12 }"), grow(Growth::To(0.2), 12));
@@ -643,12 +646,17 @@ fn cut() -> impl Strategy<Value = Cut> {
         number(1e-3, 3.0).prop_map(CutLine::Length),
         point().prop_map(CutLine::Gathered),
     ];
-    let how = prop_oneof![(open, held), (closed, Just(Held::Down))];
+    let resting =
+        (open.clone(), any::<bool>()).prop_map(|(line, rest)| (line, Held::Hanging, rest));
+    let held = (open, held).prop_map(|(line, held)| (line, held, false));
+    let closed = closed.prop_map(|line| (line, Held::Hanging, false));
+    let how = prop_oneof![held, resting, closed];
     (selection(), how, number(0.0, 0.5), number(0.0, 1.0)).prop_map(
-        |(selection, (line, held), point_cut, share)| Cut {
+        |(selection, (line, held, resting), point_cut, share)| Cut {
             selection,
             line,
             held,
+            resting,
             point_cut,
             share,
         },
@@ -806,7 +814,7 @@ fn what_cannot_be_said_is_not_written() {
     let held = Cut {
         selection: EVERYTHING,
         line: CutLine::Length(0.1),
-        held: Held::Hanging,
+        held: Held::Down,
         ..Cut::default()
     };
     assert!(matches!(write_step(&Operation::Cut(held)), Err(WriteStepError::Invalid(_))));

@@ -140,7 +140,7 @@ impl Population<'_> {
         let steps = (binding.end * binding.length / CUT_STEP).ceil().clamp(8.0, 400.0) as usize;
         let at = |x: f64| outside(self.point(&binding, x, &mut { Free::NOWHERE }));
         let left = first_positive(binding.end, steps, HALVINGS, at)?;
-        Some(left / binding.end * binding.dry)
+        Some(left * binding.length / self.stretch(binding.main()))
     }
 
     /// Point of a hair at `x` of its guides' length.

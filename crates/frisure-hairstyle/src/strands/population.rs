@@ -218,8 +218,7 @@ impl<'a> Population<'a> {
         let grown = baby.map_or(grown, |baby| baby.min(grown));
         let limit = self.limits.map_or(f64::INFINITY, |limits| f64::from(limits[index]));
         let (dry, cut) = (grown.min(limit), limit < grown);
-        // Wet hair is longer than dry hair.
-        let stretch = self.guides[main].rod.length() / self.states[main].length;
+        let stretch = self.stretch(main);
         let known = if own.is_some() { f64::INFINITY } else { self.wisps[main].end() };
         let mut binding = StrandBinding {
             root: *root,
@@ -247,6 +246,17 @@ impl<'a> Population<'a> {
             binding.shift = root.position - self.followed_point(&binding, 0.0);
         }
         binding
+    }
+
+    /// How many times as long as dry the hair of a guide is: wet hair is longer.
+    pub(super) fn stretch(&self, guide: usize) -> f64 {
+        self.guides[guide].rod.length() / self.states[guide].length
+    }
+
+    /// The mean length (m, dry) of the guides that a hair follows.
+    pub(crate) fn followed_length(&self, root: &Root, index: usize) -> f64 {
+        let followed = self.followed(root, index);
+        followed.iter().map(|&(g, weight)| weight * self.states[g].length).sum()
     }
 
     /// A guide's wisp.

@@ -42,6 +42,16 @@ impl Ends {
         Self { limits: limits.into(), wisps: wisps.into(), cuts }
     }
 
+    /// Where the drawn hairs, of all every `stride`-th, have been cut so far: infinite where they have not.
+    pub(super) fn before(hairstyle: &Hairstyle, head: &Head, stride: usize) -> Self {
+        let uncut = || {
+            let none = vec![false; hairstyle.guides.len()];
+            let uncut = Self::cut(hairstyle, head, stride, &none, |_, _, _, _| f64::INFINITY);
+            Self { cuts: 0, ..uncut }
+        };
+        hairstyle.styling.ends.clone().unwrap_or_else(uncut)
+    }
+
     /// The same hairs where they follow other guides.
     pub(super) fn replanted(self, hairstyle: &Hairstyle, head: &Head) -> Self {
         let population = Population::new(hairstyle, head);

@@ -144,11 +144,11 @@ operations! {
                 CutLine::Gathered(point) => Some(point),
                 _ => None,
             };
-        /// How the hair is held meanwhile, unless it is cut to a length or gathered. Default "down".
+        /// How the hair is held meanwhile, unless it is cut to a length or gathered. Default "hanging".
         held: OneOf<Keyword<Held>>,
             unless |cut| held_for_nothing(cut),
             set |cut, held| cut.held = held.0,
-            get |cut| (cut.held == Held::Hanging).then_some(Keyword(cut.held));
+            get |cut| (cut.held == Held::Down).then_some(Keyword(cut.held));
         /// Instead of `held`: straight out from the root at this angle, 0 (down along the skin) to 180
         /// deg; 45 deg graduates, 90 deg makes layers.
         elevation: Angle, in Cut::ELEVATION,
@@ -158,6 +158,12 @@ operations! {
                 Held::Elevated(angle) => Some(angle),
                 _ => None,
             };
+        /// Whether hair that is cut as it hangs is trimmed until it rests at the line: without the weight
+        /// of what fell it would spring up. Default false.
+        resting: Flag,
+            unless |cut| only_where_it_hangs(cut),
+            set |cut, resting| cut.resting = resting,
+            get |cut| cut.resting.then_some(true);
         /// Point cutting: each hair ends up to this far before the line, by chance, which makes a soft
         /// edge; {}. Default 0: a blunt one.
         point_cut: Length, in Cut::POINT_CUT;
@@ -362,6 +368,15 @@ fn held_for_nothing(cut: &Cut) -> Option<ValueError> {
         let problem =
             "how the hair is held changes nothing where it is cut to a length or gathered";
         ValueError::because(problem).hint("take it away")
+    })
+}
+
+/// Why hair that is cut so cannot be trimmed until it rests at the line.
+fn only_where_it_hangs(cut: &Cut) -> Option<ValueError> {
+    let free = matches!(cut.line, CutLine::Length(_) | CutLine::Gathered(_));
+    (free || cut.held != Held::Hanging).then(|| {
+        let problem = "only hair that is cut at a line as it hangs is trimmed until it rests there";
+        ValueError::because(problem).hint("write `held = \"hanging\"`, or take `resting` away")
     })
 }
 

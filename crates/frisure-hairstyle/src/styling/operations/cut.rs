@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::cut_line::{CutLine, Held};
 use super::scissors::{Scissors, enough};
+use super::trim;
 use crate::hairstyle::Hairstyle;
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
@@ -29,6 +30,8 @@ pub struct Cut {
     pub line: CutLine,
     /// How the hair is held meanwhile.
     pub held: Held,
+    /// Whether hair that is cut as it hangs is trimmed until it rests at the line: what fell no longer pulls at it.
+    pub resting: bool,
     /// Point cutting: each hair ends up to this far (m, along the fibre) before the line, by chance. Guides end at the line.
     pub point_cut: f64,
     /// Thinning scissors: the fraction of hairs that is cut, by chance. Below 1 guides keep their lengths.
@@ -41,7 +44,8 @@ impl Default for Cut {
         Self {
             selection: Selection::Everything,
             line,
-            held: Held::Down,
+            held: Held::Hanging,
+            resting: false,
             point_cut: 0.0,
             share: 1.0,
         }
@@ -98,11 +102,16 @@ impl Apply for Cut {
         self.check_line()?;
         Self::POINT_CUT.check(self.point_cut)?;
         Self::SHARE.check(self.share)?;
-        if matches!(self.line, CutLine::Length(_) | CutLine::Gathered(_)) {
-            let given = self.held != Held::default();
+        let free = matches!(self.line, CutLine::Length(_) | CutLine::Gathered(_));
+        if free && self.held != Held::default() {
             let (field, value) = ("cut.held", "given with `length` or `gathered`".to_owned());
             let allowed = "left out there: how the hair is held does not matter";
-            return if given { Err(InvalidSpec { field, value, allowed }) } else { Ok(()) };
+            return Err(InvalidSpec { field, value, allowed });
+        }
+        if self.resting && (free || self.held != Held::Hanging) {
+            let (field, value) = ("cut.resting", "given for hair that is held".to_owned());
+            let allowed = "left out unless hair is cut at a line as it hangs";
+            return Err(InvalidSpec { field, value, allowed });
         }
         match self.held {
             Held::Elevated(angle) => Self::ELEVATION.check(angle),
@@ -136,11 +145,29 @@ impl Apply for Cut {
         let stride = act.draft.map_or(1, |draft| draft.stride);
         let cuts = hair.styling.ends.as_ref().map_or(0, |ends| ends.cuts);
         let chance = Chance { cut: self, seed: hair.spec.seed, cuts };
+        let hanging = |population: &Population<'_>, root: &Root, index: usize| {
+            population.cut_where(root, index, |p| scissors.beyond(p))
+        };
+        if self.resting && self.share >= 1.0 {
+            let most: Vec<f64> = hair.styling.wisps.iter().map(|wisp| wisp.length).collect();
+            let cut = act.with(styling)?;
+            let mut rested = trim::trimmed(act, cut, &scissors, &chosen, &most)?;
+            // Hairs end where they cross the line at rest, or with their guides.
+            rested.styling.ends = Some(Ends::before(hair, head, stride));
+            let left = |population: &Population<'_>, root: &Root, index: usize, _: usize| {
+                let crossed = hanging(population, root, index);
+                let left = crossed.unwrap_or_else(|| population.followed_length(root, index));
+                left - chance.of(index).unwrap_or_default()
+            };
+            let mut ends = Ends::cut(&rested, head, stride, &chosen, left);
+            ends.cuts = cuts + 1;
+            rested.styling.ends = Some(ends);
+            return Ok(rested);
+        }
         let left = |population: &Population<'_>, root: &Root, index: usize, wisp: usize| {
             let Some(before_line) = chance.of(index) else { return f64::INFINITY };
             let left = if scissors.hanging() {
-                let left = population.cut_where(root, index, |p| scissors.beyond(p));
-                left.unwrap_or(f64::INFINITY)
+                hanging(population, root, index).unwrap_or(f64::INFINITY)
             } else {
                 scissors.left_straight(root) / stretch(wisp)
             };

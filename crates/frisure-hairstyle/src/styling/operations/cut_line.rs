@@ -37,9 +37,9 @@ pub enum CutLine {
 pub enum Held {
     /// Combed straight down from its root, as if the head were not in the way: below a horizontal
     /// plane at z_c the paper's rule, L = z_root − z_c. \[paper\] §3.2
-    #[default]
     Down,
     /// Not at all: each hair is cut where its curve first meets the line.
+    #[default]
     Hanging,
     /// Straight out from its root at an elevation (rad): 0 is flat along the skin downwards (one
     /// length), π/4 graduates, π/2 is perpendicular to the skin (layers), more turns it upwards.

@@ -7,6 +7,7 @@
 mod apply;
 mod cut_line;
 mod scissors;
+mod trim;
 
 use super::selection::Selection;
 use crate::spec::InvalidSpec;

@@ -113,6 +113,13 @@ impl<'a> Scissors<'a> {
         f64::INFINITY
     }
 
+    /// How far (m) beyond the line a guide reaches as it hangs; negative if all of it is before the line.
+    pub(super) fn reach(&self, guide: &Equilibrium) -> f64 {
+        let chain = guide.chain();
+        let beyond = |k: usize| self.beyond(guide.at(&chain, k as f64 / LOOKED_AT as f64).0);
+        (0..=LOOKED_AT).map(beyond).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// How much (m) is left of a guide as it hangs.
     pub(super) fn left_hanging(&self, guide: &Equilibrium) -> f64 {
         let chain = guide.chain();
