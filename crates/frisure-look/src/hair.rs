@@ -1,6 +1,6 @@
 //! The material of hair.
 
-use frisure_digest::digest_fields;
+use frisure_digest::{Digest, Digestible, digest_fields};
 use glam::Vec3;
 
 use crate::pigment::{Melanin, absorption};
@@ -84,8 +84,37 @@ pub struct HairSurface {
     pub tilt: f32,
     /// Refractive index, 1.05 to 3.
     pub index: f32,
+    /// How light is scattered.
+    pub scattering: Scattering,
 }
-digest_fields!(HairSurface { longitudinal_roughness, azimuthal_roughness, tilt, index });
+digest_fields!(HairSurface {
+    longitudinal_roughness,
+    azimuthal_roughness,
+    tilt,
+    index,
+    scattering
+});
+
+/// A model of how a fibre scatters light, for final pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Scattering {
+    /// Chiang et al. 2016, with an exact ray through the elliptical section: it conserves energy.
+    #[default]
+    Chiang,
+    /// Marschner et al. 2003 as it was printed: brighter than the light that falls in, without light that is reflected more than once
+    /// inside.
+    Marschner,
+}
+
+impl Digestible for Scattering {
+    fn add_to(&self, digest: &mut Digest) {
+        let name = match self {
+            Self::Chiang => "chiang",
+            Self::Marschner => "marschner",
+        };
+        name.add_to(digest);
+    }
+}
 
 impl Default for HairSurface {
     /// Clean hair: the highlight has a standard deviation of 13°, and the scales stand off by 3°. Marschner
@@ -97,6 +126,7 @@ impl Default for HairSurface {
             azimuthal_roughness: 0.4,
             tilt: 0.0524,
             index: HAIR_INDEX,
+            scattering: Scattering::Chiang,
         }
     }
 }

@@ -20,7 +20,7 @@ mod tone;
 
 pub use camera::{Aperture, CAMERAS, Camera, CameraError, CameraSpec, NamedCamera};
 pub use colour::{colour_of_temperature, linear_from_srgb};
-pub use hair::{Dye, Fade, HairLook, HairSurface};
+pub use hair::{Dye, Fade, HairLook, HairSurface, Scattering};
 pub use light::{
     AreaLight, AreaShape, Daylight, DistantLight, EnvironmentLight, EnvironmentMap, Face,
     InvalidLight, Lamp, LampFace, LampPlace, LampSpec, LightSpec, Lights, MAX_ENVIRONMENT_WIDTH,

@@ -30,7 +30,8 @@ impl Row {
         FibreSpec {
             longitudinal_roughness: r[0],
             azimuthal_roughness: r[1],
-            tilt: r[2].to_radians(),
+            // The reference counts the tilt the other way.
+            tilt: -r[2].to_radians(),
             absorption: absorption(Melanin { eumelanin: r[3], pheomelanin: r[4] }),
             index: r[5],
             ..Default::default()

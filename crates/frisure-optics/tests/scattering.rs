@@ -5,6 +5,7 @@ mod support;
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use frisure_look::{Melanin, absorption};
+use frisure_optics::LobeShape;
 use frisure_optics::scattering::{Fibre, FibreSpec, HairBsdf};
 use glam::Vec3;
 use support::{Random, direction, integrals, white};
@@ -283,4 +284,28 @@ fn how_far_it_is_from_reciprocal() {
     let (tilted, both) = (asymmetry(1.0, 0.035), asymmetry(1.5, 0.035));
     // A bound on a known fault, with the documentation's numbers: 8, 13, 9 and 13 %.
     assert!(round < 0.09 && elliptic < 0.14 && tilted < 0.1 && both < 0.145);
+}
+
+#[test]
+fn highlights_lie_where_scales_that_open_to_the_tip_turn_them() {
+    // Light from across the fibre: R leaves to the root and the coloured TRT to the tip, as in table 1 of Marschner et al. 2003; the
+    // lobes of the preview do the same.
+    let tilt = 0.06;
+    let round = |absorption| FibreSpec { tilt, absorption, ..white(1.0, 0.1, 0.3) };
+    let brightest = |fibre: &Fibre, channel: usize| {
+        let inclinations = (-200..=200).map(|i| f64::from(i) as f32 * 2e-3);
+        let radiance = |theta: f32| {
+            let hs = (0..40).map(|i| (i as f32 + 0.5) / 20.0 - 1.0);
+            let of = |h| HairBsdf::new(fibre, direction(theta, 0.2), h).evaluate(Vec3::X);
+            hs.map(|h| of(h).f_cos[channel]).sum::<f32>()
+        };
+        inclinations.max_by(|a, b| radiance(*a).total_cmp(&radiance(*b))).unwrap()
+    };
+    // Black hair has R alone.
+    let r = brightest(&fibre(round(Vec3::splat(50.0))), 0);
+    assert!((r + 2.0 * tilt).abs() < 0.01, "{r}");
+    let white = brightest(&fibre(FibreSpec { axis_ratio: 1.0, ..round(Vec3::ZERO) }), 0);
+    assert!(white > r, "TRT adds light on the side of the tip: {white}");
+    let [preview_r, preview_tt, preview_trt] = LobeShape { tilt, ..Default::default() }.shifts();
+    assert!((preview_r - r).abs() < 0.01 && preview_tt > 0.0 && preview_trt > 0.0);
 }

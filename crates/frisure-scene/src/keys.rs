@@ -12,7 +12,7 @@ use frisure_hairstyle::{
     Body, Comb, Ellipticity, HairContact, HairModel, Hairs, HairstyleSpec, Handedness, HeadMethod,
     Level, Lift, Scalar, StrandContact, Turn,
 };
-use frisure_look::{Setup, ToneCurve};
+use frisure_look::{Scattering, Setup, ToneCurve};
 use frisure_rod::{ElementKind, TorsionConstant};
 
 use crate::choice::OneOf;
@@ -512,6 +512,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         /// Refractive index of the fibre; {}. Default 1.55.
         "look.index" => number::<Ratio>().range(1.05, 3.0, "between 1.05 and 3")
             .field(field!(look.hair.surface.index));
+        /// How a fibre scatters light, for final pictures. Default "chiang".
+        "look.scattering" => value::<OneOf<Keyword<Scattering>>>();
         /// Colour of the skin (sRGB). Default: that of the hair type.
         "look.skin" => value::<Colour>();
         /// How far light goes beneath the skin, for final pictures: the diffuse mean free path of red light; {}. Default 3.7 mm; 0

@@ -6,7 +6,9 @@ use frisure_hairstyle::{
     Body, Comb, Ellipticity, HairContact, HairModel, Handedness, HeadMethod, Level, PRESETS,
     Parting, Place, Preset, StrandContact, Turn, WetLocks, Wetting,
 };
-use frisure_look::{Backdrop, Daylight, SHADES, Setup, Shade, ToneCurve, linear_from_srgb};
+use frisure_look::{
+    Backdrop, Daylight, SHADES, Scattering, Setup, Shade, ToneCurve, linear_from_srgb,
+};
 use frisure_rod::{ElementKind, TorsionConstant};
 use schemars::{Schema, json_schema};
 use toml::Value;
@@ -372,6 +374,11 @@ keywords! {
             "sun and clear sky over pale ground";
         "overcast" | "cloudy" => Self(Setup::Overcast), "a sky full of clouds";
         "dark" | "none" | "black" => Self(Setup::Dark), "no light but what else is given", title "Dark room";
+    }
+
+    Keyword<Scattering> {
+        "chiang" => Self(Scattering::Chiang), "Chiang et al. 2016 with the elliptical section, which scatters no more light than there is";
+        "marschner" => Self(Scattering::Marschner), "Marschner et al. 2003 as it was printed, to compare with: brighter than the light that falls in, and slower";
     }
 
     Keyword<Backdrop> {

@@ -30,8 +30,9 @@ impl Fibre {
     pub fn new(spec: FibreSpec) -> Result<Self, FibreError> {
         check(&spec)?;
         let wet = under_film(&spec);
-        // −2α, α, 4α and 0 for R, TT, TRT and the rest. docs/theory.md, "Light in a fibre"
-        let turn = Vec4::new(-2.0, 1.0, 4.0, 0.0) * wet.tilt;
+        // 2α, −α, −4α and 0 for R, TT, TRT and the rest: normals of scales that open to the tip lean to the root, so light from
+        // across the fibre is reflected to −2α. `pbrt-v3` counts α the other way. docs/theory.md, "Light in a fibre"
+        let turn = Vec4::new(2.0, -1.0, -4.0, 0.0) * wet.tilt;
         Ok(Self {
             spec,
             axes: axes(spec.axis_ratio),
@@ -91,7 +92,7 @@ impl Fibre {
         self.axes.x == self.axes.y
     }
 
-    /// The inclination of each lobe: tilted by −2α, α and 4α, the rest not.
+    /// The inclination of each lobe: tilted by 2α, −α and −4α, the rest not.
     pub(super) fn tilted(&self, sine: f32, cosine: f32) -> Inclinations {
         // Sine and cosine of a sum; a cosine that turned negative belongs to a direction beyond the pole.
         let (s, c) = self.turn;

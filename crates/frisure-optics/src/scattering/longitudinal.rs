@@ -41,6 +41,11 @@ impl Longitudinal {
         Self { inverse, variance, scale, least }
     }
 
+    /// Standard deviation √v of R (rad).
+    pub(super) fn deviation(&self) -> f32 {
+        self.variance.x.sqrt()
+    }
+
     /// M of the four lobes for light leaving at (sin θ, cos θ), given the direction it came from as
     /// each lobe sees it.
     #[inline]

@@ -18,7 +18,7 @@
 //! of 2° 9 and 13 %).
 //!
 //! [`Fibre`] is prepared once per hair, [`HairBsdf`] once per hit. [`Marschner2003`] is the older model
-//! as it was printed.
+//! as it was printed, and [`MarschnerBsdf`] what it makes of a hit.
 
 mod azimuthal;
 mod elementary;
@@ -28,6 +28,7 @@ mod film;
 mod frame;
 mod longitudinal;
 mod marschner;
+mod marschner_bsdf;
 mod section;
 mod spec;
 
@@ -39,6 +40,7 @@ pub use fibre::Fibre;
 pub use film::WATER_INDEX;
 pub use frame::FibreFrame;
 pub use marschner::Marschner2003;
+pub use marschner_bsdf::MarschnerBsdf;
 pub use spec::{FibreError, FibreSpec};
 
 use elementary::{atan2, sin_cos};

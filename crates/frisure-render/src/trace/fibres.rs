@@ -1,12 +1,11 @@
 //! The fibre that each place of each strand is, for light.
 
-use frisure_look::apparent_colour;
+use frisure_look::{HairLook, Scattering, apparent_colour};
 use frisure_optics::scattering::{Fibre, FibreError, FibreSpec};
 use frisure_strands::{AttributeValues, Domain, Strands};
 use glam::Vec3;
 
 use crate::pigment::Pigments;
-use frisure_look::HairLook;
 
 /// Steps of wetness between dry and wet: fibres are prepared once for each. Chosen.
 const WET_LEVELS: usize = 16;
@@ -18,6 +17,7 @@ const RATIO_STEP: f32 = 0.05;
 pub(super) struct Fibres {
     /// One for each level of wetness, of each axis ratio in turn.
     fibres: Vec<Fibre>,
+    scattering: Scattering,
     pigments: Pigments,
     /// Axis ratio of each strand, as one of those that there are.
     ratio: Option<Vec<u16>>,
@@ -49,7 +49,13 @@ impl Fibres {
         };
         let pigments = Pigments::new(strands, look);
         let (offsets, wet_levels) = (strands.offsets().to_vec(), steps + 1);
-        Ok(Self { fibres, pigments, ratio, directors, offsets, wet_levels, wet })
+        let scattering = look.surface.scattering;
+        Ok(Self { fibres, scattering, pigments, ratio, directors, offsets, wet_levels, wet })
+    }
+
+    /// The model by which fibres scatter light.
+    pub(super) fn scattering(&self) -> Scattering {
+        self.scattering
     }
 
     /// The fibre between a point of a strand and the next, and what it absorbs there.

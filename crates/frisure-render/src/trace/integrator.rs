@@ -4,7 +4,8 @@
 //! importance sampling with the power heuristic (Veach 1997, *Robust Monte Carlo methods for light transport
 //! simulation*, §9.2; pbrt-v4, §13.4). Paths end by Russian roulette.
 
-use frisure_optics::scattering::{FibreFrame, HairBsdf};
+use frisure_look::Scattering;
+use frisure_optics::scattering::{FibreFrame, HairBsdf, MarschnerBsdf};
 use glam::Vec3;
 
 use super::bsdf::Bsdf;
@@ -324,7 +325,15 @@ impl Integrator {
         let eye = frame.to_local(-direction);
         // A hit measures its offset h along direction × tangent, the BSDF along eye × tangent.
         let (fibre, absorption) = self.fibres.at(hit.strand, hit.segment, hit.u);
-        Bsdf::Hair { frame, bsdf: HairBsdf::coloured(fibre, absorption, eye, -hit.h) }
+        match self.fibres.scattering() {
+            Scattering::Chiang => {
+                Bsdf::Hair { frame, bsdf: HairBsdf::coloured(fibre, absorption, eye, -hit.h) }
+            }
+            Scattering::Marschner => {
+                let bsdf = Box::new(MarschnerBsdf::new(fibre, absorption, eye));
+                Bsdf::Marschner { frame, bsdf }
+            }
+        }
     }
 
     /// Next-event estimation: radiance from one sampled light that is scattered towards the eye.

@@ -1,7 +1,7 @@
 //! Reading `[look]`.
 
 use frisure_look::{
-    Backdrop, Dye, Fade, HairLook, LookSpec, Melanin, SkinLook, absorption_of_colour,
+    Backdrop, Dye, Fade, HairLook, LookSpec, Melanin, Scattering, SkinLook, absorption_of_colour,
     linear_from_srgb,
 };
 use glam::Vec3;
@@ -9,7 +9,7 @@ use glam::Vec3;
 use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::Result;
-use crate::keywords::{BackdropKind, ShadeWord};
+use crate::keywords::{BackdropKind, Keyword, ShadeWord};
 use crate::kind::{Colour, Vector};
 use crate::natural_look::NaturalLook;
 
@@ -60,6 +60,11 @@ pub(super) fn look(
         strength: number("look.dye.strength", 1.0),
         regrowth: number("look.dye.regrowth", 0.0),
     });
+    if let Some(Keyword(scattering)) =
+        document.get::<OneOf<Keyword<Scattering>>>("look.scattering")?
+    {
+        hair.surface.scattering = scattering;
+    }
     let skin = natural.skin();
     Ok(LookSpec {
         hair,
