@@ -8,7 +8,8 @@ use frisure::hairstyle::head::Region;
 use frisure::hairstyle::styling::{Dry, Grow, Growth, Operation, Selection, Wet};
 use frisure_engine::{Diagnostic, Quality, Response};
 use frisure_salon::state::{
-    Badge, CONTROLS, Command, CutPlane, Destination, RenderTask, SelectMode, Tool,
+    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, RenderTask, Scissors, SelectMode,
+    Snip, Tool,
 };
 use glam::DVec3;
 use std::path::PathBuf;
@@ -166,6 +167,86 @@ fn a_brush_selects_the_hair_rooted_under_it() {
         let root = glam::Vec3::from_array(*root).as_dvec3();
         assert_eq!(root.distance(top) < 0.05, *selected, "{root}");
     }
+}
+
+/// A stroke of scissors in the picture from the front, between two places (m).
+fn snip(world: &World, ends: [DVec3; 2]) -> Command {
+    let at = |p| world.salon.orbit.project(p, 1.5).expect("before the camera");
+    Command::Snip(Snip { ends: ends.map(at), aspect: 1.5 })
+}
+
+#[test]
+fn scissors_fingers_and_clippers_cut_the_hair_under_them() {
+    let mut world = World::new();
+    world.small("straight");
+    world.run(Command::LookFrom(0.0, 0.0));
+    let mass = |world: &World| world.salon.preview().unwrap().0.numbers.mass;
+    let whole = mass(&world);
+
+    // Scissors: what hangs before the face falls, the hair behind the head stays.
+    let across = [DVec3::new(-0.09, -0.12, -0.03), DVec3::new(0.09, -0.12, -0.03)];
+    let soft = Scissors { hold: CutHold::Resting, soft: 0.01, ..Scissors::default() };
+    world.run(Command::Scissors(soft));
+    world.run(Command::Take(Tool::Scissors));
+    world.run(snip(&world, across));
+    let text = world.text().to_owned();
+    assert!(text.contains("plane") && text.contains("wisps = ["), "{text}");
+    assert!(text.contains("resting = true") && text.contains("point_cut = \"1 cm\""), "{text}");
+    let trimmed = mass(&world);
+    assert!(trimmed < 0.99 * whole && trimmed > 0.5 * whole, "{trimmed} {whole}");
+    // Beside the head there is no hair to cut.
+    world.run(snip(&world, [DVec3::new(0.3, 0.0, 0.1), DVec3::new(0.35, 0.0, 0.1)]));
+    assert!(
+        world.text() == text && world.salon.messages.iter().any(|m| m.text.contains("no hair"))
+    );
+
+    // Fingers lift the hair on top; clippers then take most of it.
+    let head = world.salon.head.as_ref().expect("a head").clone();
+    let top = head.hit(DVec3::Z, DVec3::NEG_Z).expect("the top of the head");
+    world.run(Command::BrushSize(0.06));
+    world.run(Command::Take(Tool::Lift));
+    world.run(Command::Lift(vec![top]));
+    assert!(world.text().contains("elevation"), "{}", world.text());
+    let layered = mass(&world);
+    world.run(Command::Take(Tool::Clippers));
+    world.run(Command::Clip(vec![top]));
+    let shorn = mass(&world);
+    assert!(shorn < layered && layered < trimmed, "{shorn} {layered} {trimmed}");
+    let nearest = world.salon.wisp_at(top).expect("a wisp");
+    world.run(Command::Isolate(Some(nearest)));
+    let hair = world.salon.isolated.as_ref().unwrap().hair.clone().expect("a hair");
+    assert!((5e-3..8e-3).contains(&hair.length), "a guard of 6 mm leaves {} m", hair.length);
+}
+
+#[test]
+fn a_mirror_does_each_step_on_both_sides_as_one_edit() {
+    let mut world = World::new();
+    world.small("straight");
+    world.run(Command::ToggleMirror);
+    world.run(Command::BrushSize(0.05));
+    let head = world.salon.head.as_ref().expect("a head").clone();
+    let temple =
+        head.hit(DVec3::new(1.0, -0.03, 0.05), DVec3::NEG_X).expect("the head's left side");
+    let edits = |world: &World| world.salon.document.as_ref().unwrap().edits().len();
+    let steps = |world: &World| world.salon.scene.as_ref().unwrap().scene.steps().to_vec();
+    let before = edits(&world);
+    world.run(Command::Take(Tool::Clippers));
+    world.run(Command::Clip(vec![temple]));
+    assert_eq!((edits(&world), steps(&world).len()), (before + 1, 2));
+    assert_eq!(steps(&world)[0].mirrored(), Some(steps(&world)[1].clone()));
+    // What is the same on both sides is done once.
+    world.run(Command::Select(FRINGE, SelectMode::Replace));
+    world.run(wet());
+    assert_eq!(steps(&world).len(), 3);
+    // Hair that a stroke crosses is known by number: the wisps on the other side are those rooted opposite.
+    world.run(Command::SelectAll);
+    world.run(Command::LookFrom(0.0, 0.0));
+    world.run(Command::Take(Tool::Scissors));
+    world.run(snip(&world, [DVec3::new(0.02, -0.1, -0.06), DVec3::new(0.12, -0.1, -0.05)]));
+    let last = steps(&world);
+    assert_eq!(last.len(), 5, "{}", world.text());
+    world.run(Command::Undo);
+    assert_eq!(steps(&world).len(), 3);
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod ends;
 mod error;
 mod gather;
 mod height;
+mod mirror;
 mod operations;
 mod selection;
 mod settle;

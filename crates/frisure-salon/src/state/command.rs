@@ -10,6 +10,7 @@ use super::cut_plane::CutPlane;
 use super::jobs::Destination;
 use super::rendering::RenderTask;
 use super::salon::Tool;
+use super::scissors::{Scissors, Snip};
 use super::selection::SelectMode;
 
 /// A command of the user.
@@ -75,8 +76,18 @@ pub enum Command {
     Stroke(Vec<DVec3>, DVec3),
     /// Moves the cutting plane.
     Plane(CutPlane),
+    /// Sets scissors and clippers.
+    Scissors(Scissors),
     /// Cuts the selected hair at the plane.
     Cut,
+    /// Cuts the selected hair that a stroke across the picture crosses.
+    Snip(Snip),
+    /// Lifts selected hair with roots near positions on the skin (m), and cuts it there.
+    Lift(Vec<DVec3>),
+    /// Cuts selected hair with roots near positions on the skin (m) to the guard of the clippers.
+    Clip(Vec<DVec3>),
+    /// Does the next steps on both sides of the head, or no longer.
+    ToggleMirror,
     /// Undoes an edit.
     Undo,
     /// Redoes an edit.

@@ -1,6 +1,5 @@
 //! The cutting plane, and a preview of the hair that it would cut off.
 
-use frisure::hairstyle::styling::{Cut, CutLine, Held, Operation, Selection};
 use frisure_engine::StrandsData;
 use glam::{DVec3, Vec3};
 
@@ -13,18 +12,6 @@ pub struct CutPlane {
     pub roll: f64,
     /// Tilt to the back (rad): a positive one leaves more hair there.
     pub pitch: f64,
-    /// The position of the hair during the cut.
-    pub held: CutHold,
-}
-
-/// The position of hair while a plane cuts it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CutHold {
-    /// As it hangs.
-    #[default]
-    Hanging,
-    /// Combed straight down. \[paper\] §3.2
-    Down,
 }
 
 /// Maximum tilt (rad); less than vertical.
@@ -43,7 +30,7 @@ impl CutPlane {
     #[must_use]
     pub fn level(z: f64) -> Self {
         let point = DVec3::new(0.0, 0.0, z);
-        Self { point, roll: 0.0, pitch: 0.0, held: CutHold::Hanging }
+        Self { point, roll: 0.0, pitch: 0.0 }
     }
 
     /// The unit normal, which points to the hair that is cut off.
@@ -67,19 +54,6 @@ impl CutPlane {
             self.roll = (self.roll + roll).clamp(-MAX_LEAN, MAX_LEAN);
             self.pitch = (self.pitch + pitch).clamp(-MAX_LEAN, MAX_LEAN);
         }
-    }
-
-    /// The operation that cuts all hair at the plane.
-    #[must_use]
-    pub fn operation(&self) -> Operation {
-        let held = match self.held {
-            CutHold::Hanging => Held::Hanging,
-            CutHold::Down => Held::Down,
-        };
-        // 0.1 mm and 0.01° are finer than a pointer.
-        let (point, normal) = (rounded(self.point, 1e-4), rounded(self.normal(), 1e-4));
-        let line = CutLine::Plane { point, normal };
-        Operation::Cut(Cut { selection: Selection::Everything, line, held, ..Cut::default() })
     }
 
     /// A preview of the cut of the drawn strands of some wisps (`None`: of all).
@@ -168,6 +142,5 @@ mod tests {
         plane.tilt(0.5, 0.0);
         let preview = plane.preview(&curtain(4), None);
         assert!(preview.kept.windows(2).all(|f| f[0] < f[1]), "{:?}", preview.kept);
-        assert!(plane.operation().check().is_ok());
     }
 }

@@ -15,6 +15,7 @@ use super::document::Document;
 use super::head_mesh::HeadMesh;
 use super::jobs::{Effect, Jobs};
 use super::orbit::Orbit;
+use super::scissors::Scissors;
 use super::selection::Selected;
 
 /// The state of the salon. Outside this module it is read only; [`Salon::run`] changes it.
@@ -46,6 +47,10 @@ pub struct Salon {
     pub tool: Tool,
     /// The cutting plane.
     pub plane: CutPlane,
+    /// How scissors and clippers are set.
+    pub scissors: Scissors,
+    /// Whether each step is also done on the other side of the head.
+    pub mirror: bool,
     pub(super) cut_preview: Option<(u64, CutPlane, Arc<CutPreview>)>,
     /// The brush.
     pub brush: Brush,
@@ -82,10 +87,24 @@ pub enum Tool {
     Brush,
     /// Moves the cutting plane.
     Cut,
+    /// Cuts the hair that a stroke across the picture crosses.
+    Scissors,
+    /// Lifts the hair under the brush off the skin, and cuts it there.
+    Lift,
+    /// Cuts the hair under the brush to the length of a guard.
+    Clippers,
     /// Combs hair along a stroke.
     Comb,
     /// Picks one hair to show alone.
     Pick,
+}
+
+impl Tool {
+    /// Whether it is used by painting over the scalp.
+    #[must_use]
+    pub fn is_brush(self) -> bool {
+        matches!(self, Self::Brush | Self::Comb | Self::Lift | Self::Clippers)
+    }
 }
 
 /// The brush of the tools that paint over the scalp.

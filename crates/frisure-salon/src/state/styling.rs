@@ -11,6 +11,7 @@ use glam::{DVec3, Vec3};
 use super::command::Command;
 use super::cut_plane::{CutPlane, CutPreview, rounded};
 use super::salon::{Salon, Tool};
+use super::scissors::Snip;
 use super::selection::{PLACES, Selected};
 
 impl Salon {
@@ -18,7 +19,7 @@ impl Salon {
         if tool == Tool::Cut && self.tool != Tool::Cut {
             // Starts just above the tips, so that the preview shows a cut.
             let tips = self.current.as_ref().map_or(-0.1, |current| current.hair.numbers.tips);
-            self.plane = CutPlane { held: self.plane.held, ..CutPlane::level(tips + 0.02) };
+            self.plane = CutPlane::level(tips + 0.02);
         }
         if tool != Tool::Pick {
             self.isolated = None;
@@ -92,6 +93,10 @@ impl Salon {
         let is_same = self.base().is_some_and(|base| self.selected_in.as_deref() == Some(base));
         let Selected { selection, label: of, .. } =
             if is_same { self.selected.clone() } else { self.selected.fixed() };
+        let within = |part: Selection| match &selection {
+            Selection::Everything => part,
+            selection => Selection::All(vec![selection.clone(), part]),
+        };
         let operation = match command {
             Command::Apply(operation) => operation.on(selection),
             Command::ToggleWet if self.is_wet() => Operation::from(Dry::default()).on(selection),
@@ -99,20 +104,85 @@ impl Salon {
             Command::Stroke(places, direction) => {
                 let Some(direction) = direction.try_normalize() else { return };
                 let Some(under) = self.under_brush(&places) else { return };
-                let all = selection == Selection::Everything;
-                let selection = if all { under } else { Selection::All(vec![selection, under]) };
-                comb(Direction::Along(rounded(direction, 1e-3))).on(selection)
+                comb(Direction::Along(rounded(direction, 1e-3))).on(within(under))
+            }
+            Command::Lift(places) | Command::Clip(places) => {
+                let Some(under) = self.under_brush(&places) else { return };
+                self.weigh();
+                let lifts = self.tool == Tool::Lift;
+                let cut = if lifts { self.scissors.lifted() } else { self.scissors.clippers() };
+                cut.on(within(under))
+            }
+            Command::Snip(snip) => {
+                let Some((cut, wisps)) = self.snipped(&snip) else { return };
+                self.weigh();
+                cut.on(within(Selection::Wisps(wisps)))
             }
             Command::Cut => {
-                self.mass_before = self.current.as_ref().map(|c| c.hair.numbers.mass);
-                self.plane.operation().on(selection)
+                self.weigh();
+                self.scissors.at_plane(self.plane.point, self.plane.normal()).on(selection)
             }
             _ => return,
         };
         let label = format!("{}: {of}", title(&operation));
         if let Some(base) = self.base() {
-            let text = edit::append(base, std::slice::from_ref(&operation));
+            let mut steps = vec![operation];
+            if self.mirror {
+                let other = self.mirrored(&steps[0]);
+                steps.extend(other.filter(|other| *other != steps[0]));
+            }
+            let text = edit::append(base, &steps);
             self.change(&label, text, false);
+        }
+    }
+
+    /// Keeps the mass of the hair, for the message about what falls.
+    fn weigh(&mut self) {
+        self.mass_before = self.current.as_ref().map(|c| c.hair.numbers.mass);
+    }
+
+    /// The cut of a stroke across the picture, and the wisps that it crosses; `None` and a message if there are none.
+    fn snipped(&mut self, snip: &Snip) -> Option<(Operation, Vec<usize>)> {
+        let top = self.head.as_ref().map_or(DVec3::Z * 0.1, |head| {
+            let (low, high) = head.framed();
+            (0.5 * (low + high)).with_z(high.z)
+        });
+        let (point, normal) = snip.plane(&self.orbit, top)?;
+        let strands = &self.current.as_ref()?.hair.strands;
+        let wisps = snip.wisps(&self.orbit, strands, self.head.as_deref());
+        if wisps.is_empty() {
+            self.notify("the stroke crosses no hair", "Draw across hair that you see.", false);
+            return None;
+        }
+        Some((self.scissors.at_plane(point, normal), wisps))
+    }
+
+    /// The operation on the other side of the head: for wisps by number, on those whose roots are nearest to the mirrored ones.
+    fn mirrored(&self, operation: &Operation) -> Option<Operation> {
+        let mut other = operation.clone();
+        if let Some(selection) = other.selection_mut() {
+            self.mirror_numbers(selection);
+        }
+        other.mirrored()
+    }
+
+    /// Replaces wisps by number, whose mirror image has no number, by those that a mirror makes of the ones on the other side.
+    fn mirror_numbers(&self, selection: &mut Selection) {
+        match selection {
+            Selection::Wisps(wisps) => {
+                let Some(roots) = self.current.as_ref().map(|current| &current.hair.roots) else {
+                    return;
+                };
+                let root = |wisp: &usize| roots.get(*wisp).map(|p| Vec3::from_array(*p).as_dvec3());
+                let spots =
+                    wisps.iter().filter_map(root).map(|p| Spot::At(rounded(p, 1e-4))).collect();
+                *selection = Selection::Brush { spots, radius: ROOT };
+            }
+            Selection::Any(parts) | Selection::All(parts) => {
+                parts.iter_mut().for_each(|part| self.mirror_numbers(part));
+            }
+            Selection::Not(part) => self.mirror_numbers(part),
+            _ => {}
         }
     }
 
@@ -154,6 +224,9 @@ impl Salon {
         (0..roots.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 }
+
+/// Radius of a brush (m) that finds the wisps on the other side of the head. Chosen: half the spacing of 200 roots.
+const ROOT: f64 = 8e-3;
 
 /// An operation that combs hair in a direction and holds it there.
 #[must_use]

@@ -56,9 +56,15 @@ impl Salon {
                 }
             }
             Command::Plane(plane) => self.move_plane(plane),
-            Command::Apply(_) | Command::ToggleWet | Command::Stroke(..) | Command::Cut => {
-                self.style(command);
-            }
+            Command::Scissors(scissors) => self.scissors = scissors.clean(),
+            Command::ToggleMirror => self.mirror = !self.mirror,
+            Command::Apply(_)
+            | Command::ToggleWet
+            | Command::Stroke(..)
+            | Command::Cut
+            | Command::Snip(_)
+            | Command::Lift(_)
+            | Command::Clip(_) => self.style(command),
             selecting => self.select(selecting),
         }
         self.schedule();

@@ -15,7 +15,7 @@ use web_time::{Duration, Instant};
 use super::dialogs::Dialogs;
 use super::platform::{InputFile, Platform};
 use super::viewport::{self, Viewport};
-use super::{automation, gallery, keys, panels, renderer, theme, toolbars, widgets};
+use super::{automation, gallery, keys, panels, renderer, theme, toolbars, tools, widgets};
 use crate::state::{Command, Document, Effect, Queue, Salon};
 use crate::work::{Wake, Worker};
 
@@ -248,7 +248,7 @@ impl App {
             });
             return;
         }
-        Panel::top("tools").show(ui, |ui| toolbars::tools(ui, &mut self.salon, out));
+        Panel::top("tools").show(ui, |ui| tools::show(ui, &mut self.salon, out));
         Panel::bottom("selection").show(ui, |ui| toolbars::selection(ui, &self.salon, out));
         let side = Panel::right("side").exact_size(330.0);
         side.resizable(false).show(ui, |ui| {

@@ -57,6 +57,9 @@ fn letters(hit: &dyn Fn(Modifiers, Key) -> bool, salon: &Salon, out: &mut Vec<Co
         (Key::L, Tool::Lasso),
         (Key::B, Tool::Brush),
         (Key::C, Tool::Cut),
+        (Key::S, Tool::Scissors),
+        (Key::U, Tool::Lift),
+        (Key::J, Tool::Clippers),
         (Key::K, Tool::Comb),
         (Key::H, Tool::Pick),
     ];
@@ -74,6 +77,9 @@ fn letters(hit: &dyn Fn(Modifiers, Key) -> bool, salon: &Salon, out: &mut Vec<Co
     }
     if hit(none, Key::X) {
         out.push(Command::ToggleCompare);
+    }
+    if hit(none, Key::M) {
+        out.push(Command::ToggleMirror);
     }
     if hit(none, Key::Escape) {
         out.extend([Command::Take(Tool::Orbit), Command::Isolate(None), Command::SelectAll]);

@@ -6,12 +6,14 @@ pub mod automation;
 pub mod desktop;
 mod dialogs;
 mod gallery;
+mod icons;
 mod keys;
 mod panels;
 pub mod platform;
 mod renderer;
 mod theme;
 mod toolbars;
+mod tools;
 mod viewport;
 mod widgets;
 

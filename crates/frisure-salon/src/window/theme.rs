@@ -1,14 +1,27 @@
 //! The light and the dark theme.
 
-use eframe::egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme};
+use eframe::egui::{
+    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, FontTweak,
+    Stroke, Style, TextStyle, Theme,
+};
 
 /// The colour of the selection and of toggles that are on.
 pub(super) const ACCENT: Color32 = Color32::from_rgb(0x2f, 0x8f, 0xd8);
 /// The colour of hair that is cut off, and of errors.
 pub(super) const CUT_COLOUR: Color32 = Color32::from_rgb(0xd8, 0x4a, 0x3a);
 
-/// Installs both themes.
+/// The icons among other letters: [`super::icons`] has their names.
+const ICONS: &[u8] = include_bytes!("../../icons/icons.ttf");
+
+/// Installs both themes, and the icons.
 pub(super) fn install(context: &Context) {
+    let mut fonts = FontDefinitions::default();
+    // The font has its icons as high as its em, with less below the line than letters have.
+    let tweak = FontTweak { y_offset_factor: 0.06, scale: 1.1, ..FontTweak::default() };
+    fonts.font_data.insert("icons".to_owned(), FontData::from_static(ICONS).tweak(tweak).into());
+    let letters = fonts.families.entry(FontFamily::Proportional).or_default();
+    letters.insert(letters.len().min(1), "icons".to_owned());
+    context.set_fonts(fonts);
     context.style_mut_of(Theme::Dark, |style| set(style, true));
     context.style_mut_of(Theme::Light, |style| set(style, false));
 }

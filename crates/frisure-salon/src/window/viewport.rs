@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use eframe::egui::{
     self, Align2, Color32, CursorIcon, FontId, Key, PointerButton, Pos2, Rect, Response, Sense,
-    Shape, Stroke, Ui, Vec2, vec2,
+    Shape, Stroke, Ui, Vec2, pos2, vec2,
 };
 use eframe::egui_wgpu::Callback;
 use frisure::files::Files;
@@ -19,7 +19,7 @@ use glam::{DVec3, Vec3};
 
 use super::renderer::{Picture, Side, Versioned, View};
 use super::{automation, theme, widgets};
-use crate::state::{Badge, Command, CutPlane, Salon, Tool};
+use crate::state::{Badge, Command, CutPlane, Salon, Snip, Tool};
 
 /// The state of the viewport between frames.
 #[derive(Default)]
@@ -42,6 +42,15 @@ pub(super) struct Viewport {
     is_slow: bool,
     /// How far the picture without motion is done, on a slow device.
     refinement: Option<Refinement>,
+    /// Where before and now meet in a comparison: share of the width, in −½ to ½ from the middle.
+    divider: f32,
+}
+
+/// One side of a comparison, or the only one.
+struct Pane {
+    side: Side,
+    /// The part of the window that shows it.
+    shown: Rect,
 }
 
 /// A picture of a slow device on its way to all strands.
@@ -86,20 +95,51 @@ impl Viewport {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The head"));
         automation::record("The head", rect);
-        let sides = sides(rect, salon.comparison.is_some());
-        let pointer = response.interact_pointer_pos().or(response.hover_pos());
-        let under = sides.iter().find(|(_, r)| pointer.is_some_and(|p| r.contains(p)));
-        let active = under.map_or(sides[0].1, |(_, r)| *r);
-        self.handle_pointer(ui, &response, active, salon, out);
+        let compares = salon.comparison.is_some();
+        let handle = compares.then(|| self.divide(ui, rect));
+        let panes = panes(rect, handle);
+        self.handle_pointer(ui, &response, rect, salon, out);
         let (share, shadows) = self.adapt_quality(ui, salon);
-        for (side, rect) in &sides {
-            if let Some(mut picture) = self.picture(salon, *side, *rect) {
+        for Pane { side, shown } in &panes {
+            if let Some(mut picture) = self.picture(salon, *side, rect) {
                 (picture.view.share, picture.view.shadows) = (share, shadows);
-                ui.painter().add(Callback::new_paint_callback(*rect, picture));
+                let painter = ui.painter().with_clip_rect(*shown);
+                painter.add(Callback::new_paint_callback(rect, picture));
             }
         }
-        overlay(ui, salon, &sides);
-        self.draw_stroke(ui, active, salon);
+        if let Some(x) = handle {
+            let bar = Stroke::new(2.0, Color32::WHITE);
+            ui.painter().vline(x, rect.y_range(), bar);
+            ui.painter().circle(pos2(x, rect.center().y), 9.0, theme::ACCENT, bar);
+        }
+        overlay(ui, salon, &panes);
+        self.draw_stroke(ui, rect, salon);
+    }
+
+    /// Where before and now meet (points of the window): dragged with the pointer, or moved by the arrow keys when it has the focus.
+    fn divide(&mut self, ui: &Ui, rect: Rect) -> f32 {
+        /// Width of the strip that takes the pointer (points).
+        const GRIP: f32 = 22.0;
+        /// Step of an arrow key, as a share of the width.
+        const STEP: f32 = 0.05;
+        let middle = rect.center().x + self.divider * rect.width();
+        let strip =
+            Rect::from_x_y_ranges(middle - GRIP / 2.0..=middle + GRIP / 2.0, rect.y_range());
+        let response = ui.interact(strip, ui.scope_id().with("divider"), Sense::click_and_drag());
+        let share = f64::from(self.divider) + 0.5;
+        response.widget_info(|| egui::WidgetInfo::slider(true, share, "Before and after"));
+        automation::record("Before and after", strip);
+        let mut to = self.divider + response.drag_delta().x / rect.width().max(1.0);
+        if response.has_focus() {
+            let pressed = |key| ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, key));
+            to += STEP
+                * f32::from(i8::from(pressed(Key::ArrowRight)) - i8::from(pressed(Key::ArrowLeft)));
+        }
+        self.divider = to.clamp(-0.5, 0.5);
+        if response.hovered() || response.dragged() {
+            ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
+        }
+        rect.center().x + self.divider * rect.width()
     }
 
     /// Records a motion, so that fewer strands are drawn for a while.
@@ -210,7 +250,12 @@ impl Viewport {
             {
                 self.lasso.push(at);
             }
-            Tool::Brush | Tool::Comb if drags || response.clicked() => self.stroke.extend(hit()),
+            // Scissors cut straight from where the stroke began.
+            Tool::Scissors if drags => {
+                self.lasso.truncate(1);
+                self.lasso.push(at);
+            }
+            tool if tool.is_brush() && (drags || response.clicked()) => self.stroke.extend(hit()),
             Tool::Cut if drags => {
                 let delta = response.drag_delta() / rect.height();
                 let mut plane = salon.plane;
@@ -242,7 +287,13 @@ impl Viewport {
                 let polygon = lasso.into_iter().map(|p| to_ndc(p, rect)).collect();
                 out.push(Command::DrawLasso { polygon, aspect: aspect(rect), mode });
             }
+            Tool::Scissors if lasso.len() == 2 => {
+                let ends = [lasso[0], lasso[1]].map(|p| to_ndc(p, rect));
+                out.push(Command::Snip(Snip { ends, aspect: aspect(rect) }));
+            }
             Tool::Brush if !stroke.is_empty() => out.push(Command::Paint(stroke, mode)),
+            Tool::Lift if !stroke.is_empty() => out.push(Command::Lift(stroke)),
+            Tool::Clippers if !stroke.is_empty() => out.push(Command::Clip(stroke)),
             Tool::Comb if stroke.len() >= 2 => {
                 let direction = stroke[stroke.len() - 1] - stroke[0];
                 out.push(Command::Stroke(stroke, direction));
@@ -353,11 +404,13 @@ impl Viewport {
     fn draw_stroke(&self, ui: &Ui, rect: Rect, salon: &Salon) {
         let painter = ui.painter().with_clip_rect(rect);
         if self.lasso.len() > 1 {
-            painter.add(Shape::line(self.lasso.clone(), Stroke::new(2.0, theme::ACCENT)));
+            let colour =
+                if salon.tool == Tool::Scissors { theme::CUT_COLOUR } else { theme::ACCENT };
+            painter.add(Shape::line(self.lasso.clone(), Stroke::new(2.0, colour)));
         }
         let pointer = ui.input(|i| i.pointer.hover_pos()).filter(|p| rect.contains(*p));
         let Some(pointer) = pointer else { return };
-        if matches!(salon.tool, Tool::Brush | Tool::Comb) {
+        if salon.tool.is_brush() {
             let radius = salon.brush.radius / view_height(salon) * f64::from(rect.height());
             painter.circle_stroke(pointer, radius as f32, Stroke::new(1.5, theme::ACCENT));
         }
@@ -401,16 +454,15 @@ fn orbit_key(ui: &Ui) -> bool {
     ui.input(|i| i.key_down(Key::Space))
 }
 
-/// The viewport, or its two halves.
-fn sides(rect: Rect, compare: bool) -> Vec<(Side, Rect)> {
-    if !compare {
-        return vec![(Side::Now, rect)];
+/// The viewport, or its two parts that meet at `divider` (points).
+fn panes(rect: Rect, divider: Option<f32>) -> Vec<Pane> {
+    match divider {
+        None => vec![Pane { side: Side::Now, shown: rect }],
+        Some(x) => vec![
+            Pane { side: Side::Before, shown: rect.with_max_x(x) },
+            Pane { side: Side::Now, shown: rect.with_min_x(x) },
+        ],
     }
-    let (left, right) = rect.split_left_right_at_fraction(0.5);
-    vec![
-        (Side::Before, left.with_max_x(left.right() - 1.0)),
-        (Side::Now, right.with_min_x(right.left() + 1.0)),
-    ]
 }
 
 /// Height of the picture at the camera's target (m).
@@ -469,29 +521,35 @@ fn text_box(ui: &Ui, at: Pos2, align: Align2, text: String, fill: Color32) -> Re
 const DARK: Color32 = Color32::from_black_alpha(160);
 
 /// Draws the texts over the picture.
-fn overlay(ui: &Ui, salon: &Salon, sides: &[(Side, Rect)]) {
-    for (side, rect) in sides {
-        let corner = rect.left_top() + vec2(10.0, 10.0);
+fn overlay(ui: &Ui, salon: &Salon, panes: &[Pane]) {
+    for Pane { side, shown } in panes {
+        // Of a comparison both texts are seen, however narrow a part is.
+        let (corner, align) = match side {
+            Side::Now if panes.len() > 1 => {
+                (shown.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP)
+            }
+            _ => (shown.left_top() + vec2(10.0, 10.0), Align2::LEFT_TOP),
+        };
         match side {
             Side::Before => {
                 let Some(comparison) = &salon.comparison else { continue };
                 let text = format!("Before: {}", comparison.label);
-                text_box(ui, corner, Align2::LEFT_TOP, text, DARK);
+                text_box(ui, corner, align, text, DARK);
                 if comparison.hair.is_none() {
                     let (centre, text) = (Align2::CENTER_CENTER, "Computing…".to_owned());
-                    text_box(ui, rect.center(), centre, text, DARK);
+                    text_box(ui, shown.center(), centre, text, DARK);
                 }
             }
             Side::Now => {
                 let (text, fill) = badge(salon);
-                let rect = text_box(ui, corner, Align2::LEFT_TOP, text, fill);
+                let rect = text_box(ui, corner, align, text, fill);
                 automation::record("badge", rect);
             }
         }
     }
     if let Some(hair) = salon.isolated.as_ref().and_then(|isolated| isolated.hair.as_ref()) {
-        let corner = sides[sides.len() - 1].1.right_top() + vec2(-10.0, 10.0);
-        text_box(ui, corner, Align2::RIGHT_TOP, hair_report(hair), DARK);
+        let corner = panes[panes.len() - 1].shown.right_bottom() + vec2(-10.0, -10.0);
+        text_box(ui, corner, Align2::RIGHT_BOTTOM, hair_report(hair), DARK);
     }
 }
 
@@ -537,7 +595,6 @@ fn hair_report(hair: &GuideData) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eframe::egui::pos2;
 
     #[test]
     fn picture_coordinates_round_trip() {

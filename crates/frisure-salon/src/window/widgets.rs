@@ -14,14 +14,35 @@ pub(super) fn plain(ui: &mut Ui, label: &str, help: &str) -> Response {
     with_help(ui, Button::new(label), help)
 }
 
-/// A button that may be disabled; returns whether it was clicked.
-pub(super) fn enabled(ui: &mut Ui, enabled: bool, label: &str, help: &str) -> bool {
-    ui.add_enabled_ui(enabled, |ui| plain(ui, label, help).clicked()).inner
+/// A button with an icon before its label.
+pub(super) fn with_icon(ui: &mut Ui, icon: &str, label: &str, help: &str) -> Response {
+    let response = with_help(ui, Button::new(format!("{icon} {label}")), help);
+    named(&response, label, None);
+    response
 }
 
-/// A toggle button.
-pub(super) fn toggle(ui: &mut Ui, label: &str, on: bool, help: &str) -> Response {
-    with_help(ui, Button::selectable(on, label), help)
+/// A button that shows its icon alone; its label is its name for screen readers, and stands before the help.
+pub(super) fn icon(ui: &mut Ui, icon: &str, label: &str, help: &str) -> Response {
+    let help = if help.is_empty() { label.to_owned() } else { format!("{label}: {help}") };
+    let response = with_help(ui, Button::new(RichText::new(icon).size(16.0)), &help);
+    named(&response, label, None);
+    response
+}
+
+/// A toggle button with an icon before its label.
+pub(super) fn icon_toggle(ui: &mut Ui, icon: &str, label: &str, on: bool, help: &str) -> Response {
+    let response = with_help(ui, Button::selectable(on, format!("{icon} {label}")), help);
+    named(&response, label, Some(on));
+    response
+}
+
+/// Names a button without its icon, which screen readers cannot say.
+fn named(response: &Response, label: &str, on: Option<bool>) {
+    let enabled = response.enabled();
+    response.widget_info(|| match on {
+        Some(on) => WidgetInfo::selected(Role::Button, enabled, on, label),
+        None => WidgetInfo::labeled(Role::Button, enabled, label),
+    });
 }
 
 fn with_help(ui: &mut Ui, button: impl Widget, help: &str) -> Response {

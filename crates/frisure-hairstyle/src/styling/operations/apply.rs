@@ -15,6 +15,9 @@ pub(crate) trait Apply {
         Ok(())
     }
 
+    /// Puts its own places and directions, but for the selected wisps, on the other side of the head.
+    fn mirror(&mut self) {}
+
     /// The hairstyle that it makes.
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError>;
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::hairstyle::{Grip, Hairstyle};
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
+use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
 use super::apply::{Apply, check_point};
@@ -35,6 +36,10 @@ impl Apply for Clip {
     fn check(&self) -> Result<(), InvalidSpec> {
         Self::AT.check(self.at)?;
         check_point("clip.to", self.to)
+    }
+
+    fn mirror(&mut self) {
+        self.to = mirrored(self.to);
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {

@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::hairstyle::{Grip, Hairstyle};
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
+use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
 use super::apply::{Apply, check_direction};
@@ -71,6 +72,15 @@ impl Apply for Comb {
             Direction::Named(_) => Ok(()),
             Direction::Along(d) => check_direction("comb.to", d),
         }
+    }
+
+    fn mirror(&mut self) {
+        self.towards = match self.towards {
+            Direction::Named(spec::Comb::Left) => Direction::Named(spec::Comb::Right),
+            Direction::Named(spec::Comb::Right) => Direction::Named(spec::Comb::Left),
+            Direction::Named(side) => Direction::Named(side),
+            Direction::Along(d) => Direction::Along(mirrored(d)),
+        };
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {

@@ -9,6 +9,7 @@ use super::trim;
 use crate::hairstyle::Hairstyle;
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
+use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
 use super::apply::{Apply, FARTHEST, check_direction, check_point};
@@ -117,6 +118,19 @@ impl Apply for Cut {
             Held::Elevated(angle) => Self::ELEVATION.check(angle),
             Held::Down | Held::Hanging => Ok(()),
         }
+    }
+
+    fn mirror(&mut self) {
+        self.line = match self.line {
+            CutLine::Plane { point, normal } => {
+                CutLine::Plane { point: mirrored(point), normal: mirrored(normal) }
+            }
+            CutLine::Sphere { centre, radius } => {
+                CutLine::Sphere { centre: mirrored(centre), radius }
+            }
+            CutLine::Gathered(point) => CutLine::Gathered(mirrored(point)),
+            line @ (CutLine::Below(_) | CutLine::OffSkin(_) | CutLine::Length(_)) => line,
+        };
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {

@@ -64,6 +64,12 @@ macro_rules! operations {
                     $(Self::$Type(operation) => operation,)*
                 }
             }
+
+            pub(super) fn inner_mut(&mut self) -> &mut dyn Apply {
+                match self {
+                    $(Self::$Type(operation) => operation,)*
+                }
+            }
         }
     };
 }

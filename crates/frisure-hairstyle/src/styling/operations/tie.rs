@@ -7,6 +7,7 @@ use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::spec::InvalidSpec;
 use crate::styling::error::StyleError;
+use crate::styling::mirror::mirrored;
 use crate::styling::gather::{Gathering, gathered, onto_skin};
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
@@ -87,6 +88,15 @@ impl Apply for Tie {
             TiePlace::At(p) => check_point("tie.to", p),
             _ => Ok(()),
         }
+    }
+
+    fn mirror(&mut self) {
+        self.to = match self.to {
+            TiePlace::Left => TiePlace::Right,
+            TiePlace::Right => TiePlace::Left,
+            TiePlace::At(point) => TiePlace::At(mirrored(point)),
+            place @ (TiePlace::High | TiePlace::Middle | TiePlace::Low) => place,
+        };
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {

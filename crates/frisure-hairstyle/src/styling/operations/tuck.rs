@@ -113,6 +113,14 @@ impl<'a> Ear<'a> {
 }
 
 impl Apply for Tuck {
+    fn mirror(&mut self) {
+        self.sides = match self.sides {
+            Sides::Left => Sides::Right,
+            Sides::Right => Sides::Left,
+            Sides::Both => Sides::Both,
+        };
+    }
+
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
         let selected = act.selected(&self.selection)?;
         let ears: &[bool] = match self.sides {
