@@ -4,7 +4,7 @@ use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
 use frisure::rod::Stability;
 use frisure::scene::Scene;
-use frisure::strands::{AttributeValues, Strands};
+use frisure::strands::{AttributeValues, Eye, Strands};
 use glam::{DVec3, Vec3};
 
 use crate::error::Error;
@@ -55,9 +55,19 @@ fn plain(strands: &Strands) -> StrandsData {
 /// The surface of a head, and what was guessed of it.
 pub(crate) fn head_data(head: &Head, note: Option<String>) -> HeadData {
     let surface = head.surface();
+    let features = surface.features();
+    let eye = |eye: &Eye| {
+        let ([x, y, z], [u, v, w]) = (eye.centre.to_array(), eye.gaze.to_array());
+        [x, y, z, eye.radius, u, v, w]
+    };
     HeadData {
         positions: surface.positions().iter().flat_map(DVec3::to_array).collect(),
         triangles: surface.triangles().to_vec(),
+        tints: features.map_or(Vec::new(), |features| {
+            features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment]).collect()
+        }),
+        eyes: features.map_or(Vec::new(), |features| features.eyes.iter().map(eye).collect()),
+        hairs: features.map(|features| plain(&features.hairs)).unwrap_or_default(),
         note: note.unwrap_or_default(),
     }
 }

@@ -118,6 +118,13 @@ pub struct HeadData {
     pub positions: Vec<f64>,
     /// Triangles, three vertices each.
     pub triangles: Vec<[u32; 3]>,
+    /// Red of lips, blood beneath the skin and garment at each vertex, three numbers from 0 to 1 each; empty for skin alone.
+    #[serde(with = "crate::bytes")]
+    pub tints: Vec<f32>,
+    /// Eyes: centre (m), radius (m) and unit direction of the gaze.
+    pub eyes: Vec<[f64; 7]>,
+    /// Brows and lashes.
+    pub hairs: StrandsData,
     /// What was guessed of it, for a person; may be empty.
     pub note: String,
 }

@@ -52,19 +52,27 @@ impl Scene<'_> {
     /// As [`Strands::followed_by`].
     #[must_use]
     pub fn all_hair(&self) -> Cow<'_, Strands> {
-        let features = self.surface.and_then(Surface::features);
-        let Some(features) = features.filter(|features| !features.hairs.is_empty()) else {
-            return Cow::Borrowed(self.strands);
-        };
-        let mut all =
-            self.strands.followed_by(&features.hairs).with_attributes(|name| name != PIGMENT);
-        let mut factors = vec![1.0; self.strands.len()];
-        factors.resize(all.len(), FACIAL_PIGMENT);
-        let values = AttributeValues::F32(factors);
-        all.set_attribute(Attribute { name: PIGMENT.into(), domain: Domain::Strand, values })
-            .expect("one value for each strand, of a name that is free");
-        Cow::Owned(all)
+        all_hair(self.strands, self.surface)
     }
+}
+
+/// The strands, followed by the brows and lashes of a head; see [`Scene::all_hair`].
+///
+/// # Panics
+/// As [`Strands::followed_by`].
+#[must_use]
+pub fn all_hair<'a>(strands: &'a Strands, surface: Option<&Surface>) -> Cow<'a, Strands> {
+    let features = surface.and_then(Surface::features);
+    let Some(features) = features.filter(|features| !features.hairs.is_empty()) else {
+        return Cow::Borrowed(strands);
+    };
+    let mut all = strands.followed_by(&features.hairs).with_attributes(|name| name != PIGMENT);
+    let mut factors = vec![1.0; strands.len()];
+    factors.resize(all.len(), FACIAL_PIGMENT);
+    let values = AttributeValues::F32(factors);
+    all.set_attribute(Attribute { name: PIGMENT.into(), domain: Domain::Strand, values })
+        .expect("one value for each strand, of a name that is free");
+    Cow::Owned(all)
 }
 
 /// The box (smallest and largest corner, m) that a picture of this hair should show, for

@@ -132,8 +132,8 @@ const SKIN: Buffer =
     buffer(24, VertexStepMode::Vertex, &vertex_attr_array![0 => Float32x3, 1 => Float32x3]);
 /// Ambient light at the vertices of the head.
 const ROOM: Buffer = buffer(12, VertexStepMode::Vertex, &vertex_attr_array![2 => Float32x3]);
-/// Colour of the head at its vertices.
-const PAINT: Buffer = buffer(16, VertexStepMode::Vertex, &vertex_attr_array![3 => Float32x4]);
+/// Tint of the head at its vertices.
+const TINT: Buffer = buffer(16, VertexStepMode::Vertex, &vertex_attr_array![3 => Float32x4]);
 
 impl Pipelines {
     fn new(device: &Device, l: &Layouts, output: TextureFormat, samples: u32) -> Self {
@@ -231,7 +231,7 @@ fn skin(device: &Device, l: &Layouts, samples: u32) -> RenderPipeline {
     PipelineSpec {
         fragment: Some("skin"),
         groups: &[&l.picture, &l.shadows, &l.finish],
-        buffers: &[SKIN, ROOM, PAINT],
+        buffers: &[SKIN, ROOM, TINT],
         targets: &[(LIGHT, None)],
         depth: Some((CompareFunction::Less, true)),
         samples,

@@ -1,9 +1,7 @@
 //! The head on the device.
 
 use bytemuck::cast_slice;
-use frisure_look::SkinLook;
-use frisure_render::material;
-use frisure_strands::{Strands, Surface};
+use frisure_strands::{Strands, Surface, Tint};
 use glam::{DVec3, Vec3};
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
@@ -20,8 +18,8 @@ pub struct Skin {
     version: u64,
     /// Position and normal of each vertex.
     vertices: Buffer,
-    /// Colour of each vertex, and whether it is one of its own (1) or a factor on that of the skin (0).
-    paint: Buffer,
+    /// Tint of each vertex.
+    tints: Buffer,
     indices: Buffer,
     corners: u32,
 }
@@ -48,11 +46,11 @@ impl Skin {
                 cast_slice(&values[..2 * kept]),
                 BufferUsages::VERTEX,
             ),
-            paint: gpu::buffer(
+            tints: gpu::buffer(
                 device,
                 queue,
-                "colours of the head",
-                cast_slice(&paint(surface)[..kept]),
+                "tints of the head",
+                cast_slice(&tints(surface)[..kept]),
                 BufferUsages::VERTEX,
             ),
             indices: gpu::buffer(device, queue, "faces", cast_slice(&indices), BufferUsages::INDEX),
@@ -71,9 +69,9 @@ impl Skin {
         pass.draw_indexed(0..self.corners, 0, 0..1);
     }
 
-    /// Colours of the vertices.
-    pub(crate) fn paint(&self) -> &Buffer {
-        &self.paint
+    /// Tints of the vertices.
+    pub(crate) fn tints(&self) -> &Buffer {
+        &self.tints
     }
 
     pub(crate) fn version(&self) -> u64 {
@@ -101,16 +99,10 @@ impl Skin {
     }
 }
 
-/// Colour of each vertex: that of eyes and garment, or a factor on that of the skin.
-fn paint(surface: &Surface) -> Vec<[f32; 4]> {
-    let look = SkinLook { colour: Vec3::ONE, ..SkinLook::default() };
-    let features = surface.features();
-    let tints = features.map_or(&[][..], |features| &features.tints);
-    let of = |(index, p): (usize, &DVec3)| {
-        let tint = tints.get(index).copied().unwrap_or_default();
-        let material = material(features, tint, p.as_vec3(), &look);
-        let own = if material.scatters { 0.0 } else { 1.0 };
-        [material.colour.x, material.colour.y, material.colour.z, own]
-    };
-    surface.positions().iter().enumerate().map(of).collect()
+/// Tints of the vertices, which are none for skin without features.
+fn tints(surface: &Surface) -> Vec<[f32; 4]> {
+    let tints = surface.features().map_or(&[][..], |features| &features.tints);
+    let of = |index: usize| tints.get(index).copied().unwrap_or_default();
+    let packed = |Tint { lips, flush, garment }| [lips, flush, garment, 0.0];
+    (0..surface.positions().len()).map(|index| packed(of(index))).collect()
 }

@@ -3,6 +3,7 @@
 use frisure_look::{Background, Camera, ToneCurve};
 use frisure_optics::LobeShape;
 use frisure_render::preview::constants;
+use frisure_strands::Eye;
 use glam::{DVec3, Vec3};
 
 use crate::ambient::AmbientVolume;
@@ -16,7 +17,10 @@ const LIFT: f32 = 2.3e-3;
 const HALF_CELL: f32 = 1.1e-3;
 
 /// Bytes of all of them.
-pub(crate) const BYTES: usize = 16 * (20 + 7 * LAMPS + 5 * MAX_PLANES);
+pub(crate) const BYTES: usize = 16 * (20 + 7 * LAMPS + 5 * MAX_PLANES + 4 * EYES + 2);
+
+/// Most eyes of a head.
+const EYES: usize = 2;
 
 /// A vector and a number.
 fn four(v: Vec3, w: f32) -> [f32; 4] {
@@ -50,7 +54,21 @@ pub(crate) fn packed(
     for i in 0..MAX_PLANES {
         all.extend(planes.get(i).copied().unwrap_or([[0.0; 4]; 5]));
     }
+    let features = frame.skin.and_then(|skin| skin.surface().features());
+    let eyes = features.map_or(&[][..], |features| &features.eyes);
+    for i in 0..EYES {
+        all.extend(eyes.get(i).map_or([[0.0; 4]; 4], eye));
+    }
+    all.extend([four(frame.look.skin.iris, 0.0), four(frame.look.skin.garment, 0.0)]);
     all
+}
+
+/// An eye as the shaders have it.
+fn eye(eye: &Eye) -> [[f32; 4]; 4] {
+    let gaze = eye.gaze.as_vec3();
+    let (across, upright) = gaze.any_orthonormal_pair();
+    let ball = four(eye.centre.as_vec3(), eye.radius as f32);
+    [ball, four(gaze, 0.0), four(across, 0.0), four(upright, 0.0)]
 }
 
 fn view(camera: &Camera, width: u32, height: u32, width_factor: f32) -> [[f32; 4]; 4] {

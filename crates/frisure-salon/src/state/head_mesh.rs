@@ -1,8 +1,8 @@
 //! The mesh of the head, and its intersection with rays.
 
-use frisure::strands::Surface;
-use frisure_engine::HeadData;
-use glam::DVec3;
+use frisure::strands::{Attribute, AttributeValues, Domain, Eye, Features, Strands, Surface, Tint};
+use frisure_engine::{HeadData, StrandsData};
+use glam::{DVec3, Vec3};
 
 /// The mesh of the head.
 #[derive(Clone, Debug)]
@@ -18,7 +18,27 @@ impl HeadMesh {
     #[must_use]
     pub fn new(head: HeadData) -> Self {
         let positions = head.positions.chunks_exact(3).map(|p| DVec3::new(p[0], p[1], p[2]));
-        Self { surface: Surface::new(positions.collect(), head.triangles).ok() }
+        let surface = Surface::new(positions.collect(), head.triangles).ok();
+        let tints: Vec<Tint> = (head.tints.as_chunks().0.iter())
+            .map(|&[lips, flush, garment]| Tint { lips, flush, garment })
+            .collect();
+        let eyes: Vec<Eye> = (head.eyes.iter())
+            .map(|&[x, y, z, radius, u, v, w]| Eye {
+                centre: DVec3::new(x, y, z),
+                radius,
+                gaze: DVec3::new(u, v, w),
+            })
+            .collect();
+        if tints.is_empty() && eyes.is_empty() && head.hairs.offsets.is_empty() {
+            return Self { surface };
+        }
+        let hairs = strands_of(&head.hairs);
+        // Tints that do not fit the mesh are left out with the rest.
+        let with = |surface: Surface| {
+            let features = Features { tints, eyes, hairs };
+            surface.clone().with_features(features).unwrap_or(surface)
+        };
+        Self { surface: surface.map(with) }
     }
 
     /// The mesh; `None` if the arrays were not a valid one.
@@ -50,6 +70,31 @@ impl HeadMesh {
         let nearest = hits.fold(f64::INFINITY, f64::min);
         nearest.is_finite().then(|| from + nearest * direction)
     }
+}
+
+/// Converts plain arrays to strands; pieces out of range are left out.
+#[must_use]
+pub fn strands_of(data: &StrandsData) -> Strands {
+    let mut strands = Strands::with_capacity(data.guide.len(), data.radii.len());
+    let points: Vec<Vec3> =
+        data.points.as_chunks().0.iter().map(|p| Vec3::from_array(*p)).collect();
+    for ends in data.offsets.windows(2) {
+        let piece = ends[0] as usize..ends[1] as usize;
+        if let (Some(points), Some(radii)) = (points.get(piece.clone()), data.radii.get(piece)) {
+            strands.push(points, radii);
+        }
+    }
+    let mut set = |name: &str, domain, values| {
+        // An attribute of another length is left out.
+        let _ = strands.set_attribute(Attribute { name: name.into(), domain, values });
+    };
+    if !data.guide.is_empty() {
+        set("guide", Domain::Strand, AttributeValues::U32(data.guide.clone()));
+    }
+    if !data.wetness.is_empty() {
+        set("wetness", Domain::Point, AttributeValues::F32(data.wetness.clone()));
+    }
+    strands
 }
 
 /// Distance along a ray to a triangle. Möller & Trumbore 1997.

@@ -30,7 +30,7 @@ pub use cut_plane::{CutPlane, CutPreview};
 pub use document::{Document, Edit};
 pub use gallery::{Card, SCENES, TYPES, card};
 pub use hair::Badge;
-pub use head_mesh::HeadMesh;
+pub use head_mesh::{HeadMesh, strands_of};
 pub use jobs::{Destination, Effect, FORMATS, JobId, Queue, Save};
 pub use orbit::{Orbit, VIEWS};
 pub use rendering::RenderTask;

@@ -5,12 +5,11 @@ use std::sync::{Arc, Mutex};
 use eframe::egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::{egui, wgpu};
 use frisure::look::{Camera, HairLook, Lights, Look, ToneCurve};
-use frisure::strands::{Attribute, AttributeValues, Domain, Strands};
-use frisure_engine::{Preview, StrandsData};
+use frisure::render::all_hair;
+use frisure_engine::Preview;
 use frisure_view::{Canvas, Frame, Hair, Line, Mark, Plane, Renderer, Shadows, Skin, ViewError};
-use glam::Vec3;
 
-use crate::state::HeadMesh;
+use crate::state::{HeadMesh, strands_of};
 
 /// One of the two pictures side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,28 +50,6 @@ pub(super) struct View {
     pub(super) stops: f32,
 }
 
-/// Converts plain arrays to strands; pieces out of range are left out.
-fn strands_of(data: &StrandsData) -> Strands {
-    let mut strands = Strands::with_capacity(data.guide.len(), data.radii.len());
-    let points: Vec<Vec3> =
-        data.points.as_chunks().0.iter().map(|p| Vec3::from_array(*p)).collect();
-    for ends in data.offsets.windows(2) {
-        let piece = ends[0] as usize..ends[1] as usize;
-        if let (Some(points), Some(radii)) = (points.get(piece.clone()), data.radii.get(piece)) {
-            strands.push(points, radii);
-        }
-    }
-    let mut set = |name: &str, domain, values| {
-        // An attribute of another length is left out.
-        let _ = strands.set_attribute(Attribute { name: name.into(), domain, values });
-    };
-    set("guide", Domain::Strand, AttributeValues::U32(data.guide.clone()));
-    if !data.wetness.is_empty() {
-        set("wetness", Domain::Point, AttributeValues::F32(data.wetness.clone()));
-    }
-    strands
-}
-
 /// The resources on the device.
 struct Gpu {
     device: wgpu::Device,
@@ -92,7 +69,8 @@ struct Target {
 
 struct UploadedHair {
     hair: Hair,
-    version: u64,
+    /// Of the hair, and of the head whose brows and lashes are with it.
+    versions: [u64; 2],
     look: HairLook,
     marks: u64,
 }
@@ -209,9 +187,13 @@ impl Target {
             return;
         };
         let look = picture.view.look.hair;
-        if self.hair.as_ref().is_none_or(|uploaded| uploaded.version != *version) {
-            let hair = Hair::new(renderer, device, queue, &strands_of(&hair.strands), &look);
-            self.hair = Some(UploadedHair { hair, version: *version, look, marks: 0 });
+        let versions = [*version, self::version(picture.head.as_ref())];
+        if self.hair.as_ref().is_none_or(|uploaded| uploaded.versions != versions) {
+            let surface = picture.head.as_ref().and_then(|(head, _)| head.surface());
+            let strands = strands_of(&hair.strands);
+            let strands = all_hair(&strands, surface);
+            let hair = Hair::new(renderer, device, queue, &strands, &look);
+            self.hair = Some(UploadedHair { hair, versions, look, marks: 0 });
         }
         let Some(uploaded) = &mut self.hair else { return };
         if uploaded.look != look {

@@ -46,7 +46,7 @@ impl FrameContext<'_> {
             pass.set_bind_group(1, maps.group(), &[]);
             pass.set_bind_group(2, &covered, &[]);
             pass.set_vertex_buffer(1, environment.on_skin.slice(..));
-            pass.set_vertex_buffer(2, skin.paint().slice(..));
+            pass.set_vertex_buffer(2, skin.tints().slice(..));
             skin.draw(&mut pass);
         }
     }

@@ -32,6 +32,16 @@ struct Plane {
     colour: vec4<f32>,
 }
 
+struct Eye {
+    // Centre and radius of the ball (m); without an eye the radius is 0.
+    ball: vec4<f32>,
+    // Unit direction of the gaze.
+    gaze: vec4<f32>,
+    // Two unit directions across it.
+    across: vec4<f32>,
+    upright: vec4<f32>,
+}
+
 struct Picture {
     // Eye (m); w: pixels per unit of slope.
     eye: vec4<f32>,
@@ -76,6 +86,10 @@ struct Picture {
     hair: vec4<f32>,
     lamps: array<Lamp, 4>,
     planes: array<Plane, 4>,
+    eyes: array<Eye, 2>,
+    // Linear reflectance of irises and of the garment.
+    iris: vec4<f32>,
+    garment: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> picture: Picture;

@@ -9,7 +9,7 @@ struct Vertex {
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) ambient: vec3<f32>,
-    @location(3) paint: vec4<f32>,
+    @location(3) tint: vec4<f32>,
 }
 
 struct Skin {
@@ -19,8 +19,8 @@ struct Skin {
     @location(2) ambient: vec3<f32>,
     // Lamps, and whether the head's shadows are soft.
     @location(3) @interpolate(flat) kinds: vec2<i32>,
-    // Colour, and whether it is one of its own (1) or a factor on that of the skin (0).
-    @location(4) paint: vec4<f32>,
+    // Red of lips, blood beneath the skin, and whether a garment covers it (above one half).
+    @location(4) tint: vec4<f32>,
 }
 
 fn projected(p: vec3<f32>) -> vec4<f32> {
@@ -33,7 +33,7 @@ fn projected(p: vec3<f32>) -> vec4<f32> {
 
 @vertex
 fn skin_vertex(in: Vertex) -> Skin {
-    return Skin(projected(in.position), in.position, in.normal, in.ambient, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)), in.paint);
+    return Skin(projected(in.position), in.position, in.normal, in.ambient, vec2<i32>(i32(picture.film.z), i32(picture.hair.y)), in.tint);
 }
 
 // Places on a lamp as wide as a soft box: the middle, a ring of eight of which four come first, and a ring of four
@@ -74,8 +74,64 @@ fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, places: i32) -> f32 {
     return open / f32(count);
 }
 
+// What a place of the head is made of: skin with its reds, a garment or an eye.
+struct Cover {
+    colour: vec3<f32>,
+    // Whether light goes beneath the surface (1).
+    deep: f32,
+    // Strength and exponent of the gloss.
+    gloss: vec2<f32>,
+    normal: vec3<f32>,
+}
+
+// Materials as `complexion.rs` has them.
+const LIPS: vec3<f32> = vec3<f32>(0.83, 0.58, 0.60);
+const FLUSH: vec3<f32> = vec3<f32>(0.98, 0.80, 0.80);
+const SCLERA: vec3<f32> = vec3<f32>(0.60, 0.56, 0.52);
+const CORNER: vec3<f32> = vec3<f32>(0.50, 0.33, 0.29);
+const IRIS: f32 = 0.44;
+const PUPIL: f32 = 0.15;
+// Gloss of a wet eye, Blinn-Phong: its mirror image of a lamp is a small bright spot. Chosen by eye.
+const WET_EYE: vec2<f32> = vec2<f32>(6.0, 900.0);
+
+fn eyeball(eye: Eye, out: vec3<f32>) -> Cover {
+    let across = out - eye.gaze.xyz * dot(out, eye.gaze.xyz);
+    let sine = select(1.0, length(across), dot(out, eye.gaze.xyz) > 0.0);
+    let turn = atan2(dot(across, eye.upright.xyz), dot(across, eye.across.xyz));
+    var fibres = 0.0;
+    fibres += sin(11.0 * turn + 0.3 + 5.0 * sine) + sin(23.0 * turn + 1.7 + 5.0 * sine);
+    fibres += sin(37.0 * turn + 4.1 + 5.0 * sine) + sin(58.0 * turn + 2.2 + 5.0 * sine);
+    let own = picture.iris.rgb;
+    var iris = own * (1.15 + 0.16 * fibres) * (1.5 - 1.6 * sine);
+    iris = mix(iris, own * 0.12, smoothstep(0.36, IRIS, sine));
+    let white = mix(SCLERA, CORNER, 0.7 * smoothstep(0.62, 0.95, sine));
+    var colour = mix(vec3<f32>(0.006), iris, smoothstep(PUPIL - 0.015, PUPIL + 0.015, sine));
+    colour = mix(colour, white, smoothstep(IRIS - 0.03, IRIS + 0.02, sine));
+    return Cover(colour, 0.0, WET_EYE, out);
+}
+
+fn cover(place: vec3<f32>, normal: vec3<f32>, tint: vec3<f32>) -> Cover {
+    let part = clamp(tint, vec3<f32>(0.0), vec3<f32>(1.0));
+    let reds = mix(vec3<f32>(1.0), FLUSH, part.y) * mix(vec3<f32>(1.0), LIPS, part.x);
+    let gloss = vec2<f32>(picture.skin.a * (1.0 + 0.4 * part.x), picture.skin_shape.w);
+    var found = Cover(picture.skin.rgb * reds, 1.0, gloss, normal);
+    if tint.z > 0.5 {
+        found = Cover(picture.garment.rgb, 0.0, vec2<f32>(0.0, 1.0), normal);
+    }
+    for (var i = 0; i < 2; i += 1) {
+        let eye = picture.eyes[i];
+        let away = place - eye.ball.xyz;
+        // Lids are thicker than a hundredth of the ball.
+        if abs(length(away) - eye.ball.w) < 0.01 * eye.ball.w {
+            found = eyeball(eye, normalize(away));
+        }
+    }
+    return found;
+}
+
 // The light of a lamp that skin at a place sends to the eye.
-fn skin_from(lamp: Lamp, colour: vec4<f32>, place: vec3<f32>, normal: vec3<f32>, eye: vec3<f32>, places: i32) -> vec3<f32> {
+fn skin_from(lamp: Lamp, made: Cover, place: vec3<f32>, eye: vec3<f32>, places: i32) -> vec3<f32> {
+    let normal = made.normal;
     let wrap = picture.skin_shape.x;
     let bias = picture.skin_shape.y;
     // Diffuse light wrapped past the terminator, and a Blinn-Phong gloss, as `preview/shading.rs` has them.
@@ -88,11 +144,11 @@ fn skin_from(lamp: Lamp, colour: vec4<f32>, place: vec3<f32>, normal: vec3<f32>,
     let met = hairs_met(lamp, lifted, picture.hair.z, picture.hair.w);
     let passed = open * exp(-met.before * picture.extinction.rgb);
     let half = normalize(lamp.towards.xyz + eye);
-    let gloss = picture.skin.a * pow(max(dot(normal, half), 0.0), picture.skin_shape.w);
+    let gloss = made.gloss.x * pow(max(dot(normal, half), 0.0), made.gloss.y);
     // Red light goes far beneath the skin.
-    let more = picture.skin_depth.rgb * (1.0 - colour.a);
+    let more = picture.skin_depth.rgb * made.deep;
     let lit = max((facing + more) / (1.0 + more), vec3<f32>(0.0));
-    return passed * lamp.light.rgb / PI * (lit * colour.rgb + min(facing, 1.0) * gloss);
+    return passed * lamp.light.rgb / PI * (lit * made.colour + min(facing, 1.0) * gloss);
 }
 
 // The ambient light and the lamps', as the preview has it.
@@ -104,11 +160,10 @@ fn skin(in: Skin) -> @location(0) vec4<f32> {
     let eye = normalize(picture.eye.xyz - in.place);
     var normal = normalize(in.normal);
     normal = select(normal, -normal, dot(normal, eye) < 0.0);
-    let paint = in.paint.rgb * mix(picture.skin.rgb, vec3<f32>(1.0), in.paint.a);
-    let colour = vec4<f32>(paint, in.paint.a);
-    var light = in.ambient * paint;
+    let made = cover(in.place, normal, in.tint.xyz);
+    var light = in.ambient * made.colour;
     for (var i = 0; i < in.kinds.x; i += 1) {
-        light += skin_from(picture.lamps[i], colour, in.place, normal, eye, select(1, ALL, in.kinds.y > 0));
+        light += skin_from(picture.lamps[i], made, in.place, eye, select(1, ALL, in.kinds.y > 0));
     }
     return vec4<f32>(behind_planes(light, in.place), 1.0);
 }
