@@ -1,6 +1,6 @@
 // Loads the salon and starts it.
 //
-// Query parameters: ?backend=webgl or webgpu, ?scene=NAME, ?hairs=N (number of drawn hairs), ?samples=1 (no
+// Query parameters: ?backend=webgl or webgpu, ?scene=NAME or the code of a link, ?hairs=N (number of drawn hairs), ?samples=1 (no
 // antialiasing, for slow devices).
 
 import { loading, ready, showError } from "./notice.js?v={{build}}";

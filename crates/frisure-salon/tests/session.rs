@@ -286,9 +286,26 @@ fn pictures_are_rendered_in_the_background() {
     let task = RenderTask::Picture { size: [32, 32], paths: 2, noise: 0.5 };
     world.run(Command::Render(task, Destination::Download("a.png".into())));
     assert_eq!(&world.files["a.png"][1..4], b"PNG");
+    let inside = frisure::formats::picture::scene_text::extract(&world.files["a.png"]);
+    assert_eq!(inside.as_deref(), Some(world.text()), "a picture has its scene inside");
     let film = RenderTask::Turntable { size: [16, 16], frames: 2 };
     world.run(Command::Render(film, Destination::Download("b.png".into())));
     assert_eq!(&world.files["b.png"][1..4], b"PNG");
+}
+
+#[test]
+fn a_link_opens_the_scene_that_it_was_made_of() {
+    let mut world = World::new();
+    world.small("wavy");
+    world.run(wet());
+    let (text, link) = (world.text().to_owned(), frisure_salon::state::code(world.text()));
+    let mut other = World::new();
+    other.run(Command::Begin(link.clone()));
+    assert_eq!(other.text(), text);
+    assert!(other.salon.is_wet());
+    other.run(Command::Begin(link[..link.len() - 9].to_owned()));
+    assert!(other.salon.messages.iter().any(|m| m.text.contains("link is damaged")));
+    assert_eq!(other.text(), text, "a damaged link leaves the scene");
 }
 
 #[test]

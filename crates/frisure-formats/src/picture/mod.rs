@@ -4,6 +4,7 @@
 pub mod exr;
 pub mod photo;
 pub mod png;
+pub mod scene_text;
 
 use std::path::Path;
 

@@ -83,6 +83,13 @@ impl Platform for Browser {
         false
     }
 
+    fn link(&self, code: &str) -> String {
+        let address = web_sys::window().and_then(|window| window.location().href().ok());
+        let address = address.unwrap_or_default();
+        let page = address.split(['?', '#']).next().unwrap_or_default();
+        format!("{page}?scene={code}")
+    }
+
     fn folder(&self) -> PathBuf {
         PathBuf::new()
     }

@@ -11,10 +11,21 @@ use super::document::Document;
 use super::gallery::card;
 use super::salon::{ParsedScene, Salon, Tool, parse};
 use super::selection::Selected;
+use super::sharing;
 
 impl Salon {
-    /// Opens a card of the gallery.
+    /// Opens a card of the gallery, or the scene of a link.
     pub(super) fn begin(&mut self, name: &str) {
+        match sharing::decoded(name) {
+            Some(Ok(text)) => {
+                return self.open_document(Document::new("Shared", None, "From a link", text));
+            }
+            Some(Err(problem)) => {
+                let hint = "Copy all of the link, to its last letter.";
+                return self.notify(format!("the link is damaged: {problem}"), hint, true);
+            }
+            None => {}
+        }
         let Some(card) = card(name) else {
             let hint = "Open the gallery to see the names.";
             return self.notify(format!("there is no hair called `{name}`"), hint, true);

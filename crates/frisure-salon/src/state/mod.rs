@@ -21,6 +21,7 @@ mod salon;
 mod saving;
 mod scissors;
 mod selection;
+mod sharing;
 mod styling;
 mod update;
 
@@ -37,4 +38,5 @@ pub use rendering::RenderTask;
 pub use salon::{Comparison, IsolatedHair, Message, ParsedScene, PartialPicture, Salon, Tool};
 pub use scissors::{CutHold, Scissors, Snip};
 pub use selection::{PLACES, SelectMode, Selected};
+pub use sharing::code;
 pub use styling::comb;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use frisure::formats::picture::scene_text;
 use frisure_engine::{Quality, Request, Response};
 
 use super::jobs::{Destination, Effect, Purpose, Save};
@@ -78,6 +79,8 @@ impl Salon {
         match (response, job.purpose) {
             _ if job.outdated => self.notify("Stopped.", "", false),
             (Response::File { bytes, .. }, Purpose::File(to)) => {
+                // A picture opens again as the scene that it shows; grooms are left as they are.
+                let bytes = scene_text::embed(bytes, &job.scene.text);
                 self.jobs.effects.push_back(Effect::Save(Save { to, bytes, is_scene: false }));
             }
             (Response::Preview(hair), Purpose::Compare(edit)) => {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use eframe::egui::{self, CentralPanel, Panel, Ui};
 use frisure::formats::contents::{self, Contents};
+use frisure::formats::picture::scene_text;
 use frisure::hairstyle::styling::{Dry, Operation, Wet};
 use frisure_engine::Request;
 use web_time::{Duration, Instant};
@@ -118,6 +119,16 @@ impl App {
                 Err(_) => {
                     let hint = "A scene is UTF-8 text; `frisure new` prints an example.";
                     self.salon.notify(format!("{} is not text", file.name), hint, true);
+                }
+            },
+            Some("png") => match scene_text::extract(&file.bytes) {
+                Some(text) => {
+                    let name = file.name.trim_end_matches(".png").to_owned();
+                    self.run(Command::Open { path: None, name, text });
+                }
+                None => {
+                    let hint = "Pictures that the salon has rendered have their scene inside.";
+                    self.salon.notify(format!("{} has no scene inside", file.name), hint, true);
                 }
             },
             // The buffer of a glTF mesh; for a file with a path, the engine reads the buffer.

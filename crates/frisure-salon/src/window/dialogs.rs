@@ -7,8 +7,8 @@ use eframe::egui::{
 };
 
 use super::platform::Platform;
-use super::widgets;
-use crate::state::{Command, Destination, FORMATS, RenderTask, Salon};
+use super::{icons, widgets};
+use crate::state::{Command, Destination, FORMATS, RenderTask, Salon, code};
 
 /// A dialog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -178,6 +178,17 @@ impl Dialogs {
         if widgets::plain(ui, "Save scene", "").clicked() || entered {
             out.push(Command::Save(self.destination(salon, platform, "toml")));
             self.current = None;
+        }
+        ui.add_space(6.0);
+        let help = if platform.has_paths() {
+            "Put it behind the address of a salon in a browser, or after --begin"
+        } else {
+            "Whoever opens the link has this scene; nothing is stored on a server"
+        };
+        if let Some(document) = &salon.document
+            && widgets::with_icon(ui, icons::SHARE, "Copy a link", help).clicked()
+        {
+            ui.ctx().copy_text(platform.link(&code(document.text())));
         }
     }
 

@@ -24,7 +24,7 @@ pub struct InputFile {
 /// The extensions of the files that can be opened, without dots.
 #[must_use]
 pub fn extensions() -> Vec<&'static str> {
-    [vec!["toml"], contents::extensions()].concat()
+    [vec!["toml", "png"], contents::extensions()].concat()
 }
 
 /// The interface of desktop or browser for the window.
@@ -55,6 +55,12 @@ pub trait Platform {
 
     /// Whether files have paths, so that dialogs have a field for them; in a browser they do not.
     fn has_paths(&self) -> bool;
+
+    /// A link to a page of the salon that opens a scene by its code.
+    fn link(&self, code: &str) -> String {
+        // Where pages of the salon are is not known on a desktop.
+        format!("?scene={code}")
+    }
 
     /// The folder that dialogs propose.
     fn folder(&self) -> PathBuf;
