@@ -8,8 +8,8 @@ use frisure::hairstyle::head::Region;
 use frisure::hairstyle::styling::{Dry, Grow, Growth, Operation, Selection, Wet};
 use frisure_engine::{Diagnostic, Quality, Response};
 use frisure_salon::state::{
-    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, RenderTask, Scissors, SelectMode,
-    Snip, Tool,
+    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, Document, RenderTask, Scissors,
+    SelectMode, Snip, TOUR, Tool,
 };
 use glam::DVec3;
 use std::path::PathBuf;
@@ -306,6 +306,37 @@ fn a_link_opens_the_scene_that_it_was_made_of() {
     other.run(Command::Begin(link[..link.len() - 9].to_owned()));
     assert!(other.salon.messages.iter().any(|m| m.text.contains("link is damaged")));
     assert_eq!(other.text(), text, "a damaged link leaves the scene");
+}
+
+#[test]
+fn the_tour_can_be_taken_step_by_step() {
+    let mut world = World::new();
+    world.salon.run(Command::BeginTour);
+    assert_eq!(world.salon.document.as_ref().map(Document::name), Some("Curly"));
+    assert!(!world.salon.is_step_done());
+    world.salon.run(Command::Turn(0.2, 0.0));
+    assert!(world.salon.is_step_done());
+    // The others on a head with fewer hairs, for the time's sake.
+    world.small("curly");
+    world.run(Command::NextOfTour);
+    let steps: [&[Command]; 4] = [
+        &[Command::ToggleWet],
+        &[Command::Select(FRINGE, SelectMode::Replace)],
+        &[Command::Take(Tool::Cut), Command::Plane(CutPlane::level(-0.02)), Command::Cut],
+        &[Command::SelectAll, Command::ToggleWet, Command::ToggleCompare],
+    ];
+    for commands in steps {
+        assert!(!world.salon.is_step_done(), "{:?}", world.salon.tour);
+        commands.iter().for_each(|command| world.run(command.clone()));
+        assert!(world.salon.is_step_done(), "{:?}", world.salon.tour);
+        world.run(Command::NextOfTour);
+    }
+    assert_eq!(world.salon.tour.as_ref().map(|tour| tour.at), Some(TOUR.len()));
+    world.run(Command::NextOfTour);
+    assert_eq!(world.salon.tour, None);
+    world.run(Command::EndTour);
+    world.run(Command::NextOfTour);
+    assert_eq!(world.salon.tour, None);
 }
 
 #[test]

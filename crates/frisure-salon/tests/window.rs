@@ -133,6 +133,14 @@ impl Window {
         self.steps(3);
     }
 
+    /// Gives the button of a name the focus, as Tab does, and presses it with the keyboard.
+    fn press_focused(&mut self, label: &str) {
+        self.harness.get_by_role_and_label(Role::Button, label).focus();
+        self.steps(2);
+        self.key(Modifiers::NONE, Key::Space);
+        self.steps(2);
+    }
+
     /// Writes into the field of a name.
     fn write(&mut self, label: &str, text: &str) {
         let field = self.harness.get_by_role_and_label(Role::TextInput, label);
@@ -420,6 +428,43 @@ fn a_groom_opened_in_the_window_is_held_and_its_axis_can_be_set() {
     window.click("Use the scene's own hair");
     window.settle();
     assert!(!window.text().contains("her-hair"), "{}", window.text());
+}
+
+#[test]
+fn the_tour_can_be_taken_without_a_pointer() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([900.0, 600.0], 1.0);
+    window.press_focused("Take the tour");
+    // A head with fewer hairs, for the time's sake.
+    window.small("curly");
+    let done = |window: &Window| window.harness.state().salon().is_step_done();
+    window.key(Modifiers::NONE, Key::ArrowLeft);
+    assert!(done(&window), "turned");
+    window.press_focused("Next");
+    window.key(Modifiers::NONE, Key::W);
+    window.settle();
+    assert!(done(&window), "wet");
+    window.press_focused("Next");
+    window.press_focused("Fringe");
+    window.wait("the choice", |app| app.salon().selected.count().is_some());
+    window.screen("tour");
+    window.press_focused("Next");
+    window.key(Modifiers::NONE, Key::C);
+    window.press_focused("Cut here");
+    window.settle();
+    assert!(done(&window), "cut: {}", window.text());
+    window.press_focused("Next");
+    window.key(Modifiers::NONE, Key::A);
+    window.key(Modifiers::NONE, Key::W);
+    window.settle();
+    window.key(Modifiers::NONE, Key::X);
+    window.settle();
+    assert!(done(&window), "dried and compared");
+    window.press_focused("Next");
+    window.press_focused("End");
+    assert!(window.harness.state().salon().tour.is_none());
 }
 
 /// The pictures of `docs/salon.md`, with all hairs: only where somebody asks for them.

@@ -86,6 +86,12 @@ pub enum Command {
     Lift(Vec<DVec3>),
     /// Cuts selected hair with roots near positions on the skin (m) to the guard of the clippers.
     Clip(Vec<DVec3>),
+    /// Begins the tour.
+    BeginTour,
+    /// Goes to the next step of the tour, or ends it after the last.
+    NextOfTour,
+    /// Ends the tour.
+    EndTour,
     /// Does the next steps on both sides of the head, or no longer.
     ToggleMirror,
     /// Undoes an edit.

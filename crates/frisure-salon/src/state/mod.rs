@@ -23,6 +23,7 @@ mod scissors;
 mod selection;
 mod sharing;
 mod styling;
+mod tour;
 mod update;
 
 pub use command::Command;
@@ -40,3 +41,4 @@ pub use scissors::{CutHold, Scissors, Snip};
 pub use selection::{PLACES, SelectMode, Selected};
 pub use sharing::code;
 pub use styling::comb;
+pub use tour::{TOUR, Tour, TourStep};

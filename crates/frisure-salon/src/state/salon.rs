@@ -17,6 +17,7 @@ use super::jobs::{Effect, Jobs};
 use super::orbit::Orbit;
 use super::scissors::Scissors;
 use super::selection::Selected;
+use super::tour::Tour;
 
 /// The state of the salon. Outside this module it is read only; [`Salon::run`] changes it.
 #[derive(Debug, Default)]
@@ -49,6 +50,8 @@ pub struct Salon {
     pub plane: CutPlane,
     /// How scissors and clippers are set.
     pub scissors: Scissors,
+    /// The tour, while somebody takes it.
+    pub tour: Option<Tour>,
     /// Whether each step is also done on the other side of the head.
     pub mirror: bool,
     pub(super) cut_preview: Option<(u64, CutPlane, Arc<CutPreview>)>,

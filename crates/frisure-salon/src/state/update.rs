@@ -57,6 +57,9 @@ impl Salon {
             }
             Command::Plane(plane) => self.move_plane(plane),
             Command::Scissors(scissors) => self.scissors = scissors.clean(),
+            Command::BeginTour => self.begin_tour(),
+            Command::NextOfTour => self.next_of_tour(),
+            Command::EndTour => self.tour = None,
             Command::ToggleMirror => self.mirror = !self.mirror,
             Command::Apply(_)
             | Command::ToggleWet

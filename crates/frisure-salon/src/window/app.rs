@@ -16,7 +16,7 @@ use web_time::{Duration, Instant};
 use super::dialogs::Dialogs;
 use super::platform::{InputFile, Platform};
 use super::viewport::{self, Viewport};
-use super::{automation, gallery, keys, panels, renderer, theme, toolbars, tools, widgets};
+use super::{automation, gallery, keys, panels, renderer, theme, toolbars, tools, tour, widgets};
 use crate::state::{Command, Document, Effect, Queue, Salon};
 use crate::work::{Wake, Worker};
 
@@ -273,6 +273,7 @@ impl App {
         });
         let frame = egui::Frame::NONE.fill(egui::Color32::from_gray(40));
         CentralPanel::default().frame(frame).show(ui, |ui| self.centre(ui, out));
+        tour::show(ui, &self.salon, out);
     }
 
     fn centre(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {

@@ -104,7 +104,13 @@ impl Dialogs {
                 Dialog::Save => self.save(ui, salon, platform, out),
                 Dialog::Export => self.export(ui, salon, platform, out),
                 Dialog::Picture => self.picture(ui, salon, platform, out),
-                Dialog::Help => help(ui),
+                Dialog::Help => {
+                    help(ui);
+                    if widgets::with_icon(ui, icons::TOUR, "Take the tour", "").clicked() {
+                        out.push(Command::BeginTour);
+                        self.current = None;
+                    }
+                }
             }
             ui.add_space(6.0);
             if widgets::plain(ui, "Close", "Escape").clicked() {

@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 use std::collections::BTreeMap;
 
-use super::theme;
+use super::{icons, theme, widgets};
 use crate::state::{Card, Command, SCENES, Salon, TYPES};
 
 /// The textures of the cards.
@@ -59,10 +59,15 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, pictures: &mut Pictures, out: &mu
         ui.horizontal(|ui| {
             ui.heading("Choose hair to start with");
             if salon.document.is_some() {
-                let back = super::widgets::plain(ui, "Back to the head", "Escape");
+                let back = widgets::plain(ui, "Back to the head", "Escape");
                 if back.clicked() {
                     out.push(Command::Gallery(false));
                 }
+            }
+            let help =
+                "Five steps on a head of curly hair: turn, wet, select, cut, dry and compare";
+            if widgets::with_icon(ui, icons::TOUR, "Take the tour", help).clicked() {
+                out.push(Command::BeginTour);
             }
         });
         ui.weak("Choose a hair type or a hairstyle, open a scene, or drop a file on the window.");

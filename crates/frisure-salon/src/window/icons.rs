@@ -14,6 +14,8 @@ pub(super) const COMPARE: &str = "\u{e870}";
 pub(super) const CUT: &str = "\u{e636}";
 /// The dark theme. Phosphor's `moon`.
 pub(super) const DARK: &str = "\u{e330}";
+/// Something is done. Phosphor's `check-circle`.
+pub(super) const DONE: &str = "\u{e184}";
 /// Dry hair. Phosphor's `hair-dryer`.
 pub(super) const DRY: &str = "\u{ea66}";
 /// Write a groom. Phosphor's `export`.
@@ -52,6 +54,8 @@ pub(super) const SAVE: &str = "\u{e248}";
 pub(super) const SCISSORS: &str = "\u{eae0}";
 /// Share the scene. Phosphor's `share-network`.
 pub(super) const SHARE: &str = "\u{e408}";
+/// The tour. Phosphor's `graduation-cap`.
+pub(super) const TOUR: &str = "\u{e62c}";
 /// Orbit, pan and zoom. Phosphor's `camera-rotate`.
 pub(super) const TURN: &str = "\u{e7a4}";
 /// Undo. Phosphor's `arrow-counter-clockwise`.

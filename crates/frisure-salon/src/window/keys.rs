@@ -38,19 +38,27 @@ pub(super) fn commands(
     if hit(Modifiers::NONE, Key::F1) {
         dialog = Some(Dialog::Help);
     }
-    // A focused text field receives the letters.
-    if ui.ctx().egui_wants_keyboard_input() || salon.is_gallery() {
+    // A focused text field receives the letters; any other focused widget receives the arrows, Enter and Space.
+    let free = !ui.ctx().egui_wants_keyboard_input();
+    if ui.ctx().text_edit_focused() || salon.is_gallery() {
         if salon.is_gallery() && hit(Modifiers::NONE, Key::Escape) {
             out.push(Command::Gallery(false));
         }
         return (out, dialog);
     }
-    letters(&hit, salon, &mut out);
-    camera(&hit, aspect, &mut out);
+    letters(&hit, free, salon, &mut out);
+    if free {
+        camera(&hit, aspect, &mut out);
+    }
     (out, dialog)
 }
 
-fn letters(hit: &dyn Fn(Modifiers, Key) -> bool, salon: &Salon, out: &mut Vec<Command>) {
+fn letters(
+    hit: &dyn Fn(Modifiers, Key) -> bool,
+    free: bool,
+    salon: &Salon,
+    out: &mut Vec<Command>,
+) {
     let none = Modifiers::NONE;
     let tools = [
         (Key::V, Tool::Orbit),
@@ -72,7 +80,7 @@ fn letters(hit: &dyn Fn(Modifiers, Key) -> bool, salon: &Salon, out: &mut Vec<Co
         (Key::R, release()),
     ];
     out.extend(plain.into_iter().filter(|(k, _)| hit(none, *k)).map(|(_, c)| c));
-    if salon.tool == Tool::Cut && hit(none, Key::Enter) {
+    if free && salon.tool == Tool::Cut && hit(none, Key::Enter) {
         out.push(Command::Cut);
     }
     if hit(none, Key::X) {

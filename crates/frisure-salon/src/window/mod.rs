@@ -14,6 +14,7 @@ mod renderer;
 mod theme;
 mod toolbars;
 mod tools;
+mod tour;
 mod viewport;
 mod widgets;
 
