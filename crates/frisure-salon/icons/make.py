@@ -41,6 +41,7 @@ ICONS = [
     ("RELEASE", "link-break", "Let go of held hair."),
     ("SAVE", "floppy-disk", "Save the scene."),
     ("SCISSORS", "scissors", "Scissors."),
+    ("SETTINGS", "sliders-horizontal", "The panels with sliders and the history."),
     ("SHARE", "share-network", "Share the scene."),
     ("TOUR", "graduation-cap", "The tour."),
     ("TURN", "camera-rotate", "Orbit, pan and zoom."),

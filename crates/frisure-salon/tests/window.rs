@@ -326,6 +326,44 @@ fn every_control_has_a_name_at_twice_the_scale_and_in_the_light_theme() {
 }
 
 #[test]
+fn every_button_of_a_small_window_and_of_a_phone_is_inside() {
+    if !has_graphics() {
+        return;
+    }
+    for (size, name) in [([900.0, 600.0], "test-small"), ([390.0, 844.0], "test-phone")] {
+        let mut window = Window::open(size, 1.0);
+        window.steps(3);
+        window.screen(&format!("{name}-gallery"));
+        window.small("wavy");
+        for tool in ["Scissors", "Cut", "Lift", "Clippers", "Comb", "Turn"] {
+            window.click(tool);
+            window.steps(3);
+            // Across: what is below scrolls.
+            let inside = -1.0..=size[0] + 1.0;
+            let root = window.harness.root();
+            let outside: Vec<_> = (root.children_recursive())
+                .filter(|node| {
+                    let role = node.accesskit_node().role();
+                    matches!(role, Role::Button | Role::ComboBox | Role::CheckBox)
+                })
+                .filter(|node| {
+                    let across = node.rect().x_range();
+                    !inside.contains(&across.min) || !inside.contains(&across.max)
+                })
+                .map(|node| format!("{:?} {:?}", node.accesskit_node().label(), node.rect()))
+                .collect();
+            assert!(outside.is_empty(), "{name}, {tool}: {outside:#?}");
+        }
+        window.screen(name);
+        if size[0] < 700.0 {
+            window.click("Panels");
+            assert!(window.harness.query_by_role_and_label(Role::Slider, "Diameter").is_some());
+            window.screen("test-phone-panels");
+        }
+    }
+}
+
+#[test]
 fn broken_files_dropped_on_the_window_are_reported() {
     if !has_graphics() {
         return;

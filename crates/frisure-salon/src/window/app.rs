@@ -16,6 +16,7 @@ use web_time::{Duration, Instant};
 use super::dialogs::Dialogs;
 use super::platform::{InputFile, Platform};
 use super::viewport::{self, Viewport};
+use super::widgets::Room;
 use super::{automation, gallery, keys, panels, renderer, theme, toolbars, tools, tour, widgets};
 use crate::state::{Command, Document, Effect, Queue, Salon};
 use crate::work::{Wake, Worker};
@@ -38,6 +39,8 @@ pub struct App {
     start: Instant,
     aspect: f64,
     has_renderer: bool,
+    /// Whether the panels at the side are open where they take the place of the picture.
+    side: bool,
 }
 
 /// The parts of a window that depend on the platform.
@@ -77,6 +80,7 @@ impl App {
             start: Instant::now(),
             aspect: 1.0,
             has_renderer,
+            side: false,
         }
     }
 
@@ -245,9 +249,13 @@ impl App {
     }
 
     fn body(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {
-        let mut dialog = None;
-        Panel::top("top").exact_size(44.0).show(ui, |ui| {
-            toolbars::main(ui, &self.salon, out, &mut dialog);
+        let (mut dialog, room) = (None, Room::of(ui));
+        let mut top = Panel::top("top");
+        if room == Room::Wide {
+            top = top.exact_size(44.0);
+        }
+        top.show(ui, |ui| {
+            toolbars::main(ui, &self.salon, &mut self.side, out, &mut dialog);
         });
         Panel::bottom("status").show(ui, |ui| toolbars::status(ui, &self.salon, out));
         if let Some(dialog) = dialog {
@@ -261,19 +269,26 @@ impl App {
         }
         Panel::top("tools").show(ui, |ui| tools::show(ui, &mut self.salon, out));
         Panel::bottom("selection").show(ui, |ui| toolbars::selection(ui, &self.salon, out));
-        let side = Panel::right("side").exact_size(330.0);
-        side.resizable(false).show(ui, |ui| {
-            Panel::bottom("history").exact_size(132.0).show(ui, |ui| {
-                ui.strong("History");
-                panels::history(ui, &self.salon, out);
-            });
-            CentralPanel::default().show(ui, |ui| {
-                panels::show(ui, &self.salon, out);
-            });
-        });
+        if room == Room::Phone && self.side {
+            CentralPanel::default().show(ui, |ui| self.side(ui, out));
+            return;
+        }
+        if room != Room::Phone {
+            let side = Panel::right("side").exact_size(330.0);
+            side.resizable(false).show(ui, |ui| self.side(ui, out));
+        }
         let frame = egui::Frame::NONE.fill(egui::Color32::from_gray(40));
         CentralPanel::default().frame(frame).show(ui, |ui| self.centre(ui, out));
         tour::show(ui, &self.salon, out);
+    }
+
+    /// The panels with sliders, and the history.
+    fn side(&self, ui: &mut Ui, out: &mut Vec<Command>) {
+        Panel::bottom("history").exact_size(132.0).show(ui, |ui| {
+            ui.strong("History");
+            panels::history(ui, &self.salon, out);
+        });
+        CentralPanel::default().show(ui, |ui| panels::show(ui, &self.salon, out));
     }
 
     fn centre(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {

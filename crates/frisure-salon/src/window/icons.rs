@@ -52,6 +52,8 @@ pub(super) const RELEASE: &str = "\u{e2e4}";
 pub(super) const SAVE: &str = "\u{e248}";
 /// Scissors. Phosphor's `scissors`.
 pub(super) const SCISSORS: &str = "\u{eae0}";
+/// The panels with sliders and the history. Phosphor's `sliders-horizontal`.
+pub(super) const SETTINGS: &str = "\u{e434}";
 /// Share the scene. Phosphor's `share-network`.
 pub(super) const SHARE: &str = "\u{e408}";
 /// The tour. Phosphor's `graduation-cap`.

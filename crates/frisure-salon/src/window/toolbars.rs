@@ -4,59 +4,86 @@ use eframe::egui::{Align, ComboBox, Layout, ProgressBar, Role, Theme, Ui, Widget
 use frisure::hairstyle::styling::{Grow, Growth, Operation, Release, Selection};
 
 use super::dialogs::Dialog;
+use super::widgets::Room;
 use super::{icons, theme, widgets};
 use crate::state::{Command, Document, PLACES, Salon};
 
-/// The top toolbar.
+/// The top toolbar: in a narrow window in as many rows as it takes. `side` says whether the panels are open, where they take the
+/// place of the picture.
 pub(super) fn main(
     ui: &mut Ui,
     salon: &Salon,
+    side: &mut bool,
     out: &mut Vec<Command>,
     dialog: &mut Option<Dialog>,
 ) {
-    ui.horizontal_centered(|ui| {
-        let help = "Hair to start with";
-        if widgets::icon_toggle(ui, icons::GALLERY, "Gallery", salon.is_gallery(), help).clicked() {
-            out.push(Command::Gallery(!salon.is_gallery()));
-        }
-        let dialogs = [
-            (Dialog::Open, icons::OPEN, "Open…", "Open a scene, a head or a groom (Ctrl O)"),
-            (Dialog::Save, icons::SAVE, "Save…", "Save the scene (Ctrl S)"),
-            (Dialog::Export, icons::EXPORT, "Export…", "Write the hair as a groom (Ctrl E)"),
-            (
-                Dialog::Picture,
-                icons::PICTURE,
-                "Picture…",
-                "Render a final picture or a turntable (Ctrl P)",
-            ),
-        ];
-        for (which, icon, label, help) in dialogs {
-            let enabled = salon.document.is_some() || !which.needs_document();
-            ui.add_enabled_ui(enabled, |ui| {
-                if widgets::with_icon(ui, icon, label, help).clicked() {
-                    *dialog = Some(which);
+    if Room::of(ui) == Room::Wide {
+        ui.horizontal_centered(|ui| {
+            left(ui, salon, out, dialog);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                right(ui, dialog);
+                if let Some(document) = &salon.document {
+                    let changed = if document.is_changed() { " •" } else { "" };
+                    ui.weak(format!("{}{changed}", document.name()));
                 }
             });
-        }
-        ui.separator();
-        if let Some(document) = salon.document.as_ref() {
-            ui.add_enabled_ui(!salon.is_gallery(), |ui| edits(ui, salon, document, out));
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if widgets::icon(ui, icons::HELP, "Help", "keys and tools (F1)").clicked() {
-                *dialog = Some(Dialog::Help);
+        });
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        left(ui, salon, out, dialog);
+        if Room::of(ui) == Room::Phone && salon.document.is_some() {
+            let help = "sliders and history";
+            let room = Room::Wide;
+            if widgets::fitting_toggle(ui, room, icons::SETTINGS, ("Panels", *side), help).clicked()
+            {
+                *side = !*side;
             }
-            let dark = ui.visuals().dark_mode;
-            let (icon, other) = if dark { (icons::LIGHT, "Light") } else { (icons::DARK, "Dark") };
-            if widgets::icon(ui, icon, other, "a light or a dark window").clicked() {
-                ui.ctx().set_theme(if dark { Theme::Light } else { Theme::Dark });
-            }
-            if let Some(document) = &salon.document {
-                let changed = if document.is_changed() { " •" } else { "" };
-                ui.weak(format!("{}{changed}", document.name()));
+        }
+        right(ui, dialog);
+    });
+}
+
+fn left(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>, dialog: &mut Option<Dialog>) {
+    let (open, help) = (salon.is_gallery(), "hair to start with");
+    let gallery = ("Gallery", open);
+    if widgets::fitting_toggle(ui, Room::Wide, icons::GALLERY, gallery, help).clicked() {
+        out.push(Command::Gallery(!open));
+    }
+    let dialogs = [
+        (Dialog::Open, icons::OPEN, "Open…", "Open a scene, a head or a groom (Ctrl O)"),
+        (Dialog::Save, icons::SAVE, "Save…", "Save the scene (Ctrl S)"),
+        (Dialog::Export, icons::EXPORT, "Export…", "Write the hair as a groom (Ctrl E)"),
+        (
+            Dialog::Picture,
+            icons::PICTURE,
+            "Picture…",
+            "Render a final picture or a turntable (Ctrl P)",
+        ),
+    ];
+    for (which, icon, label, help) in dialogs {
+        let enabled = salon.document.is_some() || !which.needs_document();
+        ui.add_enabled_ui(enabled, |ui| {
+            if widgets::fitting(ui, Room::Wide, icon, label, help).clicked() {
+                *dialog = Some(which);
             }
         });
-    });
+    }
+    ui.separator();
+    if let Some(document) = salon.document.as_ref().filter(|_| !salon.is_gallery()) {
+        edits(ui, salon, document, out);
+    }
+}
+
+fn right(ui: &mut Ui, dialog: &mut Option<Dialog>) {
+    if widgets::icon(ui, icons::HELP, "Help", "keys and tools (F1)").clicked() {
+        *dialog = Some(Dialog::Help);
+    }
+    let dark = ui.visuals().dark_mode;
+    let (icon, other) = if dark { (icons::LIGHT, "Light") } else { (icons::DARK, "Dark") };
+    if widgets::icon(ui, icon, other, "a light or a dark window").clicked() {
+        ui.ctx().set_theme(if dark { Theme::Light } else { Theme::Dark });
+    }
 }
 
 fn edits(ui: &mut Ui, salon: &Salon, document: &Document, out: &mut Vec<Command>) {
@@ -74,19 +101,23 @@ fn edits(ui: &mut Ui, salon: &Salon, document: &Document, out: &mut Vec<Command>
     }
     ui.separator();
     let (icon, label) = if salon.is_wet() { (icons::DRY, "Dry") } else { (icons::WET, "Wet") };
-    if widgets::with_icon(ui, icon, label, "Wet or dry the selected hair (W)").clicked() {
+    if widgets::fitting(ui, Room::Narrow, icon, label, "Wet or dry the selected hair (W)").clicked()
+    {
         out.push(Command::ToggleWet);
     }
-    if widgets::with_icon(ui, icons::GROW, "Grow a month", "Grow the selected hair (G)").clicked() {
+    let help = "Grow the selected hair (G)";
+    if widgets::fitting(ui, Room::Wide, icons::GROW, "Grow a month", help).clicked() {
         out.push(grow_a_month());
     }
     let compared = salon.comparison.is_some();
     let help = "The hair before the last edit and now, side by side (X)";
-    if widgets::icon_toggle(ui, icons::COMPARE, "Compare", compared, help).clicked() {
+    let compare = ("Compare", compared);
+    if widgets::fitting_toggle(ui, Room::Wide, icons::COMPARE, compare, help).clicked() {
         out.push(Command::ToggleCompare);
     }
     let help = "Do each step on the other side of the head, too (M)";
-    if widgets::icon_toggle(ui, icons::MIRROR, "Mirror", salon.mirror, help).clicked() {
+    let mirror = ("Mirror", salon.mirror);
+    if widgets::fitting_toggle(ui, Room::Wide, icons::MIRROR, mirror, help).clicked() {
         out.push(Command::ToggleMirror);
     }
 }

@@ -5,6 +5,7 @@ use frisure::hairstyle::Comb as Side;
 use frisure::hairstyle::styling::Direction;
 use glam::DVec3;
 
+use super::widgets::Room;
 use super::{icons, theme, widgets};
 use crate::state::{Command, CutHold, Salon, Scissors, Tool, VIEWS, comb};
 
@@ -30,7 +31,8 @@ const TOOLS: [(Tool, &str, &str, &str); 9] = [
 pub(super) fn show(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         for (tool, icon, label, help) in TOOLS {
-            if widgets::icon_toggle(ui, icon, label, salon.tool == tool, help).clicked() {
+            let named = (label, salon.tool == tool);
+            if widgets::fitting_toggle(ui, Room::Narrow, icon, named, help).clicked() {
                 out.push(Command::Take(tool));
             }
         }

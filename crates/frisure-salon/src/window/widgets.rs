@@ -9,6 +9,28 @@ use crate::state::{Command, Control, SelectMode};
 /// Width of the number beside a slider (points).
 const NUMBER_WIDTH: f32 = 104.0;
 
+/// How much room a window has: what it leaves out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Room {
+    /// A phone held upright: the panels at the side take the place of the picture.
+    Phone,
+    /// A small window: the upper toolbar has icons without labels.
+    Narrow,
+    /// Everything fits.
+    Wide,
+}
+
+impl Room {
+    /// That of the window (points). Chosen: the upper toolbar with labels is 1120 wide, tools are 690.
+    pub(super) fn of(ui: &Ui) -> Self {
+        match ui.ctx().content_rect().width() {
+            width if width < 700.0 => Self::Phone,
+            width if width < 1150.0 => Self::Narrow,
+            _ => Self::Wide,
+        }
+    }
+}
+
 /// A button.
 pub(super) fn plain(ui: &mut Ui, label: &str, help: &str) -> Response {
     with_help(ui, Button::new(label), help)
@@ -32,6 +54,31 @@ pub(super) fn icon(ui: &mut Ui, icon: &str, label: &str, help: &str) -> Response
 /// A toggle button with an icon before its label.
 pub(super) fn icon_toggle(ui: &mut Ui, icon: &str, label: &str, on: bool, help: &str) -> Response {
     let response = with_help(ui, Button::selectable(on, format!("{icon} {label}")), help);
+    named(&response, label, Some(on));
+    response
+}
+
+/// A button with an icon, and with its label from some room on.
+pub(super) fn fitting(ui: &mut Ui, from: Room, icon: &str, label: &str, help: &str) -> Response {
+    match Room::of(ui) < from {
+        true => self::icon(ui, icon, label, help),
+        false => with_icon(ui, icon, label, help),
+    }
+}
+
+/// A toggle button with an icon, and with its label from some room on.
+pub(super) fn fitting_toggle(
+    ui: &mut Ui,
+    from: Room,
+    icon: &str,
+    (label, on): (&str, bool),
+    help: &str,
+) -> Response {
+    if Room::of(ui) >= from {
+        return icon_toggle(ui, icon, label, on, help);
+    }
+    let button = Button::selectable(on, RichText::new(icon).size(16.0));
+    let response = with_help(ui, button, &format!("{label}: {help}"));
     named(&response, label, Some(on));
     response
 }
