@@ -14,6 +14,7 @@ const DEEP: f64 = 1e-10;
 const APART: f64 = 1e-10;
 
 /// Triangles over welded corners: vertices at the same place are one.
+#[derive(Debug, PartialEq)]
 pub(crate) struct Soup {
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -203,6 +204,7 @@ impl Soup {
 }
 
 /// Lists of faces, one list per vertex.
+#[derive(Clone, Debug)]
 pub(crate) struct Rows {
     starts: Vec<usize>,
     items: Vec<u32>,

@@ -11,17 +11,9 @@ use frisure_strands::Surface;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::far::Coarse;
+use super::samples::Samples;
 use super::triangles::{Soup, closest_point};
 use super::voxel_grid::{FAR, Grid, NONE, Node};
-
-/// Samples at `origin + spacing·(i, j, k)`, i fastest (m).
-pub(crate) struct Voxels {
-    pub(crate) origin: DVec3,
-    pub(crate) spacing: f64,
-    pub(crate) size: [usize; 3],
-    pub(crate) values: Vec<f32>,
-}
 
 /// Grid spacing where the mesh is of human size (m). Chosen: within 0.3 mm of a smooth mesh.
 const SPACING: f64 = 3e-3;
@@ -88,9 +80,9 @@ fn bounds(surface: &Surface, chosen: impl Fn(&DVec3) -> bool) -> (DVec3, DVec3) 
 }
 
 /// The signed distance to a part of `surface` (m), positive outside, on a grid around it.
-pub(crate) fn sample(surface: &Surface, region: &Region) -> Voxels {
+pub(crate) fn sample(surface: &Surface, region: &Region) -> Samples {
     // 1. Exact distances near the closed mesh. 2. Which nodes are outside. 3. Without faces that no node outside has as its
-    // nearest. 4. Distances everywhere else.
+    // nearest. 4. What distances everywhere else follow from.
     let soup = Soup::closed(surface, |corners| region.has(corners));
     let grid = Grid::around(region);
     let mut band = vec![FAR; grid.len()];
@@ -100,8 +92,8 @@ pub(crate) fn sample(surface: &Surface, region: &Region) -> Voxels {
     let soup = soup.only(&kept);
     // Inner faces (a mouth bag, the double of a skin) must not attract: measure again without them.
     grid.splat(&soup, &mut band, |node| node.face != NONE && !kept[node.face as usize]);
-    let values = grid.spread(&band, &soup, &outside);
-    Voxels { origin: grid.origin, spacing: grid.spacing, size: grid.size, values }
+    let reach = BAND * grid.spacing;
+    Samples::new(grid, &band, &outside, soup, reach)
 }
 
 impl Grid {
@@ -352,24 +344,6 @@ impl Grid {
                 visit(at + stride, at, axis);
             }
         }
-    }
-
-    /// Signed distances everywhere: exact near the mesh, from a coarser grid elsewhere.
-    fn spread(&self, nodes: &[Node], soup: &Soup, outside: &[bool]) -> Vec<f32> {
-        let coarse = Coarse::around(self, nodes, soup, outside);
-        let reach = (BAND * self.spacing) as f32;
-        let mut values = coarse.interpolated(self.size);
-        let known = values.par_iter_mut().zip(nodes).zip(outside);
-        known.for_each(|((value, node), &outside)| {
-            *value = match (node.face == NONE, outside) {
-                (false, true) => node.distance,
-                (false, false) => -node.distance,
-                // A node that no face came near is at least that far.
-                (true, true) => value.max(reach),
-                (true, false) => value.min(-reach),
-            };
-        });
-        values
     }
 }
 
