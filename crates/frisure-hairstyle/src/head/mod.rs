@@ -18,6 +18,7 @@ mod samples;
 mod scalp;
 mod sculpt;
 mod spheres;
+mod splat;
 mod spline;
 mod subdivide;
 #[cfg(test)]
