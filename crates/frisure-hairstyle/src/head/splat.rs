@@ -1,7 +1,5 @@
 //! Distances of the nodes of a grid near triangles: each triangle is offered to the nodes around it.
 
-use std::ops::Range;
-
 use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f32x8};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -34,14 +32,8 @@ struct Slab<'a> {
     reach: f64,
 }
 
-/// Nodes of a row that may be near a triangle.
-struct Row {
-    /// Index of the row's first node in the slab.
-    at: usize,
-    /// Position of that node (m).
-    start: DVec3,
-    near: Range<usize>,
-}
+/// First and last node of a box along each axis.
+type Nodes = [[usize; 3]; 2];
 
 /// A triangle, and what bounds it.
 struct Face {
@@ -78,7 +70,7 @@ impl Grid {
             |(index, (nodes, mut faces))| {
                 let base = index * SLAB;
                 let Some(part) = self.reset(nodes, base, &wrong) else { return };
-                let meets = |near: [[usize; 3]; 2]| {
+                let meets = |near: Nodes| {
                     (0..3).all(|a| near[0][a] <= part[1][a] && near[1][a] >= part[0][a])
                 };
                 faces.retain(|&f| meets(self.near(soup.corners(f as usize), reach)));
@@ -99,12 +91,14 @@ impl Grid {
             *limit = limit.sqrt().min(node.distance);
         }
         for &face in faces {
-            self.splat_face(simd, slab, &Face::new(face, soup.corners(face as usize)));
+            let face = Face::new(face, soup.corners(face as usize));
+            self.offer(simd, slab, &face);
+            self.cross(slab, &face);
         }
     }
 
     /// First and last node, along each axis, that may be within `reach` (m) of a triangle.
-    fn near(&self, [a, b, c]: [DVec3; 3], reach: f64) -> [[usize; 3]; 2] {
+    fn near(&self, [a, b, c]: [DVec3; 3], reach: f64) -> Nodes {
         let reach = DVec3::splat(reach);
         [self.first(a.min(b).min(c) - reach), self.last(a.max(b).max(c) + reach)]
     }
@@ -116,7 +110,7 @@ impl Grid {
         nodes: &mut [Node],
         base: usize,
         wrong: impl Fn(&Node) -> bool,
-    ) -> Option<[[usize; 3]; 2]> {
+    ) -> Option<Nodes> {
         let mut part = [[usize::MAX; 3], [0; 3]];
         for (row, nodes) in nodes.chunks_mut(self.size[0]).enumerate() {
             for (i, node) in nodes.iter_mut().enumerate().filter(|(_, node)| wrong(node)) {
@@ -142,61 +136,31 @@ impl Grid {
         [0, 1, 2].map(|a| (u[a].max(0.0) as usize).min(self.size[a] - 1))
     }
 
-    /// Calls `visit` for the rows of a slab with the nodes that may be within its reach of a triangle.
+    /// Calls `visit` for the rows of a box of nodes in a slab, with the index in the slab of the row's first node in the box, and its
+    /// place in the grid.
     #[inline(always)]
     fn for_rows(
         &self,
         slab: &mut Slab<'_>,
-        corners: [DVec3; 3],
-        mut visit: impl FnMut(&mut Slab<'_>, Row),
+        [low, high]: Nodes,
+        mut visit: impl FnMut(&mut Slab<'_>, usize, [usize; 3]),
     ) {
-        let (middle, radius) = bounding_ball(corners);
-        let farthest = slab.reach + radius + SLACK;
-        let [low, high] = self.near(corners, slab.reach);
-        let top = (slab.base + slab.nodes.len() / self.layer() - 1).min(high[2]);
-        for k in low[2].max(slab.base)..=top {
+        let top = slab.base + slab.nodes.len() / self.layer() - 1;
+        for k in low[2].max(slab.base)..=high[2].min(top) {
             for j in low[1]..=high[1] {
-                let at = ((k - slab.base) * self.size[1] + j) * self.size[0];
-                // The nodes of the row in a ball outside of which the face matters to none.
-                let start = self.position([0, j, k]);
-                let across = (start - middle).with_x(0.0).length_squared();
-                let room = farthest * farthest - across;
-                if room < 0.0 {
-                    continue;
-                }
-                let ends = [-room.sqrt(), room.sqrt()];
-                let [from, to] = ends.map(|x| (middle.x + x - start.x) / self.spacing);
-                let (from, to) = (from.ceil().max(0.0) as usize, to.max(0.0) as usize);
-                let (from, to) = (from.max(low[0]), to.min(high[0]));
-                if from <= to {
-                    visit(slab, Row { at, start, near: from..to + 1 });
-                }
+                let at = ((k - slab.base) * self.size[1] + j) * self.size[0] + low[0];
+                visit(slab, at, [low[0], j, k]);
             }
         }
     }
 
-    /// Lowers the squares of the limits (m²) to the squared distance from the middle of a face, which bounds that to the mesh.
-    #[inline(always)]
-    fn bound<S: Simd>(&self, simd: S, slab: &mut Slab<'_>, corners: [DVec3; 3]) {
-        let middle = corners.iter().sum::<DVec3>() / 3.0;
-        let steps = self.steps(simd);
-        self.for_rows(
-            slab,
-            [middle; 3],
-            #[inline(always)]
-            |slab, row| {
-                let across = (row.start - middle).with_x(0.0).length_squared();
-                let across = single(simd, across);
-                for first in row.near.clone().step_by(LANES) {
-                    let x = row.start.x - middle.x + self.spacing * first as f64;
-                    let x = single(simd, x) + steps;
-                    let limits = &mut slab.limits[row.at + first..][..LANES];
-                    let old = f32x8::from_slice(simd, limits);
-                    let in_row = steps.simd_lt(self.steps_before(simd, &row, first));
-                    in_row.select(old.min(x * x + across), old).store_slice(limits);
-                }
-            },
-        );
+    /// Boxes as wide as the nodes of a row that are looked at at once, or less, which make up a box.
+    fn pieces([low, high]: Nodes) -> impl Iterator<Item = Nodes> {
+        let firsts = (low[0]..=high[0]).step_by(LANES);
+        firsts.map(move |first| {
+            let last = (first + LANES - 1).min(high[0]);
+            [[first, low[1], low[2]], [last, high[1], high[2]]]
+        })
     }
 
     /// How far (m) the nodes of a row that are looked at at once are from the first.
@@ -206,86 +170,95 @@ impl Grid {
         f32x8::from_slice(simd, &steps)
     }
 
-    /// What is more than the steps (m) from node `first` to the nodes of a row that may be near, and less than those to others.
+    /// Lowers the squares of the limits (m²) to the squared distance from the middle of a face, which bounds that to the mesh.
     #[inline(always)]
-    fn steps_before<S: Simd>(&self, simd: S, row: &Row, first: usize) -> f32x8<S> {
-        let count = (row.near.end - first) as f64;
-        single(simd, self.spacing * (count - 0.5))
+    fn bound<S: Simd>(&self, simd: S, slab: &mut Slab<'_>, corners: [DVec3; 3]) {
+        let middle = corners.iter().sum::<DVec3>() / 3.0;
+        let steps = self.steps(simd);
+        for piece in Self::pieces(self.near([middle; 3], slab.reach)) {
+            let x = single(simd, (self.position(piece[0]) - middle).x) + steps;
+            let along = x * x;
+            // More than the steps to the nodes of the piece, and less than those to others.
+            let width = (piece[1][0] - piece[0][0]) as f64 + 0.5;
+            let in_piece = steps.simd_lt(single(simd, width * self.spacing));
+            self.for_rows(
+                slab,
+                piece,
+                #[inline(always)]
+                |slab, at, first| {
+                    let across = (self.position(first) - middle).with_x(0.0).length_squared();
+                    let limits = &mut slab.limits[at..at + LANES];
+                    let old = f32x8::from_slice(simd, limits);
+                    let new = old.min(along + single(simd, across));
+                    in_piece.select(new, old).store_slice(limits);
+                },
+            );
+        }
     }
 
-    /// Offers one face to the nodes of a slab.
+    /// Offers one face to the nodes of a slab that it may be the nearest of.
+    ///
+    /// The plane of the face and a ball around it rule most nodes out, because no point of the face is nearer than either.
     #[inline(always)]
-    fn splat_face<S: Simd>(&self, simd: S, slab: &mut Slab<'_>, face: &Face) {
-        self.for_rows(
-            slab,
-            face.corners,
-            #[inline(always)]
-            |slab, row| {
-                for first in row.near.clone().step_by(LANES) {
-                    // The face matters to a node if it is nearer than the nearest yet.
-                    let mut left = self.may_be_nearest(simd, slab, face, &row, first);
+    fn offer<S: Simd>(&self, simd: S, slab: &mut Slab<'_>, face: &Face) {
+        let steps = self.steps(simd);
+        let margin = SLACK + ROUNDING * (slab.reach + 2.0 * face.radius);
+        let (margin, radius) = (single(simd, margin), single(simd, face.radius));
+        let reach = single(simd, slab.reach);
+        for piece in Self::pieces(self.near(face.corners, slab.reach)) {
+            let start = self.position(piece[0]);
+            let x = single(simd, start.x - face.middle.x) + steps;
+            let along = x * x;
+            let rise =
+                (single(simd, start.x - face.corners[0].x) + steps) * single(simd, face.normal.x);
+            let in_piece = (1 << (piece[1][0] - piece[0][0] + 1)) - 1;
+            self.for_rows(
+                slab,
+                piece,
+                #[inline(always)]
+                |slab, at, first| {
+                    let start = self.position(first);
+                    let height = (start - face.corners[0]).with_x(0.0).dot(face.normal);
+                    let across = (start - face.middle).with_x(0.0).length_squared();
+                    let height = (rise + single(simd, height)).abs();
+                    let away = along + single(simd, across);
+                    let limits = f32x8::from_slice(simd, &slab.limits[at..at + LANES]);
+                    let near = limits.min(reach) + margin;
+                    let within = near + radius;
+                    let matters = height.simd_le(near) & away.simd_le(within * within);
+                    let mut left = matters.to_bitmask() & in_piece;
                     while left != 0 {
-                        let i = first + left.trailing_zeros() as usize;
-                        slab.offer(row.at + i, self.on_row(&row, i), face);
+                        let lane = left.trailing_zeros() as usize;
+                        let p = self.position([first[0] + lane, first[1], first[2]]);
+                        slab.measure(at + lane, p, face);
                         left &= left - 1;
                     }
+                },
+            );
+        }
+    }
+
+    /// Notes which edges of the grid from the nodes of a slab a face crosses.
+    #[inline(always)]
+    fn cross(&self, slab: &mut Slab<'_>, face: &Face) {
+        // An edge that meets the face begins in its box or below it, and passes through the box.
+        let (edge, room) = (self.spacing + SLACK, DVec3::splat(BESIDE));
+        let nodes = [self.first(face.low - DVec3::splat(edge) - room), self.last(face.high + room)];
+        self.for_rows(
+            slab,
+            nodes,
+            #[inline(always)]
+            |slab, at, first| {
+                for i in first[0]..=nodes[1][0] {
+                    let p = self.position([i, first[1], first[2]]);
+                    let beside = p.cmpge(face.low).bitmask().count_ones();
+                    if beside >= 2 && p.cmple(face.high).all() && face.may_be_within(edge, p) {
+                        slab.nodes[at + i - first[0]].crossed |=
+                            crossed_edges(p, self.spacing, face.corners, face.normal);
+                    }
                 }
-                self.cross(slab, face, &row);
             },
         );
-    }
-
-    /// Position of node `i` of a row (m).
-    #[inline(always)]
-    fn on_row(&self, row: &Row, i: usize) -> DVec3 {
-        row.start.with_x(row.start.x + self.spacing * i as f64)
-    }
-
-    /// A bit for each node of a row from `first` on, set where the face may be nearer than the limit: its plane and a ball around it
-    /// rule most nodes out, because no point of the face is nearer than either.
-    #[inline(always)]
-    fn may_be_nearest<S: Simd>(
-        &self,
-        simd: S,
-        slab: &Slab<'_>,
-        face: &Face,
-        row: &Row,
-        first: usize,
-    ) -> u64 {
-        let start = row.start.with_x(row.start.x + self.spacing * first as f64);
-        let (from_plane, from_middle) = (start - face.corners[0], start - face.middle);
-        let steps = self.steps(simd);
-        let height =
-            single(simd, from_plane.dot(face.normal)) + single(simd, face.normal.x) * steps;
-        let x = single(simd, from_middle.x) + steps;
-        let away = x * x + single(simd, from_middle.with_x(0.0).length_squared());
-        let margin = SLACK + ROUNDING * (slab.reach + 2.0 * face.radius);
-        let limits = f32x8::from_slice(simd, &slab.limits[row.at + first..][..LANES]);
-        let near = limits.min(single(simd, slab.reach)) + single(simd, margin);
-        let within = near + single(simd, face.radius);
-        let matters = height.abs().simd_le(near) & away.simd_le(within * within);
-        let in_row = steps.simd_lt(self.steps_before(simd, row, first));
-        (matters & in_row).to_bitmask()
-    }
-
-    /// Notes which edges of the grid from the nodes of a row the face crosses.
-    #[inline(always)]
-    fn cross(&self, slab: &mut Slab<'_>, face: &Face, row: &Row) {
-        // An edge that meets the face begins in its box or below it, and passes through the box.
-        let (low, high, y, z) = (face.low, face.high, row.start.y, row.start.z);
-        let beside = usize::from(y >= low.y) + usize::from(z >= low.z);
-        if y > high.y || z > high.z || beside == 0 {
-            return;
-        }
-        let edge = self.spacing + SLACK;
-        for i in row.near.clone() {
-            let p = self.on_row(row, i);
-            let in_box = p.x <= high.x && beside + usize::from(p.x >= low.x) >= 2;
-            if in_box && face.may_be_within(edge, p) {
-                slab.nodes[row.at + i].crossed |=
-                    crossed_edges(p, self.spacing, face.corners, face.normal);
-            }
-        }
     }
 }
 
@@ -296,8 +269,8 @@ fn single<S: Simd>(simd: S, x: f64) -> f32x8<S> {
 }
 
 impl Slab<'_> {
-    /// Offers a face to the node `at`, which is at `p` (m).
-    fn offer(&mut self, at: usize, p: DVec3, face: &Face) {
+    /// Measures how far the node `at`, which is at `p` (m), is from a face.
+    fn measure(&mut self, at: usize, p: DVec3, face: &Face) {
         let distance = p.distance(closest_point(p, face.corners)) as f32;
         let node = &mut self.nodes[at];
         if distance < node.distance && f64::from(distance) <= self.reach {
