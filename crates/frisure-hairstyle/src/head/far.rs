@@ -47,8 +47,10 @@ impl Coarse {
             }
         }
         let known: Vec<bool> = coarse.faces.iter().map(|&face| face != NONE).collect();
-        for sweep in SWEEPS {
-            coarse.sweep(&mut feet, &known, sweep, place);
+        let (changed, rows) = (vec![0; count], vec![0; size[1] * size[2]]);
+        let mut nearest = Nearest { feet, known, changed, rows };
+        for time in 0..SWEEPS.len() {
+            coarse.sweep(&mut nearest, time, place);
         }
         coarse
     }
@@ -57,44 +59,35 @@ impl Coarse {
         (k * self.size[1] + j) * self.size[0] + i
     }
 
-    /// Offers each node the nearest points of the three neighbours just passed; bit a of `sweep` is set
-    /// where axis a runs downwards. Those whose nearest point is `known` keep it.
-    fn sweep(
-        &mut self,
-        feet: &mut [DVec3],
-        known: &[bool],
-        sweep: usize,
-        place: impl Fn([usize; 3]) -> DVec3,
-    ) {
-        let order = |axis: usize| (0..self.size[axis], sweep >> axis & 1 == 1);
-        let (zs, ys, xs) = (order(2), order(1), order(0));
-        for k in directed(zs) {
-            for j in directed(ys.clone()) {
-                for i in directed(xs.clone()) {
-                    let at3 = [i, j, k];
-                    if !known[self.at(at3)] {
-                        self.relax(feet, at3, sweep, place(at3));
+    /// Offers each node the nearest points of the three neighbours just passed, in the sweep of index `time`.
+    fn sweep(&mut self, nearest: &mut Nearest, time: usize, place: impl Fn([usize; 3]) -> DVec3) {
+        let [nx, ny, nz] = self.size;
+        let ways = [0, 1, 2].map(|axis| Way::new(time, axis));
+        for k in directed(nz, ways[2].down) {
+            for j in directed(ny, ways[1].down) {
+                let row = k * ny + j;
+                let beside = ways[1].passed(j, ny).map(|j| k * ny + j);
+                let below = ways[2].passed(k, nz).map(|k| k * ny + j);
+                let rows = [Some(row), beside, below];
+                let is_new = |(row, way): (Option<usize>, &Way)| {
+                    row.is_some_and(|row| way.is_new(nearest.rows[row]))
+                };
+                if !rows.into_iter().zip(&ways).any(is_new) {
+                    continue;
+                }
+                for i in directed(nx, ways[0].down) {
+                    let at = row * nx + i;
+                    if !nearest.known[at] {
+                        let before = ways[0].passed(i, nx).map(|i| row * nx + i);
+                        let from = [before, beside.map(|r| r * nx + i), below.map(|r| r * nx + i)];
+                        let offer = nearest.offer(at, from, &ways, || place([i, j, k]));
+                        if let Some(from) = offer {
+                            self.faces[at] = self.faces[from];
+                            nearest.changed[at] = time as u8 + 1;
+                            nearest.rows[row] = time as u8 + 1;
+                        }
                     }
                 }
-            }
-        }
-    }
-
-    fn relax(&mut self, feet: &mut [DVec3], at3: [usize; 3], sweep: usize, p: DVec3) {
-        let at = self.at(at3);
-        let mut least = p.distance_squared(feet[at]);
-        for axis in 0..3 {
-            let down = sweep >> axis & 1 == 1;
-            if at3[axis] == if down { self.size[axis] - 1 } else { 0 } {
-                continue;
-            }
-            let mut from = at3;
-            from[axis] = if down { at3[axis] + 1 } else { at3[axis] - 1 };
-            // The neighbour's nearest point is a candidate for this node, too.
-            let from = self.at(from);
-            let distance = p.distance_squared(feet[from]);
-            if distance < least {
-                (least, self.faces[at], feet[at]) = (distance, self.faces[from], feet[from]);
             }
         }
     }
@@ -139,6 +132,78 @@ impl Coarse {
         let along_x = refine(&coarse, &xs, 1);
         let along_y = refine(&along_x, &ys, xs.fine.len());
         refine(&along_y, &zs, xs.fine.len() * ys.fine.len())
+    }
+}
+
+/// What the sweeps know of the coarse nodes.
+struct Nearest {
+    /// The nearest point known (m).
+    feet: Vec<DVec3>,
+    /// Those that have been exact from the beginning.
+    known: Vec<bool>,
+    /// The number of the sweep, from 1, in which a node's point was found; and the last of these in a row along x.
+    changed: Vec<u8>,
+    rows: Vec<u8>,
+}
+
+impl Nearest {
+    /// Takes for the node `at` the nearest of its own point and of those of its neighbours, one along each axis. The neighbour whose
+    /// point it took, if any.
+    fn offer(
+        &mut self,
+        at: usize,
+        from: [Option<usize>; 3],
+        ways: &[Way; 3],
+        place: impl FnOnce() -> DVec3,
+    ) -> Option<usize> {
+        let mut new = [None; 3];
+        for ((new, from), way) in new.iter_mut().zip(from).zip(ways) {
+            *new = from.filter(|&from| way.is_new(self.changed[from]));
+        }
+        if new == [None; 3] {
+            return None;
+        }
+        let (p, mut taken) = (place(), None);
+        let mut least = p.distance_squared(self.feet[at]);
+        for from in new.into_iter().flatten() {
+            let distance = p.distance_squared(self.feet[from]);
+            if distance < least {
+                (least, taken) = (distance, Some(from));
+            }
+        }
+        if let Some(from) = taken {
+            self.feet[at] = self.feet[from];
+        }
+        taken
+    }
+}
+
+/// How a sweep runs along an axis.
+struct Way {
+    down: bool,
+    /// The number, from 1, of the last sweep before that ran so.
+    last: Option<u8>,
+}
+
+impl Way {
+    fn new(time: usize, axis: usize) -> Self {
+        let down = |sweep: usize| sweep >> axis & 1 == 1;
+        let same = |&before: &usize| down(SWEEPS[before]) == down(SWEEPS[time]);
+        Self {
+            down: down(SWEEPS[time]),
+            last: (0..time).rev().find(same).map(|before| before as u8 + 1),
+        }
+    }
+
+    /// The neighbour of node `n` of `count` along the axis that the sweep has just passed.
+    fn passed(&self, n: usize, count: usize) -> Option<usize> {
+        if self.down { Some(n + 1).filter(|&n| n < count) } else { n.checked_sub(1) }
+    }
+
+    /// Whether a neighbour's point of sweep `changed` has not been offered along this way. One that has been is no nearer now,
+    /// because the points of nodes only become nearer.
+    fn is_new(&self, changed: u8) -> bool {
+        self.last.is_none_or(|last| changed > last)
     }
 }
 
@@ -193,8 +258,7 @@ fn refine(coarse: &[f32], taps: &Taps, width: usize) -> Vec<f32> {
     fine
 }
 
-/// A range, upwards or downwards.
-fn directed((range, down): (Range<usize>, bool)) -> impl Iterator<Item = usize> {
-    let last = range.end - 1;
-    range.map(move |i| if down { last - i } else { i })
+/// The numbers below `count`, upwards or downwards.
+fn directed(count: usize, down: bool) -> impl Iterator<Item = usize> {
+    (0..count).map(move |n| if down { count - 1 - n } else { n })
 }
