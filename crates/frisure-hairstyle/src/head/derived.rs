@@ -18,6 +18,16 @@ impl<T> Derived<T> {
     /// The value; `compute` gives it at the first time, and must give the same at any time.
     #[inline]
     pub(crate) fn get_or(&self, compute: impl FnOnce() -> T) -> &T {
+        match self.0.get() {
+            Some(value) => value,
+            None => self.first(compute),
+        }
+    }
+
+    /// Kept apart, so that what asks many times is short.
+    #[cold]
+    #[inline(never)]
+    fn first(&self, compute: impl FnOnce() -> T) -> &T {
         self.0.get_or_init(compute)
     }
 }

@@ -20,16 +20,17 @@ pub(crate) struct Spline {
     size: [usize; 3],
     samples: Arc<Samples>,
     /// Blocks of [`BLOCK`]³ cells, and their numbers along each axis.
-    blocks: Vec<Derived<Box<Block>>>,
+    blocks: Vec<Derived<Block>>,
     counts: [usize; 3],
 }
 
-/// What [`BLOCK`]³ cells need, the cells of a block being next to each other in memory.
+/// What [`BLOCK`]³ cells need.
 #[derive(Clone, Debug)]
 struct Block {
-    /// The least coefficient for each [`PART`]³ of its cells.
+    /// The least coefficient for each [`PART`]³ of its cells: next to those of other blocks in memory, because many places are asked
+    /// for nothing else.
     least: [f32; (BLOCK / PART).pow(3)],
-    coefficients: [f32; SIDE.pow(3)],
+    coefficients: Box<[f32; SIDE.pow(3)]>,
 }
 
 /// Cells along each axis of a block. Chosen: smaller ones share more coefficients with their neighbours; no result depends on it.
@@ -174,13 +175,12 @@ impl Spline {
     fn block(&self, first: [usize; 3]) -> &Block {
         let [i, j, k] = first.map(|n| n / BLOCK);
         let at = (k * self.counts[1] + j) * self.counts[0] + i;
-        self.blocks[at].get_or(|| Box::new(Block::new(&self.samples, first.map(|n| n / BLOCK))))
+        self.blocks[at].get_or(|| Block::new(&self.samples, first.map(|n| n / BLOCK)))
     }
 }
 
 impl Block {
     /// The block with this place among the blocks.
-    #[cold]
     fn new(samples: &Samples, block: [usize; 3]) -> Self {
         // A coefficient depends on the samples beside it.
         let size = samples.grid.size;
@@ -191,7 +191,7 @@ impl Block {
         let [width, depth, height] = [0, 1, 2].map(|a| high[a] - low[a]);
         interpolate(&mut values, [width, depth, height]);
         // Beyond the end of the grid there are none, and no cell needs them.
-        let mut coefficients = [f32::INFINITY; SIDE.pow(3)];
+        let mut coefficients = Box::new([f32::INFINITY; SIDE.pow(3)]);
         let [left, front, below] = [0, 1, 2].map(|a| first[a] - low[a]);
         let [rows, layers] = [depth - front, height - below].map(|n| n.min(SIDE));
         for (k, j) in (0..layers).flat_map(|k| (0..rows).map(move |j| (k, j))) {
