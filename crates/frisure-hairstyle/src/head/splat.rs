@@ -1,18 +1,18 @@
 //! Distances of the nodes of a grid near triangles: each triangle is offered to the nodes around it.
 
-use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f32x8};
+use fearless_simd::{Level, Select, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f32x8};
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::triangles::{Soup, closest_point};
-use super::voxel_grid::{FAR, Grid, Node};
+use super::voxel_grid::{FAR, Grid, NONE, Node};
 
 /// What the rounding of distances may add up to (m): `f32` distances within the band have steps below 1 nm, and bounds
 /// in `f64` err by far less.
 const SLACK: f64 = 1e-8;
 /// What the rounding of a first look in single precision may add to a distance, per length of what is looked at: a step is 6e-8, and
-/// a distance to a plane has about five.
-const ROUNDING: f64 = 1e-6;
+/// a square has about six.
+const ROUNDING: f64 = 2e-6;
 /// How far beside a face an edge of the grid that meets it may be (m): above the breadth by which [`covers`] is too large.
 /// Chosen; no result depends on it.
 const BESIDE: f64 = 1e-6;
@@ -26,7 +26,7 @@ struct Slab<'a> {
     /// Its first layer.
     base: usize,
     nodes: &'a mut [Node],
-    /// No node is farther from the mesh (m); [`LANES`] more than nodes.
+    /// No node is farther from the mesh (m), but for those whose nearest face is known, which have less; [`LANES`] more than nodes.
     limits: Vec<f32>,
     /// Nodes farther from the mesh (m) are of no interest.
     reach: f64,
@@ -88,7 +88,8 @@ impl Grid {
             self.bound(simd, slab, soup.corners(face as usize));
         }
         for (limit, node) in slab.limits.iter_mut().zip(&*slab.nodes) {
-            *limit = limit.sqrt().min(node.distance);
+            // Where the nearest face is known no other is nearer.
+            *limit = if node.face == NONE { limit.sqrt() } else { f32::NEG_INFINITY };
         }
         for &face in faces {
             let face = Face::new(face, soup.corners(face as usize));
@@ -198,12 +199,13 @@ impl Grid {
 
     /// Offers one face to the nodes of a slab that it may be the nearest of.
     ///
-    /// The plane of the face and a ball around it rule most nodes out, because no point of the face is nearer than either.
+    /// The plane of the face and a circle around it in this plane rule most nodes out, because no point of the face is nearer than the
+    /// nearest of the circle's disc.
     #[inline(always)]
     fn offer<S: Simd>(&self, simd: S, slab: &mut Slab<'_>, face: &Face) {
         let steps = self.steps(simd);
         let margin = SLACK + ROUNDING * (slab.reach + 2.0 * face.radius);
-        let (margin, radius) = (single(simd, margin), single(simd, face.radius));
+        let (margin, radius) = (single(simd, margin), single(simd, face.radius + margin));
         let reach = single(simd, slab.reach);
         for piece in Self::pieces(self.near(face.corners, slab.reach)) {
             let start = self.position(piece[0]);
@@ -224,8 +226,10 @@ impl Grid {
                     let away = along + single(simd, across);
                     let limits = f32x8::from_slice(simd, &slab.limits[at..at + LANES]);
                     let near = limits.min(reach) + margin;
-                    let within = near + radius;
-                    let matters = height.simd_le(near) & away.simd_le(within * within);
+                    // How far beside the face its plane is as near as the limit.
+                    let square = height * height;
+                    let beside = (near * near - square).max(0.0).sqrt() + radius;
+                    let matters = height.simd_le(near) & (away - square).simd_le(beside * beside);
                     let mut left = matters.to_bitmask() & in_piece;
                     while left != 0 {
                         let lane = left.trailing_zeros() as usize;
