@@ -77,38 +77,45 @@ impl Passed {
         let strides = [1, size[0], size[0] * size[1]];
         let count = size.iter().product();
         let mut passed = Self { values: vec![f64::NAN; count], cells: vec![false; count] };
-        let Some(first) = top(lattice, field) else { return passed };
-        let mut open = vec![first];
-        while let Some(cell) = open.pop() {
-            let at = (0..3).map(|a| cell[a] * strides[a]).sum::<usize>();
-            if std::mem::replace(&mut passed.cells[at], true) {
-                continue;
-            }
-            passed.evaluate(lattice, field, cell);
-            let corner = |c: usize| at + (0..3).map(|a| (c >> a & 1) * strides[a]).sum::<usize>();
-            let inside: [bool; 8] = std::array::from_fn(|c| passed.values[corner(c)] < 0.0);
-            for (c, axis) in (0..8).flat_map(|c| (0..3).map(move |axis| (c, axis))) {
-                if c >> axis & 1 == 0 && inside[c] != inside[c | 1 << axis] {
-                    open.extend(around(cell, c, axis, size));
+        let at = |[i, j, k]: [usize; 3]| i * strides[0] + j * strides[1] + k * strides[2];
+        let mut open: Vec<[usize; 3]> = top(lattice, field).into_iter().collect();
+        while !open.is_empty() {
+            open.retain(|cell| !std::mem::replace(&mut passed.cells[at(*cell)], true));
+            passed.evaluate(lattice, field, &open);
+            let mut next = Vec::new();
+            for &cell in &open {
+                let corner = |c: usize| at([0, 1, 2].map(|a| cell[a] + (c >> a & 1)));
+                let inside: [bool; 8] = std::array::from_fn(|c| passed.values[corner(c)] < 0.0);
+                for (c, axis) in (0..8).flat_map(|c| (0..3).map(move |axis| (c, axis))) {
+                    if c >> axis & 1 == 0 && inside[c] != inside[c | 1 << axis] {
+                        let cells = around(cell, c, axis, size);
+                        next.extend(cells.filter(|cell| !passed.cells[at(*cell)]));
+                    }
                 }
             }
+            open = next;
         }
         passed
     }
 
-    /// Evaluates the field at those corners of a cell where it is not known.
+    /// Evaluates the field at those corners of cells where it is not known.
     fn evaluate(
         &mut self,
         lattice: &Lattice,
         field: &impl Fn([DVec3; LANES]) -> [f64; LANES],
-        cell: [usize; 3],
+        cells: &[[usize; 3]],
     ) {
         let [nx, ny, _] = lattice.size();
-        let corners = (0..8).map(|c| [0, 1, 2].map(|a| cell[a] + (c >> a & 1)));
-        let unknown: Vec<([usize; 3], usize)> = corners
-            .map(|at3| (at3, (at3[2] * ny + at3[1]) * nx + at3[0]))
-            .filter(|(_, at)| self.values[*at].is_nan())
-            .collect();
+        let mut unknown = Vec::new();
+        for (cell, c) in cells.iter().flat_map(|cell| (0..8).map(move |c| (cell, c))) {
+            let node = [0, 1, 2].map(|a| cell[a] + (c >> a & 1));
+            let at = (node[2] * ny + node[1]) * nx + node[0];
+            if self.values[at].is_nan() {
+                // Whatever number: once in the list is enough.
+                self.values[at] = 0.0;
+                unknown.push((node, at));
+            }
+        }
         for chunk in unknown.chunks(LANES) {
             let places = std::array::from_fn(|n| lattice.position(chunk[n.min(chunk.len() - 1)].0));
             for ((_, at), value) in chunk.iter().zip(field(places)) {
