@@ -129,20 +129,24 @@ impl Grid {
     /// True at the nodes that a flood through `clear` ones reaches from the first node of the grid, run by run along x.
     fn flood_clear(&self, clear: &[bool]) -> Vec<bool> {
         let [width, depth, height] = self.size;
-        let mut reached = vec![false; clear.len()];
-        let mut open = vec![0];
-        while let Some(seed) = open.pop() {
-            if reached[seed] {
+        // What may be reached and is not yet; the flood begins at the first node in any case.
+        let (mut open, mut reached) = (clear.to_vec(), vec![false; clear.len()]);
+        open[0] = true;
+        let mut seeds = vec![0];
+        while let Some(seed) = seeds.pop() {
+            if !open[seed] {
                 continue;
             }
-            // The run of clear nodes around the seed.
+            // The run of open nodes around the seed.
             let (row, i) = (seed / width * width, seed % width);
-            let is_clear = |i: &usize| clear[row + i];
-            let from = (0..i).rev().take_while(is_clear).last().unwrap_or(i);
-            let to = (i + 1..width).take_while(is_clear).last().unwrap_or(i);
-            reached[row + from..=row + to].fill(true);
-            // The first node of each clear run beside it in the four rows around.
+            let before = open[row..seed].iter().rev().position(|open| !open).unwrap_or(i);
+            let after = &open[seed..row + width];
+            let to = seed + after.iter().position(|open| !open).unwrap_or(after.len());
+            reached[seed - before..to].fill(true);
+            open[seed - before..to].fill(false);
+            // The first node of each open run beside it in the four rows around.
             let (j, k) = (row / width % depth, row / self.layer());
+            let run = seed - before - row..to - row;
             let around = [
                 (j > 0).then(|| row - width),
                 (j + 1 < depth).then_some(row + width),
@@ -150,13 +154,12 @@ impl Grid {
                 (k + 1 < height).then_some(row + self.layer()),
             ];
             for row in around.into_iter().flatten() {
-                let mut before = false;
-                for at in row + from..=row + to {
-                    let goes_on = clear[at] && !reached[at];
-                    if goes_on && !before {
-                        open.push(at);
+                let mut at = row + run.start;
+                for beside in open[at..row + run.end].chunk_by(|a, b| a == b) {
+                    if beside[0] {
+                        seeds.push(at);
                     }
-                    before = goes_on;
+                    at += beside.len();
                 }
             }
         }
