@@ -5,7 +5,7 @@
 //! Proportions are those of an adult: 15.5 cm wide, 19.5 cm deep, 23 cm from chin to vertex, eyes at
 //! half height, ears between brow and base of the nose.
 
-use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f64x4};
+use fearless_simd::{Level, Select, Simd, SimdBase, dispatch, f64x4};
 use frisure_strands::{Features, Surface, Tint};
 use glam::{DMat3, DVec3, dvec3};
 
@@ -158,12 +158,21 @@ const TORSO_STEP: f64 = 17.5e-3;
 #[inline(always)]
 fn head<S: Simd>(p: Places<S>) -> f64x4<S> {
     // Each part is asked for only where it can matter: farther away no fillet reaches it.
-    let above = p.z.simd_gt(-16.0);
-    let mut f = match (above.any_true(), above.all_true()) {
-        (_, true) => cranium(p),
-        (false, _) => neck(p),
-        _ => above.select(cranium(p), neck(p)),
-    };
+    let zero = f64x4::splat(p.x.simd, 0.0);
+    let (above, low) = (p.z.simd_gt(-16.0), p.z.simd_lt(6.0));
+    let cranium = changed(
+        above,
+        zero,
+        #[inline(always)]
+        |_| cranium(p),
+    );
+    let neck = changed(
+        low,
+        zero,
+        #[inline(always)]
+        |_| neck(p),
+    );
+    let mut f = above.select(cranium, neck);
     let front = above & p.z.simd_lt(9.5) & p.y.simd_gt(-7.5);
     f = changed(
         front,
@@ -172,10 +181,10 @@ fn head<S: Simd>(p: Places<S>) -> f64x4<S> {
         |f| join(f, face(p), 2.4),
     );
     f = changed(
-        above & p.z.simd_lt(6.0),
+        above & low,
         f,
         #[inline(always)]
-        |f| join(f, neck(p), 2.6),
+        |f| join(f, neck, 2.6),
     );
     f = changed(
         p.z.simd_lt(-11.0),

@@ -3,7 +3,8 @@
 //! After Quilez's notes on distance functions, <https://iquilezles.org/articles/distfunctions>.
 //! Nothing here is an exact distance; all are close to one near their surface. A value is the same to the bit whatever the places
 //! beside it and the instruction set: no operation is fused with another. All functions are `inline(always)`, so that they are
-//! compiled with the instruction set that `dispatch!` selects; see `fearless_simd`'s notes on inlining.
+//! compiled with the instruction set that `dispatch!` selects; see `fearless_simd`'s notes on inlining. In a browser there is one set
+//! only, and the page is to be small: there the largest of them are functions that are called.
 
 use std::ops::Sub;
 
@@ -72,7 +73,8 @@ impl<S: Simd> Sub<DVec3> for Places<S> {
 }
 
 /// An ellipsoid with half axes `radii`.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 pub(super) fn ellipsoid<S: Simd>(p: Places<S>, centre: DVec3, radii: DVec3) -> f64x4<S> {
     let q = p - centre;
     // k₁ (k₁ − 1)/k₂ with k₁ = |q/r| and k₂ = |q/r²|: first order in the distance near the surface.
@@ -96,7 +98,8 @@ pub(super) fn turned<S: Simd>(
 }
 
 /// Two balls and the cone that touches both.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 pub(super) fn cone<S: Simd>(p: Places<S>, a: DVec3, b: DVec3, ra: f64, rb: f64) -> f64x4<S> {
     let simd = p.x.simd;
     let ba = b - a;
@@ -134,7 +137,8 @@ pub(super) fn chain<S: Simd, const N: usize>(p: Places<S>, balls: [(DVec3, f64);
 }
 
 /// The union, with a fillet of width about `k`.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 pub(super) fn join<S: Simd>(a: f64x4<S>, b: f64x4<S>, k: f64) -> f64x4<S> {
     // Where the two are within k of each other a fillet is added, k/6 at most; mostly they are not.
     let room = k - (a - b).abs();

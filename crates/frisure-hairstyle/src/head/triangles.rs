@@ -239,17 +239,13 @@ fn take(next: &mut BTreeMap<u32, Vec<u32>>, at: u32) -> Option<u32> {
 /// For each vertex, the first vertex at the same place.
 fn weld(positions: &[DVec3]) -> Vec<u32> {
     // Adding 0 turns −0 into 0: equal coordinates have equal bits.
-    let bits = |c: f64| (c + 0.0).to_bits();
-    let rest = |v: u32| (bits(positions[v as usize].y), bits(positions[v as usize].z));
-    let along = positions.iter().enumerate();
-    let mut order: Vec<(u64, u32)> = along.map(|(v, p)| (bits(p.x), v as u32)).collect();
+    let key = |p: &DVec3| p.to_array().map(|c| (c + 0.0).to_bits());
+    let keys = positions.iter().zip(0..);
+    let mut order: Vec<([u64; 3], u32)> = keys.map(|(p, v)| (key(p), v)).collect();
     order.sort_unstable();
     let mut same = vec![0; positions.len()];
-    for side_by_side in order.chunk_by_mut(|a, b| a.0 == b.0) {
-        side_by_side.sort_unstable_by_key(|&(_, v)| (rest(v), v));
-        for group in side_by_side.chunk_by(|a, b| rest(a.1) == rest(b.1)) {
-            group.iter().for_each(|&(_, v)| same[v as usize] = group[0].1);
-        }
+    for group in order.chunk_by(|a, b| a.0 == b.0) {
+        group.iter().for_each(|&(_, v)| same[v as usize] = group[0].1);
     }
     same
 }
