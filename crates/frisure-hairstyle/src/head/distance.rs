@@ -245,6 +245,30 @@ mod tests {
     }
 
     #[test]
+    fn distances_are_the_same_in_any_order_and_on_any_number_of_threads() {
+        use rayon::prelude::*;
+        let [first, second] = [(); 2].map(|()| SignedDistance::new(&open_ball_with_bag()));
+        let (low, high) = first.bounds();
+        let place = |n: u32| {
+            let at = DVec3::new(0.618, 0.414, 0.732) * f64::from(n);
+            low + (high - low) * (at - at.floor())
+        };
+        let values: Vec<f64> = (0..3000).map(|n| first.value(place(n))).collect();
+        // A copy has what was computed before, and an equal one nothing.
+        assert!(first == second && first.clone() == second);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().unwrap();
+        let on_threads = |field: &SignedDistance| -> Vec<f64> {
+            pool.install(|| {
+                (0..3000).into_par_iter().rev().map(|n| field.value(place(n))).collect()
+            })
+        };
+        for field in [&second, &first.clone()] {
+            assert!(on_threads(field).iter().rev().eq(&values));
+        }
+        assert_ne!(first, SignedDistance::new(&ball(0.08, 16)));
+    }
+
+    #[test]
     fn an_open_mesh_with_an_inner_bag_is_solid() {
         let field = SignedDistance::new(&open_ball_with_bag());
         assert!(field.value(DVec3::ZERO) < -0.03, "{}", field.value(DVec3::ZERO));

@@ -331,3 +331,45 @@ fn covers(corners: [DVec3; 3], p: DVec3, axis: usize) -> bool {
     let sides = [side(a, b), side(b, c), side(c, a)];
     sides.iter().all(|&s| s >= -1e-12) || sides.iter().all(|&s| s <= 1e-12)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::head::test_shapes::ball;
+    use frisure_strands::Surface;
+
+    /// Triangles of all sizes from 0.1 mm to 6 cm, in no order.
+    fn shards() -> Surface {
+        let at = |a: f64| DVec3::new((1.3 * a).sin(), (0.7 * a).cos(), (2.1 * a).sin());
+        let shard = |n: u32| {
+            let (a, size) = (f64::from(n), 1e-4 * 600_f64.powf(f64::from(n) / 60.0));
+            [0.0, 1.0, 2.0].map(|k| 0.03 * at(a) + size * at(17.0 * a + 5.0 * k))
+        };
+        let positions: Vec<DVec3> = (0..60).flat_map(shard).collect();
+        let triangles = (0..60).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect();
+        Surface::new(positions, triangles).unwrap()
+    }
+
+    #[test]
+    fn nodes_have_the_distance_to_the_nearest_face_to_the_bit() {
+        let spacing = 3e-3;
+        let reach = 1.8 * spacing;
+        let grid = Grid { origin: DVec3::splat(-0.045), spacing, size: [31, 31, 31] };
+        for surface in [ball(0.035, 9), shards()] {
+            let soup = Soup::closed(&surface, |_| true);
+            let mut nodes = vec![FAR; grid.len()];
+            grid.splat(&soup, reach, &mut nodes, |_| true);
+            for (at, node) in nodes.iter().enumerate() {
+                let p = grid.position(grid.unravel(at));
+                let distance = |f: usize| p.distance(closest_point(p, soup.corners(f))) as f32;
+                // Of equal distances the first.
+                let all = (0..soup.len()).map(|f| (distance(f), f as u32));
+                let exact = all.min_by(|a, b| a.0.total_cmp(&b.0));
+                let near = exact.filter(|exact| f64::from(exact.0) <= reach);
+                assert_eq!((node.distance, node.face), near.unwrap_or((FAR.distance, NONE)), "{p}");
+            }
+            assert!(nodes.iter().filter(|node| node.face != NONE).count() > 1000);
+            assert!(nodes.iter().filter(|node| node.crossed != 0).count() > 200);
+        }
+    }
+}
