@@ -38,9 +38,9 @@ const BLEND: f64 = 0.03;
 const ROOM: f64 = 0.045;
 
 impl SignedDistance {
-    /// Samples the distance to `surface` (m) on a grid of about 3 mm.
+    /// Samples the distance to `surface` (m) on a grid of about 3 mm: near the skin here, elsewhere where it is asked for.
     ///
-    /// Larger meshes get a wider spacing, so that memory stays below 30 MB.
+    /// Larger meshes get a wider spacing, so that memory stays below 40 MB, and below 100 MB where all places are asked for.
     #[must_use]
     pub fn new(surface: &Surface) -> Self {
         Self { head: Spline::through(sample(surface, &Region::whole(surface))), torso: None }

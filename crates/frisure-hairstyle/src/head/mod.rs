@@ -256,7 +256,7 @@ impl Head {
         &self.signed_distance
     }
 
-    /// The head as spheres, largest errors first mended: dense on the scalp, coarser elsewhere.
+    /// The head as spheres, largest errors first mended: dense on the scalp, coarser elsewhere. Fitted when they are first asked for.
     #[must_use]
     pub fn spheres(&self) -> &[Sphere] {
         self.spheres.get_or(|| {
