@@ -50,16 +50,14 @@ pub(super) fn part_sheets(positions: &mut Vec<DVec3>, triangles: &mut [[u32; 3]]
 
 /// The sides that belong together, two for each edge of a sheet.
 fn pairs(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<(Side, Side)> {
-    let mut sides = Vec::with_capacity(3 * triangles.len());
-    for (t, corners) in triangles.iter().enumerate() {
-        for i in 0..3 {
-            let (a, b) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
-            sides.push(((a.min(b), a.max(b)), a < b, (t, i)));
-        }
-    }
-    sides.sort_unstable();
+    let sides = sides(positions.len(), triangles);
     let mut found = Vec::with_capacity(sides.len() / 2);
     for sides in sides.chunk_by(|x, y| x.0 == y.0) {
+        // Mostly there is nothing to choose.
+        if let [(_, false, back), (_, true, forth)] = sides {
+            found.push((*forth, *back));
+            continue;
+        }
         let (a, b) = sides[0].0;
         let [a, b] = [a, b].map(|v| positions[v as usize]);
         let of = |way: bool| sides.iter().filter(move |s| s.1 == way).map(|s| s.2);
@@ -75,6 +73,33 @@ fn pairs(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<(Side, Side)> {
         }
     }
     found
+}
+
+/// All sides of triangles by their ends, the lower of both first, and by whether they run from it.
+fn sides(vertices: usize, triangles: &[[u32; 3]]) -> Vec<((u32, u32), bool, Side)> {
+    let all = || {
+        triangles.iter().enumerate().flat_map(|(t, corners)| {
+            (0..3).map(move |i| {
+                let (a, b) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
+                ((a.min(b), a.max(b)), a < b, (t, i))
+            })
+        })
+    };
+    // Each into the part of its lower end, which is then short to sort.
+    let mut starts = vec![0; vertices + 1];
+    all().for_each(|((a, _), ..)| starts[a as usize + 1] += 1);
+    for v in 0..vertices {
+        starts[v + 1] += starts[v];
+    }
+    let mut sides = vec![((0, 0), false, (0, 0)); 3 * triangles.len()];
+    let mut next = starts.clone();
+    for side in all() {
+        let at = &mut next[side.0.0 as usize];
+        sides[*at] = side;
+        *at += 1;
+    }
+    starts.windows(2).for_each(|ends| sides[ends[0]..ends[1]].sort_unstable());
+    sides
 }
 
 /// The angle (rad, from 0 to 2π) about `axis` from the direction `to` forwards to `from`: how far `to` is behind.

@@ -5,18 +5,30 @@
 //! Proportions are those of an adult: 15.5 cm wide, 19.5 cm deep, 23 cm from chin to vertex, eyes at
 //! half height, ears between brow and base of the nose.
 
+use fearless_simd::{Level, Select, Simd, SimdBase, dispatch, f64x4};
 use frisure_strands::{Features, Surface, Tint};
 use glam::{DMat3, DVec3, dvec3};
 
 use super::distance::SignedDistance;
 use super::facial_hair::{self, FacialLines};
 use super::landmarks::Landmarks;
-use super::mesher::{Lattice, mesh};
-use super::sculpt::{carve, chain, cone, ellipsoid, join, meet, turned};
+use super::mesher::{LANES, Lattice, mesh};
+use super::sculpt::{Places, carve, chain, changed, cone, ellipsoid, join, meet, turned};
 
 /// The mannequin's skin (m), about 75 000 triangles.
 pub(crate) fn surface() -> Surface {
-    mesh(&lattice(), |p| 0.01 * head(dvec3(p.x.abs(), -p.y, p.z) * 100.0))
+    let level = Level::new();
+    mesh(&lattice(), |places| {
+        let places = places.map(in_sculpture);
+        let values =
+            dispatch!(level, simd => <[f64; LANES]>::from(head(Places::new(simd, places))));
+        values.map(|value| 0.01 * value)
+    })
+}
+
+/// A place (m) in the sculpture's frame (cm).
+fn in_sculpture(p: DVec3) -> DVec3 {
+    dvec3(p.x.abs(), -p.y, p.z) * 100.0
 }
 
 /// Where things are on the mannequin.
@@ -37,7 +49,6 @@ pub(crate) fn landmarks() -> Landmarks {
 
 /// Lips, cheeks, brows and the lashes of the closed lids.
 pub(crate) fn features(surface: &Surface, skin: &SignedDistance) -> Features {
-    let tint = |p: &DVec3| tint(dvec3(p.x.abs(), -p.y, p.z) * 100.0);
     // A start in front of the skin, moved onto it.
     let place = |x: f64, forward: f64, z: f64| {
         let mut p = dvec3(x, -forward, z) * 0.01;
@@ -59,21 +70,47 @@ pub(crate) fn features(surface: &Surface, skin: &SignedDistance) -> Features {
         eye: dvec3(0.032, -0.0685, -0.0105),
         middle: 0.0,
     };
-    let tints = surface.positions().iter().map(tint).collect();
-    Features { tints, eyes: Vec::new(), hairs: facial_hair::grow(&lines, skin) }
+    Features {
+        tints: tints(surface.positions()),
+        eyes: Vec::new(),
+        hairs: facial_hair::grow(&lines, skin),
+    }
 }
 
-/// The tint of a place (cm, in the sculpture's frame).
-fn tint(p: DVec3) -> Tint {
-    // Before the face nothing is red, and most of the mesh is behind it.
+/// The tints of places (m).
+fn tints(positions: &[DVec3]) -> Vec<Tint> {
+    let level = Level::new();
+    let mut tints = Vec::with_capacity(positions.len());
+    for chunk in positions.chunks(LANES) {
+        let places: [DVec3; LANES] =
+            std::array::from_fn(|n| in_sculpture(chunk[n.min(chunk.len() - 1)]));
+        // Before the face nothing is red, and most of the mesh is behind it.
+        if places.iter().all(|p| p.z < -10.0) {
+            tints.extend(chunk.iter().map(|_| Tint::default()));
+            continue;
+        }
+        let [lips, ears] = dispatch!(level, simd => red(Places::new(simd, places)));
+        tints.extend((0..chunk.len()).map(|n| tint(places[n], lips[n], ears[n])));
+    }
+    tints
+}
+
+/// How far (cm) places are from the lips and from an ear.
+#[inline(always)]
+fn red<S: Simd>(p: Places<S>) -> [[f64; LANES]; 2] {
+    [upper_lip(p).min(lower_lip(p)).into(), ear(p).into()]
+}
+
+/// The tint of a place (cm, in the sculpture's frame), by how far (cm) it is from the lips and from an ear.
+fn tint(p: DVec3, lips: f64, ear: f64) -> Tint {
     if p.z < -10.0 {
         return Tint::default();
     }
     let ball = |centre: DVec3, radius: f64| (1.0 - p.distance(centre) / radius).max(0.0);
-    let lips = ((0.22 - upper_lip(p).min(lower_lip(p))) / 0.2).clamp(0.0, 1.0);
+    let lips = ((0.22 - lips) / 0.2).clamp(0.0, 1.0);
     let cheek = 1.1 * ball(dvec3(4.1, 6.9, -3.9), 3.2);
     let nose = ball(dvec3(0.0, 11.3, -4.3), 1.9);
-    let ear = if ear(p).abs() < 0.1 { 0.7 } else { 0.0 };
+    let ear = if ear.abs() < 0.1 { 0.7 } else { 0.0 };
     let flush = cheek.max(nose).max(ear).min(1.0);
     Tint { lips: lips as f32, flush: flush as f32, garment: 0.0 }
 }
@@ -118,32 +155,63 @@ fn lattice() -> Lattice {
 const HEAD_FROM: f64 = -0.26;
 const TORSO_STEP: f64 = 17.5e-3;
 
-fn head(p: DVec3) -> f64 {
+#[inline(always)]
+fn head<S: Simd>(p: Places<S>) -> f64x4<S> {
     // Each part is asked for only where it can matter: farther away no fillet reaches it.
-    let mut f = if p.z > -16.0 { cranium(p) } else { neck(p) };
-    if p.z > -16.0 && p.z < 9.5 && p.y > -7.5 {
-        f = join(f, face(p), 2.4);
-    }
-    if p.z > -16.0 && p.z < 6.0 {
-        f = join(f, neck(p), 2.6);
-    }
-    if p.z < -11.0 {
-        f = join(f, torso(p), 3.0);
-    }
-    if p.y > 4.5 && p.z > -11.5 && p.z < 3.5 {
-        f = mouth(p, nose(p, eyes(p, f)));
-    }
+    let zero = f64x4::splat(p.x.simd, 0.0);
+    let (above, low) = (p.z.simd_gt(-16.0), p.z.simd_lt(6.0));
+    let cranium = changed(
+        above,
+        zero,
+        #[inline(always)]
+        |_| cranium(p),
+    );
+    let neck = changed(
+        low,
+        zero,
+        #[inline(always)]
+        |_| neck(p),
+    );
+    let mut f = above.select(cranium, neck);
+    let front = above & p.z.simd_lt(9.5) & p.y.simd_gt(-7.5);
+    f = changed(
+        front,
+        f,
+        #[inline(always)]
+        |f| join(f, face(p), 2.4),
+    );
+    f = changed(
+        above & low,
+        f,
+        #[inline(always)]
+        |f| join(f, neck, 2.6),
+    );
+    f = changed(
+        p.z.simd_lt(-11.0),
+        f,
+        #[inline(always)]
+        |f| join(f, torso(p), 3.0),
+    );
+    let features = p.y.simd_gt(4.5) & p.z.simd_gt(-11.5) & p.z.simd_lt(3.5);
+    f = changed(
+        features,
+        f,
+        #[inline(always)]
+        |f| mouth(p, nose(p, eyes(p, f))),
+    );
     // The bust stands on a flat foot, above the elbows.
     meet(join(f, ear(p), 0.5), FOOT - p.z, 2.0)
 }
 
-fn cranium(p: DVec3) -> f64 {
+#[inline(always)]
+fn cranium<S: Simd>(p: Places<S>) -> f64x4<S> {
     let back = ellipsoid(p, dvec3(0.0, -1.7, 2.2), dvec3(7.5, 8.0, 8.5));
     let front = ellipsoid(p, dvec3(0.0, 1.5, 2.4), dvec3(6.7, 8.0, 8.25));
     join(back, front, 2.5)
 }
 
-fn face(p: DVec3) -> f64 {
+#[inline(always)]
+fn face<S: Simd>(p: Places<S>) -> f64x4<S> {
     let mask = ellipsoid(p, dvec3(0.0, 3.2, -3.6), dvec3(5.9, 5.6, 7.0));
     let muzzle = ellipsoid(p, dvec3(0.0, 5.9, -7.0), dvec3(3.4, 3.75, 3.6));
     let cheek = turned(p, dvec3(4.1, 5.6, -3.5), dvec3(1.6, 1.9, 1.4), 0.0, 0.5);
@@ -151,7 +219,7 @@ fn face(p: DVec3) -> f64 {
     let arch = cone(p, dvec3(4.4, 5.7, -2.7), dvec3(5.8, 1.5, -2.4), 0.8, 0.5);
     let jaw = chain(
         p,
-        &[
+        [
             (dvec3(5.1, 0.4, -4.0), 1.0),
             (dvec3(4.7, 1.2, -7.0), 1.0),
             (dvec3(3.9, 2.8, -8.7), 0.9),
@@ -163,18 +231,15 @@ fn face(p: DVec3) -> f64 {
     let floor = ellipsoid(p, dvec3(0.0, 3.2, -8.2), dvec3(4.0, 4.6, 2.8));
     let brow = chain(
         p,
-        &[
-            (dvec3(0.6, 8.85, 1.1), 0.35),
-            (dvec3(2.8, 8.45, 1.6), 0.35),
-            (dvec3(5.1, 6.3, 0.7), 0.1),
-        ],
+        [(dvec3(0.6, 8.85, 1.1), 0.35), (dvec3(2.8, 8.45, 1.6), 0.35), (dvec3(5.1, 6.3, 0.7), 0.1)],
     );
     let f = join(join(mask, muzzle, 2.0), join(join(cheek, arch, 1.0), flesh, 2.0), 2.5);
     let f = join(f, join(jaw, floor, 2.5), 3.0);
     join(join(f, chin, 1.6), brow, 2.6)
 }
 
-fn eyes(p: DVec3, skin: f64) -> f64 {
+#[inline(always)]
+fn eyes<S: Simd>(p: Places<S>, skin: f64x4<S>) -> f64x4<S> {
     let socket = turned(p, dvec3(3.3, 9.6, -0.7), dvec3(1.9, 1.6, 1.05), 0.0, -0.3);
     let inner = ellipsoid(p, dvec3(1.75, 9.6, -0.9), dvec3(0.55, 1.0, 0.7));
     let f = carve(carve(skin, socket, 1.4), inner, 1.0);
@@ -191,10 +256,11 @@ fn eyes(p: DVec3, skin: f64) -> f64 {
     carve(join(f, upper, 0.1), crease, 0.2)
 }
 
-fn nose(p: DVec3, skin: f64) -> f64 {
+#[inline(always)]
+fn nose<S: Simd>(p: Places<S>, skin: f64x4<S>) -> f64x4<S> {
     let bridge = chain(
         p,
-        &[
+        [
             (dvec3(0.0, 8.8, 0.8), 0.65),
             (dvec3(0.0, 9.35, -0.9), 0.6),
             (dvec3(0.0, 10.5, -3.3), 0.65),
@@ -210,10 +276,11 @@ fn nose(p: DVec3, skin: f64) -> f64 {
     carve(f, nostril, 0.25)
 }
 
-fn upper_lip(p: DVec3) -> f64 {
+#[inline(always)]
+fn upper_lip<S: Simd>(p: Places<S>) -> f64x4<S> {
     chain(
         p,
-        &[
+        [
             (dvec3(0.0, 9.5, -7.05), 0.42),
             (dvec3(0.6, 9.45, -7.0), 0.45),
             (dvec3(2.3, 8.2, -7.33), 0.3),
@@ -221,10 +288,11 @@ fn upper_lip(p: DVec3) -> f64 {
     )
 }
 
-fn lower_lip(p: DVec3) -> f64 {
+#[inline(always)]
+fn lower_lip<S: Simd>(p: Places<S>) -> f64x4<S> {
     chain(
         p,
-        &[
+        [
             (dvec3(0.0, 9.2, -7.95), 0.55),
             (dvec3(0.9, 9.0, -7.9), 0.5),
             (dvec3(2.2, 8.1, -7.55), 0.3),
@@ -232,13 +300,14 @@ fn lower_lip(p: DVec3) -> f64 {
     )
 }
 
-fn mouth(p: DVec3, skin: f64) -> f64 {
+#[inline(always)]
+fn mouth<S: Simd>(p: Places<S>, skin: f64x4<S>) -> f64x4<S> {
     let (upper, lower) = (upper_lip(p), lower_lip(p));
     let fold = cone(p, dvec3(0.0, 9.9, -9.0), dvec3(1.6, 9.2, -8.9), 0.6, 0.5);
     let groove = cone(p, dvec3(0.0, 10.45, -5.9), dvec3(0.0, 10.4, -6.5), 0.3, 0.3);
     let slit = chain(
         p,
-        &[
+        [
             (dvec3(0.0, 10.0, -7.50), 0.14),
             (dvec3(0.9, 9.76, -7.43), 0.14),
             (dvec3(2.35, 8.75, -7.40), 0.04),
@@ -249,19 +318,29 @@ fn mouth(p: DVec3, skin: f64) -> f64 {
     carve(f, slit, 0.35)
 }
 
-fn ear(p: DVec3) -> f64 {
+#[inline(always)]
+fn ear<S: Simd>(p: Places<S>) -> f64x4<S> {
     // u backwards and outwards, v up and a little backwards, w away from the skull.
     let frame = DMat3::from_rotation_z(-0.33) * DMat3::from_rotation_x(-0.15);
-    let q = frame.transpose() * (p - dvec3(7.1, -1.3, -2.0));
-    let q = dvec3(-q.y, q.z, q.x);
-    if q.length() > 6.0 {
-        return q.length() - 4.0;
-    }
+    let q = (p - dvec3(7.1, -1.3, -2.0)).mapped(frame.transpose());
+    let q = Places { x: -q.y, y: q.z, z: q.x };
+    let away = q.length();
+    changed(
+        away.simd_le(6.0),
+        away - 4.0,
+        #[inline(always)]
+        |_| ear_near(q),
+    )
+}
+
+/// The ear at places of its own frame.
+#[inline(always)]
+fn ear_near<S: Simd>(q: Places<S>) -> f64x4<S> {
     let plate = ellipsoid(q, dvec3(0.25, 0.1, 0.0), dvec3(1.6, 3.0, 0.45));
     let root = ellipsoid(q, dvec3(-0.35, -0.8, -0.8), dvec3(0.9, 2.1, 0.95));
     let helix = chain(
         q,
-        &[
+        [
             (dvec3(-0.9, -0.1, 0.20), 0.2),
             (dvec3(-1.1, 1.3, 0.30), 0.26),
             (dvec3(-0.5, 2.6, 0.36), 0.28),
@@ -274,7 +353,7 @@ fn ear(p: DVec3) -> f64 {
     );
     let fold = chain(
         q,
-        &[
+        [
             (dvec3(0.3, 1.7, 0.3), 0.25),
             (dvec3(0.95, 0.6, 0.32), 0.3),
             (dvec3(0.7, -0.7, 0.32), 0.3),
@@ -289,14 +368,15 @@ fn ear(p: DVec3) -> f64 {
     join(f, tragus, 0.3)
 }
 
-fn neck(p: DVec3) -> f64 {
+#[inline(always)]
+fn neck<S: Simd>(p: Places<S>) -> f64x4<S> {
     let column = cone(p, dvec3(0.0, -1.7, -6.0), dvec3(0.0, -3.2, -16.0), 4.3, 4.7);
     let strap = cone(p, dvec3(3.9, -2.6, -5.5), dvec3(0.9, 1.2, -17.2), 0.8, 0.7);
     let throat = ellipsoid(p, dvec3(0.0, 1.2, -12.8), dvec3(1.0, 0.9, 1.6));
     let nape = ellipsoid(p, dvec3(0.0, -4.6, -7.0), dvec3(3.6, 2.6, 5.5));
     let trapezius = chain(
         p,
-        &[
+        [
             (dvec3(1.8, -5.2, -8.0), 1.5),
             (dvec3(3.8, -5.4, -15.0), 2.0),
             (dvec3(10.5, -4.8, -19.0), 2.0),
@@ -306,7 +386,8 @@ fn neck(p: DVec3) -> f64 {
     join(join(f, nape, 2.5), trapezius, 3.5)
 }
 
-fn torso(p: DVec3) -> f64 {
+#[inline(always)]
+fn torso<S: Simd>(p: Places<S>) -> f64x4<S> {
     let ribs = ellipsoid(p, dvec3(0.0, -1.2, -33.0), dvec3(14.0, 10.2, 17.5));
     let waist = ellipsoid(p, dvec3(0.0, -0.6, -50.0), dvec3(12.4, 8.8, 15.0));
     let plate = cone(p, dvec3(2.5, -1.6, -24.5), dvec3(11.0, -2.4, -24.8), 6.0, 4.6);
@@ -320,22 +401,25 @@ fn torso(p: DVec3) -> f64 {
 }
 
 /// The muscle from the neck over the shoulder, and down beside the spine.
-fn trapezius(p: DVec3) -> f64 {
+#[inline(always)]
+fn trapezius<S: Simd>(p: Places<S>) -> f64x4<S> {
     let over = cone(p, dvec3(10.5, -4.6, -19.6), dvec3(15.0, -3.4, -20.9), 2.2, 2.0);
     let down = cone(p, dvec3(2.5, -7.0, -19.0), dvec3(1.5, -8.6, -32.0), 3.2, 1.6);
     join(over, down, 4.0)
 }
 
-fn upper_arm(p: DVec3) -> f64 {
+#[inline(always)]
+fn upper_arm<S: Simd>(p: Places<S>) -> f64x4<S> {
     let deltoid = ellipsoid(p, dvec3(15.6, -2.9, -24.8), dvec3(4.3, 4.7, 6.0));
     let arm = cone(p, dvec3(16.0, -3.1, -27.0), dvec3(17.4, -3.6, -54.0), 4.1, 3.7);
     join(deltoid, arm, 4.0)
 }
 
-fn collar_bone(p: DVec3) -> f64 {
+#[inline(always)]
+fn collar_bone<S: Simd>(p: Places<S>) -> f64x4<S> {
     chain(
         p,
-        &[
+        [
             (dvec3(1.9, 2.2, -20.2), 0.75),
             (dvec3(6.5, 2.5, -19.6), 0.6),
             (dvec3(11.0, 0.2, -19.4), 0.65),

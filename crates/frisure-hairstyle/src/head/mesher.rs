@@ -10,6 +10,9 @@ use rayon::prelude::*;
 
 use super::fans::part_sheets;
 
+/// Places at which a field is evaluated at once.
+pub(crate) const LANES: usize = 4;
+
 /// Coordinates of the nodes along each axis (m), increasing.
 pub(crate) struct Lattice {
     pub(crate) axes: [Vec<f64>; 3],
@@ -38,12 +41,15 @@ impl Lattice {
     }
 }
 
-/// The surface where `field` (m, about a distance, positive outside) is zero: the piece on top of the middle, without
+/// The surface where `field` (m, about a distance, positive outside) of places (m) is zero: the piece on top of the middle, without
 /// bubbles that carving may leave inside.
 ///
 /// # Panics
 /// If the field has no zero in the middle of the lattice.
-pub(crate) fn mesh(lattice: &Lattice, field: impl Fn(DVec3) -> f64 + Sync) -> Surface {
+pub(crate) fn mesh(
+    lattice: &Lattice,
+    field: impl Fn([DVec3; LANES]) -> [f64; LANES] + Sync,
+) -> Surface {
     let (mut positions, mut triangles) = nets(lattice, &Passed::follow(lattice, &field));
     for _ in 0..ROUNDS {
         positions = smoothed(&positions, &triangles);
@@ -66,41 +72,63 @@ impl Passed {
     ///
     /// The field is evaluated nowhere else. Every cell of the piece is found: the pieces of surface in two cells are
     /// connected exactly if an edge of both crosses it, and the cells around each such edge are visited.
-    fn follow(lattice: &Lattice, field: &impl Fn(DVec3) -> f64) -> Self {
+    fn follow(lattice: &Lattice, field: &impl Fn([DVec3; LANES]) -> [f64; LANES]) -> Self {
         let size = lattice.size();
         let strides = [1, size[0], size[0] * size[1]];
         let count = size.iter().product();
         let mut passed = Self { values: vec![f64::NAN; count], cells: vec![false; count] };
-        let Some(first) = top(lattice, field) else { return passed };
-        let mut open = vec![first];
-        while let Some(cell) = open.pop() {
-            let at = (0..3).map(|a| cell[a] * strides[a]).sum::<usize>();
-            if std::mem::replace(&mut passed.cells[at], true) {
-                continue;
-            }
-            let inside: [bool; 8] = std::array::from_fn(|c| {
-                let step = [0, 1, 2].map(|a| c >> a & 1);
-                let value =
-                    &mut passed.values[at + (0..3).map(|a| step[a] * strides[a]).sum::<usize>()];
-                if value.is_nan() {
-                    *value = field(lattice.position([0, 1, 2].map(|a| cell[a] + step[a])));
-                }
-                *value < 0.0
-            });
-            for (c, axis) in (0..8).flat_map(|c| (0..3).map(move |axis| (c, axis))) {
-                if c >> axis & 1 == 0 && inside[c] != inside[c | 1 << axis] {
-                    open.extend(around(cell, c, axis, size));
+        let at = |[i, j, k]: [usize; 3]| i * strides[0] + j * strides[1] + k * strides[2];
+        let mut open: Vec<[usize; 3]> = top(lattice, field).into_iter().collect();
+        while !open.is_empty() {
+            open.retain(|cell| !std::mem::replace(&mut passed.cells[at(*cell)], true));
+            passed.evaluate(lattice, field, &open);
+            let mut next = Vec::new();
+            for &cell in &open {
+                let corner = |c: usize| at([0, 1, 2].map(|a| cell[a] + (c >> a & 1)));
+                let inside: [bool; 8] = std::array::from_fn(|c| passed.values[corner(c)] < 0.0);
+                for (c, axis) in (0..8).flat_map(|c| (0..3).map(move |axis| (c, axis))) {
+                    if c >> axis & 1 == 0 && inside[c] != inside[c | 1 << axis] {
+                        let cells = around(cell, c, axis, size);
+                        next.extend(cells.filter(|cell| !passed.cells[at(*cell)]));
+                    }
                 }
             }
+            open = next;
         }
         passed
+    }
+
+    /// Evaluates the field at those corners of cells where it is not known.
+    fn evaluate(
+        &mut self,
+        lattice: &Lattice,
+        field: &impl Fn([DVec3; LANES]) -> [f64; LANES],
+        cells: &[[usize; 3]],
+    ) {
+        let [nx, ny, _] = lattice.size();
+        let mut unknown = Vec::new();
+        for (cell, c) in cells.iter().flat_map(|cell| (0..8).map(move |c| (cell, c))) {
+            let node = [0, 1, 2].map(|a| cell[a] + (c >> a & 1));
+            let at = (node[2] * ny + node[1]) * nx + node[0];
+            if self.values[at].is_nan() {
+                // Whatever number: once in the list is enough.
+                self.values[at] = 0.0;
+                unknown.push((node, at));
+            }
+        }
+        for chunk in unknown.chunks(LANES) {
+            let places = std::array::from_fn(|n| lattice.position(chunk[n.min(chunk.len() - 1)].0));
+            for ((_, at), value) in chunk.iter().zip(field(places)) {
+                self.values[*at] = value;
+            }
+        }
     }
 }
 
 /// The highest cell that the surface passes in the column of nodes in the middle.
-fn top(lattice: &Lattice, field: &impl Fn(DVec3) -> f64) -> Option<[usize; 3]> {
+fn top(lattice: &Lattice, field: &impl Fn([DVec3; LANES]) -> [f64; LANES]) -> Option<[usize; 3]> {
     let [nx, ny, nz] = lattice.size();
-    let inside = |k: usize| field(lattice.position([nx / 2, ny / 2, k])) < 0.0;
+    let inside = |k: usize| field([lattice.position([nx / 2, ny / 2, k]); LANES])[0] < 0.0;
     (0..nz).rev().find(|&k| inside(k)).filter(|&k| k + 1 < nz).map(|k| [nx / 2, ny / 2, k])
 }
 
@@ -214,7 +242,7 @@ fn smoothed(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
 }
 
 /// `p` brought nearer to the zero of the field, by a step of Newton's.
-fn projected(p: DVec3, field: &impl Fn(DVec3) -> f64) -> DVec3 {
+fn projected(p: DVec3, field: &impl Fn([DVec3; LANES]) -> [f64; LANES]) -> DVec3 {
     let (value, slope) = slope(p, field);
     let length = slope.length_squared();
     // A step is bounded: at a crease the slope may vanish.
@@ -222,7 +250,7 @@ fn projected(p: DVec3, field: &impl Fn(DVec3) -> f64) -> DVec3 {
 }
 
 /// Value and gradient, by four points of a tetrahedron.
-fn slope(p: DVec3, field: &impl Fn(DVec3) -> f64) -> (f64, DVec3) {
+fn slope(p: DVec3, field: &impl Fn([DVec3; LANES]) -> [f64; LANES]) -> (f64, DVec3) {
     let h = 1e-4;
     let ways = [
         DVec3::new(1.0, -1.0, -1.0),
@@ -231,7 +259,7 @@ fn slope(p: DVec3, field: &impl Fn(DVec3) -> f64) -> (f64, DVec3) {
         DVec3::new(1.0, 1.0, 1.0),
     ];
     // Σ w f(p + h w) = 4 h ∇f + O(h³) over the alternate corners of a cube, with a step of 0.1 mm (chosen).
-    let values = ways.map(|w| field(p + h * w));
+    let values = field(ways.map(|w| p + h * w));
     let gradient = ways.iter().zip(values).map(|(w, v)| *w * v).sum::<DVec3>() / (4.0 * h);
     (values.iter().sum::<f64>() / 4.0, gradient)
 }
@@ -243,7 +271,9 @@ mod tests {
     #[test]
     fn a_ball_is_meshed_on_its_surface_and_turned_outwards() {
         let axis = || Lattice::axis(-0.11, 0.11, |x| if x < 0.0 { 6e-3 } else { 4e-3 });
-        let ball = mesh(&Lattice { axes: [axis(), axis(), axis()] }, |p| p.length() - 0.1);
+        let ball = mesh(&Lattice { axes: [axis(), axis(), axis()] }, |places| {
+            places.map(|p| p.length() - 0.1)
+        });
         assert!(ball.positions().iter().all(|p| (p.length() - 0.1).abs() < 1e-6));
         let exact = 4.0 * std::f64::consts::PI * 0.01;
         assert!((ball.area() / exact - 1.0).abs() < 0.01);
@@ -257,7 +287,7 @@ mod tests {
     fn bubbles_inside_are_left_out() {
         let axis = || Lattice::axis(-0.11, 0.11, |_| 5e-3);
         let hollow = |p: DVec3| (p.length() - 0.1).max(0.03 - p.length());
-        let ball = mesh(&Lattice { axes: [axis(), axis(), axis()] }, hollow);
+        let ball = mesh(&Lattice { axes: [axis(), axis(), axis()] }, |places| places.map(hollow));
         assert!(ball.positions().iter().all(|p| p.length() > 0.09));
     }
 }

@@ -4,6 +4,7 @@
 //! metres, z up; the face looks towards −y and the head's left is +x.
 
 mod correspondence;
+mod derived;
 mod distance;
 mod facial_hair;
 mod fans;
@@ -13,9 +14,11 @@ mod landmarks;
 mod mannequin;
 mod mesher;
 mod people;
+mod samples;
 mod scalp;
 mod sculpt;
 mod spheres;
+mod splat;
 mod spline;
 mod subdivide;
 #[cfg(test)]
@@ -32,6 +35,7 @@ use glam::{DMat3, DVec3};
 use thiserror::Error;
 
 pub(crate) use correspondence::{Correspondence, Corresponding};
+use derived::Derived;
 pub use distance::SignedDistance;
 pub use landmarks::{Landmarks, Region};
 pub(crate) use scalp::Edge;
@@ -58,7 +62,7 @@ pub struct Head {
     natural: bool,
     landmarks: Landmarks,
     signed_distance: SignedDistance,
-    spheres: Vec<Sphere>,
+    spheres: Derived<Vec<Sphere>>,
     fingerprint: u64,
     frame: (DVec3, DVec3),
 }
@@ -199,7 +203,7 @@ impl Head {
         landmarks: Landmarks,
         signed_distance: SignedDistance,
     ) -> Self {
-        let spheres = spheres::fit(&surface, &scalp, &landmarks, &signed_distance);
+        let spheres = Derived::new();
         let fingerprint = fingerprint(&surface, &scalp);
         let frame = surface.bounds();
         Self { frame, surface, scalp, natural, landmarks, signed_distance, spheres, fingerprint }
@@ -252,10 +256,12 @@ impl Head {
         &self.signed_distance
     }
 
-    /// The head as spheres, largest errors first mended: dense on the scalp, coarser elsewhere.
+    /// The head as spheres, largest errors first mended: dense on the scalp, coarser elsewhere. Fitted when they are first asked for.
     #[must_use]
     pub fn spheres(&self) -> &[Sphere] {
-        &self.spheres
+        self.spheres.get_or(|| {
+            spheres::fit(&self.surface, &self.scalp, &self.landmarks, &self.signed_distance)
+        })
     }
 }
 

@@ -1,37 +1,59 @@
 //! A signed distance as a tricubic spline on a regular grid.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 
-use super::voxels::Voxels;
+use super::derived::Derived;
+use super::samples::Samples;
 
 /// Signed distance to a mesh (m), positive outside: a tricubic B-spline.
 ///
 /// Inside the grid it is C² and its derivatives are those of the spline itself. Outside the grid the value grows with the
 /// distance to the grid; only there does the slope have a kink.
+///
+/// Its coefficients are computed where they are first asked for: most hair is near a small part of a head.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Spline {
     origin: DVec3,
     spacing: f64,
     size: [usize; 3],
-    coefficients: Vec<f32>,
-    /// The least coefficient for each [`BLOCK`]³ cells, and blocks along each axis.
-    least: Vec<f32>,
-    blocks: [usize; 3],
+    samples: Arc<Samples>,
+    /// Blocks of [`BLOCK`]³ cells, and their numbers along each axis.
+    blocks: Vec<Derived<Block>>,
+    counts: [usize; 3],
 }
 
-/// Cells along each axis of a block. Chosen: as long as hair is thick; no result depends on it.
-const BLOCK: usize = 4;
+/// What [`BLOCK`]³ cells need.
+#[derive(Clone, Debug)]
+struct Block {
+    /// The least coefficient for each [`PART`]³ of its cells: next to those of other blocks in memory, because many places are asked
+    /// for nothing else.
+    least: [f32; (BLOCK / PART).pow(3)],
+    coefficients: Box<[f32; SIDE.pow(3)]>,
+}
+
+/// Cells along each axis of a block. Chosen: smaller ones share more coefficients with their neighbours; no result depends on it.
+const BLOCK: usize = 8;
+
+/// Coefficients along each axis of a block.
+const SIDE: usize = BLOCK + 3;
+
+/// Cells along each axis of the parts of a block that have a bound. Chosen: as long as hair is thick; no result depends on it.
+const PART: usize = 4;
 
 /// Weights of four neighbouring coefficients and their first and second derivatives.
 type Weights = [[f64; 4]; 3];
 
 impl Spline {
     /// The spline through the samples of a grid.
-    pub(crate) fn through(voxels: Voxels) -> Self {
-        let Voxels { origin, spacing, size, mut values } = voxels;
-        interpolate(&mut values, size);
-        let (least, blocks) = least_of_blocks(&values, size);
-        Self { origin, spacing, size, coefficients: values, least, blocks }
+    pub(crate) fn through(samples: Samples) -> Self {
+        let grid = &samples.grid;
+        let (origin, spacing, size) = (grid.origin, grid.spacing, grid.size);
+        // A cell begins at most four nodes before the end.
+        let counts = size.map(|n| (n - 4) / BLOCK + 1);
+        let blocks = vec![Derived::new(); counts.iter().product()];
+        Self { origin, spacing, size, samples: Arc::new(samples), blocks, counts }
     }
 
     /// Distance between neighbouring nodes of the grid (m).
@@ -51,9 +73,10 @@ impl Spline {
         let q = self.clamp(p);
         let (first, inside) = self.cell(q);
         let [x, y, z] = inside.map(values);
+        let stencil = self.block(first).stencil(first);
         let mut value = 0.0;
         for n in 0..16 {
-            let row = self.coefficients_of(first, n);
+            let row = row_of(stencil, n);
             let along = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3];
             value += y[n % 4] * z[n / 4] * along;
         }
@@ -65,8 +88,8 @@ impl Spline {
     pub(crate) fn may_be_nearer(&self, p: DVec3, distance: f64) -> bool {
         let q = self.clamp(p);
         let (first, _) = self.cell(q);
-        let [i, j, k] = first.map(|n| n / BLOCK);
-        let least = self.least[(k * self.blocks[1] + j) * self.blocks[0] + i];
+        let [i, j, k] = first.map(|n| n % BLOCK / PART);
+        let least = self.block(first).least[(k * (BLOCK / PART) + j) * (BLOCK / PART) + i];
         // A spline is nowhere less than the least of its coefficients; the bound (m) is far above rounding.
         f64::from(least) + (p - q).length() <= distance + 1e-9
     }
@@ -74,11 +97,12 @@ impl Spline {
     /// Signed distance (m) at `p` (m) and its gradient.
     pub(crate) fn value_gradient(&self, p: DVec3) -> (f64, DVec3) {
         let q = self.clamp(p);
-        let (first, [x, y, z]) = self.stencil(q);
+        let (first, [x, y, z]) = self.weights(q);
+        let stencil = self.block(first).stencil(first);
         let (mut value, mut gradient) = (0.0, DVec3::ZERO);
         for n in 0..16 {
             let (j, k) = (n % 4, n / 4);
-            let [v, s, _] = self.row_and_slopes(first, n, &x);
+            let [v, s, _] = row_and_slopes(row_of(stencil, n), &x);
             let (here, along_y, along_z) =
                 (y[0][j] * z[0][k], y[1][j] * z[0][k], y[0][j] * z[1][k]);
             value += here * v;
@@ -92,12 +116,13 @@ impl Spline {
     /// Signed distance (m) at `p` (m), its gradient and its Hessian (1/m).
     pub(crate) fn value_gradient_hessian(&self, p: DVec3) -> (f64, DVec3, DMat3) {
         let q = self.clamp(p);
-        let (first, [x, y, z]) = self.stencil(q);
+        let (first, [x, y, z]) = self.weights(q);
+        let stencil = self.block(first).stencil(first);
         let (mut value, mut gradient) = (0.0, DVec3::ZERO);
         let (mut square, mut cross) = (DVec3::ZERO, DVec3::ZERO);
         for n in 0..16 {
             let (j, k) = (n % 4, n / 4);
-            let [v, s, b] = self.row_and_slopes(first, n, &x);
+            let [v, s, b] = row_and_slopes(row_of(stencil, n), &x);
             let (here, along_y, along_z) =
                 (y[0][j] * z[0][k], y[1][j] * z[0][k], y[0][j] * z[1][k]);
             let (yy, yz, zz) = (y[2][j] * z[0][k], y[1][j] * z[1][k], y[0][j] * z[2][k]);
@@ -125,7 +150,7 @@ impl Spline {
     }
 
     /// Index of the first of the 4×4×4 coefficients around `q`, and their weights per axis.
-    fn stencil(&self, q: DVec3) -> ([usize; 3], [Weights; 3]) {
+    fn weights(&self, q: DVec3) -> ([usize; 3], [Weights; 3]) {
         let (first, inside) = self.cell(q);
         (first, inside.map(|t| cubic(t, self.spacing)))
     }
@@ -145,18 +170,61 @@ impl Spline {
         (first, inside)
     }
 
-    /// Weighted sum along x of row `n` of the sixteen rows of a stencil, with its first two derivatives.
-    fn row_and_slopes(&self, first: [usize; 3], n: usize, weights: &Weights) -> [f64; 3] {
-        let row = self.coefficients_of(first, n);
-        weights.map(|w| row[0] * w[0] + row[1] * w[1] + row[2] * w[2] + row[3] * w[3])
+    /// The block of the cell whose first coefficient is `first`.
+    #[inline]
+    fn block(&self, first: [usize; 3]) -> &Block {
+        let [i, j, k] = first.map(|n| n / BLOCK);
+        let at = (k * self.counts[1] + j) * self.counts[0] + i;
+        self.blocks[at].get_or(|| Block::new(&self.samples, first.map(|n| n / BLOCK)))
+    }
+}
+
+impl Block {
+    /// The block with this place among the blocks.
+    fn new(samples: &Samples, block: [usize; 3]) -> Self {
+        // A coefficient depends on the samples beside it.
+        let size = samples.grid.size;
+        let first = block.map(|n| n * BLOCK);
+        let low = first.map(|n| n.saturating_sub(1));
+        let high = [0, 1, 2].map(|a| (first[a] + SIDE + 1).min(size[a]));
+        let mut values = samples.of_box(low, high);
+        let [width, depth, height] = [0, 1, 2].map(|a| high[a] - low[a]);
+        interpolate(&mut values, [width, depth, height]);
+        // Beyond the end of the grid there are none, and no cell needs them.
+        let mut coefficients = Box::new([f32::INFINITY; SIDE.pow(3)]);
+        let [left, front, below] = [0, 1, 2].map(|a| first[a] - low[a]);
+        let [rows, layers] = [depth - front, height - below].map(|n| n.min(SIDE));
+        for (k, j) in (0..layers).flat_map(|k| (0..rows).map(move |j| (k, j))) {
+            let from = ((k + below) * depth + j + front) * width + left;
+            let row = &values[from..from + (width - left).min(SIDE)];
+            coefficients[(k * SIDE + j) * SIDE..][..row.len()].copy_from_slice(row);
+        }
+        Self { least: least_of_parts(&coefficients), coefficients }
     }
 
+    /// The coefficients from the first of a cell on, up to its last.
     #[inline]
-    fn coefficients_of(&self, [i, j, k]: [usize; 3], n: usize) -> [f64; 4] {
-        let at = ((k + n / 4) * self.size[1] + j + n % 4) * self.size[0] + i;
-        let row = &self.coefficients[at..at + 4];
-        [row[0].into(), row[1].into(), row[2].into(), row[3].into()]
+    fn stencil(&self, first: [usize; 3]) -> &[f32; STENCIL] {
+        let [i, j, k] = first.map(|n| n % BLOCK);
+        let rest = &self.coefficients[(k * SIDE + j) * SIDE + i..];
+        rest.first_chunk().expect("a cell's coefficients are in its block")
     }
+}
+
+/// Coefficients of a block from the first to the last of a cell.
+const STENCIL: usize = 3 * (SIDE * SIDE + SIDE) + 4;
+
+/// Row `n` of the sixteen rows of a stencil.
+#[inline]
+fn row_of(stencil: &[f32; STENCIL], n: usize) -> [f64; 4] {
+    let at = (n / 4 * SIDE + n % 4) * SIDE;
+    [0, 1, 2, 3].map(|i| stencil[at + i].into())
+}
+
+/// Weighted sum along x of a row, with its first two derivatives.
+#[inline]
+fn row_and_slopes(row: [f64; 4], weights: &Weights) -> [f64; 3] {
+    weights.map(|w| row[0] * w[0] + row[1] * w[1] + row[2] * w[2] + row[3] * w[3])
 }
 
 /// One where a coordinate moves the nearest point of the box, zero where it is held by a side.
@@ -190,38 +258,22 @@ fn values(t: f64) -> [f64; 4] {
         .map(|w| w / 6.0)
 }
 
-/// The least coefficient that each block of cells uses, and blocks along each axis.
-fn least_of_blocks(coefficients: &[f32], size: [usize; 3]) -> (Vec<f32>, [usize; 3]) {
-    // A cell uses four coefficients along each axis from its own index on. One axis after another: least of least.
-    let blocks = size.map(|n| n.div_ceil(BLOCK));
-    let mut least = coefficients.to_vec();
-    let (mut length, mut width) = (size[0], 1);
-    for (axis, count) in blocks.iter().enumerate() {
-        let before = std::mem::take(&mut least);
-        before.chunks(length).for_each(|rows| add_least_along(rows, width, &mut least));
-        width *= count;
-        length = width * size.get(axis + 1).copied().unwrap_or(1);
-    }
-    (least, blocks)
-}
-
-/// Adds the least values over rows of `width` values: of those that each [`BLOCK`] of rows uses.
-fn add_least_along(rows: &[f32], width: usize, least: &mut Vec<f32>) {
-    let count = rows.len() / width;
-    for first in (0..count).step_by(BLOCK) {
-        let used = &rows[first * width..(first + BLOCK + 3).min(count) * width];
-        let start = least.len();
-        least.extend_from_slice(&used[..width]);
-        for row in used[width..].chunks(width) {
-            for (least, x) in least[start..].iter_mut().zip(row) {
-                *least = least.min(*x);
-            }
-        }
-    }
+/// The least coefficient that each part of a block uses.
+fn least_of_parts(coefficients: &[f32; SIDE.pow(3)]) -> [f32; (BLOCK / PART).pow(3)] {
+    let parts = BLOCK / PART;
+    std::array::from_fn(|part| {
+        let [i, j, k] =
+            [part % parts, part / parts % parts, part / parts / parts].map(|n| n * PART);
+        // A cell uses four coefficients along each axis from its own index on.
+        let used = |n: usize| n..n + PART + 3;
+        let rows = used(k).flat_map(|k| used(j).map(move |j| (k * SIDE + j) * SIDE));
+        rows.flat_map(|row| &coefficients[row..][used(i)]).copied().fold(f32::INFINITY, f32::min)
+    })
 }
 
 /// Turns samples into coefficients whose spline passes by them to fourth order.
 ///
+/// Those at the sides of the box keep their values: they are at the end of the grid, or are not needed.
 /// The local rule `c = f − δ²f/6` is enough here: an exact interpolation would ring at the creases
 /// of the distance.
 fn interpolate(values: &mut [f32], [nx, ny, _]: [usize; 3]) {

@@ -14,6 +14,7 @@ const DEEP: f64 = 1e-10;
 const APART: f64 = 1e-10;
 
 /// Triangles over welded corners: vertices at the same place are one.
+#[derive(Debug, PartialEq)]
 pub(crate) struct Soup {
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -143,36 +144,31 @@ impl Soup {
         Rows { starts, items }
     }
 
+    /// For each vertex, those that faces have after it, lowest first.
+    fn vertices_after(&self) -> Rows {
+        let edges = || self.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+        let mut after = Rows::of_pairs(self.positions.len(), edges);
+        after.starts.windows(2).for_each(|ends| after.items[ends[0]..ends[1]].sort_unstable());
+        after
+    }
+
     /// For each vertex, the faces that meet there.
     fn faces_of_vertices(&self) -> Rows {
-        let mut starts = vec![0; self.positions.len() + 1];
         let present = || (0..self.len()).filter(|&f| self.has(f));
-        for v in present().flat_map(|f| self.triangles[f]) {
-            starts[v as usize + 1] += 1;
-        }
-        for i in 1..starts.len() {
-            starts[i] += starts[i - 1];
-        }
-        let mut fill = starts.clone();
-        let mut items = vec![0; self.triangles.len() * 3];
-        for face in present() {
-            for v in self.triangles[face] {
-                items[fill[v as usize]] = face as u32;
-                fill[v as usize] += 1;
-            }
-        }
-        Rows { starts, items }
+        Rows::of_pairs(self.positions.len(), || {
+            present().flat_map(|f| self.triangles[f].map(|v| (v, f as u32)))
+        })
     }
 
     /// Closed chains of edges that have a face on one side only, in the direction of a lid's edges.
     fn rims(&self) -> Vec<Vec<u32>> {
-        let mut edges: Vec<(u32, u32)> =
-            self.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
-        edges.sort_unstable();
+        let after = self.vertices_after();
         let mut next: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for &(a, b) in &edges {
-            if edges.binary_search(&(b, a)).is_err() {
-                next.entry(b).or_default().push(a);
+        for a in 0..self.positions.len() as u32 {
+            for &b in after.of(a) {
+                if after.of(b).binary_search(&a).is_err() {
+                    next.entry(b).or_default().push(a);
+                }
             }
         }
         let mut rims = Vec::new();
@@ -202,13 +198,29 @@ impl Soup {
     }
 }
 
-/// Lists of faces, one list per vertex.
+/// Lists of faces or vertices, one list per face or vertex.
+#[derive(Clone, Debug)]
 pub(crate) struct Rows {
     starts: Vec<usize>,
     items: Vec<u32>,
 }
 
 impl Rows {
+    /// The second of the pairs for each first, of which there are `count`, in their order.
+    fn of_pairs<I: Iterator<Item = (u32, u32)>>(count: usize, pairs: impl Fn() -> I) -> Self {
+        let mut starts = vec![0; count + 1];
+        pairs().for_each(|(row, _)| starts[row as usize + 1] += 1);
+        for row in 0..count {
+            starts[row + 1] += starts[row];
+        }
+        let (mut next, mut items) = (starts.clone(), vec![0; starts[count]]);
+        for (row, item) in pairs() {
+            items[next[row as usize]] = item;
+            next[row as usize] += 1;
+        }
+        Self { starts, items }
+    }
+
     fn of(&self, row: u32) -> &[u32] {
         &self.items[self.starts[row as usize]..self.starts[row as usize + 1]]
     }
@@ -227,16 +239,13 @@ fn take(next: &mut BTreeMap<u32, Vec<u32>>, at: u32) -> Option<u32> {
 /// For each vertex, the first vertex at the same place.
 fn weld(positions: &[DVec3]) -> Vec<u32> {
     // Adding 0 turns −0 into 0: equal coordinates have equal bits.
-    let key = |v: u32| positions[v as usize].to_array().map(|c| (c + 0.0).to_bits());
-    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
-    order.sort_unstable_by_key(|&v| (key(v), v));
+    let key = |p: &DVec3| p.to_array().map(|c| (c + 0.0).to_bits());
+    let keys = positions.iter().zip(0..);
+    let mut order: Vec<([u64; 3], u32)> = keys.map(|(p, v)| (key(p), v)).collect();
+    order.sort_unstable();
     let mut same = vec![0; positions.len()];
-    let mut first = order[0];
-    for v in order {
-        if key(v) != key(first) {
-            first = v;
-        }
-        same[v as usize] = first;
+    for group in order.chunk_by(|a, b| a.0 == b.0) {
+        group.iter().for_each(|&(_, v)| same[v as usize] = group[0].1);
     }
     same
 }

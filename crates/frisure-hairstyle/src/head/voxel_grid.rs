@@ -6,6 +6,7 @@ use glam::DVec3;
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// The nodes.
+#[derive(Debug, PartialEq)]
 pub(crate) struct Grid {
     pub(crate) origin: DVec3,
     pub(crate) spacing: f64,
