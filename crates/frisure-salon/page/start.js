@@ -121,6 +121,15 @@ function describe(salon) {
   });
 }
 
+/** Has the browser keep the files for visits without a connection; once they are kept, the page's element says so. */
+function keep() {
+  const { serviceWorker } = navigator;
+  // Browsers have it on secure origins only.
+  if (!serviceWorker) return;
+  serviceWorker.register("sw.js").catch((error) => console.warn(`not kept for offline use: ${error}`));
+  serviceWorker.ready.then(() => { document.documentElement.dataset.kept = "yes"; });
+}
+
 async function open() {
   const reason = await missing();
   if (reason) {
@@ -138,6 +147,7 @@ async function open() {
   window.frisure = automation(salon);
   describe(salon);
   ready();
+  keep();
 }
 
 open().catch((error) => showError({

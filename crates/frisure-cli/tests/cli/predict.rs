@@ -108,7 +108,7 @@ const STEPS: &str = "\
 [[step]]
 wet = { water = 0.2 }
 [[step]]
-cut = { below = \"brows\", where = \"fringe\" }
+cut = { below = \"brows\", held = \"down\", where = \"fringe\" }
 [[step]]
 cut = { plane = { point = [0, 0, \"-15 cm\"], normal = [0, 0.3, -1] }, held = \"hanging\" }
 [[step]]

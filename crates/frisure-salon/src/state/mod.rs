@@ -24,6 +24,7 @@ mod selection;
 mod sharing;
 mod styling;
 mod tour;
+mod tour_steps;
 mod update;
 
 pub use command::Command;
@@ -41,4 +42,5 @@ pub use scissors::{CutHold, Scissors, Snip};
 pub use selection::{PLACES, SelectMode, Selected};
 pub use sharing::code;
 pub use styling::comb;
-pub use tour::{TOUR, Tour, TourStep};
+pub use tour::Tour;
+pub use tour_steps::{TOUR, TourStep};

@@ -45,8 +45,27 @@ fn a_browser_without_graphics_gets_a_hint() {
 fn a_lost_connection_is_reported() {
     let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
     salon.runs();
+    // On a visit whose files the browser has not kept.
+    salon.kept();
+    let forget = "navigator.serviceWorker.getRegistrations().then((all) => Promise.all(all.map((one) => one.unregister())))\
+                  .then(() => caches.keys()).then((names) => Promise.all(names.map((name) => caches.delete(name))))\
+                  .then(() => { window.forgotten = true; })";
+    salon.page.evaluate(&format!("({forget}, true)"));
+    salon.page.wait_for("window.forgotten", 30);
     salon.page.block("*salon_bg.wasm*");
     salon.again(QUERY);
     let notice = salon.notice();
     assert!(notice.contains("could not be opened") && notice.contains("connection"), "{notice}");
+}
+
+#[test]
+fn the_salon_opens_without_a_connection_after_the_first_visit() {
+    let Some(mut salon) = Salon::open(QUERY, &[], &[]) else { return };
+    salon.runs();
+    salon.kept();
+    salon.stop_server();
+    salon.again(&format!("{QUERY}&scene=curly"));
+    salon.runs();
+    salon.until("s.drawn && s.name");
+    salon.picture("offline");
 }

@@ -44,6 +44,16 @@ impl Salon {
         start.elapsed()
     }
 
+    /// Waits until the browser has kept the files of the page.
+    pub(crate) fn kept(&mut self) {
+        self.page.wait_for("document.documentElement.dataset.kept", LONG);
+    }
+
+    /// Ends the server of the page.
+    pub(crate) fn stop_server(&mut self) {
+        self.site.stop();
+    }
+
     /// Waits until something holds of its state, called `s`.
     pub(crate) fn until(&mut self, condition: &str) {
         self.page.wait_for(&format!("((s) => s && ({condition}))(window.frisure?.state())"), LONG);
