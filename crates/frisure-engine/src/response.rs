@@ -125,6 +125,8 @@ pub struct HeadData {
     pub eyes: Vec<[f64; 7]>,
     /// Brows and lashes.
     pub hairs: StrandsData,
+    /// Levels that cuts are named by, and their heights (m).
+    pub levels: Vec<(String, f64)>,
     /// What was guessed of it, for a person; may be empty.
     pub note: String,
 }

@@ -344,7 +344,10 @@ fn every_button_of_a_small_window_and_of_a_phone_is_inside() {
             let outside: Vec<_> = (root.children_recursive())
                 .filter(|node| {
                     let role = node.accesskit_node().role();
-                    matches!(role, Role::Button | Role::ComboBox | Role::CheckBox)
+                    matches!(
+                        role,
+                        Role::Button | Role::ComboBox | Role::CheckBox | Role::SpinButton
+                    )
                 })
                 .filter(|node| {
                     let across = node.rect().x_range();
@@ -355,6 +358,15 @@ fn every_button_of_a_small_window_and_of_a_phone_is_inside() {
             assert!(outside.is_empty(), "{name}, {tool}: {outside:#?}");
         }
         window.screen(name);
+        if size[0] > 700.0 {
+            window.key(Modifiers::NONE, Key::U);
+            window.harness.event(Event::PointerMoved(pos2(250.0, 160.0)));
+            window.steps(3);
+            window.screen("test-lift");
+            window.key(Modifiers::NONE, Key::C);
+            window.steps(3);
+            window.screen("test-levels");
+        }
         if size[0] < 700.0 {
             window.click("Panels");
             assert!(window.harness.query_by_role_and_label(Role::Slider, "Diameter").is_some());

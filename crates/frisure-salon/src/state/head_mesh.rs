@@ -8,6 +8,8 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Debug)]
 pub struct HeadMesh {
     surface: Option<Surface>,
+    /// Levels that cuts are named by, and their heights (m).
+    pub levels: Vec<(String, f64)>,
 }
 
 /// Height of the head from crown to chin (m); the shoulders are below.
@@ -19,6 +21,7 @@ impl HeadMesh {
     pub fn new(head: HeadData) -> Self {
         let positions = head.positions.chunks_exact(3).map(|p| DVec3::new(p[0], p[1], p[2]));
         let surface = Surface::new(positions.collect(), head.triangles).ok();
+        let levels = head.levels;
         let tints: Vec<Tint> = (head.tints.as_chunks().0.iter())
             .map(|&[lips, flush, garment]| Tint { lips, flush, garment })
             .collect();
@@ -30,7 +33,7 @@ impl HeadMesh {
             })
             .collect();
         if tints.is_empty() && eyes.is_empty() && head.hairs.offsets.is_empty() {
-            return Self { surface };
+            return Self { surface, levels };
         }
         let hairs = strands_of(&head.hairs);
         // Tints that do not fit the mesh are left out with the rest.
@@ -38,7 +41,7 @@ impl HeadMesh {
             let features = Features { tints, eyes, hairs };
             surface.clone().with_features(features).unwrap_or(surface)
         };
-        Self { surface: surface.map(with) }
+        Self { surface: surface.map(with), levels }
     }
 
     /// The mesh; `None` if the arrays were not a valid one.
@@ -58,17 +61,33 @@ impl HeadMesh {
         if all.0.is_finite() { all } else { (DVec3::splat(-0.12), DVec3::splat(0.12)) }
     }
 
+    /// How far (m) a height is above the nearest level, and the name of the level.
+    #[must_use]
+    pub fn above_level(&self, z: f64) -> Option<(f64, &str)> {
+        let away = |level: &&(String, f64)| (z - level.1).abs();
+        let nearest = self.levels.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        Some((z - nearest.1, &nearest.0))
+    }
+
     /// The first hit of a ray (origin in m, unit direction).
     #[must_use]
     pub fn hit(&self, from: DVec3, direction: DVec3) -> Option<DVec3> {
+        self.hit_and_normal(from, direction).map(|(hit, _)| hit)
+    }
+
+    /// The same with the unit normal of the face that is hit, towards the origin of the ray.
+    #[must_use]
+    pub fn hit_and_normal(&self, from: DVec3, direction: DVec3) -> Option<(DVec3, DVec3)> {
         let surface = self.surface.as_ref()?;
         let p = surface.positions();
         let hits = surface.triangles().iter().filter_map(|t| {
             let [a, b, c] = t.map(|i| p[i as usize]);
-            distance(from, direction, a, b, c)
+            Some((distance(from, direction, a, b, c)?, (b - a).cross(c - a)))
         });
-        let nearest = hits.fold(f64::INFINITY, f64::min);
-        nearest.is_finite().then(|| from + nearest * direction)
+        let (nearest, normal) = hits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let normal = normal.normalize_or_zero();
+        let towards = if normal.dot(direction) > 0.0 { -normal } else { normal };
+        Some((from + nearest * direction, towards))
     }
 }
 

@@ -99,6 +99,13 @@ impl Scissors {
         self.cut(Cut { line: off_skin(self.lifted), held, ..Cut::default() })
     }
 
+    /// Where lifted hair that is rooted at `root` (m), where the skin has this normal, ends at the scissors (m).
+    #[must_use]
+    pub fn lifted_end(&self, root: DVec3, normal: DVec3) -> DVec3 {
+        let down = (DVec3::NEG_Z + normal * normal.z).normalize_or(DVec3::Y);
+        root + self.lifted * (down * self.elevation.cos() + normal * self.elevation.sin())
+    }
+
     /// The operation of clippers, which cut hair straight off the skin.
     #[must_use]
     pub fn clippers(&self) -> Operation {
@@ -187,7 +194,7 @@ impl Snip {
         let side = |p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
         let mut before = orbit.project(place(points.first()?), self.aspect)?;
         for pair in points.windows(2) {
-            let Some(now) = orbit.project(place(&pair[1]), self.aspect) else { return None };
+            let now = orbit.project(place(&pair[1]), self.aspect)?;
             let (first, second) = (side(before), side(now));
             if (first < 0.0) != (second < 0.0) {
                 let t = first / (first - second);

@@ -1,6 +1,6 @@
 //! The tools, and the settings of the active one.
 
-use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, Slider, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, TextWrapMode, Ui, WidgetInfo};
 use frisure::hairstyle::Comb as Side;
 use frisure::hairstyle::styling::Direction;
 use glam::DVec3;
@@ -36,7 +36,14 @@ pub(super) fn show(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
                 out.push(Command::Take(tool));
             }
         }
-        ui.separator();
+        if Room::of(ui) == Room::Wide {
+            ui.separator();
+        } else {
+            // A narrow window has the settings in rows of their own.
+            ui.end_row();
+        }
+        // What is left of a row must not break words.
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         match salon.tool {
             Tool::Cut => cut(ui, salon, out),
             Tool::Scissors => scissors(ui, salon.scissors, out),
@@ -79,6 +86,10 @@ fn cut(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     let field = DragValue::new(&mut height).range(-150.0..=20.0).suffix(" cm").max_decimals(1);
     if widgets::labelled(ui, "Height", field.speed(0.1)).changed() {
         plane.point = DVec3::new(0.0, 0.0, height / 100.0);
+    }
+    if let Some((above, level)) = salon.head.as_ref().and_then(|h| h.above_level(plane.point.z)) {
+        let side = if above < 0.0 { "below" } else { "above" };
+        ui.weak(format!("{:.1} cm {side} the {level}", 100.0 * above.abs()));
     }
     for (label, angle) in [("to its left", &mut plane.roll), ("to the back", &mut plane.pitch)] {
         let mut degrees = angle.to_degrees();
@@ -183,8 +194,8 @@ fn send(set: Scissors, before: Scissors, out: &mut Vec<Command>) {
 
 fn brush(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let mut radius = salon.brush.radius * 100.0;
-    let slider = Slider::new(&mut radius, 0.2..=6.0).suffix(" cm").max_decimals(1);
-    if widgets::labelled(ui, "Radius", slider).changed() {
+    let field = DragValue::new(&mut radius).range(0.2..=10.0).suffix(" cm").max_decimals(1);
+    if widgets::labelled(ui, "Radius", field.speed(0.05)).changed() {
         out.push(Command::BrushSize(radius / 100.0));
     }
 }

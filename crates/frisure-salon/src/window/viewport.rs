@@ -112,6 +112,9 @@ impl Viewport {
             ui.painter().vline(x, rect.y_range(), bar);
             ui.painter().circle(pos2(x, rect.center().y), 9.0, theme::ACCENT, bar);
         }
+        if matches!(salon.tool, Tool::Cut | Tool::Scissors) {
+            levels(ui, salon, rect);
+        }
         overlay(ui, salon, &panes);
         self.draw_stroke(ui, rect, salon);
     }
@@ -414,6 +417,9 @@ impl Viewport {
             let radius = salon.brush.radius / view_height(salon) * f64::from(rect.height());
             painter.circle_stroke(pointer, radius as f32, Stroke::new(1.5, theme::ACCENT));
         }
+        if salon.tool == Tool::Lift {
+            lifted(ui, salon, rect, pointer);
+        }
         for place in &self.stroke {
             if let Some(at) = salon.orbit.project(*place, aspect(rect)) {
                 painter.circle_filled(from_ndc(at, rect), 2.5, theme::ACCENT);
@@ -550,6 +556,49 @@ fn overlay(ui: &Ui, salon: &Salon, panes: &[Pane]) {
     if let Some(hair) = salon.isolated.as_ref().and_then(|isolated| isolated.hair.as_ref()) {
         let corner = panes[panes.len() - 1].shown.right_bottom() + vec2(-10.0, -10.0);
         text_box(ui, corner, Align2::RIGHT_BOTTOM, hair_report(hair), DARK);
+    }
+}
+
+/// Draws how hair under the pointer would be lifted: straight to where it is cut.
+fn lifted(ui: &Ui, salon: &Salon, rect: Rect, pointer: Pos2) {
+    let (from, direction) = salon.orbit.ray(to_ndc(pointer, rect), aspect(rect));
+    let hit = salon.head.as_ref().and_then(|head| head.hit_and_normal(from, direction));
+    let Some((root, normal)) = hit else { return };
+    let end = salon.scissors.lifted_end(root, normal);
+    let Some(end) = salon.orbit.project(end, aspect(rect)) else { return };
+    let (painter, end) = (ui.painter().with_clip_rect(rect), from_ndc(end, rect));
+    painter.line_segment([pointer, end], Stroke::new(2.0, theme::ACCENT));
+    painter.circle_filled(end, 4.0, theme::CUT_COLOUR);
+    let (degrees, cm) = (salon.scissors.elevation.to_degrees(), salon.scissors.lifted * 100.0);
+    let text = format!("{degrees:.0}°, {cm:.1} cm");
+    text_box(ui, end + vec2(8.0, 0.0), Align2::LEFT_CENTER, text, DARK);
+}
+
+/// Draws the levels of the head that cuts are named by, where it is seen from about its height.
+fn levels(ui: &Ui, salon: &Salon, rect: Rect) {
+    /// Half the length of a line (m), beyond hair and shoulders.
+    const HALF: f64 = 0.15;
+    /// Greatest elevation (rad) from which heights lie one above the other. Chosen.
+    const STEEPEST: f64 = 0.6;
+    let Some(head) = salon.head.as_ref().filter(|_| salon.orbit.elevation.abs() < STEEPEST) else {
+        return;
+    };
+    let (painter, right) = (ui.painter().with_clip_rect(rect), salon.orbit.camera().right());
+    let grey = Color32::from_black_alpha(90);
+    for (name, z) in &head.levels {
+        let end =
+            |side: f64| salon.orbit.project(DVec3::Z * *z + side * HALF * right, aspect(rect));
+        let (Some(a), Some(b)) = (end(-1.0), end(1.0)) else { continue };
+        let (a, b) = (from_ndc(a, rect), from_ndc(b, rect));
+        painter.extend(Shape::dashed_line(&[a, b], Stroke::new(1.0, grey), 4.0, 4.0));
+        let font = FontId::proportional(11.0);
+        painter.text(
+            b + vec2(4.0, 0.0),
+            Align2::LEFT_CENTER,
+            name,
+            font,
+            Color32::from_black_alpha(170),
+        );
     }
 }
 
