@@ -101,7 +101,7 @@ pub enum Scattering {
     /// Chiang et al. 2016, with an exact ray through the elliptical section: it conserves energy.
     #[default]
     Chiang,
-    /// Marschner et al. 2003 as it was printed: brighter than the light that falls in, without light that is reflected more than once
+    /// Marschner et al. 2003, halved so that it scatters about the light that falls in, without light that is reflected more than once
     /// inside.
     Marschner,
 }

@@ -378,7 +378,7 @@ keywords! {
 
     Keyword<Scattering> {
         "chiang" => Self(Scattering::Chiang), "Chiang et al. 2016 with the elliptical section, which scatters no more light than there is";
-        "marschner" => Self(Scattering::Marschner), "Marschner et al. 2003 as it was printed, to compare with: brighter than the light that falls in, and slower";
+        "marschner" => Self(Scattering::Marschner), "Marschner et al. 2003, to compare with: a tenth more or less light than falls in, and slower";
     }
 
     Keyword<Backdrop> {

@@ -8,7 +8,11 @@ use super::{BsdfSample, Evaluation, Fibre, HairBsdf, Marschner2003};
 /// Offsets across the width for which directions are drawn. Chosen: the lobes of neighbouring ones overlap.
 const OFFSETS: usize = 8;
 
-/// The BSDF of a fibre by Marschner et al. 2003, as it was printed, for one direction to the eye.
+/// The BSDF of a fibre by Marschner et al. 2003, for one direction to the eye: [`Marschner2003`], halved.
+///
+/// As printed, the Gaussians of the half angle count light twice, and light that goes from fibre to fibre would grow without end.
+/// Without absorption, halved, the model scatters the light that falls in, within a tenth: it leaves out what is reflected more than
+/// once inside, and approximates the rest.
 ///
 /// It is far-field: the mean over the width of the fibre, wherever the ray meets it. Directions are drawn from the conserving model
 /// at one of several offsets, so their weights are not bounded by 1.
@@ -66,8 +70,8 @@ impl<'a> MarschnerBsdf<'a> {
     /// The model for unit local direction `wi` to the light, and the pdf of [`Self::sample`].
     #[must_use]
     pub fn evaluate(&self, wi: Vec3) -> Evaluation {
-        // The cubic that stands for the azimuth may leave a negative remainder of rounding.
-        let f_cos = self.model.evaluate(self.wo, wi).max(Vec3::ZERO);
+        // ∫ g(θh) dθi = 2, since θh = ½ (θo + θi). The cubic that stands for the azimuth may leave a negative remainder of rounding.
+        let f_cos = 0.5 * self.model.evaluate(self.wo, wi).max(Vec3::ZERO);
         let sum: f32 = self.drawn.iter().map(|bsdf| bsdf.evaluate(wi).pdf).sum();
         Evaluation { f_cos, pdf: sum / OFFSETS as f32 }
     }
@@ -114,5 +118,31 @@ mod tests {
         let exact = exact * (2.0 * std::f32::consts::TAU / count);
         let apart = (drawn / count - exact).abs() / exact;
         assert!(apart.max_element() < 0.02, "{exact} {apart}");
+    }
+
+    #[test]
+    fn without_absorption_it_scatters_about_the_light_that_falls_in() {
+        for axis_ratio in [1.0, 1.4] {
+            let fibre = Fibre::new(FibreSpec { axis_ratio, ..FibreSpec::default() }).unwrap();
+            for theta in [0.0_f32, 0.5, 1.0] {
+                let bsdf = MarschnerBsdf::new(
+                    &fibre,
+                    Vec3::ZERO,
+                    Vec3::new(theta.cos(), 0.0, theta.sin()),
+                );
+                let n = 300_u16;
+                let part = |i: u16| (f32::from(i) + 0.5) / f32::from(n);
+                let places = (0..n).flat_map(|i| (0..n).map(move |j| (part(i), part(j))));
+                let sum: f32 = places
+                    .map(|(u, v)| {
+                        let (z, phi) = (2.0 * u - 1.0, std::f32::consts::TAU * v);
+                        let across = (1.0 - z * z).sqrt();
+                        bsdf.evaluate(Vec3::new(across * phi.cos(), across * phi.sin(), z)).f_cos.x
+                    })
+                    .sum();
+                let albedo = sum * 2.0 * std::f32::consts::TAU / f32::from(n).powi(2);
+                assert!((0.9..1.1).contains(&albedo), "{axis_ratio} {theta}: {albedo}");
+            }
+        }
     }
 }
