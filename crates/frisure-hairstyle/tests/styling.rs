@@ -206,6 +206,35 @@ fn a_lasso_takes_what_is_seen_in_it_and_a_brush_what_is_rooted_under_it() {
 }
 
 #[test]
+fn a_mirrored_selection_has_the_wisps_rooted_on_the_other_side() {
+    let hair = hairstyle("caucasian-straight", 150);
+    let temple = HEAD.landmarks().ear + DVec3::new(0.0, -0.02, 0.04);
+    let sphere = |centre: DVec3| Selection::Brush { spots: vec![Spot::At(centre)], radius: 0.05 };
+    let beside = Selection::Beyond { point: DVec3::X * 0.02, normal: DVec3::new(1.0, 0.2, 0.3) };
+    let half = Selection::Not(Box::new(Selection::Place(Place::LeftOf(Region::Fringe))));
+    let chosen = [sphere(temple), beside, half];
+    for selection in chosen.iter().chain([&Selection::All(chosen.to_vec())]) {
+        let other = selection.mirrored().unwrap();
+        assert_eq!(other.mirrored().as_ref(), Some(selection));
+        let (here, there) = (selected(&hair, &HEAD, selection), selected(&hair, &HEAD, &other));
+        let mean = |chosen: &[bool]| {
+            let roots = hair.guides().iter().zip(chosen).filter(|(_, chosen)| **chosen);
+            let (sum, n) = roots.fold((DVec3::ZERO, 0.0), |(sum, n), (guide, _)| {
+                (sum + guide.root.position, n + 1.0)
+            });
+            sum / n
+        };
+        let (here, there) = (mean(&here.unwrap()), mean(&there.unwrap()));
+        // The roots themselves are not symmetric: 150 of them are 2 cm apart.
+        assert!(
+            (here.x + there.x).abs() < 0.01 && (here - there).with_x(0.0).length() < 0.01,
+            "{here} {there}"
+        );
+    }
+    assert_eq!(Selection::Wisps(vec![3]).mirrored(), None);
+}
+
+#[test]
 fn layers_are_as_long_as_the_line_is_far_from_the_skin() {
     let before = hairstyle("caucasian-straight", 60);
     let cut = |line: CutLine, held: Held| {
