@@ -18,7 +18,7 @@ const ROUNDS: usize = 6;
 /// The same of a draft. Chosen: within a few millimetres for the eye.
 const DRAFT_ROUNDS: usize = 1;
 
-/// How far (m) from the line hair may rest. Chosen: half the thickness of a line that the eye sees at arm's length.
+/// How far (m) from the line hair may rest. Chosen: less than a pixel of a picture of a head.
 const ON_LINE: f64 = 2e-4;
 
 /// Least and most that hair comes nearer to the line per length that is left longer: less where it lies on shoulders, more where its
