@@ -1,10 +1,10 @@
 //! A hairstyle as plain data to look at.
 
+use frisure::hairstyle::Hairstyle;
 use frisure::hairstyle::head::Head;
 use frisure::hairstyle::styling::Height;
-use frisure::hairstyle::{Hairstyle, Level};
 use frisure::rod::Stability;
-use frisure::scene::Scene;
+use frisure::scene::{Scene, levels};
 use frisure::strands::{AttributeValues, Eye, Strands};
 use glam::{DVec3, Vec3};
 
@@ -53,17 +53,6 @@ fn plain(strands: &Strands) -> StrandsData {
     }
 }
 
-/// The levels that a salon shows, by their names in scenes.
-const LEVELS: [(&str, Level); 7] = [
-    ("brows", Level::Brows),
-    ("eyes", Level::Eyes),
-    ("ears", Level::Ears),
-    ("chin", Level::Chin),
-    ("nape", Level::Nape),
-    ("shoulders", Level::Shoulders),
-    ("chest", Level::Chest),
-];
-
 /// The surface of a head, and what was guessed of it.
 pub(crate) fn head_data(head: &Head, note: Option<String>) -> HeadData {
     let surface = head.surface();
@@ -79,9 +68,9 @@ pub(crate) fn head_data(head: &Head, note: Option<String>) -> HeadData {
             features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment]).collect()
         }),
         eyes: features.map_or(Vec::new(), |features| features.eyes.iter().map(eye).collect()),
-        levels: LEVELS
+        levels: levels()
             .map(|(name, level)| (name.to_owned(), Height::Above(level, 0.0).on(head)))
-            .to_vec(),
+            .collect(),
         hairs: features.map(|features| plain(&features.hairs)).unwrap_or_default(),
         note: note.unwrap_or_default(),
     }

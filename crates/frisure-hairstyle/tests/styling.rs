@@ -214,8 +214,8 @@ fn a_mirrored_selection_has_the_wisps_rooted_on_the_other_side() {
     let half = Selection::Not(Box::new(Selection::Place(Place::LeftOf(Region::Fringe))));
     let chosen = [sphere(temple), beside, half];
     for selection in chosen.iter().chain([&Selection::All(chosen.to_vec())]) {
-        let other = selection.mirrored().unwrap();
-        assert_eq!(other.mirrored().as_ref(), Some(selection));
+        let other = selection.mirrored(&|wisp| wisp);
+        assert_eq!(other.mirrored(&|wisp| wisp), *selection);
         let (here, there) = (selected(&hair, &HEAD, selection), selected(&hair, &HEAD, &other));
         let mean = |chosen: &[bool]| {
             let roots = hair.guides().iter().zip(chosen).filter(|(_, chosen)| **chosen);
@@ -231,7 +231,8 @@ fn a_mirrored_selection_has_the_wisps_rooted_on_the_other_side() {
             "{here} {there}"
         );
     }
-    assert_eq!(Selection::Wisps(vec![3]).mirrored(), None);
+    let (numbers, opposite) = (Selection::Wisps(vec![3, 4, 9]), |wisp| 12 - wisp / 2 * 2);
+    assert_eq!(numbers.mirrored(&opposite), Selection::Wisps(vec![4, 8, 10]));
 }
 
 #[test]

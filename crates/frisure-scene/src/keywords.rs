@@ -41,6 +41,11 @@ macro_rules! keywords {
 
 pub(crate) use keywords;
 
+/// The levels of a head that cuts are named by, from the brows down, with their names in scenes.
+pub fn levels() -> impl Iterator<Item = (&'static str, Level)> {
+    Keyword::<Level>::keywords().into_iter().map(|(name, _, Keyword(level))| (name, level))
+}
+
 /// A hair type, by its name.
 #[derive(Clone, Copy)]
 pub(crate) struct HairType(pub(crate) &'static Preset);

@@ -52,6 +52,7 @@ pub use control::{OptionList, Panel, Slider, Unit};
 pub use declaration::Declaration;
 pub use error::{Diagnostic, SceneError};
 pub use frisure_files::head::{HeadFile, ScalpSource};
+pub use keywords::levels;
 pub use natural_look::NaturalLook;
 pub use operation::Button;
 pub use placement::Placement;

@@ -7,37 +7,42 @@ use super::selection::{Lasso, Selection, Spot, View};
 use crate::spec::Place;
 
 impl Operation {
-    /// The operation on the other side of the head, in the head's frame; `None` if its wisps are chosen by number, which have
-    /// no counterparts.
+    /// The operation on the other side of the head, in the head's frame. `opposite` names the counterpart of a wisp by number, for
+    /// example the one rooted nearest to its mirrored root.
     ///
     /// ```
     /// use frisure_hairstyle::styling::{Clip, Operation};
     /// use glam::DVec3;
     ///
     /// let clip = Clip { to: DVec3::new(0.08, 0.02, 0.1), ..Clip::default() };
-    /// let Some(Operation::Clip(other)) = Operation::from(clip).mirrored() else { panic!("a clip") };
+    /// let Operation::Clip(other) = Operation::from(clip).mirrored(&|wisp| wisp) else { panic!("a clip") };
     /// assert_eq!(other.to, DVec3::new(-0.08, 0.02, 0.1));
     /// ```
     #[must_use]
-    pub fn mirrored(&self) -> Option<Self> {
+    pub fn mirrored(&self, opposite: &dyn Fn(usize) -> usize) -> Self {
         let mut other = self.clone();
         if let Some(selection) = other.selection_mut() {
-            *selection = selection.mirrored()?;
+            *selection = selection.mirrored(opposite);
         }
         other.inner_mut().mirror();
-        Some(other)
+        other
     }
 }
 
 impl Selection {
-    /// The counterpart on the other side of the head, in the head's frame; `None` if it names wisps by number.
+    /// The counterpart on the other side of the head, in the head's frame; `opposite` names that of a wisp by number.
     #[must_use]
-    pub fn mirrored(&self) -> Option<Self> {
-        let each = |parts: &[Self]| parts.iter().map(Self::mirrored).collect::<Option<Vec<_>>>();
-        Some(match self {
+    pub fn mirrored(&self, opposite: &dyn Fn(usize) -> usize) -> Self {
+        let each = |parts: &[Self]| parts.iter().map(|part| part.mirrored(opposite)).collect();
+        match self {
             Self::Everything => Self::Everything,
             Self::Place(place) => Self::Place(mirrored_place(*place)),
-            Self::Wisps(_) => return None,
+            Self::Wisps(wisps) => {
+                let mut others: Vec<usize> = wisps.iter().map(|wisp| opposite(*wisp)).collect();
+                others.sort_unstable();
+                others.dedup();
+                Self::Wisps(others)
+            }
             Self::Above(height) => Self::Above(*height),
             Self::Beyond { point, normal } => {
                 Self::Beyond { point: mirrored(*point), normal: mirrored(*normal) }
@@ -50,10 +55,10 @@ impl Selection {
                 Self::Brush { spots: spots.iter().map(spot).collect(), radius: *radius }
             }
             Self::Lasso(lasso) => Self::Lasso(mirrored_lasso(lasso)),
-            Self::Any(parts) => Self::Any(each(parts)?),
-            Self::All(parts) => Self::All(each(parts)?),
-            Self::Not(part) => Self::Not(Box::new(part.mirrored()?)),
-        })
+            Self::Any(parts) => Self::Any(each(parts)),
+            Self::All(parts) => Self::All(each(parts)),
+            Self::Not(part) => Self::Not(Box::new(part.mirrored(opposite))),
+        }
     }
 }
 

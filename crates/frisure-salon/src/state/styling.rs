@@ -106,12 +106,15 @@ impl Salon {
                 let Some(under) = self.under_brush(&places) else { return };
                 comb(Direction::Along(rounded(direction, 1e-3))).on(within(under))
             }
-            Command::Lift(places) | Command::Clip(places) => {
+            Command::Lift(places) => {
                 let Some(under) = self.under_brush(&places) else { return };
                 self.weigh();
-                let lifts = self.tool == Tool::Lift;
-                let cut = if lifts { self.scissors.lifted() } else { self.scissors.clippers() };
-                cut.on(within(under))
+                self.scissors.lifted().on(within(under))
+            }
+            Command::Clip(places) => {
+                let Some(under) = self.under_brush(&places) else { return };
+                self.weigh();
+                self.scissors.clippers().on(within(under))
             }
             Command::Snip(snip) => {
                 let Some((cut, wisps)) = self.snipped(&snip) else { return };
@@ -128,8 +131,10 @@ impl Salon {
         if let Some(base) = self.base() {
             let mut steps = vec![operation];
             if self.mirror {
-                let other = self.mirrored(&steps[0]);
-                steps.extend(other.filter(|other| *other != steps[0]));
+                let other = steps[0].mirrored(&|wisp| self.opposite(wisp));
+                if other != steps[0] {
+                    steps.push(other);
+                }
             }
             let text = edit::append(base, &steps);
             self.change(&label, text, false);
@@ -157,33 +162,11 @@ impl Salon {
         Some((self.scissors.at_plane(point, normal), wisps))
     }
 
-    /// The operation on the other side of the head: for wisps by number, on those whose roots are nearest to the mirrored ones.
-    fn mirrored(&self, operation: &Operation) -> Option<Operation> {
-        let mut other = operation.clone();
-        if let Some(selection) = other.selection_mut() {
-            self.mirror_numbers(selection);
-        }
-        other.mirrored()
-    }
-
-    /// Replaces wisps by number, whose mirror image has no number, by those that a mirror makes of the ones on the other side.
-    fn mirror_numbers(&self, selection: &mut Selection) {
-        match selection {
-            Selection::Wisps(wisps) => {
-                let Some(roots) = self.current.as_ref().map(|current| &current.hair.roots) else {
-                    return;
-                };
-                let root = |wisp: &usize| roots.get(*wisp).map(|p| Vec3::from_array(*p).as_dvec3());
-                let spots =
-                    wisps.iter().filter_map(root).map(|p| Spot::At(rounded(p, 1e-4))).collect();
-                *selection = Selection::Brush { spots, radius: ROOT };
-            }
-            Selection::Any(parts) | Selection::All(parts) => {
-                parts.iter_mut().for_each(|part| self.mirror_numbers(part));
-            }
-            Selection::Not(part) => self.mirror_numbers(part),
-            _ => {}
-        }
+    /// The wisp rooted nearest to the mirror image of another one's root.
+    fn opposite(&self, wisp: usize) -> usize {
+        let root = self.current.as_ref().and_then(|current| current.hair.roots.get(wisp));
+        let mirrored = root.map(|&[x, y, z]| Vec3::new(-x, y, z).as_dvec3());
+        mirrored.and_then(|place| self.wisp_at(place)).unwrap_or(wisp)
     }
 
     /// Whether most of the selected hair is wet.
@@ -224,9 +207,6 @@ impl Salon {
         (0..roots.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 }
-
-/// Radius of a brush (m) that finds the wisps on the other side of the head. Chosen: half the spacing of 200 roots.
-const ROOT: f64 = 8e-3;
 
 /// An operation that combs hair in a direction and holds it there.
 #[must_use]

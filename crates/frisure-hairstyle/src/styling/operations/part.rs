@@ -32,7 +32,6 @@ impl Apply for Part {
         })
     }
 
-    /// Roots turn as if the hair had been planted with this parting; fibres stay what they are.
     fn mirror(&mut self) {
         match &mut self.line {
             Parting::Straight { offset } | Parting::Zigzag { offset } => *offset = -*offset + 0.0,
@@ -40,6 +39,7 @@ impl Apply for Part {
         }
     }
 
+    /// Roots turn as if the hair had been planted with this parting; fibres stay what they are.
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
         let Act { before: hair, head, .. } = *act;
         let mut spec = hair.spec.clone();

@@ -7,8 +7,8 @@ use crate::hairstyle::Hairstyle;
 use crate::head::Head;
 use crate::spec::InvalidSpec;
 use crate::styling::error::StyleError;
-use crate::styling::mirror::mirrored;
 use crate::styling::gather::{Gathering, gathered, onto_skin};
+use crate::styling::mirror::mirrored;
 use crate::styling::selection::Selection;
 use crate::styling::settle::Act;
 

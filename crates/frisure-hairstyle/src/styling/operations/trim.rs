@@ -58,22 +58,23 @@ pub(super) fn trimmed(
 
 /// The search for the length (m, dry) at which a guide rests at a line.
 struct Search {
-    /// Lengths between which it is: at the first the guide ends before the line, at the second beyond it.
-    between: (f64, f64),
+    /// Length of the whole guide.
+    most: f64,
+    /// Lengths between which it is: at the first the guide ends before the line, at the second beyond it, if one did.
+    between: (f64, Option<f64>),
     /// A length that has been tried, and how far (m) beyond the line the guide reached.
     tried: Option<(f64, f64)>,
 }
 
 impl Search {
     fn new(most: f64) -> Self {
-        Self { between: (0.0, most), tried: None }
+        Self { most, between: (0.0, None), tried: None }
     }
 
     /// The length to try after `length`, with which the guide rests so; none if that will do.
     fn next(&mut self, length: f64, scissors: &Scissors<'_>, rest: &Equilibrium) -> Option<f64> {
         let reach = scissors.reach(rest);
-        let most = self.between.1;
-        if reach.abs() <= ON_LINE || (reach < 0.0 && length >= most) {
+        if reach.abs() <= ON_LINE || (reach < 0.0 && length >= self.most) {
             return None;
         }
         let rate = self.tried.replace((length, reach)).and_then(|(other, before)| {
@@ -87,16 +88,15 @@ impl Search {
             None => length - reach,
         };
         if reach > 0.0 {
-            self.between.1 = length;
+            self.between.1 = Some(length);
         } else {
             self.between.0 = length;
         }
-        let (low, high) = self.between;
-        let next = match next {
-            // Nothing is known of guides that are left longer than ever: only that there is no more hair.
-            next if next >= high && reach < 0.0 && high == most => most,
-            next if next > low && next < high => next,
-            _ => 0.5 * (low + high),
+        let next = match self.between {
+            // As long as no length was beyond the line, there is no other bound than the hair.
+            (low, None) if next > low => next.min(self.most),
+            (low, Some(high)) if next > low && next < high => next,
+            (low, high) => 0.5 * (low + high.unwrap_or(self.most)),
         };
         enough(next).then_some(next)
     }
