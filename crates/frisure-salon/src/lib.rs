@@ -6,6 +6,7 @@
 // `wasm_bindgen` generates unsafe code.
 #![cfg_attr(not(target_arch = "wasm32"), forbid(unsafe_code))]
 
+pub mod locale;
 #[cfg(target_arch = "wasm32")]
 pub mod page;
 pub mod state;

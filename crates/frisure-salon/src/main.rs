@@ -21,6 +21,7 @@ mod desktop {
     use clap::{Parser, ValueEnum};
     use eframe::egui::ViewportBuilder;
     use eframe::{CreationContext, NativeOptions, egui, egui_wgpu, wgpu};
+    use frisure_salon::locale::{self, Locale, text_with};
     use frisure_salon::state::{Command, Salon};
     use frisure_salon::window::desktop::Desktop;
     use frisure_salon::window::{App, Parts, waker};
@@ -42,9 +43,21 @@ mod desktop {
         /// Samples per pixel: 1 for a slow device
         #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=8))]
         samples: u32,
+        /// The language of the salon, `en` or `fr`; by default the one chosen before, or that of the system
+        #[arg(long, value_name = "TAG", value_parser = language)]
+        language: Option<Locale>,
         /// The autosave file; by default one in the user's data folder
         #[arg(long, value_name = "FILE", alias = "kept")]
         autosave: Option<PathBuf>,
+    }
+
+    /// The language of a tag.
+    fn language(tag: &str) -> Result<Locale, String> {
+        Locale::of(tag).ok_or_else(|| {
+            let known =
+                Locale::ALL.map(|locale| format!("{} ({})", locale.tag(), locale.endonym()));
+            format!("the salon speaks {}", known.join(" and "))
+        })
     }
 
     #[derive(Clone, Copy, ValueEnum)]
@@ -155,8 +168,8 @@ mod desktop {
         fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
             if let Some(reason) = take(&self.lost.reason) {
                 let mut salon = self.app.take_salon();
-                let hint = "Your work is still there, in a new window.";
-                salon.notify(format!("the graphics device was lost: {reason}"), hint, true);
+                let text = text_with("device-lost", &[("reason", reason.into())]);
+                salon.notify(text, locale::text("device-lost.hint"), true);
                 if let Ok(mut slot) = self.lost.salon.lock() {
                     *slot = Some(salon);
                 }
@@ -188,6 +201,7 @@ mod desktop {
             workers: [worker()?, worker()?],
             platform: Box::new(Desktop::new(arguments.autosave.clone(), wake.clone())),
             samples: arguments.samples,
+            locale: arguments.language,
         };
         let mut app = App::new(cc, parts);
         match (salon, &arguments.begin) {

@@ -8,7 +8,8 @@ use std::sync::LazyLock;
 
 use common::World;
 use frisure::hairstyle::head::Head;
-use frisure_salon::state::{Badge, Command, Destination, FILES_PANEL, Message};
+use frisure::scene::Panel;
+use frisure_salon::state::{Badge, Command, Destination, Message, panel_title};
 
 /// A head of few hairs as grooms of other programs: some of them do not tell guides from hairs.
 fn exported(format: &str) -> Vec<u8> {
@@ -104,7 +105,10 @@ fn a_wrong_unit_or_axis_is_reported_with_a_hint_for_the_window() {
     assert!(is_held(&world), "{:?}", world.salon.messages);
     let hint = |world: &World| {
         let message = last(world);
-        assert!(message.is_error && message.hint.contains(FILES_PANEL), "{message:?}");
+        assert!(
+            message.is_error && message.hint.contains(&*panel_title(Panel::Files)),
+            "{message:?}"
+        );
         assert!(!message.hint.contains('`'), "no keys of scenes: {message:?}");
         assert!(matches!(world.salon.badge(), Badge::Refused(_)));
         message.text
@@ -156,7 +160,11 @@ fn head_and_groom_can_be_opened_in_any_order() {
         assert!(files.head && files.groom && is_held(&world), "{:?}", world.salon.messages);
         assert!(errors(&world).is_empty(), "{:?}", errors(&world));
         let unit = world.salon.messages.iter().find(|m| m.text.contains("cm is assumed"));
-        assert!(unit.is_some_and(|m| m.hint.contains(FILES_PANEL)), "{:?}", world.salon.messages);
+        assert!(
+            unit.is_some_and(|m| m.hint.contains(&*panel_title(Panel::Files))),
+            "{:?}",
+            world.salon.messages
+        );
     }
 }
 

@@ -12,6 +12,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use frisure_salon::locale::Locale;
 use frisure_salon::state::{Badge, Command, Destination, Document};
 use frisure_salon::window::desktop::Desktop;
 use frisure_salon::window::platform::InputFile;
@@ -39,6 +40,10 @@ fn has_graphics() -> bool {
 
 impl Window {
     fn open(size: [f32; 2], scale: f32) -> Self {
+        Self::open_in(Locale::English, size, scale)
+    }
+
+    fn open_in(locale: Locale, size: [f32; 2], scale: f32) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let kept = folder.path().join("kept.toml");
         let harness = Harness::builder()
@@ -51,7 +56,12 @@ impl Window {
                     Box::new(Thread::start(Arc::new(|| ())).expect("a thread"))
                 };
                 let platform = Box::new(Desktop::new(Some(kept), Arc::new(|| ())));
-                let parts = Parts { workers: [worker(), worker()], platform, samples: 1 };
+                let parts = Parts {
+                    workers: [worker(), worker()],
+                    platform,
+                    samples: 1,
+                    locale: Some(locale),
+                };
                 App::new(cc, parts)
             });
         Self { harness, folder, screens: 0 }

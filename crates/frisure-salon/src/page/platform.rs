@@ -11,6 +11,9 @@ use wasm_bindgen_futures::spawn_local;
 /// Name of the autosaved text in the browser's storage; a file format.
 const AUTOSAVE: &str = "kept";
 
+/// Name of the chosen language in the browser's storage.
+const LANGUAGE: &str = "language";
+
 /// The browser platform.
 pub(crate) struct Browser {
     inbox: Inbox,
@@ -48,6 +51,15 @@ impl Platform for Browser {
     fn read_autosave(&mut self) -> Option<String> {
         // If the browser forbids storage, the first autosave reports it.
         storage::get(AUTOSAVE).ok().flatten()
+    }
+
+    fn read_language(&self) -> Option<String> {
+        storage::get(LANGUAGE).ok().flatten()
+    }
+
+    fn write_language(&mut self, tag: &str) {
+        // If the browser forbids storage, the next visit has the browser's language.
+        let _ = storage::set(LANGUAGE, tag);
     }
 
     fn show_open_dialog(&mut self) {

@@ -4,6 +4,7 @@ use super::options::{self, PageOptions};
 use super::platform::Browser;
 use super::worker_client::WebWorker;
 use super::{failure, graphics, js_api};
+use crate::locale::Locale;
 use crate::state::Command;
 use crate::window::{App, Parts, waker};
 use eframe::{CreationContext, WebOptions, WebRunner};
@@ -35,6 +36,7 @@ fn app(cc: &CreationContext<'_>, options: &PageOptions) -> Created {
             Box::new(WebWorker::start(wake.clone())?),
         ],
         platform: Box::new(Browser::new(wake)),
+        locale: options.language().and_then(|tag| Locale::of(&tag)),
         samples: options.samples().map_or(4, |samples| samples as u32),
     };
     let mut app = App::new(cc, parts);

@@ -12,6 +12,7 @@ use super::rendering::RenderTask;
 use super::salon::Tool;
 use super::scissors::{Scissors, Snip};
 use super::selection::SelectMode;
+use crate::locale::Locale;
 
 /// A command of the user.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,6 +95,8 @@ pub enum Command {
     EndTour,
     /// Does the next steps on both sides of the head, or no longer.
     ToggleMirror,
+    /// Speaks a language from now on.
+    Speak(Locale),
     /// Undoes an edit.
     Undo,
     /// Redoes an edit.

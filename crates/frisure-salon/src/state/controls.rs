@@ -1,13 +1,24 @@
 //! The controls of the panels: a slider or a list of options for each scene key that declares one.
 
+use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::LazyLock;
 
 use frisure::scene::keys::KEYS;
 use frisure::scene::{Declaration, Panel, Scene, Slider, options};
 
+use crate::locale::{self, tr};
+
+/// The title of a panel.
+#[must_use]
+pub fn panel_title(panel: Panel) -> Cow<'static, str> {
+    locale::named("panel", panel.title(), panel.title())
+}
+
 /// The title of the panel about files, which hints name.
-pub const FILES_PANEL: &str = Panel::Files.title();
+pub(super) fn files_panel() -> Cow<'static, str> {
+    panel_title(Panel::Files)
+}
 
 /// A slider for a number, with the properties that its key declares.
 #[derive(Clone, Copy, Debug)]
@@ -72,11 +83,29 @@ impl Control {
         }
     }
 
+    /// Its label.
+    #[must_use]
+    pub fn label(&self) -> Cow<'static, str> {
+        locale::named("key", self.key, self.slider.label)
+    }
+
+    /// Its tooltip.
+    #[must_use]
+    pub fn help(&self) -> Cow<'static, str> {
+        locale::named("key", &format!("{}#help", self.key), self.slider.help)
+    }
+
+    /// Its unit as it is displayed.
+    #[must_use]
+    pub fn displayed_unit(&self) -> Cow<'static, str> {
+        locale::named("unit", self.unit.displayed, self.unit.displayed)
+    }
+
     /// A value with its unit, such as "28 cm".
     #[must_use]
     pub fn displayed(&self, value: f64) -> String {
         let value = format!("{:.*}", self.decimals, self.clean(value));
-        match self.unit.displayed {
+        match &*self.displayed_unit() {
             "" => value,
             unit => format!("{value} {unit}"),
         }
@@ -98,16 +127,12 @@ pub fn control_of(key: &str) -> Option<&'static Control> {
 pub struct Choice {
     /// Its panel.
     pub panel: Panel,
-    /// Its label.
-    pub label: &'static str,
     /// The scene key.
     pub key: &'static str,
-    /// The name of the default, where the key is not set.
-    pub default: &'static str,
-    /// The options: the value as TOML, and its title.
+    /// The options: the value as TOML, and its title in English.
     pub options: Vec<(String, &'static str)>,
-    /// The tooltip.
-    pub help: &'static str,
+    label: &'static str,
+    help: &'static str,
 }
 
 /// All lists of options.
@@ -120,12 +145,35 @@ impl Choice {
         let written = |(word, title): (&str, _)| (format!("\"{word}\""), title);
         Some(Self {
             panel: list.panel,
-            label: list.label,
             key: declared.path,
-            default: if list.panel == Panel::Files { "as in the file" } else { "default" },
             options: options(declared).into_iter().map(written).collect(),
+            label: list.label,
             help: list.help,
         })
+    }
+
+    /// Its label.
+    #[must_use]
+    pub fn label(&self) -> Cow<'static, str> {
+        locale::named("key", self.key, self.label)
+    }
+
+    /// Its tooltip.
+    #[must_use]
+    pub fn help(&self) -> Cow<'static, str> {
+        locale::named("key", &format!("{}#help", self.key), self.help)
+    }
+
+    /// The name of the default, where the key is not set.
+    #[must_use]
+    pub fn default(&self) -> String {
+        tr!(if self.panel == Panel::Files { "as-in-the-file" } else { "default" })
+    }
+
+    /// The title of an option: an element of [`Self::options`].
+    #[must_use]
+    pub fn title(&self, (written, english): &(String, &'static str)) -> Cow<'static, str> {
+        locale::named("option", written, english)
     }
 }
 

@@ -12,25 +12,32 @@ use super::gallery::card;
 use super::salon::{ParsedScene, Salon, Tool, parse};
 use super::selection::Selected;
 use super::sharing;
+use crate::locale::tr;
 
 impl Salon {
     /// Opens a card of the gallery, or the scene of a link.
     pub(super) fn begin(&mut self, name: &str) {
         match sharing::decoded(name) {
             Some(Ok(text)) => {
-                return self.open_document(Document::new("Shared", None, "From a link", text));
+                return self.open_document(Document::new(
+                    tr!("shared"),
+                    None,
+                    tr!("from-a-link"),
+                    text,
+                ));
             }
             Some(Err(problem)) => {
-                let hint = "Copy all of the link, to its last letter.";
-                return self.notify(format!("the link is damaged: {problem}"), hint, true);
+                let text = tr!("link-damaged", problem = problem);
+                return self.notify(text, tr!("link-damaged.hint"), true);
             }
             None => {}
         }
         let Some(card) = card(name) else {
-            let hint = "Open the gallery to see the names.";
-            return self.notify(format!("there is no hair called `{name}`"), hint, true);
+            let text = tr!("no-such-card", name = name);
+            return self.notify(text, tr!("no-such-card.hint"), true);
         };
-        self.open_document(Document::new(card.title, None, card.title, card.text()));
+        let title = card.title();
+        self.open_document(Document::new(&*title, None, &*title, card.text()));
     }
 
     /// Replaces the document, unless the new one does not parse.
@@ -96,18 +103,18 @@ impl Salon {
         let Some(document) = self.document.as_mut().filter(|d| d.is_draft()) else { return };
         let before = &document.edits()[document.at()].text;
         let label = self.scene.as_ref().and_then(|parsed| changed(before, parsed));
-        document.keep_draft(label.unwrap_or_else(|| "Changed".into()));
+        document.keep_draft(label.unwrap_or_else(|| tr!("changed")));
     }
 
     /// Sets a key to an option of its choice, as TOML.
     pub(super) fn set_option(&mut self, key: &'static str, value: &str) {
         let Some(base) = self.base() else { return };
         let label = choice_of(key).and_then(|choice| {
-            let (_, title) = choice.options.iter().find(|(written, _)| written == value)?;
-            Some(format!("{}: {}", choice.label, title.to_lowercase()))
+            let option = choice.options.iter().find(|(written, _)| written == value)?;
+            Some(set_to(&choice.label(), &choice.title(option).to_lowercase()))
         });
         let text = edit::set_key(base, key, value);
-        self.change(label.as_deref().unwrap_or("Changed"), text, false);
+        self.change(&label.unwrap_or_else(|| tr!("changed")), text, false);
     }
 
     /// Removes a key, so that its default holds.
@@ -115,10 +122,10 @@ impl Salon {
         let Some(base) = self.base() else { return };
         let text = edit::unset_key(base, key);
         let label = match choice_of(key) {
-            Some(choice) => format!("{}: {}", choice.label, choice.default),
+            Some(choice) => set_to(&choice.label(), &choice.default()),
             None => {
-                let name = control_of(key).map_or(key, |control| control.label);
-                format!("{name}: default of the hair type")
+                let name = control_of(key).map_or(key.into(), Control::label);
+                set_to(&name, &tr!("default-of-type"))
             }
         };
         self.change(&label, text, false);
@@ -146,12 +153,17 @@ impl Salon {
         let elevation = format!("\"{} deg\"", degrees(self.orbit.elevation));
         let keys = [("camera.azimuth", Some(&*azimuth)), ("camera.elevation", Some(&*elevation))];
         let text = edit::set_keys(base, &keys);
-        self.change("The scene's camera", text, false);
+        self.change(&tr!("scene-camera"), text, false);
     }
 }
 
 fn label(control: &Control, value: f64) -> String {
-    format!("{}: {}", control.label, control.displayed(value))
+    set_to(&control.label(), &control.displayed(value))
+}
+
+/// The label of an edit that sets something to a value.
+fn set_to(name: &str, value: &str) -> String {
+    tr!("set-to", name = name, value = value)
 }
 
 /// The label of a dragged slider: that of the first control whose value differs between two scenes.

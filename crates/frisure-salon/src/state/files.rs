@@ -8,11 +8,12 @@ use frisure::scene::{HeadSource, edit};
 use frisure_engine::{Request, Response, SceneRef};
 use toml_edit::{DocumentMut, Value};
 
-use super::controls::FILES_PANEL;
+use super::controls::files_panel;
 use super::document::Document;
 use super::jobs::{Job, Purpose};
 use super::salon::Salon;
 use super::selection::Selected;
+use crate::locale::tr;
 
 /// Hair type of a new scene that starts from a head.
 const DEFAULT_HAIR_TYPE: &str = "caucasian-wavy";
@@ -22,8 +23,8 @@ impl Salon {
     pub(super) fn queue_file(&mut self, path: String) {
         if contents::by_name(Path::new(&path)) == Contents::default() {
             let known = contents::extensions().join(", ");
-            let hint = format!("Scenes are .toml files; heads and grooms are {known}.");
-            return self.notify(format!("{path} cannot be opened here"), hint, true);
+            let hint = tr!("unknown-file.hint", known = known);
+            return self.notify(tr!("unknown-file", path = path), hint, true);
         }
         self.pending_files.push_back(path);
     }
@@ -57,9 +58,9 @@ impl Salon {
     pub(super) fn use_file(&mut self, path: &str, contents: Contents) {
         let name = file_name(path);
         let label = match contents {
-            Contents { head: true, groom: true } => format!("Head and hair of {name}"),
-            Contents { groom: true, .. } => format!("Hair of {name}"),
-            Contents { .. } => format!("Head of {name}"),
+            Contents { head: true, groom: true } => tr!("file-head-and-hair", name = &*name),
+            Contents { groom: true, .. } => tr!("file-hair", name = &*name),
+            Contents { .. } => tr!("file-head", name = &*name),
         };
         if self.document.is_none() {
             let stem = Path::new(&name).file_stem().unwrap_or_default().to_string_lossy();
@@ -72,8 +73,8 @@ impl Salon {
             self.name_file(&label, &written, contents);
         }
         if contents.head && contents.groom {
-            let hint = format!("“Use the mannequin” under “{FILES_PANEL}” keeps only its hair.");
-            self.notify(format!("{name} has a head and hair; both are used."), hint, false);
+            let hint = tr!("file-has-both.hint", panel = &*files_panel());
+            self.notify(tr!("file-has-both", name = &*name), hint, false);
         }
     }
 
@@ -128,11 +129,11 @@ impl Salon {
         let Some(base) = self.base() else { return };
         // Removing the path removes the keys about the file, too.
         let (label, key) = match contents.head {
-            true => ("The mannequin's head", HEAD[0]),
-            false => ("The scene's own hair", GROOM[0]),
+            true => (tr!("mannequin-head"), HEAD[0]),
+            false => (tr!("own-hair"), GROOM[0]),
         };
         let text = edit::set_keys(base, &[(key, None)]);
-        if self.change(label, text, false) {
+        if self.change(&label, text, false) {
             self.framed &= !contents.head;
         }
     }

@@ -1,17 +1,19 @@
 //! The cards of the gallery: hair types and hairstyles.
 
+use std::borrow::Cow;
+
 use frisure::hairstyle::{PRESETS, preset};
 use frisure::scene::NaturalLook;
+
+use crate::locale;
 
 /// A card of the gallery.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
-    /// Its title.
-    pub title: &'static str,
+    title: &'static str,
     /// The name of the hair type or of the scene.
     pub name: &'static str,
-    /// A short description.
-    pub description: &'static str,
+    description: &'static str,
     /// Its picture (PNG).
     pub picture: &'static [u8],
     /// Its scene; empty for a hair type, whose scene is one line.
@@ -94,16 +96,23 @@ impl Card {
 
     /// A scene of a hair type, on the head that goes with it.
     fn begun(&self) -> String {
-        let Self { title, name, .. } = self;
+        let (name, title) = (self.name, self.title());
         let model = preset(name).map_or("mannequin", |preset| NaturalLook::of(preset).model);
         format!("name = \"{title}\"\n\n[head]\nmodel = \"{model}\"\n\n[hair]\ntype = \"{name}\"\n")
     }
 
+    /// Its title.
+    #[must_use]
+    pub fn title(&self) -> Cow<'static, str> {
+        locale::named("card", self.name, self.title)
+    }
+
     /// A short description.
     #[must_use]
-    pub fn about(&self) -> &'static str {
+    pub fn about(&self) -> Cow<'static, str> {
         let preset = PRESETS.iter().find(|p| p.name == self.name && self.scene.is_empty());
-        preset.map_or(self.description, |p| p.description)
+        let english = preset.map_or(self.description, |p| p.description);
+        locale::named("card", &format!("{}#about", self.name), english)
     }
 }
 

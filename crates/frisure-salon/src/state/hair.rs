@@ -7,11 +7,12 @@ use frisure::scene::write_step;
 use frisure_engine::{Diagnostic, GuideData, Preview, Quality, Request, Response, SceneRef};
 use glam::{DVec3, Vec3};
 
-use super::controls::FILES_PANEL;
+use super::controls::files_panel;
 use super::head_mesh::HeadMesh;
 use super::jobs::{Job, Purpose};
 use super::salon::{CurrentHair, HairKey, IsolatedHair, Salon, parse};
 use super::selection::Selected;
+use crate::locale::tr;
 
 /// Whether the shown hair is that of the text, and in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,7 +132,7 @@ impl Salon {
                     self.jobs.start(Purpose::Select, scene, request);
                 }
                 Err(e) => {
-                    self.notify(e.to_string(), "Select other hair.", true);
+                    self.notify(e.to_string(), tr!("select-other"), true);
                     self.selected = Selected::default();
                 }
             }
@@ -183,7 +184,7 @@ impl Salon {
     fn show(&mut self, text: &str, mut hair: Preview, outdated: bool) {
         if let Some(head) = hair.head.take() {
             if !head.note.is_empty() {
-                let hint = format!("Choose another under “{FILES_PANEL}”.");
+                let hint = tr!("choose-under", panel = &*files_panel());
                 self.notify(head.note.clone(), hint, false);
             }
             self.head = Some(Arc::new(HeadMesh::new(head)));
@@ -222,7 +223,8 @@ impl Salon {
         let Some(mass) = self.mass_before.take() else { return };
         let cut_off = mass - hair.numbers.mass;
         if cut_off > 1e-7 {
-            self.notify(format!("Cut off {:.1} g of hair.", cut_off * 1e3), "", false);
+            let grams = format!("{:.1}", cut_off * 1e3);
+            self.notify(tr!("cut-off", grams = grams), "", false);
         }
     }
 
@@ -234,10 +236,10 @@ impl Salon {
         self.held.clone_from(&hair.adoption);
         let Some(held) = &hair.adoption else { return };
         let hint = match held.unstable {
-            0 => "",
-            _ => "A stiffer or thicker fibre, or a shorter lock, is stable.",
+            0 => String::new(),
+            _ => tr!("groom-fit.hint"),
         };
-        self.notify(format!("groom: {held}"), hint, false);
+        self.notify(tr!("groom-fit", report = held.to_string()), hint, false);
     }
 
     /// Frames the hair and the head in a picture of an aspect ratio.

@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 use frisure::formats::groom::Format;
 use frisure_engine::{Quality, Request, SceneRef};
 
+use crate::locale::Locale;
+
 /// Identifies one request and its responses.
 pub type JobId = u64;
 
@@ -30,6 +32,8 @@ pub enum Effect {
     Cancel(Queue, JobId),
     /// Writes a file, or passes it to the browser as a download.
     Save(Save),
+    /// Keeps the chosen language for the next start.
+    KeepLanguage(Locale),
     /// Stores a text for recovery at the next start; `None` deletes it.
     Autosave(Option<String>),
 }

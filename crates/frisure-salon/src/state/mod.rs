@@ -28,7 +28,7 @@ mod tour_steps;
 mod update;
 
 pub use command::Command;
-pub use controls::{CHOICES, CONTROLS, Choice, Control, FILES_PANEL, choice_of, control_of};
+pub use controls::{CHOICES, CONTROLS, Choice, Control, choice_of, control_of, panel_title};
 pub use cut_plane::{CutPlane, CutPreview};
 pub use document::{Document, Edit};
 pub use gallery::{Card, SCENES, TYPES, card};

@@ -21,12 +21,12 @@ pub struct Orbit {
 
 /// Standard views: name, azimuth and elevation (degrees).
 pub const VIEWS: [(&str, f64, f64); 6] = [
-    ("Front", 0.0, 3.0),
-    ("Three-quarter", 35.0, 6.0),
-    ("Left", 90.0, 3.0),
-    ("Back", 180.0, 3.0),
-    ("Right", -90.0, 3.0),
-    ("Top", 0.0, 80.0),
+    ("view-front", 0.0, 3.0),
+    ("view-three-quarter", 35.0, 6.0),
+    ("view-left", 90.0, 3.0),
+    ("view-back", 180.0, 3.0),
+    ("view-right", -90.0, 3.0),
+    ("view-top", 0.0, 80.0),
 ];
 
 /// Maximum elevation (rad), below the pole, where the azimuth is undefined.

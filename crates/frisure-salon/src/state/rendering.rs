@@ -7,6 +7,7 @@ use frisure_engine::{Quality, Request, Response};
 
 use super::jobs::{Destination, Effect, Purpose, Save};
 use super::salon::{Comparison, PartialPicture, Salon, parse, scene_ref};
+use crate::locale::tr;
 
 /// A picture or film to render.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +78,7 @@ impl Salon {
         let Some(job) = self.jobs.background.take() else { return };
         self.background_progress = None;
         match (response, job.purpose) {
-            _ if job.outdated => self.notify("Stopped.", "", false),
+            _ if job.outdated => self.notify(tr!("stopped"), "", false),
             (Response::File { bytes, .. }, Purpose::File(to)) => {
                 // A picture opens again as the scene that it shows; grooms are left as they are.
                 let bytes = scene_text::embed(bytes, &job.scene.text);

@@ -9,7 +9,7 @@ use frisure::hairstyle::styling::Operation;
 use frisure::scene::{GroomFile, HeadSource, Scene, SceneError};
 use frisure_engine::{AdoptionReport, Diagnostic, GuideData, Preview, SceneRef};
 
-use super::controls::FILES_PANEL;
+use super::controls::files_panel;
 use super::cut_plane::{CutPlane, CutPreview};
 use super::document::Document;
 use super::head_mesh::HeadMesh;
@@ -18,6 +18,7 @@ use super::orbit::Orbit;
 use super::scissors::Scissors;
 use super::selection::Selected;
 use super::tour::Tour;
+use crate::locale::tr;
 
 /// The state of the salon. Outside this module it is read only; [`Salon::run`] changes it.
 #[derive(Debug, Default)]
@@ -286,7 +287,7 @@ impl Salon {
     }
 
     pub(super) fn report_error(&mut self, error: &Diagnostic) {
-        let line = if error.line > 0 { format!("line {}: ", error.line) } else { String::new() };
+        let line = if error.line > 0 { tr!("line", line = error.line) } else { String::new() };
         let key = if error.key.is_empty() { String::new() } else { format!("{}: ", error.key) };
         self.notify(format!("{line}{key}{}", error.problem), hint_for(error), true);
     }
@@ -326,13 +327,13 @@ fn hint_for(error: &Diagnostic) -> String {
     let is_missing = error.problem.contains("there is no file");
     match error.key.as_str() {
         "groom.file" | "head.mesh" if is_missing => {
-            "Drop the file on the window, or open it; or undo.".into()
+            tr!("drop-the-file")
         }
-        "groom.file" if error.line > 0 && !error.hint.is_empty() => format!(
-            "Choose its unit and the axis that points up under “{FILES_PANEL}”, or open the head that it was made on."
-        ),
+        "groom.file" if error.line > 0 && !error.hint.is_empty() => {
+            tr!("choose-unit-and-axis", panel = &*files_panel())
+        }
         "head.mesh" if !error.hint.is_empty() => {
-            format!("Choose its unit under “{FILES_PANEL}”.")
+            tr!("choose-unit", panel = &*files_panel())
         }
         _ => error.hint.clone(),
     }

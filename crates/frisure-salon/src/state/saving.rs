@@ -8,6 +8,7 @@ use frisure_engine::Request;
 use super::document::Document;
 use super::jobs::{Destination, Effect, FORMATS, Purpose, Save};
 use super::salon::{Salon, parse};
+use crate::locale::tr;
 
 /// First line of an autosaved text, before the path of the scene's file; a file format.
 const MARK: &str = "# kept by the salon, not saved; file: ";
@@ -31,7 +32,7 @@ fn recovered(text: &str) -> Option<Document> {
     let (path, name) = first.strip_prefix(MARK)?.rsplit_once(NAME)?;
     let path = path.trim();
     let path = (!path.is_empty()).then(|| PathBuf::from(path));
-    let mut document = Document::new(name, path, "Recovered", rest);
+    let mut document = Document::new(name, path, tr!("recovered"), rest);
     document.mark_unsaved();
     Some(document)
 }
@@ -56,8 +57,8 @@ impl Salon {
         let format = to.extension();
         if !FORMATS.iter().any(|(extension, _)| *extension == format) {
             let known: Vec<String> = FORMATS.iter().map(|f| format!(".{}", f.0)).collect();
-            let hint = format!("The groom formats are {}.", known.join(", "));
-            let problem = format!("`{}` does not have the extension of a groom", to.display());
+            let hint = tr!("not-a-groom.hint", known = known.join(", "));
+            let problem = tr!("not-a-groom", path = to.display());
             return self.notify(problem, hint, true);
         }
         let request = Request::Groom { scene: scene.clone(), format };
@@ -67,16 +68,15 @@ impl Salon {
     /// Takes the result of [`Effect::Save`].
     pub fn saved(&mut self, save: &Save, result: Result<(), String>) {
         if let Err(problem) = result {
-            let hint = "Nothing was overwritten. Save it under another name.";
-            let text = format!("cannot save {}: {problem}", save.to.display());
-            return self.notify(text, hint, true);
+            let text = tr!("not-saved", path = save.to.display(), problem = problem);
+            return self.notify(text, tr!("not-saved.hint"), true);
         }
-        self.notify(format!("Saved {}.", save.to.display()), "", false);
+        self.notify(tr!("saved", path = save.to.display()), "", false);
         let Some(document) = self.document.as_mut().filter(|_| save.is_scene) else { return };
         match &save.to {
             Destination::Path(path) => {
                 if let Ok(text) = std::str::from_utf8(&save.bytes) {
-                    document.change("Paths from its folder", text.to_owned());
+                    document.change(tr!("paths-from-folder"), text.to_owned());
                 }
                 document.saved_to(path.clone());
             }
@@ -116,8 +116,7 @@ impl Salon {
     pub fn offer_recovery(&mut self, text: &str) {
         self.recoverable = recovered(text);
         if self.recoverable.is_none() && !text.trim().is_empty() {
-            let hint = "The file stays as it is until the next autosave.";
-            self.notify("the autosaved work of the last run cannot be read", hint, true);
+            self.notify(tr!("autosave-unreadable"), tr!("autosave-unreadable.hint"), true);
         }
     }
 

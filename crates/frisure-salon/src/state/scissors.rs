@@ -40,12 +40,18 @@ pub enum CutHold {
 }
 
 impl CutHold {
-    /// All, with their names.
-    pub const ALL: [(Self, &'static str); 3] = [
-        (Self::Hanging, "as it hangs"),
-        (Self::Resting, "until it rests there"),
-        (Self::Down, "combed straight down"),
-    ];
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Hanging, Self::Resting, Self::Down];
+
+    /// The message that names it.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Hanging => "cut-hanging",
+            Self::Resting => "cut-resting",
+            Self::Down => "cut-down",
+        }
+    }
 }
 
 impl Default for Scissors {

@@ -4,6 +4,8 @@ use frisure::hairstyle::Place;
 use frisure::hairstyle::head::Region;
 use frisure::hairstyle::styling::Selection;
 
+use crate::locale::tr;
+
 /// The combination of a new selection with the current one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SelectMode {
@@ -16,16 +18,16 @@ pub enum SelectMode {
     Remove,
 }
 
-/// Parts of the scalp, with their names.
+/// Parts of the scalp, with the messages that name them; their attribute `selected` is the name within a sentence.
 pub const PLACES: [(&str, Place); 8] = [
-    ("Fringe", Place::Region(Region::Fringe)),
-    ("Top", Place::Region(Region::Top)),
-    ("Crown", Place::Region(Region::Crown)),
-    ("Sides", Place::Region(Region::Sides)),
-    ("Back", Place::Region(Region::Back)),
-    ("Nape", Place::Region(Region::Nape)),
-    ("Left half", Place::Left),
-    ("Right half", Place::Right),
+    ("place-fringe", Place::Region(Region::Fringe)),
+    ("place-top", Place::Region(Region::Top)),
+    ("place-crown", Place::Region(Region::Crown)),
+    ("place-sides", Place::Region(Region::Sides)),
+    ("place-back", Place::Region(Region::Back)),
+    ("place-nape", Place::Region(Region::Nape)),
+    ("place-left", Place::Left),
+    ("place-right", Place::Right),
 ];
 
 /// A selection, and the wisps that it covers.
@@ -41,7 +43,7 @@ pub struct Selected {
 
 impl Default for Selected {
     fn default() -> Self {
-        Self { selection: Selection::Everything, label: "all hair".into(), wisps: None }
+        Self { selection: Selection::Everything, label: tr!("all-hair"), wisps: None }
     }
 }
 
@@ -58,12 +60,12 @@ impl Selected {
         let old = self.selection.clone();
         let (selection, label) = match mode {
             SelectMode::Add if !self.is_everything() => {
-                (joined(old, new), format!("{} and {label}", self.label))
+                (joined(old, new), tr!("selected-and", first = &*self.label, second = label))
             }
             SelectMode::Replace | SelectMode::Add => (new, label.to_owned()),
             SelectMode::Remove => {
                 let not = Selection::Not(Box::new(new));
-                let label = format!("{} without {label}", self.label);
+                let label = tr!("selected-without", first = &*self.label, second = label);
                 (if self.is_everything() { not } else { both(old, not) }, label)
             }
         };
@@ -76,10 +78,11 @@ impl Selected {
         if self.is_everything() {
             return self.clone();
         }
-        let label = format!("all but {}", self.label);
+        let label = tr!("selected-all-but", label = &*self.label);
         let (selection, label) = match self.selection.clone() {
             Selection::Not(inner) => {
-                (*inner, self.label.strip_prefix("all but ").unwrap_or(&label).to_owned())
+                let prefix = tr!("selected-all-but", label = "");
+                (*inner, self.label.strip_prefix(&prefix).unwrap_or(&label).to_owned())
             }
             other => (Selection::Not(Box::new(other)), label),
         };

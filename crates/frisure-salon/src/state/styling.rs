@@ -13,6 +13,7 @@ use super::cut_plane::{CutPlane, CutPreview, rounded};
 use super::salon::{Salon, Tool};
 use super::scissors::Snip;
 use super::selection::{PLACES, Selected};
+use crate::locale::{self, tr};
 
 impl Salon {
     pub(super) fn take_tool(&mut self, tool: Tool) {
@@ -43,7 +44,8 @@ impl Salon {
         let selected = match command {
             Command::Select(place, mode) => {
                 let name = PLACES.iter().find(|(_, p)| *p == place);
-                let name = name.map_or_else(|| "a part".to_owned(), |(n, _)| n.to_lowercase());
+                let name =
+                    name.map_or_else(|| tr!("a-part"), |(id, _)| tr!(&format!("{id}.selected")));
                 self.selected.with(Selection::Place(place), &name, mode)
             }
             Command::InvertSelection => self.selected.inverted(),
@@ -55,10 +57,10 @@ impl Salon {
                     aspect: (aspect * 1e4).round() / 1e4,
                 };
                 let lasso = Lasso { view, polygon: simplified(&polygon), through: false };
-                self.selected.with(Selection::Lasso(lasso), "a lasso", mode)
+                self.selected.with(Selection::Lasso(lasso), &tr!("a-lasso"), mode)
             }
             Command::Paint(places, mode) => match self.under_brush(&places) {
-                Some(selection) => self.selected.with(selection, "a brush stroke", mode),
+                Some(selection) => self.selected.with(selection, &tr!("a-brush-stroke"), mode),
                 None => return,
             },
             _ => Selected::default(),
@@ -66,7 +68,7 @@ impl Salon {
         self.selected_in = self.base().map(str::to_owned);
         match selected.selection.check() {
             Ok(()) => self.selected = selected,
-            Err(error) => self.notify(error.to_string(), "Draw a larger shape.", true),
+            Err(error) => self.notify(error.to_string(), tr!("draw-larger"), true),
         }
         self.cut_preview = None;
     }
@@ -127,7 +129,7 @@ impl Salon {
             }
             _ => return,
         };
-        let label = format!("{}: {of}", title(&operation));
+        let label = tr!("set-to", name = title(&operation), value = of);
         if let Some(base) = self.base() {
             let mut steps = vec![operation];
             if self.mirror {
@@ -156,7 +158,7 @@ impl Salon {
         let strands = &self.current.as_ref()?.hair.strands;
         let wisps = snip.wisps(&self.orbit, strands, self.head.as_deref());
         if wisps.is_empty() {
-            self.notify("the stroke crosses no hair", "Draw across hair that you see.", false);
+            self.notify(tr!("crosses-no-hair"), tr!("crosses-no-hair.hint"), false);
             return None;
         }
         Some((self.scissors.at_plane(point, normal), wisps))
@@ -217,16 +219,16 @@ pub fn comb(towards: Direction) -> Operation {
 
 /// The title of an operation in the history.
 fn title(operation: &Operation) -> String {
-    let title = match operation {
+    match operation {
         Operation::Grow(Grow { amount: Growth::By(length), .. }) => {
-            format!("grow by {:.1} cm", length * 100.0)
+            tr!("operation-grow-by", cm = format!("{:.1}", length * 100.0))
         }
         Operation::Comb(Comb { towards: Direction::Named(side), .. }) => {
-            format!("comb {side:?}").to_lowercase()
+            let english = format!("comb {side:?}").to_lowercase();
+            capitalized(&locale::named("operation", &english, &english))
         }
-        other => other.name().to_owned(),
-    };
-    capitalized(&title)
+        other => capitalized(&locale::named("operation", other.name(), other.name())),
+    }
 }
 
 /// A text with its first letter in upper case.

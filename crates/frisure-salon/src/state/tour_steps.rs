@@ -9,42 +9,22 @@ use super::tour::Tour;
 /// A step of the tour.
 #[derive(Debug)]
 pub struct TourStep {
-    /// What is done.
-    pub title: &'static str,
-    /// How, with the pointer and with keys.
-    pub text: &'static str,
+    /// The message of what is done; its attribute `text` says how, with the pointer and with keys.
+    pub id: &'static str,
     /// Whether it has been done, given the view when the step began.
     done: fn(&Salon, &Orbit) -> bool,
 }
 
 /// The steps, in their order.
 pub const TOUR: [TourStep; 5] = [
+    TourStep { id: "tour-turn", done: |salon, before| salon.orbit != *before },
+    TourStep { id: "tour-wet", done: |salon, _| salon.is_wet() },
+    TourStep { id: "tour-select", done: |salon, _| !salon.selected.is_everything() },
     TourStep {
-        title: "Turn the head",
-        text: "Drag in the picture, or press the arrow keys. 1 to 6 show the head from the front, from its sides, from behind and from above; F frames \
-               all of it.",
-        done: |salon, before| salon.orbit != *before,
-    },
-    TourStep {
-        title: "Wet the hair",
-        text: "Press Wet (W). Wet hair is heavier and softer: curls hang lower. It takes a moment until all hair rests; the badge in the corner says so.",
-        done: |salon, _| salon.is_wet(),
-    },
-    TourStep {
-        title: "Select the fringe",
-        text: "Press Fringe below the picture, or draw around hair with the lasso (L). The next steps are done to the selected hair alone, which has a blue tint.",
-        done: |salon, _| !salon.selected.is_everything(),
-    },
-    TourStep {
-        title: "Cut it",
-        text: "Choose Cut (C) and drag the plane up to the eyes: what is red falls. Then press Cut here (Enter). Scissors (S) cut along a line that you draw.",
+        id: "tour-cut",
         done: |salon, _| last_is(salon, |operation| matches!(operation, Operation::Cut(_))),
     },
-    TourStep {
-        title: "Dry it, and compare",
-        text: "Select all hair (A), press Dry (W): the fringe springs up. Compare (X) shows the hair before the last edit; drag the bar. Undo (Ctrl Z) takes any edit back.",
-        done: |salon, _| salon.comparison.is_some() && !salon.is_wet(),
-    },
+    TourStep { id: "tour-dry", done: |salon, _| salon.comparison.is_some() && !salon.is_wet() },
 ];
 
 impl Salon {

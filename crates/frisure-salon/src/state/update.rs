@@ -5,8 +5,10 @@ use frisure_engine::Response;
 
 use super::command::Command;
 use super::document::Document;
-use super::jobs::{JobId, Queue};
+use super::jobs::{Effect, JobId, Queue};
 use super::salon::{IsolatedHair, Salon};
+use super::selection::Selected;
+use crate::locale::{self, Locale, tr};
 
 impl Salon {
     /// Executes a command.
@@ -14,7 +16,7 @@ impl Salon {
         match command {
             Command::Begin(name) => self.begin(&name),
             Command::Open { path, name, text } => {
-                self.open_document(Document::new(name, path, "Opened", text));
+                self.open_document(Document::new(name, path, tr!("opened"), text));
             }
             Command::Gallery(open) => self.gallery = open,
             Command::Drag(key, value) => self.set(key, value, true),
@@ -60,6 +62,7 @@ impl Salon {
             Command::BeginTour => self.begin_tour(),
             Command::NextOfTour => self.next_of_tour(),
             Command::EndTour => self.tour = None,
+            Command::Speak(locale) => self.speak(locale),
             Command::ToggleMirror => self.mirror = !self.mirror,
             Command::Apply(_)
             | Command::ToggleWet
@@ -71,6 +74,15 @@ impl Salon {
             selecting => self.select(selecting),
         }
         self.schedule();
+    }
+
+    /// Sets the language. Labels of edits stay in the language in which they were made.
+    fn speak(&mut self, locale: Locale) {
+        locale::set(locale);
+        if self.selected.is_everything() {
+            self.selected = Selected::default();
+        }
+        self.jobs.effects.push_back(Effect::KeepLanguage(locale));
     }
 
     /// Takes a response of the engine.

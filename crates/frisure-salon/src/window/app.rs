@@ -18,6 +18,7 @@ use super::platform::{InputFile, Platform};
 use super::viewport::{self, Viewport};
 use super::widgets::Room;
 use super::{automation, gallery, keys, panels, renderer, theme, toolbars, tools, tour, widgets};
+use crate::locale::{self, Locale, tr};
 use crate::state::{Command, Document, Effect, Queue, Salon};
 use crate::work::{Wake, Worker};
 
@@ -51,6 +52,8 @@ pub struct Parts {
     pub platform: Box<dyn Platform>,
     /// Samples per pixel: 4, or 1 on a slow device.
     pub samples: u32,
+    /// The language; `None` is the one chosen before, or that of the system.
+    pub locale: Option<Locale>,
 }
 
 impl App {
@@ -59,7 +62,9 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, parts: Parts) -> Self {
         theme::install(&cc.egui_ctx);
         let has_renderer = cc.wgpu_render_state.is_some();
-        let Parts { workers, mut platform, mut samples } = parts;
+        let Parts { workers, mut platform, mut samples, locale } = parts;
+        let chosen = || platform.read_language().and_then(|tag| Locale::of(&tag));
+        locale::set(locale.or_else(chosen).unwrap_or_else(Locale::of_system));
         if let Some(state) = &cc.wgpu_render_state {
             // Software that draws in place of a graphics card is slow, whatever was asked for.
             let is_software = state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
@@ -121,8 +126,8 @@ impl App {
                     self.run(Command::Open { path, name, text });
                 }
                 Err(_) => {
-                    let hint = "A scene is UTF-8 text; `frisure new` prints an example.";
-                    self.salon.notify(format!("{} is not text", file.name), hint, true);
+                    let text = tr!("not-text", name = file.name);
+                    self.salon.notify(text, tr!("not-text.hint"), true);
                 }
             },
             Some("png") => match scene_text::extract(&file.bytes) {
@@ -131,8 +136,8 @@ impl App {
                     self.run(Command::Open { path: None, name, text });
                 }
                 None => {
-                    let hint = "Pictures that the salon has rendered have their scene inside.";
-                    self.salon.notify(format!("{} has no scene inside", file.name), hint, true);
+                    let text = tr!("no-scene-inside", name = file.name);
+                    self.salon.notify(text, tr!("no-scene-inside.hint"), true);
                 }
             },
             // The buffer of a glTF mesh; for a file with a path, the engine reads the buffer.
@@ -166,7 +171,7 @@ impl App {
     pub fn open(&mut self, path: &Path) {
         match super::desktop::read(path) {
             Ok(file) => self.take(file),
-            Err(problem) => self.salon.notify(problem, "Check the path.", true),
+            Err(problem) => self.salon.notify(problem, tr!("check-path"), true),
         }
     }
 
@@ -200,10 +205,11 @@ impl App {
                 let result = self.platform.save(&save);
                 self.salon.saved(&save, result);
             }
+            Effect::KeepLanguage(locale) => self.platform.write_language(locale.tag()),
             Effect::Autosave(text) => {
                 if let Err(problem) = self.platform.write_autosave(text.as_deref()) {
-                    let text = format!("your work cannot be autosaved: {problem}");
-                    self.salon.notify(text, "Save the scene regularly.", true);
+                    let text = tr!("not-autosaved", problem = problem);
+                    self.salon.notify(text, tr!("not-autosaved.hint"), true);
                 }
             }
         }
@@ -241,8 +247,7 @@ impl App {
             let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop"));
             let painter = ui.ctx().layer_painter(layer);
             painter.rect_filled(rect, 0.0, egui::Color32::from_black_alpha(160));
-            let (text, font) =
-                ("Drop a scene, a head or a groom", egui::FontId::proportional(24.0));
+            let (text, font) = (tr!("drop-here"), egui::FontId::proportional(24.0));
             let centre = egui::Align2::CENTER_CENTER;
             painter.text(rect.center(), centre, text, font, egui::Color32::WHITE);
         }
@@ -285,7 +290,7 @@ impl App {
     /// The panels with sliders, and the history.
     fn side(&self, ui: &mut Ui, out: &mut Vec<Command>) {
         Panel::bottom("history").exact_size(132.0).show(ui, |ui| {
-            ui.strong("History");
+            ui.strong(tr!("history"));
             panels::history(ui, &self.salon, out);
         });
         CentralPanel::default().show(ui, |ui| panels::show(ui, &self.salon, out));
@@ -295,7 +300,7 @@ impl App {
         let rect = ui.available_rect_before_wrap();
         self.aspect = viewport::aspect(rect);
         if !self.has_renderer {
-            ui.label("The head cannot be drawn without a graphics device.");
+            ui.label(tr!("no-graphics"));
             return;
         }
         self.viewport.show(ui, &mut self.salon, out);
@@ -308,13 +313,13 @@ impl App {
     fn recovery(&self, ui: &mut Ui, out: &mut Vec<Command>) {
         let Some(document) = &self.salon.recoverable else { return };
         egui::Modal::new(egui::Id::unique("recover")).show(ui.ctx(), |ui| {
-            ui.heading("Recover unsaved work?");
-            ui.label(format!("The salon ended before “{}” was saved.", document.name()));
+            ui.heading(tr!("recover-title"));
+            ui.label(tr!("recover-text", name = document.name()));
             ui.horizontal(|ui| {
-                if widgets::plain(ui, "Recover", "").clicked() {
+                if widgets::plain(ui, "recover").clicked() {
                     out.push(Command::Recover(true));
                 }
-                if widgets::plain(ui, "Discard", "").clicked() {
+                if widgets::plain(ui, "discard").clicked() {
                     out.push(Command::Recover(false));
                 }
             });

@@ -7,6 +7,7 @@ use frisure::files::{read_bytes, write_atomically};
 use frisure::formats::contents::{self, Contents};
 
 use super::platform::{DroppedFile, InputFile, Platform, extensions};
+use crate::locale::tr;
 use crate::state::{Destination, Save};
 use crate::work::Wake;
 
@@ -16,6 +17,8 @@ const MAX_SIZE: u64 = 1 << 30;
 /// The desktop platform.
 pub struct Desktop {
     autosave: Option<PathBuf>,
+    /// The file with the tag of the chosen language.
+    language: Option<PathBuf>,
     files: (Sender<InputFile>, Receiver<InputFile>),
     wake: Wake,
 }
@@ -28,7 +31,9 @@ impl Desktop {
             let dirs = directories::ProjectDirs::from("", "", "frisure")?;
             Some(dirs.data_local_dir().join("salon-kept.toml"))
         };
-        Self { autosave: autosave.or_else(usual), files: channel(), wake }
+        let autosave = autosave.or_else(usual);
+        let language = autosave.as_ref().map(|path| path.with_file_name("salon-language"));
+        Self { autosave, language, files: channel(), wake }
     }
 }
 
@@ -90,13 +95,26 @@ impl Platform for Desktop {
         std::fs::read_to_string(self.autosave.as_ref()?).ok()
     }
 
+    fn read_language(&self) -> Option<String> {
+        std::fs::read_to_string(self.language.as_ref()?).ok()
+    }
+
+    fn write_language(&mut self, tag: &str) {
+        let Some(path) = &self.language else { return };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        // The choice is made again in a moment; a message about it would be in the way.
+        if std::fs::create_dir_all(folder).is_ok() {
+            let _ = write(path, tag.as_bytes());
+        }
+    }
+
     fn show_open_dialog(&mut self) {
         let (sender, wake) = (self.files.0.clone(), self.wake.clone());
+        // The language is that of this thread.
+        let (title, filter) = (tr!("open-title"), tr!("open-filter"));
         // The dialog blocks its thread.
         std::thread::spawn(move || {
-            let dialog = rfd::FileDialog::new()
-                .set_title("Open a scene, a head or a groom")
-                .add_filter("Scenes, heads and grooms", &extensions());
+            let dialog = rfd::FileDialog::new().set_title(title).add_filter(filter, &extensions());
             if let Some(file) = dialog.pick_file().and_then(|path| read(&path).ok())
                 && sender.send(file).is_ok()
             {

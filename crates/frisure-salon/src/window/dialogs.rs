@@ -8,6 +8,7 @@ use eframe::egui::{
 
 use super::platform::Platform;
 use super::{icons, widgets};
+use crate::locale::{self, tr};
 use crate::state::{Command, Destination, FORMATS, RenderTask, Salon, code};
 
 /// A dialog.
@@ -25,13 +26,14 @@ impl Dialog {
         !matches!(self, Self::Open | Self::Help)
     }
 
+    /// The message of its title.
     fn title(self) -> &'static str {
         match self {
-            Self::Open => "Open a scene, a head or a groom",
-            Self::Save => "Save the scene",
-            Self::Export => "Export the hair",
-            Self::Picture => "Render a picture",
-            Self::Help => "Keys and tools",
+            Self::Open => "open-title",
+            Self::Save => "save-title",
+            Self::Export => "export-title",
+            Self::Picture => "picture-title",
+            Self::Help => "help-title",
         }
     }
 }
@@ -97,7 +99,7 @@ impl Dialogs {
         let Some(dialog) = self.current else { return };
         let modal = Modal::new(egui::Id::unique("dialog")).show(ui.ctx(), |ui| {
             ui.set_width(if dialog == Dialog::Help { 560.0 } else { 460.0 });
-            ui.heading(dialog.title());
+            ui.heading(tr!(dialog.title()));
             ui.add_space(6.0);
             match dialog {
                 Dialog::Open => self.open_file(ui, platform),
@@ -106,14 +108,14 @@ impl Dialogs {
                 Dialog::Picture => self.picture(ui, salon, platform, out),
                 Dialog::Help => {
                     help(ui);
-                    if widgets::with_icon(ui, icons::TOUR, "Take the tour", "").clicked() {
+                    if widgets::with_icon(ui, icons::TOUR, "take-tour").clicked() {
                         out.push(Command::BeginTour);
                         self.current = None;
                     }
                 }
             }
             ui.add_space(6.0);
-            if widgets::plain(ui, "Close", "Escape").clicked() {
+            if widgets::plain(ui, "close").clicked() {
                 self.current = None;
             }
         });
@@ -124,7 +126,7 @@ impl Dialogs {
 
     /// Shows a field for a path; returns whether Enter was pressed in it.
     fn path(&mut self, ui: &mut Ui) -> bool {
-        let name = ui.label("File");
+        let name = ui.label(tr!("file"));
         let field = egui::TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(name.id);
         if std::mem::take(&mut self.is_new) {
@@ -134,23 +136,20 @@ impl Dialogs {
     }
 
     fn open_file(&mut self, ui: &mut Ui, platform: &mut dyn Platform) {
-        ui.label(
-            "A scene is a .toml file. A mesh becomes the head of the open scene, curves and lines its hair: USD, \
-             Alembic, glTF, .obj, .ply, .hair, .data, .npz. You can also drop files on the window.",
-        );
+        ui.label(tr!("open-text"));
         if platform.has_paths() {
             let entered = self.path(ui);
             ui.horizontal(|ui| {
-                if widgets::plain(ui, "Open file", "").clicked() || entered {
+                if widgets::plain(ui, "open-file").clicked() || entered {
                     self.path_to_open = Some(PathBuf::from(self.path.trim()));
                     self.current = None;
                 }
-                if widgets::plain(ui, "Browse…", "The system's file dialog").clicked() {
+                if widgets::plain(ui, "browse").clicked() {
                     platform.show_open_dialog();
                     self.current = None;
                 }
             });
-        } else if widgets::plain(ui, "Choose a file…", "").clicked() {
+        } else if widgets::plain(ui, "choose-file").clicked() {
             platform.show_open_dialog();
             self.current = None;
         }
@@ -177,22 +176,16 @@ impl Dialogs {
         platform: &dyn Platform,
         out: &mut Vec<Command>,
     ) {
-        ui.label(
-            "The scene is a text file with all edits and steps; the command line reads it, too.",
-        );
+        ui.label(tr!("save-text"));
         let entered = platform.has_paths() && self.path(ui);
-        if widgets::plain(ui, "Save scene", "").clicked() || entered {
+        if widgets::plain(ui, "save-scene").clicked() || entered {
             out.push(Command::Save(self.destination(salon, platform, "toml")));
             self.current = None;
         }
         ui.add_space(6.0);
-        let help = if platform.has_paths() {
-            "Put it behind the address of a salon in a browser, or after --begin"
-        } else {
-            "Whoever opens the link has this scene; nothing is stored on a server"
-        };
+        let id = if platform.has_paths() { "copy-code" } else { "copy-link" };
         if let Some(document) = &salon.document
-            && widgets::with_icon(ui, icons::SHARE, "Copy a link", help).clicked()
+            && widgets::with_icon(ui, icons::SHARE, id).clicked()
         {
             ui.ctx().copy_text(platform.link(&code(document.text())));
         }
@@ -205,9 +198,9 @@ impl Dialogs {
         platform: &dyn Platform,
         out: &mut Vec<Command>,
     ) {
-        ui.label("All hairs in their current shape, in metres, z up.");
+        ui.label(tr!("export-text"));
         let before = self.format;
-        let name = ui.label("Format");
+        let name = ui.label(tr!("format"));
         let list = ComboBox::from_id_salt("format").selected_text(FORMATS[self.format].1);
         let shown = list.show_ui(ui, |ui| {
             for (index, (extension, title)) in FORMATS.iter().enumerate() {
@@ -222,7 +215,7 @@ impl Dialogs {
             self.path = path.display().to_string();
         }
         let entered = platform.has_paths() && self.path(ui);
-        if widgets::plain(ui, "Export groom", "").clicked() || entered {
+        if widgets::plain(ui, "export-groom").clicked() || entered {
             out.push(Command::Export(self.destination(salon, platform, extension)));
             self.current = None;
         }
@@ -235,25 +228,25 @@ impl Dialogs {
         platform: &dyn Platform,
         out: &mut Vec<Command>,
     ) {
-        ui.label("Rendered in the background, from the current view.");
+        ui.label(tr!("picture-text"));
         ui.horizontal(|ui| {
-            ui.selectable_value(&mut self.turntable, false, "Final picture");
-            ui.selectable_value(&mut self.turntable, true, "Turntable");
+            ui.selectable_value(&mut self.turntable, false, tr!("final-picture"));
+            ui.selectable_value(&mut self.turntable, true, tr!("turntable"));
         });
-        let number = |ui: &mut Ui, name: &str, value: &mut usize, range| {
-            let label = ui.label(name);
+        let number = |ui: &mut Ui, id: &str, value: &mut usize, range| {
+            let label = ui.label(tr!(id));
             ui.add(DragValue::new(value).range(range)).labelled_by(label.id);
         };
         ui.horizontal(|ui| {
-            number(ui, "Width", &mut self.size[0], 16..=8192);
-            number(ui, "Height", &mut self.size[1], 16..=8192);
+            number(ui, "picture-width", &mut self.size[0], 16..=8192);
+            number(ui, "picture-height", &mut self.size[1], 16..=8192);
         });
         if self.turntable {
-            number(ui, "Pictures", &mut self.frames, 2..=360);
+            number(ui, "picture-frames", &mut self.frames, 2..=360);
         } else {
             ui.horizontal(|ui| {
-                number(ui, "Maximum paths per pixel", &mut self.paths, 1..=4096);
-                let label = ui.label("Noise");
+                number(ui, "picture-paths", &mut self.paths, 1..=4096);
+                let label = ui.label(tr!("picture-noise"));
                 let field = DragValue::new(&mut self.noise).range(0.2..=20.0).suffix(" %");
                 ui.add(field.speed(0.1)).labelled_by(label.id);
             });
@@ -261,8 +254,8 @@ impl Dialogs {
         if platform.has_paths() {
             self.path(ui);
         }
-        let label = if self.turntable { "Make turntable" } else { "Render picture" };
-        if widgets::plain(ui, label, "").clicked() {
+        let id = if self.turntable { "make-turntable" } else { "render-picture" };
+        if widgets::plain(ui, id).clicked() {
             let task = match self.turntable {
                 true => RenderTask::Turntable { size: self.size, frames: self.frames },
                 false => RenderTask::Picture {
@@ -279,9 +272,10 @@ impl Dialogs {
     /// Shows the partial picture.
     fn partial_picture(&mut self, ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
         if let Some((stage, done, _)) = salon.background() {
+            let stage = locale::named("stage", stage, stage);
             let text = format!("{stage} {:.0} %", done * 100.0);
             ui.add(egui::ProgressBar::new(done).text(text));
-            if widgets::plain(ui, "Stop rendering", "").clicked() {
+            if widgets::plain(ui, "stop-rendering").clicked() {
                 out.push(Command::Stop);
             }
         }
@@ -295,47 +289,48 @@ impl Dialogs {
         }
         if let Some((_, texture)) = &self.texture {
             ui.add(egui::Image::new(texture).max_size(egui::vec2(440.0, 360.0)));
-            ui.weak(format!("noise {:.1} %", picture.noise * 100.0));
+            let noise = format!("{:.1}", picture.noise * 100.0);
+            ui.weak(tr!("noise-so-far", noise = noise));
         }
     }
 }
 
-/// The keys and their effects.
-const KEYS: &[(&str, &str)] = &[
-    ("V", "orbit (drag); Shift-drag pans; the wheel zooms"),
-    ("L", "lasso: draw around hair; Shift adds, Alt removes"),
-    ("B", "brush: paint over the scalp"),
-    ("C", "cutting plane: drag it; Shift-drag tilts it; Enter cuts"),
-    ("S", "scissors: draw across hair, which is cut there"),
-    ("U", "lift: paint over the scalp; hair is lifted off it and cut"),
-    ("J", "clippers: paint over the scalp; a guard says what is left"),
-    ("K", "comb: drag in the direction of combing"),
-    ("H", "pick one hair, to see its material frames"),
-    ("Space", "while held: orbit with every tool"),
-    ("A / I", "select all hair / invert the selection"),
-    ("W", "wet or dry the selected hair"),
-    ("G", "grow it by a month"),
-    ("R", "release held hair"),
-    ("Enter", "cut at the plane"),
-    ("Ctrl Z / Ctrl Shift Z", "undo / redo"),
-    ("M", "mirror: do each step on both sides of the head, or no longer"),
-    ("X", "compare with the hair before the last edit"),
-    ("1 … 6", "front, three-quarter, left, back, right, top"),
-    ("F", "frame everything"),
-    ("Arrows, + / −", "orbit, zoom"),
-    ("Ctrl O / S / E / P", "open / save / export / picture"),
-    ("Esc", "orbit tool, all hair selected and shown"),
-    ("F1", "this help"),
+/// Messages of the keys: a key each, whose attribute `does` is its effect.
+const KEYS: &[&str] = &[
+    "keys-orbit",
+    "keys-lasso",
+    "keys-brush",
+    "keys-cut",
+    "keys-scissors",
+    "keys-lift",
+    "keys-clippers",
+    "keys-comb",
+    "keys-one-hair",
+    "keys-space",
+    "keys-select",
+    "keys-wet",
+    "keys-grow",
+    "keys-release",
+    "keys-enter",
+    "keys-undo",
+    "keys-mirror",
+    "keys-compare",
+    "keys-views",
+    "keys-frame",
+    "keys-arrows",
+    "keys-files",
+    "keys-escape",
+    "keys-help",
 ];
 
 fn help(ui: &mut Ui) {
     Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
-        for (key, action) in KEYS {
-            ui.strong(*key);
-            ui.label(*action);
+        for id in KEYS {
+            ui.strong(tr!(id));
+            ui.label(tr!(&format!("{id}.does")));
             ui.end_row();
         }
     });
     ui.add_space(6.0);
-    ui.weak("With every tool the right mouse button orbits and the middle one pans.");
+    ui.weak(tr!("mouse-buttons"));
 }

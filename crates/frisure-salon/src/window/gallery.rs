@@ -7,6 +7,7 @@ use eframe::egui::{
 use std::collections::BTreeMap;
 
 use super::{icons, theme, widgets};
+use crate::locale::tr;
 use crate::state::{Card, Command, SCENES, Salon, TYPES};
 
 /// The textures of the cards.
@@ -37,7 +38,7 @@ pub(super) fn placeholder(ui: &Ui, rect: Rect, hair_type: &str, pictures: &mut P
     let uv = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
     let faint = egui::Color32::from_white_alpha(70);
     ui.painter().image(texture.id(), place, uv, faint);
-    let text = "Computing the first hair…";
+    let text = tr!("computing-first");
     let (at, font) = (place.center_bottom() + vec2(0.0, 14.0), FontId::proportional(16.0));
     ui.painter().text(at, Align2::CENTER_TOP, text, font, egui::Color32::from_gray(200));
 }
@@ -57,23 +58,21 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, pictures: &mut Pictures, out: &mu
     egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            ui.heading("Choose hair to start with");
+            ui.heading(tr!("gallery-title"));
             if salon.document.is_some() {
-                let back = widgets::plain(ui, "Back to the head", "Escape");
+                let back = widgets::plain(ui, "back-to-head");
                 if back.clicked() {
                     out.push(Command::Gallery(false));
                 }
             }
-            let help =
-                "Five steps on a head of curly hair: turn, wet, select, cut, dry and compare";
-            if widgets::with_icon(ui, icons::TOUR, "Take the tour", help).clicked() {
+            if widgets::with_icon(ui, icons::TOUR, "take-tour").clicked() {
                 out.push(Command::BeginTour);
             }
         });
-        ui.weak("Choose a hair type or a hairstyle, open a scene, or drop a file on the window.");
+        ui.weak(tr!("gallery-text"));
         ui.add_space(8.0);
-        row(ui, "Hair types", TYPES, pictures, out);
-        row(ui, "Hairstyles", SCENES, pictures, out);
+        row(ui, &tr!("hair-types"), TYPES, pictures, out);
+        row(ui, &tr!("hairstyles"), SCENES, pictures, out);
         ui.add_space(12.0);
     });
 }
@@ -93,9 +92,10 @@ fn row(ui: &mut Ui, title: &str, all: &[Card], pictures: &mut Pictures, out: &mu
 
 /// Shows a card; returns whether it was clicked.
 fn card(ui: &mut Ui, card: &Card, pictures: &mut Pictures) -> bool {
+    let (title, about) = (card.title(), card.about());
     let (rect, response) = ui.allocate_exact_size(CARD + vec2(0.0, CAPTION), Sense::click());
     response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Begin: {}", card.title))
+        egui::WidgetInfo::labeled(egui::Role::Button, true, tr!("begin-card", title = &*title))
     });
     if ui.is_rect_visible(rect) {
         let visuals = ui.style().interact(&response);
@@ -109,9 +109,9 @@ fn card(ui: &mut Ui, card: &Card, pictures: &mut Pictures) -> bool {
         }
         let at = |y: f32| egui::pos2(rect.left() + 8.0, top.bottom() + y);
         let painter = ui.painter().with_clip_rect(rect);
-        painter.text(at(3.0), Align2::LEFT_TOP, card.title, FontId::proportional(14.0), text);
+        painter.text(at(3.0), Align2::LEFT_TOP, &*title, FontId::proportional(14.0), text);
         let about = painter.layout(
-            card.about().to_owned(),
+            about.to_string(),
             FontId::proportional(11.0),
             weak,
             rect.width() - 14.0,
@@ -122,5 +122,5 @@ fn card(ui: &mut Ui, card: &Card, pictures: &mut Pictures) -> bool {
             ui.painter().rect_stroke(rect, 8.0, stroke, StrokeKind::Inside);
         }
     }
-    response.on_hover_text(card.about()).clicked()
+    response.on_hover_text(&*about).clicked()
 }

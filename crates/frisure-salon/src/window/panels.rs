@@ -1,5 +1,6 @@
 //! The side panels: controls, files, and the history.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use eframe::egui::{CollapsingHeader, ComboBox, RichText, Role, ScrollArea, Ui, WidgetInfo};
@@ -7,7 +8,8 @@ use frisure::formats::contents::Contents;
 use frisure::scene::{HeadSource, Panel};
 
 use super::widgets;
-use crate::state::{CHOICES, CONTROLS, Choice, Command, Control, ParsedScene, Salon};
+use crate::locale::{self, tr};
+use crate::state::{CHOICES, CONTROLS, Choice, Command, Control, ParsedScene, Salon, panel_title};
 
 /// Shows the panels.
 pub(super) fn show(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
@@ -15,7 +17,7 @@ pub(super) fn show(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         for panel in Panel::ALL {
             let open = matches!(panel, Panel::Files | Panel::Fibre | Panel::Curl | Panel::Length);
-            let header = CollapsingHeader::new(RichText::new(panel.title()).strong());
+            let header = CollapsingHeader::new(RichText::new(&*panel_title(panel)).strong());
             header.default_open(open).show(ui, |ui| match panel {
                 Panel::Files => files(ui, salon, parsed, out),
                 panel => controls(ui, salon, parsed, panel, out),
@@ -43,7 +45,7 @@ fn controls(
         widgets::slider(ui, control, control.value(&parsed.scene), out);
     }
     if !unused.is_empty() {
-        ui.weak("The groom determines the other parameters.");
+        ui.weak(tr!("groom-determines"));
     }
 }
 
@@ -51,23 +53,25 @@ fn controls(
 fn options(ui: &mut Ui, salon: &Salon, choice: &Choice, out: &mut Vec<Command>) {
     let current = salon.document.as_ref().and_then(|d| string_of(d.text(), choice.key));
     let selected = choice.options.iter().find(|(written, _)| Some(written) == current.as_ref());
-    let title = selected.map_or(choice.default, |(_, title)| *title);
+    let default = choice.default();
+    let title = selected.map_or(Cow::Borrowed(&*default), |option| choice.title(option));
+    let help = choice.help();
     ui.horizontal(|ui| {
-        let label = ui.label(choice.label).on_hover_text(choice.help);
-        let list = ComboBox::from_id_salt(choice.key).selected_text(title).width(150.0);
+        let label = ui.label(&*choice.label()).on_hover_text(&*help);
+        let list = ComboBox::from_id_salt(choice.key).selected_text(&*title).width(150.0);
         let shown = list.show_ui(ui, |ui| {
             let has_default = choice.panel == Panel::Files;
-            if has_default && ui.selectable_label(current.is_none(), choice.default).clicked() {
+            if has_default && ui.selectable_label(current.is_none(), &default).clicked() {
                 out.push(Command::Reset(choice.key));
             }
-            for (written, title) in &choice.options {
-                let on = Some(written) == current.as_ref();
-                if ui.selectable_label(on, *title).clicked() && !on {
-                    out.push(Command::SetOption(choice.key, written.clone()));
+            for option in &choice.options {
+                let on = Some(&option.0) == current.as_ref();
+                if ui.selectable_label(on, &*choice.title(option)).clicked() && !on {
+                    out.push(Command::SetOption(choice.key, option.0.clone()));
                 }
             }
         });
-        shown.response.labelled_by(label.id).on_hover_text(choice.help);
+        shown.response.labelled_by(label.id).on_hover_text(&*help);
     });
 }
 
@@ -86,41 +90,41 @@ fn files(ui: &mut Ui, salon: &Salon, parsed: &ParsedScene, out: &mut Vec<Command
     };
     match &parsed.scene.head {
         HeadSource::Mesh(file) => {
-            file_name(ui, "Head", &file.path);
+            file_name(ui, "head-is", &file.path);
             units(ui, "head.", out);
-            if widgets::plain(ui, "Use the mannequin", "").clicked() {
+            if widgets::plain(ui, "use-mannequin").clicked() {
                 out.push(Command::Head(None));
             }
         }
         HeadSource::Person(name) => {
-            ui.label(format!("Head: {name}"));
+            let name = locale::named("head", name, name);
+            ui.label(tr!("head-is", name = &*name));
         }
         HeadSource::Mannequin => {
-            ui.label("Head: the mannequin");
+            ui.label(tr!("head-is-mannequin"));
         }
     }
     if let Some(file) = &parsed.scene.groom {
-        file_name(ui, "Hair", &file.path);
+        file_name(ui, "hair-is", &file.path);
         units(ui, "groom.", out);
         if let Some(held) = salon.preview().and_then(|(hair, _)| hair.adoption.as_ref()) {
             ui.weak(held.to_string());
         }
-        let help = "Compute the hair from fibre, curl, length and implantation";
-        if widgets::plain(ui, "Use the scene's own hair", help).clicked() {
+        if widgets::plain(ui, "use-own-hair").clicked() {
             out.push(Command::Groom(None));
         }
     } else {
-        ui.label("Hair: the scene's own");
+        ui.label(tr!("hair-is-own"));
     }
     if salon.files() != (Contents { head: true, groom: true }) {
-        ui.weak("Drop a head or a groom on the window to use it.");
+        ui.weak(tr!("drop-head-or-groom"));
     }
 }
 
 /// The name of a file, with its path as the tooltip.
-fn file_name(ui: &mut Ui, what: &str, path: &Path) {
+fn file_name(ui: &mut Ui, id: &str, path: &Path) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    ui.label(format!("{what}: {name}")).on_hover_text(path.display().to_string());
+    ui.label(tr!(id, name = &*name)).on_hover_text(path.display().to_string());
 }
 
 /// The edits, the last one at the bottom.
@@ -131,10 +135,10 @@ pub(super) fn history(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
         for (index, edit) in document.edits().iter().enumerate() {
             ui.horizontal(|ui| {
                 let on = compared == Some(index);
-                let compare = ui.selectable_label(on, RichText::new("vs").small());
-                let compare = compare.on_hover_text("Show it beside the current hair");
+                let compare = ui.selectable_label(on, RichText::new(tr!("versus")).small());
+                let compare = compare.on_hover_text(tr!("versus.help"));
                 compare.widget_info(|| {
-                    let label = format!("Compare with {}", edit.label);
+                    let label = tr!("compare-with", label = &*edit.label);
                     WidgetInfo::selected(Role::Button, true, on, label)
                 });
                 if compare.clicked() {

@@ -44,6 +44,14 @@ pub trait Platform {
     /// The autosaved text.
     fn read_autosave(&mut self) -> Option<String>;
 
+    /// The tag of the language that was chosen before.
+    fn read_language(&self) -> Option<String> {
+        None
+    }
+
+    /// Keeps the tag of the chosen language for the next start. Where this is impossible, the next start has the system's language.
+    fn write_language(&mut self, _tag: &str) {}
+
     /// Shows the system's dialog to open files; they come through [`Self::next_file`].
     fn show_open_dialog(&mut self);
 

@@ -4,6 +4,7 @@ use eframe::egui::{
     Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, FontTweak,
     Stroke, Style, TextStyle, Theme,
 };
+use epaint_default_fonts::UBUNTU_LIGHT;
 
 /// The colour of the selection and of toggles that are on.
 pub(super) const ACCENT: Color32 = Color32::from_rgb(0x2f, 0x8f, 0xd8);
@@ -15,12 +16,15 @@ const ICONS: &[u8] = include_bytes!("../../icons/icons.ttf");
 
 /// Installs both themes, and the icons.
 pub(super) fn install(context: &Context) {
-    let mut fonts = FontDefinitions::default();
+    // One font of egui's for all text: its font for source code has nothing to show here, and is a twentieth of the page.
+    let mut fonts = FontDefinitions::empty();
+    fonts.font_data.insert("text".to_owned(), FontData::from_static(UBUNTU_LIGHT).into());
     // The font has its icons as high as its em, with less below the line than letters have.
     let tweak = FontTweak { y_offset_factor: 0.06, scale: 1.1, ..FontTweak::default() };
     fonts.font_data.insert("icons".to_owned(), FontData::from_static(ICONS).tweak(tweak).into());
-    let letters = fonts.families.entry(FontFamily::Proportional).or_default();
-    letters.insert(letters.len().min(1), "icons".to_owned());
+    for family in [FontFamily::Proportional, FontFamily::Monospace] {
+        fonts.families.insert(family, vec!["text".to_owned(), "icons".to_owned()]);
+    }
     context.set_fonts(fonts);
     context.style_mut_of(Theme::Dark, |style| set(style, true));
     context.style_mut_of(Theme::Light, |style| set(style, false));

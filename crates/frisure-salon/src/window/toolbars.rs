@@ -1,11 +1,12 @@
 //! The toolbars: files and edits, selection, and the status line.
 
-use eframe::egui::{Align, ComboBox, Layout, ProgressBar, Role, Theme, Ui, WidgetInfo};
+use eframe::egui::{Align, ComboBox, Layout, ProgressBar, RichText, Role, Theme, Ui, WidgetInfo};
 use frisure::hairstyle::styling::{Grow, Growth, Operation, Release, Selection};
 
 use super::dialogs::Dialog;
 use super::widgets::Room;
 use super::{icons, theme, widgets};
+use crate::locale::{self, Locale, tr};
 use crate::state::{Command, Document, PLACES, Salon};
 
 /// The top toolbar: in a narrow window in as many rows as it takes. `side` says whether the panels are open, where they take the
@@ -21,7 +22,7 @@ pub(super) fn main(
         ui.horizontal_centered(|ui| {
             left(ui, salon, out, dialog);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                right(ui, dialog);
+                right(ui, out, dialog);
                 if let Some(document) = &salon.document {
                     let changed = if document.is_changed() { " •" } else { "" };
                     ui.weak(format!("{}{changed}", document.name()));
@@ -33,38 +34,30 @@ pub(super) fn main(
     ui.horizontal_wrapped(|ui| {
         left(ui, salon, out, dialog);
         if Room::of(ui) == Room::Phone && salon.document.is_some() {
-            let help = "sliders and history";
-            let room = Room::Wide;
-            if widgets::fitting_toggle(ui, room, icons::SETTINGS, ("Panels", *side), help).clicked()
-            {
+            let panels = "panels";
+            if widgets::fitting_toggle(ui, Room::Wide, icons::SETTINGS, panels, *side).clicked() {
                 *side = !*side;
             }
         }
-        right(ui, dialog);
+        right(ui, out, dialog);
     });
 }
 
 fn left(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>, dialog: &mut Option<Dialog>) {
-    let (open, help) = (salon.is_gallery(), "hair to start with");
-    let gallery = ("Gallery", open);
-    if widgets::fitting_toggle(ui, Room::Wide, icons::GALLERY, gallery, help).clicked() {
+    let open = salon.is_gallery();
+    if widgets::fitting_toggle(ui, Room::Wide, icons::GALLERY, "gallery", open).clicked() {
         out.push(Command::Gallery(!open));
     }
     let dialogs = [
-        (Dialog::Open, icons::OPEN, "Open…", "Open a scene, a head or a groom (Ctrl O)"),
-        (Dialog::Save, icons::SAVE, "Save…", "Save the scene (Ctrl S)"),
-        (Dialog::Export, icons::EXPORT, "Export…", "Write the hair as a groom (Ctrl E)"),
-        (
-            Dialog::Picture,
-            icons::PICTURE,
-            "Picture…",
-            "Render a final picture or a turntable (Ctrl P)",
-        ),
+        (Dialog::Open, icons::OPEN, "open"),
+        (Dialog::Save, icons::SAVE, "save"),
+        (Dialog::Export, icons::EXPORT, "export"),
+        (Dialog::Picture, icons::PICTURE, "picture"),
     ];
-    for (which, icon, label, help) in dialogs {
+    for (which, icon, id) in dialogs {
         let enabled = salon.document.is_some() || !which.needs_document();
         ui.add_enabled_ui(enabled, |ui| {
-            if widgets::fitting(ui, Room::Wide, icon, label, help).clicked() {
+            if widgets::fitting(ui, Room::Wide, icon, id).clicked() {
                 *dialog = Some(which);
             }
         });
@@ -75,13 +68,25 @@ fn left(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>, dialog: &mut Option<
     }
 }
 
-fn right(ui: &mut Ui, dialog: &mut Option<Dialog>) {
-    if widgets::icon(ui, icons::HELP, "Help", "keys and tools (F1)").clicked() {
+fn right(ui: &mut Ui, out: &mut Vec<Command>, dialog: &mut Option<Dialog>) {
+    if widgets::icon(ui, icons::HELP, "help").clicked() {
         *dialog = Some(Dialog::Help);
     }
+    let menu = ui.menu_button(RichText::new(icons::LANGUAGE).size(16.0), |ui| {
+        for locale in Locale::ALL {
+            if ui.selectable_label(locale::current() == locale, locale.endonym()).clicked() {
+                out.push(Command::Speak(locale));
+                ui.close();
+            }
+        }
+    });
+    let menu =
+        menu.response.on_hover_text(format!("{}: {}", tr!("language"), tr!("language.help")));
+    menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, tr!("language")));
     let dark = ui.visuals().dark_mode;
-    let (icon, other) = if dark { (icons::LIGHT, "Light") } else { (icons::DARK, "Dark") };
-    if widgets::icon(ui, icon, other, "a light or a dark window").clicked() {
+    let (icon, other) =
+        if dark { (icons::LIGHT, "theme-light") } else { (icons::DARK, "theme-dark") };
+    if widgets::icon(ui, icon, other).clicked() {
         ui.ctx().set_theme(if dark { Theme::Light } else { Theme::Dark });
     }
 }
@@ -89,35 +94,29 @@ fn right(ui: &mut Ui, dialog: &mut Option<Dialog>) {
 fn edits(ui: &mut Ui, salon: &Salon, document: &Document, out: &mut Vec<Command>) {
     let (at, edits) = (document.at(), document.edits().len());
     let moves = [
-        (icons::UNDO, "Undo", "Ctrl Z", at > 0, Command::Undo),
-        (icons::REDO, "Redo", "Ctrl Shift Z", at + 1 < edits, Command::Redo),
+        (icons::UNDO, "undo", at > 0, Command::Undo),
+        (icons::REDO, "redo", at + 1 < edits, Command::Redo),
     ];
-    for (icon, label, help, enabled, command) in moves {
+    for (icon, id, enabled, command) in moves {
         ui.add_enabled_ui(enabled, |ui| {
-            if widgets::icon(ui, icon, label, help).clicked() {
+            if widgets::icon(ui, icon, id).clicked() {
                 out.push(command);
             }
         });
     }
     ui.separator();
-    let (icon, label) = if salon.is_wet() { (icons::DRY, "Dry") } else { (icons::WET, "Wet") };
-    if widgets::fitting(ui, Room::Narrow, icon, label, "Wet or dry the selected hair (W)").clicked()
-    {
+    let (icon, id) = if salon.is_wet() { (icons::DRY, "dry") } else { (icons::WET, "wet") };
+    if widgets::fitting(ui, Room::Narrow, icon, id).clicked() {
         out.push(Command::ToggleWet);
     }
-    let help = "Grow the selected hair (G)";
-    if widgets::fitting(ui, Room::Wide, icons::GROW, "Grow a month", help).clicked() {
+    if widgets::fitting(ui, Room::Wide, icons::GROW, "grow-month").clicked() {
         out.push(grow_a_month());
     }
     let compared = salon.comparison.is_some();
-    let help = "The hair before the last edit and now, side by side (X)";
-    let compare = ("Compare", compared);
-    if widgets::fitting_toggle(ui, Room::Wide, icons::COMPARE, compare, help).clicked() {
+    if widgets::fitting_toggle(ui, Room::Wide, icons::COMPARE, "compare", compared).clicked() {
         out.push(Command::ToggleCompare);
     }
-    let help = "Do each step on the other side of the head, too (M)";
-    let mirror = ("Mirror", salon.mirror);
-    if widgets::fitting_toggle(ui, Room::Wide, icons::MIRROR, mirror, help).clicked() {
+    if widgets::fitting_toggle(ui, Room::Wide, icons::MIRROR, "mirror", salon.mirror).clicked() {
         out.push(Command::ToggleMirror);
     }
 }
@@ -143,23 +142,21 @@ pub(super) fn release() -> Command {
 pub(super) fn selection(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let mode = widgets::select_mode(ui);
     ui.horizontal_wrapped(|ui| {
-        ui.strong("Selected:");
+        ui.strong(tr!("selected"));
         let selected = &salon.selected;
         ui.label(match selected.count() {
-            Some(count) => format!("{} ({count} wisps)", selected.label),
+            Some(count) => tr!("selected-count", label = &*selected.label, count = count),
             None => selected.label.clone(),
         });
         let all = selected.is_everything();
-        if widgets::icon_toggle(ui, icons::ALL, "All", all, "Select all hair (A)").clicked() {
+        if widgets::icon_toggle(ui, icons::ALL, "select-all", all).clicked() {
             out.push(Command::SelectAll);
         }
-        let help = "Select the hair that is not selected (I)";
-        if widgets::with_icon(ui, icons::INVERT, "Invert", help).clicked() {
+        if widgets::with_icon(ui, icons::INVERT, "select-invert").clicked() {
             out.push(Command::InvertSelection);
         }
-        for (label, place) in PLACES {
-            let help = "Select this part of the scalp. Shift adds, Alt removes.";
-            if widgets::plain(ui, label, help).clicked() {
+        for (id, place) in PLACES {
+            if widgets::button(ui, &tr!(id), &tr!("place.help")).clicked() {
                 out.push(Command::Select(place, mode));
             }
         }
@@ -169,20 +166,22 @@ pub(super) fn selection(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
 }
 
 fn operations(ui: &mut Ui, out: &mut Vec<Command>) {
-    let list =
-        ComboBox::from_id_salt("hold").selected_text(format!("{} Hold…", icons::HOLD)).width(80.0);
+    let list = ComboBox::from_id_salt("hold")
+        .selected_text(format!("{} {}…", icons::HOLD, tr!("hold")))
+        .width(80.0);
     let shown = list.show_ui(ui, |ui| {
         for button in frisure::scene::buttons() {
-            if ui.selectable_label(false, button.label).clicked() {
+            let label = locale::named("button", button.label, button.label);
+            if ui.selectable_label(false, &*label).clicked() {
                 out.push(Command::Apply(button.operation()));
             }
         }
     });
-    shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Hold"));
-    if widgets::with_icon(ui, icons::RELEASE, "Release", "Release held hair (R)").clicked() {
+    shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, tr!("hold")));
+    if widgets::with_icon(ui, icons::RELEASE, "release").clicked() {
         out.push(release());
     }
-    if widgets::plain(ui, "Grow 1 cm", "Grow the selected hair").clicked() {
+    if widgets::plain(ui, "grow-cm").clicked() {
         out.push(grow(Growth::By(0.01)));
     }
 }
@@ -191,7 +190,7 @@ fn operations(ui: &mut Ui, out: &mut Vec<Command>) {
 pub(super) fn status(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     for (index, message) in salon.messages.iter().enumerate().rev().take(2) {
         ui.horizontal_wrapped(|ui| {
-            if ui.small_button("×").on_hover_text("Dismiss").clicked() {
+            if ui.small_button("×").on_hover_text(tr!("dismiss")).clicked() {
                 out.push(Command::Dismiss(index));
             }
             let colour =
@@ -207,18 +206,23 @@ pub(super) fn status(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
             let n = &hair.numbers;
             let (length, mass) = (n.length * 100.0, n.mass * 1e3);
             let (wisps, hairs) = (n.wisps, n.hairs);
-            ui.weak(format!(
-                "{wisps} wisps · {hairs:.0} hairs · {length:.1} cm mean · {mass:.0} g"
+            ui.weak(tr!(
+                "status-hair",
+                wisps = wisps,
+                hairs = format!("{hairs:.0}"),
+                length = format!("{length:.1}"),
+                mass = format!("{mass:.0}"),
             ));
         }
         if let Some((stage, done, waiting)) = salon.background() {
             ui.separator();
+            let stage = locale::named("stage", stage, stage);
             let text = format!("{stage} {:.0} %", done * 100.0);
             ui.add(ProgressBar::new(done).text(text).desired_width(220.0));
             if waiting > 0 {
-                ui.weak(format!("{waiting} more"));
+                ui.weak(tr!("jobs-waiting", count = waiting));
             }
-            if widgets::plain(ui, "Stop", "Cancel the background jobs").clicked() {
+            if widgets::plain(ui, "stop").clicked() {
                 out.push(Command::Stop);
             }
         }

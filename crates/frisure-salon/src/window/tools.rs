@@ -5,34 +5,31 @@ use frisure::hairstyle::Comb as Side;
 use frisure::hairstyle::styling::Direction;
 use glam::DVec3;
 
+use super::viewport::level_name;
 use super::widgets::Room;
 use super::{icons, theme, widgets};
+use crate::locale::tr;
 use crate::state::{Command, CutHold, Salon, Scissors, Tool, VIEWS, comb};
 
-/// The tools: each with its icon, its label, and its key with what it does.
-const TOOLS: [(Tool, &str, &str, &str); 9] = [
-    (Tool::Orbit, icons::TURN, "Turn", "V: orbit, pan and zoom"),
-    (Tool::Lasso, icons::LASSO, "Lasso", "L: draw around hair to select it"),
-    (Tool::Brush, icons::BRUSH, "Brush", "B: paint over the scalp to select hair by its roots"),
-    (Tool::Scissors, icons::SCISSORS, "Scissors", "S: draw across hair, which is cut there"),
-    (Tool::Cut, icons::CUT, "Cut", "C: drag a cutting plane through the selected hair"),
-    (Tool::Lift, icons::LIFT, "Lift", "U: paint over the scalp; hair is lifted off it and cut"),
-    (
-        Tool::Clippers,
-        icons::CLIPPERS,
-        "Clippers",
-        "J: paint over the scalp; a guard says what is left",
-    ),
-    (Tool::Comb, icons::COMB, "Comb", "K: drag in the direction of combing"),
-    (Tool::Pick, icons::ONE_HAIR, "One hair", "H: click to see one hair with its material frames"),
+/// The tools: each with its icon and its message, whose help names its key.
+const TOOLS: [(Tool, &str, &str); 9] = [
+    (Tool::Orbit, icons::TURN, "tool-turn"),
+    (Tool::Lasso, icons::LASSO, "tool-lasso"),
+    (Tool::Brush, icons::BRUSH, "tool-brush"),
+    (Tool::Scissors, icons::SCISSORS, "tool-scissors"),
+    (Tool::Cut, icons::CUT, "tool-cut"),
+    (Tool::Lift, icons::LIFT, "tool-lift"),
+    (Tool::Clippers, icons::CLIPPERS, "tool-clippers"),
+    (Tool::Comb, icons::COMB, "tool-comb"),
+    (Tool::Pick, icons::ONE_HAIR, "tool-one-hair"),
 ];
 
 /// The tools, and the settings of the active one.
 pub(super) fn show(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
-        for (tool, icon, label, help) in TOOLS {
-            let named = (label, salon.tool == tool);
-            if widgets::fitting_toggle(ui, Room::Narrow, icon, named, help).clicked() {
+        for (tool, icon, id) in TOOLS {
+            let on = salon.tool == tool;
+            if widgets::fitting_toggle(ui, Room::Narrow, icon, id, on).clicked() {
                 out.push(Command::Take(tool));
             }
         }
@@ -62,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
             }
             Tool::Pick => one_hair(ui, salon, out),
             Tool::Lasso => {
-                ui.weak("Draw around hair. Shift adds, Alt removes.");
+                ui.weak(tr!("lasso-hint"));
             }
             Tool::Orbit => views(ui, out),
         }
@@ -70,12 +67,12 @@ pub(super) fn show(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
 }
 
 fn views(ui: &mut Ui, out: &mut Vec<Command>) {
-    for (label, azimuth, elevation) in VIEWS {
-        if widgets::plain(ui, label, "Set this view").clicked() {
+    for (id, azimuth, elevation) in VIEWS {
+        if widgets::button(ui, &tr!(id), &tr!("view.help")).clicked() {
             out.push(Command::LookFrom(f64::to_radians(azimuth), f64::to_radians(elevation)));
         }
     }
-    if widgets::plain(ui, "Keep this view", "Save the view as the scene's camera").clicked() {
+    if widgets::plain(ui, "keep-view").clicked() {
         out.push(Command::KeepView);
     }
 }
@@ -84,21 +81,22 @@ fn cut(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     let mut plane = salon.plane;
     let mut height = plane.point.z * 100.0;
     let field = DragValue::new(&mut height).range(-150.0..=20.0).suffix(" cm").max_decimals(1);
-    if widgets::labelled(ui, "Height", field.speed(0.1)).changed() {
+    if widgets::labelled(ui, "cut-height", field.speed(0.1)).changed() {
         plane.point = DVec3::new(0.0, 0.0, height / 100.0);
     }
     if let Some((above, level)) = salon.head.as_ref().and_then(|h| h.above_level(plane.point.z)) {
-        let side = if above < 0.0 { "below" } else { "above" };
-        ui.weak(format!("{:.1} cm {side} the {level}", 100.0 * above.abs()));
+        let (side, level) = (if above < 0.0 { "below" } else { "above" }, level_name(level));
+        let cm = format!("{:.1}", 100.0 * above.abs());
+        ui.weak(tr!("cut-level", cm = cm, side = side, level = level.as_ref()));
     }
-    for (label, angle) in [("to its left", &mut plane.roll), ("to the back", &mut plane.pitch)] {
+    for (id, angle) in [("cut-roll", &mut plane.roll), ("cut-pitch", &mut plane.pitch)] {
         let mut degrees = angle.to_degrees();
         let field = DragValue::new(&mut degrees).range(-80.0..=80.0).suffix("°").max_decimals(0);
-        if widgets::labelled(ui, label, field).changed() {
+        if widgets::labelled(ui, id, field).changed() {
             *angle = degrees.to_radians();
         }
     }
-    if widgets::plain(ui, "Level", "Make the plane level").clicked() {
+    if widgets::plain(ui, "level-plane").clicked() {
         (plane.roll, plane.pitch) = (0.0, 0.0);
     }
     if plane != salon.plane {
@@ -107,31 +105,30 @@ fn cut(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     scissors(ui, salon.scissors, out);
     let preview = salon.cut_preview();
     ui.add_enabled_ui(preview.as_ref().is_some_and(|preview| preview.hairs > 0), |ui| {
-        let button = Button::new(RichText::new("Cut here").strong()).fill(theme::CUT_COLOUR);
-        if ui.add(button).on_hover_text("Enter").clicked() {
+        let button = Button::new(RichText::new(tr!("cut-here")).strong()).fill(theme::CUT_COLOUR);
+        if ui.add(button).on_hover_text(tr!("cut-here.help")).clicked() {
             out.push(Command::Cut);
         }
     });
     if let (Some(preview), Some((hair, _))) = (preview, salon.preview()) {
         let grams = preview.share * hair.numbers.mass * 1e3;
         let part = preview.hairs as f64 / hair.numbers.drawn.max(1) as f64 * 100.0;
-        ui.label(format!("{part:.0} % of the hairs lose {grams:.1} g"));
+        let (part, grams) = (format!("{part:.0}"), format!("{grams:.1}"));
+        ui.label(tr!("cut-preview", part = part, grams = grams));
     }
 }
 
 /// How scissors cut at a line.
 fn scissors(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
     let mut set = now;
-    let name = |hold| CutHold::ALL.iter().find(|(h, _)| *h == hold).map_or("", |(_, name)| name);
-    let list = ComboBox::from_id_salt("held").selected_text(name(now.hold)).width(150.0);
+    let list = ComboBox::from_id_salt("held").selected_text(tr!(now.hold.id())).width(150.0);
     let shown = list.show_ui(ui, |ui| {
-        for (hold, name) in CutHold::ALL {
-            ui.selectable_value(&mut set.hold, hold, name);
+        for hold in CutHold::ALL {
+            ui.selectable_value(&mut set.hold, hold, tr!(hold.id()));
         }
     });
-    let help = "How the hair is held: as it hangs; trimmed until it rests at the line; or combed straight down, as in the paper";
-    let held = shown.response.on_hover_text(help);
-    held.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Held"));
+    let held = shown.response.on_hover_text(tr!("cut-held.help"));
+    held.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, tr!("cut-held")));
     edge(ui, &mut set);
     send(set, now, out);
 }
@@ -140,13 +137,11 @@ fn scissors(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
 fn edge(ui: &mut Ui, set: &mut Scissors) {
     let (mut soft, mut share) = (set.soft * 1e3, set.share * 100.0);
     let field = DragValue::new(&mut soft).range(0.0..=100.0).suffix(" mm").max_decimals(0);
-    let help = "Point cutting: each hair ends up to this far before the line, for a soft edge";
-    if widgets::labelled(ui, "Soft edge", field).on_hover_text(help).changed() {
+    if widgets::labelled(ui, "soft-edge", field).changed() {
         set.soft = soft / 1e3;
     }
     let field = DragValue::new(&mut share).range(5.0..=100.0).suffix(" %").max_decimals(0);
-    let help = "Thinning scissors: the fraction of the hairs that is cut";
-    if widgets::labelled(ui, "Of hairs", field).on_hover_text(help).changed() {
+    if widgets::labelled(ui, "of-hairs", field).changed() {
         set.share = share / 100.0;
     }
 }
@@ -155,13 +150,11 @@ fn lift(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
     let mut set = now;
     let (mut angle, mut length) = (set.elevation.to_degrees(), set.lifted * 100.0);
     let field = DragValue::new(&mut angle).range(0.0..=180.0).suffix("°").max_decimals(0);
-    let help = "From flat along the skin: 0 leaves one length, 45 graduates, 90 makes layers";
-    if widgets::labelled(ui, "Elevation", field).on_hover_text(help).changed() {
+    if widgets::labelled(ui, "lift-elevation", field).changed() {
         set.elevation = angle.to_radians();
     }
     let field = DragValue::new(&mut length).range(0.5..=100.0).suffix(" cm").max_decimals(1);
-    let help = "How far from the skin lifted hair is cut";
-    if widgets::labelled(ui, "Cut at", field.speed(0.1)).on_hover_text(help).changed() {
+    if widgets::labelled(ui, "lift-length", field.speed(0.1)).changed() {
         set.lifted = length / 100.0;
     }
     edge(ui, &mut set);
@@ -172,14 +165,11 @@ fn clippers(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
     let mut set = now;
     let mut guard = set.guard * 1e3;
     let field = DragValue::new(&mut guard).range(1.0..=50.0).suffix(" mm").max_decimals(1);
-    if widgets::labelled(ui, "Guard", field.speed(0.1))
-        .on_hover_text("What is left of the hair")
-        .changed()
-    {
+    if widgets::labelled(ui, "guard", field.speed(0.1)).changed() {
         set.guard = guard / 1e3;
     }
     for mm in [3.0, 6.0, 9.0, 12.0] {
-        if widgets::plain(ui, &format!("{mm} mm"), "Put on this guard").clicked() {
+        if widgets::button(ui, &format!("{mm} mm"), &tr!("guard.put-on")).clicked() {
             set.guard = mm / 1e3;
         }
     }
@@ -195,21 +185,21 @@ fn send(set: Scissors, before: Scissors, out: &mut Vec<Command>) {
 fn brush(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let mut radius = salon.brush.radius * 100.0;
     let field = DragValue::new(&mut radius).range(0.2..=10.0).suffix(" cm").max_decimals(1);
-    if widgets::labelled(ui, "Radius", field.speed(0.05)).changed() {
+    if widgets::labelled(ui, "brush-radius", field.speed(0.05)).changed() {
         out.push(Command::BrushSize(radius / 100.0));
     }
 }
 
 fn sides(ui: &mut Ui, out: &mut Vec<Command>) {
     let sides = [
-        ("Forward", Side::Forward),
-        ("Back", Side::Back),
-        ("Down", Side::Down),
-        ("Left", Side::Left),
-        ("Right", Side::Right),
+        ("comb-forward", Side::Forward),
+        ("comb-back", Side::Back),
+        ("comb-down", Side::Down),
+        ("comb-left", Side::Left),
+        ("comb-right", Side::Right),
     ];
-    for (label, side) in sides {
-        if widgets::plain(ui, label, "Comb the selected hair to this side").clicked() {
+    for (id, side) in sides {
+        if widgets::button(ui, &tr!(id), &tr!("comb-side.help")).clicked() {
             out.push(Command::Apply(comb(Direction::Named(side))));
         }
     }
@@ -219,12 +209,12 @@ fn one_hair(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let Some((hair, _)) = salon.preview() else { return };
     let last = hair.numbers.wisps.saturating_sub(1);
     let mut wisp = salon.isolated.as_ref().map_or(0, |isolated| isolated.wisp);
-    if widgets::labelled(ui, "Wisp", DragValue::new(&mut wisp).range(0..=last)).changed() {
+    if widgets::labelled(ui, "wisp", DragValue::new(&mut wisp).range(0..=last)).changed() {
         out.push(Command::Isolate(Some(wisp)));
     }
     if salon.isolated.is_none() {
-        ui.weak("Click on the head, or enter an index.");
-    } else if widgets::plain(ui, "All hair", "Show all hair").clicked() {
+        ui.weak(tr!("one-hair-hint"));
+    } else if widgets::plain(ui, "show-all-hair").clicked() {
         out.push(Command::Isolate(None));
     }
 }

@@ -1,5 +1,6 @@
 //! The viewport: the head with its hair, and the pointer on it.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -19,6 +20,7 @@ use glam::{DVec3, Vec3};
 
 use super::renderer::{Picture, Side, Versioned, View};
 use super::{automation, theme, widgets};
+use crate::locale::{self, tr};
 use crate::state::{Badge, Command, CutPlane, Salon, Snip, Tool};
 
 /// The state of the viewport between frames.
@@ -93,7 +95,8 @@ impl Viewport {
     pub(super) fn show(&mut self, ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The head"));
+        response
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, tr!("the-head")));
         automation::record("The head", rect);
         let compares = salon.comparison.is_some();
         let handle = compares.then(|| self.divide(ui, rect));
@@ -130,7 +133,7 @@ impl Viewport {
             Rect::from_x_y_ranges(middle - GRIP / 2.0..=middle + GRIP / 2.0, rect.y_range());
         let response = ui.interact(strip, ui.scope_id().with("divider"), Sense::click_and_drag());
         let share = f64::from(self.divider) + 0.5;
-        response.widget_info(|| egui::WidgetInfo::slider(true, share, "Before and after"));
+        response.widget_info(|| egui::WidgetInfo::slider(true, share, tr!("before-and-after")));
         automation::record("Before and after", strip);
         let mut to = self.divider + response.drag_delta().x / rect.width().max(1.0);
         if response.has_focus() {
@@ -539,10 +542,10 @@ fn overlay(ui: &Ui, salon: &Salon, panes: &[Pane]) {
         match side {
             Side::Before => {
                 let Some(comparison) = &salon.comparison else { continue };
-                let text = format!("Before: {}", comparison.label);
+                let text = tr!("before", label = &*comparison.label);
                 text_box(ui, corner, align, text, DARK);
                 if comparison.hair.is_none() {
-                    let (centre, text) = (Align2::CENTER_CENTER, "Computing…".to_owned());
+                    let (centre, text) = (Align2::CENTER_CENTER, tr!("computing"));
                     text_box(ui, shown.center(), centre, text, DARK);
                 }
             }
@@ -595,11 +598,16 @@ fn levels(ui: &Ui, salon: &Salon, rect: Rect) {
         painter.text(
             b + vec2(4.0, 0.0),
             Align2::LEFT_CENTER,
-            name,
+            level_name(name),
             font,
             Color32::from_black_alpha(170),
         );
     }
+}
+
+/// The name of a level of the head.
+pub(super) fn level_name(name: &str) -> Cow<'_, str> {
+    locale::named("level", name, name)
 }
 
 /// The text and the colour of the badge.
@@ -607,37 +615,42 @@ pub(super) fn badge(salon: &Salon) -> (String, Color32) {
     let colour = |r, g, b| Color32::from_rgba_unmultiplied(r, g, b, 230);
     let red = colour(0xb0, 0x3a, 0x2e);
     match salon.badge() {
-        Badge::Empty => ("No hair yet".into(), DARK),
+        Badge::Empty => (tr!("badge-empty"), DARK),
         Badge::Settling => {
             let text = match salon.progress() {
                 Some((stage, done)) if !stage.is_empty() => {
-                    format!("Settling… {stage}, {:.0} %", done * 100.0)
+                    let stage = locale::named("stage", stage, stage);
+                    format!("{} {stage}, {:.0} %", tr!("badge-settling"), done * 100.0)
                 }
-                _ => "Settling…".into(),
+                _ => tr!("badge-settling"),
             };
             (text, colour(0xb0, 0x78, 0x10))
         }
-        Badge::AtRest => ("At rest".into(), colour(0x2c, 0x7a, 0x3e)),
-        Badge::Unstable(count) => (format!("Unstable: {count} guides"), red),
-        Badge::Refused(_) if salon.preview().is_some() => {
-            ("Not possible: earlier hair".into(), red)
-        }
-        Badge::Refused(_) => ("Not possible".into(), red),
+        Badge::AtRest => (tr!("badge-at-rest"), colour(0x2c, 0x7a, 0x3e)),
+        Badge::Unstable(count) => (tr!("badge-unstable", count = count), red),
+        Badge::Refused(_) if salon.preview().is_some() => (tr!("badge-refused-earlier"), red),
+        Badge::Refused(_) => (tr!("badge-refused"), red),
     }
 }
 
 /// The numbers of a hair that is shown alone.
 fn hair_report(hair: &GuideData) -> String {
-    let [elastic, gravity, contact] = hair.energy.map(|e| e * 1e9);
-    let [a, b] = hair.section.map(|a| a * 1e6);
-    let GuideData { wisp, elements, iterations, gradient, stability, .. } = hair;
-    let length = hair.length * 100.0;
-    format!(
-        "Wisp {wisp}\nlength {length:.1} cm, section {a:.0} × {b:.0} µm\n\
-         elastic {elastic:.1} nJ, gravity {gravity:.1} nJ, contact {contact:.1} nJ\n\
-         {elements} elements, {iterations} iterations\n\
-         relative gradient {gradient:.0e}: {stability}\n\
-         d1 red, d2 green, tangent blue"
+    let [elastic, gravity, contact] = hair.energy.map(|e| format!("{:.1}", e * 1e9));
+    let [a, b] = hair.section.map(|a| format!("{:.0}", a * 1e6));
+    let stability = locale::named("stability", &hair.stability, &hair.stability);
+    tr!(
+        "hair-report",
+        wisp = hair.wisp,
+        length = format!("{:.1}", hair.length * 100.0),
+        a = a,
+        b = b,
+        elastic = elastic,
+        gravity = gravity,
+        contact = contact,
+        elements = hair.elements,
+        iterations = hair.iterations,
+        gradient = format!("{:.0e}", hair.gradient),
+        stability = &*stability,
     )
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use frisure_engine::Session;
 use frisure_engine::{Request, Response};
+use frisure_salon::locale::Locale;
 use frisure_salon::state::{Command, Effect, Salon, Save};
 
 /// A salon, and everything around it.
@@ -16,6 +17,8 @@ pub(crate) struct World {
     pub(crate) autosaved: Option<String>,
     /// Whether writing fails.
     pub(crate) full: bool,
+    /// The language that was kept for the next start.
+    pub(crate) language: Option<Locale>,
     now: f64,
 }
 
@@ -27,6 +30,7 @@ impl World {
             files: BTreeMap::new(),
             autosaved: None,
             full: false,
+            language: None,
             now: 0.0,
         }
     }
@@ -63,6 +67,7 @@ impl World {
             Effect::Cancel(..) => {}
             Effect::Save(save) => self.save(&save),
             Effect::Autosave(text) => self.autosaved = text,
+            Effect::KeepLanguage(locale) => self.language = Some(locale),
         }
     }
 
