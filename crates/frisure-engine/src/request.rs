@@ -92,4 +92,14 @@ pub enum Request {
         /// Number of pictures.
         frames: usize,
     },
+    /// A film of hairstyles one after the other, such as the steps of a session. Responses: [`Response::Progress`], then one
+    /// [`Response::File`] (an animated PNG), named as the last scene.
+    Film {
+        /// The scenes, at least one; the hair of equal beginnings is computed once.
+        scenes: Vec<SceneRef>,
+        /// The camera; `None` is that of each scene.
+        viewpoint: Option<Viewpoint>,
+        /// Pixels across and down.
+        size: [usize; 2],
+    },
 }

@@ -108,6 +108,7 @@ impl Execution<'_> {
             Request::Turntable { scene, viewpoint, size, frames } => {
                 self.turntable(scene, *viewpoint, *size, *frames)
             }
+            Request::Film { scenes, viewpoint, size } => self.film(scenes, *viewpoint, *size),
         }
     }
 
@@ -230,5 +231,27 @@ impl Execution<'_> {
         let subject = loaded.subject(&strands, environment.as_ref());
         let bytes = picture::turntable(&subject, viewpoint, size, frames, self.progress)?;
         Ok(Response::File { name: preview::file_name(&loaded.scene, "png"), bytes })
+    }
+
+    fn film(
+        &mut self,
+        scenes: &[SceneRef],
+        viewpoint: Option<Viewpoint>,
+        size: [usize; 2],
+    ) -> Result<Response, Error> {
+        picture::check_turntable(size, scenes.len())?;
+        let (mut pictures, mut name) = (Vec::with_capacity(scenes.len()), String::new());
+        for (index, scene) in scenes.iter().enumerate() {
+            let silent = Silent(self.progress);
+            self.progress.report("film", index as f64 / scenes.len() as f64);
+            self.progress.check()?;
+            let loaded = self.load(scene, Quality::Exact)?;
+            let environment = environment_map(&loaded.scene, &self.session.runner.files)?;
+            let strands = self.strands(&loaded, 1)?;
+            let subject = loaded.subject(&strands, environment.as_ref());
+            pictures.extend(picture::previews(&subject, viewpoint, size, 1, &silent)?);
+            name = preview::file_name(&loaded.scene, "png");
+        }
+        Ok(Response::File { name, bytes: picture::film(size, pictures)? })
     }
 }

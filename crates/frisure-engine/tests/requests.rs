@@ -147,6 +147,20 @@ fn a_picture_can_be_cancelled() {
 }
 
 #[test]
+fn a_film_shows_one_scene_after_the_other() {
+    let mut session = Session::new();
+    let film = |done: &[usize]| {
+        let scenes = done.iter().map(|done| asked(CURLY, *done)).collect();
+        Request::Film { scenes, viewpoint: None, size: [40, 48] }
+    };
+    let (_, bytes) = file(execute(&mut session, &film(&[0, 0, 1])));
+    let reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
+    // What changes nothing is seen once.
+    assert_eq!(reader.info().animation_control.unwrap().num_frames, 2);
+    assert!(failed(execute(&mut session, &film(&[]))).problem.contains("film"));
+}
+
+#[test]
 fn a_turntable_goes_round() {
     let mut session = Session::new();
     let (size, frames) = ([40, 48], 3);

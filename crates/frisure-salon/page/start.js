@@ -1,6 +1,6 @@
 // Loads the salon and starts it.
 //
-// Query parameters: ?backend=webgl or webgpu, ?scene=NAME or the code of a link, ?language=fr, ?hairs=N (number of drawn hairs), ?samples=1 (no
+// Query parameters: ?backend=webgl or webgpu, ?scene=NAME or the code of a link, ?exercise=NAME or a code, ?language=fr, ?hairs=N (number of drawn hairs), ?samples=1 (no
 // antialiasing, for slow devices).
 
 import { loading, ready, showError } from "./notice.js?v={{build}}";
@@ -86,6 +86,7 @@ async function start(salon, module) {
         backend, module, build,
         worker: at("worker.js"),
         scene: query.get("scene") ?? undefined,
+        exercise: query.get("exercise") ?? undefined,
         language: query.get("language") ?? undefined,
         hairs: Number(query.get("hairs")) || undefined,
         samples: [1, 4].find((n) => String(n) === query.get("samples")),

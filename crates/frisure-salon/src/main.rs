@@ -37,6 +37,10 @@ mod desktop {
         /// Start with a card of the gallery, such as `curly`
         #[arg(long, value_name = "NAME", conflicts_with = "files")]
         begin: Option<String>,
+        /// Begin with an exercise, such as `bob`, or one from a link
+        #[arg(long, value_name = "NAME", conflicts_with_all = ["files", "begin"])]
+        exercise: Option<String>,
+
         /// The graphics interface; by default the best one available
         #[arg(long, value_enum)]
         backend: Option<Backend>,
@@ -207,6 +211,9 @@ mod desktop {
         match (salon, &arguments.begin) {
             (Some(salon), _) => app.restore(salon),
             (None, Some(name)) => app.run(Command::Begin(name.clone())),
+            (None, None) if arguments.exercise.is_some() => {
+                app.run(Command::BeginExercise(arguments.exercise.clone().unwrap_or_default()));
+            }
             (None, None) => arguments.files.iter().for_each(|file| app.open(file)),
         }
         Ok(Box::new(Window { app, lost: lost.clone() }))

@@ -6,10 +6,11 @@ use common::{STRAY, World};
 use frisure::hairstyle::Place;
 use frisure::hairstyle::head::Region;
 use frisure::hairstyle::styling::{Dry, Grow, Growth, Operation, Selection, Wet};
+use frisure::scene::edit;
 use frisure_engine::{Diagnostic, Quality, Response};
 use frisure_salon::state::{
-    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, Document, RenderTask, Scissors,
-    SelectMode, Snip, TOUR, Tool,
+    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, Document, EXERCISES, ExerciseCard,
+    RenderTask, Scissors, SelectMode, Snip, TOUR, Tool, code,
 };
 use glam::DVec3;
 use std::path::PathBuf;
@@ -288,6 +289,11 @@ fn pictures_are_rendered_in_the_background() {
     assert_eq!(&world.files["a.png"][1..4], b"PNG");
     let inside = frisure::formats::picture::scene_text::extract(&world.files["a.png"]);
     assert_eq!(inside.as_deref(), Some(world.text()), "a picture has its scene inside");
+    world.run(wet());
+    let film = RenderTask::Film { size: [16, 16] };
+    world.run(Command::Render(film, Destination::Download("film.png".into())));
+    let chunks = |name: &[u8]| world.files["film.png"].windows(4).filter(|c| *c == name).count();
+    assert_eq!((chunks(b"acTL"), chunks(b"fcTL")), (1, 2), "dry and wet");
     let film = RenderTask::Turntable { size: [16, 16], frames: 2 };
     world.run(Command::Render(film, Destination::Download("b.png".into())));
     assert_eq!(&world.files["b.png"][1..4], b"PNG");
@@ -298,7 +304,7 @@ fn a_link_opens_the_scene_that_it_was_made_of() {
     let mut world = World::new();
     world.small("wavy");
     world.run(wet());
-    let (text, link) = (world.text().to_owned(), frisure_salon::state::code(world.text()));
+    let (text, link) = (world.text().to_owned(), code(world.text()));
     let mut other = World::new();
     other.run(Command::Begin(link.clone()));
     assert_eq!(other.text(), text);
@@ -490,4 +496,166 @@ fn restarted_workers_run_the_lost_jobs_again() {
     world.salon.restart_jobs();
     world.settle();
     assert!(world.salon.is_settled() && world.salon.is_wet());
+}
+
+/// An exercise of the gallery with few hairs, so that tests are quick, as the code of a link.
+fn small_exercise(card: &ExerciseCard) -> Command {
+    let few =
+        [("wisps.count", Some("24")), ("wisps.hairs", Some("480")), ("wisps.points", Some("10"))];
+    Command::BeginExercise(code(&edit::set_keys(card.scene, &few).expect("a scene")))
+}
+
+#[test]
+fn the_solution_of_each_exercise_reaches_its_goal() {
+    for card in &EXERCISES {
+        let mut world = World::new();
+        world.run(small_exercise(card));
+        let nearness = world.salon.nearness().expect("a measure");
+        assert!(nearness.done.abs() < 1e-9, "{}: {nearness:?} at the beginning", card.name);
+        world.run(Command::CompareGoal);
+        assert!(world.salon.comparison.as_ref().is_some_and(|c| c.hair.is_some()));
+        world.run(Command::ToggleReplay);
+        // Two seconds pass with each round: the next step comes when the hair of the last one has been seen.
+        let shows = |world: &World| {
+            world.salon.exercise.as_ref().is_some_and(|exercise| exercise.replay.is_some())
+        };
+        for _ in 0..20 {
+            world.settle();
+            if !shows(&world) {
+                break;
+            }
+        }
+        assert!(!shows(&world), "{}", card.name);
+        let nearness = world.salon.nearness().expect("a measure");
+        assert!(nearness.done > 0.999, "{}: {nearness:?}", card.name);
+        let steps = world.salon.exercise.as_ref().map_or(0, |exercise| exercise.steps());
+        let scene = &world.salon.scene.as_ref().unwrap().scene;
+        assert_eq!(scene.steps().len(), steps, "{}", card.name);
+        world.run(Command::RestartExercise);
+        assert!(world.salon.nearness().expect("a measure").done < 0.5, "{}", card.name);
+        world.run(Command::EndExercise);
+        assert!(world.salon.exercise.is_none() && world.salon.comparison.is_none());
+    }
+}
+
+/// What a learner does is not the solution to the letter, and is measured by where the hair is.
+#[test]
+fn another_way_to_a_fringe_counts_as_well() {
+    let mut world = World::new();
+    world.run(small_exercise(&EXERCISES[0]));
+    world.run(Command::Select(FRINGE, SelectMode::Replace));
+    world.run(Command::Take(Tool::Cut));
+    let level = |world: &World, name: &str| {
+        let levels = &world.salon.head.as_ref().expect("a head").levels;
+        levels.iter().find(|(level, _)| level == name).expect("the level").1
+    };
+    // Far too long at first, and dry.
+    let plane = CutPlane::level(level(&world, "chin"));
+    world.run(Command::Plane(plane));
+    world.run(Command::Cut);
+    let long = world.salon.nearness().expect("a measure");
+    assert!(long.done < 0.8 && long.long > 0.01, "{long:?}");
+    let plane = CutPlane::level(level(&world, "eyes"));
+    world.run(Command::Plane(plane));
+    world.run(Command::Cut);
+    let near = world.salon.nearness().expect("a measure");
+    assert!(near.is_passed(), "{near:?}");
+    // Far too short.
+    world.run(Command::Plane(CutPlane::level(level(&world, "brows") + 0.03)));
+    world.run(Command::Cut);
+    let short = world.salon.nearness().expect("a measure");
+    assert!(short.short > 0.01 && short.done < near.done, "{short:?}");
+}
+
+#[test]
+fn sections_hide_and_lock_hair_and_are_in_the_scene() {
+    let mut world = World::new();
+    world.small("straight");
+    world.run(Command::AddSection);
+    assert!(world.salon.sections.is_empty(), "all hair is no section");
+    world.run(Command::Select(FRINGE, SelectMode::Replace));
+    world.run(Command::AddSection);
+    let count = world.salon.sections[0].count().expect("wisps");
+    assert!(count > 0 && count < 40, "{count}");
+    let all = world.salon.drawn().expect("hair").0.strands.guide.len();
+    let version = world.salon.preview().unwrap().1;
+
+    // Hidden hair is not drawn; nothing is computed again.
+    world.run(Command::HideSection(0, true));
+    let shown = world.salon.drawn().expect("hair").0.strands.guide.len();
+    assert!(shown < all && world.salon.preview().unwrap().1 == version, "{shown} of {all}");
+    assert!(world.text().contains("hidden = true"), "{}", world.text());
+
+    // Steps leave it as it is.
+    world.run(Command::SelectAll);
+    world.run(wet());
+    let wetness = |world: &World| world.salon.preview().unwrap().0.wetness.clone();
+    let dry = wetness(&world).iter().filter(|w| **w == 0.0).count();
+    assert_eq!(dry, count, "{}", world.text());
+    world.run(Command::SelectSection(0, SelectMode::Replace));
+    let steps = world.salon.scene.as_ref().unwrap().scene.steps().len();
+    world.run(Command::ToggleWet);
+    assert_eq!(world.salon.scene.as_ref().unwrap().scene.steps().len(), steps, "all is hidden");
+    assert!(world.salon.messages.iter().any(|m| m.text.contains("locked or hidden")));
+
+    // The text says all: opened again, it has the same sections.
+    world.run(Command::RenameSection(0, "  my \"fringe\"  ".into()));
+    let text = world.text().to_owned();
+    let mut again = World::new();
+    again.run(Command::Open { path: None, name: "again".into(), text });
+    assert_eq!(again.salon.sections, world.salon.sections);
+    assert_eq!(again.salon.sections[0].name, "my \"fringe\"");
+    again.run(Command::HideSection(0, false));
+    assert_eq!(again.salon.drawn().expect("hair").0.strands.guide.len(), all);
+    again.run(Command::RemoveSection(0));
+    assert!(again.salon.sections.is_empty() && !again.text().contains("section"));
+    again.run(Command::Undo);
+    assert_eq!(again.salon.sections.len(), 1);
+}
+
+#[test]
+fn a_parting_divides_the_hair_into_two_sections() {
+    let mut world = World::new();
+    world.small("straight");
+    world.run(Command::LookFrom(0.0, 1.4));
+    let snip = |x: f64| Snip { ends: [[x, -0.9], [x, 0.9]], aspect: 1.0 };
+    world.run(Command::Part(snip(0.0)));
+    let counts = |world: &World| -> Vec<usize> {
+        world.salon.sections.iter().map(|s| s.count().expect("wisps")).collect()
+    };
+    let halves = counts(&world);
+    assert!(halves.len() == 2 && halves.iter().sum::<usize>() == 40, "{halves:?}");
+    assert!(halves.iter().all(|half| *half > 10), "{halves:?}");
+    // Only what is neither hidden nor locked is parted again.
+    world.run(Command::LockSection(0, true));
+    world.run(Command::LookFrom(std::f64::consts::FRAC_PI_2, 0.1));
+    world.run(Command::Part(snip(0.0)));
+    let parts = counts(&world);
+    assert!(parts.len() == 4 && parts[2] + parts[3] == parts[1], "{parts:?}");
+    // A line beside the head parts nothing.
+    world.run(Command::Part(snip(0.95)));
+    assert_eq!(world.salon.sections.len(), 4);
+    assert!(world.salon.messages.iter().any(|m| m.text.contains("parts no hair")));
+}
+
+#[test]
+fn a_photo_to_compare_with_is_shown_laid_over_and_removed() {
+    let mut world = World::new();
+    world.small("straight");
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 2, 1);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&[255, 0, 0, 0, 0, 255]).expect("pixels");
+    writer.finish().expect("an end");
+    world.run(Command::Refer("her.png".into(), png));
+    let reference = world.salon.reference.as_ref().expect("a photo");
+    assert_eq!((reference.size, &reference.rgb[..]), ([2, 1], &[255, 0, 0, 0, 0, 255][..]));
+    world.run(Command::ReferOver(Some(7.0)));
+    assert_eq!(world.salon.reference.as_ref().and_then(|r| r.over), Some(1.0));
+    world.run(Command::Refer("broken.jpg".into(), vec![0xff, 0xd8, 0]));
+    assert!(world.salon.messages.last().is_some_and(|m| m.is_error && m.text.contains("broken")));
+    assert_eq!(world.salon.reference.as_ref().map(|r| r.name.as_str()), Some("her.png"));
+    world.run(Command::EndReference);
+    assert!(world.salon.reference.is_none());
 }

@@ -12,8 +12,8 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use frisure_salon::locale::Locale;
-use frisure_salon::state::{Badge, Command, Destination, Document};
+use frisure_salon::locale::{self, Locale};
+use frisure_salon::state::{Badge, Command, Destination, Document, EXERCISES, code};
 use frisure_salon::window::desktop::Desktop;
 use frisure_salon::window::platform::InputFile;
 use frisure_salon::window::{App, Parts};
@@ -340,13 +340,17 @@ fn every_button_of_a_small_window_and_of_a_phone_is_inside() {
     if !has_graphics() {
         return;
     }
-    for (size, name) in [([900.0, 600.0], "test-small"), ([390.0, 844.0], "test-phone")] {
-        let mut window = Window::open(size, 1.0);
+    let sizes = [([900.0, 600.0], "small"), ([390.0, 844.0], "phone")];
+    let each = Locale::ALL.into_iter().flat_map(|locale| sizes.map(|(s, name)| (locale, s, name)));
+    for (locale, size, name) in each {
+        let name = &format!("test-{name}-{}", locale.tag());
+        let mut window = Window::open_in(locale, size, 1.0);
+        locale::set(locale);
         window.steps(3);
         window.screen(&format!("{name}-gallery"));
         window.small("wavy");
-        for tool in ["Scissors", "Cut", "Lift", "Clippers", "Comb", "Turn"] {
-            window.click(tool);
+        for tool in ["scissors", "cut", "lift", "clippers", "comb", "part", "turn"] {
+            window.click(&locale::text(&format!("tool-{tool}")));
             window.steps(3);
             // Across: what is below scrolls.
             let inside = -1.0..=size[0] + 1.0;
@@ -372,15 +376,17 @@ fn every_button_of_a_small_window_and_of_a_phone_is_inside() {
             window.key(Modifiers::NONE, Key::U);
             window.harness.event(Event::PointerMoved(pos2(250.0, 160.0)));
             window.steps(3);
-            window.screen("test-lift");
+            window.screen(&format!("{name}-lift"));
             window.key(Modifiers::NONE, Key::C);
             window.steps(3);
-            window.screen("test-levels");
+            window.screen(&format!("{name}-levels"));
         }
         if size[0] < 700.0 {
-            window.click("Panels");
-            assert!(window.harness.query_by_role_and_label(Role::Slider, "Diameter").is_some());
-            window.screen("test-phone-panels");
+            window.click(&locale::text("panels"));
+            let diameter = locale::named("key", "hair.fibre.diameter", "Diameter");
+            let slider = window.harness.query_by_role_and_label(Role::Slider, &diameter);
+            assert!(slider.is_some());
+            window.screen(&format!("{name}-panels"));
         }
     }
 }
@@ -573,4 +579,49 @@ fn the_tour() {
     window.key(Modifiers::NONE, Key::F1);
     window.steps(5);
     window.screen("keys");
+}
+
+#[test]
+fn an_exercise_is_done_in_the_window_with_its_goal_in_sight() {
+    if !has_graphics() {
+        return;
+    }
+    let mut window = Window::open([1000.0, 700.0], 1.0);
+    window.steps(3);
+    window.click("Begin: A bob");
+    // An exercise with fewer hairs, for the time's sake.
+    let card = &EXERCISES[1];
+    let few =
+        [("wisps.count", Some("24")), ("wisps.hairs", Some("1200")), ("wisps.points", Some("10"))];
+    let scene = frisure::scene::edit::set_keys(card.scene, &few).expect("a scene");
+    window.harness.state_mut().run(Command::BeginExercise(code(&scene)));
+    window.settle();
+    window.press_focused("Goal");
+    window
+        .wait("the goal", |app| app.salon().comparison.as_ref().is_some_and(|c| c.hair.is_some()));
+    window.press_focused("What is left");
+    window.settle();
+    window.screen("exercise");
+    window.press_focused("Show me");
+    window.wait("the solution", |app| {
+        app.salon().exercise.as_ref().is_some_and(|e| e.replay.is_none() && e.goal().is_some())
+    });
+    window.settle();
+    let nearness = window.harness.state_mut().nearness().expect("a measure");
+    assert!(nearness.done > 0.999, "{nearness:?}");
+    window.screen("exercise-done");
+
+    // A parting, and one of its sections hidden, by the keyboard.
+    window.press_focused("End");
+    window.key(Modifiers::NONE, Key::Num6);
+    window.key(Modifiers::NONE, Key::P);
+    window.drag(&[pos2(330.0, 200.0), pos2(330.0, 560.0)], Modifiers::NONE);
+    window.settle();
+    assert_eq!(window.harness.state().salon().sections.len(), 2);
+    window.press_focused("Hide Section 1");
+    window.settle();
+    window.key(Modifiers::NONE, Key::Num1);
+    window.settle();
+    window.screen("sections");
+    assert!(window.text().contains("hidden = true"), "{}", window.text());
 }

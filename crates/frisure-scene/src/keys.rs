@@ -29,7 +29,7 @@ use crate::kind::{
     Acceleration, Angle, Colour, Count, Density, FaceSize, Flag, Length, Modulus, NumberDensity,
     Pair, Point, Points, Ratio, Speed, Strain, Text, Vector, Velocity,
 };
-use crate::operation::Steps;
+use crate::operation::{Steps, Where};
 use crate::scene::Scene;
 
 /// A degree (rad).
@@ -335,6 +335,17 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
         "region[].lift" => number::<Angle>();
         /// Factor on the natural curl; {}.
         "region[].curl" => number::<Ratio>();
+        /// Parts of the hair that the salon works on one after the other, as layers of a picture: shown or not, locked or not. They
+        /// change neither hair nor pictures.
+        "section[]" => table();
+        /// Its name; no other section has it.
+        "section[].name" => value::<Text>();
+        /// Which wisps, as in a step.
+        "section[].where" => value::<Where>();
+        /// Whether the salon does not show it. Default false.
+        "section[].hidden" => value::<Flag>();
+        /// Whether steps that are made in the salon leave it as it is. Default false.
+        "section[].locked" => value::<Flag>();
         /// Guides and the drawn hairs around them.
         "wisps" => table();
         /// Number of wisps, each with one computed guide; {}.

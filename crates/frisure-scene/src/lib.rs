@@ -60,4 +60,4 @@ pub use scene::*;
 pub use schema::{options, schema};
 pub use step::{buttons, parse_step};
 pub use template::template;
-pub use write::{WriteStepError, write_step};
+pub use write::{WriteStepError, write_selection, write_step};

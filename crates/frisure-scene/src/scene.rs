@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use frisure_hairstyle::HairstyleSpec;
 use frisure_hairstyle::head::Head;
-use frisure_hairstyle::styling::Operation;
+use frisure_hairstyle::styling::{Operation, Selection};
 use frisure_look::{CameraSpec, LightSpec, LookSpec, ToneCurve};
 use frisure_rod::{Branch, Options, Rod, StrainProfile};
 
@@ -34,6 +34,8 @@ pub struct Scene {
     pub groom: Option<GroomFile>,
     /// Materials; those not given are the renderer's own.
     pub look: LookSpec,
+    /// Named parts of the hair for the salon, in their order.
+    pub sections: Vec<Section>,
     /// Direction and lens of the camera.
     pub camera: CameraSpec,
     /// Lights.
@@ -57,6 +59,19 @@ pub struct SingleHair {
     pub rod: Rod,
     /// Resolution, element and branch.
     pub options: Options,
+}
+
+/// A named part of the hair, which the salon works on by itself. It changes neither hair nor pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Its name; no other section has it.
+    pub name: String,
+    /// Its wisps.
+    pub selection: Selection,
+    /// Whether the salon does not show it.
+    pub hidden: bool,
+    /// Whether steps that are made in the salon leave it as it is.
+    pub locked: bool,
 }
 
 /// The head of a scene.

@@ -1,10 +1,11 @@
 //! Operations as the text of steps, which reads as the same operations to the last bit.
 
 use frisure_hairstyle::InvalidSpec;
-use frisure_hairstyle::styling::Operation;
+use frisure_hairstyle::styling::{Operation, Release, Selection};
 use thiserror::Error;
 
-use crate::operation::declaration;
+use crate::kind::ToText;
+use crate::operation::{Where, declaration};
 use crate::step::parse_step;
 
 /// Why an operation cannot be written as a step.
@@ -19,6 +20,16 @@ pub enum WriteStepError {
         /// The name of the operation.
         operation: &'static str,
     },
+}
+
+/// A choice of wisps as the value of `where`, in a step or a section of a scene, which reads as the same choice to the last bit.
+///
+/// # Errors
+/// [`WriteStepError`].
+pub fn write_selection(selection: &Selection) -> Result<String, WriteStepError> {
+    // A step can be without its choice, which is everything then; a section says it.
+    write_step(&Operation::Release(Release { selection: selection.clone() }))?;
+    Ok(Where::text(selection))
 }
 
 /// An operation as a step of a scene: the line `[[step]]` and one with the operation, as a person would

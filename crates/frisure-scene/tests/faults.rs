@@ -484,6 +484,40 @@ fn files_that_are_no_scenes() {
 }
 
 #[test]
+fn faults_of_sections_name_their_place() {
+    let first = "[[section]]\nname = \"top\"\nwhere = \"top\"\n";
+    for (text, line, words) in [
+        ("where = \"top\"", 4, "has no name"),
+        ("name = \"a\"", 4, "is nowhere"),
+        ("name = \" \"\nwhere = \"top\"", 5, "1 to 60 letters"),
+        ("name = \"top\"\nwhere = \"nape\"", 5, "`section[0]` has the same name"),
+        ("name = \"a\"\nwhere = \"tpo\"", 6, "did you mean \"top\"?"),
+        ("name = \"a\"\nwhere = \"top\"\nlocked = 1", 7, "true or false"),
+    ] {
+        let f = diagnostic(&format!("{first}[[section]]\n{text}"));
+        assert_eq!(f.line, line, "{f}");
+        assert!(f.to_string().contains(words), "{f}");
+    }
+    let many: String =
+        (0..201).map(|i| first.replace("\"top\"\nw", &format!("\"{i}\"\nw"))).collect();
+    assert!(diagnostic(&many).to_string().contains("at most 200"));
+}
+
+#[test]
+fn sections_are_read_in_their_order() {
+    let text = "[[section]]\nname = \"left\"\nwhere = \"left\"\nlocked = true\n\
+                [[section]]\nname = \"some\"\nwhere = { wisps = [0, 3] }\nhidden = true\n";
+    let scene = Scene::parse("scene", text, std::path::Path::new("")).expect("a scene");
+    let [left, some] = &scene.sections[..] else { panic!("{:?}", scene.sections) };
+    assert_eq!((left.name.as_str(), left.hidden, left.locked), ("left", false, true));
+    assert_eq!((some.name.as_str(), some.hidden, some.locked), ("some", true, false));
+    for section in [left, some] {
+        let written = frisure_scene::write_selection(&section.selection).expect("a choice");
+        assert!(text.contains(&format!("where = {written}")), "{written}");
+    }
+}
+
+#[test]
 fn faults_of_partings_and_regions_name_their_place() {
     let parting = "[[implantation.partings]]\n";
     let cases = [

@@ -26,4 +26,4 @@ pub use subject::{Frames, Subject, Viewpoint};
 pub use views::{View, Viewed};
 
 pub(crate) use accumulate::{Pauses, accumulate};
-pub(crate) use turntable::{check_turntable, turntable};
+pub(crate) use turntable::{check_turntable, film, previews, turntable};

@@ -21,6 +21,9 @@ extern "C" {
     #[wasm_bindgen(method, getter)]
     pub(super) fn scene(this: &PageOptions) -> Option<String>;
     #[wasm_bindgen(method, getter)]
+    pub(super) fn exercise(this: &PageOptions) -> Option<String>;
+
+    #[wasm_bindgen(method, getter)]
     pub(super) fn language(this: &PageOptions) -> Option<String>;
 
     #[wasm_bindgen(method, getter)]

@@ -95,11 +95,11 @@ impl Platform for Browser {
         false
     }
 
-    fn link(&self, code: &str) -> String {
+    fn link(&self, what: &str, code: &str) -> String {
         let address = web_sys::window().and_then(|window| window.location().href().ok());
         let address = address.unwrap_or_default();
         let page = address.split(['?', '#']).next().unwrap_or_default();
-        format!("{page}?scene={code}")
+        format!("{page}?{what}={code}")
     }
 
     fn folder(&self) -> PathBuf {

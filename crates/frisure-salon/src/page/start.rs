@@ -43,5 +43,8 @@ fn app(cc: &CreationContext<'_>, options: &PageOptions) -> Created {
     if let Some(name) = options.scene() {
         app.run(Command::Begin(name));
     }
+    if let Some(name) = options.exercise() {
+        app.run(Command::BeginExercise(name));
+    }
     Ok(Box::new(app))
 }

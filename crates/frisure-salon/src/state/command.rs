@@ -87,12 +87,38 @@ pub enum Command {
     Lift(Vec<DVec3>),
     /// Cuts selected hair with roots near positions on the skin (m) to the guard of the clippers.
     Clip(Vec<DVec3>),
+    /// Makes a section of the selected hair.
+    AddSection,
+    /// Parts the selected hair along a stroke across the picture, into a section on each side.
+    Part(Snip),
+    /// Selects a section by its index.
+    SelectSection(usize, SelectMode),
+    /// Gives a section another name.
+    RenameSection(usize, String),
+    /// Hides a section, which steps leave as it is then, or shows it.
+    HideSection(usize, bool),
+    /// Locks a section, so that steps leave it as it is, or unlocks it.
+    LockSection(usize, bool),
+    /// Removes a section from the list; its hair stays.
+    RemoveSection(usize),
     /// Begins the tour.
     BeginTour,
     /// Goes to the next step of the tour, or ends it after the last.
     NextOfTour,
     /// Ends the tour.
     EndTour,
+    /// Begins an exercise of the gallery by its name, or one whose goal is the scene of a link.
+    BeginExercise(String),
+    /// Shows the goal of the exercise beside the hair, or no longer.
+    CompareGoal,
+    /// Marks hair that is not at its goal, or no longer.
+    ToggleGoalMarks,
+    /// Goes back to the beginning of the exercise.
+    RestartExercise,
+    /// Shows the solution of the exercise step by step, or stops.
+    ToggleReplay,
+    /// Ends the exercise.
+    EndExercise,
     /// Does the next steps on both sides of the head, or no longer.
     ToggleMirror,
     /// Speaks a language from now on.
@@ -111,6 +137,14 @@ pub enum Command {
     ToggleCompare,
     /// Orbits the camera, by angles (rad).
     Turn(f64, f64),
+    /// Turns the head slowly, or stops.
+    ToggleSpin,
+    /// Shows a photo (PNG or JPEG) of a name to compare with.
+    Refer(String, Vec<u8>),
+    /// Lays the photo over the picture with an opacity (0 to 1), or puts it beside.
+    ReferOver(Option<f32>),
+    /// Removes the photo.
+    EndReference,
     /// Pans the camera, by fractions of the picture's height.
     Pan(f64, f64),
     /// Zooms by a factor.

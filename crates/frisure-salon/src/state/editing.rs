@@ -53,6 +53,7 @@ impl Salon {
                 (self.selected, self.comparison, self.isolated) = (Selected::default(), None, None);
                 (self.refused, self.held, self.gallery, self.framed) = (None, None, false, false);
                 (self.tool, self.cut_preview, self.mass_before) = (Tool::Orbit, None, None);
+                self.exercise = None;
             }
             Err(error) => self.report_error(&(&error).into()),
         }

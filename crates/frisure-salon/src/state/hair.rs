@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use frisure::hairstyle::styling::{Operation, Release};
+use frisure::hairstyle::styling::{Operation, Release, Selection};
 use frisure::scene::write_step;
 use frisure_engine::{Diagnostic, GuideData, Preview, Quality, Request, Response, SceneRef};
 use glam::{DVec3, Vec3};
@@ -71,6 +71,7 @@ impl Salon {
         if self.inspect_next_file() {
             return;
         }
+        self.update_sections();
         let (Some(parsed), Some(scene)) = (self.scene.clone(), self.scene_ref()) else { return };
         let key = HairKey::of(&parsed);
         let effort = self.wanted(&key);
@@ -124,24 +125,38 @@ impl Salon {
     fn request_details(&mut self, scene: SceneRef) {
         let Some(version) = self.current.as_ref().map(|current| current.version) else { return };
         if !self.selected.is_everything() && self.selected.wisps.is_none() {
-            let step = Operation::Release(Release { selection: self.selected.selection.clone() });
-            match write_step(&step) {
-                Ok(text) => {
-                    let step = text.trim_start_matches("[[step]]").trim().to_owned();
-                    let request = Request::Select { scene: scene.clone(), step };
-                    self.jobs.start(Purpose::Select, scene, request);
-                }
-                Err(e) => {
-                    self.notify(e.to_string(), tr!("select-other"), true);
-                    self.selected = Selected::default();
-                }
+            let selection = self.selected.selection.clone();
+            match self.select_request(&scene, &selection) {
+                Some(request) => self.jobs.start(Purpose::Select, scene, request),
+                None => self.selected = Selected::default(),
             }
+            return;
+        }
+        if self.request_section(&scene) {
             return;
         }
         if let Some(isolated) = self.isolated.as_ref().filter(|hair| hair.version != version) {
             let (asked, wisp) = (scene.clone(), isolated.wisp);
             let request = Request::Guide { scene: asked, wisp, points: ISOLATED_POINTS };
             self.jobs.start(Purpose::Isolate, scene, request);
+        }
+    }
+
+    /// The request for the wisps of a selection; `None` and a message for one that no step can say.
+    pub(super) fn select_request(
+        &mut self,
+        scene: &SceneRef,
+        selection: &Selection,
+    ) -> Option<Request> {
+        match write_step(&Operation::Release(Release { selection: selection.clone() })) {
+            Ok(text) => {
+                let step = text.trim_start_matches("[[step]]").trim().to_owned();
+                Some(Request::Select { scene: scene.clone(), step })
+            }
+            Err(e) => {
+                self.notify(e.to_string(), tr!("select-other"), true);
+                None
+            }
         }
     }
 
@@ -158,7 +173,10 @@ impl Salon {
         match response {
             Response::Preview(hair) => self.show(&job.scene.text, *hair, job.outdated),
             _ if job.outdated => {}
-            Response::Selected(wisps) => self.selected.wisps = Some(wisps),
+            Response::Selected(wisps) => match job.purpose {
+                Purpose::Section(index) => self.take_section(index, wisps),
+                _ => self.selected.wisps = Some(wisps),
+            },
             Response::Guide(hair) => self.show_isolated(*hair),
             Response::Failed(error) => self.refuse(&job, error),
             _ => {}
@@ -169,6 +187,8 @@ impl Salon {
         match job.purpose {
             Purpose::Select => self.selected = Selected::default(),
             Purpose::Isolate => self.isolated = None,
+            // A section without hair of this scene is a list entry without effect.
+            Purpose::Section(index) => self.take_section(index, Vec::new()),
             _ => {
                 // An error of a text that is not the current one is not reported.
                 let now = self.scene.as_ref().map(|parsed| HairKey::of(parsed));

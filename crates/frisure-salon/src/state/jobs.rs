@@ -99,7 +99,11 @@ pub(super) enum Purpose {
     Show(Quality),
     Select,
     Isolate,
+    /// The wisps of a section.
+    Section(usize),
     Compare(usize),
+    /// The hair to begin the exercise of a version with (0), or its goal (1).
+    Exercise(u64, usize),
     File(Destination),
 }
 

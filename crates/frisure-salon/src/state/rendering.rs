@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use frisure::formats::picture::scene_text;
-use frisure_engine::{Quality, Request, Response};
+use frisure_engine::{Quality, Request, Response, SceneRef};
 
 use super::jobs::{Destination, Effect, Purpose, Save};
-use super::salon::{Comparison, PartialPicture, Salon, parse, scene_ref};
+use super::salon::{Compared, Comparison, PartialPicture, Salon, parse, scene_ref};
 use crate::locale::tr;
 
 /// A picture or film to render.
@@ -28,6 +28,11 @@ pub enum RenderTask {
         /// Number of frames.
         frames: usize,
     },
+    /// A film of the edits so far, from the first one (animated PNG).
+    Film {
+        /// Width and height (pixels).
+        size: [usize; 2],
+    },
 }
 
 impl Salon {
@@ -41,9 +46,21 @@ impl Salon {
             RenderTask::Turntable { size, frames } => {
                 Request::Turntable { scene: asked, viewpoint, size, frames }
             }
+            RenderTask::Film { size } => Request::Film { scenes: self.edits(), viewpoint, size },
         };
         self.partial_picture = None;
         self.jobs.enqueue(Purpose::File(to), scene, request);
+    }
+
+    /// The texts of the edits so far.
+    fn edits(&self) -> Vec<SceneRef> {
+        let Some(document) = &self.document else { return Vec::new() };
+        let edits = document.edits().iter().take(document.at() + 1);
+        let scene = |text: &str| {
+            let parsed = parse(document, text).ok()?;
+            Some(scene_ref(document, text, &parsed))
+        };
+        edits.filter_map(|edit| scene(&edit.text)).collect()
     }
 
     /// Shows the hair of an earlier text beside the current one; `None` ends it.
@@ -54,7 +71,8 @@ impl Salon {
         let Ok(parsed) = parse(document, &before.text) else { return };
         let scene = scene_ref(document, &before.text, &parsed);
         let label = before.label.clone();
-        self.comparison = Some(Comparison { edit, label, hair: None, version: 0 });
+        self.comparison =
+            Some(Comparison { of: Compared::Edit(edit), label, hair: None, version: 0 });
         let request = Request::Preview { scene: scene.clone(), quality: Quality::Exact };
         self.jobs.enqueue(Purpose::Compare(edit), scene, request);
     }
@@ -87,9 +105,14 @@ impl Salon {
             (Response::Preview(hair), Purpose::Compare(edit)) => {
                 self.version += 1;
                 let version = self.version;
-                if let Some(comparison) = self.comparison.as_mut().filter(|c| c.edit == edit) {
+                if let Some(comparison) =
+                    self.comparison.as_mut().filter(|c| c.of == Compared::Edit(edit))
+                {
                     (comparison.hair, comparison.version) = (Some(Arc::new(*hair)), version);
                 }
+            }
+            (Response::Preview(hair), Purpose::Exercise(version, part)) => {
+                self.take_goal(version, part, *hair);
             }
             (Response::Failed(error), purpose) => {
                 self.report_error(&error);

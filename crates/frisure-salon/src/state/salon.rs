@@ -12,10 +12,13 @@ use frisure_engine::{AdoptionReport, Diagnostic, GuideData, Preview, SceneRef};
 use super::controls::files_panel;
 use super::cut_plane::{CutPlane, CutPreview};
 use super::document::Document;
+use super::exercise::Exercise;
 use super::head_mesh::HeadMesh;
 use super::jobs::{Effect, Jobs};
 use super::orbit::Orbit;
+use super::reference::Reference;
 use super::scissors::Scissors;
+use super::section::Section;
 use super::selection::Selected;
 use super::tour::Tour;
 use crate::locale::tr;
@@ -41,7 +44,7 @@ pub struct Salon {
     pub selected: Selected,
     /// The text that the selection was made in.
     pub(super) selected_in: Option<String>,
-    /// An earlier state of the hair, shown beside the current one.
+    /// Other hair, shown beside the current one.
     pub comparison: Option<Comparison>,
     /// One hair that is shown alone.
     pub isolated: Option<IsolatedHair>,
@@ -53,13 +56,23 @@ pub struct Salon {
     pub scissors: Scissors,
     /// The tour, while somebody takes it.
     pub tour: Option<Tour>,
+    /// The exercise, while somebody does one.
+    pub exercise: Option<Exercise>,
     /// Whether each step is also done on the other side of the head.
     pub mirror: bool,
     pub(super) cut_preview: Option<(u64, CutPlane, Arc<CutPreview>)>,
     /// The brush.
     pub brush: Brush,
+    /// The sections of the current text.
+    pub sections: Vec<Section>,
+    /// The hair without hidden sections.
+    pub(super) drawn: Option<DrawnHair>,
     /// The camera.
     pub orbit: Orbit,
+    /// Whether the head turns slowly, as on a turntable.
+    pub spins: bool,
+    /// A photo to compare with.
+    pub reference: Option<Reference>,
     pub(super) framed: bool,
     pub(super) gallery: bool,
     /// Messages for the user, the oldest first.
@@ -91,6 +104,8 @@ pub enum Tool {
     Brush,
     /// Moves the cutting plane.
     Cut,
+    /// Parts hair along a stroke across the picture, into a section on each side.
+    Part,
     /// Cuts the hair that a stroke across the picture crosses.
     Scissors,
     /// Lifts the hair under the brush off the skin, and cuts it there.
@@ -164,12 +179,32 @@ pub(super) struct CurrentHair {
     pub(super) coarse_count: usize,
 }
 
-/// An earlier state of the hair, shown beside the current one.
+/// The hair without hidden sections.
+#[derive(Clone, Debug)]
+pub(super) struct DrawnHair {
+    /// The version of the hair that it is part of.
+    pub(super) of: u64,
+    /// Whether each wisp is hidden.
+    pub(super) hidden: Vec<bool>,
+    pub(super) hair: Arc<Preview>,
+    pub(super) version: u64,
+}
+
+/// What is shown beside the current hair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compared {
+    /// The text of an index in the document.
+    Edit(usize),
+    /// The goal of the exercise.
+    Goal,
+}
+
+/// Other hair, shown beside the current one.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// Index of its text in the document.
-    pub edit: usize,
-    /// The label of that edit.
+    /// What it is.
+    pub of: Compared,
+    /// The label of that edit, or the name of the goal.
     pub label: String,
     /// The hair; `None` until it is computed.
     pub hair: Option<Arc<Preview>>,

@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3};
 
 use super::command::Command;
 use super::cut_plane::{CutPlane, CutPreview, rounded};
-use super::salon::{Salon, Tool};
+use super::salon::{Salon, Tool, parse};
 use super::scissors::Snip;
 use super::selection::{PLACES, Selected};
 use crate::locale::{self, tr};
@@ -92,9 +92,13 @@ impl Salon {
         if self.current.is_none() {
             return;
         }
+        if self.is_all_locked() {
+            return self.notify(tr!("all-locked"), tr!("all-locked.hint"), false);
+        }
         let is_same = self.base().is_some_and(|base| self.selected_in.as_deref() == Some(base));
         let Selected { selection, label: of, .. } =
             if is_same { self.selected.clone() } else { self.selected.fixed() };
+        let selection = self.touched(selection);
         let within = |part: Selection| match &selection {
             Selection::Everything => part,
             selection => Selection::All(vec![selection.clone(), part]),
@@ -150,18 +154,22 @@ impl Salon {
 
     /// The cut of a stroke across the picture, and the wisps that it crosses; `None` and a message if there are none.
     fn snipped(&mut self, snip: &Snip) -> Option<(Operation, Vec<usize>)> {
-        let top = self.head.as_ref().map_or(DVec3::Z * 0.1, |head| {
-            let (low, high) = head.framed();
-            (0.5 * (low + high)).with_z(high.z)
-        });
-        let (point, normal) = snip.plane(&self.orbit, top)?;
-        let strands = &self.current.as_ref()?.hair.strands;
-        let wisps = snip.wisps(&self.orbit, strands, self.head.as_deref());
+        let (point, normal) = snip.plane(&self.orbit, self.top())?;
+        let (hair, _) = self.drawn()?;
+        let wisps = snip.wisps(&self.orbit, &hair.strands, self.head.as_deref());
         if wisps.is_empty() {
             self.notify(tr!("crosses-no-hair"), tr!("crosses-no-hair.hint"), false);
             return None;
         }
         Some((self.scissors.at_plane(point, normal), wisps))
+    }
+
+    /// The top of the head (m).
+    pub(super) fn top(&self) -> DVec3 {
+        self.head.as_ref().map_or(DVec3::Z * 0.1, |head| {
+            let (low, high) = head.framed();
+            (0.5 * (low + high)).with_z(high.z)
+        })
     }
 
     /// The wisp rooted nearest to the mirror image of another one's root.
@@ -185,8 +193,8 @@ impl Salon {
 
     /// A preview of the cut of the shown hair, while the cutting tool is active.
     pub fn cut_preview(&mut self) -> Option<Arc<CutPreview>> {
-        let current = self.current.as_ref().filter(|_| self.tool == Tool::Cut)?;
-        let (version, plane) = (current.version, self.plane);
+        let (hair, version) = self.drawn().filter(|_| self.tool == Tool::Cut)?;
+        let plane = self.plane;
         if let Some((.., preview)) =
             self.cut_preview.as_ref().filter(|(v, p, _)| (*v, *p) == (version, plane))
         {
@@ -196,7 +204,17 @@ impl Salon {
         if !self.selected.is_everything() && wisps.is_none() {
             return None;
         }
-        let preview = Arc::new(plane.preview(&current.hair.strands, wisps));
+        let untouched = self.untouched();
+        let free: Vec<bool>;
+        let wisps = match untouched.is_empty() {
+            true => wisps,
+            false => {
+                let is_in = |wisp: &usize| wisps.is_none_or(|of| of.get(*wisp) == Some(&true));
+                free = (0..untouched.len()).map(|w| is_in(&w) && !untouched[w]).collect();
+                Some(&free[..])
+            }
+        };
+        let preview = Arc::new(plane.preview(&hair.strands, wisps));
         self.cut_preview = Some((version, plane, preview.clone()));
         Some(preview)
     }
@@ -215,6 +233,15 @@ impl Salon {
 pub fn comb(towards: Direction) -> Operation {
     let selection = Selection::Everything;
     Operation::Comb(Comb { selection, towards, strength: Comb::STRENGTH, hold: true })
+}
+
+impl Salon {
+    /// The label of the last step of a text in the history.
+    pub(super) fn label_of_last_step(&self, text: &str) -> String {
+        let parsed = self.document.as_ref().and_then(|document| parse(document, text).ok());
+        let last = parsed.and_then(|parsed| parsed.scene.steps().last().map(title));
+        last.unwrap_or_else(|| tr!("changed"))
+    }
 }
 
 /// The title of an operation in the history.

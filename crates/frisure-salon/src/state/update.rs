@@ -6,6 +6,7 @@ use frisure_engine::Response;
 use super::command::Command;
 use super::document::Document;
 use super::jobs::{Effect, JobId, Queue};
+use super::reference::Reference;
 use super::salon::{IsolatedHair, Salon};
 use super::selection::Selected;
 use crate::locale::{self, Locale, tr};
@@ -42,6 +43,14 @@ impl Salon {
                 self.compare(self.comparison.is_none().then(|| at.saturating_sub(1)));
             }
             Command::Turn(right, up) => self.orbit.turn(right, up),
+            Command::ToggleSpin => self.spins = !self.spins,
+            Command::Refer(name, bytes) => self.refer(name, &bytes),
+            Command::ReferOver(over) => {
+                if let Some(reference) = &mut self.reference {
+                    reference.over = over.map(|opacity| opacity.clamp(0.0, 1.0));
+                }
+            }
+            Command::EndReference => self.reference = None,
             Command::Pan(right, up) => self.orbit.pan(right, up),
             Command::Zoom(factor) => self.orbit.zoom(factor),
             Command::LookFrom(azimuth, elevation) => self.orbit.look_from(azimuth, elevation),
@@ -62,6 +71,23 @@ impl Salon {
             Command::BeginTour => self.begin_tour(),
             Command::NextOfTour => self.next_of_tour(),
             Command::EndTour => self.tour = None,
+            Command::AddSection
+            | Command::Part(_)
+            | Command::SelectSection(..)
+            | Command::RenameSection(..)
+            | Command::HideSection(..)
+            | Command::LockSection(..)
+            | Command::RemoveSection(_) => self.section(command),
+            Command::BeginExercise(name) => self.begin_exercise(&name),
+            Command::CompareGoal => self.compare_with_goal(),
+            Command::ToggleGoalMarks => {
+                if let Some(exercise) = &mut self.exercise {
+                    exercise.marks = !exercise.marks;
+                }
+            }
+            Command::RestartExercise => self.restart_exercise(),
+            Command::ToggleReplay => self.toggle_replay(),
+            Command::EndExercise => self.end_exercise(),
             Command::Speak(locale) => self.speak(locale),
             Command::ToggleMirror => self.mirror = !self.mirror,
             Command::Apply(_)
@@ -85,6 +111,15 @@ impl Salon {
         self.jobs.effects.push_back(Effect::KeepLanguage(locale));
     }
 
+    /// Shows a photo to compare with.
+    fn refer(&mut self, name: String, bytes: &[u8]) {
+        self.version += 1;
+        match Reference::decode(name, bytes, self.version) {
+            Ok(reference) => self.reference = Some(reference),
+            Err(error) => self.notify(error.to_string(), tr!("reference.hint"), true),
+        }
+    }
+
     /// Takes a response of the engine.
     pub fn receive(&mut self, job: JobId, response: Response) {
         match self.jobs.queue_of(job) {
@@ -98,6 +133,7 @@ impl Salon {
     /// Takes the current time, in seconds from an arbitrary origin.
     pub fn tick(&mut self, now: f64) {
         self.autosave(now);
+        self.advance_replay(now);
         self.schedule();
     }
 

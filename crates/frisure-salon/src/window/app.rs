@@ -17,9 +17,12 @@ use super::dialogs::Dialogs;
 use super::platform::{InputFile, Platform};
 use super::viewport::{self, Viewport};
 use super::widgets::Room;
-use super::{automation, gallery, keys, panels, renderer, theme, toolbars, tools, tour, widgets};
+use super::{
+    automation, exercise, gallery, keys, panels, reference, renderer, theme, toolbars, tools, tour,
+    widgets,
+};
 use crate::locale::{self, Locale, tr};
-use crate::state::{Command, Document, Effect, Queue, Salon};
+use crate::state::{Command, Document, Effect, Nearness, Queue, Salon};
 use crate::work::{Wake, Worker};
 
 /// A callback that repaints a window.
@@ -37,6 +40,7 @@ pub struct App {
     viewport: Viewport,
     dialogs: Dialogs,
     pictures: gallery::Pictures,
+    photo: reference::Photo,
     start: Instant,
     aspect: f64,
     has_renderer: bool,
@@ -82,6 +86,7 @@ impl App {
             viewport: Viewport::new(samples == 1),
             dialogs: Dialogs::default(),
             pictures: gallery::Pictures::default(),
+            photo: reference::Photo::default(),
             start: Instant::now(),
             aspect: 1.0,
             has_renderer,
@@ -104,6 +109,11 @@ impl App {
     #[must_use]
     pub fn salon(&self) -> &Salon {
         &self.salon
+    }
+
+    /// How near to the goal of the exercise the hair is.
+    pub fn nearness(&mut self) -> Option<Nearness> {
+        self.salon.nearness()
     }
 
     /// Runs a command.
@@ -135,11 +145,10 @@ impl App {
                     let name = file.name.trim_end_matches(".png").to_owned();
                     self.run(Command::Open { path: None, name, text });
                 }
-                None => {
-                    let text = tr!("no-scene-inside", name = file.name);
-                    self.salon.notify(text, tr!("no-scene-inside.hint"), true);
-                }
+                // A picture without a scene is one to compare with.
+                None => self.run(Command::Refer(file.name, file.bytes)),
             },
+            Some("jpg" | "jpeg") => self.run(Command::Refer(file.name, file.bytes)),
             // The buffer of a glTF mesh; for a file with a path, the engine reads the buffer.
             Some("bin") => {
                 self.upload(file);
@@ -285,15 +294,18 @@ impl App {
         let frame = egui::Frame::NONE.fill(egui::Color32::from_gray(40));
         CentralPanel::default().frame(frame).show(ui, |ui| self.centre(ui, out));
         tour::show(ui, &self.salon, out);
+        exercise::show(ui, &mut self.salon, out);
+        self.photo.show(ui, &self.salon, out);
     }
 
     /// The panels with sliders, and the history.
-    fn side(&self, ui: &mut Ui, out: &mut Vec<Command>) {
+    fn side(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {
         Panel::bottom("history").exact_size(132.0).show(ui, |ui| {
             ui.strong(tr!("history"));
             panels::history(ui, &self.salon, out);
         });
-        CentralPanel::default().show(ui, |ui| panels::show(ui, &self.salon, out));
+        CentralPanel::default()
+            .show(ui, |ui| panels::show(ui, &self.salon, &mut self.pictures, out));
     }
 
     fn centre(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {

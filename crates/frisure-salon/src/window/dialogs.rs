@@ -38,6 +38,20 @@ impl Dialog {
     }
 }
 
+/// A kind of picture to render.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum PictureKind {
+    Final,
+    Turntable,
+    Film,
+}
+
+impl PictureKind {
+    /// All, with their messages.
+    const ALL: [(Self, &'static str); 3] =
+        [(Self::Final, "final-picture"), (Self::Turntable, "turntable"), (Self::Film, "film")];
+}
+
 /// The open dialog, and the contents of the fields.
 pub(super) struct Dialogs {
     pub(super) current: Option<Dialog>,
@@ -47,7 +61,7 @@ pub(super) struct Dialogs {
     paths: usize,
     noise: f64,
     frames: usize,
-    turntable: bool,
+    kind: PictureKind,
     texture: Option<(u64, TextureHandle)>,
     /// Whether the dialog has just been opened and its field takes the focus.
     is_new: bool,
@@ -65,7 +79,7 @@ impl Default for Dialogs {
             paths: 256,
             noise: 3.0,
             frames: 24,
-            turntable: false,
+            kind: PictureKind::Final,
             texture: None,
             is_new: false,
             path_to_open: None,
@@ -187,7 +201,13 @@ impl Dialogs {
         if let Some(document) = &salon.document
             && widgets::with_icon(ui, icons::SHARE, id).clicked()
         {
-            ui.ctx().copy_text(platform.link(&code(document.text())));
+            ui.ctx().copy_text(platform.link("scene", &code(document.text())));
+        }
+        let steps = salon.scene.as_ref().map_or(0, |parsed| parsed.scene.steps().len());
+        if let Some(document) = salon.document.as_ref().filter(|_| steps > 0)
+            && widgets::with_icon(ui, icons::EXERCISES, "copy-exercise").clicked()
+        {
+            ui.ctx().copy_text(platform.link("exercise", &code(document.text())));
         }
     }
 
@@ -230,8 +250,9 @@ impl Dialogs {
     ) {
         ui.label(tr!("picture-text"));
         ui.horizontal(|ui| {
-            ui.selectable_value(&mut self.turntable, false, tr!("final-picture"));
-            ui.selectable_value(&mut self.turntable, true, tr!("turntable"));
+            for (kind, id) in PictureKind::ALL {
+                ui.selectable_value(&mut self.kind, kind, tr!(id));
+            }
         });
         let number = |ui: &mut Ui, id: &str, value: &mut usize, range| {
             let label = ui.label(tr!(id));
@@ -241,24 +262,31 @@ impl Dialogs {
             number(ui, "picture-width", &mut self.size[0], 16..=8192);
             number(ui, "picture-height", &mut self.size[1], 16..=8192);
         });
-        if self.turntable {
-            number(ui, "picture-frames", &mut self.frames, 2..=360);
-        } else {
-            ui.horizontal(|ui| {
+        match self.kind {
+            PictureKind::Turntable => number(ui, "picture-frames", &mut self.frames, 2..=360),
+            PictureKind::Film => drop(ui.weak(tr!("film-text"))),
+            PictureKind::Final => drop(ui.horizontal(|ui| {
                 number(ui, "picture-paths", &mut self.paths, 1..=4096);
                 let label = ui.label(tr!("picture-noise"));
                 let field = DragValue::new(&mut self.noise).range(0.2..=20.0).suffix(" %");
                 ui.add(field.speed(0.1)).labelled_by(label.id);
-            });
+            })),
         }
         if platform.has_paths() {
             self.path(ui);
         }
-        let id = if self.turntable { "make-turntable" } else { "render-picture" };
+        let id = match self.kind {
+            PictureKind::Final => "render-picture",
+            PictureKind::Turntable => "make-turntable",
+            PictureKind::Film => "make-film",
+        };
         if widgets::plain(ui, id).clicked() {
-            let task = match self.turntable {
-                true => RenderTask::Turntable { size: self.size, frames: self.frames },
-                false => RenderTask::Picture {
+            let task = match self.kind {
+                PictureKind::Turntable => {
+                    RenderTask::Turntable { size: self.size, frames: self.frames }
+                }
+                PictureKind::Film => RenderTask::Film { size: self.size },
+                PictureKind::Final => RenderTask::Picture {
                     size: self.size,
                     paths: self.paths,
                     noise: self.noise / 100.0,
@@ -305,6 +333,7 @@ const KEYS: &[&str] = &[
     "keys-lift",
     "keys-clippers",
     "keys-comb",
+    "keys-part",
     "keys-one-hair",
     "keys-space",
     "keys-select",
@@ -317,6 +346,7 @@ const KEYS: &[&str] = &[
     "keys-compare",
     "keys-views",
     "keys-frame",
+    "keys-spin",
     "keys-arrows",
     "keys-files",
     "keys-escape",

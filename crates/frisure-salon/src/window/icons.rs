@@ -24,8 +24,6 @@ pub(super) const DRY: &str = "\u{ea66}";
 pub(super) const EXERCISES: &str = "\u{eadc}";
 /// Write a groom. Phosphor's `export`.
 pub(super) const EXPORT: &str = "\u{eaf0}";
-/// A film of what was done. Phosphor's `film-strip`.
-pub(super) const FILM: &str = "\u{e792}";
 /// The gallery. Phosphor's `squares-four`.
 pub(super) const GALLERY: &str = "\u{e464}";
 /// The goal of an exercise. Phosphor's `target`.
@@ -48,8 +46,6 @@ pub(super) const LASSO: &str = "\u{edc6}";
 pub(super) const LIFT: &str = "\u{ee5a}";
 /// The light theme. Phosphor's `sun`.
 pub(super) const LIGHT: &str = "\u{e472}";
-/// Presets of light. Phosphor's `lightbulb`.
-pub(super) const LIGHTS: &str = "\u{e2dc}";
 /// Hair that steps leave alone. Phosphor's `lock-simple`.
 pub(super) const LOCKED: &str = "\u{e308}";
 /// Both sides of the head. Phosphor's `flip-horizontal`.

@@ -69,6 +69,7 @@ fn letters(
         (Key::U, Tool::Lift),
         (Key::J, Tool::Clippers),
         (Key::K, Tool::Comb),
+        (Key::P, Tool::Part),
         (Key::H, Tool::Pick),
     ];
     out.extend(tools.iter().filter(|(k, _)| hit(none, *k)).map(|(_, t)| Command::Take(*t)));
@@ -85,6 +86,9 @@ fn letters(
     }
     if hit(none, Key::X) {
         out.push(Command::ToggleCompare);
+    }
+    if hit(none, Key::T) {
+        out.push(Command::ToggleSpin);
     }
     if hit(none, Key::M) {
         out.push(Command::ToggleMirror);

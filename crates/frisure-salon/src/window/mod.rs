@@ -5,12 +5,16 @@ pub mod automation;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod desktop;
 mod dialogs;
+mod exercise;
 mod gallery;
 mod icons;
 mod keys;
+mod lights;
 mod panels;
 pub mod platform;
+mod reference;
 mod renderer;
+mod sections;
 mod theme;
 mod toolbars;
 mod tools;

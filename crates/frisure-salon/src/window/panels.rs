@@ -3,27 +3,41 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use eframe::egui::{CollapsingHeader, ComboBox, RichText, Role, ScrollArea, Ui, WidgetInfo};
+use eframe::egui::{CollapsingHeader, ComboBox, Id, RichText, Role, ScrollArea, Ui, WidgetInfo};
 use frisure::formats::contents::Contents;
 use frisure::scene::{HeadSource, Panel};
 
-use super::widgets;
+use super::gallery::Pictures;
+use super::{lights, sections, widgets};
 use crate::locale::{self, tr};
-use crate::state::{CHOICES, CONTROLS, Choice, Command, Control, ParsedScene, Salon, panel_title};
+use crate::state::{
+    CHOICES, CONTROLS, Choice, Command, Compared, Control, ParsedScene, Salon, panel_title,
+};
 
 /// Shows the panels.
-pub(super) fn show(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, salon: &Salon, pictures: &mut Pictures, out: &mut Vec<Command>) {
     let Some(parsed) = &salon.scene else { return };
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        let header = CollapsingHeader::new(RichText::new(tr!("sections")).strong());
+        // In a language that comes later, it is the same header.
+        let header = header.id_salt("sections").open(opened(ui, salon));
+        header.show(ui, |ui| sections::show(ui, salon, out));
         for panel in Panel::ALL {
             let open = matches!(panel, Panel::Files | Panel::Fibre | Panel::Curl | Panel::Length);
             let header = CollapsingHeader::new(RichText::new(&*panel_title(panel)).strong());
             header.default_open(open).show(ui, |ui| match panel {
                 Panel::Files => files(ui, salon, parsed, out),
-                panel => controls(ui, salon, parsed, panel, out),
+                panel => controls(ui, salon, parsed, panel, pictures, out),
             });
         }
     });
+}
+
+/// Opens the list of the sections when the first one is made.
+fn opened(ui: &Ui, salon: &Salon) -> Option<bool> {
+    let (id, any) = (Id::unique("has sections"), !salon.sections.is_empty());
+    let before = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default(id), any));
+    (any && !before).then_some(true)
 }
 
 /// The controls of a panel; for a groom only those that apply to it.
@@ -32,6 +46,7 @@ fn controls(
     salon: &Salon,
     parsed: &ParsedScene,
     panel: Panel,
+    pictures: &mut Pictures,
     out: &mut Vec<Command>,
 ) {
     let groom = salon.files().groom;
@@ -39,7 +54,15 @@ fn controls(
     let (used, unused): (Vec<&Control>, Vec<&Control>) =
         all.partition(|control| !groom || control.applies_to_groom());
     if unused.is_empty() {
-        CHOICES.iter().filter(|c| c.panel == panel).for_each(|c| options(ui, salon, c, out));
+        for choice in CHOICES.iter().filter(|choice| choice.panel == panel) {
+            match choice.key {
+                lights::KEY => {
+                    let current = current(salon, choice.key);
+                    lights::show(ui, choice, current.as_ref(), pictures, out);
+                }
+                _ => options(ui, salon, choice, out),
+            }
+        }
     }
     for control in used {
         widgets::slider(ui, control, control.value(&parsed.scene), out);
@@ -51,7 +74,7 @@ fn controls(
 
 /// The list of a choice.
 fn options(ui: &mut Ui, salon: &Salon, choice: &Choice, out: &mut Vec<Command>) {
-    let current = salon.document.as_ref().and_then(|d| string_of(d.text(), choice.key));
+    let current = current(salon, choice.key);
     let selected = choice.options.iter().find(|(written, _)| Some(written) == current.as_ref());
     let default = choice.default();
     let title = selected.map_or(Cow::Borrowed(&*default), |option| choice.title(option));
@@ -73,6 +96,11 @@ fn options(ui: &mut Ui, salon: &Salon, choice: &Choice, out: &mut Vec<Command>) 
         });
         shown.response.labelled_by(label.id).on_hover_text(&*help);
     });
+}
+
+/// The option that the scene has for a key, as TOML.
+fn current(salon: &Salon, key: &str) -> Option<String> {
+    salon.document.as_ref().and_then(|document| string_of(document.text(), key))
 }
 
 /// The string of a key in a text, as TOML.
@@ -130,11 +158,11 @@ fn file_name(ui: &mut Ui, id: &str, path: &Path) {
 /// The edits, the last one at the bottom.
 pub(super) fn history(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let Some(document) = &salon.document else { return };
-    let compared = salon.comparison.as_ref().map(|c| c.edit);
+    let compared = salon.comparison.as_ref().map(|c| c.of);
     ScrollArea::vertical().auto_shrink([false, false]).stick_to_bottom(true).show(ui, |ui| {
         for (index, edit) in document.edits().iter().enumerate() {
             ui.horizontal(|ui| {
-                let on = compared == Some(index);
+                let on = compared == Some(Compared::Edit(index));
                 let compare = ui.selectable_label(on, RichText::new(tr!("versus")).small());
                 let compare = compare.on_hover_text(tr!("versus.help"));
                 compare.widget_info(|| {

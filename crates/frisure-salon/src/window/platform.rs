@@ -24,7 +24,7 @@ pub struct InputFile {
 /// The extensions of the files that can be opened, without dots.
 #[must_use]
 pub fn extensions() -> Vec<&'static str> {
-    [vec!["toml", "png"], contents::extensions()].concat()
+    [vec!["toml", "png", "jpg", "jpeg"], contents::extensions()].concat()
 }
 
 /// The interface of desktop or browser for the window.
@@ -64,10 +64,10 @@ pub trait Platform {
     /// Whether files have paths, so that dialogs have a field for them; in a browser they do not.
     fn has_paths(&self) -> bool;
 
-    /// A link to a page of the salon that opens a scene by its code.
-    fn link(&self, code: &str) -> String {
+    /// A link to a page of the salon that opens a scene by its code, as a `scene` or an `exercise`.
+    fn link(&self, what: &str, code: &str) -> String {
         // Where pages of the salon are is not known on a desktop.
-        format!("?scene={code}")
+        format!("?{what}={code}")
     }
 
     /// The folder that dialogs propose.

@@ -12,10 +12,11 @@ use crate::locale::tr;
 use crate::state::{Command, CutHold, Salon, Scissors, Tool, VIEWS, comb};
 
 /// The tools: each with its icon and its message, whose help names its key.
-const TOOLS: [(Tool, &str, &str); 9] = [
+const TOOLS: [(Tool, &str, &str); 10] = [
     (Tool::Orbit, icons::TURN, "tool-turn"),
     (Tool::Lasso, icons::LASSO, "tool-lasso"),
     (Tool::Brush, icons::BRUSH, "tool-brush"),
+    (Tool::Part, icons::PARTING, "tool-part"),
     (Tool::Scissors, icons::SCISSORS, "tool-scissors"),
     (Tool::Cut, icons::CUT, "tool-cut"),
     (Tool::Lift, icons::LIFT, "tool-lift"),
@@ -61,16 +62,22 @@ pub(super) fn show(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
             Tool::Lasso => {
                 ui.weak(tr!("lasso-hint"));
             }
-            Tool::Orbit => views(ui, out),
+            Tool::Part => {
+                ui.weak(tr!("part-hint"));
+            }
+            Tool::Orbit => views(ui, salon, out),
         }
     });
 }
 
-fn views(ui: &mut Ui, out: &mut Vec<Command>) {
+fn views(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     for (id, azimuth, elevation) in VIEWS {
         if widgets::button(ui, &tr!(id), &tr!("view.help")).clicked() {
             out.push(Command::LookFrom(f64::to_radians(azimuth), f64::to_radians(elevation)));
         }
+    }
+    if widgets::icon_toggle(ui, icons::SPIN, "spin", salon.spins).clicked() {
+        out.push(Command::ToggleSpin);
     }
     if widgets::plain(ui, "keep-view").clicked() {
         out.push(Command::KeepView);

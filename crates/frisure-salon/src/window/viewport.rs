@@ -21,7 +21,7 @@ use glam::{DVec3, Vec3};
 use super::renderer::{Picture, Side, Versioned, View};
 use super::{automation, theme, widgets};
 use crate::locale::{self, tr};
-use crate::state::{Badge, Command, CutPlane, Salon, Snip, Tool};
+use crate::state::{Badge, Command, Compared, CutPlane, Exercise, Salon, Snip, Tool, Way};
 
 /// The state of the viewport between frames.
 #[derive(Default)]
@@ -70,6 +70,8 @@ struct StrandMarks {
     hair: u64,
     wisps: Option<Vec<bool>>,
     plane: Option<CutPlane>,
+    /// The version of the goal, where hair that is not at it is marked.
+    goal: Option<u64>,
     marks: Option<Arc<Vec<Mark>>>,
 }
 
@@ -82,6 +84,9 @@ const PATIENCE: f32 = 0.15;
 
 /// Minimum number of strands drawn during motion. Chosen by trial.
 const MIN_STRANDS: f32 = 4000.0;
+
+/// Speed at which the head turns by itself (rad/s): once around in twelve seconds. Chosen.
+const SPIN: f64 = std::f64::consts::TAU / 12.0;
 
 /// Angle of a drag over the viewport's height (rad).
 const TURN: f64 = 3.5;
@@ -98,6 +103,12 @@ impl Viewport {
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, tr!("the-head")));
         automation::record("The head", rect);
+        if salon.spins {
+            let elapsed = f64::from(ui.input(|i| i.stable_dt)).min(0.1);
+            out.push(Command::Turn(elapsed * SPIN, 0.0));
+            self.note_motion(ui.input(|i| i.time));
+            ui.ctx().request_repaint();
+        }
         let compares = salon.comparison.is_some();
         let handle = compares.then(|| self.divide(ui, rect));
         let panes = panes(rect, handle);
@@ -257,7 +268,7 @@ impl Viewport {
                 self.lasso.push(at);
             }
             // Scissors cut straight from where the stroke began.
-            Tool::Scissors if drags => {
+            Tool::Scissors | Tool::Part if drags => {
                 self.lasso.truncate(1);
                 self.lasso.push(at);
             }
@@ -297,6 +308,10 @@ impl Viewport {
                 let ends = [lasso[0], lasso[1]].map(|p| to_ndc(p, rect));
                 out.push(Command::Snip(Snip { ends, aspect: aspect(rect) }));
             }
+            Tool::Part if lasso.len() == 2 => {
+                let ends = [lasso[0], lasso[1]].map(|p| to_ndc(p, rect));
+                out.push(Command::Part(Snip { ends, aspect: aspect(rect) }));
+            }
             Tool::Brush if !stroke.is_empty() => out.push(Command::Paint(stroke, mode)),
             Tool::Lift if !stroke.is_empty() => out.push(Command::Lift(stroke)),
             Tool::Clippers if !stroke.is_empty() => out.push(Command::Clip(stroke)),
@@ -318,7 +333,7 @@ impl Viewport {
         });
         let (look, lights) = self.look_and_lights(&parsed.scene, &camera, middle);
         let (hair, version) = match side {
-            Side::Now => salon.preview().map(|(hair, version)| (hair.clone(), version))?,
+            Side::Now => salon.drawn()?,
             Side::Before => {
                 let comparison = salon.comparison.as_ref()?;
                 (comparison.hair.clone()?, comparison.version)
@@ -385,22 +400,30 @@ impl Viewport {
     /// The marks of strands that are selected or would be cut.
     fn marks(&mut self, salon: &mut Salon) -> Option<Versioned<Vec<Mark>>> {
         let preview = salon.cut_preview();
-        let (hair, version) = salon.preview()?;
+        let (hair, version) = salon.drawn()?;
         let selected = &salon.selected;
         let wisps = selected.wisps.clone().filter(|_| !selected.is_everything());
         let plane = preview.as_ref().map(|_| salon.plane);
-        let known = self.marks.as_ref().map(|m| (m.hair, &m.wisps, m.plane));
-        if known != Some((version, &wisps, plane)) {
+        let way = salon.way_to_goal();
+        let goal = way.as_ref().and(salon.exercise.as_ref()).map(Exercise::version);
+        let known = self.marks.as_ref().map(|m| (m.hair, &m.wisps, m.plane, m.goal));
+        if known != Some((version, &wisps, plane, goal)) {
             let is_selected =
                 |guide: u32| wisps.as_ref().is_some_and(|w| w.get(guide as usize) == Some(&true));
-            let mark = |(i, guide): (usize, &u32)| Mark {
-                chosen: is_selected(*guide),
-                falls_from: preview.as_ref().map_or(1.0, |preview| preview.kept[i]),
+            let mark = |(i, guide): (usize, &u32)| match (&way, &preview) {
+                (Some(way), None) => match way(i) {
+                    Some(Way::Long(kept)) => Mark { chosen: false, falls_from: kept },
+                    other => Mark { chosen: other.is_some(), falls_from: 1.0 },
+                },
+                _ => Mark {
+                    chosen: is_selected(*guide),
+                    falls_from: preview.as_ref().map_or(1.0, |preview| preview.kept[i]),
+                },
             };
-            let marks = (wisps.is_some() || preview.is_some())
+            let marks = (wisps.is_some() || preview.is_some() || way.is_some())
                 .then(|| Arc::new(hair.strands.guide.iter().enumerate().map(mark).collect()));
             self.marks_version += 1;
-            self.marks = Some(StrandMarks { hair: version, wisps, plane, marks });
+            self.marks = Some(StrandMarks { hair: version, wisps, plane, goal, marks });
         }
         let marks = self.marks.as_ref()?.marks.clone()?;
         Some((marks, self.marks_version))
@@ -542,7 +565,10 @@ fn overlay(ui: &Ui, salon: &Salon, panes: &[Pane]) {
         match side {
             Side::Before => {
                 let Some(comparison) = &salon.comparison else { continue };
-                let text = tr!("before", label = &*comparison.label);
+                let text = match comparison.of {
+                    Compared::Goal => comparison.label.clone(),
+                    Compared::Edit(_) => tr!("before", label = &*comparison.label),
+                };
                 text_box(ui, corner, align, text, DARK);
                 if comparison.hair.is_none() {
                     let (centre, text) = (Align2::CENTER_CENTER, tr!("computing"));

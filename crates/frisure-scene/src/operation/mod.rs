@@ -19,7 +19,7 @@ pub(crate) use declare::join;
 pub(crate) use error::{spec_error, step_error};
 pub(crate) use hint::{in_full, of_one_step};
 pub(crate) use operations::{ALL, declaration, suggestion};
-pub(crate) use selection::{WHERE, where_schema};
+pub(crate) use selection::{WHERE, Where, where_schema};
 
 /// The steps of a scene, as they are written.
 pub(crate) struct Steps;

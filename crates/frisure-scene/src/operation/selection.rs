@@ -25,7 +25,7 @@ const DEEPEST: usize = 32;
 const KEYS: [&str; 8] = ["above", "wisps", "plane", "brush", "lasso", "any", "all", "not"];
 
 /// A choice of wisps: a word, a list of words, or a table.
-pub(super) struct Where;
+pub(crate) struct Where;
 
 /// A word for a choice.
 #[derive(Clone, Copy)]

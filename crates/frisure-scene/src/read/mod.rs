@@ -6,3 +6,4 @@ mod implantation;
 mod light;
 mod look;
 mod scene;
+mod section;

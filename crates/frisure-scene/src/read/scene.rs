@@ -7,7 +7,7 @@ use frisure_hairstyle::{HairModel, Hairline, HairstyleSpec, Pose, Wetting, prese
 use frisure_look::{CameraSpec, ToneCurve};
 use frisure_rod::{Branch, Resolution};
 
-use super::{hair, head, implantation, light, look};
+use super::{hair, head, implantation, light, look, section};
 use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::{Result, SceneError};
@@ -90,6 +90,7 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
         head,
         groom,
         look: look::look(&document, &NaturalLook::of(preset), spec.seed, backdrop)?,
+        sections: section::sections(&document)?,
         camera: camera(&document)?,
         light,
         environment,
