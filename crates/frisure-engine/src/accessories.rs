@@ -73,8 +73,12 @@ mod tests {
     fn mesh(name: &str, at: f64) -> AccessoryMesh {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p + at * DVec3::Z);
         let surface = Surface::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
-        let material =
-            AccessoryMaterial { name: "accessory", colour: [0.1, 0.2, 0.3], gloss: 0.4, roughness: 0.5 };
+        let material = AccessoryMaterial {
+            name: "accessory",
+            colour: [0.1, 0.2, 0.3],
+            gloss: 0.4,
+            roughness: 0.5,
+        };
         AccessoryMesh { name: name.into(), material, surface }
     }
 

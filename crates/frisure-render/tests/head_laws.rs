@@ -164,7 +164,9 @@ fn both_renderers_show_accessories_in_their_colours_and_not_as_skin() {
         let options = PreviewOptions { width: 32, height: 32, ..PreviewOptions::default() };
         middle(&preview::render(scene, &options, &()).unwrap())
     };
-    for (name, shown) in [("traced", middle(&traced(&covered, 32, 64))), ("preview", preview(&covered))] {
+    for (name, shown) in
+        [("traced", middle(&traced(&covered, 32, 64))), ("preview", preview(&covered))]
+    {
         // In even light a matt surface has its colour.
         let apart = (shown - Vec3::from(colour)).abs().max_element();
         assert!(apart < 0.03, "{name}: {shown}");

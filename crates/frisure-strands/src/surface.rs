@@ -298,7 +298,8 @@ mod tests {
         let features = Features { tints: vec![red; 3], ..Features::default() };
         let head = surface.clone().with_features(features).unwrap();
         let head = head.with_texture(vec![[[0.5; 2]; 3]]).unwrap();
-        let material = |name| AccessoryMaterial { name, colour: [0.5; 3], gloss: 0.0, roughness: 1.0 };
+        let material =
+            |name| AccessoryMaterial { name, colour: [0.5; 3], gloss: 0.0, roughness: 1.0 };
         let mesh = |name| crate::AccessoryMesh {
             name: String::new(),
             material: material(name),
@@ -311,7 +312,10 @@ mod tests {
         };
         assert_eq!(names(&joined), [None, Some("a"), Some("b")]);
         assert_eq!(joined.positions().len(), 9);
-        assert_eq!((joined.tint(0, [1.0, 0.0, 0.0]), joined.tint(2, [1.0, 0.0, 0.0])), (red, Tint::default()));
+        assert_eq!(
+            (joined.tint(0, [1.0, 0.0, 0.0]), joined.tint(2, [1.0, 0.0, 0.0])),
+            (red, Tint::default())
+        );
         assert_eq!(joined.texture().len(), 3);
         let alone = Surface::with_accessories(None, &meshes).unwrap();
         assert_eq!(names(&alone), [Some("a"), Some("b")]);

@@ -120,8 +120,7 @@ fn tints(surface: &Surface) -> Vec<[f32; 4]> {
     let tints = surface.features().map_or(&[][..], |features| &features.tints);
     let of = |index: usize| tints.get(index).copied().unwrap_or_default();
     let packed = |Tint { lips, flush, garment }| [lips, flush, garment, 0.0];
-    let mut tints: Vec<_> =
-        (0..surface.positions().len()).map(|index| packed(of(index))).collect();
+    let mut tints: Vec<_> = (0..surface.positions().len()).map(|index| packed(of(index))).collect();
     for (face, corners) in surface.triangles().iter().enumerate() {
         if let Some(material) = surface.accessory(face) {
             let [r, g, b] = material.colour;

@@ -62,7 +62,14 @@ fn elastic(wisp: usize, rest: &Equilibrium, opening: f64, head: &Head) -> Option
         let mesh = turned(axis, &ring(radius + half_thickness, [half_thickness, half_width]))?;
         let (kind, wisps) = (AccessoryKind::Elastic, vec![wisp]);
         let (axis, length) = (axis.direction, 2.0 * half_width);
-        (clearance(&mesh, head) > 0.0)
-            .then_some(Accessory { kind, wisps, centre, axis, radius, length, mesh })
+        (clearance(&mesh, head) > 0.0).then_some(Accessory {
+            kind,
+            wisps,
+            centre,
+            axis,
+            radius,
+            length,
+            mesh,
+        })
     })
 }

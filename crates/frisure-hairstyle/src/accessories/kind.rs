@@ -29,8 +29,12 @@ const CLOTH: AccessoryMaterial =
     AccessoryMaterial { name: "cloth", colour: [0.12, 0.012, 0.03], gloss: 0.02, roughness: 0.7 };
 
 /// Dark rubber.
-const RUBBER: AccessoryMaterial =
-    AccessoryMaterial { name: "rubber", colour: [0.022, 0.017, 0.015], gloss: 0.06, roughness: 0.5 };
+const RUBBER: AccessoryMaterial = AccessoryMaterial {
+    name: "rubber",
+    colour: [0.022, 0.017, 0.015],
+    gloss: 0.06,
+    roughness: 0.5,
+};
 
 /// Dark metal: little diffuse light, and much of its gloss.
 const METAL: AccessoryMaterial =

@@ -8,10 +8,11 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::mesh::{Axis, turned};
-use super::winding::{Winding, span};
 use super::accessory::Accessory;
 use super::kind::AccessoryKind;
+use super::mesh::{Axis, turned};
+use super::place::clearance;
+use super::winding::{Winding, span};
 use crate::hairstyle::{Grip, Hairstyle, Mould};
 use crate::head::Head;
 
@@ -35,7 +36,7 @@ const LONGEST: f64 = 0.07;
 const SHORTEST: f64 = 2.0;
 
 /// Distance (m) of a roller from the skin at least. Chosen: less than the thickness of hair between them.
-const OFF_SKIN: f64 = 5e-4;
+const OFF_SKIN: f64 = 1e-3;
 
 /// Thickness of its wall, and radius of its rounded rims, over its radius. Chosen.
 const WALL: f64 = 0.16;
@@ -74,7 +75,7 @@ pub(super) fn rollers(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
         }
     }
     kept.sort_by_key(|roller| roller.wisp);
-    kept.into_iter().filter_map(Candidate::accessory).collect()
+    kept.into_iter().filter_map(|roller| roller.accessory(head)).collect()
 }
 
 impl Candidate {
@@ -113,12 +114,15 @@ impl Candidate {
         apart(self.segment(), other.segment()) > self.radius + other.radius
     }
 
-    fn accessory(self) -> Option<Accessory> {
+    fn accessory(self, head: &Head) -> Option<Accessory> {
         let (low, high) = self.ends;
         let centre = self.axis.centre + 0.5 * (low + high) * self.axis.direction;
         let axis = Axis { centre, direction: self.axis.direction };
         let length = high - low;
         let mesh = turned(axis, &tube(self.radius, length))?;
+        if clearance(&mesh, head) <= 0.0 {
+            return None;
+        }
         let (kind, wisps, radius) = (AccessoryKind::Roller, vec![self.wisp], self.radius);
         Some(Accessory { kind, wisps, centre, axis: axis.direction, radius, length, mesh })
     }
@@ -126,7 +130,7 @@ impl Candidate {
 
 /// The longest part between two places along the axis of a roller (m) in which it is off the skin; none if there is none.
 fn room(head: &Head, axis: &Axis, radius: f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
-    const AROUND: usize = 12;
+    const AROUND: usize = 24;
     const STEP: f64 = 1e-3;
     let skin = head.signed_distance();
     let u = axis.direction.any_orthonormal_vector();
@@ -202,8 +206,10 @@ mod tests {
     #[test]
     fn pieces_are_as_far_apart_as_their_nearest_points() {
         let piece = |a: [f64; 3], b: [f64; 3]| [DVec3::from(a), DVec3::from(b)];
-        let crossed =
-            apart(piece([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), piece([0.0, -1.0, 0.5], [0.0, 1.0, 0.5]));
+        let crossed = apart(
+            piece([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+            piece([0.0, -1.0, 0.5], [0.0, 1.0, 0.5]),
+        );
         assert!((crossed - 0.5).abs() < 1e-9);
         let behind =
             apart(piece([0.0; 3], [1.0, 0.0, 0.0]), piece([2.0, 0.0, 0.0], [3.0, 0.0, 0.0]));
@@ -213,9 +219,14 @@ mod tests {
     #[test]
     fn the_profile_of_a_tube_is_within_its_radius_and_length() {
         let profile = tube(0.01, 0.06);
-        assert!(profile.iter().all(|[r, z]| *r <= 0.01 + 1e-12 && *r > 0.008 && z.abs() <= 0.03 + 1e-12));
+        assert!(
+            profile
+                .iter()
+                .all(|[r, z]| *r <= 0.01 + 1e-12 && *r > 0.008 && z.abs() <= 0.03 + 1e-12)
+        );
         let shifted = profile.iter().skip(1).chain(&profile[..1]);
-        let area: f64 = profile.iter().zip(shifted).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum();
+        let area: f64 =
+            profile.iter().zip(shifted).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum();
         assert!(area > 0.0, "counter-clockwise");
     }
 }

@@ -93,7 +93,11 @@ impl Ring {
         Some(Self { axis, opening, wisps })
     }
 
-    fn accessory(self, [half_width, half_thickness]: [f64; 2], kind: AccessoryKind) -> Option<Accessory> {
+    fn accessory(
+        self,
+        [half_width, half_thickness]: [f64; 2],
+        kind: AccessoryKind,
+    ) -> Option<Accessory> {
         let Self { axis, opening, wisps } = self;
         let mesh = turned(axis, &ring(opening + half_thickness, [half_thickness, half_width]))?;
         let (centre, length) = (axis.centre, 2.0 * half_width);

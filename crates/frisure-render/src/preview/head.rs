@@ -72,13 +72,7 @@ impl Head {
     }
 
     /// The material at a point of face `index` with these corners and weights.
-    fn material(
-        &self,
-        index: u32,
-        corners: [usize; 3],
-        weights: Vec3,
-        position: Vec3,
-    ) -> Material {
+    fn material(&self, index: u32, corners: [usize; 3], weights: Vec3, position: Vec3) -> Material {
         if let Some(Some(object)) = self.accessories.get(index as usize) {
             return complexion::accessory_material(object);
         }
@@ -189,6 +183,7 @@ impl Head {
 
 /// What each face is made of that is no head; empty without such faces.
 fn accessories(surface: &Surface) -> Vec<Option<AccessoryMaterial>> {
-    let all: Vec<_> = (0..surface.triangles().len()).map(|i| surface.accessory(i).copied()).collect();
+    let all: Vec<_> =
+        (0..surface.triangles().len()).map(|i| surface.accessory(i).copied()).collect();
     if all.iter().any(Option::is_some) { all } else { Vec::new() }
 }

@@ -281,12 +281,7 @@ fn accessories(all: &[AccessoryMesh], frame: Frame) -> Prim {
 }
 
 /// A mesh with the material of a name and colour.
-fn mesh(
-    name: &str,
-    surface: &Surface,
-    (material, colour): (&str, [f32; 3]),
-    frame: Frame,
-) -> Prim {
+fn mesh(name: &str, surface: &Surface, (material, colour): (&str, [f32; 3]), frame: Frame) -> Prim {
     let mut prim = Prim::new("Mesh", name);
     prim.uniform("token", "subdivisionScheme", Value::token("none"));
     let points: Vec<Vec3> =
