@@ -29,7 +29,7 @@ const CLIPPED: f64 = 0.012;
 
 /// How far (m) from a pin, along the hair, other hair is under it, and how far outwards at most. Chosen.
 const BESIDE: f64 = 4e-3;
-const THICKEST: f64 = 0.012;
+const THICKEST: f64 = 0.02;
 
 /// Points along one prong. Chosen.
 const POINTS: usize = 24;

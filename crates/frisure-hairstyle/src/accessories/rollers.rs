@@ -33,7 +33,7 @@ const BEYOND: f64 = 6e-3;
 const LONGEST: f64 = 0.07;
 
 /// Shortest roller over its radius: a flat winding is at the foot of a roller that stands on the skin. Chosen.
-const SHORTEST: f64 = 2.0;
+const SHORTEST: f64 = 1.6;
 
 /// Distance (m) of a roller from the skin at least. Chosen: less than the thickness of hair between them.
 const OFF_SKIN: f64 = 1e-3;
@@ -91,16 +91,18 @@ impl Candidate {
             return None;
         }
         let (low, high) = span(wound, &axis);
-        let longest = LONGEST.max(SHORTEST * radius);
-        let wanted = (high - low + 2.0 * BEYOND).clamp(SHORTEST * radius, longest);
-        let (middle, around) = (0.5 * (low + high), 0.5 * (high - low) + wanted);
-        let (low, high) = room(head, &axis, radius, (middle - around, middle + around))?;
-        if high - low < SHORTEST * radius {
+        let (middle, least) = (0.5 * (low + high), SHORTEST * radius);
+        let reach = (0.5 * (high - low) + BEYOND).min(0.5 * LONGEST);
+        let around = (middle - reach - least, middle + reach + least);
+        let (lowest, highest) = room(head, &axis, radius, around)?;
+        let (from, to) = ((middle - reach).max(lowest), (middle + reach).min(highest));
+        if to <= from || highest - lowest < least {
             return None;
         }
-        // About the middle of the winding, as far as there is room.
-        let from = (middle - 0.5 * wanted).clamp(low, (high - wanted).max(low));
-        let ends = (from, (from + wanted).min(high));
+        // Where skin cuts it short, it goes on at the other end.
+        let missing = (least - (to - from)).max(0.0);
+        let beyond = missing.min(highest - to);
+        let ends = (from - (missing - beyond), to + beyond);
         Some(Self { axis, radius, ends, wisp: winding.wisp, round: radius / helix })
     }
 
