@@ -124,7 +124,7 @@ fn tints(surface: &Surface) -> Vec<[f32; 4]> {
     for (face, corners) in surface.triangles().iter().enumerate() {
         if let Some(material) = surface.accessory(face) {
             let [r, g, b] = material.colour;
-            corners.map(|v| tints[v as usize] = [r, g, b, 1.0 + material.gloss]);
+            corners.iter().for_each(|&v| tints[v as usize] = [r, g, b, 1.0 + material.gloss]);
         }
     }
     tints
