@@ -153,6 +153,11 @@ pub(crate) struct Predict {
     #[arg(long)]
     pub(crate) fibres: bool,
 
+    /// Write into grooms what holds the hair (rollers, hair ties, pins, clips) as meshes named
+    /// 'accessories/roller_0' and so on; for .usdc, .usda, .usdz, .abc, .glb and .obj.
+    #[arg(long, conflicts_with = "time_samples")]
+    pub(crate) accessories: bool,
+
     /// Write a picture (.png, or .exr with its light as it is).
     #[arg(long, value_name = "PICTURE")]
     pub(crate) image: Option<PathBuf>,

@@ -48,6 +48,13 @@ pub(crate) fn check_motion(outputs: &[PathBuf]) -> Result<(), Error> {
     outputs.iter().try_for_each(check).map_err(|e| Error::because(&e, hint))
 }
 
+/// The same for files that hold accessories.
+pub(crate) fn check_accessories(outputs: &[PathBuf]) -> Result<(), Error> {
+    let check = |path: &PathBuf| Format::of(path).and_then(Format::check_accessories);
+    let hint = "leave `--accessories` out, or write another format in a run of its own";
+    outputs.iter().try_for_each(check).map_err(|e| Error::because(&e, hint))
+}
+
 /// Writes a groom to each path; returns a line about each.
 pub(crate) fn write(
     groom: Groom,

@@ -25,7 +25,14 @@ impl LoadedScene {
         }
         let guides = hairstyle::described_guides(hairstyle, head, hairstyle.spec().wisps.points);
         let head = Some(hairstyle::head::textured(head));
-        Groom { name: name(scene), hairs, guides, head, colour: Some(colour(scene)), times: 0 }
+        Groom {
+            name: name(scene),
+            hairs,
+            guides,
+            head,
+            colour: Some(colour(scene)),
+            ..Groom::default()
+        }
     }
 }
 

@@ -17,6 +17,7 @@
 
 #![forbid(unsafe_code)]
 
+mod accessories;
 mod adoption;
 mod bytes;
 #[cfg(not(target_arch = "wasm32"))]
@@ -52,7 +53,9 @@ pub use picture::Viewpoint;
 pub use quality::Quality;
 pub use replicas::ReplicaReport;
 pub use request::{Request, SceneRef};
-pub use response::{GuideData, HeadData, Numbers, Preview, Response, StrandsData};
+pub use response::{
+    AccessoryData, AccessoryPart, GuideData, HeadData, Numbers, Preview, Response, StrandsData,
+};
 pub use runner::{LoadedScene, Runner};
 pub use session::Session;
 pub use steps::{StyledScene, stage_count};

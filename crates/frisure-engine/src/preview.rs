@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 use crate::error::Error;
 use crate::metrics::HairstyleMetrics;
 use crate::quality::Quality;
-use crate::response::{GuideData, HeadData, Numbers, Preview, StrandsData};
+use crate::response::{AccessoryData, GuideData, HeadData, Numbers, Preview, StrandsData};
 use crate::runner::LoadedScene;
 
 /// The preview of a scene of which every `stride`-th hair is drawn, without its head.
@@ -32,6 +32,7 @@ pub(crate) fn preview(
         roots: hairstyle.guides().iter().map(|guide| root(guide.root.position)).collect(),
         wetness: hairstyle.wisps().iter().map(|wisp| wisp.wetness as f32).collect(),
         adoption: loaded.adoption.clone(),
+        accessories: AccessoryData::new(&loaded.shown_accessories()),
     }
 }
 

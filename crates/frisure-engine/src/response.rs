@@ -91,6 +91,8 @@ pub struct Preview {
     pub wetness: Vec<f32>,
     /// How well the groom of another program keeps its shape; none for hair that was predicted.
     pub adoption: Option<AdoptionReport>,
+    /// What holds the hair, in every preview anew; empty where nothing is held, and if `output.accessories` is false.
+    pub accessories: AccessoryData,
 }
 
 /// Strands as plain arrays: see `frisure::strands::Strands`.
@@ -109,6 +111,39 @@ pub struct StrandsData {
     /// Wetness at each point (0 to 1); empty if all is dry.
     #[serde(with = "crate::bytes")]
     pub wetness: Vec<f32>,
+}
+
+/// What holds hair (rollers, hair ties, elastics, pins, clips) as one mesh in parts, in the head's frame.
+/// [`AccessoryData::meshes`] has a mesh for each part, as `frisure_view::Skin::with_accessories` takes them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AccessoryData {
+    /// Vertices (m), three numbers each.
+    #[serde(with = "crate::bytes")]
+    pub positions: Vec<f32>,
+    /// Outward unit normal at each vertex, three numbers each.
+    #[serde(with = "crate::bytes")]
+    pub normals: Vec<f32>,
+    /// Triangles, three vertices each, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// The objects, in the order of their vertices and triangles.
+    pub parts: Vec<AccessoryPart>,
+}
+
+/// One object of [`AccessoryData`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AccessoryPart {
+    /// Its name: `roller_0`, `tie_0`, `elastic_0`, `pin_0`, `clip_0` and so on.
+    pub name: String,
+    /// Number of its vertices, which follow those of the part before.
+    pub vertices: usize,
+    /// Number of its triangles, which follow those of the part before.
+    pub triangles: usize,
+    /// Diffuse reflectance (linear sRGB).
+    pub colour: [f32; 3],
+    /// Strength of its gloss, in the unit of `look.gloss`.
+    pub gloss: f32,
+    /// Roughness of its gloss (α of GGX).
+    pub roughness: f32,
 }
 
 /// A head as plain arrays.

@@ -162,3 +162,19 @@ fn an_impossible_scene_fails_with_its_line() {
         &asked(&format!("{CURLY}\n[[step]]\nwet = {{ where = {{ wisps = [99] }} }}\n"), 0),
     );
 }
+
+#[test]
+fn previews_have_what_holds_the_hair_as_long_as_it_is_held_and_shown() {
+    let steps = "\n[[step]]\nroll = { radius = '9 mm' }\n[[step]]\nrelease = {}\n";
+    let rolled = asked(&format!("{CURLY}{steps}"), 1);
+    let mut session = Session::new();
+    let on_rollers = exact(&mut session, &rolled).accessories;
+    let meshes = on_rollers.meshes();
+    assert!(!meshes.is_empty() && meshes.len() == on_rollers.parts.len());
+    assert!(meshes.iter().all(|mesh| mesh.name.starts_with("roller_")));
+    assert_eq!(on_rollers.positions.len(), on_rollers.normals.len());
+    let released = SceneRef { done: 2, ..rolled.clone() };
+    assert!(exact(&mut session, &released).accessories.parts.is_empty());
+    let hidden = with(&rolled, "[look]", "[output]\naccessories = false\n[look]");
+    assert!(exact(&mut session, &hidden).accessories.parts.is_empty());
+}

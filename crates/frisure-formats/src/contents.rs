@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::accessory_names::OBJECT;
+#[cfg(feature = "usd")]
+use crate::accessory_names::PRIMVAR;
 use crate::groom::{self, Format};
 use crate::{head, ply};
 use frisure_files::{Files, ReadError};
@@ -113,12 +116,13 @@ fn stage(_: &[u8]) -> Option<Result<Contents, String>> {
 fn stage_contents(bytes: &[u8]) -> Result<Contents, String> {
     let layer = usd::read(bytes)?;
     let stage = Stage::of(&layer)?;
-    let has = |names: &[&str]| {
-        let mut prims = stage.prims.iter().filter(|place| !place.is_guide);
-        prims.any(|place| names.contains(&place.prim.type_name.as_str()))
+    // What holds the hair of a groom is no head.
+    let is_head = |place: &usd::StagePrim| {
+        let own = !place.is_guide && place.prim.attribute(PRIMVAR).is_none();
+        own && place.prim.type_name == "Mesh"
     };
     let guides = stage.prims.iter().any(|place| CURVES.contains(&place.prim.type_name.as_str()));
-    let found = Contents { head: has(&["Mesh"]), groom: guides };
+    let found = Contents { head: stage.prims.iter().any(is_head), groom: guides };
     match found {
         Contents { head: false, groom: false } => {
             Err(format!("it has neither meshes nor curves{}", stage.hint()))
@@ -143,10 +147,13 @@ fn wavefront(bytes: &[u8]) -> Contents {
     let mut lines = bytes.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_start);
     let begins =
         |line: &[u8], letter| line.len() > 1 && line[0] == letter && line[1].is_ascii_whitespace();
-    let mut groom = false;
+    let (mut groom, mut accessory) = (false, false);
     let head = lines.any(|line| {
         groom |= begins(line, b'l');
-        begins(line, b'f')
+        if begins(line, b'o') {
+            accessory = line[1..].trim_ascii().starts_with(OBJECT.as_bytes());
+        }
+        begins(line, b'f') && !accessory
     });
     Contents { head, groom: groom && !head }
 }

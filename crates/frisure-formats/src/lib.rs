@@ -17,6 +17,7 @@
 
 #![forbid(unsafe_code)]
 
+mod accessory_names;
 pub mod cards;
 pub mod contents;
 pub mod environment;

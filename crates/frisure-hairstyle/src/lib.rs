@@ -18,7 +18,7 @@
 //! ```
 //!
 //! Modules, in the order of computation: `head`, `spec`, `presets`, `implantation` (roots and directions), `contact`,
-//! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict`, `adopt` and `transfer`, `strand_contact`, `strands`, `styling`, `history`. None uses
+//! `guides`, `wisps`, `hairstyle` (data), `equilibrium`, `predict`, `adopt` and `transfer`, `strand_contact`, `strands`, `accessories`, `styling`, `history`. None uses
 //! one that comes later.
 
 #![forbid(unsafe_code)]
@@ -55,10 +55,13 @@ mod strand_contact;
 mod strands;
 mod volume;
 
+mod accessories;
+
 pub mod styling;
 
 mod history;
 
+pub use accessories::{Accessory, AccessoryKind, accessories, accessory_meshes};
 pub use adopt::{Adoption, adopt};
 pub use contact::Pull;
 pub use equilibrium::{Effort, FrictionalRod, SettlingReport, settling_report};

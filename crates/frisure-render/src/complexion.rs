@@ -1,7 +1,7 @@
-//! What each place of a head is made of: skin with its reds, lips, a garment, and eyes.
+//! What each place of a head is made of: skin with its reds, lips, a garment, and eyes; and what accessories are made of.
 
 use frisure_look::SkinLook;
-use frisure_strands::{Eye, Features, Tint};
+use frisure_strands::{AccessoryMaterial, Eye, Features, Tint};
 use glam::{DVec3, Vec3};
 
 /// The material of a place.
@@ -89,6 +89,13 @@ fn eyeball(eye: &Eye, p: DVec3, look: &SkinLook) -> Material {
         scatters: false,
         normal: Some(out.normalize_or(gaze)),
     }
+}
+
+/// The material of an accessory.
+#[must_use]
+pub fn accessory_material(of: &AccessoryMaterial) -> Material {
+    let AccessoryMaterial { colour, gloss, roughness, .. } = *of;
+    Material { colour: colour.into(), gloss, roughness, scatters: false, normal: None }
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub mod preview;
 mod scene;
 pub mod trace;
 
-pub use complexion::{Material, SKIN_ROUGHNESS, material};
+pub use complexion::{Material, SKIN_ROUGHNESS, accessory_material, material};
 pub use film::{Image, MAX_SIZE};
 pub use picture::PictureSpec;
 pub use scene::{Scene, all_hair, framed_bounds, head_centre};

@@ -69,7 +69,7 @@ impl PictureSpec<'_> {
             let on_foot = surface.is_some_and(|s| s.bounds().0.z <= low.z);
             Floor::under((low, high), on_foot, colour)
         });
-        Ok(Scene { strands, surface, camera, lights, look })
+        Ok(Scene { strands, surface, accessories: &[], camera, lights, look })
     }
 
     /// Materials and lights for a head with its middle ([`head_centre`]) at `centre` (m), without a floor.

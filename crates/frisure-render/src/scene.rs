@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use frisure_look::{Camera, Lights, Look};
-use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
+use frisure_strands::{AccessoryMesh, Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::DVec3;
 
 /// Everything that a picture shows.
@@ -19,6 +19,8 @@ pub struct Scene<'a> {
     pub strands: &'a Strands,
     /// The head, which hides hair and is hidden by it; none draws hair alone.
     pub surface: Option<&'a Surface>,
+    /// What holds the hair, which hides it and casts shadows as the head does.
+    pub accessories: &'a [AccessoryMesh],
     /// The camera.
     pub camera: Camera,
     /// The lights.
@@ -40,7 +42,7 @@ impl<'a> Scene<'a> {
     pub fn portrait(strands: &'a Strands, surface: Option<&'a Surface>) -> Self {
         let camera = Camera::framing(framed_bounds(strands, surface), 0.5, 0.08, 1.0);
         let lights = Lights::studio(&camera);
-        Self { strands, surface, camera, lights, look: Look::default() }
+        Self { strands, surface, accessories: &[], camera, lights, look: Look::default() }
     }
 }
 
@@ -53,6 +55,15 @@ impl Scene<'_> {
     #[must_use]
     pub fn all_hair(&self) -> Cow<'_, Strands> {
         all_hair(self.strands, self.surface)
+    }
+
+    /// The head with the accessories as one mesh; none if there is neither.
+    #[must_use]
+    pub fn all_surfaces(&self) -> Option<Cow<'_, Surface>> {
+        if self.accessories.is_empty() {
+            return self.surface.map(Cow::Borrowed);
+        }
+        Surface::with_accessories(self.surface, self.accessories).map(Cow::Owned)
     }
 }
 

@@ -4,7 +4,7 @@ use frisure_look::{Background, Camera, Lights, Look, Melanin, SkinLook};
 use frisure_render::preview::{self, PreviewOptions};
 use frisure_render::trace::{TraceOptions, render};
 use frisure_render::{Image, Scene};
-use frisure_strands::{Eye, Features, Strands, Surface, Tint};
+use frisure_strands::{AccessoryMaterial, AccessoryMesh, Eye, Features, Strands, Surface, Tint};
 use glam::{DVec3, Vec3};
 
 /// A ball of 8 cm with an eye of 1.2 cm in its front.
@@ -145,4 +145,31 @@ fn an_eye_has_an_iris_in_both_pictures() {
         let pixel = image.pixels()[at];
         assert!(pixel[2] > 1.5 * pixel[0], "{pixel:?}");
     }
+}
+
+#[test]
+fn both_renderers_show_accessories_in_their_colours_and_not_as_skin() {
+    let (strands, ball) = (hidden_hair(), skin());
+    let colour = [0.05, 0.4, 0.1];
+    let material = AccessoryMaterial { name: "felt", colour, gloss: 0.0, roughness: 1.0 };
+    // A ball around that of the head hides it.
+    let around = ball.positions().iter().map(|p| 1.2 * *p).collect();
+    let around = Surface::new(around, ball.triangles().to_vec()).unwrap();
+    let accessories = [AccessoryMesh { name: "cover_0".into(), material, surface: around }];
+    let white = SkinLook { colour: Vec3::splat(0.8), gloss: 0.0, ..SkinLook::default() };
+    let bare = scene(&strands, &ball, white);
+    let covered = Scene { accessories: &accessories, ..bare.clone() };
+    let middle = |image: &Image| Vec3::from_slice(&image.pixels()[16 * 32 + 16][..3]);
+    let preview = |scene: &Scene<'_>| {
+        let options = PreviewOptions { width: 32, height: 32, ..PreviewOptions::default() };
+        middle(&preview::render(scene, &options, &()).unwrap())
+    };
+    for (name, shown) in
+        [("traced", middle(&traced(&covered, 32, 64))), ("preview", preview(&covered))]
+    {
+        // In even light a matt surface has its colour.
+        let apart = (shown - Vec3::from(colour)).abs().max_element();
+        assert!(apart < 0.03, "{name}: {shown}");
+    }
+    assert!(preview(&bare).x > 0.5, "without the cover skin is seen");
 }

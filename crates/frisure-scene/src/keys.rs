@@ -637,6 +637,8 @@ pub static KEYS: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
             .slider(Panel::Look, "Exposure", STOPS, (-4.0, 4.0), 1, "Stops by which the picture is lighter.");
         /// How light becomes a PNG's colours. Default "shoulder".
         "output.tone" => value::<OneOf<ToneCurve>>();
+        /// Whether pictures show what holds the hair: rollers, hair ties, pins and clips. Default true.
+        "output.accessories" => value::<Flag>();
     }
 });
 

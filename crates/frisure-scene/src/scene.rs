@@ -132,12 +132,14 @@ pub struct Output {
     pub exposure: f64,
     /// Tone curve.
     pub tone: ToneCurve,
+    /// Whether pictures show what holds the hair: rollers, ties, pins and clips.
+    pub accessories: bool,
 }
 
 impl Default for Output {
     fn default() -> Self {
         let tone = ToneCurve::default();
-        Self { width: 900, height: 1100, samples: 4, exposure: 0.0, tone }
+        Self { width: 900, height: 1100, samples: 4, exposure: 0.0, tone, accessories: true }
     }
 }
 

@@ -7,6 +7,8 @@
 
 #![forbid(unsafe_code)]
 
+mod accessory;
+mod accessory_material;
 mod features;
 pub mod names;
 mod near;
@@ -16,6 +18,8 @@ mod strands;
 mod surface;
 mod thin;
 
+pub use accessory::AccessoryMesh;
+pub use accessory_material::AccessoryMaterial;
 pub use features::{Eye, Features, Tint};
 pub use resample::Resampled;
 pub use strands::{Attribute, AttributeError, AttributeValues, Domain, Strand, Strands};

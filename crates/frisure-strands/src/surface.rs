@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::accessory_material::{AccessoryFaces, AccessoryMaterial};
 use crate::features::{Features, Tint};
 
 /// A triangle mesh in metres, counter-clockwise seen from outside; every index is valid, every
@@ -31,6 +32,7 @@ pub struct Surface {
     triangles: Vec<[u32; 3]>,
     texture: Vec<[[f32; 2]; 3]>,
     features: Option<Arc<Features>>,
+    accessories: Option<Arc<AccessoryFaces>>,
 }
 
 /// Why a mesh is not a [`Surface`].
@@ -96,7 +98,8 @@ impl Surface {
                 return Err(SurfaceError::Index { face, vertex, count });
             }
         }
-        let surface = Self { positions, triangles, texture: Vec::new(), features: None };
+        let (texture, features, accessories) = (Vec::new(), None, None);
+        let surface = Self { positions, triangles, texture, features, accessories };
         if surface.area() > 0.0 { Ok(surface) } else { Err(SurfaceError::NoFaces) }
     }
 
@@ -154,6 +157,31 @@ impl Surface {
         };
         let corners = self.triangles[index].map(|v| features.tints[v as usize]);
         corners.iter().zip(weights).fold(Tint::default(), |sum, (tint, w)| sum + *tint * w)
+    }
+
+    /// What the accessory is made of that face `index` is part of; none of a face of the head.
+    #[must_use]
+    pub fn accessory(&self, index: usize) -> Option<&AccessoryMaterial> {
+        self.accessories.as_ref()?.material(index)
+    }
+
+    /// Sets which faces are accessories.
+    pub(crate) fn set_accessories(&mut self, faces: AccessoryFaces) {
+        self.accessories = Some(Arc::new(faces));
+    }
+
+    /// Adds the vertices and faces of another mesh, without its texture and features.
+    pub(crate) fn append(&mut self, other: &Self) {
+        let first = self.positions.len() as u32;
+        self.positions.extend_from_slice(&other.positions);
+        self.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
+        if !self.texture.is_empty() {
+            self.texture.resize(self.triangles.len(), [[0.0; 2]; 3]);
+        }
+        // What is no skin has no tint.
+        if let Some(features) = self.features.as_mut().filter(|f| !f.tints.is_empty()) {
+            Arc::make_mut(features).tints.resize(self.positions.len(), Tint::default());
+        }
     }
 
     /// Vertices (m).
@@ -260,6 +288,39 @@ mod tests {
         let face = with(vec![red, Tint::default(), Tint::default()]).unwrap();
         assert_eq!(face.tint(0, [0.25, 0.5, 0.25]).lips, 0.25);
         assert!(surface.features().is_none() && face.features().is_some());
+    }
+
+    #[test]
+    fn accessories_follow_the_head_and_have_its_tints_no_more() {
+        let p = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let surface = Surface::new(p, vec![[0, 1, 2]]).unwrap();
+        let red = Tint { lips: 1.0, ..Tint::default() };
+        let features = Features { tints: vec![red; 3], ..Features::default() };
+        let head = surface.clone().with_features(features).unwrap();
+        let head = head.with_texture(vec![[[0.5; 2]; 3]]).unwrap();
+        let material =
+            |name| AccessoryMaterial { name, colour: [0.5; 3], gloss: 0.0, roughness: 1.0 };
+        let mesh = |name| crate::AccessoryMesh {
+            name: String::new(),
+            material: material(name),
+            surface: surface.clone(),
+        };
+        let meshes = [mesh("a"), mesh("b")];
+        let joined = Surface::with_accessories(Some(&head), &meshes).unwrap();
+        let names = |s: &Surface| -> Vec<_> {
+            (0..s.triangles().len()).map(|i| s.accessory(i).map(|m| m.name)).collect()
+        };
+        assert_eq!(names(&joined), [None, Some("a"), Some("b")]);
+        assert_eq!(joined.positions().len(), 9);
+        assert_eq!(
+            (joined.tint(0, [1.0, 0.0, 0.0]), joined.tint(2, [1.0, 0.0, 0.0])),
+            (red, Tint::default())
+        );
+        assert_eq!(joined.texture().len(), 3);
+        let alone = Surface::with_accessories(None, &meshes).unwrap();
+        assert_eq!(names(&alone), [Some("a"), Some("b")]);
+        assert_eq!(Surface::with_accessories(Some(&head), &[]), Some(head));
+        assert_eq!(Surface::with_accessories(None, &[]), None);
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! The head on the device.
+//! The head on the device, with what holds the hair.
 
 use bytemuck::cast_slice;
-use frisure_strands::{Strands, Surface, Tint};
+use frisure_strands::{AccessoryMesh, Strands, Surface, Tint};
 use glam::{DVec3, Vec3};
 use wgpu::{Buffer, BufferUsages, Device, Queue};
 
@@ -27,7 +27,22 @@ pub struct Skin {
 impl Skin {
     /// Puts a surface on the device.
     #[must_use]
-    pub fn new(_renderer: &Renderer, device: &Device, queue: &Queue, surface: &Surface) -> Self {
+    pub fn new(renderer: &Renderer, device: &Device, queue: &Queue, surface: &Surface) -> Self {
+        Self::with_accessories(renderer, device, queue, surface, &[])
+    }
+
+    /// Puts a head and what holds its hair on the device. Accessories hide hair, cast shadows and are lit as the head is; the lamps
+    /// are aimed at the middle of the head alone.
+    #[must_use]
+    pub fn with_accessories(
+        _renderer: &Renderer,
+        device: &Device,
+        queue: &Queue,
+        head: &Surface,
+        accessories: &[AccessoryMesh],
+    ) -> Self {
+        let joined = Surface::with_accessories(Some(head), accessories);
+        let surface = joined.as_ref().unwrap_or(head);
         let positions: Vec<Vec3> = surface.positions().iter().map(|p| p.as_vec3()).collect();
         let normals: Vec<Vec3> = surface.vertex_normals().iter().map(|n| n.as_vec3()).collect();
         let both = positions.iter().zip(&normals);
@@ -38,7 +53,7 @@ impl Skin {
         let faces = surface.triangles().iter().filter(|t| t.iter().all(|&v| (v as usize) < kept));
         let indices: Vec<u32> = faces.flatten().copied().take(most as usize / 3 * 3).collect();
         Self {
-            middle: frisure_render::head_centre(&Strands::new(), Some(surface)),
+            middle: frisure_render::head_centre(&Strands::new(), Some(head)),
             vertices: gpu::buffer(
                 device,
                 queue,
@@ -99,10 +114,18 @@ impl Skin {
     }
 }
 
-/// Tints of the vertices, which are none for skin without features.
+/// Tints of the vertices, which are none for skin without features. Vertices of accessories have a fourth number of at least one: their
+/// colour, and one plus the strength of their gloss.
 fn tints(surface: &Surface) -> Vec<[f32; 4]> {
     let tints = surface.features().map_or(&[][..], |features| &features.tints);
     let of = |index: usize| tints.get(index).copied().unwrap_or_default();
     let packed = |Tint { lips, flush, garment }| [lips, flush, garment, 0.0];
-    (0..surface.positions().len()).map(|index| packed(of(index))).collect()
+    let mut tints: Vec<_> = (0..surface.positions().len()).map(|index| packed(of(index))).collect();
+    for (face, corners) in surface.triangles().iter().enumerate() {
+        if let Some(material) = surface.accessory(face) {
+            let [r, g, b] = material.colour;
+            corners.iter().for_each(|&v| tints[v as usize] = [r, g, b, 1.0 + material.gloss]);
+        }
+    }
+    tints
 }

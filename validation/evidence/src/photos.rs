@@ -203,7 +203,7 @@ pub fn photo(seed: u64) -> Result<KnownPhoto, Stopped> {
         Background::Gradient { centre: Vec3::splat(grey), corner: Vec3::splat(corner) };
     let look = Look { hair, background, ..Look::default() };
     let lights = Lights::studio(&camera);
-    let scene = Scene { strands: &strands, surface: None, camera, lights, look };
+    let scene = Scene { strands: &strands, surface: None, accessories: &[], camera, lights, look };
     let options = PreviewOptions { width: size[0], height, samples: 1, width_scale: Some(1.0) };
     let mut image = render(&scene, &options, &()).map_err(|e| Stopped::Other(e.to_string()))?;
     blur(image.pixels_mut(), size, random.between(0.5, 0.9));

@@ -68,6 +68,7 @@ fn picture(
         replicas: None,
         writing: Writing::default(),
         fibres: false,
+        accessories: false,
     };
     predict::run_scene(&arguments, scene, views, quiet)
 }
@@ -164,6 +165,7 @@ impl GroomPicture<'_> {
             strands: &strands,
             framed: &strands,
             surface: head.as_deref().map(Head::surface),
+            accessories: Vec::new(),
             environment: environment.as_ref(),
         };
         let named = |e| match e {

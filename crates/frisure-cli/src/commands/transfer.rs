@@ -32,6 +32,7 @@ pub(crate) fn run(arguments: Transfer, quiet: bool) -> Result<ExitStatus, Error>
         replicas: None,
         writing,
         fibres: false,
+        accessories: false,
     };
     predict::run_scene(&arguments, scene, Views::Cameras(Vec::new()), quiet)
 }

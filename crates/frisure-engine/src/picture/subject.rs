@@ -6,7 +6,7 @@ use frisure::render::preview::{self, PreviewError, PreviewOptions};
 use frisure::render::trace::{TraceError, TraceOptions, Tracer};
 use frisure::render::{self, Image, PictureSpec};
 use frisure::scene::Scene;
-use frisure::strands::{Strands, Surface};
+use frisure::strands::{AccessoryMesh, Strands, Surface};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +38,7 @@ pub enum Frames {
 }
 
 /// What is in a picture.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Subject<'a> {
     /// Camera, light and look.
     pub scene: &'a Scene,
@@ -48,12 +48,15 @@ pub struct Subject<'a> {
     pub framed: &'a Strands,
     /// The head.
     pub surface: Option<&'a Surface>,
+    /// What holds the hair; the camera is not placed for it.
+    pub accessories: Vec<AccessoryMesh>,
     /// The scene's environment map ([`crate::environment_map`]).
     pub environment: Option<&'a EnvironmentMap>,
 }
 
 impl LoadedScene {
-    /// The subject of strands on the scene's head, with the scene's environment map.
+    /// The subject of strands on the scene's head, with the scene's environment map, and with what holds the hair unless
+    /// `output.accessories` is false.
     #[must_use]
     pub fn subject<'a>(
         &'a self,
@@ -61,11 +64,12 @@ impl LoadedScene {
         environment: Option<&'a EnvironmentMap>,
     ) -> Subject<'a> {
         let surface = Some(self.head.surface());
-        Subject { scene: &self.scene, strands, framed: strands, surface, environment }
+        let accessories = self.shown_accessories();
+        Subject { scene: &self.scene, strands, framed: strands, surface, accessories, environment }
     }
 }
 
-impl<'a> Subject<'a> {
+impl Subject<'_> {
     /// The tracer of the picture from a viewpoint; without one, from the scene's camera.
     ///
     /// # Errors
@@ -179,10 +183,11 @@ impl<'a> Subject<'a> {
     }
 
     /// The scene of the renderers from a camera.
-    pub(super) fn render_scene(&self, camera: Camera) -> Result<render::Scene<'a>, Error> {
+    pub(super) fn render_scene(&self, camera: Camera) -> Result<render::Scene<'_>, Error> {
         let spec = spec(self.scene, self.environment);
         let scene = spec.scene(camera, self.strands, self.framed, self.surface);
-        scene.map_err(|e| Error::because(&e, ""))
+        let scene = scene.map_err(|e| Error::because(&e, ""))?;
+        Ok(render::Scene { accessories: &self.accessories, ..scene })
     }
 
     fn camera(&self, viewpoint: Option<Viewpoint>, aspect: f64) -> Result<Camera, Error> {

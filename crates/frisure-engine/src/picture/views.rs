@@ -89,6 +89,8 @@ impl<'a> Viewed<'a> {
             strands: &self.strands,
             framed: &self.strands,
             surface: Some(self.loaded.head.surface()),
+            // The maps of hair have none either.
+            accessories: Vec::new(),
             environment: environment.as_ref(),
         };
         let aspect = width as f64 / height as f64;

@@ -1,7 +1,7 @@
 //! A groom, in memory.
 
 use frisure_look::Melanin;
-use frisure_strands::{Strands, Surface};
+use frisure_strands::{AccessoryMesh, Strands, Surface};
 
 /// The hair of a file, in metres, z up. Not every format holds all of it: see [`super::Format`].
 ///
@@ -29,6 +29,8 @@ pub struct Groom {
     pub guides: Strands,
     /// The head that it is rooted in.
     pub head: Option<Surface>,
+    /// What holds the hair, for formats of which [`super::Format::holds_accessories`] is true. Readers leave it out.
+    pub accessories: Vec<AccessoryMesh>,
     /// The colour of its hairs, where they have none of their own.
     pub colour: Option<HairColour>,
     /// At how many times the file has its points: readers take the first of several, as [`Self::told`] says. 0 of hair that does not move.

@@ -99,9 +99,9 @@ impl Groom {
             }
         };
         let ((hairs, of_hairs), (guides, of_guides)) = (with(&hairs), with(&self.guides));
-        let Self { name, head, colour, .. } = self;
-        let (name, head, colour) = (name.clone(), head.clone(), *colour);
-        let groom = Self { name, hairs, guides, head, colour, times: self.times };
+        let Self { name, head, accessories, colour, times, .. } = self;
+        let (name, head, accessories) = (name.clone(), head.clone(), accessories.clone());
+        let groom = Self { name, hairs, guides, head, accessories, colour: *colour, times: *times };
         Ok(Fitted { groom, hairs_before: before, widening, error: of_hairs.max(of_guides) })
     }
 }

@@ -1,19 +1,20 @@
 //! glTF 2.0 in one binary file (`.glb`): lines for a preview in a browser, without thickness.
 //!
 //! Metres and y up, face towards +z, as glTF demands. One mesh of `LINES` for hairs and one for guides, in one
-//! buffer, lit by nothing, each point with its colour.
+//! buffer, lit by nothing, each point with its colour; what holds the hair as meshes of triangles under one node.
 //!
 //! The JSON is a few lines, so that no crate for it is needed.
 
 use std::io::{self, Write};
 
-use frisure_strands::{AttributeValues, Domain, Strands};
+use frisure_strands::{AccessoryMesh, AttributeValues, Domain, Strands, Surface};
 use glam::Vec3;
 use serde_json::{Value, json};
 
 use super::attributes::COLOUR;
 use super::data::Groom;
 use super::format::Declaration;
+use crate::accessory_names::EXTRA;
 use frisure_files::frame::Frame;
 
 /// The declaration of the format.
@@ -35,10 +36,12 @@ const BROWN: [f32; 3] = [0.1, 0.05, 0.025];
 
 /// Checks that the format has room: lines, in a buffer of 4 GiB.
 fn check(groom: &Groom) -> Result<(), String> {
+    let of_meshes = groom.accessories.iter().map(|a| mesh_size(&a.surface)).sum::<u64>();
     let size: u64 = parts(groom).map(|(_, s)| size(s)).sum();
     if size == 0 {
         return Err("a groom without lines".into());
     }
+    let size = size + of_meshes;
     if size > u64::from(u32::MAX) / 2 {
         return Err(format!("{size} bytes"));
     }
@@ -59,48 +62,121 @@ fn size(strands: &Strands) -> u64 {
     24 * strands.points().len() as u64 + 8 * lines(strands) as u64
 }
 
+fn mesh_size(mesh: &Surface) -> u64 {
+    24 * mesh.positions().len() as u64 + 12 * mesh.triangles().len() as u64
+}
+
+/// The lists of a document, as they grow.
+#[derive(Default)]
+struct Lists {
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    meshes: Vec<Value>,
+    nodes: Vec<Value>,
+    materials: Vec<Value>,
+    bytes: u64,
+}
+
+impl Lists {
+    /// Adds a view of so many bytes and an accessor for it; returns the index of the accessor.
+    fn accessor(&mut self, size: usize, of_indices: bool, count: usize) -> usize {
+        // 5126: f32, 5125: u32; 34962: of vertices, 34963: of indices.
+        let (kind, target, shape) =
+            if of_indices { (5125, 34963, "SCALAR") } else { (5126, 34962, "VEC3") };
+        let view = self.views.len();
+        self.views.push(json!({
+            "buffer": 0, "byteOffset": self.bytes, "byteLength": size, "target": target
+        }));
+        self.bytes += size as u64;
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": kind, "count": count, "type": shape
+        }));
+        self.accessors.len() - 1
+    }
+
+    /// Adds an accessor for positions with their bounds.
+    fn positions(&mut self, count: usize, (low, high): (Vec3, Vec3)) -> usize {
+        let accessor = self.accessor(12 * count, false, count);
+        self.accessors[accessor]["min"] = json!(low.to_array());
+        self.accessors[accessor]["max"] = json!(high.to_array());
+        accessor
+    }
+
+    /// Adds a mesh and a node for it.
+    fn mesh(&mut self, name: &str, primitive: &Value) {
+        self.nodes.push(json!({ "mesh": self.meshes.len(), "name": name }));
+        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
+    }
+
+    fn lines(&mut self, name: &str, strands: &Strands, frame: Frame) {
+        let points = strands.points().len();
+        let first = self.positions(points, bounds(strands.points().iter().copied(), frame));
+        self.accessor(12 * points, false, points);
+        self.accessor(8 * lines(strands), true, 2 * lines(strands));
+        self.mesh(
+            name,
+            &json!({
+                "attributes": { "POSITION": first, "COLOR_0": first + 1 },
+                "indices": first + 2, "mode": 1, "material": 0
+            }),
+        );
+    }
+
+    fn accessory(&mut self, accessory: &AccessoryMesh, frame: Frame) {
+        let AccessoryMesh { name, material, surface } = accessory;
+        let (points, faces) = (surface.positions().len(), surface.triangles().len());
+        let first = self.positions(points, bounds(places(surface), frame));
+        self.accessor(12 * points, false, points);
+        self.accessor(12 * faces, true, 3 * faces);
+        let found = self.materials.iter().position(|m| m["name"] == material.name);
+        let made = found.unwrap_or_else(|| {
+            let [r, g, b] = material.colour;
+            self.materials.push(json!({ "name": material.name, "pbrMetallicRoughness": {
+                "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0,
+                // Roughness of glTF is the square root of α.
+                "roughnessFactor": material.roughness.sqrt()
+            }}));
+            self.materials.len() - 1
+        });
+        self.mesh(
+            &format!("accessories/{name}"),
+            &json!({
+                "attributes": { "POSITION": first, "NORMAL": first + 1 },
+                "indices": first + 2, "material": made
+            }),
+        );
+    }
+}
+
+fn places(surface: &Surface) -> impl Iterator<Item = Vec3> {
+    surface.positions().iter().map(|p| p.as_vec3())
+}
+
 /// Writes what [`check`] has passed.
 fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     let colour = groom.colour.map_or(BROWN, |c| c.colour);
-    let (mut views, mut accessors) = (Vec::new(), Vec::new());
-    let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
-    let mut bytes: u64 = 0;
-    for (name, strands) in parts(groom) {
-        let first = accessors.len();
-        let points = strands.points().len();
-        let (low, high) = bounds(strands, frame);
-        // 5126: f32, 5125: u32; 34962: of vertices, 34963: of indices.
-        for (size, target) in
-            [(12 * points, 34962), (12 * points, 34962), (8 * lines(strands), 34963)]
-        {
-            views.push(json!({
-                "buffer": 0, "byteOffset": bytes, "byteLength": size, "target": target
-            }));
-            bytes += size as u64;
-        }
-        let of = |view: usize, kind: u32, count: usize, shape: &str| -> Value {
-            json!({ "bufferView": view, "componentType": kind, "count": count, "type": shape })
-        };
-        let mut position = of(first, 5126, points, "VEC3");
-        position["min"] = json!(low.to_array());
-        position["max"] = json!(high.to_array());
-        accessors.push(position);
-        accessors.push(of(first + 1, 5126, points, "VEC3"));
-        accessors.push(of(first + 2, 5125, 2 * lines(strands), "SCALAR"));
-        nodes.push(json!({ "mesh": meshes.len(), "name": name }));
-        meshes.push(json!({ "name": name, "primitives": [{
-            "attributes": { "POSITION": first, "COLOR_0": first + 1 },
-            "indices": first + 2, "mode": 1, "material": 0
-        }]}));
+    let mut lists = Lists {
+        materials: vec![json!({ "name": "hair", "extensions": { "KHR_materials_unlit": {} } })],
+        ..Lists::default()
+    };
+    parts(groom).for_each(|(name, strands)| lists.lines(name, strands, frame));
+    let mut roots: Vec<usize> = (0..lists.nodes.len()).collect();
+    groom.accessories.iter().for_each(|accessory| lists.accessory(accessory, frame));
+    if !groom.accessories.is_empty() {
+        let children: Vec<usize> = (roots.len()..lists.nodes.len()).collect();
+        roots.push(lists.nodes.len());
+        let extras = json!({ EXTRA: true });
+        lists.nodes.push(json!({ "name": "accessories", "children": children, "extras": extras }));
     }
+    let Lists { views, accessors, meshes, nodes, materials, bytes } = lists;
     let json = json!({
         "asset": { "version": "2.0", "generator": "frisure" },
         "extensionsUsed": ["KHR_materials_unlit"],
         "scene": 0,
-        "scenes": [{ "nodes": (0..nodes.len()).collect::<Vec<_>>() }],
+        "scenes": [{ "nodes": roots }],
         "nodes": nodes,
         "meshes": meshes,
-        "materials": [{ "name": "hair", "extensions": { "KHR_materials_unlit": {} } }],
+        "materials": materials,
         "accessors": accessors,
         "bufferViews": views,
         "buffers": [{ "byteLength": bytes }]
@@ -116,23 +192,43 @@ fn encode(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
     write_words(out, [bytes as u32])?;
     out.write_all(b"BIN\0")?;
     for (_, strands) in parts(groom) {
-        for p in strands.points() {
-            let p = frame.position_to_file(*p).to_array();
-            write_words(out, p.map(f32::to_bits))?;
-        }
-        write_colours(out, strands, colour)?;
-        for strand in strands.offsets().windows(2) {
-            for a in strand[0]..strand[1].saturating_sub(1).max(strand[0]) {
-                write_words(out, [a, a + 1])?;
-            }
+        write_lines(out, strands, colour, frame)?;
+    }
+    groom.accessories.iter().try_for_each(|a| write_mesh(out, &a.surface, frame))
+}
+
+fn write_lines(
+    out: &mut dyn Write,
+    strands: &Strands,
+    colour: [f32; 3],
+    frame: Frame,
+) -> io::Result<()> {
+    for p in strands.points() {
+        let p = frame.position_to_file(*p).to_array();
+        write_words(out, p.map(f32::to_bits))?;
+    }
+    write_colours(out, strands, colour)?;
+    for strand in strands.offsets().windows(2) {
+        for a in strand[0]..strand[1].saturating_sub(1).max(strand[0]) {
+            write_words(out, [a, a + 1])?;
         }
     }
     Ok(())
 }
 
+fn write_mesh(out: &mut dyn Write, mesh: &Surface, frame: Frame) -> io::Result<()> {
+    for p in places(mesh) {
+        write_words(out, frame.position_to_file(p).to_array().map(f32::to_bits))?;
+    }
+    for n in mesh.vertex_normals() {
+        write_words(out, frame.direction_to_file(n.as_vec3()).to_array().map(f32::to_bits))?;
+    }
+    mesh.triangles().iter().try_for_each(|face| write_words(out, *face))
+}
+
 /// Smallest and largest coordinates, as the file has them.
-fn bounds(strands: &Strands, frame: Frame) -> (Vec3, Vec3) {
-    let points = strands.points().iter().map(|p| frame.position_to_file(*p));
+fn bounds(points: impl Iterator<Item = Vec3>, frame: Frame) -> (Vec3, Vec3) {
+    let points = points.map(|p| frame.position_to_file(p));
     points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)))
 }
 

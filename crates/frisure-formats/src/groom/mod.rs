@@ -142,6 +142,24 @@ impl Format {
         Err(GroomError::Frame { format: self.extension(), up: self.frame().up.name() })
     }
 
+    /// Whether a file of the format can hold what holds the hair, as meshes.
+    #[must_use]
+    pub fn holds_accessories(self) -> bool {
+        ["usd", "usda", "usdc", "usdz", "abc", "glb", "obj"].contains(&self.extension())
+    }
+
+    /// Checks that a file of the format can hold accessories.
+    ///
+    /// # Errors
+    /// [`GroomError::CannotHold`], listing the formats that can.
+    pub fn check_accessories(self) -> Result<(), GroomError> {
+        if self.holds_accessories() {
+            return Ok(());
+        }
+        let what = format!("accessories; {} can", known(Self::holds_accessories));
+        Err(GroomError::CannotHold { format: self.extension(), what })
+    }
+
     /// Checks that a file of the format can hold strands at several times: see [`Motion`].
     ///
     /// # Errors
@@ -209,6 +227,9 @@ pub fn encode(format: Format, groom: &Groom, choice: FrameChoice) -> Result<Vec<
 /// Checks that a format has room for a groom, and has the unit and axes.
 fn check(format: Format, groom: &Groom, choice: FrameChoice) -> Result<(), GroomError> {
     format.check_frame(choice)?;
+    if !groom.accessories.is_empty() {
+        format.check_accessories()?;
+    }
     let checked = checked::check_lines(groom).and_then(|()| (format.0.check)(groom));
     checked.map_err(|what| GroomError::CannotHold { format: format.extension(), what })
 }

@@ -1,16 +1,18 @@
-//! Wavefront `.obj` polylines (`v` and `l`): read by nearly everything, without thickness.
+//! Wavefront `.obj` polylines (`v` and `l`): read by nearly everything, without thickness. What holds the hair follows as objects of
+//! faces.
 //!
 //! Metres, y up with the face towards +z, unless the caller says otherwise, as programs expect of OBJ and as heads
 //! are read: a groom predicted on an OBJ head in metres lies on that head.
 
 use std::io::{self, Write};
 
-use frisure_strands::Strands;
+use frisure_strands::{AccessoryMesh, Strands};
 use glam::Vec3;
 
 use super::data::Groom;
 use super::format::Declaration;
 use super::lines::Lines;
+use crate::accessory_names::OBJECT;
 use frisure_files::frame::{Frame, FrameChoice};
 
 /// The declaration of the format.
@@ -22,7 +24,10 @@ pub(super) static FORMAT: Declaration = Declaration {
     usual_points: None,
     most_hairs: None,
     check: |_| Ok(()),
-    write: |out, samples, frame| encode(out, samples.groom.strands(), frame),
+    write: |out, samples, frame| {
+        encode(out, samples.groom.strands(), frame)?;
+        encode_meshes(out, samples.groom, frame)
+    },
     moves: false,
     read: Some(decode),
 };
@@ -34,15 +39,7 @@ fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()
     writeln!(out, "# frisure: {count} strands, {points} points; unit {} m, {up} up", frame.metres)?;
     let mut line = Vec::with_capacity(1 << 12);
     for &point in strands.points() {
-        line.clear();
-        line.push(b'v');
-        let Vec3 { x, y, z } = frame.position_to_file(point);
-        for c in [x, y, z] {
-            line.push(b' ');
-            push_decimal(&mut line, c);
-        }
-        line.push(b'\n');
-        out.write_all(&line)?;
+        write_vertex(out, point, frame, &mut line)?;
     }
     for pair in strands.offsets().windows(2) {
         // A line needs two points.
@@ -60,6 +57,42 @@ fn encode(out: &mut dyn Write, strands: &Strands, frame: Frame) -> io::Result<()
         out.write_all(&line)?;
     }
     Ok(())
+}
+
+/// Writes what holds the hair as one object each, after the points of the strands.
+fn encode_meshes(out: &mut dyn Write, groom: &Groom, frame: Frame) -> io::Result<()> {
+    let mut line = Vec::with_capacity(1 << 7);
+    // OBJ counts from 1.
+    let mut first = groom.strands().points().len() + 1;
+    for AccessoryMesh { name, surface, .. } in &groom.accessories {
+        writeln!(out, "o {OBJECT}{name}")?;
+        for point in surface.positions() {
+            write_vertex(out, point.as_vec3(), frame, &mut line)?;
+        }
+        for face in surface.triangles() {
+            let [a, b, c] = face.map(|v| first + v as usize);
+            writeln!(out, "f {a} {b} {c}")?;
+        }
+        first += surface.positions().len();
+    }
+    Ok(())
+}
+
+fn write_vertex(
+    out: &mut dyn Write,
+    point: Vec3,
+    frame: Frame,
+    line: &mut Vec<u8>,
+) -> io::Result<()> {
+    line.clear();
+    line.push(b'v');
+    let Vec3 { x, y, z } = frame.position_to_file(point);
+    for c in [x, y, z] {
+        line.push(b' ');
+        push_decimal(line, c);
+    }
+    line.push(b'\n');
+    out.write_all(line)
 }
 
 /// A coordinate with seven decimals, a thousandth of a hair's diameter; the general formatter takes

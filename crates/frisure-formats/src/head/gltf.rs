@@ -9,11 +9,13 @@ use glam::{DMat4, DQuat, DVec3};
 use percent_encoding::percent_decode_str;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 use super::format::{Beside, MeshFormat};
 use super::mesh::{Mesh, vertex_index};
 use super::source::MAX_SIZE;
+use crate::accessory_names::EXTRA;
 use frisure_files::frame::Frame;
 
 /// The declaration of the format.
@@ -60,6 +62,7 @@ struct Node {
     translation: Option<[f64; 3]>,
     rotation: Option<[f64; 4]>,
     scale: Option<[f64; 3]>,
+    extras: Value,
 }
 
 #[derive(Default, Deserialize)]
@@ -238,6 +241,9 @@ impl Reader<'_> {
             self.document.nodes.get(index).ok_or_else(|| format!("there is no node {index}"))?;
         if depth > MAX_DEPTH || std::mem::replace(&mut self.seen[index], true) {
             return Err(format!("node {index} is in several places, or too deep"));
+        }
+        if node.extras.get(EXTRA).is_some() {
+            return Ok(());
         }
         let world = above * place(node);
         if let Some(mesh) = node.mesh {

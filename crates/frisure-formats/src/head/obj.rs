@@ -5,6 +5,7 @@
 
 use super::format::{MeshFormat, Problem};
 use super::mesh::{MAX_CORNERS, Mesh};
+use crate::accessory_names::OBJECT;
 use frisure_files::frame::Frame;
 
 /// The declaration of the format.
@@ -49,6 +50,8 @@ fn parse(text: &str) -> Result<Mesh, Fault> {
             Some("g") => current = words.map(str::to_owned).collect(),
             Some("o") => object = words.next().map(str::to_owned),
             Some("usemtl") => material = words.next().map(str::to_owned),
+            // What holds the hair of a groom is no head.
+            Some("f") if object.as_ref().is_some_and(|name| name.starts_with(OBJECT)) => {}
             Some("f") => {
                 let names = current.iter().chain(&object).chain(&material);
                 mesh.face(words, names).map_err(fault)?;

@@ -1,7 +1,8 @@
-//! Heads in stages of Universal Scene Description: all their meshes, in their places.
+//! Heads in stages of Universal Scene Description: all their meshes but those that hold hair, in their places.
 
 use super::format::MeshFormat;
 use super::mesh::Mesh;
+use crate::accessory_names::PRIMVAR;
 use crate::stage_frame::stage_frame;
 use frisure_files::frame::FrameChoice;
 use frisure_usd::{self as usd, Prim, Stage, StagePrim, Value};
@@ -22,7 +23,10 @@ fn parse(bytes: &[u8]) -> Result<Mesh, String> {
     let mut mesh =
         Mesh { frame: Some(stage_frame(&stage, FrameChoice::default())), ..Mesh::default() };
     mesh.states_unit = layer.meta("metersPerUnit").is_some();
-    let meshes = stage.prims.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
+    let is_head = |p: &&StagePrim| {
+        p.prim.type_name == "Mesh" && !p.is_guide && p.prim.attribute(PRIMVAR).is_none()
+    };
+    let meshes = stage.prims.iter().filter(is_head);
     for place in meshes {
         add(&mut mesh, place).map_err(|e| stage.fault(place, &e))?;
     }

@@ -20,7 +20,7 @@ pub(crate) use rest::Rest;
 pub(crate) use wet_locks::COUNTED;
 pub use wet_locks::WetLockSizes;
 pub use wisp_state::WispState;
-pub(crate) use wisp_state::{DRAWN, Ends, Grip, Lay, Mould, ROOM, Styling, strain_of};
+pub(crate) use wisp_state::{DRAWN, Ends, Fastener, Grip, Lay, Mould, ROOM, Styling, strain_of};
 
 /// Guides at rest on a head, the description that they were predicted from, and what styling made of them.
 #[derive(Clone, Debug)]

@@ -113,6 +113,8 @@ pub(crate) enum Grip {
         at: f64,
         /// The point.
         to: DVec3,
+        /// With what.
+        by: Fastener,
     },
     /// A comb that is not taken away.
     Comb {
@@ -123,13 +125,26 @@ pub(crate) enum Grip {
     },
 }
 
+/// What holds a place of a wisp at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Fastener {
+    /// A clip.
+    Clip,
+    /// A hair tie round a bundle with this middle (m), which all wisps in the tie share.
+    Tie { middle: DVec3 },
+    /// A pin over a bundle with this middle (m).
+    Pin { middle: DVec3 },
+}
+
 /// A shape into which hair is forced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mould {
     /// A straight line.
     Straight,
-    /// A helix, by radius and pitch (m).
-    Helix { radius: f64, pitch: f64 },
+    /// A helix on a roller, by radius and pitch (m).
+    Roller { radius: f64, pitch: f64 },
+    /// A helix about another lock, by radius and pitch (m).
+    Twist { radius: f64, pitch: f64 },
     /// A part of a braid of three, by the braid's width and pitch (m).
     Braid { width: f64, pitch: f64 },
 }
@@ -185,7 +200,7 @@ impl WispState {
     #[must_use]
     pub fn clipped(&self) -> Option<(f64, DVec3)> {
         match self.grip {
-            Some(Grip::Clip { at, to }) => Some((at, to)),
+            Some(Grip::Clip { at, to, .. }) => Some((at, to)),
             _ => None,
         }
     }

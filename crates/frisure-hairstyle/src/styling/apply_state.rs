@@ -83,7 +83,9 @@ pub(super) fn guide(
 fn held(rod: Rod, mould: Mould) -> Result<Rod, InvalidQuantity> {
     let natural = match mould {
         Mould::Straight => NaturalStrain::STRAIGHT,
-        Mould::Helix { radius, pitch } => NaturalStrain::helix(radius, pitch)?,
+        Mould::Roller { radius, pitch } | Mould::Twist { radius, pitch } => {
+            NaturalStrain::helix(radius, pitch)?
+        }
         Mould::Braid { width, pitch } => braid(width, pitch, rod.length())?,
     };
     let material = rod.spec().material;
@@ -125,7 +127,7 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
         Grip::Comb { direction, strength } => {
             Some(Pull::Comb { force: direction * (strength * effort(rod, 0.0)) })
         }
-        Grip::Clip { at, to: point } => {
+        Grip::Clip { at, to: point, .. } => {
             // The whole piece stays on the hair, however near to an end the clip is.
             let middle = at * rod.length();
             let half = 0.5 * CLIP.1.min(rod.length());

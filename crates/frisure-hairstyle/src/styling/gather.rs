@@ -9,7 +9,7 @@ use super::error::StyleError;
 use super::settle::{Act, DraftRest};
 use super::taut::taut_length;
 use crate::equilibrium::Effort;
-use crate::hairstyle::{Grip, Hairstyle, Styling};
+use crate::hairstyle::{Fastener, Grip, Hairstyle, Styling};
 use crate::head::Head;
 
 /// Fraction of the cross section in a bundle that is hair. Chosen: hexagonal packing of round fibres has 0.91, a tie does not
@@ -37,6 +37,8 @@ pub(super) struct Gathering<'a> {
     pub(super) bundle: &'a dyn Fn(f64) -> (DVec3, DVec3),
     /// Where (m) hair is held before it goes to a bundle with this axis: off the head, so that none hangs on an ear or before the neck.
     pub(super) lifted: &'a dyn Fn(DVec3) -> DVec3,
+    /// What holds a bundle with this middle (m).
+    pub(super) by: fn(DVec3) -> Fastener,
 }
 
 /// Where a ray from far outside towards the middle of the cranium meets the skin (m).
@@ -73,13 +75,13 @@ impl Bundle {
 }
 
 impl Styling {
-    /// The same with a place of some wisps held: their indices, the points (m), and the places along them.
-    fn held_at(&self, places: impl Iterator<Item = (usize, DVec3, f64)>) -> Self {
+    /// The same with a place of some wisps held by a fastener: their indices, the points (m), and the places along them.
+    fn held_at(&self, by: Fastener, places: impl Iterator<Item = (usize, DVec3, f64)>) -> Self {
         let mut styling = self.clone();
         for (i, to, at) in places {
             let wisp = &mut styling.wisps[i];
             wisp.moved += 1;
-            wisp.grip = Some(Grip::Clip { at, to });
+            wisp.grip = Some(Grip::Clip { at, to, by });
         }
         styling
     }
@@ -131,16 +133,16 @@ pub(super) fn gathered(
         })
         .collect();
     // 3. Lifted off the head first, then held there.
-    let lifted = (to.lifted)(axis);
+    let (lifted, by) = ((to.lifted)(axis), (to.by)(middle));
     let alone = Effort { sweeps: 0, ..Effort::FULL };
     let hand = Act { draft: Some(DraftRest { effort: alone, stride: 1, like: None }), ..*act };
     let up = places.iter().map(|&(i, _, at)| (i, lifted, at));
-    let in_hand = hand.with(before.styling.held_at(up))?;
+    let in_hand = hand.with(before.styling.held_at(by, up))?;
     // 4. Hair that catches on its way stays out, rather than being held half-way.
-    let tried = hand.on(&in_hand).with(before.styling.held_at(places.iter().copied()))?;
+    let tried = hand.on(&in_hand).with(before.styling.held_at(by, places.iter().copied()))?;
     let reached = |&(i, to, at): &(usize, DVec3, f64)| {
         let rest = &tried.rest.guides[i];
         rest.at(&rest.chain(), at).0.distance(to) <= REACHED
     };
-    act.on(&in_hand).with(before.styling.held_at(places.into_iter().filter(reached)))
+    act.on(&in_hand).with(before.styling.held_at(by, places.into_iter().filter(reached)))
 }

@@ -1,7 +1,7 @@
 //! The head: its triangles, what of the environment reaches them, and which pixels of a tile it covers.
 
 use frisure_look::SkinLook;
-use frisure_strands::{Features, Surface, Tint};
+use frisure_strands::{AccessoryMaterial, Features, Surface, Tint};
 use glam::Vec3;
 
 use super::area::{Area, TILE};
@@ -17,6 +17,8 @@ pub(super) struct Head {
     /// Irradiance / π of the environment at each vertex.
     environment: Vec<Vec3>,
     features: Option<Features>,
+    /// What each face is made of that is no head; empty without such faces.
+    accessories: Vec<Option<AccessoryMaterial>>,
     look: SkinLook,
 }
 
@@ -59,6 +61,7 @@ impl Head {
             triangles: surface.triangles().to_vec(),
             environment,
             features,
+            accessories: accessories(surface),
             look: SkinLook::default(),
         }
     }
@@ -68,8 +71,11 @@ impl Head {
         Self { look, ..self }
     }
 
-    /// The material at a point of a face with these corners and weights.
-    fn material(&self, corners: [usize; 3], weights: Vec3, position: Vec3) -> Material {
+    /// The material at a point of face `index` with these corners and weights.
+    fn material(&self, index: u32, corners: [usize; 3], weights: Vec3, position: Vec3) -> Material {
+        if let Some(Some(object)) = self.accessories.get(index as usize) {
+            return complexion::accessory_material(object);
+        }
         let features = self.features.as_ref();
         let tint = features.filter(|f| !f.tints.is_empty()).map_or(Tint::default(), |features| {
             let [a, b, c] = corners.map(|v| features.tints[v]);
@@ -159,7 +165,7 @@ impl Head {
         let [a, b, c] = self.triangles[face as usize].map(|v| v as usize);
         let mix = |of: &[Vec3]| of[a] * weights.x + of[b] * weights.y + of[c] * weights.z;
         let (position, normal) = (mix(&self.positions), mix(&self.normals));
-        let material = self.material([a, b, c], weights, position);
+        let material = self.material(face, [a, b, c], weights, position);
         let normal = material.normal.unwrap_or(normal);
         pixel.colour += material.colour;
         pixel.gloss += material.gloss;
@@ -173,4 +179,11 @@ impl Head {
         pixel.normal += if towards { normal } else { -normal };
         pixel.environment += mix(&self.environment);
     }
+}
+
+/// What each face is made of that is no head; empty without such faces.
+fn accessories(surface: &Surface) -> Vec<Option<AccessoryMaterial>> {
+    let all: Vec<_> =
+        (0..surface.triangles().len()).map(|i| surface.accessory(i).copied()).collect();
+    if all.iter().any(Option::is_some) { all } else { Vec::new() }
 }

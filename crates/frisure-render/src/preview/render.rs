@@ -97,7 +97,8 @@ pub fn render(
     let curves = Curves::new(scene.strands, &view, scale);
     report(0.1)?;
     let materials = Materials::new(scene.strands, &scene.look.hair);
-    let mut head = scene.surface.map(|surface| Head::new(surface).looking(scene.look.skin));
+    let surfaces = scene.all_surfaces();
+    let mut head = surfaces.as_deref().map(|all| Head::new(all).looking(scene.look.skin));
     let shader = Shader::new(scene, &curves, materials, head.as_mut());
     report(0.3)?;
     let grid = TileGrid::new(&view, &curves, head.as_ref());

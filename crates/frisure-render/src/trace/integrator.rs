@@ -16,7 +16,7 @@ use super::rough_plastic::RoughPlastic;
 use super::sampler::Sampler;
 use super::subsurface::Subsurface;
 use crate::accel::{HairHit, Hit, Ray, SceneBvh, SkinHit};
-use crate::complexion::{Material, material};
+use crate::complexion::{Material, accessory_material, material};
 use frisure_look::SkinLook;
 use frisure_strands::{Surface, Tint};
 
@@ -26,7 +26,7 @@ pub(super) struct Integrator {
     pub(super) fibres: Fibres,
     pub(super) lights: LightSampler,
     pub(super) skin: SkinLook,
-    /// The head, for what it is made of.
+    /// The head with the accessories, for what they are made of.
     pub(super) head: Option<Surface>,
     pub(super) floor: Option<Floor>,
     pub(super) max_bounces: u32,
@@ -301,8 +301,12 @@ impl Integrator {
         Some(Seen { intersection: Intersection::Hit(Hit::Skin(exit)), bsdf, weight })
     }
 
-    /// What the head is made of at a hit.
+    /// What the head or an accessory is made of at a hit.
     fn material(&self, hit: &SkinHit) -> Material {
+        let accessory = self.head.as_ref().and_then(|head| head.accessory(hit.face as usize));
+        if let Some(accessory) = accessory {
+            return accessory_material(accessory);
+        }
         let features = self.head.as_ref().and_then(Surface::features);
         let tint = |head: &Surface| head.tint(hit.face as usize, hit.barycentric);
         let tint = self.head.as_ref().map_or(Tint::default(), tint);

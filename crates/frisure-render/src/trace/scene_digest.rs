@@ -1,7 +1,7 @@
 //! The digest of what a picture shows.
 
 use frisure_digest::Digest;
-use frisure_strands::{AttributeValues, Eye, Strands};
+use frisure_strands::{AccessoryMaterial, AccessoryMesh, AttributeValues, Eye, Strands, Surface};
 use glam::{DVec3, Vec3};
 
 use super::options::TraceOptions;
@@ -11,13 +11,10 @@ use crate::scene::Scene;
 pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest {
     let mut digest = Digest::new("picture");
     digest.field("version", env!("CARGO_PKG_VERSION"));
-    let Scene { strands, surface, look, camera: _, lights: _ } = scene;
+    let Scene { strands, surface, accessories, look, camera: _, lights: _ } = scene;
     add_strands(&mut digest, strands);
     if let Some(surface) = surface {
-        let positions = surface.positions().iter().flat_map(DVec3::to_array);
-        digest.packed("positions", positions.map(f64::to_le_bytes));
-        let corners = surface.triangles().iter().flatten();
-        digest.packed("triangles", corners.map(|corner| corner.to_le_bytes()));
+        add_mesh(&mut digest, surface);
         if let Some(features) = surface.features() {
             let tints = features.tints.iter().flat_map(|t| [t.lips, t.flush, t.garment]);
             digest.packed("tints", tints.map(f32::to_le_bytes));
@@ -27,6 +24,11 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
             add_strands(&mut digest, &features.hairs);
         }
     }
+    for AccessoryMesh { name: _, material, surface } in *accessories {
+        add_mesh(&mut digest, surface);
+        let AccessoryMaterial { name: _, colour: [r, g, b], gloss, roughness } = *material;
+        digest.packed("material", [r, g, b, gloss, roughness].map(f32::to_le_bytes));
+    }
     digest.field("look", look);
     let TraceOptions { width, height, bounces, clamp, seed, .. } = *options;
     digest.field("size", &[width, height]).field("bounces", &bounces).field("seed", &seed);
@@ -34,6 +36,13 @@ pub(super) fn scene_digest(scene: &Scene<'_>, options: &TraceOptions) -> Digest 
         digest.field("clamp", &clamp);
     }
     digest
+}
+
+fn add_mesh(digest: &mut Digest, surface: &Surface) {
+    let positions = surface.positions().iter().flat_map(DVec3::to_array);
+    digest.packed("positions", positions.map(f64::to_le_bytes));
+    let corners = surface.triangles().iter().flatten();
+    digest.packed("triangles", corners.map(|corner| corner.to_le_bytes()));
 }
 
 fn add_strands(digest: &mut Digest, strands: &Strands) {

@@ -1,5 +1,6 @@
 //! The tracer: adds samples to an accumulator, tile by tile.
 
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use frisure_digest::Digest;
@@ -54,12 +55,13 @@ impl Tracer {
         }
         let hair = scene.all_hair();
         let fibres = Fibres::new(&hair, &scene.look.hair).map_err(TraceError::Fibre)?;
+        let surfaces = scene.all_surfaces();
         let integrator = Integrator {
-            bvh: SceneBvh::new(&hair, scene.surface, &CurveOptions::default())?,
+            bvh: SceneBvh::new(&hair, surfaces.as_deref(), &CurveOptions::default())?,
             fibres,
             lights: LightSampler::new(&scene.lights),
             skin: scene.look.skin,
-            head: scene.surface.cloned(),
+            head: surfaces.map(Cow::into_owned),
             floor: scene.look.floor.as_ref().map(Floor::new),
             max_bounces: options.bounces,
             clamp: options.clamp,

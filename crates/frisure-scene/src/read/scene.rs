@@ -12,7 +12,7 @@ use crate::choice::OneOf;
 use crate::document::Document;
 use crate::error::{Result, SceneError};
 use crate::keywords::{BranchKind, FrictionWord, HairType, WettingWord};
-use crate::kind::{Count, Text, Vector};
+use crate::kind::{Count, Flag, Text, Vector};
 use crate::natural_look::NaturalLook;
 use crate::scene::{HeadSource, MAX_SIZE, Output, Scene};
 use crate::schema::schema;
@@ -96,6 +96,7 @@ fn scene(source: &Source, folder: &Path) -> Result<Scene> {
         environment,
         output: Output {
             tone: document.get_or::<OneOf<ToneCurve>>("output.tone", ToneCurve::default())?,
+            accessories: document.get_or::<Flag>("output.accessories", true)?,
             ..Output::default()
         },
         along: hair::along(&document)?,

@@ -19,7 +19,8 @@ struct Skin {
     @location(2) ambient: vec3<f32>,
     // Lamps, and whether the head's shadows are soft.
     @location(3) @interpolate(flat) kinds: vec2<i32>,
-    // Red of lips, blood beneath the skin, and whether a garment covers it (above one half).
+    // Red of lips, blood beneath the skin, and whether a garment covers it (above one half). Of an accessory its colour, and one
+    // plus the strength of its gloss.
     @location(4) tint: vec4<f32>,
 }
 
@@ -74,7 +75,7 @@ fn past_head_from(lamp: Lamp, p: vec3<f32>, bias: f32, places: i32) -> f32 {
     return open / f32(count);
 }
 
-// What a place of the head is made of: skin with its reds, a garment or an eye.
+// What a place of the head is made of: skin with its reds, a garment, an eye or an accessory.
 struct Cover {
     colour: vec3<f32>,
     // Whether light goes beneath the surface (1).
@@ -110,8 +111,11 @@ fn eyeball(eye: Eye, out: vec3<f32>) -> Cover {
     return Cover(colour, 0.0, WET_EYE, out);
 }
 
-fn cover(place: vec3<f32>, normal: vec3<f32>, tint: vec3<f32>) -> Cover {
-    let part = clamp(tint, vec3<f32>(0.0), vec3<f32>(1.0));
+fn cover(place: vec3<f32>, normal: vec3<f32>, tint: vec4<f32>) -> Cover {
+    if tint.w > 0.5 {
+        return Cover(tint.xyz, 0.0, vec2<f32>(tint.w - 1.0, picture.skin_shape.w), normal);
+    }
+    let part = clamp(tint.xyz, vec3<f32>(0.0), vec3<f32>(1.0));
     let reds = mix(vec3<f32>(1.0), FLUSH, part.y) * mix(vec3<f32>(1.0), LIPS, part.x);
     let gloss = vec2<f32>(picture.skin.a * (1.0 + 0.4 * part.x), picture.skin_shape.w);
     var found = Cover(picture.skin.rgb * reds, 1.0, gloss, normal);
@@ -160,7 +164,7 @@ fn skin(in: Skin) -> @location(0) vec4<f32> {
     let eye = normalize(picture.eye.xyz - in.place);
     var normal = normalize(in.normal);
     normal = select(normal, -normal, dot(normal, eye) < 0.0);
-    let made = cover(in.place, normal, in.tint.xyz);
+    let made = cover(in.place, normal, in.tint);
     var light = in.ambient * made.colour;
     for (var i = 0; i < in.kinds.x; i += 1) {
         light += skin_from(picture.lamps[i], made, in.place, eye, select(1, ALL, in.kinds.y > 0));

@@ -6,6 +6,7 @@ mod support;
 #[path = "../../../frisure-render/examples/support/wig.rs"]
 mod wig;
 
+mod accessories;
 mod agreement;
 mod coverage;
 mod extras;

@@ -92,6 +92,9 @@ fn check_arguments(arguments: &Predict, scene: &Scene) -> Result<(), Error> {
     if arguments.time_samples {
         grooms::check_motion(&arguments.outputs)?;
     }
+    if arguments.accessories {
+        grooms::check_accessories(&arguments.outputs)?;
+    }
     if arguments.tracing.is_given() && arguments.quality == Quality::Preview {
         let message =
             "`--paths`, `--noise`, `--bounces`, `--clamp` and `--denoise` are for final pictures";
@@ -216,7 +219,7 @@ impl Prediction<'_> {
         files: &StageFiles,
         motion: Option<&mut MotionFiles<'_>>,
     ) -> Result<Vec<String>, Error> {
-        let Predict { writing, fibres, .. } = self.arguments;
+        let Predict { writing, fibres, accessories, .. } = self.arguments;
         let strands = hairs.strands;
         let picture = match &files.image {
             Some(path) => Some((path, self.picture(loaded, &strands, framed, path)?)),
@@ -226,7 +229,11 @@ impl Prediction<'_> {
         if let Some(motion) = motion {
             motion.push(loaded.groom(strands, *fibres))?;
         } else if !files.grooms.is_empty() {
-            lines = grooms::write(loaded.groom(strands, *fibres), &files.grooms, *writing)?;
+            let mut groom = loaded.groom(strands, *fibres);
+            if *accessories {
+                groom.accessories = loaded.accessories();
+            }
+            lines = grooms::write(groom, &files.grooms, *writing)?;
         }
         if let Some((path, picture)) = picture {
             interrupt::check()?;

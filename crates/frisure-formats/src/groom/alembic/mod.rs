@@ -8,7 +8,9 @@
 //! tests compare with; Epic's "Using Alembic for Grooms".
 
 mod curves;
+mod meshes;
 mod names;
+mod objects;
 mod part;
 mod read;
 mod write;

@@ -22,6 +22,7 @@ pub(super) const KNOWN: [(&str, &str); 7] = [
     (attributes::CLUMP, "clumpid"),
 ];
 
-/// Schemas of curves and of transforms.
+/// Schemas of curves, of polygon meshes and of transforms.
 pub(super) const CURVES: &str = "AbcGeom_Curve_v2";
+pub(super) const MESH: &str = "AbcGeom_PolyMesh_v1";
 pub(super) const XFORM: &str = "AbcGeom_Xform_v3";

@@ -70,6 +70,7 @@ impl Found {
                 .strands(frame)
                 .map_err(|e| format!("of its guides, {e}"))?,
             head: None,
+            accessories: Vec::new(),
             colour,
             times: self.times,
         })

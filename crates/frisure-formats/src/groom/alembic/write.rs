@@ -7,7 +7,9 @@ use frisure_strands::{Attribute, AttributeValues, Domain, Strands};
 use glam::Vec3;
 
 use super::super::attributes as names;
+use super::meshes::accessories;
 use super::names::{CURVES, KNOWN, OURS, UNREAL, XFORM};
+use super::objects::{schema_of_object, still};
 use crate::groom::attributes::{indices, of_strands, push};
 use crate::groom::data::{Groom, HairColour};
 use crate::groom::motion::{Samples, same_widths};
@@ -38,7 +40,8 @@ pub(super) fn encode(out: &mut dyn Write, samples: &Samples<'_>, frame: Frame) -
     let mut of_groups = groups(all_hairs, &of_hairs, group.as_deref());
     of_groups.iter_mut().for_each(|part| part.has_guides = has_guides);
     parts.extend(of_groups);
-    let children = parts.iter().map(|p| p.object(frame, groom.colour)).collect();
+    let children = parts.iter().map(|p| p.object(frame, groom.colour));
+    let children = children.chain(accessories(&groom.accessories, frame)).collect();
     let top = Object {
         name: object_name(&groom.name),
         metadata: schema_of_object(XFORM, "", ".xform"),
@@ -389,11 +392,6 @@ fn parameters<'a>(
     Property::arrays(name, &metadata, samples)
 }
 
-fn schema_of_object(schema: &str, base: &str, property: &str) -> String {
-    let base = if base.is_empty() { String::new() } else { format!("{base};") };
-    format!("schema={schema};{base}schemaObjTitle={schema}:{property}")
-}
-
 /// A name that programs take: letters, digits, underscores.
 fn object_name(name: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
@@ -424,12 +422,4 @@ fn transform(groom: &Groom, frame: Frame) -> Property<'static> {
         user.push(Property::scalar("frisure_melanin", "interpretation=vector", values));
     }
     still(vec![Property::compound(".userProperties", "", user)])
-}
-
-/// A transform that moves nothing, with some properties more.
-fn still(more: Vec<Property<'static>>) -> Property<'static> {
-    let inherits = Sample::of(Pod::Bool, 1, 1, |out| out.push(1));
-    let mut parts = vec![Property::scalar(".inherits", "", inherits)];
-    parts.extend(more);
-    Property::compound(".xform", &format!("schema={XFORM}"), parts)
 }

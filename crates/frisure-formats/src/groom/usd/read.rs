@@ -9,6 +9,7 @@ use super::super::data::{Groom, HairColour};
 use super::basis::{self, Taps};
 use super::names::{PIGMENTS, TEXTURE};
 use super::primvars::{self, Per, given, mixed};
+use crate::accessory_names::PRIMVAR;
 use frisure_files::frame::Frame;
 use frisure_usd::{Mesh, Stage, StagePrim, Value};
 
@@ -42,6 +43,7 @@ pub(super) fn groom(stage: &Stage, frame: Frame) -> Result<Groom, String> {
         hairs: joined(hairs, frame)?,
         guides: joined(guides, frame)?,
         head: head(stage, frame)?,
+        accessories: Vec::new(),
         colour,
         times,
     })
@@ -174,9 +176,12 @@ fn diffuse(place: &StagePrim, stage: &Stage) -> Option<Vec<f32>> {
     if colour.connections.is_empty() { colour.value.as_ref()?.to_floats() } else { None }
 }
 
-/// The head, where the stage has exactly one mesh.
+/// The head, where the stage has exactly one mesh besides accessories.
 fn head(stage: &Stage, frame: Frame) -> Result<Option<Surface>, String> {
-    let mut meshes = stage.prims.iter().filter(|p| p.prim.type_name == "Mesh" && !p.is_guide);
+    let is_head = |p: &&StagePrim| {
+        p.prim.type_name == "Mesh" && !p.is_guide && p.prim.attribute(PRIMVAR).is_none()
+    };
+    let mut meshes = stage.prims.iter().filter(is_head);
     let (Some(place), None) = (meshes.next(), meshes.next()) else { return Ok(None) };
     let mut mesh = place.mesh().map_err(|e| stage.fault(place, &e))?;
     let metres = |p: &[f64; 3]| frame.position_from_file((*p).into());

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use frisure_strands::{Attribute, AttributeValues, Domain, Strands, Surface};
+use frisure_strands::{AccessoryMesh, Attribute, AttributeValues, Domain, Strands, Surface};
 use glam::Vec3;
 
 use super::super::attributes::{CLUMP, COLOUR, DIRECTOR, GUIDE, in_file_axes, indices, of_strands};
@@ -10,6 +10,7 @@ use super::super::data::{Groom, HairColour};
 use super::super::motion::{FRAMES_PER_SECOND, Samples, same_widths};
 use super::look;
 use super::names::{IS_GUIDE, OURS, PIGMENTS, PRIMVARS, REST_POSITION, SINGLES, TEXTURE};
+use crate::accessory_names::PRIMVAR;
 use frisure_files::frame::Frame;
 use frisure_usd::{Data, Layer, Prim, Value};
 
@@ -42,8 +43,16 @@ pub(super) fn layer(samples: &Samples<'_>, frame: Frame) -> Layer {
         root.children.push(guides);
     }
     if let Some(head) = &groom.head {
-        root.children.push(mesh("head", head, frame));
+        root.children.push(mesh("head", head, ("skin", look::SKIN), frame));
         colours.push(("skin", look::SKIN));
+    }
+    if !groom.accessories.is_empty() {
+        root.children.push(accessories(&groom.accessories, frame));
+        for AccessoryMesh { material, .. } in &groom.accessories {
+            if colours.iter().all(|(name, _)| *name != material.name) {
+                colours.push((material.name, material.colour));
+            }
+        }
     }
     if !colours.is_empty() {
         root.children.push(look::materials(&colours));
@@ -260,7 +269,19 @@ fn dress(prim: &mut Prim, shared: Option<&HairColour>, colour: Option<[f32; 3]>)
     look::bind(prim, "hair");
 }
 
-fn mesh(name: &str, surface: &Surface, frame: Frame) -> Prim {
+/// What holds the hair: a mesh each, under one prim.
+fn accessories(all: &[AccessoryMesh], frame: Frame) -> Prim {
+    let mut group = Prim::new("Xform", "accessories");
+    for AccessoryMesh { name, material, surface } in all {
+        let mut prim = mesh(&identifier(name), surface, (material.name, material.colour), frame);
+        prim.primvar("int", PRIMVAR, Value::int(1), "constant");
+        group.children.push(prim);
+    }
+    group
+}
+
+/// A mesh with the material of a name and colour.
+fn mesh(name: &str, surface: &Surface, (material, colour): (&str, [f32; 3]), frame: Frame) -> Prim {
     let mut prim = Prim::new("Mesh", name);
     prim.uniform("token", "subdivisionScheme", Value::token("none"));
     let points: Vec<Vec3> =
@@ -277,9 +298,9 @@ fn mesh(name: &str, surface: &Surface, frame: Frame) -> Prim {
     prim.primvar("float3[]", REST_POSITION, triples(&points), "vertex");
     texture(&mut prim, surface);
     prim.primvar("normal3f[]", "normals", triples(&normals), "vertex");
-    let colour = Value::float_tuples(&[look::SKIN]);
+    let colour = Value::float_tuples(&[colour]);
     prim.primvar("color3f[]", "primvars:displayColor", colour, "constant");
-    look::bind(&mut prim, "skin");
+    look::bind(&mut prim, material);
     prim
 }
 

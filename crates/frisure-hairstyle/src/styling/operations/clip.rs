@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::hairstyle::{Grip, Hairstyle};
+use crate::hairstyle::{Fastener, Grip, Hairstyle};
 use crate::spec::{InvalidSpec, Range};
 use crate::styling::error::StyleError;
 use crate::styling::mirror::mirrored;
@@ -43,6 +43,6 @@ impl Apply for Clip {
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
-        act.held(&self.selection, Grip::Clip { at: self.at, to: self.to })
+        act.held(&self.selection, Grip::Clip { at: self.at, to: self.to, by: Fastener::Clip })
     }
 }

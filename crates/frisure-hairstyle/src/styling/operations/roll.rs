@@ -40,7 +40,7 @@ impl Apply for Roll {
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
-        let mould = Mould::Helix { radius: self.radius, pitch: self.pitch };
+        let mould = Mould::Roller { radius: self.radius, pitch: self.pitch };
         act.held(&self.selection, Grip::Mould { mould, tension: 0.0 })
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::apply::{Apply, check_point};
-use crate::hairstyle::Hairstyle;
+use crate::hairstyle::{Fastener, Hairstyle};
 use crate::head::Head;
 use crate::spec::InvalidSpec;
 use crate::styling::error::StyleError;
@@ -108,6 +108,7 @@ impl Apply for Tie {
             &Gathering {
                 bundle: &|radius| self.to.bundle(act.head, radius),
                 lifted: &|axis| centre + (axis + DVec3::Z).normalize_or(DVec3::Z) * LIFTED,
+                by: |middle| Fastener::Tie { middle },
             },
         )
     }

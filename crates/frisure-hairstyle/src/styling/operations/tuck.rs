@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::apply::Apply;
-use crate::hairstyle::Hairstyle;
+use crate::hairstyle::{Fastener, Hairstyle};
 use crate::head::Head;
 use crate::styling::error::StyleError;
 use crate::styling::gather::{Gathering, gathered, onto_skin};
@@ -107,7 +107,11 @@ impl<'a> Ear<'a> {
         if !chosen.contains(&true) {
             return Err(StyleError::NothingBeforeEar);
         }
-        let to = Gathering { bundle: &|radius| self.bundle(radius), lifted: &|_| self.lifted() };
+        let to = Gathering {
+            bundle: &|radius| self.bundle(radius),
+            lifted: &|_| self.lifted(),
+            by: |middle| Fastener::Pin { middle },
+        };
         gathered(act, &chosen, &to)
     }
 }

@@ -49,7 +49,7 @@ impl Apply for Twist {
     }
 
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
-        let mould = Mould::Helix { radius: 0.25 * self.width, pitch: self.pitch };
+        let mould = Mould::Twist { radius: 0.25 * self.width, pitch: self.pitch };
         act.held(&self.selection, Grip::Mould { mould, tension: TENSION })
     }
 }

@@ -1,0 +1,116 @@
+//! The elastics at the ends of braids and twists.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::accessory::Accessory;
+use super::kind::AccessoryKind;
+use super::mesh::{Axis, turned};
+use super::place::clearance;
+use super::ties::ring;
+use crate::hairstyle::{Grip, Hairstyle, Mould};
+use crate::head::Head;
+
+/// Half of the width along the hair and of the thickness (m) of an elastic. Chosen: small rubber bands.
+const BAND: [f64; 2] = [1.5e-3, 0.8e-3];
+
+/// Length (m) of hair beyond an elastic, and the shortest hair that has one. Chosen.
+const TAIL: f64 = 0.02;
+const SHORTEST: f64 = 0.04;
+
+/// Least radius (m) of the opening. Chosen: a thin lock.
+const THINNEST: f64 = 8e-4;
+
+/// Least radius (m) of a lock that has an elastic by itself: thinner ones have one together with others, or none. Chosen by eye.
+const ALONE: f64 = 2.5e-3;
+
+/// Radius of an elastic over that of the lock as it is drawn: it presses hair together. Chosen.
+const PRESSED: f64 = 0.7;
+
+/// By how much openings are narrowed where skin is near. Chosen.
+const NARROWED: [f64; 4] = [1.0, 0.75, 0.5, 0.3];
+
+/// The end of a lock.
+struct End {
+    wisp: usize,
+    axis: Axis,
+    /// Radius (m) of the lock.
+    radius: f64,
+    /// Radius (m) of the braid or the twist that it is a part of.
+    most: f64,
+}
+
+impl End {
+    fn of(hairstyle: &Hairstyle, wisp: usize, patch: f64) -> Option<Self> {
+        let Grip::Mould { mould, .. } = hairstyle.wisps()[wisp].grip? else { return None };
+        // A lock is no thicker than the braid or the twist that it is a part of.
+        let most = match mould {
+            Mould::Braid { width, .. } => 0.5 * width,
+            Mould::Twist { radius, .. } => 2.0 * radius,
+            Mould::Straight | Mould::Roller { .. } => return None,
+        };
+        let rest = &hairstyle.equilibria()[wisp];
+        let length = rest.rod.length();
+        if length < SHORTEST {
+            return None;
+        }
+        let (centre, frame) = rest.at(&rest.chain(), 1.0 - TAIL / length);
+        let packed = hairstyle.guides()[wisp].thickness.packed(length - TAIL);
+        // Near the tip a wisp is drawn as wide as it is packed, but for the share of it that does not gather.
+        let wisps = &hairstyle.spec().wisps;
+        let drawn = (packed + (patch - packed) * (1.0 - wisps.clumping)) * wisps.profile[2];
+        let radius = (PRESSED * drawn).clamp(THINNEST, most.max(THINNEST));
+        Some(Self { wisp, axis: Axis { centre, direction: frame.z_axis }, radius, most })
+    }
+}
+
+/// The elastics of a hairstyle: one for each lock, or for several whose ends lie together.
+pub(super) fn elastics(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
+    // Radius of the skin that a wisp grows from (m).
+    let count = hairstyle.guides().len() as f64;
+    let patch = (hairstyle.placement.area() / count / std::f64::consts::PI).sqrt();
+    let wisps = (0..hairstyle.wisps().len()).into_par_iter();
+    let ends: Vec<End> = wisps.filter_map(|wisp| End::of(hairstyle, wisp, patch)).collect();
+    let mut taken = vec![false; ends.len()];
+    let mut bundles: Vec<Vec<&End>> = Vec::new();
+    for (i, end) in ends.iter().enumerate() {
+        if taken[i] {
+            continue;
+        }
+        let near = |other: &End| other.axis.centre.distance(end.axis.centre) <= end.most;
+        let together: Vec<usize> =
+            (i..ends.len()).filter(|&j| !taken[j] && near(&ends[j])).collect();
+        together.iter().for_each(|&j| taken[j] = true);
+        bundles.push(together.into_iter().map(|j| &ends[j]).collect());
+    }
+    let thick = |bundle: &&Vec<&End>| bundle.len() > 1 || bundle[0].radius >= ALONE;
+    bundles.iter().filter(thick).filter_map(|bundle| elastic(bundle, head)).collect()
+}
+
+/// The elastic about ends of locks; none where skin leaves no room.
+fn elastic(ends: &[&End], head: &Head) -> Option<Accessory> {
+    let count = ends.len() as f64;
+    let centre = ends.iter().map(|end| end.axis.centre).sum::<DVec3>() / count;
+    let direction = ends.iter().map(|end| end.axis.direction).sum::<DVec3>();
+    let axis = Axis { centre, direction: direction.normalize_or(DVec3::NEG_Z) };
+    let reach = |end: &&End| axis.split(end.axis.centre).1.length();
+    let reach = ends.iter().map(reach).fold(0.0, f64::max);
+    let opening = ends.iter().map(|end| end.radius).fold(reach, f64::max);
+    let wisps: Vec<usize> = ends.iter().map(|end| end.wisp).collect();
+    let [half_width, half_thickness] = BAND;
+    NARROWED.into_iter().find_map(|narrowed| {
+        let radius = (opening * narrowed).max(reach).max(THINNEST);
+        let mesh = turned(axis, &ring(radius + half_thickness, [half_thickness, half_width]))?;
+        let (kind, wisps) = (AccessoryKind::Elastic, wisps.clone());
+        let (axis, length) = (axis.direction, 2.0 * half_width);
+        (clearance(&mesh, head) > 0.0).then_some(Accessory {
+            kind,
+            wisps,
+            centre,
+            axis,
+            radius,
+            length,
+            mesh,
+        })
+    })
+}
