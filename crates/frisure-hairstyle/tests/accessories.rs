@@ -112,7 +112,7 @@ fn hair_on_a_roller_lies_around_it_and_rollers_do_not_pass_through_each_other() 
 fn a_tie_encloses_the_guides_that_it_ties_and_is_tight() {
     let before = free(60, 0.4);
     for to in [TiePlace::High, TiePlace::Low, TiePlace::Left] {
-        let held = done(&before, Tie { selection: Selection::Everything, to });
+        let held = done(&before, Tie { selection: Selection::Everything, to, braided: false });
         let ties = found(&held);
         assert_eq!(ties.len(), 1, "{to:?}");
         let tie = &ties[0];
@@ -141,8 +141,8 @@ fn two_ties_are_two_objects_and_one_of_them_can_be_taken_out() {
         let normal = DVec3::X * if left { 1.0 } else { -1.0 };
         Selection::Beyond { point: DVec3::ZERO, normal }
     };
-    let left = done(&before, Tie { selection: side(true), to: TiePlace::Left });
-    let both = done(&left, Tie { selection: side(false), to: TiePlace::Right });
+    let left = done(&before, Tie { selection: side(true), to: TiePlace::Left, braided: false });
+    let both = done(&left, Tie { selection: side(false), to: TiePlace::Right, braided: false });
     assert_eq!(found(&both).len(), 2);
     let right = done(&both, Release { selection: side(true) });
     let found = accessories(&right, &HEAD);

@@ -651,7 +651,8 @@ fn a_clip_holds_hair_where_it_is_put() {
 
 #[test]
 fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
-    let tie = |to: TiePlace| Operation::Tie(Tie { selection: Selection::Everything, to });
+    let tie =
+        |to: TiePlace| Operation::Tie(Tie { selection: Selection::Everything, to, braided: false });
     let mut long = spec("caucasian-straight", 40, HairContact::Layers);
     long.length.mean = 0.4;
     let before = predict(&long, &HEAD, PredictOptions::default(), &()).unwrap();

@@ -109,11 +109,12 @@ fn every_operation_can_be_said() {
     let twist = Twist { selection: EVERYTHING, width: 0.02, pitch: 0.03 };
     assert_eq!(one("twist = { width = '2 cm' }"), twist.into());
     assert_eq!(one("twist = {}"), Twist::default().into());
-    let tie = Tie { selection: EVERYTHING, to: TiePlace::High };
+    let tie = Tie { selection: EVERYTHING, to: TiePlace::High, braided: false };
     assert_eq!(one("tie = { to = 'high' }"), tie.into());
     assert_eq!(one("tie = {}"), Tie::default().into());
-    let tie = Tie { selection: EVERYTHING, to: TiePlace::At(DVec3::new(0.0, 0.12, 0.05)) };
-    assert_eq!(one("tie = { to = [0, '12 cm', '5 cm'] }"), tie.into());
+    let tie =
+        Tie { selection: EVERYTHING, to: TiePlace::At(DVec3::new(0.0, 0.12, 0.05)), braided: true };
+    assert_eq!(one("tie = { to = [0, '12 cm', '5 cm'], braided = true }"), tie.into());
     assert_eq!(one("straighten = {}"), Straighten { selection: EVERYTHING }.into());
     let clip = Clip { selection: EVERYTHING, at: 0.5, to: DVec3::new(0.0, -0.1, 0.2) };
     assert_eq!(one("clip = { at = 0.5, to = [0, '-10 cm', '20 cm'] }"), clip.into());
@@ -682,7 +683,12 @@ fn held_hair() -> impl Strategy<Value = Operation> {
             .prop_map(|(selection, width, pitch)| Braid { selection, width, pitch }.into()),
         (selection(), number(1e-3, 0.1), number(5e-3, 0.5))
             .prop_map(|(selection, width, pitch)| Twist { selection, width, pitch }.into()),
-        (selection(), tie_place()).prop_map(|(selection, to)| Tie { selection, to }.into()),
+        (selection(), tie_place(), any::<bool>()).prop_map(|(selection, to, braided)| Tie {
+            selection,
+            to,
+            braided
+        }
+        .into()),
         selection().prop_map(|selection| Straighten { selection }.into()),
         (selection(), number(0.05, 1.0), point()).prop_map(|(selection, at, to)| Clip {
             selection,

@@ -1,5 +1,7 @@
 //! The elastics at the ends of braids and twists.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -8,6 +10,7 @@ use super::kind::AccessoryKind;
 use super::mesh::{Axis, turned};
 use super::place::clearance;
 use super::ties::ring;
+use crate::contact::BraidPath;
 use crate::hairstyle::{Grip, Hairstyle, Mould};
 use crate::head::Head;
 
@@ -84,7 +87,46 @@ pub(super) fn elastics(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
         bundles.push(together.into_iter().map(|j| &ends[j]).collect());
     }
     let thick = |bundle: &&Vec<&End>| bundle.len() > 1 || bundle[0].radius >= ALONE;
-    bundles.iter().filter(thick).filter_map(|bundle| elastic(bundle, head)).collect()
+    let small = bundles.iter().filter(thick).filter_map(|bundle| elastic(bundle, head));
+    small.chain(braids(hairstyle, head)).collect()
+}
+
+/// Radius of the elastic of a tied braid over that of one of its locks: three locks pressed to one round bundle have √3. Chosen.
+const BUNDLED: f64 = 1.7;
+
+/// Step (m) along a braid in which its direction is taken. Chosen.
+const DIRECTION: f64 = 1e-3;
+
+/// The elastics at the ends of tails that are braided below a tie: one for each braid.
+fn braids(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
+    let mut braids: BTreeMap<[u64; 3], (BraidPath, Vec<usize>)> = BTreeMap::new();
+    for (wisp, state) in hairstyle.wisps().iter().enumerate() {
+        if let Some(Grip::Braid { path, .. }) = state.grip {
+            let key = path.middle.to_array().map(f64::to_bits);
+            braids.entry(key).or_insert_with(|| (path, Vec::new())).1.push(wisp);
+        }
+    }
+    let [half_width, half_thickness] = BAND;
+    let elastic = |(path, wisps): (BraidPath, Vec<usize>)| {
+        let (centre, above) = (path.axis(path.end), path.axis(path.end - DIRECTION));
+        let direction = (centre - above).normalize_or(DVec3::NEG_Z);
+        let axis = Axis { centre, direction };
+        NARROWED.into_iter().find_map(|narrowed| {
+            let radius = BUNDLED * path.lock * narrowed;
+            let profile = ring(radius + half_thickness, [half_thickness, 2.0 * half_width]);
+            let mesh = turned(axis, &profile)?;
+            (clearance(&mesh, head) > 0.0).then(|| Accessory {
+                kind: AccessoryKind::Elastic,
+                wisps: wisps.clone(),
+                centre,
+                axis: direction,
+                radius,
+                length: 4.0 * half_width,
+                mesh,
+            })
+        })
+    };
+    braids.into_values().filter_map(elastic).collect()
 }
 
 /// The elastic about ends of locks; none where skin leaves no room.

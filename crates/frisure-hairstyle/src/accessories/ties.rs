@@ -35,6 +35,7 @@ const ROOM: f64 = 1.2;
 pub(super) fn ties(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
     let tie = |grip: &Grip| match *grip {
         Grip::Clip { at, by: Fastener::Tie { middle }, .. } => Some((at, middle)),
+        Grip::Braid { at, path } => Some((at, path.middle)),
         _ => None,
     };
     let bundles = bundles(hairstyle, tie, [SEARCHED[0] + ASLANT, SEARCHED[1] + ASLANT]);

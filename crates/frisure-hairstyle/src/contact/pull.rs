@@ -3,6 +3,7 @@
 use frisure_rod::potential::Field;
 use glam::{DMat3, DVec3};
 
+use super::braid::BraidPath;
 use crate::math::outer;
 
 /// A pull at a guide, as an energy per length of hair.
@@ -25,9 +26,24 @@ pub enum Pull {
         /// Largest force f per length (N/m).
         most: f64,
     },
+    /// A braid: hair is held along its way in one of three locks, from a tie on, as a clip holds it at a point.
+    Braid {
+        /// The way.
+        path: BraidPath,
+        /// Arc length (m) at which hair is in the tie, and where it is in the elastic or ends.
+        piece: [f64; 2],
+        /// Stiffness c (Pa).
+        stiffness: f64,
+        /// Largest force f per length (N/m).
+        most: f64,
+    },
 }
 
-frisure_digest::digest_fields!(Pull: Comb { force }, Clip { piece, point, stiffness, most });
+frisure_digest::digest_fields!(
+    Pull: Comb { force },
+    Clip { piece, point, stiffness, most },
+    Braid { path, piece, stiffness, most }
+);
 
 impl Pull {
     /// The same, `factor` times as strong.
@@ -36,6 +52,9 @@ impl Pull {
             Self::Comb { force } => Self::Comb { force: force * factor },
             Self::Clip { piece, point, stiffness, most } => {
                 Self::Clip { piece, point, stiffness: stiffness * factor, most: most * factor }
+            }
+            Self::Braid { path, piece, stiffness, most } => {
+                Self::Braid { path, piece, stiffness: stiffness * factor, most: most * factor }
             }
         }
     }
@@ -53,40 +72,47 @@ impl Pull {
     }
 }
 
-impl Field for Pull {
-    fn energy(&self, s: f64, p: DVec3) -> f64 {
+impl Pull {
+    /// What holds the hair at an arc length (m): the point (m), the stiffness (Pa) and the largest force per length (N/m).
+    fn spring(&self, s: f64) -> Option<(DVec3, f64, f64)> {
         match *self {
-            Self::Comb { force } => -force.dot(p),
+            Self::Comb { .. } => None,
             Self::Clip { piece: [from, to], point, stiffness, most } => {
-                if !(from..=to).contains(&s) {
-                    return 0.0;
-                }
-                // A spring up to the distance f/c, a constant force beyond (Huber): value and slope meet there.
-                let (away, near) = (p.distance(point), most / stiffness);
-                if away < near { 0.5 * stiffness * away * away } else { most * (away - 0.5 * near) }
+                (from..=to).contains(&s).then_some((point, stiffness, most))
+            }
+            Self::Braid { path, piece: [from, to], stiffness, most } => {
+                (from..=to).contains(&s).then(|| (path.place_beyond(s - from), stiffness, most))
             }
         }
     }
+}
+
+impl Field for Pull {
+    fn energy(&self, s: f64, p: DVec3) -> f64 {
+        if let Self::Comb { force } = *self {
+            return -force.dot(p);
+        }
+        let Some((point, stiffness, most)) = self.spring(s) else { return 0.0 };
+        // A spring up to the distance f/c, a constant force beyond (Huber): value and slope meet there.
+        let (away, near) = (p.distance(point), most / stiffness);
+        if away < near { 0.5 * stiffness * away * away } else { most * (away - 0.5 * near) }
+    }
 
     fn derivatives(&self, s: f64, p: DVec3) -> Option<(DVec3, DMat3)> {
-        match *self {
+        if let Self::Comb { force } = *self {
             // E = −f·r is linear: no stiffness.
-            Self::Comb { force } => Some((-force, DMat3::ZERO)),
-            Self::Clip { piece: [from, to], point, stiffness, most } => {
-                if !(from..=to).contains(&s) {
-                    return None;
-                }
-                let away = p - point;
-                let distance = away.length();
-                if distance * stiffness < most {
-                    return Some((away * stiffness, DMat3::from_diagonal(DVec3::splat(stiffness))));
-                }
-                // The force keeps its size and turns with the direction: stiffness f/d at right angles to it, none along it.
-                let way = away / distance;
-                let across = DMat3::IDENTITY - outer(way, way);
-                Some((way * most, across * (most / distance)))
-            }
+            return Some((-force, DMat3::ZERO));
         }
+        let (point, stiffness, most) = self.spring(s)?;
+        let away = p - point;
+        let distance = away.length();
+        if distance * stiffness < most {
+            return Some((away * stiffness, DMat3::from_diagonal(DVec3::splat(stiffness))));
+        }
+        // The force keeps its size and turns with the direction: stiffness f/d at right angles to it, none along it.
+        let way = away / distance;
+        let across = DMat3::IDENTITY - outer(way, way);
+        Some((way * most, across * (most / distance)))
     }
 }
 

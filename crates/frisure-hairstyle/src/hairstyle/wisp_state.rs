@@ -8,7 +8,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::rest::Rest;
 use crate::capillary::{Coalescence, Liquid};
-use crate::contact::Thickness;
+use crate::contact::{BraidPath, Thickness};
 use crate::fibre::WetLocks;
 use crate::guides::Guide;
 use crate::product::{Applied, Product};
@@ -116,6 +116,13 @@ pub(crate) enum Grip {
         /// With what.
         by: Fastener,
     },
+    /// Holds a place in a tie, and what is beyond it in a braid.
+    Braid {
+        /// Which place is in the tie, 0 (root) to 1 (tip).
+        at: f64,
+        /// The way of the hair from there.
+        path: BraidPath,
+    },
     /// A comb that is not taken away.
     Comb {
         /// A unit vector.
@@ -155,7 +162,7 @@ pub(crate) const DRAWN: f64 = 25.0;
 impl Grip {
     /// Whether it presses hair on the skin harder than hair lies there.
     pub(crate) fn presses(self) -> bool {
-        matches!(self, Self::Mould { .. } | Self::Clip { .. })
+        matches!(self, Self::Mould { .. } | Self::Clip { .. } | Self::Braid { .. })
     }
 
     /// Whether it gives hair another shape, rather than another place.

@@ -137,6 +137,13 @@ pub(super) fn pull(rod: &Rod, grip: Option<Grip>) -> Option<Pull> {
             let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / (2.0 * half);
             Some(Pull::Clip { piece, point, stiffness: CLIP.0, most })
         }
+        Grip::Braid { at, path } => {
+            let from = (at * rod.length()).min(rod.length());
+            let piece = [from, (from + path.reach()).min(rod.length())];
+            // As hard on each length as a clip pulls at the piece that it holds.
+            let most = CLIPPED * effort(rod, CLIPPABLE) * rod.length() / CLIP.1;
+            Some(Pull::Braid { path, piece, stiffness: CLIP.0, most })
+        }
         Grip::Mould { tension, .. } => {
             (tension > 0.0).then(|| Pull::Comb { force: -rod.up() * (tension * rod.weight()) })
         }

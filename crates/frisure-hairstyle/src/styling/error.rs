@@ -48,6 +48,17 @@ pub enum StyleError {
         /// Length (m) of the longest wisp.
         longest: f64,
     },
+    /// No tail is long enough to be braided.
+    #[error(
+        "the hair is too short to be braided: half of it has {:.1} cm beyond the tie, and {:.1} cm are needed",
+        100.0 * beyond, 100.0 * needed
+    )]
+    TooShortToBraid {
+        /// Length (m) beyond the tie that half of the hair has.
+        beyond: f64,
+        /// Length (m) that is needed.
+        needed: f64,
+    },
     /// Hair would become longer than can be computed.
     #[error("wisp {wisp} would grow to {length} m; at most {most} m can be computed")]
     TooLong {

@@ -14,7 +14,7 @@ use crate::head::Head;
 
 /// Fraction of the cross section in a bundle that is hair. Chosen: hexagonal packing of round fibres has 0.91, a tie does not
 /// order them.
-const PACKING: f64 = 0.7;
+pub(super) const PACKING: f64 = 0.7;
 
 /// Hair that is longer than the tight way to the bundle by this share lies on the head without being stretched. Chosen.
 const SLACK: f64 = 0.015;

@@ -7,6 +7,7 @@
 
 mod apply;
 mod apply_state;
+mod braiding;
 mod ends;
 mod error;
 mod gather;

@@ -98,6 +98,9 @@ fn hint(error: &StyleError, chosen: Option<&str>, below: Option<&str>) -> String
         StyleError::NothingGathered { .. } => {
             "let the hair grow first; a tie may be nearer to its roots".into()
         }
+        StyleError::TooShortToBraid { .. } => {
+            "let the hair grow first, tie it lower, or leave out `braided`".into()
+        }
         StyleError::TooLong { .. } => "let it grow less, or cut it first".into(),
         StyleError::Parting(_) => "move the parting so that it lies on the scalp".into(),
         _ => String::new(),

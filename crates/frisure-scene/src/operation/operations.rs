@@ -337,6 +337,8 @@ operations! {
         to: Tied,
             set |tie, place| tie.to = place,
             get |tie| (tie.to != TiePlace::Middle).then_some(tie.to);
+        /// Whether the tail is braided in three, with an elastic at its end. Default false.
+        braided: Flag;
     }
 
     /// Lays hair that hangs in front of an ear behind it, and lets it go there: friction keeps it, where there is some. Hair

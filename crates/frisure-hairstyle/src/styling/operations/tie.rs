@@ -6,6 +6,7 @@ use super::apply::{Apply, check_point};
 use crate::hairstyle::{Fastener, Hairstyle};
 use crate::head::Head;
 use crate::spec::InvalidSpec;
+use crate::styling::braiding::braided;
 use crate::styling::error::StyleError;
 use crate::styling::gather::{Gathering, gathered, onto_skin};
 use crate::styling::mirror::mirrored;
@@ -19,6 +20,8 @@ pub struct Tie {
     pub selection: Selection,
     /// Where the tie is.
     pub to: TiePlace,
+    /// Whether the tail is braided in three, with an elastic at the end.
+    pub braided: bool,
 }
 
 /// Where a hair tie is.
@@ -40,7 +43,7 @@ pub enum TiePlace {
 
 impl Default for Tie {
     fn default() -> Self {
-        Self { selection: Selection::Everything, to: TiePlace::Middle }
+        Self { selection: Selection::Everything, to: TiePlace::Middle, braided: false }
     }
 }
 
@@ -102,7 +105,7 @@ impl Apply for Tie {
     fn apply(&self, act: &Act<'_>) -> Result<Hairstyle, StyleError> {
         let chosen = act.selected(&self.selection)?;
         let centre = act.head.landmarks().cranium_centre;
-        gathered(
+        let tied = gathered(
             act,
             &chosen,
             &Gathering {
@@ -110,6 +113,7 @@ impl Apply for Tie {
                 lifted: &|axis| centre + (axis + DVec3::Z).normalize_or(DVec3::Z) * LIFTED,
                 by: |middle| Fastener::Tie { middle },
             },
-        )
+        )?;
+        if self.braided { braided(&act.on(&tied), &chosen) } else { Ok(tied) }
     }
 }
