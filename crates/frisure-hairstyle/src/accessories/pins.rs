@@ -78,6 +78,8 @@ struct Lying {
     out: DVec3,
     /// From the centre to either side, and outwards (m), as far as hair reaches.
     reach: (f64, f64),
+    /// From the centre towards the skin (m), as far as the held hair reaches.
+    under: f64,
 }
 
 impl Lying {
@@ -95,7 +97,8 @@ impl Lying {
         let alone = first.thickness.min(3e-3);
         let reach = (most(across).max(alone), most(out).max(0.5 * alone));
         let wisps = pieces.iter().map(|piece| piece.wisp).collect();
-        let mut lying = Self { wisps, centre, across, out, reach };
+        let under = reach.1;
+        let mut lying = Self { wisps, centre, across, out, reach, under };
         lying.reach.1 = lying.over(hairstyle, direction).max(lying.reach.1);
         Some(lying)
     }
@@ -152,7 +155,7 @@ impl Lying {
             })
             .collect();
         let (over, _) = path[POINTS - 1];
-        let under = |k: usize| self.place(head, at(k), -THICKEST, OFF_SKIN).0;
+        let under = |k: usize| self.place(head, at(k), -self.under - height, OFF_SKIN).0;
         path.extend(self.bend(over, under(POINTS - 1)));
         path.extend((0..POINTS).rev().map(|k| (under(k), -self.out)));
         let mesh = bar(&path, PRONG)?;
