@@ -650,6 +650,52 @@ fn a_clip_holds_hair_where_it_is_put() {
 }
 
 #[test]
+fn a_braided_tail_crosses_from_side_to_side_and_lies_on_the_back() {
+    let tie = Operation::Tie(Tie { to: TiePlace::Low, braided: true, ..Tie::default() });
+    let mut long = spec("caucasian-straight", 30, HairContact::Layers);
+    long.length.mean = 0.5;
+    let before = predict(&long, &HEAD, PredictOptions::default(), &()).unwrap();
+    let braided = done(&before, &tie);
+    let held: Vec<usize> = (0..30).filter(|&i| braided.wisps()[i].is_held()).collect();
+    assert!(held.len() >= 27, "{held:?}");
+    let report = settling_report(&braided, &HEAD);
+    assert!(report.stable == 30 && report.penetration < 2e-3, "{report:?}");
+    // Below the tie, at each height: the places across of all wisps, and their mean.
+    let lines: Vec<_> = held.iter().map(|&i| braided.equilibria()[i].centre_line(400)).collect();
+    let at = |line: &[DVec3], z: f64| {
+        let from = line.iter().rposition(|p| p.z > z)?;
+        line.get(from + 1).map(|p| p.x)
+    };
+    let (top, bottom) = (-0.14, -0.26);
+    let heights = (0..60).map(|i| top + (bottom - top) * f64::from(i) / 59.0);
+    let across: Vec<Vec<f64>> = heights
+        .map(|z| lines.iter().map(|line| at(line, z).expect("a long tail")).collect())
+        .collect();
+    let mut crossings = 0;
+    for wisp in 0..lines.len() {
+        let off = |row: &Vec<f64>| row[wisp] - row.iter().sum::<f64>() / row.len() as f64;
+        let signs: Vec<bool> = across.iter().map(|row| off(row) > 0.0).collect();
+        crossings += signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    }
+    assert!(crossings >= 2 * lines.len(), "{crossings} crossings of {} wisps", lines.len());
+    // The braid is as narrow as three locks.
+    let width = across.iter().map(|row| {
+        let most = row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        most - row.iter().copied().fold(f64::INFINITY, f64::min)
+    });
+    let width = width.fold(0.0, f64::max);
+    assert!(width > 0.01 && width < 0.06, "{width}");
+    let free = done(&braided, &Operation::Release(Release::default()));
+    assert!(!free.wisps().iter().any(WispState::is_held));
+    // Hair that reaches the tie, and ends in it.
+    let mut short = spec("caucasian-straight", 20, HairContact::Layers);
+    short.length.mean = 0.22;
+    let short = predict(&short, &HEAD, PredictOptions::default(), &()).unwrap();
+    let error = style(&short, &HEAD, &tie, StyleOptions::default(), &()).map(|_| ()).unwrap_err();
+    assert!(matches!(error, StyleError::TooShortToBraid { .. }), "{error}");
+}
+
+#[test]
 fn a_tie_gathers_what_is_long_enough_and_lets_it_go_again() {
     let tie =
         |to: TiePlace| Operation::Tie(Tie { selection: Selection::Everything, to, braided: false });

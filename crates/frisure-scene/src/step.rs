@@ -19,7 +19,7 @@ pub(crate) fn operations(document: &Document<'_>) -> Result<Vec<Operation>> {
 
 /// The buttons for operations on selected hair.
 pub fn buttons() -> impl Iterator<Item = &'static Button> {
-    operation::ALL.iter().filter_map(|declared| declared.button.as_ref())
+    operation::ALL.iter().flat_map(|declared| declared.buttons)
 }
 
 impl Button {

@@ -29,6 +29,18 @@ impl Samples {
         Self { spacing, positions, radii }
     }
 
+    /// The same, with no radius at points of a piece (arc lengths, m) that is held in a braid: it presses on nothing there.
+    pub(crate) fn braided(mut self, piece: Option<[f64; 2]>) -> Self {
+        if let Some([from, to]) = piece {
+            for (k, radius) in self.radii.iter_mut().enumerate() {
+                if (from..=to).contains(&((k + 1) as f64 * self.spacing)) {
+                    *radius = 0.0;
+                }
+            }
+        }
+        self
+    }
+
     /// Length of hair (m) that a point stands for: half as much at the tip.
     fn weight(&self, k: usize) -> f64 {
         // The trapezoidal rule; the root, which is clamped, is no point.

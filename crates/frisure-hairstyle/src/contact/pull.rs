@@ -73,6 +73,14 @@ impl Pull {
 }
 
 impl Pull {
+    /// The piece (arc lengths, m) that is held in a braid, where hair is packed as the hand has packed it.
+    pub(crate) fn braided(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Braid { piece, .. } => Some(piece),
+            Self::Comb { .. } | Self::Clip { .. } => None,
+        }
+    }
+
     /// What holds the hair at an arc length (m): the point (m), the stiffness (Pa) and the largest force per length (N/m).
     fn spring(&self, s: f64) -> Option<(DVec3, f64, f64)> {
         match *self {

@@ -162,14 +162,20 @@ impl<'a> Wisp<'a> {
     pub(super) fn samples(&self) -> Samples {
         let elements = self.chain.len() as f64;
         let spacing = self.guide.rod.length() / (elements * f64::from(self.resolution));
-        Samples::new(self.points(), spacing, &self.guide.thickness)
+        Samples::new(self.points(), spacing, &self.guide.thickness).braided(self.braided())
+    }
+
+    /// The piece (arc lengths, m) that is held in a braid.
+    fn braided(&self) -> Option<[f64; 2]> {
+        self.guide.pull.as_ref().and_then(Pull::braided)
     }
 
     /// The points of the guide, for its density.
     pub(super) fn strand(&self) -> Strand {
         let elements = self.chain.len() as f64;
         let spacing = self.guide.rod.length() / (elements * f64::from(self.resolution));
-        Strand { spacing, positions: self.points(), thickness: self.guide.thickness }
+        let (thickness, braided) = (self.guide.thickness, self.braided());
+        Strand { spacing, positions: self.points(), thickness, braided }
     }
 
     /// Sets the bed of hair that the guide lies on besides the other wisps.

@@ -208,6 +208,7 @@ impl WispState {
     pub fn clipped(&self) -> Option<(f64, DVec3)> {
         match self.grip {
             Some(Grip::Clip { at, to, .. }) => Some((at, to)),
+            Some(Grip::Braid { at, path }) => Some((at, path.place(0.0))),
             _ => None,
         }
     }

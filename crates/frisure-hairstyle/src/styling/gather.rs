@@ -39,6 +39,8 @@ pub(super) struct Gathering<'a> {
     pub(super) lifted: &'a dyn Fn(DVec3) -> DVec3,
     /// What holds a bundle with this middle (m).
     pub(super) by: fn(DVec3) -> Fastener,
+    /// Whether the hand goes on with it before wisps make way for each other.
+    pub(super) in_hand: bool,
 }
 
 /// Where a ray from far outside towards the middle of the cranium meets the skin (m).
@@ -144,5 +146,6 @@ pub(super) fn gathered(
         let rest = &tried.rest.guides[i];
         rest.at(&rest.chain(), at).0.distance(to) <= REACHED
     };
-    act.on(&in_hand).with(before.styling.held_at(by, places.into_iter().filter(reached)))
+    let last = if to.in_hand { &hand } else { act };
+    last.on(&in_hand).with(before.styling.held_at(by, places.into_iter().filter(reached)))
 }

@@ -6,7 +6,7 @@ use eframe::egui_wgpu::{CallbackResources, CallbackTrait, RenderState, ScreenDes
 use eframe::{egui, wgpu};
 use frisure::look::{Camera, HairLook, Lights, Look, ToneCurve};
 use frisure::render::all_hair;
-use frisure_engine::Preview;
+use frisure_engine::{AccessoryData, Preview};
 use frisure_view::{Canvas, Frame, Hair, Line, Mark, Plane, Renderer, Shadows, Skin, ViewError};
 
 use crate::state::{HeadMesh, strands_of};
@@ -55,7 +55,44 @@ struct Gpu {
     device: wgpu::Device,
     renderer: Renderer,
     targets: [Target; 2],
-    skin: Option<(Skin, u64)>,
+    skin: Option<Dressed>,
+}
+
+/// The head with what holds the hair.
+struct Dressed {
+    skin: Skin,
+    /// Versions of the head, and of the hair whose accessories were compared last.
+    versions: [u64; 2],
+    worn: AccessoryData,
+}
+
+impl Dressed {
+    /// The head with the accessories of a picture; what was drawn before where nothing has changed.
+    fn of(
+        before: Option<Self>,
+        renderer: &Renderer,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        picture: &Picture,
+    ) -> Option<Self> {
+        let (mesh, head) = picture.head.as_ref()?;
+        // The head is drawn once for both sides of a comparison: with what holds the hair of the current one.
+        let hair = picture.hair.as_ref().filter(|_| picture.side == Side::Now);
+        let before = before.filter(|before| before.versions[0] == *head);
+        let version = hair.map_or(0, |(_, version)| *version);
+        let worn = match (hair, before) {
+            (None, Some(before)) => return Some(before),
+            (Some((hair, _)), Some(before))
+                if before.versions[1] == version || before.worn == hair.accessories =>
+            {
+                return Some(Self { versions: [*head, version], ..before });
+            }
+            (hair, _) => hair.map(|(hair, _)| hair.accessories.clone()).unwrap_or_default(),
+        };
+        let surface = mesh.surface()?;
+        let skin = Skin::with_accessories(renderer, device, queue, surface, &worn.meshes());
+        Some(Self { skin, versions: [*head, version], worn })
+    }
 }
 
 /// The canvas of one side, and the hair on it.
@@ -130,14 +167,7 @@ impl Gpu {
         size: [u32; 2],
     ) -> Result<(), ViewError> {
         let Self { device, renderer, targets, skin } = self;
-        match &picture.head {
-            None => *skin = None,
-            Some((mesh, version)) if skin.as_ref().is_none_or(|(_, known)| known != version) => {
-                let new = mesh.surface().map(|s| Skin::new(renderer, device, queue, s));
-                *skin = new.map(|skin| (skin, *version));
-            }
-            Some(_) => {}
-        }
+        *skin = Dressed::of(skin.take(), renderer, device, queue, picture);
         let target = &mut targets[picture.side as usize];
         let most = device.limits().max_texture_dimension_2d;
         let size = size.map(|x| x.min(most));
@@ -158,7 +188,7 @@ impl Gpu {
         }
         let mut frame = Frame::new(view.camera, &view.lights, &view.look);
         frame.hair = target.hair.as_ref().map(|uploaded| &uploaded.hair);
-        frame.skin = skin.as_ref().map(|(skin, _)| skin);
+        frame.skin = skin.as_ref().map(|dressed| &dressed.skin);
         frame.share = view.share;
         frame.shadows = view.shadows;
         frame.lines = &view.lines;

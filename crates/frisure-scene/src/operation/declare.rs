@@ -26,7 +26,7 @@ pub(crate) struct Declaration {
     /// Other names for it.
     pub(crate) synonyms: &'static [&'static str],
     /// How a program offers it for hair that is selected.
-    pub(crate) button: Option<Button>,
+    pub(crate) buttons: &'static [Button],
     /// Keys that exclude each other.
     pub(crate) groups: &'static [Group],
     pub(crate) keys: Vec<StepKey>,
@@ -203,7 +203,7 @@ impl Declaration {
             example: "",
             main: Some("where"),
             synonyms: &[],
-            button: None,
+            buttons: &[],
             groups: &[],
             keys: Vec::new(),
             start,

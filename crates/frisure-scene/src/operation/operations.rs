@@ -60,7 +60,7 @@ operations! {
         example: "product = { kind = \"gel\" }",
         main: Some("kind"),
         synonyms: &["gel", "mousse", "oil", "wax", "pomade", "spray"],
-        button: Some(Button { label: "Gel", step: "product = { kind = \"gel\" }" }),
+        buttons: &[Button { label: "Gel", step: "product = { kind = \"gel\" }" }],
     } keys {
         /// Which product.
         kind: OneOf<Keyword<frisure_hairstyle::Product>>, needed "kind = \"gel\"",
@@ -263,10 +263,10 @@ operations! {
         example: "roll = { radius = \"1 cm\" }",
         main: Some("radius"),
         synonyms: &["curl", "roller", "perm"],
-        button: Some(Button {
+        buttons: &[Button {
             label: "On rollers",
             step: "roll = { radius = \"12 mm\", pitch = \"6 mm\" }",
-        }),
+        }],
     } keys {
         /// Radius of the roller; {}.
         radius: Length, in Roll::RADIUS, needed "radius = \"1 cm\"";
@@ -279,10 +279,10 @@ operations! {
         example: "braid = { width = \"2 cm\", pitch = \"4 cm\" }",
         main: Some("width"),
         synonyms: &["plait"],
-        button: Some(Button {
+        buttons: &[Button {
             label: "In braids",
             step: "braid = { width = \"2 cm\", pitch = \"4 cm\" }",
-        }),
+        }],
     } keys {
         /// Width of the braid; {}.
         width: Length, in Braid::WIDTH, needed "width = \"2 cm\"";
@@ -296,7 +296,7 @@ operations! {
         example: "twist = {}",
         main: Some("width"),
         synonyms: &["rope", "two_strand_twist"],
-        button: Some(Button { label: "In twists", step: "twist = {}" }),
+        buttons: &[Button { label: "In twists", step: "twist = {}" }],
     } keys {
         /// Width of the twist; {}. Default 12 mm.
         width: Length, in Twist::WIDTH;
@@ -308,10 +308,10 @@ operations! {
     straighten: Straighten {
         example: "straighten = {}",
         synonyms: &["iron"],
-        button: Some(Button {
+        buttons: &[Button {
             label: "Straight",
             step: "straighten = {}",
-        }),
+        }],
     } keys {}
 
     /// Holds a place of each wisp at a point.
@@ -331,7 +331,10 @@ operations! {
         example: "tie = { to = \"high\" }",
         main: Some("to"),
         synonyms: &["ponytail", "gather", "elastic", "bunch"],
-        button: Some(Button { label: "In a tie", step: "tie = {}" }),
+        buttons: &[
+            Button { label: "In a tie", step: "tie = {}" },
+            Button { label: "In a braid", step: "tie = { to = \"low\", braided = true }" },
+        ],
     } keys {
         /// Where the tie is: a word, or a point. Default "middle".
         to: Tied,
@@ -347,7 +350,7 @@ operations! {
         example: "tuck = {}",
         main: Some("side"),
         synonyms: &["behind_ear", "ear"],
-        button: Some(Button { label: "Behind the ears", step: "tuck = {}" }),
+        buttons: &[Button { label: "Behind the ears", step: "tuck = {}" }],
     } keys {
         /// Behind which ear. Default "both".
         side: OneOf<Keyword<Sides>>,

@@ -36,6 +36,8 @@ pub(crate) struct Strand {
     pub(crate) spacing: f64,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) thickness: Thickness,
+    /// The piece (arc lengths, m) that is held in a braid: it presses on nothing there, and nothing on it.
+    pub(crate) braided: Option<[f64; 2]>,
 }
 
 /// All wisps of a head as a density.
@@ -67,6 +69,8 @@ pub(super) struct Points {
     modulus: Vec<f64>,
     /// Fraction of space at which its hair begins to press.
     onset: Vec<f64>,
+    /// Whether it is held in a braid.
+    braided: Vec<bool>,
     positions: Vec<DVec3>,
 }
 
@@ -112,6 +116,7 @@ impl Points {
             own: Vec::new(),
             modulus: Vec::new(),
             onset: Vec::new(),
+            braided: Vec::new(),
             positions: Vec::new(),
         };
         for (guide, strand) in strands.into_iter().enumerate() {
@@ -132,6 +137,8 @@ impl Points {
                 points.own.push(section * Kernel::new(2.0 * half).line());
                 points.modulus.push(share * modulus);
                 points.onset.push(onset);
+                let is_in = |[from, to]: [f64; 2]| (from..=to).contains(&s);
+                points.braided.push(strand.braided.is_some_and(is_in));
             }
             points.positions.extend(strand.positions);
         }
@@ -195,10 +202,15 @@ impl Density {
         };
         let sorted: Vec<Candidate> = grid.order().iter().map(candidate).collect();
         let near = |k: usize| -> Vec<u32> {
+            if points.braided[k] {
+                return Vec::new();
+            }
             let (p, own, reach) = (points.positions[k], points.guide[k], reach(k));
             let close = |other: &&Candidate| {
                 let within = reach + other.reach;
-                other.guide != own && other.position.distance_squared(p) < within * within
+                other.guide != own
+                    && !points.braided[other.index as usize]
+                    && other.position.distance_squared(p) < within * within
             };
             let rows = grid.rows(p, rings).flat_map(|row| &sorted[row]);
             rows.filter(close).map(|other| other.index).collect()
@@ -223,6 +235,9 @@ impl Density {
                 let l = l as usize;
                 points.volume[l] * points.kernel(k, l).value(p.distance(points.positions[l]))
             };
+            if points.braided[k] {
+                return 0.0;
+            }
             let dense: f64 = points.own[k] + near.of(k).iter().map(of).sum::<f64>();
             (dense - points.onset[k]).max(0.0)
         };
@@ -318,6 +333,7 @@ mod tests {
             spacing,
             positions: (1..=points).map(|k| *place + DVec3::X * (spacing * f64::from(k))).collect(),
             thickness: wisp(),
+            braided: None,
         };
         places.iter().map(line).collect()
     }

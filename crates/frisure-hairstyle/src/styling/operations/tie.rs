@@ -112,6 +112,7 @@ impl Apply for Tie {
                 bundle: &|radius| self.to.bundle(act.head, radius),
                 lifted: &|axis| centre + (axis + DVec3::Z).normalize_or(DVec3::Z) * LIFTED,
                 by: |middle| Fastener::Tie { middle },
+                in_hand: self.braided,
             },
         )?;
         if self.braided { braided(&act.on(&tied), &chosen) } else { Ok(tied) }

@@ -111,6 +111,7 @@ impl<'a> Ear<'a> {
             bundle: &|radius| self.bundle(radius),
             lifted: &|_| self.lifted(),
             by: |middle| Fastener::Pin { middle },
+            in_hand: false,
         };
         gathered(act, &chosen, &to)
     }
