@@ -3,7 +3,7 @@
 
 Usage: docs/pictures.py PATH/TO/frisure [--paths N] [--jobs N] [NAME...]
 
-NAME is one of the groups below (heads, final, collisions, colours, looks, lights, wet, styling, tucked, grooms), or a
+NAME is one of the groups below (heads, final, collisions, colours, looks, lights, wet, styling, tucked, braid, grooms), or a
 picture of `final` such as final/afro; without a name all are made. `--paths` is the number of paths per pixel of a traced
 picture (96: all pictures take about three hours of one processor), `--jobs` how many pictures are made at once (1: on few
 processors each picture uses all of them). FRISURE_OIDN names the library of Open Image Denoise if the system does not know it. Needs Pillow.
@@ -210,6 +210,12 @@ def tucked(maker):
     maker.save(grid(pictures, 4, captions), "tucked", 80)
 
 
+def braid(maker):
+    text = (ROOT / "crates/frisure-salon/exercises/braid.toml").read_text()
+    scenes = [maker.scene(re.sub(r'azimuth = "[^"]*"', f'azimuth = "{a} deg"', text), f"braid{a}") for a in (150, 90)]
+    maker.save(grid(maker.each(lambda scene: maker.small(scene, (420, 500)), scenes), 2), "braid", 85)
+
+
 def grooms(maker):
     out = maker.folder / "predict.png"
     text = without((SCENES / "curly.toml").read_text(), "output") + "\n[output]\nwidth = 500\nheight = 600\n"
@@ -217,7 +223,7 @@ def grooms(maker):
     maker.save(Image.open(out).convert("RGB"), "grooms/predict", 85)
 
 
-GROUPS = [heads, collisions, colours, looks, lights, wet, styling, tucked, grooms, final]
+GROUPS = [heads, collisions, colours, looks, lights, wet, styling, tucked, braid, grooms, final]
 
 
 def main():

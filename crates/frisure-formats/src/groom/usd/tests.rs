@@ -55,6 +55,7 @@ fn whole() -> Groom {
         guides: strands(2, 3),
         head: Some(head),
         colour: Some(HairColour { melanin, colour: [0.5, 0.25, 0.125] }),
+        accessories: Vec::new(),
         times: 0,
     }
 }
