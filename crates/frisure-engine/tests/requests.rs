@@ -150,7 +150,8 @@ fn a_picture_can_be_cancelled() {
 fn a_film_shows_one_scene_after_the_other() {
     let mut session = Session::new();
     let film = |done: &[usize]| {
-        let scenes = done.iter().map(|done| asked(CURLY, *done)).collect();
+        let text = format!("{CURLY}\n[[step]]\nwet = {{}}\n");
+        let scenes = done.iter().map(|done| asked(&text, *done)).collect();
         Request::Film { scenes, viewpoint: None, size: [40, 48] }
     };
     let (_, bytes) = file(execute(&mut session, &film(&[0, 0, 1])));

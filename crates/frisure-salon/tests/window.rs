@@ -579,6 +579,23 @@ fn the_tour() {
     window.key(Modifiers::NONE, Key::F1);
     window.steps(5);
     window.screen("keys");
+    window.click("Close");
+    window.harness.state_mut().run(Command::BeginExercise("bob".into()));
+    window.settle();
+    window.harness.state_mut().run(Command::CompareGoal);
+    window.harness.state_mut().run(Command::ToggleGoalMarks);
+    window
+        .wait("the goal", |app| app.salon().comparison.as_ref().is_some_and(|c| c.hair.is_some()));
+    window.settle();
+    window.screen("exercise-bob");
+    window.harness.state_mut().run(Command::BeginExercise("braid".into()));
+    window.settle();
+    window.harness.state_mut().run(Command::ToggleReplay);
+    window.wait("the braid", |app| {
+        app.salon().exercise.as_ref().is_some_and(|e| e.replay.is_none() && e.goal().is_some())
+    });
+    window.settle();
+    window.screen("braid");
 }
 
 #[test]

@@ -55,40 +55,45 @@ const DEPTH: f64 = 0.85;
 /// Pitch over the radius of a lock. Chosen: a lock crosses at about 45 degrees, as in a braid that a hand has drawn tight.
 const PITCH: f64 = 8.0;
 
+/// How much nearer to the middle hair is in the elastic than in the braid. Chosen: three locks side by side become one round bundle.
+const PRESSED: f64 = 0.5;
+
+/// A smooth step from 0 to 1, with no slope at either end.
+fn smoothed(way: f64) -> f64 {
+    let way = way.clamp(0.0, 1.0);
+    way * way * (3.0 - 2.0 * way)
+}
+
 impl BraidPath {
     /// Length (m) of the braid in which a lock comes back to its side.
     #[must_use]
-    pub fn pitch(&self) -> f64 {
+    pub(crate) fn pitch(&self) -> f64 {
         PITCH * self.lock
-    }
-
-    /// Half of the width of the braid (m).
-    #[must_use]
-    pub fn half_width(&self) -> f64 {
-        (ACROSS + 1.0) * self.lock
     }
 
     /// Half of the depth of the braid (m).
     #[must_use]
-    pub fn half_depth(&self) -> f64 {
+    pub(crate) fn half_depth(&self) -> f64 {
         (DEPTH + 1.0) * self.lock
     }
 
     /// The middle of the braid (m) at a drop (m) below the tie.
     #[must_use]
-    pub fn axis(&self, drop: f64) -> DVec3 {
+    pub(crate) fn axis(&self, drop: f64) -> DVec3 {
         self.middle + self.out * (self.stand_off * (1.0 - (-drop / BEND).exp())) - DVec3::Z * drop
     }
 
     /// Place (m) of the hair at a drop (m) below the tie.
     #[must_use]
-    pub fn place(&self, drop: f64) -> DVec3 {
+    pub(crate) fn place(&self, drop: f64) -> DVec3 {
         // The locks leave the round tie within half a pitch.
-        let way = (drop / (0.5 * self.pitch())).clamp(0.0, 1.0);
-        let share = way * way * (3.0 - 2.0 * way);
+        let share = smoothed(drop / (0.5 * self.pitch()));
+        // The elastic presses them together again.
+        let pressed = smoothed((drop - self.end) / (0.4 * self.pitch()) + 1.0);
+        let open = share * (1.0 - PRESSED * pressed);
         let angle = TAU * drop / self.pitch() + self.phase;
         let wave = [ACROSS * angle.sin(), DEPTH * (2.0 * angle).sin()];
-        let offset = |i: usize| share * (wave[i] * self.lock + self.in_lock[i]);
+        let offset = |i: usize| open * (wave[i] * self.lock + self.in_lock[i]);
         let down = self.out * (self.stand_off / BEND * (-drop / BEND).exp()) - DVec3::Z;
         let across = self.out.cross(DVec3::Z);
         let out = across.cross(down).normalize_or(self.out);
@@ -97,20 +102,20 @@ impl BraidPath {
 
     /// Place (m) of hair that is an arc length (m) beyond the tie.
     #[must_use]
-    pub fn place_beyond(&self, beyond: f64) -> DVec3 {
+    pub(crate) fn place_beyond(&self, beyond: f64) -> DVec3 {
         self.place(beyond / *HAIR_PER_LENGTH)
     }
 
     /// Arc length (m) beyond the tie at which hair reaches the elastic.
     #[must_use]
-    pub fn reach(&self) -> f64 {
+    pub(crate) fn reach(&self) -> f64 {
         self.end * *HAIR_PER_LENGTH
     }
 }
 
 /// Length of hair over the length of the braid: the mean of √(1 + x'² + y'²) over a pitch, the same for every braid of these
 /// proportions.
-pub static HAIR_PER_LENGTH: LazyLock<f64> = LazyLock::new(|| {
+pub(crate) static HAIR_PER_LENGTH: LazyLock<f64> = LazyLock::new(|| {
     const STEPS: usize = 64;
     let slope = |i: usize| {
         let angle = TAU * i as f64 / STEPS as f64;
@@ -135,7 +140,7 @@ mod tests {
             phase,
             in_tie: DVec3::ZERO,
             in_lock: [0.0; 2],
-            end: 0.25,
+            end: 0.4,
         }
     }
 
@@ -148,8 +153,8 @@ mod tests {
             let drop = 0.5 * pitch + 3.0 * pitch * f64::from(i) / 600.0;
             let places = locks.map(|lock| lock.place(drop));
             for (a, b) in [(0, 1), (1, 2), (2, 0)] {
-                // Flat locks: three quarters of two radii.
-                assert!(places[a].distance(places[b]) > 1.4 * locks[0].lock, "{drop}");
+                // Flat locks: nearest where cos² of half of the sum of two θ is 0.19, 1.36 r apart.
+                assert!(places[a].distance(places[b]) > 1.35 * locks[0].lock, "{drop}");
             }
             let mut by_side = [0, 1, 2];
             by_side.sort_by(|a, b| places[*a].x.total_cmp(&places[*b].x));

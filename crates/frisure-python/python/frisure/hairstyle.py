@@ -215,7 +215,7 @@ class Hairstyle:
 
     def tie(self, to: Any = None, *, progress: Progress | None = None, **keys: Any) -> Hairstyle:
         """The hair gathered with a hair tie and held: `to` is `"high"`, `"middle"` (the default), `"low"`, `"left"`,
-        `"right"` or a point (m)."""
+        `"right"` or a point (m). `braided=True` braids the tail in three."""
         return self.step("tie", progress=progress, to=to, **keys)
 
     def product(self, kind: str = "gel", *, progress: Progress | None = None, **keys: Any) -> Hairstyle:

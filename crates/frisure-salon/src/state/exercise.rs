@@ -15,7 +15,7 @@ use crate::locale;
 pub struct ExerciseCard {
     /// Its name, after `exercise-` the name of its message: the title, with the attributes `about` and `text`.
     pub name: &'static str,
-    /// The picture of its goal (PNG).
+    /// The picture of its goal (JPEG).
     pub picture: &'static [u8],
     /// The scene of the goal: its steps are a good solution.
     pub scene: &'static str,
@@ -25,7 +25,7 @@ macro_rules! exercise {
     ($name:literal) => {
         ExerciseCard {
             name: $name,
-            picture: include_bytes!(concat!("../../gallery/exercise-", $name, ".png")),
+            picture: include_bytes!(concat!("../../gallery/exercise-", $name, ".jpg")),
             scene: include_str!(concat!("../../exercises/", $name, ".toml")),
         }
     };

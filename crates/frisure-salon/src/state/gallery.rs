@@ -14,7 +14,7 @@ pub struct Card {
     /// The name of the hair type or of the scene.
     pub name: &'static str,
     description: &'static str,
-    /// Its picture (PNG).
+    /// Its picture (JPEG).
     pub picture: &'static [u8],
     /// Its scene; empty for a hair type, whose scene is one line.
     scene: &'static str,
@@ -26,7 +26,7 @@ macro_rules! card {
             title: $title,
             name: $name,
             description: "",
-            picture: include_bytes!(concat!("../../gallery/", $name, ".png")),
+            picture: include_bytes!(concat!("../../gallery/", $name, ".jpg")),
             scene: "",
         }
     };
@@ -35,7 +35,7 @@ macro_rules! card {
             title: $title,
             name: $name,
             description: $description,
-            picture: include_bytes!(concat!("../../gallery/scene-", $name, ".png")),
+            picture: include_bytes!(concat!("../../gallery/scene-", $name, ".jpg")),
             scene: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/", $name, ".toml")),
         }
     };

@@ -5,6 +5,9 @@ use eframe::egui::{
     Vec2, vec2,
 };
 use std::collections::BTreeMap;
+use std::path::Path;
+
+use frisure::formats::picture::photo;
 
 use super::{icons, theme, widgets};
 use crate::locale::tr;
@@ -18,7 +21,7 @@ const CARD: Vec2 = vec2(150.0, 184.0);
 const CAPTION: f32 = 66.0;
 
 impl Pictures {
-    /// The texture of a picture (PNG), which is decoded once.
+    /// The texture of a picture, which is decoded once.
     pub(super) fn of(&mut self, ui: &Ui, picture: &'static [u8]) -> Option<&TextureHandle> {
         let key = picture.as_ptr() as usize;
         if !self.0.contains_key(&key) {
@@ -45,15 +48,11 @@ pub(super) fn placeholder(ui: &Ui, rect: Rect, hair_type: &str, pictures: &mut P
     ui.painter().text(at, Align2::CENTER_TOP, text, font, egui::Color32::from_gray(200));
 }
 
-/// Decodes a PNG.
+/// Decodes a picture.
 fn decoded(bytes: &[u8]) -> Option<ColorImage> {
-    let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-    decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::ALPHA);
-    let mut reader = decoder.read_info().ok()?;
-    let mut pixels = vec![0; reader.output_buffer_size()?];
-    let info = reader.next_frame(&mut pixels).ok()?;
-    let size = [info.width as usize, info.height as usize];
-    Some(ColorImage::from_rgba_unmultiplied(size, &pixels[..info.buffer_size()]))
+    // The path is for errors alone.
+    let photo = photo::decode(bytes, Path::new("card")).ok()?;
+    Some(ColorImage::from_rgb([photo.width, photo.height], &photo.rgb))
 }
 
 pub(super) fn show(ui: &mut Ui, salon: &Salon, pictures: &mut Pictures, out: &mut Vec<Command>) {

@@ -15,12 +15,12 @@ macro_rules! light {
     ($name:literal) => {
         (
             concat!("\"", $name, "\""),
-            include_bytes!(concat!("../../gallery/light-", $name, ".png")).as_slice(),
+            include_bytes!(concat!("../../gallery/light-", $name, ".jpg")).as_slice(),
         )
     };
 }
 
-/// The presets as scenes write them, with their pictures (PNG).
+/// The presets as scenes write them, with their pictures (JPEG).
 const LIGHTS: [(&str, &[u8]); 8] = [
     light!("studio"),
     light!("soft"),

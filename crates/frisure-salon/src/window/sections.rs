@@ -23,7 +23,7 @@ fn row(ui: &mut Ui, salon: &Salon, index: usize, section: &Section, out: &mut Ve
     let Section { name, hidden, locked, .. } = section;
     let toggle = |ui: &mut Ui, icon, id: &str, on: bool| {
         let label = tr!(id, name = name.as_str());
-        let response = ui.selectable_label(on, icon).on_hover_text(tr!(&format!("{id}-help")));
+        let response = ui.selectable_label(on, icon).on_hover_text(tr!(&format!("{id}.help")));
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, &label));
         response.clicked()
     };
