@@ -9,8 +9,8 @@ use frisure::hairstyle::styling::{Dry, Grow, Growth, Operation, Selection, Wet};
 use frisure::scene::edit;
 use frisure_engine::{Diagnostic, Quality, Response};
 use frisure_salon::state::{
-    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, Document, EXERCISES, ExerciseCard,
-    RenderTask, Scissors, SelectMode, Snip, TOUR, Tool, code,
+    Badge, CONTROLS, Command, CutHold, CutPlane, Destination, Document, EXERCISES, Exercise,
+    ExerciseCard, RenderTask, Scissors, SelectMode, Snip, TOUR, Tool, code,
 };
 use glam::DVec3;
 use std::path::PathBuf;
@@ -528,7 +528,7 @@ fn the_solution_of_each_exercise_reaches_its_goal() {
         assert!(!shows(&world), "{}", card.name);
         let nearness = world.salon.nearness().expect("a measure");
         assert!(nearness.done > 0.999, "{}: {nearness:?}", card.name);
-        let steps = world.salon.exercise.as_ref().map_or(0, |exercise| exercise.steps());
+        let steps = world.salon.exercise.as_ref().map_or(0, Exercise::steps);
         let scene = &world.salon.scene.as_ref().unwrap().scene;
         assert_eq!(scene.steps().len(), steps, "{}", card.name);
         world.run(Command::RestartExercise);

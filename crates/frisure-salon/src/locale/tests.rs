@@ -33,7 +33,7 @@ fn messages(locale: Locale) -> BTreeMap<String, BTreeSet<String>> {
         let variables = line
             .split('$')
             .skip(1)
-            .map(|rest| rest.chars().take_while(|c| c.is_ascii_alphanumeric()).collect::<String>());
+            .map(|rest| rest.chars().take_while(char::is_ascii_alphanumeric).collect::<String>());
         all.entry(id.clone()).or_insert_with(BTreeSet::new).extend(variables);
         last = id;
     }

@@ -80,7 +80,7 @@ impl Exercise {
         let mut scenes: Vec<String> =
             successors(Some(scene.to_owned()), without).take(steps + 1).collect();
         scenes.reverse();
-        (steps > 0 && scenes.len() == steps + 1).then(|| Self {
+        (steps > 0 && scenes.len() == steps + 1).then_some(Self {
             title,
             text,
             scenes,

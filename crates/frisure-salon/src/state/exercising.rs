@@ -146,6 +146,6 @@ impl Salon {
         let exercise = self.exercise.as_ref().filter(|exercise| exercise.marks)?;
         let (goal, hair) = (exercise.goal()?.clone(), self.current.as_ref()?.hair.clone());
         let same = goal.strands.guide == hair.strands.guide;
-        same.then(|| move |i: usize| Way::of(&hair.strands, &goal.strands, i))
+        same.then_some(move |i: usize| Way::of(&hair.strands, &goal.strands, i))
     }
 }

@@ -5,6 +5,7 @@ use eframe::egui::{
     Vec2, vec2,
 };
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::Path;
 
 use frisure::formats::picture::photo;
@@ -24,12 +25,13 @@ impl Pictures {
     /// The texture of a picture, which is decoded once.
     pub(super) fn of(&mut self, ui: &Ui, picture: &'static [u8]) -> Option<&TextureHandle> {
         let key = picture.as_ptr() as usize;
-        if !self.0.contains_key(&key) {
-            let image = decoded(picture)?;
-            let texture = ui.ctx().load_texture("card", image, TextureOptions::LINEAR);
-            self.0.insert(key, texture);
+        match self.0.entry(key) {
+            Entry::Occupied(known) => Some(known.into_mut()),
+            Entry::Vacant(new) => {
+                let image = decoded(picture)?;
+                Some(new.insert(ui.ctx().load_texture("card", image, TextureOptions::LINEAR)))
+            }
         }
-        self.0.get(&key)
     }
 }
 
