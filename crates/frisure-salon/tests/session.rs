@@ -514,6 +514,20 @@ fn the_solution_of_each_exercise_reaches_its_goal() {
         assert!(nearness.done.abs() < 1e-9, "{}: {nearness:?} at the beginning", card.name);
         world.run(Command::CompareGoal);
         assert!(world.salon.comparison.as_ref().is_some_and(|c| c.hair.is_some()));
+        world.run(Command::ToggleGoalMarks);
+        let marked = |world: &mut World| {
+            let count = world.salon.drawn().expect("hair").0.strands.guide.len();
+            let way = world.salon.way_to_goal().expect("marks");
+            (count, (0..count).filter(|hair| way(*hair).is_some()).count())
+        };
+        let (all, far) = marked(&mut world);
+        assert!(far > 0, "{}", card.name);
+        // Marks are those of the hairs that are drawn, also where some are hidden.
+        world.run(Command::Select(FRINGE, SelectMode::Replace));
+        world.run(Command::AddSection);
+        world.run(Command::HideSection(0, true));
+        let (shown, far_and_shown) = marked(&mut world);
+        assert!(shown < all && far_and_shown <= far, "{}", card.name);
         world.run(Command::ToggleReplay);
         // Two seconds pass with each round: the next step comes when the hair of the last one has been seen.
         let shows = |world: &World| {

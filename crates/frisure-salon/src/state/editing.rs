@@ -19,12 +19,8 @@ impl Salon {
     pub(super) fn begin(&mut self, name: &str) {
         match sharing::decoded(name) {
             Some(Ok(text)) => {
-                return self.open_document(Document::new(
-                    tr!("shared"),
-                    None,
-                    tr!("from-a-link"),
-                    text,
-                ));
+                self.open_document(Document::new(tr!("shared"), None, tr!("from-a-link"), text));
+                return;
             }
             Some(Err(problem)) => {
                 let text = tr!("link-damaged", problem = problem);
@@ -40,8 +36,8 @@ impl Salon {
         self.open_document(Document::new(&*title, None, &*title, card.text()));
     }
 
-    /// Replaces the document, unless the new one does not parse.
-    pub(super) fn open_document(&mut self, document: Document) {
+    /// Replaces the document, unless the new one does not parse; returns whether it does.
+    pub(super) fn open_document(&mut self, document: Document) -> bool {
         match parse(&document, document.text()) {
             Ok(parsed) => {
                 self.jobs.cancel_hair();
@@ -54,8 +50,12 @@ impl Salon {
                 (self.refused, self.held, self.gallery, self.framed) = (None, None, false, false);
                 (self.tool, self.cut_preview, self.mass_before) = (Tool::Orbit, None, None);
                 self.exercise = None;
+                true
             }
-            Err(error) => self.report_error(&(&error).into()),
+            Err(error) => {
+                self.report_error(&(&error).into());
+                false
+            }
         }
     }
 

@@ -1,6 +1,5 @@
 //! Exercises: hair to begin with, a goal, and a measure of how near to it hair is.
 
-use std::iter::successors;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -76,11 +75,12 @@ impl Exercise {
     /// An exercise whose goal is a scene; `None` for a scene without steps.
     pub(super) fn new(title: String, text: String, scene: &str) -> Option<Self> {
         let steps = Scene::parse("exercise", scene, Path::new("")).ok()?.steps().len();
-        let without = |scene: &String| edit::remove(scene, steps_of(scene)?.checked_sub(1)?).ok();
-        let mut scenes: Vec<String> =
-            successors(Some(scene.to_owned()), without).take(steps + 1).collect();
+        let mut scenes = vec![scene.to_owned()];
+        for last in (0..steps).rev() {
+            scenes.push(edit::remove(scenes.last()?, last).ok()?);
+        }
         scenes.reverse();
-        (steps > 0 && scenes.len() == steps + 1).then_some(Self {
+        (steps > 0).then_some(Self {
             title,
             text,
             scenes,
@@ -116,11 +116,6 @@ impl Exercise {
         let [Some(start), Some(goal)] = &self.hair else { return None };
         Nearness::of(&start.strands, &hair.strands, &goal.strands)
     }
-}
-
-/// How many steps a scene has.
-fn steps_of(scene: &str) -> Option<usize> {
-    Some(Scene::parse("exercise", scene, Path::new("")).ok()?.steps().len())
 }
 
 /// How near to a goal hair is.

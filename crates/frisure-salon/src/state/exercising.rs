@@ -42,7 +42,10 @@ impl Salon {
             return self.notify(text, tr!("no-such-exercise.hint"), true);
         };
         let (title, scenes) = (exercise.title.clone(), exercise.scenes.clone());
-        self.open_document(Document::new(&title, None, &title, &*scenes[0]));
+        if !self.open_document(Document::new(&title, None, &title, &*scenes[0])) {
+            return;
+        }
+        self.tour = None;
         self.version += 1;
         self.exercise = Some(Exercise { version: self.version, ..exercise });
         // The goal continues from the hair to begin with, which the same worker has then.
@@ -142,9 +145,11 @@ impl Salon {
 
     /// In which way a drawn hair is not at its goal, where that is to be marked.
     #[must_use]
-    pub fn way_to_goal(&self) -> Option<impl Fn(usize) -> Option<Way> + use<>> {
+    pub fn way_to_goal(&mut self) -> Option<impl Fn(usize) -> Option<Way> + use<>> {
         let exercise = self.exercise.as_ref().filter(|exercise| exercise.marks)?;
-        let (goal, hair) = (exercise.goal()?.clone(), self.current.as_ref()?.hair.clone());
+        // Of the goal, too, what is hidden is left out: hairs correspond by their numbers.
+        let goal = self.without_hidden(exercise.goal()?);
+        let (hair, _) = self.drawn()?;
         let same = goal.strands.guide == hair.strands.guide;
         same.then_some(move |i: usize| Way::of(&hair.strands, &goal.strands, i))
     }

@@ -8,6 +8,7 @@ use frisure_engine::{Preview, SceneRef};
 use glam::Vec3;
 
 use super::command::Command;
+use super::files::quoted;
 use super::jobs::Purpose;
 use super::salon::{DrawnHair, Salon};
 use super::scissors::Snip;
@@ -118,7 +119,7 @@ impl Salon {
             return;
         }
         let label = tr!("section-renamed", before = &*section.name, name = name);
-        let written = toml_edit::Value::from(name).to_string();
+        let written = quoted(name);
         self.edit_sections(&label, &[(&format!("section[{index}].name"), Some(&written))]);
     }
 
@@ -156,7 +157,7 @@ impl Salon {
         let mut keys = Vec::new();
         for (index, (name, selection)) in (first..).zip(sections) {
             let Ok(written) = write_selection(&selection) else { return };
-            let name = toml_edit::Value::from(name).to_string();
+            let name = quoted(&name);
             keys.push((format!("section[{index}].name"), name));
             keys.push((format!("section[{index}].where"), written));
         }
@@ -232,6 +233,16 @@ impl Salon {
         (0..current.hair.roots.len()).all(|wisp| !is_in(wisp) || untouched.get(wisp) == Some(&true))
     }
 
+    /// Hair of this head without that of hidden sections.
+    pub(super) fn without_hidden(&self, hair: &Arc<Preview>) -> Arc<Preview> {
+        let hidden = self.union(|section| section.hidden);
+        if !hidden.contains(&true) {
+            return hair.clone();
+        }
+        let strands = shown(&hair.strands, &hidden);
+        Arc::new(Preview { strands, ..Preview::clone(hair) })
+    }
+
     /// The hair that is drawn, without hidden sections, with a number that differs for each.
     pub fn drawn(&mut self) -> Option<(Arc<Preview>, u64)> {
         let hidden = self.union(|section| section.hidden);
@@ -241,10 +252,9 @@ impl Salon {
         }
         let known = self.drawn.as_ref();
         if known.is_none_or(|drawn| drawn.of != current.version || drawn.hidden != hidden) {
-            let strands = shown(&current.hair.strands, &hidden);
-            let hair = Arc::new(Preview { strands, ..Preview::clone(&current.hair) });
+            let (of, hair) = (current.version, self.without_hidden(&current.hair));
             self.version += 1;
-            let (of, version) = (current.version, self.version);
+            let version = self.version;
             self.drawn = Some(DrawnHair { of, hidden, hair, version });
         }
         self.drawn.as_ref().map(|drawn| (drawn.hair.clone(), drawn.version))
