@@ -106,25 +106,10 @@ fn braids(hairstyle: &Hairstyle, head: &Head) -> Vec<Accessory> {
             braids.entry(key).or_insert_with(|| (path, Vec::new())).1.push(wisp);
         }
     }
-    let [half_width, half_thickness] = BAND;
     let elastic = |(path, wisps): (BraidPath, Vec<usize>)| {
         let (centre, above) = (path.axis(path.end), path.axis(path.end - DIRECTION));
-        let direction = (centre - above).normalize_or(DVec3::NEG_Z);
-        let axis = Axis { centre, direction };
-        NARROWED.into_iter().find_map(|narrowed| {
-            let radius = BUNDLED * path.lock * narrowed;
-            let profile = ring(radius + half_thickness, [half_thickness, 2.0 * half_width]);
-            let mesh = turned(axis, &profile)?;
-            (clearance(&mesh, head) > 0.0).then(|| Accessory {
-                kind: AccessoryKind::Elastic,
-                wisps: wisps.clone(),
-                centre,
-                axis: direction,
-                radius,
-                length: 4.0 * half_width,
-                mesh,
-            })
-        })
+        let axis = Axis { centre, direction: (centre - above).normalize_or(DVec3::NEG_Z) };
+        band(axis, BUNDLED * path.lock, 0.0, 2.0 * BAND[0], wisps, head)
     };
     braids.into_values().filter_map(elastic).collect()
 }
@@ -139,20 +124,26 @@ fn elastic(ends: &[&End], head: &Head) -> Option<Accessory> {
     let reach = ends.iter().map(reach).fold(0.0, f64::max);
     let opening = ends.iter().map(|end| end.radius).fold(reach, f64::max);
     let wisps: Vec<usize> = ends.iter().map(|end| end.wisp).collect();
-    let [half_width, half_thickness] = BAND;
-    NARROWED.into_iter().find_map(|narrowed| {
+    band(axis, opening, reach, BAND[0], wisps, head)
+}
+
+/// A band about an axis with an opening of a radius (m), narrower where skin is near but no narrower than `reach` (m), and so wide to either
+/// side along the axis (m); none where skin leaves no room.
+fn band(
+    axis: Axis,
+    opening: f64,
+    reach: f64,
+    half_width: f64,
+    wisps: Vec<usize>,
+    head: &Head,
+) -> Option<Accessory> {
+    let half_thickness = BAND[1];
+    let (radius, mesh) = NARROWED.into_iter().find_map(|narrowed| {
         let radius = (opening * narrowed).max(reach).max(THINNEST);
         let mesh = turned(axis, &ring(radius + half_thickness, [half_thickness, half_width]))?;
-        let (kind, wisps) = (AccessoryKind::Elastic, wisps.clone());
-        let (axis, length) = (axis.direction, 2.0 * half_width);
-        (clearance(&mesh, head) > 0.0).then_some(Accessory {
-            kind,
-            wisps,
-            centre,
-            axis,
-            radius,
-            length,
-            mesh,
-        })
-    })
+        (clearance(&mesh, head) > 0.0).then_some((radius, mesh))
+    })?;
+    let Axis { centre, direction: axis } = axis;
+    let (kind, length) = (AccessoryKind::Elastic, 2.0 * half_width);
+    Some(Accessory { kind, wisps, centre, axis, radius, length, mesh })
 }
