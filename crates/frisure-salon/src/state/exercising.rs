@@ -6,6 +6,7 @@ use std::sync::Arc;
 use frisure::scene::Scene;
 use frisure_engine::{Preview, Quality, Request};
 
+use super::command::Command;
 use super::document::Document;
 use super::exercise::{EXERCISES, Exercise, Nearness, Way};
 use super::jobs::Purpose;
@@ -17,8 +18,25 @@ use crate::locale::tr;
 const PAUSE: f64 = 1.2;
 
 impl Salon {
+    /// Executes a command of exercises.
+    pub(super) fn practise(&mut self, command: Command) {
+        match command {
+            Command::BeginExercise(name) => self.begin_exercise(&name),
+            Command::CompareGoal => self.compare_with_goal(),
+            Command::ToggleGoalMarks => {
+                if let Some(exercise) = &mut self.exercise {
+                    exercise.marks = !exercise.marks;
+                }
+            }
+            Command::RestartExercise => self.restart_exercise(),
+            Command::ToggleReplay => self.toggle_replay(),
+            Command::EndExercise => self.end_exercise(),
+            _ => {}
+        }
+    }
+
     /// Begins an exercise of the gallery by its name, or one whose goal is the scene of a link.
-    pub(super) fn begin_exercise(&mut self, name: &str) {
+    fn begin_exercise(&mut self, name: &str) {
         let exercise = match sharing::decoded(name) {
             Some(Ok(scene)) => {
                 let title = match Scene::parse("exercise", scene.as_str(), Path::new("")) {
@@ -71,7 +89,7 @@ impl Salon {
     }
 
     /// Shows the goal beside the current hair, or no longer.
-    pub(super) fn compare_with_goal(&mut self) {
+    fn compare_with_goal(&mut self) {
         let Some(exercise) = &self.exercise else { return };
         let shown = self.comparison.as_ref().is_some_and(|c| c.of == Compared::Goal);
         self.comparison = (!shown).then(|| Comparison {
@@ -83,7 +101,7 @@ impl Salon {
     }
 
     /// Goes back to the hair to begin with.
-    pub(super) fn restart_exercise(&mut self) {
+    fn restart_exercise(&mut self) {
         let Some(exercise) = &mut self.exercise else { return };
         (exercise.replay, exercise.rests_since) = (None, None);
         let text = exercise.scenes[0].clone();
@@ -91,7 +109,7 @@ impl Salon {
     }
 
     /// Shows the solution from the beginning, or stops.
-    pub(super) fn toggle_replay(&mut self) {
+    fn toggle_replay(&mut self) {
         let Some(exercise) = &mut self.exercise else { return };
         if exercise.replay.take().is_none() {
             self.restart_exercise();
@@ -122,7 +140,7 @@ impl Salon {
     }
 
     /// Ends the exercise; the hair stays.
-    pub(super) fn end_exercise(&mut self) {
+    fn end_exercise(&mut self) {
         self.exercise = None;
         if self.comparison.as_ref().is_some_and(|c| c.of == Compared::Goal) {
             self.comparison = None;

@@ -78,16 +78,12 @@ impl Salon {
             | Command::HideSection(..)
             | Command::LockSection(..)
             | Command::RemoveSection(_) => self.section(command),
-            Command::BeginExercise(name) => self.begin_exercise(&name),
-            Command::CompareGoal => self.compare_with_goal(),
-            Command::ToggleGoalMarks => {
-                if let Some(exercise) = &mut self.exercise {
-                    exercise.marks = !exercise.marks;
-                }
-            }
-            Command::RestartExercise => self.restart_exercise(),
-            Command::ToggleReplay => self.toggle_replay(),
-            Command::EndExercise => self.end_exercise(),
+            Command::BeginExercise(_)
+            | Command::CompareGoal
+            | Command::ToggleGoalMarks
+            | Command::RestartExercise
+            | Command::ToggleReplay
+            | Command::EndExercise => self.practise(command),
             Command::Speak(locale) => self.speak(locale),
             Command::ToggleMirror => self.mirror = !self.mirror,
             Command::Apply(_)
