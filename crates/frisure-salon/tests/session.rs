@@ -552,6 +552,27 @@ fn the_solution_of_each_exercise_reaches_its_goal() {
     }
 }
 
+#[test]
+fn an_undo_ends_the_solution() {
+    let mut world = World::new();
+    world.run(small_exercise(&EXERCISES[1]));
+    world.run(Command::ToggleReplay);
+    let steps = |world: &World| world.salon.scene.as_ref().map_or(0, |s| s.scene.steps().len());
+    for _ in 0..20 {
+        if steps(&world) > 0 {
+            break;
+        }
+        world.settle();
+    }
+    assert_eq!(steps(&world), 1);
+    world.run(Command::Undo);
+    for _ in 0..4 {
+        world.settle();
+    }
+    assert_eq!(steps(&world), 0);
+    assert!(world.salon.exercise.as_ref().is_some_and(|exercise| exercise.replay.is_none()));
+}
+
 /// What a learner does is not the solution to the letter, and is measured by where the hair is.
 #[test]
 fn another_way_to_a_fringe_counts_as_well() {

@@ -124,6 +124,12 @@ impl Salon {
         let settled = self.is_settled();
         let Some(exercise) = self.exercise.as_mut() else { return };
         let Some(next) = exercise.replay else { return };
+        // Whoever undoes or edits meanwhile goes on alone.
+        let shown = self.document.as_ref().map(Document::text);
+        if shown != exercise.scenes.get(next - 1).map(|scene| &**scene) {
+            (exercise.replay, exercise.rests_since) = (None, None);
+            return;
+        }
         if !settled {
             exercise.rests_since = None;
             return;

@@ -65,8 +65,8 @@ pub struct Salon {
     pub brush: Brush,
     /// The sections of the current text.
     pub sections: Vec<Section>,
-    /// The hair without hidden sections.
-    pub(super) drawn: Option<DrawnHair>,
+    /// The hair, and the one that is shown beside it, without hidden sections.
+    pub(super) drawn: [Option<DrawnHair>; 2],
     /// The camera.
     pub orbit: Orbit,
     /// Whether the head turns slowly, as on a turntable.

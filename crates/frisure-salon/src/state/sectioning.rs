@@ -245,18 +245,30 @@ impl Salon {
 
     /// The hair that is drawn, without hidden sections, with a number that differs for each.
     pub fn drawn(&mut self) -> Option<(Arc<Preview>, u64)> {
-        let hidden = self.union(|section| section.hidden);
         let current = self.current.as_ref()?;
+        Some(self.visible(0, current.hair.clone(), current.version))
+    }
+
+    /// The same of the hair that is shown beside it.
+    pub fn drawn_comparison(&mut self) -> Option<(Arc<Preview>, u64)> {
+        let comparison = self.comparison.as_ref()?;
+        Some(self.visible(1, comparison.hair.clone()?, comparison.version))
+    }
+
+    /// What is visible of the hair of a version; `which` is the place where it is kept.
+    fn visible(&mut self, which: usize, hair: Arc<Preview>, of: u64) -> (Arc<Preview>, u64) {
+        let hidden = self.union(|section| section.hidden);
         if !hidden.contains(&true) {
-            return Some((current.hair.clone(), current.version));
+            return (hair, of);
         }
-        let known = self.drawn.as_ref();
-        if known.is_none_or(|drawn| drawn.of != current.version || drawn.hidden != hidden) {
-            let (of, hair) = (current.version, self.without_hidden(&current.hair));
-            self.version += 1;
-            let version = self.version;
-            self.drawn = Some(DrawnHair { of, hidden, hair, version });
+        let known = self.drawn[which].as_ref();
+        if let Some(drawn) = known.filter(|drawn| drawn.of == of && drawn.hidden == hidden) {
+            return (drawn.hair.clone(), drawn.version);
         }
-        self.drawn.as_ref().map(|drawn| (drawn.hair.clone(), drawn.version))
+        let hair = self.without_hidden(&hair);
+        self.version += 1;
+        let version = self.version;
+        self.drawn[which] = Some(DrawnHair { of, hidden, hair: hair.clone(), version });
+        (hair, version)
     }
 }

@@ -15,11 +15,11 @@ use web_time::{Duration, Instant};
 
 use super::dialogs::Dialogs;
 use super::platform::{InputFile, Platform};
-use super::viewport::{self, Viewport};
+use super::viewport::Viewport;
 use super::widgets::Room;
 use super::{
-    automation, exercise, gallery, keys, panels, reference, renderer, theme, toolbars, tools, tour,
-    widgets,
+    automation, exercise, gallery, keys, ndc, overlay, panels, reference, renderer, theme,
+    toolbars, tools, tour, widgets,
 };
 use crate::locale::{self, Locale, tr};
 use crate::state::{Command, Document, Effect, Nearness, Queue, Salon};
@@ -310,7 +310,7 @@ impl App {
 
     fn centre(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {
         let rect = ui.available_rect_before_wrap();
-        self.aspect = viewport::aspect(rect);
+        self.aspect = ndc::aspect(rect);
         if !self.has_renderer {
             ui.label(tr!("no-graphics"));
             return;
@@ -341,7 +341,7 @@ impl App {
     /// The state as JSON, for automation.
     fn state_json(&self) -> String {
         let document = self.salon.document.as_ref();
-        let (badge, _) = viewport::badge(&self.salon);
+        let (badge, _) = overlay::badge(&self.salon, self.viewport.is_moving());
         let hair = self.salon.preview().map(|(hair, _)| hair);
         let numbers = hair.map(|hair| &hair.numbers);
         serde_json::json!({

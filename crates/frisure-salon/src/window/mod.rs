@@ -2,6 +2,7 @@
 
 mod app;
 pub mod automation;
+mod blend;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod desktop;
 mod dialogs;
@@ -10,6 +11,8 @@ mod gallery;
 mod icons;
 mod keys;
 mod lights;
+mod ndc;
+mod overlay;
 mod panels;
 pub mod platform;
 mod reference;

@@ -20,6 +20,13 @@ pub(super) enum Side {
     Before,
 }
 
+/// One side of a comparison, or the only one.
+pub(super) struct Pane {
+    pub(super) side: Side,
+    /// The part of the window that shows it.
+    pub(super) shown: egui::Rect,
+}
+
 /// A value with a number that is unique to it.
 pub(super) type Versioned<T> = (Arc<T>, u64);
 

@@ -5,7 +5,7 @@ use frisure::hairstyle::Comb as Side;
 use frisure::hairstyle::styling::Direction;
 use glam::DVec3;
 
-use super::viewport::level_name;
+use super::overlay::level_name;
 use super::widgets::Room;
 use super::{icons, theme, widgets};
 use crate::locale::tr;

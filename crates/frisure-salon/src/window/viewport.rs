@@ -1,13 +1,12 @@
 //! The viewport: the head with its hair, and the pointer on it.
 
-use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use eframe::egui::{
-    self, Align2, Color32, CursorIcon, FontId, Key, PointerButton, Pos2, Rect, Response, Sense,
-    Shape, Stroke, Ui, Vec2, pos2, vec2,
+    self, Color32, CursorIcon, Key, PointerButton, Pos2, Rect, Response, Sense, Shape, Stroke, Ui,
+    Vec2, pos2,
 };
 use eframe::egui_wgpu::Callback;
 use frisure::files::Files;
@@ -18,10 +17,12 @@ use frisure_engine::{environment_map, picture};
 use frisure_view::{Line, Mark, Plane, Shadows};
 use glam::{DVec3, Vec3};
 
-use super::renderer::{Picture, Side, Versioned, View};
-use super::{automation, theme, widgets};
-use crate::locale::{self, tr};
-use crate::state::{Badge, Command, Compared, CutPlane, Exercise, Salon, Snip, Tool, Way};
+use super::blend::Blend;
+use super::ndc::{aspect, from_ndc, to_ndc};
+use super::renderer::{Pane, Picture, Side, Versioned, View};
+use super::{automation, overlay, theme, widgets};
+use crate::locale::tr;
+use crate::state::{Command, CutPlane, Exercise, Salon, Snip, Tool, Way};
 
 /// The state of the viewport between frames.
 #[derive(Default)]
@@ -46,13 +47,10 @@ pub(super) struct Viewport {
     refinement: Option<Refinement>,
     /// Where before and now meet in a comparison: share of the width, in −½ to ½ from the middle.
     divider: f32,
-}
-
-/// One side of a comparison, or the only one.
-struct Pane {
-    side: Side,
-    /// The part of the window that shows it.
-    shown: Rect,
+    /// The move from coarse to exact hair.
+    blend: Blend,
+    /// Time of the frame (s).
+    now: f64,
 }
 
 /// A picture of a slow device on its way to all strands.
@@ -98,6 +96,7 @@ impl Viewport {
 
     /// Shows the viewport and collects the commands of the pointer.
     pub(super) fn show(&mut self, ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
+        self.now = ui.input(|i| i.time);
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response
@@ -121,15 +120,19 @@ impl Viewport {
                 painter.add(Callback::new_paint_callback(rect, picture));
             }
         }
+        if self.blend.is_moving() {
+            self.note_motion(self.now);
+            ui.ctx().request_repaint();
+        }
         if let Some(x) = handle {
             let bar = Stroke::new(2.0, Color32::WHITE);
             ui.painter().vline(x, rect.y_range(), bar);
             ui.painter().circle(pos2(x, rect.center().y), 9.0, theme::ACCENT, bar);
         }
         if matches!(salon.tool, Tool::Cut | Tool::Scissors) {
-            levels(ui, salon, rect);
+            overlay::levels(ui, salon, rect);
         }
-        overlay(ui, salon, &panes);
+        overlay::show(ui, salon, &panes, self.is_moving());
         self.draw_stroke(ui, rect, salon);
     }
 
@@ -157,6 +160,11 @@ impl Viewport {
             ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
         }
         rect.center().x + self.divider * rect.width()
+    }
+
+    /// Whether the picture is on its way from coarse to exact hair.
+    pub(super) fn is_moving(&self) -> bool {
+        self.blend.is_moving()
     }
 
     /// Records a motion, so that fewer strands are drawn for a while.
@@ -333,11 +341,8 @@ impl Viewport {
         });
         let (look, lights) = self.look_and_lights(&parsed.scene, &camera, middle);
         let (hair, version) = match side {
-            Side::Now => salon.drawn()?,
-            Side::Before => {
-                let comparison = salon.comparison.as_ref()?;
-                (comparison.hair.clone()?, comparison.version)
-            }
+            Side::Now => self.blend.shown(salon.drawn()?, self.now),
+            Side::Before => salon.drawn_comparison()?,
         };
         let is_now = side == Side::Now;
         let marks = if is_now { self.marks(salon) } else { None };
@@ -444,7 +449,7 @@ impl Viewport {
             painter.circle_stroke(pointer, radius as f32, Stroke::new(1.5, theme::ACCENT));
         }
         if salon.tool == Tool::Lift {
-            lifted(ui, salon, rect, pointer);
+            overlay::lifted(ui, salon, rect, pointer);
         }
         for place in &self.stroke {
             if let Some(at) = salon.orbit.project(*place, aspect(rect)) {
@@ -502,22 +507,6 @@ fn view_height(salon: &Salon) -> f64 {
     2.0 * salon.orbit.distance * (0.5 * salon.orbit.field_of_view).tan()
 }
 
-/// A point of the window in normalized device coordinates: −1 to 1, right and up.
-fn to_ndc(at: Pos2, rect: Rect) -> [f64; 2] {
-    let half = 0.5 * rect.size();
-    let from = at - rect.center();
-    [f64::from(from.x / half.x), -f64::from(from.y / half.y)]
-}
-
-/// The inverse of [`to_ndc`].
-fn from_ndc([x, y]: [f64; 2], rect: Rect) -> Pos2 {
-    rect.center() + vec2(0.5 * rect.width() * x as f32, -0.5 * rect.height() * y as f32)
-}
-
-pub(super) fn aspect(rect: Rect) -> f64 {
-    f64::from(rect.width() / rect.height().max(1.0))
-}
-
 /// The lines of one hair with its material frames. \[paper\] Fig. 3
 fn material_frames(hair: &GuideData) -> Vec<Line> {
     const STRIDE: usize = 6;
@@ -538,158 +527,4 @@ fn material_frames(hair: &GuideData) -> Vec<Line> {
 fn cutting_plane(plane: &CutPlane) -> Plane {
     let [r, g, b, _] = theme::CUT_COLOUR.to_normalized_gamma_f32();
     Plane::across(plane.point.as_vec3(), plane.normal().as_vec3(), 0.22, [r, g, b, 0.22])
-}
-
-/// Draws a text on a filled box over the picture; returns the box.
-fn text_box(ui: &Ui, at: Pos2, align: Align2, text: String, fill: Color32) -> Rect {
-    let font = FontId::proportional(13.0);
-    let galley = ui.painter().layout_no_wrap(text, font, Color32::WHITE);
-    let rect = align.anchor_size(at, galley.size() + vec2(16.0, 8.0));
-    ui.painter().rect_filled(rect, 6.0, fill);
-    ui.painter().galley(rect.min + vec2(8.0, 4.0), galley, Color32::WHITE);
-    rect
-}
-
-const DARK: Color32 = Color32::from_black_alpha(160);
-
-/// Draws the texts over the picture.
-fn overlay(ui: &Ui, salon: &Salon, panes: &[Pane]) {
-    for Pane { side, shown } in panes {
-        // Of a comparison both texts are seen, however narrow a part is.
-        let (corner, align) = match side {
-            Side::Now if panes.len() > 1 => {
-                (shown.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP)
-            }
-            _ => (shown.left_top() + vec2(10.0, 10.0), Align2::LEFT_TOP),
-        };
-        match side {
-            Side::Before => {
-                let Some(comparison) = &salon.comparison else { continue };
-                let text = match comparison.of {
-                    Compared::Goal => comparison.label.clone(),
-                    Compared::Edit(_) => tr!("before", label = &*comparison.label),
-                };
-                text_box(ui, corner, align, text, DARK);
-                if comparison.hair.is_none() {
-                    let (centre, text) = (Align2::CENTER_CENTER, tr!("computing"));
-                    text_box(ui, shown.center(), centre, text, DARK);
-                }
-            }
-            Side::Now => {
-                let (text, fill) = badge(salon);
-                let rect = text_box(ui, corner, align, text, fill);
-                automation::record("badge", rect);
-            }
-        }
-    }
-    if let Some(hair) = salon.isolated.as_ref().and_then(|isolated| isolated.hair.as_ref()) {
-        let corner = panes[panes.len() - 1].shown.right_bottom() + vec2(-10.0, -10.0);
-        text_box(ui, corner, Align2::RIGHT_BOTTOM, hair_report(hair), DARK);
-    }
-}
-
-/// Draws how hair under the pointer would be lifted: straight to where it is cut.
-fn lifted(ui: &Ui, salon: &Salon, rect: Rect, pointer: Pos2) {
-    let (from, direction) = salon.orbit.ray(to_ndc(pointer, rect), aspect(rect));
-    let hit = salon.head.as_ref().and_then(|head| head.hit_and_normal(from, direction));
-    let Some((root, normal)) = hit else { return };
-    let end = salon.scissors.lifted_end(root, normal);
-    let Some(end) = salon.orbit.project(end, aspect(rect)) else { return };
-    let (painter, end) = (ui.painter().with_clip_rect(rect), from_ndc(end, rect));
-    painter.line_segment([pointer, end], Stroke::new(2.0, theme::ACCENT));
-    painter.circle_filled(end, 4.0, theme::CUT_COLOUR);
-    let (degrees, cm) = (salon.scissors.elevation.to_degrees(), salon.scissors.lifted * 100.0);
-    let text = format!("{degrees:.0}°, {cm:.1} cm");
-    text_box(ui, end + vec2(8.0, 0.0), Align2::LEFT_CENTER, text, DARK);
-}
-
-/// Draws the levels of the head that cuts are named by, where it is seen from about its height.
-fn levels(ui: &Ui, salon: &Salon, rect: Rect) {
-    /// Half the length of a line (m), beyond hair and shoulders.
-    const HALF: f64 = 0.15;
-    /// Greatest elevation (rad) from which heights lie one above the other. Chosen.
-    const STEEPEST: f64 = 0.6;
-    let Some(head) = salon.head.as_ref().filter(|_| salon.orbit.elevation.abs() < STEEPEST) else {
-        return;
-    };
-    let (painter, right) = (ui.painter().with_clip_rect(rect), salon.orbit.camera().right());
-    let grey = Color32::from_black_alpha(90);
-    for (name, z) in &head.levels {
-        let end =
-            |side: f64| salon.orbit.project(DVec3::Z * *z + side * HALF * right, aspect(rect));
-        let (Some(a), Some(b)) = (end(-1.0), end(1.0)) else { continue };
-        let (a, b) = (from_ndc(a, rect), from_ndc(b, rect));
-        painter.extend(Shape::dashed_line(&[a, b], Stroke::new(1.0, grey), 4.0, 4.0));
-        let font = FontId::proportional(11.0);
-        painter.text(
-            b + vec2(4.0, 0.0),
-            Align2::LEFT_CENTER,
-            level_name(name),
-            font,
-            Color32::from_black_alpha(170),
-        );
-    }
-}
-
-/// The name of a level of the head.
-pub(super) fn level_name(name: &str) -> Cow<'_, str> {
-    locale::named("level", name, name)
-}
-
-/// The text and the colour of the badge.
-pub(super) fn badge(salon: &Salon) -> (String, Color32) {
-    let colour = |r, g, b| Color32::from_rgba_unmultiplied(r, g, b, 230);
-    let red = colour(0xb0, 0x3a, 0x2e);
-    match salon.badge() {
-        Badge::Empty => (tr!("badge-empty"), DARK),
-        Badge::Settling => {
-            let text = match salon.progress() {
-                Some((stage, done)) if !stage.is_empty() => {
-                    let stage = locale::named("stage", stage, stage);
-                    format!("{} {stage}, {:.0} %", tr!("badge-settling"), done * 100.0)
-                }
-                _ => tr!("badge-settling"),
-            };
-            (text, colour(0xb0, 0x78, 0x10))
-        }
-        Badge::AtRest => (tr!("badge-at-rest"), colour(0x2c, 0x7a, 0x3e)),
-        Badge::Unstable(count) => (tr!("badge-unstable", count = count), red),
-        Badge::Refused(_) if salon.preview().is_some() => (tr!("badge-refused-earlier"), red),
-        Badge::Refused(_) => (tr!("badge-refused"), red),
-    }
-}
-
-/// The numbers of a hair that is shown alone.
-fn hair_report(hair: &GuideData) -> String {
-    let [elastic, gravity, contact] = hair.energy.map(|e| format!("{:.1}", e * 1e9));
-    let [a, b] = hair.section.map(|a| format!("{:.0}", a * 1e6));
-    let stability = locale::named("stability", &hair.stability, &hair.stability);
-    tr!(
-        "hair-report",
-        wisp = hair.wisp,
-        length = format!("{:.1}", hair.length * 100.0),
-        a = a,
-        b = b,
-        elastic = elastic,
-        gravity = gravity,
-        contact = contact,
-        elements = hair.elements,
-        iterations = hair.iterations,
-        gradient = format!("{:.0e}", hair.gradient),
-        stability = &*stability,
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn picture_coordinates_round_trip() {
-        let rect = Rect::from_min_max(pos2(10.0, 20.0), pos2(310.0, 220.0));
-        for p in [rect.min, rect.max, rect.center(), pos2(50.0, 60.0)] {
-            assert!(from_ndc(to_ndc(p, rect), rect).distance(p) < 1e-3);
-        }
-        assert_eq!(to_ndc(rect.right_top(), rect), [1.0, 1.0]);
-    }
 }
