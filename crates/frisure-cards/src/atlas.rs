@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::layout::Place;
 use crate::raster;
-use crate::ribbon::{Even, Ribbon, STATIONS};
+use crate::ribbon::{Even, Ribbon};
 
 /// The names of the textures, in their order in [`Atlas::textures`].
 pub const TEXTURES: [&str; 3] = ["color", "flow", "data"];
@@ -105,7 +105,8 @@ impl Paint<'_> {
     /// Mean distance of a strand out of its strip (m).
     fn depth(&self, row: usize, ribbon: &Ribbon) -> f32 {
         let (points, _) = self.even.line(row);
-        points.iter().enumerate().map(|(k, p)| ribbon.place(k, *p).z).sum::<f32>() / STATIONS as f32
+        points.iter().enumerate().map(|(k, p)| ribbon.place(k, *p).z).sum::<f32>()
+            / points.len() as f32
     }
 
     /// Draws a strand over those before.
@@ -121,10 +122,10 @@ impl Paint<'_> {
         let (width, height) = (place.width as f32, place.height as f32);
         let length = ribbon.length().max(1e-6);
         let metres = Vec2::new(ribbon.width() / width, length / height);
-        let places: Vec<Vec3> = (0..STATIONS).map(|k| ribbon.place(k, points[k])).collect();
+        let places: Vec<Vec3> = (0..points.len()).map(|k| ribbon.place(k, points[k])).collect();
         let at = |p: &Vec3| Vec2::new(0.5 * width * (1.0 + p.x), height * p.y / length);
         let (mut low, mut high) = (usize::MAX, 0);
-        for k in 0..STATIONS - 1 {
+        for k in 0..points.len() - 1 {
             let ends = [at(&places[k]), at(&places[k + 1])];
             // The texture is stretched to the strip's width: what is narrow in the mesh is wide in it.
             let narrow = (ribbon.half(places[k].y) / (0.5 * ribbon.width())).clamp(0.05, 1.0);
@@ -135,7 +136,7 @@ impl Paint<'_> {
                 (low, high) = (low.min(i), high.max(i + 1));
                 // Of the pieces of one strand the one that covers most.
                 if part > parts[i].0 {
-                    let way = (k as f32 + t) / (STATIONS - 1) as f32;
+                    let way = (k as f32 + t) / (points.len() - 1) as f32;
                     let depth = places[k].z + t * (places[k + 1].z - places[k].z);
                     parts[i] = (part, way, Vec3::new(depth, 0.0, 0.0), flow);
                 }

@@ -4,8 +4,11 @@ use frisure_strands::Strands;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// Points that a strand's place and shape are compared at, evenly spaced from root to tip.
+/// Places that strands are compared at: the root, and the middles of as many sections of equal length.
 const SHAPE: usize = 6;
+
+/// Points of a strand in each section, whose mean is its middle: a single point says in which part of its turn a curl is there.
+const EACH: usize = 8;
 
 /// Weight of each of these points in the distance of two strands: hair that grows in one place stays together at its
 /// root, where a card is fixed. Chosen.
@@ -52,8 +55,16 @@ impl Clusters {
 }
 
 fn shapes(strands: &Strands) -> Vec<Shape> {
-    let even = strands.resampled(SHAPE).strands;
-    even.points().as_chunks::<SHAPE>().0.to_vec()
+    const POINTS: usize = 1 + (SHAPE - 1) * EACH;
+    let even = strands.resampled(POINTS).strands;
+    let shape = |line: &[Vec3; POINTS]| {
+        let section = |k: usize| &line[1 + (k - 1) * EACH..1 + k * EACH];
+        std::array::from_fn(|k| match k {
+            0 => line[0],
+            k => section(k).iter().sum::<Vec3>() / EACH as f32,
+        })
+    };
+    even.points().as_chunks::<POINTS>().0.iter().map(shape).collect()
 }
 
 fn mean<'a>(shapes: impl Iterator<Item = (f32, &'a Shape)>) -> Shape {

@@ -3,15 +3,23 @@
 use frisure_strands::Strands;
 use glam::{Vec2, Vec3};
 
-/// Stations along a cluster, before those that are not needed are left out.
-pub(crate) const STATIONS: usize = 32;
+/// Stations along a cluster, before those that are not needed are left out: as many as the longest strand has points, within
+/// these bounds. Fewer than the points of a tight curl would draw another curl.
+const STATIONS: std::ops::RangeInclusive<usize> = 32..=160;
 
 /// Weight of the direction across the outward one against the spread of the strands: a lock that is as thick as it is wide
 /// lies on the head. Chosen.
 const OUTWARD: f32 = 0.35;
 
-/// Stations to each side over which the direction of a strip is averaged: a twist that no lock follows is noise.
-const SMOOTH: usize = 3;
+/// Part of a strip, to each side, over which its direction is averaged: a twist that no lock follows is noise.
+const SMOOTH: f32 = 0.1;
+
+/// Largest part of the radius at which a strip bends to a side that half of its width may be: from 1 on its inner edge goes
+/// backwards, and the strip folds. Chosen.
+const MOST_BENT: f32 = 0.7;
+
+/// Factor on the length over which the middle of a strip is averaged, from one try to the next.
+const SMOOTHER: f32 = 1.5;
 
 /// Part of the strands that a strip is as wide as; what is beyond is cut off.
 const WITHIN: f32 = 0.97;
@@ -51,20 +59,24 @@ impl Station {
 
 /// The strip of a cluster.
 pub(crate) struct Ribbon {
-    /// Places from root to tip, one for each of the [`STATIONS`] of the strands, and perhaps one beyond.
+    /// Places from root to tip, one for each point of the even strands, and perhaps one beyond.
     pub(crate) stations: Vec<Station>,
     /// Those that the mesh has, rising: the first and the last are among them.
     pub(crate) kept: Vec<usize>,
 }
 
-/// Strands with [`STATIONS`] points each.
+/// Strands with as many points each.
 pub(crate) struct Even {
     strands: Strands,
+    /// Points of each strand.
+    pub(crate) stations: usize,
 }
 
 impl Even {
     pub(crate) fn new(strands: &Strands) -> Self {
-        Self { strands: strands.resampled(STATIONS).strands }
+        let longest = strands.iter().map(|strand| strand.points.len()).max().unwrap_or(0);
+        let stations = longest.clamp(*STATIONS.start(), *STATIONS.end());
+        Self { strands: strands.resampled(stations).strands, stations }
     }
 
     /// Points of a strand, from root to tip (m), and its radii (m).
@@ -83,25 +95,19 @@ impl Ribbon {
         outward: impl Fn(Vec3) -> Vec3,
         tolerance: f32,
     ) -> Self {
-        let middle = |k: usize| {
+        let count = even.stations;
+        let mean = |k: usize| {
             rows.iter().map(|&row| even.line(row).0[k]).sum::<Vec3>() / rows.len() as f32
         };
-        let middles: Vec<Vec3> = (0..STATIONS).map(middle).collect();
-        let along = tangents(&middles);
-        let across = directions(even, rows, &middles, &along, outward);
-        let widths: Vec<f32> =
-            (0..STATIONS).map(|k| width(even, rows, k, middles[k], across[k])).collect();
-        let mut distance = 0.0;
-        let mut stations: Vec<Station> = (0..STATIONS)
-            .map(|k| {
-                distance += if k > 0 { middles[k].distance(middles[k - 1]) } else { 0.0 };
-                let near = widths[k.saturating_sub(1)..(k + 2).min(STATIONS)].iter().copied();
-                // As wide as the widest beside it: a mean would cut off hair.
-                let half = near.fold(NARROWEST, f32::max);
-                Station { middle: middles[k], along: along[k], across: across[k], half, distance }
-            })
-            .collect();
-        stations.extend(beyond(even, rows, &stations[STATIONS - 1]));
+        let means: Vec<Vec3> = (0..count).map(mean).collect();
+        let mut stations = along(even, rows, &means, &outward);
+        // A strip that cannot follow the curl of its strands runs along the axis of the curl, which is drawn on it.
+        let mut over = 1.0;
+        while bent(&stations) > MOST_BENT && over < count as f32 {
+            stations = along(even, rows, &smoothed(&means, over), &outward);
+            over *= SMOOTHER;
+        }
+        stations.extend(beyond(even, rows, &stations[count - 1]));
         let kept = needed(&stations, tolerance);
         Self { stations, kept }
     }
@@ -128,13 +134,68 @@ impl Ribbon {
     /// Half the width of the mesh at a distance along it (m): between the stations that it keeps it is linear.
     pub(crate) fn half(&self, along: f32) -> f32 {
         let at = |i: usize| &self.stations[self.kept[i]];
-        let next = (1..self.kept.len() - 1).find(|&i| at(i).distance >= along);
-        let next = next.unwrap_or(self.kept.len() - 1);
+        let inner = &self.kept[1..self.kept.len() - 1];
+        let next = 1 + inner.partition_point(|&i| self.stations[i].distance < along);
         let (a, b) = (at(next - 1), at(next));
         let span = b.distance - a.distance;
         let t = if span > 0.0 { ((along - a.distance) / span).clamp(0.0, 1.0) } else { 0.0 };
         a.half + t * (b.half - a.half)
     }
+}
+
+/// The stations of a strip whose middle goes through these places (m).
+fn along(
+    even: &Even,
+    rows: &[usize],
+    middles: &[Vec3],
+    outward: impl Fn(Vec3) -> Vec3,
+) -> Vec<Station> {
+    let along = tangents(middles);
+    let across = directions(even, rows, middles, &along, outward);
+    let count = middles.len();
+    let widths: Vec<f32> =
+        (0..count).map(|k| width(even, rows, k, middles[k], across[k])).collect();
+    let mut distance = 0.0;
+    (0..count)
+        .map(|k| {
+            distance += if k > 0 { middles[k].distance(middles[k - 1]) } else { 0.0 };
+            let near = widths[k.saturating_sub(1)..(k + 2).min(count)].iter().copied();
+            // As wide as the widest beside it: a mean would cut off hair.
+            let half = near.fold(NARROWEST, f32::max);
+            Station { middle: middles[k], along: along[k], across: across[k], half, distance }
+        })
+        .collect()
+}
+
+/// A line averaged over `over` points (the deviation of a Gaussian) that keeps its ends: beyond them it goes on as its image in
+/// the end.
+fn smoothed(line: &[Vec3], over: f32) -> Vec<Vec3> {
+    let last = line.len() as isize - 1;
+    let at = |k: isize| -> Vec3 {
+        let inside = |k: isize| line[k.clamp(0, last) as usize];
+        match k {
+            k if k < 0 => 2.0 * line[0] - inside(-k),
+            k if k > last => 2.0 * line[last as usize] - inside(2 * last - k),
+            k => inside(k),
+        }
+    };
+    // Beyond three deviations there is nothing.
+    let reach = (3.0 * over).ceil() as isize;
+    let weight = |d: isize| (-0.5 * (d as f32 / over).powi(2)).exp();
+    let total: f32 = (-reach..=reach).map(weight).sum();
+    (0..=last)
+        .map(|k| (-reach..=reach).map(|d| weight(d) * at(k + d)).sum::<Vec3>() / total)
+        .collect()
+}
+
+/// The largest half of a width over the radius at which the strip bends to that side there.
+fn bent(stations: &[Station]) -> f32 {
+    let bent = |pair: &[Station]| {
+        let (a, b) = (&pair[0], &pair[1]);
+        let turn = (b.along - a.along).dot((a.across + b.across).normalize_or_zero()).abs();
+        turn * a.half.max(b.half) / (b.distance - a.distance).max(1e-9)
+    };
+    stations.windows(2).map(bent).fold(0.0, f32::max)
 }
 
 fn tangents(line: &[Vec3]) -> Vec<Vec3> {
@@ -170,11 +231,12 @@ fn directions(
         spread + OUTWARD * size.max(1e-12) * lies
     };
     let axes: Vec<Vec2> = (0..along.len()).map(axis).collect();
+    let reach = (SMOOTH * along.len() as f32).round() as usize;
     let mut found = Vec::with_capacity(along.len());
     let mut before = Vec3::ZERO;
     let mut outside = 0.0;
     for k in 0..along.len() {
-        let near = k.saturating_sub(SMOOTH)..(k + SMOOTH + 1).min(along.len());
+        let near = k.saturating_sub(reach)..(k + reach + 1).min(along.len());
         let sum: Vec2 = axes[near].iter().map(|a| a.normalize_or_zero() * a.length().sqrt()).sum();
         let angle = 0.5 * sum.y.atan2(sum.x);
         let [e1, e2] = bases[k];
@@ -217,7 +279,7 @@ fn width(even: &Even, rows: &[usize], k: usize, middle: Vec3, across: Vec3) -> f
 fn beyond(even: &Even, rows: &[usize], tip: &Station) -> Option<Station> {
     let mut all: Vec<f32> = rows
         .iter()
-        .map(|&row| (even.line(row).0[STATIONS - 1] - tip.middle).dot(tip.along))
+        .map(|&row| (even.line(row).0[even.stations - 1] - tip.middle).dot(tip.along))
         .collect();
     let at = ((all.len() - 1) as f32 * WITHIN) as usize;
     let more = *all.select_nth_unstable_by(at, f32::total_cmp).1;
@@ -302,7 +364,7 @@ mod tests {
     #[test]
     fn a_strip_turns_with_its_lock() {
         let ribbon = ribbon(1.5, 5e-4);
-        let (first, last) = (ribbon.stations[0], ribbon.stations[STATIONS - 1]);
+        let (first, last) = (ribbon.stations[0], ribbon.stations[31]);
         let turned = first.across.dot(last.across).abs().acos();
         assert!((turned - 1.5).abs() < 0.35, "{turned}");
         // No station is turned around against its neighbour.
