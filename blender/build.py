@@ -14,6 +14,9 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 
+# The pictures of the hair types in the salon.
+GALLERY = HERE.parent / "crates" / "frisure-salon" / "gallery"
+
 # Blender's names of the platforms in a wheel's name, by how they begin and end.
 PLATFORMS = {
     ("manylinux", "x86_64"): "linux-x64",
@@ -58,18 +61,25 @@ def manifest(wheel: Path) -> str:
     return text.split("\n", 1)[1]
 
 
+def presets() -> list[str]:
+    """The names of the hair types that have a picture."""
+    return sorted(p.stem for p in GALLERY.glob("*.jpg") if not p.stem.startswith(("scene-", "exercise-", "light-")))
+
+
 def build(wheel: Path, out: Path) -> None:
     """Writes the zip."""
     files = {"blender_manifest.toml": manifest(wheel).encode(), f"wheels/{wheel.name}": wheel.read_bytes()}
     for path in (HERE / "extension").glob("*.py"):
         files[path.name] = path.read_bytes()
+    for name in presets():
+        files[f"thumbnails/{name}.jpg"] = (GALLERY / f"{name}.jpg").read_bytes()
     files["LICENSE"] = (HERE.parent / "LICENSE").read_bytes()
     out.parent.mkdir(parents=True, exist_ok=True)
     with zipfile.ZipFile(out, "w") as archive:
         for name in sorted(files):
             entry = zipfile.ZipInfo(name, TIME)
-            # A wheel is compressed already.
-            entry.compress_type = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
+            # Wheels and pictures are compressed already.
+            entry.compress_type = zipfile.ZIP_STORED if name.endswith((".whl", ".jpg")) else zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, files[name])
 

@@ -3,9 +3,9 @@
 The hair is a Curves object. It keeps the text of its frisure scene with all steps; whatever is changed, the scene is solved again.
 """
 
-from . import operators, panel, properties
+from . import operators, panel, properties, thumbnails
 
-MODULES = (properties, operators, panel)
+MODULES = (thumbnails, properties, operators, panel)
 
 
 def register():

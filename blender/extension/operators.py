@@ -6,7 +6,7 @@ import bpy
 import frisure
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
-from . import curves, head as heads, properties, solver
+from . import curves, head as heads, solver, thumbnails
 
 # How often (s) a computation is looked at. Chosen.
 TICK = 0.05
@@ -108,7 +108,7 @@ class OBJECT_OT_frisure_add(Solving, bpy.types.Operator):
     bl_idname = "object.frisure_add"
     bl_label = "Add frisure Hair"
 
-    hair_type: EnumProperty(name="Hair type", items=properties.HAIR_TYPES, default=properties.DEFAULT_TYPE)
+    hair_type: EnumProperty(name="Hair type", items=thumbnails.hair_types, default=thumbnails.DEFAULT)
     length: FloatProperty(
         name="Length", description="Mean length (m); 0 for that of the type", min=0.0, max=2.0, subtype="DISTANCE",
     )
@@ -158,7 +158,7 @@ grown and combed"""
     bl_idname = "object.frisure_settle"
     bl_label = "Settle Curves as Hair"
 
-    hair_type: EnumProperty(name="Fibre", items=properties.HAIR_TYPES, default=properties.DEFAULT_TYPE)
+    hair_type: EnumProperty(name="Fibre", items=thumbnails.hair_types, default=thumbnails.DEFAULT)
 
     _before = None
 

@@ -6,17 +6,11 @@ import bpy
 import frisure
 from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from . import solver
+from . import solver, thumbnails
 
 # How long (s) a property has to stay as it is until the exact hair is solved, and how often this is looked at. Chosen.
 STILL = 0.5
 LOOK = 0.1
-
-# The names must stay in memory: Blender keeps no copy of those that a function returns.
-HAIR_TYPES = [(name, name, text, index) for index, (name, text) in enumerate(frisure.presets.descriptions.items())]
-
-DEFAULT_TYPE = "caucasian-wavy"
-
 
 def changed(properties, _context) -> None:
     """A property was changed: solved coarsely at once, and exactly when it stays."""
@@ -97,7 +91,9 @@ class FrisureHair(bpy.types.PropertyGroup):
         name="Groom", description="The curves from which the hair was settled", type=bpy.types.Curves, poll=is_curves,
     )
     scalp: StringProperty(name="Scalp", description="The vertex group where hair grows; empty for the usual scalp")
-    hair_type: EnumProperty(name="Hair type", items=HAIR_TYPES, default=DEFAULT_TYPE, update=changed)
+    hair_type: EnumProperty(
+        name="Hair type", items=thumbnails.hair_types, default=thumbnails.DEFAULT, update=changed,
+    )
     length: FloatProperty(
         name="Length", description="Mean length of the hair (m); 0 for that of the type", min=0.0, max=2.0, precision=3,
         step=1, subtype="DISTANCE", update=changed,

@@ -161,6 +161,20 @@ def _steps(hair):
     return frisure.Scene.from_text(hair.frisure.scene).to_dict().get("step", [])
 
 
+def test_every_hair_type_has_its_picture(head):
+    import frisure
+
+    items = module("thumbnails").hair_types()
+    assert [item[0] for item in items] == list(frisure.presets.descriptions)
+    icons = [item[3] for item in items]
+    assert 0 not in icons and len(set(icons)) == len(icons)
+    pictures = module("thumbnails")._pictures
+    assert all(min(pictures[item[0]].image_size) >= 64 for item in items)
+    # Settled curves and scripts name a type by its text.
+    hair = grown(head, hair_type="type-8")
+    assert hair.frisure.hair_type == "type-8"
+
+
 def test_a_property_solves_again(head):
     hair = grown(head, length=0.1)
     before = world(hair).copy()

@@ -54,7 +54,7 @@ impl Atlas {
     /// Draws the strands of all strips.
     pub(crate) fn new(
         paint: &Paint<'_>,
-        strips: &[(&[usize], &Ribbon)],
+        strips: &[(&[usize], Ribbon)],
         places: &[Place],
         size: usize,
     ) -> Self {

@@ -57,12 +57,23 @@ impl Station {
     }
 }
 
+/// Which way a strip lies in its cluster.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// Along the width of the strands.
+    Wide,
+    /// Along their thickness, across the other.
+    Thick,
+}
+
 /// The strip of a cluster.
 pub(crate) struct Ribbon {
     /// Places from root to tip, one for each point of the even strands, and perhaps one beyond.
     pub(crate) stations: Vec<Station>,
     /// Those that the mesh has, rising: the first and the last are among them.
     pub(crate) kept: Vec<usize>,
+    /// Whether it runs along the axis of a curl instead of following it.
+    pub(crate) along_axis: bool,
 }
 
 /// Strands with as many points each.
@@ -93,6 +104,7 @@ impl Ribbon {
         even: &Even,
         rows: &[usize],
         outward: impl Fn(Vec3) -> Vec3,
+        side: Side,
         tolerance: f32,
     ) -> Self {
         let count = even.stations;
@@ -100,16 +112,29 @@ impl Ribbon {
             rows.iter().map(|&row| even.line(row).0[k]).sum::<Vec3>() / rows.len() as f32
         };
         let means: Vec<Vec3> = (0..count).map(mean).collect();
-        let mut stations = along(even, rows, &means, &outward);
+        let mut stations = along(even, rows, &means, &outward, side);
         // A strip that cannot follow the curl of its strands runs along the axis of the curl, which is drawn on it.
         let mut over = 1.0;
         while bent(&stations) > MOST_BENT && over < count as f32 {
-            stations = along(even, rows, &smoothed(&means, over), &outward);
+            stations = along(even, rows, &smoothed(&means, over), &outward, side);
             over *= SMOOTHER;
         }
         stations.extend(beyond(even, rows, &stations[count - 1]));
         let kept = needed(&stations, tolerance);
-        Self { stations, kept }
+        Self { stations, kept, along_axis: over > 1.0 }
+    }
+
+    /// How thick the strands lie over how wide they do: 0 for a flat lock, 1 for a round one.
+    pub(crate) fn roundness(&self, even: &Even, rows: &[usize]) -> f32 {
+        let (mut thick, mut wide) = (0.0, 0.0);
+        for &row in rows {
+            for (p, station) in even.line(row).0.iter().zip(&self.stations) {
+                let d = *p - station.middle;
+                thick += d.dot(station.normal()).powi(2);
+                wide += d.dot(station.across).powi(2);
+            }
+        }
+        (thick / f32::max(wide, f32::MIN_POSITIVE)).sqrt()
     }
 
     /// Length along the middle (m).
@@ -149,9 +174,13 @@ fn along(
     rows: &[usize],
     middles: &[Vec3],
     outward: impl Fn(Vec3) -> Vec3,
+    side: Side,
 ) -> Vec<Station> {
     let along = tangents(middles);
-    let across = directions(even, rows, middles, &along, outward);
+    let mut across = directions(even, rows, middles, &along, outward);
+    if side == Side::Thick {
+        across.iter_mut().zip(&along).for_each(|(across, along)| *across = along.cross(*across));
+    }
     let count = middles.len();
     let widths: Vec<f32> =
         (0..count).map(|k| width(even, rows, k, middles[k], across[k])).collect();
@@ -344,7 +373,7 @@ mod tests {
 
     fn ribbon(turn: f32, tolerance: f32) -> Ribbon {
         let rows: Vec<usize> = (0..60).collect();
-        Ribbon::new(&lock(turn), &rows, |_| Vec3::Y, tolerance)
+        Ribbon::new(&lock(turn), &rows, |_| Vec3::Y, Side::Wide, tolerance)
     }
 
     #[test]
@@ -372,9 +401,57 @@ mod tests {
         assert!(ribbon.kept.len() > 2);
     }
 
+    /// A lock of coils in step, `wide` and `thick` (m), about a straight axis.
+    fn coils(radius: f32, wide: f32, thick: f32) -> Even {
+        let mut strands = Strands::new();
+        for i in 0..64 {
+            let place = |i: u8, size: f32| size * (f32::from(i) / 7.0 - 0.5);
+            let root = Vec3::new(place(i % 8, wide), place(i / 8, thick), 0.0);
+            let line: Vec<Vec3> = (0..120)
+                .map(|k| {
+                    let (s, c) = (0.7 * k as f32).sin_cos();
+                    root + Vec3::new(radius * c, radius * s, -1e-3 * k as f32)
+                })
+                .collect();
+            strands.push(&line, &[5e-5; 120]);
+        }
+        Even::new(&strands)
+    }
+
+    #[test]
+    fn a_strip_that_is_wider_than_its_curl_runs_along_the_axis() {
+        let rows: Vec<usize> = (0..64).collect();
+        let new = |even: &Even, side| Ribbon::new(even, &rows, |_| Vec3::Y, side, 1e-3);
+        for side in [Side::Wide, Side::Thick] {
+            let ribbon = new(&coils(2e-3, 8e-3, 4e-3), side);
+            assert!(ribbon.along_axis && bent(&ribbon.stations) <= MOST_BENT);
+            // The axis of 12 cm, and wide enough for the coils: the middle 97 % of them.
+            assert!((ribbon.length() - 0.119).abs() < 2e-3, "{}", ribbon.length());
+            let half = if side == Side::Wide { 4e-3 } else { 2e-3 };
+            let widest = ribbon.stations.iter().map(|s| s.half).fold(0.0, f32::max);
+            assert!((half..half + 2.6e-3).contains(&widest), "{widest}");
+        }
+        // A narrow strip follows a wide curl.
+        assert!(!new(&coils(2e-2, 2e-3, 1e-3), Side::Wide).along_axis);
+    }
+
+    #[test]
+    fn a_second_strip_lies_across_the_first() {
+        let rows: Vec<usize> = (0..64).collect();
+        let new = |even: &Even, side| Ribbon::new(even, &rows, |_| Vec3::Y, side, 1e-3);
+        let (flat, round) = (coils(0.0, 8e-3, 1e-3), coils(0.0, 4e-3, 4e-3));
+        let wide = new(&flat, Side::Wide);
+        assert!((wide.roundness(&flat, &rows) - 0.125).abs() < 0.01);
+        assert!(new(&round, Side::Wide).roundness(&round, &rows) > 0.9);
+        let thick = new(&flat, Side::Thick);
+        for (a, b) in wide.stations.iter().zip(&thick.stations) {
+            assert!(a.across.dot(b.across).abs() < 1e-4);
+        }
+    }
+
     #[test]
     fn one_strand_alone_has_a_strip() {
-        let ribbon = Ribbon::new(&lock(0.0), &[0], |_| Vec3::Y, 1e-4);
+        let ribbon = Ribbon::new(&lock(0.0), &[0], |_| Vec3::Y, Side::Wide, 1e-4);
         assert!(ribbon.stations.iter().all(|s| s.across.is_normalized() && s.half >= NARROWEST));
     }
 }
