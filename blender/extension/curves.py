@@ -74,11 +74,11 @@ def read(hair) -> tuple[np.ndarray, np.ndarray]:
     return world, np.append(offsets, len(data.points))
 
 
-def write_groom(hair, path: str) -> None:
-    """Writes curves as lines of Wavefront OBJ in metres, z up."""
-    points, offsets = read(hair)
+def write_groom(name: str, groom: tuple[np.ndarray, np.ndarray], path: str) -> None:
+    """Writes points and offsets of the curves of this name as lines of Wavefront OBJ in metres, z up."""
+    points, offsets = groom
     if (np.diff(offsets) < 2).any():
-        raise heads.HeadError(f"{hair.name} has curves of a single point")
+        raise heads.HeadError(f"{name} has curves of a single point")
     lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in points.tolist()]
     for start, end in zip(offsets[:-1].tolist(), offsets[1:].tolist()):
         lines.append("l " + " ".join(str(i + 1) for i in range(start, end)))

@@ -101,23 +101,40 @@ def scalp_faces(head, group: str) -> set[int] | None:
     return faces
 
 
-def write(head, path: str, group: str = "") -> None:
-    """Writes the head as Wavefront OBJ in metres, z up, with its texture coordinates and its scalp."""
-    check(head)
-    mesh = head.data
-    scalp = scalp_faces(head, group)
-    uv_name = ensure_uv_map(head)
-    uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
-    mesh.uv_layers[uv_name].uv.foreach_get("vector", uv)
-    lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in world_points(head).tolist()]
-    lines += [f"vt {u:.9g} {v:.9g}" for u, v in uv.reshape(-1, 2).tolist()]
-    # A mirrored object has its faces the other way round.
-    mirrored = head.matrix_world.determinant() < 0.0
-    for name, wanted in ((SCALP, True), ("skin", False)):
-        lines.append(f"g {name}")
-        for face in mesh.polygons:
-            if (scalp is not None and face.index in scalp) == wanted:
-                corners = [f"{mesh.loops[i].vertex_index + 1}/{i + 1}" for i in face.loop_indices]
-                lines.append("f " + " ".join(reversed(corners) if mirrored else corners))
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("\n".join(lines) + "\n")
+class Form:
+    """What a solution depends on of a head: the arrays of its mesh in metres, z up."""
+
+    def __init__(self, head, group: str = ""):
+        check(head)
+        mesh = head.data
+        layer = mesh.uv_layers[ensure_uv_map(head)]
+        self.points = world_points(head)
+        self.uv = np.empty(2 * len(mesh.loops), dtype=np.float32)
+        layer.uv.foreach_get("vector", self.uv)
+        self.corners = np.empty(len(mesh.loops), dtype=np.int32)
+        mesh.loops.foreach_get("vertex_index", self.corners)
+        self.starts = np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.polygons.foreach_get("loop_start", self.starts)
+        # Whether each face is in the scalp, and whether faces are the other way round, as those of a mirrored object.
+        self.scalp = np.zeros(len(mesh.polygons), dtype=bool)
+        self.scalp[list(scalp_faces(head, group) or ())] = True
+        self.mirrored = np.array([head.matrix_world.determinant() < 0.0])
+
+    @property
+    def arrays(self) -> list[np.ndarray]:
+        return [self.points, self.uv, self.corners, self.starts, self.scalp, self.mirrored]
+
+    def write(self, path: str) -> None:
+        """Writes the head as Wavefront OBJ, with its texture coordinates and its scalp."""
+        lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in self.points.tolist()]
+        lines += [f"vt {u:.9g} {v:.9g}" for u, v in self.uv.reshape(-1, 2).tolist()]
+        corners = [f"{vertex + 1}/{i + 1}" for i, vertex in enumerate(self.corners.tolist())]
+        ends = [*self.starts[1:].tolist(), len(corners)]
+        faces = [corners[start:end] for start, end in zip(self.starts.tolist(), ends)]
+        if self.mirrored[0]:
+            faces = [face[::-1] for face in faces]
+        for name, wanted in ((SCALP, True), ("skin", False)):
+            lines.append(f"g {name}")
+            lines += ["f " + " ".join(faces[i]) for i in np.flatnonzero(self.scalp == wanted).tolist()]
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("\n".join(lines) + "\n")

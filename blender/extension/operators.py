@@ -6,7 +6,7 @@ import bpy
 import frisure
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
-from . import curves, head as heads, solver, thumbnails
+from . import curves, grooms, head as heads, solver, thumbnails
 
 # How often (s) a computation is looked at. Chosen.
 TICK = 0.05
@@ -14,6 +14,14 @@ TICK = 0.05
 LEVELS = [
     (name, name.capitalize(), f"At the height of the {name}")
     for name in ("brows", "eyes", "ears", "chin", "nape")
+]
+
+PROGRAMS = [
+    ("none", "None", "As the format has it, with everything that it holds"),
+    ("unreal", "Unreal", "Alembic (.abc) in centimetres, y up, at most 255 points in each curve"),
+    ("blender", "Blender", "USD or Alembic in metres"),
+    ("unity", "Unity", "Alembic (.abc) in centimetres, y up, 32 points in each curve, without guides"),
+    ("web", "Web", "A page (.html) or .glb of at most 20 000 hairs of 32 points"),
 ]
 
 DIRECTIONS = [
@@ -58,9 +66,13 @@ class Solving:
     def invoke(self, context, _event):
         if bpy.app.background:
             return self.execute(context)
+        return self.start(context)
+
+    def start(self, context):
+        """Solves beside the window: `modal` looks at the work."""
         try:
             self._job = solver.Job(self.prepare(context))
-        except (ValueError, OSError, frisure.FrisureError) as error:
+        except (ValueError, OSError, MemoryError, frisure.FrisureError) as error:
             return self.refused(error)
         manager = context.window_manager
         manager.progress_begin(0, 100)
@@ -178,7 +190,8 @@ grown and combed"""
         heads.check(head)
         curves.read(hair)
         kept = hair.frisure
-        self._before = (hair.name, kept.head, kept.source, kept.scene, kept.hair_type)
+        surface = (hair.data.surface, hair.data.surface_uv_map)
+        self._before = (hair.name, kept.head, kept.source, kept.scene, kept.hair_type, surface)
         kept.scene = ""
         kept.head, kept.source, kept.hair_type = head, hair.data.copy(), self.hair_type
         curves.attach(hair, head)
@@ -187,14 +200,19 @@ grown and combed"""
     def undo(self):
         if self._before is None:
             return
-        name, head, source, scene, hair_type = self._before
-        kept = bpy.data.objects[name].frisure
+        name, head, source, scene, hair_type, surface = self._before
+        hair = bpy.data.objects.get(name)
+        if hair is None:
+            return
+        hair.data.surface, hair.data.surface_uv_map = surface
+        kept = hair.frisure
         copied = kept.source
         kept.scene = ""
         kept.head, kept.source, kept.hair_type = head, source, hair_type
         kept.scene = scene
         if copied is not None and copied != source:
             bpy.data.hair_curves.remove(copied)
+        self._before = None
 
 
 class Step(Solving):
@@ -332,13 +350,16 @@ class OBJECT_OT_frisure_take_back(Step, bpy.types.Operator):
 
 
 class OBJECT_OT_frisure_export(bpy.types.Operator):
-    """Save the hair as a groom: Alembic for Unreal, USD, HAIR, OBJ and others, by the extension of the file"""
+    """Save the hair as a groom, for a program or by the extension of the file: Alembic, USD, HAIR, OBJ and others"""
 
     bl_idname = "object.frisure_export"
     bl_label = "Save Groom"
 
     filepath: StringProperty(subtype="FILE_PATH", default="hair.abc")
-    filter_glob: StringProperty(default="*.abc;*.usd;*.usda;*.usdc;*.usdz;*.hair;*.obj;*.ply;*.npz;*.data", options={"HIDDEN"})
+    program: EnumProperty(name="Program", description="The program that is to open the file", items=PROGRAMS, default="none")
+    filter_glob: StringProperty(
+        default="*.abc;*.usd;*.usda;*.usdc;*.usdz;*.hair;*.obj;*.ply;*.npz;*.data;*.glb;*.html", options={"HIDDEN"},
+    )
 
     @classmethod
     def poll(cls, context):
@@ -357,7 +378,7 @@ class OBJECT_OT_frisure_export(bpy.types.Operator):
                 solution.solve()
                 solution.show(hair)
                 hairstyle = solution.hairstyle
-            hairstyle.save(bpy.path.abspath(self.filepath))
+            grooms.save(hairstyle, bpy.path.abspath(self.filepath), "" if self.program == "none" else self.program)
         except (ValueError, OSError, frisure.FrisureError) as error:
             self.report({"ERROR"}, solver.told(error))
             return {"CANCELLED"}

@@ -29,7 +29,7 @@ class VIEW3D_PT_frisure(bpy.types.Panel):
         # Settled curves have their own length and curl.
         column.enabled = kept.source is None
         column.template_icon_view(kept, "hair_type", show_labels=True, scale=4.0, scale_popup=6.0)
-        for name in ("hair_type", "length", "curl_radius", "curl_pitch", "guides", "hairs", "seed"):
+        for name in ("hair_type", "length", "curl_radius", "curl_pitch", "guides", "hairs", "points", "contact", "seed"):
             column.prop(kept, name)
         steps = layout.column(align=True)
         for name in ("wet", "dry", "cut", "grow", "comb", "step", "take_back"):

@@ -4,13 +4,16 @@ import time
 
 import bpy
 import frisure
-from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import solver, thumbnails
 
-# How long (s) a property has to stay as it is until the exact hair is solved, and how often this is looked at. Chosen.
+# How long (s) a property has to stay as it is until the exact hair is solved, and how often this, and a running solution, is looked
+# at. Chosen.
 STILL = 0.5
 LOOK = 0.1
+LOOK_AT_JOB = 0.02
+
 
 def changed(properties, _context) -> None:
     """A property was changed: solved coarsely at once, and exactly when it stays."""
@@ -32,7 +35,7 @@ def look():
     if _job:
         job, hair_name = _job[0]
         if job.is_running:
-            return LOOK
+            return LOOK_AT_JOB
         _job.clear()
         hair = bpy.data.objects.get(hair_name)
         if hair is not None and job.error is None:
@@ -61,7 +64,7 @@ def look():
         job = solver.Job(solution)
         job.since = since
         _job.append((job, name))
-        return 0.02
+        return LOOK_AT_JOB
     return LOOK if _changed else None
 
 
@@ -112,6 +115,13 @@ class FrisureHair(bpy.types.PropertyGroup):
     )
     hairs: IntProperty(
         name="Hairs", description="Hairs that are drawn", min=1, max=1_000_000, default=5000, update=changed,
+    )
+    points: IntProperty(
+        name="Points", description="Points of each hair; 0 for as many as the type has", min=0, max=1000, update=changed,
+    )
+    contact: BoolProperty(
+        name="Contact", description="Hair lies on the head and on other hair; without it, it passes through both", default=True,
+        update=changed,
     )
     seed: IntProperty(name="Seed", description="Another seed, another head of the same hair", min=1, default=1, update=changed)
 

@@ -1,12 +1,14 @@
 """The scene of a hair object, and its solution.
 
-A hair object keeps the text of its scene, without the files of head and groom, which are written anew for each solution. The last
-hairstyle of each object stays in memory, so that a step on it solves that step alone.
+A hair object keeps the text of its scene, without the files of head and groom. The last hairstyle of each object stays in memory with
+these files: a solution computes again only what differs, and a mesh that has not changed is neither written nor read again.
 """
 
+import hashlib
 import os
 import tempfile
 import threading
+import weakref
 
 import bpy
 import frisure
@@ -24,8 +26,12 @@ KEYS = {
     "curl_pitch": ("hair.curl.pitch", lambda v: f"{1000 * v:.6g} mm"),
     "guides": ("wisps.count", int),
     "hairs": ("wisps.hairs", int),
+    "points": ("wisps.points", int),
     "seed": ("seed", int),
 }
+
+# The keys of a scene without contact.
+NO_CONTACT = {"contact.body": "none", "contact.hair": "none"}
 
 # The keys of `[hair.curl]` mean something only together.
 TOGETHER = ("hair.curl.radius", "hair.curl.pitch")
@@ -43,6 +49,8 @@ def scene_of(properties) -> frisure.Scene:
         value = getattr(properties, name)
         if value:
             changes[key] = said(value)
+    if not properties.contact:
+        changes |= NO_CONTACT
     curl = [key for key in TOGETHER if key in changes]
     if len(curl) == 1:
         # The other one is that of the type.
@@ -62,12 +70,47 @@ def with_steps(scene: frisure.Scene, text: str) -> frisure.Scene:
 
 def last_hairstyle(hair):
     """The hairstyle in memory, if it is that of the object."""
-    text, hairstyle, _ = _solved.get(hair.session_uid, ("", None, None))
+    text, hairstyle, _ = _solved.get(hair.session_uid, ("", None, []))
     return hairstyle if hairstyle is not None and text == hair.frisure.scene else None
 
 
-# The text of the scene, the hairstyle and the folder of its files, by the session's number of the object.
-_solved: dict[int, tuple[str, frisure.Hairstyle, tempfile.TemporaryDirectory]] = {}
+class InputFile:
+    """A file for the solver, which is deleted with the last solution that uses it."""
+
+    def __init__(self, name: str, write):
+        self.folder = tempfile.TemporaryDirectory(prefix="frisure-", dir=bpy.app.tempdir or None, ignore_cleanup_errors=True)
+        self.path = os.path.join(self.folder.name, name)
+        write(self.path)
+
+
+# Files in use by their name and their content.
+_files: weakref.WeakValueDictionary[tuple[str, bytes], InputFile] = weakref.WeakValueDictionary()
+
+
+def input_file(name: str, arrays, write) -> InputFile:
+    """The file of some arrays: the same one as long as they are the same."""
+    content = hashlib.blake2b(digest_size=16)
+    for array in arrays:
+        content.update(f"{array.dtype.str}{array.shape}".encode())
+        content.update(array.tobytes())
+    key = (name, content.digest())
+    file = _files.get(key)
+    # Blender empties its folder when another file is opened.
+    if file is None or not os.path.isfile(file.path):
+        file = _files[key] = InputFile(name, write)
+    return file
+
+
+# The text of the scene, the hairstyle and its files, by the session's number of the object.
+_solved: dict[int, tuple[str, frisure.Hairstyle, list[InputFile]]] = {}
+
+
+def predicted(scene: frisure.Scene, like, progress) -> frisure.Hairstyle:
+    """The hairstyle of a scene; what is the same in the hairstyle `like` and those before it is not computed again."""
+    if like is None:
+        return frisure.predict(scene, progress=progress)
+    # What `Hairstyle.step` does for one more step; the package has no public call for any other scene.
+    return frisure.Hairstyle(scene, like._prediction.follow(scene._core, progress))
 
 
 class Solution:
@@ -81,30 +124,24 @@ class Solution:
         self.step = step
         self.coarse = coarse
         self.hairstyle = None
-        self.before = last_hairstyle(hair) if step is not None else None
-        if self.before is not None:
-            # The files of the hairstyle before the step are its own.
-            self.folder = _solved[hair.session_uid][2]
-            return
-        self.folder = tempfile.TemporaryDirectory(prefix="frisure-", dir=bpy.app.tempdir or None)
+        _, self.like, _ = _solved.get(hair.session_uid, ("", None, []))
         if properties.head is None or properties.head.name not in bpy.data.objects:
             raise heads.HeadError(f"The head of {hair.name} is gone: choose one in the panel")
-        heads.write(properties.head, self.path("head.obj"), properties.scalp)
+        form = heads.Form(properties.head, properties.scalp)
+        self.head = input_file("head.obj", form.arrays, form.write)
         self.scalp = bool(properties.scalp)
-        self.groom = properties.source is not None
-        if self.groom:
-            curves.write_groom(_Placed(properties.source, hair), self.path("groom.obj"))
-
-    def path(self, name: str) -> str:
-        return os.path.join(self.folder.name, name)
+        self.groom = None
+        if properties.source is not None:
+            groom = curves.read(_Placed(properties.source, hair))
+            self.groom = input_file("groom.obj", groom, lambda path: curves.write_groom(properties.source.name, groom, path))
 
     def placed(self, scene: frisure.Scene) -> frisure.Scene:
         """The scene with its files."""
-        files = {"head.mesh": self.path("head.obj"), "head.unit": "m", "head.up": "z"}
+        files = {"head.mesh": self.head.path, "head.unit": "m", "head.up": "z"}
         if self.scalp:
             files["head.scalp_group"] = heads.SCALP
-        if self.groom:
-            files |= {"groom.file": self.path("groom.obj"), "groom.unit": "m", "groom.up": "z"}
+        if self.groom is not None:
+            files |= {"groom.file": self.groom.path, "groom.unit": "m", "groom.up": "z"}
         if self.coarse:
             files["wisps.count"] = min(int(scene.number("wisps.count")), COARSE_GUIDES)
             files["wisps.hairs"] = COARSE_HAIRS
@@ -117,13 +154,9 @@ class Solution:
         """Computes the hairstyle and its hairs; in any thread."""
         scene = frisure.Scene.from_text(self.text, file=self.hair_name)
         if self.step is not None:
-            operation, keys = self.step
-            self.text = scene.with_step(operation, keys).text
-            scene = frisure.Scene.from_text(self.text, file=self.hair_name)
-        if self.before is not None:
-            self.hairstyle = self.before.step(operation, keys, progress=progress)
-        else:
-            self.hairstyle = frisure.predict(self.placed(scene), progress=progress)
+            scene = scene.with_step(*self.step)
+            self.text = scene.text
+        self.hairstyle = predicted(self.placed(scene), self.like, progress)
         self.hairstyle.draw(progress=progress)
 
     def show(self, hair) -> None:
@@ -134,7 +167,7 @@ class Solution:
         if not self.coarse:
             hair.frisure.scene = self.text
             _solved.pop(self.session_uid, None)
-            _solved[self.session_uid] = (self.text, self.hairstyle, self.folder)
+            _solved[self.session_uid] = (self.text, self.hairstyle, [f for f in (self.head, self.groom) if f])
             while len(_solved) > MOST_IN_MEMORY:
                 del _solved[next(iter(_solved))]
 

@@ -62,19 +62,20 @@ def test_each_level_has_fewer_cards(cards):
     assert document["nodes"][0]["extensions"]["MSFT_lod"]["ids"] == [1, 2]
 
 
-def test_trimesh_finds_normals_outside_and_no_card_without_area(frisure, tmp_path):
-    # Of straight hair: strips that are wider than the curls of their hair fold (docs/cards.md, "Limits").
+@pytest.mark.parametrize("hair", ["straight", "curly", "african-coily"])
+def test_trimesh_finds_no_card_without_area_and_none_folded(frisure, tmp_path, hair):
     scene = tmp_path / "scene.toml"
-    scene.write_text('[hair]\ntype = "straight"\nlength = "10 cm"\n[wisps]\nhairs = 600\npoints = 12\ncount = 40\n')
+    scene.write_text(f'[hair]\ntype = "{hair}"\nlength = "10 cm"\n[wisps]\nhairs = 600\npoints = 48\ncount = 40\n')
     frisure.run("cards", scene, "-o", tmp_path / "hair.obj", "--cards", CARDS, "--lods", LEVELS, "--texture-size", 512)
     scene = trimesh.load_scene(tmp_path / "hair.obj", group_material=False, split_object=True)
     meshes = list(scene.geometry.values())
     assert len(meshes) == LEVELS
     for mesh in meshes:
         assert (mesh.area_faces > 0).mean() > 0.99
-        # The faces look where their normals do.
-        corners = mesh.vertex_normals[mesh.faces].mean(axis=1)
-        assert ((corners * mesh.face_normals).sum(axis=1) > 0).mean() > 0.9
+        # Every face looks where its normals do: a strip that cannot follow a curl runs along its axis (docs/cards.md).
+        normals = mesh.vertex_normals[mesh.faces].mean(axis=1)
+        right = (normals * mesh.face_normals).sum(axis=1) > 0
+        assert mesh.area_faces[right].sum() > 0.995 * mesh.area
 
 
 def test_blender_opens_the_same_mesh_with_its_textures(cards, head):
@@ -106,6 +107,7 @@ def test_the_texture_is_covered_where_cards_are(cards):
     assert 0.01 < covered.mean() < 0.9 and covered.max() > 0.3
     # Nothing at the edge: no card touches it.
     assert covered[0].max() == covered[-1].max() == covered[:, 0].max() == covered[:, -1].max() == 0
-    said = (cards / "said.txt").read_text()
-    assert f"    0     {CARDS}  " in said
+    first = (cards / "said.txt").read_text().splitlines()[2].split()
+    # Some locks have two cards: as many as were asked for, about.
+    assert first[0] == "0" and abs(int(first[1]) - CARDS) < 0.25 * CARDS
     assert os.path.getsize(cards / "hair-lod0-flow.png") > 1000

@@ -28,11 +28,12 @@ const IN_SKIN: f32 = 3e-3;
 /// What a view shows of the strands and of the cards.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
-    /// Pixels that are in one silhouette alone, over those in either; a silhouette is where half of a pixel is covered.
+    /// Pixels that are in one silhouette alone, over those in either; a silhouette is where half of a pixel is covered. 0 where the
+    /// strands cover nothing.
     pub silhouette: f64,
-    /// Mean difference of the covered part of a pixel, over the mean covered part of the strands.
+    /// Mean difference of the covered part of a pixel, over the mean covered part of the strands; 0 where these cover nothing.
     pub coverage: f64,
-    /// What the cards cover over what the strands cover.
+    /// What the cards cover over what the strands cover; 1 where these cover nothing.
     pub ratio: f64,
 }
 
@@ -175,9 +176,13 @@ fn difference(strands: &[f32], cards: &[f32]) -> Difference {
         of_strands += f64::from(*a);
         of_cards += f64::from(*b);
     }
+    if of_strands == 0.0 {
+        // Straight hair seen along itself: there is nothing to be compared with.
+        return Difference { silhouette: 0.0, coverage: 0.0, ratio: 1.0 };
+    }
     Difference {
         silhouette: f64::from(one) / f64::from(either.max(1)),
-        coverage: apart / f64::max(of_strands, f64::MIN_POSITIVE),
-        ratio: of_cards / f64::max(of_strands, f64::MIN_POSITIVE),
+        coverage: apart / of_strands,
+        ratio: of_cards / of_strands,
     }
 }

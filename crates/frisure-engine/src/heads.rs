@@ -81,18 +81,43 @@ fn load(scene: &Scene, files: &Files) -> Result<LoadedHead, SceneError> {
     };
     let mesh = head_mesh(scene, file, files)?;
     let note = head_note(file, &mesh);
-    let head = of_mesh(mesh).map_err(|e| scene.error_at("head.mesh", e.to_string(), ""))?;
-    let note = match head.turn_to_upright() {
-        None => note,
+    let head = of_mesh(mesh).map_err(|e| {
+        let hint = match e {
+            HeadError::FloatingScalp { .. } => {
+                "move the faces of the scalp onto the head, or name others"
+            }
+            _ => "",
+        };
+        scene.error_at("head.mesh", e.to_string(), hint)
+    })?;
+    let lies = match head.turn_to_upright() {
+        None => None,
         Some(upright) if file.turn.is_none() => return Err(lies(scene, upright)),
         // Who turns a head has looked at it, so it is taken; but it is said.
-        Some(_) => Some(note.map_or(LIES.to_owned(), |note| format!("{note}\n{LIES}"))),
+        Some(_) => Some(LIES.to_owned()),
     };
+    let notes: Vec<String> = [note, lies, holes(&head)].into_iter().flatten().collect();
+    let note = (!notes.is_empty()).then(|| notes.join("\n"));
     Ok(LoadedHead { head: Arc::new(head), note })
 }
 
 /// The warning about a head that was turned and does not stand upright.
 const LIES: &str = "warning: turned by `head.turn`, the head does not stand upright with its face to the front: hair may grow where no scalp is";
+
+/// The warning about a head with holes where hair grows.
+fn holes(head: &Head) -> Option<String> {
+    let holes = head.scalp_holes()?;
+    let [x, y, z] = (100.0 * holes.place).to_array();
+    let many = match holes.count {
+        1 => "a hole".to_owned(),
+        count => format!("{count} holes, the largest"),
+    };
+    Some(format!(
+        "warning: where hair grows the head has {many} {:.0} cm around, at ({x:.1}, {y:.1}, {z:.1}) cm: no hair grows there, and hair falls \
+         into it. Close it in the mesh, or leave its edge out of the scalp",
+        100.0 * holes.around
+    ))
+}
 
 /// The head that the groom of a scene was made on.
 ///

@@ -57,10 +57,20 @@ pub(crate) fn head_mesh(
     })
 }
 
-/// Returns a note about the unit that the reader assumed for the head's mesh.
+/// What the reader assumed of the head's mesh, for a person.
 pub(crate) fn head_note(file: &HeadFile, mesh: &HeadMesh) -> Option<String> {
-    let (path, unit) = (file.path.display(), mesh.guessed_unit?);
-    Some(format!("{path} states no unit; {unit} is assumed: set `head.unit` to change it"))
+    let path = file.path.display();
+    let unit = mesh.guessed_unit.map(|unit| {
+        format!("{path} states no unit; {unit} is assumed: set `head.unit` to change it")
+    });
+    let mask = mesh.mask_repeated.map(|[low, high]| {
+        format!(
+            "warning: texture coordinates of {path} go from {low:.2} to {high:.2}, and the scalp mask is repeated beyond 0 to 1: a mesh \
+             with several tiles needs one whose tile of the scalp is from 0 to 1"
+        )
+    });
+    let notes: Vec<String> = [unit, mask].into_iter().flatten().collect();
+    (!notes.is_empty()).then(|| notes.join("\n"))
 }
 
 /// How a user says in which unit and axes a groom is.
@@ -73,10 +83,7 @@ pub(crate) const GROOM_FRAME: &str = "set `unit` and `up` of `[groom]` in a scen
 pub fn scene_groom(scene: &Scene, files: &Files) -> Result<Option<Groom>, SceneError> {
     let Some(GroomFile { path, frame, .. }) = &scene.groom else { return Ok(None) };
     let wrong = |e: GroomError| {
-        let hint = match e {
-            GroomError::Malformed { .. } => GROOM_FRAME,
-            _ => "",
-        };
+        let hint = if e.may_be_of_unit() { GROOM_FRAME } else { "" };
         scene.error_at("groom.file", message(&e), hint)
     };
     let format = Format::of(path).map_err(wrong)?;

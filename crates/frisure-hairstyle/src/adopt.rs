@@ -26,8 +26,8 @@ use crate::math::Grid;
 use crate::predict::PredictError;
 use crate::random::{Purpose, Stream};
 use crate::spec::{Body, HairContact, Hairs, HairstyleSpec};
-use crate::wisps::BoundStrands;
 use crate::wisps::Wisp;
+use crate::wisps::{BoundStrands, WISP_SAMPLES};
 use frisure_progress::{Progress, StageCounter};
 
 /// How well a groom was adopted; one entry for each of its guides, in their order.
@@ -281,9 +281,6 @@ fn placement(
     let hairs = Arc::new(Mutex::new(Some(drawn.into())));
     RootPlacement { of: RootPlacement::key(spec, head), area, roots, hairs, bound }
 }
-
-/// Samples along guides as the groom has them. Chosen by trial; not measured further.
-const WISP_SAMPLES: usize = 128;
 
 /// Most points that hairs are drawn with because the groom's have as many, on one hair and on all. A guard on memory.
 const MOST_POINTS: (usize, usize) = (256, 20_000_000);

@@ -2,9 +2,10 @@
 
 use std::sync::{Arc, Mutex};
 
-use frisure_progress::Progress;
+use frisure_progress::{Cancelled, Progress};
 use frisure_rod::{InvalidQuantity, Rod, RodSpec, Root as Clamp};
-use glam::DMat3;
+use frisure_strands::Strands;
+use glam::{DMat3, Vec3};
 use rayon::prelude::*;
 
 use crate::equilibrium::{Effort, GuideStart, SettleOptions, settle};
@@ -13,12 +14,14 @@ use crate::hairstyle::{Hairstyle, RootPlacement, Styling};
 use crate::head::{Correspondence, Corresponding, Head};
 use crate::implantation::{Layout, Root, Scalp};
 use crate::predict::PredictError;
+use crate::strands::{StrandOptions, strands};
+use crate::wisps::{BoundStrand, BoundStrands, WISP_SAMPLES, Wisp};
 
 /// The hair of a groom that was adopted on the head `from`, on the head `to`.
 ///
 /// Roots go to the places of the other head that correspond to theirs by landmarks. Each guide keeps its length and its
 /// natural strain; its clamp turns as the skin about its root does, the hair beneath it stays as high, and it comes to rest
-/// on the other head. Each drawn hair keeps its shape relative to its guides. The number of hairs per area grows or shrinks
+/// on the other head. Each drawn hair goes along with its guides and keeps its length. The number of hairs per area grows or shrinks
 /// with the scalp.
 ///
 /// # Errors
@@ -67,7 +70,49 @@ pub fn transfer(
     let options = SettleOptions { start, effort: Effort::FULL, locks: Vec::new() };
     let rest = settle(&spec, to, &guides, options, progress)?;
     let styling = Styling::none(&guides);
-    Ok(Hairstyle { spec, placement, layout, guides, rest, styling })
+    let mut transferred = Hairstyle { spec, placement, layout, guides, rest, styling };
+    if let Some(bound) = hairstyle.placement.bound.as_deref() {
+        transferred.placement.bound = rebound(bound, &transferred, to, progress)?.map(Arc::new);
+    }
+    Ok(transferred)
+}
+
+/// The drawn hairs as they lie on the other head, bound to the guides as they are there.
+///
+/// A hair goes along with up to three guides. Where these have moved in different ways the mean of what they make of it is shorter
+/// or longer than the hair: curls out of step cancel. So each piece of it gets the length back that it had in the groom.
+fn rebound(
+    bound: &BoundStrands,
+    transferred: &Hairstyle,
+    to: &Head,
+    progress: &dyn Progress,
+) -> Result<Option<BoundStrands>, Cancelled> {
+    let drawn = strands(transferred, to, StrandOptions::default(), progress)?.strands;
+    let lines: Vec<Vec<Vec3>> = (0..drawn.len())
+        .into_par_iter()
+        .map(|hair| as_long_as(&bound.strand(hair), drawn.strand(hair).points))
+        .collect();
+    let mut hairs = Strands::with_capacity(lines.len(), drawn.points().len());
+    for (line, strand) in lines.iter().zip(drawn.iter()) {
+        hairs.push(line, strand.radii);
+    }
+    let wisp = |guide| Wisp::new(guide, WISP_SAMPLES, 0.0);
+    let wisps = transferred.equilibria().par_iter().map(wisp).collect();
+    Ok((!lines.is_empty()).then(|| BoundStrands::new(&hairs, wisps)))
+}
+
+/// A line with the directions of these points (m) and the distances that even points of a hair have.
+fn as_long_as(own: &BoundStrand, points: &[Vec3]) -> Vec<Vec3> {
+    let last = points.len().max(2) - 1;
+    let at = |k: usize| own.at(own.length() * k as f64 / last as f64);
+    let mut place = points[0];
+    let mut line = vec![place];
+    for (k, pair) in points.windows(2).enumerate() {
+        let way = (pair[1] - pair[0]).normalize_or_zero();
+        place += way * at(k).distance(at(k + 1)) as f32;
+        line.push(place);
+    }
+    line
 }
 
 /// The same rod, clamped at another root, its frame turned.

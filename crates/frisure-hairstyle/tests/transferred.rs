@@ -10,7 +10,12 @@ const GUIDES: usize = 24;
 
 /// A wavy groom of the mannequin, adopted on it.
 fn adopted(mannequin: &Head) -> Hairstyle {
-    let mut spec = preset("caucasian-wavy").unwrap().spec();
+    adopted_of("caucasian-wavy", mannequin)
+}
+
+/// A groom of a hair type, adopted on the mannequin.
+fn adopted_of(name: &str, mannequin: &Head) -> Hairstyle {
+    let mut spec = preset(name).unwrap().spec();
     spec.wisps.count = GUIDES;
     spec.wisps.hairs = Hairs::Count(300);
     let predicted = predict(&spec, mannequin, PredictOptions::default(), &()).unwrap();
@@ -61,4 +66,25 @@ fn people_get_it_with_its_lengths_and_its_curl() {
             assert!(gap.abs() < 2e-3, "{name}: a root is {gap} m from the skin");
         }
     }
+}
+
+/// Curls whose guides turn in different ways on the other head are neither drawn out nor drawn in.
+#[test]
+fn drawn_hairs_keep_their_lengths() {
+    let mannequin = Head::mannequin();
+    let hair = adopted_of("caucasian-curly", &mannequin);
+    let head = Head::named("european-woman").unwrap();
+    let theirs = transfer(&hair, &mannequin, &head, &()).unwrap();
+    let lengths = |hair: &Hairstyle, head: &Head| -> Vec<f32> {
+        let drawn = strands(hair, head, StrandOptions::default(), &()).unwrap().strands;
+        let length = |points: &[glam::Vec3]| points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        drawn.iter().map(|strand| length(strand.points)).collect()
+    };
+    let (before, after) = (lengths(&hair, &mannequin), lengths(&theirs, &head));
+    let mut ratios: Vec<f32> = after.iter().zip(&before).map(|(a, b)| a / b).collect();
+    ratios.sort_by(f32::total_cmp);
+    let at = |part: f32| ratios[(part * (ratios.len() - 1) as f32) as usize];
+    // What lies on skin is laid out of it, and cuts its own corners there.
+    assert!((at(0.5) - 1.0).abs() < 0.01 && at(0.02) > 0.92 && at(0.98) < 1.03, "{ratios:?}");
+    assert!(at(0.0) > 0.8 && at(1.0) < 1.2, "{ratios:?}");
 }

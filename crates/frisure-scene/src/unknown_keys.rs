@@ -123,6 +123,14 @@ impl<'a> Walk<'a> {
             return "a parting is about the whole head: leave `where` out".into();
         }
         let known = || schema["properties"].as_object().into_iter().flat_map(|p| p.keys());
+        // `head` where there are `head_model` and `head_mesh`.
+        let longer: Vec<String> = known()
+            .filter(|key| key.strip_prefix(name).is_some_and(|rest| rest.starts_with('_')))
+            .map(|key| format!("`{key}`"))
+            .collect();
+        if !longer.is_empty() {
+            return format!("did you mean {}?", longer.join(" or "));
+        }
         let is_step = self.is_step(path);
         let here = near(name, known().map(String::as_str));
         let here = here.filter(|(distance, _)| !is_step || *distance < 2);

@@ -1,10 +1,12 @@
 //! `frisure convert`: a groom from one format to others.
 
+use frisure::formats::groom::{Groom, Program};
 use frisure::progress::Progress;
 use frisure_engine::Error;
+use glam::Vec3;
 
 use super::read_groom;
-use crate::args::Convert;
+use crate::args::{Convert, Writing};
 use crate::diagnostics::ExitStatus;
 use crate::progress::Bar;
 use crate::{console, grooms, outputs};
@@ -18,6 +20,7 @@ pub(crate) fn run(arguments: &Convert, quiet: bool) -> Result<ExitStatus, Error>
     progress.report("reading", 0.0);
     let groom = read_groom(path, read.axes(), "set `--from-unit` and `--from-up`")?;
     progress.report("writing", 0.0);
+    warn(&groom, *writing);
     let found = format!("read {} hairs, {} guides\n", groom.hairs.len(), groom.guides.len());
     let written = grooms::write(groom, paths, *writing)?;
     drop(progress);
@@ -26,4 +29,23 @@ pub(crate) fn run(arguments: &Convert, quiet: bool) -> Result<ExitStatus, Error>
         console::print(&(found + &lines))?;
     }
     Ok(ExitStatus::Success)
+}
+
+/// Tells what the programs that open the files will not take as hair.
+fn warn(groom: &Groom, writing: Writing) {
+    let strands = groom.strands();
+    let is_point = |points: &[Vec3]| points.iter().all(|p| *p == points[0]);
+    let missing = strands.iter().filter(|strand| is_point(strand.points)).count();
+    if missing > 0 {
+        let all = strands.len();
+        console::note(&format!(
+            "{missing} of {all} hairs have no length; they are written as they are"
+        ));
+    }
+    let unbound = writing.program.filter(|program| program.binds && groom.head.is_none());
+    if let Some(Program { name, .. }) = unbound {
+        console::note(&format!(
+            "there is no head in it: the roots have no place on one, and `{name}` cannot bind them. `frisure transfer` puts hair on a head"
+        ));
+    }
 }

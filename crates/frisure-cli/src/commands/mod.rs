@@ -22,7 +22,7 @@ use std::io::Read;
 use std::path::Path;
 
 use frisure::files;
-use frisure::formats::groom::{self, Groom, GroomError};
+use frisure::formats::groom::{self, Groom};
 use frisure::scene::{MAX_SIZE, Scene};
 use frisure_engine::Error;
 
@@ -69,10 +69,12 @@ fn read_text(path: &Path) -> Result<String, Error> {
 
 /// The groom in a file; `hint` names the flags for its unit and axes.
 fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Error> {
-    let read = groom::read_groom(path, axes.choice()).map_err(|e| match e {
-        GroomError::Malformed { .. } => Error::because(&e, hint),
-        _ => Error::because(&e, ""),
-    })?;
+    let read = groom::read_groom(path, axes.choice())
+        .map_err(|e| Error::because(&e, if e.may_be_of_unit() { hint } else { "" }))?;
+    if read.strands().is_empty() {
+        let problem = format!("there is no hair in `{}`", path.display());
+        return Err(Error::invalid(problem, "hair is lines of at least two points"));
+    }
     if let Some(told) = read.told() {
         console::note(&format!("{}: {told}", path.display()));
     }

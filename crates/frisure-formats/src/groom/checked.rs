@@ -17,6 +17,15 @@ const SENSIBLE: (f64, f64) = (2e-3, 5.0);
 /// Largest coordinate of a point (m). Chosen: beyond, coordinates of 32 bits are more than half a millimetre apart.
 const FARTHEST: f64 = 5e3;
 
+/// What errors say that another unit may mend.
+const TOO_FAR: &str = "is more than";
+const NO_SIZE: &str = "and hair is between 2 mm and 5 m";
+
+/// Whether an error of this module says that the hair has a size or a place that none has.
+pub(super) fn may_be_of_unit(what: &str) -> bool {
+    [TOO_FAR, NO_SIZE].iter().any(|part| what.contains(part))
+}
+
 /// Largest radius of a fibre (m).
 pub(super) const THICKEST: f32 = 0.01;
 
@@ -49,7 +58,7 @@ impl Curves {
         check_size(&inside, frame, strand_of)?;
         if let Some(i) = inside.iter().position(|p| p.abs().max_element() > FARTHEST) {
             let strand = strand_of(i);
-            return Err(format!("point {i}, of strand {strand}, is more than {FARTHEST} m away"));
+            return Err(format!("point {i}, of strand {strand}, {TOO_FAR} {FARTHEST} m away"));
         }
         let radii = radii(&diameters, points.len(), frame)?;
 
@@ -185,7 +194,7 @@ fn check_size(
         ));
     }
     let hint = unit_hint(size / frame.metres);
-    Err(format!("it is {size:.3e} m across, and hair is between 2 mm and 5 m{hint}"))
+    Err(format!("it is {size:.3e} m across, {NO_SIZE}{hint}"))
 }
 
 fn median(points: &[DVec3]) -> DVec3 {

@@ -93,6 +93,14 @@ pub enum GroomError {
     Write(#[from] WriteError),
 }
 
+impl GroomError {
+    /// Whether another unit of the file may mend it: its hair has a size or a place that no hair has.
+    #[must_use]
+    pub fn may_be_of_unit(&self) -> bool {
+        matches!(self, Self::Malformed { what, .. } if checked::may_be_of_unit(what))
+    }
+}
+
 fn known(which: impl Fn(Format) -> bool) -> String {
     let names = Format::ALL.iter().filter(|f| which(**f)).flat_map(|f| f.extensions());
     names.map(|e| format!(".{e}")).collect::<Vec<_>>().join(", ")

@@ -25,6 +25,8 @@ pub struct Program {
     pub points: Points,
     /// Whether it knows guides; else they would be drawn as hairs.
     pub guides: bool,
+    /// Whether it binds roots to a head by their texture coordinates.
+    pub binds: bool,
     /// The attributes that it reads; none: all.
     pub attributes: Option<&'static [&'static str]>,
 }
@@ -60,6 +62,7 @@ impl Program {
             // HAIR_MAX_NUM_POINT_PER_CURVE of the engine's HairStrandsDefinitions: further points are cut off.
             points: Points::AtMost(255),
             guides: true,
+            binds: true,
             attributes: Some(&[
                 GUIDE,
                 CLOSEST_GUIDES,
@@ -78,6 +81,7 @@ impl Program {
             most_hairs: None,
             points: Points::Own,
             guides: true,
+            binds: true,
             attributes: None,
         },
         Self {
@@ -88,6 +92,7 @@ impl Program {
             // The package resamples curves whose numbers of points differ, evenly, to at most 128.
             points: Points::Even(32),
             guides: false,
+            binds: false,
             attributes: Some(&[ID, GROUP, ROOT_UV, COLOUR]),
         },
         Self {
@@ -97,6 +102,7 @@ impl Program {
             most_hairs: Some(20_000),
             points: Points::AtMost(32),
             guides: false,
+            binds: false,
             attributes: Some(&[COLOUR]),
         },
     ];

@@ -58,6 +58,8 @@ pub struct HeadMesh {
     pub scalp: Option<Vec<f64>>,
     /// The unit that the reader assumed, if neither file nor scene states one and it cannot be metres.
     pub guessed_unit: Option<&'static str>,
+    /// Smallest and largest texture coordinate, where a scalp mask was repeated because some are not between 0 and 1.
+    pub mask_repeated: Option<[f64; 2]>,
 }
 
 /// Reads a head and its scalp, in the unit, the axes and the turns that it is given.
@@ -109,7 +111,9 @@ pub fn read(head: &HeadFile, files: &Files) -> Result<HeadMesh, HeadFileError> {
     if let Some(weights) = &scalp {
         check_area(&surface, weights, &head.scalp)?;
     }
-    Ok(HeadMesh { surface, scalp, guessed_unit })
+    let masked = matches!(head.scalp, ScalpSource::Mask(_));
+    let mask_repeated = masked.then(|| scalp::beyond(&mesh)).flatten();
+    Ok(HeadMesh { surface, scalp, guessed_unit, mask_repeated })
 }
 
 /// The mesh of a file, of the format that its first bytes decide.

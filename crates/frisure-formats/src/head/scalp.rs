@@ -66,6 +66,15 @@ pub(super) fn from_mask(
     Ok(sums.into_iter().map(|(sum, count)| sum / f64::from(count.max(1))).collect())
 }
 
+/// Smallest and largest texture coordinate of the faces, if some are not between 0 and 1.
+pub(super) fn beyond(mesh: &Mesh) -> Option<[f64; 2]> {
+    let used = mesh.triangle_uvs.iter().flatten().flatten();
+    let all = used.flat_map(|&uv| mesh.uvs[uv as usize]);
+    let [low, high] =
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    (low < 0.0 || high > 1.0).then_some([low, high])
+}
+
 /// One number per line and vertex.
 pub(super) fn from_text(
     mesh: &Mesh,

@@ -10,6 +10,7 @@ mod facial_hair;
 mod fans;
 mod far;
 mod guess;
+mod holes;
 mod landmarks;
 mod mannequin;
 mod mesher;
@@ -37,6 +38,7 @@ use thiserror::Error;
 pub(crate) use correspondence::{Correspondence, Corresponding};
 use derived::Derived;
 pub use distance::SignedDistance;
+pub use holes::ScalpHoles;
 pub use landmarks::{Landmarks, Region};
 pub(crate) use scalp::Edge;
 pub use scalp::Hairline;
@@ -98,6 +100,12 @@ pub enum HeadError {
     /// No skin has a positive weight.
     #[error("hair grows nowhere: no face of the mesh has a scalp weight above zero")]
     NoScalp,
+    /// The scalp is a mesh of its own that is not on the head.
+    #[error("the scalp is {:.1} cm away from the head: hair would grow in the air", 100.0 * .distance)]
+    FloatingScalp {
+        /// Median distance of its vertices from the head (m).
+        distance: f64,
+    },
     /// The mesh is far from the size of a human head.
     #[error(
         "the mesh is {size} m high; a head is about 0.25 m, a bust up to 1 m. Check its units (metres)"
@@ -172,7 +180,7 @@ impl Head {
     ///
     /// # Errors
     /// [`HeadError`], if the mesh cannot be a human head, the weights are not one number 0..1 per
-    /// vertex, or hair grows on no face.
+    /// vertex, or hair grows on no face or on faces that are not on the head.
     pub fn from_surface(surface: Surface, scalp: ScalpSource) -> Result<Self, HeadError> {
         let (low, high) = surface.bounds();
         let size = high.z - low.z;
@@ -191,6 +199,9 @@ impl Head {
         };
         if !grows(&surface, &scalp) {
             return Err(HeadError::NoScalp);
+        }
+        if let Some(distance) = holes::floating_scalp(&surface, &scalp).filter(|_| !natural) {
+            return Err(HeadError::FloatingScalp { distance });
         }
         let distance = SignedDistance::new(&surface);
         Ok(Self::assemble(surface, scalp, natural, landmarks, distance))
@@ -248,6 +259,12 @@ impl Head {
     #[must_use]
     pub fn turn_to_upright(&self) -> Option<DMat3> {
         upright::turn_to_upright(&self.surface, &self.signed_distance)
+    }
+
+    /// The holes of the mesh where hair grows: none grows in them, and hair falls into the head. `None` without any.
+    #[must_use]
+    pub fn scalp_holes(&self) -> Option<ScalpHoles> {
+        holes::scalp_holes(&self.surface, &self.scalp)
     }
 
     /// Distance to the skin, positive outside.

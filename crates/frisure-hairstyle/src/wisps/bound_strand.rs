@@ -14,6 +14,9 @@ use crate::math::Grid;
 const BINDINGS: usize = 3;
 const SOUGHT: usize = 24;
 
+/// Samples along guides as the groom has them. Chosen by trial; not measured further.
+pub(crate) const WISP_SAMPLES: usize = 128;
+
 /// Places along a hair at which it is compared with guides. Chosen by trial; not measured further.
 const COMPARED: usize = 8;
 

@@ -4,6 +4,6 @@ mod bound_strand;
 mod waves;
 mod wisp;
 
-pub(crate) use bound_strand::{BoundStrand, BoundStrands};
+pub(crate) use bound_strand::{BoundStrand, BoundStrands, WISP_SAMPLES};
 pub(crate) use waves::Waves;
 pub(crate) use wisp::Wisp;

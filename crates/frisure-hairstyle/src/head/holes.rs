@@ -1,0 +1,253 @@
+//! Where a mesh is open that ought to be closed: holes in the scalp, and a scalp that is not on the head.
+
+use std::collections::HashMap;
+
+use frisure_strands::Surface;
+use glam::{DVec3, IVec3};
+
+/// Least length of the open edges of a hole (m) that is told: hair covers what is smaller. Chosen.
+const LEAST: f64 = 0.02;
+
+/// Vertices nearer to each other (m) are one: meshes have seams, where vertices are written twice.
+const SEAM: f64 = 5e-5;
+
+/// Farthest that the scalp may be from the rest of the head (m), where it is a mesh of its own. A cap with room for hair below it
+/// lies a few millimetres off. Chosen.
+const FARTHEST: f64 = 0.02;
+
+/// Vertices of a scalp whose distance to the head is measured. Chosen; their median is enough.
+const SAMPLES: usize = 64;
+
+/// Holes where hair grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScalpHoles {
+    /// Number of holes whose open edges are 2 cm long or longer.
+    pub count: usize,
+    /// Length of the open edges of the largest (m).
+    pub around: f64,
+    /// Middle of the open edges of the largest (m).
+    pub place: DVec3,
+}
+
+/// The holes of a mesh where hair grows; `None` without any. An edge of the scalp is open that belongs to one face only.
+pub(super) fn scalp_holes(surface: &Surface, scalp: &[f64]) -> Option<ScalpHoles> {
+    let places = surface.positions();
+    let same = joined(places);
+    let mut faces_of: HashMap<[u32; 2], u32> = HashMap::new();
+    let edges = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|v| same[v as usize]);
+        [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+    };
+    for triangle in surface.triangles() {
+        edges(triangle).into_iter().for_each(|edge| *faces_of.entry(edge).or_default() += 1);
+    }
+    let grows: Vec<bool> = {
+        let mut grows = vec![false; places.len()];
+        scalp.iter().zip(&same).for_each(|(w, &v)| grows[v as usize] |= *w > 0.5);
+        grows
+    };
+    let mut open: Vec<[u32; 2]> = faces_of
+        .into_iter()
+        .filter(|&([a, b], faces)| faces == 1 && a != b && grows[a as usize] && grows[b as usize])
+        .map(|(edge, _)| edge)
+        .collect();
+    open.sort_unstable();
+    // Open edges that meet are those of one hole.
+    let mut hole = Sets::new(places.len());
+    open.iter().for_each(|[a, b]| hole.join(*a, *b));
+    let mut holes: HashMap<u32, (f64, DVec3)> = HashMap::new();
+    for [a, b] in open {
+        let (p, q) = (places[a as usize], places[b as usize]);
+        let (length, sum) = holes.entry(hole.of(a)).or_default();
+        *length += p.distance(q);
+        *sum += p.distance(q) * 0.5 * (p + q);
+    }
+    let mut large: Vec<(f64, DVec3)> = holes.into_values().filter(|h| h.0 >= LEAST).collect();
+    large.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.x.total_cmp(&b.1.x)));
+    let &(around, sum) = large.first()?;
+    Some(ScalpHoles { count: large.len(), around, place: sum / around })
+}
+
+/// How far the scalp is from the head (m), where no face of it hangs together with the head's largest part and it is farther than a
+/// cap would be.
+pub(super) fn floating_scalp(surface: &Surface, scalp: &[f64]) -> Option<f64> {
+    let (places, triangles) = (surface.positions(), surface.triangles());
+    let same = joined(places);
+    let mut parts = Sets::new(places.len());
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|v| same[v as usize]);
+        parts.join(a, b);
+        parts.join(b, c);
+    }
+    let part = |parts: &mut Sets, face: usize| parts.of(same[triangles[face][0] as usize]);
+    let mut areas: HashMap<u32, f64> = HashMap::new();
+    for face in 0..triangles.len() {
+        let of = part(&mut parts, face);
+        *areas.entry(of).or_default() += surface.doubled_area_vector(face).length();
+    }
+    let largest = areas.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
+    let head = *largest?.0;
+    let grows = |face: usize| triangles[face].iter().any(|&v| scalp[v as usize] > 0.0);
+    let (mut skin, mut cap) = (Vec::new(), Vec::new());
+    for face in 0..triangles.len() {
+        let on_head = part(&mut parts, face) == head;
+        if on_head && grows(face) {
+            return None;
+        }
+        if on_head {
+            skin.push(surface.corners(face));
+        } else if grows(face) {
+            cap.push(surface.corners(face)[0]);
+        }
+    }
+    let step = cap.len().div_ceil(SAMPLES).max(1);
+    let mut distances: Vec<f64> = cap
+        .iter()
+        .step_by(step)
+        .map(|p| skin.iter().map(|corners| to_triangle(*p, corners)).fold(f64::INFINITY, f64::min))
+        .collect();
+    distances.sort_by(f64::total_cmp);
+    let median = *distances.get(distances.len() / 2)?;
+    (median.is_finite() && median > FARTHEST).then_some(median)
+}
+
+/// Distance of a point from a triangle (m): that of its plane where the foot is inside, else that of the nearest side.
+fn to_triangle(p: DVec3, [a, b, c]: &[DVec3; 3]) -> f64 {
+    let side = |from: DVec3, to: DVec3| {
+        let way = to - from;
+        let t = ((p - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        p.distance(from + t * way)
+    };
+    let sides = side(*a, *b).min(side(*b, *c)).min(side(*c, *a));
+    let normal = (*b - *a).cross(*c - *a).normalize_or_zero();
+    let inside = [(a, b), (b, c), (c, a)]
+        .iter()
+        .all(|(from, to)| (**to - **from).cross(p - **from).dot(normal) >= 0.0);
+    if inside && normal != DVec3::ZERO { (p - *a).dot(normal).abs() } else { sides }
+}
+
+/// For each vertex the first one at its place.
+fn joined(places: &[DVec3]) -> Vec<u32> {
+    let cell = |p: DVec3| (p / (2.0 * SEAM)).floor().as_ivec3();
+    let mut cells: HashMap<IVec3, Vec<u32>> = HashMap::new();
+    let mut same = Vec::with_capacity(places.len());
+    for (i, &p) in places.iter().enumerate() {
+        // A vertex within `SEAM` lies in one of the eight cells about the corner that is nearest.
+        let low = cell(p - SEAM);
+        let near = (0..8).flat_map(|k| {
+            let at = low + IVec3::new(k & 1, k >> 1 & 1, k >> 2);
+            cells.get(&at).into_iter().flatten()
+        });
+        let found = near.copied().find(|&v| places[v as usize].distance_squared(p) <= SEAM * SEAM);
+        let first = found.unwrap_or(i as u32);
+        if found.is_none() {
+            cells.entry(cell(p)).or_default().push(i as u32);
+        }
+        same.push(first);
+    }
+    same
+}
+
+/// Disjoint sets of numbers.
+struct Sets(Vec<u32>);
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Self((0..count as u32).collect())
+    }
+
+    /// The number that stands for the set of another.
+    fn of(&mut self, mut i: u32) -> u32 {
+        while self.0[i as usize] != i {
+            let above = self.0[self.0[i as usize] as usize];
+            self.0[i as usize] = above;
+            i = above;
+        }
+        i
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.of(a), self.of(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_shapes::ball;
+    use super::*;
+
+    /// A ball of 20 cm without the faces that a test names by their middles.
+    fn without(removed: impl Fn(DVec3) -> bool) -> Surface {
+        let ball = ball(0.1, 48);
+        let middle = |face: usize| ball.corners(face).into_iter().sum::<DVec3>() / 3.0;
+        let kept = (0..ball.triangles().len()).filter(|face| !removed(middle(*face)));
+        let triangles = kept.map(|face| ball.triangles()[face]).collect();
+        Surface::new(ball.positions().to_vec(), triangles).expect("a surface")
+    }
+
+    /// Hair on the upper half.
+    fn upper(surface: &Surface) -> Vec<f64> {
+        surface.positions().iter().map(|p| f64::from(u8::from(p.z > 0.0))).collect()
+    }
+
+    #[test]
+    fn a_closed_head_and_one_that_is_open_at_the_neck_have_no_holes() {
+        for surface in [without(|_| false), without(|p| p.z < -0.08)] {
+            assert_eq!(scalp_holes(&surface, &upper(&surface)), None);
+        }
+    }
+
+    #[test]
+    fn a_hole_on_the_crown_is_found() {
+        let surface = without(|p| p.z > 0.095);
+        let hole = scalp_holes(&surface, &upper(&surface)).expect("a hole");
+        // A circle at this height of a ball of 10 cm.
+        let around = 2.0 * std::f64::consts::PI * (0.01_f64 - 0.095_f64.powi(2)).sqrt();
+        assert_eq!(hole.count, 1);
+        assert!((hole.around / around - 1.0).abs() < 0.2, "{hole:?} {around}");
+        assert!(hole.place.distance(DVec3::new(0.0, 0.0, 0.095)) < 5e-3, "{hole:?}");
+        // Two of them.
+        let two = without(|p| p.z > 0.095 || p.y > 0.09 && p.z > 0.02);
+        assert_eq!(scalp_holes(&two, &upper(&two)).map(|h| h.count), Some(2));
+    }
+
+    #[test]
+    fn seams_are_no_holes() {
+        let ball = ball(0.1, 24);
+        // Each face has vertices of its own.
+        let places: Vec<DVec3> =
+            (0..ball.triangles().len()).flat_map(|face| ball.corners(face)).collect();
+        let triangles = (0..places.len() as u32 / 3).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]);
+        let surface = Surface::new(places, triangles.collect()).expect("a surface");
+        assert_eq!(scalp_holes(&surface, &upper(&surface)), None);
+    }
+
+    #[test]
+    fn a_scalp_in_the_air_is_found_and_a_cap_is_not() {
+        let ball = ball(0.1, 24);
+        let with_cap = |above: f64| {
+            let count = ball.positions().len() as u32;
+            let mut places = ball.positions().to_vec();
+            let mut triangles = ball.triangles().to_vec();
+            let mut scalp = vec![0.0; places.len()];
+            for face in 0..ball.triangles().len() {
+                let corners = ball.corners(face);
+                if corners.iter().all(|p| p.z > 0.05) {
+                    let first = places.len() as u32;
+                    places.extend(corners.map(|p| p * (1.0 + above / 0.1)));
+                    triangles.push([first, first + 1, first + 2]);
+                }
+            }
+            scalp.resize(places.len(), 1.0);
+            assert!(places.len() as u32 > count);
+            (Surface::new(places, triangles).expect("a surface"), scalp)
+        };
+        let (near, scalp) = with_cap(0.003);
+        assert_eq!(floating_scalp(&near, &scalp), None);
+        let (far, scalp) = with_cap(0.15);
+        let distance = floating_scalp(&far, &scalp).expect("a distance");
+        assert!((distance - 0.15).abs() < 2e-3, "{distance}");
+        assert_eq!(floating_scalp(&ball, &upper(&ball)), None);
+    }
+}
