@@ -7,6 +7,7 @@ import frisure
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import solver, thumbnails
+from .draft import Draft
 
 # How long (s) a property has to stay as it is until the exact hair is solved, and how often this, and a running solution, is looked
 # at. Chosen.
@@ -55,7 +56,8 @@ def look():
         still = time.monotonic() - since > STILL
         try:
             text = solver.with_steps(solver.scene_of(hair.frisure), hair.frisure.scene).text
-            solution = solver.Solution(hair, text, coarse=not still)
+            draft = None if still else Draft.of(hair, solver.last_hairstyle(hair), text)
+            solution = draft or solver.Solution(hair, text, coarse=not still)
         except (ValueError, frisure.FrisureError) as error:
             hair.frisure.problem = solver.told(error)
             del _changed[name]

@@ -202,6 +202,30 @@ def test_dragging_shows_coarse_hair_and_then_the_exact(head):
     assert counts == {2000, 1500} and len(hair.data.curves) == 2000
 
 
+def test_dragging_without_contact_shows_all_guides_where_they_come_to_rest(head):
+    solver, properties = module("solver"), module("properties")
+    hair = grown(head, hair_type="caucasian-curly", length=0.1, guides=90)
+    hair.frisure.contact, hair.frisure.points = False, 32
+    properties.solve_now(hair)
+    for name, value in {"length": 0.11, "curl_radius": 0.009}.items():
+        setattr(hair.frisure, name, value)
+        drafts = []
+        for _ in range(600):
+            again = properties.look()
+            if len(hair.data.curves) == 90:
+                drafts.append(world(hair).copy())
+            if again is None:
+                break
+            time.sleep(again)
+        assert again is None and not hair.frisure.problem and len(hair.data.curves) == 150
+        exact = solver.last_hairstyle(hair).guides.points
+        assert drafts and np.median(np.linalg.norm(drafts[-1] - exact, axis=1)) < 2e-3
+    # What a draft cannot follow is solved coarsely.
+    hair.frisure.seed = 2
+    text = solver.with_steps(solver.scene_of(hair.frisure), hair.frisure.scene).text
+    assert module("draft").Draft.of(hair, solver.last_hairstyle(hair), text) is None
+
+
 def test_curves_are_settled(head, tmp_path):
     hair = grown(head, hair_type="caucasian-wavy", length=0.1)
     shape = world(hair).copy()

@@ -38,8 +38,9 @@ def opened(usd, glb):
     """Imports strands, head and the cards of all levels into an empty file."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.usd_import(filepath=usd)
-    # The head hides what is behind it, and is not in the picture.
-    bpy.data.objects["head"].is_holdout = True
+    if "head" in bpy.data.objects:
+        # It hides what is behind it, and is not in the picture.
+        bpy.data.objects["head"].is_holdout = True
     bpy.ops.import_scene.gltf(filepath=glb)
     cards = sorted((o for o in bpy.data.objects if o.name.startswith("hair_LOD")), key=lambda o: o.name)
     shown = bpy.context.scene.collection.objects
@@ -110,8 +111,11 @@ def covered(thing, things):
 
 def difference(strands, cards):
     """Silhouette, coverage and covered area, as the program has them."""
+    if not strands.any():
+        # Straight hair along which the camera looks: there is nothing to compare with.
+        return 0.0, 0.0, 1.0
     a, b = strands >= 0.5, cards >= 0.5
-    return (a != b).sum() / (a | b).sum(), np.abs(strands - cards).sum() / strands.sum(), cards.sum() / strands.sum()
+    return (a != b).sum() / max((a | b).sum(), 1), np.abs(strands - cards).sum() / strands.sum(), cards.sum() / strands.sum()
 
 
 def main(usd, glb):

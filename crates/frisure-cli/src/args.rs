@@ -487,7 +487,7 @@ pub(crate) struct Cards {
     #[arg(long = "output", short, value_name = "CARDS", required = true)]
     pub(crate) outputs: Vec<PathBuf>,
 
-    /// Cards of the first level, 1 to 20000.
+    /// About as many cards in the first level, 1 to 20000.
     #[arg(long, value_name = "N", value_parser = card_count, default_value_t = 800)]
     pub(crate) cards: usize,
 

@@ -93,3 +93,18 @@ fn what_cannot_be_written_is_told() {
     let ran = room.run(&["convert", "w.html", "-o", "b.hair"]);
     assert!(ran.code == Some(2) && ran.err.contains("cannot be read"), "{}", ran.err);
 }
+
+#[test]
+fn what_a_program_will_not_take_as_hair_is_told() {
+    let line = "v 0 0 0\nv 0 -0.1 0\nv 0.1 0 0\nv 0.1 0 0\nl 1 2\nl 3 4\n";
+    let room = Room::new().with("a.obj", line).with("none.obj", "# nothing\n");
+    let ran = room.run(&["convert", "a.obj", "--for", "unreal", "-o", "a.abc"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert!(ran.err.contains("1 of 2 hairs have no length"), "{}", ran.err);
+    assert!(ran.err.contains("no head in it") && ran.err.contains("`unreal`"), "{}", ran.err);
+    let ran = room.run(&["convert", "none.obj", "-o", "b.usdc"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("there is no hair in `none.obj`"), "{}", ran.err);
+    // A unit is no remedy for a file that is damaged.
+    assert!(!ran.err.contains("--from-unit"), "{}", ran.err);
+}

@@ -207,6 +207,13 @@ fn heads_that_are_none_point_at_their_key() {
     }
     about("[head]\nmesh = \"none.obj\"\n", "2:8");
     about("[head]\nmesh = \".\"\n", "2:8");
+    // A scalp in the air.
+    let cap = format!("{HEAD}v 0 0.5 0\nv 0.1 0.5 0\nv 0 0.5 0.1\ng cap\nf 5 6 7\n");
+    let scene = "[head]\nmesh = 'head.obj'\nscalp_group = 'cap'";
+    let ran = room().with("a.toml", scene).with("head.obj", cap).run(&["predict", "a.toml"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("cm away from the head: hair would grow in the air"), "{}", ran.err);
+    assert!(about("[groom]\nhead = 'mannequin'\n", "2:1").contains("`head_mesh` or `head_model`"));
     // A scalp on which nothing grows.
     let zeros = room().with("head.obj", HEAD).with("w.txt", "0\n0\n0\n0\n");
     let zeros = zeros.with("a.toml", "[head]\nmesh = 'head.obj'\nscalp_weights = 'w.txt'");

@@ -45,11 +45,7 @@ impl Salon {
             Command::Turn(right, up) => self.orbit.turn(right, up),
             Command::ToggleSpin => self.spins = !self.spins,
             Command::Refer(name, bytes) => self.refer(name, &bytes),
-            Command::ReferOver(over) => {
-                if let Some(reference) = &mut self.reference {
-                    reference.over = over.map(|opacity| opacity.clamp(0.0, 1.0));
-                }
-            }
+            Command::ReferOver(over) => self.refer_over(over),
             Command::EndReference => self.reference = None,
             Command::Pan(right, up) => self.orbit.pan(right, up),
             Command::Zoom(factor) => self.orbit.zoom(factor),
@@ -61,11 +57,7 @@ impl Salon {
             Command::Render(task, to) => self.render(task, to),
             Command::Stop => self.jobs.cancel_background(),
             Command::Recover(wanted) => self.recover(wanted),
-            Command::Dismiss(index) => {
-                if index < self.messages.len() {
-                    self.messages.remove(index);
-                }
-            }
+            Command::Dismiss(index) => self.dismiss(index),
             Command::Plane(plane) => self.move_plane(plane),
             Command::Scissors(scissors) => self.scissors = scissors.clean(),
             Command::BeginTour => self.begin_tour(),
@@ -105,6 +97,20 @@ impl Salon {
             self.selected = Selected::default();
         }
         self.jobs.effects.push_back(Effect::KeepLanguage(locale));
+    }
+
+    /// Removes a message.
+    fn dismiss(&mut self, index: usize) {
+        if index < self.messages.len() {
+            self.messages.remove(index);
+        }
+    }
+
+    /// Lays the photo to compare with over the picture, or beside it.
+    fn refer_over(&mut self, over: Option<f32>) {
+        if let Some(reference) = &mut self.reference {
+            reference.over = over.map(|opacity| opacity.clamp(0.0, 1.0));
+        }
     }
 
     /// Shows a photo to compare with.
