@@ -4,6 +4,7 @@ A draft begins with the exact guides in memory and changes their lengths and nat
 alone; the exact hair follows.
 """
 
+import functools
 from types import SimpleNamespace
 
 import frisure
@@ -15,8 +16,8 @@ from . import curves
 # Keys that a draft can follow.
 LENGTH, RADIUS, PITCH = "hair.length", "hair.curl.radius", "hair.curl.pitch"
 
-# Largest turn of a guide between two points (rad) from which its tangent and its length can be told, and how many points that takes.
-# Chosen.
+# Largest turn of a guide between two points (rad) whose tangent and length are computed from its points, and the order of the
+# polynomial through the first of these. Chosen.
 MOST_TURN = 1.0
 ORDER = 8
 
@@ -129,12 +130,12 @@ class Draft:
         """The draft of a scene's text that differs from a hairstyle in what a draft can follow."""
         if hairstyle is None:
             return None
-        scene = frisure.Scene.from_text(text)
         guides = guides_of(hairstyle)
-        if guides is None or without(scene) != without(frisure.Scene.from_text(hair.frisure.scene)):
+        if guides is None or without(text) != without(hair.frisure.scene):
             return None
+        scene = frisure.Scene.from_text(text)
         if helix(*guides.curl)[0] == 0.0 and helix(scene.number(RADIUS), scene.number(PITCH))[0] != 0.0:
-            # Straight guides do not tell to which side they would curl.
+            # Straight guides have no side to which they would curl.
             return None
         return cls(hair.name, guides, scene)
 
@@ -145,9 +146,10 @@ class Draft:
         curves.write(hair, self.strands)
 
 
-def without(scene: frisure.Scene) -> dict:
-    """What a scene says but for the keys that a draft can follow."""
-    said = scene.to_dict()
+@functools.lru_cache(maxsize=4)
+def without(text: str) -> dict:
+    """What the text of a scene says but for the keys that a draft can follow."""
+    said = frisure.Scene.from_text(text).to_dict()
     said.get("hair", {}).pop("length", None)
     said.get("hair", {}).pop("curl", None)
     return said

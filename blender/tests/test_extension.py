@@ -227,7 +227,7 @@ def test_dragging_without_contact_shows_all_guides_where_they_come_to_rest(head)
 
 
 def test_curves_are_settled(head, tmp_path):
-    hair = grown(head, hair_type="caucasian-wavy", length=0.1)
+    hair = grown(head, hair_type="caucasian-wavy", length=0.1, hairs=50)
     shape = world(hair).copy()
     plain = bpy.data.objects.new("plain", hair.data.copy())
     bpy.context.scene.collection.objects.link(plain)
@@ -307,7 +307,7 @@ def test_a_groom_for_unreal_has_the_attributes_of_its_specification(head, tmp_pa
         assert max(schema.getValue().getCurvesNumVertices()) <= 255
     assert "guides" in found and len(found) > 2
     for name, attributes in found.items():
-        # Two of its own tell frisure wisps and parts when it reads the file.
+        # From two of its own frisure reads wisps and parts back.
         assert {a for a in attributes if not a.startswith("groom_")} <= {"frisure_guide", "frisure_group"}, name
         assert {"groom_guide", "groom_group_id", "groom_group_name", "groom_id", "groom_root_uv"} <= attributes
         if name != "guides":

@@ -49,7 +49,8 @@ fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-fn target_folder() -> PathBuf {
+/// The folder of builds.
+pub(super) fn target_folder() -> PathBuf {
     let asked = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     xtask::workspace::root().join(asked.unwrap_or_else(|| "target".into()))
 }

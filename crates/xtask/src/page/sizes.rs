@@ -1,5 +1,6 @@
 //! How much of the page goes over the line.
 
+use super::compile::target_folder;
 use anyhow::{Result, bail};
 use std::fs;
 use std::io::Write;
@@ -30,11 +31,49 @@ pub(crate) fn compress(folder: &Path, quick: bool) -> Result<Table> {
 
 fn compress_one(path: &Path, quick: bool) -> Result<Sizes> {
     let bytes = fs::read(path)?;
-    let (gzip, brotli) = (gzip(&bytes, quick)?, brotli(&bytes, quick)?);
+    let gzip = kept(&bytes, quick, "gz", || gzip(&bytes, quick))?;
+    let brotli = kept(&bytes, quick, "br", || brotli(&bytes, quick))?;
     fs::write(beside(path, ".gz"), &gzip)?;
     fs::write(beside(path, ".br"), &brotli)?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(Sizes { name, raw: bytes.len(), gzip: gzip.len(), brotli: brotli.len() })
+}
+
+/// Files from which on their packed form is kept for the next build: the WebAssembly takes half a minute (bytes).
+const LARGE: usize = 1_000_000;
+
+/// The packed bytes: those of an earlier build of the same bytes, or new ones.
+fn kept(
+    bytes: &[u8],
+    quick: bool,
+    ending: &str,
+    pack: impl FnOnce() -> Result<Vec<u8>>,
+) -> Result<Vec<u8>> {
+    if bytes.len() < LARGE {
+        return pack();
+    }
+    let mut sum = flate2::Crc::new();
+    sum.update(bytes);
+    let quality = if quick { "quick" } else { "small" };
+    let name = format!("{:08x}-{}-{quality}.{ending}", sum.sum(), bytes.len());
+    let folder = target_folder().join("packed");
+    let path = folder.join(name);
+    if let Ok(packed) = fs::read(&path) {
+        return Ok(packed);
+    }
+    let packed = pack()?;
+    fs::create_dir_all(&folder)?;
+    // Those of other builds are of no more use.
+    for entry in fs::read_dir(&folder)?.flatten() {
+        if entry.path().extension().is_some_and(|other| other == ending) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    // Renamed when it is whole: a build that was killed leaves no half of it.
+    let unfinished = path.with_extension(format!("{ending}-part"));
+    fs::write(&unfinished, &packed)?;
+    fs::rename(unfinished, path)?;
+    Ok(packed)
 }
 
 /// A path with an ending more.
