@@ -34,9 +34,10 @@ def attach(hair, head) -> None:
 def write(hair, strands) -> None:
     """Replaces the curves of an object by strands (m)."""
     data = hair.data
-    if len(data.curves) > 0:
-        data.remove_curves()
-    data.add_curves(strands.counts.tolist())
+    if not np.array_equal(sizes(data), strands.counts):
+        if len(data.curves) > 0:
+            data.remove_curves()
+        data.add_curves(strands.counts.tolist())
     unit = heads.metres_per_unit()
     matrix = np.array(hair.matrix_world.inverted())
     points = strands.points.astype(np.float64) / unit @ matrix[:3, :3].T + matrix[:3, 3]
@@ -49,6 +50,13 @@ def write(hair, strands) -> None:
     if "group" in strands.attributes:
         set_attribute(data, "frisure_group", "INT", "CURVE", "value", strands.attributes["group"].astype(np.int32))
     data.update_tag()
+
+
+def sizes(data) -> np.ndarray:
+    """The number of points of each curve, (H,)."""
+    counts = np.empty(len(data.curves), dtype=np.int32)
+    data.curves.foreach_get("points_length", counts)
+    return counts
 
 
 def set_attribute(data, name: str, kind: str, domain: str, field: str, values) -> None:
