@@ -109,6 +109,38 @@ pub fn current() -> Locale {
     CATALOGUES.with_borrow(|catalogues| catalogues.locale)
 }
 
+/// The sign between whole numbers and decimals in the language of this thread's window.
+fn decimal_sign() -> char {
+    match current() {
+        Locale::English => '.',
+        Locale::French => ',',
+    }
+}
+
+/// A number that was written with a point, in the language of this thread's window.
+#[must_use]
+pub fn localized(number: &str) -> String {
+    number.replace('.', decimal_sign().encode_utf8(&mut [0; 4]))
+}
+
+/// A number with so many decimals, in the language of this thread's window.
+#[must_use]
+pub fn number(value: f64, decimals: usize) -> String {
+    localized(&format!("{value:.decimals$}"))
+}
+
+/// The number that somebody typed, with a point or a comma.
+#[must_use]
+pub fn parse_number(text: &str) -> Option<f64> {
+    let plain = |c: char| match c {
+        ',' => '.',
+        '−' => '-',
+        c => c,
+    };
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).map(plain).collect();
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
 /// Formats a message, or an attribute of one (`id.attribute`), of a catalogue; `None` if it is not there.
 fn format(bundle: &Bundle, id: &str, args: Option<&FluentArgs<'_>>) -> Option<String> {
     let (id, attribute) = id.split_once('.').map_or((id, None), |(id, name)| (id, Some(name)));

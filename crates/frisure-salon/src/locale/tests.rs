@@ -153,3 +153,19 @@ fn numbers_choose_their_plural_and_tags_their_language() {
         [Some(Locale::French), Some(Locale::French), Some(Locale::English), None, None]
     );
 }
+
+#[test]
+fn numbers_have_the_sign_of_the_language_and_are_read_with_either() {
+    set(Locale::English);
+    assert_eq!(number(12.25, 1), "12.2");
+    set(Locale::French);
+    assert_eq!((number(12.25, 1), localized("0.5 cm")), ("12,2".into(), "0,5 cm".into()));
+    set(Locale::English);
+    for text in ["12,5", "12.5", " 12,5", "+12.5"] {
+        assert_eq!(parse_number(text), Some(12.5), "{text}");
+    }
+    assert_eq!(parse_number("−3,5"), Some(-3.5));
+    for text in ["", "1,2,3", "nan", "inf", "cm"] {
+        assert_eq!(parse_number(text), None, "{text}");
+    }
+}

@@ -104,7 +104,7 @@ impl Control {
     /// A value with its unit, such as "28 cm".
     #[must_use]
     pub fn displayed(&self, value: f64) -> String {
-        let value = format!("{:.*}", self.decimals, self.clean(value));
+        let value = locale::number(self.clean(value), self.decimals);
         match &*self.displayed_unit() {
             "" => value,
             unit => format!("{value} {unit}"),

@@ -12,7 +12,7 @@ use super::head_mesh::HeadMesh;
 use super::jobs::{Job, Purpose};
 use super::salon::{CurrentHair, HairKey, IsolatedHair, Salon, parse};
 use super::selection::Selected;
-use crate::locale::tr;
+use crate::locale::{self, tr};
 
 /// Whether the shown hair is that of the text, and in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -243,7 +243,7 @@ impl Salon {
         let Some(mass) = self.mass_before.take() else { return };
         let cut_off = mass - hair.numbers.mass;
         if cut_off > 1e-7 {
-            let grams = format!("{:.1}", cut_off * 1e3);
+            let grams = locale::number(cut_off * 1e3, 1);
             self.notify(tr!("cut-off", grams = grams), "", false);
         }
     }

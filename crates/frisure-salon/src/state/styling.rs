@@ -248,7 +248,7 @@ impl Salon {
 fn title(operation: &Operation) -> String {
     match operation {
         Operation::Grow(Grow { amount: Growth::By(length), .. }) => {
-            tr!("operation-grow-by", cm = format!("{:.1}", length * 100.0))
+            tr!("operation-grow-by", cm = locale::number(length * 100.0, 1))
         }
         Operation::Comb(Comb { towards: Direction::Named(side), .. }) => {
             let english = format!("comb {side:?}").to_lowercase();

@@ -317,7 +317,7 @@ impl Dialogs {
         }
         if let Some((_, texture)) = &self.texture {
             ui.add(egui::Image::new(texture).max_size(egui::vec2(440.0, 360.0)));
-            let noise = format!("{:.1}", picture.noise * 100.0);
+            let noise = locale::number(f64::from(picture.noise) * 100.0, 1);
             ui.weak(tr!("noise-so-far", noise = noise));
         }
     }

@@ -143,13 +143,13 @@ pub(super) fn badge(salon: &Salon, moves: bool) -> (String, Color32) {
 
 /// The numbers of a hair that is shown alone.
 fn hair_report(hair: &GuideData) -> String {
-    let [elastic, gravity, contact] = hair.energy.map(|e| format!("{:.1}", e * 1e9));
+    let [elastic, gravity, contact] = hair.energy.map(|e| locale::number(e * 1e9, 1));
     let [a, b] = hair.section.map(|a| format!("{:.0}", a * 1e6));
     let stability = locale::named("stability", &hair.stability, &hair.stability);
     tr!(
         "hair-report",
         wisp = hair.wisp,
-        length = format!("{:.1}", hair.length * 100.0),
+        length = locale::number(hair.length * 100.0, 1),
         a = a,
         b = b,
         elastic = elastic,

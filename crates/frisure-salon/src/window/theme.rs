@@ -1,10 +1,14 @@
 //! The light and the dark theme.
 
+use eframe::egui::emath::format_with_decimals_in_range;
+use eframe::egui::style::NumberFormatter;
 use eframe::egui::{
     Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, FontTweak,
     Stroke, Style, TextStyle, Theme,
 };
 use epaint_default_fonts::UBUNTU_LIGHT;
+
+use crate::locale;
 
 /// The colour of the selection and of toggles that are on.
 pub(super) const ACCENT: Color32 = Color32::from_rgb(0x2f, 0x8f, 0xd8);
@@ -52,6 +56,9 @@ fn set(style: &mut Style, dark: bool) {
         visuals.panel_fill = Color32::from_gray(246);
         visuals.override_text_color = Some(Color32::from_gray(25));
     }
+    style.number_formatter = NumberFormatter::new(|number, decimals| {
+        locale::localized(&format_with_decimals_in_range(number, decimals))
+    });
     style.spacing.item_spacing.y = 5.0;
     style.spacing.button_padding = eframe::egui::vec2(8.0, 4.0);
     style.text_styles.insert(TextStyle::Body, FontId::proportional(14.0));

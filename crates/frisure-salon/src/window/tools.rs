@@ -1,6 +1,6 @@
 //! The tools, and the settings of the active one.
 
-use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, TextWrapMode, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, RichText, Role, TextWrapMode, Ui, WidgetInfo};
 use frisure::hairstyle::Comb as Side;
 use frisure::hairstyle::styling::Direction;
 use glam::DVec3;
@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::overlay::level_name;
 use super::widgets::Room;
 use super::{icons, theme, widgets};
-use crate::locale::tr;
+use crate::locale::{self, tr};
 use crate::state::{Command, CutHold, Salon, Scissors, Tool, VIEWS, comb};
 
 /// The tools: each with its icon and its message, whose help names its key.
@@ -87,18 +87,18 @@ fn views(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
 fn cut(ui: &mut Ui, salon: &mut Salon, out: &mut Vec<Command>) {
     let mut plane = salon.plane;
     let mut height = plane.point.z * 100.0;
-    let field = DragValue::new(&mut height).range(-150.0..=20.0).suffix(" cm").max_decimals(1);
+    let field = widgets::number(&mut height).range(-150.0..=20.0).suffix(" cm").max_decimals(1);
     if widgets::labelled(ui, "cut-height", field.speed(0.1)).changed() {
         plane.point = DVec3::new(0.0, 0.0, height / 100.0);
     }
     if let Some((above, level)) = salon.head.as_ref().and_then(|h| h.above_level(plane.point.z)) {
         let (side, level) = (if above < 0.0 { "below" } else { "above" }, level_name(level));
-        let cm = format!("{:.1}", 100.0 * above.abs());
+        let cm = locale::number(100.0 * above.abs(), 1);
         ui.weak(tr!("cut-level", cm = cm, side = side, level = level.as_ref()));
     }
     for (id, angle) in [("cut-roll", &mut plane.roll), ("cut-pitch", &mut plane.pitch)] {
         let mut degrees = angle.to_degrees();
-        let field = DragValue::new(&mut degrees).range(-80.0..=80.0).suffix("°").max_decimals(0);
+        let field = widgets::number(&mut degrees).range(-80.0..=80.0).suffix("°").max_decimals(0);
         if widgets::labelled(ui, id, field).changed() {
             *angle = degrees.to_radians();
         }
@@ -143,11 +143,11 @@ fn scissors(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
 /// The edge that scissors leave.
 fn edge(ui: &mut Ui, set: &mut Scissors) {
     let (mut soft, mut share) = (set.soft * 1e3, set.share * 100.0);
-    let field = DragValue::new(&mut soft).range(0.0..=100.0).suffix(" mm").max_decimals(0);
+    let field = widgets::number(&mut soft).range(0.0..=100.0).suffix(" mm").max_decimals(0);
     if widgets::labelled(ui, "soft-edge", field).changed() {
         set.soft = soft / 1e3;
     }
-    let field = DragValue::new(&mut share).range(5.0..=100.0).suffix(" %").max_decimals(0);
+    let field = widgets::number(&mut share).range(5.0..=100.0).suffix(" %").max_decimals(0);
     if widgets::labelled(ui, "of-hairs", field).changed() {
         set.share = share / 100.0;
     }
@@ -156,11 +156,11 @@ fn edge(ui: &mut Ui, set: &mut Scissors) {
 fn lift(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
     let mut set = now;
     let (mut angle, mut length) = (set.elevation.to_degrees(), set.lifted * 100.0);
-    let field = DragValue::new(&mut angle).range(0.0..=180.0).suffix("°").max_decimals(0);
+    let field = widgets::number(&mut angle).range(0.0..=180.0).suffix("°").max_decimals(0);
     if widgets::labelled(ui, "lift-elevation", field).changed() {
         set.elevation = angle.to_radians();
     }
-    let field = DragValue::new(&mut length).range(0.5..=100.0).suffix(" cm").max_decimals(1);
+    let field = widgets::number(&mut length).range(0.5..=100.0).suffix(" cm").max_decimals(1);
     if widgets::labelled(ui, "lift-length", field.speed(0.1)).changed() {
         set.lifted = length / 100.0;
     }
@@ -171,7 +171,7 @@ fn lift(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
 fn clippers(ui: &mut Ui, now: Scissors, out: &mut Vec<Command>) {
     let mut set = now;
     let mut guard = set.guard * 1e3;
-    let field = DragValue::new(&mut guard).range(1.0..=50.0).suffix(" mm").max_decimals(1);
+    let field = widgets::number(&mut guard).range(1.0..=50.0).suffix(" mm").max_decimals(1);
     if widgets::labelled(ui, "guard", field.speed(0.1)).changed() {
         set.guard = guard / 1e3;
     }
@@ -191,7 +191,7 @@ fn send(set: Scissors, before: Scissors, out: &mut Vec<Command>) {
 
 fn brush(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let mut radius = salon.brush.radius * 100.0;
-    let field = DragValue::new(&mut radius).range(0.2..=10.0).suffix(" cm").max_decimals(1);
+    let field = widgets::number(&mut radius).range(0.2..=10.0).suffix(" cm").max_decimals(1);
     if widgets::labelled(ui, "brush-radius", field.speed(0.05)).changed() {
         out.push(Command::BrushSize(radius / 100.0));
     }
@@ -216,7 +216,7 @@ fn one_hair(ui: &mut Ui, salon: &Salon, out: &mut Vec<Command>) {
     let Some((hair, _)) = salon.preview() else { return };
     let last = hair.numbers.wisps.saturating_sub(1);
     let mut wisp = salon.isolated.as_ref().map_or(0, |isolated| isolated.wisp);
-    if widgets::labelled(ui, "wisp", DragValue::new(&mut wisp).range(0..=last)).changed() {
+    if widgets::labelled(ui, "wisp", widgets::number(&mut wisp).range(0..=last)).changed() {
         out.push(Command::Isolate(Some(wisp)));
     }
     if salon.isolated.is_none() {

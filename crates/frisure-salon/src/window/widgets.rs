@@ -1,7 +1,8 @@
 //! Widgets that several parts of the window use.
 
+use eframe::egui::emath::Numeric;
 use eframe::egui::{
-    Align, Button, Layout, Response, RichText, Role, Slider, Ui, Widget, WidgetInfo,
+    Align, Button, DragValue, Layout, Response, RichText, Role, Slider, Ui, Widget, WidgetInfo,
 };
 
 use crate::locale::{self, tr};
@@ -125,6 +126,11 @@ pub(super) fn select_mode(ui: &Ui) -> SelectMode {
     })
 }
 
+/// A number that is dragged or typed, with a point or a comma.
+pub(super) fn number<N: Numeric>(value: &mut N) -> DragValue<'_> {
+    DragValue::new(value).custom_parser(locale::parse_number)
+}
+
 /// A slider with its label and a reset button.
 pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64, out: &mut Vec<Command>) {
     let (label, help) = (control.label(), control.help());
@@ -150,6 +156,7 @@ pub(super) fn slider(ui: &mut Ui, control: &'static Control, value: f64, out: &m
         .logarithmic(control.logarithmic)
         .smallest_positive(0.01)
         .max_decimals(control.decimals)
+        .custom_parser(locale::parse_number)
         .suffix(format!("{space}{unit}"));
     let response = ui.add(slider).on_hover_text(&*help);
     response.widget_info(|| WidgetInfo::slider(true, value, &*label));
