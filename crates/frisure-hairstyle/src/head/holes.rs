@@ -1,9 +1,9 @@
 //! Where a mesh is open that ought to be closed: holes in the scalp, and a scalp that is not on the head.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use frisure_strands::Surface;
-use glam::{DVec3, IVec3};
+use glam::DVec3;
 
 /// Least length of the open edges of a hole (m) that is told: hair covers what is smaller. Chosen.
 const LEAST: f64 = 0.02;
@@ -33,7 +33,7 @@ pub struct ScalpHoles {
 pub(super) fn scalp_holes(surface: &Surface, scalp: &[f64]) -> Option<ScalpHoles> {
     let places = surface.positions();
     let same = joined(places);
-    let mut faces_of: HashMap<[u32; 2], u32> = HashMap::new();
+    let mut faces_of: BTreeMap<[u32; 2], u32> = BTreeMap::new();
     let edges = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|v| same[v as usize]);
         [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
@@ -55,7 +55,7 @@ pub(super) fn scalp_holes(surface: &Surface, scalp: &[f64]) -> Option<ScalpHoles
     // Open edges that meet are those of one hole.
     let mut hole = Sets::new(places.len());
     open.iter().for_each(|[a, b]| hole.join(*a, *b));
-    let mut holes: HashMap<u32, (f64, DVec3)> = HashMap::new();
+    let mut holes: BTreeMap<u32, (f64, DVec3)> = BTreeMap::new();
     for [a, b] in open {
         let (p, q) = (places[a as usize], places[b as usize]);
         let (length, sum) = holes.entry(hole.of(a)).or_default();
@@ -80,7 +80,7 @@ pub(super) fn floating_scalp(surface: &Surface, scalp: &[f64]) -> Option<f64> {
         parts.join(b, c);
     }
     let part = |parts: &mut Sets, face: usize| parts.of(same[triangles[face][0] as usize]);
-    let mut areas: HashMap<u32, f64> = HashMap::new();
+    let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
     for face in 0..triangles.len() {
         let of = part(&mut parts, face);
         *areas.entry(of).or_default() += surface.doubled_area_vector(face).length();
@@ -128,14 +128,14 @@ fn to_triangle(p: DVec3, [a, b, c]: &[DVec3; 3]) -> f64 {
 
 /// For each vertex the first one at its place.
 fn joined(places: &[DVec3]) -> Vec<u32> {
-    let cell = |p: DVec3| (p / (2.0 * SEAM)).floor().as_ivec3();
-    let mut cells: HashMap<IVec3, Vec<u32>> = HashMap::new();
+    let cell = |p: DVec3| (p / (2.0 * SEAM)).floor().as_ivec3().to_array();
+    let mut cells: BTreeMap<[i32; 3], Vec<u32>> = BTreeMap::new();
     let mut same = Vec::with_capacity(places.len());
     for (i, &p) in places.iter().enumerate() {
         // A vertex within `SEAM` lies in one of the eight cells about the corner that is nearest.
-        let low = cell(p - SEAM);
+        let [x, y, z] = cell(p - SEAM);
         let near = (0..8).flat_map(|k| {
-            let at = low + IVec3::new(k & 1, k >> 1 & 1, k >> 2);
+            let at = [x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)];
             cells.get(&at).into_iter().flatten()
         });
         let found = near.copied().find(|&v| places[v as usize].distance_squared(p) <= SEAM * SEAM);

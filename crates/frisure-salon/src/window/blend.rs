@@ -1,6 +1,6 @@
 //! Moves the hair that is shown from its coarse shape to the exact one, so that it does not jump when the exact one arrives.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use frisure_engine::{Preview, Quality, StrandsData};
@@ -74,7 +74,7 @@ fn displacements(coarse: &Preview, exact: &Preview) -> Option<Vec<f32>> {
     let (coarse, exact) = (Curves(&coarse.strands), Curves(&exact.strands));
     let of_exact = exact.by_wisp();
     // For each wisp its coarse strands, each with the exact strand of the same root.
-    let pairs: HashMap<u32, Vec<(usize, usize)>> = coarse
+    let pairs: BTreeMap<u32, Vec<(usize, usize)>> = coarse
         .by_wisp()
         .into_iter()
         .filter_map(|(wisp, strands)| {
@@ -112,8 +112,8 @@ struct Curves<'a>(&'a StrandsData);
 
 impl Curves<'_> {
     /// The strands of each wisp, without empty ones.
-    fn by_wisp(self) -> HashMap<u32, Vec<usize>> {
-        let mut wisps = HashMap::<u32, Vec<usize>>::new();
+    fn by_wisp(self) -> BTreeMap<u32, Vec<usize>> {
+        let mut wisps = BTreeMap::<u32, Vec<usize>>::new();
         for (strand, wisp) in self.0.guide.iter().enumerate() {
             let (first, end) = self.ends(strand);
             if first < end {
