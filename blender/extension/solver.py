@@ -105,14 +105,6 @@ def input_file(name: str, arrays, write) -> InputFile:
 _solved: dict[int, tuple[str, frisure.Hairstyle, list[InputFile]]] = {}
 
 
-def predicted(scene: frisure.Scene, like, progress) -> frisure.Hairstyle:
-    """The hairstyle of a scene; what is the same in the hairstyle `like` and those before it is not computed again."""
-    if like is None:
-        return frisure.predict(scene, progress=progress)
-    # What `Hairstyle.step` does for one more step; the package has no public call for any other scene.
-    return frisure.Hairstyle(scene, like._prediction.follow(scene._core, progress))
-
-
 class Solution:
     """What is computed of a hair object; everything that reads Blender's data is read at once, so that it may run in a thread."""
 
@@ -156,7 +148,7 @@ class Solution:
         if self.step is not None:
             scene = scene.with_step(*self.step)
             self.text = scene.text
-        self.hairstyle = predicted(self.placed(scene), self.like, progress)
+        self.hairstyle = frisure.predict(self.placed(scene), like=self.like, progress=progress)
         self.hairstyle.draw(progress=progress)
 
     def show(self, hair) -> None:

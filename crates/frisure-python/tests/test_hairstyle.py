@@ -42,6 +42,15 @@ def test_strands_are_arrays(hair: frisure.Hairstyle) -> None:
     assert np.isfinite(strands.points).all()
 
 
+def test_a_hairstyle_like_another_is_the_same_as_one_by_itself(hair: frisure.Hairstyle) -> None:
+    scene = hair.scene
+    scene.update({"wisps.points": 9})
+    alone, like = frisure.predict(scene), frisure.predict(scene, like=hair)
+    assert np.array_equal(alone.strands.points, like.strands.points)
+    scene = scene.with_step("wet")
+    assert np.array_equal(frisure.predict(scene).strands.points, frisure.predict(scene, like=like).strands.points)
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell how much memory is free")
 def test_a_picture_without_room_in_memory_is_refused(hair: frisure.Hairstyle) -> None:
     for quality in ("preview", "final"):

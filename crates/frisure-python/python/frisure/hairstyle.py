@@ -25,15 +25,20 @@ _NOTEBOOK_WIDTH = 450
 """Width in pixels of the picture in a notebook; chosen."""
 
 
-def predict(scene: SceneSource, *, progress: Progress | None = None) -> Hairstyle:
+def predict(scene: SceneSource, *, like: Hairstyle | None = None, progress: Progress | None = None) -> Hairstyle:
     """Predicts the hairstyle of a scene after its steps.
 
     `scene` is a `Scene`, a dict, a path, or a text in TOML with a line break. `progress(stage, done)` is called
     with the name of each stage and the fraction (0 to 1) that is done. Ctrl-C ends the work.
 
+    What another hairstyle, `like`, and those before it have in common with the scene (the head, guides, steps) is not
+    computed again; the result is the same.
+
     Raises `SceneError` with the line, the allowed range and a hint, if something in the scene is wrong.
     """
     checked = scene.copy() if isinstance(scene, Scene) else Scene(scene)
+    if like is not None:
+        return Hairstyle(checked, like._prediction.follow(checked._core, progress))
     return Hairstyle(checked, Prediction.of(checked._core, progress))
 
 
