@@ -31,6 +31,7 @@ mod initial;
 mod inputs;
 pub mod memory;
 mod metrics;
+pub mod photo;
 pub mod picture;
 mod placement;
 mod preview;

@@ -11,6 +11,7 @@
 //! | `errors.rs` | errors as Python exceptions |
 //! | `fit.rs` | fits of measured fibres |
 //! | `hairstyle.rs` | hairstyles: predicted, styled, drawn, written |
+//! | `photo.rs` | photos of locks: measured |
 //! | `picture.rs` | pictures of hairstyles |
 //! | `rods` | many single rods at once, as arrays |
 //! | `scene.rs` | scenes: read, edited |
@@ -27,6 +28,7 @@ mod command;
 mod errors;
 mod fit;
 mod hairstyle;
+mod photo;
 mod picture;
 mod rods;
 mod scene;
@@ -56,6 +58,7 @@ fn _frisure(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(rods::settle_rods, module)?)?;
     module.add_function(wrap_pyfunction!(rods::inverse_rods, module)?)?;
     module.add_function(wrap_pyfunction!(fit::fit_fibres, module)?)?;
+    module.add_function(wrap_pyfunction!(photo::measure_photo, module)?)?;
     #[cfg(feature = "batch")]
     {
         module.add_function(wrap_pyfunction!(batch::missing_parts, module)?)?;

@@ -9,14 +9,20 @@ fn batch(text: &str) -> Batch {
     Batch::parse("batch", text, Path::new("")).unwrap_or_else(|e| panic!("{text}\n{e}"))
 }
 
-/// The first number of each head.
-fn numbers(batch: &Batch, place: usize) -> Vec<f64> {
-    let number = |index: usize| match batch.sample(index).values[place] {
-        Value::Number(x) => x,
-        Value::Whole(i) => i as f64,
-        ref other => panic!("{other:?}"),
-    };
-    (0..batch.heads()).map(number).collect()
+/// The numbers of each head at some places, a list for each. A head is drawn once: its scene is written and parsed.
+fn numbers<const N: usize>(batch: &Batch, places: [usize; N]) -> [Vec<f64>; N] {
+    let mut all = [const { Vec::new() }; N];
+    for index in 0..batch.heads() {
+        let values = batch.sample(index).values;
+        for (list, place) in all.iter_mut().zip(places) {
+            list.push(match &values[place] {
+                Value::Number(x) => *x,
+                Value::Whole(i) => *i as f64,
+                other => panic!("{other:?}"),
+            });
+        }
+    }
+    all
 }
 
 /// Mean and standard deviation.
@@ -44,14 +50,14 @@ fn draws_have_the_moments_of_their_distributions() {
         "hair.curl.pitch" = { lognormal = ["20 mm", 0.3] }
         "#,
     );
-    let [mean, deviation] = moments(&numbers(&batch, 0));
+    let [lengths, diameters, radii, mut pitches] = numbers(&batch, [0, 1, 2, 3]);
+    let [mean, deviation] = moments(&lengths);
     near(mean, 0.25, 0.02);
     near(deviation, 0.3 / 12.0_f64.sqrt(), 0.03);
-    let [mean, deviation] = moments(&numbers(&batch, 1));
+    let [mean, deviation] = moments(&diameters);
     near(mean, 70e-6, 0.01);
     near(deviation, 5e-6, 0.05);
-    near(moments(&numbers(&batch, 2))[0], 18e-3 / 10.0_f64.ln(), 0.05);
-    let mut pitches = numbers(&batch, 3);
+    near(moments(&radii)[0], 18e-3 / 10.0_f64.ln(), 0.05);
     pitches.sort_by(f64::total_cmp);
     near(pitches[2000], 20e-3, 0.03);
 }
@@ -114,13 +120,13 @@ fn a_grid_is_every_pair() {
         "#,
     );
     assert_eq!(batch.heads(), 12);
-    let lengths = numbers(&batch, 0);
+    let [lengths, counts] = numbers(&batch, [0, 1]);
     let expected = [0.1, 0.1, 0.2, 0.2, 0.3, 0.3].map(|x: f64| (1e6 * x).round());
     let rounded = |all: &[f64]| all.iter().map(|x| (1e6 * x).round()).collect::<Vec<_>>();
     assert_eq!(rounded(&lengths[..6]), expected);
     // Again from the start, so that the batch can grow at its end.
     assert_eq!(lengths[..6], lengths[6..]);
-    assert_eq!(numbers(&batch, 1)[..4], [4.0, 5.0, 4.0, 5.0]);
+    assert_eq!(counts[..4], [4.0, 5.0, 4.0, 5.0]);
     assert_eq!(batch.sample(0).seed, batch.sample(7).seed);
 }
 
@@ -154,7 +160,8 @@ fn rows_of_a_table_stay_together() {
     // A heading may say the unit.
     let said = text.replace("\"d\", unit = \"um\"", "\"mean_um\"");
     let said = Batch::parse("batch", said, folder.path()).unwrap();
-    let smallest = numbers(&said, 1).into_iter().fold(f64::INFINITY, f64::min);
+    let [thick] = numbers(&said, [1]);
+    let smallest = thick.into_iter().fold(f64::INFINITY, f64::min);
     near(smallest, 5e-6, 1e-12);
 
     for (from, to, part) in [

@@ -1,11 +1,13 @@
 //! Arguments of `frisure measure`.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use frisure::hairstyle::Preset;
 use frisure::measure::{Crop, Hang, Scale};
 use frisure::scene::quantity::{Dimension, LENGTH, PRESSURE, RATIO};
+use frisure_engine::photo;
 
 use super::{hair_type, positive};
 
@@ -107,29 +109,32 @@ fn crop(text: &str) -> Result<Crop, String> {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    within(&LENGTH, text, 1e-3, 3.0, "from 1 mm to 3 m")
+    within(&LENGTH, text, &photo::LENGTHS, "from 1 mm to 3 m")
 }
 
 fn diameter(text: &str) -> Result<f64, String> {
-    within(&LENGTH, text, 5e-6, 5e-4, "from 5 um to 0.5 mm; hair of the scalp has 40 to 120 um")
+    within(
+        &LENGTH,
+        text,
+        &photo::DIAMETERS,
+        "from 5 um to 0.5 mm; hair of the scalp has 40 to 120 um",
+    )
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
-    within(&RATIO, text, 1.0, 20.0, "from 1 to 20")
+    within(&RATIO, text, &photo::AXIS_RATIOS, "from 1 to 20")
 }
 
 fn modulus(text: &str) -> Result<f64, String> {
-    within(&PRESSURE, text, 1e8, 1e11, "from 0.1 to 100 GPa; hair has 1 to 7 GPa")
+    within(&PRESSURE, text, &photo::MODULI, "from 0.1 to 100 GPa; hair has 1 to 7 GPa")
 }
 
 fn within(
     dimension: &Dimension,
     text: &str,
-    low: f64,
-    high: f64,
+    range: &RangeInclusive<f64>,
     allowed: &str,
 ) -> Result<f64, String> {
     let value = positive(dimension, text)?;
-    let inside = (low..=high).contains(&value);
-    if inside { Ok(value) } else { Err(format!("it must be {allowed}")) }
+    if range.contains(&value) { Ok(value) } else { Err(format!("it must be {allowed}")) }
 }

@@ -4,13 +4,11 @@ use std::path::Path;
 
 use frisure::formats::picture::photo::{PhotoReadError, Pixels, read};
 use frisure::formats::picture::png;
-use frisure::hairstyle::{Ellipticity, HairType};
 use frisure::measure::{
-    Abstention, Fibre, GivenFibre, Measurement, Options, Outcome, Photo, draw, measure, scene,
-    table,
+    Abstention, GivenFibre, Measurement, Options, Outcome, Photo, draw, measure, scene, table,
 };
-use frisure::rod::{Material, Section};
 use frisure_engine::Error;
+use frisure_engine::photo::KnownFibre;
 use serde::Serialize;
 
 use super::parse_scene;
@@ -18,12 +16,6 @@ use crate::args::MeasurePhoto as Arguments;
 use crate::diagnostics::ExitStatus;
 use crate::progress::Bar;
 use crate::{console, interrupt, outputs};
-
-/// Standard deviation of Young's modulus between people, relative: docs/hair-types.md has 3 to 5 GPa. Chosen.
-const MODULUS_SPREAD: f64 = 0.15;
-
-/// Standard deviation of a number of the fibre that was measured, relative. Chosen.
-const MEASURED_SPREAD: f64 = 0.03;
 
 /// The JSON report; SI units.
 #[derive(Serialize)]
@@ -82,37 +74,21 @@ fn check_extensions(arguments: &Arguments) -> Result<(), Error> {
 }
 
 fn options(arguments: &Arguments) -> Result<Options, Error> {
-    let fibre =
-        fibre(arguments).map_err(|e| Error::because(&e, "see --diameter and --axis-ratio"))?;
+    let fibre = known(arguments)
+        .fibre()
+        .map_err(|e| Error::because(&e, "see --diameter and --axis-ratio"))?;
     let (scale, hang) = (arguments.scale, arguments.hang.into());
     Ok(Options { scale, hang, fibre, length: arguments.length })
 }
 
-/// The fibre of the type, with what is given; stiffness over weight goes with E d² and, of an ellipse, the inverse of the axis ratio.
-fn fibre(arguments: &Arguments) -> Result<Fibre, frisure::rod::InvalidQuantity> {
-    let kind: &HairType = arguments.hair_type.hair_type();
-    let of_type = kind.fibre(Ellipticity::Measured)?;
-    let diameter = arguments.diameter.unwrap_or(kind.diameter);
-    let ratio = arguments.axis_ratio.unwrap_or(kind.axis_ratio);
-    let young = arguments.youngs_modulus.unwrap_or(kind.youngs_modulus);
-    let shear = shear_modulus(kind, young);
-    let spread = |given: bool, of_type: f64| if given { MEASURED_SPREAD } else { of_type };
-    let deviations = [
-        2.0 * spread(arguments.diameter.is_some(), kind.diameter_variation),
-        spread(arguments.axis_ratio.is_some(), kind.axis_ratio_deviation / kind.axis_ratio),
-        spread(arguments.youngs_modulus.is_some(), MODULUS_SPREAD),
-    ];
-    Ok(Fibre {
-        section: Section::from_diameter(diameter, ratio)?,
-        material: Material::new(young, shear, of_type.material.density())?,
-        torsion: of_type.torsion,
-        spread: deviations.iter().map(|d| d * d).sum::<f64>().sqrt(),
-    })
-}
-
-/// The shear modulus (Pa) that goes with a given Young's modulus (Pa): their ratio is the type's.
-fn shear_modulus(kind: &HairType, young: f64) -> f64 {
-    kind.shear_modulus * young / kind.youngs_modulus
+/// What is known of the fibre.
+fn known(arguments: &Arguments) -> KnownFibre {
+    KnownFibre {
+        hair_type: arguments.hair_type.hair_type(),
+        diameter: arguments.diameter,
+        axis_ratio: arguments.axis_ratio,
+        youngs_modulus: arguments.youngs_modulus,
+    }
 }
 
 fn report(arguments: &Arguments, outcome: &Outcome, quiet: bool) -> Result<(), Error> {
@@ -142,12 +118,11 @@ fn report(arguments: &Arguments, outcome: &Outcome, quiet: bool) -> Result<(), E
 fn write_scene(arguments: &Arguments, found: &Measurement) -> Result<(), Error> {
     let Some(path) = &arguments.output else { return Ok(()) };
     let source = arguments.photo.file_name().unwrap_or_default().to_string_lossy();
-    let kind: &HairType = arguments.hair_type.hair_type();
     let given = GivenFibre {
         length: arguments.length,
         diameter: arguments.diameter,
         axis_ratio: arguments.axis_ratio,
-        moduli: arguments.youngs_modulus.map(|young| [young, shear_modulus(kind, young)]),
+        moduli: known(arguments).moduli(),
     };
     let Some(text) = scene(found, arguments.hair_type.name, &given, &source) else {
         console::note(&format!("`{}` is not written: there is no natural curl", path.display()));

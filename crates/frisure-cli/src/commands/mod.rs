@@ -72,8 +72,8 @@ fn read_groom(path: &Path, axes: Axes, hint: &str) -> Result<Groom, Error> {
     let read = groom::read_groom(path, axes.choice())
         .map_err(|e| Error::because(&e, if e.may_be_of_unit() { hint } else { "" }))?;
     if read.strands().is_empty() {
-        let problem = format!("there is no hair in `{}`", path.display());
-        return Err(Error::invalid(problem, "hair is lines of at least two points"));
+        let problem = format!("there is no hair in `{}`: no strand has two points", path.display());
+        return Err(Error::invalid(problem, ""));
     }
     if let Some(told) = read.told() {
         console::note(&format!("{}: {told}", path.display()));

@@ -68,8 +68,8 @@ pub(super) fn scalp_holes(surface: &Surface, scalp: &[f64]) -> Option<ScalpHoles
     Some(ScalpHoles { count: large.len(), around, place: sum / around })
 }
 
-/// How far the scalp is from the head (m), where no face of it hangs together with the head's largest part and it is farther than a
-/// cap would be.
+/// How far the scalp is from the head (m), where it is a mesh of its own that is farther than a cap would be: no part of the mesh has
+/// both faces with hair and faces without.
 pub(super) fn floating_scalp(surface: &Surface, scalp: &[f64]) -> Option<f64> {
     let (places, triangles) = (surface.positions(), surface.triangles());
     let same = joined(places);
@@ -79,26 +79,19 @@ pub(super) fn floating_scalp(surface: &Surface, scalp: &[f64]) -> Option<f64> {
         parts.join(a, b);
         parts.join(b, c);
     }
-    let part = |parts: &mut Sets, face: usize| parts.of(same[triangles[face][0] as usize]);
-    let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
-    for face in 0..triangles.len() {
-        let of = part(&mut parts, face);
-        *areas.entry(of).or_default() += surface.doubled_area_vector(face).length();
-    }
-    let largest = areas.iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
-    let head = *largest?.0;
     let grows = |face: usize| triangles[face].iter().any(|&v| scalp[v as usize] > 0.0);
+    let mut with_hair: BTreeMap<u32, [bool; 2]> = BTreeMap::new();
+    for face in 0..triangles.len() {
+        let part = parts.of(same[triangles[face][0] as usize]);
+        with_hair.entry(part).or_default()[usize::from(grows(face))] = true;
+    }
+    if with_hair.values().any(|&has| has == [true, true]) {
+        return None;
+    }
     let (mut skin, mut cap) = (Vec::new(), Vec::new());
     for face in 0..triangles.len() {
-        let on_head = part(&mut parts, face) == head;
-        if on_head && grows(face) {
-            return None;
-        }
-        if on_head {
-            skin.push(surface.corners(face));
-        } else if grows(face) {
-            cap.push(surface.corners(face)[0]);
-        }
+        let corners = surface.corners(face);
+        if grows(face) { cap.push(corners[0]) } else { skin.push(corners) }
     }
     let step = cap.len().div_ceil(SAMPLES).max(1);
     let mut distances: Vec<f64> = cap

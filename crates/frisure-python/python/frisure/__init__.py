@@ -10,7 +10,8 @@
 
 - `predict` makes a `Hairstyle` from a `Scene`: a file, a text in TOML, or a dict.
 - A `Hairstyle` has `strands` and `guides` as NumPy arrays, a `report`, and one method for each step of styling.
-- `frisure.rods` solves many single fibres at once; `frisure.fit` finds the numbers of measured ones, with error bars.
+- `frisure.rods` solves many single fibres at once; `frisure.fit` finds the numbers of measured ones, with error bars;
+  `frisure.measure` those of a lock in a photo.
 - `frisure.presets` has a scene for each hair type.
 
 Lengths are metres, z points up, the face looks towards -y and its left is +x. Every error is a `FrisureError`; those
@@ -22,6 +23,7 @@ from frisure._frisure import __version__
 from frisure.errors import ArgumentError, FailedError, FrisureError, SceneError, SceneNotFoundError
 from frisure.fits import Fits, fit
 from frisure.hairstyle import Hairstyle, predict
+from frisure.photos import Measured, measure
 from frisure.presets import presets
 from frisure.scene import Scene, Section
 from frisure.strands import Strands
@@ -32,6 +34,7 @@ __all__ = [
     "Fits",
     "FrisureError",
     "Hairstyle",
+    "Measured",
     "Scene",
     "SceneError",
     "SceneNotFoundError",
@@ -39,6 +42,7 @@ __all__ = [
     "Strands",
     "__version__",
     "fit",
+    "measure",
     "predict",
     "presets",
     "rods",

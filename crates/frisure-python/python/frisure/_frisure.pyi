@@ -20,6 +20,7 @@ __all__ = [
     "compute_part",
     "fit_fibres",
     "inverse_rods",
+    "measure_photo",
     "missing_parts",
     "operation_names",
     "preset_names",
@@ -150,6 +151,14 @@ def preset_names() -> list[tuple[str, str]]: ...
 def preset_text(name: str) -> str | None: ...
 def operation_names() -> list[str]: ...
 def scene_keys() -> list[tuple[str, str]]: ...
+def measure_photo(
+    photo: str | os.PathLike[str] | NDArray[np.uint8],
+    scale: str,
+    crop: tuple[int, int, int, int] | None,
+    hangs: bool,
+    known: Mapping[str, object],
+    progress: _Progress | None,
+) -> tuple[str, Memory]: ...
 def run_command(arguments: Sequence[str]) -> int: ...
 def missing_parts(
     spec: str | os.PathLike[str], folder: str | os.PathLike[str]
