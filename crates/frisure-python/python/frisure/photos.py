@@ -111,7 +111,8 @@ def measure(
     if crop is not None:
         if len(crop) != 4 or any(not isinstance(n, (int, np.integer)) or n < 0 for n in crop):
             raise ArgumentError(f"crop is {crop!r}; it must be four whole numbers: left, top, width and height (pixels)")
-        part = tuple(int(n) for n in crop)
+        left, top, width, height = (int(n) for n in crop)
+        part = (left, top, width, height)
     told, overlay = measure_photo(photo, scale, part, hang == "down", {"hair_type": hair_type, **given}, progress)
     found = json.loads(told)
     numbers: dict[str, float | None] = {}
