@@ -73,8 +73,7 @@ pub fn cards(
     let centre = centre(&drawn, head);
     let maker =
         Maker { drawn: &drawn, even: &even, centre, colour: options.colour, reference: &reference };
-    let clusters = maker.locks(options.cards);
-    let round = maker.round(&clusters.members);
+    let (clusters, round) = maker.locks(options.cards);
     let mut levels = vec![maker.finest(&clusters, options.texture)?];
     let mut last = clusters;
     for level in 1..options.levels {

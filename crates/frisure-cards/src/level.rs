@@ -90,19 +90,21 @@ impl Drawn {
 }
 
 impl Maker<'_> {
-    /// Locks that have about `cards` strips together. Half as many where most are round, which have two strips.
-    pub(crate) fn locks(&self, cards: usize) -> Clusters {
+    /// Locks that have about `cards` strips together, and the part of them that is round. Half as many where most are round, which
+    /// have two strips.
+    pub(crate) fn locks(&self, cards: usize) -> (Clusters, f64) {
         let few = Clusters::new(self.drawn, cards.div_ceil(2));
-        match self.round(&few.members) {
-            round if round < MOSTLY_ROUND => {
-                Clusters::new(self.drawn, (cards as f64 / (1.0 + round)).ceil() as usize)
-            }
-            _ => few,
+        let round = self.round(&few.members);
+        if round >= MOSTLY_ROUND {
+            return (few, round);
         }
+        let more = Clusters::new(self.drawn, (cards as f64 / (1.0 + round)).ceil() as usize);
+        let round = self.round(&more.members);
+        (more, round)
     }
 
     /// Part of the locks that are round.
-    pub(crate) fn round(&self, locks: &[Vec<usize>]) -> f64 {
+    fn round(&self, locks: &[Vec<usize>]) -> f64 {
         let is_round = |rows: &Vec<usize>| self.is_round(rows, &self.strip(rows, Side::Wide, 0));
         let round = locks.par_iter().filter(|rows| is_round(rows)).count();
         round as f64 / locks.len().max(1) as f64

@@ -46,12 +46,11 @@ pub(super) fn scalp_holes(surface: &Surface, scalp: &[f64]) -> Option<ScalpHoles
         scalp.iter().zip(&same).for_each(|(w, &v)| grows[v as usize] |= *w > 0.5);
         grows
     };
-    let mut open: Vec<[u32; 2]> = faces_of
+    let open: Vec<[u32; 2]> = faces_of
         .into_iter()
         .filter(|&([a, b], faces)| faces == 1 && a != b && grows[a as usize] && grows[b as usize])
         .map(|(edge, _)| edge)
         .collect();
-    open.sort_unstable();
     // Open edges that meet are those of one hole.
     let mut hole = Sets::new(places.len());
     open.iter().for_each(|[a, b]| hole.join(*a, *b));
